@@ -1,0 +1,208 @@
+"""Twist laws θ_tw(r): how the blade is pre-twisted along its radius.
+
+Every law returns radians, nose-up positive, for r = y/R, and is zero at 0.75 R, so that the collective is the
+pitch at 0.75 R whatever the law. Rates are radians per radius.
+"""
+
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+REFERENCE_RADIUS = 0.75
+"""r/R where every twist law is zero."""
+
+
+class TwistLaw(Protocol):
+    """Anything that gives the built-in pitch along the blade."""
+
+    def __call__(self, r: ArrayLike) -> Array:
+        """Built-in twist at r = y/R [rad], zero at 0.75 R; same shape as r."""
+        ...
+
+    def spec(self) -> str:
+        """The law as `parse_twist` reads it."""
+        ...
+
+
+@dataclass(frozen=True)
+class LinearTwist:
+    """θ_tw = rate (r − 0.75)."""
+
+    rate: float
+    """[rad per radius], negative when the tip is nose-down."""
+
+    def __call__(self, r: ArrayLike) -> Array:
+        return self.rate * (np.asarray(r, dtype=float) - REFERENCE_RADIUS)
+
+    def spec(self) -> str:
+        return f"linear:{_degrees(self.rate)}"
+
+
+@dataclass(frozen=True)
+class QuadraticTwist:
+    """θ_tw = a r² + b r + c, with a + b the tip-minus-root difference (thesis §4.1.2)."""
+
+    curvature: float
+    """a, the second-order coefficient [rad per radius²]."""
+    difference: float
+    """θ(r=1) − θ(r=0) [rad], so that curvature 0 is the linear law of that rate."""
+
+    def __call__(self, r: ArrayLike) -> Array:
+        r = np.asarray(r, dtype=float)
+        slope = self.difference - self.curvature
+        return self.curvature * (r**2 - REFERENCE_RADIUS**2) + slope * (r - REFERENCE_RADIUS)
+
+    def spec(self) -> str:
+        return f"quadratic:{_degrees(self.curvature)},{_degrees(self.difference)}"
+
+
+@dataclass(frozen=True)
+class PiecewiseLinearTwist:
+    """Linear segments, continuous at movable breaks (thesis §4.1.3–4.1.5)."""
+
+    rates: tuple[float, ...]
+    """[rad per radius], root to tip, one per segment."""
+    breaks: tuple[float, ...]
+    """r/R of the divisions, ascending, one fewer than the rates."""
+
+    def __post_init__(self) -> None:
+        if len(self.breaks) != len(self.rates) - 1:
+            raise ValueError(
+                f"{len(self.rates)} segment rates need {len(self.rates) - 1} break(s), {len(self.breaks)} given: "
+                "write for example segments:-12,-4@0.5"
+            )
+        ends = (0.0, *self.breaks, 1.0)
+        if any(low >= high for low, high in zip(ends, ends[1:], strict=False)):
+            raise ValueError(f"segment breaks {list(self.breaks)} must ascend between 0 and 1: reorder or move them")
+
+    def __call__(self, r: ArrayLike) -> Array:
+        r = np.asarray(r, dtype=float)
+        knots = np.array((0.0, *self.breaks, 1.0))
+        values = np.concatenate(([0.0], np.cumsum(np.array(self.rates) * np.diff(knots))))
+        return np.interp(r, knots, values) - np.interp(REFERENCE_RADIUS, knots, values)
+
+    def spec(self) -> str:
+        rates = ",".join(_degrees(rate) for rate in self.rates)
+        return f"segments:{rates}" + (f"@{','.join(f'{b:.6g}' for b in self.breaks)}" if self.breaks else "")
+
+
+@dataclass(frozen=True)
+class IdealTwist:
+    """θ = θ_tip / r, eq. (1.1): uniform inflow in hover when the collective puts θ_tip at the tip.
+
+    Source: thesis eq. (1.1), p. 2. Singular at r = 0, so it needs a root cut-out.
+    """
+
+    tip_pitch: float
+    """θ_tip [rad]."""
+
+    def __call__(self, r: ArrayLike) -> Array:
+        return self.tip_pitch * (1.0 / np.asarray(r, dtype=float) - 1.0 / REFERENCE_RADIUS)
+
+    def spec(self) -> str:
+        return f"ideal:{_degrees(self.tip_pitch)}"
+
+
+@dataclass(frozen=True)
+class TableTwist:
+    """Linear interpolation of measured stations; held constant beyond the first and last."""
+
+    stations: tuple[float, ...]
+    """r/R, ascending."""
+    angles: tuple[float, ...]
+    """[rad]; shifted so that the law is zero at 0.75 R."""
+    name: str = "table"
+    """How the law is named in a SPEC: a shipped rotor's name, or table:FILE."""
+
+    def __post_init__(self) -> None:
+        if len(self.stations) != len(self.angles) or len(self.stations) < 2:
+            raise ValueError(
+                f"a twist table needs two or more stations with one angle each; {len(self.stations)} radii and "
+                f"{len(self.angles)} angles given: complete the rows"
+            )
+        if any(low >= high for low, high in zip(self.stations, self.stations[1:], strict=False)):
+            raise ValueError(f"twist table radii {list(self.stations)} must ascend: sort the rows, one row per radius")
+
+    def __call__(self, r: ArrayLike) -> Array:
+        zero = np.interp(REFERENCE_RADIUS, self.stations, self.angles)
+        return np.interp(np.asarray(r, dtype=float), self.stations, self.angles) - zero
+
+    def spec(self) -> str:
+        return self.name
+
+
+def parse_twist(spec: str, *, builtin: TwistLaw, ideal_tip_pitch: float) -> TwistLaw:
+    """Read a twist SPEC (DESIGN §8), degrees at this edge only.
+
+    `linear:-8` · `quadratic:A,D` · `segments:-12,-4@0.5` · `ideal` or `ideal:6.4` · `uh60a` · `table:FILE`.
+    `builtin` is the rotor's own twist (for `uh60a`); `ideal_tip_pitch` [rad] serves `ideal` without a number.
+    Raises ValueError with one sentence that names the value and the remedy.
+    """
+    kind, _, rest = spec.strip().partition(":")
+    if kind == "uh60a" and not rest:
+        return builtin
+    if kind == "ideal":
+        return IdealTwist(math.radians(_number(rest, spec)) if rest else ideal_tip_pitch)
+    if kind == "linear":
+        return LinearTwist(math.radians(_number(rest, spec)))
+    if kind == "quadratic":
+        values = [_number(item, spec) for item in rest.split(",")]
+        if len(values) != 2:
+            raise ValueError(f"twist {spec!r} needs two numbers: write quadratic:A,D, for example quadratic:6,-14")
+        return QuadraticTwist(math.radians(values[0]), math.radians(values[1]))
+    if kind == "segments":
+        rates, _, breaks = rest.partition("@")
+        return PiecewiseLinearTwist(
+            tuple(math.radians(_number(item, spec)) for item in rates.split(",")),
+            tuple(_number(item, spec) for item in breaks.split(",")) if breaks else (),
+        )
+    if kind == "table" and rest:
+        return read_twist_table(Path(rest))
+    raise ValueError(
+        f"twist {spec!r} is not known: use linear:RATE, quadratic:A,D, segments:RATES@BREAKS, ideal, uh60a or table:FILE"
+    )
+
+
+def read_twist_table(path: Path) -> TableTwist:
+    """Read a two-column text table, r/R and twist in degrees; `#` starts a comment, commas or blanks separate."""
+    if not path.is_file():
+        raise ValueError(f"twist table {str(path)!r} does not exist: give the path of a two-column file (r/R, degrees)")
+    rows: list[tuple[float, float]] = []
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+        items = line.partition("#")[0].replace(",", " ").split()
+        if not items:
+            continue
+        try:
+            r, angle = (float(item) for item in items)
+        except ValueError:
+            if not rows and not items[0].replace(".", "").lstrip("+-").isdigit():
+                continue  # a heading row
+            raise ValueError(
+                f"twist table {str(path)!r} line {number} reads {line.strip()!r}: write two numbers, r/R and degrees"
+            ) from None
+        if not (0.0 <= r <= 1.0 and math.isfinite(angle) and abs(angle) <= 60.0):
+            raise ValueError(
+                f"twist table {str(path)!r} line {number} has r/R {r:g} and {angle:g}°: keep r/R in 0…1, twist in ±60°"
+            )
+        rows.append((r, math.radians(angle)))
+    return TableTwist(tuple(r for r, _ in rows), tuple(a for _, a in rows), name=f"table:{path}")
+
+
+def _number(text: str, spec: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value) or abs(value) > 100.0:
+        raise ValueError(f"twist {spec!r} holds {text!r}, not a number in −100…100: write for example linear:-8")
+    return value
+
+
+def _degrees(angle: float) -> str:
+    return f"{round(math.degrees(angle), 6):g}"
