@@ -1,0 +1,84 @@
+# Two commands matter: `make run` and `make test`. Both set up what they need first, once.
+
+PYTHON ?= python3
+HOST   ?= 127.0.0.1
+PORT   ?= 8080
+ARGS   ?=
+
+VENV  := .venv
+BIN   := $(VENV)/bin
+READY := $(VENV)/.ready
+DEV   := $(VENV)/.ready-dev
+WARM  := $(VENV)/.warm
+PIP   := $(BIN)/python -m pip --disable-pip-version-check --no-input --quiet
+
+.PHONY: help run test slow check-all lint format bench wheel browser setup setup-dev clean
+.DELETE_ON_ERROR:
+
+help:                 ## list these targets
+	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(firstword $(MAKEFILE_LIST)) | expand -t 20
+
+run: $(WARM)          ## start the explorer; ARGS are handed on, e.g. make run PORT=8090 ARGS=--no-browser
+	@exec $(BIN)/python -m explorer --host $(HOST) --port $(PORT) $(ARGS)
+
+test: setup-dev browser ## run all tests but the slow ones, browser included
+	$(BIN)/python -m pytest $(ARGS)
+
+slow: setup-dev browser ## run the slow tests: built wheel, rebuilt section data, long studies
+	$(BIN)/python -m pytest -m slow $(ARGS)
+
+check-all: lint test slow ## everything CI checks
+
+lint: setup-dev       ## formatting, lint and types
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/pyright
+
+format: setup-dev     ## put the code into the house format
+	$(BIN)/ruff format .
+	$(BIN)/ruff check --fix .
+
+bench: setup-dev      ## time the solver beside its baselines
+	$(BIN)/python -m rotor bench $(ARGS)
+
+wheel: setup          ## build dist/rotor_explorer-*.whl
+	$(PIP) wheel . --no-deps --no-build-isolation --wheel-dir dist
+	@ls -1 dist/*.whl
+
+clean:                ## remove what the other targets made
+	rm -rf $(VENV) dist artefacts .pytest_cache .ruff_cache .hypothesis
+	find rotor explorer tests -name __pycache__ -type d -prune -exec rm -rf {} +
+
+setup: $(READY)
+setup-dev: $(READY) $(DEV)
+
+$(READY): pyproject.toml requirements.txt
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null \
+	  || { echo "rotor-explorer needs Python 3.11 or newer as '$(PYTHON)': install it, or say make PYTHON=/path/to/python3.11"; exit 1; }
+	@$(PYTHON) -c 'import venv, ensurepip' 2>/dev/null \
+	  || { echo "'$(PYTHON)' cannot make virtual environments: install its venv module (on Debian: apt-get install python3-venv)"; exit 1; }
+	@test -x $(BIN)/python || { echo "Setting up $(VENV), about a minute the first time"; $(PYTHON) -m venv $(VENV); }
+	@$(PIP) install -r requirements.txt
+	@$(PIP) install --no-deps --no-build-isolation --editable .
+	@touch $@
+
+$(DEV): requirements-dev.txt $(READY)
+	@$(PIP) install -r requirements-dev.txt
+	@touch $@
+
+# The kernels are compiled on first use and kept beside their source; doing it here means that no page waits for it.
+$(WARM): $(READY) $(shell find rotor -name '*.py' 2>/dev/null)
+	-@$(BIN)/python -m rotor solve --hover --json >/dev/null
+	-@$(BIN)/python -m rotor solve --mu 0.2 --json >/dev/null
+	@touch $@
+
+# A browser for the tests: the one that is there, else Debian's as root, else Playwright's own download.
+# Having none is no error here: tests/conftest.py skips those tests loudly, and fails them in CI.
+browser: $(DEV)
+	@$(BIN)/python tests/chromium.py >/dev/null && exit 0; \
+	if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
+	  echo "No Chromium here: asking Debian for it"; \
+	  { apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq chromium; } >/dev/null && exit 0; \
+	fi; \
+	echo "No Chromium here: asking Playwright for its own"; \
+	$(BIN)/python -m playwright install chromium || echo "No browser to be had: the browser tests will be skipped"

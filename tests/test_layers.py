@@ -1,0 +1,80 @@
+"""The borders of the code: `rotor` knows no page, the page's arrays and text know no viser, every import is declared."""
+
+import ast
+import re
+import subprocess
+import sys
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+PHYSICS = {"numpy", "scipy", "numba", "threadpoolctl"}
+KNOW_VISER = {"app.py", "session.py", "scene.py", "controls.py", "viser_compat.py", "__main__.py"}
+
+
+def sources(package: str) -> list[Path]:
+    return sorted((ROOT / package).rglob("*.py"))
+
+
+def imports(path: Path, *, lazy: bool) -> set[str]:
+    """Top-level names that a file imports; with `lazy`, also those inside functions."""
+
+    def walk(node: ast.AST) -> Iterator[str]:
+        for child in ast.iter_child_nodes(node):
+            if isinstance(child, ast.Import):
+                yield from (alias.name.partition(".")[0] for alias in child.names)
+            elif isinstance(child, ast.ImportFrom) and child.level == 0 and child.module:
+                yield child.module.partition(".")[0]
+            elif lazy or not isinstance(child, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)):
+                yield from walk(child)
+
+    return set(walk(ast.parse(path.read_text(encoding="utf-8"), str(path))))
+
+
+def name(path: Path) -> str:
+    return str(path.relative_to(ROOT))
+
+
+@pytest.mark.parametrize("path", sources("rotor"), ids=name)
+def test_rotor_imports_only_numerics(path: Path):
+    foreign = imports(path, lazy=False) - sys.stdlib_module_names - PHYSICS - {"rotor"}
+    assert not foreign, f"{name(path)} imports {sorted(foreign)}: rotor is numerics only, others inside a function"
+    assert not imports(path, lazy=True) & {"explorer", "viser"}, f"{name(path)}: rotor must not know the page"
+
+
+@pytest.mark.parametrize("path", [p for p in sources("explorer") if p.name not in KNOW_VISER], ids=name)
+def test_arrays_and_text_of_the_page_know_no_viser(path: Path):
+    assert "viser" not in imports(path, lazy=True), f"{name(path)}: only {sorted(KNOW_VISER)} may import viser"
+
+
+def test_importing_rotor_brings_no_page():
+    code = "import sys, rotor; print(*sorted({m.partition('.')[0] for m in sys.modules} & {'viser', 'explorer'}))"
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout.split() == []
+
+
+def test_every_import_is_a_declared_dependency():
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    declared = {re.split(r"[^\w-]", item)[0] for item in project["dependencies"]}
+    known = sys.stdlib_module_names | declared | {"rotor", "explorer"}
+    for path in (*sources("rotor"), *sources("explorer")):
+        undeclared = imports(path, lazy=False) - known
+        assert not undeclared, f"{name(path)} imports {sorted(undeclared)}: declare it in pyproject.toml, and say why"
+
+
+def test_pinned_versions_satisfy_what_is_declared():
+    """Each dependency has one exact version in the requirements files, and none comes from an address."""
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    pins: dict[str, set[str]] = {}
+    for file in ("requirements.txt", "requirements-dev.txt"):
+        lines = [line.partition("#")[0].strip() for line in (ROOT / file).read_text(encoding="utf-8").splitlines()]
+        pinned = [line for line in lines if line and line != "-r requirements.txt"]
+        assert all(re.fullmatch(r"[\w.-]+==[\w.]+", line) for line in pinned), f"{file}: write name==version"
+        pins[file] = {line.partition("==")[0] for line in pinned}
+    wanted = {re.split(r"[^\w-]", item)[0] for item in project["dependencies"]}
+    assert wanted <= pins["requirements.txt"]
+    extras = {re.split(r"[^\w-]", item)[0] for group in project["optional-dependencies"].values() for item in group}
+    assert extras - {"rotor-explorer"} <= pins["requirements.txt"] | pins["requirements-dev.txt"]
