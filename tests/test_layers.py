@@ -1,4 +1,4 @@
-"""The borders of the code: `rotor` knows no page, the page's arrays and text know no viser, every import is declared."""
+"""The borders of the code: `rotor` knows no page, the page's arrays and text no viser, all imports are declared."""
 
 import ast
 import re
