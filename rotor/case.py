@@ -1,0 +1,104 @@
+"""Design files: the choices behind a UH-60A `Design` as JSON that a person can read and edit."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, cast
+
+from rotor.design import Design
+from rotor.inflow import inflow_model
+from rotor.presets import make_design
+
+FORMAT = "rotor-explorer design"
+VERSION = 1
+
+_KEYS = ("format", "version", "preset", "twist", "advance_ratio", "mass_kg", "altitude_m", "inflow", "tip_loss", "hub_loss")
+
+
+def case_of(design: Design) -> dict[str, Any]:
+    """The design as a JSON-ready record."""
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "preset": design.preset,
+        "twist": design.twist.spec(),
+        "advance_ratio": design.condition.advance_ratio,
+        "mass_kg": design.condition.mass,
+        "altitude_m": design.condition.altitude,
+        "inflow": design.models.inflow,
+        "tip_loss": design.models.tip_loss,
+        "hub_loss": design.models.hub_loss,
+    }
+
+
+def design_of(case: dict[str, Any]) -> Design:
+    """The design a record describes; what it leaves out is the preset's.
+
+    Raises ValueError with one sentence for anything it cannot use.
+    """
+    unknown = sorted(set(case) - set(_KEYS))
+    if unknown:
+        raise ValueError(f"design file has the unknown key {unknown[0]!r}: the keys are {', '.join(_KEYS)}")
+    if case.get("format", FORMAT) != FORMAT or case.get("version", VERSION) != VERSION:
+        raise ValueError(
+            f"design file is {case.get('format')!r} version {case.get('version')!r}: this program reads "
+            f"{FORMAT!r} version {VERSION}"
+        )
+    preset = _text(case, "preset", "flight")
+    twist = _text(case, "twist", "")
+    design = make_design(
+        preset,
+        twist=twist or None,
+        advance_ratio=_number(case, "advance_ratio", 0.2),
+        mass=_number(case, "mass_kg", None),
+        altitude=_number(case, "altitude_m", 0.0),
+    )
+    inflow = _text(case, "inflow", design.models.inflow)
+    inflow_model(inflow)
+    models = replace(
+        design.models,
+        inflow=inflow,
+        tip_loss=_flag(case, "tip_loss", design.models.tip_loss),
+        hub_loss=_flag(case, "hub_loss", design.models.hub_loss),
+    )
+    return replace(design, models=models)
+
+
+def read_case(path: str | Path) -> Design:
+    """Read a design file; ValueError with one sentence when it cannot be used."""
+    path = Path(path)
+    try:
+        record = json.loads(path.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise ValueError(f"design file {str(path)!r} does not exist: give the path of a JSON design file") from None
+    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
+        raise ValueError(f"design file {str(path)!r} cannot be read ({error}): give a JSON design file") from None
+    if not isinstance(record, dict):
+        raise ValueError(f"design file {str(path)!r} holds no JSON object: write {{\"twist\": \"linear:-8\", …}}")
+    return design_of(cast(dict[str, Any], record))
+
+
+def write_case(design: Design, path: str | Path) -> None:
+    """Write a design file."""
+    Path(path).write_text(json.dumps(case_of(design), indent=2) + "\n", encoding="utf-8")
+
+
+def _number(case: dict[str, Any], key: str, default: Any) -> Any:
+    value = case.get(key, default)
+    if value is default or (isinstance(value, (int, float)) and not isinstance(value, bool)):
+        return value
+    raise ValueError(f"design file key {key!r} is {value!r}: give a number")
+
+
+def _text(case: dict[str, Any], key: str, default: str) -> str:
+    value = case.get(key, default)
+    if isinstance(value, str):
+        return value
+    raise ValueError(f"design file key {key!r} is {value!r}: give a text")
+
+
+def _flag(case: dict[str, Any], key: str, default: bool) -> bool:
+    value = case.get(key, default)
+    if isinstance(value, bool):
+        return value
+    raise ValueError(f"design file key {key!r} is {value!r}: give true or false")

@@ -1,0 +1,1 @@
+"""The command line, one command a file. Degrees, knots, kW and tonnes exist only here and in the explorer."""

@@ -1,0 +1,89 @@
+"""The argument parser and what several commands share."""
+
+import argparse
+import math
+from dataclasses import replace
+from typing import NoReturn
+
+from rotor.case import read_case
+from rotor.design import Design
+from rotor.inflow import inflow_model
+from rotor.presets import make_design
+from rotor.sweep import at_advance_ratio
+
+KNOT = 1852.0 / 3600.0
+"""[m/s]"""
+
+
+class OneLineParser(argparse.ArgumentParser):
+    """Says what is wrong in one line, as every other error of this program."""
+
+    def error(self, message: str) -> NoReturn:
+        raise ValueError(f"{message}; see {self.prog} --help")
+
+
+def build_parser() -> argparse.ArgumentParser:
+    """All commands."""
+    from rotor.airfoil import command as airfoil
+    from rotor.command import bench, solve, sweep
+
+    parser = OneLineParser(prog="python -m rotor", description="UH-60A main rotor: trim, power, twist.")
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=OneLineParser)
+    for command in (solve, sweep, airfoil, bench):
+        command.add_parser(commands)
+    return parser
+
+
+def add_design_arguments(parser: argparse.ArgumentParser, *, one_twist: bool) -> None:
+    """The flags that describe a design."""
+    twist = "linear:-8 | quadratic:A,D | segments:-12,-4@0.5 | ideal | uh60a | table:FILE (degrees, per radius)"
+    parser.add_argument("--twist", metavar="SPEC", nargs=None if one_twist else "+", help=twist)
+    parser.add_argument("--preset", metavar="NAME", help="flight (default): what we believe; thesis: as the document states")
+    parser.add_argument("--inflow", metavar="NAME", help="forward-flight inflow model, for example pitt-peters")
+    parser.add_argument("--mass-kg", type=finite, metavar="KG", help="aircraft mass (default 8322.4)")
+    parser.add_argument("--altitude-m", type=finite, metavar="M", help="pressure altitude (default 0)")
+    parser.add_argument("--case", metavar="FILE", help="design file (JSON); other flags override it")
+
+
+def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: float | None) -> Design:
+    """The design that the flags describe, on top of a design file where one is given."""
+    base = read_case(args.case) if args.case else None
+    design = make_design(
+        args.preset or (base.preset if base else "flight"),
+        twist=twist or (base.twist if base and not args.preset else None),
+        mass=args.mass_kg if args.mass_kg is not None else (base.condition.mass if base else None),
+        altitude=args.altitude_m if args.altitude_m is not None else (base.condition.altitude if base else 0.0),
+        models=base.models if base and not args.preset else None,
+    )
+    if advance_ratio is None:
+        advance_ratio = base.condition.advance_ratio if base else 0.2
+    if args.inflow:
+        inflow_model(args.inflow)
+        design = replace(design, models=replace(design.models, inflow=args.inflow))
+    return at_advance_ratio(design, advance_ratio)
+
+
+def parse_range(text: str) -> list[float]:
+    """`a:b:step`, both ends included, or a comma-separated list, or one number."""
+    try:
+        if ":" not in text:
+            values = [float(item) for item in text.split(",")]
+        else:
+            low, high, step = (float(item) for item in text.split(":"))
+            if not (step > 0.0 and high >= low and (high - low) / step < 10_000):
+                raise ValueError
+            values = [low + k * step for k in range(math.floor((high - low) / step + 1e-9) + 1)]
+    except (ValueError, OverflowError):
+        raise ValueError(f"range {text!r} is not understood: write a:b:step, for example 0.05:0.40:0.05") from None
+    if not all(math.isfinite(value) for value in values):
+        raise ValueError(f"range {text!r} holds a value that is not a number: write for example 0.05:0.40:0.05")
+    return [round(value, 12) for value in values]
+
+
+def finite(text: str) -> float:
+    value = float(text)
+    if not math.isfinite(value):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a finite number")
+    return value
+
+

@@ -1,0 +1,65 @@
+"""`sweep`: one or more twists over advance ratio."""
+
+import argparse
+import csv
+from pathlib import Path
+from typing import Any
+
+from rotor.command.parser import KNOT, add_design_arguments, design_from, parse_range
+from rotor.solution import Solution
+from rotor.sweep import sweep
+
+COLUMNS = (
+    "twist", "mu", "speed_kt", "status", "total_kw", "main_rotor_kw", "induced_kw", "profile_kw", "parasite_kw",
+    "tail_kw", "message",
+)  # fmt: skip
+
+
+def add_parser(commands: Any) -> None:
+    """Register the command."""
+    parser = commands.add_parser("sweep", help="power of one or more twists over advance ratio")
+    parser.add_argument("--mu", required=True, metavar="A:B:STEP", help="for example 0.05:0.40:0.05; 0 is hover")
+    add_design_arguments(parser, one_twist=False)
+    parser.add_argument("--csv", metavar="FILE", help="write the table to a file as well")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """0 when every point converged, else 1."""
+    advance_ratios = parse_range(args.mu)
+    specs: list[str | None] = list(args.twist) if args.twist else [None]
+    designs = [design_from(args, spec, mu) for spec in specs for mu in advance_ratios]  # Bad input speaks first.
+    rows: list[tuple[str, ...]] = []
+    converged = True
+    widths = (22, 7, 8, 14, 9, 13, 10, 10, 11, 8)
+    print("".join(f"{name:<{width}}" for name, width in zip(COLUMNS, widths, strict=False)))
+    for design in designs[:: len(advance_ratios)]:
+        for solution in sweep(design, advance_ratios):
+            converged = converged and solution.converged
+            row = _row(solution)
+            rows.append(row)
+            print("".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=False)).rstrip())
+    if args.csv:
+        _write(args.csv, rows)
+    return 0 if converged else 1
+
+
+def _row(solution: Solution) -> tuple[str, ...]:
+    design, power = solution.design, solution.power
+    parts = (power.total, power.main_rotor, power.induced, power.profile, power.parasite, power.tail)
+    return (
+        design.twist.spec(),
+        f"{design.condition.advance_ratio:.4g}",
+        f"{design.airspeed / KNOT:.1f}",
+        solution.status.value,
+        *(f"{part / 1e3:.2f}" if solution.converged else "" for part in parts),
+        solution.message,
+    )
+
+
+def _write(path: str, rows: list[tuple[str, ...]]) -> None:
+    try:
+        with Path(path).open("w", newline="", encoding="utf-8") as file:
+            csv.writer(file).writerows([COLUMNS, *rows])
+    except OSError as error:
+        raise ValueError(f"cannot write {path!r} ({error.strerror}): give a writable file") from None

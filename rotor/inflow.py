@@ -1,0 +1,137 @@
+"""Linear inflow in forward flight: λ_i = λ0 (1 + k_x r cos ψ + k_y r sin ψ), eqs. (2.29), (3.4).
+
+Eq. (2.29) prints φ for ψ; (3.4) is right. The models differ in k_x and k_y only. None of them answers to where on the
+disk the lift is, so with them induced power does not depend on twist.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Wake:
+    """What the wake's direction depends on; all over ΩR."""
+
+    mu_x: float
+    """Advance ratio in the disk plane, µ cos α."""
+    mu_z: float
+    """Advance ratio through the disk, µ sin α, positive down."""
+    lambda0: float
+    """Mean induced inflow of momentum theory."""
+
+    @property
+    def axial(self) -> float:
+        return self.mu_z + self.lambda0
+
+    @property
+    def speed(self) -> float:
+        return math.hypot(self.mu_x, self.axial)
+
+
+Gradient = tuple[float, float, float]
+"""A gradient k with its slopes by µ_x and by the axial flow µ_z + λ0."""
+
+
+@dataclass(frozen=True)
+class LinearInflow:
+    """A first-harmonic inflow model."""
+
+    name: str
+    title: str
+    explanation: str
+    """One line for the page: what it is, and from whom."""
+    longitudinal: Callable[[Wake], Gradient]
+    """k_x"""
+    lateral: Callable[[Wake], Gradient]
+    """k_y"""
+
+    def field(self, r: Array, cos: Array, sin: Array, wake: Wake) -> tuple[Array, Array]:
+        """λ_i at radii (n,) and azimuths with cos ψ, sin ψ (m,): (n, m), and its derivatives by (µ_x, µ_z, λ0), (3, n, m)."""
+        kx, kx_mu, kx_axial = self.longitudinal(wake)
+        ky, ky_mu, ky_axial = self.lateral(wake)
+        r = r[:, None]
+        shape = 1.0 + r * (kx * cos + ky * sin)
+        by_mu = (wake.lambda0 * r) * (kx_mu * cos + ky_mu * sin)
+        by_axial = (wake.lambda0 * r) * (kx_axial * cos + ky_axial * sin)
+        return wake.lambda0 * shape, np.stack([by_mu, by_axial, shape + by_axial])
+
+
+def _zero(wake: Wake) -> Gradient:
+    del wake
+    return 0.0, 0.0, 0.0
+
+
+def _half_skew(wake: Wake) -> Gradient:
+    """tan(χ/2) = µ_x/(V + µ_z + λ0), regular from hover to edgewise flight."""
+    total = wake.speed + wake.axial
+    return wake.mu_x / total, wake.axial / (wake.speed * total), -wake.mu_x / (wake.speed * total)
+
+
+def _scaled_half_skew(gain: float) -> Callable[[Wake], Gradient]:
+    def gradient(wake: Wake) -> Gradient:
+        value, by_mu, by_axial = _half_skew(wake)
+        return gain * value, gain * by_mu, gain * by_axial
+
+    return gradient
+
+
+def _drees_longitudinal(wake: Wake) -> Gradient:
+    """(4/3)(1 − cos χ − 1.8µ²)/sin χ, written with sin χ = µ_x/V so that hover is regular."""
+    value, by_mu, by_axial = _half_skew(wake)
+    scale = 4.0 / 3.0
+    speed = wake.speed
+    return (
+        scale * (value - 1.8 * wake.mu_x * speed),
+        scale * (by_mu - 1.8 * (speed + wake.mu_x**2 / speed)),
+        scale * (by_axial - 1.8 * wake.mu_x * wake.axial / speed),
+    )
+
+
+def _drees_lateral(wake: Wake) -> Gradient:
+    return -2.0 * wake.mu_x, -2.0, 0.0
+
+
+def _white_blake(wake: Wake) -> Gradient:
+    """√2 sin χ."""
+    cube = wake.speed**3
+    root = math.sqrt(2.0)
+    return root * wake.mu_x / wake.speed, root * wake.axial**2 / cube, -root * wake.mu_x * wake.axial / cube
+
+
+_LINEAR = (
+    LinearInflow("uniform", "Uniform", "Glauert's mean inflow everywhere: no fore-aft gradient.", _zero, _zero),
+    LinearInflow(
+        "coleman", "Coleman", "kx = tan(χ/2), from a uniformly loaded skewed vortex cylinder (1945).",
+        _scaled_half_skew(1.0), _zero,
+    ),
+    LinearInflow(
+        "drees", "Drees", "kx = 4/3 (1 − cos χ − 1.8µ²)/sin χ and a lateral ky = −2µ (1949).",
+        _drees_longitudinal, _drees_lateral,
+    ),
+    LinearInflow("white-blake", "White–Blake", "kx = √2 sin χ, a stronger gradient (1979).", _white_blake, _zero),
+    LinearInflow(
+        "pitt-peters", "Pitt–Peters (15π/32)", "kx = 15π/32 tan(χ/2): the three-state Pitt–Peters theory, steady.",
+        _scaled_half_skew(15.0 * math.pi / 32.0), _zero,
+    ),
+    LinearInflow(
+        "pitt-peters-15pi/23", "Pitt–Peters (15π/23 as printed)",
+        "kx = 15π/23 tan(χ/2), eq. (2.32) as the document prints it; closer to measured gradients.",
+        _scaled_half_skew(15.0 * math.pi / 23.0), _zero,
+    ),
+)  # fmt: skip
+
+INFLOW_MODELS: dict[str, LinearInflow] = {model.name: model for model in _LINEAR}
+"""Forward-flight inflow models by name."""
+
+
+def inflow_model(name: str) -> LinearInflow:
+    """The model of that name; ValueError with the names there are."""
+    if name not in INFLOW_MODELS:
+        raise ValueError(f"inflow model {name!r} is not known: use one of {', '.join(INFLOW_MODELS)}")
+    return INFLOW_MODELS[name]

@@ -1,0 +1,41 @@
+"""Prandtl's loss factors at the tip and at the root, eqs. (3.16)–(3.18)."""
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+Array = NDArray[np.float64]
+
+HUB_FACTOR = 0.95
+"""B of eq. (3.17) as printed: "around 0.95 for the hub relation" (thesis p. 24)."""
+
+_SMALLEST_INFLOW = 1e-9
+"""Keeps f finite where the inflow passes through zero; F is 1 there to rounding."""
+
+
+def prandtl(f: ArrayLike) -> tuple[Array, Array]:
+    """F = (2/π) arccos(e^−f), eq. (3.18), and dF/df, for f > 0."""
+    decay = np.exp(-np.asarray(f, dtype=float))
+    # 1 − e^(−2f) by expm1: exact as f → 0, where the slope grows without bound.
+    return 2.0 / np.pi * np.arccos(decay), 2.0 / np.pi * decay / np.sqrt(-np.expm1(-2.0 * np.asarray(f)))
+
+
+def loss_factor(
+    r: ArrayLike, inflow: ArrayLike, blades: int, root_cutout: float, *, tip: bool = True, hub: bool = True
+) -> tuple[Array, Array]:
+    """F = F_tip F_hub and dF/dλ at r = y/R for a total inflow ratio λ; shapes broadcast.
+
+    With φ = λ/r, r φ = λ: f_tip = ½N_b (1 − r)/λ, eq. (3.16); f_hub = ½B (r − r_min)/λ, eq. (3.17), B = 0.95 as
+    printed. Finite at both ends; the direction of the flow does not matter (|λ|).
+    """
+    r = np.asarray(r, dtype=float)
+    inflow = np.asarray(inflow, dtype=float)
+    signed = np.where(np.abs(inflow) < _SMALLEST_INFLOW, _SMALLEST_INFLOW, inflow)
+    factor = np.ones(np.broadcast(r, signed).shape)
+    slope = np.zeros_like(factor)
+    spacings = ([0.5 * blades * (1.0 - r)] if tip else []) + ([0.5 * HUB_FACTOR * (r - root_cutout)] if hub else [])
+    for spacing in spacings:
+        f = np.minimum(spacing / np.abs(signed), 700.0)
+        end, end_slope = prandtl(f)
+        slope = slope * end + factor * end_slope * (-f / signed)
+        factor = factor * end
+    return factor, slope

@@ -1,0 +1,163 @@
+"""From a `Design` to a `Solution`: hover or trim, then power by parts, areas, caveats and the sentence."""
+
+import math
+import time
+
+import numpy as np
+from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
+
+from rotor import kernel
+from rotor.design import Design
+from rotor.elements import (
+    COLLECTIVE,
+    CONING,
+    CYCLIC_1C,
+    CYCLIC_1S,
+    FLAP_1C,
+    FLAP_1S,
+    LAMBDA0,
+    SHAFT_TILT,
+    Pass,
+    Problem,
+    lay_out,
+    sums,
+)
+from rotor.hover import HoverResult, hover
+from rotor.solution import Controls, DiskFields, PowerBudget, Solution, Status
+from rotor.tail_rotor import FIXED_SHARE
+from rotor.trim import TrimResult, trim
+from rotor.validity import caveats, failure_sentence, stall_margins
+
+Array = NDArray[np.float64]
+
+# Systems of six unknowns: BLAS threads cost ten times what they save.
+threadpool_limits(limits=1, user_api="blas")
+
+
+def solve(design: Design, start: Solution | None = None) -> Solution:
+    """Trim the design; `start` is any earlier solution to begin from.
+
+    Always returns: a design that does not trim comes back with `Status.NOT_CONVERGED` and one sentence.
+    """
+    begin = time.perf_counter()
+    problem = lay_out(design)
+    warm = start if start is not None and start.converged else None
+    if design.hovering:
+        ended: HoverResult | TrimResult = hover(problem, warm.controls.collective if warm else None)
+    else:
+        ended = trim(problem, _state(warm.controls) if warm and not warm.design.hovering else None)
+    return _assemble(problem, ended, begin)
+
+
+def _assemble(problem: Problem, ended: HoverResult | TrimResult, begin: float) -> Solution:
+    design, one = problem.design, ended.last
+    total = sums(problem, one)
+    fields = _fields(problem, one)
+    power = _power(problem, one)
+    area = _areas(problem, fields)
+    converged = ended.converged
+    message = "Trimmed." if converged else failure_sentence(design, ended.reached, area["stalled"])
+    if converged and not 0.0 < power.main_rotor < math.inf:
+        converged = False
+        message = (
+            f"The trim found takes {power.main_rotor / 1e3:.0f} kW, which no level flight can: "
+            "lower the advance ratio or the weight."
+        )
+    return Solution(
+        design=design,
+        status=Status.CONVERGED if converged else Status.NOT_CONVERGED,
+        message=message,
+        caveats=caveats(problem, one, area["stalled"]) if converged else (),
+        controls=_controls(one),
+        disk=fields,
+        power=power,
+        ct=total.thrust,
+        cp=power.main_rotor / design.power_unit,
+        reverse_flow_area=area["reverse"],
+        stalled_area=area["stalled"],
+        residual=ended.residual,
+        passes=ended.passes,
+        elapsed=time.perf_counter() - begin,
+    )
+
+
+def _power(problem: Problem, one: Pass) -> PowerBudget:
+    """Induced Σλ_i dF_z, profile Σ U dD and parasite D·V; torque × Ω beside them (thesis eqs. 3.10, 3.13)."""
+    design, disk, loads = problem.design, problem.disk, one.loads
+    unit = design.power_unit * disk.dr / len(disk.psi)
+    dissipation = disk.half_solidity @ (np.hypot(one.u_t, one.u_p) ** 3 * loads[kernel.CD])
+    induced = float(np.vdot(one.induced, loads[kernel.FZ])) * unit
+    profile = float(dissipation.sum()) * unit
+    parasite = problem.drag * design.condition.advance_ratio * design.power_unit
+    shaft = float((disk.r @ loads[kernel.FX]).sum()) * unit
+    main = induced + profile + parasite
+    if design.models.tail_rotor_solved:
+        tail, _ = design.tail_rotor.power(
+            main / design.rotor.angular_speed, design.airspeed, design.condition.density
+        )
+    else:
+        tail = FIXED_SHARE * main
+    return PowerBudget(induced=induced, profile=profile, parasite=parasite, tail=tail, shaft=shaft)
+
+
+def _fields(problem: Problem, one: Pass) -> DiskFields:
+    disk, loads = problem.disk, one.loads
+    return DiskFields(
+        r=disk.r,
+        dr=disk.dr,
+        psi=disk.psi,
+        theta=one.theta,
+        u_t=one.u_t,
+        u_p=one.u_p,
+        induced=one.induced,
+        inflow=one.induced + one.flow.mu_z,
+        alpha=loads[kernel.ALPHA],
+        mach=loads[kernel.MACH],
+        cl=loads[kernel.CL],
+        cd=loads[kernel.CD],
+        cd_mach=loads[kernel.CD_MACH],
+        stall_margin=stall_margins(problem, one),
+        dct=loads[kernel.FZ],
+        dcq=loads[kernel.FX],
+    )
+
+
+def _areas(problem: Problem, fields: DiskFields) -> dict[str, float]:
+    """Reverse-flow and stalled parts of πR²."""
+    disk = problem.disk
+    ring = 2.0 * disk.r[:, None] * disk.dr / len(disk.psi)
+    reverse = fields.u_t < 0.0
+    return {
+        "reverse": float((ring * reverse).sum()),
+        "stalled": float((ring * ((fields.stall_margin < 0.0) & ~reverse)).sum()),
+    }
+
+
+def _controls(one: Pass) -> Controls:
+    state = [float(value) for value in one.state]
+    return Controls(
+        collective=state[COLLECTIVE],
+        cyclic_1c=state[CYCLIC_1C],
+        cyclic_1s=state[CYCLIC_1S],
+        shaft_tilt=state[SHAFT_TILT],
+        coning=state[CONING],
+        flap_1c=state[FLAP_1C],
+        flap_1s=state[FLAP_1S],
+        lambda0=state[LAMBDA0],
+    )
+
+
+def _state(controls: Controls) -> Array:
+    return np.array(
+        [
+            controls.collective,
+            controls.cyclic_1c,
+            controls.cyclic_1s,
+            controls.shaft_tilt,
+            controls.coning,
+            controls.flap_1c,
+            controls.flap_1s,
+            controls.lambda0,
+        ]
+    )

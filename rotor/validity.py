@@ -1,0 +1,94 @@
+"""Where the answer stops being trustworthy, in sentences a user reads."""
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rotor import kernel
+from rotor.airfoil.table import MACH_STEP, N_MACH
+from rotor.design import Design
+from rotor.elements import Pass, Problem
+from rotor.solution import Caveat
+
+Array = NDArray[np.float64]
+
+LOW_SPEED = 0.075
+"""Below this advance ratio linear inflow is not trusted (thesis p. 26)."""
+HIGH_SPEED = 0.40
+"""Above it reverse flow and unsteady stall rule; quasi-steady sections no longer do."""
+STALL_SHARE = 0.02
+"""Stalled part of the disk from which dynamic stall would matter to the numbers."""
+
+
+def stall_margins(problem: Problem, one: Pass) -> Array:
+    """Angle of attack left before stall [rad], (elements, azimuths): negative when stalled, π/2 in reverse flow."""
+    disk, loads = problem.disk, one.loads
+    position = np.clip(loads[kernel.MACH] / MACH_STEP, 0.0, N_MACH - 1e-9)
+    knot = position.astype(np.int64)
+    part = position - knot
+    limits: list[Array] = []
+    for end in (0, 1):
+        angles = np.zeros_like(position)
+        for which, share in ((0, 1.0 - disk.weight), (1, disk.weight)):
+            row = disk.section[:, which][:, None]
+            at = disk.stall[row, end, knot] * (1.0 - part) + disk.stall[row, end, knot + 1] * part
+            angles += share[:, None] * (at + disk.offset[:, which][:, None])
+        limits.append(angles)
+    margin = np.minimum(limits[0] - loads[kernel.ALPHA], loads[kernel.ALPHA] - limits[1])
+    return np.where(one.u_t < 0.0, math.pi / 2.0, margin)
+
+
+def caveats(problem: Problem, one: Pass, stalled: float) -> tuple[Caveat, ...]:
+    """Reasons to read a converged solution with care."""
+    design, disk = problem.design, problem.disk
+    mu = design.condition.advance_ratio
+    found: list[Caveat] = []
+
+    def add(name: str, sentence: str) -> None:
+        found.append(Caveat(name, sentence))
+
+    if 0.0 < mu < LOW_SPEED:
+        add("low-speed-inflow", f"Linear inflow is not trusted below advance ratio {LOW_SPEED:g}; this is {mu:.3f}.")
+    if mu > HIGH_SPEED:
+        add("high-speed", f"Above advance ratio {HIGH_SPEED:.2f} quasi-steady sections and rigid blades are a rough guide.")
+    if stalled > STALL_SHARE:
+        add("stall", f"{100.0 * stalled:.1f} % of the disk is stalled; section data are steady, without dynamic stall.")
+    top_mach = float(one.loads[kernel.MACH].max())
+    if disk.one_mach:
+        if top_mach > 0.5:
+            add("no-compressibility", f"The section polar is for one Mach number (0.3); the tip reaches Mach {top_mach:.2f}.")
+        clamped = _outside_fit(problem, one)
+        if clamped > 0.0:
+            add("polynomial-clamped", f"{100.0 * clamped:.1f} % of the disk lies outside the polynomials' fit and is clamped.")
+    elif top_mach > disk.mach_limit:
+        add(
+            "mach-outside-data",
+            f"The tip reaches Mach {top_mach:.2f}; the section data end at {disk.mach_limit:.2f} and are held there.",
+        )
+    return tuple(found)
+
+
+def failure_sentence(design: Design, reached: float, stalled: float) -> str:
+    """Why a design did not trim, and what would help."""
+    condition = design.condition
+    share = f" {100.0 * stalled:.0f} % of the disk is stalled at the last attempt." if stalled > STALL_SHARE else ""
+    if design.hovering:
+        return (
+            f"Not trimmed: the hovering rotor makes at most {100.0 * reached:.0f} % of the thrust that "
+            f"{condition.mass:.0f} kg at {condition.altitude:.0f} m needs; lower the weight or the altitude."
+        )
+    how_far = f" Coming from a lighter rotor, the trim ends {100.0 * reached:.0f} % of the way." if reached > 0.0 else ""
+    return (
+        f"Not trimmed: {condition.mass:.0f} kg at {condition.altitude:.0f} m and advance ratio "
+        f"{condition.advance_ratio:.3f} is beyond this rotor.{how_far}{share} Lower the weight, the altitude or the speed."
+    )
+
+
+def _outside_fit(problem: Problem, one: Pass) -> float:
+    """Part of πR², reverse flow not counted, where a polynomial polar is clamped."""
+    disk = problem.disk
+    low, high = disk.fit_range
+    alpha = one.loads[kernel.ALPHA]
+    outside = ((alpha < low) | (alpha > high)) & (one.u_t >= 0.0)
+    return float((2.0 * disk.r[:, None] * disk.dr / len(disk.psi) * outside).sum())
