@@ -7,7 +7,9 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.airfoil.sections import load_installed
+from rotor.airfoil.polynomial import THESIS_NAME, polynomial_section
+from rotor.airfoil.sections import load_section
+from rotor.airfoil.table import MACH_STEP, N_MACH
 from rotor.blade import Rotor
 
 Array = NDArray[np.float64]
@@ -32,17 +34,15 @@ class Disk:
     weight: Array
     """Weight of the second of the two, (elements,)."""
     offset: Array
-    """Incidence offset of the two [rad], (elements, 2): angle of attack is α_blade − offset."""
+    """Chord lines of the two against the blade's reference line [rad], (elements, 2), nose-up positive."""
     tables: Array
     """Section coefficients, (sections, α cells, Mach cells, 2, 4, 4)."""
     stall: Array
-    """Stall angles about the section's own chord [rad], (sections, 2, Mach knots): positive, then negative."""
+    """Stall angles about the section's own chord [rad] at the table's Mach nodes, (sections, 2, nodes): negative, positive."""
     mach_limit: float
     """Mach number where the section data end."""
-    one_mach: bool
-    """Whether the section data know one Mach number only (the document's polynomials)."""
-    fit_range: tuple[float, float]
-    """Angles of attack [rad] beyond which a polynomial polar is clamped; ±π for decks."""
+    fit_range: tuple[float, float] | None
+    """Angles of attack [rad] beyond which the document's polynomials, of one Mach number, are clamped; None for decks."""
 
 
 @lru_cache(maxsize=16)
@@ -54,7 +54,7 @@ def build_disk(rotor: Rotor, elements: int, azimuths: int) -> Disk:
     psi = 2.0 * math.pi * np.arange(azimuths) / azimuths
 
     names = tuple(dict.fromkeys(span.section for span in blade.spans))
-    installed = [load_installed(name) for name in names]
+    installed = [load_section(name) for name in names]
     section = np.zeros((elements, 2), dtype=np.int64)
     weight = np.zeros(elements)
     offset = np.zeros((elements, 2))
@@ -67,7 +67,7 @@ def build_disk(rotor: Rotor, elements: int, azimuths: int) -> Disk:
         offset[i] = [installed[k].incidence_offset for k in pair]
         ratio[i] = (1.0 - blend) * installed[pair[0]].chord_ratio + blend * installed[pair[1]].chord_ratio
     half_solidity = rotor.blades * blade.chord(r) * ratio / (2.0 * math.pi * rotor.radius)
-    first = installed[0].table
+    mach = MACH_STEP * np.arange(N_MACH + 1)
     return Disk(
         r=r,
         dr=dr,
@@ -79,8 +79,7 @@ def build_disk(rotor: Rotor, elements: int, azimuths: int) -> Disk:
         weight=weight,
         offset=offset,
         tables=np.stack([one.table.coefficients for one in installed]),
-        stall=np.stack([(one.table.alpha_stall_positive, one.table.alpha_stall_negative) for one in installed]),
+        stall=np.stack([one.table.stall_alpha(mach) for one in installed]),
         mach_limit=min(one.table.mach_limit for one in installed),
-        one_mach=first.fit_range is not None,
-        fit_range=first.fit_range or (-math.pi, math.pi),
+        fit_range=polynomial_section().fit_range if THESIS_NAME in names else None,
     )

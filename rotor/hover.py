@@ -14,12 +14,15 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rotor import kernel
-from rotor.airfoil.sections import load_installed
+from rotor.airfoil.sections import load_section
 from rotor.elements import COLLECTIVE, CONING, LAMBDA0, N_STATE, Pass, Problem
 from rotor.inflow import Wake
 from rotor.losses import loss_factor
 
 Array = NDArray[np.float64]
+
+LIFT_CURVE_MACH = 0.3
+"""Mach number at which the linear lift curve of (3.3) is read off; the document's polar knows no other."""
 
 _LARGEST_INFLOW = 0.6
 """Bracket of λ: no annulus of a rotor comes near it."""
@@ -32,7 +35,7 @@ def closed_form_inflow(
 ) -> Array:
     """λ(r) of eq. (2.28), with the loss factor F of eq. (3.3), for a linear lift curve.
 
-    pitch θ [rad], lift_slope C_lα [1/rad], climb λ_c; shapes broadcast. (3.3) is (2.28) with λ_c = 0 and σ → σ/F, the
+    pitch θ [rad] from the zero-lift line, lift_slope C_lα [1/rad], climb λ_c; shapes broadcast. (3.3) is (2.28) with λ_c = 0 and σ → σ/F, the
     outer 1/F included; it closes 4Fλ²r = ½σC_lα(θr² − λr). Below zero pitch the mirrored root is taken.
     """
     r, pitch = np.asarray(r, dtype=float), np.asarray(pitch, dtype=float)
@@ -96,8 +99,9 @@ class _Annuli:
         disk = problem.disk
         self.inflow = np.full_like(disk.r, math.sqrt(problem.weight / 2.0))
         self.ones = np.ones_like(disk.r)
-        name = problem.design.rotor.blade.spans[0].section
-        self.linear_slope = load_installed(name).table.lift_slope(0.3)
+        table = load_section(problem.design.rotor.blade.spans[0].section).table
+        self.lift_slope = table.lift_slope(LIFT_CURVE_MACH)
+        self.zero_lift = table.zero_lift_alpha(LIFT_CURVE_MACH)
 
     def loads(self, theta0: float, inflow: Array) -> Array:
         """Section loads with derivatives, (rows, elements)."""
@@ -123,8 +127,8 @@ class _Annuli:
             loads = self.loads(theta0, inflow)
             return loads[kernel.FZ], loads[kernel.FZ_THETA], loads[kernel.FZ_UP]
         disk = self.problem.disk
-        gain = disk.half_solidity * self.linear_slope
-        pitch = self.problem.twist + theta0
+        gain = disk.half_solidity * self.lift_slope
+        pitch = self.problem.twist + theta0 - self.zero_lift
         return gain * (pitch * disk.r**2 - inflow * disk.r), gain * disk.r**2, -gain * disk.r
 
     def solve(self, theta0: float) -> tuple[Array, Array]:

@@ -32,7 +32,8 @@ _INVERSE_MACH = 1.0 / MACH_STEP
 
 
 def _compile(function: Any) -> Any:
-    return numba.njit(cache=True, nogil=True, error_model="numpy")(function)  # pyright: ignore
+    # Contraction (fused multiply-add) is the only liberty taken with the arithmetic.
+    return numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})(function)  # pyright: ignore
 
 
 @_compile
@@ -51,8 +52,6 @@ def _section(table: Any, alpha: float, mach: float) -> Any:
         inside = 0.0
     j = int(y)
     v = y - j
-    c = table[i, j, 0]
-    d = table[i, j, 1]
     cl = 0.0
     cl_u = 0.0
     cl_v = 0.0
@@ -60,13 +59,13 @@ def _section(table: Any, alpha: float, mach: float) -> Any:
     cd_u = 0.0
     cd_v = 0.0
     for k in range(3, -1, -1):  # Horner in u of polynomials in v.
-        p = ((c[k, 3] * v + c[k, 2]) * v + c[k, 1]) * v + c[k, 0]
-        p_v = (3.0 * c[k, 3] * v + 2.0 * c[k, 2]) * v + c[k, 1]
+        p = ((table[i, j, 0, k, 3] * v + table[i, j, 0, k, 2]) * v + table[i, j, 0, k, 1]) * v + table[i, j, 0, k, 0]
+        p_v = (3.0 * table[i, j, 0, k, 3] * v + 2.0 * table[i, j, 0, k, 2]) * v + table[i, j, 0, k, 1]
         cl_u = cl_u * u + cl
         cl = cl * u + p
         cl_v = cl_v * u + p_v
-        q = ((d[k, 3] * v + d[k, 2]) * v + d[k, 1]) * v + d[k, 0]
-        q_v = (3.0 * d[k, 3] * v + 2.0 * d[k, 2]) * v + d[k, 1]
+        q = ((table[i, j, 1, k, 3] * v + table[i, j, 1, k, 2]) * v + table[i, j, 1, k, 1]) * v + table[i, j, 1, k, 0]
+        q_v = (3.0 * table[i, j, 1, k, 3] * v + 2.0 * table[i, j, 1, k, 2]) * v + table[i, j, 1, k, 1]
         cd_u = cd_u * u + cd
         cd = cd * u + q
         cd_v = cd_v * u + q_v
@@ -107,11 +106,11 @@ def element_loads(
             alpha = theta[i, j] - math.atan2(p, t)
             alpha -= _TWO_PI * math.floor((alpha + _PI) / _TWO_PI)
             mach = u * tip_mach
-            a = alpha - offset[i, 0]
+            a = alpha + offset[i, 0]
             a -= _TWO_PI * math.floor((a + _PI) / _TWO_PI)
             cl, cd, cl_a, cd_a, cl_m, cd_m = _section(first, a, mach)
             if w > 0.0:
-                a = alpha - offset[i, 1]
+                a = alpha + offset[i, 1]
                 a -= _TWO_PI * math.floor((a + _PI) / _TWO_PI)
                 cl2, cd2, cl_a2, cd_a2, cl_m2, cd_m2 = _section(second, a, mach)
                 cl += w * (cl2 - cl)
@@ -146,4 +145,36 @@ def element_loads(
             out[CL, i, j] = cl
             out[CD, i, j] = cd
             out[CD_MACH, i, j] = cd_m
+    return out
+
+
+@_compile
+def stall_margins(
+    alpha: Array, mach: Array, u_t: Array, section: Any, weight: Array, offset: Array, stall: Array
+) -> Array:
+    """Angle of attack left before stall [rad], (elements, azimuths): negative when stalled, π/2 in reverse flow.
+
+    stall: angles about the section's own chord at the Mach knots, (sections, 2, knots): negative end, positive end.
+    """
+    n, m = alpha.shape
+    out = np.empty((n, m))
+    top = stall.shape[2] - 1 - 1e-9
+    for i in range(n):
+        w = weight[i]
+        for j in range(m):
+            if u_t[i, j] < 0.0:
+                out[i, j] = 0.5 * _PI
+                continue
+            x = min(mach[i, j] * _INVERSE_MACH, top)
+            k = int(x)
+            v = x - k
+            high = 0.0
+            low = 0.0
+            for which in range(2):
+                share = w if which == 1 else 1.0 - w
+                if share > 0.0:
+                    row = stall[section[i, which]]
+                    low += share * (row[0, k] * (1.0 - v) + row[0, k + 1] * v - offset[i, which])
+                    high += share * (row[1, k] * (1.0 - v) + row[1, k + 1] * v - offset[i, which])
+            out[i, j] = min(high - alpha[i, j], alpha[i, j] - low)
     return out

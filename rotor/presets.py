@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
-from rotor.airfoil.table import load_section
+from rotor.airfoil.sections import load_section
 from rotor.blade import Blade, Rotor, Span
 from rotor.design import Design, Models
 from rotor.flight import FlightCondition, Fuselage
@@ -125,7 +125,7 @@ def make_design(
     if twist is None:
         return draft
     if isinstance(twist, str):
-        slope = load_section(rotor.blade.spans[0].section).lift_slope(0.3)
+        slope = load_section(rotor.blade.spans[0].section).table.lift_slope(0.3)
         tip_pitch = ideal_tip_pitch(draft.weight_coefficient, rotor.solidity, slope)
         twist = parse_twist(twist, builtin=rotor.builtin_twist, ideal_tip_pitch=tip_pitch)
     return replace(draft, twist=twist)

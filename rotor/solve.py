@@ -24,10 +24,10 @@ from rotor.elements import (
     sums,
 )
 from rotor.hover import HoverResult, hover
-from rotor.solution import Controls, DiskFields, PowerBudget, Solution, Status
-from rotor.tail_rotor import FIXED_SHARE
+from rotor.power import power_budget
+from rotor.solution import Controls, DiskFields, Solution, Status
 from rotor.trim import TrimResult, trim
-from rotor.validity import caveats, failure_sentence, stall_margins
+from rotor.validity import caveats, failure_sentence
 
 Array = NDArray[np.float64]
 
@@ -54,7 +54,7 @@ def _assemble(problem: Problem, ended: HoverResult | TrimResult, begin: float) -
     design, one = problem.design, ended.last
     total = sums(problem, one)
     fields = _fields(problem, one)
-    power = _power(problem, one)
+    power = power_budget(problem, one)
     area = _areas(problem, fields)
     converged = ended.converged
     message = "Trimmed." if converged else failure_sentence(design, ended.reached, area["stalled"])
@@ -82,25 +82,6 @@ def _assemble(problem: Problem, ended: HoverResult | TrimResult, begin: float) -
     )
 
 
-def _power(problem: Problem, one: Pass) -> PowerBudget:
-    """Induced Σλ_i dF_z, profile Σ U dD and parasite D·V; torque × Ω beside them (thesis eqs. 3.10, 3.13)."""
-    design, disk, loads = problem.design, problem.disk, one.loads
-    unit = design.power_unit * disk.dr / len(disk.psi)
-    dissipation = disk.half_solidity @ (np.hypot(one.u_t, one.u_p) ** 3 * loads[kernel.CD])
-    induced = float(np.vdot(one.induced, loads[kernel.FZ])) * unit
-    profile = float(dissipation.sum()) * unit
-    parasite = problem.drag * design.condition.advance_ratio * design.power_unit
-    shaft = float((disk.r @ loads[kernel.FX]).sum()) * unit
-    main = induced + profile + parasite
-    if design.models.tail_rotor_solved:
-        tail, _ = design.tail_rotor.power(
-            main / design.rotor.angular_speed, design.airspeed, design.condition.density
-        )
-    else:
-        tail = FIXED_SHARE * main
-    return PowerBudget(induced=induced, profile=profile, parasite=parasite, tail=tail, shaft=shaft)
-
-
 def _fields(problem: Problem, one: Pass) -> DiskFields:
     disk, loads = problem.disk, one.loads
     return DiskFields(
@@ -117,7 +98,9 @@ def _fields(problem: Problem, one: Pass) -> DiskFields:
         cl=loads[kernel.CL],
         cd=loads[kernel.CD],
         cd_mach=loads[kernel.CD_MACH],
-        stall_margin=stall_margins(problem, one),
+        stall_margin=kernel.stall_margins(
+            loads[kernel.ALPHA], loads[kernel.MACH], one.u_t, disk.section, disk.weight, disk.offset, disk.stall
+        ),
         dct=loads[kernel.FZ],
         dcq=loads[kernel.FX],
     )

@@ -2,16 +2,10 @@
 
 import math
 
-import numpy as np
-from numpy.typing import NDArray
-
 from rotor import kernel
-from rotor.airfoil.table import MACH_STEP, N_MACH
 from rotor.design import Design
 from rotor.elements import Pass, Problem
 from rotor.solution import Caveat
-
-Array = NDArray[np.float64]
 
 LOW_SPEED = 0.075
 """Below this advance ratio linear inflow is not trusted (thesis p. 26)."""
@@ -19,24 +13,6 @@ HIGH_SPEED = 0.40
 """Above it reverse flow and unsteady stall rule; quasi-steady sections no longer do."""
 STALL_SHARE = 0.02
 """Stalled part of the disk from which dynamic stall would matter to the numbers."""
-
-
-def stall_margins(problem: Problem, one: Pass) -> Array:
-    """Angle of attack left before stall [rad], (elements, azimuths): negative when stalled, π/2 in reverse flow."""
-    disk, loads = problem.disk, one.loads
-    position = np.clip(loads[kernel.MACH] / MACH_STEP, 0.0, N_MACH - 1e-9)
-    knot = position.astype(np.int64)
-    part = position - knot
-    limits: list[Array] = []
-    for end in (0, 1):
-        angles = np.zeros_like(position)
-        for which, share in ((0, 1.0 - disk.weight), (1, disk.weight)):
-            row = disk.section[:, which][:, None]
-            at = disk.stall[row, end, knot] * (1.0 - part) + disk.stall[row, end, knot + 1] * part
-            angles += share[:, None] * (at + disk.offset[:, which][:, None])
-        limits.append(angles)
-    margin = np.minimum(limits[0] - loads[kernel.ALPHA], loads[kernel.ALPHA] - limits[1])
-    return np.where(one.u_t < 0.0, math.pi / 2.0, margin)
 
 
 def caveats(problem: Problem, one: Pass, stalled: float) -> tuple[Caveat, ...]:
@@ -55,10 +31,10 @@ def caveats(problem: Problem, one: Pass, stalled: float) -> tuple[Caveat, ...]:
     if stalled > STALL_SHARE:
         add("stall", f"{100.0 * stalled:.1f} % of the disk is stalled; section data are steady, without dynamic stall.")
     top_mach = float(one.loads[kernel.MACH].max())
-    if disk.one_mach:
+    if disk.fit_range is not None:
         if top_mach > 0.5:
             add("no-compressibility", f"The section polar is for one Mach number (0.3); the tip reaches Mach {top_mach:.2f}.")
-        clamped = _outside_fit(problem, one)
+        clamped = _outside_fit(problem, one, disk.fit_range)
         if clamped > 0.0:
             add("polynomial-clamped", f"{100.0 * clamped:.1f} % of the disk lies outside the polynomials' fit and is clamped.")
     elif top_mach > disk.mach_limit:
@@ -85,10 +61,10 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
     )
 
 
-def _outside_fit(problem: Problem, one: Pass) -> float:
+def _outside_fit(problem: Problem, one: Pass, fit_range: tuple[float, float]) -> float:
     """Part of πR², reverse flow not counted, where a polynomial polar is clamped."""
     disk = problem.disk
-    low, high = disk.fit_range
+    low, high = fit_range
     alpha = one.loads[kernel.ALPHA]
     outside = ((alpha < low) | (alpha > high)) & (one.u_t >= 0.0)
     return float((2.0 * disk.r[:, None] * disk.dr / len(disk.psi) * outside).sum())

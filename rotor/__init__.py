@@ -1,0 +1,25 @@
+"""Helicopter main-rotor aerodynamics: trim, power and twist of the UH-60A.
+
+Conventions, said once:
+
+- SI units and radians everywhere inside; names that end in `_deg`, `_kw`, `_kg`, `_m` are the edges.
+- ψ = 0 over the tail, counter-clockwise seen from above, advancing side ψ = 90°. r = y/R.
+- Arrays over the disk are (radius, azimuth): elements first, azimuths second.
+- Velocities are over ΩR. λ is positive down through the disk, U_P likewise. β up, θ nose-up.
+- β = β0 + β1c cos ψ + β1s sin ψ (flap-back: β1c < 0). θ = θ0 + θ1c cos ψ + θ1s sin ψ + θ_tw(r), θ_tw(0.75) = 0.
+- Shaft tilt α is positive forward: µ_x = µ cos α, µ_z = µ sin α; µ = V/(ΩR) is the *advance ratio*.
+- Coefficients are of ρA(ΩR)², ρA(ΩR)³. Solidity is 0.0821 for the UH-60A, with the chord 0.5273 m.
+
+Equation numbers in docstrings are those of M. Lonoce, Helicopter Blade Twist Optimization in Forward Flight, MSc
+thesis, Instituto Superior Técnico, 2016 ("the document"), whose misprints are named where they occur.
+"""
+
+from rotor.design import Design as Design
+from rotor.design import Models as Models
+from rotor.flight import FlightCondition as FlightCondition
+from rotor.presets import make_design as make_design
+from rotor.solution import Solution as Solution
+from rotor.solution import Status as Status
+from rotor.solve import solve as solve
+from rotor.sweep import sweep as sweep
+from rotor.twist import parse_twist as parse_twist

@@ -1,0 +1,142 @@
+"""`bench`: milliseconds per evaluation and per trim, beside two baselines measured in the same run."""
+
+import argparse
+import json
+import math
+import statistics
+import sys
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+from scipy.optimize import root  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
+
+from rotor.design import Design
+from rotor.elements import N_STATE, lay_out, run_pass
+from rotor.presets import make_design
+from rotor.solve import solve
+from rotor.trim import UNKNOWNS, first_guess, newton, residuals
+from rotor.twist import LinearTwist
+
+TARGETS_MS = {"evaluation": 0.5, "trim, cold": 5.0, "trim, warm": 2.0, "hover, cold": 5.0}
+"""Targets of the project [ms], linear inflow, 40 × 120, on a laptop-class core."""
+
+_ADVANCE_RATIOS = (0.1, 0.15, 0.2, 0.25, 0.3, 0.35)
+
+
+def add_parser(commands: Any) -> None:
+    """Register the command."""
+    parser = commands.add_parser("bench", help="time evaluations and trims beside scipy's root and dynbem")
+    parser.add_argument("--json", action="store_true", help="machine-readable output")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """0, whatever the machine: targets are printed, not enforced."""
+    figures, notes = measure()
+    if args.json:
+        print(json.dumps({"ms": figures, "targets_ms": TARGETS_MS, "notes": notes}, indent=2, allow_nan=False))
+        return 0
+    print("median milliseconds, 40 elements × 120 azimuths, flight preset, linear inflow, mean over µ 0.10…0.35\n")
+    for name, value in figures.items():
+        target = f"   target ≤ {TARGETS_MS[name]:g}" if name in TARGETS_MS else ""
+        print(f"{name:<34}{value:10.3f}{target}")
+    print()
+    cold = figures["trim, cold"]
+    for name, value in figures.items():
+        if "hybr" in name or "dynbem" in name and "trim" in name:
+            print(f"{name} takes {value / cold:.0f} × our cold trim")
+    for note in notes:
+        print(f"note: {note}", file=sys.stderr)
+    return 0
+
+
+def measure() -> tuple[dict[str, float], list[str]]:
+    """Figures [ms] by name, and notes on what could not be measured."""
+    designs = [make_design("flight", twist="linear:-16", advance_ratio=mu) for mu in _ADVANCE_RATIOS]
+    solve(designs[0])  # Compiles and loads before anything is timed.
+    problems = [lay_out(design) for design in designs]
+    states = [newton(problem, first_guess(problem)).last.state for problem in problems]
+    solutions = [solve(design) for design in designs]
+    nearby = [_nudged(design) for design in designs]
+    figures = {
+        "evaluation": _mean(lambda k: run_pass(problems[k], states[k]), 50),
+        "trim, cold": _mean(lambda k: solve(designs[k]), 15),
+        "trim, warm": _mean(lambda k: solve(nearby[k], solutions[k]), 15),
+        "hover, cold": _time(lambda: solve(make_design("flight", advance_ratio=0.0)), 15),
+        "trim, scipy hybr, no Jacobian": _mean(lambda k: _hybr(problems[k], first_guess(problems[k])), 3),
+    }
+    notes: list[str] = []
+    try:
+        figures |= _dynbem(designs[2])
+    except ImportError:
+        notes.append("dynbem is not installed: pip install 'rotor-explorer[test]' adds that baseline")
+    return figures, notes
+
+
+def _nudged(design: Design) -> Design:
+    """What one step of a dragged slider changes: half a degree per radius of linear twist, and a little speed."""
+    condition = replace(design.condition, advance_ratio=design.condition.advance_ratio + 0.002)
+    return replace(design, twist=LinearTwist(math.radians(-15.5)), condition=condition)
+
+
+def _hybr(problem: Any, start: Any) -> None:
+    """The same residual through scipy's Powell hybrid method with finite differences."""
+    unknowns = list(UNKNOWNS[problem.design.models.trim])
+    base = start.copy()
+
+    def residual(x: Any) -> Any:
+        state = np.empty(N_STATE)
+        state[:] = base
+        state[unknowns] = x
+        return residuals(problem, run_pass(problem, state))
+
+    root(residual, base[unknowns], method="hybr", tol=1e-10)
+
+
+def _dynbem(design: Design) -> dict[str, float]:
+    """dynbem (MIT, Rust): one evaluation of its Pitt–Peters model, and its trim of the hub moments by cyclic."""
+    import dynbem  # pyright: ignore
+
+    main, mu = design.rotor, design.condition.advance_ratio
+    alpha = np.radians(np.arange(-180.0, 180.5, 1.0))
+    polar = dynbem.TabulatedPolar(alpha, 1.1 * np.sin(2 * alpha), 0.01 + 1.2 * np.sin(alpha) ** 2)  # pyright: ignore
+    blade = dynbem.BladeGeometry(  # pyright: ignore
+        main.blades, main.radius, main.blade.root_cutout * main.radius, main.reference_chord, -16.0, 40
+    )
+    definition = dynbem.RotorDefinition(  # pyright: ignore
+        blade,
+        dynbem.LinearPolarParameters(0.1, 6.0, 0.009, 12.0),  # pyright: ignore
+        control=dynbem.ControlProperties(swashplate_pitch_gain_rad=1.0),  # pyright: ignore
+    )
+    model = dynbem.PittPetersModel(definition, polar, 120)  # pyright: ignore
+    inputs = dynbem.RotorInputs(  # pyright: ignore
+        collective_rad=0.15, tilt_lon=0.0, tilt_lat=0.0, R_hub=np.eye(3),
+        v_hub_world=np.array([mu * main.tip_speed, 0.0, 0.0]), wind_world=np.zeros(3),
+        omega_rad_s=main.angular_speed, rho_kg_m3=design.condition.density,
+    )  # fmt: skip
+    state = dynbem.PittPetersRotorState(0.01, 0.0, 0.0)  # pyright: ignore
+    return {
+        "dynbem evaluation": _time(lambda: model.compute_forces(inputs, state), 50),  # pyright: ignore
+        "dynbem cyclic trim": _time(
+            lambda: dynbem.solve_trim_cyclic(model, state, inputs, tilt_min=-0.26, tolerance_Nm=10.0),  # pyright: ignore
+            3,
+        ),
+    }
+
+
+def _mean(call: Callable[[int], Any], runs: int) -> float:
+    return statistics.fmean(_time(lambda k=k: call(k), runs) for k in range(len(_ADVANCE_RATIOS)))
+
+
+def _time(call: Callable[[], Any], runs: int) -> float:
+    """Median milliseconds of a call, one warm-up first."""
+    call()
+    times: list[float] = []
+    for _ in range(runs):
+        begin = time.perf_counter()
+        call()
+        times.append(time.perf_counter() - begin)
+    return 1e3 * statistics.median(times)
