@@ -1,0 +1,82 @@
+"""Deck values as a smooth surface: bicubic Hermite cells on one uniform grid that all sections share.
+
+The deck's own knots carry monotone (PCHIP) slopes; the piecewise cubics through them are laid out on the
+uniform grid without any change of shape, because every knot is a node of the grid. The surface is C1
+everywhere, periodic in alpha, without overshoot, and reproduces every deck value.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
+
+from rotor.airfoil.c81 import C81Block
+
+FloatArray = NDArray[np.float64]
+
+N_ALPHA = 720
+N_MACH = 20
+ALPHA_STEP = np.pi / 360.0  # rad, half a degree
+MACH_STEP = 0.05
+
+# Monomial coefficients of a cubic on [0, 1] from (value, value, slope, slope) at its ends.
+_HERMITE = np.array([[1, 0, 0, 0], [0, 0, 1, 0], [-3, 3, -2, -1], [2, -2, 1, 1]], dtype=np.float64)
+
+
+def mach_nodes() -> FloatArray:
+    """The grid's Mach numbers, shape (N_MACH + 1,)."""
+    return np.arange(N_MACH + 1) / N_MACH
+
+
+def _nodes_along_alpha(block: C81Block) -> tuple[FloatArray, FloatArray]:
+    """Values and alpha-slopes (per cell) at the uniform alpha nodes, shape (N_ALPHA + 1, Machs)."""
+    knots, values = block.alpha_deg, block.values
+    if abs(knots[0] + 180.0) > 1e-9 or abs(knots[-1] - 180.0) > 1e-9 or np.any(np.abs(values[0] - values[-1]) > 1e-9):
+        raise ValueError("the angles must run from -180 to 180 deg with equal ends: add the missing angles")
+    if np.any(np.abs(knots * 2.0 - np.round(knots * 2.0)) > 1e-9):
+        raise ValueError("an angle is no multiple of 0.5 deg: move it, the run-time grid has half-degree steps")
+    # Two knots of the next turn on each side make the slopes at +-180 deg periodic.
+    longer = np.concatenate((knots[-3:-1] - 360.0, knots, knots[1:3] + 360.0))
+    curve = PchipInterpolator(longer, np.concatenate((values[-3:-1], values, values[1:3])), axis=0)
+    nodes = np.arange(N_ALPHA + 1) * 0.5 - 180.0
+    slope: Callable[[FloatArray], FloatArray] = curve.derivative()
+    return np.asarray(curve(nodes)), np.asarray(slope(nodes)) * 0.5
+
+
+def _along_mach(mach: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Values and Mach-slopes (per cell) at the uniform Mach nodes, shape (rows, N_MACH + 1), held outside."""
+    nodes = mach_nodes()
+    inside = np.clip(nodes, mach[0], mach[-1])
+    own = np.asarray(PchipInterpolator(mach, values, axis=1).derivative()(mach))
+    own[:, -1] = 0.0  # Held beyond the data, so flat at its end: C1 across the limit.
+    own[:, 0] = 0.0
+    curve = CubicHermiteSpline(mach, values, own, axis=1)
+    slope: Callable[[FloatArray], FloatArray] = curve.derivative()
+    flat = (nodes > mach[0]) & (nodes < mach[-1])
+    return np.asarray(curve(inside)), np.asarray(slope(inside)) * MACH_STEP * flat
+
+
+def bicubic_coefficients(block: C81Block) -> FloatArray:
+    """Cell polynomials (N_ALPHA, N_MACH, 4, 4) of the C1 surface through the deck values of `block`.
+
+    A ValueError says when the knots do not lie on the uniform grid or do not close the circle.
+    """
+    steps = block.mach / MACH_STEP
+    if np.any(np.abs(steps - np.round(steps)) > 1e-9) or block.mach[-1] > 1.0 + 1e-9:
+        raise ValueError("a Mach number is no multiple of 0.05 within 0..1: move it to the run-time grid")
+    f, f_u = _nodes_along_alpha(block)
+    f, f_v = _along_mach(block.mach, f)
+    f_u, f_uv = _along_mach(block.mach, f_u)
+    corners = np.empty((N_ALPHA, N_MACH, 4, 4), dtype=np.float64)
+    for row, (of_value, of_slope) in enumerate(((f, f_v), (f, f_v), (f_u, f_uv), (f_u, f_uv))):
+        upper = row % 2  # Rows: values at i, at i + 1, slopes at i, at i + 1; columns the same along Mach.
+        rows = slice(upper, upper + N_ALPHA)
+        corners[:, :, row, 0], corners[:, :, row, 1] = of_value[rows, :-1], of_value[rows, 1:]
+        corners[:, :, row, 2], corners[:, :, row, 3] = of_slope[rows, :-1], of_slope[rows, 1:]
+    return np.matmul(np.matmul(_HERMITE, corners), _HERMITE.T)
+
+
+def stack_coefficients(cl: FloatArray, cd: FloatArray) -> FloatArray:
+    """Lift and drag cell polynomials side by side, C-contiguous, in the layout of `SectionTable`."""
+    return np.ascontiguousarray(np.stack((cl, cd), axis=2))

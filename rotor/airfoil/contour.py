@@ -1,0 +1,108 @@
+"""Section contours: reading coordinates, chord-based facts, and resampling for lofting.
+
+Order everywhere: from the upper trailing edge forward around the nose to the lower trailing edge, in
+chord lengths, x aft from the leading edge, y up. The small trailing-edge gap of the real sections is kept.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from rotor.library import asset_path
+
+FloatArray = NDArray[np.float64]
+
+SECTION_NAMES = ("sc1095", "sc1094r8")
+
+
+@dataclass(frozen=True, eq=False)
+class Contour:
+    """A closed-by-its-gap section outline.
+
+    `points` has shape (n, 2): x aft and y up in chord lengths [-], upper trailing edge first.
+    """
+
+    name: str
+    points: FloatArray
+
+
+def read_contour(path: Path, name: str | None = None) -> Contour:
+    """Read a coordinate file: `x y` per line, `#` lines and one title line ignored.
+
+    Both our own files and plain Selig files pass; anything else is a ValueError that names the line.
+    """
+    rows: list[tuple[float, float]] = []
+    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+        words = line.split("#")[0].split()
+        if not words:
+            continue
+        try:
+            x, y = (float(word) for word in words)
+        except ValueError:
+            if not rows and number == 1:
+                continue  # Selig files start with a title.
+            raise ValueError(f"{path.name}, line {number}: {line!r} is not `x y`: give two numbers a line") from None
+        rows.append((x, y))
+    points = np.array(rows, dtype=np.float64)
+    if len(rows) < 20:
+        raise ValueError(f"{path.name} has {len(rows)} points: a section outline needs at least 20")
+    if points[:5, 1].mean() < points[-5:, 1].mean():
+        raise ValueError(f"{path.name} starts on the lower side: order the points from the upper trailing edge")
+    return Contour(name or path.stem, points)
+
+
+@lru_cache(maxsize=8)
+def load_contour(name: str) -> Contour:
+    """The bundled outline of `name`, one of `SECTION_NAMES`; 141 (SC1095) and 145 (SC1094 R8) points.
+
+    Source: NASA/TP-2003-212265 coordinates as carried by the UIUC airfoil database.
+    """
+    if name not in SECTION_NAMES:
+        raise ValueError(f"no outline named {name!r}: choose one of {', '.join(SECTION_NAMES)}")
+    return read_contour(asset_path(f"airfoils/{name}.contour"), name)
+
+
+def trailing_edge(contour: Contour) -> FloatArray:
+    """Middle of the trailing-edge gap, shape (2,) [chord]."""
+    return 0.5 * (contour.points[0] + contour.points[-1])
+
+
+def leading_edge_index(contour: Contour) -> int:
+    """Index of the outline point farthest from the trailing edge: the nose."""
+    return int(np.argmax(np.hypot(*(contour.points - trailing_edge(contour)).T)))
+
+
+def chord_line(contour: Contour) -> tuple[FloatArray, FloatArray]:
+    """Nose and trailing-edge points, each of shape (2,) [chord]; the chord line joins them."""
+    return contour.points[leading_edge_index(contour)], trailing_edge(contour)
+
+
+def thickness_and_camber(contour: Contour, stations: int = 501) -> tuple[float, float, float]:
+    """Largest thickness, its x, and largest camber, all in chord lengths, measured across the x axis."""
+    nose = leading_edge_index(contour)
+    x = np.linspace(0.0, 1.0, stations)
+    upper = np.interp(x, contour.points[nose::-1, 0], contour.points[nose::-1, 1])
+    lower = np.interp(x, contour.points[nose:, 0], contour.points[nose:, 1])
+    thickest = int(np.argmax(upper - lower))
+    return float(upper[thickest] - lower[thickest]), float(x[thickest]), float(np.max(np.abs(upper + lower)) / 2)
+
+
+def resample(contour: Contour, n: int) -> Contour:
+    """The same outline on `n` points (odd, at least 11), so that sections blend point by point.
+
+    Each side gets (n + 1) / 2 points, cosine-spaced in arc length (dense at nose and trailing edge);
+    point (n - 1) / 2 is the nose on every section. Cubic splines through the given points carry the shape.
+    """
+    if n < 11 or n % 2 == 0:
+        raise ValueError(f"{n} points: give an odd number of at least 11, so that the nose is a point of its own")
+    steps = np.hypot(*np.diff(contour.points, axis=0).T)
+    arc = np.concatenate(([0.0], np.cumsum(steps)))
+    nose = arc[leading_edge_index(contour)]
+    fraction = 0.5 * (1.0 - np.cos(np.linspace(0.0, np.pi, (n + 1) // 2)))
+    where = np.concatenate((nose * fraction, nose + (arc[-1] - nose) * fraction[1:]))
+    spline = CubicSpline(arc, contour.points, axis=0)
+    return Contour(contour.name, np.asarray(spline(where), dtype=np.float64))

@@ -1,0 +1,162 @@
+"""The document's section model: one polar, one polynomial each for lift and drag, no Mach number.
+
+Lonoce fits Cl by order 10 and Cd by order 12 to XFOIL data of SC1095 (figs. 3.3-3.6). Range, Reynolds number,
+Mach and transition are not stated; ours are SC1095, M 0.3, Re 3.68e6, Ncrit 9, -10..15 deg, held outside
+(unheld, Cl is 3.5e3 at 30 deg). The fit is a Chebyshev series in the scaled angle: in degrees, the
+order-12 power basis would have a condition number of 2e15.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import ArrayLike, NDArray
+
+from rotor.airfoil.bicubic import ALPHA_STEP, N_ALPHA, N_MACH, stack_coefficients
+from rotor.airfoil.polars import Polar, read_polars
+from rotor.airfoil.section_table import SectionTable, make_table
+from rotor.library import asset_path
+
+FloatArray = NDArray[np.float64]
+
+THESIS_NAME = "sc1095-thesis"
+LIFT_ORDER = 10  # document, fig. 3.3
+DRAG_ORDER = 12  # document, fig. 3.4
+FIT_RANGE_DEG = (-10.0, 15.0)  # our choice: within 0.5 % of the interpolated polar in rotor power
+
+
+@dataclass(frozen=True, eq=False)
+class PolynomialSection:
+    """Least-squares Chebyshev series of lift and drag over `fit_range` [rad], held outside.
+
+    `cl_series`, `cd_series` are coefficients in t = (2 alpha - a - b) / (b - a), [a, b] = `fit_range`.
+    """
+
+    fit_range: tuple[float, float]
+    cl_series: FloatArray
+    cd_series: FloatArray
+
+    def _scaled(self, alpha: FloatArray) -> FloatArray:
+        a, b = self.fit_range
+        return (2.0 * np.clip(alpha, a, b) - a - b) / (b - a)
+
+    def outside(self, alpha: ArrayLike) -> NDArray[np.bool_]:
+        """True where `alpha` [rad] lies outside the fit, so that the end value is held."""
+        a = np.asarray(alpha, dtype=np.float64)
+        return (a < self.fit_range[0]) | (a > self.fit_range[1])
+
+    def __call__(self, alpha: ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """(cl, cd) at `alpha` [rad] without any treatment of reverse flow."""
+        t = self._scaled(np.asarray(alpha, dtype=np.float64))
+        return np.asarray(chebyshev.chebval(t, self.cl_series)), np.asarray(chebyshev.chebval(t, self.cd_series))
+
+    def slopes(self, alpha: ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """(dcl, dcd)/dalpha [1/rad], zero where the value is held; at the ends of the fit, from inside."""
+        a = np.asarray(alpha, dtype=np.float64)
+        t, scale = self._scaled(a), np.where(self.outside(a), 0.0, 2.0 / (self.fit_range[1] - self.fit_range[0]))
+        cl, cd = (chebyshev.chebval(t, chebyshev.chebder(s)) for s in (self.cl_series, self.cd_series))
+        return np.asarray(cl) * scale, np.asarray(cd) * scale
+
+
+def thesis_polar() -> Polar:
+    """The bundled XFOIL polar behind the fit: SC1095, M 0.3, Re 3.68e6, Ncrit 9, every 0.25 deg."""
+    return read_polars(asset_path("airfoils/sc1095_ncrit9.polars.csv")).polars[0]
+
+
+def _within(polar: Polar, range_deg: tuple[float, float]) -> tuple[FloatArray, FloatArray, FloatArray]:
+    keep = (polar.alpha_deg >= range_deg[0]) & (polar.alpha_deg <= range_deg[1])
+    return np.deg2rad(polar.alpha_deg[keep]), polar.cl[keep], polar.cd[keep]
+
+
+def fit_polynomials(
+    polar: Polar,
+    lift_order: int = LIFT_ORDER,
+    drag_order: int = DRAG_ORDER,
+    range_deg: tuple[float, float] = FIT_RANGE_DEG,
+) -> PolynomialSection:
+    """Least-squares fit of the points of `polar` within `range_deg` [deg]."""
+    alpha, cl, cd = _within(polar, range_deg)
+    if alpha.size <= max(lift_order, drag_order):
+        raise ValueError(
+            f"{alpha.size} points in {range_deg[0]:g}..{range_deg[1]:g} deg cannot carry order "
+            f"{max(lift_order, drag_order)}: widen the range or lower the order"
+        )
+    a, b = np.deg2rad(range_deg[0]), np.deg2rad(range_deg[1])
+    t = (2.0 * alpha - a - b) / (b - a)
+    series = (chebyshev.chebfit(t, cl, lift_order), chebyshev.chebfit(t, cd, drag_order))
+    return PolynomialSection((float(a), float(b)), np.asarray(series[0]), np.asarray(series[1]))
+
+
+@dataclass(frozen=True)
+class FitError:
+    """Root-mean-square error [-] of the lift and of the drag fit of one order."""
+
+    order: int
+    cl_rms: float
+    cd_rms: float
+
+
+def fit_error_study(
+    polar: Polar, range_deg: tuple[float, float] = FIT_RANGE_DEG, orders: Sequence[int] = tuple(range(1, 17))
+) -> tuple[FitError, ...]:
+    """Error against order, as in figs. 3.3 and 3.4 of the document, over the points within `range_deg`."""
+    alpha, cl, cd = _within(polar, range_deg)
+    out: list[FitError] = []
+    for order in orders:
+        fit_cl, fit_cd = fit_polynomials(polar, order, order, range_deg)(alpha)
+        rms = [float(np.sqrt(np.mean((f - y) ** 2))) for f, y in ((fit_cl, cl), (fit_cd, cd))]
+        out.append(FitError(order, rms[0], rms[1]))
+    return tuple(out)
+
+
+@lru_cache(maxsize=1)
+def polynomial_section() -> PolynomialSection:
+    """The fit with the document's orders to the bundled polar."""
+    return fit_polynomials(thesis_polar())
+
+
+def document_angle(alpha: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """(angle the document would use [rad], sign of its lift) for an atan2 angle `alpha` [rad] in -pi..pi.
+
+    The document takes phi = arctan(U_P / U_T) and changes the sign of the drag where U_T <= 0. There
+    phi = phi_atan2 -+ pi, alpha_doc = alpha +- pi, and with Fz = L cos(phi) - D sin(phi),
+    Fx = L sin(phi) + D cos(phi) both cosine and sine turn over: in atan2 form lift and drag would change
+    sign, and the document's own change restores the drag: Cl(alpha) = -Cl_doc, Cd(alpha) = +Cd_doc.
+    A plate flown backwards at alpha_doc > 0 lifts towards its leading-edge-up side: the sign of
+    the lift is wrong in reverse flow. It is kept, because this preset is the document as stated.
+    """
+    reverse = np.abs(alpha) > np.pi / 2
+    return np.where(reverse, alpha - np.copysign(np.pi, alpha), alpha), np.where(reverse, -1.0, 1.0)
+
+
+def _cubic_cells(value: FloatArray, slope: FloatArray) -> FloatArray:
+    """Monomial coefficients (N_ALPHA, 4) from end values and per-cell slopes of each cell, both (N_ALPHA, 2)."""
+    rise = value[:, 1] - value[:, 0]
+    return np.stack(
+        (value[:, 0], slope[:, 0], 3.0 * rise - 2.0 * slope[:, 0] - slope[:, 1], slope.sum(axis=1) - 2.0 * rise), axis=1
+    )
+
+
+@lru_cache(maxsize=1)
+def polynomial_table() -> SectionTable:
+    """The document's section on the common grid, the same at every Mach, with its treatment of reverse flow.
+
+    Cubic per half-degree cell with the polynomial's own slopes: within 1e-4 of it. By the document's
+    definition it jumps at +-90 deg, and its slope where the fit ends.
+    """
+    section = polynomial_section()
+    edges = -np.pi + (np.arange(N_ALPHA)[:, None] + np.array([0.0, 1.0])) * ALPHA_STEP
+    middle = edges.mean(axis=1, keepdims=True)  # Decides on which side of a jump a whole cell lies.
+    turn = document_angle(middle)[0] - middle
+    sign = document_angle(middle)[1]
+    angle = edges + turn
+    # Nudged inward, so that a cell outside the fit has no slope and one inside has all of it at the shared edge.
+    probe = angle + np.array([1e-9, -1e-9])
+    (cl, cd), (cl_slope, cd_slope) = section(angle), section.slopes(probe)
+    out = np.zeros((2, N_ALPHA, N_MACH, 4, 4))
+    out[0, :, :, :, 0] = _cubic_cells(sign * cl, sign * cl_slope * ALPHA_STEP)[:, None, :]
+    out[1, :, :, :, 0] = _cubic_cells(cd, cd_slope * ALPHA_STEP)[:, None, :]
+    source = "polynomials of order 10 and 12 over -10..15 deg on own XFOIL polar: SC1095, M 0.3, Re 3.68e6, Ncrit 9"
+    return make_table(THESIS_NAME, source, stack_coefficients(out[0], out[1]), 1.0, section.fit_range)

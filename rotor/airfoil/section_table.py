@@ -1,0 +1,135 @@
+"""Section coefficients at run time: a smooth table over angle of attack and Mach number.
+
+C1 everywhere, periodic in alpha, with exact derivatives for Newton and adjoint.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rotor.airfoil.bicubic import (
+    ALPHA_STEP,
+    MACH_STEP,
+    N_ALPHA,
+    N_MACH,
+    bicubic_coefficients,
+    mach_nodes,
+    stack_coefficients,
+)
+from rotor.airfoil.c81 import C81Deck
+from rotor.airfoil.stall import SEARCH_OUTWARD, first_quarter_slope
+
+FloatArray = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class SectionCoefficients:
+    """Lift and drag coefficient and their derivatives [-, 1/rad], each of the shape of the query."""
+
+    cl: FloatArray
+    cd: FloatArray
+    cl_alpha: FloatArray
+    cd_alpha: FloatArray
+    cl_mach: FloatArray
+    cd_mach: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class SectionTable:
+    """One section's lift and drag over -pi..pi and Mach 0..1, as bicubic polynomials on a uniform grid.
+
+    `coefficients` has shape (N_ALPHA, N_MACH, 2, 4, 4), C-contiguous: in cell (i, j)
+    value[k] = sum_ab c[i, j, k, a, b] u^a v^b with u = (alpha + pi) / ALPHA_STEP - i and
+    v = mach / MACH_STEP - j in [0, 1]; k = 0 is cl, k = 1 is cd. Beyond `mach_limit`, the last Mach of
+    the data, values are held. `alpha_stall_positive`, `alpha_stall_negative` [rad], shape (N_MACH + 1,), are
+    the stall angles at the grid's Machs, as `rotor.airfoil.stall` defines them. `fit_range` [rad] is where a
+    polynomial section was fitted and None for a deck. Compares and hashes by identity.
+    """
+
+    name: str
+    source: str
+    mach_limit: float
+    coefficients: FloatArray
+    alpha_stall_positive: FloatArray
+    alpha_stall_negative: FloatArray
+    fit_range: tuple[float, float] | None = None
+
+    def __post_init__(self) -> None:
+        assert self.coefficients.shape == (N_ALPHA, N_MACH, 2, 4, 4)
+        assert self.coefficients.flags.c_contiguous
+        assert self.alpha_stall_positive.shape == self.alpha_stall_negative.shape == (N_MACH + 1,)
+
+    def __call__(self, alpha: ArrayLike, mach: ArrayLike) -> SectionCoefficients:
+        """Coefficients at `alpha` [rad, any turn] and `mach` (held outside 0..mach_limit), broadcast together."""
+        a, m = np.broadcast_arrays(np.asarray(alpha, dtype=np.float64), np.asarray(mach, dtype=np.float64))
+        turn = np.mod((a + np.pi) / ALPHA_STEP, N_ALPHA)
+        i = np.minimum(turn.astype(np.intp), N_ALPHA - 1)
+        inside = (m >= 0.0) & (m <= self.mach_limit)
+        place = np.clip(m, 0.0, self.mach_limit) / MACH_STEP
+        j = np.minimum(place.astype(np.intp), N_MACH - 1)
+        u, v = turn - i, place - j
+        cell = self.coefficients[i, j]  # (..., 2, 4, 4)
+        us = np.stack((np.ones_like(u), u, u * u, u * u * u), axis=-1)
+        vs = np.stack((np.ones_like(v), v, v * v, v * v * v), axis=-1)
+        du = np.stack((np.zeros_like(u), np.ones_like(u), 2.0 * u, 3.0 * u * u), axis=-1) / ALPHA_STEP
+        dv = np.stack((np.zeros_like(v), np.ones_like(v), 2.0 * v, 3.0 * v * v), axis=-1) / MACH_STEP
+        along = np.einsum("...kab,...b->...ka", cell, vs)
+        value = np.einsum("...ka,...a->...k", along, us)
+        by_alpha = np.einsum("...ka,...a->...k", along, du)
+        by_mach = np.einsum("...kab,...a,...b->...k", cell, us, dv) * inside[..., None]
+        return SectionCoefficients(
+            value[..., 0], value[..., 1], by_alpha[..., 0], by_alpha[..., 1], by_mach[..., 0], by_mach[..., 1]
+        )
+
+    def stall_alpha(self, mach: ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """Stall angles (negative, positive) [rad] at `mach`, linear between the grid's Machs, held outside."""
+        m = np.asarray(mach, dtype=np.float64)
+        negative = np.interp(m, mach_nodes(), self.alpha_stall_negative)
+        return np.asarray(negative), np.asarray(np.interp(m, mach_nodes(), self.alpha_stall_positive))
+
+    def zero_lift_alpha(self, mach: ArrayLike) -> FloatArray:
+        """Angle of attack of no lift [rad], of those within -6..6 deg, at `mach`: Newton from the sampled crossing."""
+        m = np.asarray(mach, dtype=np.float64)
+        sample = np.deg2rad(np.linspace(-6.0, 6.0, 25))
+        alpha = sample[np.argmin(np.abs(self(sample, m[..., None]).cl), axis=-1)]
+        for _ in range(4):
+            here = self(alpha, m)
+            alpha = alpha - here.cl / here.cl_alpha
+        return np.asarray(alpha)
+
+    def lift_slope(self, mach: ArrayLike) -> FloatArray:
+        """Mean lift slope [1/rad] within 2 deg of the zero-lift angle, at `mach`."""
+        m = np.asarray(mach, dtype=np.float64)
+        zero, span = self.zero_lift_alpha(m), np.deg2rad(2.0)
+        return np.asarray((self(zero + span, m).cl - self(zero - span, m).cl) / (2.0 * span))
+
+    def drag_divergence_mach(self, alpha: ArrayLike) -> FloatArray:
+        """Lowest Mach with dcd/dM = 0.1 at `alpha` [rad]; NaN-free: mach_limit where it is not reached."""
+        a = np.asarray(alpha, dtype=np.float64)
+        mach = np.arange(0.3, self.mach_limit + 1e-9, 0.002)
+        slope = self(a[..., None], mach).cd_mach
+        over = slope >= 0.1
+        first = np.argmax(over, axis=-1)
+        return np.where(over.any(axis=-1), mach[first], self.mach_limit)
+
+
+def make_table(
+    name: str, source: str, coefficients: FloatArray, mach_limit: float, fit_range: tuple[float, float] | None = None
+) -> SectionTable:
+    """A `SectionTable` with the stall angles found on its own curves at the grid's Machs."""
+    unknown = np.zeros(N_MACH + 1)
+    bare = SectionTable(name, source, mach_limit, coefficients, unknown, unknown, fit_range)
+    mach = mach_nodes()
+    zero, attached = bare.zero_lift_alpha(mach), bare.lift_slope(mach)
+    found = [
+        zero + side * first_quarter_slope(bare(zero[:, None] + side * SEARCH_OUTWARD, mach[:, None]).cl_alpha, attached)
+        for side in (-1.0, 1.0)
+    ]
+    return replace(bare, alpha_stall_negative=found[0], alpha_stall_positive=found[1])
+
+
+def table_from_deck(name: str, source: str, deck: C81Deck) -> SectionTable:
+    """The run-time table of `deck`; beyond the lower of its two last Machs (lift, drag) it is held."""
+    coefficients = stack_coefficients(bicubic_coefficients(deck.cl), bicubic_coefficients(deck.cd))
+    return make_table(name, source, coefficients, float(min(deck.cl.mach[-1], deck.cd.mach[-1])))

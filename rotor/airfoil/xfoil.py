@@ -1,0 +1,171 @@
+"""Running XFOIL without a screen, and believing only what it wrote to the polar file.
+
+Two ways, because Debian's binary dies of a floating-point trap when its graphics are switched off:
+with a C compiler, a one-line library that keeps the traps disabled is preloaded (fast, more points
+converge); else `xvfb-run` gives XFOIL a screen. Both can hang or crash at single angles, so every sweep
+is its own process with a time limit, and sweeps with other panelings fill the gaps.
+"""
+
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+import numpy as np
+
+from rotor.airfoil.contour import Contour
+from rotor.airfoil.polars import FloatArray, Polar
+
+# gfortran's run-time calls this to switch the traps on; an empty one in front of it leaves them off.
+_TRAP_SHIM = "void _gfortran_set_fpe(int mask) { (void)mask; }\n"
+_TIME_LIMIT = 8.0  # s; a healthy sweep takes about 1 s, a hung one never ends.
+_PANELINGS = ((160, 100), (200, 200), (240, 300), (180, 300), (220, 300))  # (panels, iterations), in this order.
+
+Row = tuple[float, float, float]
+
+
+class XfoilMissing(RuntimeError):
+    """XFOIL is not installed here."""
+
+
+@dataclass(frozen=True)
+class XfoilCase:
+    """Flow of one polar: `mach`, `reynolds` [-], `n_crit`, and `trip` [chord] on both sides or None for free."""
+
+    mach: float
+    reynolds: float
+    n_crit: float
+    trip: float | None
+
+
+def require_xfoil() -> None:
+    """Raise `XfoilMissing` with a remedy when the xfoil program, or a way to run it headless, is absent."""
+    if shutil.which("xfoil") is None:
+        raise XfoilMissing(
+            "xfoil was not found: the bundled decks serve at run time, only rebuilding polars needs it; "
+            "install it (Debian: apt install xfoil xvfb) or rebuild with --from-polars"
+        )
+    if _compiler() is None and shutil.which("xvfb-run") is None:
+        raise XfoilMissing("xfoil needs a C compiler or xvfb-run to run without a screen: apt install xvfb, or gcc")
+
+
+def _compiler() -> str | None:
+    return shutil.which("gcc") or shutil.which("cc")
+
+
+@lru_cache(maxsize=1)
+def _shim_folder() -> tempfile.TemporaryDirectory[str] | None:
+    """A temporary folder with the compiled shim, kept for the life of the process; None without a compiler."""
+    compiler = _compiler()
+    if compiler is None:
+        return None
+    folder = tempfile.TemporaryDirectory(prefix="rotor-xfoil-")
+    source = Path(folder.name) / "notraps.c"
+    source.write_text(_TRAP_SHIM, encoding="utf-8")
+    made = subprocess.run(
+        [compiler, "-shared", "-fPIC", "-O1", "-o", "notraps.so", source.name],
+        cwd=folder.name,
+        capture_output=True,
+        timeout=60,
+        check=False,
+    )
+    return folder if made.returncode == 0 else None
+
+
+def _sweep(contour: Contour, case: XfoilCase, start: float, stop: float, step: float, panels: int, iterations: int):
+    """One XFOIL process marching from `start` to `stop` [deg]; the converged rows by angle, possibly none."""
+    shim = _shim_folder()
+    commands = ["LOAD section.dat", "PPAR", f"N {panels}", "", "", "OPER", f"VISC {case.reynolds:.0f}"]
+    if shim is not None:
+        commands = ["PLOP", "G F", "", *commands]  # Without a screen; only safe with the traps off.
+    commands += [f"MACH {case.mach:g}", "VPAR", f"N {case.n_crit:g}"]
+    if case.trip is not None:
+        commands += [f"XTR {case.trip:g} {case.trip:g}"]
+    commands += ["", f"ITER {iterations}", "PACC", "polar.txt", "", f"ASEQ {start:g} {stop:g} {step:g}", "", "QUIT", ""]
+    with tempfile.TemporaryDirectory(prefix="rotor-xfoil-") as folder:
+        where = Path(folder)
+        body = "\n".join(f"{x:.7f} {y:.7f}" for x, y in contour.points)
+        (where / "section.dat").write_text(f"{contour.name}\n{body}\n", encoding="utf-8")
+        call = ["xfoil"] if shim is not None else ["xvfb-run", "-a", "xfoil"]
+        environment = {"PATH": "/usr/local/bin:/usr/bin:/bin", "HOME": folder}
+        if shim is not None:
+            environment["LD_PRELOAD"] = str(Path(shim.name) / "notraps.so")
+        clean = True
+        try:
+            done = subprocess.run(
+                call, input="\n".join(commands), cwd=where, env=environment, timeout=_TIME_LIMIT,
+                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, text=True, check=False,
+            )  # fmt: skip
+            clean = done.returncode == 0
+        except subprocess.TimeoutExpired:
+            clean = False
+        polar = where / "polar.txt"
+        rows = _parse(polar.read_text(encoding="utf-8", errors="replace")) if polar.exists() else {}
+    if not clean and rows:
+        rows.popitem()  # The last row of a crashed or killed run may be cut or a NaN about to spread.
+    return rows
+
+
+def _parse(text: str) -> dict[float, Row]:
+    """Rows below the dashed line of an XFOIL polar file: {alpha: (cl, cd, cm)}; unreadable rows are dropped."""
+    _, found, body = text.partition("------ --------")
+    rows: dict[float, Row] = {}
+    for line in body.splitlines()[1:] if found else []:
+        words = line.split()
+        try:
+            alpha, cl, cd, _cdp, cm = (float(word) for word in words[:5])
+        except ValueError:
+            continue
+        if np.isfinite([cl, cd, cm]).all() and cd > 0.0 and abs(cl) < 4.0:
+            rows[round(alpha, 3)] = (cl, cd, cm)
+    return rows
+
+
+def _gaps(missing: Sequence[float], step: float) -> list[tuple[float, float]]:
+    """Runs of neighbouring missing angles as (from, to), ordered outward from zero."""
+    runs: list[tuple[float, float]] = []
+    for alpha in sorted(missing):
+        if runs and alpha - runs[-1][1] < 1.5 * step:
+            runs[-1] = (runs[-1][0], alpha)
+        else:
+            runs.append((alpha, alpha))
+    return [(a, b) if b > 0 else (b, a) for a, b in runs]
+
+
+def run_polar(
+    contour: Contour,
+    case: XfoilCase,
+    alpha_deg: FloatArray,
+    report: Callable[[str], None] = lambda _message: None,
+) -> Polar:
+    """Polar of `contour` at the uniformly spaced angles `alpha_deg` [deg]; what never converges is left out.
+
+    The first paneling gives all it can, marching outward from zero both ways; the next ones only fill gaps.
+    """
+    require_xfoil()
+    step = float(alpha_deg[1] - alpha_deg[0])
+    wanted = [round(float(a), 3) for a in alpha_deg]
+    rows: dict[float, Row] = {}
+    for attempt, (panels, iterations) in enumerate(_PANELINGS):
+        missing = [a for a in wanted if a not in rows]
+        if not missing:
+            break
+        sweeps = [(0.0, max(wanted)), (0.0, min(wanted))] if attempt == 0 else _gaps(missing, step)
+        for inner, outer in sweeps:
+            outward = np.sign(outer) if outer else 1.0
+            lead = 0.0 if attempt == 0 else outward * min(abs(inner), 2.0)  # A run-up from where it converges.
+            found = _sweep(contour, case, inner - lead, outer, outward * step, panels, iterations)
+            for alpha, row in found.items():
+                rows.setdefault(alpha, row)
+    kept = [a for a in wanted if a in rows]
+    if len(kept) < len(wanted) // 2:
+        raise RuntimeError(
+            f"xfoil converged at only {len(kept)} of {len(wanted)} angles at Mach {case.mach:g}: "
+            "check the coordinates, or use the bundled polars with --from-polars"
+        )
+    report(f"{contour.name} Mach {case.mach:g}: {len(kept)} of {len(wanted)} angles")
+    values = np.array([rows[a] for a in kept], dtype=np.float64)
+    return Polar(case.mach, case.reynolds, np.array(kept), values[:, 0], values[:, 1], values[:, 2])
