@@ -68,9 +68,8 @@ $(DEV): requirements-dev.txt $(READY)
 
 # The kernels are compiled on first use and kept beside their source; doing it here means that no page waits for it.
 $(WARM): $(READY) $(shell find rotor -name '*.py' 2>/dev/null)
-	-@$(BIN)/python -m rotor solve --hover --json >/dev/null
-	-@$(BIN)/python -m rotor solve --mu 0.2 --json >/dev/null
-	@touch $@
+	@{ $(BIN)/python -m rotor solve --hover --json && $(BIN)/python -m rotor solve --mu 0.2 --json; } >/dev/null \
+	  && touch $@ || echo "The kernels could not be compiled ahead: the first page will take some seconds longer"
 
 # A browser for the tests: the one that is there, else Debian's as root, else Playwright's own download.
 # Having none is no error here: tests/conftest.py skips those tests loudly, and fails them in CI.
