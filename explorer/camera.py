@@ -1,0 +1,49 @@
+"""The camera of one client: fits the rotor into the canvas and follows its size until the user takes over."""
+
+import time
+
+import numpy as np
+import viser
+
+from explorer.view import FIELD_OF_VIEW, View, fit
+
+_SETTLES = 1.5
+"""While the page lays itself out [s], camera messages still tell of older positions."""
+_TAKEN = 0.3
+"""A camera this far [m] from where it was put was moved by the user."""
+
+
+class FittedCamera:
+    """Aims once the canvas is known, again whenever its size changes, and when a view is asked for."""
+
+    def __init__(self, client: viser.ClientHandle, radius: float) -> None:
+        self._client = client
+        self._radius = radius
+        self._view: View = "3d"
+        self._following = True
+        self._put: tuple[np.ndarray, tuple[int, int], float] | None = None
+        client.camera.fov = FIELD_OF_VIEW
+        client.camera.near = 1.0  # A far near plane keeps the depth resolution that lines on the disk need.
+        client.camera.on_update(self._moved)
+
+    def aim(self, view: View) -> None:
+        """Show the rotor whole, and go on doing so when the canvas changes."""
+        camera = self._client.camera
+        self._view, self._following = view, True
+        target = fit(view, self._radius, camera.aspect)
+        with self._client.atomic():
+            camera.position = target.position
+            camera.look_at = target.look_at
+        self._put = (target.position, (camera.image_width, camera.image_height), time.monotonic())
+
+    def _moved(self, camera: viser.CameraHandle) -> None:
+        if not self._following:
+            return
+        if self._put is None:
+            self.aim(self._view)
+            return
+        position, size, since = self._put
+        if (camera.image_width, camera.image_height) != size:
+            self.aim(self._view)
+        elif time.monotonic() - since > _SETTLES and np.linalg.norm(camera.position - position) > _TAKEN:
+            self._following = False

@@ -1,0 +1,113 @@
+"""The chart panel: four uplots, made once; afterwards only data are assigned, and a range when it must move."""
+
+import viser
+from viser import uplot
+
+from explorer import readout
+from explorer.colours import BASELINE, LIMIT, NOW, THIS
+from explorer.plots import Plot, Range
+
+_HEIGHT = 98
+_GRID = uplot.Axis_Grid(show=True, width=1)
+_TICKS = uplot.Axis_Ticks(show=True, width=1, size=4)
+_FONT = "11px sans-serif"
+
+
+def _line(label: str, colour: str, width: float = 2.0, dash: tuple[float, ...] | None = None) -> uplot.Series:
+    series = uplot.Series(label=label, stroke=colour, width=width, points=uplot.Series_Points(show=False), pxAlign=0)
+    if dash is not None:
+        series["dash"] = dash
+    return series
+
+
+def _points(label: str, colour: str, size: float) -> uplot.Series:
+    return uplot.Series(
+        label=label, stroke=colour, width=0, points=uplot.Series_Points(show=True, size=size, fill=colour)
+    )
+
+
+class Chart:
+    """One titled chart with a key that also serves as axis label."""
+
+    def __init__(
+        self,
+        gui: viser.GuiApi,
+        title: str,
+        key: tuple[tuple[str, str], ...],
+        abscissa: str,
+        series: tuple[uplot.Series, ...],
+        plot: Plot,
+        x_range: Range,
+    ) -> None:
+        gui.add_html(readout.heading(title, key))
+        self._x_range = x_range
+        self._y_range = plot.y_range
+        self._handle = gui.add_uplot(
+            plot.data,
+            (uplot.Series(label=abscissa), *series),
+            scales=self._scales(),
+            axes=(
+                uplot.Axis(size=20, gap=2, space=45, grid=_GRID, ticks=_TICKS, font=_FONT),
+                uplot.Axis(size=42, gap=3, space=22, grid=_GRID, ticks=_TICKS, font=_FONT),
+            ),
+            legend=uplot.Legend(show=False),
+            cursor=uplot.Cursor(points=uplot.Cursor_Points(show=False), drag=uplot.Cursor_Drag(x=False, y=False)),
+            height=_HEIGHT,
+            padding=(8, 14, 0, 0),
+        )
+
+    def show(self, plot: Plot) -> None:
+        if plot.y_range != self._y_range:
+            # A new scale rebuilds the chart in the page, so ranges are held as long as they serve.
+            self._y_range = plot.y_range
+            self._handle.scales = self._scales()
+        self._handle.data = plot.data
+
+    @property
+    def y_range(self) -> Range:
+        return self._y_range
+
+    def _scales(self) -> dict[str, uplot.Scale]:
+        return {"x": uplot.Scale(time=False, range=self._x_range), "y": uplot.Scale(range=self._y_range)}
+
+
+class Charts:
+    """Power against µ, twist, α and Cl along the blade."""
+
+    def __init__(self, gui: viser.GuiApi, power: Plot, twist: Plot, alpha: Plot, lift: Plot) -> None:
+        both = (("this design", THIS), ("baseline", BASELINE))
+        pair = (_line("baseline", BASELINE, 1.5, (5, 3)), _line("this design", THIS))
+        self.power = Chart(
+            gui,
+            "Power [kW] over µ",
+            (*both, ("now", NOW)),
+            "advance ratio µ",
+            (
+                *pair,
+                _points("baseline, hover", BASELINE, 6),
+                _points("this design, hover", THIS, 6),
+                _points("now", NOW, 8),
+            ),
+            power,
+            (-0.012, 0.462),
+        )
+        self.twist = Chart(gui, "Twist [°] over r/R", both, "radius r/R", pair, twist, (0.1, 1.02))
+        blade = (("marked blade", NOW), ("stall", LIMIT))
+        self.alpha = Chart(
+            gui,
+            "Angle of attack [°] over r/R",
+            blade,
+            "radius r/R",
+            (_line("stall", LIMIT, 1.5, (5, 3)), _line("marked blade", NOW)),
+            alpha,
+            (0.1, 1.02),
+        )
+        self.lift = Chart(
+            gui,
+            "Lift coefficient over r/R",
+            (("marked blade", NOW),),
+            "radius r/R",
+            (_line("marked blade", NOW),),
+            lift,
+            (0.1, 1.02),
+        )

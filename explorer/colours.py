@@ -1,0 +1,104 @@
+"""Colours: perceptual, colour-blind-safe maps made in OKLab, and the fixed colours of the page."""
+
+from functools import cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Rgb = tuple[int, int, int]
+
+# OKLab (Ottosson 2020): cube-rooted cone responses from L, a, b, and linear sRGB from cone responses.
+_CONES = np.array(
+    [[1.0, 0.3963377774, 0.2158037573], [1.0, -0.1055613458, -0.0638541728], [1.0, -0.0894841775, -1.2914855480]]
+)
+_LINEAR = np.array(
+    [
+        [4.0767416621, -3.3077115913, 0.2309699292],
+        [-1.2684380046, 2.6097574011, -0.3413193965],
+        [-0.0041960863, -0.7034186147, 1.7076147010],
+    ]
+)
+
+THIS = "#1c7ed6"
+"""The design on the sliders, in charts."""
+BASELINE = "#868e96"
+"""The baseline twist, in charts."""
+NOW = "#e8590c"
+"""The present point and the marked blade, in charts."""
+LIMIT = "#d6336c"
+"""A limit, in charts."""
+PARTS = {"induced": "#3b82c4", "profile": "#e6a117", "parasite": "#8d949c", "tail": "#c4709f"}
+"""Power parts, distinct without relying on red against green."""
+
+MARKED_BLADE: Rgb = (130, 20, 8)
+"""Dark albedos: the page's lights bleach, and this one shows as a clear orange-red."""
+BLADE: Rgb = (40, 43, 50)
+HUB: Rgb = (30, 32, 37)
+RIM: Rgb = (112, 118, 128)
+"""A grey that reads on white and on near-black."""
+VOID: Rgb = (150, 152, 156)
+"""Where the shown field has no meaning."""
+REVERSE_FLOW: Rgb = (255, 255, 255)
+STALL: Rgb = (230, 20, 130)
+DRAG_DIVERGENCE: Rgb = (10, 10, 12)
+CASING_DARK: Rgb = (20, 20, 24)
+"""Outlines have a casing, so that each reads on every colour of the disk."""
+CASING_LIGHT: Rgb = (255, 255, 255)
+
+
+def _linear_rgb(lightness: float, chroma: float, hue_deg: float) -> Array:
+    hue = np.radians(hue_deg)
+    lab = np.array([lightness, chroma * np.cos(hue), chroma * np.sin(hue)])
+    return _LINEAR @ (_CONES @ lab) ** 3
+
+
+def _srgb(lightness: float, chroma: float, hue_deg: float) -> Array:
+    """sRGB 0…1 of an OKLCh colour, its chroma lowered until it fits the gamut (lightness is what carries the data)."""
+    low, high = 0.0, chroma
+    inside = _linear_rgb(lightness, chroma, hue_deg)
+    if inside.min() < 0.0 or inside.max() > 1.0:
+        for _ in range(30):
+            middle = 0.5 * (low + high)
+            linear = _linear_rgb(lightness, middle, hue_deg)
+            low, high = (middle, high) if linear.min() >= 0.0 and linear.max() <= 1.0 else (low, middle)
+        inside = _linear_rgb(lightness, low, hue_deg)
+    inside = np.clip(inside, 0.0, 1.0)
+    return np.where(inside <= 0.0031308, 12.92 * inside, 1.055 * inside ** (1.0 / 2.4) - 0.055)
+
+
+@cache
+def _sequential(n: int) -> tuple[Rgb, ...]:
+    colours = []
+    for t in np.linspace(0.0, 1.0, n):
+        hue = np.interp(t, [0.0, 0.35, 0.65, 1.0], [300.0, 250.0, 170.0, 100.0])
+        chroma = np.interp(t, [0.0, 0.3, 1.0], [0.11, 0.13, 0.19])
+        colours.append(_bytes(_srgb(0.27 + 0.67 * t, float(chroma), float(hue))))
+    return tuple(colours)
+
+
+@cache
+def _diverging(n: int) -> tuple[Rgb, ...]:
+    colours = []
+    for t in np.linspace(-1.0, 1.0, n):
+        hue = 252.0 if t < 0.0 else 45.0
+        away = abs(t)
+        chroma = np.interp(away, [0.0, 0.75, 1.0], [0.0, 0.15, 0.14])
+        colours.append(_bytes(_srgb(0.96 - 0.60 * away**1.1, float(chroma), hue)))
+    return tuple(colours)
+
+
+def colour_map(diverging: bool, n: int) -> NDArray[np.uint8]:
+    """`n` colours, shape (n, 3): blue–pale–rust when diverging, else violet to yellow, of steadily rising lightness."""
+    return np.array(_diverging(n) if diverging else _sequential(n), dtype=np.uint8)
+
+
+def greyed(colours: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    """The same colours without hue, drawn together towards grey: a picture that is no longer the answer."""
+    luminance = colours @ np.array([0.2126, 0.7152, 0.0722])
+    return np.repeat((0.5 * luminance + 70.0).astype(np.uint8)[:, None], 3, axis=1)
+
+
+def _bytes(srgb: Array) -> Rgb:
+    red, green, blue = (round(255.0 * float(channel)) for channel in srgb)
+    return red, green, blue

@@ -1,0 +1,122 @@
+"""The disk as a picture: polar values → palette indices → a small PNG with transparent corners and cut-out."""
+
+import struct
+import zlib
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from explorer.colours import VOID, colour_map, greyed
+from explorer.polar import PolarGrid
+
+Array = NDArray[np.float64]
+Bytes = NDArray[np.uint8]
+
+SIZE = 512
+"""Pixels along each edge of the picture."""
+RADII, AZIMUTHS = 176, 768
+"""Points of the polar grid behind it: about one pixel each."""
+
+# Layout of the 256 palette entries.
+_CLEAR = 0
+_LEVELS = 190
+_VOID = 1 + _LEVELS
+_EDGE_COLOURS = 21
+_EDGE_ALPHAS = (0.25, 0.5, 0.75)
+_FIRST_EDGE = _VOID + 1
+
+
+@dataclass(frozen=True, eq=False)
+class Raster:
+    """Where each pixel looks on the polar grid. Row 0 is at the nose (ψ = 180°), columns run to starboard."""
+
+    index: NDArray[np.intp]
+    """Flat polar index of each covered pixel, shape (covered,)."""
+    covered: NDArray[np.intp]
+    """Flat pixel index of each covered pixel."""
+    edge_level: Bytes
+    """Of each covered pixel: 0 inside, 1…3 for a quarter to three quarters covered."""
+
+
+def half_width(radius: float) -> float:
+    """Half the edge of the square the picture fills [m]: the disk plus a pixel all round."""
+    return radius * SIZE / (SIZE - 2)
+
+
+@lru_cache(maxsize=4)
+def _raster(inner: float) -> Raster:
+    """`inner`: root cut-out y/R."""
+    coordinate = (2.0 * (np.arange(SIZE) + 0.5) / SIZE - 1.0) * SIZE / (SIZE - 2)
+    starboard, aft = np.meshgrid(coordinate, coordinate)
+    r = np.hypot(aft, starboard)
+    pixel = 2.0 / (SIZE - 2)
+    coverage = np.clip((1.0 - r) / pixel + 0.5, 0.0, 1.0) * np.clip((r - inner) / pixel + 0.5, 0.0, 1.0)
+    quarters = np.rint(4.0 * coverage).astype(np.uint8).ravel()
+    covered = np.flatnonzero(quarters)
+    row = np.clip(np.rint((r - inner) / (1.0 - inner) * (RADII - 1)), 0, RADII - 1).astype(np.intp)
+    column = np.rint(np.arctan2(starboard, aft) / (2.0 * np.pi) * AZIMUTHS).astype(np.intp) % AZIMUTHS
+    level = quarters[covered]
+    return Raster((row * AZIMUTHS + column).ravel()[covered], covered, np.where(level == 4, 0, level).astype(np.uint8))
+
+
+def indices(grid: PolarGrid, values: Array, low: float, high: float, void: NDArray[np.bool_] | None = None) -> Bytes:
+    """Palette index of each pixel, shape (SIZE, SIZE), of polar `values` over the range `low`…`high`."""
+    raster = _raster(float(grid.r[0]))
+    scaled = np.clip((values - low) * ((_LEVELS - 1) / (high - low)), 0.0, _LEVELS - 1)
+    polar = (scaled + 0.5).astype(np.uint8)
+    pixels = polar.ravel()[raster.index]
+    edge = raster.edge_level
+    edge_colour = pixels.astype(np.uint16) * (_EDGE_COLOURS - 1) // (_LEVELS - 1)
+    covered = np.where(edge == 0, pixels + 1, _FIRST_EDGE + edge_colour * 3 + edge - 1).astype(np.uint8)
+    if void is not None:
+        covered = np.where(void.ravel()[raster.index] & (edge == 0), np.uint8(_VOID), covered)
+    image = np.zeros(SIZE * SIZE, dtype=np.uint8)
+    image[raster.covered] = covered
+    return image.reshape(SIZE, SIZE)
+
+
+def palette(diverging: bool, faded: bool) -> Bytes:
+    """The 256 RGBA entries, shape (256, 4); `faded` is the grey picture of an answer that no longer holds."""
+    return _palette(diverging, faded).copy()
+
+
+@lru_cache(maxsize=4)
+def _palette(diverging: bool, faded: bool) -> Bytes:
+    colours = colour_map(diverging, _LEVELS)
+    if faded:
+        colours = greyed(colours)
+    entries = np.zeros((256, 4), dtype=np.uint8)
+    entries[_CLEAR, :3] = VOID
+    entries[1 : 1 + _LEVELS, :3] = colours
+    entries[1 : 1 + _LEVELS, 3] = 255
+    entries[_VOID] = (*VOID, 255)
+    for colour in range(_EDGE_COLOURS):
+        source = colours[colour * (_LEVELS - 1) // (_EDGE_COLOURS - 1)]
+        for step, alpha in enumerate(_EDGE_ALPHAS):
+            entries[_FIRST_EDGE + 3 * colour + step] = (*source, round(255 * alpha))
+    if faded:
+        entries[:, 3] = (0.55 * entries[:, 3]).astype(np.uint8)
+    return entries
+
+
+def encode_png(pixels: Bytes, entries: Bytes) -> bytes:
+    """A palette PNG: `pixels` of shape (rows, columns), `entries` RGBA of shape (256, 4)."""
+    rows, columns = pixels.shape
+    lines = np.zeros((rows, columns + 1), dtype=np.uint8)  # Each line starts with filter type 0.
+    lines[:, 1:] = pixels
+    header = struct.pack(">IIBBBBB", columns, rows, 8, 3, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + b"".join(
+        (
+            _chunk(b"IHDR", header),
+            _chunk(b"PLTE", entries[:, :3].tobytes()),
+            _chunk(b"tRNS", entries[:, 3].tobytes()),
+            _chunk(b"IDAT", zlib.compress(lines.tobytes(), 1)),
+            _chunk(b"IEND", b""),
+        )
+    )
+
+
+def _chunk(kind: bytes, body: bytes) -> bytes:
+    return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))

@@ -1,0 +1,98 @@
+"""Solution and view → one picture as arrays: everything the scene assigns in a frame."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from explorer import colours, disk_image
+from explorer.fields import FIELDS, Field, reverse_flow
+from explorer.meshes import blade_shape, blade_vertices
+from explorer.outlines import drag_divergence_segments, reverse_flow_segments, stall_segments
+from explorer.polar import polar_grid
+from explorer.poses import Pose, blade_pose, rotor_pose, tip_path_pose
+from explorer.readout import number
+from explorer.state import KNOT, ViewState
+from rotor.solution import Solution
+
+Array = NDArray[np.float64]
+
+DISK_DROP = 0.35
+"""How far the coloured disk lies below the hub [m], so that blades are seen on it."""
+LINE_LIFT = 0.02
+"""How far lines lie above the disk [m]."""
+
+OUTLINE_COLOURS = {
+    "reverse_flow": (colours.REVERSE_FLOW, colours.CASING_DARK),
+    "stall": (colours.STALL, colours.CASING_LIGHT),
+    "drag_divergence": (colours.DRAG_DIVERGENCE, colours.CASING_LIGHT),
+}
+"""Line and casing, by the name of the toggle in `ViewState`."""
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """What one frame shows."""
+
+    rotor: Pose
+    disk: Pose
+    blades: tuple[Pose, ...]
+    """The marked blade first."""
+    blade_vertices: Array
+    """Shape (n, 3); the same for every blade."""
+    png: bytes
+    outlines: dict[str, Array]
+    """Segments in the disk plane [m], shape (n, 2, 3), by toggle; empty when off."""
+    flight_label: str
+    """Empty in hover."""
+
+
+def make_picture(solution: Solution, view: ViewState, colour_range: tuple[float, float]) -> Picture:
+    """The frame for a converged solution."""
+    rotor, controls = solution.design.rotor, solution.controls
+    step = 2.0 * math.pi / rotor.blades
+    first = math.radians(view.azimuth_deg)
+    hinge = rotor.blade.flap_hinge * rotor.radius
+    speed = solution.design.airspeed
+    return Picture(
+        rotor=rotor_pose(controls),
+        disk=tip_path_pose(controls, DISK_DROP),
+        blades=tuple(blade_pose(controls, first + k * step, hinge) for k in range(rotor.blades)),
+        blade_vertices=blade_vertices(blade_shape(rotor), solution.design.twist, view.exaggeration),
+        png=disk_png(solution, FIELDS[view.field], colour_range),
+        outlines=_outlines(solution, view),
+        flight_label=f"{number(speed / KNOT)} kt" if speed > 0.0 else "",
+    )
+
+
+def disk_png(solution: Solution, field: Field, colour_range: tuple[float, float], faded: bool = False) -> bytes:
+    """The coloured disk as a PNG."""
+    grid = polar_grid(solution.disk, disk_image.RADII, disk_image.AZIMUTHS)
+    void = reverse_flow(solution, grid) if field.void_in_reverse_flow else None
+    pixels = disk_image.indices(grid, field.sample(solution, grid), *colour_range, void)
+    return disk_image.encode_png(pixels, disk_image.palette(field.diverging, faded))
+
+
+def field_values(solution: Solution, field: Field) -> Array:
+    """All values of a field that the disk shows, to fit a range to."""
+    grid = polar_grid(solution.disk, 80, 240)
+    values = field.sample(solution, grid)
+    return values[~reverse_flow(solution, grid)] if field.void_in_reverse_flow else values.ravel()
+
+
+def _outlines(solution: Solution, view: ViewState) -> dict[str, Array]:
+    sources = {
+        "reverse_flow": reverse_flow_segments,
+        "stall": stall_segments,
+        "drag_divergence": drag_divergence_segments,
+    }
+    return {
+        name: _in_space(source(solution) if getattr(view, name) else np.zeros((0, 2, 2)), solution.design.rotor.radius)
+        for name, source in sources.items()
+    }
+
+
+def _in_space(segments: Array, radius: float) -> Array:
+    lifted = np.full((*segments.shape[:2], 1), LINE_LIFT)
+    return np.concatenate((radius * segments, lifted), axis=2)

@@ -1,0 +1,83 @@
+"""Power against advance ratio, swept after the frame and given up when newer input waits."""
+
+import math
+import time
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from explorer import solver
+from explorer.plots import SWEEP, PowerCurve
+from explorer.state import baseline_of
+from rotor.design import Design
+from rotor.solution import Solution
+from rotor.sweep import at_advance_ratio
+
+Array = NDArray[np.float64]
+
+PATIENCE = 0.6
+"""A curve older than this [s] is swept, coarsely, even while a slider moves, so that a drag never starves it."""
+_KEPT = 200
+"""Curves remembered per session."""
+
+
+class PowerCurves:
+    """Remembers the curves of one session; a curve belongs to a design whatever its speed."""
+
+    def __init__(self) -> None:
+        self._curves: dict[Design, Array] = {}
+        self._last: tuple[Design | None, float] = (None, -math.inf)
+
+    def known(self, design: Design) -> PowerCurve:
+        """The curves of this design and its baseline; for the design's own, until it is swept, the one before it."""
+        blank = np.full(len(SWEEP), math.nan)
+        last = self._last[0]
+        before = self._curves.get(last, blank) if last is not None else blank
+        return PowerCurve(
+            self._curves.get(_family(design), before), self._curves.get(_family(baseline_of(design)), blank)
+        )
+
+    def sweep(self, design: Design, superseded: Callable[[], bool]) -> bool:
+        """Make the curves of this design and its baseline known; False when given up half way."""
+        patient = time.monotonic() - self._last[1] < PATIENCE
+        for family in (_family(design), _family(baseline_of(design))):
+            if family in self._curves:
+                continue
+            coarse = False
+            values = np.full(len(SWEEP), math.nan)
+            start: Solution | None = None
+            for k, mu in enumerate(SWEEP):
+                if superseded():
+                    if patient:
+                        return False
+                    coarse = True
+                if coarse and k % 4 and k != len(SWEEP) - 1:
+                    continue
+                point = solver.solve(at_advance_ratio(family, mu), start)
+                if point.converged:
+                    start, values[k] = point, point.power.total / 1e3
+            if coarse:
+                values = _bridged(values)
+            self._keep(family, values)
+        self._last = (_family(design), time.monotonic())
+        return True
+
+    def _keep(self, family: Design, values: Array) -> None:
+        if len(self._curves) >= _KEPT:
+            del self._curves[next(iter(self._curves))]
+        self._curves[family] = values
+
+
+def _family(design: Design) -> Design:
+    return replace(design, condition=replace(design.condition, advance_ratio=0.0))
+
+
+def _bridged(values: Array) -> Array:
+    """Points left out of a coarse sweep, on straight lines between their neighbours; hover is not a neighbour."""
+    k = np.arange(len(values))
+    have = np.isfinite(values) & (k > 0)
+    if have.sum() < 2:
+        return values
+    return np.where(k > 0, np.interp(k, k[have], values[have]), values)

@@ -1,0 +1,160 @@
+"""Solution → words and numbers for the panels, as HTML; kW, degrees, knots and per cent begin here."""
+
+import math
+from html import escape
+
+from explorer.colours import PARTS
+from explorer.state import KNOT, baseline_title
+from rotor.inflow import INFLOW_MODELS
+from rotor.solution import PowerBudget, Solution
+
+HORSEPOWER_KW = 0.745699872
+"""Mechanical horsepower [kW]."""
+_BLANK = "–"
+_PART_TITLES = {"induced": "Induced", "profile": "Profile", "parasite": "Parasite", "tail": "Tail rotor"}
+
+
+def number(value: float | None, digits: int = 0, sign: bool = False) -> str:
+    """A number with thousands set apart and a true minus; a dash for what is not a number."""
+    if value is None or not math.isfinite(value):
+        return _BLANK
+    text = f"{value:{'+' if sign else ''},.{digits}f}".replace(",", "\u2009").replace("-", "−")
+    # What rounds to nothing has no direction.
+    return text.lstrip("+−") if not any(digit in text for digit in "123456789") else text
+
+
+def power_panel(solution: Solution, baseline: Solution | None) -> str:
+    """Total power with its change, the bar of parts, and the table of parts."""
+    power = solution.power
+    reference = baseline.power if baseline is not None and baseline.converged else None
+    total = power.total / 1e3
+    rows = "".join(_row(name, power, reference) for name in PARTS)
+    return (
+        '<div class="rx" data-explorer="power"><div class="rx-line rx-base">'
+        f'<span class="rx-total" data-explorer="total-power">{number(total)} kW</span>'
+        f'<span class="rx-dim">{number(total / HORSEPOWER_KW)} hp</span>'
+        f'<span class="rx-push">{_change(power, reference)}</span></div>'
+        '<div class="rx-line rx-dim"><span>total power</span>'
+        f"<span>against {escape(baseline_title(solution.design))}</span></div>"
+        f'<div class="rx-bar">{_bar(power)}</div><table>{rows}</table></div>'
+    )
+
+
+def _change(power: PowerBudget, reference: PowerBudget | None) -> str:
+    if reference is None or reference.total <= 0.0:
+        return f'<span class="rx-dim">{_BLANK}</span>'
+    change = 100.0 * (power.total / reference.total - 1.0)
+    kind = "" if abs(change) < 0.05 else " rx-less" if change < 0.0 else " rx-more"
+    return f'<span class="rx-change{kind}" data-explorer="change">{number(change, 1, sign=True)} %</span>'
+
+
+def _bar(power: PowerBudget) -> str:
+    parts = {name: max(getattr(power, name), 0.0) for name in PARTS}
+    total = max(sum(parts.values()), 1.0)
+    return "".join(
+        f'<span style="flex:{value / total:.5f};background:{PARTS[name]}"></span>' for name, value in parts.items()
+    )
+
+
+def _row(name: str, power: PowerBudget, reference: PowerBudget | None) -> str:
+    value = getattr(power, name)
+    share = 100.0 * value / power.total if power.total > 0.0 else None
+    change = None if reference is None else (value - getattr(reference, name)) / 1e3
+    return (
+        f'<tr><td><span class="rx-patch" style="background:{PARTS[name]}"></span>{_PART_TITLES[name]}</td>'
+        f'<td class="rx-num">{number(value / 1e3)} kW</td>'
+        f'<td class="rx-num rx-dim" style="width:19%">{number(share)} %</td>'
+        f'<td class="rx-num rx-dim" style="width:25%">{number(change, sign=True)} kW</td></tr>'
+    )
+
+
+def trim_panel(solution: Solution) -> str:
+    """Trim angles, loading, efficiency and areas, in two columns."""
+    c = solution.controls
+    if solution.design.hovering:
+        efficiency = ("Figure of merit", number(solution.figure_of_merit, 3))
+    else:
+        efficiency = ("Rotor L/De", number(solution.lift_to_drag, 2))
+    entries = (
+        ("Collective θ0", _deg(c.collective)),
+        ("Shaft tilt α", _deg(c.shaft_tilt)),
+        ("Cyclic θ1c", _deg(c.cyclic_1c)),
+        ("Coning β0", _deg(c.coning)),
+        ("Cyclic θ1s", _deg(c.cyclic_1s)),
+        ("Flap β1c, β1s", f"{number(math.degrees(c.flap_1c), 1)}, {_deg(c.flap_1s, 1)}"),
+        ("CT/σ", number(solution.ct_over_sigma, 4)),
+        efficiency,
+        ("Reverse flow", f"{number(100.0 * solution.reverse_flow_area, 1)} %"),
+        ("Stalled area", f"{number(100.0 * solution.stalled_area, 1)} %"),
+    )
+    cells = "".join(
+        f'<div class="rx-line"><span class="rx-dim">{name}</span><span class="rx-num">{value}</span></div>'
+        for name, value in entries
+    )
+    return f'<div class="rx rx-grid" data-explorer="trim">{cells}</div>'
+
+
+def _deg(angle: float, digits: int = 2) -> str:
+    return f"{number(math.degrees(angle), digits)}°"
+
+
+def status_panel(solution: Solution | None, problem: str | None = None) -> str:
+    """A box of constant height: how the solve ended, and every reason to read the numbers with care."""
+    if problem is None and solution is not None and not solution.converged:
+        problem = solution.message
+    if problem is not None:
+        return _status("problem", f"<b>{escape(problem)}</b><br>The last good answer is shown in grey.")
+    if solution is None:
+        return _status("waiting", "Solving the first trim …")
+    caveats = "".join(
+        f'<div class="rx-care"><span>▲</span><span>{escape(c.sentence)}</span></div>' for c in solution.caveats
+    )
+    return _status("converged", f'<div><span class="rx-good">●</span> {escape(solution.message)}</div>{caveats}')
+
+
+def _status(kind: str, text: str) -> str:
+    return f'<div class="rx-status rx-{kind}" data-explorer="status" data-kind="{kind}">{text}</div>'
+
+
+def provenance(solution: Solution) -> str:
+    """How it was computed, and what kind of statement it is."""
+    design = solution.design
+    sections = dict.fromkeys(_section_title(span.section) for span in design.rotor.blade.spans)
+    inflow = INFLOW_MODELS[design.models.inflow].title
+    if design.hovering:
+        inflow = "annulus balance" if design.models.hover_inflow == "annulus" else "closed form, eq. (3.3)"
+    losses = "tip and hub loss" if design.models.tip_loss else "no losses"
+    return (
+        f'<div class="rx rx-small rx-dim" data-explorer="provenance">Preset <i>{escape(design.preset)}</i>: '
+        f"{escape(inflow)}, {escape(' / '.join(sections))}, {losses}, "
+        f"{design.models.elements} × {design.models.azimuths} grid, {number(1e3 * solution.elapsed, 1)} ms. "
+        "Indicative: a model, not a measurement.</div>"
+    )
+
+
+def _section_title(section: str) -> str:
+    return {"sc1095": "SC1095", "sc1094r8": "SC1094 R8", "sc1095-thesis": "SC1095 polynomials"}.get(section, section)
+
+
+def speed_line(speed: float) -> str:
+    """Airspeed [m/s] as the pilot, the driver and the engineer read it."""
+    text = f"{number(speed / KNOT)} kt · {number(3.6 * speed)} km/h · {number(speed, 1)} m/s" if speed else "hover"
+    return f'<div class="rx rx-dim rx-speed" data-explorer="speed">{text}</div>'
+
+
+def explanation(text: str) -> str:
+    """The line beneath a menu, in a box of constant height."""
+    return f'<div class="rx rx-dim rx-small rx-explain">{escape(text)}</div>'
+
+
+def heading(title: str, key: tuple[tuple[str, str], ...]) -> str:
+    """A chart's title with the key of its lines: name and colour."""
+    entries = "".join(
+        f'<span><span class="rx-dash" style="background:{colour}"></span>{escape(name)}</span>' for name, colour in key
+    )
+    return f'<div class="rx rx-line rx-heading"><span>{escape(title)}</span>{entries}</div>'
+
+
+def faded(html: str) -> str:
+    """The same text, dimmed: no longer the answer."""
+    return f'<div class="rx-faded">{html}</div>'

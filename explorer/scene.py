@@ -1,0 +1,128 @@
+"""The 3D scene of one client: handles made once, assigned afterwards, never made anew."""
+
+import numpy as np
+import viser
+from numpy.typing import NDArray
+
+from explorer import colours, meshes, viser_compat
+from explorer.disk_image import half_width
+from explorer.picture import OUTLINE_COLOURS, Picture
+from explorer.poses import Pose
+from rotor.blade import Rotor
+
+Array = NDArray[np.float64]
+
+_DISK_TURN = (0.0, np.sqrt(0.5), np.sqrt(0.5), 0.0)
+"""Half a turn about the bisector of x and y: the picture's columns run to starboard, its rows aft."""
+_NOTHING = np.zeros((1, 2, 3))
+
+
+class Scene:
+    """Blades, hub, disk, outlines, arrows and labels of one rotor."""
+
+    def __init__(self, api: viser.SceneApi, rotor: Rotor) -> None:
+        api.set_up_direction("+z")
+        api.configure_default_lights(cast_shadow=False)
+        radius = rotor.radius
+        self._rotor = api.add_frame("/rotor", show_axes=False)
+        hub, mast = meshes.hub(rotor), meshes.mast()
+        self._solid(api, "/rotor/hub", hub, colours.HUB)
+        self._solid(api, "/rotor/mast", mast, colours.HUB)
+        shape = meshes.blade_shape(rotor)
+        start = meshes.blade_vertices(shape, rotor.builtin_twist)
+        self._blades = [
+            api.add_mesh_simple(
+                f"/rotor/blade_{k}",
+                start,
+                shape.faces,
+                color=colours.MARKED_BLADE if k == 0 else colours.BLADE,
+                side="double",
+                cast_shadow=False,
+                receive_shadow=False,
+            )
+            for k in range(rotor.blades)
+        ]
+        self._disk = api.add_frame("/rotor/disk", show_axes=False)
+        width = 2.0 * half_width(radius)
+        self._image = api.add_image(
+            "/rotor/disk/field",
+            np.zeros((2, 2, 4), dtype=np.uint8),
+            width,
+            width,
+            format="png",
+            wxyz=_DISK_TURN,
+            cast_shadow=False,
+            receive_shadow=False,
+        )
+        cutout = rotor.blade.root_cutout * radius
+        rim = np.concatenate(
+            (meshes.circle_segments(radius), meshes.circle_segments(cutout, 60), meshes.tick_segments(radius))
+        )
+        self._line(api, "/rotor/disk/rim", rim, colours.RIM, 1.6)
+        self._outlines: dict[str, tuple[viser.LineSegmentsHandle, ...]] = {}
+        for name, (line, casing) in OUTLINE_COLOURS.items():
+            self._outlines[name] = (
+                self._line(api, f"/rotor/disk/{name}_casing", _NOTHING, casing, 4.2),
+                self._line(api, f"/rotor/disk/{name}", _NOTHING, line, 2.0),
+            )
+        self._solid(api, "/rotor/disk/rotation", meshes.rotation_arrow(radius), colours.RIM)
+        for degrees in (0, 90, 180, 270):
+            psi = np.radians(degrees)
+            api.add_label(
+                f"/rotor/disk/psi_{degrees}",
+                f"ψ = {degrees}°" if degrees else "ψ = 0°",
+                position=1.135 * radius * np.array([np.cos(psi), np.sin(psi), 0.0]),
+                anchor="center-center",
+            )
+        self._flight = api.add_frame("/flight", show_axes=False, visible=False)
+        self._solid(api, "/flight/arrow", meshes.flight_arrow(radius), colours.MARKED_BLADE)
+        self._flight_label = api.add_label(
+            "/flight/label", "", position=(-1.27 * radius, 0.035 * radius, 0.0), anchor="center-left"
+        )
+
+    def show(self, picture: Picture) -> None:
+        """Assign one frame; call it inside `client.atomic()` so that the page draws it whole."""
+        _place(self._rotor, picture.rotor)
+        _place(self._disk, picture.disk)
+        vertices = picture.blade_vertices.astype(np.float32)
+        for handle, pose in zip(self._blades, picture.blades, strict=True):
+            handle.vertices = vertices
+            _place(handle, pose)
+        viser_compat.set_png(self._image, picture.png)
+        for name, segments in picture.outlines.items():
+            for lift, handle in enumerate(self._outlines[name]):
+                handle.visible = len(segments) > 0
+                if len(segments):
+                    handle.points = (segments + np.array([0.0, 0.0, 0.01 * lift])).astype(np.float32)
+        self._flight.visible = picture.flight_label != ""
+        if picture.flight_label:
+            self._flight_label.text = picture.flight_label
+
+    def fade(self, png: bytes) -> None:
+        """Show that the picture is no longer the answer: a grey disk, no outlines."""
+        viser_compat.set_png(self._image, png)
+        for handles in self._outlines.values():
+            for handle in handles:
+                handle.visible = False
+
+    def _solid(self, api: viser.SceneApi, name: str, mesh: meshes.Mesh, colour: colours.Rgb) -> viser.MeshHandle:
+        return api.add_mesh_simple(
+            name, mesh.vertices, mesh.faces, color=colour, side="double", cast_shadow=False, receive_shadow=False
+        )
+
+    def _line(
+        self, api: viser.SceneApi, name: str, segments: Array, colour: colours.Rgb, pixels: float
+    ) -> viser.LineSegmentsHandle:
+        return api.add_line_segments(
+            name,
+            segments.astype(np.float32),
+            colour,
+            thickness=pixels,
+            thickness_units="screen",
+            visible=segments is not _NOTHING,
+        )
+
+
+def _place(handle: viser.SceneNodeHandle, pose: Pose) -> None:
+    handle.wxyz = pose.wxyz
+    handle.position = pose.position

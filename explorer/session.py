@@ -1,0 +1,163 @@
+"""One browser's explorer: its widgets, scene, charts and worker, wired along the straight path."""
+
+import logging
+from collections.abc import Callable
+from typing import Any
+
+import viser
+
+from explorer import plots, readout, solver, style
+from explorer.camera import FittedCamera
+from explorer.charts import Charts
+from explorer.controls import Controls
+from explorer.fields import FIELDS, fitted_range
+from explorer.picture import disk_png, field_values, make_picture
+from explorer.power_curve import PowerCurves
+from explorer.scene import Scene
+from explorer.state import Inputs, ViewState, baseline_of
+from explorer.worker import LatestWins
+from rotor.presets import uh60a_rotor
+from rotor.solution import Solution
+
+_log = logging.getLogger(__name__)
+_CHART_WIDTH, _CONTROL_WIDTH = 340, 320
+"""[px]; what they leave at 1280 is still a square."""
+_BRAND = (28, 126, 214)
+
+
+class Session:
+    """Lives from connect to disconnect. After construction everything happens on the worker's thread."""
+
+    def __init__(self, client: viser.ClientHandle, start: Inputs, dark: bool) -> None:
+        self._client = client
+        self._latest: Solution | None = None
+        self._good: Solution | None = None
+        """The last converged answer: what the picture shows."""
+        self._drawn: tuple[Solution, ViewState, tuple[float, float]] | None = None
+        self._ranges = {title: (field.low, field.high) for title, field in FIELDS.items()}
+        self._range_order: str | None = None
+        self._baseline = solver.Baseline()
+        self._curves = PowerCurves()
+        self._dark = dark
+        self._worker = LatestWins(self._round, self._report, f"session-{client.client_id}")
+
+        rotor = uh60a_rotor(start.preset)
+        gui = client.gui
+        self._theme()
+        gui.set_panel_label("Rotor explorer")
+        gui.add_html(style.SHEET)
+        self._controls = Controls(gui, start, self._worker.wake, dark)
+        gui.main_panel.dock_right()
+        gui.main_panel.set_width(_CONTROL_WIDTH)
+        panel = gui.add_panel()
+        with panel.add_tab("Results", viser.Icon.CHART_BAR):
+            self._status = gui.add_html(readout.status_panel(None))
+            self._power = gui.add_html("")
+            self._trim = gui.add_html("")
+            self._charts = Charts(gui, *plots.blank())
+            self._provenance = gui.add_html("")
+        panel.dock_left()
+        panel.set_width(_CHART_WIDTH)
+        self._scene = Scene(client.scene, rotor)
+        self._camera = FittedCamera(client, rotor.radius)
+        self._controls.view_buttons.on_click(self._view_clicked)
+        self._controls.range_buttons.on_click(self._range_clicked)
+
+    def start(self) -> None:
+        self._worker.start()
+        self._worker.wake()
+
+    def stop(self) -> None:
+        self._worker.stop()
+
+    def _round(self, superseded: Callable[[], bool]) -> None:
+        """Widgets → Design → Solution → pictures; the frame first, then what it is compared with."""
+        inputs, view = self._controls.inputs(), self._controls.view()
+        self._controls.refresh(inputs)
+        if view.dark != self._dark:
+            self._dark = view.dark
+            self._theme()
+        try:
+            design = inputs.design()
+        except ValueError as error:
+            self._latest = None
+            self._lose(view, readout.status_panel(None, str(error)))
+            return
+        if self._latest is None or self._latest.design != design:
+            self._latest = solver.solve(design, self._good)
+        if not self._latest.converged:
+            self._lose(view, readout.status_panel(self._latest))
+            return
+        self._good = self._latest
+        self._draw(self._good, view)
+        self._tell(self._good, self._baseline.solve(baseline_of(design)), view)
+        if self._curves.sweep(design, superseded):
+            self._plot_power(self._good)
+
+    def _draw(self, solution: Solution, view: ViewState) -> None:
+        colour_range = self._range(solution, view)
+        if self._drawn is not None and self._drawn[0] is solution and self._drawn[1:] == (view, colour_range):
+            return
+        picture = make_picture(solution, view, colour_range)
+        with self._client.atomic():
+            self._scene.show(picture)
+        self._controls.show_range(view.field, colour_range, faded=False)
+        self._drawn = (solution, view, colour_range)
+
+    def _tell(self, solution: Solution, baseline: Solution, view: ViewState) -> None:
+        self._status.content = readout.status_panel(solution)
+        self._power.content = readout.power_panel(solution, baseline)
+        self._trim.content = readout.trim_panel(solution)
+        self._provenance.content = readout.provenance(solution)
+        charts = self._charts
+        charts.twist.show(plots.twist_plot(solution.design, baseline.design, charts.twist.y_range))
+        charts.alpha.show(plots.alpha_plot(solution, view.azimuth_deg))
+        charts.lift.show(plots.lift_plot(solution, view.azimuth_deg))
+        self._plot_power(solution)
+
+    def _plot_power(self, solution: Solution, lost: bool = False) -> None:
+        design, chart = solution.design, self._charts.power
+        now = None if lost else solution.power.total / 1e3
+        curve = self._curves.known(design)
+        chart.show(plots.power_plot(curve, design.condition.advance_ratio, now, chart.y_range))
+
+    def _lose(self, view: ViewState, status: str) -> None:
+        """Keep the last good answer, but grey, with the sentence in red."""
+        self._status.content = status
+        self._drawn = None
+        if self._good is None:
+            return
+        colour_range = self._range(self._good, view)
+        png = disk_png(self._good, FIELDS[view.field], colour_range, faded=True)
+        with self._client.atomic():
+            self._scene.fade(png)
+        self._controls.show_range(view.field, colour_range, faded=True)
+        self._power.content = readout.faded(readout.power_panel(self._good, None))
+        self._trim.content = readout.faded(readout.trim_panel(self._good))
+        self._plot_power(self._good, lost=True)
+
+    def _range(self, solution: Solution, view: ViewState) -> tuple[float, float]:
+        """The colour range: held, unless a button asked for another."""
+        order, self._range_order = self._range_order, None
+        field = FIELDS[view.field]
+        if order == "Rescale":
+            self._ranges[view.field] = fitted_range(field, field_values(solution, field))
+        elif order == "Default":
+            self._ranges[view.field] = (field.low, field.high)
+        return self._ranges[view.field]
+
+    def _report(self, error: Exception) -> None:
+        _log.error("an update failed", exc_info=error)
+        self._status.content = readout.status_panel(None, f"This update failed ({error}): move any slider to go on.")
+
+    def _theme(self) -> None:
+        self._client.gui.configure_theme(
+            dark_mode=self._dark, show_logo=False, show_share_button=False, brand_color=_BRAND
+        )
+
+    def _view_clicked(self, event: viser.GuiEvent[Any]) -> None:
+        self._camera.aim("3d" if event.target.value == "3D" else "top")
+
+    def _range_clicked(self, event: viser.GuiEvent[Any]) -> None:
+        self._range_order = event.target.value
+        self._worker.wake()

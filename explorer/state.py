@@ -1,0 +1,175 @@
+"""What is on the sliders and what is shown, as values; degrees, tonnes and knots end here."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from itertools import pairwise
+
+from rotor.design import Design
+from rotor.presets import FLIGHT_MODELS, THESIS_MODELS, baseline_twist, make_design
+from rotor.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, QuadraticTwist, TwistLaw
+
+KNOT = 1852.0 / 3600.0
+"""[m/s]"""
+LOW_SPEED_LIMIT = 0.075
+"""Advance ratio below which the linear inflow models of forward flight are not to be trusted (thesis p. 26)."""
+
+PRESET_TITLES = {"flight": "Flight (our best)", "thesis": "Thesis (as stated)"}
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """Everything on the sliders that decides the answer. Rates are degrees per radius."""
+
+    preset: str = "flight"
+    law: str = "uh60a"
+    linear: float = -12.0
+    quadratic_curvature: float = 8.0
+    quadratic_difference: float = -14.0
+    two_inner: float = -14.0
+    two_outer: float = -8.0
+    two_division: float = 0.5
+    three_inner: float = -16.0
+    three_middle: float = -12.0
+    three_outer: float = -6.0
+    three_first: float = 0.4
+    three_second: float = 0.75
+    advance_ratio: float = 0.2
+    mass_t: float = 8.32
+    altitude_m: float = 0.0
+    inflow: str = FLIGHT_MODELS.inflow
+    losses: bool = True
+    given: TwistLaw | None = None
+    """A twist from a design file that none of the laws holds."""
+
+    def twist(self) -> TwistLaw | str:
+        """The law on the sliders, or the SPEC of one that the rotor supplies."""
+        return LAWS[self.law].make(self)
+
+    def design(self) -> Design:
+        """The design these inputs mean; ValueError with one sentence for inputs that mean none."""
+        models = FLIGHT_MODELS if self.preset == "flight" else THESIS_MODELS
+        return make_design(
+            self.preset,
+            twist=self.twist(),
+            advance_ratio=self.advance_ratio,
+            mass=1e3 * self.mass_t,
+            altitude=self.altitude_m,
+            models=replace(models, inflow=self.inflow, tip_loss=self.losses, hub_loss=self.losses),
+        )
+
+    @property
+    def speed_kt(self) -> float:
+        return make_design(self.preset, advance_ratio=self.advance_ratio).airspeed / KNOT
+
+
+@dataclass(frozen=True)
+class Law:
+    """A twist law of the menu and the inputs that belong to it."""
+
+    title: str
+    inputs: tuple[str, ...]
+    make: Callable[[Inputs], TwistLaw | str]
+
+
+def _segments(rates: tuple[float, ...], breaks: tuple[float, ...]) -> PiecewiseLinearTwist:
+    if any(high - low < 0.02 for low, high in pairwise(breaks)):
+        raise ValueError(
+            f"The divisions at {' and '.join(f'{b:g}' for b in breaks)} R are out of order or too close: "
+            "keep the second at least 0.02 R outboard of the first."
+        )
+    return PiecewiseLinearTwist(tuple(math.radians(rate) for rate in rates), breaks)
+
+
+def _given(inputs: Inputs) -> TwistLaw:
+    return inputs.given or baseline_twist(inputs.preset)
+
+
+LAWS: dict[str, Law] = {
+    "uh60a": Law("UH-60A built-in", (), lambda i: "uh60a"),
+    "linear": Law("Linear", ("linear",), lambda i: LinearTwist(math.radians(i.linear))),
+    "quadratic": Law(
+        "Quadratic",
+        ("quadratic_curvature", "quadratic_difference"),
+        lambda i: QuadraticTwist(math.radians(i.quadratic_curvature), math.radians(i.quadratic_difference)),
+    ),
+    "two": Law(
+        "Two segments",
+        ("two_inner", "two_outer", "two_division"),
+        lambda i: _segments((i.two_inner, i.two_outer), (i.two_division,)),
+    ),
+    "three": Law(
+        "Three segments",
+        ("three_inner", "three_middle", "three_outer", "three_first", "three_second"),
+        lambda i: _segments((i.three_inner, i.three_middle, i.three_outer), (i.three_first, i.three_second)),
+    ),
+    "ideal": Law("Ideal (θtip/r)", (), lambda i: "ideal"),
+    "given": Law("From the design file", (), _given),
+}
+
+
+@dataclass(frozen=True)
+class ViewState:
+    """What is shown, which no answer depends on."""
+
+    field: str = "Angle of attack"
+    azimuth_deg: float = 60.0
+    exaggeration: float = 1.0
+    reverse_flow: bool = True
+    stall: bool = True
+    drag_divergence: bool = True
+    dark: bool = False
+
+
+def inputs_of(design: Design) -> Inputs:
+    """The slider positions that mean `design`, as near as the sliders can hold it."""
+    start = Inputs(
+        preset=design.preset,
+        advance_ratio=design.condition.advance_ratio,
+        mass_t=design.condition.mass / 1e3,
+        altitude_m=design.condition.altitude,
+        inflow=design.models.inflow,
+        losses=design.models.tip_loss or design.models.hub_loss,
+    )
+    twist = design.twist
+    match twist:
+        case LinearTwist(rate):
+            return replace(start, law="linear", linear=_degrees(rate))
+        case QuadraticTwist(curvature, difference):
+            values = {"quadratic_curvature": _degrees(curvature), "quadratic_difference": _degrees(difference)}
+            return replace(start, law="quadratic", **values)
+        case PiecewiseLinearTwist((inner, outer), (division,)):
+            return replace(
+                start, law="two", two_inner=_degrees(inner), two_outer=_degrees(outer), two_division=division
+            )
+        case PiecewiseLinearTwist((inner, middle, outer), (first, second)):
+            rates = {"three_inner": _degrees(inner), "three_middle": _degrees(middle), "three_outer": _degrees(outer)}
+            return replace(start, law="three", three_first=first, three_second=second, **rates)
+        case IdealTwist():
+            return replace(start, law="ideal")
+        case _ if twist == design.rotor.builtin_twist:
+            return replace(start, law="uh60a")
+        case _:
+            return replace(start, law="given", given=twist)
+
+
+def preset_inflow(preset: str) -> str:
+    """The inflow model a preset brings."""
+    return (FLIGHT_MODELS if preset == "flight" else THESIS_MODELS).inflow
+
+
+def baseline_of(design: Design) -> Design:
+    """The same rotor, flight and models with the preset's baseline twist."""
+    return replace(design, twist=baseline_twist(design.preset))
+
+
+def baseline_title(design: Design) -> str:
+    """What the change of power is measured against, in the user's words."""
+    return "UH-60A twist" if design.preset == "flight" else "linear −16°"
+
+
+INPUT_NAMES = tuple(field.name for field in fields(Inputs))
+
+
+def _degrees(angle: float) -> float:
+    return round(math.degrees(angle), 4)

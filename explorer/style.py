@@ -1,0 +1,42 @@
+"""The page's style sheet: classes of the read-outs, and a tighter set of rows in the panels."""
+
+SHEET = """<style>
+.rx { font-size: 12.5px; line-height: 1.37; padding: 0 14px; }
+.rx-dim { color: var(--mantine-color-dimmed); }
+.rx-small { font-size: 11.5px; }
+.rx-line { display: flex; justify-content: space-between; gap: 8px; white-space: nowrap; }
+.rx-base { align-items: baseline; justify-content: flex-start; }
+.rx-push { margin-left: auto; }
+.rx-num { text-align: right; font-variant-numeric: tabular-nums; }
+.rx-total { font-size: 27px; font-weight: 650; letter-spacing: -0.5px; }
+.rx-change { font-size: 17px; font-weight: 600; }
+.rx-less { color: #0b8a6a; }
+.rx-more { color: #d9480f; }
+[data-mantine-color-scheme=dark] .rx-less { color: #38d9a9; }
+[data-mantine-color-scheme=dark] .rx-more { color: #ff922b; }
+.rx-bar { display: flex; gap: 1px; height: 10px; border-radius: 2px; overflow: hidden; margin: 5px 0 3px; }
+.rx table { width: 100%; border-collapse: collapse; white-space: nowrap; }
+.rx td { padding: 0; }
+.rx-patch { display: inline-block; width: 9px; height: 9px; border-radius: 2px; margin-right: 7px; }
+.rx-grid { display: grid; grid-template-columns: 1fr 1fr; column-gap: 18px; padding-top: 4px; }
+.rx-status { margin: 4px 10px 2px; padding: 5px 8px; height: 58px; overflow-y: auto; border-radius: 4px;
+  font-size: 12px; line-height: 1.32; background: rgba(128,128,128,.10); }
+.rx-problem { background: #c92a2a; color: #fff; }
+.rx-good { color: #0ca678; }
+.rx-care { display: flex; gap: 6px; }
+.rx-care > span:first-child { color: #e67700; }
+.rx-faded { opacity: .35; }
+.rx-speed { text-align: right; margin-top: -4px; padding-bottom: 5px; font-size: 12px; }
+.rx-explain { height: 36px; }
+.rx-heading { padding-top: 3px; margin-bottom: -9px; font-size: 12px; gap: 10px; }
+.rx-heading > :first-child { font-weight: 600; margin-right: auto; }
+.rx-dash { display: inline-block; width: 12px; height: 3px; vertical-align: middle; margin-right: 4px; }
+.rx-scale { font-size: 12px; padding-bottom: 4px; }
+.rx-gradient { height: 12px; border-radius: 2px; margin-top: 3px; }
+.rx-ticks { position: relative; height: 19px; }
+.rx-ticks span { position: absolute; top: 4px; transform: translateX(-50%); }
+.rx-ticks i { position: absolute; top: 0; width: 1px; height: 4px; background: currentColor; }
+.rx-legend { height: 40px; font-size: 12px; }
+.rx-outline { display: inline-block; box-sizing: content-box; width: 14px; height: 2px; vertical-align: middle;
+  margin-right: 4px; border: 1.5px solid; outline: .5px solid rgba(128,128,128,.6); }
+</style>"""
