@@ -90,7 +90,8 @@ class Rotor:
     def __post_init__(self) -> None:
         if self.blades < 2 or self.radius <= 0.0 or self.angular_speed <= 0.0:
             raise ValueError(
-                f"rotor {self.name!r} has {self.blades} blades, radius {self.radius:g} m, {self.angular_speed:g} rad/s: "
+                f"rotor {self.name!r} has {self.blades} blades, radius {self.radius:g} m, "
+                f"{self.angular_speed:g} rad/s: "
                 "give two or more blades and positive values"
             )
 

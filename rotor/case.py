@@ -12,7 +12,18 @@ from rotor.presets import make_design
 FORMAT = "rotor-explorer design"
 VERSION = 1
 
-_KEYS = ("format", "version", "preset", "twist", "advance_ratio", "mass_kg", "altitude_m", "inflow", "tip_loss", "hub_loss")
+_KEYS = (
+    "format",
+    "version",
+    "preset",
+    "twist",
+    "advance_ratio",
+    "mass_kg",
+    "altitude_m",
+    "inflow",
+    "tip_loss",
+    "hub_loss",
+)
 
 
 def case_of(design: Design) -> dict[str, Any]:
@@ -74,7 +85,7 @@ def read_case(path: str | Path) -> Design:
     except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
         raise ValueError(f"design file {str(path)!r} cannot be read ({error}): give a JSON design file") from None
     if not isinstance(record, dict):
-        raise ValueError(f"design file {str(path)!r} holds no JSON object: write {{\"twist\": \"linear:-8\", …}}")
+        raise ValueError(f'design file {str(path)!r} holds no JSON object: write {{"twist": "linear:-8", …}}')
     return design_of(cast(dict[str, Any], record))
 
 

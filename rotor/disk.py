@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotor.airfoil.polynomial import THESIS_NAME, polynomial_section
-from rotor.airfoil.sections import load_section
+from rotor.airfoil.sections import load_installed
 from rotor.airfoil.table import MACH_STEP, N_MACH
 from rotor.blade import Rotor
 
@@ -34,15 +34,16 @@ class Disk:
     weight: Array
     """Weight of the second of the two, (elements,)."""
     offset: Array
-    """Chord lines of the two against the blade's reference line [rad], (elements, 2), nose-up positive."""
+    """How far the chord lines of the two point nose-down of the blade's reference line [rad], (elements, 2)."""
     tables: Array
     """Section coefficients, (sections, α cells, Mach cells, 2, 4, 4)."""
     stall: Array
-    """Stall angles about the section's own chord [rad] at the table's Mach nodes, (sections, 2, nodes): negative, positive."""
+    """Stall angles about the section's own chord [rad] at the table's Mach nodes, (sections, 2, nodes): negative end,
+    positive end."""
     mach_limit: float
     """Mach number where the section data end."""
     fit_range: tuple[float, float] | None
-    """Angles of attack [rad] beyond which the document's polynomials, of one Mach number, are clamped; None for decks."""
+    """Angles of attack [rad] beyond which the document's polynomials, of one Mach number, are clamped; None: decks."""
 
 
 @lru_cache(maxsize=16)
@@ -50,11 +51,11 @@ def build_disk(rotor: Rotor, elements: int, azimuths: int) -> Disk:
     """The rotor on a grid of equally wide elements and evenly spaced azimuths."""
     blade = rotor.blade
     dr = (1.0 - blade.root_cutout) / elements
-    r = blade.root_cutout + dr * (np.arange(elements) + 0.5)
+    r: Array = blade.root_cutout + dr * (np.arange(elements, dtype=np.float64) + 0.5)
     psi = 2.0 * math.pi * np.arange(azimuths) / azimuths
 
     names = tuple(dict.fromkeys(span.section for span in blade.spans))
-    installed = [load_section(name) for name in names]
+    installed = [load_installed(name) for name in names]
     section = np.zeros((elements, 2), dtype=np.int64)
     weight = np.zeros(elements)
     offset = np.zeros((elements, 2))

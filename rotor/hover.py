@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rotor import kernel
-from rotor.airfoil.sections import load_section
+from rotor.airfoil.sections import load_installed
 from rotor.elements import COLLECTIVE, CONING, LAMBDA0, N_STATE, Pass, Problem
 from rotor.inflow import Wake
 from rotor.losses import loss_factor
@@ -31,12 +31,19 @@ _TOLERANCE = 1e-12
 
 
 def closed_form_inflow(
-    r: ArrayLike, pitch: ArrayLike, solidity: ArrayLike, lift_slope: float, *, factor: ArrayLike = 1.0, climb: float = 0.0
+    r: ArrayLike,
+    pitch: ArrayLike,
+    solidity: ArrayLike,
+    lift_slope: float,
+    *,
+    factor: ArrayLike = 1.0,
+    climb: float = 0.0,
 ) -> Array:
     """λ(r) of eq. (2.28), with the loss factor F of eq. (3.3), for a linear lift curve.
 
-    pitch θ [rad] from the zero-lift line, lift_slope C_lα [1/rad], climb λ_c; shapes broadcast. (3.3) is (2.28) with λ_c = 0 and σ → σ/F, the
-    outer 1/F included; it closes 4Fλ²r = ½σC_lα(θr² − λr). Below zero pitch the mirrored root is taken.
+    pitch θ [rad] from the zero-lift line, lift_slope C_lα [1/rad], climb λ_c; shapes broadcast. (3.3) is (2.28) with
+    λ_c = 0 and σ → σ/F, the outer 1/F included; it closes 4Fλ²r = ½σC_lα(θr² − λr). Below zero pitch the mirrored root
+    is taken.
     """
     r, pitch = np.asarray(r, dtype=float), np.asarray(pitch, dtype=float)
     k = np.asarray(solidity, dtype=float) * lift_slope / (16.0 * np.asarray(factor, dtype=float))
@@ -66,7 +73,9 @@ def hover(problem: Problem, start: float | None = None) -> HoverResult:
     annuli = _Annuli(problem)
     low, high = -0.3, _LARGEST_COLLECTIVE
     solidity = problem.design.rotor.solidity
-    theta0 = start if start is not None else 6.0 * problem.weight / (solidity * 5.9) + 1.5 * math.sqrt(problem.weight / 2)
+    theta0 = (
+        start if start is not None else 6.0 * problem.weight / (solidity * 5.9) + 1.5 * math.sqrt(problem.weight / 2)
+    )
     best = (math.inf, theta0)
     capped = False
     for _ in range(60):
@@ -99,9 +108,9 @@ class _Annuli:
         disk = problem.disk
         self.inflow = np.full_like(disk.r, math.sqrt(problem.weight / 2.0))
         self.ones = np.ones_like(disk.r)
-        table = load_section(problem.design.rotor.blade.spans[0].section).table
-        self.lift_slope = table.lift_slope(LIFT_CURVE_MACH)
-        self.zero_lift = table.zero_lift_alpha(LIFT_CURVE_MACH)
+        table = load_installed(problem.design.rotor.blade.spans[0].section).table
+        self.lift_slope = float(table.lift_slope(LIFT_CURVE_MACH))
+        self.zero_lift = float(table.zero_lift_alpha(LIFT_CURVE_MACH))
 
     def loads(self, theta0: float, inflow: Array) -> Array:
         """Section loads with derivatives, (rows, elements)."""
@@ -135,6 +144,7 @@ class _Annuli:
         """λ(r) that balances every annulus, and ∂λ/∂θ; safeguarded Newton on all annuli at once."""
         inflow = self.inflow
         low, high = np.full_like(inflow, -_LARGEST_INFLOW), np.full_like(inflow, _LARGEST_INFLOW)
+        by_pitch = slope = np.ones_like(inflow)
         for _ in range(80):
             push, push_slope = self.momentum(inflow)
             lift, by_pitch, by_inflow = self.lift(theta0, inflow)

@@ -52,7 +52,7 @@ class LinearInflow:
     """k_y"""
 
     def field(self, r: Array, cos: Array, sin: Array, wake: Wake) -> tuple[Array, Array]:
-        """λ_i at radii (n,) and azimuths with cos ψ, sin ψ (m,): (n, m), and its derivatives by (µ_x, µ_z, λ0), (3, n, m)."""
+        """λ_i, (n, m), at radii (n,) and azimuths given by cos ψ, sin ψ (m,); slopes by (µ_x, µ_z, λ0), (3, n, m)."""
         kx, kx_mu, kx_axial = self.longitudinal(wake)
         ky, ky_mu, ky_axial = self.lateral(wake)
         r = r[:, None]

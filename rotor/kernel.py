@@ -33,7 +33,7 @@ _INVERSE_MACH = 1.0 / MACH_STEP
 
 def _compile(function: Any) -> Any:
     # Contraction (fused multiply-add) is the only liberty taken with the arithmetic.
-    return numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})(function)  # pyright: ignore
+    return numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})(function)
 
 
 @_compile
@@ -106,11 +106,11 @@ def element_loads(
             alpha = theta[i, j] - math.atan2(p, t)
             alpha -= _TWO_PI * math.floor((alpha + _PI) / _TWO_PI)
             mach = u * tip_mach
-            a = alpha + offset[i, 0]
+            a = alpha - offset[i, 0]
             a -= _TWO_PI * math.floor((a + _PI) / _TWO_PI)
             cl, cd, cl_a, cd_a, cl_m, cd_m = _section(first, a, mach)
             if w > 0.0:
-                a = alpha + offset[i, 1]
+                a = alpha - offset[i, 1]
                 a -= _TWO_PI * math.floor((a + _PI) / _TWO_PI)
                 cl2, cd2, cl_a2, cd_a2, cl_m2, cd_m2 = _section(second, a, mach)
                 cl += w * (cl2 - cl)
@@ -174,7 +174,7 @@ def stall_margins(
                 share = w if which == 1 else 1.0 - w
                 if share > 0.0:
                     row = stall[section[i, which]]
-                    low += share * (row[0, k] * (1.0 - v) + row[0, k + 1] * v - offset[i, which])
-                    high += share * (row[1, k] * (1.0 - v) + row[1, k + 1] * v - offset[i, which])
+                    low += share * (row[0, k] * (1.0 - v) + row[0, k + 1] * v + offset[i, which])
+                    high += share * (row[1, k] * (1.0 - v) + row[1, k + 1] * v + offset[i, which])
             out[i, j] = min(high - alpha[i, j], alpha[i, j] - low)
     return out

@@ -11,18 +11,22 @@ the power.
 """
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rotor import kernel
 from rotor.elements import Pass, Problem
 from rotor.solution import PowerBudget
 from rotor.tail_rotor import FIXED_SHARE
 
+Array = NDArray[np.float64]
+
 
 def power_budget(problem: Problem, one: Pass) -> PowerBudget:
     """Power [W] by parts, torque × Ω beside them."""
     design, disk, loads = problem.design, problem.disk, one.loads
     unit = design.power_unit * disk.dr / len(disk.psi)
-    dissipation = disk.half_solidity @ (np.hypot(one.u_t, one.u_p) ** 3 * loads[kernel.CD])
+    cubed: Array = np.hypot(one.u_t, one.u_p) ** 3 * loads[kernel.CD]
+    dissipation: Array = disk.half_solidity @ cubed
     induced = float(np.vdot(one.induced, loads[kernel.FZ])) * unit
     profile = float(dissipation.sum()) * unit
     parasite = problem.drag * design.condition.advance_ratio * design.power_unit

@@ -6,7 +6,7 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
-from rotor.airfoil.sections import load_section
+from rotor.airfoil.sections import load_installed
 from rotor.blade import Blade, Rotor, Span
 from rotor.design import Design, Models
 from rotor.flight import FlightCondition, Fuselage
@@ -82,9 +82,7 @@ def uh60a_rotor(preset: str) -> Rotor:
 def uh60a_twist() -> TableTwist:
     """The UH-60A's nonlinear built-in twist."""
     flown = uh60a_data()["main_rotor"]["flown"]
-    return TableTwist(
-        tuple(flown["twist_r"]), tuple(math.radians(angle) for angle in flown["twist_deg"]), name="uh60a"
-    )
+    return TableTwist(tuple(flown["twist_r"]), tuple(math.radians(angle) for angle in flown["twist_deg"]), name="uh60a")
 
 
 def baseline_twist(preset: str) -> TwistLaw:
@@ -125,7 +123,7 @@ def make_design(
     if twist is None:
         return draft
     if isinstance(twist, str):
-        slope = load_section(rotor.blade.spans[0].section).table.lift_slope(0.3)
+        slope = float(load_installed(rotor.blade.spans[0].section).table.lift_slope(0.3))
         tip_pitch = ideal_tip_pitch(draft.weight_coefficient, rotor.solidity, slope)
         twist = parse_twist(twist, builtin=rotor.builtin_twist, ideal_tip_pitch=tip_pitch)
     return replace(draft, twist=twist)

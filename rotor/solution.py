@@ -94,7 +94,7 @@ class PowerBudget:
     """D·V"""
     tail: float
     shaft: float
-    """Torque × Ω. In the flight preset it equals `main_rotor` to rounding; in the thesis preset it does not mean power."""
+    """Torque × Ω. In the flight preset it equals `main_rotor` to rounding; in the thesis preset it is not power."""
 
     @property
     def main_rotor(self) -> float:

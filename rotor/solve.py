@@ -5,7 +5,7 @@ import time
 
 import numpy as np
 from numpy.typing import NDArray
-from threadpoolctl import threadpool_limits
+from threadpoolctl import threadpool_limits  # pyright: ignore[reportMissingTypeStubs]
 
 from rotor import kernel
 from rotor.design import Design

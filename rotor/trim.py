@@ -1,9 +1,9 @@
 """Trim in forward flight: Newton's method on the exact Jacobian, warm-started, with continuation when that fails.
 
 `propulsive` (flight preset): collective, cyclic, shaft tilt and coning so that the vertical force carries the weight,
-the forward force the drag, and the first-harmonic flapping is as wanted.
-`thrust` (thesis preset): collective and free flapping so that the thrust is the resultant of weight and drag; no cyclic.
-Both: λ0 closes eq. (2.30) with the axial flow of the tilted disk.
+the forward force the drag, and the first-harmonic flapping is as wanted. `thrust` (thesis preset): collective and free
+flapping so that the thrust is the resultant of weight and drag; no cyclic. Both: λ0 closes eq. (2.30) with the axial
+flow of the tilted disk.
 """
 
 import math
@@ -169,9 +169,7 @@ def jacobian(problem: Problem, one: Pass, unknowns: tuple[int, ...]) -> Array:
     state, flap, flow = one.state, problem.flap, one.flow
     spring = flap.frequency_squared
     place = {unknown: k for k, unknown in enumerate(unknowns)}
-    for row, (entry, stiffness) in enumerate(
-        ((CONING, spring), (FLAP_1C, spring - 1.0), (FLAP_1S, spring - 1.0))
-    ):
+    for row, (entry, stiffness) in enumerate(((CONING, spring), (FLAP_1C, spring - 1.0), (FLAP_1S, spring - 1.0))):
         if entry in place:
             moments[row][place[entry]] -= stiffness / flap.load_gain
     momentum = -thrust

@@ -6,6 +6,7 @@ pitch at 0.75 R whatever the law. Rates are radians per radius.
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Protocol
 
@@ -78,7 +79,7 @@ class PiecewiseLinearTwist:
                 "write for example segments:-12,-4@0.5"
             )
         ends = (0.0, *self.breaks, 1.0)
-        if any(low >= high for low, high in zip(ends, ends[1:], strict=False)):
+        if any(low >= high for low, high in pairwise(ends)):
             raise ValueError(f"segment breaks {list(self.breaks)} must ascend between 0 and 1: reorder or move them")
 
     def __call__(self, r: ArrayLike) -> Array:
@@ -89,7 +90,7 @@ class PiecewiseLinearTwist:
 
     def spec(self) -> str:
         rates = ",".join(_degrees(rate) for rate in self.rates)
-        return f"segments:{rates}" + (f"@{','.join(f'{b:.6g}' for b in self.breaks)}" if self.breaks else "")
+        return f"segments:{rates}" + (f"@{','.join(f'{b:.10g}' for b in self.breaks)}" if self.breaks else "")
 
 
 @dataclass(frozen=True)
@@ -126,7 +127,7 @@ class TableTwist:
                 f"a twist table needs two or more stations with one angle each; {len(self.stations)} radii and "
                 f"{len(self.angles)} angles given: complete the rows"
             )
-        if any(low >= high for low, high in zip(self.stations, self.stations[1:], strict=False)):
+        if any(low >= high for low, high in pairwise(self.stations)):
             raise ValueError(f"twist table radii {list(self.stations)} must ascend: sort the rows, one row per radius")
 
     def __call__(self, r: ArrayLike) -> Array:
@@ -165,7 +166,8 @@ def parse_twist(spec: str, *, builtin: TwistLaw, ideal_tip_pitch: float) -> Twis
     if kind == "table" and rest:
         return read_twist_table(Path(rest))
     raise ValueError(
-        f"twist {spec!r} is not known: use linear:RATE, quadratic:A,D, segments:RATES@BREAKS, ideal, uh60a or table:FILE"
+        f"twist {spec!r} is not known: "
+        "use linear:RATE, quadratic:A,D, segments:RATES@BREAKS, ideal, uh60a or table:FILE"
     )
 
 
@@ -205,4 +207,4 @@ def _number(text: str, spec: str) -> float:
 
 
 def _degrees(angle: float) -> str:
-    return f"{round(math.degrees(angle), 6):g}"
+    return f"{round(math.degrees(angle), 6):.10g}"

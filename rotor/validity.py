@@ -1,7 +1,5 @@
 """Where the answer stops being trustworthy, in sentences a user reads."""
 
-import math
-
 from rotor import kernel
 from rotor.design import Design
 from rotor.elements import Pass, Problem
@@ -27,16 +25,25 @@ def caveats(problem: Problem, one: Pass, stalled: float) -> tuple[Caveat, ...]:
     if 0.0 < mu < LOW_SPEED:
         add("low-speed-inflow", f"Linear inflow is not trusted below advance ratio {LOW_SPEED:g}; this is {mu:.3f}.")
     if mu > HIGH_SPEED:
-        add("high-speed", f"Above advance ratio {HIGH_SPEED:.2f} quasi-steady sections and rigid blades are a rough guide.")
+        add(
+            "high-speed",
+            f"Above advance ratio {HIGH_SPEED:.2f} quasi-steady sections and rigid blades are a rough guide.",
+        )
     if stalled > STALL_SHARE:
         add("stall", f"{100.0 * stalled:.1f} % of the disk is stalled; section data are steady, without dynamic stall.")
     top_mach = float(one.loads[kernel.MACH].max())
     if disk.fit_range is not None:
         if top_mach > 0.5:
-            add("no-compressibility", f"The section polar is for one Mach number (0.3); the tip reaches Mach {top_mach:.2f}.")
+            add(
+                "no-compressibility",
+                f"The section polar is for one Mach number (0.3); the tip reaches Mach {top_mach:.2f}.",
+            )
         clamped = _outside_fit(problem, one, disk.fit_range)
         if clamped > 0.0:
-            add("polynomial-clamped", f"{100.0 * clamped:.1f} % of the disk lies outside the polynomials' fit and is clamped.")
+            add(
+                "polynomial-clamped",
+                f"{100.0 * clamped:.1f} % of the disk is outside the polynomials' fit and clamped.",
+            )
     elif top_mach > disk.mach_limit:
         add(
             "mach-outside-data",
@@ -54,10 +61,13 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
             f"Not trimmed: the hovering rotor makes at most {100.0 * reached:.0f} % of the thrust that "
             f"{condition.mass:.0f} kg at {condition.altitude:.0f} m needs; lower the weight or the altitude."
         )
-    how_far = f" Coming from a lighter rotor, the trim ends {100.0 * reached:.0f} % of the way." if reached > 0.0 else ""
+    how_far = (
+        f" Coming from a lighter rotor, the trim ends {100.0 * reached:.0f} % of the way." if reached > 0.0 else ""
+    )
     return (
         f"Not trimmed: {condition.mass:.0f} kg at {condition.altitude:.0f} m and advance ratio "
-        f"{condition.advance_ratio:.3f} is beyond this rotor.{how_far}{share} Lower the weight, the altitude or the speed."
+        f"{condition.advance_ratio:.3f} is beyond this rotor.{how_far}{share} "
+        "Lower the weight, the altitude or the speed."
     )
 
 

@@ -104,10 +104,8 @@ def test_bad_input_is_exit_2_and_one_line(capsys: pytest.CaptureFixture[str], ar
 
 def test_sweep_table_and_csv(capsys: pytest.CaptureFixture[str], tmp_path: Path):
     path = tmp_path / "sweep.csv"
-    code, out, _ = run(
-        capsys, "sweep", "--mu", "0.1:0.3:0.1", "--twist", "linear:-8", "linear:-16", "--csv", str(path)
-    )
-    rows = list(csv.DictReader(path.open(encoding="utf-8")))
+    code, out, _ = run(capsys, "sweep", "--mu", "0.1:0.3:0.1", "--twist", "linear:-8", "linear:-16", "--csv", str(path))
+    rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines()))
     assert code == 0
     assert [row["mu"] for row in rows] == ["0.1", "0.2", "0.3"] * 2
     assert {row["twist"] for row in rows} == {"linear:-8", "linear:-16"}

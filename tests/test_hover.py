@@ -57,15 +57,15 @@ def test_ideal_twist_gives_uniform_inflow():
 
 def test_thesis_hover_is_the_closed_form_with_its_factor():
     """The solver's inflow is eq. (3.3) with the F that belongs to that inflow, and 0.75 R pitch the collective."""
-    from rotor.airfoil.sections import load_section
+    from rotor.airfoil.sections import load_installed
 
     solution = hover("thesis")
     rotor = solution.design.rotor
     r, lam = solution.disk.r, solution.disk.induced[:, 0]
     factor, _ = loss_factor(r, lam, rotor.blades, rotor.blade.root_cutout)
-    table = load_section(rotor.blade.spans[0].section).table
+    table = load_installed(rotor.blade.spans[0].section).table
     pitch = solution.disk.theta[:, 0] - table.zero_lift_alpha(0.3)
-    expected = closed_form_inflow(r, pitch, rotor.solidity, table.lift_slope(0.3), factor=factor)
+    expected = closed_form_inflow(r, pitch, rotor.solidity, float(table.lift_slope(0.3)), factor=factor)
     assert_allclose(lam, expected, rtol=1e-10)
     assert_allclose(np.interp(0.75, r, solution.disk.theta[:, 0]), solution.controls.collective, atol=1e-12)
 

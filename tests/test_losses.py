@@ -23,14 +23,14 @@ def test_prandtl_slope():
     f = np.geomspace(1e-3, 20.0, 40)
     h = 1e-6 * f
     difference = (prandtl(f + h)[0] - prandtl(f - h)[0]) / (2.0 * h)
-    assert_allclose(prandtl(f)[1], difference, rtol=2e-8, atol=1e-9)
+    assert_allclose(prandtl(f)[1], difference, rtol=1e-7, atol=1e-9)  # rounding of the difference
 
 
 def test_tip_factor_by_hand():
-    """Four blades, r = 0.95, λ = 0.05: f = ½·4·0.05/0.05 = 2, F = (2/π) arccos(e⁻²) = 0.913583."""
+    """Four blades, r = 0.95, λ = 0.05: f = ½·4·0.05/0.05 = 2, F = (2/π) arccos(e⁻²) = 0.913578."""
     factor, _ = loss_factor(0.95, 0.05, 4, 0.13, hub=False)
     assert_allclose(factor, 2.0 / math.pi * math.acos(math.exp(-2.0)), rtol=1e-14)
-    assert_allclose(factor, 0.913583, atol=1e-6)
+    assert_allclose(factor, 0.913578, atol=1e-6)
 
 
 def test_hub_factor_uses_the_printed_b():

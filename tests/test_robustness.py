@@ -101,7 +101,7 @@ def test_caveats_are_named():
     ],
 )
 def test_impossible_input_is_one_sentence(arguments: dict[str, object], words: str):
-    with pytest.raises(ValueError, match="(?s).*") as caught:
+    with pytest.raises(ValueError, match=r"(?s).*") as caught:
         make_design(**arguments)  # pyright: ignore[reportArgumentType]
     assert words in str(caught.value)
     assert "\n" not in str(caught.value)

@@ -48,9 +48,7 @@ def test_quadratic_root_tip_difference_and_curvature():
     assert_allclose(np.degrees(second) / 0.3**2 / 2.0, 6.0, rtol=1e-10)
 
 
-@given(
-    rate=st.floats(-24, 5), division=st.floats(0.2, 0.9), second=st.floats(0.01, 0.09)
-)
+@given(rate=st.floats(-24, 5), division=st.floats(0.2, 0.9), second=st.floats(0.01, 0.09))
 def test_equal_rates_are_linear(rate: float, division: float, second: float):
     law = PiecewiseLinearTwist((rate, rate, rate), (division, division + second))
     assert_allclose(law(R), LinearTwist(rate)(R), atol=1e-12)
@@ -78,7 +76,17 @@ def test_ideal_without_number_is_for_hover_at_this_weight():
 
 def test_uh60a_table_agrees_with_genhel():
     """GenHel TWSTMR (NASA CR-166309) relative to 0.75 R, from two transcriptions; the deck is within 0.12°."""
-    genhel = {0.25: 8.70, 0.30: 7.85, 0.40: 6.10, 0.50: 4.35, 0.60: 2.55, 0.70: 0.85, 0.80: -0.65, 0.90: -2.65, 0.95: -3.45}
+    genhel = {
+        0.25: 8.70,
+        0.30: 7.85,
+        0.40: 6.10,
+        0.50: 4.35,
+        0.60: 2.55,
+        0.70: 0.85,
+        0.80: -0.65,
+        0.90: -2.65,
+        0.95: -3.45,
+    }
     stations = np.array(list(genhel))
     assert_allclose(np.degrees(BUILTIN(stations)), list(genhel.values()), atol=0.13)
 
@@ -114,17 +122,25 @@ def test_table_file(tmp_path: Path):
     ],
 )
 def test_bad_specs_are_one_sentence(spec: str, words: str):
-    with pytest.raises(ValueError, match="(?s).*") as caught:
+    with pytest.raises(ValueError, match=r"(?s).*") as caught:
         parse(spec)
     assert words in str(caught.value)
     assert "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize(("text", "words"), [("0.2 3\n0.1 4\n", "ascend"), ("0.2 3\n0.3 x\n", "line 2"), ("0.5 1\n", "two or more"), ("0.2 3\n7 4\n", "line 2")])
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("0.2 3\n0.1 4\n", "ascend"),
+        ("0.2 3\n0.3 x\n", "line 2"),
+        ("0.5 1\n", "two or more"),
+        ("0.2 3\n7 4\n", "line 2"),
+    ],
+)
 def test_bad_tables_are_one_sentence(tmp_path: Path, text: str, words: str):
     path = tmp_path / "bad.txt"
     path.write_text(text, encoding="utf-8")
-    with pytest.raises(ValueError, match="(?s).*") as caught:
+    with pytest.raises(ValueError, match=r"(?s).*") as caught:
         parse(f"table:{path}")
     assert words in str(caught.value)
 

@@ -1,6 +1,7 @@
 """`bench`: milliseconds per evaluation and per trim, beside two baselines measured in the same run."""
 
 import argparse
+import importlib
 import json
 import math
 import statistics
@@ -46,7 +47,7 @@ def run(args: argparse.Namespace) -> int:
     print()
     cold = figures["trim, cold"]
     for name, value in figures.items():
-        if "hybr" in name or "dynbem" in name and "trim" in name:
+        if "hybr" in name or ("dynbem" in name and "trim" in name):
             print(f"{name} takes {value / cold:.0f} × our cold trim")
     for note in notes:
         print(f"note: {note}", file=sys.stderr)
@@ -98,30 +99,30 @@ def _hybr(problem: Any, start: Any) -> None:
 
 def _dynbem(design: Design) -> dict[str, float]:
     """dynbem (MIT, Rust): one evaluation of its Pitt–Peters model, and its trim of the hub moments by cyclic."""
-    import dynbem  # pyright: ignore
+    dynbem: Any = importlib.import_module("dynbem")
 
     main, mu = design.rotor, design.condition.advance_ratio
     alpha = np.radians(np.arange(-180.0, 180.5, 1.0))
-    polar = dynbem.TabulatedPolar(alpha, 1.1 * np.sin(2 * alpha), 0.01 + 1.2 * np.sin(alpha) ** 2)  # pyright: ignore
-    blade = dynbem.BladeGeometry(  # pyright: ignore
+    polar = dynbem.TabulatedPolar(alpha, 1.1 * np.sin(2 * alpha), 0.01 + 1.2 * np.sin(alpha) ** 2)
+    blade = dynbem.BladeGeometry(
         main.blades, main.radius, main.blade.root_cutout * main.radius, main.reference_chord, -16.0, 40
     )
-    definition = dynbem.RotorDefinition(  # pyright: ignore
+    definition = dynbem.RotorDefinition(
         blade,
-        dynbem.LinearPolarParameters(0.1, 6.0, 0.009, 12.0),  # pyright: ignore
-        control=dynbem.ControlProperties(swashplate_pitch_gain_rad=1.0),  # pyright: ignore
+        dynbem.LinearPolarParameters(0.1, 6.0, 0.009, 12.0),
+        control=dynbem.ControlProperties(swashplate_pitch_gain_rad=1.0),
     )
-    model = dynbem.PittPetersModel(definition, polar, 120)  # pyright: ignore
-    inputs = dynbem.RotorInputs(  # pyright: ignore
+    model = dynbem.PittPetersModel(definition, polar, 120)
+    inputs = dynbem.RotorInputs(
         collective_rad=0.15, tilt_lon=0.0, tilt_lat=0.0, R_hub=np.eye(3),
         v_hub_world=np.array([mu * main.tip_speed, 0.0, 0.0]), wind_world=np.zeros(3),
         omega_rad_s=main.angular_speed, rho_kg_m3=design.condition.density,
     )  # fmt: skip
-    state = dynbem.PittPetersRotorState(0.01, 0.0, 0.0)  # pyright: ignore
+    state = dynbem.PittPetersRotorState(0.01, 0.0, 0.0)
     return {
-        "dynbem evaluation": _time(lambda: model.compute_forces(inputs, state), 50),  # pyright: ignore
+        "dynbem evaluation": _time(lambda: model.compute_forces(inputs, state), 50),
         "dynbem cyclic trim": _time(
-            lambda: dynbem.solve_trim_cyclic(model, state, inputs, tilt_min=-0.26, tolerance_Nm=10.0),  # pyright: ignore
+            lambda: dynbem.solve_trim_cyclic(model, state, inputs, tilt_min=-0.26, tolerance_Nm=10.0),
             3,
         ),
     }

@@ -38,7 +38,9 @@ def add_design_arguments(parser: argparse.ArgumentParser, *, one_twist: bool) ->
     """The flags that describe a design."""
     twist = "linear:-8 | quadratic:A,D | segments:-12,-4@0.5 | ideal | uh60a | table:FILE (degrees, per radius)"
     parser.add_argument("--twist", metavar="SPEC", nargs=None if one_twist else "+", help=twist)
-    parser.add_argument("--preset", metavar="NAME", help="flight (default): what we believe; thesis: as the document states")
+    parser.add_argument(
+        "--preset", metavar="NAME", help="flight (default): what we believe; thesis: as the document states"
+    )
     parser.add_argument("--inflow", metavar="NAME", help="forward-flight inflow model, for example pitt-peters")
     parser.add_argument("--mass-kg", type=finite, metavar="KG", help="aircraft mass (default 8322.4)")
     parser.add_argument("--altitude-m", type=finite, metavar="M", help="pressure altitude (default 0)")
@@ -85,5 +87,3 @@ def finite(text: str) -> float:
     if not math.isfinite(value):
         raise argparse.ArgumentTypeError(f"{text!r} is not a finite number")
     return value
-
-

@@ -3,7 +3,7 @@
 import argparse
 import json
 import math
-from typing import Any
+from typing import Any, cast
 
 from rotor.command.parser import KNOT, add_design_arguments, design_from, finite
 from rotor.solution import Solution
@@ -74,7 +74,9 @@ def record(solution: Solution) -> dict[str, Any]:
 
 
 def _emptied(values: dict[str, Any]) -> dict[str, Any]:
-    return {key: _emptied(value) if isinstance(value, dict) else None for key, value in values.items()}  # pyright: ignore
+    return {
+        key: _emptied(cast(dict[str, Any], value)) if isinstance(value, dict) else None for key, value in values.items()
+    }
 
 
 def report(solution: Solution) -> str:
@@ -101,9 +103,12 @@ def report(solution: Solution) -> str:
         lines += ["", *(f"{name:<12}{math.degrees(value) + 0.0:10.2f} °" for name, value in degrees.items())]
         merit = solution.figure_of_merit
         lines += ["", f"C_T/σ {solution.ct_over_sigma:.4f} (σ {design.rotor.solidity:.4f})"]
-        lines += [f"figure of merit {merit:.3f}"] if merit is not None else [f"L/D_e {solution.lift_to_drag or 0.0:.2f}"]
+        lines += (
+            [f"figure of merit {merit:.3f}"] if merit is not None else [f"L/D_e {solution.lift_to_drag or 0.0:.2f}"]
+        )
         lines += [
-            f"reverse flow {100 * solution.reverse_flow_area:.1f} %, stalled {100 * solution.stalled_area:.1f} % of the disk"
+            f"of the disk: reverse flow {100 * solution.reverse_flow_area:.1f} %, "
+            f"stalled {100 * solution.stalled_area:.1f} %"
         ]
     lines += [f"caveat: {caveat.sentence}" for caveat in solution.caveats]
     return "\n".join(lines)
