@@ -27,7 +27,7 @@ def power_budget(problem: Problem, one: Pass) -> PowerBudget:
     unit = design.power_unit * disk.dr / len(disk.psi)
     cubed: Array = np.hypot(one.u_t, one.u_p) ** 3 * loads[kernel.CD]
     dissipation: Array = disk.half_solidity @ cubed
-    induced = float(np.vdot(one.induced, loads[kernel.FZ])) * unit
+    induced = float((one.induced * loads[kernel.FZ]).sum()) * unit
     profile = float(dissipation.sum()) * unit
     parasite = problem.drag * design.condition.advance_ratio * design.power_unit
     shaft = float((disk.r @ loads[kernel.FX]).sum()) * unit
