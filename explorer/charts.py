@@ -7,7 +7,7 @@ from explorer import readout
 from explorer.colours import BASELINE, LIMIT, NOW, THIS
 from explorer.plots import Plot, Range
 
-_HEIGHT = 98
+_HEIGHT = 94
 _GRID = uplot.Axis_Grid(show=True, width=1)
 _TICKS = uplot.Axis_Ticks(show=True, width=1, size=4)
 _FONT = "11px sans-serif"
@@ -48,7 +48,7 @@ class Chart:
             scales=self._scales(),
             axes=(
                 uplot.Axis(size=20, gap=2, space=45, grid=_GRID, ticks=_TICKS, font=_FONT),
-                uplot.Axis(size=42, gap=3, space=22, grid=_GRID, ticks=_TICKS, font=_FONT),
+                uplot.Axis(size=42, gap=3, space=15, grid=_GRID, ticks=_TICKS, font=_FONT),
             ),
             legend=uplot.Legend(show=False),
             cursor=uplot.Cursor(points=uplot.Cursor_Points(show=False), drag=uplot.Cursor_Drag(x=False, y=False)),

@@ -18,7 +18,7 @@ from explorer.fields import Field, ticks
 
 def colour_bar(field: Field, low: float, high: float, faded: bool = False) -> str:
     """HTML of constant height: label with unit, gradient, numbers. Data beyond an end take its colour."""
-    colours = colour_map(field.diverging, 33)
+    colours = colour_map(field.colours, 33)
     if faded:
         colours = greyed(colours)
     stops = ",".join(_css(colour) for colour in colours.tolist())

@@ -1,12 +1,15 @@
 """Colours: perceptual, colour-blind-safe maps made in OKLab, and the fixed colours of the page."""
 
 from functools import cache
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 Rgb = tuple[int, int, int]
+Scheme = Literal["sequential", "diverging", "margin"]
+"""One-sided; two-sided with rust for positive; two-sided with rust for negative, where a margin is used up."""
 
 # OKLab (Ottosson 2020): cube-rooted cone responses from L, a, b, and linear sRGB from cone responses.
 _CONES = np.array(
@@ -88,9 +91,12 @@ def _diverging(n: int) -> tuple[Rgb, ...]:
     return tuple(colours)
 
 
-def colour_map(diverging: bool, n: int) -> NDArray[np.uint8]:
-    """`n` colours, shape (n, 3): blue–pale–rust when diverging, else violet to yellow, of steadily rising lightness."""
-    return np.array(_diverging(n) if diverging else _sequential(n), dtype=np.uint8)
+def colour_map(scheme: Scheme, n: int) -> NDArray[np.uint8]:
+    """`n` colours, shape (n, 3): violet to yellow of steadily rising lightness, or two-sided about a pale middle."""
+    if scheme == "sequential":
+        return np.array(_sequential(n), dtype=np.uint8)
+    colours = np.array(_diverging(n), dtype=np.uint8)
+    return colours if scheme == "diverging" else colours[::-1]
 
 
 def greyed(colours: NDArray[np.uint8]) -> NDArray[np.uint8]:

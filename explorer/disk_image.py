@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from explorer.colours import VOID, colour_map, greyed
+from explorer.colours import VOID, Scheme, colour_map, greyed
 from explorer.polar import PolarGrid
 
 Array = NDArray[np.float64]
@@ -77,14 +77,14 @@ def indices(grid: PolarGrid, values: Array, low: float, high: float, void: NDArr
     return image.reshape(SIZE, SIZE)
 
 
-def palette(diverging: bool, faded: bool) -> Bytes:
+def palette(scheme: Scheme, faded: bool) -> Bytes:
     """The 256 RGBA entries, shape (256, 4); `faded` is the grey picture of an answer that no longer holds."""
-    return _palette(diverging, faded).copy()
+    return _palette(scheme, faded).copy()
 
 
-@lru_cache(maxsize=4)
-def _palette(diverging: bool, faded: bool) -> Bytes:
-    colours = colour_map(diverging, _LEVELS)
+@lru_cache(maxsize=6)
+def _palette(scheme: Scheme, faded: bool) -> Bytes:
+    colours = colour_map(scheme, _LEVELS)
     if faded:
         colours = greyed(colours)
     entries = np.zeros((256, 4), dtype=np.uint8)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from explorer.colours import Scheme
 from explorer.polar import PolarGrid
 from rotor.solution import DiskFields, Solution
 
@@ -22,12 +23,16 @@ class Field:
     low: float
     """Lower end of the fixed colour range, in `unit`."""
     high: float
-    diverging: bool
-    """Centred on zero, two-sided colours; the range is then symmetric."""
+    colours: Scheme
     sample: Callable[[Solution, PolarGrid], Array]
     """Values in `unit` on the polar grid, shape (radii, azimuths); finite everywhere."""
     void_in_reverse_flow: bool = False
     """Whether the quantity loses its meaning where the flow comes from the trailing edge."""
+
+    @property
+    def two_sided(self) -> bool:
+        """Centred on zero, with a symmetric range."""
+        return self.colours != "sequential"
 
     @property
     def label(self) -> str:
@@ -100,25 +105,25 @@ def _stall_margin(solution: Solution, grid: PolarGrid) -> Array:
 FIELDS: dict[str, Field] = {
     field.title: field
     for field in (
-        Field("Angle of attack", "°", -4.0, 14.0, False, _alpha, void_in_reverse_flow=True),
-        Field("Induced inflow λi", "", -0.08, 0.08, True, _induced),
-        Field("Total inflow λ", "", -0.12, 0.12, True, _inflow),
-        Field("Mach number", "", 0.0, 0.9, False, _mach),
-        Field("Lift coefficient", "", -0.4, 1.4, False, _cl),
-        Field("M²cn", "", -0.25, 0.25, True, _m2cn),
-        Field("Thrust dT/dr", "kN/m per blade", -1.0, 6.0, False, _thrust),
-        Field("Power dP/dr", "kW/m per blade", -20.0, 120.0, False, _power),
-        Field("Stall margin", "°", -12.0, 12.0, True, _stall_margin, void_in_reverse_flow=True),
+        Field("Angle of attack", "°", -4.0, 10.0, "sequential", _alpha, void_in_reverse_flow=True),
+        Field("Induced inflow λi", "", -0.08, 0.08, "diverging", _induced),
+        Field("Total inflow λ", "", -0.12, 0.12, "diverging", _inflow),
+        Field("Mach number", "", 0.0, 0.9, "sequential", _mach),
+        Field("Lift coefficient", "", -0.4, 1.4, "sequential", _cl),
+        Field("M²cn", "", -0.25, 0.25, "diverging", _m2cn),
+        Field("Thrust dT/dr", "kN/m per blade", -1.0, 6.0, "sequential", _thrust),
+        Field("Power dP/dr", "kW/m per blade", -20.0, 120.0, "sequential", _power),
+        Field("Stall margin", "°", -12.0, 12.0, "margin", _stall_margin, void_in_reverse_flow=True),
     )
 }
 """By title, in the order of the menu."""
 
 
 def fitted_range(field: Field, values: Array, shown: NDArray[np.bool_] | None = None) -> tuple[float, float]:
-    """A round range that holds all but the outer half per cent of `values`; symmetric for a diverging field."""
+    """A round range that holds all but the outer half per cent of `values`; symmetric for a two-sided field."""
     data = values if shown is None else values[shown]
     low, high = (float(end) for end in np.quantile(data, (0.005, 0.995)))
-    if field.diverging:
+    if field.two_sided:
         high = max(abs(low), abs(high), 1e-6)
         step = _nice(high / 4.0)
         high = step * math.ceil(high / step - 1e-9)

@@ -41,6 +41,8 @@ class Picture:
     """The marked blade first."""
     blade_vertices: Array
     """Shape (n, 3); the same for every blade."""
+    blade_faces: NDArray[np.uint32]
+    """Shape (m, 3); changes only with the rotor."""
     png: bytes
     outlines: dict[str, Array]
     """Segments in the disk plane [m], shape (n, 2, 3), by toggle; empty when off."""
@@ -55,11 +57,13 @@ def make_picture(solution: Solution, view: ViewState, colour_range: tuple[float,
     first = math.radians(view.azimuth_deg)
     hinge = rotor.blade.flap_hinge * rotor.radius
     speed = solution.design.airspeed
+    shape = blade_shape(rotor)
     return Picture(
         rotor=rotor_pose(controls),
         disk=tip_path_pose(controls, DISK_DROP),
         blades=tuple(blade_pose(controls, first + k * step, hinge) for k in range(rotor.blades)),
-        blade_vertices=blade_vertices(blade_shape(rotor), solution.design.twist, view.exaggeration),
+        blade_vertices=blade_vertices(shape, solution.design.twist, view.exaggeration),
+        blade_faces=shape.faces,
         png=disk_png(solution, FIELDS[view.field], colour_range),
         outlines=_outlines(solution, view),
         flight_label=f"{number(speed / KNOT)} kt" if speed > 0.0 else "",
@@ -71,7 +75,7 @@ def disk_png(solution: Solution, field: Field, colour_range: tuple[float, float]
     grid = polar_grid(solution.disk, disk_image.RADII, disk_image.AZIMUTHS)
     void = reverse_flow(solution, grid) if field.void_in_reverse_flow else None
     pixels = disk_image.indices(grid, field.sample(solution, grid), *colour_range, void)
-    return disk_image.encode_png(pixels, disk_image.palette(field.diverging, faded))
+    return disk_image.encode_png(pixels, disk_image.palette(field.colours, faded))
 
 
 def field_values(solution: Solution, field: Field) -> Array:

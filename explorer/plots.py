@@ -74,7 +74,9 @@ def power_plot(curve: PowerCurve, mu: float, power_kw: float | None, previous: R
         single(0.0, curve.design[0]),
         now,
     )
-    return Plot(data, _range_of(data[1:], previous, floor=0.0))
+    # Ranged on what is flown: the last points climb so steeply that they would flatten everything else.
+    flown = x <= max(0.4, mu)
+    return Plot(data, _range_of([values[flown] for values in data[1:]], previous, floor=0.0))
 
 
 def twist_plot(design: Design, baseline: Design, previous: Range | None) -> Plot:

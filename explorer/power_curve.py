@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from explorer import solver
 from explorer.plots import SWEEP, PowerCurve
 from explorer.state import baseline_of
 from rotor.design import Design
 from rotor.solution import Solution
+from rotor.solve import solve
 from rotor.sweep import at_advance_ratio
 
 Array = NDArray[np.float64]
@@ -55,7 +55,7 @@ class PowerCurves:
                     coarse = True
                 if coarse and k % 4 and k != len(SWEEP) - 1:
                     continue
-                point = solver.solve(at_advance_ratio(family, mu), start)
+                point = solve(at_advance_ratio(family, mu), start)
                 if point.converged:
                     start, values[k] = point, point.power.total / 1e3
             if coarse:

@@ -109,7 +109,16 @@ def status_panel(solution: Solution | None, problem: str | None = None) -> str:
     caveats = "".join(
         f'<div class="rx-care"><span>▲</span><span>{escape(c.sentence)}</span></div>' for c in solution.caveats
     )
-    return _status("converged", f'<div><span class="rx-good">●</span> {escape(solution.message)}</div>{caveats}')
+    detail = (
+        f"{escape(solution.message)} Residual below {_tiny(solution.residual)} of weight, {solution.passes} passes."
+    )
+    return _status("converged", f'<div><span class="rx-good">●</span> {detail}</div>{caveats}')
+
+
+def _tiny(value: float) -> str:
+    """The power of ten above a small positive number."""
+    exponent = min(math.floor(-math.log10(value)), 15) if 0.0 < value < 1.0 else 15
+    return "10⁻" + str(exponent).translate(str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹"))
 
 
 def _status(kind: str, text: str) -> str:

@@ -86,6 +86,8 @@ class Scene:
         _place(self._disk, picture.disk)
         vertices = picture.blade_vertices.astype(np.float32)
         for handle, pose in zip(self._blades, picture.blades, strict=True):
+            if not np.array_equal(handle.faces, picture.blade_faces):
+                handle.faces = picture.blade_faces
             handle.vertices = vertices
             _place(handle, pose)
         viser_compat.set_png(self._image, picture.png)
@@ -93,7 +95,7 @@ class Scene:
             for lift, handle in enumerate(self._outlines[name]):
                 handle.visible = len(segments) > 0
                 if len(segments):
-                    handle.points = (segments + np.array([0.0, 0.0, 0.01 * lift])).astype(np.float32)
+                    handle.points = (segments + np.array([0.0, 0.0, 0.06 * lift])).astype(np.float32)
         self._flight.visible = picture.flight_label != ""
         if picture.flight_label:
             self._flight_label.text = picture.flight_label

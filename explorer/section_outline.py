@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotor.airfoil.contour import SECTION_NAMES, load_contour, resample
+from rotor.airfoil.sections import load_installed
 
 Array = NDArray[np.float64]
 
@@ -19,11 +20,6 @@ def blade_axes_outline(section: str, points: int) -> Array:
     name = next(known for known in sorted(SECTION_NAMES, key=len, reverse=True) if section.startswith(known))
     outline = resample(load_contour(name), points).points
     y, z = 0.25 - outline[:, 0], outline[:, 1]
-    droop, ratio = _mounting(name)
-    cos, sin = np.cos(droop), np.sin(droop)
-    return ratio * np.stack((y * cos + z * sin, z * cos - y * sin), axis=1)
-
-
-def _mounting(name: str) -> tuple[float, float]:
-    """Nose-down droop [rad] and chord ratio."""
-    return (np.radians(1.0), 1.009875) if name == "sc1094r8" else (0.0, 1.0)
+    installed = load_installed(section)
+    cos, sin = np.cos(installed.incidence_offset), np.sin(installed.incidence_offset)
+    return installed.chord_ratio * np.stack((y * cos + z * sin, z * cos - y * sin), axis=1)

@@ -18,6 +18,7 @@ from explorer.state import Inputs, ViewState, baseline_of
 from explorer.worker import LatestWins
 from rotor.presets import uh60a_rotor
 from rotor.solution import Solution
+from rotor.solve import solve
 
 _log = logging.getLogger(__name__)
 _CHART_WIDTH, _CONTROL_WIDTH = 340, 320
@@ -84,7 +85,7 @@ class Session:
             self._lose(view, readout.status_panel(None, str(error)))
             return
         if self._latest is None or self._latest.design != design:
-            self._latest = solver.solve(design, self._good)
+            self._latest = solve(design, self._good)
         if not self._latest.converged:
             self._lose(view, readout.status_panel(self._latest))
             return

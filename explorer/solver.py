@@ -1,26 +1,18 @@
-"""The solver behind one door, opened in the background: importing and warming it must not hold up the first page."""
+"""The solver as the page uses it: warmed in the background, and a baseline remembered."""
 
-import threading
 from dataclasses import dataclass
 
 from rotor.design import Design
 from rotor.presets import PRESETS, make_design
 from rotor.solution import Solution
-
-_first = threading.Lock()
-
-
-def solve(design: Design, start: Solution | None = None) -> Solution:
-    """Trim a design, from an earlier solution if one is given."""
-    with _first:
-        from rotor.solve import solve as trim
-    return trim(design, start)
+from rotor.solve import solve
 
 
 def warm() -> None:
-    """Load and run everything once that a first answer would otherwise wait for."""
+    """Compile and load everything that a first answer would otherwise wait for."""
     for preset in PRESETS:
-        solve(make_design(preset))
+        for advance_ratio in (0.0, 0.2):
+            solve(make_design(preset, advance_ratio=advance_ratio))
 
 
 @dataclass

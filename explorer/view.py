@@ -12,7 +12,7 @@ View = Literal["3d", "top"]
 
 FIELD_OF_VIEW = math.radians(30.0)
 """Vertical [rad]: narrow, so that the near side of the disk is not blown up."""
-_ELEVATION = {"3d": math.radians(52.0), "top": math.radians(89.9)}
+_ELEVATION = {"3d": math.radians(57.0), "top": math.radians(89.9)}
 """Above the horizon; not quite 90° for the plan, where "up" would be undefined."""
 _MARGIN = 0.955
 
@@ -53,5 +53,6 @@ def fit(view: View, radius: float, aspect: float) -> Camera:
 def _outline(radius: float) -> Array:
     psi = np.linspace(0.0, 2.0 * math.pi, 73)
     ring = 1.16 * radius * np.stack((np.cos(psi), np.sin(psi), np.zeros_like(psi)), axis=1)
-    nose = np.array([[-1.30 * radius, 0.0, 0.0], [-1.30 * radius, 0.0, 0.06 * radius]])
-    return np.concatenate((ring, nose))
+    # The flight arrow ahead, and room for the labels to either side.
+    beyond = np.array([[-1.32, 0.0, 0.0], [0.0, 1.25, 0.0], [0.0, -1.25, 0.0]])
+    return np.concatenate((ring, radius * beyond))
