@@ -30,10 +30,10 @@ FloatArray = NDArray[np.float64]
 REYNOLDS_PER_MACH = 12.27e6  # c = 0.527 m, ISA sea level.
 TRIP = 0.05  # Transition at 5 % chord, both sides: free transition gives 16-35 % too little drag.
 NATIVE_MACHS = (0.1, 0.2, 0.3, 0.4)
-POLAR_ALPHA_DEG = np.arange(-36, 37) * 0.5
+POLAR_ALPHA_DEG = np.arange(-36, 37, dtype=np.float64) * 0.5
 USED_ALPHA_DEG = 16.0  # Beyond, XFOIL jumps between separated branches; values are held there and blended away.
 THESIS_CASE = XfoilCase(mach=0.3, reynolds=3.68e6, n_crit=9.0, trip=None)
-THESIS_ALPHA_DEG = np.arange(-60, 81) * 0.25  # -15..20 deg
+THESIS_ALPHA_DEG = np.arange(-60, 81, dtype=np.float64) * 0.25  # -15..20 deg
 DECK_MACH = np.array([0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0])
 
 TRAITS = {

@@ -78,7 +78,7 @@ class _Cards:
             if first and with_angle:
                 angle = self.number(head)
             elif head.strip():
-                raise self.fail(f"{head!r} stands where a continuation card has seven blanks: check the counts in line 1")
+                raise self.fail(f"{head!r} stands where a continuation card has blanks: check the counts in line 1")
             here = min(_PER_CARD, count - len(values))
             if len(body) > here * _FIELD:
                 raise self.fail(f"more than {here} values: check the counts in line 1")
@@ -112,7 +112,7 @@ def parse_c81(text: str, name: str = "deck") -> C81Deck:
     for k in range(6):
         field = head[30 + 2 * k : 32 + 2 * k]
         if not field.strip().isdigit() or int(field) < 2:
-            raise cards.fail(f"columns 31-42 are {head[30:42]!r}: they must be six two-digit counts (6I2) of at least 2")
+            raise cards.fail(f"columns 31-42 are {head[30:42]!r}: give six two-digit counts (6I2) of at least 2")
         counts.append(int(field))
     blocks = [_block(cards, _NAMES[k], counts[2 * k], counts[2 * k + 1]) for k in range(3)]
     for rest in range(cards.at, len(cards.lines)):
@@ -129,8 +129,8 @@ def read_c81(path: Path) -> C81Deck:
 
 def _field(value: float, decimals: int) -> str:
     """`value` in seven characters with `decimals` decimals, or as many as fit."""
-    for decimals in range(decimals, -1, -1):
-        text = f"{value:{_FIELD}.{decimals}f}"
+    for fitting in range(decimals, -1, -1):
+        text = f"{value:{_FIELD}.{fitting}f}"
         if len(text) == _FIELD:
             return text
     raise ValueError(f"{value:g} does not fit into a field of seven characters: C81 holds -99999 to 999999")
@@ -147,7 +147,9 @@ def format_c81(deck: C81Deck) -> str:
     blocks = (deck.cl, deck.cd, deck.cm)
     counts = [n for block in blocks for n in (block.mach.size, block.alpha_deg.size)]
     if max(counts) > 99 or len(deck.title) > 30:
-        raise ValueError(f"C81 holds at most 99 angles and a title of 30 characters, not {max(counts)} and {deck.title!r}")
+        raise ValueError(
+            f"C81 holds 99 angles and a title of 30 characters at most, not {max(counts)} and {deck.title!r}"
+        )
     lines = [f"{deck.title:<30}" + "".join(f"{n:2d}" for n in counts)]
     for name, block in zip(_NAMES, blocks, strict=True):
         lines += _cards_of(" " * _FIELD, block.mach, 3)

@@ -15,7 +15,7 @@ from rotor.airfoil.c81 import format_c81, read_c81
 from rotor.airfoil.polars import read_polars, write_polars
 from rotor.airfoil.polynomial import THESIS_NAME
 from rotor.airfoil.sections import load_installed
-from rotor.airfoil.xfoil import XfoilMissing
+from rotor.airfoil.xfoil import XfoilError
 from rotor.library import asset_path
 
 CL_TOLERANCE = 0.01  # Convergence gaps of XFOIL move with its version and the machine, so bytes cannot be compared.
@@ -36,15 +36,17 @@ def add_parser(subparsers: Any) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """0 done, 1 the rebuilt deck differs from the bundled one; ValueError on bad input or without XFOIL."""
+    """0 done, 1 the rebuilt deck differs from the bundled one; ValueError on bad input or when XFOIL fails."""
     try:
         if args.action == "build":
             return _build(args.name, args.from_polars, args.out)
         if args.action == "verify":
             return _verify(args.name, args.from_polars)
         return _show(args.name, args.json)
-    except XfoilMissing as error:
+    except XfoilError as error:
         raise ValueError(str(error)) from None
+    except PermissionError as error:
+        raise ValueError(f"cannot write {error.filename!r}: give --out a folder of your own") from None
 
 
 def _progress(message: str) -> None:
@@ -86,7 +88,8 @@ def _verify(name: str, from_polars: bool) -> int:
     found = compare_decks(make_deck(name, polars), shipped)
     good = found.within(CL_TOLERANCE, CD_TOLERANCE)
     print(f"{name}: largest difference in cl {found.cl:.4f} (at {found.cl_at}; allowed {CL_TOLERANCE:g})")
-    print(f"{name}: largest difference in cd {100 * found.cd:.2f} % (at {found.cd_at}; allowed {100 * CD_TOLERANCE:g} %)")
+    allowed = 100.0 * CD_TOLERANCE
+    print(f"{name}: largest difference in cd {100.0 * found.cd:.2f} % (at {found.cd_at}; allowed {allowed:g} %)")
     print(f"{name}: {'agrees with' if good else 'DIFFERS from'} the bundled deck")
     return 0 if good else 1
 

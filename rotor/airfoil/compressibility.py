@@ -21,11 +21,12 @@ LIFT_DIVERGENCE_MACH = 0.75  # The lift slope grows no more above: Prandtl-Glaue
 KORN_KAPPA = 0.86  # Technology factor of Korn's relation, fitted to the CR-166309 SC1095 deck.
 LINEAR_RISE_FROM = 0.2  # M - M_cr beyond which the wave drag rises linearly; the quartic is far too steep at M 0.9.
 FRICTION_REYNOLDS_POWER = -0.16  # Of tripped XFOIL cd at fixed Mach; Reynolds is proportional to Mach here.
-CAP_SHARPNESS = 8.0  # Exponent of the smooth cap; 1 % off at 70 % of the cap.
+CAP_SHARPNESS = 8.0  # Exponent of the smooth cap above Mach 0.4; takes 1 % off at 75 % of the cap.
+NATIVE_CAP_SHARPNESS = 16.0  # The same up to Mach 0.4, where what lies well below the cap is to be left alone.
 
-# Largest lift coefficient against Mach of SC1095: XFOIL (tripped) up to 0.3, then as read off RANS and deck.
-_CAP_MACH = (0.0, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0)
-_CAP_CL = (1.50, 1.50, 1.35, 1.10, 1.00, 0.93, 0.91, 0.91)
+# Largest lift coefficient of SC1095 against Mach: own tripped XFOIL to 0.4, then as read off RANS and deck.
+_CAP_MACH = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0)
+_CAP_CL = (1.45, 1.45, 1.52, 1.50, 1.43, 1.10, 1.00, 0.93, 0.91, 0.91)
 
 
 @dataclass(frozen=True)
@@ -47,10 +48,10 @@ def lift_cap(mach: float, traits: SectionTraits) -> float:
     return float(PchipInterpolator(_CAP_MACH, _CAP_CL)(mach)) * traits.cap_ratio
 
 
-def smooth_cap(cl: FloatArray, upper: float, lower: float) -> FloatArray:
-    """`cl` held between -`lower` and `upper` without a corner: x / (1 + |x/cap|^n)^(1/n), n = CAP_SHARPNESS."""
+def smooth_cap(cl: FloatArray, upper: float, lower: float, sharpness: float = CAP_SHARPNESS) -> FloatArray:
+    """`cl` held between -`lower` and `upper` without a corner: x / (1 + |x/cap|^n)^(1/n), n = `sharpness`."""
     cap = np.where(cl >= 0.0, upper, lower)
-    return np.asarray(cl / (1.0 + np.abs(cl / cap) ** CAP_SHARPNESS) ** (1.0 / CAP_SHARPNESS), dtype=np.float64)
+    return np.asarray(cl / (1.0 + np.abs(cl / cap) ** sharpness) ** (1.0 / sharpness), dtype=np.float64)
 
 
 def prandtl_glauert(mach: float) -> float:
@@ -102,5 +103,5 @@ def capped_polar(
     """(cl, cd, cm) of a native polar, its positive lift capped where XFOIL's own maximum is not believed."""
     if not traits.cap_native:
         return cl, cd, cm
-    held = np.where(cl > 0.0, smooth_cap(cl, lift_cap(mach, traits), 1.0), cl)
+    held = np.where(cl > 0.0, smooth_cap(cl, lift_cap(mach, traits), 1.0, NATIVE_CAP_SHARPNESS), cl)
     return held, with_lost_suction(alpha, cl, held, cd), cm

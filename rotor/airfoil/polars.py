@@ -62,7 +62,7 @@ def read_polars(path: Path) -> PolarSet:
         except ValueError:
             row = ()
         if len(row) != 6 or not row[4] > 0.0:
-            raise ValueError(f"{path.name}, line {number}: {line!r} is not `{_COLUMNS}` with a positive cd: fix the line")
+            raise ValueError(f"{path.name}, line {number}: {line!r} is not `{_COLUMNS}` with cd > 0: fix the line")
         rows.append(row)
     if not rows:
         raise ValueError(f"{path.name} holds no polar: rebuild it with `python -m rotor airfoil build`")

@@ -27,6 +27,10 @@ DRAG_ORDER = 12  # document, fig. 3.4
 FIT_RANGE_DEG = (-10.0, 15.0)  # our choice: within 0.5 % of the interpolated polar in rotor power
 
 
+def _series_at(t: FloatArray, series: FloatArray) -> FloatArray:
+    return np.asarray(chebyshev.chebval(t, series), dtype=np.float64)
+
+
 @dataclass(frozen=True, eq=False)
 class PolynomialSection:
     """Least-squares Chebyshev series of lift and drag over `fit_range` [rad], held outside.
@@ -50,14 +54,14 @@ class PolynomialSection:
     def __call__(self, alpha: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """(cl, cd) at `alpha` [rad] without any treatment of reverse flow."""
         t = self._scaled(np.asarray(alpha, dtype=np.float64))
-        return np.asarray(chebyshev.chebval(t, self.cl_series)), np.asarray(chebyshev.chebval(t, self.cd_series))
+        return _series_at(t, self.cl_series), _series_at(t, self.cd_series)
 
     def slopes(self, alpha: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """(dcl, dcd)/dalpha [1/rad], zero where the value is held; at the ends of the fit, from inside."""
         a = np.asarray(alpha, dtype=np.float64)
         t, scale = self._scaled(a), np.where(self.outside(a), 0.0, 2.0 / (self.fit_range[1] - self.fit_range[0]))
-        cl, cd = (chebyshev.chebval(t, chebyshev.chebder(s)) for s in (self.cl_series, self.cd_series))
-        return np.asarray(cl) * scale, np.asarray(cd) * scale
+        cl, cd = (np.asarray(chebyshev.chebder(s), dtype=np.float64) for s in (self.cl_series, self.cd_series))
+        return _series_at(t, cl) * scale, _series_at(t, cd) * scale
 
 
 def thesis_polar() -> Polar:
@@ -68,6 +72,10 @@ def thesis_polar() -> Polar:
 def _within(polar: Polar, range_deg: tuple[float, float]) -> tuple[FloatArray, FloatArray, FloatArray]:
     keep = (polar.alpha_deg >= range_deg[0]) & (polar.alpha_deg <= range_deg[1])
     return np.deg2rad(polar.alpha_deg[keep]), polar.cl[keep], polar.cd[keep]
+
+
+def _least_squares(t: FloatArray, values: FloatArray, order: int) -> FloatArray:
+    return np.asarray(np.linalg.lstsq(chebyshev.chebvander(t, order), values)[0], dtype=np.float64)
 
 
 def fit_polynomials(
@@ -85,8 +93,7 @@ def fit_polynomials(
         )
     a, b = np.deg2rad(range_deg[0]), np.deg2rad(range_deg[1])
     t = (2.0 * alpha - a - b) / (b - a)
-    series = (chebyshev.chebfit(t, cl, lift_order), chebyshev.chebfit(t, cd, drag_order))
-    return PolynomialSection((float(a), float(b)), np.asarray(series[0]), np.asarray(series[1]))
+    return PolynomialSection((float(a), float(b)), _least_squares(t, cl, lift_order), _least_squares(t, cd, drag_order))
 
 
 @dataclass(frozen=True)
@@ -124,8 +131,8 @@ def document_angle(alpha: FloatArray) -> tuple[FloatArray, FloatArray]:
     phi = phi_atan2 -+ pi, alpha_doc = alpha +- pi, and with Fz = L cos(phi) - D sin(phi),
     Fx = L sin(phi) + D cos(phi) both cosine and sine turn over: in atan2 form lift and drag would change
     sign, and the document's own change restores the drag: Cl(alpha) = -Cl_doc, Cd(alpha) = +Cd_doc.
-    A plate flown backwards at alpha_doc > 0 lifts towards its leading-edge-up side: the sign of
-    the lift is wrong in reverse flow. It is kept, because this preset is the document as stated.
+    The sign of that lift is wrong: at 175 deg a NACA 0012 measures cl = -0.54 (TN 3361), this gives +0.5.
+    It is kept, because the `thesis` preset is the document as stated, and reverse flow is slow.
     """
     reverse = np.abs(alpha) > np.pi / 2
     return np.where(reverse, alpha - np.copysign(np.pi, alpha), alpha), np.where(reverse, -1.0, 1.0)

@@ -25,7 +25,7 @@ def first_quarter_slope(slope: FloatArray, attached: FloatArray) -> FloatArray:
     low = excess <= 0.0
     low[:, -1] = True
     after = np.maximum(np.argmax(low, axis=1), 1)
-    curve = np.arange(after.size)
+    curve = np.arange(after.size, dtype=np.intp)
     before_value, after_value = excess[curve, after - 1], np.minimum(excess[curve, after], 0.0)
     share = np.where(excess[curve, after] > 0.0, 1.0, before_value / np.maximum(before_value - after_value, 1e-12))
     start = SEARCH_OUTWARD[after - 1]

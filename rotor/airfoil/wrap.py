@@ -42,7 +42,9 @@ def blend_weight(alpha: FloatArray) -> FloatArray:
     return t * t * (3.0 - 2.0 * t)
 
 
-def blend(alpha: FloatArray, cl: FloatArray, cd: FloatArray, cm: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+def blend(
+    alpha: FloatArray, cl: FloatArray, cd: FloatArray, cm: FloatArray
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Polar values blended into the closed form: cl and cm linearly, cd in its logarithm so that it stays positive."""
     weight = blend_weight(alpha)
     far_cl, far_cd, far_cm = wrap_coefficients(alpha)

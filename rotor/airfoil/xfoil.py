@@ -6,7 +6,9 @@ converge); else `xvfb-run` gives XFOIL a screen. Both can hang or crash at singl
 is its own process with a time limit, and sweeps with other panelings fill the gaps.
 """
 
+import os
 import shutil
+import signal
 import subprocess
 import tempfile
 from collections.abc import Callable, Sequence
@@ -27,7 +29,11 @@ _PANELINGS = ((160, 100), (200, 200), (240, 300), (180, 300), (220, 300))  # (pa
 Row = tuple[float, float, float]
 
 
-class XfoilMissing(RuntimeError):
+class XfoilError(RuntimeError):
+    """XFOIL gave no usable polar; the message is one sentence with a remedy."""
+
+
+class XfoilMissing(XfoilError):
     """XFOIL is not installed here."""
 
 
@@ -75,7 +81,9 @@ def _shim_folder() -> tempfile.TemporaryDirectory[str] | None:
     return folder if made.returncode == 0 else None
 
 
-def _sweep(contour: Contour, case: XfoilCase, start: float, stop: float, step: float, panels: int, iterations: int):
+def _sweep(
+    contour: Contour, case: XfoilCase, start: float, stop: float, step: float, panels: int, iterations: int
+) -> dict[float, Row]:
     """One XFOIL process marching from `start` to `stop` [deg]; the converged rows by angle, possibly none."""
     shim = _shim_folder()
     commands = ["LOAD section.dat", "PPAR", f"N {panels}", "", "", "OPER", f"VISC {case.reynolds:.0f}"]
@@ -90,23 +98,29 @@ def _sweep(contour: Contour, case: XfoilCase, start: float, stop: float, step: f
         body = "\n".join(f"{x:.7f} {y:.7f}" for x, y in contour.points)
         (where / "section.dat").write_text(f"{contour.name}\n{body}\n", encoding="utf-8")
         call = ["xfoil"] if shim is not None else ["xvfb-run", "-a", "xfoil"]
-        environment = {"PATH": "/usr/local/bin:/usr/bin:/bin", "HOME": folder}
+        environment = dict(os.environ)
         if shim is not None:
             environment["LD_PRELOAD"] = str(Path(shim.name) / "notraps.so")
-        clean = True
-        try:
-            done = subprocess.run(
-                call, input="\n".join(commands), cwd=where, env=environment, timeout=_TIME_LIMIT,
-                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, text=True, check=False,
-            )  # fmt: skip
-            clean = done.returncode == 0
-        except subprocess.TimeoutExpired:
-            clean = False
+        clean = _run(call, "\n".join(commands), where, environment)
         polar = where / "polar.txt"
         rows = _parse(polar.read_text(encoding="utf-8", errors="replace")) if polar.exists() else {}
     if not clean and rows:
         rows.popitem()  # The last row of a crashed or killed run may be cut or a NaN about to spread.
     return rows
+
+
+def _run(call: list[str], commands: str, folder: Path, environment: dict[str, str]) -> bool:
+    """Run one process on `commands`; False when it crashed or had to be killed for exceeding the time limit."""
+    with subprocess.Popen(
+        call, cwd=folder, env=environment, text=True, start_new_session=True,
+        stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+    ) as process:  # fmt: skip
+        try:
+            process.communicate(commands, timeout=_TIME_LIMIT)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)  # The whole session: xvfb-run has children of its own.
+            return False
+    return process.returncode == 0
 
 
 def _parse(text: str) -> dict[float, Row]:
@@ -162,7 +176,7 @@ def run_polar(
                 rows.setdefault(alpha, row)
     kept = [a for a in wanted if a in rows]
     if len(kept) < len(wanted) // 2:
-        raise RuntimeError(
+        raise XfoilError(
             f"xfoil converged at only {len(kept)} of {len(wanted)} angles at Mach {case.mach:g}: "
             "check the coordinates, or use the bundled polars with --from-polars"
         )

@@ -1,0 +1,85 @@
+"""Outlines: published thickness, order, and resampling that keeps the shape and lets sections be blended."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor.airfoil.contour import (
+    SECTION_NAMES,
+    chord_line,
+    load_contour,
+    read_contour,
+    resample,
+    thickness_and_camber,
+)
+
+
+# Public: SC1095 is 9.5 % thick, SC1094 R8 9.4 %, both at 27 % chord; camber measured on the NASA coordinates.
+@pytest.mark.parametrize(("name", "thickness", "camber"), [("sc1095", 0.095, 0.0081), ("sc1094r8", 0.094, 0.0213)])
+def test_thickness_is_the_published_one(name: str, thickness: float, camber: float) -> None:
+    got = thickness_and_camber(load_contour(name))
+    assert_allclose(got[0], thickness, atol=0.0003)
+    assert_allclose(got[1], 0.27, atol=0.01)
+    assert_allclose(got[2], camber, atol=0.0002)
+
+
+@pytest.mark.parametrize("name", SECTION_NAMES)
+def test_outline_runs_over_the_top_first_and_keeps_its_gap(name: str) -> None:
+    points = load_contour(name).points
+    assert points[3, 1] > points[-4, 1]
+    assert_allclose(points[0] - points[-1], [0.0, 0.0034], atol=0.0002)
+    nose, tail = chord_line(load_contour(name))
+    assert_allclose(nose, [0.0, 0.0], atol=1e-6)
+    assert_allclose(tail, [1.0, 0.0], atol=1e-6)
+    x, y = points.T
+    assert float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)) > 0.0, "counter-clockwise with y up"
+
+
+@pytest.mark.parametrize("name", SECTION_NAMES)
+@pytest.mark.parametrize("n", [41, 121, 201])
+def test_resampling_keeps_the_shape(name: str, n: int) -> None:
+    contour = load_contour(name)
+    again = resample(contour, n)
+    assert again.points.shape == (n, 2)
+    assert_allclose(again.points[[0, -1]], contour.points[[0, -1]], atol=1e-12)
+    assert_allclose(again.points[(n - 1) // 2], chord_line(contour)[0], atol=1e-12)  # The nose is the middle point.
+
+    def area(points: np.ndarray) -> float:
+        x, y = points.T
+        return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
+
+    # The area enclosed by n chords falls short by about (arc / n)^2 times the curvature: 1 % at 41 points.
+    assert_allclose(area(again.points), area(contour.points), rtol=0.01 * (41 / n) ** 2 + 1e-4)
+
+
+def test_sections_blend_point_by_point() -> None:
+    one, two = (resample(load_contour(name), 81).points for name in SECTION_NAMES)
+    assert np.abs(one - two).max() < 0.03, "corresponding points lie near each other"
+    half = 0.5 * (one + two)
+    assert np.all(np.diff(half[:41, 0]) < 0.0)
+    assert np.all(np.diff(half[41:, 0]) > 0.0)
+
+
+def test_selig_files_with_a_title_are_read(tmp_path: Path) -> None:
+    body = "\n".join(f"{x:.6f} {y:.6f}" for x, y in load_contour("sc1095").points)
+    (tmp_path / "copy.dat").write_text(f"SOME AIRFOIL\n{body}\n", encoding="utf-8")
+    assert_allclose(read_contour(tmp_path / "copy.dat").points, load_contour("sc1095").points, atol=1e-6)
+
+
+def test_bad_outlines_are_refused_in_one_sentence(tmp_path: Path) -> None:
+    body = [f"{x:.6f} {y:.6f}" for x, y in load_contour("sc1095").points]
+    for text, words in (
+        ("\n".join(body[:50]) + "\n0.5 oops\n", "line 51: '0.5 oops' is not `x y`"),
+        ("\n".join(body[:9]), "has 9 points"),
+        ("\n".join(body[::-1]), "starts on the lower side"),
+    ):
+        (tmp_path / "bad.dat").write_text(text, encoding="utf-8")
+        with pytest.raises(ValueError, match=r"bad\.dat") as caught:
+            read_contour(tmp_path / "bad.dat")
+        assert words in str(caught.value)
+    with pytest.raises(ValueError, match="odd number"):
+        resample(load_contour("sc1095"), 80)
+    with pytest.raises(ValueError, match="choose one of sc1095"):
+        load_contour("vr12")
