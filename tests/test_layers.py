@@ -12,7 +12,16 @@ import pytest
 
 ROOT = Path(__file__).parent.parent
 PHYSICS = {"numpy", "scipy", "numba", "threadpoolctl"}
-KNOW_VISER = {"app.py", "session.py", "scene.py", "controls.py", "viser_compat.py", "__main__.py"}
+KNOW_VISER = {
+    "__main__.py",
+    "app.py",
+    "session.py",
+    "scene.py",
+    "camera.py",
+    "controls.py",
+    "charts.py",
+    "viser_compat.py",
+}
 
 
 def sources(package: str) -> list[Path]:
@@ -48,6 +57,13 @@ def test_rotor_imports_only_numerics(path: Path):
 @pytest.mark.parametrize("path", [p for p in sources("explorer") if p.name not in KNOW_VISER], ids=name)
 def test_arrays_and_text_of_the_page_know_no_viser(path: Path):
     assert "viser" not in imports(path, lazy=True), f"{name(path)}: only {sorted(KNOW_VISER)} may import viser"
+
+
+def test_only_one_file_leans_on_private_names_of_viser():
+    users = [
+        path.name for path in sources("explorer") if re.search(r"viser\.(\w+\.)*_", path.read_text(encoding="utf-8"))
+    ]
+    assert set(users) <= {"viser_compat.py"}
 
 
 def test_importing_rotor_brings_no_page():
