@@ -41,10 +41,12 @@ def held_range(previous: Range | None, low: float, high: float) -> Range:
         return previous or (0.0, 1.0)
     if previous is not None and previous[0] <= low and high <= previous[1] <= previous[0] + 2.5 * (high - low):
         return previous
+    # A little room, except below a zero that is a floor.
     span = max(high - low, 1e-6)
+    foot = 0.0 if low == 0.0 else 0.04 * span
     step = 10.0 ** math.floor(math.log10(span / 2.0))
     step = next(factor * step for factor in (1.0, 2.0, 5.0, 10.0) if factor * step >= span / 4.0)
-    return step * math.floor((low - 0.04 * span) / step), step * math.ceil((high + 0.04 * span) / step)
+    return step * math.floor((low - foot) / step), step * math.ceil((high + 0.04 * span) / step)
 
 
 def power_plot(curve: PowerCurve, mu: float, power_kw: float | None, previous: Range | None) -> Plot:

@@ -49,7 +49,8 @@ def _change(power: PowerBudget, reference: PowerBudget | None) -> str:
 
 
 def _bar(power: PowerBudget) -> str:
-    parts = {name: max(getattr(power, name), 0.0) for name in PARTS}
+    values = {name: getattr(power, name) for name in PARTS}
+    parts = {name: value if value > 0.0 and math.isfinite(value) else 0.0 for name, value in values.items()}
     total = max(sum(parts.values()), 1.0)
     return "".join(
         f'<span style="flex:{value / total:.5f};background:{PARTS[name]}"></span>' for name, value in parts.items()
@@ -109,10 +110,9 @@ def status_panel(solution: Solution | None, problem: str | None = None) -> str:
     caveats = "".join(
         f'<div class="rx-care"><span>▲</span><span>{escape(c.sentence)}</span></div>' for c in solution.caveats
     )
-    detail = (
-        f"{escape(solution.message)} Residual below {_tiny(solution.residual)} of weight, {solution.passes} passes."
-    )
-    return _status("converged", f'<div><span class="rx-good">●</span> {detail}</div>{caveats}')
+    detail = f"Residual below {_tiny(solution.residual)} of weight, {solution.passes} passes."
+    text = f'<div><span class="rx-good">●</span> {escape(solution.message)} {detail}</div>'
+    return _status("converged", text + caveats)
 
 
 def _tiny(value: float) -> str:
