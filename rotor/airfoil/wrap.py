@@ -25,7 +25,7 @@ _CM_SIN = (-0.58524, 0.14099, -0.03031, 0.04132)  # cm = sum m_k sin(k a), k fro
 def wrap_coefficients(alpha: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
     """(cl, cd, cm) [-] of the closed form at `alpha` [rad], within -pi..pi; for 20..180 deg either way.
 
-    cl and cm are odd, cd is even; cd lies between 0.040 (backwards) and 2.1 (broadside).
+    cl and cm are odd, cd is even; cd lies between 0.043 (backwards) and 2.1 (broadside).
     """
     size = np.abs(alpha)
     x = (np.pi - size) / np.deg2rad(_REVERSE_WIDTH_DEG)
