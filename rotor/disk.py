@@ -45,6 +45,11 @@ class Disk:
     fit_range: tuple[float, float] | None
     """Angles of attack [rad] beyond which the document's polynomials, of one Mach number, are clamped; None: decks."""
 
+    @property
+    def shape(self) -> tuple[int, int]:
+        """(elements, azimuths)"""
+        return len(self.r), len(self.psi)
+
 
 @lru_cache(maxsize=16)
 def build_disk(rotor: Rotor, elements: int, azimuths: int) -> Disk:

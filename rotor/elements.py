@@ -4,7 +4,8 @@ Everything a trim unknown does to a blade element it does through the pitch θ, 
 their pointwise derivatives gives every sum and its exact derivatives.
 """
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +14,8 @@ from rotor import kernel
 from rotor.design import Design
 from rotor.disk import Disk, build_disk
 from rotor.flapping import FlapDynamics, flap_dynamics
-from rotor.inflow import LinearInflow, Wake, inflow_model
+from rotor.inflow import InflowModel, Wake, inflow_model
+from rotor.inflow.seam import Response
 from rotor.losses import loss_factor
 
 Array = NDArray[np.float64]
@@ -27,8 +29,7 @@ LOSS_AZIMUTHS = 24
 """Azimuths over which the loss factor is averaged; 24 agree with 360 to 1e-4 in F (tested)."""
 
 _RING = 2.0 * np.pi * np.arange(LOSS_AZIMUTHS) / LOSS_AZIMUTHS
-_RING_COS = np.cos(_RING)
-_RING_SIN = np.sin(_RING)
+_NO_LOAD = np.zeros((0, 0))
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,6 +38,8 @@ class Problem:
 
     design: Design
     disk: Disk
+    ring: Disk
+    """The same radii at the few azimuths over which the loss factor is averaged."""
     twist: Array
     """θ_tw at the elements [rad]."""
     flap: FlapDynamics
@@ -45,7 +48,7 @@ class Problem:
     """C_W"""
     drag: float
     """Fuselage drag over ρA(ΩR)²."""
-    inflow: LinearInflow
+    inflow: InflowModel
 
 
 def lay_out(design: Design) -> Problem:
@@ -55,6 +58,7 @@ def lay_out(design: Design) -> Problem:
     return Problem(
         design=design,
         disk=disk,
+        ring=replace(disk, psi=_RING, cos=np.cos(_RING), sin=np.sin(_RING)),
         twist=design.twist(disk.r),
         flap=flap_dynamics(rotor, condition.density, blade_weight=models.blade_weight),
         tip_mach=rotor.tip_speed / condition.sound_speed,
@@ -76,8 +80,8 @@ class Pass:
     u_p: Array
     induced: Array
     """λ_i"""
-    induced_slopes: Array
-    """∂λ_i by (α, λ0), (2, elements, azimuths)."""
+    response: Response | None
+    """What the inflow model answers to the loads; None in hover, whose annuli balance themselves."""
     loss: Array
     """F on lift, (elements,)."""
     loss_slopes: Array
@@ -88,22 +92,31 @@ class Pass:
     """As `kernel.element_loads` returns."""
 
 
-def run_pass(problem: Problem, state: Array) -> Pass:
+def skewed(problem: Problem, state: Array) -> Wake:
+    """The wake a state leaves: µ cos α, µ sin α, λ0."""
+    mu, tilt = problem.design.condition.advance_ratio, float(state[SHAFT_TILT])
+    return Wake(mu * math.cos(tilt), mu * math.sin(tilt), float(state[LAMBDA0]))
+
+
+def run_pass(problem: Problem, state: Array, induced: Array | None = None) -> Pass:
     """Velocities of eqs. (3.5), (3.6) and the loads they make.
 
     U_T = r + µ_x sin ψ; U_P = µ_z + λ_i + (r − e) β' + µ_x β cos ψ. µ_z is absent where the models leave out the axial
-    flow of the tilted disk, as (3.6) prints it; λ_i is then still skewed by the tilt, eq. (2.31).
+    flow of the tilted disk, as (3.6) prints it; λ_i is then still skewed by the tilt, eq. (2.31). A model that reacts
+    needs the induced field to try; its response says what it should have been.
     """
     disk, models = problem.disk, problem.design.models
-    mu, tilt, lambda0 = problem.design.condition.advance_ratio, state[SHAFT_TILT], state[LAMBDA0]
     cos, sin = disk.cos, disk.sin
-    mu_x, mu_z = mu * np.cos(tilt), mu * np.sin(tilt)
-    flow = Wake(mu_x, mu_z, lambda0) if models.disk_axial_flow else Wake(mu, 0.0, lambda0)
-
-    skew = Wake(mu_x, mu_z, lambda0)
-    induced, by_wake = problem.inflow.field(disk.r, cos, sin, skew)
-    induced_slopes = _by_tilt(by_wake, mu_x, mu_z)
-    loss, loss_slopes = _lift_loss(problem, skew, flow)
+    skew = skewed(problem, state)
+    flow = skew if models.disk_axial_flow else Wake(problem.design.condition.advance_ratio, 0.0, skew.lambda0)
+    if problem.inflow.reacts:
+        assert induced is not None
+        response = None
+        loss, loss_slopes = np.ones_like(disk.r), np.zeros((2, len(disk.r)))
+    else:
+        response = problem.inflow.respond(disk, skew, _NO_LOAD)
+        induced = response.induced
+        loss, loss_slopes = _lift_loss(problem, skew, flow)
 
     beta = state[CONING] + state[FLAP_1C] * cos + state[FLAP_1S] * sin
     beta_rate = state[FLAP_1S] * cos - state[FLAP_1C] * sin
@@ -114,10 +127,12 @@ def run_pass(problem: Problem, state: Array) -> Pass:
         theta, u_t, u_p, loss, problem.tip_mach,
         disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables,
     )  # fmt: skip
-    return Pass(state, flow, theta, u_t, u_p, induced, induced_slopes, loss, loss_slopes, beta, loads)
+    if response is None:
+        response = problem.inflow.respond(disk, skew, loads[kernel.FZ])
+    return Pass(state, flow, theta, u_t, u_p, induced, response, loss, loss_slopes, beta, loads)
 
 
-def _by_tilt(by_wake: Array, mu_x: float, mu_z: float) -> Array:
+def by_tilt(by_wake: Array, mu_x: float, mu_z: float) -> Array:
     """Derivatives by (µ_x, µ_z, λ0) to derivatives by (α, λ0): µ_x = µ cos α, µ_z = µ sin α."""
     return np.stack([mu_x * by_wake[1] - mu_z * by_wake[0], by_wake[2]])
 
@@ -125,85 +140,16 @@ def _by_tilt(by_wake: Array, mu_x: float, mu_z: float) -> Array:
 def _lift_loss(problem: Problem, skew: Wake, flow: Wake) -> tuple[Array, Array]:
     """Loss factor on lift, averaged over azimuth (thesis p. 24), (elements,), and slopes by (α, λ0)."""
     models, rotor = problem.design.models, problem.design.rotor
-    r = problem.disk.r
-    induced, by_wake = problem.inflow.field(r, _RING_COS, _RING_SIN, skew)
+    around = problem.inflow.respond(problem.ring, skew, _NO_LOAD)
     factor, slope = loss_factor(
-        r[:, None], flow.mu_z + induced, rotor.blades, rotor.blade.root_cutout, tip=models.tip_loss, hub=models.hub_loss
+        problem.ring.r[:, None],
+        flow.mu_z + around.induced,
+        rotor.blades,
+        rotor.blade.root_cutout,
+        tip=models.tip_loss,
+        hub=models.hub_loss,
     )
-    slopes = _by_tilt(by_wake, skew.mu_x, skew.mu_z)
+    slopes = by_tilt(around.by_wake, skew.mu_x, skew.mu_z)
     if models.disk_axial_flow:
         slopes[0] += skew.mu_x
     return factor.mean(axis=1), (slope * slopes).mean(axis=2)
-
-
-@dataclass(frozen=True)
-class Sums:
-    """Sums over the disk, as coefficients of ρA(ΩR)²."""
-
-    thrust: float
-    """C_T along the shaft, eq. (3.12)."""
-    drag: float
-    """C_H, aft in the hub plane: Σ (dF_x sin ψ − β dF_z cos ψ)."""
-    moment: tuple[float, float, float]
-    """Flap moment Σ (r − e) dF_z: mean, cos ψ and sin ψ parts."""
-
-
-def sums(problem: Problem, one: Pass) -> Sums:
-    """Thrust, H-force and flap moments of a pass."""
-    disk = problem.disk
-    lift = disk.dr * one.loads[kernel.FZ].sum(axis=0)
-    moment = disk.dr * ((disk.r - problem.flap.hinge) @ one.loads[kernel.FZ])
-    push = disk.dr * one.loads[kernel.FX].sum(axis=0)
-    n = len(disk.psi)
-    return Sums(
-        thrust=float(lift.mean()),
-        drag=float((push @ disk.sin - (one.beta * lift) @ disk.cos) / n),
-        moment=(float(moment.mean()), float(2.0 * (moment @ disk.cos) / n), float(2.0 * (moment @ disk.sin) / n)),
-    )
-
-
-def sums_jacobian(problem: Problem, one: Pass, unknowns: tuple[int, ...]) -> Array:
-    """Exact derivatives of (C_T, C_H, M0, M1c, M1s) by the chosen state entries, (5, unknowns)."""
-    disk, loads = problem.disk, one.loads
-    cos, sin = disk.cos, disk.sin
-    arm = (disk.r - problem.flap.hinge)[:, None]
-    lift_slopes = np.empty((len(unknowns), *one.theta.shape))
-    push_slopes = np.empty_like(lift_slopes)
-    for k, unknown in enumerate(unknowns):
-        lift, push = lift_slopes[k], push_slopes[k]
-        if unknown in (COLLECTIVE, CYCLIC_1C, CYCLIC_1S):
-            column = {COLLECTIVE: 1.0, CYCLIC_1C: cos, CYCLIC_1S: sin}[unknown]
-            np.multiply(loads[kernel.FZ_THETA], column, out=lift)
-            np.multiply(loads[kernel.FX_THETA], column, out=push)
-        elif unknown in (CONING, FLAP_1C, FLAP_1S):
-            column = {
-                CONING: one.flow.mu_x * cos,
-                FLAP_1C: one.flow.mu_x * cos**2 - arm * sin,
-                FLAP_1S: one.flow.mu_x * sin * cos + arm * cos,
-            }[unknown]
-            np.multiply(loads[kernel.FZ_UP], column, out=lift)
-            np.multiply(loads[kernel.FX_UP], column, out=push)
-        else:
-            row = 0 if unknown == SHAFT_TILT else 1
-            column = one.induced_slopes[row]
-            if unknown == SHAFT_TILT and problem.design.models.disk_axial_flow:
-                column = column + (one.flow.mu_x - one.flow.mu_z * one.beta * cos)
-            scaled = loads[kernel.LIFT] * one.loss_slopes[row][:, None]
-            np.multiply(loads[kernel.FZ_UP], column, out=lift)
-            np.multiply(loads[kernel.FX_UP], column, out=push)
-            lift += scaled * one.u_t
-            push += scaled * one.u_p
-            if unknown == SHAFT_TILT and problem.design.models.disk_axial_flow:
-                lift -= loads[kernel.FZ_UT] * (one.flow.mu_z * sin)
-                push -= loads[kernel.FX_UT] * (one.flow.mu_z * sin)
-    n = len(disk.psi)
-    lift = disk.dr * lift_slopes.sum(axis=1)
-    moment = disk.dr * (arm[:, 0] @ lift_slopes)
-    push = disk.dr * push_slopes.sum(axis=1)
-    drag = (push @ sin - (one.beta * lift) @ cos) / n
-    total = disk.dr * loads[kernel.FZ].sum(axis=0)
-    for k, unknown in enumerate(unknowns):  # β tilts the lift directly as well.
-        if unknown in (CONING, FLAP_1C, FLAP_1S):
-            shape = {CONING: cos, FLAP_1C: cos**2, FLAP_1S: sin * cos}[unknown]
-            drag[k] -= (total @ shape) / n
-    return np.stack([lift.mean(axis=1), drag, moment.mean(axis=1), 2.0 * (moment @ cos) / n, 2.0 * (moment @ sin) / n])

@@ -172,7 +172,7 @@ class _Annuli:
     def spread(self, theta0: float, thrust: float) -> Pass:
         """The hovering rotor as a pass over the whole disk."""
         problem, disk = self.problem, self.problem.disk
-        shape = (len(disk.r), len(disk.psi))
+        shape = disk.shape
 
         def everywhere(values: Array) -> Array:
             return np.repeat(values[:, None], shape[1], axis=1)
@@ -187,6 +187,6 @@ class _Annuli:
         state[CONING] = (problem.flap.load_gain * moment - problem.flap.weight) / problem.flap.frequency_squared
         state[LAMBDA0] = math.sqrt(max(thrust, 0.0) / 2.0)
         return Pass(
-            state, Wake(0.0, 0.0, state[LAMBDA0]), theta, u_t, induced, induced, np.zeros((2, *shape)),
+            state, Wake(0.0, 0.0, float(state[LAMBDA0])), theta, u_t, induced, induced, None,
             self.ones, np.zeros((2, shape[0])), np.full(shape[1], state[CONING]), loads,
         )  # fmt: skip

@@ -21,12 +21,13 @@ from rotor.elements import (
     Pass,
     Problem,
     lay_out,
-    sums,
 )
 from rotor.hover import HoverResult, hover
+from rotor.newton import Guess, TrimResult
 from rotor.power import power_budget
 from rotor.solution import Controls, DiskFields, Solution, Status
-from rotor.trim import TrimResult, trim
+from rotor.sums import sums
+from rotor.trim import trim
 from rotor.validity import caveats, failure_sentence
 
 Array = NDArray[np.float64]
@@ -46,7 +47,7 @@ def solve(design: Design, start: Solution | None = None) -> Solution:
     if design.hovering:
         ended: HoverResult | TrimResult = hover(problem, warm.controls.collective if warm else None)
     else:
-        ended = trim(problem, _state(warm.controls) if warm and not warm.design.hovering else None)
+        ended = trim(problem, _guess(warm) if warm and not warm.design.hovering else None)
     return _assemble(problem, ended, begin)
 
 
@@ -131,8 +132,9 @@ def _controls(one: Pass) -> Controls:
     )
 
 
-def _state(controls: Controls) -> Array:
-    return np.array(
+def _guess(earlier: Solution) -> Guess:
+    controls = earlier.controls
+    state = np.array(
         [
             controls.collective,
             controls.cyclic_1c,
@@ -144,3 +146,4 @@ def _state(controls: Controls) -> Array:
             controls.lambda0,
         ]
     )
+    return Guess(state, earlier.disk.induced)

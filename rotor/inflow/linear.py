@@ -11,27 +11,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from rotor.disk import Disk
+from rotor.inflow.seam import LoadLoop
+from rotor.inflow.wake import Wake
+
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Wake:
-    """What the wake's direction depends on; all over ΩR."""
-
-    mu_x: float
-    """Advance ratio in the disk plane, µ cos α."""
-    mu_z: float
-    """Advance ratio through the disk, µ sin α, positive down."""
-    lambda0: float
-    """Mean induced inflow of momentum theory."""
-
-    @property
-    def axial(self) -> float:
-        return self.mu_z + self.lambda0
-
-    @property
-    def speed(self) -> float:
-        return math.hypot(self.mu_x, self.axial)
 
 
 Gradient = tuple[float, float, float]
@@ -51,6 +35,13 @@ class LinearInflow:
     lateral: Callable[[Wake], Gradient]
     """k_y"""
 
+    reacts = False
+
+    def respond(self, disk: Disk, wake: Wake, load: Array) -> "PrescribedResponse":
+        """The prescribed field; the load is ignored."""
+        del load
+        return PrescribedResponse(*self.field(disk.r, disk.cos, disk.sin, wake))
+
     def field(self, r: Array, cos: Array, sin: Array, wake: Wake) -> tuple[Array, Array]:
         """λ_i, (n, m), at radii (n,) and azimuths given by cos ψ, sin ψ (m,); slopes by (µ_x, µ_z, λ0), (3, n, m)."""
         kx, kx_mu, kx_axial = self.longitudinal(wake)
@@ -60,6 +51,35 @@ class LinearInflow:
         by_mu = (wake.lambda0 * r) * (kx_mu * cos + ky_mu * sin)
         by_axial = (wake.lambda0 * r) * (kx_axial * cos + ky_axial * sin)
         return wake.lambda0 * shape, np.stack([by_mu, by_axial, shape + by_axial])
+
+
+@dataclass(frozen=True, eq=False)
+class PrescribedResponse:
+    """A = 0: nothing that the load does comes back."""
+
+    induced: Array
+    by_wake: Array
+
+    def drive(self, fields: Array) -> Array:
+        """No load drives a prescribed inflow."""
+        return np.zeros_like(fields)
+
+    def drive_transposed(self, field: Array) -> Array:
+        """No load drives a prescribed inflow."""
+        return np.zeros_like(field)
+
+    def loop(self, slope: Array) -> LoadLoop:
+        """The open loop."""
+        del slope
+        return _OpenLoop()
+
+
+class _OpenLoop:
+    def solve(self, fields: Array) -> Array:
+        return fields
+
+    def solve_transposed(self, field: Array) -> Array:
+        return field
 
 
 def _zero(wake: Wake) -> Gradient:
@@ -104,7 +124,7 @@ def _white_blake(wake: Wake) -> Gradient:
     return root * wake.mu_x / wake.speed, root * wake.axial**2 / cube, -root * wake.mu_x * wake.axial / cube
 
 
-_LINEAR = (
+LINEAR_MODELS = (
     LinearInflow("uniform", "Uniform", "Glauert's mean inflow everywhere: no fore-aft gradient.", _zero, _zero),
     LinearInflow(
         "coleman", "Coleman", "kx = tan(χ/2), from a uniformly loaded skewed vortex cylinder (1945).",
@@ -125,13 +145,3 @@ _LINEAR = (
         _scaled_half_skew(15.0 * math.pi / 23.0), _zero,
     ),
 )  # fmt: skip
-
-INFLOW_MODELS: dict[str, LinearInflow] = {model.name: model for model in _LINEAR}
-"""Forward-flight inflow models by name."""
-
-
-def inflow_model(name: str) -> LinearInflow:
-    """The model of that name; ValueError with the names there are."""
-    if name not in INFLOW_MODELS:
-        raise ValueError(f"inflow model {name!r} is not known: use one of {', '.join(INFLOW_MODELS)}")
-    return INFLOW_MODELS[name]
