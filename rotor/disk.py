@@ -23,6 +23,9 @@ class Disk:
     """Element centres y/R, (elements,)."""
     dr: float
     """Element width over R: (1 − R_min/R)/N, eq. (3.14), whose left side is printed Δy."""
+    root: float
+    """r/R where the lifting blade begins."""
+    blades: int
     psi: Array
     """Azimuths [rad], (azimuths,), 0 over the tail, evenly spaced, no repeated end."""
     cos: Array
@@ -77,6 +80,8 @@ def build_disk(rotor: Rotor, elements: int, azimuths: int) -> Disk:
     return Disk(
         r=r,
         dr=dr,
+        root=blade.root_cutout,
+        blades=rotor.blades,
         psi=psi,
         cos=np.cos(psi),
         sin=np.sin(psi),

@@ -70,7 +70,7 @@ class HoverResult:
 
 def hover(problem: Problem, start: float | None = None) -> HoverResult:
     """Collective for a thrust equal to the weight; Newton with a bracket, from an optional collective [rad]."""
-    annuli = _Annuli(problem)
+    annuli = Annuli(problem)
     low, high = -0.3, _LARGEST_COLLECTIVE
     solidity = problem.design.rotor.solidity
     theta0 = (
@@ -99,7 +99,7 @@ def hover(problem: Problem, start: float | None = None) -> HoverResult:
     return HoverResult(annuli.spread(best[1], thrust), residual, annuli.passes, thrust / problem.weight)
 
 
-class _Annuli:
+class Annuli:
     """The annuli at a collective; remembers the last inflow as the next start."""
 
     def __init__(self, problem: Problem) -> None:
@@ -168,6 +168,12 @@ class _Annuli:
         dr = self.problem.disk.dr
         slope = loads[kernel.FZ_THETA] + loads[kernel.FZ_UP] * response
         return float(loads[kernel.FZ].sum() * dr), float(slope.sum() * dr)
+
+    def at(self, theta0: float) -> tuple[Pass, Array]:
+        """The whole disk at a collective, and ∂λ/∂θ of each annulus, (elements,)."""
+        _, response = self.solve(theta0)
+        thrust, _ = self.thrust(theta0)
+        return self.spread(theta0, thrust), response
 
     def spread(self, theta0: float, thrust: float) -> Pass:
         """The hovering rotor as a pass over the whole disk."""

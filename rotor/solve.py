@@ -23,11 +23,11 @@ from rotor.elements import (
     lay_out,
 )
 from rotor.hover import HoverResult, hover
-from rotor.newton import Guess, TrimResult
+from rotor.newton import TrimResult
 from rotor.power import power_budget
 from rotor.solution import Controls, DiskFields, Solution, Status
 from rotor.sums import sums
-from rotor.trim import trim
+from rotor.trim import guess_of, trim
 from rotor.validity import caveats, failure_sentence
 
 Array = NDArray[np.float64]
@@ -47,7 +47,7 @@ def solve(design: Design, start: Solution | None = None) -> Solution:
     if design.hovering:
         ended: HoverResult | TrimResult = hover(problem, warm.controls.collective if warm else None)
     else:
-        ended = trim(problem, _guess(warm) if warm and not warm.design.hovering else None)
+        ended = trim(problem, guess_of(warm) if warm and not warm.design.hovering else None)
     return _assemble(problem, ended, begin)
 
 
@@ -130,20 +130,3 @@ def _controls(one: Pass) -> Controls:
         flap_1s=state[FLAP_1S],
         lambda0=state[LAMBDA0],
     )
-
-
-def _guess(earlier: Solution) -> Guess:
-    controls = earlier.controls
-    state = np.array(
-        [
-            controls.collective,
-            controls.cyclic_1c,
-            controls.cyclic_1s,
-            controls.shaft_tilt,
-            controls.coning,
-            controls.flap_1c,
-            controls.flap_1s,
-            controls.lambda0,
-        ]
-    )
-    return Guess(state, earlier.disk.induced)

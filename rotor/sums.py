@@ -59,6 +59,18 @@ def weigh(problem: Problem, one: Pass, lift: Array, push: Array) -> Array:
     return np.stack([thrust.mean(axis=1), drag, moment.mean(axis=1), cosine, sine])
 
 
+def unweigh(problem: Problem, one: Pass, shares: Array) -> tuple[Array, Array]:
+    """The transpose of `weigh`: fields that weight F_z and F_x in shares · (C_T, C_H, M0, M1c, M1s)."""
+    disk = problem.disk
+    arm = (disk.r - problem.flap.hinge)[:, None]
+    thrust, drag, mean, cosine, sine = shares.tolist()
+    moment = arm * (mean + 2.0 * (cosine * disk.cos + sine * disk.sin))
+    cell = disk.dr / len(disk.psi)
+    lift: Array = cell * (thrust - drag * one.beta * disk.cos + moment)
+    push: Array = np.broadcast_to(cell * drag * disk.sin, disk.shape)
+    return lift, push
+
+
 @dataclass(frozen=True, eq=False)
 class Slopes:
     """What the chosen unknowns do to a pass, the inflow's answer included. Stacks lead with the unknowns."""
@@ -107,28 +119,33 @@ def slopes(problem: Problem, one: Pass, unknowns: tuple[int, ...], loop: LoadLoo
     return Slopes(unknowns, inflow, lift, push, total)
 
 
+def velocity_columns(problem: Problem, one: Pass, unknown: int) -> tuple[Array | float, Array | float]:
+    """∂U_T and ∂U_P by one unknown with the inflow held; broadcast to (elements, azimuths)."""
+    cos, sin = problem.disk.cos, problem.disk.sin
+    if unknown in (CONING, FLAP_1C, FLAP_1S):
+        down = one.flow.mu_x * cos * {CONING: 1.0, FLAP_1C: cos, FLAP_1S: sin}[unknown]
+        if unknown != CONING:
+            down = down + (problem.disk.r - problem.flap.hinge)[:, None] * (-sin if unknown == FLAP_1C else cos)
+        return 0.0, down
+    if unknown == SHAFT_TILT and problem.design.models.disk_axial_flow:
+        return -one.flow.mu_z * sin, one.flow.mu_x - one.flow.mu_z * one.beta * cos
+    return 0.0, 0.0
+
+
 def _direct(problem: Problem, one: Pass, unknown: int, lift: Array, push: Array) -> None:
     """Write ∂F_z, ∂F_x by one unknown with the inflow held: through θ, U_T, U_P and the loss factor."""
     disk, loads = problem.disk, one.loads
-    cos, sin = disk.cos, disk.sin
     if unknown in (COLLECTIVE, CYCLIC_1C, CYCLIC_1S):
-        column = {COLLECTIVE: 1.0, CYCLIC_1C: cos, CYCLIC_1S: sin}[unknown]
+        column = {COLLECTIVE: 1.0, CYCLIC_1C: disk.cos, CYCLIC_1S: disk.sin}[unknown]
         np.multiply(loads[kernel.FZ_THETA], column, out=lift)
         np.multiply(loads[kernel.FX_THETA], column, out=push)
-    elif unknown in (CONING, FLAP_1C, FLAP_1S):
-        arm = (disk.r - problem.flap.hinge)[:, None]
-        column = one.flow.mu_x * cos * {CONING: 1.0, FLAP_1C: cos, FLAP_1S: sin}[unknown]
-        if unknown != CONING:
-            column = column + arm * (-sin if unknown == FLAP_1C else cos)
-        np.multiply(loads[kernel.FZ_UP], column, out=lift)
-        np.multiply(loads[kernel.FX_UP], column, out=push)
-    else:
-        row = 0 if unknown == SHAFT_TILT else 1
-        scaled = loads[kernel.LIFT] * one.loss_slopes[row][:, None]
-        np.multiply(scaled, one.u_t, out=lift)
-        np.multiply(scaled, one.u_p, out=push)
-        if unknown == SHAFT_TILT and problem.design.models.disk_axial_flow:
-            down = one.flow.mu_x - one.flow.mu_z * one.beta * cos
-            across = -one.flow.mu_z * sin
-            lift += loads[kernel.FZ_UP] * down + loads[kernel.FZ_UT] * across
-            push += loads[kernel.FX_UP] * down + loads[kernel.FX_UT] * across
+        return
+    across, down = velocity_columns(problem, one, unknown)
+    np.multiply(loads[kernel.FZ_UP], down, out=lift)
+    np.multiply(loads[kernel.FX_UP], down, out=push)
+    if unknown in (SHAFT_TILT, LAMBDA0):
+        lift += loads[kernel.FZ_UT] * across
+        push += loads[kernel.FX_UT] * across
+        scaled = loads[kernel.LIFT] * one.loss_slopes[0 if unknown == SHAFT_TILT else 1][:, None]
+        lift += scaled * one.u_t
+        push += scaled * one.u_p

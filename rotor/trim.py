@@ -21,6 +21,7 @@ from rotor.elements import (
 )
 from rotor.momentum import glauert_inflow
 from rotor.newton import Guess, TrimResult, newton
+from rotor.solution import Solution
 
 _CONTINUATION_STEPS = 40
 _SMALLEST_STEP = 1.0 / 128.0
@@ -70,6 +71,16 @@ def first_guess(problem: Problem) -> Guess:
         state[FLAP_1C] = -8.0 / 3.0 * mu * state[COLLECTIVE]
         state[FLAP_1S] = -4.0 / 3.0 * mu * state[CONING]
     return Guess(state)
+
+
+def guess_of(earlier: Solution) -> Guess:
+    """Where an earlier forward-flight solution ended, as a start."""
+    controls = earlier.controls
+    state = np.empty(N_STATE)
+    state[COLLECTIVE], state[CYCLIC_1C], state[CYCLIC_1S] = controls.collective, controls.cyclic_1c, controls.cyclic_1s
+    state[SHAFT_TILT], state[CONING] = controls.shaft_tilt, controls.coning
+    state[FLAP_1C], state[FLAP_1S], state[LAMBDA0] = controls.flap_1c, controls.flap_1s, controls.lambda0
+    return Guess(state, earlier.disk.induced)
 
 
 def _easier(design: Design, t: float) -> Design:

@@ -9,9 +9,12 @@ from numpy.testing import assert_allclose
 
 from rotor import kernel
 from rotor.airfoil.sections import load_installed
-from rotor.elements import LAMBDA0, N_STATE, SHAFT_TILT, Problem, lay_out, run_pass, sums
+from rotor.elements import LAMBDA0, N_STATE, SHAFT_TILT, Problem, lay_out, run_pass
+from rotor.equilibrium import UNKNOWNS, jacobian, residuals
+from rotor.newton import newton
 from rotor.presets import FLIGHT_MODELS, make_design
-from rotor.trim import UNKNOWNS, first_guess, jacobian, newton, residuals
+from rotor.sums import slopes, sums
+from rotor.trim import first_guess
 
 STATE = np.array([0.17, 0.03, -0.09, 0.08, 0.06, -0.02, 0.01, 0.012])
 
@@ -116,7 +119,8 @@ def test_trim_jacobian(preset: str, models: dict[str, object], mu: float):
     state = STATE.copy()
     if preset == "thesis" or models.get("trim") == "thrust":
         state[SHAFT_TILT] = math.atan2(p.drag, p.weight)
-    exact = jacobian(p, run_pass(p, state), unknowns)
+    one = run_pass(p, state)
+    exact = jacobian(p, one, slopes(p, one, unknowns, None))
     h = 1e-6
     for k, unknown in enumerate(unknowns):
         step = np.zeros(N_STATE)
@@ -137,7 +141,7 @@ def test_newton_converges_quadratically():
         one = run_pass(p, state)
         error = residuals(p, one)
         sizes.append(np.abs(error).max() / p.weight)
-        state[unknowns] -= np.linalg.solve(jacobian(p, one, tuple(unknowns)), error)
+        state[unknowns] -= np.linalg.solve(jacobian(p, one, slopes(p, one, tuple(unknowns), None)), error)
     assert sizes[1] < sizes[0] ** 2
     assert sizes[2] < sizes[1] ** 2
     assert sizes[3] < 1e-13
@@ -151,7 +155,8 @@ def test_loss_average_over_azimuth_is_settled():
     state = newton(p, first_guess(p)).last.state
     one = run_pass(p, state)
     psi = 2.0 * np.pi * np.arange(360) / 360
-    field, _ = p.inflow.field(p.disk.r, np.cos(psi), np.sin(psi), one.flow)
+    around = replace(p.disk, psi=psi, cos=np.cos(psi), sin=np.sin(psi))
+    field = p.inflow.respond(around, one.flow, np.zeros((0, 0))).induced
     rotor = p.design.rotor
     factor, _ = loss_factor(p.disk.r[:, None], one.flow.mu_z + field, rotor.blades, rotor.blade.root_cutout)
     assert_allclose(one.loss, factor.mean(axis=1), atol=1e-4)

@@ -9,10 +9,11 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
 from rotor import kernel
-from rotor.elements import CONING, FLAP_1C, FLAP_1S, Problem, lay_out, run_pass
+from rotor.elements import CONING, FLAP_1C, FLAP_1S, Problem, lay_out, run_pass, skewed
 from rotor.flapping import flap_dynamics, lock_number
+from rotor.newton import newton
 from rotor.presets import make_design, uh60a_rotor
-from rotor.trim import first_guess, newton
+from rotor.trim import first_guess
 
 
 def trimmed(preset: str, mu: float) -> tuple[Problem, np.ndarray]:
@@ -28,17 +29,15 @@ def march(problem: Problem, state: np.ndarray, revolutions: int) -> np.ndarray:
     The load is evaluated at the instant's own β and β' with controls and inflow as trimmed; nothing here knows of
     harmonics.
     """
-    disk, flap, mu = problem.disk, problem.flap, problem.design.condition.advance_ratio
+    disk, flap = problem.disk, problem.flap
     one = run_pass(problem, state)
     k = one.flow
     r = disk.r
 
     def acceleration(psi: float, beta: float, rate: float) -> float:
         cos, sin = np.array([math.cos(psi)]), np.array([math.sin(psi)])
-        from rotor.inflow import Wake
-
-        skew = Wake(mu * math.cos(state[3]), mu * math.sin(state[3]), state[7])
-        induced, _ = problem.inflow.field(r, cos, sin, skew)
+        here = replace(disk, psi=np.array([psi]), cos=cos, sin=sin)
+        induced = problem.inflow.respond(here, skewed(problem, state), np.zeros((0, 0))).induced
         theta = (problem.twist + state[0] + state[1] * cos + state[2] * sin)[:, None]
         u_t = (r + k.mu_x * sin)[:, None]
         u_p = induced + ((r - flap.hinge) * rate + k.mu_z + k.mu_x * beta * cos)[:, None]

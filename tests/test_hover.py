@@ -123,10 +123,10 @@ def test_coning_by_the_moment_integral(preset: str):
 def test_collective_agrees_with_a_root_finder():
     """The collective that Newton finds is the one scipy's bracketing finds on thrust against collective."""
     from rotor.elements import lay_out
-    from rotor.hover import _Annuli
+    from rotor.hover import Annuli
 
     solution = hover()
-    annuli = _Annuli(lay_out(solution.design))
+    annuli = Annuli(lay_out(solution.design))
     root = brentq(lambda t: annuli.thrust(t)[0] - solution.design.weight_coefficient, 0.0, 0.3, xtol=1e-13)
     assert_allclose(solution.controls.collective, root, atol=1e-10)
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from rotor.inflow import Wake
+from rotor.inflow.wake import Wake
 from rotor.momentum import glauert_inflow
 from rotor.wake.dynamic_wake import DynamicWake, WakeResponse
 from rotor.wake.modes import radial_functions

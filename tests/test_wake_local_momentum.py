@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.inflow import Wake
+from rotor.inflow.wake import Wake
 from rotor.momentum import annulus_thrust, glauert_inflow
 from rotor.wake.local_momentum import sector_response
 

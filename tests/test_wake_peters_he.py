@@ -7,7 +7,7 @@ import pytest
 from inflow_tables import table
 from numpy.testing import assert_allclose
 
-from rotor.inflow import Wake
+from rotor.inflow.wake import Wake
 from rotor.wake.dynamic_wake import DynamicWake
 from rotor.wake.modes import mode_set, radial_function, radial_functions
 from rotor.wake.peters_he import Family, families, flow_parameters, gain

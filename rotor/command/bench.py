@@ -15,10 +15,12 @@ import numpy as np
 from scipy.optimize import root  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
 from rotor.design import Design
-from rotor.elements import N_STATE, lay_out, run_pass
+from rotor.elements import N_STATE, Problem, lay_out, run_pass
+from rotor.equilibrium import UNKNOWNS, residuals
+from rotor.newton import Guess, newton
 from rotor.presets import make_design
 from rotor.solve import solve
-from rotor.trim import UNKNOWNS, first_guess, newton, residuals
+from rotor.trim import first_guess
 from rotor.twist import LinearTwist
 
 TARGETS_MS = {"evaluation": 0.5, "trim, cold": 5.0, "trim, warm": 2.0, "hover, cold": 5.0}
@@ -59,11 +61,11 @@ def measure() -> tuple[dict[str, float], list[str]]:
     designs = [make_design("flight", twist="linear:-16", advance_ratio=mu) for mu in _ADVANCE_RATIOS]
     solve(designs[0])  # Compiles and loads before anything is timed.
     problems = [lay_out(design) for design in designs]
-    states = [newton(problem, first_guess(problem)).last.state for problem in problems]
+    passes = [newton(problem, first_guess(problem)).last for problem in problems]
     solutions = [solve(design) for design in designs]
     nearby = [_nudged(design) for design in designs]
     figures = {
-        "evaluation": _mean(lambda k: run_pass(problems[k], states[k]), 50),
+        "evaluation": _mean(lambda k: run_pass(problems[k], passes[k].state, passes[k].induced), 50),
         "trim, cold": _mean(lambda k: solve(designs[k]), 15),
         "trim, warm": _mean(lambda k: solve(nearby[k], solutions[k]), 15),
         "hover, cold": _time(lambda: solve(make_design("flight", advance_ratio=0.0)), 15),
@@ -83,10 +85,10 @@ def _nudged(design: Design) -> Design:
     return replace(design, twist=LinearTwist(math.radians(-15.5)), condition=condition)
 
 
-def _hybr(problem: Any, start: Any) -> None:
+def _hybr(problem: Problem, start: Guess) -> None:
     """The same residual through scipy's Powell hybrid method with finite differences."""
     unknowns = list(UNKNOWNS[problem.design.models.trim])
-    base = start.copy()
+    base = start.state
 
     def residual(x: Any) -> Any:
         state = np.empty(N_STATE)

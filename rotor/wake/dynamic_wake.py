@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lu_factor, lu_solve
 
-from rotor.inflow import Wake
+from rotor.inflow.wake import Wake
 from rotor.wake.peters_he import FlowParameters, families, flow_parameters
 from rotor.wake.projection import Projection, build_projection
 from rotor.wake.tip_factor import tip_factor
@@ -142,8 +142,8 @@ class WakeResponse:
     """∂F/∂(µ_z + λ0), (elements,)."""
 
     def states(self, d: Array) -> Array:
-        """x = T W d: the wake's states under a load, (states,)."""
-        return self.transfer(self.projection.loads(d))
+        """x = T W d: the wake's states under a load or a stack of loads, (…, states)."""
+        return self.transfer(self.projection.loads(d).T).T
 
     def field(self, x: Array) -> Array:
         """λ_i = C x/F, (…, states) → (…, elements, azimuths)."""
@@ -205,8 +205,8 @@ class LoadLoop:
         return lu_solve(self.lu, x, check_finite=False)
 
     def solve(self, f: Array) -> Array:
-        """λ with λ − A (K λ) = f, (elements, azimuths)."""
-        return f + self.response.field(self.solve_states(self.response.states(self.slope * f)))
+        """λ with λ − A (K λ) = f, for a field or a stack of fields, (…, elements, azimuths)."""
+        return f + self.response.field(self.solve_states(self.response.states(self.slope * f).T).T)
 
     def solve_transposed(self, g: Array) -> Array:
         """v with v − K Aᵀ v = g."""

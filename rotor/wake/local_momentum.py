@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.inflow import Wake
+from rotor.inflow.wake import Wake
 from rotor.wake.peters_he import flow_parameters
 from rotor.wake.tip_factor import tip_factor
 

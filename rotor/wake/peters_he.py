@@ -15,7 +15,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.inflow import Wake
+from rotor.inflow.wake import Wake
 from rotor.wake.modes import Mode, mode_set, norm
 
 Array = NDArray[np.float64]

@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rotor.inflow import Wake
+from rotor.inflow.wake import Wake
 from rotor.losses import prandtl
 
 Array = NDArray[np.float64]
