@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -138,10 +139,9 @@ def _step(problem: Problem, point: _Point, kept: _Linearised) -> tuple[Array | N
         loads = point.one.loads
         shift = weigh(problem, point.one, loads[kernel.FZ_UP] * answer, loads[kernel.FX_UP] * answer)
         error = error + combine_sums(problem, point.one, shift)[:, 0]
-    try:
-        step = np.linalg.solve(kept.jacobian, -error)
-    except np.linalg.LinAlgError:
-        step = None
+    step: Array | None = None
+    with suppress(np.linalg.LinAlgError):
+        step = np.asarray(np.linalg.solve(kept.jacobian, -error), dtype=np.float64)
 
     def inflow_step(taken: Array) -> Array:
         assert answer is not None

@@ -204,13 +204,13 @@ class LoadLoop:
         """(I − T W (K/F) C)⁻¹ x, (states,) or (states, n): the loop among the states alone."""
         return lu_solve(self.lu, x, check_finite=False)
 
-    def solve(self, f: Array) -> Array:
-        """λ with λ − A (K λ) = f, for a field or a stack of fields, (…, elements, azimuths)."""
-        return f + self.response.field(self.solve_states(self.response.states(self.slope * f).T).T)
+    def solve(self, fields: Array) -> Array:
+        """λ with λ − A (K λ) = fields, for a field or a stack of fields, (…, elements, azimuths)."""
+        return fields + self.response.field(self.solve_states(self.response.states(self.slope * fields).T).T)
 
-    def solve_transposed(self, g: Array) -> Array:
-        """v with v − K Aᵀ v = g."""
+    def solve_transposed(self, field: Array) -> Array:
+        """v with v − K Aᵀ v = field."""
         response, projection = self.response, self.response.projection
-        back = projection.field_transposed(g / response.factor[:, None])
+        back = projection.field_transposed(field / response.factor[:, None])
         back = lu_solve(self.lu, back, trans=1, check_finite=False)
-        return g + self.slope * projection.loads_transposed(response.transfer(back, transposed=True))
+        return field + self.slope * projection.loads_transposed(response.transfer(back, transposed=True))
