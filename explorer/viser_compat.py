@@ -28,8 +28,3 @@ def page_prefers_dark(client: viser.ClientHandle, timeout: float = 2.0) -> bool:
         return client.local_storage.get_item("prefers-dark", timeout=timeout) == "true"
     except (TimeoutError, RuntimeError):
         return False
-
-
-def port_of(server: viser.ViserServer) -> int:
-    """The port the server really listens on: viser moves on silently when the wanted one is taken."""
-    return server.get_port()

@@ -1,0 +1,198 @@
+"""The real page in a real browser: sliders move, and power, blade, disk and charts follow."""
+
+import re
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from explorer.app import App
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Locator, Page
+
+pytestmark = pytest.mark.browser
+SMALL = {"width": 1000, "height": 600}
+WAIT = 15_000
+"""[ms]; far more than it takes, for machines that draw in software."""
+
+
+@pytest.fixture(scope="module")
+def app() -> Iterator[App]:
+    app = App("127.0.0.1", 0)
+    yield app
+    app.stop()
+
+
+class Watched:
+    """A page and everything it complained about."""
+
+    def __init__(self, page: "Page") -> None:
+        self.page = page
+        self.complaints: list[str] = []
+        page.on("pageerror", lambda error: self.complaints.append(str(error)))
+        page.on("console", lambda m: self.complaints.append(m.text) if m.type == "error" else None)
+
+    def open(self, address: str, query: str = "?fixedDpr=0.5") -> None:
+        self.page.goto(address + query)
+        self.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
+
+    def row(self, label: str) -> "Locator":
+        named = self.page.locator("label", has_text=re.compile(rf"^{re.escape(label)}")).first
+        return named.locator("xpath=ancestor::div[contains(@class,'Flex-root')][1]")
+
+    def press(self, label: str, key: str, times: int = 1) -> None:
+        self.row(label).get_by_role("slider").focus()
+        for _ in range(times):
+            self.page.keyboard.press(key)
+            self.page.wait_for_timeout(70)  # viser loses an edit that follows another within 50 ms.
+
+    def choose(self, label: str, option: str) -> None:
+        self.row(label).locator("input").first.click()
+        self.page.get_by_role("option", name=option, exact=True).click()
+
+    def type(self, label: str, value: float) -> None:
+        self.row(label).locator("input:not([type=hidden])").last.fill(f"{value:g}")
+        self.page.keyboard.press("Enter")
+
+    def text(self, part: str) -> str:
+        return self.page.locator(f'[data-explorer="{part}"]').first.inner_text()
+
+    def until_changed(self, read: Callable[[], Any], before: Any) -> Any:
+        for _ in range(WAIT // 100):
+            now = read()
+            if now != before:
+                return now
+            self.page.wait_for_timeout(100)
+        raise AssertionError(f"nothing changed: still {before!r:.200}")
+
+    def node(self, name: str) -> str:
+        """A digest of what the browser holds for a scene node: vertices or picture."""
+        return self.page.evaluate(
+            """name => {
+                const props = window.__viserSceneTree.getState()[name].message.props;
+                const bytes = props.vertices ?? props._data;
+                const view = new Uint8Array(bytes.buffer ?? bytes, bytes.byteOffset ?? 0, bytes.byteLength);
+                let hash = 5381;
+                for (const byte of view) hash = (hash * 33 + byte) | 0;
+                return view.length + ':' + hash;
+            }""",
+            name,
+        )
+
+    def quiet(self) -> None:
+        """Close viser's remark on drawing in software, which only headless browsers see."""
+        close = self.page.locator("[class*=otification] button")
+        if close.count():
+            close.first.click()
+            self.page.wait_for_timeout(400)
+
+
+@pytest.fixture
+def watched(browser: "Browser", app: App) -> Iterator[Watched]:
+    context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
+    watched = Watched(context.new_page())
+    watched.open(app.address)
+    yield watched
+    context.close()
+    assert watched.complaints == []
+
+
+def kilowatts(text: str) -> float:
+    return float(re.sub(r"[^\d.]", "", text))
+
+
+def test_first_page_is_the_trimmed_uh60a(watched: Watched):
+    assert 650 < kilowatts(watched.text("total-power")) < 950
+    assert watched.text("change") == "0.0 %"
+    assert watched.text("speed").startswith("86 kt")
+    assert "Trimmed" in watched.text("status")
+
+
+def test_twist_slider_moves_power_blade_and_disk(watched: Watched):
+    watched.choose("Law", "Linear")
+    watched.until_changed(lambda: watched.text("change"), "0.0 %")
+    power, blade, disk = watched.text("total-power"), watched.node("/rotor/blade_0"), watched.node("/rotor/disk/field")
+    watched.press("Rate", "PageUp", 3)
+    watched.press("Rate", "ArrowRight", 25)
+    watched.until_changed(lambda: watched.text("total-power"), power)
+    watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)
+    watched.until_changed(lambda: watched.node("/rotor/disk/field"), disk)
+
+
+def test_speed_slider_moves_power_and_disk_but_not_the_blade(watched: Watched):
+    power, blade, disk = watched.text("total-power"), watched.node("/rotor/blade_0"), watched.node("/rotor/disk/field")
+    watched.press("Adv. ratio", "ArrowRight", 10)
+    assert watched.until_changed(lambda: watched.text("speed"), "86 kt · 159 km/h · 44.2 m/s")
+    watched.until_changed(lambda: watched.text("total-power"), power)
+    watched.until_changed(lambda: watched.node("/rotor/disk/field"), disk)
+    assert watched.node("/rotor/blade_0") == blade
+
+
+def test_home_key_hovers(watched: Watched):
+    watched.press("Adv. ratio", "Home")
+    watched.until_changed(lambda: watched.text("speed"), "86 kt · 159 km/h · 44.2 m/s")
+    assert watched.text("speed") == "hover"
+    watched.page.wait_for_function(
+        """() => document.querySelector('[data-explorer="trim"]').innerText.includes('Figure of merit')""", timeout=WAIT
+    )
+
+
+def test_beyond_the_rotor_is_a_red_sentence_and_the_way_back_is_open(watched: Watched):
+    disk = watched.node("/rotor/disk/field")
+    for label, value in (("Altitude", 4000), ("Weight", 11), ("Adv. ratio", 0.44)):
+        watched.type(label, value)
+        watched.page.wait_for_timeout(300)
+    watched.page.wait_for_selector('[data-explorer="status"][data-kind="problem"]', timeout=WAIT)
+    assert "Not trimmed" in watched.text("status")
+    watched.until_changed(lambda: watched.node("/rotor/disk/field"), disk)
+    watched.page.get_by_role("button", name="Reset design").click()
+    watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
+
+
+def test_two_browsers_do_not_disturb_each_other(watched: Watched, browser: "Browser", app: App):
+    context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
+    other = Watched(context.new_page())
+    other.open(app.address)
+    other.press("Adv. ratio", "ArrowRight", 5)
+    other.until_changed(lambda: other.text("speed"), "86 kt · 159 km/h · 44.2 m/s")
+    assert watched.text("speed") == "86 kt · 159 km/h · 44.2 m/s"
+    assert other.complaints == []
+    context.close()
+
+
+def test_charts_are_fed_not_rebuilt(watched: Watched):
+    read = """() => Object.values(window.__viserTestpoints.uplots).map(p => [p.createCount, p.chart.data[1].length])"""
+    watched.page.wait_for_timeout(500)
+    before = watched.page.evaluate(read)
+    assert len(before) == 4
+    watched.press("Azimuth", "ArrowRight", 8)
+    watched.page.wait_for_timeout(300)
+    assert watched.page.evaluate(read) == before
+
+
+def test_no_number_on_screen_is_not_a_number(watched: Watched):
+    for key in ("Home", "End"):
+        watched.press("Adv. ratio", key)
+        watched.page.wait_for_timeout(600)
+        assert not re.search(r"\b(NaN|nan|inf|undefined)\b", watched.page.inner_text("body"))
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("size", [(1500, 940), (1280, 720)])
+def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any, size: tuple[int, int]):
+    """Not compared with anything: kept for people to look at."""
+    context = browser.new_context(viewport={"width": size[0], "height": size[1]}, color_scheme=scheme)
+    watched = Watched(context.new_page())
+    watched.open(app.address, query="")
+    watched.type("Adv. ratio", 0.3)
+    watched.page.wait_for_timeout(2500)
+    watched.quiet()
+    path = artefacts / f"explorer-{scheme}-{size[0]}x{size[1]}.png"
+    watched.page.screenshot(path=path)
+    assert path.stat().st_size > 50_000
+    overlap = watched.page.evaluate("() => document.querySelector('canvas').getBoundingClientRect().width")
+    assert overlap <= size[0] - 600  # The panels stand beside the canvas, not on it.
+    assert watched.complaints == []
+    context.close()
