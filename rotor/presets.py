@@ -18,7 +18,7 @@ from rotor.twist import LinearTwist, TableTwist, TwistLaw, parse_twist
 PRESETS = ("flight", "thesis")
 
 FLIGHT_MODELS = Models(
-    inflow="pitt-peters",
+    inflow="dynamic-wake",
     hover_inflow="annulus",
     trim="propulsive",
     disk_axial_flow=True,

@@ -146,6 +146,11 @@ class Solution:
         return max(self.ct, 0.0) ** 1.5 / np.sqrt(2.0).item() / self.cp
 
     @property
+    def induced_power_factor(self) -> float:
+        """κ = C_Pi/(C_T λ0): induced power over that of an even load, momentum theory's C_T λ0."""
+        return self.power.induced / (self.ct * self.controls.lambda0 * self.design.power_unit)
+
+    @property
     def lift_to_drag(self) -> float | None:
         """Rotor L/D_e = W V/(P_induced + P_profile), forward flight only."""
         rotor_power = self.power.induced + self.power.profile

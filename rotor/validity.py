@@ -7,6 +7,8 @@ from rotor.solution import Caveat
 
 LOW_SPEED = 0.075
 """Below this advance ratio linear inflow is not trusted (thesis p. 26)."""
+LOWEST_SPEED = 0.05
+"""Below it the dynamic wake has not been set against a vortex wake; a real wake rolls up there."""
 HIGH_SPEED = 0.40
 """Above it reverse flow and unsteady stall rule; quasi-steady sections no longer do."""
 STALL_SHARE = 0.02
@@ -22,8 +24,13 @@ def caveats(problem: Problem, one: Pass, stalled: float) -> tuple[Caveat, ...]:
     def add(name: str, sentence: str) -> None:
         found.append(Caveat(name, sentence))
 
-    if 0.0 < mu < LOW_SPEED:
+    if 0.0 < mu < LOW_SPEED and not problem.inflow.reacts:
         add("low-speed-inflow", f"Linear inflow is not trusted below advance ratio {LOW_SPEED:g}; this is {mu:.3f}.")
+    elif 0.0 < mu < LOWEST_SPEED:
+        add(
+            "low-speed-inflow",
+            f"No skewed-wake model is proven below advance ratio {LOWEST_SPEED:g}; this is {mu:.3f}.",
+        )
     if mu > HIGH_SPEED:
         add(
             "high-speed",

@@ -17,7 +17,8 @@ from rotor.trim import first_guess
 
 
 def trimmed(preset: str, mu: float) -> tuple[Problem, np.ndarray]:
-    problem = lay_out(make_design(preset, advance_ratio=mu, twist="linear:-10"))
+    design = make_design(preset, advance_ratio=mu, twist="linear:-10")
+    problem = lay_out(replace(design, models=replace(design.models, inflow="pitt-peters")))
     result = newton(problem, first_guess(problem))
     assert result.converged
     return problem, result.last.state

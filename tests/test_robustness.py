@@ -83,8 +83,11 @@ def test_normal_flight_always_trims(preset: str, rate: int):
 
 
 def test_caveats_are_named():
-    names = {c.name for c in solve(make_design(advance_ratio=0.05)).caveats}
-    assert "low-speed-inflow" in names
+    slow = make_design(advance_ratio=0.06)
+    linear = replace(slow, models=replace(slow.models, inflow="pitt-peters"))
+    assert "low-speed-inflow" in {c.name for c in solve(linear).caveats}
+    assert "low-speed-inflow" not in {c.name for c in solve(slow).caveats}
+    assert "low-speed-inflow" in {c.name for c in solve(make_design(advance_ratio=0.03)).caveats}
     thesis = {c.name for c in solve(make_design("thesis", advance_ratio=0.35)).caveats}
     assert {"no-compressibility", "polynomial-clamped"} <= thesis
     assert not solve(make_design(advance_ratio=0.15, mass=6000.0)).caveats

@@ -102,7 +102,8 @@ def report(solution: Solution) -> str:
         lines += ["", *(f"{name:<12}{value / 1e3:10.1f} kW" for name, value in kw.items())]
         lines += ["", *(f"{name:<12}{math.degrees(value) + 0.0:10.2f} °" for name, value in degrees.items())]
         merit = solution.figure_of_merit
-        lines += ["", f"C_T/σ {solution.ct_over_sigma:.4f} (σ {design.rotor.solidity:.4f})"]
+        lines += ["", f"κ = P_i/(C_T λ0) {solution.induced_power_factor:.3f}"]
+        lines += [f"C_T/σ {solution.ct_over_sigma:.4f} (σ {design.rotor.solidity:.4f})"]
         lines += (
             [f"figure of merit {merit:.3f}"] if merit is not None else [f"L/D_e {solution.lift_to_drag or 0.0:.2f}"]
         )

@@ -2,9 +2,10 @@
 
 from rotor.inflow.dynamic_wake import DYNAMIC_WAKES
 from rotor.inflow.linear import LINEAR_MODELS
+from rotor.inflow.local_momentum import LocalMomentumInflow
 from rotor.inflow.seam import InflowModel
 
-_MODELS: tuple[InflowModel, ...] = (*LINEAR_MODELS, *DYNAMIC_WAKES)
+_MODELS: tuple[InflowModel, ...] = (*LINEAR_MODELS, LocalMomentumInflow(), *DYNAMIC_WAKES)
 
 INFLOW_MODELS: dict[str, InflowModel] = {model.name: model for model in _MODELS}
 """Forward-flight inflow models by name, in the order of what they can see."""
