@@ -139,12 +139,17 @@ def _range_of(series: Sequence[Array], previous: Range | None, floor: float | No
 
 
 def blank() -> tuple[Plot, Plot, Plot, Plot]:
-    """Empty charts for a page that waits for its first answer: power, twist, α, Cl."""
+    """Empty charts for a page that waits for its first answer: power, twist, α, Cl.
+
+    Their ranges are none that an answer has, so that the first answer makes the page build each chart anew: viser's
+    charts start with no width, and one that is fed while it gets its width would stay without axis numbers.
+    """
     none = np.full(2, np.nan)
     ends = np.array([0.13, 1.0])
+    waiting = (-1e-3, 1e-3)
     return (
-        Plot((np.array([0.0, 0.45]), *(none,) * 5), (0.0, 2500.0)),
-        Plot((ends, none, none), (-5.0, 10.0)),
-        Plot((ends, none, none), (-10.0, 20.0)),
-        Plot((ends, none), (-0.5, 1.5)),
+        Plot((np.array([0.0, 0.45]), *(none,) * 5), waiting),
+        Plot((ends, none, none), waiting),
+        Plot((ends, none, none), waiting),
+        Plot((ends, none), waiting),
     )

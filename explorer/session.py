@@ -4,6 +4,7 @@ import logging
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 import viser
 
 from explorer import plots, readout, solver, style
@@ -102,6 +103,7 @@ class Session:
         picture = make_picture(solution, view, colour_range)
         with self._client.atomic():
             self._scene.show(picture)
+        self._client.flush()  # The frame goes out now; read-outs and charts follow while it is drawn.
         self._controls.show_range(view.field, colour_range, faded=False)
         self._drawn = (solution, view, colour_range)
 
@@ -120,6 +122,8 @@ class Session:
         design, chart = solution.design, self._charts.power
         now = None if lost else solution.power.total / 1e3
         curve = self._curves.known(design)
+        if not np.isfinite(curve.design).any():
+            return  # The first sweep is on its way.
         chart.show(plots.power_plot(curve, design.condition.advance_ratio, now, chart.y_range))
 
     def _lose(self, view: ViewState, status: str) -> None:
