@@ -10,7 +10,14 @@ from collections.abc import Sequence
 def main(arguments: Sequence[str] | None = None) -> int:
     """Exit code 0 after Ctrl-C, 2 for bad input."""
     options = _parser().parse_args(arguments)
+    try:
+        return _run(options)
+    except KeyboardInterrupt:
+        print()
+        return 0
 
+
+def _run(options: argparse.Namespace) -> int:
     from explorer.app import App, PortBusy
     from explorer.state import Inputs, inputs_of
     from rotor.case import read_case
@@ -21,13 +28,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except (ValueError, FileNotFoundError, PortBusy) as error:
         print(f"explorer: {error}", file=sys.stderr)
         return 2
-    print(f"Rotor explorer: {app.address}   (Ctrl-C stops it)", flush=True)
-    if not options.no_browser:
-        _open_browser(app.address)
     try:
+        print(f"Rotor explorer: {app.address}   (Ctrl-C stops it)", flush=True)
+        if not options.no_browser:
+            _open_browser(app.address)
         threading.Event().wait()
-    except KeyboardInterrupt:
-        print()
     finally:
         app.stop()
     return 0

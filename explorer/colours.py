@@ -74,9 +74,9 @@ def _srgb(lightness: float, chroma: float, hue_deg: float) -> Array:
 def _sequential(n: int) -> tuple[Rgb, ...]:
     colours = []
     for t in np.linspace(0.0, 1.0, n):
-        hue = np.interp(t, [0.0, 0.35, 0.65, 1.0], [300.0, 250.0, 170.0, 100.0])
-        chroma = np.interp(t, [0.0, 0.3, 1.0], [0.11, 0.13, 0.19])
-        colours.append(_bytes(_srgb(0.27 + 0.67 * t, float(chroma), float(hue))))
+        # Chroma follows the gamut's waist at the greens: clipped there, steps would bunch up into a false edge.
+        chroma = float(np.interp(t, [0.0, 0.25, 0.5, 1.0], [0.13, 0.11, 0.105, 0.17]))
+        colours.append(_bytes(_srgb(0.30 + 0.62 * t, chroma, 290.0 - 190.0 * t)))
     return tuple(colours)
 
 

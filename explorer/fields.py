@@ -112,7 +112,7 @@ FIELDS: dict[str, Field] = {
         Field("Lift coefficient", "", -0.4, 1.4, "sequential", _cl),
         Field("M²cn", "", -0.25, 0.25, "diverging", _m2cn),
         Field("Thrust dT/dr", "kN/m per blade", -1.0, 7.0, "sequential", _thrust),
-        Field("Power dP/dr", "kW/m per blade", -20.0, 120.0, "sequential", _power),
+        Field("Power dP/dr", "kW/m per blade", -20.0, 100.0, "sequential", _power),
         Field("Stall margin", "°", -12.0, 12.0, "margin", _stall_margin, void_in_reverse_flow=True),
     )
 }

@@ -52,10 +52,11 @@ def drag_divergence_segments(solution: Solution) -> Array:
 
 
 def _outside_reverse_flow(segments: Array, solution: Solution) -> Array:
+    """Segments an element and a half clear of reverse flow: nearer, the line would only trace the elements' steps."""
     middle = segments.mean(axis=1)
     mu = solution.design.condition.advance_ratio * math.cos(solution.controls.shaft_tilt)
     r, psi = np.hypot(*middle.T), np.arctan2(middle[:, 1], middle[:, 0])
-    return segments[r + mu * np.sin(psi) > 0.01 if mu > 0.0 else slice(None)]
+    return segments[r + mu * np.sin(psi) > 1.5 * solution.disk.dr] if mu > 0.0 else segments
 
 
 def contour(grid: PolarGrid, values: Array, level: float) -> Array:

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from explorer.state import LOW_SPEED_LIMIT
 from rotor.design import Design
 from rotor.solution import Solution
+from rotor.validity import LOW_SPEED
 
 Array = NDArray[np.float64]
 Range = tuple[float, float]
 
-SWEEP = (0.0, *(round(0.075 + 0.025 * k, 3) for k in range(16)))
+SWEEP = (0.0, *(round(LOW_SPEED + 0.025 * k, 3) for k in range(16)))
 """Advance ratios of the power curve: hover, then from where forward inflow is trusted."""
 
 
@@ -59,7 +59,7 @@ def power_plot(curve: PowerCurve, mu: float, power_kw: float | None, previous: R
 
     def line(values: Array) -> Array:
         y = np.interp(x, forward, values[1:], left=math.nan, right=math.nan)
-        y[x < LOW_SPEED_LIMIT] = math.nan
+        y[x < LOW_SPEED] = math.nan
         return y
 
     def single(at: float, value: float) -> Array:

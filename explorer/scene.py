@@ -62,7 +62,7 @@ class Scene:
         self._outlines: dict[str, tuple[viser.LineSegmentsHandle, ...]] = {}
         for name, (line, casing) in OUTLINE_COLOURS.items():
             self._outlines[name] = (
-                self._line(api, f"/rotor/disk/{name}_casing", _NOTHING, casing, 4.2),
+                self._line(api, f"/rotor/disk/{name}_casing", _NOTHING, casing, 4.6),
                 self._line(api, f"/rotor/disk/{name}", _NOTHING, line, 2.0),
             )
         self._solid(api, "/rotor/disk/rotation", meshes.rotation_arrow(radius), colours.RIM)
@@ -95,7 +95,7 @@ class Scene:
             for lift, handle in enumerate(self._outlines[name]):
                 handle.visible = len(segments) > 0
                 if len(segments):
-                    handle.points = (segments + np.array([0.0, 0.0, 0.06 * lift])).astype(np.float32)
+                    handle.points = (segments + np.array([0.0, 0.0, 0.035 * lift])).astype(np.float32)
         self._flight.visible = picture.flight_label != ""
         if picture.flight_label:
             self._flight_label.text = picture.flight_label

@@ -11,8 +11,6 @@ from rotor.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, Quadratic
 
 KNOT = 1852.0 / 3600.0
 """[m/s]"""
-LOW_SPEED_LIMIT = 0.075
-"""Advance ratio below which the linear inflow models of forward flight are not to be trusted (thesis p. 26)."""
 
 PRESET_TITLES = {"flight": "Flight (our best)", "thesis": "Thesis (as stated)"}
 

@@ -29,7 +29,7 @@ SHEET = """<style>
 .rx-care > span:first-child { color: #e67700; }
 .rx-faded { opacity: .35; }
 .rx-speed { text-align: right; margin-top: -4px; padding-bottom: 5px; font-size: 12px; }
-.rx-explain { height: 36px; }
+.rx-explain { height: 50px; }
 .rx-heading { padding-top: 3px; margin-bottom: -9px; font-size: 12px; gap: 10px; }
 .rx-heading > :first-child { font-weight: 600; margin-right: auto; }
 .rx-dash { display: inline-block; width: 12px; height: 3px; vertical-align: middle; margin-right: 4px; }

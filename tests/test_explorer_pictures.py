@@ -188,6 +188,15 @@ class TestColours:
             assert (np.diff(lightness[:31]) > -0.5).all()
             assert_allclose(lightness, lightness[::-1], atol=8.0)
 
+    def test_equal_steps_of_data_look_equal(self):
+        """Steps in CIE Lab between neighbouring colours of the sequential map differ by less than half."""
+        srgb = colour_map("sequential", 41) / 255.0
+        linear = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+        xyz = linear @ np.array([[0.4339, 0.2126, 0.0178], [0.3762, 0.7152, 0.1095], [0.1899, 0.0722, 0.8727]])
+        x, y, z = np.cbrt(xyz).T
+        steps = np.linalg.norm(np.diff(np.stack((116.0 * y, 500.0 * (x - y), 200.0 * (y - z))), axis=1), axis=0)
+        assert steps.max() < 2.0 * steps.min()
+
     def test_greyed_has_no_hue(self):
         assert np.ptp(greyed(colour_map("diverging", 40)), axis=1).max() == 0
 
