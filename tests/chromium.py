@@ -25,6 +25,15 @@ LAUNCH_ARGUMENTS = (
 )
 """WebGL in software, no sandbox (containers run as root), and no calls home."""
 
+DRAW_NOTHING = """
+for (const draw of ["drawArrays", "drawElements", "drawRangeElements", "drawArraysInstanced", "drawElementsInstanced"])
+    WebGL2RenderingContext.prototype[draw] = () => {};
+"""
+"""For `BrowserContext.add_init_script`: everything works but nothing is drawn, as fast as if a GPU drew it.
+
+Software WebGL on two busy cores makes a page four times slower; what a test reads from page and scene needs no pixels.
+"""
+
 
 def find_chromium() -> str | None:
     """Path of a browser: ROTOR_CHROMIUM, else one that is installed, else Playwright's own download."""
