@@ -17,6 +17,7 @@ from rotor.flapping import FlapDynamics, flap_dynamics
 from rotor.inflow import InflowModel, Wake, inflow_model
 from rotor.inflow.seam import Response
 from rotor.losses import loss_factor
+from rotor.momentum import glauert_inflow
 
 Array = NDArray[np.float64]
 
@@ -54,6 +55,7 @@ class Problem:
 def lay_out(design: Design) -> Problem:
     """The problem a design poses."""
     rotor, condition, models = design.rotor, design.condition, design.models
+    drag = design.fuselage.drag(condition.density, design.airspeed) / design.thrust_unit
     disk = build_disk(rotor, models.elements, models.azimuths)
     return Problem(
         design=design,
@@ -63,9 +65,17 @@ def lay_out(design: Design) -> Problem:
         flap=flap_dynamics(rotor, condition.density, blade_weight=models.blade_weight),
         tip_mach=rotor.tip_speed / condition.sound_speed,
         weight=design.weight_coefficient,
-        drag=design.fuselage.drag(condition.density, design.airspeed) / design.thrust_unit,
-        inflow=inflow_model(models.inflow),
+        drag=drag,
+        inflow=inflow_model(models.inflow).laid_out(expected_wake(design, drag)),
     )
+
+
+def expected_wake(design: Design, drag: float) -> Wake:
+    """The wake of momentum theory when the disk is normal to the resultant of weight and drag (a coefficient)."""
+    weight, mu = design.weight_coefficient, design.condition.advance_ratio
+    tilt = math.atan2(drag, weight)
+    mu_x, mu_z = mu * math.cos(tilt), mu * math.sin(tilt)
+    return Wake(mu_x, mu_z, glauert_inflow(math.hypot(weight, drag), mu_x, mu_z)[0])
 
 
 @dataclass(frozen=True, eq=False)

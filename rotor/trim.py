@@ -17,9 +17,9 @@ from rotor.elements import (
     N_STATE,
     SHAFT_TILT,
     Problem,
+    expected_wake,
     lay_out,
 )
-from rotor.momentum import glauert_inflow
 from rotor.newton import Guess, TrimResult, newton
 from rotor.solution import Solution
 
@@ -50,18 +50,16 @@ def first_guess(problem: Problem) -> Guess:
     """A state from momentum theory and mean blade angles."""
     design = problem.design
     mu = design.condition.advance_ratio
-    weight, drag = problem.weight, problem.drag
-    tilt = math.atan2(drag, weight)
-    ct = math.hypot(weight, drag)
-    lambda0, _ = glauert_inflow(ct, mu * math.cos(tilt), mu * math.sin(tilt))
+    tilt = math.atan2(problem.drag, problem.weight)
+    ct = math.hypot(problem.weight, problem.drag)
+    wake = expected_wake(design, problem.drag)
     solidity = design.rotor.solidity
     state = np.zeros(N_STATE)
     # C_T = ½σa(θ(1 + 3/2 µ²)/3 − λ/2) for an untwisted blade, a near 2π·0.95.
-    inflow = lambda0 + mu * math.sin(tilt)
-    state[COLLECTIVE] = 3.0 * (2.0 * ct / (solidity * 5.9) + 0.5 * inflow) / (1.0 + 1.5 * mu**2)
+    state[COLLECTIVE] = 3.0 * (2.0 * ct / (solidity * 5.9) + 0.5 * wake.axial) / (1.0 + 1.5 * mu**2)
     state[SHAFT_TILT] = tilt
     state[CONING] = problem.flap.load_gain * 0.7 * ct - problem.flap.weight
-    state[LAMBDA0] = lambda0
+    state[LAMBDA0] = wake.lambda0
     if design.models.trim == "propulsive":
         state[CYCLIC_1S] = -8.0 / 3.0 * mu * state[COLLECTIVE]
         state[CYCLIC_1C] = 4.0 / 3.0 * mu * state[CONING]

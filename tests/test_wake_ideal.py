@@ -8,7 +8,7 @@ from inflow_tables import table
 from numpy.polynomial.chebyshev import chebvander
 from numpy.testing import assert_allclose
 
-from rotor.inflow import Wake
+from rotor.inflow.wake import Wake
 from rotor.wake.ideal import BOUND_LATTICE, InducedPower, LinearBlade, least_induced_power, least_twisted_power
 from rotor.wake.vortex_lattice import Lattice
 

@@ -7,7 +7,7 @@ import pytest
 from inflow_tables import table
 from numpy.testing import assert_allclose
 
-from rotor.inflow import Wake
+from rotor.inflow.wake import Wake
 from rotor.momentum import glauert_inflow
 from rotor.wake.dynamic_wake import DynamicWake
 from rotor.wake.ideal import least_induced_power

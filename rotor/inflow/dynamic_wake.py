@@ -25,6 +25,11 @@ class DynamicWakeInflow:
 
     reacts = True
 
+    def laid_out(self, expected: Wake) -> "DynamicWakeInflow":
+        """Itself: the wake moves with the trim."""
+        del expected
+        return self
+
     def respond(self, disk: Disk, wake: Wake, load: Array) -> "DynamicWakeResponse":
         """λ_i = A d."""
         model = DynamicWake.of(disk.blades, self.order, infinite_blades=self.infinite_blades)

@@ -37,6 +37,11 @@ class LinearInflow:
 
     reacts = False
 
+    def laid_out(self, expected: Wake) -> "LinearInflow":
+        """Itself: the wake moves with the trim."""
+        del expected
+        return self
+
     def respond(self, disk: Disk, wake: Wake, load: Array) -> "PrescribedResponse":
         """The prescribed field; the load is ignored."""
         del load

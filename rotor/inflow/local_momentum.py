@@ -22,6 +22,11 @@ class LocalMomentumInflow:
     explanation = "Each sector answers its own load, with a fore-aft gradient: induced power 17–39 % low beyond µ 0.3."
     reacts = True
 
+    def laid_out(self, expected: Wake) -> "LocalMomentumInflow":
+        """Itself: the wake moves with the trim."""
+        del expected
+        return self
+
     def respond(self, disk: Disk, wake: Wake, load: Array) -> "LocalMomentumResponse":
         """λ_i = gain d + λ0 k_x r cos ψ."""
         return LocalMomentumResponse(sector_response(disk.r, disk.cos, wake, disk.blades), load)

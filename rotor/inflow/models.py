@@ -4,8 +4,9 @@ from rotor.inflow.dynamic_wake import DYNAMIC_WAKES
 from rotor.inflow.linear import LINEAR_MODELS
 from rotor.inflow.local_momentum import LocalMomentumInflow
 from rotor.inflow.seam import InflowModel
+from rotor.inflow.vortex_wake import VortexWakeInflow
 
-_MODELS: tuple[InflowModel, ...] = (*LINEAR_MODELS, LocalMomentumInflow(), *DYNAMIC_WAKES)
+_MODELS: tuple[InflowModel, ...] = (*LINEAR_MODELS, LocalMomentumInflow(), *DYNAMIC_WAKES, VortexWakeInflow())
 
 INFLOW_MODELS: dict[str, InflowModel] = {model.name: model for model in _MODELS}
 """Forward-flight inflow models by name, in the order of what they can see."""

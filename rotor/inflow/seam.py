@@ -83,6 +83,10 @@ class InflowModel(Protocol):
         """
         ...
 
+    def laid_out(self, expected: Wake) -> "InflowModel":
+        """The model for a problem whose wake momentum theory expects so; itself, where the trim moves the wake."""
+        ...
+
     def respond(self, disk: Disk, wake: Wake, load: Array) -> Response:
         """The answer at a wake to a load d(r, ψ); a model that does not react ignores the load."""
         ...

@@ -16,7 +16,7 @@ from numpy.polynomial.chebyshev import chebvander
 from numpy.typing import NDArray
 from scipy.optimize import nnls
 
-from rotor.inflow import Wake
+from rotor.inflow.wake import Wake
 from rotor.wake.vortex_lattice import Lattice
 
 Array = NDArray[np.float64]

@@ -10,7 +10,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.inflow import Wake
+from rotor.inflow.wake import Wake
 from rotor.wake.biot_savart import downwash_matrix
 
 Array = NDArray[np.float64]
