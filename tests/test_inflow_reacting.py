@@ -17,7 +17,7 @@ from rotor.solve import solve
 from rotor.trim import guess_of
 from rotor.twist import LinearTwist
 
-REACTING = [name for name, model in INFLOW_MODELS.items() if model.reacts and name != "vortex-wake"]
+REACTING = [name for name, model in INFLOW_MODELS.items() if model.reacts]
 
 
 def design_of(inflow: str, mu: float, twist: str = "linear:-10", preset: str = "flight") -> Design:

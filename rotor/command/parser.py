@@ -1,8 +1,11 @@
 """The argument parser and what several commands share."""
 
 import argparse
+import csv
 import math
+from collections.abc import Iterable
 from dataclasses import replace
+from pathlib import Path
 from typing import NoReturn
 
 from rotor.case import read_case
@@ -25,11 +28,11 @@ class OneLineParser(argparse.ArgumentParser):
 def build_parser() -> argparse.ArgumentParser:
     """All commands."""
     from rotor.airfoil import command as airfoil
-    from rotor.command import bench, solve, sweep
+    from rotor.command import bench, ideal, solve, sweep
 
     parser = OneLineParser(prog="python -m rotor", description="UH-60A main rotor: trim, power, twist.")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=OneLineParser)
-    for command in (solve, sweep, airfoil, bench):
+    for command in (solve, sweep, ideal, airfoil, bench):
         command.add_parser(commands)
     return parser
 
@@ -80,6 +83,16 @@ def parse_range(text: str) -> list[float]:
     if not all(math.isfinite(value) for value in values):
         raise ValueError(f"range {text!r} holds a value that is not a number: write for example 0.05:0.40:0.05")
     return [round(value, 12) for value in values]
+
+
+def write_table(path: str, rows: Iterable[Iterable[str]], heading: str = "") -> None:
+    """Write rows as CSV below a heading of comment lines; ValueError when the file cannot be written."""
+    try:
+        with Path(path).open("w", newline="", encoding="utf-8") as file:
+            file.write(heading)
+            csv.writer(file, lineterminator="\n").writerows(rows)
+    except OSError as error:
+        raise ValueError(f"cannot write {path!r} ({error.strerror}): give a writable file") from None
 
 
 def finite(text: str) -> float:

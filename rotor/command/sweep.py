@@ -1,11 +1,9 @@
 """`sweep`: one or more twists over advance ratio."""
 
 import argparse
-import csv
-from pathlib import Path
 from typing import Any
 
-from rotor.command.parser import KNOT, add_design_arguments, design_from, parse_range
+from rotor.command.parser import KNOT, add_design_arguments, design_from, parse_range, write_table
 from rotor.solution import Solution
 from rotor.sweep import sweep
 
@@ -40,7 +38,7 @@ def run(args: argparse.Namespace) -> int:
             rows.append(row)
             print("".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=False)).rstrip())
     if args.csv:
-        _write(args.csv, rows)
+        write_table(args.csv, [COLUMNS, *rows])
     return 0 if converged else 1
 
 
@@ -55,11 +53,3 @@ def _row(solution: Solution) -> tuple[str, ...]:
         *(f"{part / 1e3:.2f}" if solution.converged else "" for part in parts),
         solution.message,
     )
-
-
-def _write(path: str, rows: list[tuple[str, ...]]) -> None:
-    try:
-        with Path(path).open("w", newline="", encoding="utf-8") as file:
-            csv.writer(file).writerows([COLUMNS, *rows])
-    except OSError as error:
-        raise ValueError(f"cannot write {path!r} ({error.strerror}): give a writable file") from None
