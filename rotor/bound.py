@@ -83,8 +83,8 @@ def ideal_factor(mu: float, ct: float) -> float | None:
     speeds, thrusts, factors = _table()
     if mu > speeds[-1]:
         return None
-    at_thrust = np.array([np.interp(ct, thrusts, row) for row in factors])
-    return float(np.interp(mu, np.concatenate(([0.0], speeds)), np.concatenate(([1.0], at_thrust))))
+    at_thrust = [float(np.interp(ct, thrusts, row)) for row in factors]
+    return float(np.interp(mu, [0.0, *speeds.tolist()], [1.0, *at_thrust]))
 
 
 @cache

@@ -52,4 +52,6 @@ def test_no_blade_of_ours_is_below_the_bound(inflow: str, mu: float):
 def test_ends_of_the_table():
     assert ideal_factor(0.0, 0.0065) == 1.0
     assert ideal_factor(0.42, 0.0065) is None
-    assert_allclose(ideal_factor(0.2, 0.006509), 1.1211, atol=1e-3)
+    factor = ideal_factor(0.2, 0.006509)
+    assert factor is not None
+    assert_allclose(factor, 1.1211, atol=1e-3)
