@@ -83,7 +83,7 @@ def ideal_factor(mu: float, ct: float) -> float | None:
     speeds, thrusts, factors = _table()
     if mu > speeds[-1]:
         return None
-    at_thrust = [float(np.interp(ct, thrusts, row)) for row in factors]
+    at_thrust: list[float] = [float(np.interp(ct, thrusts, factors[k])) for k in range(len(speeds))]
     return float(np.interp(mu, [0.0, *speeds.tolist()], [1.0, *at_thrust]))
 
 
