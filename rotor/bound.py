@@ -83,8 +83,12 @@ def ideal_factor(mu: float, ct: float) -> float | None:
     speeds, thrusts, factors = _table()
     if mu > speeds[-1]:
         return None
-    at_thrust: list[float] = [float(np.interp(ct, thrusts, factors[k])) for k in range(len(speeds))]
+    at_thrust = [_between(ct, thrusts, row) for row in factors]
     return float(np.interp(mu, [0.0, *speeds.tolist()], [1.0, *at_thrust]))
+
+
+def _between(x: float, places: Array, values: Array) -> float:
+    return float(np.interp(x, places, values))
 
 
 @cache

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parent.parent
-PHYSICS = {"numpy", "scipy", "numba", "threadpoolctl"}
+PHYSICS = {"numpy", "scipy", "numba", "threadpoolctl", "tqdm"}
 KNOW_VISER = {
     "__main__.py",
     "app.py",

@@ -48,9 +48,7 @@ def run(args: argparse.Namespace) -> int:
     if args.json:
         print(json.dumps({"ms": figures, "targets_ms": TARGETS_MS, "notes": notes}, indent=2, allow_nan=False))
         return 0
-    print(
-        "median milliseconds, 40 elements × 120 azimuths, flight preset, mean over µ 0.10…0.35; inflow linear unless named\n"
-    )
+    print("median milliseconds, 40 × 120, flight preset, mean of µ 0.10…0.35; inflow linear unless named\n")
     for name, value in figures.items():
         target = f"   target ≤ {TARGETS_MS[name]:g}" if name in TARGETS_MS else ""
         print(f"{name:<34}{value:10.3f}{target}")
