@@ -26,7 +26,7 @@ class App:
         self._start = start or Inputs()
         self._sessions: dict[int, Session] = {}
         self._lock = threading.Lock()
-        self.server = viser.ViserServer(host=host, port=port, label="Rotor explorer", verbose=False)
+        self.server = viser_compat.quiet_server(host, port, "Rotor explorer")
         viser_compat.remove_share_tunnel(self.server)
         self.server.on_client_connect(self._connected)
         self.server.on_client_disconnect(self._disconnected)
@@ -43,7 +43,7 @@ class App:
             sessions, self._sessions = list(self._sessions.values()), {}
         for session in sessions:
             session.stop()
-        self.server.stop()
+        viser_compat.quiet_stop(self.server)
 
     def _connected(self, client: viser.ClientHandle) -> None:
         session = Session(client, self._start, viser_compat.page_prefers_dark(client))

@@ -1,7 +1,21 @@
 """Every use of viser's private parts, in one place; each has a test, and viser is pinned for their sake."""
 
+import contextlib
+import io
+
 import viser
 from viser import _messages
+
+
+def quiet_server(host: str, port: int, label: str) -> viser.ViserServer:
+    """A server that leaves it to us what is printed; `verbose=False` still prints a banner."""
+    with contextlib.redirect_stdout(io.StringIO()):
+        return viser.ViserServer(host=host, port=port, label=label, verbose=False)
+
+
+def quiet_stop(server: viser.ViserServer) -> None:
+    with contextlib.redirect_stdout(io.StringIO()):
+        server.stop()
 
 
 def remove_share_tunnel(server: viser.ViserServer) -> None:

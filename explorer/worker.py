@@ -1,5 +1,6 @@
 """One thread that always works on the newest state: nothing is queued, nothing is debounced away."""
 
+import contextlib
 import threading
 from collections.abc import Callable
 
@@ -45,4 +46,5 @@ class LatestWins:
                 self._job(self._superseded)
             except Exception as error:  # The session must survive whatever one round does.
                 if not self._stopped:
-                    self._on_error(error)
+                    with contextlib.suppress(Exception):  # The browser may be gone: nobody is left to tell.
+                        self._on_error(error)

@@ -56,6 +56,11 @@ class TestApp:
         finally:
             app.stop()
 
+    def test_prints_nothing_of_its_own(self, capsys: pytest.CaptureFixture[str]):
+        app = App("127.0.0.1", 0)
+        app.stop()
+        assert capsys.readouterr().out == ""
+
     def test_a_busy_port_is_one_sentence(self):
         with socket.socket() as taken:
             taken.bind(("127.0.0.1", 0))

@@ -1,6 +1,8 @@
 """The real page in a real browser: sliders move, and power, blade, disk and charts follow."""
 
 import re
+import threading
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -89,14 +91,28 @@ class Watched:
             self.page.wait_for_timeout(400)
 
 
-@pytest.fixture
-def watched(browser: "Browser", app: App) -> Iterator[Watched]:
+@pytest.fixture(scope="module")
+def shared(browser: "Browser", app: App) -> Iterator[Watched]:
+    """One page for all tests that leave it usable: loading it is what takes the time."""
     context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
     watched = Watched(context.new_page())
     watched.open(app.address)
     yield watched
     context.close()
-    assert watched.complaints == []
+
+
+@pytest.fixture
+def watched(shared: Watched) -> Iterator[Watched]:
+    """The page with the design it began with."""
+    shared.page.get_by_role("button", name="Reset design").click()
+    shared.page.wait_for_function(
+        """() => document.querySelector('[data-explorer="change"]')?.innerText === '0.0 %'
+            && document.querySelector('[data-explorer="speed"]').innerText.startsWith('86 kt')""",
+        timeout=WAIT,
+    )
+    shared.page.wait_for_timeout(300)
+    yield shared
+    assert shared.complaints == []
 
 
 def kilowatts(text: str) -> float:
@@ -151,6 +167,53 @@ def test_beyond_the_rotor_is_a_red_sentence_and_the_way_back_is_open(watched: Wa
     watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
 
 
+def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
+    """The disk follows while the button is still down, and the last answer is that of the last position."""
+    page = watched.page
+    watched.choose("Field", "Mach number")  # A picture that differs for every speed.
+    page.evaluate(
+        """() => {
+            const held = () => window.__viserSceneTree.getState()['/rotor/disk/field'].message.props._data;
+            window.__seen = new Set();
+            const look = () => { window.__seen.add(held()); requestAnimationFrame(look); };
+            look();
+        }"""
+    )
+    thumb = watched.row("Adv. ratio").get_by_role("slider").bounding_box()
+    assert thumb is not None
+    x, y = thumb["x"] + thumb["width"] / 2, thumb["y"] + thumb["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    seen_while_down, steps = 0, 0
+    while seen_while_down < 5 and steps < 150:  # As long as a slow machine needs, but never letting go.
+        steps += 1
+        page.mouse.move(x + steps % 30, y)
+        page.wait_for_timeout(40)
+        seen_while_down = page.evaluate("() => window.__seen.size")
+    page.mouse.up()
+    page.wait_for_timeout(1500)
+    assert seen_while_down >= 5
+    shown = float(watched.row("Adv. ratio").locator("input:not([type=hidden])").last.input_value())
+    assert watched.text("speed").startswith(f"{shown * 27.0 * 8.1788 * 3600 / 1852:.0f} kt")
+
+
+def test_sessions_end_with_their_browsers(browser: "Browser", app: App):
+    def working() -> set[str]:
+        return {thread.name for thread in threading.enumerate() if thread.name.startswith("session-")}
+
+    before = working()
+    context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
+    watched = Watched(context.new_page())
+    watched.open(app.address)
+    assert len(working()) == len(before) + 1
+    watched.press("Adv. ratio", "ArrowRight")
+    context.close()
+    deadline = time.monotonic() + 10.0
+    while working() != before and time.monotonic() < deadline:
+        time.sleep(0.1)
+    assert working() == before
+
+
 def test_two_browsers_do_not_disturb_each_other(watched: Watched, browser: "Browser", app: App):
     context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
     other = Watched(context.new_page())
@@ -163,10 +226,12 @@ def test_two_browsers_do_not_disturb_each_other(watched: Watched, browser: "Brow
 
 
 def test_charts_are_fed_not_rebuilt(watched: Watched):
-    read = """() => Object.values(window.__viserTestpoints.uplots).map(p => [p.createCount, p.chart.data[1].length])"""
+    read = """() => Object.values(window.__viserTestpoints.uplots).map(
+        p => [p.createCount, p.chart.data[1].length, p.chart.axes[0]._values.length])"""
     watched.page.wait_for_timeout(500)
     before = watched.page.evaluate(read)
     assert len(before) == 4
+    assert all(numbers >= 4 for _, _, numbers in before), "a chart has no numbers along its axis"
     watched.press("Azimuth", "ArrowRight", 8)
     watched.page.wait_for_timeout(300)
     assert watched.page.evaluate(read) == before
