@@ -170,7 +170,6 @@ def test_beyond_the_rotor_is_a_red_sentence_and_the_way_back_is_open(watched: Wa
 def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
     """The disk follows while the button is still down, and the last answer is that of the last position."""
     page = watched.page
-    watched.choose("Field", "Mach number")  # A picture that differs for every speed.
     page.evaluate(
         """() => {
             const held = () => window.__viserSceneTree.getState()['/rotor/disk/field'].message.props._data;
@@ -179,7 +178,9 @@ def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
             look();
         }"""
     )
-    thumb = watched.row("Adv. ratio").get_by_role("slider").bounding_box()
+    slider = watched.row("Adv. ratio").get_by_role("slider")
+    slider.scroll_into_view_if_needed()
+    thumb = slider.bounding_box()
     assert thumb is not None
     x, y = thumb["x"] + thumb["width"] / 2, thumb["y"] + thumb["height"] / 2
     page.mouse.move(x, y)
