@@ -63,13 +63,41 @@ def _inflow(solution: Solution, grid: PolarGrid) -> Array:
     return grid.refine(solution.disk.inflow)
 
 
-def _alpha(solution: Solution, grid: PolarGrid) -> Array:
-    """α from refined θ, U_T, U_P: these are smooth where α itself runs through ±180°.
+def angle_of_attack(solution: Solution, grid: PolarGrid) -> Array:
+    """α [rad] from refined θ, U_T, U_P: these are smooth where α itself runs through ±180°.
 
     Not wrapped: only reverse flow, where it is not shown, goes beyond half a turn.
     """
     disk = solution.disk
-    return np.degrees(grid.refine(disk.theta) - np.arctan2(grid.refine(disk.u_p), grid.refine(disk.u_t)))
+    return grid.refine(disk.theta) - np.arctan2(grid.refine(disk.u_p), grid.refine(disk.u_t))
+
+
+def stall_margin(solution: Solution, grid: PolarGrid) -> Array:
+    """Angle left before stall [rad], from the refined α and refined stall angles.
+
+    The margin itself falls by a radian within one element beside reverse flow; the stall angles do not. Each element
+    tells one of the two, the nearer; the other is taken as typical, which does no harm where it is far away.
+    """
+    disk = solution.disk
+    ahead = disk.u_t > 0.0
+    nose_down = disk.alpha < _BETWEEN_STALLS
+    upper = _known_or_typical(disk.alpha + disk.stall_margin, ahead & ~nose_down, 0.2)
+    lower = _known_or_typical(disk.alpha - disk.stall_margin, ahead & nose_down, -0.15)
+    alpha = angle_of_attack(solution, grid)
+    return np.minimum(grid.refine(upper) - alpha, alpha - grid.refine(lower))
+
+
+_BETWEEN_STALLS = math.radians(2.0)
+"""About half way between negative and positive stall."""
+
+
+def _known_or_typical(angle: Array, known: NDArray[np.bool_], otherwise: float) -> Array:
+    typical = float(np.median(angle[known])) if known.any() else otherwise
+    return np.where(known, angle, typical)
+
+
+def _alpha_deg(solution: Solution, grid: PolarGrid) -> Array:
+    return np.degrees(angle_of_attack(solution, grid))
 
 
 def _mach(solution: Solution, grid: PolarGrid) -> Array:
@@ -98,14 +126,14 @@ def _power(solution: Solution, grid: PolarGrid) -> Array:
     return grid.refine(disk.r[:, None] * disk.dcq) * (solution.design.power_unit / (rotor.blades * rotor.radius) / 1e3)
 
 
-def _stall_margin(solution: Solution, grid: PolarGrid) -> Array:
-    return np.degrees(grid.refine(filled(solution.disk, np.clip(solution.disk.stall_margin, -0.7, 0.7))))
+def _stall_margin_deg(solution: Solution, grid: PolarGrid) -> Array:
+    return np.degrees(stall_margin(solution, grid))
 
 
 FIELDS: dict[str, Field] = {
     field.title: field
     for field in (
-        Field("Angle of attack", "°", -4.0, 10.0, "sequential", _alpha, void_in_reverse_flow=True),
+        Field("Angle of attack", "°", -4.0, 10.0, "sequential", _alpha_deg, void_in_reverse_flow=True),
         Field("Induced inflow λi", "", -0.08, 0.08, "diverging", _induced),
         Field("Total inflow λ", "", -0.12, 0.12, "diverging", _inflow),
         Field("Mach number", "", 0.0, 0.9, "sequential", _mach),
@@ -113,7 +141,7 @@ FIELDS: dict[str, Field] = {
         Field("M²cn", "", -0.25, 0.25, "diverging", _m2cn),
         Field("Thrust dT/dr", "kN/m per blade", -1.0, 7.0, "sequential", _thrust),
         Field("Power dP/dr", "kW/m per blade", -20.0, 100.0, "sequential", _power),
-        Field("Stall margin", "°", -12.0, 12.0, "margin", _stall_margin, void_in_reverse_flow=True),
+        Field("Stall margin", "°", -12.0, 12.0, "margin", _stall_margin_deg, void_in_reverse_flow=True),
     )
 }
 """By title, in the order of the menu."""

@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from explorer.fields import filled
+from explorer.fields import filled, stall_margin
 from explorer.polar import PolarGrid, polar_grid
 from rotor.solution import Solution
 
@@ -37,10 +37,8 @@ def reverse_flow_segments(solution: Solution) -> Array:
 
 def stall_segments(solution: Solution) -> Array:
     """Where the stall margin is zero, the reverse-flow region left out; shape (n, 2, 2), in radii."""
-    disk = solution.disk
-    grid = polar_grid(disk, _RADII, _AZIMUTHS)
-    margin = grid.refine(filled(disk, np.clip(disk.stall_margin, -0.5, 0.5)))
-    return _outside_reverse_flow(contour(grid, margin, 0.0), solution)
+    grid = polar_grid(solution.disk, _RADII, _AZIMUTHS)
+    return _outside_reverse_flow(contour(grid, stall_margin(solution, grid), 0.0), solution, 0.0)
 
 
 def drag_divergence_segments(solution: Solution) -> Array:
@@ -48,15 +46,15 @@ def drag_divergence_segments(solution: Solution) -> Array:
     disk = solution.disk
     grid = polar_grid(disk, _RADII, _AZIMUTHS)
     slope = grid.refine(filled(disk, np.clip(disk.cd_mach, -0.5, 0.5)))
-    return _outside_reverse_flow(contour(grid, slope, DRAG_DIVERGENCE), solution)
+    # An element and a half clear of reverse flow: nearer, the line would only trace the elements' steps.
+    return _outside_reverse_flow(contour(grid, slope, DRAG_DIVERGENCE), solution, 1.5 * disk.dr)
 
 
-def _outside_reverse_flow(segments: Array, solution: Solution) -> Array:
-    """Segments an element and a half clear of reverse flow: nearer, the line would only trace the elements' steps."""
+def _outside_reverse_flow(segments: Array, solution: Solution, clearance: float) -> Array:
     middle = segments.mean(axis=1)
     mu = solution.design.condition.advance_ratio * math.cos(solution.controls.shaft_tilt)
     r, psi = np.hypot(*middle.T), np.arctan2(middle[:, 1], middle[:, 0])
-    return segments[r + mu * np.sin(psi) > 1.5 * solution.disk.dr] if mu > 0.0 else segments
+    return segments[r + mu * np.sin(psi) > clearance] if mu > 0.0 else segments
 
 
 def contour(grid: PolarGrid, values: Array, level: float) -> Array:

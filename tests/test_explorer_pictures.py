@@ -12,7 +12,7 @@ from PIL import Image
 from explorer import disk_image
 from explorer.colour_bar import colour_bar, tick_text
 from explorer.colours import VOID, colour_map, greyed
-from explorer.fields import FIELDS, filled, fitted_range, reverse_flow, ticks
+from explorer.fields import FIELDS, filled, fitted_range, reverse_flow, stall_margin, ticks
 from explorer.outlines import contour, reverse_flow_segments, stall_segments
 from explorer.picture import DISK_DROP, disk_png, field_values, make_picture
 from explorer.polar import PolarGrid, polar_grid
@@ -151,6 +151,15 @@ class TestFields:
         column = round(grid_of(forward).psi.searchsorted(math.radians(300)))
         outside = alpha[~reverse_flow(forward, grid)[:, column], column]
         assert np.abs(np.diff(outside))[3:].max() < 25.0
+
+    def test_stall_margin_is_that_of_the_solver(self, forward: Solution):
+        """On the solver's own points, clear of reverse flow, where stall is near enough to matter."""
+        disk = forward.disk
+        r, psi = np.eye(len(disk.r)), np.eye(len(disk.psi))
+        same = stall_margin(forward, PolarGrid(disk.r, disk.psi, r, psi))
+        clear = (disk.u_t > 0.05) & (np.abs(disk.stall_margin) < 0.1)
+        assert clear.sum() > 1000
+        assert_allclose(same[clear], disk.stall_margin[clear], atol=math.radians(0.6))
 
     def test_filling_takes_the_first_value_outside(self, forward: Solution):
         disk = forward.disk
