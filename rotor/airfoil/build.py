@@ -41,6 +41,7 @@ TRAITS = {
     "sc1095": SectionTraits(thickness=0.095, cap_ratio=1.0, cap_native=False, negative_ratio=0.80),
     # No public R8 table exists to check against. XFOIL's cl_max (1.96 at M 0.3, growing with Mach) is not
     # believed; a neural network trained on XFOIL gives R8 1.09-1.10 times the SC1095 value at M 0.3-0.5.
+    # Its negative_ratio is a rounded guess near XFOIL's 0.42: negative stall moves with the paneling anyway.
     "sc1094r8": SectionTraits(thickness=0.094, cap_ratio=1.10, cap_native=True, negative_ratio=0.45),
 }
 TITLES = {"sc1095": "SC1095 XFOIL TRIP5 WRAP", "sc1094r8": "SC1094R8 XFOIL TRIP5 WRAP"}
