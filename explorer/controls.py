@@ -66,9 +66,8 @@ class Controls:
         self._inflows = {name: model.title for name, model in INFLOW_MODELS.items()}
         self.view_buttons = gui.add_button_group("View", ("3D", "Top"), hint="Fit the rotor into the window.")
         with gui.add_folder("Twist"):
-            self._inputs["law"] = self._watched(
-                gui.add_dropdown("Law", tuple(self._laws.values()), initial_value=self._laws[start.law])
-            )
+            self._law = gui.add_dropdown("Law", tuple(self._laws.values()), initial_value=self._laws[start.law])
+            self._inputs["law"] = self._watched(self._law)
             self._sliders(gui, tuple(name for law in LAWS.values() for name in law.inputs))
         with gui.add_folder("Flight"):
             self._sliders(gui, ("advance_ratio",))
@@ -131,7 +130,7 @@ class Controls:
         if inputs.found is not None:
             self._special = replace(self._special, found=inputs.found, found_airfoils=inputs.found_airfoils)
             self._laws = _laws_of(self._special)
-            self._inputs["law"].options = tuple(self._laws.values())
+            self._law.options = tuple(self._laws.values())
         titles = {"law": self._laws, "preset": PRESET_TITLES, "inflow": self._inflows}
         for name in INPUT_NAMES:
             if name in self._inputs:
@@ -171,11 +170,7 @@ class Controls:
 
 def _laws_of(inputs: Inputs) -> dict[str, str]:
     """The menu of laws: those that are not always there only where `inputs` hold them."""
-    return {
-        key: law.title
-        for key, law in LAWS.items()
-        if key not in NOT_ALWAYS or getattr(inputs, key) is not None
-    }
+    return {key: law.title for key, law in LAWS.items() if key not in NOT_ALWAYS or getattr(inputs, key) is not None}
 
 
 def _key(titles: dict[str, str], title: str) -> str:

@@ -1,16 +1,15 @@
 """What runs in a worker process: it takes tasks from a pipe, one at a time, and tells what it finds. Knows no page."""
 
 import os
-
-for _threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
-    os.environ.setdefault(_threads, "1")  # Before NumPy: on systems this small BLAS threads cost more than they bring.
-
 import signal
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from typing import Any, Protocol
+
+for _threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
+    os.environ.setdefault(_threads, "1")  # Nothing here has met NumPy yet: its BLAS makes no threads that only hinder.
 
 Tell = Callable[[Any], None]
 Stop = Callable[[], bool]

@@ -28,6 +28,8 @@ class PowerCurves:
 
     def __init__(self) -> None:
         self._curves: dict[Design, Array] = {}
+        self._coarse: set[Design] = set()
+        """Those of them that were swept in a hurry."""
         self._last: tuple[Design | None, float] = (None, -math.inf)
 
     def known(self, design: Design) -> PowerCurve:
@@ -43,7 +45,7 @@ class PowerCurves:
         """Make the curves of this design and its baseline known; False when given up half way."""
         patient = time.monotonic() - self._last[1] < PATIENCE
         for family in (_family(design), _family(baseline_of(design))):
-            if family in self._curves:
+            if family in self._curves and family not in self._coarse:
                 continue
             coarse = False
             values = np.full(len(SWEEP), math.nan)
@@ -60,13 +62,16 @@ class PowerCurves:
                     start, values[k] = point, point.power.total / 1e3
             if coarse:
                 values = _bridged(values)
-            self._keep(family, values)
+            self._keep(family, values, coarse)
         self._last = (_family(design), time.monotonic())
         return True
 
-    def _keep(self, family: Design, values: Array) -> None:
+    def _keep(self, family: Design, values: Array, coarse: bool) -> None:
         if len(self._curves) >= _KEPT:
-            del self._curves[next(iter(self._curves))]
+            oldest = next(iter(self._curves))
+            del self._curves[oldest]
+            self._coarse.discard(oldest)
+        (self._coarse.add if coarse else self._coarse.discard)(family)
         self._curves[family] = values
 
 

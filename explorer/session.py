@@ -7,11 +7,14 @@ from typing import Any
 import numpy as np
 import viser
 
-from explorer import plots, readout, solver, style
+from explorer import mission, plots, readout, solver, style
 from explorer.camera import FittedCamera
 from explorer.charts import Charts
 from explorer.controls import Controls
 from explorer.fields import FIELDS, fitted_range
+from explorer.jobs import Pool
+from explorer.optimise_panel import Hooks, OptimisePanel
+from explorer.overlays import Ghost
 from explorer.picture import disk_png, field_values, make_picture
 from explorer.power_curve import PowerCurves
 from explorer.scene import Scene
@@ -20,6 +23,7 @@ from explorer.worker import LatestWins
 from rotor.presets import uh60a_rotor
 from rotor.solution import Solution
 from rotor.solve import solve
+from rotor.twist import TwistLaw
 
 _log = logging.getLogger(__name__)
 _CHART_WIDTH, _CONTROL_WIDTH = 340, 320
@@ -30,14 +34,16 @@ _BRAND = (28, 126, 214)
 class Session:
     """Lives from connect to disconnect. After construction everything happens on the worker's thread."""
 
-    def __init__(self, client: viser.ClientHandle, start: Inputs, dark: bool) -> None:
+    def __init__(self, client: viser.ClientHandle, start: Inputs, dark: bool, pool: Pool) -> None:
         self._client = client
         self._latest: Solution | None = None
         self._good: Solution | None = None
         """The last converged answer: what the picture shows."""
-        self._drawn: tuple[Solution, ViewState, tuple[float, float]] | None = None
+        self._drawn: tuple[Solution, ViewState, tuple[float, float], TwistLaw | None] | None = None
         self._ranges = {title: (field.low, field.high) for title, field in FIELDS.items()}
         self._range_order: str | None = None
+        self._ghost_twist: TwistLaw | None = None
+        """Of the blade a search began from, while its designs are shown."""
         self._baseline = solver.Baseline()
         self._curves = PowerCurves()
         self._dark = dark
@@ -48,7 +54,12 @@ class Session:
         self._theme()
         gui.set_panel_label("Rotor explorer")
         gui.add_html(style.SHEET)
-        self._controls = Controls(gui, start, self._worker.wake, dark)
+        tabs = gui.add_tab_group()
+        with tabs.add_tab("Design"):
+            self._controls = Controls(gui, start, self._worker.wake, dark)
+        with tabs.add_tab("Optimise"):
+            hooks = Hooks(self._controls.inputs, self._controls.set_inputs, self._worker.wake, mission.legs)
+            self._optimise = OptimisePanel(gui, pool, hooks)
         gui.main_panel.dock_right()
         gui.main_panel.set_width(_CONTROL_WIDTH)
         panel = gui.add_panel()
@@ -61,6 +72,7 @@ class Session:
         panel.dock_left()
         panel.set_width(_CHART_WIDTH)
         self._scene = Scene(client.scene, rotor)
+        self._ghost = Ghost(client.scene, rotor)
         self._camera = FittedCamera(client, rotor.radius)
         self._controls.view_buttons.on_click(self._view_clicked)
         self._controls.range_buttons.on_click(self._range_clicked)
@@ -70,6 +82,7 @@ class Session:
         self._worker.wake()
 
     def stop(self) -> None:
+        self._optimise.close()
         self._worker.stop()
 
     def _round(self, superseded: Callable[[], bool]) -> None:
@@ -82,9 +95,14 @@ class Session:
         try:
             design = inputs.design()
         except ValueError as error:
+            self._optimise.refresh(None)
             self._latest = None
             self._lose(view, readout.status_panel(None, str(error)))
             return
+        preview = self._optimise.preview(design)
+        self._optimise.refresh(design)
+        self._ghost_twist = None if preview is None else design.twist
+        design = preview or design
         if self._latest is None or self._latest.design != design:
             self._latest = solve(design, self._good)
         if not self._latest.converged:
@@ -98,14 +116,16 @@ class Session:
 
     def _draw(self, solution: Solution, view: ViewState) -> None:
         colour_range = self._range(solution, view)
-        if self._drawn is not None and self._drawn[0] is solution and self._drawn[1:] == (view, colour_range):
+        wanted = (view, colour_range, self._ghost_twist)
+        if self._drawn is not None and self._drawn[0] is solution and self._drawn[1:] == wanted:
             return
         picture = make_picture(solution, view, colour_range)
         with self._client.atomic():
             self._scene.show(picture)
+            self._ghost.show(uh60a_rotor(solution.design.preset), self._ghost_twist, view.exaggeration)
         self._client.flush()  # The frame goes out now; read-outs and charts follow while it is drawn.
         self._controls.show_range(view.field, colour_range, faded=False)
-        self._drawn = (solution, view, colour_range)
+        self._drawn = (solution, *wanted)
 
     def _tell(self, solution: Solution, baseline: Solution, view: ViewState) -> None:
         self._status.content = readout.status_panel(solution)

@@ -19,6 +19,8 @@ KNOW_VISER = {
     "scene.py",
     "camera.py",
     "controls.py",
+    "optimise_panel.py",
+    "overlays.py",
     "charts.py",
     "viser_compat.py",
 }
