@@ -97,6 +97,7 @@ class OptimisePanel:
             blank.x_range or (1.0, 2.0),
             _HEIGHT,
         )
+        self._details = gui.add_html("")
         self._begin.on_click(lambda _: self.begin())
         self._halt.on_click(lambda _: self.halt())
         self._verdict.on_click(self._judge)
@@ -188,6 +189,7 @@ class OptimisePanel:
         self._bar.value = round(100.0 * run.part_done, 1)
         self._bar.animated = under_way
         self._found.content = search_text.found(run)
+        self._details.content = search_text.details(run)
         on_offer = self._offered and not under_way and len(run.frames) > 1
         here = design is not None and run.matches(design)
         if on_offer and here and self._scrubber.max != len(run.frames) - 1:

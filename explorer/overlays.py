@@ -1,7 +1,8 @@
-"""What lies on the marked blade: the ghost of the blade a search began from. Made once, then moved and shown."""
+"""What lies on the marked blade: the ghost of the blade a search began from, and colours. Made once, then moved."""
 
 import numpy as np
 import viser
+from numpy.typing import NDArray
 
 from explorer import colours
 from explorer.meshes import ghost_segments
@@ -34,3 +35,25 @@ class Ghost:
         if twist is not None:
             self._lines.points = ghost_segments(rotor, twist, exaggeration).astype(np.float32)
         self._lines.visible = twist is not None
+
+
+class Strip:
+    """Coloured points along the marked blade."""
+
+    def __init__(self, api: viser.SceneApi) -> None:
+        self._points = api.add_point_cloud(
+            f"{_BLADE}/strip",
+            np.zeros((1, 3), dtype=np.float32),
+            np.zeros((1, 3), dtype=np.uint8),
+            point_size=0.075,
+            point_shape="square",
+            visible=False,
+        )
+
+    def show(self, points: NDArray[np.float32], colours_of: NDArray[np.uint8]) -> None:
+        self._points.points = points
+        self._points.colors = colours_of
+        self._points.visible = True
+
+    def hide(self) -> None:
+        self._points.visible = False

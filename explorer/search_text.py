@@ -51,7 +51,7 @@ def _where(run: SearchRun) -> str:
 
 
 def found(run: SearchRun) -> str:
-    """The best so far, and at the end what it is made of."""
+    """The best so far, and what it saves."""
     best = run.best
     parts = []
     if run.state == "broken":
@@ -70,13 +70,17 @@ def found(run: SearchRun) -> str:
     if run.baseline_power != run.start_power:
         rows.append(_saving(f"than {baseline_title(run.search.design)}", best.power, run.baseline_power))
     parts.append(f"<table>{''.join(rows)}</table>")
-    if run.optimum is not None and run.optimum.best is not None:
-        parts.append(_optimum(run.optimum, run.concept))
     return _block(parts)
 
 
-def _block(parts: list[str]) -> str:
-    return f'<div class="rx rx-found" data-explorer="found">{"".join(parts)}</div>' if parts else ""
+def details(run: SearchRun) -> str:
+    """What the optimum is made of, how flat it is, and what else was found."""
+    optimum = run.optimum
+    return "" if optimum is None or optimum.best is None else _block([_optimum(optimum, run.concept)], "details")
+
+
+def _block(parts: list[str], name: str = "found") -> str:
+    return f'<div class="rx rx-found" data-explorer="{name}">{"".join(parts)}</div>' if parts else ""
 
 
 def _legs(run: SearchRun) -> tuple[object, ...]:

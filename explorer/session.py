@@ -14,10 +14,11 @@ from explorer.controls import Controls
 from explorer.fields import FIELDS, fitted_range
 from explorer.jobs import Pool
 from explorer.optimise_panel import Hooks, OptimisePanel
-from explorer.overlays import Ghost
+from explorer.overlays import Ghost, Strip
 from explorer.picture import disk_png, field_values, make_picture
 from explorer.power_curve import PowerCurves
 from explorer.scene import Scene
+from explorer.sensitivity_panel import SensitivityPanel
 from explorer.state import Inputs, ViewState, baseline_of
 from explorer.worker import LatestWins
 from rotor.presets import uh60a_rotor
@@ -54,6 +55,8 @@ class Session:
         self._theme()
         gui.set_panel_label("Rotor explorer")
         gui.add_html(style.SHEET)
+        self._scene = Scene(client.scene, rotor)
+        self._ghost = Ghost(client.scene, rotor)
         tabs = gui.add_tab_group()
         with tabs.add_tab("Design"):
             self._controls = Controls(gui, start, self._worker.wake, dark)
@@ -69,10 +72,10 @@ class Session:
             self._trim = gui.add_html("")
             self._charts = Charts(gui, *plots.blank())
             self._provenance = gui.add_html("")
+        with panel.add_tab("Where to twist", viser.Icon.ARROWS_VERTICAL):
+            self._sensitivity = SensitivityPanel(gui, Strip(client.scene), self._worker.wake)
         panel.dock_left()
         panel.set_width(_CHART_WIDTH)
-        self._scene = Scene(client.scene, rotor)
-        self._ghost = Ghost(client.scene, rotor)
         self._camera = FittedCamera(client, rotor.radius)
         self._controls.view_buttons.on_click(self._view_clicked)
         self._controls.range_buttons.on_click(self._range_clicked)
@@ -111,6 +114,8 @@ class Session:
         self._good = self._latest
         self._draw(self._good, view)
         self._tell(self._good, self._baseline.solve(baseline_of(design)), view)
+        if not superseded():
+            self._sensitivity.show(self._good, view.exaggeration)
         if self._curves.sweep(design, superseded):
             self._plot_power(self._good)
 
@@ -150,6 +155,7 @@ class Session:
         """Keep the last good answer, but grey, with the sentence in red."""
         self._status.content = status
         self._drawn = None
+        self._sensitivity.lose()
         if self._good is None:
             return
         colour_range = self._range(self._good, view)

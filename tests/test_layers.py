@@ -21,6 +21,7 @@ KNOW_VISER = {
     "controls.py",
     "optimise_panel.py",
     "overlays.py",
+    "sensitivity_panel.py",
     "charts.py",
     "viser_compat.py",
 }
