@@ -24,9 +24,8 @@ def search_plot(run: SearchRun | None, previous: Range | None) -> Plot:
     start = run.start_power / 1e3 if run is not None and run.start_power is not None else None
     if begun:
         least = min(float(trace.min()) for trace in begun)
-        # Ranged on where the starts end and what they improve on, not on the worst design that was tried.
-        worst = sorted(float(trace[0]) for trace in begun)
-        top = max(worst[len(worst) // 2], start or 0.0, least * 1.002)
+        # Ranged on where the starts end and on what they improve, not on the worst design that was tried.
+        top = max(start or 0.0, least * 1.01)
         y_range = held_range(previous, least - 0.05 * (top - least), top)
     else:
         least, y_range = math.inf, previous or (0.0, 1.0)

@@ -6,7 +6,7 @@ import viser
 
 from explorer import sensitivity
 from explorer.charts import Chart, line
-from explorer.colours import BASELINE, PARTS, THIS
+from explorer.colours import BASELINE, THIS
 from explorer.meshes import blade_shape
 from explorer.overlays import Strip
 from rotor.solution import Solution
@@ -23,9 +23,9 @@ class SensitivityPanel:
         self._chart = Chart(
             gui,
             "dP/dθ [kW/° per r/R]",
-            (("total", THIS), ("induced", PARTS["induced"])),
+            (("total", THIS), ("induced", BASELINE)),
             "radius r/R",
-            (line("zero", BASELINE, 1.0), line("induced", PARTS["induced"], 1.5, (5, 3)), line("total", THIS)),
+            (line("zero", BASELINE, 0.7), line("induced", BASELINE, 1.5, (5, 3)), line("total", THIS)),
             sensitivity.blank_sensitivity(),
             (0.1, 1.02),
             _HEIGHT,

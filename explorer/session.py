@@ -13,6 +13,7 @@ from explorer.charts import Charts
 from explorer.controls import Controls
 from explorer.fields import FIELDS, fitted_range
 from explorer.jobs import Pool
+from explorer.map_panel import MapPanel
 from explorer.optimise_panel import Hooks, OptimisePanel
 from explorer.overlays import Ghost, Strip
 from explorer.picture import disk_png, field_values, make_picture
@@ -74,6 +75,8 @@ class Session:
             self._provenance = gui.add_html("")
         with panel.add_tab("Where to twist", viser.Icon.ARROWS_VERTICAL):
             self._sensitivity = SensitivityPanel(gui, Strip(client.scene), self._worker.wake)
+        with panel.add_tab("Map", viser.Icon.MAP_2):
+            self._map = MapPanel(gui, pool, hooks, self._optimise.wishes, self._optimise.optimum_of)
         panel.dock_left()
         panel.set_width(_CHART_WIDTH)
         self._camera = FittedCamera(client, rotor.radius)
@@ -86,6 +89,7 @@ class Session:
 
     def stop(self) -> None:
         self._optimise.close()
+        self._map.close()
         self._worker.stop()
 
     def _round(self, superseded: Callable[[], bool]) -> None:
@@ -99,11 +103,13 @@ class Session:
             design = inputs.design()
         except ValueError as error:
             self._optimise.refresh(None)
+            self._map.refresh(None)
             self._latest = None
             self._lose(view, readout.status_panel(None, str(error)))
             return
         preview = self._optimise.preview(design)
         self._optimise.refresh(design)
+        self._map.refresh(design)
         self._ghost_twist = None if preview is None else design.twist
         design = preview or design
         if self._latest is None or self._latest.design != design:

@@ -50,4 +50,7 @@ SHEET = """<style>
 .rx-best { font-size: 21px; font-weight: 650; letter-spacing: -0.4px; margin-right: 7px; }
 .rx-broken { color: #c92a2a; }
 [data-mantine-color-scheme=dark] .rx-broken { color: #ff8787; }
+.rx-map { display: block; }
+.rx-map image { image-rendering: auto; }
+.rx-map-title { padding: 0 10px 0 36px; }
 </style>"""

@@ -4,9 +4,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from rotor.concepts import Concept
 from rotor.design import Design
-from rotor.objective import at_condition, measure
+from rotor.objective import Objective, at_condition, measure
 from rotor.optimise import Optimum, Search, optimise
+from rotor.solution import Solution
 
 
 @dataclass(frozen=True)
@@ -42,3 +44,55 @@ class SearchTask:
         elif not stop():
             tell(Reference(measure(objective, self.baseline, gradient=False).power))
         return optimise(search, tell, stop)
+
+
+@dataclass(frozen=True)
+class MapTask:
+    """Power over two parameters of a concept, the others held: on a coarse grid, then on finer ones."""
+
+    design: Design
+    concept: Concept
+    objective: Objective
+    axes: tuple[int, int]
+    """Which parameters run along x and y."""
+    values: tuple[float, ...]
+    """All parameters; those of the axes are replaced."""
+    steps: tuple[int, ...] = (8, 16, 32)
+    """Intervals along each axis, each a multiple of the one before."""
+
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> bool:
+        """Tells a `MapLevel` for each grid; True when all were done."""
+        known: dict[tuple[int, int], float | None] = {}
+        finest = self.steps[-1]
+        for steps in self.steps:
+            stride = finest // steps
+            near: tuple[Solution, ...] = ()
+            for row in range(0, finest + 1, stride):
+                columns = range(0, finest + 1, stride)
+                # To and fro, so that each trim starts from its neighbour.
+                for column in columns if row // stride % 2 == 0 else reversed(columns):
+                    if (row, column) in known:
+                        continue
+                    if stop():
+                        return False
+                    made = measure(self.objective, self.at(column / finest, row / finest), near, gradient=False)
+                    known[row, column] = made.power
+                    near = made.solutions if made.power is not None else ()
+            places = range(0, finest + 1, stride)
+            tell(MapLevel(tuple(tuple(known[row, column] for column in places) for row in places)))
+        return True
+
+    def at(self, x: float, y: float) -> Design:
+        """The design at a place of the map, 0…1 along each axis."""
+        values = list(self.values)
+        for axis, part in zip(self.axes, (x, y), strict=True):
+            parameter = self.concept.parameters[axis]
+            values[axis] = parameter.low + part * (parameter.high - parameter.low)
+        return self.concept.apply(self.design, values)
+
+
+@dataclass(frozen=True)
+class MapLevel:
+    """Powers [W] on a square grid, rows along y from low to high; None where a design does not trim."""
+
+    powers: tuple[tuple[float | None, ...], ...]

@@ -19,6 +19,7 @@ KNOW_VISER = {
     "scene.py",
     "camera.py",
     "controls.py",
+    "map_panel.py",
     "optimise_panel.py",
     "overlays.py",
     "sensitivity_panel.py",
