@@ -43,8 +43,9 @@ class MapPanel:
         self._drawn: object = None
         self._here: tuple[object, tuple[float, ...], bool] | None = None
         self._title = gui.add_html("")
-        self._x = gui.add_dropdown("Across", ("–",))
-        self._y = gui.add_dropdown("Up", ("–",))
+        unknown: tuple[str, ...] = ("–",)
+        self._x: viser.GuiDropdownHandle[str] = gui.add_dropdown("Across", unknown)
+        self._y: viser.GuiDropdownHandle[str] = gui.add_dropdown("Up", unknown)
         self._draw = gui.add_button("Draw map", icon=viser.Icon.MAP_2)
         self._state = gui.add_html("")
         self._picture = gui.add_html("")

@@ -7,6 +7,7 @@ from html import escape
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import RectBivariateSpline
 
 from explorer.colour_bar import tick_text
 from explorer.colours import NOW, colour_map
@@ -55,14 +56,14 @@ class Map:
 
 
 def refined(powers: Array, wide: int, high: int) -> Array:
-    """Bilinear between grid points, (high, wide), first row low; NaN next to points that do not trim."""
+    """Smooth between grid points, (high, wide), first row low; straight where some do not trim, NaN next to those."""
     n = len(powers) - 1
     row, column = np.linspace(0.0, n, high), np.linspace(0.0, n, wide)
-    i, j = np.minimum(row.astype(int), n - 1), np.minimum(column.astype(int), n - 1)
-    u, v = (row - i)[:, None], (column - j)[None, :]
-    low = (1.0 - v) * powers[np.ix_(i, j)] + v * powers[np.ix_(i, j + 1)]
-    up = (1.0 - v) * powers[np.ix_(i + 1, j)] + v * powers[np.ix_(i + 1, j + 1)]
-    return (1.0 - u) * low + u * up
+    degree = 3 if np.isfinite(powers).all() else 1
+    known = np.where(np.isfinite(powers), powers, 1e9)
+    grid = np.arange(n + 1.0)
+    values = RectBivariateSpline(grid, grid, known, kx=degree, ky=degree)(row, column)
+    return np.where(values < 1e8, values, np.nan)
 
 
 def picture(powers: Array) -> bytes:
@@ -77,13 +78,9 @@ def picture(powers: Array) -> bytes:
     change = np.zeros(ring.shape, dtype=bool)
     change[:, 1:] |= ring[:, 1:] != ring[:, :-1]
     change[1:, :] |= ring[1:, :] != ring[:-1, :]
-    pixels[change] = _LINE
+    pixels[_thicker(change)] = _LINE
     band = excess <= _BAND
-    wide = band.copy()
-    for axis in (0, 1):
-        for step in (-1, 1):
-            wide |= np.roll(band, step, axis)
-    pixels[wide & ~band] = _EDGE
+    pixels[_thicker(_thicker(band)) & ~band] = _EDGE
     pixels[~known] = 0
     entries = np.zeros((256, 4), dtype=np.uint8)
     entries[1 : 1 + _LEVELS, :3] = colour_map("sequential", _LEVELS)
@@ -91,6 +88,14 @@ def picture(powers: Array) -> bytes:
     entries[_LINE] = (255, 255, 255, 130)
     entries[_EDGE] = (255, 255, 255, 255)
     return encode_png(pixels, entries)
+
+
+def _thicker(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """A pixel more below and to the right."""
+    out = mask.copy()
+    out[1:] |= mask[:-1]
+    out[:, 1:] |= mask[:, :-1]
+    return out
 
 
 def drawing(drawn: Map, here: tuple[float, float] | None, exact: bool) -> str:

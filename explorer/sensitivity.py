@@ -50,7 +50,8 @@ def strip(
     points[:, 2] += 0.03
     values = np.interp(r, plot.data[0], plot.data[-1])
     half = max(abs(plot.y_range[0]), abs(plot.y_range[1]))
-    shades = np.rint((0.5 + 0.5 * np.clip(values / half, -1.0, 1.0)) * (_COLOURS - 1)).astype(int)
+    signed = np.sign(values) * np.sqrt(np.minimum(np.abs(values) / half, 1.0))  # The tip would outshine all else.
+    shades = np.rint((0.5 + 0.5 * signed) * (_COLOURS - 1)).astype(int)
     colours = np.broadcast_to(colour_map("diverging", _COLOURS)[shades], (len(columns), _ALONG, 3))
     return points.transpose(0, 2, 1).reshape(-1, 3).astype(np.float32), colours.reshape(-1, 3).copy()
 

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import viser
 
-from explorer import mission, plots, readout, solver, style
+from explorer import plots, readout, solver, style
 from explorer.camera import FittedCamera
 from explorer.charts import Charts
 from explorer.controls import Controls
@@ -19,9 +19,11 @@ from explorer.overlays import Ghost, Strip
 from explorer.picture import disk_png, field_values, make_picture
 from explorer.power_curve import PowerCurves
 from explorer.scene import Scene
+from explorer.schedule_panel import SchedulePanel
 from explorer.sensitivity_panel import SensitivityPanel
 from explorer.state import Inputs, ViewState, baseline_of
 from explorer.worker import LatestWins
+from rotor.design import Design
 from rotor.presets import uh60a_rotor
 from rotor.solution import Solution
 from rotor.solve import solve
@@ -62,8 +64,15 @@ class Session:
         with tabs.add_tab("Design"):
             self._controls = Controls(gui, start, self._worker.wake, dark)
         with tabs.add_tab("Optimise"):
-            hooks = Hooks(self._controls.inputs, self._controls.set_inputs, self._worker.wake, mission.legs)
+            hooks = Hooks(
+                self._controls.inputs,
+                self._controls.set_inputs,
+                self._worker.wake,
+                lambda design: self._schedule.legs(design),
+            )
             self._optimise = OptimisePanel(gui, pool, hooks)
+        with tabs.add_tab("Schedule"):
+            self._schedule = SchedulePanel(gui, pool, hooks, self._optimise.wishes, self._send)
         gui.main_panel.dock_right()
         gui.main_panel.set_width(_CONTROL_WIDTH)
         panel = gui.add_panel()
@@ -90,6 +99,7 @@ class Session:
     def stop(self) -> None:
         self._optimise.close()
         self._map.close()
+        self._schedule.close()
         self._worker.stop()
 
     def _round(self, superseded: Callable[[], bool]) -> None:
@@ -102,14 +112,12 @@ class Session:
         try:
             design = inputs.design()
         except ValueError as error:
-            self._optimise.refresh(None)
-            self._map.refresh(None)
+            self._follow(None)
             self._latest = None
             self._lose(view, readout.status_panel(None, str(error)))
             return
         preview = self._optimise.preview(design)
-        self._optimise.refresh(design)
-        self._map.refresh(design)
+        self._follow(design)
         self._ghost_twist = None if preview is None else design.twist
         design = preview or design
         if self._latest is None or self._latest.design != design:
@@ -124,6 +132,12 @@ class Session:
             self._sensitivity.show(self._good, view.exaggeration)
         if self._curves.sweep(design, superseded):
             self._plot_power(self._good)
+
+    def _follow(self, design: Design | None) -> None:
+        """Bring the tabs that start long work into line with the design on the sliders."""
+        self._optimise.refresh(design)
+        self._map.refresh(design)
+        self._schedule.refresh()
 
     def _draw(self, solution: Solution, view: ViewState) -> None:
         colour_range = self._range(solution, view)
@@ -186,6 +200,9 @@ class Session:
     def _report(self, error: Exception) -> None:
         _log.error("an update failed", exc_info=error)
         self._status.content = readout.status_panel(None, f"This update failed ({error}): move any slider to go on.")
+
+    def _send(self, name: str, content: bytes) -> None:
+        self._client.send_file_download(name, content, save_immediately=True)
 
     def _theme(self) -> None:
         self._client.gui.configure_theme(

@@ -7,7 +7,8 @@ from typing import Any
 from rotor.concepts import Concept
 from rotor.design import Design
 from rotor.objective import Objective, at_condition, measure
-from rotor.optimise import Optimum, Search, optimise
+from rotor.optimise import Ended, Optimum, Search, optimise
+from rotor.schedule import Cell, Plan, Schedule
 from rotor.solution import Solution
 
 
@@ -96,3 +97,57 @@ class MapLevel:
     """Powers [W] on a square grid, rows along y from low to high; None where a design does not trim."""
 
     powers: tuple[tuple[float | None, ...], ...]
+
+
+@dataclass(frozen=True)
+class ScheduleTask:
+    """The best twist for each leg of a mission, and the best fixed blade."""
+
+    plan: Plan
+
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Schedule:
+        """Tells every `Cell`, then `FixedPowers`. Every leg has all its starts, whatever its neighbour found."""
+        plan, concept = self.plan, self.plan.concepts[0]
+        cells: list[Cell] = []
+        guesses: tuple[tuple[float, ...], ...] = ()
+        for k, leg in enumerate((*plan.legs, None)):
+            if leg is None:
+                guesses = _middle(cells, plan)
+            search = Search(
+                design=plan.design_at(None if leg is None else k),
+                concept=concept,
+                objective=Objective(plan.quantity, plan.legs if leg is None else (leg,)),
+                limits=plan.limits,
+                starts=plan.starts if leg is not None else min(plan.starts, 3),
+                seed=plan.seed,
+                guesses=guesses,
+                band=False,
+            )
+            optimum = optimise(search, stop=stop)
+            if optimum.status is Ended.STOPPED:
+                return Schedule(plan, tuple(cells))
+            guesses = () if optimum.best is None else (optimum.best.parameters,)
+            cells.append(Cell(None if leg is None else k, concept.name, optimum))
+            tell(cells[-1])
+        powers = [measure(Objective(plan.quantity, (leg,)), cells[-1].optimum.design, gradient=False).power
+                  for leg in plan.legs]  # fmt: skip
+        tell(FixedPowers(tuple(powers)))
+        return Schedule(plan, tuple(cells))
+
+
+def _middle(cells: list[Cell], plan: Plan) -> tuple[tuple[float, ...], ...]:
+    """The mean of the best moving blades, by their hours: where the search for a fixed one begins."""
+    shares = Objective(plan.quantity, plan.legs).shares
+    found = [(share, cell.optimum.best) for share, cell in zip(shares, cells, strict=True) if cell.optimum.best]
+    total = sum(share for share, _ in found)
+    if not found:
+        return ()
+    return (tuple(sum(share * best.parameters[k] for share, best in found) / total
+                  for k in range(len(plan.concepts[0].parameters))),)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class FixedPowers:
+    """Power of the best fixed blade on each leg [W]; None where it does not trim."""
+
+    powers: tuple[float | None, ...]

@@ -77,11 +77,15 @@ class Wishes:
 
     def search(self, design: Design, legs: Callable[[Design], tuple[Leg, ...]]) -> Search:
         """The search; ValueError with one sentence where it makes no sense."""
-        change = None if self.change is None else reach(design.twist, math.radians(self.change))
         return Search(
             design=design,
             concept=self.known_concept(),
             objective=self.wanted(design, legs),
-            limits=Limits(stalled=None if self.stalled is None else self.stalled / 100.0, change=change),
+            limits=self.limits(design),
             starts=self.starts,
         )
+
+    def limits(self, design: Design) -> Limits:
+        """The limits; change is counted from the design's own twist."""
+        change = None if self.change is None else reach(design.twist, math.radians(self.change))
+        return Limits(stalled=None if self.stalled is None else self.stalled / 100.0, change=change)

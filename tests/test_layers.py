@@ -22,6 +22,7 @@ KNOW_VISER = {
     "map_panel.py",
     "optimise_panel.py",
     "overlays.py",
+    "schedule_panel.py",
     "sensitivity_panel.py",
     "charts.py",
     "viser_compat.py",
