@@ -43,9 +43,9 @@ class MapPanel:
         self._drawn: object = None
         self._here: tuple[object, tuple[float, ...], bool] | None = None
         self._title = gui.add_html("")
-        unknown: tuple[str, ...] = ("–",)
-        self._x: viser.GuiDropdownHandle[str] = gui.add_dropdown("Across", unknown)
-        self._y: viser.GuiDropdownHandle[str] = gui.add_dropdown("Up", unknown)
+        titles = tuple([parameter.title for parameter in wishes().known_concept().parameters])
+        self._x = gui.add_dropdown("Across", titles)
+        self._y = gui.add_dropdown("Up", titles)
         self._draw = gui.add_button("Draw map", icon=viser.Icon.MAP_2)
         self._state = gui.add_html("")
         self._picture = gui.add_html("")
