@@ -227,7 +227,7 @@ class OptimisePanel:
         self._offered = False
         if event.target.value == "Apply":
             here = run.matches(self._hooks.inputs().design())
-            frame = run.frames[run.cursor if here else -1]
+            frame = run.chosen if here else run.frames[-1]
             self._hooks.apply(with_optimum(self._hooks.inputs(), frame.design))
         self._hooks.wake()
 

@@ -150,6 +150,11 @@ class SearchRun:
         return min(self._play.cursor, max(len(self.frames) - 1, 0))
 
     @property
+    def chosen(self) -> Frame:
+        """What Apply takes: the frame that somebody scrubbed to, or else the best, even while the picture plays."""
+        return self.frames[-1 if self._play.running else self.cursor]
+
+    @property
     def playing(self) -> bool:
         """Whether more frames wait to be shown."""
         return self._play.running and self._play.cursor < len(self.frames) - 1
@@ -178,6 +183,8 @@ class Playback:
             return None
         last = len(frames) - 1
         now = time.monotonic()
+        if self.since == 0.0:
+            self.since = now  # The first has its time as well.
         if self.running and self.cursor < last and now - self.since >= (2.0 if self.thorough else 1.0) * FRAME:
             behind = last - self.cursor
             self.cursor += 1 if self.thorough else max(1, behind - _CATCH_UP)
