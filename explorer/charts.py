@@ -4,7 +4,7 @@ import viser
 from viser import uplot
 
 from explorer import readout
-from explorer.colours import BASELINE, LIMIT, NOW, THIS
+from explorer.colours import BASELINE, IDEAL, LIMIT, NOW, THIS
 from explorer.plots import Plot, Range
 
 _HEIGHT = 94
@@ -80,9 +80,10 @@ class Charts:
         self.power = Chart(
             gui,
             "Power [kW] over µ",
-            (*both, ("now", NOW)),
+            (*both, ("ideal", IDEAL)),
             "advance ratio µ",
             (
+                _line("ideal for this lift", IDEAL, 1.2, (2, 3)),
                 *pair,
                 _points("baseline, hover", BASELINE, 6),
                 _points("this design, hover", THIS, 6),

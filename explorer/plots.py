@@ -33,6 +33,8 @@ class PowerCurve:
 
     design: Array
     baseline: Array
+    ideal: Array
+    """This design's power were its induced power the least that any circulation could have."""
 
 
 def held_range(previous: Range | None, low: float, high: float) -> Range:
@@ -50,7 +52,7 @@ def held_range(previous: Range | None, low: float, high: float) -> Range:
 
 
 def power_plot(curve: PowerCurve, mu: float, power_kw: float | None, previous: Range | None) -> Plot:
-    """Series: baseline, this design, hover points of both, the present point.
+    """Series: ideal for this lift, baseline, this design, hover points of both, the present point.
 
     Hover and forward flight are two models, so the line starts at µ 0.075 and hover stands alone.
     """
@@ -70,6 +72,7 @@ def power_plot(curve: PowerCurve, mu: float, power_kw: float | None, previous: R
     now = single(mu, math.nan if power_kw is None else power_kw)
     data = (
         x,
+        line(curve.ideal),
         line(curve.baseline),
         line(curve.design),
         single(0.0, curve.baseline[0]),
@@ -148,7 +151,7 @@ def blank() -> tuple[Plot, Plot, Plot, Plot]:
     ends = np.array([0.13, 1.0])
     waiting = (-1e-3, 1e-3)
     return (
-        Plot((np.array([0.0, 0.45]), *(none,) * 5), waiting),
+        Plot((np.array([0.0, 0.45]), *(none,) * 6), waiting),
         Plot((ends, none, none), waiting),
         Plot((ends, none, none), waiting),
         Plot((ends, none), waiting),

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from explorer.plots import SWEEP, PowerCurve
+from explorer.readout import ideal_induced
 from explorer.state import baseline_of
 from rotor.design import Design
 from rotor.solution import Solution
@@ -24,20 +25,19 @@ _KEPT = 200
 
 
 class PowerCurves:
-    """Remembers the curves of one session; a curve belongs to a design whatever its speed."""
+    """Remembers the curves of one session, total and ideal power; a curve belongs to a design whatever its speed."""
 
     def __init__(self) -> None:
-        self._curves: dict[Design, Array] = {}
+        self._curves: dict[Design, Array] = {}  # (2, points): total, ideal [kW].
         self._last: tuple[Design | None, float] = (None, -math.inf)
 
     def known(self, design: Design) -> PowerCurve:
         """The curves of this design and its baseline; for the design's own, until it is swept, the one before it."""
-        blank = np.full(len(SWEEP), math.nan)
+        blank = np.full((2, len(SWEEP)), math.nan)
         last = self._last[0]
         before = self._curves.get(last, blank) if last is not None else blank
-        return PowerCurve(
-            self._curves.get(_family(design), before), self._curves.get(_family(baseline_of(design)), blank)
-        )
+        total, ideal = self._curves.get(_family(design), before)
+        return PowerCurve(total, self._curves.get(_family(baseline_of(design)), blank)[0], ideal)
 
     def sweep(self, design: Design, superseded: Callable[[], bool]) -> bool:
         """Make the curves of this design and its baseline known; False when given up half way."""
@@ -46,7 +46,7 @@ class PowerCurves:
             if family in self._curves:
                 continue
             coarse = False
-            values = np.full(len(SWEEP), math.nan)
+            values = np.full((2, len(SWEEP)), math.nan)
             start: Solution | None = None
             for k, mu in enumerate(SWEEP):
                 if superseded():
@@ -57,9 +57,9 @@ class PowerCurves:
                     continue
                 point = solve(at_advance_ratio(family, mu), start)
                 if point.converged:
-                    start, values[k] = point, point.power.total / 1e3
+                    start, values[:, k] = point, _powers(point)
             if coarse:
-                values = _bridged(values)
+                values = np.stack([_bridged(row) for row in values])
             self._keep(family, values)
         self._last = (_family(design), time.monotonic())
         return True
@@ -72,6 +72,12 @@ class PowerCurves:
 
 def _family(design: Design) -> Design:
     return replace(design, condition=replace(design.condition, advance_ratio=0.0))
+
+
+def _powers(point: Solution) -> tuple[float, float]:
+    """Total power, and what it would be with the least induced power at this lift [kW]."""
+    total, ideal = point.power.total / 1e3, ideal_induced(point)
+    return total, math.nan if ideal is None else total - (point.power.induced - ideal) / 1e3
 
 
 def _bridged(values: Array) -> Array:

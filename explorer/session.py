@@ -39,6 +39,9 @@ class Session:
         self._ranges = {title: (field.low, field.high) for title, field in FIELDS.items()}
         self._range_order: str | None = None
         self._baseline = solver.Baseline()
+        self._checked: Solution | None = None
+        """The last check with the vortex wake."""
+        self._check_wanted = False
         self._curves = PowerCurves()
         self._dark = dark
         self._worker = LatestWins(self._round, self._report, f"session-{client.client_id}")
@@ -56,6 +59,7 @@ class Session:
             self._status = gui.add_html(readout.status_panel(None))
             self._power = gui.add_html("")
             self._trim = gui.add_html("")
+            self._check = gui.add_html("")
             self._charts = Charts(gui, *plots.blank())
             self._provenance = gui.add_html("")
         panel.dock_left()
@@ -64,6 +68,7 @@ class Session:
         self._camera = FittedCamera(client, rotor.radius)
         self._controls.view_buttons.on_click(self._view_clicked)
         self._controls.range_buttons.on_click(self._range_clicked)
+        self._controls.check_button.on_click(self._check_clicked)
 
     def start(self) -> None:
         self._worker.start()
@@ -93,6 +98,7 @@ class Session:
         self._good = self._latest
         self._draw(self._good, view)
         self._tell(self._good, self._baseline.solve(baseline_of(design)), view)
+        self._compare(self._good)
         if self._curves.sweep(design, superseded):
             self._plot_power(self._good)
 
@@ -117,6 +123,17 @@ class Session:
         charts.alpha.show(plots.alpha_plot(solution, view.azimuth_deg))
         charts.lift.show(plots.lift_plot(solution, view.azimuth_deg))
         self._plot_power(solution)
+
+    def _compare(self, solution: Solution) -> None:
+        """The vortex wake beside the answer, once asked for; an older check is taken away."""
+        if self._checked is not None and self._checked.design != solver.with_vortex_wake(solution.design):
+            self._checked = None
+            self._check.content = ""
+        if self._check_wanted:
+            self._check_wanted = False
+            self._check.content = readout.check_panel(None, solution)
+            self._checked = solve(solver.with_vortex_wake(solution.design), solution)
+            self._check.content = readout.check_panel(self._checked, solution)
 
     def _plot_power(self, solution: Solution, lost: bool = False) -> None:
         design, chart = solution.design, self._charts.power
@@ -162,6 +179,11 @@ class Session:
 
     def _view_clicked(self, event: viser.GuiEvent[Any]) -> None:
         self._camera.aim("3d" if event.target.value == "3D" else "top")
+
+    def _check_clicked(self, event: viser.GuiEvent[Any]) -> None:
+        del event
+        self._check_wanted = True
+        self._worker.wake()
 
     def _range_clicked(self, event: viser.GuiEvent[Any]) -> None:
         self._range_order = event.target.value

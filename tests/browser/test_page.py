@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from explorer.app import App
+from explorer.state import Inputs
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Locator, Page
@@ -22,7 +23,7 @@ WAIT = 15_000
 
 @pytest.fixture(scope="module")
 def app() -> Iterator[App]:
-    app = App("127.0.0.1", 0)
+    app = App("127.0.0.1", 0, Inputs(law="uh60a"))
     yield app
     app.stop()
 
@@ -144,6 +145,25 @@ def test_speed_slider_moves_power_and_disk_but_not_the_blade(watched: Watched):
     watched.until_changed(lambda: watched.text("total-power"), power)
     watched.until_changed(lambda: watched.node("/rotor/disk/field"), disk)
     assert watched.node("/rotor/blade_0") == blade
+
+
+def test_infinite_blades_take_less_induced_power(watched: Watched):
+    power = watched.text("total-power")
+    watched.page.get_by_label("Infinite blades").check()
+    after = watched.until_changed(lambda: watched.text("total-power"), power)
+    assert kilowatts(after) < kilowatts(power)
+    assert "infinite blades" in watched.text("provenance")
+    watched.page.get_by_label("Infinite blades").uncheck()
+    watched.until_changed(lambda: watched.text("total-power"), after)
+    assert watched.text("total-power") == power
+
+
+def test_check_with_the_vortex_wake(watched: Watched):
+    watched.page.get_by_role("button", name="Check with the vortex wake").click()
+    watched.page.wait_for_selector('[data-explorer="check"]', timeout=WAIT)
+    assert re.search(r"\d{3} kW.*shown is [+−]\d\.\d %", watched.text("check"), re.DOTALL)
+    watched.press("Adv. ratio", "ArrowRight", 2)
+    watched.page.wait_for_selector('[data-explorer="check"]', state="detached", timeout=WAIT)
 
 
 def test_home_key_hovers(watched: Watched):
