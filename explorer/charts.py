@@ -7,7 +7,7 @@ from explorer import readout
 from explorer.colours import BASELINE, IDEAL, LIMIT, NOW, THIS
 from explorer.plots import Plot, Range
 
-_HEIGHT = 94
+_HEIGHT = 92
 _GRID = uplot.Axis_Grid(show=True, width=1)
 _TICKS = uplot.Axis_Ticks(show=True, width=1, size=4)
 _FONT = "11px sans-serif"
@@ -94,12 +94,13 @@ class Charts:
         )
         self.twist = Chart(gui, "Twist [°] over r/R", both, "radius r/R", pair, twist, (0.1, 1.02))
         blade = (("marked blade", NOW), ("stall", LIMIT))
+        stall = _line("stall", LIMIT, 1.5, (5, 3))
         self.alpha = Chart(
             gui,
             "Angle of attack [°] over r/R",
             blade,
             "radius r/R",
-            (_line("stall", LIMIT, 1.5, (5, 3)), _line("marked blade", NOW)),
+            (stall, stall, _line("marked blade", NOW)),
             alpha,
             (0.1, 1.02),
         )

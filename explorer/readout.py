@@ -142,7 +142,7 @@ def status_panel(solution: Solution | None, problem: str | None = None) -> str:
     if problem is None and solution is not None and not solution.converged:
         problem = solution.message
     if problem is not None:
-        return _status("problem", f"<b>{escape(problem)}</b><br>The last good answer is shown in grey.")
+        return _status("problem", f"{escape(problem)} In grey: the last good answer.")
     if solution is None:
         return _status("waiting", "Solving the first trim …")
     caveats = "".join(

@@ -189,19 +189,22 @@ class TestPlots:
 
     def test_angle_of_attack_has_a_gap_in_reverse_flow(self):
         solution = solve(make_design(advance_ratio=0.35)).require()
-        r, limit, alpha = plots.alpha_plot(solution, 270.0).data
+        r, lower, upper, alpha = plots.alpha_plot(solution, 270.0).data
         assert np.isnan(alpha[r < 0.3]).all()
         assert np.isfinite(alpha[r > 0.4]).all()
-        assert np.isnan(limit[r < 0.3]).all()
-        assert np.isfinite(plots.alpha_plot(solution, 90.0).data[2]).all()
+        assert np.isnan(lower[r < 0.3]).all()
+        assert np.isnan(upper[r < 0.3]).all()
+        assert np.isfinite(plots.alpha_plot(solution, 90.0).data[3]).all()
 
     def test_azimuth_closes(self, forward: Solution):
-        first, last = (plots.alpha_plot(forward, psi).data[2] for psi in (0.0, 360.0))
+        first, last = (plots.alpha_plot(forward, psi).data[3] for psi in (0.0, 360.0))
         assert_allclose(first, last, rtol=1e-12)
 
     def test_stall_limit_lies_above_an_unstalled_blade(self, forward: Solution):
-        _, limit, alpha = plots.alpha_plot(forward, 60.0).data
-        assert (limit > alpha).all()
+        r, lower, upper, alpha = plots.alpha_plot(forward, 60.0).data
+        assert (upper > alpha).all()
+        assert (lower < alpha).all()
+        assert 10.0 < upper[r.searchsorted(0.4)] < 16.0
 
     def test_twist_in_degrees(self):
         design = Inputs(law="linear", linear=-10.0).design()
