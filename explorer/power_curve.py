@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
 
 from explorer.plots import SWEEP, PowerCurve
 from explorer.readout import ideal_induced
@@ -28,7 +29,10 @@ class PowerCurves:
     """Remembers the curves of one session, total and ideal power; a curve belongs to a design whatever its speed."""
 
     def __init__(self) -> None:
-        self._curves: dict[Design, Array] = {}  # (2, points): total, ideal [kW].
+        self._curves: dict[Design, Array] = {}
+        """(2, points): total and ideal [kW]."""
+        self._coarse: set[Design] = set()
+        """Curves swept in haste, to be swept again once there is time."""
         self._last: tuple[Design | None, float] = (None, -math.inf)
 
     def known(self, design: Design) -> PowerCurve:
@@ -43,7 +47,7 @@ class PowerCurves:
         """Make the curves of this design and its baseline known; False when given up half way."""
         patient = time.monotonic() - self._last[1] < PATIENCE
         for family in (_family(design), _family(baseline_of(design))):
-            if family in self._curves:
+            if family in self._curves and family not in self._coarse:
                 continue
             coarse = False
             values = np.full((2, len(SWEEP)), math.nan)
@@ -53,21 +57,22 @@ class PowerCurves:
                     if patient:
                         return False
                     coarse = True
-                if coarse and k % 4 and k != len(SWEEP) - 1:
+                if coarse and k > 0 and (k - 1) % 3:
                     continue
                 point = solve(at_advance_ratio(family, mu), start)
                 if point.converged:
                     start, values[:, k] = point, _powers(point)
             if coarse:
                 values = np.stack([_bridged(row) for row in values])
-            self._keep(family, values)
+            self._keep(family, values, coarse)
         self._last = (_family(design), time.monotonic())
         return True
 
-    def _keep(self, family: Design, values: Array) -> None:
+    def _keep(self, family: Design, values: Array, coarse: bool) -> None:
         if len(self._curves) >= _KEPT:
             del self._curves[next(iter(self._curves))]
         self._curves[family] = values
+        self._coarse = (self._coarse | {family}) if coarse else (self._coarse - {family})
 
 
 def _family(design: Design) -> Design:
@@ -81,9 +86,10 @@ def _powers(point: Solution) -> tuple[float, float]:
 
 
 def _bridged(values: Array) -> Array:
-    """Points left out of a coarse sweep, on straight lines between their neighbours; hover is not a neighbour."""
+    """Points left out of a coarse sweep, on a smooth line between those of forward flight, not beyond them."""
     k = np.arange(len(values))
     have = np.isfinite(values) & (k > 0)
     if have.sum() < 2:
         return values
-    return np.where(k > 0, np.interp(k, k[have], values[have]), values)
+    line = PchipInterpolator(k[have], values[have], extrapolate=False)
+    return np.where(k > 0, line(k), values)

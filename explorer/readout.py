@@ -138,7 +138,7 @@ def _deg(angle: float, digits: int = 2) -> str:
 
 
 def status_panel(solution: Solution | None, problem: str | None = None) -> str:
-    """A box of constant height: how the solve ended, and every reason to read the numbers with care."""
+    """A box of constant height: how the solve ended, every reason to read it with care, and how it was computed."""
     if problem is None and solution is not None and not solution.converged:
         problem = solution.message
     if problem is not None:
@@ -150,7 +150,7 @@ def status_panel(solution: Solution | None, problem: str | None = None) -> str:
     )
     detail = f"Residual below {_tiny(solution.residual)} of weight, {solution.passes} passes."
     text = f'<div><span class="rx-good">●</span> {escape(solution.message)} {detail}</div>'
-    return _status("converged", text + caveats)
+    return _status("converged", text + caveats + provenance(solution))
 
 
 def _tiny(value: float) -> str:
@@ -172,7 +172,7 @@ def provenance(solution: Solution) -> str:
         inflow = "annulus balance" if design.models.hover_inflow == "annulus" else "closed form, eq. (3.3)"
     losses = "tip and hub loss" if design.models.tip_loss else "no losses"
     return (
-        f'<div class="rx rx-small rx-dim" data-explorer="provenance">Preset <i>{escape(design.preset)}</i>: '
+        f'<div class="rx-small rx-dim" data-explorer="provenance">Preset <i>{escape(design.preset)}</i>: '
         f"{escape(inflow)}, {escape(' / '.join(sections))}, {losses}, "
         f"{design.models.elements} × {design.models.azimuths} grid, {number(1e3 * solution.elapsed, 1)} ms. "
         "Indicative: a model, not a measurement.</div>"

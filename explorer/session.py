@@ -61,7 +61,6 @@ class Session:
             self._trim = gui.add_html("")
             self._check = gui.add_html("")
             self._charts = Charts(gui, *plots.blank())
-            self._provenance = gui.add_html("")
         panel.dock_left()
         panel.set_width(_CHART_WIDTH)
         self._scene = Scene(client.scene, rotor)
@@ -117,7 +116,6 @@ class Session:
         self._status.content = readout.status_panel(solution)
         self._power.content = readout.power_panel(solution, baseline)
         self._trim.content = readout.trim_panel(solution)
-        self._provenance.content = readout.provenance(solution)
         charts = self._charts
         charts.twist.show(plots.twist_plot(solution.design, baseline.design, charts.twist.y_range))
         charts.alpha.show(plots.alpha_plot(solution, view.azimuth_deg))

@@ -18,6 +18,7 @@ from explorer.worker import LatestWins
 from rotor.presets import PRESETS, make_design
 from rotor.solution import Caveat, Solution, Status
 from rotor.solve import solve
+from rotor.sweep import at_advance_ratio
 from rotor.twist import TableTwist
 
 
@@ -236,6 +237,18 @@ class TestPowerCurves:
         following = Inputs(law="linear", linear=-9.0).design()
         assert not curves.sweep(following, lambda: True)  # Fresh enough: given up.
         assert np.isfinite(curves.known(following).design[1:10]).all()  # The one before stays.
+
+    def test_a_coarse_curve_is_swept_again_when_there_is_time(self):
+        curves = PowerCurves()
+        design = Inputs(law="linear", linear=-8.0).design()
+        curves.sweep(design, lambda: True)
+        coarse = curves.known(design).design
+        curves.sweep(design, lambda: False)
+        fine = curves.known(design).design
+        k = plots.SWEEP.index(0.15)
+        assert_allclose(coarse[1:14], fine[1:14], rtol=0.03)
+        assert coarse[k] != fine[k]
+        assert_allclose(fine[k], solve(at_advance_ratio(design, 0.15)).power.total / 1e3, rtol=1e-6)
 
 
 class TestLatestWins:

@@ -282,3 +282,17 @@ def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any,
     assert overlap <= size[0] - 600  # The panels stand beside the canvas, not on it.
     assert watched.complaints == []
     context.close()
+
+
+def test_picture_of_the_readme(browser: "Browser", app: App, artefacts: Path):
+    """docs/images/explorer.png is a copy of what this saves."""
+    context = browser.new_context(viewport={"width": 1500, "height": 940})
+    watched = Watched(context.new_page())
+    watched.open(app.address, query="")
+    watched.choose("Law", "Two segments")
+    watched.choose("Field", "Induced inflow λi")
+    watched.page.wait_for_timeout(2500)
+    watched.quiet()
+    watched.page.screenshot(path=artefacts / "explorer.png")
+    assert watched.complaints == []
+    context.close()
