@@ -246,6 +246,24 @@ def test_two_browsers_do_not_disturb_each_other(watched: Watched, browser: "Brow
     context.close()
 
 
+def test_crossed_divisions_are_one_red_sentence(watched: Watched):
+    watched.choose("Law", "Three segments")
+    watched.until_changed(lambda: watched.text("change"), "0.0 %")
+    watched.type("Division 2", 0.3)
+    watched.page.wait_for_selector('[data-explorer="status"][data-kind="problem"]', timeout=WAIT)
+    assert "divisions at 0.4 and 0.3 R are out of order" in watched.text("status")
+    watched.type("Division 2", 0.8)
+    watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
+
+
+def test_thesis_preset_brings_its_own_inflow(watched: Watched):
+    watched.choose("Preset", "Thesis (as stated)")
+    watched.page.wait_for_function(
+        """() => document.querySelector('[data-explorer="provenance"]')?.innerText.includes('15π/23')""", timeout=WAIT
+    )
+    assert "linear −16°" in watched.text("power")
+
+
 def test_charts_are_fed_not_rebuilt(watched: Watched):
     read = """() => Object.values(window.__viserTestpoints.uplots).map(
         p => [p.createCount, p.chart.data[1].length, p.chart.axes[0]._values.length])"""
@@ -278,6 +296,7 @@ def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any,
     path = artefacts / f"explorer-{scheme}-{size[0]}x{size[1]}.png"
     watched.page.screenshot(path=path)
     assert path.stat().st_size > 50_000
+    assert watched.page.locator("html").get_attribute("data-mantine-color-scheme") == scheme  # As the browser asks.
     overlap = watched.page.evaluate("() => document.querySelector('canvas').getBoundingClientRect().width")
     assert overlap <= size[0] - 600  # The panels stand beside the canvas, not on it.
     assert watched.complaints == []
