@@ -7,7 +7,7 @@ from explorer import readout
 from explorer.colours import BASELINE, IDEAL, LIMIT, NOW, THIS
 from explorer.plots import Plot, Range
 
-_HEIGHT = 103
+_HEIGHT = 94
 _GRID = uplot.Axis_Grid(show=True, width=1)
 _TICKS = uplot.Axis_Ticks(show=True, width=1, size=4)
 _FONT = "11px sans-serif"

@@ -26,7 +26,7 @@ SHEET = """<style>
 .rx td { padding: 0; }
 .rx-patch { display: inline-block; width: 9px; height: 9px; border-radius: 2px; margin-right: 7px; }
 .rx-grid { display: grid; grid-template-columns: 1fr 1fr; column-gap: 18px; padding-top: 4px; }
-.rx-status { margin: 4px 10px 2px; padding: 5px 8px; height: 84px; overflow-y: auto; border-radius: 4px;
+.rx-status { margin: 4px 10px 2px; padding: 5px 8px; height: 72px; overflow-y: auto; border-radius: 4px;
   font-size: 12px; line-height: 1.32; background: rgba(128,128,128,.10); }
 .rx-problem { background: #c92a2a; color: #fff; }
 .rx-good { color: #0ca678; }
