@@ -1,7 +1,9 @@
 """The rotor as built: blade planform, sections along the span, mass, hub."""
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -115,3 +117,15 @@ class Rotor:
         """ν² = 1 + e S/I, the rotating flap frequency over Ω, squared."""
         blade = self.blade
         return 1.0 + blade.flap_hinge * self.radius * blade.flap_static_moment / blade.flap_inertia
+
+
+def with_airfoils(rotor: Rotor, sections: Sequence[str], breaks: Sequence[float]) -> Rotor:
+    """The rotor with other sections, root to tip, that change at `breaks` (r/R) without a blend."""
+    ends = (rotor.blade.root_cutout, *breaks, 1.0)
+    if len(breaks) != len(sections) - 1 or any(low >= high for low, high in pairwise(ends)):
+        raise ValueError(
+            f"{len(sections)} airfoils with changes at {list(breaks)}: give one ascending r/R between each two of them, "
+            f"beyond the root cut-out {rotor.blade.root_cutout:g}"
+        )
+    spans = tuple(Span(low, high, name) for (low, high), name in zip(pairwise(ends), sections, strict=True))
+    return replace(rotor, blade=replace(rotor.blade, spans=spans))

@@ -13,6 +13,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rotor.spline import spline_basis
+
 Array = NDArray[np.float64]
 
 REFERENCE_RADIUS = 0.75
@@ -94,6 +96,39 @@ class PiecewiseLinearTwist:
 
 
 @dataclass(frozen=True)
+class SplineTwist:
+    """A smooth curve through a few angles: the cubic spline without knots at the second and last but one station.
+
+    So it holds every linear and quadratic law exactly.
+    """
+
+    stations: tuple[float, ...]
+    """r/R, ascending, four or more."""
+    angles: tuple[float, ...]
+    """[rad]; shifted so that the law is zero at 0.75 R."""
+
+    def __post_init__(self) -> None:
+        if len(self.stations) != len(self.angles) or len(self.stations) < 4:
+            raise ValueError(
+                f"{len(self.angles)} spline angles at {len(self.stations)} stations: give four or more of each, "
+                "for example spline:9,6,0,-5@0.13,0.4,0.75,1"
+            )
+        if any(low >= high for low, high in pairwise(self.stations)):
+            raise ValueError(f"spline stations {list(self.stations)} must ascend: reorder or move them")
+        if not (self.stations[0] >= 0.0 and self.stations[-1] <= 1.0):
+            raise ValueError(f"spline stations {list(self.stations)} must lie within 0…1: give them as r/R")
+
+    def __call__(self, r: ArrayLike) -> Array:
+        radii = np.asarray(r, dtype=float)
+        angles = np.array(self.angles)
+        return spline_basis(self.stations, radii) @ angles - spline_basis(self.stations, REFERENCE_RADIUS) @ angles
+
+    def spec(self) -> str:
+        angles = ",".join(_degrees(angle) for angle in self.angles)
+        return f"spline:{angles}@{','.join(f'{station:.10g}' for station in self.stations)}"
+
+
+@dataclass(frozen=True)
 class IdealTwist:
     """θ = θ_tip / r, eq. (1.1): uniform inflow in hover when the collective puts θ_tip at the tip.
 
@@ -141,7 +176,8 @@ class TableTwist:
 def parse_twist(spec: str, *, builtin: TwistLaw, ideal_tip_pitch: float) -> TwistLaw:
     """Read a twist SPEC (DESIGN §8), degrees at this edge only.
 
-    `linear:-8` · `quadratic:A,D` · `segments:-12,-4@0.5` · `ideal` or `ideal:6.4` · `uh60a` · `table:FILE`.
+    `linear:-8` · `quadratic:A,D` · `segments:-12,-4@0.5` · `spline:9,6,0,-5@0.13,0.4,0.75,1` ·
+    `ideal` or `ideal:6.4` · `uh60a` · `table:FILE`.
     `builtin` is the rotor's own twist (for `uh60a`); `ideal_tip_pitch` [rad] serves `ideal` without a number.
     Raises ValueError with one sentence that names the value and the remedy.
     """
@@ -163,11 +199,17 @@ def parse_twist(spec: str, *, builtin: TwistLaw, ideal_tip_pitch: float) -> Twis
             tuple(math.radians(_number(item, spec)) for item in rates.split(",")),
             tuple(_number(item, spec) for item in breaks.split(",")) if breaks else (),
         )
+    if kind == "spline":
+        angles, _, stations = rest.partition("@")
+        return SplineTwist(
+            tuple(_number(item, spec) for item in stations.split(",")) if stations else (),
+            tuple(math.radians(_number(item, spec)) for item in angles.split(",")),
+        )
     if kind == "table" and rest:
         return read_twist_table(Path(rest))
     raise ValueError(
         f"twist {spec!r} is not known: "
-        "use linear:RATE, quadratic:A,D, segments:RATES@BREAKS, ideal, uh60a or table:FILE"
+        "use linear:RATE, quadratic:A,D, segments:RATES@BREAKS, spline:ANGLES@STATIONS, ideal, uh60a or table:FILE"
     )
 
 
