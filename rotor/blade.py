@@ -124,7 +124,7 @@ def with_airfoils(rotor: Rotor, sections: Sequence[str], breaks: Sequence[float]
     ends = (rotor.blade.root_cutout, *breaks, 1.0)
     if len(breaks) != len(sections) - 1 or any(low >= high for low, high in pairwise(ends)):
         raise ValueError(
-            f"{len(sections)} airfoils with changes at {list(breaks)}: give one ascending r/R between each two of them, "
+            f"{len(sections)} airfoils with changes at {list(breaks)}: give one ascending r/R between each two, "
             f"beyond the root cut-out {rotor.blade.root_cutout:g}"
         )
     spans = tuple(Span(low, high, name) for (low, high), name in zip(pairwise(ends), sections, strict=True))

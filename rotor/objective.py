@@ -1,4 +1,4 @@
-"""What an optimiser makes small: power at one flight condition, or weighted over several; and how it answers to pitch."""
+"""What an optimiser makes small: power at one flight condition or its mean over several, with its slopes by pitch."""
 
 import math
 from collections.abc import Sequence
@@ -30,7 +30,9 @@ class Leg:
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.hours) and self.hours > 0.0):
-            raise ValueError(f"{self.hours:g} hours at advance ratio {self.condition.advance_ratio:g}: give more than 0")
+            raise ValueError(
+                f"{self.hours:g} hours at advance ratio {self.condition.advance_ratio:g}: give more than 0"
+            )
 
 
 @dataclass(frozen=True)
@@ -127,6 +129,4 @@ def measure(
                 area, slope = stalled_share(adjoint)
                 stalled.append(area)
                 stalled_by_pitch.append(slope)
-    return Measured(
-        power, by_pitch, tuple(stalled), np.array(stalled_by_pitch) if stall else None, tuple(solutions)
-    )
+    return Measured(power, by_pitch, tuple(stalled), np.array(stalled_by_pitch) if stall else None, tuple(solutions))

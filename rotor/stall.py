@@ -70,4 +70,7 @@ def _margin(problem: Problem, one: Pass) -> tuple[Array, Array, Array]:
         slopes.append(slope)
     above, below = ends[1] - alpha, alpha - ends[0]
     upper = above < below
-    return np.where(upper, above, below), np.where(upper, -1.0, 1.0), np.where(upper, slopes[1], -slopes[0])
+    margin: Array = np.minimum(above, below)
+    by_alpha: Array = np.where(upper, -1.0, 1.0)
+    by_mach: Array = np.where(upper, slopes[1], -slopes[0])
+    return margin, by_alpha, by_mach

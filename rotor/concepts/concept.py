@@ -17,6 +17,7 @@ Array = NDArray[np.float64]
 Unit = Literal["rad/R", "rad/R²", "rad", "R"]
 Motion = Literal["tilt", "bend", "slide", "lift"]
 
+
 @dataclass(frozen=True)
 class Parameter:
     """One degree of freedom, in SI inside."""

@@ -31,7 +31,9 @@ class SegmentsConcept:
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
-        rates = (Parameter(f"{name}_rate", f"{title} rate", "rad/R", STEEPEST, FLATTEST) for name, title in self.segments)
+        rates = (
+            Parameter(f"{name}_rate", f"{title} rate", "rad/R", STEEPEST, FLATTEST) for name, title in self.segments
+        )
         return (*rates, *(Parameter(name, title, "R", low, high) for name, title, low, high in self.breaks))
 
     @property
@@ -62,7 +64,7 @@ class SegmentsConcept:
         for k in range(n):
             out[k] = np.clip(r, ends[k], ends[k + 1]) - min(max(REFERENCE_RADIUS, ends[k]), ends[k + 1])
         for k, place in enumerate(breaks):
-            out[n + k] = (rates[k] - rates[k + 1]) * ((r > place) - float(REFERENCE_RADIUS > place))
+            out[n + k] = (rates[k] - rates[k + 1]) * ((r > place) - float(place < REFERENCE_RADIUS))
         return out
 
     def apply(self, design: Design, values: Sequence[float]) -> Design:
