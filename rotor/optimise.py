@@ -20,7 +20,7 @@ from rotor.search.evaluator import Evaluator, Stopped
 from rotor.search.limits import ChangeLimit as ChangeLimit
 from rotor.search.limits import Limits as Limits
 from rotor.search.limits import reach as reach
-from rotor.search.metric import Metric, fit_metric, plain_metric
+from rotor.search.metric import BAND, Metric, fit_metric, plain_metric
 from rotor.search.record import FEASIBLE, Record
 from rotor.search.results import Band as Band
 from rotor.search.results import Ended as Ended
@@ -32,12 +32,10 @@ Array = NDArray[np.float64]
 
 STARTS = 6
 """Starts of a search unless said otherwise; the first is the law nearest to the design's own twist."""
-_SAME_POWER = 1e-4
-"""Two ends are one minimum when their powers agree to this part …"""
-_SAME_PLACE = 0.06
-"""… and their parameters to this part of their ranges, or …"""
-_SAME_BOWL = 0.35
-"""… to this part of the band."""
+_SAME_PLACE = 0.05
+"""Ends whose parameters agree to this part of their ranges are one minimum."""
+_RISE = 1e-6
+"""Part of the power that the way between two ends of one valley may rise."""
 
 
 @dataclass(frozen=True)
@@ -98,7 +96,8 @@ class _Run:
     def __init__(self, search: Search, evaluate: Evaluator) -> None:
         self.search, self.evaluate = search, evaluate
         self.baseline: float | None = None
-        self.ends: list[tuple[int, Record]] = []
+        self.groups: list[tuple[Record, list[int]]] = []
+        """Local minima: the best end of each, and the starts that ended there."""
         self.lost = 0
         self.metric: Metric | None = None
         self.band: tuple[Band, ...] = ()
@@ -106,7 +105,7 @@ class _Run:
     @property
     def best(self) -> Record | None:
         """The best end of a descent."""
-        return min((end for _, end in self.ends), key=lambda end: end.watts, default=None)
+        return min((end for end, _ in self.groups), key=lambda end: end.watts, default=None)
 
     def descend_from(self, start: int, x: Array) -> None:
         """One start; a point that does not trim is drawn towards the middle first."""
@@ -121,9 +120,27 @@ class _Run:
             return
         descent = descend(self.evaluate, self.metric or plain_metric(x, first.power), first)
         if descent.end is not None and descent.settled:
-            self.ends.append((start, descent.end))
+            self._gather(start, descent.end)
         if self.evaluate.best is not None:
             self.metric = fit_metric(self.evaluate.records, self.evaluate.best) or self.metric
+
+    def _gather(self, start: int, end: Record) -> None:
+        """Put an end with the minimum that it belongs to, or begin a new one."""
+        for k, (lead, members) in enumerate(self.groups):
+            if self._same(lead, end):
+                self.groups[k] = (min(lead, end, key=lambda one: one.watts), [*members, start])
+                return
+        self.groups.append((end, [start]))
+
+    def _same(self, a: Record, b: Record) -> bool:
+        """Whether two ends are one minimum: near each other, or in one valley with no rise half-way."""
+        higher = max(a.watts, b.watts)
+        if abs(a.watts - b.watts) > BAND * higher:
+            return False
+        if np.abs(a.x - b.x).max() < _SAME_PLACE:
+            return True
+        half = self.evaluate(0.5 * (a.x + b.x))
+        return half.feasible and half.watts <= higher * (1.0 + _RISE)
 
     def _refuge(self) -> Array:
         known = self.evaluate.best
@@ -132,7 +149,8 @@ class _Run:
     def result(self, *, stopped: bool) -> Optimum:
         """What has been found so far."""
         search, evaluate = self.search, self.evaluate
-        minima = _gather(self)
+        groups = sorted(self.groups, key=lambda group: group[0].watts)
+        minima = tuple(_minimum(evaluate, lead, members) for lead, members in groups)
         best = minima[0] if minima else None
         seen = evaluate.best
         if seen is not None and (best is None or seen.watts < best.power * (1.0 - 1e-7)):
@@ -140,7 +158,7 @@ class _Run:
         if stopped:
             status = Ended.STOPPED
             message = f"Stopped after {evaluate.count} evaluations; the best so far is kept."
-            if self.ends and evaluate.phase == "band":
+            if self.groups and evaluate.phase == "band":
                 message = "Stopped while measuring the band; the search itself was complete."
         elif best is None:
             status, message = Ended.NOT_CONVERGED, "No start trims within the limits: loosen them, or fly slower."
@@ -177,27 +195,6 @@ def _starts(search: Search, evaluate: Evaluator) -> Iterable[Array]:
     if left > 0:
         points.extend(qmc.Halton(len(evaluate.span), seed=search.seed).random(left))
     return points
-
-
-def _gather(run: _Run) -> tuple[Minimum, ...]:
-    """Ends that are the same minimum, put together; the best first."""
-    groups: list[tuple[Record, list[int]]] = []
-    for start, end in sorted(run.ends, key=lambda pair: pair[1].watts):
-        for lead, members in groups:
-            if _same(run.metric, lead, end):
-                members.append(start)
-                break
-        else:
-            groups.append((end, [start]))
-    return tuple(_minimum(run.evaluate, lead, sorted(members)) for lead, members in groups)
-
-
-def _same(metric: Metric | None, a: Record, b: Record) -> bool:
-    if abs(a.watts - b.watts) > _SAME_POWER * a.watts:
-        return False
-    if np.abs(a.x - b.x).max() < _SAME_PLACE:
-        return True
-    return metric is not None and float(np.linalg.norm(metric.y(a.x) - metric.y(b.x))) < _SAME_BOWL
 
 
 def _minimum(evaluate: Evaluator, record: Record, starts: Sequence[int]) -> Minimum:

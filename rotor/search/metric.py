@@ -7,6 +7,7 @@ step of length one costs BAND of the power in any direction, so that a descent t
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,7 +67,8 @@ def fit_metric(records: Sequence[Record], best: Record) -> Metric | None:
         if i != j:
             rows[:, j, column] += offsets[:, i]
     matrix, wanted = (rows * weight[:, None, None]).reshape(-1, n + len(pairs)), (gradients * weight[:, None]).ravel()
-    found = (np.linalg.pinv(matrix, rcond=1e-9) @ wanted).tolist()
+    fitted: Any = np.linalg.lstsq(matrix, wanted, rcond=1e-9)[0]
+    found: list[float] = fitted.tolist()
     second = np.zeros((n, n))
     for value, (i, j) in zip(found[n:], pairs, strict=True):
         second[i, j] = second[j, i] = value
