@@ -21,7 +21,7 @@ _TOLERANCE = 1e-3
 """Of the reach, at which a side is done."""
 _INSIDE = 2e-5
 """Power above the edge of the band that still counts as on it: two per cent of the band."""
-_ITERATIONS = 12
+_ITERATIONS = 7
 
 
 def measure_band(evaluate: Evaluator, metric: Metric, best: Record) -> tuple[Band, ...]:

@@ -5,9 +5,9 @@ of all evaluations so far determine its second derivatives by least squares; in 
 step of length one costs BAND of the power in any direction, so that a descent takes few steps and the band is a ball.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +15,8 @@ from numpy.typing import NDArray
 from rotor.search.record import Record
 
 Array = NDArray[np.float64]
+
+_least_squares = cast(Callable[..., Any], np.linalg.lstsq)
 
 BAND = 1e-3
 """Flatness that is reported: parameters within this part of the least power."""
@@ -67,8 +69,7 @@ def fit_metric(records: Sequence[Record], best: Record) -> Metric | None:
         if i != j:
             rows[:, j, column] += offsets[:, i]
     matrix, wanted = (rows * weight[:, None, None]).reshape(-1, n + len(pairs)), (gradients * weight[:, None]).ravel()
-    fitted: Any = np.linalg.lstsq(matrix, wanted, rcond=1e-9)[0]
-    found: list[float] = fitted.tolist()
+    found: list[float] = _least_squares(matrix, wanted, rcond=1e-9)[0].tolist()
     second = np.zeros((n, n))
     for value, (i, j) in zip(found[n:], pairs, strict=True):
         second[i, j] = second[j, i] = value

@@ -1,0 +1,275 @@
+"""Best twist for each flight condition, the best fixed blade for all of them, and what moving is worth beyond it.
+
+Conditions are worked off in chunks of neighbours, each in a process of its own: within a chunk a search starts from the
+optimum of the condition before, and a richer concept from the optima of the simpler ones it holds. The chunks do not
+depend on how many processes there are, so neither does the answer.
+"""
+
+import signal
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from multiprocessing import get_context
+from multiprocessing.queues import Queue
+from queue import Empty
+from typing import Protocol
+
+from rotor.concepts import Concept, nearest
+from rotor.design import Design
+from rotor.objective import Leg, Objective, Quantity
+from rotor.optimise import Ended, Limits, Optimum, Search, optimise
+from rotor.twist import parse_twist
+
+CHUNK = 4
+"""Neighbouring conditions worked off together."""
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What to schedule. A value: it pickles."""
+
+    design: Design
+    """The blade as it is; its own twist is the baseline."""
+    concepts: tuple[Concept, ...]
+    """Simple ones first: the richer start from their optima."""
+    legs: tuple[Leg, ...]
+    """In the order of the table, neighbours next to each other."""
+    quantity: Quantity = "total"
+    limits: Limits = field(default_factory=Limits)
+    starts: int = 4
+    """Starts of the first condition of a chunk; the others begin from their neighbour."""
+    seed: int = 0
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One answer: a concept at one condition, or fixed over all (leg None)."""
+
+    leg: int | None
+    concept: str
+    optimum: Optimum
+
+
+@dataclass(frozen=True)
+class Worth:
+    """What a concept gains by moving, over the mission."""
+
+    concept: str
+    baseline: float
+    """Mean power of the blade as it is [W]."""
+    fixed: float
+    """Mean power of the best fixed blade [W]."""
+    moving: float
+    """Mean power with the best twist in every condition [W]."""
+
+    @property
+    def gain(self) -> float:
+        """[W] that moving saves beyond the best fixed blade."""
+        return self.fixed - self.moving
+
+    @property
+    def share(self) -> float:
+        """The same as a part of the best fixed blade's power."""
+        return self.gain / self.fixed
+
+
+@dataclass(frozen=True)
+class Schedule:
+    """What is known of a plan: complete, or as far as it came."""
+
+    plan: Plan
+    cells: tuple[Cell, ...]
+
+    def at(self, leg: int | None, concept: str) -> Optimum | None:
+        """The optimum of a concept at a leg; None: the fixed blade."""
+        return next((cell.optimum for cell in self.cells if (cell.leg, cell.concept) == (leg, concept)), None)
+
+    @property
+    def complete(self) -> bool:
+        """Whether every cell is there."""
+        return len(self.cells) == len(self.plan.concepts) * (len(self.plan.legs) + 1)
+
+    @property
+    def converged(self) -> bool:
+        """Whether every cell is there and was found."""
+        return self.complete and all(cell.optimum.status is Ended.CONVERGED for cell in self.cells)
+
+    def worth(self, concept: str) -> Worth | None:
+        """What moving is worth; None while a cell of the concept is missing or without an optimum."""
+        fixed = self.at(None, concept)
+        if fixed is None or fixed.best is None or fixed.baseline_power is None:
+            return None
+        moving = 0.0
+        for k, share in enumerate(Objective(self.plan.quantity, self.plan.legs).shares):
+            found = self.at(k, concept)
+            if found is None or found.best is None:
+                return None
+            moving += share * found.best.power
+        return Worth(concept, fixed.baseline_power, fixed.best.power, moving)
+
+
+def run_plan(
+    plan: Plan,
+    found: Sequence[Cell] = (),
+    keep: Callable[[Cell], None] | None = None,
+    stop: Callable[[], bool] | None = None,
+    processes: int = 1,
+) -> Schedule:
+    """Work a plan off. `found`: cells of an earlier run, kept as they are; `keep` hears of every new one at once.
+
+    `stop` is asked several times a second; True ends the run with what there is.
+    """
+    cells = {(cell.leg, cell.concept): cell for cell in found}
+
+    def take(new: Sequence[Cell]) -> None:
+        for cell in new:
+            if (cell.leg, cell.concept) not in cells:
+                cells[cell.leg, cell.concept] = cell
+                if keep is not None:
+                    keep(cell)
+
+    legs = range(len(plan.legs))
+    chunks = [tuple(legs[k : k + CHUNK]) for k in range(0, len(plan.legs), CHUNK)]
+    free = [(_work_chunk, chunk) for chunk in chunks]
+    stopped = _spread(plan, free, cells, take, stop, processes)
+    if not stopped:
+        fixed = [(_work_fixed, (k,)) for k in range(len(plan.concepts))]
+        _spread(plan, fixed, cells, take, stop, processes)
+    order = {concept.name: k for k, concept in enumerate(plan.concepts)}
+    last = len(plan.legs)
+    in_order = sorted(cells.values(), key=lambda one: (last if one.leg is None else one.leg, order[one.concept]))
+    return Schedule(plan, tuple(in_order))
+
+
+_Known = dict[tuple[int | None, str], Cell]
+_Work = Callable[[Plan, tuple[int, ...], _Known, Callable[[], bool] | None], Iterator[Cell]]
+
+
+def _spread(
+    plan: Plan,
+    tasks: Sequence[tuple[_Work, tuple[int, ...]]],
+    cells: _Known,
+    take: Callable[[Sequence[Cell]], None],
+    stop: Callable[[], bool] | None,
+    processes: int,
+) -> bool:
+    """Run tasks here or in processes; True when stopped."""
+    if processes <= 1:
+        for work, which in tasks:
+            for cell in work(plan, which, dict(cells), stop):
+                take([cell])
+            if stop is not None and stop():
+                return True
+        return False
+    context = get_context("spawn")
+    halt, news = context.Event(), context.Queue()
+    stopped = False
+    with ProcessPoolExecutor(processes, mp_context=context, initializer=_join, initargs=(halt, news)) as pool:
+        waiting: set[Future[list[Cell]]] = {pool.submit(_all, work, plan, which, dict(cells)) for work, which in tasks}
+        while waiting:
+            done, waiting = wait(waiting, timeout=0.1, return_when=FIRST_COMPLETED)
+            with suppress(Empty):
+                while True:
+                    take([news.get_nowait()])
+            for future in done:  # Whatever the queue still holds comes with the result as well.
+                if not future.cancelled():
+                    take(future.result())
+            if not stopped and stop is not None and stop():
+                stopped = True
+                halt.set()
+                waiting = {future for future in waiting if not future.cancel()}
+    return stopped
+
+
+class _Flag(Protocol):
+    def is_set(self) -> bool: ...
+
+
+_halt: _Flag | None = None
+_news: "Queue[Cell] | None" = None
+
+
+def _join(halt: _Flag, news: "Queue[Cell]") -> None:
+    """What a new process is told: when to stop, where to send cells. Ctrl-C is for the parent to understand."""
+    global _halt, _news
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    _halt, _news = halt, news
+
+
+def _all(work: _Work, plan: Plan, which: tuple[int, ...], cells: _Known) -> list[Cell]:
+    assert _halt is not None
+    assert _news is not None
+    made: list[Cell] = []
+    for cell in work(plan, which, cells, _halt.is_set):
+        _news.put(cell)
+        made.append(cell)
+    return made
+
+
+def _work_chunk(plan: Plan, legs: tuple[int, ...], known: _Known, stop: Callable[[], bool] | None) -> Iterator[Cell]:
+    """All concepts at neighbouring conditions, one after the other."""
+    for leg in legs:
+        for concept in plan.concepts:
+            if (leg, concept.name) in known:
+                continue
+            neighbour = known.get((leg - 1, concept.name)) if leg - 1 in legs else None
+            guesses = _guesses(plan, leg, concept, known, neighbour)
+            search = Search(
+                design=replace(plan.design, condition=plan.legs[leg].condition),
+                concept=concept,
+                objective=Objective(plan.quantity, (plan.legs[leg],)),
+                limits=plan.limits,
+                starts=plan.starts if neighbour is None else len(guesses),
+                seed=plan.seed,
+                guesses=guesses,
+                band=False,
+            )
+            optimum = optimise(search, stop=stop)
+            if optimum.status is Ended.STOPPED:
+                return
+            cell = Cell(leg, concept.name, optimum)
+            known[leg, concept.name] = cell
+            yield cell
+
+
+def _work_fixed(plan: Plan, which: tuple[int, ...], known: _Known, stop: Callable[[], bool] | None) -> Iterator[Cell]:
+    """The best fixed blade of one concept, from the mean of its best moving ones."""
+    concept = plan.concepts[which[0]]
+    if (None, concept.name) in known:
+        return
+    objective = Objective(plan.quantity, plan.legs)
+    bests = [(share, known.get((leg, concept.name))) for leg, share in enumerate(objective.shares)]
+    found = [(share, cell.optimum.best) for share, cell in bests if cell is not None and cell.optimum.best is not None]
+    total = sum(share for share, _ in found)
+    n = len(concept.parameters)
+    middle = tuple(sum(share * best.parameters[k] for share, best in found) / total for k in range(n)) if found else ()
+    search = Search(
+        design=plan.design,
+        concept=concept,
+        objective=objective,
+        limits=plan.limits,
+        starts=1,
+        seed=plan.seed,
+        guesses=(middle,) if middle else (),
+        band=False,
+    )
+    optimum = optimise(search, stop=stop)
+    if optimum.status is not Ended.STOPPED:
+        yield Cell(None, concept.name, optimum)
+
+
+def _guesses(
+    plan: Plan, leg: int, concept: Concept, known: _Known, neighbour: Cell | None
+) -> tuple[tuple[float, ...], ...]:
+    """The neighbour's optimum, and the best of the simpler concepts at this condition."""
+    guesses: list[tuple[float, ...]] = []
+    if neighbour is not None and neighbour.optimum.best is not None:
+        guesses.append(neighbour.optimum.best.parameters)
+    here = [known.get((leg, other.name)) for other in plan.concepts if other.name != concept.name]
+    simpler = [cell.optimum.best for cell in here if cell is not None and cell.optimum.best is not None]
+    if simpler:
+        best = min(simpler, key=lambda one: one.power)
+        law = parse_twist(best.twist, builtin=plan.design.twist, ideal_tip_pitch=0.0)
+        guesses.append(nearest(concept, law))
+    return tuple(guesses)
