@@ -129,3 +129,22 @@ def with_airfoils(rotor: Rotor, sections: Sequence[str], breaks: Sequence[float]
         )
     spans = tuple(Span(low, high, name) for (low, high), name in zip(pairwise(ends), sections, strict=True))
     return replace(rotor, blade=replace(rotor.blade, spans=spans))
+
+
+def parse_airfoils(rotor: Rotor, spec: str) -> Rotor:
+    """The rotor with the sections of a SPEC: names root to tip, changes (r/R) after @, as `sc1094r8,sc1095@0.5`."""
+    names, _, places = spec.strip().partition("@")
+    try:
+        breaks = [float(item) for item in places.split(",")] if places else []
+    except ValueError:
+        raise ValueError(f"airfoils {spec!r} hold a place that is no number: write sc1094r8,sc1095@0.5") from None
+    return with_airfoils(rotor, [name.strip() for name in names.split(",")], breaks)
+
+
+def airfoils_spec(rotor: Rotor) -> str | None:
+    """The sections as `parse_airfoils` reads them; None where two are blended into one another."""
+    spans = rotor.blade.spans
+    if any(inner.end != outer.start for inner, outer in pairwise(spans)):
+        return None
+    names = ",".join(span.section for span in spans)
+    return names + (f"@{','.join(f'{span.end:.10g}' for span in spans[:-1])}" if len(spans) > 1 else "")

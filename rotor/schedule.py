@@ -5,20 +5,14 @@ optimum of the condition before, and a richer concept from the optima of the sim
 depend on how many processes there are, so neither does the answer.
 """
 
-import signal
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
-from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from multiprocessing import get_context
-from multiprocessing.queues import Queue
-from queue import Empty
-from typing import Protocol
 
 from rotor.concepts import Concept, nearest
 from rotor.design import Design
 from rotor.objective import Leg, Objective, Quantity
 from rotor.optimise import Ended, Limits, Optimum, Search, optimise
+from rotor.search.processes import spread
 from rotor.twist import parse_twist
 
 CHUNK = 4
@@ -122,20 +116,17 @@ def run_plan(
     """
     cells = {(cell.leg, cell.concept): cell for cell in found}
 
-    def take(new: Sequence[Cell]) -> None:
-        for cell in new:
-            if (cell.leg, cell.concept) not in cells:
-                cells[cell.leg, cell.concept] = cell
-                if keep is not None:
-                    keep(cell)
+    def take(cell: Cell) -> None:
+        if (cell.leg, cell.concept) not in cells:
+            cells[cell.leg, cell.concept] = cell
+            if keep is not None:
+                keep(cell)
 
     legs = range(len(plan.legs))
     chunks = [tuple(legs[k : k + CHUNK]) for k in range(0, len(plan.legs), CHUNK)]
-    free = [(_work_chunk, chunk) for chunk in chunks]
-    stopped = _spread(plan, free, cells, take, stop, processes)
+    stopped = spread([(_work_chunk, (plan, chunk, dict(cells))) for chunk in chunks], take, stop, processes)
     if not stopped:
-        fixed = [(_work_fixed, (k,)) for k in range(len(plan.concepts))]
-        _spread(plan, fixed, cells, take, stop, processes)
+        spread([(_work_fixed, (plan, concept, dict(cells))) for concept in plan.concepts], take, stop, processes)
     order = {concept.name: k for k, concept in enumerate(plan.concepts)}
     last = len(plan.legs)
     in_order = sorted(cells.values(), key=lambda one: (last if one.leg is None else one.leg, order[one.concept]))
@@ -143,68 +134,6 @@ def run_plan(
 
 
 _Known = dict[tuple[int | None, str], Cell]
-_Work = Callable[[Plan, tuple[int, ...], _Known, Callable[[], bool] | None], Iterator[Cell]]
-
-
-def _spread(
-    plan: Plan,
-    tasks: Sequence[tuple[_Work, tuple[int, ...]]],
-    cells: _Known,
-    take: Callable[[Sequence[Cell]], None],
-    stop: Callable[[], bool] | None,
-    processes: int,
-) -> bool:
-    """Run tasks here or in processes; True when stopped."""
-    if processes <= 1:
-        for work, which in tasks:
-            for cell in work(plan, which, dict(cells), stop):
-                take([cell])
-            if stop is not None and stop():
-                return True
-        return False
-    context = get_context("spawn")
-    halt, news = context.Event(), context.Queue()
-    stopped = False
-    with ProcessPoolExecutor(processes, mp_context=context, initializer=_join, initargs=(halt, news)) as pool:
-        waiting: set[Future[list[Cell]]] = {pool.submit(_all, work, plan, which, dict(cells)) for work, which in tasks}
-        while waiting:
-            done, waiting = wait(waiting, timeout=0.1, return_when=FIRST_COMPLETED)
-            with suppress(Empty):
-                while True:
-                    take([news.get_nowait()])
-            for future in done:  # Whatever the queue still holds comes with the result as well.
-                if not future.cancelled():
-                    take(future.result())
-            if not stopped and stop is not None and stop():
-                stopped = True
-                halt.set()
-                waiting = {future for future in waiting if not future.cancel()}
-    return stopped
-
-
-class _Flag(Protocol):
-    def is_set(self) -> bool: ...
-
-
-_halt: _Flag | None = None
-_news: "Queue[Cell] | None" = None
-
-
-def _join(halt: _Flag, news: "Queue[Cell]") -> None:
-    """What a new process is told: when to stop, where to send cells. Ctrl-C is for the parent to understand."""
-    global _halt, _news
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    _halt, _news = halt, news
-
-
-def _all(work: _Work, plan: Plan, which: tuple[int, ...], cells: _Known) -> list[Cell]:
-    assert _halt is not None
-    assert _news is not None
-    made: list[Cell] = []
-    for cell in work(plan, which, cells, _halt.is_set):
-        _news.put(cell)
-        made.append(cell)
-    return made
 
 
 def _work_chunk(plan: Plan, legs: tuple[int, ...], known: _Known, stop: Callable[[], bool] | None) -> Iterator[Cell]:
@@ -233,9 +162,8 @@ def _work_chunk(plan: Plan, legs: tuple[int, ...], known: _Known, stop: Callable
             yield cell
 
 
-def _work_fixed(plan: Plan, which: tuple[int, ...], known: _Known, stop: Callable[[], bool] | None) -> Iterator[Cell]:
+def _work_fixed(plan: Plan, concept: Concept, known: _Known, stop: Callable[[], bool] | None) -> Iterator[Cell]:
     """The best fixed blade of one concept, from the mean of its best moving ones."""
-    concept = plan.concepts[which[0]]
     if (None, concept.name) in known:
         return
     objective = Objective(plan.quantity, plan.legs)

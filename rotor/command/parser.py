@@ -11,7 +11,7 @@ from typing import NoReturn
 from rotor.case import read_case
 from rotor.design import Design
 from rotor.inflow import inflow_model
-from rotor.presets import make_design
+from rotor.presets import change_airfoils, make_design
 from rotor.sweep import at_advance_ratio
 
 KNOT = 1852.0 / 3600.0
@@ -47,6 +47,7 @@ def add_design_arguments(parser: argparse.ArgumentParser, *, one_twist: bool) ->
     parser.add_argument("--inflow", metavar="NAME", help="forward-flight inflow model, for example pitt-peters")
     parser.add_argument("--mass-kg", type=finite, metavar="KG", help="aircraft mass (default 8322.4)")
     parser.add_argument("--altitude-m", type=finite, metavar="M", help="pressure altitude (default 0)")
+    parser.add_argument("--airfoils", metavar="SPEC", help="sections root to tip, as sc1094r8,sc1095@0.5")
     parser.add_argument("--case", metavar="FILE", help="design file (JSON); other flags override it")
 
 
@@ -65,6 +66,10 @@ def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: floa
     if args.inflow:
         inflow_model(args.inflow)
         design = replace(design, models=replace(design.models, inflow=args.inflow))
+    if base and not args.preset:
+        design = replace(design, rotor=base.rotor)
+    if args.airfoils:
+        design = replace(design, rotor=change_airfoils(design.rotor, args.airfoils))
     return at_advance_ratio(design, advance_ratio)
 
 
