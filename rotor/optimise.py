@@ -161,7 +161,13 @@ class _Run:
             if self.groups and evaluate.phase == "band":
                 message = "Stopped while measuring the band; the search itself was complete."
         elif best is None:
-            status, message = Ended.NOT_CONVERGED, "No start trims within the limits: loosen them, or fly slower."
+            status = Ended.NOT_CONVERGED
+            trimmed = any(one.power is not None for one in evaluate.records)
+            message = (
+                "No design found keeps the limits: loosen them."
+                if trimmed
+                else "No start trims: lower the weight, the altitude or the speed."
+            )
         elif not minima:
             status, message = Ended.NOT_CONVERGED, "No descent settled at a minimum; the best point seen is given."
         else:

@@ -35,6 +35,14 @@ class Plan:
     """Starts of the first condition of a chunk; the others begin from their neighbour."""
     seed: int = 0
 
+    def __post_init__(self) -> None:
+        if not self.legs or not self.concepts:
+            raise ValueError("a schedule needs a flight condition and a concept: give at least one of each")
+
+    def design_at(self, leg: int | None) -> Design:
+        """The design as it is at a leg; None: at its own condition."""
+        return self.design if leg is None else replace(self.design, condition=self.legs[leg].condition)
+
 
 @dataclass(frozen=True)
 class Cell:
@@ -145,7 +153,7 @@ def _work_chunk(plan: Plan, legs: tuple[int, ...], known: _Known, stop: Callable
             neighbour = known.get((leg - 1, concept.name)) if leg - 1 in legs else None
             guesses = _guesses(plan, leg, concept, known, neighbour)
             search = Search(
-                design=replace(plan.design, condition=plan.legs[leg].condition),
+                design=plan.design_at(leg),
                 concept=concept,
                 objective=Objective(plan.quantity, (plan.legs[leg],)),
                 limits=plan.limits,

@@ -116,7 +116,7 @@ def test_table_file(tmp_path: Path):
         ("segments:-3,-4", "1 break"),
         ("segments:-3,-4,-5@0.7,0.4", "ascend"),
         ("segments:-3,-4@1.2", "between 0 and 1"),
-        ("spline:3", "'spline:3' is not known"),
+        ("wavy:3", "'wavy:3' is not known"),
         ("table:nowhere.txt", "does not exist"),
         ("", "is not known"),
     ],

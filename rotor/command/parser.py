@@ -28,18 +28,21 @@ class OneLineParser(argparse.ArgumentParser):
 def build_parser() -> argparse.ArgumentParser:
     """All commands."""
     from rotor.airfoil import command as airfoil
-    from rotor.command import bench, ideal, solve, sweep
+    from rotor.command import bench, ideal, optimise, schedule, solve, sweep
 
     parser = OneLineParser(prog="python -m rotor", description="UH-60A main rotor: trim, power, twist.")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=OneLineParser)
-    for command in (solve, sweep, ideal, airfoil, bench):
+    for command in (solve, sweep, optimise, schedule, ideal, airfoil, bench):
         command.add_parser(commands)
     return parser
 
 
 def add_design_arguments(parser: argparse.ArgumentParser, *, one_twist: bool) -> None:
     """The flags that describe a design."""
-    twist = "linear:-8 | quadratic:A,D | segments:-12,-4@0.5 | ideal | uh60a | table:FILE (degrees, per radius)"
+    twist = (
+        "linear:-8 | quadratic:A,D | segments:-12,-4@0.5 | spline:ANGLES@STATIONS | ideal | uh60a | table:FILE "
+        "(degrees, per radius)"
+    )
     parser.add_argument("--twist", metavar="SPEC", nargs=None if one_twist else "+", help=twist)
     parser.add_argument(
         "--preset", metavar="NAME", help="flight (default): what we believe; thesis: as the document states"
