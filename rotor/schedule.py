@@ -12,7 +12,7 @@ from rotor.concepts import Concept, nearest
 from rotor.design import Design
 from rotor.objective import Leg, Objective, Quantity
 from rotor.optimise import Ended, Limits, Optimum, Search, optimise
-from rotor.search.processes import spread
+from rotor.search.processes import Workers
 from rotor.twist import parse_twist
 
 CHUNK = 4
@@ -132,9 +132,10 @@ def run_plan(
 
     legs = range(len(plan.legs))
     chunks = [tuple(legs[k : k + CHUNK]) for k in range(0, len(plan.legs), CHUNK)]
-    stopped = spread([(_work_chunk, (plan, chunk, dict(cells))) for chunk in chunks], take, stop, processes)
-    if not stopped:
-        spread([(_work_fixed, (plan, concept, dict(cells))) for concept in plan.concepts], take, stop, processes)
+    with Workers(processes, take, stop) as workers:
+        stopped = workers.run([(_work_chunk, (plan, chunk, dict(cells))) for chunk in chunks])
+        if not stopped:
+            workers.run([(_work_fixed, (plan, concept, dict(cells))) for concept in plan.concepts])
     order = {concept.name: k for k, concept in enumerate(plan.concepts)}
     last = len(plan.legs)
     in_order = sorted(cells.values(), key=lambda one: (last if one.leg is None else one.leg, order[one.concept]))

@@ -12,7 +12,9 @@ from pathlib import Path
 import pytest
 from numpy.testing import assert_allclose
 
+import rotor.command.optimise as command
 from rotor.__main__ import main
+from rotor.optimise import Progress
 
 CONTRACT = [
     "status", "concept", "parameters", "twist", "power_w", "baseline_power_w", "saving_percent", "band",
@@ -57,9 +59,7 @@ def test_optimum_of_two_airfoils_can_be_solved(capsys: pytest.CaptureFixture[str
     answer = json.loads(out)
     assert answer["airfoils"] == "sc1094r8,sc1095@0.6"
     assert answer["band"] == {}
-    code, out, _ = run(
-        capsys, "solve", *flags, "--twist", answer["twist"], "--airfoils", answer["airfoils"], "--json"
-    )
+    code, out, _ = run(capsys, "solve", *flags, "--twist", answer["twist"], "--airfoils", answer["airfoils"], "--json")
     assert_allclose(json.loads(out)["power_w"]["total"], answer["power_w"], rtol=1e-7)
 
 
@@ -78,7 +78,8 @@ def test_flags_reach_the_search(capsys: pytest.CaptureFixture[str], tmp_path: Pa
     answers = []
     for flags in (
         [], ["--objective", "induced"], ["--objective", "hover-cruise", "--hover-share", "0.3"],
-        ["--mission", str(mission)], ["--rate-deg=-8,0"], ["--bound", "rate=-6,-2"], ["--change-deg", "1"],
+        ["--mission", str(mission)], ["--rate-deg=-8,0"], ["--bound", "rate=-6,-2"],
+        ["--change-deg", "1", "--twist", "linear:-8"],
         ["--preset", "thesis"], ["--inflow", "uniform"],
     ):  # fmt: skip
         code, out, _ = run(capsys, *base, *flags)
@@ -159,37 +160,47 @@ def test_schedule_json_and_csv(capsys: pytest.CaptureFixture[str], tmp_path: Pat
     assert (code, json.loads(again)) == (0, answer)
 
 
+def test_ctrl_c_prints_the_best_so_far(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch):
+    heard: list[float | None] = []
+
+    def interrupting(progress: Progress) -> str:
+        heard.append(progress.best_power)
+        if len(heard) == 15:
+            signal.raise_signal(signal.SIGINT)
+        return ""
+
+    monkeypatch.setattr(command, "_words", interrupting)
+    before = signal.getsignal(signal.SIGINT)
+    code, out, err = run(capsys, "optimise", "--concept", "three-segment-free", "--starts", "100", "--json")
+    assert (code, err, len(heard)) == (130, "", 15)
+    assert signal.getsignal(signal.SIGINT) is before
+    answer = json.loads(out, parse_constant=no_constant)
+    assert (answer["status"], answer["power_w"]) == ("stopped", heard[-1])
+    assert answer["twist"].startswith("segments:")
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
-@pytest.mark.parametrize("command", ["optimise", "schedule"])
-def test_ctrl_c_prints_what_there_is(command: str, tmp_path: Path):
-    """The first Ctrl-C ends the search with its best so far, exit code 130, and a schedule can go on."""
+@pytest.mark.parametrize("processes", ["1", pytest.param("2", marks=pytest.mark.slow)])
+def test_ctrl_c_on_a_schedule_keeps_what_is_found(processes: str, tmp_path: Path):
     found = tmp_path / "found.jsonl"
-    arguments = {
-        "optimise": ["--concept", "three-segment-free", "--starts", "1000"],
-        "schedule": ["--concept", "linear", "free-form", "--mu", "0:0.38:0.01", "--resume", str(found), "--processes", "2"],
-    }[command]
     started = subprocess.Popen(
-        [sys.executable, "-m", "rotor", command, *arguments, "--json"],
+        [
+            sys.executable, "-m", "rotor", "schedule", "--concept", "linear", "free-form", "--mu", "0:0.38:0.01",
+            "--resume", str(found), "--processes", processes, "--json",
+        ],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=Path(__file__).parent.parent,
         env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
     )  # fmt: skip
     try:
-        if command == "schedule":
-            until = time.monotonic() + 60.0
-            while time.monotonic() < until and not (found.exists() and found.read_text().count("\n") > 2):
-                time.sleep(0.1)
-        else:
-            time.sleep(4.0)
+        until = time.monotonic() + 60.0
+        while time.monotonic() < until and not (found.exists() and found.read_text().count("\n") > 2):
+            time.sleep(0.05)
         started.send_signal(signal.SIGINT)
         out, err = started.communicate(timeout=30)
     finally:
         started.kill()
-    assert started.returncode == 130, err
-    assert err == ""
+    assert (started.returncode, err) == (130, "")
     answer = json.loads(out, parse_constant=no_constant)
     assert answer["status"] == "stopped"
-    if command == "optimise":
-        assert answer["twist"].startswith("segments:")
-        assert answer["power_w"] <= answer["baseline_power_w"]
-    else:
-        assert any(one["optima"]["linear"] for one in answer["conditions"])
+    optima = [one["optima"][name] for one in answer["conditions"] for name in ("linear", "free-form")]
+    assert sum(one is not None for one in optima) == found.read_text().count("\n") - 1

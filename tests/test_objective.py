@@ -41,7 +41,7 @@ def test_hover_and_cruise():
     assert [leg.condition.advance_ratio for leg in mixed.legs] == [0.0, 0.3]
     assert_allclose(mixed.shares, (0.25, 0.75))
     assert len(hover_and_cruise(design, 0.0, 0.3).legs) == 1
-    with pytest.raises(ValueError, match="hover share 1.5"):
+    with pytest.raises(ValueError, match=r"hover share 1\.5"):
         hover_and_cruise(design, 1.5, 0.3)
 
 

@@ -3,6 +3,7 @@
 import math
 import pickle
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -32,7 +33,7 @@ def grid_powers(design: Design, concept_name: str, *axes: np.ndarray) -> np.ndar
     out = np.full([len(axis) for axis in axes], np.inf)
     start = None
     for place in np.ndindex(out.shape):
-        solution = solve(concept.apply(design, [axis[k] for axis, k in zip(axes, place, strict=True)]), start)
+        solution = solve(concept.apply(design, np.array([axis[k] for axis, k in zip(axes, place, strict=True)])), start)
         if solution.converged:
             out[place], start = solution.power.total, solution
     return out
@@ -106,7 +107,10 @@ def test_band_in_two_variables_on_a_grid():
     assert found.best is not None
     inner, outer = np.radians(np.arange(-14.0, 10.1, 2.0)), np.radians(np.arange(-18.0, -10.9, 1.0))
     inside = grid_powers(design, "two-segment", inner, outer) <= 1.001 * found.best.power
-    for axis, hits, band, step in ((inner, inside.any(1), found.band[0], 2.0), (outer, inside.any(0), found.band[1], 1)):
+    for axis, hits, band, step in (
+        (inner, inside.any(1), found.band[0], 2.0),
+        (outer, inside.any(0), found.band[1], 1),
+    ):
         reached = axis[hits]
         assert band.low - 0.1 * DEGREE <= reached.min() <= band.low + (step + 0.5) * DEGREE
         assert band.high - (step + 0.5) * DEGREE <= reached.max() <= band.high + 0.1 * DEGREE
@@ -202,7 +206,7 @@ def test_progress_tells_every_evaluation_and_the_best_never_rises():
     assert found.best is not None
     assert [progress.evaluation for progress in heard] == list(range(2, found.evaluations + 1))  # 1: the baseline.
     best = [progress.best_power for progress in heard if progress.best_power is not None]
-    assert all(later <= earlier for earlier, later in zip(best, best[1:], strict=False))
+    assert all(later <= earlier for earlier, later in pairwise(best))
     assert {progress.phase for progress in heard} == {"search", "band"}
     assert {progress.start for progress in heard} == {0, 1, 2}
     assert pickle.loads(pickle.dumps(heard[0])) == heard[0]

@@ -16,7 +16,7 @@ from rotor.schedule import Cell, Plan, Schedule, run_plan
 from rotor.schedule_file import open_cells, read_cells
 from rotor.solve import solve
 
-NAMES = ("linear", "quadratic", "two-segment", "two-segment-free", "free-form")
+NAMES = ("linear", "quadratic", "two-segment", "free-form")
 
 
 def small() -> Design:
@@ -26,9 +26,7 @@ def small() -> Design:
 
 def plan(*names: str, ratios: tuple[float, ...] = (0.0, 0.15, 0.3), hours: tuple[float, ...] = (1.0, 2.0, 1.0)) -> Plan:
     design = small()
-    legs = tuple(
-        Leg(replace(design.condition, advance_ratio=mu), hour) for mu, hour in zip(ratios, hours, strict=True)
-    )
+    legs = tuple(Leg(replace(design.condition, advance_ratio=mu), hour) for mu, hour in zip(ratios, hours, strict=True))
     return Plan(design, tuple(CONCEPTS[name] for name in names), legs)
 
 
@@ -47,7 +45,7 @@ def power(schedule: Schedule, leg: int | None, name: str) -> float:
 def test_it_is_complete(made: Schedule):
     assert made.complete
     assert made.converged
-    assert [cell.leg for cell in made.cells[:5]] == [0] * 5
+    assert [cell.leg for cell in made.cells[:4]] == [0] * 4
     assert made.cells[-1].leg is None
 
 
@@ -69,7 +67,6 @@ def test_richer_concepts_are_never_worse(made: Schedule):
         for poor, rich in (
             ("linear", "quadratic"),
             ("linear", "two-segment"),
-            ("two-segment", "two-segment-free"),
             ("quadratic", "free-form"),
         ):
             assert power(made, leg, rich) <= power(made, leg, poor) * (1 + 2e-6)
@@ -92,8 +89,9 @@ def test_one_condition_makes_moving_worthless():
     assert_allclose(worth.gain / worth.fixed, 0.0, atol=2e-6)
 
 
+@pytest.mark.slow
 def test_two_processes_find_the_same():
-    twin = plan("linear", "two-segment", ratios=(0.1, 0.15, 0.2, 0.25, 0.3), hours=(1.0,) * 5)
+    twin = plan("linear", ratios=(0.1, 0.15, 0.2, 0.25, 0.3), hours=(1.0,) * 5)
     heard: list[Cell] = []
     here, there = run_plan(twin), run_plan(twin, keep=heard.append, processes=2)
     assert there.converged
@@ -103,8 +101,8 @@ def test_two_processes_find_the_same():
         assert a.optimum.best == b.optimum.best
 
 
-def test_what_is_found_survives_a_stop_and_is_not_sought_again(tmp_path: Path, made: Schedule):
-    path, whole = tmp_path / "found.jsonl", plan(*NAMES)
+def test_what_is_found_survives_a_stop_and_is_not_sought_again(tmp_path: Path):
+    path, whole = tmp_path / "found.jsonl", plan("linear", "two-segment")
     heard: list[Cell] = []
     keep = open_cells(path, whole)
 
@@ -112,9 +110,9 @@ def test_what_is_found_survives_a_stop_and_is_not_sought_again(tmp_path: Path, m
         heard.append(cell)
         keep(cell)
 
-    part = run_plan(whole, keep=take, stop=lambda: len(heard) >= 7)
+    part = run_plan(whole, keep=take, stop=lambda: len(heard) >= 3)
     assert not part.complete
-    assert len(part.cells) == len(heard) >= 7
+    assert len(part.cells) == len(heard) >= 3
     assert part.worth("linear") is None
     with path.open("a") as file:
         file.write('{"leg": 2, "conc')  # Cut short by a crash.
@@ -129,7 +127,7 @@ def test_what_is_found_survives_a_stop_and_is_not_sought_again(tmp_path: Path, m
     assert finished.converged
     assert len(again) == len(finished.cells) - len(found)
     assert len(read_cells(path, whole)) == len(finished.cells)
-    for one, other in zip(finished.cells, made.cells, strict=True):
+    for one, other in zip(finished.cells, run_plan(whole).cells, strict=True):
         assert one.optimum.best == other.optimum.best
 
 

@@ -13,6 +13,8 @@ from rotor.design import Design
 from rotor.twist import TwistLaw
 
 Array = NDArray[np.float64]
+Values = Sequence[float] | Array
+"""Parameters of a concept in its order, SI."""
 
 Unit = Literal["rad/R", "rad/R²", "rad", "R"]
 Motion = Literal["tilt", "bend", "slide", "lift"]
@@ -102,15 +104,15 @@ class Concept(Protocol):
         """Twist rates [rad/R] are linear in the values: one row per segment (or station of a smooth law)."""
         ...
 
-    def twist(self, values: Sequence[float]) -> TwistLaw:
+    def twist(self, values: Values) -> TwistLaw:
         """The law of these values."""
         ...
 
-    def slopes(self, values: Sequence[float], r: Array) -> Array:
+    def slopes(self, values: Values, r: Array) -> Array:
         """∂θ_tw(r)/∂value, exact, (parameters, elements)."""
         ...
 
-    def apply(self, design: Design, values: Sequence[float]) -> Design:
+    def apply(self, design: Design, values: Values) -> Design:
         """The design with the law, and with whatever else the concept changes about the blade."""
         ...
 
@@ -139,13 +141,13 @@ class Restricted:
     def rate_rows(self) -> tuple[tuple[float, ...], ...]:
         return tuple(tuple(row[k] for k in self._free) for row in self.base.rate_rows)
 
-    def twist(self, values: Sequence[float]) -> TwistLaw:
+    def twist(self, values: Values) -> TwistLaw:
         return self.base.twist(self._full(values))
 
-    def slopes(self, values: Sequence[float], r: Array) -> Array:
+    def slopes(self, values: Values, r: Array) -> Array:
         return self.base.slopes(self._full(values), r)[list(self._free)]
 
-    def apply(self, design: Design, values: Sequence[float]) -> Design:
+    def apply(self, design: Design, values: Values) -> Design:
         return self.base.apply(design, self._full(values))
 
     @property
@@ -153,7 +155,7 @@ class Restricted:
         held = dict(self.fixed)
         return tuple(k for k, parameter in enumerate(self.base.parameters) if parameter.name not in held)
 
-    def _full(self, values: Sequence[float]) -> list[float]:
+    def _full(self, values: Values) -> list[float]:
         held, free = dict(self.fixed), iter(values)
         return [held[p.name] if p.name in held else float(next(free)) for p in self.base.parameters]
 
