@@ -13,7 +13,6 @@ from rotor.design import Design
 from rotor.objective import Leg, Objective, Quantity
 from rotor.optimise import Ended, Limits, Optimum, Search, optimise
 from rotor.search.processes import Workers
-from rotor.twist import parse_twist
 
 CHUNK = 4
 """Neighbouring conditions worked off together."""
@@ -204,9 +203,8 @@ def _guesses(
     if neighbour is not None and neighbour.optimum.best is not None:
         guesses.append(neighbour.optimum.best.parameters)
     here = [known.get((leg, other.name)) for other in plan.concepts if other.name != concept.name]
-    simpler = [cell.optimum.best for cell in here if cell is not None and cell.optimum.best is not None]
+    simpler = [(cell.optimum.best.power, cell.optimum.design) for cell in here if cell and cell.optimum.best]
     if simpler:
-        best = min(simpler, key=lambda one: one.power)
-        law = parse_twist(best.twist, builtin=plan.design.twist, ideal_tip_pitch=0.0)
-        guesses.append(nearest(concept, law))
+        _, design = min(simpler, key=lambda one: one[0])
+        guesses.append(nearest(concept, design.twist))
     return tuple(guesses)

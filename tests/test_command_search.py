@@ -79,7 +79,7 @@ def test_flags_reach_the_search(capsys: pytest.CaptureFixture[str], tmp_path: Pa
     for flags in (
         [], ["--objective", "induced"], ["--objective", "hover-cruise", "--hover-share", "0.3"],
         ["--mission", str(mission)], ["--rate-deg=-8,0"], ["--bound", "rate=-6,-2"],
-        ["--change-deg", "1", "--twist", "linear:-8"],
+        ["--change-deg", "1", "--on-top"],
         ["--preset", "thesis"], ["--inflow", "uniform"],
     ):  # fmt: skip
         code, out, _ = run(capsys, *base, *flags)

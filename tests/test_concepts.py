@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 from rotor import make_design, parse_twist, solve
 from rotor.blade import airfoils_spec
 from rotor.case import read_case, write_case
-from rotor.concepts import CONCEPTS, Concept, find_concept, nearest, restrict
+from rotor.concepts import CONCEPTS, Concept, find_concept, nearest, on_top, restrict
 from rotor.twist import LinearTwist, QuadraticTwist, SplineTwist
 
 R = np.linspace(0.141, 0.989, 40)
@@ -112,6 +112,19 @@ def test_restricting_holds_parameters():
     assert_allclose(held.slopes([-0.3, 0.6], R), free.slopes([-0.1, -0.3, 0.6], R)[1:])
     assert find_concept("two-segment", [0.7]).twist([-0.1, -0.2]) == free.twist([-0.1, -0.2, 0.7])
     assert find_concept("three-segment", [0.3, 0.5]).twist([0.0, -0.1, -0.2]).spec().endswith("@0.3,0.5")
+
+
+def test_a_change_on_top_of_a_law_that_stays():
+    design = make_design()
+    concept = on_top(CONCEPTS["two-segment-two-airfoils"], design.twist)
+    values = [math.radians(-2.0), math.radians(1.0)]
+    changed = concept.apply(design, values)
+    assert changed.twist.spec() == "uh60a+segments:-2,1@0.5"
+    assert airfoils_spec(changed.rotor) == "sc1094r8,sc1095@0.5"
+    assert_allclose(changed.twist(R) - design.twist(R), concept.base.twist(values)(R))  # pyright: ignore[reportAttributeAccessIssue]
+    assert_allclose(nearest(on_top(CONCEPTS["linear"], design.twist), design.twist), [0.0], atol=1e-9)
+    law = parse_twist("linear:+3+uh60a", builtin=design.twist, ideal_tip_pitch=0.0)
+    assert_allclose(law(R), math.radians(3.0) * (R - 0.75) + design.twist(R))
 
 
 @pytest.mark.parametrize(

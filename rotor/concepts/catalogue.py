@@ -3,9 +3,10 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from rotor.concepts.concept import Concept, restrict
+from rotor.concepts.concept import Concept
 from rotor.concepts.segments import SegmentsConcept
 from rotor.concepts.smooth import FreeFormConcept, LinearConcept, QuadraticConcept
+from rotor.concepts.variations import restrict
 
 DIVISIONS = (0.4, 0.5, 0.6, 0.7)
 """The divisions of the document's two-segment blades (thesis §4.1.3)."""
