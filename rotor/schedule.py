@@ -12,7 +12,7 @@ from rotor.concepts import Concept, nearest
 from rotor.design import Design
 from rotor.objective import Leg, Objective, Quantity
 from rotor.optimise import Ended, Limits, Optimum, Search, optimise
-from rotor.search.processes import Workers
+from rotor.search.processes import WorkerLost, Workers
 
 CHUNK = 4
 """Neighbouring conditions worked off together."""
@@ -81,6 +81,8 @@ class Schedule:
 
     plan: Plan
     cells: tuple[Cell, ...]
+    message: str = ""
+    """What went wrong with the run itself, in one sentence."""
 
     def at(self, leg: int | None, concept: str) -> Optimum | None:
         """The optimum of a concept at a leg; None: the fixed blade."""
@@ -131,14 +133,18 @@ def run_plan(
 
     legs = range(len(plan.legs))
     chunks = [tuple(legs[k : k + CHUNK]) for k in range(0, len(plan.legs), CHUNK)]
+    message = ""
     with Workers(processes, take, stop) as workers:
-        stopped = workers.run([(_work_chunk, (plan, chunk, dict(cells))) for chunk in chunks])
-        if not stopped:
-            workers.run([(_work_fixed, (plan, concept, dict(cells))) for concept in plan.concepts])
+        try:
+            stopped = workers.run([(_work_chunk, (plan, chunk, dict(cells))) for chunk in chunks])
+            if not stopped:
+                workers.run([(_work_fixed, (plan, concept, dict(cells))) for concept in plan.concepts])
+        except WorkerLost as lost:
+            message = str(lost)
     order = {concept.name: k for k, concept in enumerate(plan.concepts)}
     last = len(plan.legs)
     in_order = sorted(cells.values(), key=lambda one: (last if one.leg is None else one.leg, order[one.concept]))
-    return Schedule(plan, tuple(in_order))
+    return Schedule(plan, tuple(in_order), message)
 
 
 _Known = dict[tuple[int | None, str], Cell]

@@ -1,6 +1,9 @@
 """Schedules: what must hold whatever the numbers, processes, and files to go on from."""
 
 import math
+import multiprocessing
+import os
+import signal
 from dataclasses import replace
 from pathlib import Path
 
@@ -129,6 +132,23 @@ def test_what_is_found_survives_a_stop_and_is_not_sought_again(tmp_path: Path):
     assert len(read_cells(path, whole)) == len(finished.cells)
     for one, other in zip(finished.cells, run_plan(whole).cells, strict=True):
         assert one.optimum.best == other.optimum.best
+
+
+@pytest.mark.slow
+def test_a_lost_worker_is_said_and_what_it_found_is_kept():
+    killed: list[int] = []
+
+    def kill(cell: Cell) -> None:
+        for child in multiprocessing.active_children():
+            if child.pid is not None and not killed:
+                killed.append(child.pid)
+                os.kill(child.pid, signal.SIGKILL)
+
+    schedule = run_plan(plan("linear", ratios=tuple(0.1 + 0.01 * k for k in range(20)), hours=(1.0,) * 20),
+                        keep=kill, processes=2)  # fmt: skip
+    assert "worker process was lost" in schedule.message
+    assert not schedule.complete
+    assert schedule.cells
 
 
 def test_a_file_of_another_plan_is_refused(tmp_path: Path):

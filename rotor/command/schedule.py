@@ -4,6 +4,7 @@ import argparse
 import csv
 import json
 import os
+import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -66,6 +67,8 @@ def run(args: argparse.Namespace) -> int:
     if args.csv:
         _write(args.csv, schedule)
     print(json.dumps(record(schedule), indent=2, allow_nan=False) if args.json else report(schedule))
+    if schedule.message:
+        print(f"rotor: {schedule.message}", file=sys.stderr)
     return STOPPED if stopped and not schedule.complete else 0 if schedule.converged else 1
 
 

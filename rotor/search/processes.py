@@ -6,6 +6,7 @@ A task is a function at the top of a module, that takes its arguments and a `sto
 import signal
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from multiprocessing import get_context
 from multiprocessing.queues import Queue
@@ -15,6 +16,10 @@ from typing import Any, Protocol
 Stop = Callable[[], bool]
 Work = Callable[..., Iterator[Any]]
 """work(*arguments, stop) yields items; each is handed on once, and again at the end of the task from processes."""
+
+
+class WorkerLost(RuntimeError):
+    """A process ended without being asked to; what it had handed on is kept."""
 
 
 class Workers:
@@ -47,13 +52,19 @@ class Workers:
                 if self._asked():
                     return True
             return False
-        waiting: set[Future[list[Any]]] = {self._pool.submit(_all, work, arguments) for work, arguments in tasks}
+        try:
+            return self._wait({self._pool.submit(_all, work, arguments) for work, arguments in tasks})
+        except BrokenProcessPool:
+            self._hand_on()
+            raise WorkerLost(
+                "A worker process was lost, perhaps for lack of memory; what was found is kept: use fewer processes."
+            ) from None
+
+    def _wait(self, waiting: set[Future[list[Any]]]) -> bool:
         stopped = False
         while waiting:
             done, waiting = wait(waiting, timeout=0.1, return_when=FIRST_COMPLETED)
-            with suppress(Empty):
-                while True:
-                    self._take(self._news.get_nowait())
+            self._hand_on()
             for future in done:  # Whatever the queue still holds comes with the result as well.
                 for item in future.result():
                     self._take(item)
@@ -62,6 +73,11 @@ class Workers:
                 self._halt.set()
                 waiting = {future for future in waiting if not future.cancel()}
         return stopped
+
+    def _hand_on(self) -> None:
+        with suppress(Empty):
+            while True:
+                self._take(self._news.get_nowait())
 
     def _asked(self) -> bool:
         return self._stop is not None and self._stop()
