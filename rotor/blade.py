@@ -1,7 +1,9 @@
 """The rotor as built: blade planform, sections along the span, mass, hub."""
 
 import math
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -115,3 +117,34 @@ class Rotor:
         """ν² = 1 + e S/I, the rotating flap frequency over Ω, squared."""
         blade = self.blade
         return 1.0 + blade.flap_hinge * self.radius * blade.flap_static_moment / blade.flap_inertia
+
+
+def with_airfoils(rotor: Rotor, sections: Sequence[str], breaks: Sequence[float]) -> Rotor:
+    """The rotor with other sections, root to tip, that change at `breaks` (r/R) without a blend."""
+    ends = (rotor.blade.root_cutout, *breaks, 1.0)
+    if len(breaks) != len(sections) - 1 or any(low >= high for low, high in pairwise(ends)):
+        raise ValueError(
+            f"{len(sections)} airfoils with changes at {list(breaks)}: give one ascending r/R between each two, "
+            f"beyond the root cut-out {rotor.blade.root_cutout:g}"
+        )
+    spans = tuple(Span(low, high, name) for (low, high), name in zip(pairwise(ends), sections, strict=True))
+    return replace(rotor, blade=replace(rotor.blade, spans=spans))
+
+
+def parse_airfoils(rotor: Rotor, spec: str) -> Rotor:
+    """The rotor with the sections of a SPEC: names root to tip, changes (r/R) after @, as `sc1094r8,sc1095@0.5`."""
+    names, _, places = spec.strip().partition("@")
+    try:
+        breaks = [float(item) for item in places.split(",")] if places else []
+    except ValueError:
+        raise ValueError(f"airfoils {spec!r} hold a place that is no number: write sc1094r8,sc1095@0.5") from None
+    return with_airfoils(rotor, [name.strip() for name in names.split(",")], breaks)
+
+
+def airfoils_spec(rotor: Rotor) -> str | None:
+    """The sections as `parse_airfoils` reads them; None where two are blended into one another."""
+    spans = rotor.blade.spans
+    if any(inner.end != outer.start for inner, outer in pairwise(spans)):
+        return None
+    names = ",".join(span.section for span in spans)
+    return names + (f"@{','.join(f'{span.end:.10g}' for span in spans[:-1])}" if len(spans) > 1 else "")

@@ -5,9 +5,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
+from rotor.blade import airfoils_spec
 from rotor.design import Design
 from rotor.inflow import inflow_model
-from rotor.presets import make_design
+from rotor.presets import change_airfoils, make_design, uh60a_rotor
 
 FORMAT = "rotor-explorer design"
 VERSION = 1
@@ -23,11 +24,14 @@ _KEYS = (
     "inflow",
     "tip_loss",
     "hub_loss",
+    "airfoils",
 )
 
 
 def case_of(design: Design) -> dict[str, Any]:
     """The design as a JSON-ready record."""
+    changed = design.rotor != uh60a_rotor(design.preset)
+    airfoils = airfoils_spec(design.rotor) if changed else None
     return {
         "format": FORMAT,
         "version": VERSION,
@@ -39,6 +43,7 @@ def case_of(design: Design) -> dict[str, Any]:
         "inflow": design.models.inflow,
         "tip_loss": design.models.tip_loss,
         "hub_loss": design.models.hub_loss,
+        **({"airfoils": airfoils} if airfoils else {}),
     }
 
 
@@ -72,7 +77,8 @@ def design_of(case: dict[str, Any]) -> Design:
         tip_loss=_flag(case, "tip_loss", design.models.tip_loss),
         hub_loss=_flag(case, "hub_loss", design.models.hub_loss),
     )
-    return replace(design, models=models)
+    airfoils = _text(case, "airfoils", "")
+    return replace(design, models=models, rotor=change_airfoils(design.rotor, airfoils) if airfoils else design.rotor)
 
 
 def read_case(path: str | Path) -> Design:

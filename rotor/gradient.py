@@ -1,26 +1,28 @@
 """The exact gradient of power by the pitch at every blade station: one linear solve, whatever the number of stations.
 
 The trim makes residuals R(x, d, λ) zero and the inflow answers λ = A d + b. The adjoint takes from what the loads do to
-power what the trim gives back: with a = J⁻ᵀ ∂P/∂x, weights w = ∂P/∂F − a·∂R/∂F on the loads, and the inflow's answer
-u = Aᵀ(I − K Aᵀ)⁻¹(K w_z + ∂F_x/∂λ w_x + ∂P/∂λ),
+a measure P what the trim gives back: with a = J⁻ᵀ ∂P/∂x, weights w = ∂P/∂F − a·∂R/∂F on the loads, and the inflow's
+answer u = Aᵀ(I − K Aᵀ)⁻¹(K w_z + ∂F_x/∂λ w_x + ∂P/∂λ),
 
-    dP/dθ(r) = Σ_ψ [ (w_z + u) ∂F_z/∂θ + w_x ∂F_x/∂θ ].
+    dP/dθ(r) = Σ_ψ [ (w_z + u) ∂F_z/∂θ + w_x ∂F_x/∂θ + ∂P/∂θ ].
 
 The chain rule then gives the gradient by any twist parameter: dP/dp = Σ_r dP/dθ(r) ∂θ_tw(r)/∂p.
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rotor import kernel
-from rotor.elements import Pass, Problem, lay_out, run_pass
+from rotor.elements import COLLECTIVE, CYCLIC_1C, CYCLIC_1S, Pass, Problem, lay_out, run_pass
 from rotor.equilibrium import UNKNOWNS, combine_sums, jacobian
 from rotor.hover import Annuli
+from rotor.inflow.seam import LoadLoop
 from rotor.solution import Solution
-from rotor.sums import slopes, unweigh, velocity_columns
+from rotor.sums import Slopes, slopes, unweigh, velocity_columns
 from rotor.tail_rotor import FIXED_SHARE
 from rotor.trim import guess_of
 
@@ -51,14 +53,83 @@ class PitchGradient:
 
 
 @dataclass(frozen=True, eq=False)
-class _Weights:
-    """∂P by F_z, F_x and λ_i, fields in units of power_unit."""
+class Weights:
+    """How a measure answers to each element: its derivatives by what it is made of, (elements, azimuths) or 0."""
 
-    lift: Array
-    push: Array
-    inflow: Array
-    gain: float
-    """What one watt at the shaft costs in all, the tail rotor included."""
+    lift: Array | float = 0.0
+    """By F_z."""
+    push: Array | float = 0.0
+    """By F_x."""
+    inflow: Array | float = 0.0
+    """By λ_i at the same velocities."""
+    pitch: Array | float = 0.0
+    """By θ at the same loads, as the next two."""
+    across: Array | float = 0.0
+    """By U_T."""
+    down: Array | float = 0.0
+    """By U_P."""
+
+
+class Adjoint:
+    """A converged solution, ready to say how any measure of it answers to the pitch along the blade."""
+
+    def __init__(self, solution: Solution) -> None:
+        """Raises RuntimeError with the solution's sentence when it is not converged."""
+        solution.require()
+        self.solution = solution
+        self.problem: Problem = lay_out(solution.design)
+        self._annuli: Array | None = None
+        if solution.design.hovering:
+            self.one, self._annuli = Annuli(self.problem).at(solution.controls.collective)
+        else:
+            guess = guess_of(solution)
+            self.one: Pass = run_pass(self.problem, guess.state, guess.induced)
+
+    def by_pitch(self, weights: Weights) -> Array:
+        """∂(measure)/∂θ of each element's pitch, trim and inflow following, (elements,)."""
+        return self._forward(weights) if self._annuli is None else self._in_hover(weights, self._annuli)
+
+    @cached_property
+    def _linear(self) -> tuple[Slopes, LoadLoop | None, Array]:
+        """What the unknowns do to the pass, the inflow's loop, and the Jacobian of the trim."""
+        problem, one = self.problem, self.one
+        loop = one.response.loop(one.loads[kernel.FZ_UP]) if problem.inflow.reacts and one.response else None
+        made = slopes(problem, one, UNKNOWNS[problem.design.models.trim], loop)
+        return made, loop, jacobian(problem, one, made)
+
+    def _forward(self, weights: Weights) -> Array:
+        problem, one, loads = self.problem, self.one, self.one.loads
+        made, loop, matrix = self._linear
+        by_unknown = _dot(made.lift, weights.lift) + _dot(made.push, weights.push)
+        answer = weights.inflow + weights.down
+        if made.inflow is not None:
+            by_unknown += _dot(made.inflow, answer)
+        disk = problem.disk
+        turned = {COLLECTIVE: np.ones_like(disk.cos), CYCLIC_1C: disk.cos, CYCLIC_1S: disk.sin}
+        for k, unknown in enumerate(made.unknowns):
+            if unknown in turned:
+                by_unknown[k] += float(np.sum(weights.pitch * turned[unknown]))
+            else:
+                across, down = velocity_columns(problem, one, unknown)
+                by_unknown[k] += float(np.sum(weights.across * across + weights.down * down))
+
+        given_back = np.linalg.solve(matrix.T, by_unknown)
+        on_lift, on_push = unweigh(problem, one, given_back @ combine_sums(problem, one, np.eye(5)))
+        lift, push = weights.lift - on_lift, weights.push - on_push
+        if loop is not None and one.response is not None:
+            back = loads[kernel.FZ_UP] * lift + loads[kernel.FX_UP] * push + answer
+            lift = lift + one.response.drive_transposed(loop.solve_transposed(back))
+        return (lift * loads[kernel.FZ_THETA] + push * loads[kernel.FX_THETA] + weights.pitch).sum(axis=1)
+
+    def _in_hover(self, weights: Weights, annuli: Array) -> Array:
+        """Annuli stand alone but for the collective that keeps the thrust. `annuli`: ∂λ/∂θ of each."""
+        loads, answer = self.one.loads, annuli[:, None]
+        lift = loads[kernel.FZ_THETA] + loads[kernel.FZ_UP] * answer
+        push = loads[kernel.FX_THETA] + loads[kernel.FX_UP] * answer
+        measure = weights.lift * lift + weights.push * push + (weights.inflow + weights.down) * answer + weights.pitch
+        thrust = lift.sum(axis=1)
+        by_pitch = np.broadcast_to(measure, lift.shape).sum(axis=1)
+        return by_pitch - by_pitch.sum() / thrust.sum() * thrust
 
 
 def power_gradient(solution: Solution, objective: Objective = "total") -> PitchGradient:
@@ -66,66 +137,42 @@ def power_gradient(solution: Solution, objective: Objective = "total") -> PitchG
 
     Raises RuntimeError with the solution's sentence when it is not converged.
     """
-    solution.require()
-    problem = lay_out(solution.design)
-    by_element = (
-        _in_hover(problem, solution, objective) if solution.design.hovering else _forward(problem, solution, objective)
-    )
-    return PitchGradient(problem.disk.r, problem.disk.dr, by_element * solution.design.power_unit)
+    return power_along(Adjoint(solution), objective)
 
 
-def _weights(problem: Problem, one: Pass, solution: Solution, objective: Objective) -> _Weights:
-    """Main-rotor power is Σ (λ_i dF_z + U dD) + D·V, and U dD = U_T dF_x − U_P dF_z."""
+def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradient:
+    """The same from an adjoint that serves other measures as well.
+
+    Main-rotor power is Σ (λ_i dF_z + U dD) + D·V, and U dD = U_T dF_x − U_P dF_z.
+    """
+    problem, one = adjoint.problem, adjoint.one
     cell = problem.disk.dr / len(problem.disk.psi)
+    lift, push = one.loads[kernel.FZ], one.loads[kernel.FX]
     if objective == "induced":
-        nothing = np.zeros_like(one.theta)
-        return _Weights(cell * one.induced, nothing, cell * one.loads[kernel.FZ], 1.0)
+        weights, gain = Weights(lift=cell * one.induced, inflow=cell * lift), 1.0
+    else:
+        weights = Weights(
+            lift=cell * (one.induced - one.u_p),
+            push=cell * one.u_t,
+            inflow=cell * lift,
+            across=cell * push,
+            down=-cell * lift,
+        )
+        gain = _tail_gain(adjoint.solution)
+    by_element = adjoint.by_pitch(weights) * gain * problem.design.power_unit
+    return PitchGradient(problem.disk.r, problem.disk.dr, by_element)
+
+
+def _tail_gain(solution: Solution) -> float:
+    """What one watt at the shaft costs in all, the tail rotor included."""
     design = solution.design
-    gain = 1.0 + FIXED_SHARE
-    if design.models.tail_rotor_solved:
-        torque = solution.power.main_rotor / design.rotor.angular_speed
-        _, slope = design.tail_rotor.power(torque, design.airspeed, design.condition.density)
-        gain = 1.0 + slope / design.rotor.angular_speed
-    # λ_i adds F_z as induced power and takes it away again as dissipation.
-    return _Weights(cell * (one.induced - one.u_p), cell * one.u_t, np.zeros_like(one.theta), gain)
+    if not design.models.tail_rotor_solved:
+        return 1.0 + FIXED_SHARE
+    torque = solution.power.main_rotor / design.rotor.angular_speed
+    _, slope = design.tail_rotor.power(torque, design.airspeed, design.condition.density)
+    return 1.0 + slope / design.rotor.angular_speed
 
 
-def _forward(problem: Problem, solution: Solution, objective: Objective) -> Array:
-    guess = guess_of(solution)
-    one = run_pass(problem, guess.state, guess.induced)
-    loads = one.loads
-    unknowns = UNKNOWNS[problem.design.models.trim]
-    reacts = problem.inflow.reacts and one.response is not None
-    loop = one.response.loop(loads[kernel.FZ_UP]) if reacts and one.response is not None else None
-    made = slopes(problem, one, unknowns, loop)
-
-    weights = _weights(problem, one, solution, objective)
-    by_unknown = np.tensordot(made.lift, weights.lift, 2) + np.tensordot(made.push, weights.push, 2)
-    if made.inflow is not None:
-        by_unknown += np.tensordot(made.inflow, weights.inflow, 2)
-    if objective == "total":
-        cell = problem.disk.dr / len(problem.disk.psi)
-        for k, unknown in enumerate(unknowns):
-            across, down = velocity_columns(problem, one, unknown)
-            by_unknown[k] += cell * float((loads[kernel.FX] * across - loads[kernel.FZ] * down).sum())
-
-    adjoint = np.linalg.solve(jacobian(problem, one, made).T, by_unknown)
-    on_lift, on_push = unweigh(problem, one, adjoint @ combine_sums(problem, one, np.eye(5)))
-    lift, push = weights.lift - on_lift, weights.push - on_push
-    if loop is not None and one.response is not None:
-        back = loads[kernel.FZ_UP] * lift + loads[kernel.FX_UP] * push + weights.inflow
-        lift = lift + one.response.drive_transposed(loop.solve_transposed(back))
-    return weights.gain * (lift * loads[kernel.FZ_THETA] + push * loads[kernel.FX_THETA]).sum(axis=1)
-
-
-def _in_hover(problem: Problem, solution: Solution, objective: Objective) -> Array:
-    """Annuli stand alone but for the collective that keeps the thrust."""
-    one, answer = Annuli(problem).at(solution.controls.collective)
-    loads = one.loads
-    weights = _weights(problem, one, solution, objective)
-    lift = loads[kernel.FZ_THETA] + loads[kernel.FZ_UP] * answer[:, None]
-    push = loads[kernel.FX_THETA] + loads[kernel.FX_UP] * answer[:, None]
-    power = weights.lift * lift + weights.push * push + weights.inflow * answer[:, None]
-    thrust = lift.sum(axis=1)
-    by_pitch = power.sum(axis=1)
-    return weights.gain * (by_pitch - by_pitch.sum() / thrust.sum() * thrust)
+def _dot(stack: Array, weight: Array | float) -> Array:
+    """Σ over the disk of a stack of fields times a weight, (stack,)."""
+    return np.tensordot(stack, weight, 2) if isinstance(weight, np.ndarray) else weight * stack.sum(axis=(1, 2))

@@ -7,13 +7,14 @@ from functools import cache
 from typing import Any
 
 from rotor.airfoil.sections import load_installed
-from rotor.blade import Blade, Rotor, Span
+from rotor.blade import Blade, Rotor, Span, parse_airfoils
 from rotor.design import Design, Models
 from rotor.flight import FlightCondition, Fuselage
 from rotor.library import asset_path
 from rotor.momentum import ideal_tip_pitch
 from rotor.tail_rotor import TailRotor
-from rotor.twist import LinearTwist, TableTwist, TwistLaw, parse_twist
+from rotor.twist import LinearTwist, TableTwist, TwistLaw
+from rotor.twist_spec import parse_twist
 
 PRESETS = ("flight", "thesis")
 
@@ -127,6 +128,14 @@ def make_design(
         tip_pitch = ideal_tip_pitch(draft.weight_coefficient, rotor.solidity, slope)
         twist = parse_twist(twist, builtin=rotor.builtin_twist, ideal_tip_pitch=tip_pitch)
     return replace(draft, twist=twist)
+
+
+def change_airfoils(rotor: Rotor, spec: str) -> Rotor:
+    """The rotor with the airfoils of a SPEC (`rotor.blade.parse_airfoils`); ValueError also for a section not held."""
+    changed = parse_airfoils(rotor, spec)
+    for span in changed.blade.spans:
+        load_installed(span.section)
+    return changed
 
 
 def check_preset(preset: str) -> None:

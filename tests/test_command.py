@@ -82,7 +82,7 @@ def test_not_converged_is_exit_1_with_nulls(capsys: pytest.CaptureFixture[str]):
         (["solve", "--mu", "fast"], "fast"),
         (["solve", "--mu", "0.9"], "0.9"),
         (["solve", "--mu", "nan"], "nan"),
-        (["solve", "--twist", "spline:1"], "spline:1"),
+        (["solve", "--twist", "wavy:1"], "wavy:1"),
         (["solve", "--preset", "mine"], "mine"),
         (["solve", "--inflow", "free"], "free"),
         (["solve", "--mass-kg", "-5"], "-5"),

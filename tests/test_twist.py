@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from rotor.presets import make_design, uh60a_twist
-from rotor.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, QuadraticTwist, TwistLaw, parse_twist
+from rotor.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, QuadraticTwist, TwistLaw
+from rotor.twist_spec import parse_twist
 
 R = np.linspace(0.13, 1.0, 88)
 BUILTIN = uh60a_twist()
@@ -116,7 +117,7 @@ def test_table_file(tmp_path: Path):
         ("segments:-3,-4", "1 break"),
         ("segments:-3,-4,-5@0.7,0.4", "ascend"),
         ("segments:-3,-4@1.2", "between 0 and 1"),
-        ("spline:3", "'spline:3' is not known"),
+        ("wavy:3", "'wavy:3' is not known"),
         ("table:nowhere.txt", "does not exist"),
         ("", "is not known"),
     ],

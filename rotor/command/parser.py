@@ -11,7 +11,7 @@ from typing import NoReturn
 from rotor.case import read_case
 from rotor.design import Design
 from rotor.inflow import inflow_model
-from rotor.presets import make_design
+from rotor.presets import change_airfoils, make_design
 from rotor.sweep import at_advance_ratio
 
 KNOT = 1852.0 / 3600.0
@@ -28,18 +28,21 @@ class OneLineParser(argparse.ArgumentParser):
 def build_parser() -> argparse.ArgumentParser:
     """All commands."""
     from rotor.airfoil import command as airfoil
-    from rotor.command import bench, ideal, solve, sweep
+    from rotor.command import bench, ideal, optimise, schedule, solve, sweep
 
     parser = OneLineParser(prog="python -m rotor", description="UH-60A main rotor: trim, power, twist.")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=OneLineParser)
-    for command in (solve, sweep, ideal, airfoil, bench):
+    for command in (solve, sweep, optimise, schedule, ideal, airfoil, bench):
         command.add_parser(commands)
     return parser
 
 
 def add_design_arguments(parser: argparse.ArgumentParser, *, one_twist: bool) -> None:
     """The flags that describe a design."""
-    twist = "linear:-8 | quadratic:A,D | segments:-12,-4@0.5 | ideal | uh60a | table:FILE (degrees, per radius)"
+    twist = (
+        "linear:-8 | quadratic:A,D | segments:-12,-4@0.5 | spline:ANGLES@STATIONS | ideal | uh60a | table:FILE "
+        "(degrees, per radius)"
+    )
     parser.add_argument("--twist", metavar="SPEC", nargs=None if one_twist else "+", help=twist)
     parser.add_argument(
         "--preset", metavar="NAME", help="flight (default): what we believe; thesis: as the document states"
@@ -47,6 +50,7 @@ def add_design_arguments(parser: argparse.ArgumentParser, *, one_twist: bool) ->
     parser.add_argument("--inflow", metavar="NAME", help="forward-flight inflow model, for example pitt-peters")
     parser.add_argument("--mass-kg", type=finite, metavar="KG", help="aircraft mass (default 8322.4)")
     parser.add_argument("--altitude-m", type=finite, metavar="M", help="pressure altitude (default 0)")
+    parser.add_argument("--airfoils", metavar="SPEC", help="sections root to tip, as sc1094r8,sc1095@0.5")
     parser.add_argument("--case", metavar="FILE", help="design file (JSON); other flags override it")
 
 
@@ -65,6 +69,10 @@ def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: floa
     if args.inflow:
         inflow_model(args.inflow)
         design = replace(design, models=replace(design.models, inflow=args.inflow))
+    if base and not args.preset:
+        design = replace(design, rotor=base.rotor)
+    if args.airfoils:
+        design = replace(design, rotor=change_airfoils(design.rotor, args.airfoils))
     return at_advance_ratio(design, advance_ratio)
 
 

@@ -1,0 +1,152 @@
+"""`optimise`: the twist of least power for one flight condition, or for several at once."""
+
+import argparse
+import json
+from dataclasses import replace
+from typing import Any
+
+from rotor.blade import airfoils_spec
+from rotor.command.parser import KNOT, add_design_arguments, design_from, finite
+from rotor.command.progress import STOPPED, bar, interruptible
+from rotor.command.search_flags import add_search_arguments, concept_help, limits_from, parse_division
+from rotor.concepts import Concept, find_concept, on_top
+from rotor.design import Design
+from rotor.mission import read_mission
+from rotor.objective import Objective, at_condition, hover_and_cruise
+from rotor.optimise import STARTS, Ended, Minimum, Optimum, Progress, Search, optimise
+
+
+def add_parser(commands: Any) -> None:
+    """Register the command."""
+    parser = commands.add_parser("optimise", help="the twist of least power, how flat the optimum is, what it saves")
+    parser.add_argument("--concept", default="linear", metavar="NAME", help=concept_help())
+    parser.add_argument("--division", metavar="R", help="where segments meet, r/R: 0.5, or 0.48,0.84 for three")
+    speed = parser.add_mutually_exclusive_group()
+    speed.add_argument("--mu", type=finite, metavar="MU", help="advance ratio (default 0.2); cruise of hover-cruise")
+    speed.add_argument("--speed-kt", type=finite, metavar="KT", help="airspeed in knots")
+    speed.add_argument("--hover", action="store_true", help="hover")
+    parser.add_argument("--objective", default="total", metavar="NAME", help="total (default) | induced | hover-cruise")
+    parser.add_argument("--hover-share", type=finite, metavar="S", help="part of the time in hover (default 0.5)")
+    parser.add_argument("--mission", metavar="FILE", help="CSV of mu,mass_kg,altitude_m,hours: least mean power")
+    add_design_arguments(parser, one_twist=True)
+    add_search_arguments(parser, STARTS)
+    parser.add_argument("--no-band", dest="band", action="store_false", help="do not measure how flat the optimum is")
+    parser.add_argument("--json", action="store_true", help="machine-readable output")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """0 converged, 1 not converged, 130 stopped by Ctrl-C with the best so far printed."""
+    design = design_from(args, args.twist, 0.0 if args.hover or args.speed_kt is not None else args.mu)
+    if args.speed_kt is not None:
+        design = design_from(args, args.twist, args.speed_kt * KNOT / design.rotor.tip_speed)
+    concept = find_concept(args.concept, parse_division(args.division))
+    if args.on_top:
+        concept = on_top(concept, design.twist)
+    search = Search(
+        design=design,
+        concept=concept,
+        objective=_objective(args, design),
+        limits=limits_from(args, design, (concept,)),
+        starts=args.starts,
+        seed=args.seed,
+        band=args.band,
+    )
+    with interruptible() as stop, bar(None, " designs") as advance:
+        optimum = optimise(search, lambda progress: advance(_words(progress)), stop)
+    print(json.dumps(record(optimum, concept), indent=2, allow_nan=False) if args.json else report(optimum, concept))
+    return {Ended.CONVERGED: 0, Ended.NOT_CONVERGED: 1, Ended.STOPPED: STOPPED}[optimum.status]
+
+
+def _objective(args: argparse.Namespace, design: Design) -> Objective:
+    if args.objective == "hover-cruise":
+        if args.mission or args.hover:
+            raise ValueError("objective hover-cruise has its own conditions: leave out --mission and --hover")
+        return hover_and_cruise(
+            design, 0.5 if args.hover_share is None else args.hover_share, design.condition.advance_ratio
+        )
+    if args.hover_share is not None:
+        raise ValueError(f"hover share {args.hover_share:g} without its objective: add --objective hover-cruise")
+    if args.objective not in ("total", "induced"):
+        raise ValueError(f"objective {args.objective!r} is not known: use total, induced or hover-cruise")
+    objective = at_condition(design, args.objective)
+    return replace(objective, legs=read_mission(args.mission, design)) if args.mission else objective
+
+
+def _words(progress: Progress) -> str:
+    best = "" if progress.best_power is None else f", best {progress.best_power / 1e3:.2f} kW"
+    return f"{progress.phase} {progress.start + 1}/{progress.starts}{best}"
+
+
+def named(concept: Concept, values: tuple[float, ...]) -> dict[str, float]:
+    """Parameters by name as people read them, degrees in names that end in _deg."""
+    return {
+        parameter.label: round(parameter.shown(value), 6)
+        for parameter, value in zip(concept.parameters, values, strict=True)
+    }
+
+
+def record(optimum: Optimum, concept: Concept) -> dict[str, Any]:
+    """The JSON of `optimise --json`; what was not found is null."""
+    best = optimum.best
+    by_name = {parameter.name: parameter for parameter in concept.parameters}
+    return {
+        "status": optimum.status.value,
+        "concept": optimum.concept,
+        "parameters": {} if best is None else named(concept, best.parameters),
+        "twist": None if best is None else best.twist,
+        "power_w": None if best is None else best.power,
+        "baseline_power_w": optimum.baseline_power,
+        "saving_percent": None if optimum.saving is None else 100.0 * optimum.saving,
+        "band": {
+            by_name[band.parameter].label: [
+                round(by_name[band.parameter].shown(band.low), 6),
+                round(by_name[band.parameter].shown(band.high), 6),
+            ]
+            for band in optimum.band
+        },
+        "local_minima": [_minimum(one, concept) for one in optimum.minima],
+        "evaluations": optimum.evaluations,
+        "elapsed_s": optimum.elapsed,
+        "message": optimum.message,
+        "active": [] if best is None else list(best.active),
+        "airfoils": airfoils_spec(optimum.design.rotor),
+        "starts": optimum.starts,
+        "seed": optimum.seed,
+    }
+
+
+def _minimum(one: Minimum, concept: Concept) -> dict[str, Any]:
+    return {
+        "parameters": named(concept, one.parameters),
+        "twist": one.twist,
+        "power_w": one.power,
+        "starts": list(one.starts),
+        "active": list(one.active),
+    }
+
+
+def report(optimum: Optimum, concept: Concept) -> str:
+    """The same for a reader."""
+    best = optimum.best
+    lines = [f"{concept.title}: {optimum.status.value}. {optimum.message}"]
+    if best is None:
+        return "\n".join(lines)
+    bands = {band.parameter: band for band in optimum.band}
+    for parameter, value in zip(concept.parameters, best.parameters, strict=True):
+        line = f"{parameter.title:<20}{parameter.shown(value):9.2f} {parameter.shown_unit}"
+        if parameter.name in bands:
+            band = bands[parameter.name]
+            line += f"   {parameter.shown(band.low):.2f} to {parameter.shown(band.high):.2f} within 0.1 % of the power"
+        lines.append(line)
+    lines.append(f"twist {best.twist}")
+    airfoils = airfoils_spec(optimum.design.rotor)
+    if airfoils:
+        lines.append(f"airfoils {airfoils}")
+    lines.append(f"power {best.power / 1e3:.2f} kW" + (f"; held by {', '.join(best.active)}" if best.active else ""))
+    if optimum.baseline_power is not None and optimum.saving is not None:
+        lines.append(f"the blade given takes {optimum.baseline_power / 1e3:.2f} kW: {100 * optimum.saving:.2f} % saved")
+    for other in optimum.minima[1:]:
+        lines.append(f"another minimum: {other.power / 1e3:.2f} kW with {other.twist}")
+    lines.append(f"{optimum.evaluations} designs in {optimum.elapsed:.2f} s")
+    return "\n".join(lines)

@@ -1,0 +1,48 @@
+"""Long work on a terminal: a bar where somebody watches, and Ctrl-C as a request to stop and show what there is."""
+
+import signal
+import sys
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
+from types import FrameType
+from typing import Any
+
+STOPPED = 130
+"""Exit code after Ctrl-C; what was found has been printed."""
+
+
+@contextmanager
+def bar(total: int | None, unit: str) -> Generator[Callable[[str], None]]:
+    """A progress bar on stderr when that is a terminal, else nothing; call it with a few words to advance it."""
+    if not sys.stderr.isatty():
+        yield lambda words: None
+        return
+    from tqdm import tqdm
+
+    made: Any = tqdm(total=total, unit=unit, file=sys.stderr, leave=False, dynamic_ncols=True)
+
+    def advance(words: str) -> None:
+        made.set_postfix_str(words, refresh=False)
+        made.update()
+
+    try:
+        yield advance
+    finally:
+        made.close()
+
+
+@contextmanager
+def interruptible() -> Generator[Callable[[], bool]]:
+    """A `stop` that turns True at the first Ctrl-C; the second one breaks off at once."""
+    asked: list[int] = []
+
+    def ask(number: int, frame: FrameType | None) -> None:
+        del frame
+        asked.append(number)
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+
+    before = signal.signal(signal.SIGINT, ask)
+    try:
+        yield lambda: bool(asked)
+    finally:
+        signal.signal(signal.SIGINT, before)

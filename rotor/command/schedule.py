@@ -1,0 +1,200 @@
+"""`schedule`: the best twist for each flight condition, the best fixed blade, and what moving is worth beyond it."""
+
+import argparse
+import csv
+import json
+import os
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from rotor.command.optimise import named
+from rotor.command.parser import add_design_arguments, design_from, parse_range
+from rotor.command.progress import STOPPED, bar, interruptible
+from rotor.command.search_flags import add_search_arguments, concept_help, limits_from, parse_division
+from rotor.concepts import CONCEPTS, Concept, find_concept, on_top
+from rotor.mission import read_mission
+from rotor.objective import QUANTITIES, Leg
+from rotor.optimise import Optimum
+from rotor.schedule import Cell, Plan, Schedule, run_plan
+from rotor.schedule_file import open_cells, read_cells
+
+DEFAULT_CONCEPTS = ("linear", "two-segment", "three-segment", "free-form")
+DEFAULT_MU = "0:0.35:0.05"
+COLUMNS = ("mu", "mass_kg", "altitude_m", "hours", "concept", "status", "baseline_kw", "power_kw", "saving_percent",
+           "twist")  # fmt: skip
+
+
+def add_parser(commands: Any) -> None:
+    """Register the command."""
+    parser = commands.add_parser("schedule", help="best twist per condition, best fixed blade, worth of moving")
+    parser.add_argument(
+        "--concept", nargs="+", default=list(DEFAULT_CONCEPTS), metavar="NAME", help=f"all | {concept_help()}"
+    )
+    parser.add_argument("--division", metavar="R", help="division of two-segment concepts, r/R (default 0.5)")
+    where = parser.add_mutually_exclusive_group()
+    where.add_argument("--mu", metavar="A:B:STEP", help=f"advance ratios, equal hours each (default {DEFAULT_MU})")
+    where.add_argument("--mission", metavar="FILE", help="CSV of mu,mass_kg,altitude_m,hours")
+    parser.add_argument("--objective", default="total", choices=QUANTITIES, help="what to make small (default total)")
+    add_design_arguments(parser, one_twist=True)
+    add_search_arguments(parser, 4)
+    parser.add_argument("--processes", type=int, metavar="N", help="processes to use (default: one a core, at most 4)")
+    parser.add_argument("--resume", metavar="FILE", help="keep what is found in this file, go on from what it holds")
+    parser.add_argument("--csv", metavar="FILE", help="write the table to a file as well")
+    parser.add_argument("--json", action="store_true", help="machine-readable output")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """0 when every optimum was found, 1 when not, 130 stopped by Ctrl-C with what was found printed."""
+    plan = plan_from(args)
+    processes = args.processes if args.processes is not None else min(os.cpu_count() or 1, 4)
+    if not 1 <= processes <= 64:
+        raise ValueError(f"{processes} processes are outside 1…64: give one a core")
+    found = read_cells(args.resume, plan) if args.resume else []
+    keep = open_cells(args.resume, plan) if args.resume else None
+    total = len(plan.concepts) * (len(plan.legs) + 1)
+    with interruptible() as stop, bar(total - len(found), " optima") as advance:
+
+        def take(cell: Cell) -> None:
+            if keep is not None:
+                keep(cell)
+            advance(f"{cell.concept} {'fixed' if cell.leg is None else f'leg {cell.leg + 1}'}")
+
+        schedule = run_plan(plan, found, take, stop, processes if total - len(found) > 2 else 1)
+        stopped = stop()
+    if args.csv:
+        _write(args.csv, schedule)
+    print(json.dumps(record(schedule), indent=2, allow_nan=False) if args.json else report(schedule))
+    if schedule.message:
+        print(f"rotor: {schedule.message}", file=sys.stderr)
+    return STOPPED if stopped and not schedule.complete else 0 if schedule.converged else 1
+
+
+def plan_from(args: argparse.Namespace) -> Plan:
+    """The plan that the flags describe."""
+    names = list(CONCEPTS) if args.concept == ["all"] else list(dict.fromkeys(args.concept))
+    division = parse_division(args.division)
+    concepts = tuple(_concept(name, division) for name in sorted(names, key=_rank))
+    design = design_from(args, args.twist, None)
+    if args.on_top:
+        concepts = tuple(on_top(concept, design.twist) for concept in concepts)
+    if args.mission:
+        legs = read_mission(args.mission, design)
+    else:
+        ratios = sorted(set(parse_range(args.mu or DEFAULT_MU)))
+        legs = tuple(Leg(replace(design.condition, advance_ratio=mu)) for mu in ratios)
+    legs = tuple(sorted(legs, key=lambda leg: (leg.condition.advance_ratio, leg.condition.mass)))
+    limits = limits_from(args, design, concepts)
+    for concept in concepts:
+        limits.bounds_of(concept)
+    return Plan(design, concepts, legs, args.objective, limits, args.starts, args.seed)
+
+
+def _rank(name: str) -> int:
+    return list(CONCEPTS).index(name) if name in CONCEPTS else -1
+
+
+def _concept(name: str, division: list[float] | None) -> Concept:
+    return find_concept(name, division if division is not None and name in _DIVIDED else None)
+
+
+_DIVIDED = ("two-segment", "two-segment-two-airfoils")
+
+
+def record(schedule: Schedule) -> dict[str, Any]:
+    """The JSON of `schedule --json`; what was not found is null."""
+    plan = schedule.plan
+    worth = {concept.name: schedule.worth(concept.name) for concept in plan.concepts}
+    return {
+        "status": "converged" if schedule.converged else "not-converged" if schedule.complete else "stopped",
+        "concepts": [concept.name for concept in plan.concepts],
+        "objective": plan.quantity,
+        "conditions": [
+            {
+                "mu": leg.condition.advance_ratio,
+                "mass_kg": leg.condition.mass,
+                "altitude_m": leg.condition.altitude,
+                "hours": leg.hours,
+                "baseline_power_w": _baseline(schedule, k),
+                "optima": {one.name: _entry(schedule.at(k, one.name), one) for one in plan.concepts},
+            }
+            for k, leg in enumerate(plan.legs)
+        ],
+        "fixed": {one.name: _entry(schedule.at(None, one.name), one) for one in plan.concepts},
+        "worth": {
+            name: None
+            if one is None
+            else {
+                "baseline_w": one.baseline,
+                "fixed_w": one.fixed,
+                "moving_w": one.moving,
+                "gain_w": one.gain,
+                "gain_percent": 100.0 * one.share,
+            }
+            for name, one in worth.items()
+        },
+    }
+
+
+def _baseline(schedule: Schedule, leg: int) -> float | None:
+    return next((cell.optimum.baseline_power for cell in schedule.cells if cell.leg == leg), None)
+
+
+def _entry(optimum: Optimum | None, concept: Concept) -> dict[str, Any] | None:
+    if optimum is None:
+        return None
+    best = optimum.best
+    return {
+        "status": optimum.status.value,
+        "parameters": {} if best is None else named(concept, best.parameters),
+        "twist": None if best is None else best.twist,
+        "power_w": None if best is None else best.power,
+        "saving_percent": None if optimum.saving is None else 100.0 * optimum.saving,
+    }
+
+
+def report(schedule: Schedule) -> str:
+    """Tables for a reader."""
+    rows = _rows(schedule)
+    widths = (7, 9, 11, 7, 26, 14, 12, 10, 15, 0)
+    lines = ["".join(f"{cell:<{width}}" for cell, width in zip(COLUMNS, widths, strict=True))]
+    lines += ["".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
+    lines.append("")
+    for concept in schedule.plan.concepts:
+        one = schedule.worth(concept.name)
+        if one is not None:
+            lines.append(
+                f"{concept.title}: as it is {one.baseline / 1e3:.2f} kW, best fixed {one.fixed / 1e3:.2f} kW, "
+                f"moving {one.moving / 1e3:.2f} kW. Moving is worth {one.gain / 1e3:.2f} kW ({100 * one.share:.2f} %)."
+            )
+    if not schedule.complete:
+        lines.append("Stopped before the end: --resume FILE keeps what is found and goes on from it.")
+    return "\n".join(lines)
+
+
+def _rows(schedule: Schedule) -> list[tuple[str, ...]]:
+    rows: list[tuple[str, ...]] = []
+    for cell in schedule.cells:
+        leg, one = None if cell.leg is None else schedule.plan.legs[cell.leg], cell.optimum
+        where = ("all", "", "", "") if leg is None else (
+            f"{leg.condition.advance_ratio:.4g}", f"{leg.condition.mass:.6g}", f"{leg.condition.altitude:.4g}",
+            f"{leg.hours:.4g}",
+        )  # fmt: skip
+        rows.append((
+            *where, cell.concept, one.status.value,
+            "" if one.baseline_power is None else f"{one.baseline_power / 1e3:.2f}",
+            "" if one.best is None else f"{one.best.power / 1e3:.2f}",
+            "" if one.saving is None else f"{100 * one.saving:.2f}",
+            "" if one.best is None else one.best.twist,
+        ))  # fmt: skip
+    return rows
+
+
+def _write(path: str, schedule: Schedule) -> None:
+    try:
+        with Path(path).open("w", newline="", encoding="utf-8") as file:
+            csv.writer(file).writerows([COLUMNS, *_rows(schedule)])
+    except OSError as error:
+        raise ValueError(f"cannot write {path!r} ({error.strerror}): give a writable file") from None

@@ -1,0 +1,85 @@
+"""Flags that `optimise` and `schedule` share: the limits of a search."""
+
+import argparse
+import math
+
+from rotor.command.parser import finite
+from rotor.concepts import CONCEPTS, Concept
+from rotor.design import Design
+from rotor.optimise import Limits, reach
+
+
+def add_search_arguments(parser: argparse.ArgumentParser, starts: int) -> None:
+    """Starts, seed and limits."""
+    parser.add_argument("--starts", type=int, default=starts, metavar="N", help=f"starts a search (default {starts})")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the starting points (default 0)")
+    parser.add_argument(
+        "--on-top", action="store_true", help="the concept is a change added to the design's own twist, which stays"
+    )
+    limits = parser.add_argument_group("limits")
+    limits.add_argument(
+        "--bound", action="append", default=[], metavar="NAME=LOW,HIGH",
+        help="bounds of one parameter, degrees or r/R, e.g. --bound outboard_rate=-20,0; repeatable",
+    )  # fmt: skip
+    limits.add_argument(
+        "--rate-deg", metavar="LOW,HIGH", help="twist rate of every segment, degrees per radius, e.g. --rate-deg=-20,0"
+    )
+    limits.add_argument("--stalled-percent", type=finite, metavar="P", help="largest stalled part of the disk")
+    limits.add_argument(
+        "--change-deg", type=finite, metavar="DEG",
+        help="largest change from the design's own twist, root to tip, growing evenly along the blade",
+    )  # fmt: skip
+
+
+def limits_from(args: argparse.Namespace, design: Design, concepts: tuple[Concept, ...]) -> Limits:
+    """The limits that the flags describe; ValueError for what no concept can use."""
+    units = {parameter.name: parameter for one in concepts for parameter in one.parameters}
+    bounds: list[tuple[str, float, float]] = []
+    for text in args.bound:
+        name, _, numbers = str(text).partition("=")
+        name = name.removesuffix("_deg")
+        if name not in units:
+            raise ValueError(f"bound {text!r} names no parameter: use one of {', '.join(units)}")
+        low, high = _pair(numbers, f"bound {text!r}", f"{name}=-20,0")
+        bounds.append((name, units[name].from_shown(low), units[name].from_shown(high)))
+    rate = None
+    if args.rate_deg is not None:
+        low, high = _pair(args.rate_deg, f"rate {args.rate_deg!r}", "--rate-deg=-20,0")
+        rate = math.radians(low), math.radians(high)
+    if args.change_deg is not None and args.change_deg < 0.0:
+        raise ValueError(f"change limit {args.change_deg:g}° is negative: give 0 or more")
+    root = design.rotor.blade.root_cutout
+    return Limits(
+        bounds=tuple(bounds),
+        rate=rate,
+        stalled=None if args.stalled_percent is None else args.stalled_percent / 100.0,
+        change=None if args.change_deg is None else reach(design.twist, math.radians(args.change_deg), root),
+    )
+
+
+def concept_help() -> str:
+    """All names."""
+    return " | ".join(CONCEPTS)
+
+
+def parse_division(text: str | None) -> list[float] | None:
+    """r/R of one or two divisions."""
+    if text is None:
+        return None
+    try:
+        values = [float(item) for item in text.split(",")]
+    except ValueError:
+        values = [math.nan]
+    if not all(math.isfinite(value) for value in values):
+        raise ValueError(f"division {text!r} is not understood: write r/R, for example 0.5 or 0.4,0.8")
+    return values
+
+
+def _pair(text: str, what: str, example: str) -> tuple[float, float]:
+    try:
+        low, high = (float(item) for item in text.split(","))
+    except ValueError:
+        low = high = math.nan
+    if not (math.isfinite(low) and math.isfinite(high)):
+        raise ValueError(f"{what} is not understood: write two numbers, for example {example}")
+    return low, high

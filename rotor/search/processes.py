@@ -1,0 +1,108 @@
+"""Generators worked off here or in other processes, their items handed on one by one, stopped when told.
+
+A task is a function at the top of a module, that takes its arguments and a `stop` to ask, and yields items.
+"""
+
+import signal
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import suppress
+from multiprocessing import get_context
+from multiprocessing.queues import Queue
+from queue import Empty
+from typing import Any, Protocol
+
+Stop = Callable[[], bool]
+Work = Callable[..., Iterator[Any]]
+"""work(*arguments, stop) yields items; each is handed on once, and again at the end of the task from processes."""
+
+
+class WorkerLost(RuntimeError):
+    """A process ended without being asked to; what it had handed on is kept."""
+
+
+class Workers:
+    """A place to run tasks: here, or in processes that are started once. Use it in a `with`."""
+
+    def __init__(self, processes: int, take: Callable[[Any], None], stop: Stop | None) -> None:
+        self._take, self._stop = take, stop
+        context = get_context("spawn")
+        self._halt, self._news = context.Event(), context.Queue()
+        self._pool = (
+            ProcessPoolExecutor(processes, context, initializer=_join, initargs=(self._halt, self._news))
+            if processes > 1
+            else None
+        )
+
+    def __enter__(self) -> "Workers":
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self._halt.set()
+        if self._pool is not None:
+            self._pool.shutdown(cancel_futures=True)
+
+    def run(self, tasks: Sequence[tuple[Work, tuple[Any, ...]]]) -> bool:
+        """Run the tasks; True when stopped before the end."""
+        if self._pool is None:
+            for work, arguments in tasks:
+                for item in work(*arguments, self._stop):
+                    self._take(item)
+                if self._asked():
+                    return True
+            return False
+        try:
+            return self._wait({self._pool.submit(_all, work, arguments) for work, arguments in tasks})
+        except BrokenProcessPool:
+            self._hand_on()
+            raise WorkerLost(
+                "A worker process was lost, perhaps for lack of memory; what was found is kept: use fewer processes."
+            ) from None
+
+    def _wait(self, waiting: set[Future[list[Any]]]) -> bool:
+        stopped = False
+        while waiting:
+            done, waiting = wait(waiting, timeout=0.1, return_when=FIRST_COMPLETED)
+            self._hand_on()
+            for future in done:  # Whatever the queue still holds comes with the result as well.
+                for item in future.result():
+                    self._take(item)
+            if not stopped and self._asked():
+                stopped = True
+                self._halt.set()
+                waiting = {future for future in waiting if not future.cancel()}
+        return stopped
+
+    def _hand_on(self) -> None:
+        with suppress(Empty):
+            while True:
+                self._take(self._news.get_nowait())
+
+    def _asked(self) -> bool:
+        return self._stop is not None and self._stop()
+
+
+class _Flag(Protocol):
+    def is_set(self) -> bool: ...
+
+
+_halt: _Flag | None = None
+_news: "Queue[Any] | None" = None
+
+
+def _join(halt: _Flag, news: "Queue[Any]") -> None:
+    """What a new process is told: when to stop, where to send items. Ctrl-C is for the parent to understand."""
+    global _halt, _news
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    _halt, _news = halt, news
+
+
+def _all(work: Work, arguments: tuple[Any, ...]) -> list[Any]:
+    assert _halt is not None
+    assert _news is not None
+    made: list[Any] = []
+    for item in work(*arguments, _halt.is_set):
+        _news.put(item)
+        made.append(item)
+    return made
