@@ -4,7 +4,7 @@ import viser
 from viser import uplot
 
 from explorer import readout
-from explorer.colours import BASELINE, LIMIT, NOW, THIS
+from explorer.colours import BASELINE, IDEAL, LIMIT, NOW, THIS
 from explorer.plots import Plot, Range
 
 _HEIGHT = 94
@@ -82,9 +82,10 @@ class Charts:
         self.power = Chart(
             gui,
             "Power [kW] over µ",
-            (*both, ("now", NOW)),
+            (*both, ("ideal", IDEAL)),
             "advance ratio µ",
             (
+                line("ideal for this lift", IDEAL, 1.2, (2, 3)),
                 *pair,
                 points("baseline, hover", BASELINE, 6),
                 points("this design, hover", THIS, 6),
@@ -95,12 +96,13 @@ class Charts:
         )
         self.twist = Chart(gui, "Twist [°] over r/R", both, "radius r/R", pair, twist, (0.1, 1.02))
         blade = (("marked blade", NOW), ("stall", LIMIT))
+        stall = line("stall", LIMIT, 1.5, (5, 3))
         self.alpha = Chart(
             gui,
             "Angle of attack [°] over r/R",
             blade,
             "radius r/R",
-            (line("stall", LIMIT, 1.5, (5, 3)), line("marked blade", NOW)),
+            (stall, stall, line("marked blade", NOW)),
             alpha,
             (0.1, 1.02),
         )

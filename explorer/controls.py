@@ -50,6 +50,8 @@ SLIDERS: dict[str, Slider] = {
     "mass_t": Slider("Weight [t]", 5.0, 11.0, 0.05, "Gross mass in tonnes."),
     "altitude_m": Slider("Altitude [m]", 0.0, 4000.0, 50.0, "Pressure altitude, standard atmosphere."),
 }
+FOUR, INFINITE = "dynamic-wake", "dynamic-wake-infinite-blades"
+"""The same theory with the rotor's own blades and with infinitely many."""
 _TOGGLES = {"reverse_flow": "Reverse flow", "stall": "Stall", "drag_divergence": "Drag diverg."}
 
 
@@ -99,6 +101,15 @@ class Controls:
                 gui.add_dropdown("Inflow", tuple(self._inflows.values()), initial_value=self._inflows[start.inflow])
             )
             self._explanation = gui.add_html("")
+            self._infinite = gui.add_checkbox(
+                "Infinite blades",
+                start.inflow == INFINITE,
+                hint="The same wake averaged over time: the rotor that textbooks untwist for speed.",
+            )
+            self._infinite.on_update(self._infinite_changed)
+            self.check_button = gui.add_button(
+                "Check with the vortex wake", color="gray", hint="The same design with rigid helical vortices."
+            )
             self._inputs["losses"] = self._watched(
                 gui.add_checkbox("Tip, hub loss", start.losses, hint="Prandtl's factors, eqs. (3.16), (3.17).")
             )
@@ -147,6 +158,8 @@ class Controls:
             make_design(inputs.preset, advance_ratio=inputs.advance_ratio).airspeed
         )
         self._explanation.content = readout.explanation(INFLOW_MODELS[inputs.inflow].explanation)
+        self._infinite.visible = inputs.inflow in (FOUR, INFINITE)
+        self._infinite.value = inputs.inflow == INFINITE
 
     def show_range(self, title: str, colour_range: tuple[float, float], faded: bool) -> None:
         """The colour bar and legend of a field."""
@@ -166,6 +179,10 @@ class Controls:
     def _preset_changed(self, event: viser.GuiEvent[Any]) -> None:
         if event.client is not None:  # Not when the reset button moved it.
             self._inputs["inflow"].value = self._inflows[preset_inflow(self.inputs().preset)]
+
+    def _infinite_changed(self, event: viser.GuiEvent[Any]) -> None:
+        if event.client is not None:  # Not when the menu moved it.
+            self._inputs["inflow"].value = self._inflows[INFINITE if event.target.value else FOUR]
 
 
 def _laws_of(inputs: Inputs) -> dict[str, str]:

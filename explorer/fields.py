@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from explorer.colours import Scheme
 from explorer.polar import PolarGrid
+from explorer.stall import angle_of_attack, stall_margin
 from rotor.solution import DiskFields, Solution
 
 Array = NDArray[np.float64]
@@ -61,39 +62,6 @@ def _induced(solution: Solution, grid: PolarGrid) -> Array:
 
 def _inflow(solution: Solution, grid: PolarGrid) -> Array:
     return grid.refine(solution.disk.inflow)
-
-
-def angle_of_attack(solution: Solution, grid: PolarGrid) -> Array:
-    """α [rad] from refined θ, U_T, U_P: these are smooth where α itself runs through ±180°.
-
-    Not wrapped: only reverse flow, where it is not shown, goes beyond half a turn.
-    """
-    disk = solution.disk
-    return grid.refine(disk.theta) - np.arctan2(grid.refine(disk.u_p), grid.refine(disk.u_t))
-
-
-def stall_margin(solution: Solution, grid: PolarGrid) -> Array:
-    """Angle left before stall [rad], from the refined α and refined stall angles.
-
-    The margin itself falls by a radian within one element beside reverse flow; the stall angles do not. Each element
-    tells one of the two, the nearer; the other is taken as typical, which does no harm where it is far away.
-    """
-    disk = solution.disk
-    ahead = disk.u_t > 0.0
-    nose_down = disk.alpha < _BETWEEN_STALLS
-    upper = _known_or_typical(disk.alpha + disk.stall_margin, ahead & ~nose_down, 0.2)
-    lower = _known_or_typical(disk.alpha - disk.stall_margin, ahead & nose_down, -0.15)
-    alpha = angle_of_attack(solution, grid)
-    return np.minimum(grid.refine(upper) - alpha, alpha - grid.refine(lower))
-
-
-_BETWEEN_STALLS = math.radians(2.0)
-"""About half way between negative and positive stall."""
-
-
-def _known_or_typical(angle: Array, known: NDArray[np.bool_], otherwise: float) -> Array:
-    typical = float(np.median(angle[known])) if known.any() else otherwise
-    return np.where(known, angle, typical)
 
 
 def _alpha_deg(solution: Solution, grid: PolarGrid) -> Array:

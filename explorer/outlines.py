@@ -6,8 +6,9 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from explorer.fields import filled, stall_margin
+from explorer.fields import filled
 from explorer.polar import PolarGrid, polar_grid
+from explorer.stall import stall_margin
 from rotor.solution import Solution
 
 Array = NDArray[np.float64]

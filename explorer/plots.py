@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from explorer.stall import stall_angles
 from rotor.design import Design
 from rotor.solution import Solution
 from rotor.validity import LOW_SPEED
@@ -35,6 +36,8 @@ class PowerCurve:
 
     design: Array
     baseline: Array
+    ideal: Array
+    """This design's power were its induced power the least that any circulation could have."""
 
 
 def held_range(previous: Range | None, low: float, high: float) -> Range:
@@ -52,7 +55,7 @@ def held_range(previous: Range | None, low: float, high: float) -> Range:
 
 
 def power_plot(curve: PowerCurve, mu: float, power_kw: float | None, previous: Range | None) -> Plot:
-    """Series: baseline, this design, hover points of both, the present point.
+    """Series: ideal for this lift, baseline, this design, hover points of both, the present point.
 
     Hover and forward flight are two models, so the line starts at µ 0.075 and hover stands alone.
     """
@@ -72,6 +75,7 @@ def power_plot(curve: PowerCurve, mu: float, power_kw: float | None, previous: R
     now = single(mu, math.nan if power_kw is None else power_kw)
     data = (
         x,
+        line(curve.ideal),
         line(curve.baseline),
         line(curve.design),
         single(0.0, curve.baseline[0]),
@@ -91,36 +95,23 @@ def twist_plot(design: Design, baseline: Design, previous: Range | None) -> Plot
 
 
 def alpha_plot(solution: Solution, azimuth_deg: float) -> Plot:
-    """Series: stall angle, α [°] along the blade at one azimuth; a gap in reverse flow."""
+    """Series: negative and positive stall angle, α [°] along the blade at one azimuth; gaps in reverse flow."""
     disk = solution.disk
-    theta, u_t, u_p, margin, alpha = (
-        _at_azimuth(solution, values, azimuth_deg)
-        for values in (disk.theta, disk.u_t, disk.u_p, disk.stall_margin, disk.alpha)
-    )
-    here = np.degrees(theta - np.arctan2(u_p, u_t))
-    limit = here + np.degrees(margin)
-    del alpha
-    ahead = (u_t > 0.0) & (np.abs(margin) < 1.0)
-    low, high = -10.0, 20.0
+    theta, u_t, u_p = (_at_azimuth(solution, values, azimuth_deg) for values in (disk.theta, disk.u_t, disk.u_p))
+    lower, upper = (_at_azimuth(solution, limit, azimuth_deg) for limit in stall_angles(solution))
+    low, high = -15.0, 20.0
     # Points far outside are pulled to just beyond the axis, where the chart cuts them off.
-    return Plot(
-        (
-            disk.r,
-            np.where(ahead, np.clip(limit, low - 5.0, high + 5.0), np.nan),
-            _gap(u_t > 0.0, np.clip(here, low - 5.0, high + 5.0)),
-        ),
-        (low, high),
+    series = (
+        np.where(u_t > 0.0, np.clip(np.degrees(values), low - 5.0, high + 5.0), np.nan)
+        for values in (lower, upper, theta - np.arctan2(u_p, u_t))
     )
+    return Plot((disk.r, *series), (low, high))
 
 
 def lift_plot(solution: Solution, azimuth_deg: float) -> Plot:
     """Series: Cl along the blade at one azimuth, reverse flow included."""
     cl = _at_azimuth(solution, solution.disk.cl, azimuth_deg)
     return Plot((solution.disk.r, cl), (-0.5, 1.5))
-
-
-def _gap(shown: NDArray[np.bool_], values: Array) -> Array:
-    return np.where(shown, values, np.nan)
 
 
 def _at_azimuth(solution: Solution, values: Array, azimuth_deg: float) -> Array:
@@ -150,8 +141,8 @@ def blank() -> tuple[Plot, Plot, Plot, Plot]:
     ends = np.array([0.13, 1.0])
     waiting = (-1e-3, 1e-3)
     return (
-        Plot((np.array([0.0, 0.45]), *(none,) * 5), waiting),
+        Plot((np.array([0.0, 0.45]), *(none,) * 6), waiting),
         Plot((ends, none, none), waiting),
-        Plot((ends, none, none), waiting),
+        Plot((ends, none, none, none), waiting),
         Plot((ends, none), waiting),
     )

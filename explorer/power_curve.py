@@ -7,8 +7,10 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
 
 from explorer.plots import SWEEP, PowerCurve
+from explorer.readout import ideal_induced
 from explorer.state import baseline_of
 from rotor.design import Design
 from rotor.solution import Solution
@@ -24,22 +26,22 @@ _KEPT = 200
 
 
 class PowerCurves:
-    """Remembers the curves of one session; a curve belongs to a design whatever its speed."""
+    """Remembers the curves of one session, total and ideal power; a curve belongs to a design whatever its speed."""
 
     def __init__(self) -> None:
         self._curves: dict[Design, Array] = {}
+        """(2, points): total and ideal [kW]."""
         self._coarse: set[Design] = set()
-        """Those of them that were swept in a hurry."""
+        """Curves swept in haste, to be swept again once there is time."""
         self._last: tuple[Design | None, float] = (None, -math.inf)
 
     def known(self, design: Design) -> PowerCurve:
         """The curves of this design and its baseline; for the design's own, until it is swept, the one before it."""
-        blank = np.full(len(SWEEP), math.nan)
+        blank = np.full((2, len(SWEEP)), math.nan)
         last = self._last[0]
         before = self._curves.get(last, blank) if last is not None else blank
-        return PowerCurve(
-            self._curves.get(_family(design), before), self._curves.get(_family(baseline_of(design)), blank)
-        )
+        total, ideal = self._curves.get(_family(design), before)
+        return PowerCurve(total, self._curves.get(_family(baseline_of(design)), blank)[0], ideal)
 
     def sweep(self, design: Design, superseded: Callable[[], bool]) -> bool:
         """Make the curves of this design and its baseline known; False when given up half way."""
@@ -48,41 +50,46 @@ class PowerCurves:
             if family in self._curves and family not in self._coarse:
                 continue
             coarse = False
-            values = np.full(len(SWEEP), math.nan)
+            values = np.full((2, len(SWEEP)), math.nan)
             start: Solution | None = None
             for k, mu in enumerate(SWEEP):
                 if superseded():
                     if patient:
                         return False
                     coarse = True
-                if coarse and k % 4 and k != len(SWEEP) - 1:
+                if coarse and k > 0 and (k - 1) % 3:
                     continue
                 point = solve(at_advance_ratio(family, mu), start)
                 if point.converged:
-                    start, values[k] = point, point.power.total / 1e3
+                    start, values[:, k] = point, _powers(point)
             if coarse:
-                values = _bridged(values)
+                values = np.stack([_bridged(row) for row in values])
             self._keep(family, values, coarse)
         self._last = (_family(design), time.monotonic())
         return True
 
     def _keep(self, family: Design, values: Array, coarse: bool) -> None:
         if len(self._curves) >= _KEPT:
-            oldest = next(iter(self._curves))
-            del self._curves[oldest]
-            self._coarse.discard(oldest)
-        (self._coarse.add if coarse else self._coarse.discard)(family)
+            del self._curves[next(iter(self._curves))]
         self._curves[family] = values
+        self._coarse = (self._coarse | {family}) if coarse else (self._coarse - {family})
 
 
 def _family(design: Design) -> Design:
     return replace(design, condition=replace(design.condition, advance_ratio=0.0))
 
 
+def _powers(point: Solution) -> tuple[float, float]:
+    """Total power, and what it would be with the least induced power at this lift [kW]."""
+    total, ideal = point.power.total / 1e3, ideal_induced(point)
+    return total, math.nan if ideal is None else total - (point.power.induced - ideal) / 1e3
+
+
 def _bridged(values: Array) -> Array:
-    """Points left out of a coarse sweep, on straight lines between their neighbours; hover is not a neighbour."""
+    """Points left out of a coarse sweep, on a smooth line between those of forward flight, not beyond them."""
     k = np.arange(len(values))
     have = np.isfinite(values) & (k > 0)
     if have.sum() < 2:
         return values
-    return np.where(k > 0, np.interp(k, k[have], values[have]), values)
+    line = PchipInterpolator(k[have], values[have], extrapolate=False)
+    return np.where(k > 0, line(k), values)

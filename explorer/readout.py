@@ -5,6 +5,7 @@ from html import escape
 
 from explorer.colours import PARTS
 from explorer.state import KNOT, baseline_title
+from rotor.bound import ideal_factor
 from rotor.inflow import INFLOW_MODELS
 from rotor.solution import PowerBudget, Solution
 
@@ -29,6 +30,7 @@ def power_panel(solution: Solution, baseline: Solution | None) -> str:
     reference = baseline.power if baseline is not None and baseline.converged else None
     total = power.total / 1e3
     rows = "".join(_row(name, power, reference) for name in PARTS)
+    ideal = ideal_induced(solution)
     return (
         '<div class="rx" data-explorer="power"><div class="rx-line rx-base">'
         f'<span class="rx-total" data-explorer="total-power">{number(total)} kW</span>'
@@ -36,7 +38,40 @@ def power_panel(solution: Solution, baseline: Solution | None) -> str:
         f'<span class="rx-push">{_change(power, reference)}</span></div>'
         '<div class="rx-line rx-dim"><span>total power</span>'
         f"<span>against {escape(baseline_title(solution.design))}</span></div>"
-        f'<div class="rx-bar">{_bar(power)}</div><table>{rows}</table></div>'
+        f'<div class="rx-bar">{_bar(power, ideal)}</div><table>{rows}</table>{_ideal_line(solution, ideal)}</div>'
+    )
+
+
+def ideal_induced(solution: Solution) -> float | None:
+    """The least induced power [W] that any circulation could have at this lift; None where it has not settled."""
+    factor = ideal_factor(solution.design.condition.advance_ratio, solution.ct)
+    if factor is None or not math.isfinite(solution.ct):
+        return None
+    return factor * solution.ct * solution.controls.lambda0 * solution.design.power_unit
+
+
+def _ideal_line(solution: Solution, ideal: float | None) -> str:
+    """κ, and the bound beside it."""
+    hint = "Induced power over that of an even load, C_T λ0. Ideal: least of any circulation with this lift, C_l ≤ 1.2."
+    kappa = f'κ = Pi/(CT·λ0) <b data-explorer="kappa">{number(solution.induced_power_factor, 2)}</b>'
+    bound = "ideal: not settled above µ 0.40"
+    if ideal is not None:
+        unit = solution.ct * solution.controls.lambda0 * solution.design.power_unit
+        bound = f'<i class="rx-mark"></i> ideal <b>{number(ideal / 1e3)} kW</b>, κ {number(ideal / unit, 2)}'
+    return f'<div class="rx-line rx-dim rx-kappa" title="{hint}"><span>{kappa}</span><span>{bound}</span></div>'
+
+
+def check_panel(reference: Solution | None, solution: Solution) -> str:
+    """The same design with the vortex wake, beside what is shown."""
+    if reference is None:
+        return '<div class="rx rx-dim rx-check">Vortex wake: computing …</div>'
+    if not reference.converged:
+        return f'<div class="rx rx-dim rx-check">Vortex wake: {escape(reference.message)}</div>'
+    change = 100.0 * (solution.power.total / reference.power.total - 1.0)
+    return (
+        '<div class="rx rx-check rx-line" data-explorer="check"><span class="rx-dim">Vortex wake</span>'
+        f"<span><b>{number(reference.power.total / 1e3)} kW</b>, κ {number(reference.induced_power_factor, 2)}; "
+        f"shown is {number(change, 1, sign=True)} %</span></div>"
     )
 
 
@@ -48,13 +83,16 @@ def _change(power: PowerBudget, reference: PowerBudget | None) -> str:
     return f'<span class="rx-change{kind}" data-explorer="change">{number(change, 1, sign=True)} %</span>'
 
 
-def _bar(power: PowerBudget) -> str:
+def _bar(power: PowerBudget, ideal: float | None) -> str:
     values = {name: getattr(power, name) for name in PARTS}
     parts = {name: value if value > 0.0 and math.isfinite(value) else 0.0 for name, value in values.items()}
     total = max(sum(parts.values()), 1.0)
-    return "".join(
+    bar = "".join(
         f'<span style="flex:{value / total:.5f};background:{PARTS[name]}"></span>' for name, value in parts.items()
     )
+    if ideal is None:
+        return bar
+    return bar + f'<i class="rx-mark" style="position:absolute;left:{100.0 * ideal / total:.2f}%"></i>'
 
 
 def _row(name: str, power: PowerBudget, reference: PowerBudget | None) -> str:
@@ -100,11 +138,11 @@ def _deg(angle: float, digits: int = 2) -> str:
 
 
 def status_panel(solution: Solution | None, problem: str | None = None) -> str:
-    """A box of constant height: how the solve ended, and every reason to read the numbers with care."""
+    """A box of constant height: how the solve ended, every reason to read it with care, and how it was computed."""
     if problem is None and solution is not None and not solution.converged:
         problem = solution.message
     if problem is not None:
-        return _status("problem", f"<b>{escape(problem)}</b><br>The last good answer is shown in grey.")
+        return _status("problem", f"{escape(problem)} In grey: the last good answer.")
     if solution is None:
         return _status("waiting", "Solving the first trim …")
     caveats = "".join(
@@ -112,7 +150,7 @@ def status_panel(solution: Solution | None, problem: str | None = None) -> str:
     )
     detail = f"Residual below {_tiny(solution.residual)} of weight, {solution.passes} passes."
     text = f'<div><span class="rx-good">●</span> {escape(solution.message)} {detail}</div>'
-    return _status("converged", text + caveats)
+    return _status("converged", text + caveats + provenance(solution))
 
 
 def _tiny(value: float) -> str:
@@ -134,7 +172,7 @@ def provenance(solution: Solution) -> str:
         inflow = "annulus balance" if design.models.hover_inflow == "annulus" else "closed form, eq. (3.3)"
     losses = "tip and hub loss" if design.models.tip_loss else "no losses"
     return (
-        f'<div class="rx rx-small rx-dim" data-explorer="provenance">Preset <i>{escape(design.preset)}</i>: '
+        f'<div class="rx-small rx-dim" data-explorer="provenance">Preset <i>{escape(design.preset)}</i>: '
         f"{escape(inflow)}, {escape(' / '.join(sections))}, {losses}, "
         f"{design.models.elements} × {design.models.azimuths} grid, {number(1e3 * solution.elapsed, 1)} ms. "
         "Indicative: a model, not a measurement.</div>"

@@ -95,7 +95,7 @@ class Scene:
             for lift, handle in enumerate(self._outlines[name]):
                 handle.visible = len(segments) > 0
                 if len(segments):
-                    handle.points = (segments + np.array([0.0, 0.0, 0.035 * lift])).astype(np.float32)
+                    handle.points = (segments + np.array([0.0, 0.0, 0.05 * lift])).astype(np.float32)
         self._flight.visible = picture.flight_label != ""
         if picture.flight_label:
             self._flight_label.text = picture.flight_label

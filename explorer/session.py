@@ -49,6 +49,9 @@ class Session:
         self._ghost_twist: TwistLaw | None = None
         """Of the blade a search began from, while its designs are shown."""
         self._baseline = solver.Baseline()
+        self._checked: Solution | None = None
+        """The last check with the vortex wake."""
+        self._check_wanted = False
         self._curves = PowerCurves()
         self._dark = dark
         self._worker = LatestWins(self._round, self._report, f"session-{client.client_id}")
@@ -80,8 +83,8 @@ class Session:
             self._status = gui.add_html(readout.status_panel(None))
             self._power = gui.add_html("")
             self._trim = gui.add_html("")
+            self._check = gui.add_html("")
             self._charts = Charts(gui, *plots.blank())
-            self._provenance = gui.add_html("")
         with panel.add_tab("Where to twist", viser.Icon.ARROWS_VERTICAL):
             self._sensitivity = SensitivityPanel(gui, Strip(client.scene), self._worker.wake)
         with panel.add_tab("Map", viser.Icon.MAP_2):
@@ -91,6 +94,7 @@ class Session:
         self._camera = FittedCamera(client, rotor.radius)
         self._controls.view_buttons.on_click(self._view_clicked)
         self._controls.range_buttons.on_click(self._range_clicked)
+        self._controls.check_button.on_click(self._check_clicked)
 
     def start(self) -> None:
         self._worker.start()
@@ -128,6 +132,7 @@ class Session:
         self._good = self._latest
         self._draw(self._good, view)
         self._tell(self._good, self._baseline.solve(baseline_of(design)), view)
+        self._compare(self._good)
         if not superseded():
             self._sensitivity.show(self._good, view.exaggeration)
         if self._curves.sweep(design, superseded):
@@ -156,12 +161,22 @@ class Session:
         self._status.content = readout.status_panel(solution)
         self._power.content = readout.power_panel(solution, baseline)
         self._trim.content = readout.trim_panel(solution)
-        self._provenance.content = readout.provenance(solution)
         charts = self._charts
         charts.twist.show(plots.twist_plot(solution.design, baseline.design, charts.twist.y_range))
         charts.alpha.show(plots.alpha_plot(solution, view.azimuth_deg))
         charts.lift.show(plots.lift_plot(solution, view.azimuth_deg))
         self._plot_power(solution)
+
+    def _compare(self, solution: Solution) -> None:
+        """The vortex wake beside the answer, once asked for; an older check is taken away."""
+        if self._checked is not None and self._checked.design != solver.with_vortex_wake(solution.design):
+            self._checked = None
+            self._check.content = ""
+        if self._check_wanted:
+            self._check_wanted = False
+            self._check.content = readout.check_panel(None, solution)
+            self._checked = solve(solver.with_vortex_wake(solution.design), solution)
+            self._check.content = readout.check_panel(self._checked, solution)
 
     def _plot_power(self, solution: Solution, lost: bool = False) -> None:
         design, chart = solution.design, self._charts.power
@@ -211,6 +226,11 @@ class Session:
 
     def _view_clicked(self, event: viser.GuiEvent[Any]) -> None:
         self._camera.aim("3d" if event.target.value == "3D" else "top")
+
+    def _check_clicked(self, event: viser.GuiEvent[Any]) -> None:
+        del event
+        self._check_wanted = True
+        self._worker.wake()
 
     def _range_clicked(self, event: viser.GuiEvent[Any]) -> None:
         self._range_order = event.target.value

@@ -1,6 +1,6 @@
 """The solver as the page uses it: warmed in the background, and a baseline remembered."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from rotor.design import Design
 from rotor.presets import PRESETS, make_design
@@ -13,6 +13,11 @@ def warm() -> None:
     for preset in PRESETS:
         for advance_ratio in (0.0, 0.2):
             solve(make_design(preset, advance_ratio=advance_ratio))
+
+
+def with_vortex_wake(design: Design) -> Design:
+    """The same design with the reference inflow; itself in hover, which has no wake to skew."""
+    return design if design.hovering else replace(design, models=replace(design.models, inflow="vortex-wake"))
 
 
 @dataclass

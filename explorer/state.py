@@ -28,7 +28,7 @@ class Inputs:
     """Everything on the sliders that decides the answer. Rates are degrees per radius."""
 
     preset: str = "flight"
-    law: str = "uh60a"
+    law: str = "two"
     linear: float = -12.0
     quadratic_curvature: float = 8.0
     quadratic_difference: float = -14.0

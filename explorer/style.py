@@ -17,11 +17,16 @@ SHEET = """<style>
 [data-mantine-color-scheme=dark] .rx-less { color: #38d9a9; }
 [data-mantine-color-scheme=dark] .rx-more { color: #ff922b; }
 .rx-bar { display: flex; gap: 1px; height: 10px; border-radius: 2px; overflow: hidden; margin: 5px 0 3px; }
+.rx-bar { position: relative; }
+.rx-mark { display: inline-block; width: 2px; height: 10px; background: currentColor; vertical-align: middle; }
+.rx-bar .rx-mark { width: 2.5px; color: var(--mantine-color-text); }
+.rx-kappa { font-size: 12px; padding-top: 1px; }
+.rx-check { height: 19px; font-size: 12px; }
 .rx table { width: 100%; border-collapse: collapse; white-space: nowrap; }
 .rx td { padding: 0; }
 .rx-patch { display: inline-block; width: 9px; height: 9px; border-radius: 2px; margin-right: 7px; }
 .rx-grid { display: grid; grid-template-columns: 1fr 1fr; column-gap: 18px; padding-top: 4px; }
-.rx-status { margin: 4px 10px 2px; padding: 5px 8px; height: 75px; overflow-y: auto; border-radius: 4px;
+.rx-status { margin: 4px 10px 2px; padding: 5px 8px; height: 72px; overflow-y: auto; border-radius: 4px;
   font-size: 12px; line-height: 1.32; background: rgba(128,128,128,.10); }
 .rx-problem { background: #c92a2a; color: #fff; }
 .rx-good { color: #0ca678; }
@@ -29,7 +34,7 @@ SHEET = """<style>
 .rx-care > span:first-child { color: #e67700; }
 .rx-faded { opacity: .35; }
 .rx-speed { text-align: right; margin-top: -4px; padding-bottom: 5px; font-size: 12px; }
-.rx-explain { height: 50px; }
+.rx-explain { height: 36px; }
 .rx-heading { padding-top: 3px; margin-bottom: -9px; font-size: 12px; gap: 10px; }
 .rx-heading > :first-child { font-weight: 600; margin-right: auto; }
 .rx-dash { display: inline-block; width: 12px; height: 3px; vertical-align: middle; margin-right: 4px; }

@@ -22,4 +22,4 @@ from rotor.solution import Solution as Solution
 from rotor.solution import Status as Status
 from rotor.solve import solve as solve
 from rotor.sweep import sweep as sweep
-from rotor.twist import parse_twist as parse_twist
+from rotor.twist_spec import parse_twist as parse_twist

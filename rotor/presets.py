@@ -13,7 +13,8 @@ from rotor.flight import FlightCondition, Fuselage
 from rotor.library import asset_path
 from rotor.momentum import ideal_tip_pitch
 from rotor.tail_rotor import TailRotor
-from rotor.twist import LinearTwist, TableTwist, TwistLaw, parse_twist
+from rotor.twist import LinearTwist, TableTwist, TwistLaw
+from rotor.twist_spec import parse_twist
 
 PRESETS = ("flight", "thesis")
 

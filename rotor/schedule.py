@@ -12,8 +12,7 @@ from rotor.concepts import Concept, nearest
 from rotor.design import Design
 from rotor.objective import Leg, Objective, Quantity
 from rotor.optimise import Ended, Limits, Optimum, Search, optimise
-from rotor.search.processes import spread
-from rotor.twist import parse_twist
+from rotor.search.processes import WorkerLost, Workers
 
 CHUNK = 4
 """Neighbouring conditions worked off together."""
@@ -82,6 +81,8 @@ class Schedule:
 
     plan: Plan
     cells: tuple[Cell, ...]
+    message: str = ""
+    """What went wrong with the run itself, in one sentence."""
 
     def at(self, leg: int | None, concept: str) -> Optimum | None:
         """The optimum of a concept at a leg; None: the fixed blade."""
@@ -132,13 +133,18 @@ def run_plan(
 
     legs = range(len(plan.legs))
     chunks = [tuple(legs[k : k + CHUNK]) for k in range(0, len(plan.legs), CHUNK)]
-    stopped = spread([(_work_chunk, (plan, chunk, dict(cells))) for chunk in chunks], take, stop, processes)
-    if not stopped:
-        spread([(_work_fixed, (plan, concept, dict(cells))) for concept in plan.concepts], take, stop, processes)
+    message = ""
+    with Workers(processes, take, stop) as workers:
+        try:
+            stopped = workers.run([(_work_chunk, (plan, chunk, dict(cells))) for chunk in chunks])
+            if not stopped:
+                workers.run([(_work_fixed, (plan, concept, dict(cells))) for concept in plan.concepts])
+        except WorkerLost as lost:
+            message = str(lost)
     order = {concept.name: k for k, concept in enumerate(plan.concepts)}
     last = len(plan.legs)
     in_order = sorted(cells.values(), key=lambda one: (last if one.leg is None else one.leg, order[one.concept]))
-    return Schedule(plan, tuple(in_order))
+    return Schedule(plan, tuple(in_order), message)
 
 
 _Known = dict[tuple[int | None, str], Cell]
@@ -203,9 +209,8 @@ def _guesses(
     if neighbour is not None and neighbour.optimum.best is not None:
         guesses.append(neighbour.optimum.best.parameters)
     here = [known.get((leg, other.name)) for other in plan.concepts if other.name != concept.name]
-    simpler = [cell.optimum.best for cell in here if cell is not None and cell.optimum.best is not None]
+    simpler = [(cell.optimum.best.power, cell.optimum.design) for cell in here if cell and cell.optimum.best]
     if simpler:
-        best = min(simpler, key=lambda one: one.power)
-        law = parse_twist(best.twist, builtin=plan.design.twist, ideal_tip_pitch=0.0)
-        guesses.append(nearest(concept, law))
+        _, design = min(simpler, key=lambda one: one[0])
+        guesses.append(nearest(concept, design.twist))
     return tuple(guesses)

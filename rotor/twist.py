@@ -7,7 +7,6 @@ pitch at 0.75 R whatever the law. Rates are radians per radius.
 import math
 from dataclasses import dataclass
 from itertools import pairwise
-from pathlib import Path
 from typing import Protocol
 
 import numpy as np
@@ -129,6 +128,20 @@ class SplineTwist:
 
 
 @dataclass(frozen=True)
+class SumTwist:
+    """A law and a change on top of it, as an actuator adds it to the blade as built."""
+
+    base: TwistLaw
+    change: TwistLaw
+
+    def __call__(self, r: ArrayLike) -> Array:
+        return self.base(r) + self.change(r)
+
+    def spec(self) -> str:
+        return f"{self.base.spec()}+{self.change.spec()}"
+
+
+@dataclass(frozen=True)
 class IdealTwist:
     """θ = θ_tip / r, eq. (1.1): uniform inflow in hover when the collective puts θ_tip at the tip.
 
@@ -171,81 +184,6 @@ class TableTwist:
 
     def spec(self) -> str:
         return self.name
-
-
-def parse_twist(spec: str, *, builtin: TwistLaw, ideal_tip_pitch: float) -> TwistLaw:
-    """Read a twist SPEC (DESIGN §8), degrees at this edge only.
-
-    `linear:-8` · `quadratic:A,D` · `segments:-12,-4@0.5` · `spline:9,6,0,-5@0.13,0.4,0.75,1` ·
-    `ideal` or `ideal:6.4` · `uh60a` · `table:FILE`.
-    `builtin` is the rotor's own twist (for `uh60a`); `ideal_tip_pitch` [rad] serves `ideal` without a number.
-    Raises ValueError with one sentence that names the value and the remedy.
-    """
-    kind, _, rest = spec.strip().partition(":")
-    if kind == "uh60a" and not rest:
-        return builtin
-    if kind == "ideal":
-        return IdealTwist(math.radians(_number(rest, spec)) if rest else ideal_tip_pitch)
-    if kind == "linear":
-        return LinearTwist(math.radians(_number(rest, spec)))
-    if kind == "quadratic":
-        values = [_number(item, spec) for item in rest.split(",")]
-        if len(values) != 2:
-            raise ValueError(f"twist {spec!r} needs two numbers: write quadratic:A,D, for example quadratic:6,-14")
-        return QuadraticTwist(math.radians(values[0]), math.radians(values[1]))
-    if kind == "segments":
-        rates, _, breaks = rest.partition("@")
-        return PiecewiseLinearTwist(
-            tuple(math.radians(_number(item, spec)) for item in rates.split(",")),
-            tuple(_number(item, spec) for item in breaks.split(",")) if breaks else (),
-        )
-    if kind == "spline":
-        angles, _, stations = rest.partition("@")
-        return SplineTwist(
-            tuple(_number(item, spec) for item in stations.split(",")) if stations else (),
-            tuple(math.radians(_number(item, spec)) for item in angles.split(",")),
-        )
-    if kind == "table" and rest:
-        return read_twist_table(Path(rest))
-    raise ValueError(
-        f"twist {spec!r} is not known: "
-        "use linear:RATE, quadratic:A,D, segments:RATES@BREAKS, spline:ANGLES@STATIONS, ideal, uh60a or table:FILE"
-    )
-
-
-def read_twist_table(path: Path) -> TableTwist:
-    """Read a two-column text table, r/R and twist in degrees; `#` starts a comment, commas or blanks separate."""
-    if not path.is_file():
-        raise ValueError(f"twist table {str(path)!r} does not exist: give the path of a two-column file (r/R, degrees)")
-    rows: list[tuple[float, float]] = []
-    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
-        items = line.partition("#")[0].replace(",", " ").split()
-        if not items:
-            continue
-        try:
-            r, angle = (float(item) for item in items)
-        except ValueError:
-            if not rows and not items[0].replace(".", "").lstrip("+-").isdigit():
-                continue  # a heading row
-            raise ValueError(
-                f"twist table {str(path)!r} line {number} reads {line.strip()!r}: write two numbers, r/R and degrees"
-            ) from None
-        if not (0.0 <= r <= 1.0 and math.isfinite(angle) and abs(angle) <= 60.0):
-            raise ValueError(
-                f"twist table {str(path)!r} line {number} has r/R {r:g} and {angle:g}°: keep r/R in 0…1, twist in ±60°"
-            )
-        rows.append((r, math.radians(angle)))
-    return TableTwist(tuple(r for r, _ in rows), tuple(a for _, a in rows), name=f"table:{path}")
-
-
-def _number(text: str, spec: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value) or abs(value) > 100.0:
-        raise ValueError(f"twist {spec!r} holds {text!r}, not a number in −100…100: write for example linear:-8")
-    return value
 
 
 def _degrees(angle: float) -> str:

@@ -12,11 +12,13 @@ from numpy.testing import assert_allclose
 
 from explorer import plots, readout
 from explorer.power_curve import PowerCurves
+from explorer.solver import with_vortex_wake
 from explorer.state import LAWS, Inputs, baseline_of, baseline_title, inputs_of, preset_inflow
 from explorer.worker import LatestWins
 from rotor.presets import PRESETS, make_design
 from rotor.solution import Caveat, Solution, Status
 from rotor.solve import solve
+from rotor.sweep import at_advance_ratio
 from rotor.twist import TableTwist
 
 
@@ -131,6 +133,26 @@ class TestReadout:
         for html in (readout.power_panel(broken, forward), readout.trim_panel(broken), readout.provenance(broken)):
             assert not re.search(r"\b(nan|inf)\b", html, re.IGNORECASE)
 
+    def test_kappa_and_the_bound_beside_it(self, forward: Solution):
+        html = readout.power_panel(forward, None)
+        assert f'data-explorer="kappa">{forward.induced_power_factor:.2f}' in html
+        assert "ideal <b>" in html
+        ideal = readout.ideal_induced(forward)
+        assert ideal is not None
+        assert 0.5 * forward.power.induced < ideal < forward.power.induced
+        fast = solve(make_design(advance_ratio=0.43, mass=6000.0)).require()
+        assert readout.ideal_induced(fast) is None
+        assert "not settled" in readout.power_panel(fast, None)
+
+    def test_check_with_the_vortex_wake(self, forward: Solution):
+        assert "computing" in readout.check_panel(None, forward)
+        reference = solve(with_vortex_wake(forward.design)).require()
+        assert f"{reference.power.total / 1e3:,.0f}".replace(",", "\u2009") in readout.check_panel(reference, forward)
+        lost = replace(reference, status=Status.NOT_CONVERGED, message="Not trimmed: no.")
+        assert "Not trimmed: no." in readout.check_panel(lost, forward)
+        hover = make_design(advance_ratio=0.0)
+        assert with_vortex_wake(hover) == hover
+
     def test_speed_in_knots(self):
         assert "97 kt · 180 km/h · 50.0 m/s" in readout.speed_line(50.0)
         assert "hover" in readout.speed_line(0.0)
@@ -139,14 +161,15 @@ class TestReadout:
 class TestPlots:
     def curve(self) -> plots.PowerCurve:
         values = np.linspace(900.0, 2000.0, len(plots.SWEEP))
-        return plots.PowerCurve(values, values + 10.0)
+        return plots.PowerCurve(values, values + 10.0, values - 50.0)
 
     def test_hover_stands_alone(self):
         """No line between µ 0 and 0.075: two models, and neither is trusted between."""
         plot = plots.power_plot(self.curve(), 0.05, 1000.0, None)
-        x, _, line, _, hover, now = plot.data
+        x, ideal, _, line, _, hover, now = plot.data
         assert np.isnan(line[x < 0.075]).all()
         assert np.isfinite(line[x >= 0.075]).all()
+        assert (ideal[x >= 0.075] < line[x >= 0.075]).all()
         assert np.isfinite(hover).tolist() == (x == 0.0).tolist()
         assert now[x == 0.05] == 1000.0
 
@@ -167,19 +190,22 @@ class TestPlots:
 
     def test_angle_of_attack_has_a_gap_in_reverse_flow(self):
         solution = solve(make_design(advance_ratio=0.35)).require()
-        r, limit, alpha = plots.alpha_plot(solution, 270.0).data
+        r, lower, upper, alpha = plots.alpha_plot(solution, 270.0).data
         assert np.isnan(alpha[r < 0.3]).all()
         assert np.isfinite(alpha[r > 0.4]).all()
-        assert np.isnan(limit[r < 0.3]).all()
-        assert np.isfinite(plots.alpha_plot(solution, 90.0).data[2]).all()
+        assert np.isnan(lower[r < 0.3]).all()
+        assert np.isnan(upper[r < 0.3]).all()
+        assert np.isfinite(plots.alpha_plot(solution, 90.0).data[3]).all()
 
     def test_azimuth_closes(self, forward: Solution):
-        first, last = (plots.alpha_plot(forward, psi).data[2] for psi in (0.0, 360.0))
+        first, last = (plots.alpha_plot(forward, psi).data[3] for psi in (0.0, 360.0))
         assert_allclose(first, last, rtol=1e-12)
 
     def test_stall_limit_lies_above_an_unstalled_blade(self, forward: Solution):
-        _, limit, alpha = plots.alpha_plot(forward, 60.0).data
-        assert (limit > alpha).all()
+        r, lower, upper, alpha = plots.alpha_plot(forward, 60.0).data
+        assert (upper > alpha).all()
+        assert (lower < alpha).all()
+        assert 10.0 < upper[r.searchsorted(0.4)] < 16.0
 
     def test_twist_in_degrees(self):
         design = Inputs(law="linear", linear=-10.0).design()
@@ -211,6 +237,18 @@ class TestPowerCurves:
         following = Inputs(law="linear", linear=-9.0).design()
         assert not curves.sweep(following, lambda: True)  # Fresh enough: given up.
         assert np.isfinite(curves.known(following).design[1:10]).all()  # The one before stays.
+
+    def test_a_coarse_curve_is_swept_again_when_there_is_time(self):
+        curves = PowerCurves()
+        design = Inputs(law="linear", linear=-8.0).design()
+        curves.sweep(design, lambda: True)
+        coarse = curves.known(design).design
+        curves.sweep(design, lambda: False)
+        fine = curves.known(design).design
+        k = plots.SWEEP.index(0.15)
+        assert_allclose(coarse[1:14], fine[1:14], rtol=0.03)
+        assert coarse[k] != fine[k]
+        assert_allclose(fine[k], solve(at_advance_ratio(design, 0.15)).power.total / 1e3, rtol=1e-6)
 
 
 class TestLatestWins:

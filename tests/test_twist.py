@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from rotor.presets import make_design, uh60a_twist
-from rotor.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, QuadraticTwist, TwistLaw, parse_twist
+from rotor.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, QuadraticTwist, TwistLaw
+from rotor.twist_spec import parse_twist
 
 R = np.linspace(0.13, 1.0, 88)
 BUILTIN = uh60a_twist()

@@ -9,7 +9,7 @@ from rotor.blade import airfoils_spec
 from rotor.command.parser import KNOT, add_design_arguments, design_from, finite
 from rotor.command.progress import STOPPED, bar, interruptible
 from rotor.command.search_flags import add_search_arguments, concept_help, limits_from, parse_division
-from rotor.concepts import Concept, find_concept
+from rotor.concepts import Concept, find_concept, on_top
 from rotor.design import Design
 from rotor.mission import read_mission
 from rotor.objective import Objective, at_condition, hover_and_cruise
@@ -41,6 +41,8 @@ def run(args: argparse.Namespace) -> int:
     if args.speed_kt is not None:
         design = design_from(args, args.twist, args.speed_kt * KNOT / design.rotor.tip_speed)
     concept = find_concept(args.concept, parse_division(args.division))
+    if args.on_top:
+        concept = on_top(concept, design.twist)
     search = Search(
         design=design,
         concept=concept,

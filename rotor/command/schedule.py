@@ -4,6 +4,7 @@ import argparse
 import csv
 import json
 import os
+import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,7 @@ from rotor.command.optimise import named
 from rotor.command.parser import add_design_arguments, design_from, parse_range
 from rotor.command.progress import STOPPED, bar, interruptible
 from rotor.command.search_flags import add_search_arguments, concept_help, limits_from, parse_division
-from rotor.concepts import CONCEPTS, Concept, find_concept
+from rotor.concepts import CONCEPTS, Concept, find_concept, on_top
 from rotor.mission import read_mission
 from rotor.objective import QUANTITIES, Leg
 from rotor.optimise import Optimum
@@ -66,6 +67,8 @@ def run(args: argparse.Namespace) -> int:
     if args.csv:
         _write(args.csv, schedule)
     print(json.dumps(record(schedule), indent=2, allow_nan=False) if args.json else report(schedule))
+    if schedule.message:
+        print(f"rotor: {schedule.message}", file=sys.stderr)
     return STOPPED if stopped and not schedule.complete else 0 if schedule.converged else 1
 
 
@@ -75,6 +78,8 @@ def plan_from(args: argparse.Namespace) -> Plan:
     division = parse_division(args.division)
     concepts = tuple(_concept(name, division) for name in sorted(names, key=_rank))
     design = design_from(args, args.twist, None)
+    if args.on_top:
+        concepts = tuple(on_top(concept, design.twist) for concept in concepts)
     if args.mission:
         legs = read_mission(args.mission, design)
     else:

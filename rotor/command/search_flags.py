@@ -13,6 +13,9 @@ def add_search_arguments(parser: argparse.ArgumentParser, starts: int) -> None:
     """Starts, seed and limits."""
     parser.add_argument("--starts", type=int, default=starts, metavar="N", help=f"starts a search (default {starts})")
     parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the starting points (default 0)")
+    parser.add_argument(
+        "--on-top", action="store_true", help="the concept is a change added to the design's own twist, which stays"
+    )
     limits = parser.add_argument_group("limits")
     limits.add_argument(
         "--bound", action="append", default=[], metavar="NAME=LOW,HIGH",

@@ -1,7 +1,7 @@
 """What a twist concept is: named parameters, the law they make, and how the law answers to each of them."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
@@ -13,6 +13,8 @@ from rotor.design import Design
 from rotor.twist import TwistLaw
 
 Array = NDArray[np.float64]
+Values = Sequence[float] | Array
+"""Parameters of a concept in its order, SI."""
 
 Unit = Literal["rad/R", "rad/R²", "rad", "R"]
 Motion = Literal["tilt", "bend", "slide", "lift"]
@@ -102,91 +104,17 @@ class Concept(Protocol):
         """Twist rates [rad/R] are linear in the values: one row per segment (or station of a smooth law)."""
         ...
 
-    def twist(self, values: Sequence[float]) -> TwistLaw:
+    def twist(self, values: Values) -> TwistLaw:
         """The law of these values."""
         ...
 
-    def slopes(self, values: Sequence[float], r: Array) -> Array:
+    def slopes(self, values: Values, r: Array) -> Array:
         """∂θ_tw(r)/∂value, exact, (parameters, elements)."""
         ...
 
-    def apply(self, design: Design, values: Sequence[float]) -> Design:
+    def apply(self, design: Design, values: Values) -> Design:
         """The design with the law, and with whatever else the concept changes about the blade."""
         ...
-
-
-@dataclass(frozen=True)
-class Restricted:
-    """A concept with some parameters held."""
-
-    base: Concept
-    fixed: tuple[tuple[str, float], ...]
-    name: str
-    title: str
-    explanation: str
-
-    @property
-    def parameters(self) -> tuple[Parameter, ...]:
-        held = dict(self.fixed)
-        return tuple(parameter for parameter in self.base.parameters if parameter.name not in held)
-
-    @property
-    def handles(self) -> tuple[Handle, ...]:
-        held = dict(self.fixed)
-        return tuple(handle for handle in self.base.handles if handle.parameter not in held)
-
-    @property
-    def rate_rows(self) -> tuple[tuple[float, ...], ...]:
-        return tuple(tuple(row[k] for k in self._free) for row in self.base.rate_rows)
-
-    def twist(self, values: Sequence[float]) -> TwistLaw:
-        return self.base.twist(self._full(values))
-
-    def slopes(self, values: Sequence[float], r: Array) -> Array:
-        return self.base.slopes(self._full(values), r)[list(self._free)]
-
-    def apply(self, design: Design, values: Sequence[float]) -> Design:
-        return self.base.apply(design, self._full(values))
-
-    @property
-    def _free(self) -> tuple[int, ...]:
-        held = dict(self.fixed)
-        return tuple(k for k, parameter in enumerate(self.base.parameters) if parameter.name not in held)
-
-    def _full(self, values: Sequence[float]) -> list[float]:
-        held, free = dict(self.fixed), iter(values)
-        return [held[p.name] if p.name in held else float(next(free)) for p in self.base.parameters]
-
-
-def restrict(
-    concept: Concept,
-    fixed: Mapping[str, float],
-    *,
-    name: str | None = None,
-    title: str | None = None,
-    explanation: str | None = None,
-) -> Concept:
-    """The concept with some parameters held at values (SI); ValueError for a name or a value it cannot take."""
-    known = {parameter.name: parameter for parameter in concept.parameters}
-    for key, value in fixed.items():
-        if key not in known:
-            raise ValueError(f"concept {concept.name} has no parameter {key!r}: it has {', '.join(known)}")
-        low, high = known[key].low, known[key].high
-        if not low <= value <= high:
-            shown = known[key].shown
-            raise ValueError(
-                f"{key} {shown(value):g} of concept {concept.name} is outside {shown(low):g}…{shown(high):g}: "
-                "choose a value inside"
-            )
-    if len(fixed) >= len(known):
-        raise ValueError(f"concept {concept.name} has nothing left to vary: leave at least one parameter free")
-    return Restricted(
-        concept,
-        tuple(fixed.items()),
-        name or concept.name,
-        title or concept.title,
-        explanation or concept.explanation,
-    )
 
 
 def nearest(concept: Concept, law: TwistLaw, root: float = 0.13) -> tuple[float, ...]:

@@ -1,13 +1,12 @@
 """Concepts of straight segments with movable breaks (thesis §4.1.3–4.1.5)."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rotor.blade import with_airfoils
-from rotor.concepts.concept import Handle, Parameter
+from rotor.concepts.concept import Handle, Parameter, Values
 from rotor.concepts.smooth import FLATTEST, STEEPEST
 from rotor.design import Design
 from rotor.twist import REFERENCE_RADIUS, PiecewiseLinearTwist, TwistLaw
@@ -48,11 +47,11 @@ class SegmentsConcept:
         n = len(self.parameters)
         return tuple(tuple(float(k == i) for k in range(n)) for i in range(len(self.segments)))
 
-    def twist(self, values: Sequence[float]) -> TwistLaw:
+    def twist(self, values: Values) -> TwistLaw:
         n = len(self.segments)
         return PiecewiseLinearTwist(tuple(float(v) for v in values[:n]), tuple(float(v) for v in values[n:]))
 
-    def slopes(self, values: Sequence[float], r: Array) -> Array:
+    def slopes(self, values: Values, r: Array) -> Array:
         """By a rate: the length of its segment between 0.75 R and r; by a break: the jump of rate there, for r beyond.
 
         On the break itself the slope is that from inboard.
@@ -67,7 +66,7 @@ class SegmentsConcept:
             out[n + k] = (rates[k] - rates[k + 1]) * ((r > place) - float(place < REFERENCE_RADIUS))
         return out
 
-    def apply(self, design: Design, values: Sequence[float]) -> Design:
+    def apply(self, design: Design, values: Values) -> Design:
         law = self.twist(values)
         rotor = design.rotor
         if self.airfoils:

@@ -1,13 +1,12 @@
 """Concepts of one smooth curve: linear, quadratic (thesis §4.1.1, §4.1.2) and a free form."""
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.concepts.concept import Handle, Parameter
+from rotor.concepts.concept import Handle, Parameter, Values
 from rotor.design import Design
 from rotor.spline import spline_basis
 from rotor.twist import REFERENCE_RADIUS, LinearTwist, QuadraticTwist, SplineTwist, TwistLaw
@@ -29,14 +28,14 @@ class LinearConcept:
     handles = (Handle("rate", "tilt", 0.0, 1.0),)
     rate_rows = ((1.0,),)
 
-    def twist(self, values: Sequence[float]) -> TwistLaw:
+    def twist(self, values: Values) -> TwistLaw:
         return LinearTwist(float(values[0]))
 
-    def slopes(self, values: Sequence[float], r: Array) -> Array:
+    def slopes(self, values: Values, r: Array) -> Array:
         del values
         return (r - REFERENCE_RADIUS)[None]
 
-    def apply(self, design: Design, values: Sequence[float]) -> Design:
+    def apply(self, design: Design, values: Values) -> Design:
         return replace(design, twist=self.twist(values))
 
 
@@ -55,15 +54,15 @@ class QuadraticConcept:
     rate_rows = ((-1.0, 1.0), (1.0, 1.0))
     """θ' = 2 a r + (D − a) at the centre and at the tip; linear between."""
 
-    def twist(self, values: Sequence[float]) -> TwistLaw:
+    def twist(self, values: Values) -> TwistLaw:
         return QuadraticTwist(float(values[0]), float(values[1]))
 
-    def slopes(self, values: Sequence[float], r: Array) -> Array:
+    def slopes(self, values: Values, r: Array) -> Array:
         del values
         line = r - REFERENCE_RADIUS
         return np.stack([r**2 - REFERENCE_RADIUS**2 - line, line])
 
-    def apply(self, design: Design, values: Sequence[float]) -> Design:
+    def apply(self, design: Design, values: Values) -> Design:
         return replace(design, twist=self.twist(values))
 
 
@@ -111,17 +110,17 @@ class FreeFormConcept:
         rates = spline_basis(self.knots, stations, derivative=1)[:, self._free]
         return tuple(tuple(row) for row in rates.tolist())
 
-    def twist(self, values: Sequence[float]) -> TwistLaw:
+    def twist(self, values: Values) -> TwistLaw:
         angles = [0.0] * len(self.knots)
         for k, value in zip(self._free, values, strict=True):
             angles[k] = float(value)
         return SplineTwist(self.knots, tuple(angles))
 
-    def slopes(self, values: Sequence[float], r: Array) -> Array:
+    def slopes(self, values: Values, r: Array) -> Array:
         del values
         return (spline_basis(self.knots, r) - spline_basis(self.knots, REFERENCE_RADIUS))[:, self._free].T
 
-    def apply(self, design: Design, values: Sequence[float]) -> Design:
+    def apply(self, design: Design, values: Values) -> Design:
         return replace(design, twist=self.twist(values))
 
     @property

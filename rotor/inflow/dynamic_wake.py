@@ -68,7 +68,7 @@ DYNAMIC_WAKES = (
     DynamicWakeInflow(
         "dynamic-wake",
         "Dynamic wake (Peters–He)",
-        "Answers to where the lift is, with the wake of this rotor's own number of blades.",
+        "Answers to where the lift is, with this rotor's own blades: the disk shows what each blade meets at ψ.",
         order=8,
     ),
     DynamicWakeInflow(

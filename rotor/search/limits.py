@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.concepts import Concept, Parameter
+from rotor.concepts import Concept, Parameter, Values
 from rotor.twist import TwistLaw
 
 Array = NDArray[np.float64]
@@ -77,7 +77,7 @@ class Limits:
         return tuple(found.values())
 
 
-def cheap_margins(limits: Limits, concept: Concept, values: Sequence[float], root: float) -> tuple[Array, Array]:
+def cheap_margins(limits: Limits, concept: Concept, values: Values, root: float) -> tuple[Array, Array]:
     """What is left of rate and change limits [degrees], positive inside, (margins,); slopes (margins, parameters)."""
     n = len(concept.parameters)
     margins: list[Array] = [np.zeros(0)]

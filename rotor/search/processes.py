@@ -6,6 +6,7 @@ A task is a function at the top of a module, that takes its arguments and a `sto
 import signal
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from multiprocessing import get_context
 from multiprocessing.queues import Queue
@@ -17,41 +18,69 @@ Work = Callable[..., Iterator[Any]]
 """work(*arguments, stop) yields items; each is handed on once, and again at the end of the task from processes."""
 
 
-def spread(
-    tasks: Sequence[tuple[Work, tuple[Any, ...]]],
-    take: Callable[[Any], None],
-    stop: Stop | None,
-    processes: int,
-) -> bool:
-    """Run the tasks; True when stopped before the end."""
-    if processes <= 1:
-        for work, arguments in tasks:
-            for item in work(*arguments, stop):
-                take(item)
-            if stop is not None and stop():
-                return True
-        return False
-    context = get_context("spawn")
-    halt, news = context.Event(), context.Queue()
-    stopped = False
-    with ProcessPoolExecutor(processes, mp_context=context, initializer=_join, initargs=(halt, news)) as pool:
-        waiting: set[Future[list[Any]]] = {pool.submit(_all, work, arguments) for work, arguments in tasks}
+class WorkerLost(RuntimeError):
+    """A process ended without being asked to; what it had handed on is kept."""
+
+
+class Workers:
+    """A place to run tasks: here, or in processes that are started once. Use it in a `with`."""
+
+    def __init__(self, processes: int, take: Callable[[Any], None], stop: Stop | None) -> None:
+        self._take, self._stop = take, stop
+        context = get_context("spawn")
+        self._halt, self._news = context.Event(), context.Queue()
+        self._pool = (
+            ProcessPoolExecutor(processes, context, initializer=_join, initargs=(self._halt, self._news))
+            if processes > 1
+            else None
+        )
+
+    def __enter__(self) -> "Workers":
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self._halt.set()
+        if self._pool is not None:
+            self._pool.shutdown(cancel_futures=True)
+
+    def run(self, tasks: Sequence[tuple[Work, tuple[Any, ...]]]) -> bool:
+        """Run the tasks; True when stopped before the end."""
+        if self._pool is None:
+            for work, arguments in tasks:
+                for item in work(*arguments, self._stop):
+                    self._take(item)
+                if self._asked():
+                    return True
+            return False
         try:
-            while waiting:
-                done, waiting = wait(waiting, timeout=0.1, return_when=FIRST_COMPLETED)
-                with suppress(Empty):
-                    while True:
-                        take(news.get_nowait())
-                for future in done:  # Whatever the queue still holds comes with the result as well.
-                    for item in future.result():
-                        take(item)
-                if not stopped and stop is not None and stop():
-                    stopped = True
-                    halt.set()
-                    waiting = {future for future in waiting if not future.cancel()}
-        finally:
-            halt.set()
-    return stopped
+            return self._wait({self._pool.submit(_all, work, arguments) for work, arguments in tasks})
+        except BrokenProcessPool:
+            self._hand_on()
+            raise WorkerLost(
+                "A worker process was lost, perhaps for lack of memory; what was found is kept: use fewer processes."
+            ) from None
+
+    def _wait(self, waiting: set[Future[list[Any]]]) -> bool:
+        stopped = False
+        while waiting:
+            done, waiting = wait(waiting, timeout=0.1, return_when=FIRST_COMPLETED)
+            self._hand_on()
+            for future in done:  # Whatever the queue still holds comes with the result as well.
+                for item in future.result():
+                    self._take(item)
+            if not stopped and self._asked():
+                stopped = True
+                self._halt.set()
+                waiting = {future for future in waiting if not future.cancel()}
+        return stopped
+
+    def _hand_on(self) -> None:
+        with suppress(Empty):
+            while True:
+                self._take(self._news.get_nowait())
+
+    def _asked(self) -> bool:
+        return self._stop is not None and self._stop()
 
 
 class _Flag(Protocol):

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from explorer.app import App
+from explorer.state import Inputs
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Locator, Page
@@ -22,7 +23,7 @@ WAIT = 15_000
 
 @pytest.fixture(scope="module")
 def app() -> Iterator[App]:
-    app = App("127.0.0.1", 0)
+    app = App("127.0.0.1", 0, Inputs(law="uh60a"))
     yield app
     app.stop()
 
@@ -146,6 +147,25 @@ def test_speed_slider_moves_power_and_disk_but_not_the_blade(watched: Watched):
     assert watched.node("/rotor/blade_0") == blade
 
 
+def test_infinite_blades_take_less_induced_power(watched: Watched):
+    power = watched.text("total-power")
+    watched.page.get_by_label("Infinite blades").check()
+    after = watched.until_changed(lambda: watched.text("total-power"), power)
+    assert kilowatts(after) < kilowatts(power)
+    assert "infinite blades" in watched.text("provenance")
+    watched.page.get_by_label("Infinite blades").uncheck()
+    watched.until_changed(lambda: watched.text("total-power"), after)
+    assert watched.text("total-power") == power
+
+
+def test_check_with_the_vortex_wake(watched: Watched):
+    watched.page.get_by_role("button", name="Check with the vortex wake").click()
+    watched.page.wait_for_selector('[data-explorer="check"]', timeout=WAIT)
+    assert re.search(r"\d{3} kW.*shown is [+−]\d\.\d %", watched.text("check"), re.DOTALL)
+    watched.press("Adv. ratio", "ArrowRight", 2)
+    watched.page.wait_for_selector('[data-explorer="check"]', state="detached", timeout=WAIT)
+
+
 def test_home_key_hovers(watched: Watched):
     watched.press("Adv. ratio", "Home")
     watched.until_changed(lambda: watched.text("speed"), "86 kt · 159 km/h · 44.2 m/s")
@@ -226,6 +246,24 @@ def test_two_browsers_do_not_disturb_each_other(watched: Watched, browser: "Brow
     context.close()
 
 
+def test_crossed_divisions_are_one_red_sentence(watched: Watched):
+    watched.choose("Law", "Three segments")
+    watched.until_changed(lambda: watched.text("change"), "0.0 %")
+    watched.type("Division 2", 0.3)
+    watched.page.wait_for_selector('[data-explorer="status"][data-kind="problem"]', timeout=WAIT)
+    assert "divisions at 0.4 and 0.3 R are out of order" in watched.text("status")
+    watched.type("Division 2", 0.8)
+    watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
+
+
+def test_thesis_preset_brings_its_own_inflow(watched: Watched):
+    watched.choose("Preset", "Thesis (as stated)")
+    watched.page.wait_for_function(
+        """() => document.querySelector('[data-explorer="provenance"]')?.innerText.includes('15π/23')""", timeout=WAIT
+    )
+    assert "linear −16°" in watched.text("power")
+
+
 def test_charts_are_fed_not_rebuilt(watched: Watched):
     read = """() => Object.values(window.__viserTestpoints.uplots).map(
         p => [p.createCount, p.chart.data[1].length, p.chart.axes[0]._values.length])"""
@@ -258,7 +296,22 @@ def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any,
     path = artefacts / f"explorer-{scheme}-{size[0]}x{size[1]}.png"
     watched.page.screenshot(path=path)
     assert path.stat().st_size > 50_000
+    assert watched.page.locator("html").get_attribute("data-mantine-color-scheme") == scheme  # As the browser asks.
     overlap = watched.page.evaluate("() => document.querySelector('canvas').getBoundingClientRect().width")
     assert overlap <= size[0] - 600  # The panels stand beside the canvas, not on it.
+    assert watched.complaints == []
+    context.close()
+
+
+def test_picture_of_the_readme(browser: "Browser", app: App, artefacts: Path):
+    """docs/images/explorer.png is a copy of what this saves."""
+    context = browser.new_context(viewport={"width": 1500, "height": 940})
+    watched = Watched(context.new_page())
+    watched.open(app.address, query="")
+    watched.choose("Law", "Two segments")
+    watched.choose("Field", "Induced inflow λi")
+    watched.page.wait_for_timeout(2500)
+    watched.quiet()
+    watched.page.screenshot(path=artefacts / "explorer.png")
     assert watched.complaints == []
     context.close()
