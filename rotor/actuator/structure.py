@@ -36,6 +36,8 @@ class BladeStructure:
     lag_stiffness: tuple[float, ...]
     axial_stiffness: float
     """EA [N]"""
+    tension_gyration: float
+    """k_A² [m²], the square of the polar radius of gyration of what carries the tension."""
     section_stiffness: float
     """GJ [N m²] that the section model is calibrated on."""
     reference_mass: float
@@ -76,6 +78,7 @@ def uh60a_structure(radius: float = 8.1788) -> BladeStructure:
         flap_stiffness=tuple(stations["flap_stiffness_nm2"]),
         lag_stiffness=tuple(stations["lag_stiffness_nm2"]),
         axial_stiffness=blade["axial_stiffness_n"],
+        tension_gyration=blade["tension_gyration_m2"],
         section_stiffness=blade["section_gj_nm2"],
         reference_mass=blade["reference_mass_kg"],
     )

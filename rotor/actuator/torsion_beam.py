@@ -2,7 +2,7 @@
 
     (GJ_e φ')' − Ω² I_θ φ = M_a',   φ = 0 at the pitch bearing,   GJ_e φ' = M_a at the free tip
 
-with the trapeze effect GJ_e = GJ + F_c k_A², k_A² = (EI_flap + EI_lag)/EA (centrifugal force untwists), and the
+with the trapeze effect GJ_e = GJ + F_c k_A², k_A² the gyration of what carries the tension (centrifugal force untwists), and the
 "tennis-racket" moment −Ω² I_θ φ per length (propeller moment, small angles, I_zz − I_yy ≈ I_θ). Uniform blade:
 φ_tip = (M_a/GJ_e) tanh(λL)/λ, λ² = Ω² I_θ/GJ_e. Source: Houbolt & Brooks, NACA TR 1346 (1958).
 Range: no coupling with bending, stiff control system. Linear finite elements, exact integrals of piecewise values.
@@ -74,8 +74,7 @@ def torsion_beam(
         inertia = inertia + inside * addition.torsional_inertia
         force = force + added_pull(addition, centres, angular_speed)
     if trapeze:
-        bending = structure.at(centres, structure.flap_stiffness) + structure.at(centres, structure.lag_stiffness)
-        stiffness = stiffness + force * bending / structure.axial_stiffness
+        stiffness = stiffness + force * structure.tension_gyration
     return TorsionBeam(r, stiffness, inertia, angular_speed)
 
 
