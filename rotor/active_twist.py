@@ -39,7 +39,9 @@ class ActiveTwist:
 
     def __post_init__(self) -> None:
         if len(self.stations) != len(self.shape) or len(self.stations) < 2:
-            raise ValueError(f"{len(self.stations)} stations but {len(self.shape)} shape values: give two or more pairs")
+            raise ValueError(
+                f"{len(self.stations)} stations but {len(self.shape)} shape values: give two or more pairs"
+            )
         if any(low >= high for low, high in pairwise(self.stations)):
             raise ValueError(f"active-twist stations {list(self.stations)} must ascend: sort them")
 

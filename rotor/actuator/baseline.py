@@ -1,4 +1,4 @@
-"""What an actuator is asked for: the twists of least power at two flight conditions, and the fixed blade it must beat."""
+"""What an actuator is asked for: the twists of least power at two conditions, and the fixed blade it must beat."""
 
 from dataclasses import dataclass, replace
 from functools import lru_cache

@@ -1,6 +1,7 @@
 """The actuators to choose from, as `assets/actuators.toml` states them."""
 
 import math
+import re
 import tomllib
 from dataclasses import dataclass
 from functools import cache
@@ -10,6 +11,8 @@ from rotor.actuator.laminate import Layer, Material
 from rotor.library import asset_path
 
 Electrodes = Literal["interdigitated", "continuous"]
+
+_UNITS = re.compile(r"_(gpa|kg_m3|mm|pm_v|v|ppm|nf_cm2|c|nm|kg|w|s|deg)$")
 
 
 @dataclass(frozen=True)
@@ -208,4 +211,5 @@ def _provenance(row: dict[str, Any]) -> Provenance:
 
 
 def _listed(keys: tuple[str, ...]) -> str:
-    return ", ".join(keys)
+    """Keys of the data file as words, their units left out."""
+    return ", ".join(_UNITS.sub("", key).replace("_", " ") for key in keys)

@@ -61,12 +61,12 @@ class Fitted:
 
     def change(self, swings: ArrayLike, r: ArrayLike) -> Array:
         """Twist at r/R for each segment's swing (−1…1 of its whole range) [rad], zero at the pitch bearing."""
-        total = np.asarray(swings, dtype=float) @ self.shapes
+        total: Array = np.asarray(swings, dtype=float) @ self.shapes
         return np.interp(np.asarray(r, dtype=float), self.r, total)
 
     def limit(self, r: ArrayLike, *, derated: bool = False) -> Array:
         """Largest change of twist relative to the root at r/R, either way [rad]: the bound an optimiser needs."""
-        total = np.abs(self.shapes).sum(axis=0) * (self.derating if derated else 1.0)
+        total: Array = np.abs(self.shapes).sum(axis=0) * (self.derating if derated else 1.0)
         return np.interp(np.asarray(r, dtype=float), self.r, total)
 
 

@@ -35,7 +35,7 @@ def elastic_flap_moment(solution: Solution, structure: BladeStructure, r: Array)
     hinge = max(rotor.blade.flap_hinge * rotor.radius, structure.clamp)
     nodes = np.linspace(hinge, structure.radius, ELEMENTS + 1)
     radii, load = unbalanced_load(solution, structure)
-    at_nodes = np.stack([np.interp(nodes, radii, column, left=0.0) for column in load.T], axis=1)
+    at_nodes = interpolate_columns(nodes, radii, load, left=0.0)
     deflection = _deflect(structure, rotor.angular_speed, nodes, at_nodes)
     return _moment(structure, nodes, deflection, r)
 
@@ -71,7 +71,15 @@ def _moment(structure: BladeStructure, nodes: Array, deflection: Array, r: Array
     curvature = (turn[1:] - turn[:-1]) / h
     middles = 0.5 * (nodes[1:] + nodes[:-1])
     moment = structure.at(middles, structure.flap_stiffness)[:, None] * curvature
-    return np.stack([np.interp(r, middles, column) for column in moment.T], axis=1)
+    return interpolate_columns(r, middles, moment)
+
+
+def interpolate_columns(x: Array, known: Array, values: Array, left: float | None = None) -> Array:
+    """np.interp for every column, (known, cases) → (x, cases); `left`: the value below the first."""
+    out = np.empty((len(x), values.shape[1]))
+    for k in range(values.shape[1]):
+        out[:, k] = np.interp(x, known, values[:, k], left=left)
+    return out
 
 
 def _bending(h: float) -> Array:

@@ -15,6 +15,7 @@ from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.electrical import harmonic_drive
 from rotor.actuator.fitted import Fitted
 from rotor.actuator.torsion_beam import twist_under_moment
+from rotor.actuator.verdict import carried
 from rotor.design import Design
 from rotor.solution import Solution
 from rotor.solve import solve
@@ -52,7 +53,8 @@ def dynamic_twist(fitted: Fitted, per_rev: int, *, derated: bool = False) -> Dyn
     static = twist_under_moment(fitted.beam, moment)
     moving = twist_under_moment(fitted.beam, moment, per_rev=float(per_rev))
     stations = np.linspace(0.0, 1.0, SHAPE_STATIONS)
-    shape = np.interp(stations, fitted.r, moving / moving[-1])
+    relative: Array = moving / moving[-1]
+    shape = np.interp(stations, fitted.r, relative)
     return DynamicTwist(
         per_rev, abs(float(moving[-1])), abs(float(static[-1])), tuple(stations.tolist()), tuple(shape.tolist())
     )
@@ -69,18 +71,31 @@ class PhaseSweep:
     """[rad], (phases,)."""
     power: Array
     """Total power change against no active twist [W], (phases,); NaN-free: phases that did not trim are left out."""
+    still: Solution
+    """Without active twist."""
     best: Solution
     """The least power found, amplitude and phase by the fitted bowl."""
-    saving: float
-    """Of `best` against no active twist [W], the drive's losses in all blades taken off."""
     drive_loss: float
-    """[W]"""
+    """Of all blades [W]."""
+    carried_power: float | None
+    """Of `best` with the actuator's mass on board and its losses fed [W]; None where that does not trim."""
+
+    @property
+    def gross_saving(self) -> float:
+        """Against no active twist and no actuator [W]."""
+        return self.still.power.total - self.best.power.total
+
+    @property
+    def net_saving(self) -> float | None:
+        """The same after mass and losses [W]."""
+        return None if self.carried_power is None else self.still.power.total - self.carried_power
 
 
 def phase_sweep(design: Design, fitted: Fitted, per_rev: int, *, derated: bool = False) -> PhaseSweep:
     """Sweep the phase at full amplitude, then try the best point of the bowl that amplitude and phase span.
 
-    Raises RuntimeError when the design does not trim without active twist.
+    The voltage swings about the middle of its range, so none is left for a steady change; the twist law is taken to be
+    that of the middle. Raises RuntimeError when the design does not trim without active twist.
     """
     made = dynamic_twist(fitted, per_rev, derated=derated)
     still = solve(replace(design, active_twist=None)).require()
@@ -102,7 +117,17 @@ def phase_sweep(design: Design, fitted: Fitted, per_rev: int, *, derated: bool =
         if turned.converged and turned.power.total - still.power.total < least:
             best, least, share = turned, turned.power.total - still.power.total, amplitude
     loss = fitted.bill.blades * harmonic_drive(fitted, per_rev, share, fitted.beam.angular_speed).loss
-    return PhaseSweep(made, share, np.array(phases), np.array(changes), best, -least - loss, loss)
+    heavy = solve(carried(best.design, fitted))
+    return PhaseSweep(
+        dynamic=made,
+        share=share,
+        phases=np.array(phases),
+        power=np.array(changes),
+        still=still,
+        best=best,
+        drive_loss=loss,
+        carried_power=heavy.power.total + loss if heavy.converged else None,
+    )
 
 
 def with_harmonic(design: Design, made: DynamicTwist, share: float, phase: float) -> Design:
@@ -112,9 +137,9 @@ def with_harmonic(design: Design, made: DynamicTwist, share: float, phase: float
 
 
 def _bowl(phases: list[float], changes: list[float]) -> list[tuple[float, float]]:
-    """Where ΔP = a(g·u) + ½a²(c + e·cos 2φ …) has its least within a ≤ 1: candidates (amplitude, phase).
+    """Where the bowl ΔP = g·u + ½ u·K u, u = a (cos φ, sin φ), has its least within a ≤ 1: (amplitude, phase).
 
-    At full amplitude ΔP(φ) = ½(k_x + k_y)/2 + g_x cos φ + g_y sin φ + …: the mean is curvature, the first harmonic slope.
+    Around full amplitude its first harmonic is the slope g; its mean and second harmonic are the curvature K.
     """
     if len(phases) < 8:
         return []

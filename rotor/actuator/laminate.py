@@ -66,9 +66,7 @@ def free_strain_in_wall_axes(layer: Layer) -> Array:
     """(ε_x, ε_s, γ_xs) of the unheld sheet: ε_x = Λ1c² + Λ2s², ε_s = Λ1s² + Λ2c², γ = 2sc(Λ1 − Λ2) [-]."""
     c, s = math.cos(layer.angle), math.sin(layer.angle)
     along, across = layer.free_strain
-    return np.array(
-        [along * c * c + across * s * s, along * s * s + across * c * c, 2.0 * s * c * (along - across)]
-    )
+    return np.array([along * c * c + across * s * s, along * s * s + across * c * c, 2.0 * s * c * (along - across)])
 
 
 def blocked_shear_flow(layer: Layer) -> float:

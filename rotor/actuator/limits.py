@@ -114,8 +114,8 @@ def _tube(fitted: Fitted, tube: TorqueTube, swings: tuple[float, ...]) -> list[L
 def _rotor_speed(laminate: ExtensionTwist) -> Limit:
     return Limit(
         "rotor-speed", False, 0.0, 100.0 * laminate.speed_change, "% of Ω",
-        f"Only rotor speed moves it: {100.0 * laminate.speed_change:.0f} % slower for all of the change, and this rotor "
-        "turns at one speed.",
+        f"Only rotor speed moves it: {100.0 * laminate.speed_change:.0f} % slower for all of the change, and this "
+        "rotor turns at one speed.",
     )  # fmt: skip
 
 
@@ -161,6 +161,6 @@ def _torsion(fitted: Fitted) -> list[Limit]:
         ),
         Limit(
             "torsion-least", frequency >= least, frequency, least, "per rev",
-            f"First torsion at {frequency:.2f}/rev; below {least:g} flutter and control loads need a study of their own.",
+            f"First torsion at {frequency:.2f}/rev; below {least:g} flutter and control loads need their own study.",
         ),
     ]  # fmt: skip

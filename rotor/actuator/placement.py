@@ -42,9 +42,7 @@ class Placement:
         """Active spans of the segments, root to tip, r/R; a segment without active span is (a, a)."""
         edges = (0.0, *self.divisions, 1.0)
         low, high = self.span
-        return tuple(
-            (min(max(a, low), high), min(max(b, low), high)) for a, b in pairwise(edges)
-        )
+        return tuple((min(max(a, low), high), min(max(b, low), high)) for a, b in pairwise(edges))
 
 
 @dataclass(frozen=True)

@@ -19,6 +19,7 @@ from scipy.optimize import minimize
 
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.fitted import Fitted
+from rotor.actuator.flap_bending import interpolate_columns
 from rotor.concepts import Concept, nearest
 from rotor.design import Design
 from rotor.gradient import Adjoint, power_along
@@ -30,6 +31,7 @@ Array = NDArray[np.float64]
 
 STATIONS = np.linspace(0.0, 1.0, 401)
 """r/R at which a jig law and the actuator's shapes are added."""
+REFERENCE = np.array([REFERENCE_RADIUS])
 FLATTER = 0.5
 """A second start: the first law flattened by this much."""
 
@@ -49,9 +51,7 @@ class Pair:
         if not 0.0 < self.share < 1.0:
             raise ValueError(f"time share {self.share:g} is outside 0…1: give the part of the time in the second state")
         if self.advance_ratios[0] == self.advance_ratios[1]:
-            raise ValueError(
-                f"both conditions have advance ratio {self.advance_ratios[0]:g}: give two that differ"
-            )
+            raise ValueError(f"both conditions have advance ratio {self.advance_ratios[0]:g}: give two that differ")
 
     @property
     def shares(self) -> tuple[float, float]:
@@ -140,10 +140,7 @@ class _Task:
         self.segments = len(fitted.shapes) if fitted else 0
         self.shapes = np.zeros((0, len(STATIONS)))
         if fitted:
-            about = np.interp(REFERENCE_RADIUS, fitted.r, np.zeros_like(fitted.r))
-            shapes = np.stack([np.interp(STATIONS, fitted.r, shape, left=about) for shape in fitted.shapes])
-            at_reference = np.array([np.interp(REFERENCE_RADIUS, STATIONS, shape) for shape in shapes])
-            self.shapes = derating * (shapes - at_reference[:, None])
+            self.shapes = derating * (_on_stations(STATIONS, fitted) - _on_stations(REFERENCE, fitted))
         self.bounds = self._jig_bounds() + self._swing_bounds(fitted, orientation)
         self.low = np.array([low for low, _ in self.bounds])
         self.span = np.array([high - low for low, high in self.bounds])
@@ -215,7 +212,7 @@ class _Task:
             if self.concept and own:
                 slope[:own] += share * by_pitch.along(self.concept.slopes(jig, by_pitch.r))
             if self.segments:
-                shapes = np.stack([np.interp(by_pitch.r, STATIONS, shape) for shape in self.shapes])
+                shapes = interpolate_columns(by_pitch.r, STATIONS, self.shapes.T).T
                 slope[begin : begin + self.segments] += share * by_pitch.along(shapes)
         return power, slope * self.span
 
@@ -223,10 +220,13 @@ class _Task:
         return twisted(jig, swings @ self.shapes) if self.segments and np.any(swings) else jig
 
 
+def _on_stations(stations: Array, fitted: Fitted) -> Array:
+    """What each segment makes at r/R, (segments, stations)."""
+    return interpolate_columns(stations, fitted.r, fitted.shapes.T).T
+
+
 def twisted(jig: TwistLaw, change: Array) -> TwistLaw:
     """A jig law with a change of twist [rad] at STATIONS added, held as a table."""
     inside = STATIONS >= 0.05  # Laws like 1/r have no value at the centre.
     angles = jig(STATIONS[inside]) + change[inside]
-    return TableTwist(
-        tuple(STATIONS[inside].tolist()), tuple(angles.tolist()), name=f"{jig.spec()} with actuator"
-    )
+    return TableTwist(tuple(STATIONS[inside].tolist()), tuple(angles.tolist()), name=f"{jig.spec()} with actuator")

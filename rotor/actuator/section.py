@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -76,9 +77,7 @@ def _calibrate(spec: SectionSpec, placement: Placement | None, active: Layer | N
     return float(brentq(excess, thinnest, thickest, xtol=1e-8))
 
 
-def _panels(
-    spec: SectionSpec, wall: float, placement: Placement | None, active: Layer | None
-) -> tuple[Panel, ...]:
+def _panels(spec: SectionSpec, wall: float, placement: Placement | None, active: Layer | None) -> tuple[Panel, ...]:
     """Walls of the section, walked from the upper trailing edge around the nose: the inside is on the left."""
     data = structure_data()["section"]
     retrofit = spec.host.kind == "retrofit"
@@ -90,7 +89,7 @@ def _panels(
     cuts = sorted(edge for edge in edges if edge <= end)
     panels: list[Panel] = []
     for side in ("upper", "lower"):
-        for front, rear in zip(cuts, cuts[1:], strict=False):
+        for front, rear in pairwise(cuts):
             in_front = not retrofit or rear <= web
             layers = front_skin if in_front else rear_skin
             if active and placement and placement.chord[0] <= front and rear <= placement.chord[1]:

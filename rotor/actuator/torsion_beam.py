@@ -2,8 +2,8 @@
 
     (GJ_e φ')' − Ω² I_θ φ = M_a',   φ = 0 at the pitch bearing,   GJ_e φ' = M_a at the free tip
 
-with the trapeze effect GJ_e = GJ + F_c k_A², k_A² the gyration of what carries the tension (centrifugal force untwists), and the
-"tennis-racket" moment −Ω² I_θ φ per length (propeller moment, small angles, I_zz − I_yy ≈ I_θ). Uniform blade:
+with the trapeze effect GJ_e = GJ + F_c k_A² (centrifugal force untwists; k_A² of what carries it) and the tennis-racket
+moment −Ω² I_θ φ per length (propeller moment, small angles, I_zz − I_yy ≈ I_θ). Uniform blade:
 φ_tip = (M_a/GJ_e) tanh(λL)/λ, λ² = Ω² I_θ/GJ_e. Source: Houbolt & Brooks, NACA TR 1346 (1958).
 Range: no coupling with bending, stiff control system. Linear finite elements, exact integrals of piecewise values.
 """

@@ -96,13 +96,25 @@ class Verdict:
         return tuple(limit for limit in self.limits if not limit.ok)
 
     @property
+    def buildable(self) -> bool:
+        """Whether no limit is broken but those on how far the twist goes, which the reached optimum keeps."""
+        return all(limit.name in ("voltage", "field", "torque") for limit in self.broken)
+
+    @property
     def pays(self) -> bool:
-        return self.net_saving > 0.0
+        return self.net_saving > 0.0 and self.buildable
 
     @property
     def voltages(self) -> tuple[tuple[float, float], ...]:
         """Of each segment at the first and at the second condition [V]; empty when voltage does not drive it."""
         return segment_voltages(self.fitted, self.reached.swings)
+
+    @property
+    def resting(self) -> Design:
+        """The second condition with the actuator at rest: the blade that harmonics of twist start from."""
+        base = self.baseline
+        design = base.pair.designs()[1]
+        return design if self.fitted.host.kind == "retrofit" else base.concept.apply(design, base.fixed.values)
 
     @property
     def sentence(self) -> str:

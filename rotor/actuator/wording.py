@@ -25,13 +25,14 @@ def verdict_sentence(verdict: "Verdict") -> str:
     gross, net = verdict.gross_saving, verdict.net_saving
     mass = fitted.bill.aircraft
     against = "flown twist" if fitted.host.kind == "retrofit" else "best fixed blade"
+    saves = f"within its reach it saves {kw(gross)} over the {against}"
     if verdict.pays:
-        pay = f"Within its reach it saves {kw(gross)} over the {against} and {kw(net)} after {mass:.0f} kg are carried."
+        pay = f"It pays: {saves}, {kw(net)} after its {mass:.0f} kg are carried."
+    elif net > 0.0:
+        pay = f"It would save {kw(net)} over the {against}, if it could be built and driven."
     else:
-        pay = (
-            f"It does not pay: within its reach it saves {kw(gross)} over the {against}, and carrying its "
-            f"{mass:.0f} kg costs {kw(gross - net)}."
-        )
+        pay = f"It does not pay: {saves}, and carrying its {mass:.0f} kg costs {kw(gross - net)}."
+    pay += f" Twist free to move would save {kw(verdict.baseline.ideal_saving)} over the best fixed blade."
     broken = verdict.broken
     stops = f" Limits broken: {', '.join(limit.name for limit in broken)}." if broken else ""
     return f"{reach} {pay}{stops}"
