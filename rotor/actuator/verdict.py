@@ -179,11 +179,16 @@ def carried(design: Design, fitted: Fitted) -> Design:
     return replace(design, rotor=replace(rotor, blade=heavier), condition=condition)
 
 
-def change_limit(fitted: Fitted, reference: TwistLaw, *, derated: bool = False) -> ChangeLimit:
-    """What the actuator can do as the optimiser's limit on the change from a reference twist."""
-    stations = np.linspace(0.0, 1.0, 41)
-    largest = fitted.limit(stations, derated=derated)
-    return ChangeLimit(reference, tuple(stations.tolist()), tuple(largest.tolist()))
+def change_limit(fitted: Fitted, reference: TwistLaw, *, root: float = 0.1304, derated: bool = False) -> ChangeLimit:
+    """What the actuator can do as the optimiser's limit on the change from a reference twist.
+
+    Each segment's twist is spread over the whole segment, cut-out and tip included, as the concepts' laws are; what the
+    true shape along the active span does to power, `best_reach` knows.
+    """
+    share = fitted.derating if derated else 1.0
+    ends = share * np.cumsum(fitted.segment_twists)
+    stations = (root, *fitted.placement.divisions, 1.0)
+    return ChangeLimit(reference, stations, (0.0, *ends.tolist()))
 
 
 def segment_voltages(fitted: Fitted, swings: tuple[tuple[float, ...], ...]) -> tuple[tuple[float, float], ...]:

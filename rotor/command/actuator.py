@@ -5,6 +5,7 @@ import json
 import math
 from typing import Any
 
+from rotor.active_twist import Harmonic
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.harmonic import PhaseSweep, phase_sweep
 from rotor.actuator.placement import BladeKind, Host, Placement, default_placement
@@ -48,6 +49,8 @@ def run(args: argparse.Namespace) -> int:
     actuator, concept = find_actuator(args.actuator), find_concept(args.concept, _divisions(args.division))
     pair = Pair(design_from(args, args.twist, args.from_mu), (args.from_mu, args.to_mu), args.share)
     pair.designs()  # Bad input speaks before anything is computed.
+    if args.harmonic is not None:
+        Harmonic(args.harmonic, 0.0)
     placement, host = _placement(args), _host(args.blade, args.stiffness)
     try:
         if args.table == "5.2":
