@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,3 +52,32 @@ class ActiveTwist:
         for harmonic in self.harmonics:
             wave = wave + harmonic.amplitude * np.cos(harmonic.per_rev * psi - harmonic.phase)
         return np.outer(np.interp(r, self.stations, self.shape), wave)
+
+
+def active_twist_record(twist: ActiveTwist) -> dict[str, Any]:
+    """As in a design file, degrees at this edge."""
+    return {
+        "harmonics": [
+            {"per_rev": h.per_rev, "amplitude_deg": math.degrees(h.amplitude), "phase_deg": math.degrees(h.phase)}
+            for h in twist.harmonics
+        ],
+        "stations": list(twist.stations),
+        "shape": list(twist.shape),
+    }
+
+
+def read_active_twist(record: Any) -> ActiveTwist:
+    """The inverse; ValueError with one sentence for anything else."""
+    try:
+        harmonics = tuple(
+            Harmonic(int(row["per_rev"]), math.radians(row["amplitude_deg"]), math.radians(row.get("phase_deg", 0.0)))
+            for row in record["harmonics"]
+        )
+        stations = tuple(float(value) for value in record.get("stations", (0.13, 1.0)))
+        shape = tuple(float(value) for value in record.get("shape", (0.0, 1.0)))
+    except (KeyError, TypeError, AttributeError):
+        raise ValueError(
+            f"design file key 'active_twist' is {record!r}: write "
+            '{"harmonics": [{"per_rev": 2, "amplitude_deg": 1, "phase_deg": 0}]}'
+        ) from None
+    return ActiveTwist(harmonics, stations, shape)

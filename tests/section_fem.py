@@ -46,7 +46,7 @@ def closed_wall(line: np.ndarray, layers: list[list[Layer]], columns: int = 1) -
     n = len(line)
     ahead, behind = np.roll(line, -1, axis=0) - line, line - np.roll(line, 1, axis=0)
     normals = [np.column_stack([d[:, 1], -d[:, 0]]) / np.hypot(*d.T)[:, None] for d in (behind, ahead)]
-    half = sum(normals)
+    half = normals[0] + normals[1]
     mitre = 2.0 * half / (half**2).sum(axis=1)[:, None]  # Outward: the line runs counter-clockwise.
     thicknesses = [layer.thickness for layer in layers[0]]
     total = sum(thicknesses)

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +13,7 @@ from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.fitted import fit
 from rotor.actuator.harmonic import phase_sweep
 from rotor.actuator.placement import Host, default_placement
+from rotor.case import design_of, read_case, write_case
 from rotor.design import Design
 from rotor.elements import lay_out, run_pass
 from rotor.equilibrium import UNKNOWNS, jacobian
@@ -99,3 +101,17 @@ def test_twice_per_revolution_pays_at_high_speed():
 def test_bad_input(make: object):
     with pytest.raises(ValueError, match=r"give|choose|move"):
         make()  # type: ignore[operator]
+
+
+def test_design_file_keeps_it(tmp_path: Path):
+    design = turning(make_design(advance_ratio=0.3), Harmonic(2, 0.015, 1.2), stations=(0.2, 0.9), shape=(0.0, 1.0))
+    write_case(design, tmp_path / "case.json")
+    again = read_case(tmp_path / "case.json").active_twist
+    assert again is not None
+    assert_allclose([again.harmonics[0].amplitude, again.harmonics[0].phase], [0.015, 1.2], rtol=1e-12)
+    assert again.stations == (0.2, 0.9)
+
+
+def test_design_file_with_nonsense_says_so():
+    with pytest.raises(ValueError, match="'active_twist' is 3"):
+        design_of({"active_twist": 3})

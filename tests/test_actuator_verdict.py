@@ -62,9 +62,9 @@ def test_reached_against_brute_force():
     jig = judged.reached.values[0]
     swing = judged.reached.swings[1][0]
     least = math.inf
-    for rate in jig + np.radians([-2.0, -0.5, 0.0, 0.5, 2.0]):
+    for rate in jig + np.radians([-1.0, 0.0, 1.0]):
         law = find_concept("linear").twist([rate])
-        for v in (-1.0, 0.0, swing - 0.1, swing, swing + 0.1, 1.0):
+        for v in (0.0, swing - 0.1, swing, swing + 0.1):
             first, second = pair().designs()
             power = [
                 solve(replace(first, twist=law)).power.total,
@@ -82,6 +82,7 @@ def test_moving_beats_fixed_before_it_is_carried(concept: str):
     assert judged.net_saving < judged.gross_saving
 
 
+@pytest.mark.slow
 def test_more_reach_saves_more():
     linear = find_concept("linear")
     fitted = verdict().fitted

@@ -106,8 +106,10 @@ def _search(
     starts: Sequence[Sequence[float]],
 ) -> Reached:
     keeps_twist = fitted is not None and fitted.host.kind == "retrofit"
-    first = nearest(concept, designs[0].twist)
-    jigs: list[Sequence[float]] = [()] if keeps_twist else [*starts, first, _flatter(concept, first)]
+    jigs: list[Sequence[float]] = [()] if keeps_twist else list(starts)
+    if not keeps_twist and (fitted is None or not starts):
+        first = nearest(concept, designs[0].twist)
+        jigs += [first, _flatter(concept, first)]
     found: list[Reached] = []
     for orientation in (1.0, -1.0) if keeps_twist else (1.0,):
         task = _Task(designs, shares, None if keeps_twist else concept, fitted, derating, orientation)

@@ -137,10 +137,10 @@ def verdict_table(verdicts: Sequence[Verdict]) -> Table:
             verdict.fitted.host.label, f"{math.degrees(verdict.required):.2f}",
             f"{math.degrees(verdict.attainable):.2f}", f"{math.degrees(verdict.attainable_derated):.2f}",
             f"{verdict.ratio:.2f}" if verdict.ratio < 100.0 else "> 100",
-            "; ".join(f"{a:.0f}→{b:.0f}" for a, b in verdict.voltages) or NONE,
+            "; ".join(f"{round(a) + 0}→{round(b) + 0}" for a, b in verdict.voltages) or NONE,
             f"{verdict.fitted.bill.aircraft:.0f}", f"{verdict.fitted.frequency:.2f}",
-            f"{verdict.baseline.ideal_saving / 1e3:.1f}", f"{verdict.gross_saving / 1e3:.1f}",
-            f"{verdict.net_saving / 1e3:.1f}", ", ".join(limit.name for limit in verdict.broken) or "none",
+            kilowatts(verdict.baseline.ideal_saving), kilowatts(verdict.gross_saving),
+            kilowatts(verdict.net_saving), ", ".join(limit.name for limit in verdict.broken) or "none",
         )
         for verdict in verdicts
     ]  # fmt: skip
@@ -153,3 +153,8 @@ def verdict_table(verdicts: Sequence[Verdict]) -> Table:
         "can reach, before and after its mass is carried.",
     )
     return Table(f"Table 5.2  Actuators and concepts compared, advance ratios {mu}", columns, tuple(rows), notes)
+
+
+def kilowatts(power: float) -> str:
+    """One decimal, and no negative nothing."""
+    return f"{round(power / 1e3, 1) + 0.0:.1f}"
