@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 from rotor.active_twist import ActiveTwist, Harmonic
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.fitted import fit
-from rotor.actuator.harmonic import phase_sweep
+from rotor.actuator.harmonic import over_speed, phase_sweep
 from rotor.actuator.placement import Host, default_placement
 from rotor.case import design_of, read_case, write_case
 from rotor.design import Design
@@ -93,6 +93,16 @@ def test_twice_per_revolution_pays_at_high_speed():
     assert swept.best.design.active_twist is not None
     assert swept.best.design.active_twist.harmonics[0].amplitude <= swept.dynamic.amplitude * (1.0 + 1e-12)
     assert swept.power.max() > 0.0  # The wrong phase costs.
+
+
+@pytest.mark.slow
+def test_it_begins_to_pay_with_speed():
+    """Net of its mass 2/rev loses at low speed and gains at high speed, as the literature has it."""
+    design = make_design()
+    fitted = fit(find_actuator("MFC_P1_HT"), default_placement(1), Host(), design.rotor)
+    curve = over_speed(design, fitted, 2, (0.15, 0.35))
+    assert curve.net[0] < 0.0 < curve.net[1]
+    assert np.all(curve.gross > curve.net)
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,14 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.actuator.catalogue import PiezoPly, actuators, derating, find_actuator
-from rotor.actuator.electrodes import electric_field, field_map, free_strain, strain_curve, thermal_coefficients
+from rotor.actuator.electrodes import (
+    deformed_sheet,
+    electric_field,
+    field_map,
+    free_strain,
+    strain_curve,
+    thermal_coefficients,
+)
 from rotor.library import asset_path
 
 PLIES = [actuator for actuator in actuators().values() if isinstance(actuator, PiezoPly)]
@@ -58,6 +65,12 @@ def test_interdigitated_works_along_continuous_across():
     curve = strain_curve(p1)
     assert_allclose([curve.along[0], curve.along[-1]], [-450e-6, 1350e-6], rtol=1e-12)
     assert_allclose([curve.field[0], curve.field[-1]], [-1e6, 3e6], rtol=1e-12)
+
+
+def test_sheet_stretches_along_and_shrinks_across():
+    """1000 V on MFC P1: 0.9 ppm/V along, −0.4 of it across."""
+    width, height = np.ptp(deformed_sheet(ply("MFC_P1"), 1000.0), axis=0) - 1.0
+    assert_allclose([width, height], [900e-6, -360e-6], rtol=1e-9)
 
 
 def test_field_between_electrodes():

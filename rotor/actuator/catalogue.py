@@ -64,6 +64,8 @@ class PiezoPly:
     """[-]"""
     temperature_range: tuple[float, float]
     """[°C]"""
+    hysteresis: float
+    """Width of the strain loop over its height."""
     provenance: Provenance
 
     @property
@@ -78,7 +80,7 @@ class PiezoPly:
 
 @dataclass(frozen=True)
 class TorqueTube:
-    """A shape-memory tube that twists the blade by a moment between root and tip; `plies` counts tubes."""
+    """A shape-memory tube that twists the blade by a moment over its span; `plies` counts tubes in each segment."""
 
     id: str
     name: str
@@ -177,6 +179,7 @@ def _ply(row: dict[str, Any]) -> PiezoPly:
         linear_strain=1e-6 * row["linear_strain_ppm"],
         largest_strain=1e-6 * row["largest_strain_ppm"],
         temperature_range=(row["temperature_min_c"], row["temperature_max_c"]),
+        hysteresis=row["hysteresis"],
         provenance=_provenance(row),
     )
 

@@ -68,6 +68,13 @@ def strain_curve(ply: PiezoPly, points: int = 41) -> StrainCurve:
     )
 
 
+def deformed_sheet(ply: PiezoPly, voltage: float, *, exaggerate: float = 1.0) -> Array:
+    """Corners of a unit square of the free sheet, fibres along x, at a voltage, (4, 2): what figure 5.2 is about."""
+    along, across = exaggerate * free_strain(ply, voltage)
+    half = 0.5 * np.array([1.0 + along, 1.0 + across])
+    return half * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+
+
 @dataclass(frozen=True, eq=False)
 class FieldMap:
     """The field between electrodes in a cut along the fibres, over the mean field of the gap."""

@@ -5,6 +5,7 @@ The inflow has to answer to where the lift is, so use an inflow that reacts (dyn
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -128,6 +129,36 @@ def phase_sweep(design: Design, fitted: Fitted, per_rev: int, *, derated: bool =
         drive_loss=loss,
         carried_power=heavy.power.total + loss if heavy.converged else None,
     )
+
+
+@dataclass(frozen=True, eq=False)
+class OverSpeed:
+    """What one harmonic of active twist is worth over speed; conditions that do not trim are left out."""
+
+    advance_ratio: Array
+    gross: Array
+    """Before mass and losses [W]."""
+    net: Array
+    """After [W]."""
+    power: Array
+    """Without actuator [W]."""
+
+
+def over_speed(
+    design: Design, fitted: Fitted, per_rev: int, advance_ratios: Sequence[float], *, derated: bool = False
+) -> OverSpeed:
+    """A phase sweep at every advance ratio: where harmonic active twist begins to pay."""
+    rows: list[tuple[float, float, float, float]] = []
+    for mu in advance_ratios:
+        there = replace(design, condition=replace(design.condition, advance_ratio=mu))
+        try:
+            swept = phase_sweep(there, fitted, per_rev, derated=derated)
+        except RuntimeError:
+            continue
+        if swept.net_saving is not None:
+            rows.append((mu, swept.gross_saving, swept.net_saving, swept.still.power.total))
+    table = np.array(rows).reshape(-1, 4)
+    return OverSpeed(table[:, 0], table[:, 1], table[:, 2], table[:, 3])
 
 
 def with_harmonic(design: Design, made: DynamicTwist, share: float, phase: float) -> Design:

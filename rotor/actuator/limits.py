@@ -5,11 +5,13 @@ from dataclasses import dataclass
 from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube
 from rotor.actuator.fitted import Fitted
 from rotor.actuator.loads import fibre_strain
-from rotor.actuator.structure import structure_data
+from rotor.actuator.structure import structure_data, uh60a_structure
 from rotor.solution import Solution
 
 SECTION_THICKNESS = 0.095
 """Of the SC1095, in chords."""
+WEB_HEIGHT = 0.0907
+"""Of the spar's web at 0.40 c, in chords."""
 
 
 @dataclass(frozen=True)
@@ -78,8 +80,7 @@ def _strain(fitted: Fitted, ply: PiezoPly, solution: Solution | None) -> Limit:
 
 
 def _surface(fitted: Fitted, ply: PiezoPly) -> Limit:
-    chord = 0.53
-    share = 2.0 * fitted.placement.plies * ply.thickness / (SECTION_THICKNESS * chord)
+    share = 2.0 * fitted.placement.plies * ply.thickness / (SECTION_THICKNESS * uh60a_structure().chord)
     bound = float(structure_data()["limits"]["surface_share"])
     outside = fitted.host.kind == "retrofit"
     where = "outside the skins, so they change the contour" if outside else "inside the torsion skin"
@@ -92,7 +93,7 @@ def _surface(fitted: Fitted, ply: PiezoPly) -> Limit:
 def _tube(fitted: Fitted, tube: TorqueTube, swings: tuple[float, ...]) -> list[Limit]:
     worst = max((abs(swing) for swing in swings), default=0.0)
     retrofit = fitted.host.kind == "retrofit"
-    height = 0.0907 * 0.53  # Of the spar's web at 0.40 c.
+    height = WEB_HEIGHT * uh60a_structure().chord
     where = (
         "the flown spar is pressurised with nitrogen for its crack indicator and may not be opened"
         if retrofit

@@ -1,4 +1,8 @@
-"""The blade's cross section with active plies: true contour, spar web, calibrated on the published GJ."""
+"""The blade's cross section with active plies: true contour, spar web, calibrated on the published GJ.
+
+Plies count in the middle of their wall. Laid outside they have a larger arm: by finite elements 2 % more twist on a
+2 mm skin, 13 % on 4.5 mm, so the model is on the safe side.
+"""
 
 from dataclasses import dataclass
 from functools import lru_cache

@@ -160,7 +160,17 @@ def judge(
         carried_power=_mean_power(pair, heavy) + driven.hold_power,
         drive=driven,
         limits=limits(fitted, asked, reached.solutions[-1]),
-        caveats=actuator.provenance.warnings(actuator.id),
+        caveats=(*actuator.provenance.warnings(actuator.id), *holding(actuator)),
+    )
+
+
+def holding(actuator: Actuator) -> tuple[str, ...]:
+    """What a twist held for minutes needs."""
+    if not isinstance(actuator, PiezoPly):
+        return ()
+    return (
+        f"{actuator.id}: hysteresis of {100.0 * actuator.hysteresis:.0f} % and creep: a held twist needs strain feedback "
+        "or charge drive, and falls back to the jig twist when voltage fails.",
     )
 
 
