@@ -244,3 +244,11 @@ def test_bad_input_is_exit_2(arguments: list[str], words: str, capsys: pytest.Ca
     assert out == ""
     assert err.count("\n") == 1
     assert words in err
+
+
+def test_reached_twist_can_be_flown_again():
+    """The SPEC of a reached twist is read by every other command, and takes the same power."""
+    solution = verdict().reached.solutions[1]
+    spec = solution.design.twist.spec()
+    again = make_design(twist=spec, advance_ratio=0.3, models=solution.design.models)
+    assert_allclose(solve(again).power.total, solution.power.total, rtol=1e-7)

@@ -25,12 +25,12 @@ from rotor.design import Design
 from rotor.gradient import Adjoint, power_along
 from rotor.solution import Solution
 from rotor.solve import solve
-from rotor.twist import REFERENCE_RADIUS, TableTwist, TwistLaw
+from rotor.twist import REFERENCE_RADIUS, PiecewiseLinearTwist, SumTwist, TwistLaw
 
 Array = NDArray[np.float64]
 
-STATIONS = np.linspace(0.0, 1.0, 401)
-"""r/R at which a jig law and the actuator's shapes are added."""
+STATIONS = np.linspace(0.0, 1.0, 41)
+"""r/R between which the actuator's shapes are straight."""
 REFERENCE = np.array([REFERENCE_RADIUS])
 FLATTER = 0.5
 """A second start: the first law flattened by this much."""
@@ -228,7 +228,6 @@ def _on_stations(stations: Array, fitted: Fitted) -> Array:
 
 
 def twisted(jig: TwistLaw, change: Array) -> TwistLaw:
-    """A jig law with a change of twist [rad] at STATIONS added, held as a table."""
-    inside = STATIONS >= 0.05  # Laws like 1/r have no value at the centre.
-    angles = jig(STATIONS[inside]) + change[inside]
-    return TableTwist(tuple(STATIONS[inside].tolist()), tuple(angles.tolist()), name=f"{jig.spec()} with actuator")
+    """A jig law with a change of twist [rad] at STATIONS on top; its SPEC can be read again."""
+    rates = np.diff(change) / np.diff(STATIONS)
+    return SumTwist(jig, PiecewiseLinearTwist(tuple(rates.tolist()), tuple(STATIONS[1:-1].tolist())))

@@ -169,8 +169,8 @@ def holding(actuator: Actuator) -> tuple[str, ...]:
     if not isinstance(actuator, PiezoPly):
         return ()
     return (
-        f"{actuator.id}: hysteresis of {100.0 * actuator.hysteresis:.0f} % and creep: a held twist needs strain feedback "
-        "or charge drive, and falls back to the jig twist when voltage fails.",
+        f"{actuator.id}: hysteresis of {100.0 * actuator.hysteresis:.0f} % and creep: holding a twist needs strain "
+        "feedback or charge drive; it falls back to the jig twist when voltage fails.",
     )
 
 
