@@ -10,6 +10,7 @@ analogy). Minimum of the elastic energy gives the 4 × 4 stiffness of the beam a
 """
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from skfem import Basis, BilinearForm, ElementQuad2, ElementVector, LinearForm, MeshQuad, condense, solve
@@ -114,13 +115,20 @@ def analyse(mesh: MeshQuad, owners: list[Layer], tangents: np.ndarray) -> Stiffn
     loads = [LinearForm(lambda v, w, m=m: product(strain(v), m)).assemble(basis) for m in [*modes, list(e0)]]
     corner = int(np.argmin(mesh.p[0]))
     far = int(np.argmax(mesh.p[0]))
-    fixed = np.concatenate([basis.nodal_dofs[:, corner], basis.nodal_dofs[2:3, far]])
-    moved = [solve(*condense(k, load, D=fixed)) for load in loads]
+    dofs: Any = basis.nodal_dofs
+    fixed = np.concatenate([dofs[:, corner], dofs[2:3, far]])
+    moved = [_solve(k, load, fixed) for load in loads]
     dx = basis.dx
     direct = np.array([[float((product(a, b) * dx).sum()) for b in modes] for a in modes])
     pushed = np.array([float((product(a, list(e0)) * dx).sum()) for a in modes])
     coupling = np.array([[load @ answer for answer in moved] for load in loads[:4]])
     return Stiffness(direct - coupling[:, :4], pushed - coupling[:, 4])
+
+
+def _solve(matrix: Any, load: Any, fixed: Any) -> Any:
+    """The displacements with some of them held at zero."""
+    held: Any = condense(matrix, load, D=fixed)
+    return solve(*held)
 
 
 def _in_space(layer: Layer, tangent: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
