@@ -5,6 +5,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
+from rotor.active_twist import active_twist_record, read_active_twist
 from rotor.blade import airfoils_spec
 from rotor.design import Design
 from rotor.inflow import inflow_model
@@ -25,6 +26,7 @@ _KEYS = (
     "tip_loss",
     "hub_loss",
     "airfoils",
+    "active_twist",
 )
 
 
@@ -44,6 +46,7 @@ def case_of(design: Design) -> dict[str, Any]:
         "tip_loss": design.models.tip_loss,
         "hub_loss": design.models.hub_loss,
         **({"airfoils": airfoils} if airfoils else {}),
+        **({"active_twist": active_twist_record(design.active_twist)} if design.active_twist else {}),
     }
 
 
@@ -78,7 +81,9 @@ def design_of(case: dict[str, Any]) -> Design:
         hub_loss=_flag(case, "hub_loss", design.models.hub_loss),
     )
     airfoils = _text(case, "airfoils", "")
-    return replace(design, models=models, rotor=change_airfoils(design.rotor, airfoils) if airfoils else design.rotor)
+    rotor = change_airfoils(design.rotor, airfoils) if airfoils else design.rotor
+    turning = read_active_twist(case["active_twist"]) if "active_twist" in case else None
+    return replace(design, models=models, rotor=rotor, active_twist=turning)
 
 
 def read_case(path: str | Path) -> Design:

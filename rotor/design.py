@@ -6,6 +6,7 @@ Equality, hashing, caching, JSON and undo come from that.
 from dataclasses import dataclass
 from typing import Literal
 
+from rotor.active_twist import ActiveTwist
 from rotor.blade import Rotor
 from rotor.flight import FlightCondition, Fuselage
 from rotor.tail_rotor import TailRotor
@@ -59,6 +60,8 @@ class Design:
     fuselage: Fuselage
     tail_rotor: TailRotor
     models: Models
+    active_twist: ActiveTwist | None = None
+    """Twist that follows the azimuth, added to the law in forward flight."""
 
     @property
     def airspeed(self) -> float:

@@ -43,6 +43,8 @@ class Problem:
     """The same radii at the few azimuths over which the loss factor is averaged."""
     twist: Array
     """θ_tw at the elements [rad]."""
+    active: Array
+    """θ_act [rad], (elements, azimuths), or (1, 1) where there is none."""
     flap: FlapDynamics
     tip_mach: float
     weight: float
@@ -62,6 +64,7 @@ def lay_out(design: Design) -> Problem:
         disk=disk,
         ring=replace(disk, psi=_RING, cos=np.cos(_RING), sin=np.sin(_RING)),
         twist=design.twist(disk.r),
+        active=design.active_twist(disk.r, disk.psi) if design.active_twist else np.zeros((1, 1)),
         flap=flap_dynamics(rotor, condition.density, blade_weight=models.blade_weight),
         tip_mach=rotor.tip_speed / condition.sound_speed,
         weight=design.weight_coefficient,
@@ -131,6 +134,7 @@ def run_pass(problem: Problem, state: Array, induced: Array | None = None) -> Pa
     beta = state[CONING] + state[FLAP_1C] * cos + state[FLAP_1S] * sin
     beta_rate = state[FLAP_1S] * cos - state[FLAP_1C] * sin
     theta = (problem.twist + state[COLLECTIVE])[:, None] + (state[CYCLIC_1C] * cos + state[CYCLIC_1S] * sin)
+    theta += problem.active
     u_t = disk.r[:, None] + flow.mu_x * sin
     u_p = induced + (disk.r - problem.flap.hinge)[:, None] * beta_rate + (flow.mu_z + flow.mu_x * beta * cos)
     loads = kernel.element_loads(

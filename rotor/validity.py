@@ -24,6 +24,10 @@ def caveats(problem: Problem, one: Pass, stalled: float) -> tuple[Caveat, ...]:
     def add(name: str, sentence: str) -> None:
         found.append(Caveat(name, sentence))
 
+    if design.active_twist and design.hovering:
+        add(
+            "active-twist-rests", "Active twist follows the azimuth and rests in hover; only the twist law counts here."
+        )
     if 0.0 < mu < LOW_SPEED and not problem.inflow.reacts:
         add("low-speed-inflow", f"Linear inflow is not trusted below advance ratio {LOW_SPEED:g}; this is {mu:.3f}.")
     elif 0.0 < mu < LOWEST_SPEED:

@@ -1,0 +1,218 @@
+"""The actuators to choose from, as `assets/actuators.toml` states them."""
+
+import math
+import re
+import tomllib
+from dataclasses import dataclass
+from functools import cache
+from typing import Any, Literal
+
+from rotor.actuator.laminate import Layer, Material
+from rotor.library import asset_path
+
+Electrodes = Literal["interdigitated", "continuous"]
+
+_UNITS = re.compile(r"_(gpa|kg_m3|mm|pm_v|v|ppm|nf_cm2|c|nm|kg|w|s|deg)$")
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """Where an actuator's numbers come from, and which of them not to lean on."""
+
+    source: str
+    recalled: tuple[str, ...]
+    """Keys of the data file that were recalled, not looked up."""
+    assumed: tuple[str, ...]
+
+    def warnings(self, name: str) -> tuple[str, ...]:
+        """What whoever uses the numbers has to be told."""
+        found: list[str] = []
+        if self.recalled:
+            found.append(f"{name}: recalled, not looked up, verify before use: {_listed(self.recalled)}.")
+        if self.assumed:
+            found.append(f"{name}: assumed: {_listed(self.assumed)}.")
+        return tuple(found)
+
+
+@dataclass(frozen=True)
+class PiezoPly:
+    """A piezoelectric sheet bonded to, or cured into, the skin."""
+
+    id: str
+    name: str
+    electrodes: Electrodes
+    """`interdigitated`: field along the fibres, d33 works; `continuous`: field through the thickness, d31 works."""
+    material: Material
+    thickness: float
+    """[m]"""
+    d_along: float
+    """Strain along the fibres over field [m/V], high field."""
+    d_across: float
+    electrode_gap: float
+    """Distance between electrodes, the path of the field [m]."""
+    voltage_range: tuple[float, float]
+    """[V]"""
+    swing: tuple[float, float]
+    """Free strain along and across over the whole voltage range, peak to peak [-]."""
+    low_swing: float
+    """Low end of the maker's strain, as a fraction of `swing`."""
+    capacitance_per_area: float
+    """[F/m²]"""
+    linear_strain: float
+    """Tension along the fibres that the sheet follows linearly [-]."""
+    largest_strain: float
+    """[-]"""
+    temperature_range: tuple[float, float]
+    """[°C]"""
+    hysteresis: float
+    """Width of the strain loop over its height."""
+    provenance: Provenance
+
+    @property
+    def voltage_swing(self) -> float:
+        """Peak to peak [V]."""
+        return self.voltage_range[1] - self.voltage_range[0]
+
+    def layer(self, plies: int, angle: float) -> Layer:
+        """That many plies as one layer of a wall, switched through the whole range."""
+        return Layer(self.material, plies * self.thickness, angle, self.swing)
+
+
+@dataclass(frozen=True)
+class TorqueTube:
+    """A shape-memory tube that twists the blade by a moment over its span; `plies` counts tubes in each segment."""
+
+    id: str
+    name: str
+    torque: float
+    """[N m] per tube, blocking: nothing is taken off for the tube's own twist."""
+    mass: float
+    """Package [kg] per tube."""
+    move_power: float
+    """[W] per tube."""
+    hold_power: float
+    move_time: float
+    """[s]"""
+    diameter: float
+    """[m]"""
+    temperature_range: tuple[float, float]
+    """[°C]"""
+    provenance: Provenance
+
+
+@dataclass(frozen=True)
+class ExtensionTwist:
+    """A laminate that twists when centrifugal force stretches it: passive, so only rotor speed moves it."""
+
+    id: str
+    name: str
+    twist: float
+    """Tip twist between standstill and full speed [rad]."""
+    speed_change: float
+    """Share by which the rotor may be slowed in flight."""
+    provenance: Provenance
+
+    @property
+    def attainable(self) -> float:
+        """Change of tip twist between full and lowered speed [rad]: twist goes with Ω²."""
+        return self.twist * (1.0 - (1.0 - self.speed_change) ** 2)
+
+
+Actuator = PiezoPly | TorqueTube | ExtensionTwist
+
+
+@cache
+def actuators() -> dict[str, Actuator]:
+    """All actuators by id, in the order of the data file."""
+    data = _data()
+    listed: list[Actuator] = [_ply(row) for row in data["ply"]]
+    listed += [_tube(row) for row in data["tube"]]
+    listed += [_extension_twist(row) for row in data["extension_twist"]]
+    return {actuator.id: actuator for actuator in listed}
+
+
+def find_actuator(id: str) -> Actuator:
+    """One actuator; ValueError names the known ones."""
+    known = actuators()
+    if id not in known:
+        raise ValueError(f"actuator {id!r} is not known: use one of {', '.join(known)}")
+    return known[id]
+
+
+@cache
+def model_to_test() -> float:
+    """What a tested blade showed of what its laminate model promised (low confidence)."""
+    return float(_data()["derating"]["model_to_test"])
+
+
+def derating(actuator: Actuator) -> float:
+    """Fraction of the nominal twist to count on: low-end strain times what tests show of models."""
+    return actuator.low_swing * model_to_test() if isinstance(actuator, PiezoPly) else 1.0
+
+
+@cache
+def _data() -> dict[str, Any]:
+    return tomllib.loads(asset_path("actuators.toml").read_text(encoding="utf-8"))
+
+
+def _ply(row: dict[str, Any]) -> PiezoPly:
+    return PiezoPly(
+        id=row["id"],
+        name=row["name"],
+        electrodes=row["electrodes"],
+        material=Material(
+            row["name"],
+            1e9 * row["e1_gpa"],
+            1e9 * row["e2_gpa"],
+            row["nu12"],
+            1e9 * row["g12_gpa"],
+            row["density_kg_m3"],
+        ),
+        thickness=1e-3 * row["thickness_mm"],
+        d_along=1e-12 * row["d_along_pm_v"],
+        d_across=1e-12 * row["d_across_pm_v"],
+        electrode_gap=1e-3 * row["electrode_gap_mm"],
+        voltage_range=(row["voltage_min_v"], row["voltage_max_v"]),
+        swing=(1e-6 * row["swing_along_ppm"], 1e-6 * row["swing_across_ppm"]),
+        low_swing=row["low_swing"],
+        capacitance_per_area=1e-5 * row["capacitance_nf_cm2"],
+        linear_strain=1e-6 * row["linear_strain_ppm"],
+        largest_strain=1e-6 * row["largest_strain_ppm"],
+        temperature_range=(row["temperature_min_c"], row["temperature_max_c"]),
+        hysteresis=row["hysteresis"],
+        provenance=_provenance(row),
+    )
+
+
+def _tube(row: dict[str, Any]) -> TorqueTube:
+    return TorqueTube(
+        id=row["id"],
+        name=row["name"],
+        torque=row["torque_nm"],
+        mass=row["mass_kg"],
+        move_power=row["move_power_w"],
+        hold_power=row["hold_power_w"],
+        move_time=row["move_time_s"],
+        diameter=1e-3 * row["diameter_mm"],
+        temperature_range=(row["temperature_min_c"], row["temperature_max_c"]),
+        provenance=_provenance(row),
+    )
+
+
+def _extension_twist(row: dict[str, Any]) -> ExtensionTwist:
+    return ExtensionTwist(
+        id=row["id"],
+        name=row["name"],
+        twist=math.radians(row["twist_deg"]),
+        speed_change=row["speed_change"],
+        provenance=_provenance(row),
+    )
+
+
+def _provenance(row: dict[str, Any]) -> Provenance:
+    return Provenance(row["source"], tuple(row["recalled"]), tuple(row["assumed"]))
+
+
+def _listed(keys: tuple[str, ...]) -> str:
+    """Keys of the data file as words, their units left out."""
+    return ", ".join(_UNITS.sub("", key).replace("_", " ") for key in keys)

@@ -1,0 +1,135 @@
+"""An actuator fitted to a blade: moment, twist along the span per segment, mass, frequency."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rotor.actuator.bill import MassBill, addition, mass_bill
+from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, derating
+from rotor.actuator.placement import Host, Placement
+from rotor.actuator.section import SectionSpec, active_section, section_spec, skin
+from rotor.actuator.structure import BladeStructure, uh60a_structure
+from rotor.actuator.thin_wall import induced_twist_rate, torsional_stiffness
+from rotor.actuator.torsion_beam import Addition, TorsionBeam, torsion_beam, torsion_frequency, twist_under_moment
+from rotor.blade import Rotor
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Fitted:
+    """One actuator on one blade. Angles are peak to peak over the whole voltage range, nominal, rotating."""
+
+    actuator: Actuator
+    placement: Placement
+    host: Host
+    section_stiffness: float
+    """GJ of the active section [N m²]."""
+    moment: float
+    """M_a [N m]; 0 for a passive laminate."""
+    twist_rate: float
+    """θ'_a of the section, not rotating [rad/m]."""
+    skin_area: float
+    """Of one layer, both skins, one blade [m²]."""
+    segment_areas: tuple[float, ...]
+    """The same by segment."""
+    bill: MassBill
+    added: Addition
+    beam: TorsionBeam
+    r: Array
+    """Nodes, r/R, (nodes,)."""
+    shapes: Array
+    """Twist that each segment makes on its own [rad], zero at the pitch bearing, (segments, nodes)."""
+    frequency: float
+    """First torsion [per rev]."""
+
+    @property
+    def attainable(self) -> float:
+        """Root to tip, all segments together [rad]."""
+        return float(np.abs(self.shapes[:, -1]).sum())
+
+    @property
+    def segment_twists(self) -> Array:
+        """Root to tip by segment [rad]."""
+        return np.abs(self.shapes[:, -1])
+
+    @property
+    def derating(self) -> float:
+        return derating(self.actuator)
+
+    def change(self, swings: ArrayLike, r: ArrayLike) -> Array:
+        """Twist at r/R for each segment's swing (−1…1 of its whole range) [rad], zero at the pitch bearing."""
+        total: Array = np.asarray(swings, dtype=float) @ self.shapes
+        return np.interp(np.asarray(r, dtype=float), self.r, total)
+
+    def limit(self, r: ArrayLike, *, derated: bool = False) -> Array:
+        """Largest change of twist relative to the root at r/R, either way [rad]: the bound an optimiser needs."""
+        total: Array = np.abs(self.shapes).sum(axis=0) * (self.derating if derated else 1.0)
+        return np.interp(np.asarray(r, dtype=float), self.r, total)
+
+
+@lru_cache(maxsize=64)
+def fit(actuator: Actuator, placement: Placement, host: Host, rotor: Rotor) -> Fitted:
+    """Put the actuator on the blade of a rotor.
+
+    Raises ValueError where the blade cannot be built, in one sentence.
+    """
+    structure = uh60a_structure(rotor.radius)
+    spec = section_spec(structure, host)
+    covered = _covered(spec, placement)
+    lengths = np.array([(high - low) * structure.radius for low, high in placement.segments])
+    areas = covered * lengths
+    bill = mass_bill(actuator, placement, rotor.blades, float(areas.sum()))
+    stiffness, moment = spec.stiffness, 0.0
+    if isinstance(actuator, PiezoPly):
+        section = active_section(spec, actuator, placement)
+        stiffness = torsional_stiffness(section)
+        moment = stiffness * induced_twist_rate(section)
+    elif not isinstance(actuator, ExtensionTwist):
+        moment = placement.plies * actuator.torque
+    added = addition(bill, placement, structure, stiffness - spec.stiffness)
+    beam = torsion_beam(structure, rotor.angular_speed, scale=host.stiffness, addition=added)
+    if isinstance(actuator, ExtensionTwist):
+        shapes = _along_the_blade(actuator, beam)
+    else:
+        shapes = np.stack([_segment_shape(beam, structure, span, moment) for span in placement.segments])
+    return Fitted(
+        actuator=actuator,
+        placement=placement,
+        host=host,
+        section_stiffness=stiffness,
+        moment=moment,
+        twist_rate=moment / stiffness,
+        skin_area=float(areas.sum()),
+        segment_areas=tuple(float(area) for area in areas),
+        bill=bill,
+        added=added,
+        beam=beam,
+        r=beam.r / structure.radius,
+        shapes=shapes,
+        frequency=torsion_frequency(beam),
+    )
+
+
+def _segment_shape(beam: TorsionBeam, structure: BladeStructure, span: tuple[float, float], moment: float) -> Array:
+    low, high = (structure.radius * end for end in span)
+    edges = np.clip(beam.r, low, high)
+    share = np.diff(edges) / np.diff(beam.r)  # Part of each element that is active.
+    return twist_under_moment(beam, share * moment)
+
+
+def _along_the_blade(actuator: ExtensionTwist, beam: TorsionBeam) -> Array:
+    """Twist of a uniform laminate follows the pull: rate ∝ F_c ∝ 1 − r²."""
+    x = beam.r / beam.r[-1]
+    shape = x - x**3 / 3.0
+    shape = shape - shape[0]
+    return (actuator.attainable * shape / shape[-1])[None, :]
+
+
+def _covered(spec: SectionSpec, placement: Placement) -> float:
+    """Arc length of both skins under the plies [m]."""
+    return sum(
+        float(np.hypot(*np.diff(skin(spec, side, *placement.chord), axis=0).T).sum()) for side in ("upper", "lower")
+    )

@@ -1,0 +1,188 @@
+"""Active twist at 1/rev and 2/rev: what the actuator can make of it while it turns, and what that does to power.
+
+Half the voltage range is the amplitude; the blade in torsion answers dynamically, 1/(1 − (n/ν)²) near its first mode.
+The inflow has to answer to where the lift is, so use an inflow that reacts (dynamic wake).
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rotor.active_twist import ActiveTwist, Harmonic
+from rotor.actuator.catalogue import PiezoPly
+from rotor.actuator.electrical import harmonic_drive
+from rotor.actuator.fitted import Fitted
+from rotor.actuator.torsion_beam import twist_under_moment
+from rotor.actuator.verdict import carried
+from rotor.design import Design
+from rotor.solution import Solution
+from rotor.solve import solve
+
+Array = NDArray[np.float64]
+
+SHAPE_STATIONS = 41
+PHASES = 12
+
+
+@dataclass(frozen=True, eq=False)
+class DynamicTwist:
+    """What the whole voltage range makes at one harmonic."""
+
+    per_rev: int
+    amplitude: float
+    """Of the tip [rad], half of peak to peak, with the dynamic answer of the blade."""
+    static: float
+    """The same without it."""
+    stations: tuple[float, ...]
+    shape: tuple[float, ...]
+    """Over the tip's."""
+
+
+def dynamic_twist(fitted: Fitted, per_rev: int, *, derated: bool = False) -> DynamicTwist:
+    """Amplitude and shape at a harmonic; zero for actuators that cannot follow (heat, rotor speed).
+
+    Undamped, so within 0.3/rev of the torsion frequency it overstates.
+    """
+    if not isinstance(fitted.actuator, PiezoPly):
+        return DynamicTwist(per_rev, 0.0, 0.0, (0.0, 1.0), (0.0, 1.0))
+    low, high = (fitted.beam.r[-1] * end for end in fitted.placement.span)
+    share = np.diff(np.clip(fitted.beam.r, low, high)) / np.diff(fitted.beam.r)
+    moment = 0.5 * fitted.moment * share * (fitted.derating if derated else 1.0)
+    static = twist_under_moment(fitted.beam, moment)
+    moving = twist_under_moment(fitted.beam, moment, per_rev=float(per_rev))
+    stations = np.linspace(0.0, 1.0, SHAPE_STATIONS)
+    relative: Array = moving / moving[-1]
+    shape = np.interp(stations, fitted.r, relative)
+    return DynamicTwist(
+        per_rev, abs(float(moving[-1])), abs(float(static[-1])), tuple(stations.tolist()), tuple(shape.tolist())
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class PhaseSweep:
+    """Power against the phase of one harmonic of active twist."""
+
+    dynamic: DynamicTwist
+    share: float
+    """Of the amplitude used, 0…1."""
+    phases: Array
+    """[rad], (phases,)."""
+    power: Array
+    """Total power change against no active twist [W], (phases,); NaN-free: phases that did not trim are left out."""
+    still: Solution
+    """Without active twist."""
+    best: Solution
+    """The least power found, amplitude and phase by the fitted bowl."""
+    drive_loss: float
+    """Of all blades [W]."""
+    carried_power: float | None
+    """Of `best` with the actuator's mass on board and its losses fed [W]; None where that does not trim."""
+
+    @property
+    def gross_saving(self) -> float:
+        """Against no active twist and no actuator [W]."""
+        return self.still.power.total - self.best.power.total
+
+    @property
+    def net_saving(self) -> float | None:
+        """The same after mass and losses [W]."""
+        return None if self.carried_power is None else self.still.power.total - self.carried_power
+
+
+def phase_sweep(design: Design, fitted: Fitted, per_rev: int, *, derated: bool = False) -> PhaseSweep:
+    """Sweep the phase at full amplitude, then try the best point of the bowl that amplitude and phase span.
+
+    The voltage swings about the middle of its range, so none is left for a steady change; the twist law is taken to be
+    that of the middle. Raises RuntimeError when the design does not trim without active twist.
+    """
+    made = dynamic_twist(fitted, per_rev, derated=derated)
+    still = solve(replace(design, active_twist=None)).require()
+    phases: list[float] = []
+    changes: list[float] = []
+    best, least = still, 0.0
+    for k in range(PHASES if made.amplitude else 0):
+        phase = 2.0 * math.pi * k / PHASES
+        turned = solve(with_harmonic(design, made, 1.0, phase), still)
+        if not turned.converged:
+            continue
+        phases.append(phase)
+        changes.append(turned.power.total - still.power.total)
+        if changes[-1] < least:
+            best, least = turned, changes[-1]
+    share = 1.0 if best is not still else 0.0
+    for amplitude, phase in _bowl(phases, changes):
+        turned = solve(with_harmonic(design, made, amplitude, phase), still)
+        if turned.converged and turned.power.total - still.power.total < least:
+            best, least, share = turned, turned.power.total - still.power.total, amplitude
+    loss = fitted.bill.blades * harmonic_drive(fitted, per_rev, share, fitted.beam.angular_speed).loss
+    heavy = solve(carried(best.design, fitted))
+    return PhaseSweep(
+        dynamic=made,
+        share=share,
+        phases=np.array(phases),
+        power=np.array(changes),
+        still=still,
+        best=best,
+        drive_loss=loss,
+        carried_power=heavy.power.total + loss if heavy.converged else None,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class OverSpeed:
+    """What one harmonic of active twist is worth over speed; conditions that do not trim are left out."""
+
+    advance_ratio: Array
+    gross: Array
+    """Before mass and losses [W]."""
+    net: Array
+    """After [W]."""
+    power: Array
+    """Without actuator [W]."""
+
+
+def over_speed(
+    design: Design, fitted: Fitted, per_rev: int, advance_ratios: Sequence[float], *, derated: bool = False
+) -> OverSpeed:
+    """A phase sweep at every advance ratio: where harmonic active twist begins to pay."""
+    rows: list[tuple[float, float, float, float]] = []
+    for mu in advance_ratios:
+        there = replace(design, condition=replace(design.condition, advance_ratio=mu))
+        try:
+            swept = phase_sweep(there, fitted, per_rev, derated=derated)
+        except RuntimeError:
+            continue
+        if swept.net_saving is not None:
+            rows.append((mu, swept.gross_saving, swept.net_saving, swept.still.power.total))
+    table = np.array(rows).reshape(-1, 4)
+    return OverSpeed(table[:, 0], table[:, 1], table[:, 2], table[:, 3])
+
+
+def with_harmonic(design: Design, made: DynamicTwist, share: float, phase: float) -> Design:
+    """The design with a share of the actuator's amplitude at a phase [rad]."""
+    harmonic = Harmonic(made.per_rev, share * made.amplitude, phase)
+    return replace(design, active_twist=ActiveTwist((harmonic,), made.stations, made.shape))
+
+
+def _bowl(phases: list[float], changes: list[float]) -> list[tuple[float, float]]:
+    """Where the bowl ΔP = g·u + ½ u·K u, u = a (cos φ, sin φ), has its least within a ≤ 1: (amplitude, phase).
+
+    Around full amplitude its first harmonic is the slope g; its mean and second harmonic are the curvature K.
+    """
+    if len(phases) < 8:
+        return []
+    angle = np.array(phases)
+    basis = np.column_stack([np.ones_like(angle), np.cos(angle), np.sin(angle), np.cos(2 * angle), np.sin(2 * angle)])
+    mean, gx, gy, cx, cy = np.linalg.lstsq(basis, np.array(changes), rcond=None)[0]
+    curvature = np.array([[mean + cx, cy], [cy, mean - cx]]) * 2.0
+    slope = np.array([gx, gy])
+    if np.linalg.eigvalsh(curvature)[0] > 0.0:
+        point = -np.linalg.solve(curvature, slope)
+        if np.hypot(*point) <= 1.0:
+            return [(float(np.hypot(*point)), math.atan2(point[1], point[0]))]
+    fine = np.linspace(0.0, 2.0 * math.pi, 361)
+    values = np.column_stack([np.cos(fine), np.sin(fine), np.cos(2 * fine), np.sin(2 * fine)]) @ [gx, gy, cx, cy]
+    return [(1.0, float(fine[values.argmin()]))]

@@ -1,0 +1,167 @@
+"""What a real blade allows: each limit as a value, with a sentence."""
+
+from dataclasses import dataclass
+
+from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube
+from rotor.actuator.fitted import Fitted
+from rotor.actuator.loads import fibre_strain
+from rotor.actuator.structure import structure_data, uh60a_structure
+from rotor.solution import Solution
+
+SECTION_THICKNESS = 0.095
+"""Of the SC1095, in chords."""
+WEB_HEIGHT = 0.0907
+"""Of the spar's web at 0.40 c, in chords."""
+
+
+@dataclass(frozen=True)
+class Limit:
+    """One constraint and how it stands."""
+
+    name: str
+    """Short and stable, for scripts."""
+    ok: bool
+    value: float
+    bound: float
+    unit: str
+    sentence: str
+
+
+def limits(fitted: Fitted, swings: tuple[float, ...], solution: Solution | None = None) -> tuple[Limit, ...]:
+    """All constraints of §5.2 that can be put in numbers.
+
+    `swings`: what each segment is asked for, as a share of its range, may exceed 1. `solution`: the flight condition
+    whose flap bending counts.
+    """
+    found: list[Limit] = []
+    if isinstance(fitted.actuator, PiezoPly):
+        found += _electrical(fitted.actuator, swings)
+        found.append(_strain(fitted, fitted.actuator, solution))
+        found.append(_surface(fitted, fitted.actuator))
+    elif isinstance(fitted.actuator, TorqueTube):
+        found += _tube(fitted, fitted.actuator, swings)
+    else:
+        found.append(_rotor_speed(fitted.actuator))
+    if not isinstance(fitted.actuator, ExtensionTwist):
+        found += [_temperature(fitted), _mass(fitted)]
+    return (*found, *_torsion(fitted))
+
+
+def _electrical(ply: PiezoPly, swings: tuple[float, ...]) -> list[Limit]:
+    most = max((abs(swing) for swing in swings), default=0.0) * ply.voltage_swing
+    low, high = ply.voltage_range
+    ok = most <= ply.voltage_swing * (1.0 + 1e-9)
+    field = most / ply.electrode_gap * 1e-6
+    allowed = ply.voltage_swing / ply.electrode_gap * 1e-6
+    span = f"{low:g}…{high:g} V ({low / ply.electrode_gap * 1e-6:.2g}…{high / ply.electrode_gap * 1e-6:.2g} kV/mm)"
+    return [
+        Limit(
+            "voltage", ok, most, ply.voltage_swing, "V",
+            f"The twist asked for needs a swing of {most:.0f} V; the range is {span}.",
+        ),
+        Limit(
+            "field", ok, field, allowed, "kV/mm",
+            f"The field swings by {field:.2f} kV/mm; reverse field beyond the range would depolarise the sheet.",
+        ),
+    ]  # fmt: skip
+
+
+def _strain(fitted: Fitted, ply: PiezoPly, solution: Solution | None) -> Limit:
+    strain = fibre_strain(fitted, solution)
+    worst = float(strain.total.max())
+    where = float(strain.r[strain.total.argmax()])
+    kind = "follows linearly" if worst <= ply.linear_strain else "no longer follows linearly"
+    flap = "with flap bending of the trimmed rotor" if solution else "flap bending not counted"
+    return Limit(
+        "fibre-strain", worst <= ply.linear_strain, 1e6 * worst, 1e6 * ply.linear_strain, "µε",
+        f"Fibres are stretched by up to {1e6 * worst:.0f} µε at {where:.2f} R ({flap}); the sheet {kind} "
+        f"beyond {1e6 * ply.linear_strain:.0f} and must stay below {1e6 * ply.largest_strain:.0f}.",
+    )  # fmt: skip
+
+
+def _surface(fitted: Fitted, ply: PiezoPly) -> Limit:
+    share = 2.0 * fitted.placement.plies * ply.thickness / (SECTION_THICKNESS * uh60a_structure().chord)
+    bound = float(structure_data()["limits"]["surface_share"])
+    outside = fitted.host.kind == "retrofit"
+    where = "outside the skins, so they change the contour" if outside else "inside the torsion skin"
+    return Limit(
+        "space", not outside or share <= bound, 100.0 * share, 100.0 * bound, "% of thickness",
+        f"{fitted.placement.plies} plies a side lie {where}: {100.0 * share:.1f} % of the section's thickness.",
+    )  # fmt: skip
+
+
+def _tube(fitted: Fitted, tube: TorqueTube, swings: tuple[float, ...]) -> list[Limit]:
+    worst = max((abs(swing) for swing in swings), default=0.0)
+    retrofit = fitted.host.kind == "retrofit"
+    height = WEB_HEIGHT * uh60a_structure().chord
+    where = (
+        "the flown spar is pressurised with nitrogen for its crack indicator and may not be opened"
+        if retrofit
+        else "a spar made for it can hold it"
+    )
+    return [
+        Limit(
+            "torque", worst <= 1.0 + 1e-9, worst * fitted.moment, fitted.moment, "N·m",
+            f"The twist asked for needs {worst * fitted.moment:.0f} N·m; "
+            f"{fitted.placement.plies} tube(s) give {fitted.moment:.0f} N·m before they yield any of it by twisting.",
+        ),
+        Limit(
+            "space", not retrofit and tube.diameter <= height, 1e3 * tube.diameter, 1e3 * height, "mm",
+            f"A tube of {1e3 * tube.diameter:.0f} mm goes into a spar {1e3 * height:.0f} mm high: {where}.",
+        ),
+    ]  # fmt: skip
+
+
+def _rotor_speed(laminate: ExtensionTwist) -> Limit:
+    return Limit(
+        "rotor-speed", False, 0.0, 100.0 * laminate.speed_change, "% of Ω",
+        f"Only rotor speed moves it: {100.0 * laminate.speed_change:.0f} % slower for all of the change, and this "
+        "rotor turns at one speed.",
+    )  # fmt: skip
+
+
+def _temperature(fitted: Fitted) -> Limit:
+    data = structure_data()["limits"]
+    actuator = fitted.actuator
+    assert not isinstance(actuator, ExtensionTwist)
+    top = min(actuator.temperature_range[1], 1e9)
+    if top <= 85.0:
+        top = min(top, float(data["running_temperature_c"]))
+    on_heater = fitted.placement.chord[0] < float(data["de_ice_end_c"]) and isinstance(actuator, PiezoPly)
+    hottest = float(data["de_ice_temperature_c"] if on_heater else data["hot_day_c"])
+    heater = "over the de-ice heater mat" if on_heater else "off the heater mat, on a hot day"
+    remedy = "" if hottest <= top else f"; begin at {data['de_ice_end_c']:g} c or use a high-temperature type"
+    return Limit(
+        "temperature", hottest <= top, hottest, top, "°C",
+        f"The skin {heater} reaches about {hottest:.0f} °C; the actuator works up to {top:.0f} °C{remedy}.",
+    )  # fmt: skip
+
+
+def _mass(fitted: Fitted) -> Limit:
+    bound = float(structure_data()["limits"]["added_mass_share"])
+    reference = float(structure_data()["blade"]["reference_mass_kg"])
+    bill = fitted.bill
+    share = bill.blade / reference
+    return Limit(
+        "mass", share <= bound, 100.0 * share, 100.0 * bound, "% of blade",
+        f"Each blade gains {bill.blade:.1f} kg ({bill.actuator:.1f} actuator, {bill.wiring:.1f} leads, "
+        f"{bill.balance:.1f} nose weight): {100.0 * share:.0f} % of {reference:.0f} kg.",
+    )  # fmt: skip
+
+
+def _torsion(fitted: Fitted) -> list[Limit]:
+    data = structure_data()["limits"]
+    margin, least = float(data["torsion_margin_per_rev"]), float(data["torsion_least_per_rev"])
+    frequency = fitted.frequency
+    near = min((3.0, 4.0), key=lambda harmonic: abs(frequency - harmonic))
+    gap = abs(frequency - near)
+    return [
+        Limit(
+            "torsion-resonance", gap >= margin, gap, margin, "per rev",
+            f"First torsion at {frequency:.2f}/rev is {gap:.2f} from {near:.0f}/rev.",
+        ),
+        Limit(
+            "torsion-least", frequency >= least, frequency, least, "per rev",
+            f"First torsion at {frequency:.2f}/rev; below {least:g} flutter and control loads need their own study.",
+        ),
+    ]  # fmt: skip

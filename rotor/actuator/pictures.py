@@ -1,0 +1,177 @@
+"""Arrays and text for drawing: section with plies, twist under voltage, required against attainable."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rotor.actuator.catalogue import PiezoPly, TorqueTube
+from rotor.actuator.fitted import Fitted
+from rotor.actuator.placement import Host, Placement
+from rotor.actuator.section import SectionSpec, passive_skin, passive_wall, section_spec, skin, web_line
+from rotor.actuator.structure import structure_data, uh60a_structure
+from rotor.actuator.verdict import Verdict
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A filled polygon of the cut through the blade."""
+
+    role: str
+    """outline, spar, skin, web, ply or tube."""
+    points: Array
+    """(y aft, z up) from the leading edge [m], (points, 2), closed by its ends."""
+    label: str
+
+
+@dataclass(frozen=True, eq=False)
+class SectionPicture:
+    """The cut, from the back to the front."""
+
+    parts: tuple[Part, ...]
+    chord: float
+    """[m]"""
+
+
+def section_picture(fitted: Fitted, *, exaggerate: float = 1.0) -> SectionPicture:
+    """Outline, walls and plies; wall and ply thickness times `exaggerate`, so that 0.3 mm can be seen."""
+    structure = uh60a_structure(float(fitted.beam.r[-1]))
+    spec, placement, actuator = section_spec(structure, fitted.host), fitted.placement, fitted.actuator
+    data = structure_data()["section"]
+    retrofit = fitted.host.kind == "retrofit"
+    outline = np.concatenate([skin(spec, "upper", 0.0, 1.0)[::-1], skin(spec, "lower", 0.0, 1.0)[1:]])
+    parts = [Part("outline", outline, "SC1095")]
+    rear = float(data["spar_web_c"] if retrofit else data["box_end_c"])
+    wall = _wall(spec, fitted) * exaggerate
+    name = "titanium spar" if retrofit else "glass torsion box"
+    role = "spar" if retrofit else "skin"
+    for side in ("upper", "lower"):
+        parts.append(Part(role, ribbon(skin(spec, side, 0.0, rear), wall, inward=side), f"{name}, {side}"))
+        if retrofit:
+            thin = 1e-3 * float(data["aft_skin_mm"]) * exaggerate
+            parts.append(Part("skin", ribbon(skin(spec, side, rear, 1.0), thin, inward=side), f"aft skin, {side}"))
+    web = web_line(spec, rear)
+    parts.append(Part("web", np.concatenate([web, (web - [wall, 0.0])[::-1]]), "web"))
+    if isinstance(actuator, PiezoPly):
+        thickness = placement.plies * actuator.thickness * exaggerate
+        for side in ("upper", "lower"):
+            line = skin(spec, side, *placement.chord)
+            out = "lower" if side == "upper" else "upper"
+            ply = ribbon(line, thickness, inward=out if retrofit else side)
+            degrees = math.degrees(placement.angle)
+            parts.append(Part("ply", ply, f"{placement.plies} × {actuator.name}, ±{degrees:.0f}°, {side}"))
+    elif isinstance(actuator, TorqueTube):
+        turn = np.linspace(0.0, 2.0 * np.pi, 49)
+        middle = skin(spec, "upper", 0.25, 0.26, 2)[0] + skin(spec, "lower", 0.25, 0.26, 2)[0]
+        ring = 0.5 * middle + 0.5 * actuator.diameter * np.column_stack([np.cos(turn), np.sin(turn)])
+        parts.append(Part("tube", ring, actuator.name))
+    return SectionPicture(tuple(parts), spec.chord)
+
+
+def ribbon(line: Array, thickness: float, *, inward: str) -> Array:
+    """A line thickened to one side: `inward` of the upper skin is down, of the lower skin up."""
+    along = np.column_stack([np.gradient(line[:, 0]), np.gradient(line[:, 1])])
+    normal = np.column_stack([-along[:, 1], along[:, 0]]) / np.hypot(*along.T)[:, None]
+    normal *= np.where(normal[:, 1] > 0.0, 1.0, -1.0)[:, None]  # Up.
+    offset = line + (thickness if inward == "lower" else -thickness) * normal
+    return np.concatenate([line, offset[::-1]])
+
+
+@dataclass(frozen=True, eq=False)
+class TwistCurve:
+    """Change of twist along the blade."""
+
+    r: Array
+    """r/R, (stations,)."""
+    twist: Array
+    """[rad], (stations,)."""
+    limit: Array
+    """Largest either way, nominal [rad], (stations,)."""
+    derated: Array
+    """The same as tests suggest."""
+
+
+def twist_under_voltage(fitted: Fitted, voltages: Sequence[float], stations: int = 61) -> TwistCurve:
+    """The blade's twist with each segment at its voltage [V], zero volts being the jig twist.
+
+    Voltages beyond the range raise ValueError. For a tube, "voltage" is the share of its torque, −1…1.
+    """
+    if len(voltages) != len(fitted.shapes):
+        raise ValueError(f"{len(voltages)} voltages for {len(fitted.shapes)} segments: give one for each")
+    if isinstance(fitted.actuator, PiezoPly):
+        low, high = fitted.actuator.voltage_range
+        unit = fitted.actuator.voltage_swing
+    else:
+        low, high, unit = -1.0, 1.0, 1.0
+    for voltage in voltages:
+        if not low - 1e-9 <= voltage <= high + 1e-9:
+            raise ValueError(f"voltage {voltage:g} is outside {low:g}…{high:g}: choose a value inside")
+    r = np.linspace(float(fitted.r[0]), 1.0, stations)
+    return TwistCurve(
+        r=r,
+        twist=fitted.change(np.asarray(voltages, dtype=float) / unit, r),
+        limit=fitted.limit(r),
+        derated=fitted.limit(r, derated=True),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class NeedAndReach:
+    """Required against attainable change for one verdict, curves and bars."""
+
+    label: str
+    r: Array
+    required: Array
+    """Between the optima of both conditions, zero at the cut-out [rad]."""
+    attained: Array
+    """By the best twist the actuator can reach."""
+    limit: Array
+    derated: Array
+    segments: tuple[str, ...]
+    """Span of each, as text."""
+    required_segments: Array
+    """[rad]"""
+    available_segments: Array
+
+
+def need_and_reach(verdict: Verdict, stations: int = 61) -> NeedAndReach:
+    """Chart data of one verdict."""
+    fitted, base = verdict.fitted, verdict.baseline
+    root = base.pair.design.rotor.blade.root_cutout
+    r = np.linspace(root, 1.0, stations)
+    first, second = (np.array(swings) for swings in verdict.reached.swings)
+    made = verdict.derating * fitted.change(second - first, r)
+    edges = (root, *fitted.placement.divisions, 1.0)
+    return NeedAndReach(
+        label=f"{fitted.actuator.name}, {fitted.host.label}, {base.concept.title.lower()}",
+        r=r,
+        required=base.change(r),
+        attained=made - made[0],
+        limit=fitted.limit(r),
+        derated=fitted.limit(r, derated=True),
+        segments=tuple(f"{low:.2f}…{high:.2f} R" for low, high in pairwise(edges)),
+        required_segments=verdict.required_segments,
+        available_segments=fitted.segment_twists,
+    )
+
+
+def black_box(fitted: Fitted) -> tuple[float, float]:
+    """Where electronics would sit at the root, r/R (figure 5.8): inboard of the active span, outboard of the hinge."""
+    return float(fitted.r[0]) + 0.02, fitted.placement.span[0] - 0.02
+
+
+def default_host(kind: str) -> Host:
+    """Retrofit, or the new blade of half the stiffness that the worked example favours."""
+    return Host() if kind == "retrofit" else Host("new", 0.5)
+
+
+def _wall(spec: SectionSpec, fitted: Fitted) -> float:
+    placement: Placement = fitted.placement
+    if fitted.host.kind == "retrofit" or not isinstance(fitted.actuator, PiezoPly):
+        return passive_wall(spec)
+    return passive_skin(spec, fitted.actuator, placement)

@@ -1,0 +1,160 @@
+"""Tables in the form of the document's 5.1 (actuator properties) and 5.2 (actuators and concepts compared).
+
+Its own tables are known by their titles only; columns and numbers here are ours.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube, actuators
+from rotor.actuator.placement import Host, Placement, default_placement
+from rotor.actuator.reach import Pair
+from rotor.actuator.verdict import Verdict, judge
+from rotor.actuator.wording import count
+from rotor.concepts import Concept, find_concept
+
+NONE = "–"
+
+COMPARED_ACTUATORS = ("MFC_P1", "MFC_P2", "AFC", "PZT5H", "PZT5H_strips", "SMA_tube")
+COMPARED_CONCEPTS = ("linear", "quadratic", "two-segment", "three-segment")
+
+
+@dataclass(frozen=True)
+class Table:
+    """Text, ready to print."""
+
+    title: str
+    columns: tuple[str, ...]
+    rows: tuple[tuple[str, ...], ...]
+    notes: tuple[str, ...] = ()
+
+    def text(self) -> str:
+        """Aligned columns."""
+        widths = [max(len(row[k]) for row in (self.columns, *self.rows)) for k in range(len(self.columns))]
+        lines = [self.title, ""]
+        lines += [
+            "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+            for row in (self.columns, *self.rows)
+        ]
+        return "\n".join([*lines, *(("", *self.notes) if self.notes else ())])
+
+
+def table_5_1() -> Table:
+    """Actuator properties."""
+    columns = (
+        "actuator", "mode", "E1 GPa", "E2 GPa", "G12 GPa", "d pm/V", "ΔES mm", "α 1e-6/V", "voltage V",
+        "field kV/mm", "free strain µε", "thickness mm", "density kg/m³", "T °C", "grade",
+    )  # fmt: skip
+    rows: list[tuple[str, ...]] = []
+    for actuator in actuators().values():
+        grade = ", ".join(
+            f"{len(keys)} {word}"
+            for keys, word in (
+                (actuator.provenance.recalled, "recalled"),
+                (actuator.provenance.assumed, "assumed"),
+            )
+            if keys
+        )
+        grade = grade or "sourced"
+        if isinstance(actuator, PiezoPly):
+            low, high = actuator.voltage_range
+            gap = actuator.electrode_gap
+            rows.append((
+                actuator.id, "d33" if actuator.electrodes == "interdigitated" else "d31",
+                f"{actuator.material.e1 / 1e9:.1f}", f"{actuator.material.e2 / 1e9:.1f}",
+                f"{actuator.material.g12 / 1e9:.2f}", f"{actuator.d_along * 1e12:.0f}", f"{gap * 1e3:.3g}",
+                f"{actuator.d_along / gap * 1e6:.2f}", f"{low:g}…{high:g}",
+                f"{low / gap * 1e-6:.2f}…{high / gap * 1e-6:.2f}", f"{actuator.swing[0] * 1e6:.0f}",
+                f"{actuator.thickness * 1e3:.3g}", f"{actuator.material.density:.0f}",
+                "{:.0f}…{:.0f}".format(*actuator.temperature_range), grade,
+            ))  # fmt: skip
+        else:
+            heat = "{:.0f}…{:.0f}".format(*actuator.temperature_range) if isinstance(actuator, TorqueTube) else NONE
+            rows.append((actuator.id, _mode(actuator), *[NONE] * 11, heat, grade))
+    notes = (
+        "Free strain is along the fibres over the whole voltage range, peak to peak; α = d/ΔES is the thermal analogy.",
+        "Numbers and sources: assets/actuators.toml.",
+    )
+    return Table("Table 5.1  Actuator properties", columns, tuple(rows), notes)
+
+
+def _mode(actuator: TorqueTube | ExtensionTwist) -> str:
+    if isinstance(actuator, TorqueTube):
+        return f"heat, {actuator.torque:.0f} N·m"
+    return f"rotor speed, {math.degrees(actuator.twist):.2f}°"
+
+
+def table_5_2(
+    pair: Pair,
+    *,
+    actuator_ids: Sequence[str] = COMPARED_ACTUATORS,
+    concept_names: Sequence[str] = COMPARED_CONCEPTS,
+    placement: Placement | None = None,
+    host: Host | None = None,
+    derated: bool = False,
+) -> Table:
+    """Actuators and concepts compared for one pair of flight conditions."""
+    verdicts = compare(
+        pair,
+        [find_concept(name) for name in concept_names],
+        actuator_ids=actuator_ids,
+        placement=placement,
+        host=host,
+        derated=derated,
+    )
+    return verdict_table(verdicts)
+
+
+def compare(
+    pair: Pair,
+    concepts: Sequence[Concept],
+    *,
+    actuator_ids: Sequence[str] = COMPARED_ACTUATORS,
+    placement: Placement | None = None,
+    host: Host | None = None,
+    derated: bool = False,
+) -> list[Verdict]:
+    """A verdict for every actuator and concept, best net saving first."""
+    known = actuators()
+    verdicts = [
+        judge(known[id], pair, concept, placement or default_placement(), host, derated=derated)
+        for id in actuator_ids
+        for concept in concepts
+    ]
+    return sorted(verdicts, key=lambda verdict: -verdict.net_saving)
+
+
+def verdict_table(verdicts: Sequence[Verdict]) -> Table:
+    """Rows of verdicts."""
+    columns = (
+        "actuator", "concept", "blade", "needed °", "nominal °", "tested °", "needed/nominal", "voltages V",
+        "mass kg", "torsion /rev", "ideal kW", "gross kW", "net kW", "limits broken",
+    )  # fmt: skip
+    rows = [
+        (
+            f"{verdict.fitted.actuator.id}, {count(verdict)}", verdict.baseline.concept.name,
+            verdict.fitted.host.label, f"{math.degrees(verdict.required):.2f}",
+            f"{math.degrees(verdict.attainable):.2f}", f"{math.degrees(verdict.attainable_derated):.2f}",
+            f"{verdict.ratio:.2f}" if verdict.ratio < 100.0 else "> 100",
+            "; ".join(f"{round(a) + 0}→{round(b) + 0}" for a, b in verdict.voltages) or NONE,
+            f"{verdict.fitted.bill.aircraft:.0f}", f"{verdict.fitted.frequency:.2f}",
+            kilowatts(verdict.baseline.ideal_saving), kilowatts(verdict.gross_saving),
+            kilowatts(verdict.net_saving), ", ".join(limit.name for limit in verdict.broken) or "none",
+        )
+        for verdict in verdicts
+    ]  # fmt: skip
+    pair = verdicts[0].baseline.pair
+    mu = " and ".join(f"{mu:g}" for mu in pair.advance_ratios)
+    notes = (
+        "Angles: change from root to tip between the conditions, segments added whatever their sign; nominal over the "
+        "whole voltage range, tested as one blade showed of its model.",
+        "Ideal: saving of a twist free to move, over the best fixed blade; gross and net: of the best this actuator "
+        "can reach, before and after its mass is carried.",
+    )
+    return Table(f"Table 5.2  Actuators and concepts compared, advance ratios {mu}", columns, tuple(rows), notes)
+
+
+def kilowatts(power: float) -> str:
+    """One decimal, and no negative nothing."""
+    return f"{round(power / 1e3, 1) + 0.0:.1f}"

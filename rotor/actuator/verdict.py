@@ -1,0 +1,228 @@
+"""Would it pay? Required against attainable twist, voltages, mass, power, and the saving that is left."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rotor.actuator.baseline import Baseline, baseline
+from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly
+from rotor.actuator.electrical import Drive, drive
+from rotor.actuator.fitted import Fitted, fit
+from rotor.actuator.limits import Limit, limits
+from rotor.actuator.placement import Host, Placement
+from rotor.actuator.reach import Pair, Reached, best_reach
+from rotor.actuator.wording import verdict_sentence
+from rotor.concepts import Concept
+from rotor.design import Design
+from rotor.search.limits import ChangeLimit
+from rotor.solve import solve
+from rotor.twist import TwistLaw
+
+Array = NDArray[np.float64]
+
+NOTHING = 1e-6
+"""A twist too small to divide by [rad]."""
+
+
+@dataclass(frozen=True, eq=False)
+class Verdict:
+    """One actuator, one concept, one pair of flight conditions. Angles [rad], powers [W], means over the pair."""
+
+    fitted: Fitted
+    baseline: Baseline
+    derating: float
+    """Share of the nominal twist that the saving was computed with."""
+    required_segments: Array
+    """Change that the concept's optima ask of each segment, (segments,)."""
+    reached: Reached
+    """The best twist this actuator can reach, at both conditions."""
+    reference_power: float
+    """Of the blade it is compared with: the flown twist for a retrofit, else the concept's best fixed blade."""
+    carried_power: float
+    """With the actuator's mass on board and its drive fed, at the reached twists."""
+    drive: Drive
+    limits: tuple[Limit, ...]
+    caveats: tuple[str, ...]
+
+    @property
+    def required(self) -> float:
+        """Root to tip, segments added whatever their sign."""
+        return float(np.abs(self.required_segments).sum())
+
+    @property
+    def attainable(self) -> float:
+        """Root to tip over the whole voltage range, nominal."""
+        return self.fitted.attainable
+
+    @property
+    def attainable_derated(self) -> float:
+        return self.fitted.attainable * self.fitted.derating
+
+    @property
+    def ratio(self) -> float:
+        """Required over attainable in the worst segment."""
+        available = np.maximum(self.fitted.segment_twists * self.derating, NOTHING)
+        return float(np.max(np.abs(self.required_segments) / available))
+
+    @property
+    def feasible(self) -> bool:
+        """Whether every segment can make the change its optimum asks for; other limits stand in `limits`."""
+        return self.ratio <= 1.0
+
+    @property
+    def attained_segments(self) -> Array:
+        """Change between the two conditions at the reached optimum, by segment."""
+        first, second = (np.array(swings) for swings in self.reached.swings)
+        return (second - first) * self.fitted.shapes[:, -1] * self.derating
+
+    @property
+    def attained(self) -> float:
+        """The same root to tip, segments added whatever their sign."""
+        return float(np.abs(self.attained_segments).sum())
+
+    @property
+    def gross_saving(self) -> float:
+        """Before the actuator is carried."""
+        return self.reference_power - self.reached.power
+
+    @property
+    def net_saving(self) -> float:
+        """After."""
+        return self.reference_power - self.carried_power
+
+    @property
+    def broken(self) -> tuple[Limit, ...]:
+        return tuple(limit for limit in self.limits if not limit.ok)
+
+    @property
+    def buildable(self) -> bool:
+        """Whether no limit is broken but those on how far the twist goes, which the reached optimum keeps."""
+        return all(limit.name in ("voltage", "field", "torque") for limit in self.broken)
+
+    @property
+    def pays(self) -> bool:
+        return self.net_saving > 0.0 and self.buildable
+
+    @property
+    def voltages(self) -> tuple[tuple[float, float], ...]:
+        """Of each segment at the first and at the second condition [V]; empty when voltage does not drive it."""
+        return segment_voltages(self.fitted, self.reached.swings)
+
+    @property
+    def resting(self) -> Design:
+        """The second condition with the actuator at rest: the blade that harmonics of twist start from."""
+        base = self.baseline
+        design = base.pair.designs()[1]
+        return design if self.fitted.host.kind == "retrofit" else base.concept.apply(design, base.fixed.values)
+
+    @property
+    def sentence(self) -> str:
+        return verdict_sentence(self)
+
+
+def judge(
+    actuator: Actuator,
+    pair: Pair,
+    concept: Concept,
+    placement: Placement,
+    host: Host | None = None,
+    *,
+    derated: bool = False,
+) -> Verdict:
+    """Fit the actuator, find the best twist it can reach, carry it, and say whether it pays.
+
+    The placement's segments are the concept's. `derated` computes with the twist a tested blade would show.
+    Raises ValueError for a blade that cannot be built, RuntimeError where nothing trims; one sentence each.
+    """
+    host = host or Host()
+    base = baseline(pair, concept)
+    rotor = pair.design.rotor
+    divisions = () if isinstance(actuator, ExtensionTwist) else base.divisions
+    fitted = fit(actuator, replace(placement, divisions=divisions), host, rotor)
+    share = fitted.derating if derated else 1.0
+    reached = best_reach(pair, base.concept, fitted, derating=share, starts=[base.fixed.values])
+    required = base.segment_changes(divisions)
+    reference = base.fixed.power
+    if host.kind == "retrofit":
+        reference = _mean_power(pair, pair.designs())
+    swing = tuple(float(b - a) for a, b in zip(*reached.swings, strict=True))
+    driven = drive(fitted, swing)
+    heavy = tuple(carried(solution.design, fitted) for solution in reached.solutions)
+    asked = tuple(float(x) for x in required / np.maximum(fitted.segment_twists * share, NOTHING))
+    return Verdict(
+        fitted=fitted,
+        baseline=base,
+        derating=share,
+        required_segments=required,
+        reached=reached,
+        reference_power=reference,
+        carried_power=_mean_power(pair, heavy) + driven.hold_power,
+        drive=driven,
+        limits=limits(fitted, asked, reached.solutions[-1]),
+        caveats=(*actuator.provenance.warnings(actuator.id), *holding(actuator)),
+    )
+
+
+def holding(actuator: Actuator) -> tuple[str, ...]:
+    """What a twist held for minutes needs."""
+    if not isinstance(actuator, PiezoPly):
+        return ()
+    return (
+        f"{actuator.id}: hysteresis of {100.0 * actuator.hysteresis:.0f} % and creep: holding a twist needs strain "
+        "feedback or charge drive; it falls back to the jig twist when voltage fails.",
+    )
+
+
+def carried(design: Design, fitted: Fitted) -> Design:
+    """The design with the actuator's mass in the aircraft, and on the flapping blades."""
+    blade, rotor, added = design.rotor.blade, design.rotor, fitted.added
+    hinge = blade.flap_hinge * rotor.radius
+    inner, outer = (end - hinge for end in added.span)
+    heavier = replace(
+        blade,
+        mass=blade.mass + fitted.bill.blade,
+        flap_static_moment=blade.flap_static_moment + added.mass_per_length * (outer**2 - inner**2) / 2.0,
+        flap_inertia=blade.flap_inertia + added.mass_per_length * (outer**3 - inner**3) / 3.0,
+    )
+    condition = replace(design.condition, mass=design.condition.mass + fitted.bill.aircraft)
+    return replace(design, rotor=replace(rotor, blade=heavier), condition=condition)
+
+
+def change_limit(fitted: Fitted, reference: TwistLaw, *, root: float = 0.1304, derated: bool = False) -> ChangeLimit:
+    """What the actuator can do as the optimiser's limit on the change from a reference twist.
+
+    Each segment's twist is spread over the whole segment, cut-out and tip included, as the concepts' laws are; what the
+    true shape along the active span does to power, `best_reach` knows.
+    """
+    share = fitted.derating if derated else 1.0
+    ends = share * np.cumsum(fitted.segment_twists)
+    stations = (root, *fitted.placement.divisions, 1.0)
+    return ChangeLimit(reference, stations, (0.0, *ends.tolist()))
+
+
+def segment_voltages(fitted: Fitted, swings: tuple[tuple[float, ...], ...]) -> tuple[tuple[float, float], ...]:
+    """Volts at both conditions.
+
+    A retrofit's count from zero volts. A new blade's jig twist is set so that a segment's two voltages lie around zero
+    as far as the negative side reaches, so that a blade without voltage flies between its two twists.
+    """
+    actuator = fitted.actuator
+    if not isinstance(actuator, PiezoPly):
+        return ()
+    low = actuator.voltage_range[0]
+    found: list[tuple[float, float]] = []
+    for first, second in zip(*swings, strict=True):
+        a, b = first * actuator.voltage_swing, second * actuator.voltage_swing
+        if fitted.host.kind == "new":
+            offset = max(low, -0.5 * abs(b - a)) - min(a, b)
+            a, b = a + offset, b + offset
+        elif min(a, b) < low - 1e-6 or max(a, b) > actuator.voltage_range[1] + 1e-6:
+            a, b = -a, -b  # Fibres laid the other way.
+        found.append((a, b))
+    return tuple(found)
+
+
+def _mean_power(pair: Pair, designs: tuple[Design, ...]) -> float:
+    solutions = [solve(design).require() for design in designs]
+    return sum(share * solution.power.total for share, solution in zip(pair.shares, solutions, strict=True))

@@ -1,0 +1,196 @@
+"""`actuator`: could an actuator make the change of twist between two flight conditions, and would it pay?"""
+
+import argparse
+import json
+import math
+from typing import Any
+
+from rotor.active_twist import Harmonic
+from rotor.actuator.catalogue import find_actuator
+from rotor.actuator.harmonic import PhaseSweep, phase_sweep
+from rotor.actuator.placement import BladeKind, Host, Placement, default_placement
+from rotor.actuator.reach import Pair
+from rotor.actuator.tables import table_5_1, table_5_2
+from rotor.actuator.verdict import Verdict, judge
+from rotor.command.parser import add_design_arguments, design_from, finite
+from rotor.concepts import find_concept
+
+
+def add_parser(commands: Any) -> None:
+    """Register the command."""
+    parser = commands.add_parser("actuator", help="whether an actuator could make a change of twist, and would it pay")
+    parser.add_argument("--actuator", metavar="ID", default="MFC_P1", help="MFC_P1 (default) … see --table 5.1")
+    parser.add_argument("--plies", type=int, default=2, metavar="N", help="per skin (default 2); tubes for a tube")
+    parser.add_argument("--concept", default="linear", metavar="NAME", help="twist concept (default linear)")
+    parser.add_argument("--division", metavar="R,…", help="where segments meet, r/R, with segmented concepts")
+    parser.add_argument("--from-mu", type=finite, default=0.0, metavar="MU", help="first advance ratio (default hover)")
+    parser.add_argument("--to-mu", type=finite, default=0.3, metavar="MU", help="second advance ratio (default 0.3)")
+    parser.add_argument("--share", type=finite, default=0.5, metavar="0…1", help="part of the time in the second")
+    parser.add_argument(
+        "--blade", choices=("retrofit", "new"), default="retrofit", help="flown blade, or one made for it"
+    )
+    parser.add_argument("--stiffness", type=finite, metavar="G", help="GJ of a new blade over the flown one's (0.5)")
+    parser.add_argument("--span", metavar="A:B", help="active span, r/R (default 0.2433:0.9292)")
+    parser.add_argument("--chord", metavar="A:B", help="active chord, x/c (default 0.05:0.80)")
+    parser.add_argument("--angle-deg", type=finite, default=45.0, metavar="DEG", help="fibre angle (default 45)")
+    parser.add_argument("--derated", action="store_true", help="count on the twist that a tested blade would show")
+    parser.add_argument("--harmonic", type=int, metavar="N", help="also N/rev active twist at the second condition")
+    parser.add_argument("--table", choices=("5.1", "5.2"), help="print a table of the document's form instead")
+    add_design_arguments(parser, one_twist=True)
+    parser.add_argument("--json", action="store_true", help="machine-readable output")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """0 answered (yes or no), 1 where nothing trims."""
+    if args.table == "5.1":
+        print(table_5_1().text())
+        return 0
+    actuator, concept = find_actuator(args.actuator), find_concept(args.concept, _divisions(args.division))
+    pair = Pair(design_from(args, args.twist, args.from_mu), (args.from_mu, args.to_mu), args.share)
+    pair.designs()  # Bad input speaks before anything is computed.
+    if args.harmonic is not None:
+        Harmonic(args.harmonic, 0.0)
+    placement, host = _placement(args), _host(args.blade, args.stiffness)
+    try:
+        if args.table == "5.2":
+            print(table_5_2(pair, placement=placement, host=host, derated=args.derated).text())
+            return 0
+        verdict = judge(actuator, pair, concept, placement, host, derated=args.derated)
+        turned = None
+        if args.harmonic is not None:
+            turned = phase_sweep(verdict.resting, verdict.fitted, args.harmonic, derated=args.derated)
+    except RuntimeError as error:
+        print(json.dumps(failure(args, str(error)), indent=2) if args.json else f"not converged: {error}")
+        return 1
+    print(json.dumps(record(verdict, turned), indent=2, allow_nan=False) if args.json else report(verdict, turned))
+    return 0
+
+
+def record(verdict: Verdict, turned: PhaseSweep | None = None) -> dict[str, Any]:
+    """The JSON of `actuator --json` (DESIGN §8). Savings are means over both conditions."""
+    values: dict[str, Any] = {
+        "status": "converged",
+        "message": verdict.sentence,
+        "actuator": verdict.fitted.actuator.id,
+        "plies": verdict.fitted.placement.plies,
+        "concept": verdict.baseline.concept.name,
+        "required_twist_deg": math.degrees(verdict.required),
+        "attainable_twist_deg": math.degrees(verdict.attainable),
+        "attainable_twist_derated_deg": math.degrees(verdict.attainable_derated),
+        "feasible": verdict.feasible,
+        "voltages_v": [list(pair) for pair in verdict.voltages],
+        "added_mass_kg": verdict.fitted.bill.aircraft,
+        "torsion_frequency_per_rev": verdict.fitted.frequency,
+        "gross_saving_w": verdict.gross_saving,
+        "net_saving_w": verdict.net_saving,
+        "limits": [
+            {
+                "name": limit.name, "ok": limit.ok, "value": limit.value, "bound": limit.bound, "unit": limit.unit,
+                "sentence": limit.sentence,
+            }
+            for limit in verdict.limits
+        ],
+        "caveats": list(verdict.caveats),
+    }  # fmt: skip
+    if turned is not None:
+        values["harmonic"] = {
+            "per_rev": turned.dynamic.per_rev,
+            "amplitude_deg": math.degrees(turned.dynamic.amplitude),
+            "used_share": turned.share,
+            "gross_saving_w": turned.gross_saving,
+            "net_saving_w": turned.net_saving,
+        }
+    return values
+
+
+def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
+    """The same keys where nothing trims; what is not known is null."""
+    known = {"status": "not-converged", "message": message, "actuator": args.actuator, "plies": args.plies}
+    unknown = (
+        "required_twist_deg", "attainable_twist_deg", "attainable_twist_derated_deg", "feasible",
+    )  # fmt: skip
+    numbers = ("added_mass_kg", "torsion_frequency_per_rev", "gross_saving_w", "net_saving_w")
+    return {
+        **known,
+        "concept": args.concept,
+        **dict.fromkeys(unknown),
+        "voltages_v": [],
+        **dict.fromkeys(numbers),
+        "limits": [],
+        "caveats": [],
+    }
+
+
+def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
+    """The same for a reader."""
+    fitted, base = verdict.fitted, verdict.baseline
+    bill = fitted.bill
+    first, second = (best.power / 1e3 for best in base.best)
+    twists = [base.concept.twist(best.values).spec() for best in (*base.best, base.fixed)]
+    lines = [
+        verdict.sentence,
+        "",
+        f"best twist at each condition  {twists[0]} ({first:.1f} kW), {twists[1]} ({second:.1f} kW)",
+        f"best fixed blade              {twists[2]} (mean {base.fixed.power / 1e3:.1f} kW)",
+        f"free movement would save      {base.ideal_saving / 1e3:8.2f} kW",
+        f"this actuator saves, gross    {verdict.gross_saving / 1e3:8.2f} kW",
+        f"after its mass is carried     {verdict.net_saving / 1e3:8.2f} kW",
+        "",
+        f"twist needed      {math.degrees(verdict.required):8.2f} °  (segments added)",
+        f"twist attainable  {math.degrees(verdict.attainable):8.2f} °  "
+        f"({math.degrees(verdict.attainable_derated):.2f}° as tests suggest)",
+        f"used              {math.degrees(verdict.attained):8.2f} °",
+        f"moment            {fitted.moment:8.0f} N·m on GJ {fitted.section_stiffness:.0f} N·m²",
+        f"torsion           {fitted.frequency:8.2f} /rev",
+        f"added mass        {bill.aircraft:8.1f} kg  ({bill.blade:.1f} a blade, of it {bill.balance:.1f} nose weight)",
+        f"drive             {verdict.drive.slew_power:8.1f} W while moving for {verdict.drive.slew_time:.0f} s, "
+        f"{verdict.drive.hold_power:.0f} W to hold",
+    ]
+    edges = (base.pair.design.rotor.blade.root_cutout, *fitted.placement.divisions, 1.0)
+    for k, (a, b) in enumerate(verdict.voltages):
+        lines.append(f"segment {k + 1}         {edges[k]:.2f}…{edges[k + 1]:.2f} R: {a:.0f} V, then {b:.0f} V")
+    if turned is not None:
+        left = "no trim with" if turned.net_saving is None else f"{turned.net_saving / 1e3:.1f} kW after"
+        lines += [
+            "",
+            f"{turned.dynamic.per_rev}/rev at µ {base.pair.advance_ratios[1]:g} instead: up to "
+            f"±{math.degrees(turned.dynamic.amplitude):.2f}°, {100 * turned.share:.0f} % used, saves "
+            f"{turned.gross_saving / 1e3:.1f} kW; {left} its mass and losses",
+        ]
+    lines += ["", *(f"{'ok    ' if limit.ok else 'BROKEN'} {limit.sentence}" for limit in verdict.limits)]
+    return "\n".join([*lines, *(f"caveat: {caveat}" for caveat in verdict.caveats)])
+
+
+def _host(kind: BladeKind, stiffness: float | None) -> Host:
+    if stiffness is None:
+        stiffness = 1.0 if kind == "retrofit" else 0.5
+    return Host(kind, stiffness)
+
+
+def _placement(args: argparse.Namespace) -> Placement:
+    base = default_placement(args.plies)
+    span = _ends(args.span, "span") or base.span
+    chord = _ends(args.chord, "chord") or base.chord
+    if not 0.0 < args.angle_deg < 90.0:
+        raise ValueError(f"fibre angle {args.angle_deg:g}° is outside 0…90°: 45 twists most")
+    return Placement(span, chord, args.plies, math.radians(args.angle_deg))
+
+
+def _ends(text: str | None, what: str) -> tuple[float, float] | None:
+    if text is None:
+        return None
+    try:
+        low, high = (float(item) for item in text.split(":"))
+    except ValueError:
+        raise ValueError(f"active {what} {text!r} is not understood: write two numbers as 0.25:0.9") from None
+    return low, high
+
+
+def _divisions(text: str | None) -> tuple[float, ...] | None:
+    if text is None:
+        return None
+    try:
+        return tuple(float(item) for item in text.split(","))
+    except ValueError:
+        raise ValueError(f"division {text!r} is not understood: write r/R, for example 0.5 or 0.48,0.84") from None

@@ -1,0 +1,123 @@
+"""Actuator data against each other and against the maker's own derived figures; field, strain, thermal analogy."""
+
+import tomllib
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor.actuator.catalogue import PiezoPly, actuators, derating, find_actuator
+from rotor.actuator.electrodes import (
+    deformed_sheet,
+    electric_field,
+    field_map,
+    free_strain,
+    strain_curve,
+    thermal_coefficients,
+)
+from rotor.library import asset_path
+
+PLIES = [actuator for actuator in actuators().values() if isinstance(actuator, PiezoPly)]
+
+
+def ply(id: str) -> PiezoPly:
+    found = find_actuator(id)
+    assert isinstance(found, PiezoPly)
+    return found
+
+
+def test_mfc_sheet_agrees_with_itself():
+    """The maker also gives 900 N and 150 µm for a patch of 85 × 57 mm, 48.8 kJ/m³ and 0.16 g/cm²."""
+    mfc = ply("MFC_P1")
+    strain = mfc.swing[0]
+    assert_allclose(mfc.material.e1 * strain * 57e-3 * mfc.thickness, 900.0, rtol=0.05)
+    assert_allclose(85e-3 * strain, 150e-6, rtol=0.03)
+    assert_allclose(0.5 * mfc.material.e1 * strain**2, 48.8e3, rtol=0.02)
+    assert_allclose(mfc.material.density * mfc.thickness, 1.6, rtol=0.03)
+    nu21 = mfc.material.nu12 * mfc.material.e2 / mfc.material.e1
+    assert_allclose(nu21, 0.16, atol=0.005)
+    assert_allclose(strain / mfc.voltage_swing, 0.9e-6, rtol=1e-12)
+
+
+def test_thermal_analogy():
+    """α = d/ΔES: 460 pm/V over 0.5 mm is 9.2e-7 per volt; the sheet measures 7.5e-7…9.0e-7."""
+    mfc = ply("MFC_P1")
+    along, across = thermal_coefficients(mfc)
+    assert_allclose(along, 9.2e-7, rtol=1e-12)
+    assert_allclose(across, -3.68e-7, rtol=1e-12)
+    low = mfc.low_swing * mfc.swing[0] / mfc.voltage_swing
+    assert_allclose(low, 7.5e-7, rtol=1e-3)
+
+
+@pytest.mark.parametrize("sheet", PLIES, ids=lambda sheet: sheet.id)
+def test_strain_is_coefficient_times_field(sheet: PiezoPly):
+    """Free strain over the range against d times the field's swing: they agree to the spread of the material data."""
+    field = np.ptp(electric_field(sheet, sheet.voltage_range))
+    assert_allclose(sheet.swing[0], sheet.d_along * field, rtol=0.06)
+    assert_allclose(sheet.swing[1], sheet.d_across * field, rtol=0.06)
+
+
+def test_interdigitated_works_along_continuous_across():
+    """d33 stretches at positive voltage, d31 shrinks; P1 strains 3.5 times as far as P2 over the range."""
+    p1, p2 = ply("MFC_P1"), ply("MFC_P2")
+    assert free_strain(p1, 100.0)[0] > 0.0 > free_strain(p2, 100.0)[0]
+    assert_allclose(abs(p1.swing[0] / p2.swing[0]), 1800.0 / 504.0, rtol=1e-12)
+    curve = strain_curve(p1)
+    assert_allclose([curve.along[0], curve.along[-1]], [-450e-6, 1350e-6], rtol=1e-12)
+    assert_allclose([curve.field[0], curve.field[-1]], [-1e6, 3e6], rtol=1e-12)
+
+
+def test_sheet_stretches_along_and_shrinks_across():
+    """1000 V on MFC P1: 0.9 ppm/V along, −0.4 of it across."""
+    width, height = np.ptp(deformed_sheet(ply("MFC_P1"), 1000.0), axis=0) - 1.0
+    assert_allclose([width, height], [900e-6, -360e-6], rtol=1e-9)
+
+
+def test_field_between_electrodes():
+    """Plates: even. Fingers: deep in the sheet the field is weaker than V/gap, at their edges much stronger."""
+    even = field_map(ply("PZT5H"), points=21)
+    assert_allclose(even.strength, 1.0, rtol=1e-12)
+    finger = field_map(ply("MFC_P1"), points=41, sweeps=1500)
+    rows, columns = finger.potential.shape
+    middle = finger.strength[rows // 2, columns // 2]
+    assert 0.7 < middle < 1.0
+    assert finger.strength.max() > 2.0
+    # Mirror symmetry; and by Gauss, no charge between the fingers: the same flux through every cut there.
+    assert_allclose(finger.potential + finger.potential[:, ::-1], 1.0, atol=1e-6)
+    slope = np.gradient(finger.potential, finger.x, axis=1)
+    flux = np.array([np.trapezoid(column, finger.z) for column in slope.T])
+    assert_allclose(flux[(finger.x > 0.2) & (finger.x < 0.8)], flux[columns // 2], rtol=0.02)
+
+
+def test_recalled_numbers_are_warned_about():
+    warnings = find_actuator("AFC").provenance.warnings("AFC")
+    assert any("recalled" in warning and "e1" in warning for warning in warnings)
+    assert "electrode gap" in " ".join(ply("MFC_P2").provenance.warnings("MFC_P2"))
+    assert not any("recalled" in w for w in find_actuator("MFC_P1").provenance.warnings("MFC_P1"))
+
+
+def test_grades_in_the_file_are_the_grades_in_the_lists():
+    """Every number of the table is followed by its grade; R and A ones are those that the program warns about."""
+    text = asset_path("actuators.toml").read_text(encoding="utf-8")
+    for row, block in zip(tomllib.loads(text)["ply"], text.split("[[ply]]")[1:], strict=True):
+        marked: dict[str, set[str]] = {"R": set(), "A": set()}
+        for line in block.split("\n[[")[0].splitlines():
+            key, _, rest = line.partition(" = ")
+            value, _, comment = rest.partition("#")
+            if comment and value.strip().lstrip("-").replace(".", "").isdigit():
+                grade = comment.split()[0]
+                assert grade in {"P", "S", "D", "A", "R"}, line
+                marked.setdefault(grade, set()).add(key.strip())
+        assert marked["R"] == set(row["recalled"]), row["id"]
+        assert marked["A"] == set(row["assumed"]), row["id"]
+
+
+def test_unknown_actuator_names_the_known():
+    with pytest.raises(ValueError, match=r"'MFC' is not known: use one of MFC_P1"):
+        find_actuator("MFC")
+
+
+def test_derating():
+    """Low-end strain 0.75 of 0.9 ppm/V, times 0.74 of a model seen in one test: 0.62."""
+    assert_allclose(derating(find_actuator("MFC_P1")), 0.833 * 0.74, rtol=1e-12)
+    assert derating(find_actuator("SMA_tube")) == 1.0
