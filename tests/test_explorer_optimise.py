@@ -101,7 +101,7 @@ class TestSearchRun:
         for k in range(100):
             run._add(k, 1000.0 - k, quick())
         run.shown()
-        now += 0.1
+        now += 0.11
         run.shown()
         assert run.cursor >= 90
 
