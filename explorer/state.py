@@ -158,7 +158,7 @@ def preset_inflow(preset: str) -> str:
 
 def baseline_of(design: Design) -> Design:
     """The same rotor, flight and models with the preset's baseline twist."""
-    return replace(design, twist=baseline_twist(design.preset))
+    return replace(design, twist=baseline_twist(design.preset), active_twist=None)
 
 
 def baseline_title(design: Design) -> str:
