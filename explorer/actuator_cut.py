@@ -19,7 +19,7 @@ from rotor.blade import Rotor
 
 Array = NDArray[np.float64]
 
-SPAN_SCALE = 0.30
+SPAN_SCALE = 0.22
 """The blade is sixteen times as long as it is wide: drawn so, it would be a thread."""
 THICKER = 3.5
 """Walls and plies are drawn this much thicker, or they would be lines."""
@@ -77,7 +77,7 @@ def cut_blade(fitted: Fitted, rotor: Rotor) -> Cut:
     thin = max(1e-3 * float(data["aft_skin_mm"]), 0.0005)
     whole = ((rotor.blade.root_cutout, 1.0),)
     low, high = placement.span
-    window = (low + 0.36 * (high - low), low + 0.54 * (high - low))
+    window = (low + 0.34 * (high - low), low + 0.56 * (high - low))
     opened = _without(whole, window)
     box = "spar" if retrofit else "skin"
     pieces: list[CutPart] = []

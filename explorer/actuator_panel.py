@@ -55,7 +55,10 @@ class ActuatorPanel:
         watched = self._watched
         gui.add_html(actuator_readout.SHEET)
         self.shown = watched(
-            gui.add_checkbox("Blade cut open", False, hint="Shows one blade, opened, in place of the rotor.")
+            gui.add_checkbox("Show blade cut", False, hint="Shows one blade, opened, in place of the rotor.")
+        )
+        self._magnified = watched(
+            gui.add_slider("Movement ×", 1.0, 20.0, 1.0, start.magnified, hint="Exaggerates it in the cut blade only.")
         )
         self._now = gui.add_html("")
         self._drives = [
@@ -68,7 +71,7 @@ class ActuatorPanel:
         )
         self.fly_buttons.on_click(self._fly_clicked)
         self._verdict = gui.add_html("")
-        self._section = gui.add_html("")
+        self._numbers = gui.add_html("")
         with gui.add_folder("Actuator and placement"):
             self._actuator = watched(gui.add_dropdown("Actuator", tuple(self._titles.values())))
             self._plies = watched(gui.add_slider("Plies a side", 1, 8, 1, start.plies, hint="Tubes, for the tube."))
@@ -81,7 +84,7 @@ class ActuatorPanel:
                     hint="Active, from–to. The de-ice mat heats the first 0.12 c.",
                 )
             )  # fmt: skip
-            self._blade = watched(gui.add_dropdown("Blade", tuple(BLADES)))
+            self._blade = watched(gui.add_dropdown("Blade type", tuple(BLADES)))
             self._stiffness = watched(
                 gui.add_slider("GJ of new ×", 0.2, 1.5, 0.05, start.stiffness, hint="Over the flown blade's.")
             )
@@ -101,11 +104,10 @@ class ActuatorPanel:
                     "µ from, to", 0.0, 0.4, 0.01, start.advance_ratios, min_range=0.02, hint="Two flight conditions."
                 )
             )
-        self._numbers = gui.add_html("")
         key = (("attainable", BASELINE), ("required", NOW), ("used", _USED), ("now", THIS))
         self._chart = Chart(
             gui,
-            "Δtwist [°] over r/R",
+            "Δtwist [°]",
             key,
             "radius r/R",
             (
@@ -119,6 +121,7 @@ class ActuatorPanel:
             (0.1, 1.02),
         )
         self._segments = gui.add_html("")
+        self._section = gui.add_html("")
         self._limits = gui.add_html("")
         with gui.add_folder("All actuators on this blade"):
             self._table = gui.add_html("")
@@ -132,9 +135,6 @@ class ActuatorPanel:
             self._phase = watched(
                 gui.add_slider("Phase [°]", 0.0, 360.0, 5.0, start.phase, hint="The tip is most nose-up at phase/n.")
             )
-        self._magnified = watched(
-            gui.add_slider("Movement ×", 1.0, 20.0, 1.0, start.magnified, hint="Exaggerates it in the cut blade only.")
-        )
 
     def start(self) -> None:
         self._study.start()
@@ -219,6 +219,10 @@ class ActuatorPanel:
         for handle in (self._plies, self._span):
             handle.visible = not passive
         self._chord.visible = self._crossed.visible = isinstance(fitted.actuator, PiezoPly)
+        self._magnified.visible = inputs.shown
+        self._span.label = "Span {:.2f}–{:.2f}".format(*inputs.span)
+        self._chord.label = "Chord {:.2f}–{:.2f}".format(*inputs.chord)
+        self._pair.label = "µ {:.2f} – {:.2f}".format(*inputs.advance_ratios)
         self._stiffness.visible = inputs.blade == "new"
         self._amplitude.visible = self._phase.visible = inputs.per_rev > 0
 

@@ -17,7 +17,7 @@ from rotor.design import Design
 
 Array = NDArray[np.float64]
 
-WALLS: dict[str, colours.Rgb] = {"spar": (70, 76, 86), "skin": (104, 106, 104), "web": (44, 48, 56)}
+WALLS: dict[str, colours.Rgb] = {"spar": (70, 76, 86), "skin": (104, 106, 104), "web": (58, 64, 74)}
 """Dark albedos, for the page's lights bleach."""
 BOX: colours.Rgb = (12, 12, 14)
 SHANK: colours.Rgb = (40, 43, 50)
@@ -113,7 +113,10 @@ def _labels(
 
     labels = [("drive electronics", at(0.5 * (cut.box[0] + 0.12), -0.01, 0.2))]
     window = cut.windows[0]
-    labels.append(("spar web", at(0.5 * sum(window), -0.09, 0.10)))
+    tip = math.degrees(float(inputs.change(fitted, 1.0)))
+    if round(tip, 2):
+        labels.append((f"tip {number(tip, 2, sign=True)}°, drawn × {inputs.magnified:g}", at(1.0, -0.1, 0.06)))
+    labels.append(("spar web", at(0.5 * sum(window), -0.02, 0.13)))
     if isinstance(fitted.actuator, (PiezoPly, TorqueTube)):
         for k, (low, high) in enumerate(actuator_cut.spans_of(cut)):
             name = f"segment {k + 1}: " if len(fitted.shapes) > 1 else ""

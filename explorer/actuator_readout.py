@@ -39,6 +39,8 @@ SHEET = """<style>
 </style>"""
 
 _NONE = "–"
+_SHIFT = {0.0: ";transform:none", 100.0: ";transform:translateX(-100%)"}
+"""The outer numbers stay within the bar."""
 
 
 def voltage_bar(actuator: Actuator) -> str:
@@ -49,8 +51,8 @@ def voltage_bar(actuator: Actuator) -> str:
     stops = ",".join("rgb({},{},{})".format(*share_colour(k / 8.0)) for k in range(-8, 9))
     marks = ((0.0, low), (25.0, 0.5 * low), (50.0, 0.0), (75.0, 0.5 * high), (100.0, high))
     ticks = "".join(
-        f'<i style="left:{at:g}%"></i><span style="left:{min(max(at, 6.0), 92.0):g}%">{number(value)}'
-        f"{' ' + unit if at == 100.0 else ''}</span>"
+        f'<i style="left:{at:g}%"></i><span style="left:{at:g}%{_SHIFT.get(at, "")};white-space:nowrap">'
+        f"{number(value)}{' ' + unit if at == 100.0 else ''}</span>"
         for at, value in marks
     )
     return (
@@ -165,7 +167,7 @@ def segments_panel(fitted: Fitted, share: float, verdict: Verdict | None) -> str
         mark = "" if need is None else f'<b style="left:{100 * need[k] / largest:.1f}%"></b>'
         asked = _NONE if need is None else f"{number(float(need[k]), 1)}°"
         rows.append(
-            f"<span>Segment {k + 1}</span>"
+            f"<span>{f'Segment {k + 1}' if len(can) > 1 else 'Required / has'}</span>"
             f'<span class="rxa-track"><i style="width:{100 * each / largest:.1f}%;background:rgba(28,126,214,.35)"></i>'
             f'<i style="width:{100 * share * each / largest:.1f}%;background:#1c7ed6"></i>{mark}</span>'
             f'<span class="rx-num">{asked} / {number(float(each), 1)}°</span>'

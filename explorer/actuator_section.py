@@ -16,7 +16,7 @@ _WIDTH, _HEIGHT = 312.0, 92.0
 _MIDDLE = 46.0
 _PLY = 3.4
 """Plies are drawn this thick [px]; to scale they would be half a pixel."""
-_GAP = 1.0
+_GAP = 0.2
 _FILLS = {"spar": "#5c6b80", "skin": "#9aa3ad", "web": "#3f4b5c", "tube": "#b7791f"}
 
 

@@ -7,9 +7,9 @@ import numpy as np
 from explorer.actuator_cut import SPAN_SCALE
 from explorer.view import FIELD_OF_VIEW, Camera
 
-_AROUND = math.radians(38.0)
+_AROUND = math.radians(46.0)
 """From behind the trailing edge towards the root."""
-_ABOVE = math.radians(30.0)
+_ABOVE = math.radians(33.0)
 _MARGIN = 0.93
 
 
