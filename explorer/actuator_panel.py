@@ -46,6 +46,7 @@ class ActuatorPanel:
         self._study = Study(changed, f"study-{client.client_id}")
         self._rest = solver.Baseline()
         self._told: dict[str, str] = {}
+        self._drawn: tuple[object, ...] | None = None
         self._titles = actuator_readout.actuator_titles()
         self._concepts = {name: find_concept(name).title for name in CONCEPTS}
         self._build(client.gui)
@@ -169,23 +170,32 @@ class ActuatorPanel:
             fitted = inputs.fitted(design.rotor)
             question = question_of(inputs, design) if self._touched else None
         except ValueError as error:
-            self._lose(str(error))
+            self.lose(str(error))
             return
         self._arrange(inputs, fitted)
         self._draw(inputs, fitted, design, psi)
         rest = self._rest.solve(design) if inputs.driven else None
         change = solution.power.total - rest.power.total if rest is not None and rest.converged else None
         self._tell("now", self._now, actuator_readout.now_panel(inputs, fitted, change))
-        share = voltage_shares(inputs, fitted, psi)[len(fitted.shapes) // 2]
-        self._tell("section", self._section, section_svg(fitted, share))
+        self._tell("section", self._section, section_svg(fitted, voltage_shares(inputs, fitted, psi)))
         self._tell("bar", self._bar, actuator_readout.voltage_bar(fitted.actuator))
         if question is not None:
             self._study.ask(question)
         self._judge(inputs, fitted, question, design.rotor.blade.root_cutout)
 
     def lose(self, problem: str) -> None:
-        """The design itself has no answer."""
-        self._lose(problem)
+        """There is no such design: the sentence in place of the verdict, all else as it was."""
+        self._tell("verdict", self._verdict, actuator_readout.verdict_panel(self._study.findings, None, problem))
+
+    def rest(self) -> None:
+        """Let go of the blade."""
+        self._per_rev.value = next(iter(HARMONICS))
+        self._drive((0.0,) * MOST_SEGMENTS)
+
+    def leave_cut(self) -> None:
+        """Back to the rotor."""
+        if self.shown.value:
+            self.shown.value = False
 
     def _judge(self, inputs: ActuatorInputs, fitted: Fitted, question: Question | None, root: float) -> None:
         findings = self._study.findings
@@ -201,7 +211,12 @@ class ActuatorPanel:
     def _draw(self, inputs: ActuatorInputs, fitted: Fitted, design: Design, psi: float) -> None:
         if not inputs.shown:
             self._cut.hide()
+            self._drawn = None
             return
+        frame = (inputs, design.rotor, design.twist, psi if inputs.per_rev else 0.0)
+        if frame == self._drawn:
+            return
+        self._drawn = frame
         picture = cut_picture(inputs, fitted, design, psi)
         with self._client.atomic():
             self._cut.show(picture)
@@ -225,10 +240,6 @@ class ActuatorPanel:
         self._pair.label = "µ {:.2f} – {:.2f}".format(*inputs.advance_ratios)
         self._stiffness.visible = inputs.blade == "new"
         self._amplitude.visible = self._phase.visible = inputs.per_rev > 0
-
-    def _lose(self, problem: str) -> None:
-        self._cut.hide()
-        self._tell("verdict", self._verdict, actuator_readout.verdict_panel(self._study.findings, None, problem))
 
     def _tell(self, name: str, handle: viser.GuiHtmlHandle, content: str) -> None:
         if self._told.get(name) != content:
@@ -277,8 +288,8 @@ class ActuatorPanel:
         self._changed()
 
     def _watched(self, handle: Any) -> Any:
-        def moved(_: Any) -> None:
-            self._touched = True
+        def moved(event: viser.GuiEvent[Any]) -> None:
+            self._touched = self._touched or event.client is not None
             self._changed()
 
         handle.on_update(moved)

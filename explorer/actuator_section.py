@@ -1,5 +1,6 @@
 """The section with its plies, as an SVG picture made from the polygons of the structural model."""
 
+from collections.abc import Sequence
 from html import escape
 
 import numpy as np
@@ -20,8 +21,10 @@ _GAP = 0.2
 _FILLS = {"spar": "#5c6b80", "skin": "#9aa3ad", "web": "#3f4b5c", "tube": "#b7791f"}
 
 
-def section_svg(fitted: Fitted, share: float) -> str:
-    """The cut through the blade; `share` −1…1 colours the plies as their voltage does on the blade."""
+def section_svg(fitted: Fitted, shares: Sequence[float]) -> str:
+    """The cut through the blade at its middle segment; `shares` −1…1 colour the plies as they do on the blade."""
+    middle = len(shares) // 2
+    share = shares[middle]
     picture = section_picture(fitted, exaggerate=1.6)
     scale = (_WIDTH - 12.0) / picture.chord
     marks: list[str] = []
@@ -39,7 +42,7 @@ def section_svg(fitted: Fitted, share: float) -> str:
     return (
         f'<div class="rx" data-explorer="section"><svg viewBox="0 0 {_WIDTH:g} {_HEIGHT:g}" width="100%" '
         f'role="img" aria-label="Section of the blade with its plies">{"".join(marks)}{_scale(fitted)}</svg>'
-        f'<div class="rx-dim rx-small">{escape(_caption(fitted))}</div></div>'
+        f'<div class="rx-dim rx-small">{escape(_caption(fitted, middle + 1))}</div></div>'
     )
 
 
@@ -76,10 +79,11 @@ def _scale(fitted: Fitted) -> str:
     return "".join(marks)
 
 
-def _caption(fitted: Fitted) -> str:
+def _caption(fitted: Fitted, segment: int) -> str:
     labels = [part.label for part in section_picture(fitted).parts]
     walls = next((label.split(",")[0] for label in labels if "spar" in label or "box" in label), "")
     plies = next((label.rsplit(",", 1)[0] for label in labels if "±" in label), fitted.actuator.name)
     front, rear = fitted.placement.chord
     where = f" a side, {100 * front:.0f}–{100 * rear:.0f} % chord" if isinstance(fitted.actuator, PiezoPly) else ""
-    return f"SC1095 with {walls} and web; {plies}{where}. Walls and plies drawn thicker than they are."
+    shown = f" Segment {segment}." if len(fitted.shapes) > 1 else ""
+    return f"SC1095 with {walls} and web; {plies}{where}.{shown} Walls and plies drawn thicker than they are."

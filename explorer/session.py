@@ -73,6 +73,7 @@ class Session:
         self._scene = Scene(client.scene, rotor)
         self._camera = FittedCamera(client, rotor.radius)
         self._actuator.shown.on_update(self._cut_switched)
+        self._controls.reset_button.on_click(lambda _: self._actuator.rest())
         self._controls.view_buttons.on_click(self._view_clicked)
         self._controls.range_buttons.on_click(self._range_clicked)
         self._controls.check_button.on_click(self._check_clicked)
@@ -202,7 +203,7 @@ class Session:
             self._camera.aim("3d")
 
     def _view_clicked(self, event: viser.GuiEvent[Any]) -> None:
-        self._actuator.shown.value = False
+        self._actuator.leave_cut()
         self._camera.aim("3d" if event.target.value == "3D" else "top")
 
     def _check_clicked(self, event: viser.GuiEvent[Any]) -> None:
