@@ -30,6 +30,7 @@ SHEET = """<style>
 .rxa-table { font-size: 11.5px; }
 .rxa-table th { font-weight: 500; text-align: right; opacity: .7; padding: 0 0 2px; }
 .rxa-table th:first-child, .rxa-table td:first-child { text-align: left; }
+.rxa-table th + th, .rxa-table td + td { padding-left: 8px !important; }
 .rxa-table td { border-top: 1px solid rgba(128,128,128,.18); padding: 1.5px 0; }
 .rxa-chosen td { font-weight: 650; }
 .rxa-bars { display: grid; grid-template-columns: auto 1fr auto; gap: 2px 8px; align-items: center; font-size: 11.5px; }
@@ -78,9 +79,8 @@ def now_panel(inputs: ActuatorInputs, fitted: Fitted, change_w: float | None) ->
     if made is not None:
         half = math.degrees(made.amplitude)
         if half:
-            text = (
-                f"and ±{number(0.01 * inputs.amplitude * half, 2)}° at {inputs.per_rev}/rev (most ±{number(half, 2)}°)"
-            )
+            used = number(0.01 * inputs.amplitude * half, 2)
+            text = f"and ±{used}° of {number(half, 2)}° at {inputs.per_rev}/rev, seen in the cut blade only"
         else:
             text = f"cannot follow {inputs.per_rev}/rev"
         lines.append(f'<div class="rx-dim rx-small">{text}</div>')
