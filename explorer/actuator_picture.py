@@ -115,7 +115,7 @@ def _labels(
     window = cut.windows[0]
     tip = math.degrees(float(inputs.change(fitted, 1.0)))
     if round(tip, 2):
-        labels.append((f"tip {number(tip, 2, sign=True)}°, drawn × {inputs.magnified:g}", at(0.97, -0.44, -0.03)))
+        labels.append((f"tip {number(tip, 2, sign=True)}°, drawn × {inputs.magnified:g}", at(0.80, -0.50, -0.05)))
     labels.append(("spar web", at(0.5 * sum(window), -0.02, 0.13)))
     if isinstance(fitted.actuator, (PiezoPly, TorqueTube)):
         for k, (low, high) in enumerate(actuator_cut.spans_of(cut)):
