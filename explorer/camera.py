@@ -1,11 +1,13 @@
 """The camera of one client: fits the rotor into the canvas and follows its size until the user takes over."""
 
 import time
+from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 import viser
 
-from explorer.view import FIELD_OF_VIEW, View, fit
+from explorer.view import FIELD_OF_VIEW, Camera, View, fit
 
 _SETTLES = 1.5
 """While the page lays itself out [s], camera messages still tell of older positions."""
@@ -19,7 +21,7 @@ class FittedCamera:
     def __init__(self, client: viser.ClientHandle, radius: float) -> None:
         self._client = client
         self._radius = radius
-        self._view: View = "3d"
+        self._fit: Callable[[float], Camera] = partial(fit, "3d", radius)
         self._following = True
         self._put: tuple[np.ndarray, tuple[int, int], float] | None = None
         client.camera.fov = FIELD_OF_VIEW
@@ -28,9 +30,13 @@ class FittedCamera:
 
     def aim(self, view: View) -> None:
         """Show the rotor whole, and go on doing so when the canvas changes."""
+        self.aim_with(partial(fit, view, self._radius))
+
+    def aim_with(self, fitted: Callable[[float], Camera]) -> None:
+        """The same for any subject: `fitted` finds the camera for a canvas's width over height."""
         camera = self._client.camera
-        self._view, self._following = view, True
-        target = fit(view, self._radius, camera.aspect)
+        self._fit, self._following = fitted, True
+        target = fitted(camera.aspect)
         with self._client.atomic():
             camera.position = target.position
             camera.look_at = target.look_at
@@ -40,10 +46,10 @@ class FittedCamera:
         if not self._following:
             return
         if self._put is None:
-            self.aim(self._view)
+            self.aim_with(self._fit)
             return
         position, size, since = self._put
         if (camera.image_width, camera.image_height) != size:
-            self.aim(self._view)
+            self.aim_with(self._fit)
         elif time.monotonic() - since > _SETTLES and np.linalg.norm(camera.position - position) > _TAKEN:
             self._following = False

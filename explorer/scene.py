@@ -24,6 +24,7 @@ class Scene:
         api.set_up_direction("+z")
         api.configure_default_lights(cast_shadow=False)
         radius = rotor.radius
+        self._seen = True
         self._rotor = api.add_frame("/rotor", show_axes=False)
         hub, mast = meshes.hub(rotor), meshes.mast()
         self._solid(api, "/rotor/hub", hub, colours.HUB)
@@ -96,9 +97,15 @@ class Scene:
                 handle.visible = len(segments) > 0
                 if len(segments):
                     handle.points = (segments + np.array([0.0, 0.0, 0.05 * lift])).astype(np.float32)
-        self._flight.visible = picture.flight_label != ""
+        self._flight.visible = self._seen and picture.flight_label != ""
         if picture.flight_label:
             self._flight_label.text = picture.flight_label
+
+    def set_seen(self, seen: bool) -> None:
+        """Whether the rotor is in the scene, or makes room for something else."""
+        self._seen = seen
+        self._rotor.visible = seen
+        self._flight.visible = seen and self._flight_label.text != ""
 
     def fade(self, png: bytes) -> None:
         """Show that the picture is no longer the answer: a grey disk, no outlines."""

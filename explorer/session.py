@@ -1,13 +1,18 @@
 """One browser's explorer: its widgets, scene, charts and worker, wired along the straight path."""
 
 import logging
+import math
 from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
 import viser
 
 from explorer import plots, readout, solver, style
+from explorer.actuator_panel import ActuatorPanel
+from explorer.actuator_view import fit_cut
 from explorer.camera import FittedCamera
 from explorer.charts import Charts
 from explorer.controls import Controls
@@ -56,7 +61,7 @@ class Session:
         self._dark = dark
         self._worker = LatestWins(self._round, self._report, f"session-{client.client_id}")
 
-        rotor = uh60a_rotor(start.preset)
+        rotor = self._rotor = uh60a_rotor(start.preset)
         gui = client.gui
         self._theme()
         gui.set_panel_label("Rotor explorer")
@@ -74,6 +79,8 @@ class Session:
                 lambda design: self._schedule.legs(design),
             )
             self._optimise = OptimisePanel(gui, pool, hooks)
+        with tabs.add_tab("Map"):
+            self._map = MapPanel(gui, pool, hooks, self._optimise.wishes, self._optimise.optimum_of)
         with tabs.add_tab("Schedule"):
             self._schedule = SchedulePanel(gui, pool, hooks, self._optimise.wishes, self._send)
         gui.main_panel.dock_right()
@@ -87,16 +94,19 @@ class Session:
             self._charts = Charts(gui, *plots.blank())
         with panel.add_tab("Where to twist", viser.Icon.ARROWS_VERTICAL):
             self._sensitivity = SensitivityPanel(gui, Strip(client.scene), self._worker.wake)
-        with panel.add_tab("Map", viser.Icon.MAP_2):
-            self._map = MapPanel(gui, pool, hooks, self._optimise.wishes, self._optimise.optimum_of)
+        with panel.add_tab("Actuator", viser.Icon.BOLT):
+            self._actuator = ActuatorPanel(client, self._worker.wake, self._fly)
         panel.dock_left()
         panel.set_width(_CHART_WIDTH)
         self._camera = FittedCamera(client, rotor.radius)
+        self._actuator.shown.on_update(self._cut_switched)
+        self._controls.reset_button.on_click(lambda _: self._actuator.rest())
         self._controls.view_buttons.on_click(self._view_clicked)
         self._controls.range_buttons.on_click(self._range_clicked)
         self._controls.check_button.on_click(self._check_clicked)
 
     def start(self) -> None:
+        self._actuator.start()
         self._worker.start()
         self._worker.wake()
 
@@ -104,6 +114,7 @@ class Session:
         self._optimise.close()
         self._map.close()
         self._schedule.close()
+        self._actuator.stop()
         self._worker.stop()
 
     def _round(self, superseded: Callable[[], bool]) -> None:
@@ -114,15 +125,19 @@ class Session:
             self._dark = view.dark
             self._theme()
         try:
-            design = inputs.design()
+            plain = inputs.design()
+            actuator = self._actuator.inputs()
+            design = actuator.apply(plain)
         except ValueError as error:
             self._follow(None)
             self._latest = None
+            self._actuator.lose(str(error))
             self._lose(view, readout.status_panel(None, str(error)))
             return
-        preview = self._optimise.preview(design)
-        self._follow(design)
-        self._ghost_twist = None if preview is None else design.twist
+        # What a search shows is a blade at rest: a driven actuator goes first.
+        preview = self._optimise.preview(plain) if design == plain else None
+        self._follow(plain)
+        self._ghost_twist = None if preview is None else plain.twist
         design = preview or design
         if self._latest is None or self._latest.design != design:
             self._latest = solve(design, self._good)
@@ -131,6 +146,7 @@ class Session:
             return
         self._good = self._latest
         self._draw(self._good, view)
+        self._actuator.show(actuator, plain, self._good, math.radians(view.azimuth_deg))
         self._tell(self._good, self._baseline.solve(baseline_of(design)), view)
         self._compare(self._good)
         if not superseded():
@@ -224,7 +240,20 @@ class Session:
             dark_mode=self._dark, show_logo=False, show_share_button=False, brand_color=_BRAND
         )
 
+    def _fly(self, advance_ratio: float) -> None:
+        self._controls.set_inputs(replace(self._controls.inputs(), advance_ratio=advance_ratio))
+
+    def _cut_switched(self, event: viser.GuiEvent[Any]) -> None:
+        """One blade, cut open, in place of the rotor."""
+        cut = bool(event.target.value)
+        self._scene.set_seen(not cut)
+        if cut:
+            self._camera.aim_with(partial(fit_cut, self._rotor.radius))
+        else:
+            self._camera.aim("3d")
+
     def _view_clicked(self, event: viser.GuiEvent[Any]) -> None:
+        self._actuator.leave_cut()
         self._camera.aim("3d" if event.target.value == "3D" else "top")
 
     def _check_clicked(self, event: viser.GuiEvent[Any]) -> None:

@@ -190,8 +190,9 @@ def preset_inflow(preset: str) -> str:
 
 
 def baseline_of(design: Design) -> Design:
-    """The same flight and models with the preset's rotor and its baseline twist."""
-    return replace(design, twist=baseline_twist(design.preset), rotor=uh60a_rotor(design.preset))
+    """The same flight and models with the preset's rotor and its baseline twist, at rest."""
+    rotor = uh60a_rotor(design.preset)
+    return replace(design, twist=baseline_twist(design.preset), rotor=rotor, active_twist=None)
 
 
 def baseline_title(design: Design) -> str:

@@ -26,6 +26,8 @@ KNOW_VISER = {
     "sensitivity_panel.py",
     "charts.py",
     "viser_compat.py",
+    "actuator_panel.py",
+    "actuator_scene.py",
 }
 
 

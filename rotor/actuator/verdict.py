@@ -129,10 +129,12 @@ def judge(
     host: Host | None = None,
     *,
     derated: bool = False,
+    counted: float | None = None,
 ) -> Verdict:
     """Fit the actuator, find the best twist it can reach, carry it, and say whether it pays.
 
-    The placement's segments are the concept's. `derated` computes with the twist a tested blade would show.
+    The placement's segments are the concept's. `derated` computes with the twist a tested blade would show,
+    `counted` with a share of the nominal twist of one's own.
     Raises ValueError for a blade that cannot be built, RuntimeError where nothing trims; one sentence each.
     """
     host = host or Host()
@@ -140,7 +142,7 @@ def judge(
     rotor = pair.design.rotor
     divisions = () if isinstance(actuator, ExtensionTwist) else base.divisions
     fitted = fit(actuator, replace(placement, divisions=divisions), host, rotor)
-    share = fitted.derating if derated else 1.0
+    share = counted if counted is not None else fitted.derating if derated else 1.0
     reached = best_reach(pair, base.concept, fitted, derating=share, starts=[base.fixed.values])
     required = base.segment_changes(divisions)
     reference = base.fixed.power

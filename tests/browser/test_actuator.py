@@ -1,0 +1,115 @@
+"""The Actuator tab in a real browser: voltage twists the blades, another actuator gets another verdict."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from test_page import SMALL, Watched
+
+from explorer.app import App
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+pytestmark = pytest.mark.browser
+VERDICT = 60_000
+"""[ms]; four optima and their trims, beside a browser that draws in software."""
+
+
+@pytest.fixture(scope="module")
+def app() -> Iterator[App]:
+    app = App("127.0.0.1", 0)
+    yield app
+    app.stop()
+
+
+@pytest.fixture(scope="module")
+def shared(browser: "Browser", app: App) -> Iterator[Watched]:
+    context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
+    watched = Watched(context.new_page())
+    watched.open(app.address)
+    watched.page.get_by_role("tab", name="Actuator").click()
+    watched.page.wait_for_selector('[data-explorer="actuator-now"]')
+    yield watched
+    context.close()
+
+
+@pytest.fixture
+def watched(shared: Watched) -> Iterator[Watched]:
+    shared.page.get_by_role("button", name="Reset design").click()
+    shared.page.wait_for_function(
+        """() => document.querySelector('[data-explorer="actuator-now"]').innerText.includes('at rest')"""
+    )
+    shared.page.wait_for_timeout(300)
+    yield shared
+    assert shared.complaints == []
+
+
+def seen(watched: Watched, name: str) -> bool:
+    return watched.page.evaluate("name => window.__viserMutable.nodeRefFromName[name].visible", name)
+
+
+def test_voltage_twists_the_blades_and_moves_power(watched: Watched):
+    blade, now = watched.node("/rotor/blade_0"), watched.text("actuator-now")
+    watched.press("Voltage", "End")
+    changed = watched.until_changed(lambda: watched.text("actuator-now"), now)
+    watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)
+    assert re.search(r"\+\d\.\d\d°", changed)
+    assert re.search(r"[−+]\d+\.\d kW of power", changed)
+    watched.page.get_by_role("tab", name="Results").click()
+    watched.page.wait_for_selector('[data-explorer="change"]')
+    assert watched.text("change") != "0.0 %"
+    watched.page.get_by_role("tab", name="Actuator").click()
+
+
+def test_another_actuator_gets_another_verdict(watched: Watched):
+    watched.press("Derating", "ArrowLeft")
+    watched.page.wait_for_selector('[data-explorer="verdict"][data-kind="ready"]', timeout=VERDICT)
+    before = watched.text("verdict")
+    assert "Macro fibre composite P1" in before
+    watched.choose("Actuator", "AFC: d33 fibres")
+    watched.page.wait_for_function(
+        """() => document.querySelector('[data-explorer="verdict"][data-kind="ready"]')
+            ?.innerText.includes('Active fibre composite')""",
+        timeout=VERDICT,
+    )
+    assert "recalled" in watched.text("limits")
+    watched.choose("Actuator", "MFC P1: d33 fibres")
+
+
+def test_the_cut_takes_the_place_of_the_rotor_and_follows_the_voltage(watched: Watched):
+    switch = watched.page.get_by_label("Show blade cut").first
+    switch.click()
+    watched.until_changed(lambda: seen(watched, "/rotor"), True)
+    watched.page.wait_for_function("() => window.__viserSceneTree.getState()['/cut/part_0'] !== undefined")
+    skin, now = watched.node("/cut/part_0"), watched.text("actuator-now")
+    watched.press("Voltage", "End")
+    watched.until_changed(lambda: watched.text("actuator-now"), now)
+    watched.until_changed(lambda: watched.node("/cut/part_0"), skin)
+    watched.page.get_by_role("button", name="Top").click()
+    watched.until_changed(lambda: seen(watched, "/rotor"), False)
+    watched.until_changed(lambda: seen(watched, "/cut"), True)
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("size", [(1500, 940), (1280, 720)])
+def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any, size: tuple[int, int]):
+    """Not compared with anything: kept for people to look at."""
+    context = browser.new_context(viewport={"width": size[0], "height": size[1]}, color_scheme=scheme)
+    watched = Watched(context.new_page())
+    watched.open(app.address, query="")
+    watched.page.get_by_role("tab", name="Actuator").click()
+    watched.quiet()
+    watched.page.get_by_label("Show blade cut").first.click()
+    watched.type("Voltage", 60)
+    watched.page.wait_for_selector('[data-explorer="verdict"][data-kind="ready"]', timeout=VERDICT)
+    watched.page.mouse.move(size[0] / 2, size[1] / 2)
+    watched.page.wait_for_timeout(1500)
+    path = artefacts / f"actuator-{scheme}-{size[0]}x{size[1]}.png"
+    watched.page.screenshot(path=path)
+    assert path.stat().st_size > 50_000
+    assert not re.search(r"\b(NaN|nan|inf|undefined)\b", watched.page.inner_text("body"))
+    assert watched.complaints == []
+    context.close()
