@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import viser
 
-from explorer import plots, readout, solver, style
+from explorer import plots, readout, solver, style, trust_readout
 from explorer.actuator_panel import ActuatorPanel
 from explorer.actuator_view import fit_cut
 from explorer.camera import FittedCamera
@@ -86,16 +86,18 @@ class Session:
         gui.main_panel.dock_right()
         gui.main_panel.set_width(_CONTROL_WIDTH)
         panel = gui.add_panel()
-        with panel.add_tab("Results", viser.Icon.CHART_BAR):
+        with panel.add_tab("Results"):
             self._status = gui.add_html(readout.status_panel(None))
             self._power = gui.add_html("")
             self._trim = gui.add_html("")
             self._check = gui.add_html("")
             self._charts = Charts(gui, *plots.blank())
-        with panel.add_tab("Where to twist", viser.Icon.ARROWS_VERTICAL):
+        with panel.add_tab("Where to twist"):
             self._sensitivity = SensitivityPanel(gui, Strip(client.scene), self._worker.wake)
-        with panel.add_tab("Actuator", viser.Icon.BOLT):
+        with panel.add_tab("Actuator"):
             self._actuator = ActuatorPanel(client, self._worker.wake, self._fly)
+        with panel.add_tab("Trust"):
+            gui.add_html(trust_readout.trust_page())
         panel.dock_left()
         panel.set_width(_CHART_WIDTH)
         self._camera = FittedCamera(client, rotor.radius)

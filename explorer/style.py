@@ -58,4 +58,8 @@ SHEET = """<style>
 .rx-map { display: block; }
 .rx-map image { image-rendering: auto; }
 .rx-map-title { padding: 0 10px 0 36px; }
+.rx-trust h4 { margin: 11px 0 3px; font-size: 12.5px; line-height: 1.25; }
+.rx-trust-row { display: flex; justify-content: space-between; gap: 10px; padding: 2px 0;
+  border-top: 1px solid rgba(128,128,128,.18); }
+.rx-trust-row b { white-space: nowrap; font-weight: 600; }
 </style>"""

@@ -13,7 +13,7 @@ from rotor.blade import with_airfoils
 from rotor.concepts import Concept, find_concept, nearest
 from rotor.optimise import Band, Ended, Optimum, Search, optimise
 from rotor.reproduce.runs import VARIANTS, variant
-from rotor.twist import parse_twist
+from rotor.twist_spec import parse_twist
 
 BASELINE = "linear:-16"
 """The fixed blade of Table 4.1 (thesis §3.2: the UH-60A simplified)."""

@@ -1,0 +1,18 @@
+"""The trust tab's text: every row of the trust file, none of it echoed raw."""
+
+import re
+
+from explorer.trust_readout import trust_page
+from rotor.trust import KINDS, sensitivity_rows, trust_rows
+
+
+def test_every_row_and_kind_is_on_the_page():
+    html = trust_page()
+    assert html.count('class="rx-trust-row"') == len(trust_rows()) + len({row.change for row in sensitivity_rows()})
+    assert html.count("<h4>") == len(KINDS) + 1
+    assert "test_power.py::test_energy_identity" in html
+    assert "Indicative: against another model" in html
+
+
+def test_no_number_is_missing():
+    assert not re.search(r"\b(nan|inf)\b", trust_page(), re.IGNORECASE)
