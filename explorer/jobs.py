@@ -16,7 +16,7 @@ from typing import Any
 
 from explorer.job_process import Begin, Halt, Said, Task, serve
 
-PATIENCE = 0.2
+PATIENCE = 0.12
 """A process that has not answered a stop by then [s] is no longer waited for: the job ends with what was told."""
 GRACE = 3.0
 """A process that goes on for so long after a stop [s] is ended."""
@@ -251,7 +251,7 @@ class _Hand(threading.Thread):
             if asked is not None and now - asked > GRACE:
                 self._drop()
                 return
-            if not wait([pipe], 0.02):
+            if not wait([pipe], 0.01):
                 continue
             said: Said = pipe.recv()
             if said.number != job.number:

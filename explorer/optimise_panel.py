@@ -44,6 +44,7 @@ class OptimisePanel:
 
     def __init__(self, gui: viser.GuiApi, pool: Pool, hooks: Hooks) -> None:
         self._pool, self._hooks = pool, hooks
+        self._beginning = threading.Lock()
         self._job: Job | None = None
         self._run: SearchRun | None = None
         self._offered = False
@@ -122,17 +123,18 @@ class OptimisePanel:
 
     def begin(self) -> None:
         """Start a search for the design on the sliders, unless one is under way."""
-        if self._run is not None and self._run.under_way:
-            return
-        try:
-            design = self._hooks.inputs().design()
-            search = self.wishes().search(design, self._hooks.legs)
-        except ValueError as error:
-            self._problem = str(error)
-            self._hooks.wake()
-            return
-        self._problem, self._offered = "", True
-        run = self._run = SearchRun(search)
+        with self._beginning:  # Two quick presses come on two threads.
+            if self._run is not None and self._run.under_way:
+                return
+            try:
+                design = self._hooks.inputs().design()
+                search = self.wishes().search(design, self._hooks.legs)
+            except ValueError as error:
+                self._problem = str(error)
+                self._hooks.wake()
+                return
+            self._problem, self._offered = "", True
+            run = self._run = SearchRun(search)
         self._job = self._pool.submit(
             SearchTask(search, baseline_of(design)), lambda news: self._hear(run, news), TIME_LIMIT
         )

@@ -196,7 +196,7 @@ def legend(drawn: Map) -> str:
     return (
         '<div class="rx rx-small" data-explorer="map-legend">'
         f"<div>★ {number(power / 1e3, 1)} kW at {', '.join(best)}</div>"
-        f'<div class="rx-dim">White outline: within {100 * _BAND:g} %. Lines: {lines} % above.</div>'
+        f'<div class="rx-dim">Outline: {100 * _BAND:g} % above. Lines: {lines} %.</div>'
         f'<div class="rx-dim">{"Held: " + escape(", ".join(held)) + "." if held else ""}</div></div>'
     )
 

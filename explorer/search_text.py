@@ -66,9 +66,9 @@ def found(run: SearchRun) -> str:
         f"{number(best.power / 1e3, 1)} kW</span><span class='rx-dim'>{mean}, "
         f"{'best so far' if run.under_way else 'best found'}</span></div>"
     )
-    rows = [_saving("than the start", best.power, run.start_power)]
+    rows = [_saving("the start", best.power, run.start_power)]
     if run.baseline_power != run.start_power:
-        rows.append(_saving(f"than {baseline_title(run.search.design)}", best.power, run.baseline_power))
+        rows.append(_saving(f"{baseline_title(run.search.design)}", best.power, run.baseline_power))
     parts.append(f"<table>{''.join(rows)}</table>")
     return _block(parts)
 
@@ -98,7 +98,7 @@ def _saving(title: str, power: float, reference: float | None) -> str:
     percent = 100.0 * (power / reference - 1.0)
     kind = "" if abs(percent) < 0.005 else " rx-less" if less else " rx-more"
     return (
-        f'<tr><td class="rx-dim">{"less" if less else "more"} {escape(title)}</td>'
+        f'<tr><td class="rx-dim">{"below" if less else "above"} {escape(title)}</td>'
         f'<td class="rx-num">{number(abs(power - reference) / 1e3, 1)} kW</td>'
         f'<td class="rx-num{kind}" style="width:26%">{number(percent, 2, sign=True)} %</td></tr>'
     )

@@ -71,4 +71,4 @@ def explanation(plot: Plot) -> str:
 
 
 def _box(text: str) -> str:
-    return f'<div class="rx rx-dim rx-small rx-explain" data-explorer="sensitivity">{text}</div>'
+    return f'<div class="rx rx-dim rx-small rx-where" data-explorer="sensitivity">{text}</div>'

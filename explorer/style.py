@@ -48,7 +48,7 @@ SHEET = """<style>
   margin-right: 4px; border: 1.5px solid; outline: .5px solid rgba(128,128,128,.6); }
 .rx-concept { padding-bottom: 4px; }
 .rx-concept svg { display: block; margin: -2px 0 1px; }
-.rx-concept > div { min-height: 30px; }
+.rx-where { min-height: 50px; }
 .rx-found { padding-bottom: 5px; }
 .rx-found td { padding: 0 0 0 5px; }
 .rx-found td:first-child { padding-left: 0; }

@@ -178,7 +178,7 @@ class TestCharts:
 class TestWords:
     def test_the_optimum_is_told_with_its_band(self, run: SearchRun):
         words = search_text.found(run) + search_text.details(run) + search_text.standing(run)
-        for part in ("Inboard rate", "Outboard rate", "within 0.1 %", "less than the start", "Done"):
+        for part in ("Inboard rate", "Outboard rate", "within 0.1 %", "below the start", "Done"):
             assert part in words
         assert "nan" not in words.lower()
 
