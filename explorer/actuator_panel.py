@@ -47,6 +47,7 @@ class ActuatorPanel:
         self._rest = solver.Baseline()
         self._told: dict[str, str] = {}
         self._drawn: tuple[object, ...] | None = None
+        self._asked: Question | None = None
         self._titles = actuator_readout.actuator_titles()
         self._concepts = {name: find_concept(name).title for name in CONCEPTS}
         self._build(client.gui)
@@ -179,6 +180,7 @@ class ActuatorPanel:
         self._tell("now", self._now, actuator_readout.now_panel(inputs, fitted, change))
         self._tell("section", self._section, section_svg(fitted, voltage_shares(inputs, fitted, psi)))
         self._tell("bar", self._bar, actuator_readout.voltage_bar(fitted.actuator))
+        self._asked = question
         if question is not None:
             self._study.ask(question)
         self._judge(inputs, fitted, question, design.rotor.blade.root_cutout)
@@ -252,11 +254,11 @@ class ActuatorPanel:
         if which < 0:
             self._drive((0.0,) * MOST_SEGMENTS)
             return
-        verdict = self._study.findings.verdict
-        if verdict is None or not self._study.findings.question or verdict.fitted.actuator.id != self.inputs().actuator:
-            self._client.add_notification(
-                "No verdict yet", "Its voltages are still being computed.", auto_close_seconds=4
-            )
+        findings = self._study.findings
+        verdict = findings.verdict
+        if verdict is None or findings.question != self._asked:
+            self._changed()
+            self._client.add_notification("No verdict yet", "Its voltages are being computed.", auto_close_seconds=4)
             return
         self._set(verdict.fitted, verdict.reached.swings, verdict.voltages, which)
         self._fly(verdict.baseline.pair.advance_ratios[which])

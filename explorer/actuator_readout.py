@@ -80,7 +80,7 @@ def now_panel(inputs: ActuatorInputs, fitted: Fitted, change_w: float | None) ->
         half = math.degrees(made.amplitude)
         if half:
             used = number(0.01 * inputs.amplitude * half, 2)
-            text = f"and ±{used}° of {number(half, 2)}° at {inputs.per_rev}/rev, seen in the cut blade only"
+            text = f"and ±{used}° of {number(half, 2)}° at {inputs.per_rev}/rev, as the blades turn"
         else:
             text = f"cannot follow {inputs.per_rev}/rev"
         lines.append(f'<div class="rx-dim rx-small">{text}</div>')

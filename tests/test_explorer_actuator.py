@@ -2,6 +2,7 @@
 
 import math
 import re
+import threading
 from dataclasses import replace
 
 import numpy as np
@@ -21,7 +22,8 @@ from explorer.actuator_state import (
     swing_of,
 )
 from explorer.actuator_study import Findings, Study, answer
-from explorer.state import baseline_of
+from explorer.picture import make_picture
+from explorer.state import ViewState, baseline_of
 from explorer.view import FIELD_OF_VIEW
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.verdict import Verdict
@@ -50,6 +52,9 @@ def test_crossed_fibres_turn_the_other_way():
     fitted = ActuatorInputs().fitted(DESIGN.rotor)
     there = ActuatorInputs(drives=FULL).change(fitted, 1.0)
     assert_allclose(ActuatorInputs(drives=FULL, crossed=True).change(fitted, 1.0), -there)
+    tube = ActuatorInputs(actuator="SMA_tube", drives=FULL)
+    fitted = tube.fitted(DESIGN.rotor)  # Has no fibres to cross.
+    assert_allclose(replace(tube, crossed=True).change(fitted, 1.0), tube.change(fitted, 1.0))
 
 
 @pytest.mark.parametrize("id", ALL)
@@ -68,6 +73,16 @@ def test_a_new_twist_changes_power_and_a_harmonic_too():
     assert abs(steady - still) > 500.0
     assert turning.active_twist is not None
     assert abs(solve(turning).power.total - still) > 500.0
+
+
+def test_each_blade_is_drawn_with_the_twist_of_its_azimuth():
+    still, turning = (solve(i.apply(DESIGN)) for i in (ActuatorInputs(), ActuatorInputs(per_rev=1, amplitude=100.0)))
+    assert make_picture(still, ViewState(), (0.0, 10.0)).each_blade == ()
+    shapes = make_picture(turning, ViewState(), (0.0, 10.0)).each_blade
+    assert len(shapes) == DESIGN.rotor.blades
+    middle = 0.5 * (shapes[0] + shapes[2])  # Opposite blades at 1/rev move against each other.
+    assert_allclose(middle, make_picture(still, ViewState(), (0.0, 10.0)).blade_vertices, atol=1e-3)
+    assert np.abs(shapes[0] - shapes[2]).max() > 1e-3
 
 
 def test_the_baseline_has_no_actuator():
@@ -245,8 +260,6 @@ def test_the_chart_shows_need_and_reach(verdict: Verdict):
 def test_the_study_answers_the_newest_question():
     inputs = ActuatorInputs(actuator="extension_twist")
     first, last = question_of(inputs, DESIGN), question_of(replace(inputs, plies=3), DESIGN)
-    import threading
-
     found = threading.Event()
     study = Study(found.set, "study-test")
     study.start()
