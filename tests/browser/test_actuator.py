@@ -106,7 +106,7 @@ def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any,
     watched.type("Voltage", 60)
     watched.page.wait_for_selector('[data-explorer="verdict"][data-kind="ready"]', timeout=VERDICT)
     watched.page.mouse.move(size[0] / 2, size[1] / 2)
-    watched.page.wait_for_timeout(1500)
+    watched.page.wait_for_timeout(700)
     path = artefacts / f"actuator-{scheme}-{size[0]}x{size[1]}.png"
     watched.page.screenshot(path=path)
     assert path.stat().st_size > 50_000
