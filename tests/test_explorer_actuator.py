@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from explorer import actuator_cut, actuator_plots, actuator_readout, actuator_view
+from explorer import actuator_cut, actuator_plots, actuator_readout, actuator_table, actuator_view
 from explorer.actuator_picture import cut_picture, share_colour, voltage_shares
 from explorer.actuator_section import section_svg
 from explorer.actuator_state import (
@@ -218,7 +218,7 @@ def test_the_verdict_is_told_whole(verdict: Verdict):
     assert re.search(r"Required Δtwist</span><span class=\"rx-num\">\d", numbers)
     limits = actuator_readout.limits_panel(verdict)
     assert all(limit.name.replace("-", " ") in limits for limit in verdict.limits)
-    table = actuator_readout.table_panel(findings, question)
+    table = actuator_table.table_panel(findings, question)
     assert table.count("computing…") == len(ALL) - 1
     assert "▲" in table  # Recalled data are marked.
 
@@ -230,7 +230,7 @@ def test_an_old_verdict_is_not_shown_as_the_new_one(verdict: Verdict):
     panel = actuator_readout.verdict_panel(findings, other)
     assert 'data-kind="computing"' in panel
     assert "rx-faded" in panel
-    assert actuator_readout.table_panel(findings, other).count("computing…") == len(ALL)
+    assert actuator_table.table_panel(findings, other).count("computing…") == len(ALL)
 
 
 def test_derating_of_ones_own_counts(verdict: Verdict):

@@ -21,6 +21,7 @@ KNOW_VISER = {
     "controls.py",
     "charts.py",
     "viser_compat.py",
+    "actuator_controls.py",
     "actuator_panel.py",
     "actuator_scene.py",
 }
