@@ -7,6 +7,7 @@ import threading
 import viser
 
 from explorer import solver, viser_compat
+from explorer.jobs import Pool
 from explorer.session import Session
 from explorer.state import Inputs
 
@@ -26,11 +27,12 @@ class App:
         self._start = start or Inputs()
         self._sessions: dict[int, Session] = {}
         self._lock = threading.Lock()
+        self.pool = Pool()
         self.server = viser_compat.quiet_server(host, port, "Rotor explorer")
         viser_compat.remove_share_tunnel(self.server)
         self.server.on_client_connect(self._connected)
         self.server.on_client_disconnect(self._disconnected)
-        threading.Thread(target=_warm, name="warm-up", daemon=True).start()
+        threading.Thread(target=self._warm, name="warm-up", daemon=True).start()
 
     @property
     def address(self) -> str:
@@ -43,10 +45,11 @@ class App:
             sessions, self._sessions = list(self._sessions.values()), {}
         for session in sessions:
             session.stop()
+        self.pool.close()
         viser_compat.quiet_stop(self.server)
 
     def _connected(self, client: viser.ClientHandle) -> None:
-        session = Session(client, self._start, viser_compat.page_prefers_dark(client))
+        session = Session(client, self._start, viser_compat.page_prefers_dark(client), self.pool)
         with self._lock:
             self._sessions[client.client_id] = session
         session.start()
@@ -57,12 +60,12 @@ class App:
         if session is not None:
             session.stop()
 
-
-def _warm() -> None:
-    try:
-        solver.warm()
-    except Exception:  # The sessions will meet the same error and show it.
-        _log.exception("warming the solver failed")
+    def _warm(self) -> None:
+        try:
+            solver.warm()
+        except Exception:  # The sessions will meet the same error and show it.
+            _log.exception("warming the solver failed")
+        self.pool.warm()  # Only now: the first page does not compete with it.
 
 
 def _check_free(host: str, port: int) -> None:

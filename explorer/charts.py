@@ -13,14 +13,14 @@ _TICKS = uplot.Axis_Ticks(show=True, width=1, size=4)
 _FONT = "11px sans-serif"
 
 
-def _line(label: str, colour: str, width: float = 2.0, dash: tuple[float, ...] | None = None) -> uplot.Series:
+def line(label: str, colour: str, width: float = 2.0, dash: tuple[float, ...] | None = None) -> uplot.Series:
     series = uplot.Series(label=label, stroke=colour, width=width, points=uplot.Series_Points(show=False), pxAlign=0)
     if dash is not None:
         series["dash"] = dash
     return series
 
 
-def _points(label: str, colour: str, size: float) -> uplot.Series:
+def points(label: str, colour: str, size: float) -> uplot.Series:
     return uplot.Series(
         label=label, stroke=colour, width=0, points=uplot.Series_Points(show=True, size=size, fill=colour)
     )
@@ -38,6 +38,7 @@ class Chart:
         series: tuple[uplot.Series, ...],
         plot: Plot,
         x_range: Range,
+        height: int = _HEIGHT,
     ) -> None:
         gui.add_html(readout.heading(title, key))
         self._x_range = x_range
@@ -52,14 +53,15 @@ class Chart:
             ),
             legend=uplot.Legend(show=False),
             cursor=uplot.Cursor(points=uplot.Cursor_Points(show=False), drag=uplot.Cursor_Drag(x=False, y=False)),
-            height=_HEIGHT,
+            height=height,
             padding=(8, 14, 0, 0),
         )
 
     def show(self, plot: Plot) -> None:
-        if plot.y_range != self._y_range:
+        x_range = plot.x_range or self._x_range
+        if (plot.y_range, x_range) != (self._y_range, self._x_range):
             # A new scale rebuilds the chart in the page, so ranges are held as long as they serve.
-            self._y_range = plot.y_range
+            self._y_range, self._x_range = plot.y_range, x_range
             self._handle.scales = self._scales()
         self._handle.data = plot.data
 
@@ -76,31 +78,31 @@ class Charts:
 
     def __init__(self, gui: viser.GuiApi, power: Plot, twist: Plot, alpha: Plot, lift: Plot) -> None:
         both = (("this design", THIS), ("baseline", BASELINE))
-        pair = (_line("baseline", BASELINE, 1.5, (5, 3)), _line("this design", THIS))
+        pair = (line("baseline", BASELINE, 1.5, (5, 3)), line("this design", THIS))
         self.power = Chart(
             gui,
             "Power [kW] over µ",
             (*both, ("ideal", IDEAL)),
             "advance ratio µ",
             (
-                _line("ideal for this lift", IDEAL, 1.2, (2, 3)),
+                line("ideal for this lift", IDEAL, 1.2, (2, 3)),
                 *pair,
-                _points("baseline, hover", BASELINE, 6),
-                _points("this design, hover", THIS, 6),
-                _points("now", NOW, 8),
+                points("baseline, hover", BASELINE, 6),
+                points("this design, hover", THIS, 6),
+                points("now", NOW, 8),
             ),
             power,
             (-0.012, 0.462),
         )
         self.twist = Chart(gui, "Twist [°] over r/R", both, "radius r/R", pair, twist, (0.1, 1.02))
         blade = (("marked blade", NOW), ("stall", LIMIT))
-        stall = _line("stall", LIMIT, 1.5, (5, 3))
+        stall = line("stall", LIMIT, 1.5, (5, 3))
         self.alpha = Chart(
             gui,
             "Angle of attack [°] over r/R",
             blade,
             "radius r/R",
-            (stall, stall, _line("marked blade", NOW)),
+            (stall, stall, line("marked blade", NOW)),
             alpha,
             (0.1, 1.02),
         )
@@ -109,7 +111,7 @@ class Charts:
             "Lift coefficient over r/R",
             (("marked blade", NOW),),
             "radius r/R",
-            (_line("marked blade", NOW),),
+            (line("marked blade", NOW),),
             lift,
             (0.1, 1.02),
         )

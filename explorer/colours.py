@@ -39,6 +39,8 @@ PARTS = {"induced": "#3b82c4", "profile": "#e6a117", "parasite": "#8d949c", "tai
 MARKED_BLADE: Rgb = (130, 20, 8)
 """Dark albedos: the page's lights bleach, and this one shows as a clear orange-red."""
 BLADE: Rgb = (40, 43, 50)
+GHOST: Rgb = (250, 250, 255)
+"""The blade a search began from."""
 HUB: Rgb = (30, 32, 37)
 RIM: Rgb = (112, 118, 128)
 """A grey that reads on white and on near-black."""

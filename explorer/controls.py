@@ -1,7 +1,7 @@
 """The control panel: widgets ↔ `Inputs` and `ViewState`. Callbacks only say that something changed."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 import viser
@@ -9,7 +9,7 @@ import viser
 from explorer import readout
 from explorer.colour_bar import colour_bar, outline_legend
 from explorer.fields import FIELDS
-from explorer.state import INPUT_NAMES, LAWS, PRESET_TITLES, Inputs, ViewState, preset_inflow
+from explorer.state import INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs, ViewState, preset_inflow
 from rotor.inflow import INFLOW_MODELS
 from rotor.presets import make_design
 
@@ -35,15 +35,15 @@ class Slider:
 _RATE = "Slope of the twist in degrees per radius; negative: the outer end is nose-down."
 _DIVISION = "Where two segments meet, as a fraction of the radius."
 SLIDERS: dict[str, Slider] = {
-    "linear": Slider("Rate [°/R]", -24.0, 5.0, 0.1, _RATE),
-    "quadratic_curvature": Slider("Curve [°/R²]", -30.0, 30.0, 0.5, "Second-order coefficient; 0 is the linear law."),
-    "quadratic_difference": Slider("Tip−root [°]", -24.0, 5.0, 0.1, "Twist at the tip minus twist at the centre."),
-    "two_inner": Slider("Inner [°/R]", -24.0, 5.0, 0.1, _RATE),
-    "two_outer": Slider("Outer [°/R]", -24.0, 5.0, 0.1, _RATE),
+    "linear": Slider("Rate [°/R]", -30.0, 10.0, 0.1, _RATE),
+    "quadratic_curvature": Slider("Curve [°/R²]", -40.0, 40.0, 0.5, "Second-order coefficient; 0 is the linear law."),
+    "quadratic_difference": Slider("Tip−root [°]", -30.0, 10.0, 0.1, "Twist at the tip minus twist at the centre."),
+    "two_inner": Slider("Inner [°/R]", -30.0, 10.0, 0.1, _RATE),
+    "two_outer": Slider("Outer [°/R]", -30.0, 10.0, 0.1, _RATE),
     "two_division": Slider("Division [R]", 0.2, 0.95, 0.01, _DIVISION),
-    "three_inner": Slider("Inner [°/R]", -24.0, 5.0, 0.1, _RATE),
-    "three_middle": Slider("Middle [°/R]", -24.0, 5.0, 0.1, _RATE),
-    "three_outer": Slider("Outer [°/R]", -24.0, 5.0, 0.1, _RATE),
+    "three_inner": Slider("Inner [°/R]", -30.0, 10.0, 0.1, _RATE),
+    "three_middle": Slider("Middle [°/R]", -30.0, 10.0, 0.1, _RATE),
+    "three_outer": Slider("Outer [°/R]", -30.0, 10.0, 0.1, _RATE),
     "three_first": Slider("Division 1 [R]", 0.2, 0.95, 0.01, _DIVISION),
     "three_second": Slider("Division 2 [R]", 0.2, 0.95, 0.01, _DIVISION),
     "advance_ratio": Slider("Adv. ratio µ", 0.0, 0.45, 0.005, "Airspeed over tip speed; 0 is hover."),
@@ -62,13 +62,14 @@ class Controls:
         self._start = start
         self._changed = changed
         self._inputs: dict[str, Handle] = {}
-        self._laws = {key: law.title for key, law in LAWS.items() if key != "given" or start.given is not None}
+        self._special = start
+        """Holds what the laws mean that are not always there."""
+        self._laws = _laws_of(start)
         self._inflows = {name: model.title for name, model in INFLOW_MODELS.items()}
         self.view_buttons = gui.add_button_group("View", ("3D", "Top"), hint="Fit the rotor into the window.")
         with gui.add_folder("Twist"):
-            self._inputs["law"] = self._watched(
-                gui.add_dropdown("Law", tuple(self._laws.values()), initial_value=self._laws[start.law])
-            )
+            self._law = gui.add_dropdown("Law", tuple(self._laws.values()), initial_value=self._laws[start.law])
+            self._inputs["law"] = self._watched(self._law)
             self._sliders(gui, tuple(name for law in LAWS.values() for name in law.inputs))
         with gui.add_folder("Flight"):
             self._sliders(gui, ("advance_ratio",))
@@ -123,7 +124,8 @@ class Controls:
         values["law"] = _key(self._laws, values["law"])
         values["preset"] = _key(PRESET_TITLES, values["preset"])
         values["inflow"] = _key(self._inflows, values["inflow"])
-        return Inputs(**values, given=self._start.given)
+        special = self._special
+        return Inputs(**values, given=special.given, found=special.found, found_airfoils=special.found_airfoils)
 
     def view(self) -> ViewState:
         return ViewState(
@@ -136,9 +138,13 @@ class Controls:
 
     def set_inputs(self, inputs: Inputs) -> None:
         """Move the widgets; the page follows as if they had been dragged."""
+        if inputs.found is not None:
+            self._special = replace(self._special, found=inputs.found, found_airfoils=inputs.found_airfoils)
+            self._laws = _laws_of(self._special)
+            self._law.options = tuple(self._laws.values())
         titles = {"law": self._laws, "preset": PRESET_TITLES, "inflow": self._inflows}
         for name in INPUT_NAMES:
-            if name != "given":
+            if name in self._inputs:
                 value = getattr(inputs, name)
                 self._inputs[name].value = titles[name][value] if name in titles else value
         self._changed()
@@ -177,6 +183,11 @@ class Controls:
     def _infinite_changed(self, event: viser.GuiEvent[Any]) -> None:
         if event.client is not None:  # Not when the menu moved it.
             self._inputs["inflow"].value = self._inflows[INFINITE if event.target.value else FOUR]
+
+
+def _laws_of(inputs: Inputs) -> dict[str, str]:
+    """The menu of laws: those that are not always there only where `inputs` hold them."""
+    return {key: law.title for key, law in LAWS.items() if key not in NOT_ALWAYS or getattr(inputs, key) is not None}
 
 
 def _key(titles: dict[str, str], title: str) -> str:

@@ -85,6 +85,19 @@ def blade_vertices(shape: BladeShape, twist: TwistLaw, exaggeration: float = 1.0
     return np.concatenate([rings.reshape(-1, 3), *ends])
 
 
+def ghost_segments(rotor: Rotor, twist: TwistLaw, exaggeration: float = 1.0) -> Array:
+    """A twisted blade as lines: a few sections, and edges and back from root to tip; shape (n, 2, 3)."""
+    shape = blade_shape(rotor)
+    count = len(shape.r)
+    rings = blade_vertices(shape, twist, exaggeration)[: count * _RING].reshape(count, _RING, 3)
+    sections = np.unique(np.linspace(6, count - 1, 12).astype(int))
+    around = np.stack((rings[sections], np.roll(rings[sections], -1, axis=1)), axis=2)
+    nose = _RING // 2
+    along = rings[6:, [0, nose // 2, nose, nose + nose // 2]]
+    lengthwise = np.stack((along[:-1], along[1:]), axis=2)
+    return np.concatenate((around.reshape(-1, 2, 3), lengthwise.reshape(-1, 2, 3)))
+
+
 def _loft_faces(rings: int, points: int) -> Faces:
     start = np.arange(rings - 1)[:, None] * points + np.arange(points)[None, :]
     following = np.arange(rings - 1)[:, None] * points + (np.arange(points)[None, :] + 1) % points

@@ -26,6 +26,8 @@ class Plot:
     data: tuple[Array, ...]
     """Abscissa, then one array per series, all of one length."""
     y_range: Range
+    x_range: Range | None = None
+    """None: as the chart was made."""
 
 
 @dataclass(frozen=True, eq=False)

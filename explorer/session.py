@@ -17,14 +17,22 @@ from explorer.camera import FittedCamera
 from explorer.charts import Charts
 from explorer.controls import Controls
 from explorer.fields import FIELDS, fitted_range
+from explorer.jobs import Pool
+from explorer.map_panel import MapPanel
+from explorer.optimise_panel import Hooks, OptimisePanel
+from explorer.overlays import Ghost, Strip
 from explorer.picture import disk_png, field_values, make_picture
 from explorer.power_curve import PowerCurves
 from explorer.scene import Scene
+from explorer.schedule_panel import SchedulePanel
+from explorer.sensitivity_panel import SensitivityPanel
 from explorer.state import Inputs, ViewState, baseline_of
 from explorer.worker import LatestWins
+from rotor.design import Design
 from rotor.presets import uh60a_rotor
 from rotor.solution import Solution
 from rotor.solve import solve
+from rotor.twist import TwistLaw
 
 _log = logging.getLogger(__name__)
 _CHART_WIDTH, _CONTROL_WIDTH = 340, 320
@@ -35,14 +43,16 @@ _BRAND = (28, 126, 214)
 class Session:
     """Lives from connect to disconnect. After construction everything happens on the worker's thread."""
 
-    def __init__(self, client: viser.ClientHandle, start: Inputs, dark: bool) -> None:
+    def __init__(self, client: viser.ClientHandle, start: Inputs, dark: bool, pool: Pool) -> None:
         self._client = client
         self._latest: Solution | None = None
         self._good: Solution | None = None
         """The last converged answer: what the picture shows."""
-        self._drawn: tuple[Solution, ViewState, tuple[float, float]] | None = None
+        self._drawn: tuple[Solution, ViewState, tuple[float, float], TwistLaw | None] | None = None
         self._ranges = {title: (field.low, field.high) for title, field in FIELDS.items()}
         self._range_order: str | None = None
+        self._ghost_twist: TwistLaw | None = None
+        """Of the blade a search began from, while its designs are shown."""
         self._baseline = solver.Baseline()
         self._checked: Solution | None = None
         """The last check with the vortex wake."""
@@ -56,7 +66,23 @@ class Session:
         self._theme()
         gui.set_panel_label("Rotor explorer")
         gui.add_html(style.SHEET)
-        self._controls = Controls(gui, start, self._worker.wake, dark)
+        self._scene = Scene(client.scene, rotor)
+        self._ghost = Ghost(client.scene, rotor)
+        tabs = gui.add_tab_group()
+        with tabs.add_tab("Design"):
+            self._controls = Controls(gui, start, self._worker.wake, dark)
+        with tabs.add_tab("Optimise"):
+            hooks = Hooks(
+                self._controls.inputs,
+                self._controls.set_inputs,
+                self._worker.wake,
+                lambda design: self._schedule.legs(design),
+            )
+            self._optimise = OptimisePanel(gui, pool, hooks)
+        with tabs.add_tab("Map"):
+            self._map = MapPanel(gui, pool, hooks, self._optimise.wishes, self._optimise.optimum_of)
+        with tabs.add_tab("Schedule"):
+            self._schedule = SchedulePanel(gui, pool, hooks, self._optimise.wishes, self._send)
         gui.main_panel.dock_right()
         gui.main_panel.set_width(_CONTROL_WIDTH)
         panel = gui.add_panel()
@@ -66,11 +92,12 @@ class Session:
             self._trim = gui.add_html("")
             self._check = gui.add_html("")
             self._charts = Charts(gui, *plots.blank())
+        with panel.add_tab("Where to twist", viser.Icon.ARROWS_VERTICAL):
+            self._sensitivity = SensitivityPanel(gui, Strip(client.scene), self._worker.wake)
         with panel.add_tab("Actuator", viser.Icon.BOLT):
             self._actuator = ActuatorPanel(client, self._worker.wake, self._fly)
         panel.dock_left()
         panel.set_width(_CHART_WIDTH)
-        self._scene = Scene(client.scene, rotor)
         self._camera = FittedCamera(client, rotor.radius)
         self._actuator.shown.on_update(self._cut_switched)
         self._controls.reset_button.on_click(lambda _: self._actuator.rest())
@@ -84,6 +111,9 @@ class Session:
         self._worker.wake()
 
     def stop(self) -> None:
+        self._optimise.close()
+        self._map.close()
+        self._schedule.close()
         self._actuator.stop()
         self._worker.stop()
 
@@ -99,10 +129,16 @@ class Session:
             actuator = self._actuator.inputs()
             design = actuator.apply(plain)
         except ValueError as error:
+            self._follow(None)
             self._latest = None
             self._actuator.lose(str(error))
             self._lose(view, readout.status_panel(None, str(error)))
             return
+        # What a search shows is a blade at rest: a driven actuator goes first.
+        preview = self._optimise.preview(plain) if design == plain else None
+        self._follow(plain)
+        self._ghost_twist = None if preview is None else plain.twist
+        design = preview or design
         if self._latest is None or self._latest.design != design:
             self._latest = solve(design, self._good)
         if not self._latest.converged:
@@ -114,19 +150,29 @@ class Session:
         self._actuator.show(actuator, plain, self._good, math.radians(view.azimuth_deg))
         self._tell(self._good, self._baseline.solve(baseline_of(design)), view)
         self._compare(self._good)
+        if not superseded():
+            self._sensitivity.show(self._good, view.exaggeration)
         if self._curves.sweep(design, superseded):
             self._plot_power(self._good)
 
+    def _follow(self, design: Design | None) -> None:
+        """Bring the tabs that start long work into line with the design on the sliders."""
+        self._optimise.refresh(design)
+        self._map.refresh(design)
+        self._schedule.refresh()
+
     def _draw(self, solution: Solution, view: ViewState) -> None:
         colour_range = self._range(solution, view)
-        if self._drawn is not None and self._drawn[0] is solution and self._drawn[1:] == (view, colour_range):
+        wanted = (view, colour_range, self._ghost_twist)
+        if self._drawn is not None and self._drawn[0] is solution and self._drawn[1:] == wanted:
             return
         picture = make_picture(solution, view, colour_range)
         with self._client.atomic():
             self._scene.show(picture)
+            self._ghost.show(uh60a_rotor(solution.design.preset), self._ghost_twist, view.exaggeration)
         self._client.flush()  # The frame goes out now; read-outs and charts follow while it is drawn.
         self._controls.show_range(view.field, colour_range, faded=False)
-        self._drawn = (solution, view, colour_range)
+        self._drawn = (solution, *wanted)
 
     def _tell(self, solution: Solution, baseline: Solution, view: ViewState) -> None:
         self._status.content = readout.status_panel(solution)
@@ -161,6 +207,7 @@ class Session:
         """Keep the last good answer, but grey, with the sentence in red."""
         self._status.content = status
         self._drawn = None
+        self._sensitivity.lose()
         if self._good is None:
             return
         colour_range = self._range(self._good, view)
@@ -185,6 +232,9 @@ class Session:
     def _report(self, error: Exception) -> None:
         _log.error("an update failed", exc_info=error)
         self._status.content = readout.status_panel(None, f"This update failed ({error}): move any slider to go on.")
+
+    def _send(self, name: str, content: bytes) -> None:
+        self._client.send_file_download(name, content, save_immediately=True)
 
     def _theme(self) -> None:
         self._client.gui.configure_theme(

@@ -5,8 +5,16 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from itertools import pairwise
 
+from rotor.blade import airfoils_spec
 from rotor.design import Design
-from rotor.presets import FLIGHT_MODELS, THESIS_MODELS, baseline_twist, make_design
+from rotor.presets import (
+    FLIGHT_MODELS,
+    THESIS_MODELS,
+    baseline_twist,
+    change_airfoils,
+    make_design,
+    uh60a_rotor,
+)
 from rotor.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, QuadraticTwist, TwistLaw
 
 KNOT = 1852.0 / 3600.0
@@ -39,6 +47,10 @@ class Inputs:
     losses: bool = True
     given: TwistLaw | None = None
     """A twist from a design file that none of the laws holds."""
+    found: TwistLaw | None = None
+    """A twist from the optimiser that none of the laws holds."""
+    found_airfoils: str = ""
+    """SPEC of the airfoils that go with it; empty: the preset's."""
 
     def twist(self) -> TwistLaw | str:
         """The law on the sliders, or the SPEC of one that the rotor supplies."""
@@ -47,7 +59,7 @@ class Inputs:
     def design(self) -> Design:
         """The design these inputs mean; ValueError with one sentence for inputs that mean none."""
         models = FLIGHT_MODELS if self.preset == "flight" else THESIS_MODELS
-        return make_design(
+        design = make_design(
             self.preset,
             twist=self.twist(),
             advance_ratio=self.advance_ratio,
@@ -55,6 +67,9 @@ class Inputs:
             altitude=self.altitude_m,
             models=replace(models, inflow=self.inflow, tip_loss=self.losses, hub_loss=self.losses),
         )
+        if self.law == "found" and self.found_airfoils:
+            design = replace(design, rotor=change_airfoils(design.rotor, self.found_airfoils))
+        return design
 
     @property
     def speed_kt(self) -> float:
@@ -103,7 +118,10 @@ LAWS: dict[str, Law] = {
     ),
     "ideal": Law("Ideal (θtip/r)", (), lambda i: "ideal"),
     "given": Law("From the design file", (), _given),
+    "found": Law("From the optimiser", (), lambda i: i.found or baseline_twist(i.preset)),
 }
+NOT_ALWAYS = ("given", "found")
+"""Laws that are in the menu only when the field of `Inputs` of the same name holds what they mean."""
 
 
 @dataclass(frozen=True)
@@ -130,25 +148,40 @@ def inputs_of(design: Design) -> Inputs:
         losses=design.models.tip_loss or design.models.hub_loss,
     )
     twist = design.twist
+    if twist == design.rotor.builtin_twist:
+        return replace(start, law="uh60a")
+    return _with_law(start, twist) or replace(start, law="given", given=twist)
+
+
+def with_optimum(inputs: Inputs, design: Design) -> Inputs:
+    """The same inputs with the blade of an optimum: on the sliders of a law where one holds it."""
+    if design.rotor == uh60a_rotor(inputs.preset):
+        held = _with_law(inputs, design.twist)
+        if held is not None:
+            return held
+    airfoils = airfoils_spec(design.rotor) if design.rotor != uh60a_rotor(inputs.preset) else None
+    return replace(inputs, law="found", found=design.twist, found_airfoils=airfoils or "")
+
+
+def _with_law(inputs: Inputs, twist: TwistLaw) -> Inputs | None:
+    """The inputs moved to the law that holds `twist`; None where none does."""
     match twist:
         case LinearTwist(rate):
-            return replace(start, law="linear", linear=_degrees(rate))
+            return replace(inputs, law="linear", linear=_degrees(rate))
         case QuadraticTwist(curvature, difference):
             values = {"quadratic_curvature": _degrees(curvature), "quadratic_difference": _degrees(difference)}
-            return replace(start, law="quadratic", **values)
+            return replace(inputs, law="quadratic", **values)
         case PiecewiseLinearTwist((inner, outer), (division,)):
             return replace(
-                start, law="two", two_inner=_degrees(inner), two_outer=_degrees(outer), two_division=division
+                inputs, law="two", two_inner=_degrees(inner), two_outer=_degrees(outer), two_division=division
             )
         case PiecewiseLinearTwist((inner, middle, outer), (first, second)):
             rates = {"three_inner": _degrees(inner), "three_middle": _degrees(middle), "three_outer": _degrees(outer)}
-            return replace(start, law="three", three_first=first, three_second=second, **rates)
+            return replace(inputs, law="three", three_first=first, three_second=second, **rates)
         case IdealTwist():
-            return replace(start, law="ideal")
-        case _ if twist == design.rotor.builtin_twist:
-            return replace(start, law="uh60a")
+            return replace(inputs, law="ideal")
         case _:
-            return replace(start, law="given", given=twist)
+            return None
 
 
 def preset_inflow(preset: str) -> str:
@@ -157,8 +190,9 @@ def preset_inflow(preset: str) -> str:
 
 
 def baseline_of(design: Design) -> Design:
-    """The same rotor, flight and models with the preset's baseline twist."""
-    return replace(design, twist=baseline_twist(design.preset), active_twist=None)
+    """The same flight and models with the preset's rotor and its baseline twist, at rest."""
+    rotor = uh60a_rotor(design.preset)
+    return replace(design, twist=baseline_twist(design.preset), rotor=rotor, active_twist=None)
 
 
 def baseline_title(design: Design) -> str:

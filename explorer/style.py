@@ -46,4 +46,16 @@ SHEET = """<style>
 .rx-legend { height: 40px; font-size: 12px; }
 .rx-outline { display: inline-block; box-sizing: content-box; width: 14px; height: 2px; vertical-align: middle;
   margin-right: 4px; border: 1.5px solid; outline: .5px solid rgba(128,128,128,.6); }
+.rx-concept { padding-bottom: 4px; }
+.rx-concept svg { display: block; margin: -2px 0 1px; }
+.rx-concept > div { min-height: 30px; }
+.rx-found { padding-bottom: 5px; }
+.rx-found td { padding: 0 0 0 5px; }
+.rx-found td:first-child { padding-left: 0; }
+.rx-best { font-size: 21px; font-weight: 650; letter-spacing: -0.4px; margin-right: 7px; }
+.rx-broken { color: #c92a2a; }
+[data-mantine-color-scheme=dark] .rx-broken { color: #ff8787; }
+.rx-map { display: block; }
+.rx-map image { image-rendering: auto; }
+.rx-map-title { padding: 0 10px 0 36px; }
 </style>"""

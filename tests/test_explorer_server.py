@@ -21,7 +21,8 @@ from explorer.app import App, PortBusy
 from explorer.controls import SLIDERS, Controls
 from explorer.picture import make_picture
 from explorer.scene import Scene
-from explorer.state import LAWS, Inputs, ViewState
+from explorer.state import LAWS, NOT_ALWAYS, Inputs, ViewState, with_optimum
+from rotor.concepts import CONCEPTS
 from rotor.presets import make_design, uh60a_rotor
 from rotor.solve import solve
 
@@ -128,11 +129,30 @@ class TestControls:
         assert controls.inputs() == Inputs()
         assert controls.view() == ViewState()
 
-    @pytest.mark.parametrize("law", [law for law in LAWS if law != "given"])
+    @pytest.mark.parametrize("law", [law for law in LAWS if law not in NOT_ALWAYS])
     def test_inputs_go_through_the_widgets_unchanged(self, controls: Controls, law: str):
         wanted = Inputs(law=law, advance_ratio=0.31, mass_t=9.1, altitude_m=1500.0, linear=-7.5, losses=False)
         controls.set_inputs(wanted)
         assert controls.inputs() == wanted
+
+    def test_an_optimum_that_no_law_holds_joins_the_menu(self, controls: Controls):
+        design = CONCEPTS["free-form"].apply(make_design(), [0.2, 0.1, 0.05, 0.03, -0.03, -0.06])
+        wanted = with_optimum(Inputs(mass_t=9.0), design)
+        controls.set_inputs(wanted)
+        assert controls.inputs() == wanted
+        assert controls.inputs().design().twist == design.twist
+        controls.set_inputs(Inputs())
+        assert controls.inputs().design() == Inputs().design()
+
+    @pytest.mark.parametrize("name", CONCEPTS)
+    def test_an_optimum_on_the_sliders_means_the_same_blade(self, name: str):
+        concept = CONCEPTS[name]
+        middle = [0.6 * p.low + 0.4 * p.high for p in concept.parameters]
+        design = concept.apply(make_design(), middle)
+        applied = with_optimum(Inputs(), design).design()
+        assert applied.rotor == design.rotor
+        r = np.linspace(0.13, 1.0, 50)
+        np.testing.assert_allclose(applied.twist(r), design.twist(r), atol=2e-6)
 
     def test_only_the_sliders_of_the_law_show(self, controls: Controls):
         controls.refresh(Inputs(law="two"))

@@ -1,0 +1,275 @@
+"""Long work in warm processes: a queue with honest positions, a stop that answers, and recovery from a process lost.
+
+A pool keeps one warm process from the start and adds others, up to its size, when work has to wait. Each has a thread
+that feeds it, so a process that dies or hangs costs its own job and nothing else.
+"""
+
+import itertools
+import threading
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass
+from multiprocessing import get_context
+from multiprocessing.connection import Connection, wait
+from typing import Any
+
+from explorer.job_process import Begin, Halt, Said, Task, serve
+
+PATIENCE = 0.2
+"""A process that has not answered a stop by then [s] is no longer waited for: the job ends with what was told."""
+GRACE = 3.0
+"""A process that goes on for so long after a stop [s] is ended."""
+_START = 60.0
+"""[s] a new process may take to import and compile."""
+
+
+@dataclass(frozen=True)
+class Waiting:
+    """In the queue, behind so many others that wait."""
+
+    ahead: int
+
+
+@dataclass(frozen=True)
+class Started:
+    """A process has it."""
+
+
+@dataclass(frozen=True)
+class Told:
+    """Something found on the way."""
+
+    item: Any
+
+
+@dataclass(frozen=True)
+class Ended:
+    """The end: the task's result, or None where it was stopped before it had one."""
+
+    result: Any
+    stopped: bool = False
+    late: bool = False
+    """Stopped by the time limit."""
+
+
+@dataclass(frozen=True)
+class Broken:
+    """The end without a result, with a sentence for the page."""
+
+    message: str
+
+
+News = Waiting | Started | Told | Ended | Broken
+
+
+class Job:
+    """One task on its way through the pool."""
+
+    def __init__(self, number: int, task: Task, hear: Callable[[News], None], limit: float, urgency: int) -> None:
+        self.number, self.task, self.limit, self.urgency = number, task, limit, urgency
+        self.stopping = threading.Event()
+        self._hear = hear
+        self._lock = threading.Lock()
+        self._over = False
+
+    @property
+    def over(self) -> bool:
+        return self._over
+
+    def tell(self, news: News) -> None:
+        """Pass news on; nothing follows the end."""
+        with self._lock:
+            if self._over:
+                return
+            self._over = isinstance(news, (Ended, Broken))
+            self._hear(news)
+
+    def silence(self) -> None:
+        """Nobody listens any more."""
+        with self._lock:
+            self._over = True
+
+
+class Pool:
+    """Processes shared by all sessions."""
+
+    def __init__(self, processes: int = 2) -> None:
+        self._numbers = itertools.count(1)
+        self._queue: list[Job] = []
+        self._change = threading.Condition()
+        self._hands: list[_Hand] = []
+        self._processes = processes
+        self._closed = False
+
+    def warm(self) -> None:
+        """Start the first process before anybody asks."""
+        with self._change:
+            if not self._hands and not self._closed:
+                self._add_hand()
+
+    def submit(self, task: Task, hear: Callable[[News], None], limit: float = 60.0, urgency: int = 0) -> Job:
+        """Queue a task; `hear` is called from threads of the pool and must be quick. Less `urgency` goes first."""
+        with self._change:
+            job = Job(next(self._numbers), task, hear, limit, urgency)
+            if self._closed:
+                job.tell(Broken("The page is closing."))
+                return job
+            self._queue.append(job)
+            self._queue.sort(key=lambda one: (one.urgency, one.number))
+            idle = sum(hand.idle for hand in self._hands)
+            if idle < len(self._queue) and len(self._hands) < self._processes:
+                self._add_hand()
+            self._change.notify_all()
+        self._tell_positions()
+        return job
+
+    def stop(self, job: Job, quiet: bool = False) -> None:
+        """Stop a job, waiting or running; `quiet`: nobody listens any more."""
+        if quiet:
+            job.silence()
+        job.stopping.set()
+        with self._change:
+            waiting = job in self._queue
+            if waiting:
+                self._queue.remove(job)
+        if waiting:
+            job.tell(Ended(None, stopped=True))
+            self._tell_positions()
+
+    def close(self) -> None:
+        """End all processes."""
+        with self._change:
+            self._closed = True
+            hands, queue = list(self._hands), list(self._queue)
+            self._queue.clear()
+            self._change.notify_all()
+        for job in queue:
+            job.silence()
+        for hand in hands:
+            hand.close()
+
+    @property
+    def pids(self) -> tuple[int, ...]:
+        """Process ids of the processes that live."""
+        return tuple(pid for hand in self._hands if (pid := hand.pid) is not None)
+
+    def next(self) -> Job | None:
+        """The job whose turn it is; waits for one. None: the pool closes."""
+        with self._change:
+            while not self._queue and not self._closed:
+                self._change.wait()
+            if self._closed:
+                return None
+            job = self._queue.pop(0)
+        self._tell_positions()
+        return job
+
+    def _add_hand(self) -> None:
+        hand = _Hand(self, f"jobs-{len(self._hands)}")
+        self._hands.append(hand)
+        hand.start()
+
+    def _tell_positions(self) -> None:
+        with self._change:
+            queue = list(self._queue)
+            idle = sum(hand.idle for hand in self._hands)
+        for ahead, job in enumerate(queue):
+            if ahead >= idle:
+                job.tell(Waiting(ahead - idle))
+
+
+class _Hand(threading.Thread):
+    """A thread and the process that it feeds."""
+
+    def __init__(self, pool: Pool, name: str) -> None:
+        super().__init__(name=name, daemon=True)
+        self.idle = True
+        self._pool = pool
+        self._process: Any = None
+        self._pipe: Connection[Any, Any] | None = None
+        self._closed = False
+
+    @property
+    def pid(self) -> int | None:
+        process = self._process
+        return process.pid if process is not None and process.is_alive() else None
+
+    def run(self) -> None:
+        with suppress(OSError, EOFError):
+            self._ready()
+        while (job := self._pool.next()) is not None:
+            self.idle = False
+            try:
+                self._do(job)
+            except (OSError, EOFError):
+                self._drop()
+                job.tell(Broken("The worker process ended unexpectedly; a new one is on its way. Press again."))
+            except Exception as error:  # A task that does not pickle, for example: the hand must live on.
+                job.tell(Broken(f"The work could not be done: {error}"))
+            self.idle = True
+            if not self._closed:
+                with suppress(OSError, EOFError):
+                    self._ready()  # Warm again before the next one asks.
+
+    def close(self) -> None:
+        self._closed = True
+        self._drop()
+
+    def _ready(self) -> "Connection[Any, Any]":
+        """A live, warm process."""
+        if self.pid is None or self._pipe is None:
+            self._drop()
+            context = get_context("spawn")
+            self._pipe, theirs = context.Pipe()
+            self._process = context.Process(target=serve, args=(theirs,), name=self.name, daemon=True)
+            self._process.start()
+            theirs.close()  # So that the pipe ends with the process.
+            if not self._pipe.poll(_START):
+                raise EOFError
+            self._pipe.recv()
+        return self._pipe
+
+    def _do(self, job: Job) -> None:
+        pipe = self._ready()
+        if job.stopping.is_set():
+            job.tell(Ended(None, stopped=True))
+            return
+        job.tell(Started())
+        begun, asked, late = time.monotonic(), None, False
+        pipe.send(Begin(job.number, job.task))
+        while True:
+            now = time.monotonic()
+            if now - begun > job.limit and asked is None:
+                late = True
+                job.stopping.set()
+            if job.stopping.is_set() and asked is None:
+                asked = now
+                pipe.send(Halt(job.number))
+            if asked is not None and now - asked > PATIENCE:
+                job.tell(Ended(None, stopped=True, late=late))
+            if asked is not None and now - asked > GRACE:
+                self._drop()
+                return
+            if not wait([pipe], 0.02):
+                continue
+            said: Said = pipe.recv()
+            if said.number != job.number:
+                continue
+            if said.kind == "told":
+                job.tell(Told(said.item))
+            elif said.kind == "done":
+                job.tell(Ended(said.item, stopped=asked is not None, late=late))
+                return
+            else:
+                job.tell(Broken(f"The work failed ({said.item})."))
+                return
+
+    def _drop(self) -> None:
+        process, self._process = self._process, None
+        pipe, self._pipe = self._pipe, None
+        if process is not None and process.is_alive():
+            process.kill()
+            process.join(1.0)
+        if pipe is not None:
+            pipe.close()

@@ -1,0 +1,55 @@
+"""The tab that says where to twist: a chart that follows the sliders, and the same painted on the marked blade."""
+
+from collections.abc import Callable
+
+import viser
+
+from explorer import sensitivity
+from explorer.charts import Chart, line
+from explorer.colours import BASELINE, THIS
+from explorer.meshes import blade_shape
+from explorer.overlays import Strip
+from rotor.solution import Solution
+
+_HEIGHT = 150
+
+
+class SensitivityPanel:
+    """One session's."""
+
+    def __init__(self, gui: viser.GuiApi, strip: Strip, changed: Callable[[], None]) -> None:
+        self._strip = strip
+        self._shown: tuple[Solution, bool, float] | None = None
+        self._chart = Chart(
+            gui,
+            "dP/dθ [kW/° per r/R]",
+            (("total", THIS), ("induced", BASELINE)),
+            "radius r/R",
+            (line("zero", BASELINE, 0.7), line("induced", BASELINE, 1.5, (5, 3)), line("total", THIS)),
+            sensitivity.blank_sensitivity(),
+            (0.1, 1.02),
+            _HEIGHT,
+        )
+        self._words = gui.add_html("")
+        self._paint = gui.add_checkbox("Paint blade", False, hint="Blue: more pitch here saves power. Rust: it costs.")
+        self._paint.on_update(lambda _: changed())
+
+    def show(self, solution: Solution, exaggeration: float) -> None:
+        """Follow a converged solution."""
+        paint = self._paint.value
+        if self._shown is not None and self._shown[0] is solution and self._shown[1:] == (paint, exaggeration):
+            return
+        plot = sensitivity.sensitivity_plot(solution, self._chart.y_range)
+        self._chart.show(plot)
+        self._words.content = sensitivity.explanation(plot)
+        if paint:
+            shape = blade_shape(solution.design.rotor)
+            self._strip.show(*sensitivity.strip(shape, solution.design.twist, exaggeration, plot))
+        else:
+            self._strip.hide()
+        self._shown = (solution, paint, exaggeration)
+
+    def lose(self) -> None:
+        """The answer no longer holds."""
+        self._shown = None
+        self._strip.hide()

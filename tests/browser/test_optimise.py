@@ -1,0 +1,256 @@
+"""The optimiser in a real browser: to the end and applied, stopped, two at once, a worker killed; map and schedule."""
+
+import os
+import re
+import signal
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from chromium import DRAW_NOTHING
+from test_page import Watched
+
+from explorer.app import App
+from explorer.session import Session
+from rotor.solve import solve
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, BrowserContext
+
+pytestmark = pytest.mark.browser
+SIZE = {"width": 1280, "height": 900}
+WAIT = 15_000
+SLOW = "Three segments, free breaks"
+"""With sixteen starts it takes many times as long as a test waits before it presses Stop."""
+
+
+@pytest.fixture(scope="module")
+def app() -> Iterator[App]:
+    app = App("127.0.0.1", 0)
+    yield app
+    app.stop()
+
+
+def opened(browser: "Browser", app: App) -> "tuple[BrowserContext, Watched, Session]":
+    known = set(app._sessions)
+    context = browser.new_context(viewport=SIZE)  # pyright: ignore[reportArgumentType]
+    context.add_init_script(DRAW_NOTHING)
+    watched = Watched(context.new_page())
+    watched.open(app.address)
+    (new,) = set(app._sessions) - known
+    return context, watched, app._sessions[new]
+
+
+@pytest.fixture(scope="module")
+def shared(browser: "Browser", app: App) -> "Iterator[tuple[Watched, Session]]":
+    context, watched, session = opened(browser, app)
+    yield watched, session
+    context.close()
+
+
+@pytest.fixture
+def page(shared: tuple[Watched, Session]) -> tuple[Watched, Session]:
+    """The shared page on its first design, no search under way, on the Optimise tab."""
+    watched, session = shared
+    watched.page.get_by_role("tab", name="Design").click()
+    watched.page.get_by_role("button", name="Reset design").click()
+    watched.page.wait_for_timeout(300)
+    watched.page.get_by_role("tab", name="Optimise").click()
+    return watched, session
+
+
+def until(watched: Watched, *kinds: str) -> None:
+    selector = ", ".join(f'[data-explorer="search"][data-kind="{kind}"]' for kind in kinds)
+    watched.page.wait_for_selector(selector, timeout=WAIT)
+
+
+def press(watched: Watched, name: str) -> None:
+    watched.page.get_by_role("button", name=name, exact=True).click()
+
+
+def run_of(session: Session) -> Any:
+    run = session._optimise._run
+    assert run is not None
+    return run
+
+
+def until_better(session: Session) -> None:
+    """Until the search under way has found something."""
+    deadline = time.monotonic() + WAIT / 1e3
+    while len(run_of(session).frames) < 4:
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+
+
+def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tuple[Watched, Session]):
+    watched, session = page
+    before, blade = watched.text("total-power"), watched.node("/rotor/blade_0")
+    law = session._controls.inputs().law
+    watched.choose("Concept", "Two segments")
+    press(watched, "Optimise")
+    until(watched, "done")
+    # The picture follows the search; the sliders have not moved.
+    watched.until_changed(lambda: watched.text("total-power"), before)
+    watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)
+    assert session._controls.inputs().law == law
+    run = run_of(session)
+    watched.page.wait_for_function(f"() => document.body.innerText.includes('design {run.frames[-1].evaluation}')")
+    press(watched, "Apply")
+    watched.page.wait_for_timeout(600)
+    design = session._controls.inputs().design()
+    assert session._controls.inputs().law == "two"
+    power = solve(design).power.total
+    assert power == pytest.approx(run.optimum.best.power, rel=1e-6)
+    assert power < run.start_power
+    assert watched.text("total-power").startswith(f"{power / 1e3:.0f} kW")
+    assert watched.complaints == []
+
+
+def test_a_replay_goes_back_to_the_start_and_discard_leaves_the_sliders(page: tuple[Watched, Session]):
+    watched, session = page
+    inputs = session._controls.inputs()
+    before = watched.text("total-power")
+    watched.choose("Concept", "Linear")
+    press(watched, "Optimise")
+    until(watched, "done")
+    watched.until_changed(lambda: watched.text("total-power"), before)
+    ghost = "() => window.__viserSceneTree.getState()['/rotor/blade_0/ghost'].message.props"
+    assert watched.page.evaluate(ghost)
+    watched.row("Replay").get_by_role("slider").focus()
+    watched.page.keyboard.press("Home")
+    watched.page.wait_for_function(
+        """power => document.querySelector('[data-explorer="total-power"]').innerText === power
+            && document.querySelector('[data-explorer="frame"]').innerText.includes('began from')""",
+        arg=before,
+        timeout=WAIT,
+    )
+    press(watched, "Discard")
+    watched.page.wait_for_timeout(400)
+    assert session._controls.inputs() == inputs
+    assert watched.page.get_by_role("button", name="Apply", exact=True).count() == 0
+
+
+def test_stop_answers_within_three_tenths_of_a_second_and_keeps_the_best(page: tuple[Watched, Session]):
+    watched, session = page
+    panel = session._optimise
+    watched.choose("Concept", SLOW)
+    watched.row("Starts").get_by_role("slider").focus()
+    watched.page.keyboard.press("End")
+    press(watched, "Optimise")
+    until(watched, "running")
+    until_better(session)
+    pressed: list[float] = []
+    halt = panel.halt
+    panel.halt = lambda: (pressed.append(time.monotonic()), halt())[1]  # pyright: ignore[reportAttributeAccessIssue]
+    try:
+        press(watched, "Stop")
+        while run_of(session).under_way:
+            time.sleep(0.002)
+        answered = time.monotonic() - pressed[0]
+        while 'data-kind="stopped"' not in panel._standing.content:
+            time.sleep(0.002)
+        shown = time.monotonic() - pressed[0]
+    finally:
+        panel.halt = halt  # pyright: ignore[reportAttributeAccessIssue]
+    print(f"stop: answered after {1e3 * answered:.0f} ms, on the page after {1e3 * shown:.0f} ms")
+    assert answered < 0.3
+    until(watched, "stopped")
+    run = run_of(session)
+    assert run.best is not None
+    assert solve(run.best.design).power.total == pytest.approx(run.best.power, rel=1e-6)
+    press(watched, "Apply")
+    watched.page.wait_for_timeout(400)
+    assert solve(session._controls.inputs().design()).power.total == pytest.approx(run.frames[-1].power, rel=1e-6)
+
+
+def test_the_page_goes_on_when_its_worker_is_killed(page: tuple[Watched, Session], app: App):
+    watched, session = page
+    watched.choose("Concept", SLOW)
+    watched.row("Starts").get_by_role("slider").focus()
+    watched.page.keyboard.press("End")
+    press(watched, "Optimise")
+    until(watched, "running")
+    until_better(session)
+    for pid in app.pool.pids:
+        os.kill(pid, signal.SIGKILL)
+    until(watched, "broken")
+    assert "ended unexpectedly" in watched.text("found")
+    assert run_of(session).best is not None
+    watched.page.get_by_role("tab", name="Design").click()
+    speed = watched.text("speed")
+    watched.press("Adv. ratio", "ArrowRight", 5)
+    watched.until_changed(lambda: watched.text("speed"), speed)
+    watched.page.get_by_role("tab", name="Optimise").click()
+    watched.choose("Concept", "Linear")
+    press(watched, "Optimise")
+    until(watched, "done")
+    assert watched.complaints == []
+
+
+def test_two_browsers_at_once_do_not_disturb_each_other(page: tuple[Watched, Session], browser: "Browser", app: App):
+    watched, session = page
+    context, other, others = opened(browser, app)
+    before = other.text("total-power")
+    watched.choose("Concept", SLOW)
+    press(watched, "Optimise")
+    until(watched, "running")
+    other.page.get_by_role("tab", name="Optimise").click()
+    assert 'data-kind="idle"' in others._optimise._standing.content
+    assert other.text("total-power") == before
+    other.choose("Concept", "Linear")
+    press(other, "Optimise")
+    until(other, "done")
+    mine, theirs = run_of(session), run_of(others)
+    assert theirs.concept.name == "linear"
+    assert mine.concept.name == "three-segment-free"
+    assert theirs.optimum.best.power >= solve(theirs.optimum.design).power.total * (1.0 - 1e-9)
+    press(other, "Optimise")
+    context.close()  # It leaves with a search under way: the search ends with it.
+    deadline = time.monotonic() + 10.0
+    while others._optimise._job is not None and not others._optimise._job.over and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert others._optimise._job is not None
+    assert others._optimise._job.over
+    if run_of(session).under_way:
+        press(watched, "Stop")
+    until(watched, "stopped", "done")
+    assert watched.complaints == []
+    assert other.complaints == []
+
+
+def test_a_click_on_the_map_takes_the_point(page: tuple[Watched, Session]):
+    watched, session = page
+    watched.choose("Concept", "Two segments, free division")
+    watched.page.get_by_role("tab", name="Map").click()
+    press(watched, "Draw map")
+    watched.page.wait_for_selector("svg.rx-map image", timeout=WAIT)
+    box = watched.page.locator("svg.rx-map image").bounding_box()
+    assert box is not None
+    watched.page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
+    watched.page.wait_for_timeout(700)
+    inputs = session._controls.inputs()
+    assert inputs.law == "two"
+    assert inputs.two_division == pytest.approx(0.585, abs=0.01)
+    assert inputs.two_outer == pytest.approx(-10.0, abs=0.4)
+    session._map.close()
+    assert watched.complaints == []
+
+
+def test_a_schedule_can_be_saved(page: tuple[Watched, Session], tmp_path: Path):
+    watched, session = page
+    watched.choose("Concept", "Linear")
+    watched.row("Starts").get_by_role("slider").focus()
+    watched.page.keyboard.press("Home")
+    watched.page.wait_for_timeout(150)
+    watched.page.get_by_role("tab", name="Schedule").click()
+    press(watched, "Work out")
+    watched.page.wait_for_selector('[data-explorer="schedule-state"][data-kind="done"]', timeout=WAIT)
+    assert re.search(r"Moving saves beyond it\s+\d", watched.text("schedule"))
+    with watched.page.expect_download() as download:
+        press(watched, "Save CSV")
+    download.value.save_as(tmp_path / "schedule.csv")
+    lines = (tmp_path / "schedule.csv").read_text().splitlines()
+    assert len(lines) == 1 + len(session._schedule._rows) + 1
+    assert watched.complaints == []
