@@ -25,11 +25,17 @@ def app() -> Iterator[App]:
     app.stop()
 
 
+def open_slowly(watched: Watched, address: str) -> None:
+    """Whatever else the machine is doing: the first trim may wait for kernels to compile."""
+    watched.page.goto(address)
+    watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=VERDICT)
+
+
 @pytest.fixture(scope="module")
 def shared(browser: "Browser", app: App) -> Iterator[Watched]:
     context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
     watched = Watched(context.new_page())
-    watched.open(app.address)
+    open_slowly(watched, app.address + "?fixedDpr=0.5")
     watched.page.get_by_role("tab", name="Actuator").click()
     watched.page.wait_for_selector('[data-explorer="actuator-now"]')
     yield watched
@@ -99,7 +105,7 @@ def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any,
     """Not compared with anything: kept for people to look at."""
     context = browser.new_context(viewport={"width": size[0], "height": size[1]}, color_scheme=scheme)
     watched = Watched(context.new_page())
-    watched.open(app.address, query="")
+    open_slowly(watched, app.address)
     watched.page.get_by_role("tab", name="Actuator").click()
     watched.quiet()
     watched.page.get_by_label("Show blade cut").first.click()
