@@ -9,11 +9,12 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from explorer.actuator_walls import SIDES, CutPart, outline, skin_part, stations, tube_part, web_part, without
 from explorer.meshes import Mesh
 from rotor.actuator.catalogue import PiezoPly, TorqueTube
 from rotor.actuator.fitted import Fitted
 from rotor.actuator.pictures import black_box
-from rotor.actuator.section import SectionSpec, passive_skin, passive_wall, section_spec, skin
+from rotor.actuator.section import passive_skin, passive_wall, section_spec
 from rotor.actuator.structure import structure_data, uh60a_structure
 from rotor.blade import Rotor
 
@@ -21,28 +22,10 @@ Array = NDArray[np.float64]
 
 SPAN_SCALE = 0.22
 """The blade is sixteen times as long as it is wide: drawn so, it would be a thread."""
-THICKER = 3.5
-"""Walls and plies are drawn this much thicker, or they would be lines."""
 LIFT = 0.0006
 """Plies are drawn this far off the wall [m], so that they do not share a surface with it."""
-_SIDES = ("upper", "lower")
 _NOSE = 0.12
 """The upper wall stays closed in front of this x/c where the blade is opened."""
-
-
-@dataclass(frozen=True, eq=False)
-class CutPart:
-    """One piece: a line across the chord, thickened, at each station."""
-
-    role: str
-    """spar, skin, web, ply or tube."""
-    segment: int
-    """The electrical segment that a ply belongs to; −1 for all else."""
-    r: Array
-    """(stations,)."""
-    outer: Array
-    """(stations, points, 2): y, z."""
-    inner: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,33 +61,33 @@ def cut_blade(fitted: Fitted, rotor: Rotor) -> Cut:
     whole = ((rotor.blade.root_cutout, 1.0),)
     low, high = placement.span
     window = (low + 0.34 * (high - low), low + 0.56 * (high - low))
-    opened = _without(whole, window)
+    opened = without(whole, window)
     box = "spar" if retrofit else "skin"
     pieces: list[CutPart] = []
 
     def add(role: str, side: str, chord: tuple[float, float], spans: tuple[tuple[float, float], ...], t: float) -> None:
-        pieces.extend(_skin(spec, rotor, role, side, chord, span, 0.0, -t) for span in spans)
+        pieces.extend(skin_part(spec, rotor, role, side, chord, span, 0.0, -t) for span in spans)
 
     add(box, "lower", (0.0, web), whole, wall)
     add(box, "upper", (0.0, _NOSE), whole, wall)
     add(box, "upper", (_NOSE, web), opened, wall)
     add("skin", "lower", (web, 1.0), whole, thin)
     add("skin", "upper", (web, 1.0), opened, thin)
-    pieces.append(_web(spec, rotor, web, whole[0], wall))
+    pieces.append(web_part(spec, rotor, web, whole[0], wall))
     if ply:
         far = LIFT + placement.plies * actuator.thickness
         for number, span in enumerate(placement.segments):
             if span[1] - span[0] > 1e-6:
-                for side in _SIDES:
-                    for part in _without((span,), window) if side == "upper" else (span,):
-                        piece = _skin(spec, rotor, "ply", side, placement.chord, part, LIFT, far)
+                for side in SIDES:
+                    for part in without((span,), window) if side == "upper" else (span,):
+                        piece = skin_part(spec, rotor, "ply", side, placement.chord, part, LIFT, far)
                         pieces.append(replace(piece, segment=number))
     elif isinstance(actuator, TorqueTube):
         for number, span in enumerate(placement.segments):
             if span[1] - span[0] > 1e-6:
-                pieces.append(_tube(rotor, 0.5 * actuator.diameter, span, number))
-    edge_r = _stations(whole[0])
-    edge = np.stack([_outline(spec, rotor, float(r)) for r in edge_r])
+                pieces.append(tube_part(0.5 * actuator.diameter, span, number))
+    edge_r = stations(whole[0])
+    edge = np.stack([outline(spec, rotor, float(r)) for r in edge_r])
     return Cut(tuple(pieces), edge, edge_r, black_box(fitted), rotor.radius, (window,))
 
 
@@ -173,97 +156,6 @@ def anchor(cut: Cut, r: float, y: float, z: float, twist: float) -> Array:
     return _turned(cut, np.array([r]), np.array([[[y, z]]]), np.array([twist]))[0, 0]
 
 
-def _skin(
-    spec: SectionSpec,
-    rotor: Rotor,
-    role: str,
-    side: str,
-    chord: tuple[float, float],
-    span: tuple[float, float],
-    near: float,
-    far: float,
-) -> CutPart:
-    """A strip of skin between two distances from the contour [m], outward positive, drawn `THICKER`."""
-    r = _stations(span)
-    points = 30 if chord[0] == 0.0 else 20
-    lines = np.stack([_line(spec, rotor, float(at), side, chord, points) for at in r])
-    along = np.gradient(lines, axis=1)
-    normal = np.stack((-along[..., 1], along[..., 0]), axis=-1)
-    normal /= np.maximum(np.hypot(normal[..., 0], normal[..., 1]), 1e-12)[..., None]
-    # Towards the outside: up on the upper side; the line runs aft, to −y.
-    normal *= -1.0 if side == "upper" else 1.0
-    # Thick walls may not meet inside the thin rear of the blade.
-    room = np.minimum(np.abs(far) * THICKER, 0.3 * _thickness(spec, rotor, r, chord, points))
-    outward = room if far > 0.0 else -room
-    return CutPart(role, -1, r, lines + near * normal, lines + outward[..., None] * normal)
-
-
-def _web(spec: SectionSpec, rotor: Rotor, at: float, span: tuple[float, float], wall: float) -> CutPart:
-    r = _stations(span)
-    lines = []
-    for station in r:
-        top, bottom = (_line(spec, rotor, float(station), side, (at, at + 1e-6), 2)[0] for side in _SIDES)
-        lines.append(bottom + np.linspace(0.0, 1.0, 6)[:, None] * (top - bottom))
-    rear = np.stack(lines)
-    return CutPart("web", -1, r, rear, rear + np.array([THICKER * wall, 0.0]))
-
-
-def _tube(rotor: Rotor, radius: float, span: tuple[float, float], number: int) -> CutPart:
-    r = _stations(span)
-    angle = np.linspace(0.0, 2.0 * np.pi, 25)
-    circle = np.stack((np.cos(angle), np.sin(angle)), axis=1)
-    size = min(radius, 0.02)
-    outer = np.broadcast_to(size * circle, (len(r), 25, 2))
-    return CutPart("tube", number, r, outer, 0.8 * outer)
-
-
-def _line(spec: SectionSpec, rotor: Rotor, r: float, side: str, chord: tuple[float, float], points: int) -> Array:
-    """One side of the section at r/R from x/c to x/c: y forward of the quarter chord, z up [m], (points, 2)."""
-    inner, outer, weight = rotor.blade.section_at(r)
-    scale = float(rotor.blade.chord(r)) / spec.chord
-    made = np.zeros((points, 2))
-    for name, share in ((inner, 1.0 - weight), (outer, weight)):
-        if share:
-            own = replace(spec, contour=_contour(name))
-            made += share * skin(own, side, *chord, points)
-    return scale * np.stack((0.25 * spec.chord - made[:, 0], made[:, 1]), axis=1)
-
-
-def _thickness(spec: SectionSpec, rotor: Rotor, r: Array, chord: tuple[float, float], points: int) -> Array:
-    found = [
-        _line(spec, rotor, float(at), "upper", chord, points)[:, 1]
-        - _line(spec, rotor, float(at), "lower", chord, points)[:, 1]
-        for at in r
-    ]
-    return np.maximum(np.array(found), 0.0)
-
-
-def _outline(spec: SectionSpec, rotor: Rotor, r: float) -> Array:
-    upper, lower = (_line(spec, rotor, r, side, (0.0, 1.0), 24) for side in _SIDES)
-    return np.concatenate((upper[::-1], lower[1:]))
-
-
-def _top(ring: Array, y: float) -> float:
-    upper = ring[: len(ring) // 2 + 1]
-    return float(np.interp(y, upper[:, 0], upper[:, 1]))
-
-
-def _contour(section: str) -> str:
-    return "sc1094r8" if section.startswith("sc1094r8") else "sc1095"
-
-
-def _stations(span: tuple[float, float]) -> Array:
-    return np.linspace(*span, max(2, round(40.0 * (span[1] - span[0])) + 1))
-
-
-def _without(spans: tuple[tuple[float, float], ...], gap: tuple[float, float]) -> tuple[tuple[float, float], ...]:
-    kept: list[tuple[float, float]] = []
-    for low, high in spans:
-        edges = [(low, min(high, gap[0])), (max(low, gap[1]), high)]
-        kept += [(a, b) for a, b in edges if b - a > 1e-6]
-    return tuple(kept)
-
-
 def _turned(cut: Cut, r: Array, lines: Array, twist: Array) -> Array:
     """(stations, points, 2) with a nose-up twist at each → (stations, points, 3)."""
     cos, sin = np.cos(twist)[:, None], np.sin(twist)[:, None]
@@ -293,3 +185,8 @@ def spans_of(cut: Cut) -> list[tuple[float, float]]:
         own = [part.r for part in cut.parts if part.segment == number]
         ends.append((min(float(r[0]) for r in own), max(float(r[-1]) for r in own)))
     return ends
+
+
+def _top(ring: Array, y: float) -> float:
+    upper = ring[: len(ring) // 2 + 1]
+    return float(np.interp(y, upper[:, 0], upper[:, 1]))

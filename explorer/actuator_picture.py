@@ -19,8 +19,8 @@ Array = NDArray[np.float64]
 
 WALLS: dict[str, colours.Rgb] = {"spar": (70, 76, 86), "skin": (104, 106, 104), "web": (58, 64, 74)}
 """Dark albedos, for the page's lights bleach."""
-BOX: colours.Rgb = (12, 12, 14)
-SHANK: colours.Rgb = (40, 43, 50)
+BOX: colours.Rgb = (30, 32, 38)
+SHANK: colours.Rgb = (52, 56, 64)
 GHOST: colours.Rgb = (128, 133, 140)
 LEAD: colours.Rgb = (200, 120, 20)
 _STEPS = 201
@@ -119,7 +119,8 @@ def _labels(
     labels.append(("spar web", at(0.5 * sum(window), -0.02, 0.13)))
     if isinstance(fitted.actuator, (PiezoPly, TorqueTube)):
         for k, (low, high) in enumerate(actuator_cut.spans_of(cut)):
-            name = f"segment {k + 1}: " if len(fitted.shapes) > 1 else ""
+            word = "segment " if len(fitted.shapes) < 4 else ""
+            name = f"{word}{k + 1}: " if len(fitted.shapes) > 1 else ""
             place = 0.5 * (low + high)
             if window[0] - 0.02 < place < window[1] + 0.02:
                 place = 0.5 * (window[1] + high) if high > window[1] + 0.05 else 0.5 * (low + window[0])

@@ -78,7 +78,7 @@ class ActuatorInputs:
 
     def swings(self, fitted: Fitted) -> tuple[float, ...]:
         """Each segment's share of its whole range, positive for tip up."""
-        sign = -1.0 if self.crossed else 1.0
+        sign = -1.0 if self.crossed and isinstance(fitted.actuator, PiezoPly) else 1.0
         return tuple(sign * swing_of(fitted.actuator, drive) for drive in self._segments(fitted))
 
     def volts(self, fitted: Fitted) -> tuple[float, ...]:

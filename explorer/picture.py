@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from explorer import colours, disk_image
+from explorer.actuator_blades import blade_twists
 from explorer.fields import FIELDS, Field, reverse_flow
 from explorer.meshes import blade_shape, blade_vertices
 from explorer.outlines import drag_divergence_segments, reverse_flow_segments, stall_segments
@@ -48,6 +49,8 @@ class Picture:
     """Segments in the disk plane [m], shape (n, 2, 3), by toggle; empty when off."""
     flight_label: str
     """Empty in hover."""
+    each_blade: tuple[Array, ...] = ()
+    """Vertices blade by blade where twist follows the azimuth; empty when all are alike."""
 
 
 def make_picture(solution: Solution, view: ViewState, colour_range: tuple[float, float]) -> Picture:
@@ -58,15 +61,19 @@ def make_picture(solution: Solution, view: ViewState, colour_range: tuple[float,
     hinge = rotor.blade.flap_hinge * rotor.radius
     speed = solution.design.airspeed
     shape = blade_shape(rotor)
+    azimuths = tuple(first + k * step for k in range(rotor.blades))
     return Picture(
         rotor=rotor_pose(controls),
         disk=tip_path_pose(controls, DISK_DROP),
-        blades=tuple(blade_pose(controls, first + k * step, hinge) for k in range(rotor.blades)),
+        blades=tuple(blade_pose(controls, psi, hinge) for psi in azimuths),
         blade_vertices=blade_vertices(shape, solution.design.twist, view.exaggeration),
         blade_faces=shape.faces,
         png=disk_png(solution, FIELDS[view.field], colour_range),
         outlines=_outlines(solution, view),
         flight_label=f"{number(speed / KNOT)} kt" if speed > 0.0 else "",
+        each_blade=tuple(
+            blade_vertices(shape, twist, view.exaggeration) for twist in blade_twists(solution.design, azimuths)
+        ),
     )
 
 

@@ -85,11 +85,11 @@ class Scene:
         """Assign one frame; call it inside `client.atomic()` so that the page draws it whole."""
         _place(self._rotor, picture.rotor)
         _place(self._disk, picture.disk)
-        vertices = picture.blade_vertices.astype(np.float32)
-        for handle, pose in zip(self._blades, picture.blades, strict=True):
+        shapes = picture.each_blade or (picture.blade_vertices,) * len(self._blades)
+        for handle, pose, shape in zip(self._blades, picture.blades, shapes, strict=True):
             if not np.array_equal(handle.faces, picture.blade_faces):
                 handle.faces = picture.blade_faces
-            handle.vertices = vertices
+            handle.vertices = shape.astype(np.float32)
             _place(handle, pose)
         viser_compat.set_png(self._image, picture.png)
         for name, segments in picture.outlines.items():

@@ -144,6 +144,7 @@ class Session:
         if self._latest is None or self._latest.design != design:
             self._latest = solve(design, self._good)
         if not self._latest.converged:
+            self._actuator.lose(self._latest.message)
             self._lose(view, readout.status_panel(self._latest))
             return
         self._good = self._latest

@@ -2,13 +2,14 @@
 
 import math
 import re
+import threading
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from explorer import actuator_cut, actuator_plots, actuator_readout, actuator_view
+from explorer import actuator_cut, actuator_plots, actuator_readout, actuator_table, actuator_view
 from explorer.actuator_picture import cut_picture, share_colour, voltage_shares
 from explorer.actuator_section import section_svg
 from explorer.actuator_state import (
@@ -21,7 +22,8 @@ from explorer.actuator_state import (
     swing_of,
 )
 from explorer.actuator_study import Findings, Study, answer
-from explorer.state import baseline_of
+from explorer.picture import make_picture
+from explorer.state import ViewState, baseline_of
 from explorer.view import FIELD_OF_VIEW
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.verdict import Verdict
@@ -50,6 +52,9 @@ def test_crossed_fibres_turn_the_other_way():
     fitted = ActuatorInputs().fitted(DESIGN.rotor)
     there = ActuatorInputs(drives=FULL).change(fitted, 1.0)
     assert_allclose(ActuatorInputs(drives=FULL, crossed=True).change(fitted, 1.0), -there)
+    tube = ActuatorInputs(actuator="SMA_tube", drives=FULL)
+    fitted = tube.fitted(DESIGN.rotor)  # Has no fibres to cross.
+    assert_allclose(replace(tube, crossed=True).change(fitted, 1.0), tube.change(fitted, 1.0))
 
 
 @pytest.mark.parametrize("id", ALL)
@@ -68,6 +73,16 @@ def test_a_new_twist_changes_power_and_a_harmonic_too():
     assert abs(steady - still) > 500.0
     assert turning.active_twist is not None
     assert abs(solve(turning).power.total - still) > 500.0
+
+
+def test_each_blade_is_drawn_with_the_twist_of_its_azimuth():
+    still, turning = (solve(i.apply(DESIGN)) for i in (ActuatorInputs(), ActuatorInputs(per_rev=1, amplitude=100.0)))
+    assert make_picture(still, ViewState(), (0.0, 10.0)).each_blade == ()
+    shapes = make_picture(turning, ViewState(), (0.0, 10.0)).each_blade
+    assert len(shapes) == DESIGN.rotor.blades
+    middle = 0.5 * (shapes[0] + shapes[2])  # Opposite blades at 1/rev move against each other.
+    assert_allclose(middle, make_picture(still, ViewState(), (0.0, 10.0)).blade_vertices, atol=1e-3)
+    assert np.abs(shapes[0] - shapes[2]).max() > 1e-3
 
 
 def test_the_baseline_has_no_actuator():
@@ -203,7 +218,7 @@ def test_the_verdict_is_told_whole(verdict: Verdict):
     assert re.search(r"Required Δtwist</span><span class=\"rx-num\">\d", numbers)
     limits = actuator_readout.limits_panel(verdict)
     assert all(limit.name.replace("-", " ") in limits for limit in verdict.limits)
-    table = actuator_readout.table_panel(findings, question)
+    table = actuator_table.table_panel(findings, question)
     assert table.count("computing…") == len(ALL) - 1
     assert "▲" in table  # Recalled data are marked.
 
@@ -215,7 +230,7 @@ def test_an_old_verdict_is_not_shown_as_the_new_one(verdict: Verdict):
     panel = actuator_readout.verdict_panel(findings, other)
     assert 'data-kind="computing"' in panel
     assert "rx-faded" in panel
-    assert actuator_readout.table_panel(findings, other).count("computing…") == len(ALL)
+    assert actuator_table.table_panel(findings, other).count("computing…") == len(ALL)
 
 
 def test_derating_of_ones_own_counts(verdict: Verdict):
@@ -245,8 +260,6 @@ def test_the_chart_shows_need_and_reach(verdict: Verdict):
 def test_the_study_answers_the_newest_question():
     inputs = ActuatorInputs(actuator="extension_twist")
     first, last = question_of(inputs, DESIGN), question_of(replace(inputs, plies=3), DESIGN)
-    import threading
-
     found = threading.Event()
     study = Study(found.set, "study-test")
     study.start()

@@ -26,6 +26,7 @@ KNOW_VISER = {
     "sensitivity_panel.py",
     "charts.py",
     "viser_compat.py",
+    "actuator_controls.py",
     "actuator_panel.py",
     "actuator_scene.py",
 }
