@@ -11,7 +11,7 @@ import shutil
 import signal
 import subprocess
 import tempfile
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
@@ -85,28 +85,41 @@ def _sweep(
     contour: Contour, case: XfoilCase, start: float, stop: float, step: float, panels: int, iterations: int
 ) -> dict[float, Row]:
     """One XFOIL process marching from `start` to `stop` [deg]; the converged rows by angle, possibly none."""
-    shim = _shim_folder()
     commands = ["LOAD section.dat", "PPAR", f"N {panels}", "", "", "OPER", f"VISC {case.reynolds:.0f}"]
-    if shim is not None:
-        commands = ["PLOP", "G F", "", *commands]  # Without a screen; only safe with the traps off.
     commands += [f"MACH {case.mach:g}", "VPAR", f"N {case.n_crit:g}"]
     if case.trip is not None:
         commands += [f"XTR {case.trip:g} {case.trip:g}"]
     commands += ["", f"ITER {iterations}", "PACC", "polar.txt", "", f"ASEQ {start:g} {stop:g} {step:g}", "", "QUIT", ""]
+    body = "\n".join(f"{x:.7f} {y:.7f}" for x, y in contour.points)
+    written, clean = run_commands(commands, {"section.dat": f"{contour.name}\n{body}\n"}, ("polar.txt",))
+    rows = _parse(written["polar.txt"]) if "polar.txt" in written else {}
+    if not clean and rows:
+        rows.popitem()  # The last row of a crashed or killed run may be cut or a NaN about to spread.
+    return rows
+
+
+def run_commands(
+    commands: Sequence[str], inputs: Mapping[str, str], outputs: Sequence[str]
+) -> tuple[dict[str, str], bool]:
+    """One XFOIL process without a screen: files to put beside it, and the text of those it wrote.
+
+    False beside them when it crashed or had to be killed. Starts in XFOIL's top menu.
+    """
+    shim = _shim_folder()
+    if shim is not None:
+        commands = ["PLOP", "G F", "", *commands]  # Without a screen; only safe with the traps off.
     with tempfile.TemporaryDirectory(prefix="rotor-xfoil-") as folder:
         where = Path(folder)
-        body = "\n".join(f"{x:.7f} {y:.7f}" for x, y in contour.points)
-        (where / "section.dat").write_text(f"{contour.name}\n{body}\n", encoding="utf-8")
+        for name, text in inputs.items():
+            (where / name).write_text(text, encoding="utf-8")
         call = ["xfoil"] if shim is not None else ["xvfb-run", "-a", "xfoil"]
         environment = dict(os.environ)
         if shim is not None:
             environment["LD_PRELOAD"] = str(Path(shim.name) / "notraps.so")
         clean = _run(call, "\n".join(commands), where, environment)
-        polar = where / "polar.txt"
-        rows = _parse(polar.read_text(encoding="utf-8", errors="replace")) if polar.exists() else {}
-    if not clean and rows:
-        rows.popitem()  # The last row of a crashed or killed run may be cut or a NaN about to spread.
-    return rows
+        paths = [where / name for name in outputs]
+        written = {path.name: path.read_text(encoding="utf-8", errors="replace") for path in paths if path.exists()}
+    return written, clean
 
 
 def _run(call: list[str], commands: str, folder: Path, environment: dict[str, str]) -> bool:

@@ -1,0 +1,150 @@
+"""What a rebuilt figure is: a caption, what the document says, our numbers, and a verdict that the numbers decide."""
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Literal
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+Style = Literal["line", "points", "dashed", "both", "band"]
+Cell = str | float | int
+
+
+class Verdict(Enum):
+    """How ours stands to the document's statement."""
+
+    AGREES = "agrees"
+    DIFFERS = "differs"
+    ALONE = "stands alone"
+    """The document's own number is not known, or there is no statement to test."""
+    INDICATIVE = "indicative"
+    """Set beside data of unclear origin or another model: no judgement either way."""
+
+
+@dataclass(frozen=True)
+class Curve:
+    """One line of a picture."""
+
+    label: str
+    x: tuple[float, ...]
+    y: tuple[float, ...]
+    style: Style = "line"
+    upper: tuple[float, ...] = ()
+    """With `band`: y is the lower edge and this the upper."""
+    colour: int | None = None
+    """Place in the palette; None: the next one."""
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One pair of axes."""
+
+    x_label: str
+    y_label: str
+    curves: tuple[Curve, ...]
+    title: str = ""
+    log: Literal["", "y", "xy"] = ""
+    invert_y: bool = False
+    equal: bool = False
+    """Same scale on both axes, for outlines."""
+    y_limits: tuple[float, float] | None = None
+
+
+@dataclass(frozen=True)
+class DiskPanel:
+    """A field over the disk seen from above, nose up, ψ = 0 at the bottom, advancing side right."""
+
+    label: str
+    r: tuple[float, ...]
+    """Element centres y/R."""
+    dr: float
+    psi: tuple[float, ...]
+    """[rad]"""
+    values: tuple[tuple[float, ...], ...]
+    """(elements, azimuths)"""
+    title: str = ""
+    zero_line: bool = False
+    """Whether the line of zero is drawn (the border of reverse flow, in U_T)."""
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of numbers and words, as they go into a CSV."""
+
+    name: str
+    """Short: part of the file name when a figure has several."""
+    columns: tuple[str, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+
+
+@dataclass(frozen=True)
+class Report:
+    """One figure or table of the document, rebuilt."""
+
+    number: str
+    """As the document numbers it, for example 3.11; or a word for what it does not number."""
+    kind: Literal["figure", "table", "claim"]
+    caption: str
+    """In our own words."""
+    statement: str
+    """What the document says about it."""
+    ours: str
+    """Our numbers, one or two sentences."""
+    verdict: Verdict
+    because: str
+    """Why it differs, or what the agreement rests on; one sentence."""
+    tables: tuple[Table, ...]
+    panels: tuple[Panel | DiskPanel, ...] = ()
+    numbers: Mapping[str, float] = field(default_factory=dict[str, float])
+    """What the statement was judged by, by name."""
+
+    @property
+    def title(self) -> str:
+        """`Figure 3.11`, `Table 3.1`, or the word for what has no number."""
+        return self.number if self.kind == "claim" else f"{self.kind.capitalize()} {self.number}"
+
+    @property
+    def stem(self) -> str:
+        """Name of its files, without ending."""
+        return f"{self.kind}-{self.number}".lower().replace(" ", "-").replace(".", "_")
+
+
+def curve(
+    label: str,
+    x: ArrayLike,
+    y: ArrayLike,
+    style: Style = "line",
+    *,
+    upper: ArrayLike | None = None,
+    colour: int | None = None,
+) -> Curve:
+    """A curve from arrays; values that are not finite become gaps (NaN) in the picture only."""
+    top = () if upper is None else floats(upper)
+    return Curve(label, floats(x), floats(y), style, top, colour)
+
+
+def floats(values: ArrayLike) -> tuple[float, ...]:
+    """Plain floats of any array-like, flattened."""
+    return tuple(float(value) for value in np.asarray(values, dtype=float).ravel())
+
+
+def table(name: str, columns: Sequence[str], rows: Iterable[Sequence[Cell]]) -> Table:
+    """A table from any rows; numpy numbers become plain ones."""
+    return Table(name, tuple(columns), tuple(tuple(_plain(cell) for cell in row) for row in rows))
+
+
+def judged(agrees: bool) -> Verdict:
+    """Agrees or differs."""
+    return Verdict.AGREES if agrees else Verdict.DIFFERS
+
+
+def _plain(cell: Cell) -> Cell:
+    if isinstance(cell, (str, bool)):
+        return cell
+    if isinstance(cell, (int, np.integer)):
+        return int(cell)
+    value = float(cell)
+    return value if math.isfinite(value) else ""
