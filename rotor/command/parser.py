@@ -28,11 +28,11 @@ class OneLineParser(argparse.ArgumentParser):
 def build_parser() -> argparse.ArgumentParser:
     """All commands."""
     from rotor.airfoil import command as airfoil
-    from rotor.command import actuator, bench, ideal, optimise, schedule, solve, sweep
+    from rotor.command import actuator, bench, ideal, optimise, reproduce, schedule, solve, sweep
 
     parser = OneLineParser(prog="python -m rotor", description="UH-60A main rotor: trim, power, twist.")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=OneLineParser)
-    for command in (solve, sweep, optimise, schedule, ideal, actuator, airfoil, bench):
+    for command in (solve, sweep, optimise, schedule, ideal, actuator, reproduce, airfoil, bench):
         command.add_parser(commands)
     return parser
 

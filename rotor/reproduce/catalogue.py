@@ -3,7 +3,17 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from rotor.reproduce import aircraft, fits, five_twists, grids, keys, sections, velocities
+from rotor.reproduce import (
+    aircraft,
+    comparison,
+    fits,
+    five_twists,
+    grids,
+    keys,
+    optimum_twist,
+    sections,
+    velocities,
+)
 from rotor.reproduce.report import Report
 
 
@@ -14,14 +24,15 @@ class Entry:
     number: str
     make: Callable[[], Report]
     chapter: str
-    seconds: float = 1.0
-    """About how long it takes, for the order of work and the patience of the reader."""
+    slow: bool = False
+    """Whether it searches for optima: seconds rather than tenths."""
 
 
 _SECTIONS = "2 Background"
 _MODEL = "3.1 Numerical model"
 _AIRCRAFT = "3.2 Verification and validation"
 _TWIST = "3.3 Effect of blade twist on main-rotor power"
+_OPTIMUM = "4 Results"
 
 ENTRIES: tuple[Entry, ...] = (
     Entry("2.3", sections.figure_2_3, _SECTIONS),
@@ -48,6 +59,20 @@ ENTRIES: tuple[Entry, ...] = (
     Entry("3.14", five_twists.figure_3_14, _TWIST),
     Entry("3.15", five_twists.figure_3_15, _TWIST),
     Entry("keys 1987", keys.keys_1987, _TWIST),
+    Entry("4.1", optimum_twist.figure_4_1, _OPTIMUM, slow=True),
+    Entry("4.2", optimum_twist.figure_4_2, _OPTIMUM, slow=True),
+    Entry("4.3", optimum_twist.figure_4_3, _OPTIMUM, slow=True),
+    Entry("4.4", optimum_twist.figure_4_4, _OPTIMUM, slow=True),
+    Entry("4.5", optimum_twist.figure_4_5, _OPTIMUM, slow=True),
+    Entry("4.6", optimum_twist.figure_4_6, _OPTIMUM, slow=True),
+    Entry("4.7", optimum_twist.figure_4_7, _OPTIMUM, slow=True),
+    Entry("4.8", optimum_twist.figure_4_8, _OPTIMUM, slow=True),
+    Entry("4.9", comparison.figure_4_9, _OPTIMUM),
+    Entry("4.10", optimum_twist.figure_4_10, _OPTIMUM, slow=True),
+    Entry("4.11", comparison.figure_4_11, _OPTIMUM),
+    Entry("4.12", comparison.figure_4_12, _OPTIMUM, slow=True),
+    Entry("4.13", comparison.figure_4_13, _OPTIMUM, slow=True),
+    Entry("table 4.1", comparison.table_4_1, _OPTIMUM, slow=True),
 )
 
 

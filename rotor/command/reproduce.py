@@ -1,0 +1,47 @@
+"""`reproduce`: rebuild the document's figures and tables, and the trust table."""
+
+import argparse
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+from tqdm import tqdm
+
+from rotor.reproduce.catalogue import ENTRIES, Entry, find_entry
+from rotor.reproduce.files import write_all, write_report
+from rotor.reproduce.pictures import NO_PICTURES, can_draw
+from rotor.reproduce.report import Report
+
+
+def add_parser(commands: Any) -> None:
+    """Register the command."""
+    parser = commands.add_parser("reproduce", help="every figure and table of the document that can be rebuilt")
+    parser.add_argument("out", metavar="OUT_DIR", help="folder for CSV, SVG, PNG and index.html; made when missing")
+    parser.add_argument(
+        "--figure", metavar="N", action="append", help="only this one, for example 3.11 or 'table 4.1'; repeatable"
+    )
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """0; bad input is for the caller."""
+    entries = [find_entry(number) for number in args.figure] if args.figure else list(ENTRIES)
+    folder = Path(args.out)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise ValueError(f"cannot make the folder {args.out!r} ({error.strerror}): give a writable one") from None
+    begin = time.perf_counter()
+    made: list[tuple[Entry, Report]] = []
+    pictures = can_draw()
+    for entry in tqdm(entries, disable=not sys.stderr.isatty(), leave=False, unit="figure"):
+        report = entry.make()
+        write_report(report, folder, pictures=pictures)
+        made.append((entry, report))
+        tqdm.write(f"{report.title:<14}{report.verdict.value:<14}{report.ours}")
+    page = write_all(made, folder)
+    if not pictures:
+        print(f"note: {NO_PICTURES}", file=sys.stderr)
+    print(f"{len(made)} rebuilt in {time.perf_counter() - begin:.0f} s: {page}")
+    return 0

@@ -1,0 +1,113 @@
+"""`index.html`: every rebuilt figure with its statement, our number and the verdict. One file, pictures inside."""
+
+import base64
+from collections.abc import Sequence
+from html import escape
+from itertools import groupby
+from pathlib import Path
+
+from rotor.reproduce.catalogue import Entry
+from rotor.reproduce.pictures import NO_PICTURES
+from rotor.reproduce.report import Report, Table, Verdict
+
+ROWS = 60
+"""Rows of a table shown on the page; the CSV has them all."""
+NOT_REBUILT = (
+    ("2.1, 2.2, 2.5, 2.9", "drawings of other books"),
+    ("5.1–5.8, tables 5.1, 5.2", "actuators: drawings and data of chapter 5; see `python -m rotor actuator`"),
+)
+COLOURS = {
+    Verdict.AGREES: "#1d7a46",
+    Verdict.DIFFERS: "#b3452c",
+    Verdict.ALONE: "#5b6770",
+    Verdict.INDICATIVE: "#9a6b00",
+}
+_CSS = """
+body{font:15px/1.5 system-ui,sans-serif;color:#1c2429;background:#f6f7f8;margin:0}
+main{max-width:1080px;margin:0 auto;padding:24px 20px 80px}
+h1{font-size:26px;margin:8px 0}h2{font-size:19px;margin:38px 0 10px;border-bottom:1px solid #ccd3d8;padding-bottom:4px}
+article{background:#fff;border:1px solid #dde2e6;border-radius:8px;padding:16px 20px;margin:14px 0}
+h3{font-size:16px;margin:0 0 6px;display:flex;gap:12px;align-items:baseline}
+.chip{color:#fff;font-size:12px;border-radius:10px;padding:1px 9px;font-weight:600;white-space:nowrap}
+dl{display:grid;grid-template-columns:110px 1fr;gap:4px 14px;margin:10px 0}dt{color:#5b6770}dd{margin:0}
+img{max-width:100%;height:auto;display:block;margin:8px auto}
+table{border-collapse:collapse;font-size:13px}td,th{padding:2px 10px;text-align:right;border-bottom:1px solid #e6eaed}
+td:first-child,th:first-child{text-align:left}details{margin-top:6px}summary{cursor:pointer;color:#0b5fa5}
+.scroll{overflow-x:auto}a{color:#0b5fa5}.small{font-size:13px;color:#5b6770}
+.toc{width:100%}.toc td{text-align:left;vertical-align:top}
+"""
+
+
+def write_page(made: Sequence[tuple[Entry, Report]], folder: Path, *, pictures: bool) -> Path:
+    """Write the page; pictures are read back from the folder and put inside."""
+    parts = [_head(made, pictures)]
+    for chapter, group in groupby(made, key=lambda pair: pair[0].chapter):
+        parts.append(f"<h2>{escape(chapter)}</h2>")
+        parts += [_article(report, folder, pictures=pictures) for _, report in group]
+    rest = "".join(f"<li>{escape(number)}: {escape(why)}</li>" for number, why in NOT_REBUILT)
+    parts.append(f"<h2>Not rebuilt</h2><ul>{rest}</ul></main></html>\n")
+    path = folder / "index.html"
+    path.write_text("\n".join(parts), encoding="utf-8")
+    return path
+
+
+def _head(made: Sequence[tuple[Entry, Report]], pictures: bool) -> str:
+    counts = {verdict: sum(report.verdict is verdict for _, report in made) for verdict in Verdict}
+    summary = ", ".join(f"{count} {verdict.value}" for verdict, count in counts.items() if count)
+    rows = "".join(
+        f'<tr><td><a href="#{report.stem}">{escape(report.title)}</a></td><td>{_chip(report.verdict)}</td>'
+        f"<td>{escape(report.statement)}</td></tr>"
+        for _, report in made
+    )
+    without = "" if pictures else f"<p><b>{escape(NO_PICTURES)}</b></p>"
+    return (
+        '<!doctype html><html lang="en"><meta charset="utf-8"><title>The document, rebuilt</title>'
+        '<meta name="viewport" content="width=device-width,initial-scale=1">'
+        f"<style>{_CSS}</style><main><h1>The document, rebuilt</h1>"
+        "<p>Figures and tables of M. Lonoce, <i>Helicopter Blade Twist Optimization in Forward Flight</i> (MSc thesis, "
+        "Instituto Superior Técnico, 2016), computed anew. Captions are ours; no picture is taken from there. "
+        "<b>thesis</b> is what the document states, <b>flight</b> what we believe, <b>thesis-wake</b> the thesis preset "
+        "with a wake that answers to where the lift is. We hold the text up to figure 3.15; of chapters 4 to 6 only the "
+        f"captions.</p><p>{len(made)} rebuilt: {summary}. <a href=\"misprints.html\">What the document omits or misprints"
+        f"</a>.</p>{without}<details open><summary>Contents</summary><table class=toc>{rows}</table></details>"
+    )
+
+
+def _article(report: Report, folder: Path, *, pictures: bool) -> str:
+    image = ""
+    svg = folder / f"{report.stem}.svg"
+    files = [_csv_link(report, one) for one in report.tables]
+    if pictures and report.panels and svg.is_file():
+        data = base64.b64encode(svg.read_bytes()).decode("ascii")
+        image = f'<img alt="{escape(report.title)}" src="data:image/svg+xml;base64,{data}">'
+        files += [f'<a href="{report.stem}.{end}">{end.upper()}</a>' for end in ("svg", "png")]
+    tables = "".join(_details(one) for one in report.tables)
+    return (
+        f'<article id="{report.stem}"><h3>{escape(report.title)} {_chip(report.verdict)}</h3>'
+        f"<div>{escape(report.caption)}</div>{image}<dl><dt>The document</dt><dd>{escape(report.statement)}</dd>"
+        f"<dt>Ours</dt><dd>{escape(report.ours)}</dd>"
+        f"<dt>{escape(report.verdict.value.capitalize())}</dt><dd>{escape(report.because)}</dd></dl>"
+        f"<div class=small>{' · '.join(files)}</div>{tables}</article>"
+    )
+
+
+def _csv_link(report: Report, one: Table) -> str:
+    name = f"{report.stem}.csv" if len(report.tables) == 1 else f"{report.stem}-{one.name}.csv"
+    return f'<a href="{name}">CSV {escape(one.name)}</a>'
+
+
+def _details(one: Table) -> str:
+    head = "".join(f"<th>{escape(column)}</th>" for column in one.columns)
+    body = "".join(
+        "<tr>" + "".join(f"<td>{escape(c) if isinstance(c, str) else f'{c:.5g}'}</td>" for c in row) + "</tr>"
+        for row in one.rows[:ROWS]
+    )
+    left = f"<p class=small>{len(one.rows) - ROWS} more rows in the CSV.</p>" if len(one.rows) > ROWS else ""
+    return (
+        f"<details><summary>{escape(one.name)}</summary><div class=scroll><table><tr>{head}</tr>{body}</table></div>"
+        f"{left}</details>"
+    )
+
+
+def _chip(verdict: Verdict) -> str:
+    return f'<span class=chip style="background:{COLOURS[verdict]}">{verdict.value}</span>'

@@ -1,0 +1,126 @@
+"""Reports as pictures, SVG and PNG, where matplotlib is installed."""
+
+import importlib
+import importlib.util
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from rotor.reproduce.report import DiskPanel, Panel, Report
+
+PALETTE = ("#0b5fa5", "#d1495b", "#2a9d5c", "#e08e00", "#7a4fb3", "#1aa6b7", "#8c5a3c", "#555555")
+NO_PICTURES = (
+    "matplotlib is not installed, so there are no pictures; tables are complete. "
+    "For pictures: pip install 'rotor-explorer[plots]'"
+)
+_STYLE = {
+    "font.size": 9.0,
+    "font.family": "sans-serif",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#dddddd",
+    "grid.linewidth": 0.6,
+    "axes.edgecolor": "#888888",
+    "axes.titlesize": 9.0,
+    "legend.fontsize": 8.0,
+    "legend.frameon": False,
+    "lines.linewidth": 1.6,
+    "svg.fonttype": "none",
+    "svg.hashsalt": "rotor",
+}
+_WIDTH, _HEIGHT = 4.2, 3.2
+"""Inches of one panel."""
+
+
+def can_draw() -> bool:
+    """Whether matplotlib is there."""
+    return importlib.util.find_spec("matplotlib") is not None
+
+
+def draw(report: Report, folder: Path) -> tuple[Path, ...]:
+    """Write `stem.svg` and `stem.png`; nothing for a report without panels."""
+    if not report.panels:
+        return ()
+    matplotlib: Any = importlib.import_module("matplotlib")
+    figure_module: Any = importlib.import_module("matplotlib.figure")
+    count = len(report.panels)
+    across = count if count <= 3 else 2
+    down = math.ceil(count / across)
+    with matplotlib.rc_context(_STYLE):
+        figure: Any = figure_module.Figure(figsize=(_WIDTH * across, _HEIGHT * down), layout="constrained")
+        axes: Any = figure.subplots(down, across, squeeze=False)
+        for k, panel in enumerate(report.panels):
+            place = axes[k // across][k % across]
+            if isinstance(panel, DiskPanel):
+                _draw_disk(figure, place, panel)
+            else:
+                _draw_panel(place, panel)
+        for k in range(count, down * across):
+            axes[k // across][k % across].axis("off")
+        paths = folder / f"{report.stem}.svg", folder / f"{report.stem}.png"
+        figure.savefig(paths[0], metadata={"Date": None})
+        figure.savefig(paths[1], dpi=130)
+    return paths
+
+
+def _draw_panel(axes: Any, panel: Panel) -> None:
+    turn = 0
+    for one in panel.curves:
+        place = one.colour if one.colour is not None else turn
+        turn += one.colour is None
+        colour = PALETTE[place % len(PALETTE)]
+        if one.style == "band":
+            axes.fill_between(one.x, one.y, one.upper, color=colour, alpha=0.15, linewidth=0)
+            continue
+        look: dict[str, Any] = {
+            "line": {},
+            "points": {"linestyle": "none", "marker": "o", "markersize": 4},
+            "dashed": {"linestyle": "--"},
+            "both": {"marker": "o", "markersize": 3},
+        }[one.style]
+        axes.plot(one.x, one.y, color=colour, label=one.label or None, **look)
+    axes.set_xlabel(panel.x_label)
+    axes.set_ylabel(panel.y_label)
+    if panel.title:
+        axes.set_title(panel.title)
+    if "x" in panel.log:
+        axes.set_xscale("log")
+    if "y" in panel.log:
+        axes.set_yscale("log")
+    if panel.invert_y:
+        axes.invert_yaxis()
+    if panel.equal:
+        axes.set_aspect("equal", adjustable="datalim")
+    if panel.y_limits:
+        axes.set_ylim(*panel.y_limits)
+    if sum(bool(one.label) and one.style != "band" for one in panel.curves) > 1:
+        axes.legend()
+
+
+def _draw_disk(figure: Any, axes: Any, panel: DiskPanel) -> None:
+    """Seen from above, nose up: x = r sin ψ, y = −r cos ψ; the circle closes because cells have edges of their own."""
+    values = np.array(panel.values)
+    n, m = values.shape
+    edges = panel.r[0] - 0.5 * panel.dr + panel.dr * np.arange(n + 1)
+    around = 2.0 * np.pi * (np.arange(m + 1) - 0.5) / m
+    x, y = edges[:, None] * np.sin(around), -edges[:, None] * np.cos(around)
+    mesh = axes.pcolormesh(x, y, values, cmap="viridis", rasterized=True)
+    figure.colorbar(mesh, ax=axes, label=panel.label, shrink=0.85)
+    if panel.zero_line:
+        psi = np.append(panel.psi, 2.0 * np.pi)
+        closed = np.hstack((values, values[:, :1]))
+        r = np.array(panel.r)[:, None]
+        axes.contour(r * np.sin(psi), -r * np.cos(psi), closed, levels=[0.0], colors="white", linewidths=1.2)
+    axes.set_aspect("equal")
+    axes.set_xticks([])
+    axes.set_yticks([])
+    axes.grid(False)
+    for spine in axes.spines.values():
+        spine.set_visible(False)
+    for words, across, up in (("ψ = 0°, tail", 0.0, -1.1), ("90°, advancing", 1.08, 0.0), ("180°", 0.0, 1.04)):
+        turn = 90 if across else 0
+        axes.text(across, up, words, ha="center", va="center", fontsize=7, rotation=turn, color="#555555")
+    axes.set_title(panel.title)
