@@ -1,7 +1,7 @@
 """Pressure and friction around a section at one angle of attack, as XFOIL computes them and as files.
 
-XFOIL's Cp comes out of CPWR, the surface points and the skin friction out of DUMP, in the same order: upper trailing edge
-forward around the nose to the lower trailing edge.
+XFOIL's Cp comes out of CPWR, the surface points and the skin friction out of DUMP, in the same order: upper trailing
+edge forward around the nose to the lower trailing edge.
 """
 
 import re
@@ -39,7 +39,8 @@ class PressureCase:
 
 
 PRESSURE_CASES = tuple(PressureCase(name, 3.0, 0.3, 3.68e6, 9.0) for name in ("naca23015", "sc1095", "sc1094r8"))
-"""α 3° stands in the document for the SC sections; Mach, Reynolds number and transition are our assumptions throughout."""
+"""α 3° stands in the document for the SC sections; Mach, Reynolds number and transition are our assumptions "
+"throughout."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -113,7 +114,8 @@ def write_pressure(path: Path, pressure: Pressure) -> None:
     """Write a result as CSV below a header that says how it was made."""
     case = pressure.case
     lines = [
-        f"# {case.section}, XFOIL 6.99 (Drela), alpha {case.alpha_deg:g} deg, Mach {case.mach:g}, Re {case.reynolds:.0f}, "
+        f"# {case.section}, XFOIL 6.99 (Drela), alpha {case.alpha_deg:g} deg, Mach {case.mach:g}, Re "
+        f"{case.reynolds:.0f}, "
         f"Ncrit {case.n_crit:g}, {_PANELS} panels",
         f"# cl {pressure.cl:.4f}, cd {pressure.cd:.5f}, cm {pressure.cm:.4f}",
         "# From the upper trailing edge forward to the lower one; chord lengths; cf over free-stream dynamic pressure.",

@@ -6,6 +6,7 @@ converge); else `xvfb-run` gives XFOIL a screen. Both can hang or crash at singl
 is its own process with a time limit, and sweeps with other panelings fill the gaps.
 """
 
+import atexit
 import os
 import shutil
 import signal
@@ -69,6 +70,7 @@ def _shim_folder() -> tempfile.TemporaryDirectory[str] | None:
     if compiler is None:
         return None
     folder = tempfile.TemporaryDirectory(prefix="rotor-xfoil-")
+    atexit.register(folder.cleanup)
     source = Path(folder.name) / "notraps.c"
     source.write_text(_TRAP_SHIM, encoding="utf-8")
     made = subprocess.run(

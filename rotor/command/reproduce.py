@@ -8,11 +8,6 @@ from typing import Any
 
 from tqdm import tqdm
 
-from rotor.reproduce.catalogue import ENTRIES, Entry, find_entry
-from rotor.reproduce.files import write_all, write_report
-from rotor.reproduce.pictures import NO_PICTURES, can_draw
-from rotor.reproduce.report import Report
-
 
 def add_parser(commands: Any) -> None:
     """Register the command."""
@@ -21,11 +16,23 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--figure", metavar="N", action="append", help="only this one, for example 3.11 or 'table 4.1'; repeatable"
     )
+    parser.add_argument(
+        "--trust", action="store_true", help="also make the trust page: validation.md, trust.csv, sensitivity.csv"
+    )
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
     """0; bad input is for the caller."""
+    # Here, because no other command needs the catalogue.
+    from rotor.reproduce.catalogue import ENTRIES, Entry, find_entry
+    from rotor.reproduce.files import write_all, write_report
+    from rotor.reproduce.pictures import NO_PICTURES, can_draw
+    from rotor.reproduce.report import Report, typographic
+    from rotor.reproduce.trust_files import write_trust
+
+    if args.trust and args.figure:
+        raise ValueError("--trust needs every figure: leave --figure out")
     entries = [find_entry(number) for number in args.figure] if args.figure else list(ENTRIES)
     folder = Path(args.out)
     try:
@@ -39,9 +46,11 @@ def run(args: argparse.Namespace) -> int:
         report = entry.make()
         write_report(report, folder, pictures=pictures)
         made.append((entry, report))
-        tqdm.write(f"{report.title:<14}{report.verdict.value:<14}{report.ours}")
+        tqdm.write(f"{report.title:<14}{report.verdict.value:<14}{typographic(report.ours)}")
     page = write_all(made, folder)
     if not pictures:
         print(f"note: {NO_PICTURES}", file=sys.stderr)
+    if args.trust:
+        print(f"trust page: {write_trust([report for _, report in made], folder)}")
     print(f"{len(made)} rebuilt in {time.perf_counter() - begin:.0f} s: {page}")
     return 0

@@ -1,4 +1,4 @@
-"""The document's figures and tables, rebuilt: each with its statement, our number and a verdict that the number decides.
+"""The document's figures and tables, rebuilt: each with its statement, our number and a verdict decided by it.
 
 `python -m rotor reproduce OUT`. One chapter section a file; each figure is a function that returns a `Report`.
 Chapters 4–6 of the document are known to us by their captions only, so nothing there is compared: ours stands alone.

@@ -1,21 +1,20 @@
-"""Figures 4.9, 4.11–4.13 and Table 4.1: the flown blade, three segments beside public data, all concepts side by side."""
+"""Figures 4.9, 4.11–4.13 and Table 4.1: the flown blade, three segments beside public data, all concepts side by "
+"side."""
 
-from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
 from rotor.airfoil.sections import load_installed
-from rotor.concepts import find_concept, nearest
+from rotor.concepts import find_concept
 from rotor.optimise import Search, optimise
 from rotor.presets import make_design, uh60a_rotor, uh60a_twist
 from rotor.reproduce.aircraft import HORSEPOWER_KW, KNOT, public_data
-from rotor.reproduce.optima import BASELINE, CONCEPTS, FULL, Scope, best
+from rotor.reproduce.optima import CONCEPTS, FULL, Scope, best
 from rotor.reproduce.optimum_twist import SHORT, UNKNOWN
 from rotor.reproduce.report import Curve, Panel, Report, Table, Verdict, curve, judged, table
 from rotor.reproduce.runs import VARIANT_TITLES, VARIANTS, solved
 from rotor.solve import solve
-from rotor.twist import parse_twist
 
 RATES = tuple(range(-24, 5, 2))
 """Fixed linear blades among which the best is looked for [°/R]."""
@@ -34,15 +33,18 @@ def figure_4_9() -> Report:
         x = (span.start, span.end, span.end, span.start, span.start)
         front, back = 0.25 * chord, -0.75 * chord
         colour = 0 if span.section == "sc1095" else 1
-        curves.append(curve(span.section.upper(), x, (front, front, back, back, front), colour=colour))
+        label = span.section.upper() if span.section not in [str(row[0]) for row in rows[:-1]] else ""
+        curves.append(curve(label, x, (front, front, back, back, front), colour=colour))
     shares = {name: sum(float(r[2]) - float(r[1]) for r in rows if r[0] == name) for name in ("sc1095", "sc1094r8")}
     return Report(
         number="4.9",
         kind="figure",
-        caption="Planform of the UH-60A blade as the flight preset has it: sections, chord, root cut-out; the 20° sweep of "
+        caption="Planform of the UH-60A blade as the flight preset has it: sections, chord, root cut-out; the 20° "
+        "sweep of "
         "the tip and the trailing-edge tab are not modelled.",
         statement=UNKNOWN,
-        ours=f"SC1095 over {100 * shares['sc1095']:.0f} % of the radius, SC1094 R8 over {100 * shares['sc1094r8']:.0f} %, "
+        ours=f"SC1095 over {100 * shares['sc1095']:.0f} % of the radius, SC1094 R8 over "
+        f"{100 * shares['sc1094r8']:.0f} %, "
         "blended between.",
         verdict=Verdict.ALONE,
         because="Numbers and sources stand in assets/uh60a.toml.",
@@ -64,7 +66,8 @@ def figure_4_11() -> Report:
         kind="figure",
         caption="Built-in twist of the UH-60A and the linear twist that stands for it.",
         statement="The nonlinear twist is approximated by a linear −16° (p. 25).",
-        ours=f"Straight line through it from 0.2 R to the tip: {plain:.1f}° unweighted, {weighted:.1f}° weighted by r².",
+        ours=f"Straight line through it from 0.2 R to the tip: {plain:.1f}° unweighted, {weighted:.1f}° weighted by "
+        "r².",
         verdict=judged(min(abs(plain + 16.0), abs(weighted + 16.0)) < 0.5),
         because="−16° is its linear equivalent; the often quoted −18° is a nominal value.",
         tables=(
@@ -105,13 +108,16 @@ def figure_4_12(scope: Scope = FULL) -> Report:
     return Report(
         number="4.12",
         kind="figure",
-        caption="Main-rotor power of the flown blade and of the best three-segment blade at each speed, beside a public "
+        caption="Main-rotor power of the flown blade and of the best three-segment blade at each speed, beside a "
+        "public "
         "model curve of the UH-60A (7257.5 kg, 1600 m; indicative, not flight test).",
         statement=UNKNOWN,
-        ours=f"The best three segments save {100 * savings.min():.1f} to {100 * savings.max():.1f} % of main-rotor power "
+        ours=f"The best three segments save {100 * savings.min():.1f} to {100 * savings.max():.1f} % of main-rotor "
+        "power "
         "against the built-in twist.",
         verdict=Verdict.ALONE,
-        because="A saving by twist is smaller than the distance between model and data, so only differences between our "
+        because="A saving by twist is smaller than the distance between model and data, so only differences between "
+        "our "
         "own curves mean something.",
         tables=(
             table("main_rotor_kw", ("mu", "public_model_curve", "built_in_twist", "three_segments", "twist"), rows),
@@ -138,19 +144,18 @@ def figure_4_13(scope: Scope = FULL) -> Report:
         curves: list[Curve] = []
         for k, concept in enumerate(CONCEPTS):
             savings = [100.0 * best(name, concept, mu, scope).saving for mu in scope.speeds]
-            curves.append(curve(concept, scope.speeds, savings, "both", colour=k))
+            curves.append(curve(concept if name == VARIANTS[1] else "", scope.speeds, savings, "both", colour=k))
             numbers[f"{name}_{concept}_largest"] = max(savings) / 100.0
         panels.append(Panel("advance ratio µ", "saving of total power [%]", tuple(curves), title=VARIANT_TITLES[name]))
     gain = {
-        name: max(
-            best(name, "three", mu, scope).saving - best(name, "linear", mu, scope).saving for mu in scope.speeds
-        )
+        name: max(best(name, "three", mu, scope).saving - best(name, "linear", mu, scope).saving for mu in scope.speeds)
         for name in VARIANTS
     }
     return Report(
         number="4.13",
         kind="figure",
-        caption="Saving of total power by each concept, moved to its optimum at each speed, against a fixed linear −16°.",
+        caption="Saving of total power by each concept, moved to its optimum at each speed, against a fixed linear "
+        "−16°.",
         statement=UNKNOWN,
         ours="Three segments save beyond one linear twist at most "
         + ", ".join(f"{100 * gain[name]:.2f} % ({SHORT[name]})" for name in VARIANTS)

@@ -1,6 +1,7 @@
 """Figures 3.3–3.6: how the error of the polynomial fits falls with their order, and the fits of order 10 and 12."""
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebval
 
 from rotor.airfoil.polynomial import (
     DRAG_ORDER,
@@ -57,9 +58,7 @@ def _error(number: str, which: str, chosen: int) -> Report:
     spread = _spread(which)
     share = numbers["at_-10_15"] / spread
     knee = numbers["last_step_-10_20"] > numbers["next_step_-10_20"]
-    rows = [
-        (one.order, *(_of(studies[pair][k], which) for pair in RANGES)) for k, one in enumerate(studies[RANGES[0]])
-    ]
+    rows = [(one.order, *(_of(studies[pair][k], which) for pair in RANGES)) for k, one in enumerate(studies[RANGES[0]])]
     symbol = "Cl" if which == "lift" else "Cd"
     panel = Panel(
         "polynomial order",
@@ -73,11 +72,14 @@ def _error(number: str, which: str, chosen: int) -> Report:
     return Report(
         number=number,
         kind="figure",
-        caption=f"Error of the {which} polynomial of SC1095 against its order, over two ranges of α. Data: XFOIL, M 0.3, "
+        caption=f"Error of the {which} polynomial of SC1095 against its order, over two ranges of α. Data: XFOIL, M "
+        "0.3, "
         "Re 3.68 million, Ncrit 9 (our assumption; the document states range and flow nowhere).",
         statement=f"Order {chosen} is a good compromise between error and cost (p. 18).",
-        ours=f"Order {chosen}: rms {numbers['at_-10_15']:.5f} over −10…15°, {100 * share:.2f} % of the spread of {symbol}; "
-        f"{numbers['from_2_-10_15']:.0f} times better than order 2. Over −10…20° the step to it from order {chosen - 2} "
+        ours=f"Order {chosen}: rms {numbers['at_-10_15']:.5f} over −10…15°, {100 * share:.2f} % of the spread of "
+        f"{symbol}; "
+        f"{numbers['from_2_-10_15']:.0f} times better than order 2. Over −10…20° the step to it from order "
+        f"{chosen - 2} "
         f"gains a factor {numbers['last_step_-10_20']:.2f}, the step to order {chosen + 2} another "
         f"{numbers['next_step_-10_20']:.2f}.",
         verdict=judged(share < GOOD),
@@ -106,7 +108,7 @@ def _fit(number: str, which: str, order: int) -> Report:
     # Outside its range the same polynomial, unheld, is worthless: the reason why it must be clamped.
     t = (2.0 * np.deg2rad(30.0) - sum(fit.fit_range)) / (fit.fit_range[1] - fit.fit_range[0])
     series = fit.cl_series if which == "lift" else fit.cd_series
-    unheld = float(np.polynomial.chebyshev.chebval(t, series))
+    unheld = float(np.asarray(chebval(t, series), dtype=np.float64))
     words = f"rms {rms:.5f} over {low:g}…{high:g}°."
     if which == "drag":
         words += f" In attached flow ({ATTACHED_DEG[0]:g}…{ATTACHED_DEG[1]:g}°) Cd is off by "
@@ -122,7 +124,11 @@ def _fit(number: str, which: str, order: int) -> Report:
         verdict=judged(rms < GOOD * _spread(which)),
         because="Inside the range of the fit it does; outside it must be held at its end values, which the document "
         "does not mention and from µ 0.15 on a trim needs.",
-        tables=(table("fit", ("alpha_deg", symbol.lower(), f"{symbol.lower()}_fit"), zip(alpha_deg, data, made, strict=True)),),
+        tables=(
+            table(
+                "fit", ("alpha_deg", symbol.lower(), f"{symbol.lower()}_fit"), zip(alpha_deg, data, made, strict=True)
+            ),
+        ),
         panels=(
             Panel(
                 "α [°]",

@@ -73,15 +73,18 @@ def figure_3_9() -> Report:
         kind="figure",
         caption=f"Power in forward flight, µ {FORWARD:.2f}, against the number of azimuths (40 elements).",
         statement="At least 100 azimuthal positions are needed (p. 22).",
-        ours=f"At 100 azimuths power is within {100 * worst:.1g} % of {FINEST_AZIMUTHS} in both presets; within 0.1 % from "
+        ours=f"At 100 azimuths power is within {100 * worst:.1g} % of {FINEST_AZIMUTHS} in both presets; within 0.1 % "
+        "from "
         + ", ".join(f"{numbers[f'{name}_needed']:.0f} ({name})" for name, _ in CASES)
         + " on. From 100 to 360 azimuths the error falls with order "
         + ", ".join(f"{numbers[f'{name}_order']:.1f} ({name})" for name, _ in CASES)
         + ".",
         verdict=judged(worst < ENOUGH and needed >= 100),
-        because="100 is enough" + ("" if needed >= 100 else ", but far fewer do for power")
+        because="100 is enough"
+        + ("" if needed >= 100 else ", but far fewer do for power")
         + ": evenly summed, a smooth periodic load converges faster than any power, and only the corners of stall, of "
-        "reverse flow and of clamped polynomials leave a finite order. Flapping by harmonic balance asks for no more; one "
+        "reverse flow and of clamped polynomials leave a finite order. Flapping by harmonic balance asks for no more; "
+        "one "
         "integrated in time, as the document's, may. The wake of the flight preset itself refuses fewer than 33.",
         tables=(table("power_kw", ("azimuths", *(name for name, _ in CASES), "flight-linear"), rows),),
         panels=(Panel("azimuths", f"power, relative error to {FINEST_AZIMUTHS}", tuple(curves), log="xy"),),
@@ -124,7 +127,8 @@ def _elements(number: str, mu: float, azimuths: int) -> Report:
         )
         + ".",
         verdict=judged(worst < 5e-3),
-        because="It settles. The midpoint rule has order 2 on smooth loads; Prandtl's factor ends in a square root at the "
+        because="It settles. The midpoint rule has order 2 on smooth loads; Prandtl's factor ends in a square root at "
+        "the "
         "tip, and the flown blade's airfoils and twist table have corners, which makes the order uneven.",
         tables=(table("power_kw", ("elements", *(name for name, _ in CASES)), rows),),
         panels=(

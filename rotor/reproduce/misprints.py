@@ -1,4 +1,4 @@
-"""What the document omits or misprints, each with two lines of Python that show it. The lines run; nothing is quoted."""
+"""What the document omits or misprints, each with two lines of Python that show it. The lines are run."""
 
 import math
 from collections.abc import Callable
@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebval
 
 from rotor.airfoil.polynomial import polynomial_section, polynomial_table
 from rotor.airfoil.table import load_section
@@ -40,12 +41,14 @@ class Misprint:
 
 MISPRINTS: tuple[Misprint, ...] = (
     Misprint(
-        "2.26", "12", "misprint", "C_T = 4∫λ(λ − λc)² r dr", "4∫λ(λ − λc) r dr, as (2.24): uniform inflow must give 2λ².",
+        "2.26", "12", "misprint", "C_T = 4∫λ(λ − λc)² r dr", "4∫λ(λ − λc) r dr, as (2.24): uniform inflow must give "
+        "2λ².",
         "lam, r = 0.05, (np.arange(1000) + 0.5) / 1000",
         "4 * np.mean(lam * lam**2 * r), 4 * np.mean(lam * lam * r)",
     ),
     Misprint(
-        "2.27", "12", "misprint", "C_Pi = 4∫λ²(λ − λc)² r dr", "4∫λ²(λ − λc) r dr, as (2.25): uniform inflow must give λC_T.",
+        "2.27", "12", "misprint", "C_Pi = 4∫λ²(λ − λc)² r dr", "4∫λ²(λ − λc) r dr, as (2.25): uniform inflow must "
+        "give λC_T.",
         "lam, r = 0.05, (np.arange(1000) + 0.5) / 1000",
         "4 * np.mean(lam**2 * lam**2 * r), 4 * np.mean(lam**2 * lam * r)",
     ),
@@ -63,14 +66,16 @@ MISPRINTS: tuple[Misprint, ...] = (
     ),
     Misprint(
         "2.32", "13", "misprint", "kx = (15π/23) tan(χ/2), named Pitt–Peters",
-        "15π/32 is the gain of their three-state matrix (½, 15π/64). Both are kept, by name; measured gradients lie nearer "
+        "15π/32 is the gain of their three-state matrix (½, 15π/64). Both are kept, by name; measured gradients lie "
+        "nearer "
         "the print.",
         "mean, gradient = 1 / 2, 15 * np.pi / 64",
         "15 * np.pi / 23, gradient / mean",
     ),
     Misprint(
         "3.3", "18", "omission", "one lift-curve slope for hover",
-        "Closed form only for a straight lift curve; the flight preset balances each annulus with the real one. Shown: hover "
+        "Closed form only for a straight lift curve; the flight preset balances each annulus with the real one. "
+        "Shown: hover "
         "power, linear −16°, flight preset with either.",
         "design = make_design('flight', twist='linear:-16', advance_ratio=0.0)",
         "hover_kw(design, 'closed-form'), hover_kw(design, 'annulus')", "kW",
@@ -89,20 +94,23 @@ MISPRINTS: tuple[Misprint, ...] = (
     ),
     Misprint(
         "3.6", "21", "omission", "U_P without µ sin α ΩR",
-        "The tilted disk sees the stream. Without it torque × Ω misses the parasite power: shown at µ 0.30, beside the sum of "
+        "The tilted disk sees the stream. Without it torque × Ω misses the parasite power: shown at µ 0.30, beside "
+        "the sum of "
         "parts that the thesis preset takes as power.",
         "power = solve(make_design('thesis', advance_ratio=0.30)).require().power",
         "power.shaft / 1e3, power.main_rotor / 1e3", "kW",
     ),
     Misprint(
         "3.4 and abstract", "20, ix", "omission", "linear inflow, and twist that evens the inflow",
-        "Linear inflow does not answer to where the lift is. Shown: by how much induced power differs between 0° and −16° at "
+        "Linear inflow does not answer to where the lift is. Shown: by how much induced power differs between 0° and "
+        "−16° at "
         "µ 0.2, as printed and with the dynamic wake.",
         "spread = lambda name: abs(induced_kw(name, 0) - induced_kw(name, -16))",
         "spread('thesis'), spread('thesis-wake')", "kW",
     ),
     Misprint(
-        "3.14", "22", "misprint", "Δy = (1 − Rmin/Rmax)/N", "That is Δr = Δy/R. Shown: N = 40, as printed and in metres.",
+        "3.14", "22", "misprint", "Δy = (1 − Rmin/Rmax)/N", "That is Δr = Δy/R. Shown: N = 40, as printed and in "
+        "metres.",
         "root, radius = 0.1304, 8.1788",
         "(1 - root) / 40, radius * (1 - root) / 40", "m",
     ),
@@ -114,7 +122,8 @@ MISPRINTS: tuple[Misprint, ...] = (
     ),
     Misprint(
         "3.17", "24", "ambiguous", "f = (B/2)(r − rmin)/(rφ) with B ≈ 0.95",
-        "Computed as printed. By its form, and in other codes, B would be the number of blades. Shown: F at 0.2 R, λ 0.06.",
+        "Computed as printed. By its form, and in other codes, B would be the number of blades. Shown: F at 0.2 R, λ "
+        "0.06.",
         "spacing = 0.5 * (0.20 - 0.1304) / 0.06",
         "float(prandtl(0.95 * spacing)[0]), float(prandtl(4 * spacing)[0])",
     ),
@@ -126,7 +135,8 @@ MISPRINTS: tuple[Misprint, ...] = (
     ),
     Misprint(
         "§3.2", "25", "misprint", "weight W = 8322.4 kg",
-        "A mass. Shown: C_W taken literally in newton, and with g; the second is the round 0.0065 of flight-test reports.",
+        "A mass. Shown: C_W taken literally in newton, and with g; the second is the round 0.0065 of flight-test "
+        "reports.",
         "design = make_design('thesis')",
         "design.condition.mass / design.thrust_unit, design.condition.weight / design.thrust_unit",
     ),
@@ -157,7 +167,7 @@ def _names() -> dict[str, Any]:
 
     def free(series: Any, ends: tuple[float, float], alpha: float) -> float:
         t = (2.0 * alpha - sum(ends)) / (ends[1] - ends[0])
-        return float(np.polynomial.chebyshev.chebval(t, series))
+        return float(np.asarray(chebval(t, series), dtype=np.float64))
 
     helpers: tuple[Callable[..., Any], ...] = (
         hover_kw, induced_kw, free, glauert_inflow, prandtl, make_design, solve, polynomial_section, polynomial_table,

@@ -1,8 +1,8 @@
 """Chapter 4: the twist of least power for every concept, over speed, in both presets and with both kinds of inflow.
 
 The document's own numbers of chapter 4 are not known to us, so nothing here is compared with them. What is said of
-each optimum: parameters, the band within 0.1 % of its power, the power, and the saving against the document's baseline, a
-fixed linear twist of −16°.
+each optimum: parameters, the band within 0.1 % of its power, the power, and the saving against the document's
+baseline, a fixed linear twist of −16°.
 """
 
 from collections.abc import Callable, Iterator

@@ -1,4 +1,5 @@
-"""Figures 4.1–4.8 and 4.10: the optimum twist of each concept over speed. Known by their captions only: ours stand alone."""
+"""Figures 4.1–4.8 and 4.10: the optimum twist of each concept over speed. Known by their captions only: ours stand "
+"alone."""
 
 from collections.abc import Sequence
 
@@ -7,7 +8,12 @@ from rotor.reproduce.report import Curve, Panel, Report, Table, Verdict, curve, 
 from rotor.reproduce.runs import VARIANT_TITLES, VARIANTS
 
 UNKNOWN = "Only the caption is known to us; the document's numbers are not."
-SHORT = {"thesis": "thesis", "thesis-wake": "thesis + wake", "flight": "flight", "flight-linear": "flight, linear inflow"}
+SHORT = {
+    "thesis": "thesis",
+    "thesis-wake": "thesis + wake",
+    "flight": "flight",
+    "flight-linear": "flight, linear inflow",
+}
 _NAMES = {
     "rate_deg": "twist rate [°/R]",
     "curvature_deg": "parameter a [°/R²]",
@@ -57,8 +63,10 @@ def figure_4_8(scope: Scope = FULL) -> Report:
     """Two sections, two airfoils."""
     return _figure(
         "4.8", "two airfoils", _TWO, scope,
-        " SC1094 R8 inboard, SC1095 outboard, changing at the division (our order; the document's is not known). In the "
-        "thesis preset decks replace the polynomials and the annulus balance eq. (3.3), in the baseline too: the R8 exists as "
+        " SC1094 R8 inboard, SC1095 outboard, changing at the division (our order; the document's is not known). In "
+        "the "
+        "thesis preset decks replace the polynomials and the annulus balance eq. (3.3), in the baseline too: the R8 "
+        "exists as "
         "a deck only, and (3.3) knows one lift curve for a whole blade.",
     )  # fmt: skip
 
@@ -114,14 +122,16 @@ def _figure(number: str, concept: str, shown: Sequence[str], scope: Scope, note:
 
 
 def _panel(name: str, row: list[Best], shown: Sequence[str]) -> Panel:
-    speeds = [one.mu for one in row]
     curves: list[Curve] = []
+    hover, flying = [one for one in row if one.mu == 0.0], [one for one in row if one.mu > 0.0]
     for k, key in enumerate(shown):
-        low = [_band(one, key)[0] for one in row]
-        high = [_band(one, key)[1] for one in row]
-        curves.append(curve("", speeds, low, "band", upper=high, colour=k))
         label = _NAMES[key].partition(" [")[0] if len(shown) > 1 else "optimum"
-        curves.append(curve(label, speeds, [_value(one, key) for one in row], "both", colour=k))
+        # Between hover and the slowest flight no inflow model is proven: a gap, not a line.
+        for part, words in ((flying, label), (hover, "")):
+            speeds = [one.mu for one in part]
+            low, high = ([_band(one, key)[end] for one in part] for end in (0, 1))
+            curves.append(curve("", speeds, low, "band", upper=high, colour=k))
+            curves.append(curve(words, speeds, [_value(one, key) for one in part], "both", colour=k))
     y_label = _NAMES[shown[0]] if len(shown) == 1 else "twist rate [°/R]"
     return Panel("advance ratio µ", y_label, tuple(curves), title=VARIANT_TITLES[name])
 

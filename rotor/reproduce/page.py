@@ -2,13 +2,13 @@
 
 import base64
 from collections.abc import Sequence
-from html import escape
+from html import escape as escape_html
 from itertools import groupby
 from pathlib import Path
 
 from rotor.reproduce.catalogue import Entry
 from rotor.reproduce.pictures import NO_PICTURES
-from rotor.reproduce.report import Report, Table, Verdict
+from rotor.reproduce.report import Report, Table, Verdict, typographic
 
 ROWS = 60
 """Rows of a table shown on the page; the CSV has them all."""
@@ -51,6 +51,11 @@ def write_page(made: Sequence[tuple[Entry, Report]], folder: Path, *, pictures: 
     return path
 
 
+def escape(text: str) -> str:
+    """Text for the page."""
+    return escape_html(typographic(text))
+
+
 def _head(made: Sequence[tuple[Entry, Report]], pictures: bool) -> str:
     counts = {verdict: sum(report.verdict is verdict for _, report in made) for verdict in Verdict}
     summary = ", ".join(f"{count} {verdict.value}" for verdict, count in counts.items() if count)
@@ -66,9 +71,11 @@ def _head(made: Sequence[tuple[Entry, Report]], pictures: bool) -> str:
         f"<style>{_CSS}</style><main><h1>The document, rebuilt</h1>"
         "<p>Figures and tables of M. Lonoce, <i>Helicopter Blade Twist Optimization in Forward Flight</i> (MSc thesis, "
         "Instituto Superior Técnico, 2016), computed anew. Captions are ours; no picture is taken from there. "
-        "<b>thesis</b> is what the document states, <b>flight</b> what we believe, <b>thesis-wake</b> the thesis preset "
-        "with a wake that answers to where the lift is. We hold the text up to figure 3.15; of chapters 4 to 6 only the "
-        f"captions.</p><p>{len(made)} rebuilt: {summary}. <a href=\"misprints.html\">What the document omits or misprints"
+        "<b>thesis</b> is what the document states, <b>flight</b> what we believe, <b>thesis-wake</b> the thesis "
+        "preset "
+        "with a wake that answers to where the lift is. We hold the text up to figure 3.15; of chapters 4 to 6 only "
+        "the "
+        f'captions.</p><p>{len(made)} rebuilt: {summary}. <a href="misprints.html">What the document omits or misprints'
         f"</a>.</p>{without}<details open><summary>Contents</summary><table class=toc>{rows}</table></details>"
     )
 

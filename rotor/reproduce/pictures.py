@@ -7,8 +7,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rotor.reproduce.report import DiskPanel, Panel, Report
+
+Array = NDArray[np.float64]
 
 PALETTE = ("#0b5fa5", "#d1495b", "#2a9d5c", "#e08e00", "#7a4fb3", "#1aa6b7", "#8c5a3c", "#555555")
 NO_PICTURES = (
@@ -33,6 +36,8 @@ _STYLE = {
 }
 _WIDTH, _HEIGHT = 4.2, 3.2
 """Inches of one panel."""
+MANY = 14
+"""Curves, bands included, from which the legend stands beside the panel."""
 
 
 def can_draw() -> bool:
@@ -73,6 +78,9 @@ def _draw_panel(axes: Any, panel: Panel) -> None:
         turn += one.colour is None
         colour = PALETTE[place % len(PALETTE)]
         if one.style == "band":
+            if len(one.x) == 1:  # One condition alone has no area.
+                axes.plot(one.x * 2, (one.y[0], one.upper[0]), color=colour, alpha=0.3, linewidth=5)
+                continue
             axes.fill_between(one.x, one.y, one.upper, color=colour, alpha=0.15, linewidth=0)
             continue
         look: dict[str, Any] = {
@@ -96,17 +104,19 @@ def _draw_panel(axes: Any, panel: Panel) -> None:
         axes.set_aspect("equal", adjustable="datalim")
     if panel.y_limits:
         axes.set_ylim(*panel.y_limits)
-    if sum(bool(one.label) and one.style != "band" for one in panel.curves) > 1:
-        axes.legend()
+    if sum(bool(one.label) for one in panel.curves) > 1:
+        many = len(panel.curves) > MANY
+        axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5)) if many else axes.legend()
 
 
 def _draw_disk(figure: Any, axes: Any, panel: DiskPanel) -> None:
     """Seen from above, nose up: x = r sin ψ, y = −r cos ψ; the circle closes because cells have edges of their own."""
     values = np.array(panel.values)
     n, m = values.shape
-    edges = panel.r[0] - 0.5 * panel.dr + panel.dr * np.arange(n + 1)
-    around = 2.0 * np.pi * (np.arange(m + 1) - 0.5) / m
-    x, y = edges[:, None] * np.sin(around), -edges[:, None] * np.cos(around)
+    edges: Array = panel.r[0] - 0.5 * panel.dr + panel.dr * np.arange(n + 1, dtype=np.float64)
+    around: Array = 2.0 * np.pi * (np.arange(m + 1, dtype=np.float64) - 0.5) / m
+    x: Array = edges[:, None] * np.sin(around)
+    y: Array = -edges[:, None] * np.cos(around)
     mesh = axes.pcolormesh(x, y, values, cmap="viridis", rasterized=True)
     figure.colorbar(mesh, ax=axes, label=panel.label, shrink=0.85)
     if panel.zero_line:
@@ -120,7 +130,7 @@ def _draw_disk(figure: Any, axes: Any, panel: DiskPanel) -> None:
     axes.grid(False)
     for spine in axes.spines.values():
         spine.set_visible(False)
-    for words, across, up in (("ψ = 0°, tail", 0.0, -1.1), ("90°, advancing", 1.08, 0.0), ("180°", 0.0, 1.04)):
+    for words, across, up in (("ψ = 0°, tail", 0.0, -1.1), ("90°, advancing", 1.08, 0.0), ("180°", 0.0, 1.06)):
         turn = 90 if across else 0
         axes.text(across, up, words, ha="center", va="center", fontsize=7, rotation=turn, color="#555555")
-    axes.set_title(panel.title)
+    axes.set_title(panel.title, pad=14)

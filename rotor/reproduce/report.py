@@ -1,6 +1,7 @@
 """What a rebuilt figure is: a caption, what the document says, our numbers, and a verdict that the numbers decide."""
 
 import math
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
@@ -134,6 +135,11 @@ def floats(values: ArrayLike) -> tuple[float, ...]:
 def table(name: str, columns: Sequence[str], rows: Iterable[Sequence[Cell]]) -> Table:
     """A table from any rows; numpy numbers become plain ones."""
     return Table(name, tuple(columns), tuple(tuple(_plain(cell) for cell in row) for row in rows))
+
+
+def typographic(text: str) -> str:
+    """A minus sign where a hyphen stands before a number."""
+    return re.sub(r"(?<![\w.\-])-(?=\d)", "−", text)
 
 
 def judged(agrees: bool) -> Verdict:

@@ -12,10 +12,14 @@ FIVE_RATES = (0, -4, -8, -12, -16)
 """The document's linear twists [degrees per radius] (thesis §3.3)."""
 
 THESIS_WAKE = "thesis-wake"
-"""The `thesis` preset with the dynamic wake in place of its linear inflow: the only change that lets twist act on induced
-power."""
+"""The `thesis` preset with the dynamic wake for its linear inflow: the least change that lets twist act on induced "
+"power."""
 FLIGHT_LINEAR = "flight-linear"
 """The `flight` preset with linear (Pitt–Peters) inflow."""
+
+THESIS_TRIMMED = "thesis-trimmed"
+"""The `thesis` preset's blade and section with the dynamic wake and the `flight` preset's trim: cyclic, and µ sin α "
+"in U_P."""
 
 VARIANTS = ("thesis", THESIS_WAKE, "flight", FLIGHT_LINEAR)
 VARIANT_TITLES = {
@@ -32,6 +36,9 @@ def variant(name: str, *, twist: str | None = None, mu: float = 0.2, mass: float
     design = make_design(preset, twist=twist, advance_ratio=mu, mass=mass)
     if name == THESIS_WAKE:
         design = replace(design, models=replace(design.models, inflow="dynamic-wake"))
+    if name == THESIS_TRIMMED:
+        models = replace(design.models, inflow="dynamic-wake", trim="propulsive", disk_axial_flow=True)
+        design = replace(design, models=models)
     if name == FLIGHT_LINEAR:
         design = replace(design, models=replace(design.models, inflow="pitt-peters"))
     return design

@@ -6,7 +6,7 @@ from rotor.airfoil.polars import read_polars
 from rotor.airfoil.pressure import PRESSURE_CASES, Pressure, PressureCase, read_pressure, run_pressure
 from rotor.airfoil.xfoil import XfoilError
 from rotor.library import asset_path
-from rotor.reproduce.report import Panel, Report, Table, Verdict, curve, judged, table
+from rotor.reproduce.report import Panel, Report, Table, curve, judged, table
 
 TITLES = {"naca23015": "NACA 23015", "sc1095": "SC1095", "sc1094r8": "SC1094 R8"}
 SHIFT = 0.02
@@ -16,7 +16,7 @@ ARROW = 0.25
 
 
 def forces(section: str) -> tuple[Pressure, str]:
-    """The result to show, and one sentence on where it comes from: rerun where XFOIL is installed, shipped otherwise."""
+    """The result to show and where it comes from: rerun where XFOIL is installed, shipped otherwise."""
     case = next(case for case in PRESSURE_CASES if case.section == section)
     shipped = read_pressure(case)
     try:
@@ -47,10 +47,10 @@ def figure_2_4() -> Report:
         number="2.4",
         kind="figure",
         caption="Pressure coefficient on the upper and lower side of NACA 23015. The document states neither angle nor "
-        f"flow; ours: {_flow(pressure.case)}.",
+        f"flow; ours: {_flow(pressure.case)}. {origin}",
         statement="XFOIL gives how the pressure coefficient changes over the top and the bottom of a section (p. 9).",
         ours=f"Least Cp {pressure.cp[peak]:.2f} at {100 * pressure.x[peak]:.0f} % chord on the upper side; largest "
-        f"{stagnation:.3f}, where isentropic flow at rest has {expected:.3f}. {origin}",
+        f"{stagnation:.3f}, where isentropic flow at rest has {expected:.3f}.",
         verdict=judged(good),
         because="The stagnation pressure is that of compressible flow, and suction sits on the upper side.",
         tables=(_table(pressure),),
@@ -87,11 +87,13 @@ def _forces(number: str, section: str, statement: str) -> Report:
     return Report(
         number=number,
         kind="figure",
-        caption=f"Pressure forces around {TITLES[section]}: arrows of −Cp normal to the surface; {_flow(pressure.case)}. "
-        "Angle, Mach and Reynolds number are ours where the document is silent.",
+        caption=f"Pressure forces around {TITLES[section]}: arrows of −Cp normal to the surface; "
+        f"{_flow(pressure.case)}. "
+        f"Angle, Mach and Reynolds number are ours where the document is silent. {origin}",
         statement=statement,
-        ours=f"cl {pressure.cl:.3f}, cd {pressure.cd:.5f}, cm {pressure.cm:.3f}; the arrows add up to cl {integrated:.3f} "
-        f"({100 * gap:+.2f} %). {beside[0]}{origin}",
+        ours=f"cl {pressure.cl:.3f}, cd {pressure.cd:.5f}, cm {pressure.cm:.3f}; the arrows add up to cl "
+        f"{integrated:.3f} "
+        f"({100 * gap:+.2f} %). {beside[0]}".rstrip(),
         verdict=judged(abs(gap) < 5e-3),
         because="The arrows carry XFOIL's lift, which proves order, sign and scale, not XFOIL; the document prints no "
         "number to set beside.",

@@ -70,7 +70,8 @@ def figure_2_7() -> Report:
         )
         + ".",
         verdict=judged(good),
-        because="Prandtl's factor takes the load off the end of the blade; the built-in twist of the UH-60A turns up again "
+        because="Prandtl's factor takes the load off the end of the blade; the built-in twist of the UH-60A turns up "
+        "again "
         "there and keeps it longer.",
         tables=(table("blade", ("preset", "r", "lambda_i", "dct_dr"), rows),),
         panels=(
@@ -94,7 +95,8 @@ def figure_2_8() -> Report:
     return Report(
         number="2.8",
         kind="figure",
-        caption=f"Velocity normal to the leading edge in forward flight, µ {FAST:.2f} (ours; the document states none).",
+        caption=f"Velocity normal to the leading edge in forward flight, µ {FAST:.2f} (ours; the document states "
+        "none).",
         statement="At ψ = 90° the blade meets ΩR + V; on the retreating side there is a region where air comes from "
         "the trailing edge (p. 14).",
         ours=f"From {low:.3f} to {top:.3f} ΩR. Reverse flow over {100 * ours:.2f} % of the disk; the circle "

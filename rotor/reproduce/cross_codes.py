@@ -1,0 +1,199 @@
+"""Our rotor beside two independent public codes, in one run: dynbem in forward flight, WISDEM's CCBlade in axial flow.
+
+Both get our trimmed controls, our blade and our section data, so that what is left between the codes is their
+mathematics. Neither is a dependency: they come with the extras `test` and `crosscheck`.
+"""
+
+import importlib
+import importlib.util
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rotor.airfoil.table import load_section
+from rotor.design import Design
+from rotor.presets import make_design
+from rotor.solution import Solution
+from rotor.solve import solve
+
+Array = NDArray[np.float64]
+
+DYNBEM_SPEEDS = (0.10, 0.20, 0.30)
+CCBLADE_MASSES = (5000.0, 8322.4)
+RATE_DEG = -8.0
+SECTION = "sc1095-thesis"
+MACH = 0.3
+AXIAL_SPEED = 0.02
+"""CCBlade divides by the axial speed; 0.02 m/s of climb stands for hover, where some 13 m/s are induced."""
+
+
+@dataclass(frozen=True)
+class Beside:
+    """One condition in both codes."""
+
+    code: str
+    condition: str
+    thrust: float
+    """Theirs over ours, less one."""
+    power: float
+    """Theirs over ours, less one (torque)."""
+    detail: str
+
+
+DYNBEM_DIFFERENCES = (
+    "Same: blade, twist, section table, collective, cyclic, shaft tilt, no loss factors. Theirs: three inflow states "
+    "driven "
+    "by thrust and both hub moments, rigid blades. Ours: the same states with zero hub moments, and coning taken away "
+    "by "
+    "a heavy blade."
+)
+CCBLADE_DIFFERENCES = (
+    "Same: blade, twist, section table, collective, Prandtl tip factor. Theirs: a turbine code run as a rotor (section "
+    "mirrored), sin φ for φ in the tip factor. Ours leaves out swirl; both are shown."
+)
+
+
+def have(package: str) -> bool:
+    """Whether the code is installed."""
+    return importlib.util.find_spec(package) is not None
+
+
+def beside_dynbem() -> list[Beside]:
+    """Pitt–Peters, forward flight, moment trim; dynbem at our controls with its inflow settled."""
+    return [_one_dynbem(mu) for mu in DYNBEM_SPEEDS]
+
+
+def beside_ccblade() -> list[Beside]:
+    """Hover: CCBlade at our collective, without and with its swirl."""
+    return [_one_ccblade(mass, swirl) for mass in CCBLADE_MASSES for swirl in (False, True)]
+
+
+def _blade_without_coning(design: Design) -> Design:
+    """A blade too heavy to cone: theirs do not."""
+    blade = replace(design.rotor.blade, flap_inertia=1e8 * design.rotor.blade.flap_inertia)
+    return replace(design, rotor=replace(design.rotor, blade=blade))
+
+
+def moment_trimmed(mu: float) -> Solution:
+    """The document's rotor in propulsive trim with three-state gains and no loss factors."""
+    design = make_design("thesis", twist=f"linear:{RATE_DEG}", advance_ratio=mu)
+    models = replace(
+        design.models, trim="propulsive", disk_axial_flow=True, inflow="pitt-peters", tip_loss=False, hub_loss=False
+    )
+    return solve(_blade_without_coning(replace(design, models=models))).require()
+
+
+def _one_dynbem(mu: float) -> Beside:
+    dynbem: Any = importlib.import_module("dynbem")
+    ours = moment_trimmed(mu)
+    design, controls, rotor = ours.design, ours.controls, ours.design.rotor
+    alpha = np.radians(np.arange(-180.0, 180.1, 0.25))
+    section = load_section(SECTION)(alpha, MACH)
+    stations = np.linspace(rotor.blade.root_cutout, 1.0, 81)
+    chord = [rotor.reference_chord] * len(stations)
+    blade = dynbem.BladeGeometry(
+        rotor.blades, rotor.radius, rotor.blade.root_cutout * rotor.radius, rotor.reference_chord, 0.0,
+        design.models.elements, (rotor.radius * stations).tolist(), chord, (RATE_DEG * (stations - 0.75)).tolist(),
+        False,
+    )  # fmt: skip
+    definition = dynbem.RotorDefinition(
+        blade,
+        dynbem.LinearPolarParameters(0.0, 6.0, 0.01, 12.0),  # Not used: the table below takes its place.
+        control=dynbem.ControlProperties(swashplate_pitch_gain_rad=1.0),
+    )
+    polar = dynbem.TabulatedPolar(alpha, np.ascontiguousarray(section.cl), np.ascontiguousarray(section.cd))
+    model = dynbem.PittPetersModel(definition, polar, design.models.azimuths)
+    speed, tilt = design.airspeed, controls.shaft_tilt
+    # World axes: x forward, z down; azimuth from the nose, so that both cyclics turn their sign.
+    inputs = dynbem.RotorInputs(
+        collective_rad=controls.collective, tilt_lon=controls.cyclic_1c, tilt_lat=-controls.cyclic_1s, R_hub=np.eye(3),
+        v_hub_world=np.array([speed * math.cos(tilt), 0.0, -speed * math.sin(tilt)]), wind_world=np.zeros(3),
+        omega_rad_s=rotor.angular_speed, rho_kg_m3=design.condition.density,
+    )  # fmt: skip
+    state = dynbem.PittPetersRotorState(controls.lambda0, 0.0, 0.0)
+    forces, state = _settle(model, inputs, state)
+    thrust = -float(forces.F_world[2])
+    torque = ours.power.shaft / rotor.angular_speed
+    lambda0, gradient, _ = (float(value) for value in state.to_array())
+    return Beside(
+        code="dynbem",
+        condition=f"µ {mu:g}",
+        thrust=thrust / (ours.ct * design.thrust_unit) - 1.0,
+        power=float(forces.Q_spin) / torque - 1.0,
+        detail=f"λ0 {lambda0:.5f} against {controls.lambda0:.5f}; its gradient {-gradient / lambda0:.4f} λ0 against "
+        f"{_gradient(ours):.4f} λ0",
+    )
+
+
+def _gradient(ours: Solution) -> float:
+    """k_x = 15π/32 tan(χ/2) at the trim."""
+    mu, tilt = ours.design.condition.advance_ratio, ours.controls.shaft_tilt
+    skew = math.atan2(mu * math.cos(tilt), mu * math.sin(tilt) + ours.controls.lambda0)
+    return 15.0 * math.pi / 32.0 * math.tan(0.5 * skew)
+
+
+def _settle(model: Any, inputs: Any, state: Any) -> tuple[Any, Any]:
+    """Newton's method to the steady inflow states: zero rates. Differences of 1e-6 in three states are enough."""
+    x = np.array(state.to_array(), dtype=float)
+    for _ in range(30):
+        forces, rate = model.compute_forces(inputs, state.from_array(x))
+        rates = np.array(rate.to_array(), dtype=float)
+        if np.abs(rates).max() < 1e-10:
+            break
+        slopes = np.empty((3, 3))
+        for k in range(3):
+            nudged = x.copy()
+            nudged[k] += 1e-6
+            _, moved = model.compute_forces(inputs, state.from_array(nudged))
+            slopes[:, k] = (np.array(moved.to_array(), dtype=float) - rates) / 1e-6
+        step = np.linalg.solve(slopes, -rates)
+        x = x + step * min(1.0, 0.02 / max(float(np.abs(step).max()), 1e-12))
+    forces, _ = model.compute_forces(inputs, state.from_array(x))
+    return forces, state.from_array(x)
+
+
+class _MirroredSection:
+    """Our section table as CCBlade asks for one: α is φ − θ for a turbine, and lift turns its sign."""
+
+    def __init__(self) -> None:
+        self.table = load_section(SECTION)
+
+    def evaluate(self, alpha: float, reynolds: float, return_cm: bool = False) -> tuple[float, ...]:
+        """(cl, cd) at α [rad], and cm, which is not asked for."""
+        del reynolds
+        found = self.table(-float(np.asarray(alpha).item()), MACH)
+        pair = (-float(found.cl), float(found.cd))
+        return (*pair, 0.0) if return_cm else pair
+
+
+def _one_ccblade(mass: float, swirl: bool) -> Beside:
+    ccblade: Any = importlib.import_module("wisdem.ccblade.ccblade")
+    design = make_design("thesis", twist=f"linear:{RATE_DEG}", advance_ratio=0.0, mass=mass)
+    models = replace(design.models, hover_inflow="annulus", hub_loss=False)
+    ours = solve(replace(design, models=models)).require()
+    rotor = design.rotor
+    root = rotor.blade.root_cutout
+    n = models.elements
+    r = root + (np.arange(n) + 0.5) / n * (1.0 - root)
+    section = _MirroredSection()
+    code = ccblade.CCBlade(
+        rotor.radius * r, np.full(n, rotor.reference_chord), RATE_DEG * (r - 0.75), [section] * n,
+        rotor.radius * root, rotor.radius, B=rotor.blades, rho=design.condition.density, tiploss=True, hubloss=False,
+        wakerotation=swirl, usecd=True, shearExp=0.0,
+    )  # fmt: skip
+    rpm = rotor.angular_speed * 60.0 / (2.0 * math.pi)
+    loads, _ = code.distributedAeroLoads(AXIAL_SPEED, rpm, math.degrees(ours.controls.collective), 0.0)
+    # Summed like ours, element by element; CCBlade's own sum adds zero loads at both ends of the blade.
+    width = rotor.radius * (1.0 - root) / n
+    thrust = -rotor.blades * float(np.asarray(loads["Np"]).sum()) * width
+    torque = -rotor.blades * float((np.asarray(loads["Tp"]) * rotor.radius * r).sum()) * width
+    return Beside(
+        code="CCBlade",
+        condition=f"hover, {mass:g} kg, {'with' if swirl else 'without'} swirl",
+        thrust=thrust / (ours.ct * design.thrust_unit) - 1.0,
+        power=torque * rotor.angular_speed / ours.power.main_rotor - 1.0,
+        detail=f"C_T/σ {ours.ct_over_sigma:.3f}",
+    )

@@ -1,0 +1,25 @@
+"""Beside independent public codes, in one run, with the same controls and section data."""
+
+import pytest
+
+from rotor.reproduce.cross_codes import beside_ccblade, beside_dynbem
+
+
+def test_dynbem_pitt_peters_forward_flight():
+    """Same states, same blade: what is left is how the two treat the reverse-flow region, which grows with µ²."""
+    pytest.importorskip("dynbem")
+    for one, allowed in zip(beside_dynbem(), (1e-3, 2e-3, 1e-2), strict=True):
+        assert abs(one.thrust) < allowed, one
+        assert abs(one.power) < allowed, one
+
+
+@pytest.mark.crosscheck
+def test_ccblade_hover():
+    """Without swirl within sin φ ≈ φ in the tip factor; with it, thrust and power fall by about C_T-sized parts."""
+    pytest.importorskip("wisdem.ccblade", reason="pip install 'rotor-explorer[crosscheck]'")
+    for one in beside_ccblade():
+        if "without" in one.condition:
+            assert abs(one.thrust) < 2e-3, one
+            assert abs(one.power) < 2e-3, one
+        else:
+            assert -0.04 < one.power < 0.0, one
