@@ -67,6 +67,9 @@ def figure_3_11() -> Report:
         )
     best = numbers["thesis_optimum"]
     agrees = abs(best - DOCUMENT_HOVER) < 0.5
+    low, high = numbers["thesis_band_low"], numbers["thesis_band_high"]
+    place = "lies past it" if low > -16.0 else "lies within its band, not past it" if high > -16.0 else "falls short "
+    "of it"
     return Report(
         number="3.11",
         kind="figure",
@@ -76,12 +79,9 @@ def figure_3_11() -> Report:
         "stalls (p. 27).",
         ours="; ".join(words) + ".",
         verdict=judged(agrees),
-        because="There is one shallow optimum"
-        + ("." if agrees else f", but ours lies at {best:.1f}°, so −16° ")
-        + ("" if agrees else ("is not past it" if best < -16.0 else "is past it"))
-        + f": the document's −13.5° costs {100 * numbers['thesis_cost_of_13_5']:.2f} % here. Where the inner blade "
-        "stalls "
-        "rests on the polar and its fit, which the document does not state.",
+        because=f"There is one shallow optimum, and −16° {place}. The document's −13.5° costs "
+        f"{100 * numbers['thesis_cost_of_13_5']:.2f} % here: where the inner blade stalls rests on the polar and its "
+        "fit, which the document does not state, and on the mass (lighter rotors want less twist).",
         tables=tuple(tables),
         panels=tuple(panels),
         numbers=numbers,

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.reproduce.report import DiskPanel, Panel, Report
+from rotor.reproduce.report import DiskPanel, Panel, Report, typographic
 
 Array = NDArray[np.float64]
 
@@ -89,7 +89,7 @@ def _draw_panel(axes: Any, panel: Panel) -> None:
             "dashed": {"linestyle": "--"},
             "both": {"marker": "o", "markersize": 3},
         }[one.style]
-        axes.plot(one.x, one.y, color=colour, label=one.label or None, **look)
+        axes.plot(one.x, one.y, color=colour, label=typographic(one.label) or None, **look)
     axes.set_xlabel(panel.x_label)
     axes.set_ylabel(panel.y_label)
     if panel.title:

@@ -52,7 +52,7 @@ def test_figure_2_7(report: Make):
     for preset in ("thesis", "flight"):
         assert one.numbers[f"{preset}_share"] > 0.5
         assert 0.5 < one.numbers[f"{preset}_peak"] < 0.9
-        # Five per cent of the radius at the tip of a load ∝ r² would carry 14 %; the factor takes some of its 10 % share.
+        # A load ∝ r² has 27 % of itself beyond 0.9 R: the tip factor leaves less.
         assert one.numbers[f"{preset}_tip_share"] < 1.0 - 0.9**3
 
 

@@ -128,7 +128,7 @@ def test_figure_3_10(report: Make):
 
 
 def test_figure_3_11(report: Make):
-    """One shallow optimum in hover: −13.5° costs under 0.3 %, no twist over 5 %. Ours lies lower than the document's."""
+    """One shallow optimum in hover: −13.5° costs under 0.3 %, no twist over 5 %. Ours lies lower."""
     one = report("3.11")
     for preset in ("thesis", "flight"):
         assert -18.0 < one.numbers[f"{preset}_optimum"] < -13.0
