@@ -193,7 +193,8 @@ def write_misprints(folder: Path) -> Path:
         '<!doctype html><html lang="en"><meta charset="utf-8"><title>Omissions and misprints</title><style>'
         "body{font:15px/1.5 system-ui,sans-serif;max-width:1080px;margin:24px auto;padding:0 20px;color:#1c2429}"
         "td,th{vertical-align:top;text-align:left;padding:6px 10px;border-bottom:1px solid #dde2e6}"
-        "pre{white-space:pre-wrap;background:#f3f5f6;padding:6px 8px;overflow-x:auto;font-size:12.5px;margin:6px 0 0}small{color:#5b6770}"
+        "pre{white-space:pre-wrap;"
+        "background:#f3f5f6;padding:6px 8px;overflow-x:auto;font-size:12.5px;margin:6px 0 0}small{color:#5b6770}"
         "table{border-collapse:collapse}</style><h1>What the document omits or misprints</h1>"
         '<p><a href="index.html">Back</a>. Each with two lines that were run to make this page.</p><table><tr>'
         "<th>Equation</th><th>As printed</th><th>Ours, and why</th><th>Print</th><th>Ours</th></tr>"
