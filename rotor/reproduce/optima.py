@@ -5,6 +5,7 @@ each optimum: parameters, the band within 0.1 % of its power, the power, and the
 baseline, a fixed linear twist of −16°.
 """
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -49,7 +50,8 @@ class Best:
     values: tuple[float, ...]
     """In degrees where angular."""
     band: tuple[tuple[float, float], ...]
-    """Low and high of each within 0.1 % of the least power, the others following; degrees where angular."""
+    """Low and high of each within 0.1 % of the least power, the others following; degrees where angular. NaN where the
+    search did not find it."""
     twist: str
     """SPEC"""
     power_kw: float
@@ -119,10 +121,9 @@ def _record(name: str, concept: str, mu: float, family: Concept, found: Optimum)
     parameters = family.parameters
     least = found.best
     values = least.parameters if least is not None else (float("nan"),) * len(parameters)
-    edges = [
-        (bands[p.name].low, bands[p.name].high) if p.name in bands else (value, value)
-        for p, value in zip(parameters, values, strict=True)
-    ]
+    # A band without width was not found, whatever the search says: no smooth optimum is that sharp.
+    found_band = {name: (one.low, one.high) for name, one in bands.items() if one.high > one.low}
+    edges = [found_band.get(p.name, (math.nan, math.nan)) for p in parameters]
     return Best(
         variant=name,
         concept=concept,

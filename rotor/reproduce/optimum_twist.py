@@ -1,6 +1,7 @@
 """Figures 4.1–4.8 and 4.10: the optimum twist of each concept over speed. Known by their captions only: ours stand "
 "alone."""
 
+import math
 from collections.abc import Sequence
 
 from rotor.reproduce.optima import CONCEPTS, FULL, Best, Scope, best
@@ -103,7 +104,8 @@ def _figure(number: str, concept: str, shown: Sequence[str], scope: Scope, note:
         + f", saving at most {100 * largest[name].saving:.1f} % (µ {largest[name].mu:g})"
         for name in VARIANTS
     )
-    widest = max(high - low for row in found.values() for one in row for low, high in [_band(one, shown[0])])
+    widths = [high - low for row in found.values() for one in row for low, high in [_band(one, shown[0])]]
+    widest = max(width for width in widths if math.isfinite(width))
     return Report(
         number=number,
         kind="figure",

@@ -1,0 +1,63 @@
+"""`python -m rotor reproduce`: files, page, and what happens without matplotlib."""
+
+import csv
+from pathlib import Path
+
+import pytest
+
+from rotor.__main__ import main
+from rotor.reproduce import pictures
+from rotor.reproduce.catalogue import ENTRIES
+from rotor.reproduce.report import typographic
+
+WANTED = {
+    "2.3", "2.4", "2.6", "2.7", "2.8", "table 3.1", "table 3.2", "tail rotor", "table 4.1",
+    *(f"3.{k}" for k in range(1, 16)), *(f"4.{k}" for k in range(1, 14)),
+}  # fmt: skip
+
+
+def test_every_figure_of_the_contents_is_there():
+    assert {entry.number for entry in ENTRIES} >= WANTED
+
+
+def test_one_figure(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    out = tmp_path / "made" / "here"
+    assert main(["reproduce", str(out), "--figure", "3.11"]) == 0
+    assert "Figure 3.11" in capsys.readouterr().out
+    names = {path.name for path in out.iterdir()}
+    assert {"index.html", "misprints.html", "figure-3_11-thesis_kw.csv", "figure-3_11-flight_kw.csv"} <= names
+    if pictures.can_draw():
+        assert (out / "figure-3_11.svg").read_text(encoding="utf-8").count("<svg") == 1
+        assert (out / "figure-3_11.png").read_bytes().startswith(b"\x89PNG")
+    page = (out / "index.html").read_text(encoding="utf-8")
+    assert 'src="http' not in page  # self-contained
+    assert "−13.5°" in page
+    lines = (out / "figure-3_11-thesis_kw.csv").read_text(encoding="utf-8").splitlines()
+    rows = list(csv.reader(line for line in lines if not line.startswith("#")))
+    assert rows[0][:2] == ["mass_kg", "ct_over_sigma"]
+    assert all(len(row) == len(rows[0]) for row in rows)
+
+
+def test_without_matplotlib_tables_still_come(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(pictures.importlib.util, "find_spec", lambda name: None)
+    assert main(["reproduce", str(tmp_path), "--figure", "table 3.2"]) == 0
+    assert main(["reproduce", str(tmp_path), "--figure", "2.6"]) == 0
+    told = capsys.readouterr()
+    assert "pip install 'rotor-explorer[plots]'" in told.err
+    assert not list(tmp_path.glob("*.svg"))
+    assert (tmp_path / "figure-2_6.csv").is_file()
+    assert "matplotlib is not installed" in (tmp_path / "index.html").read_text(encoding="utf-8")
+
+
+def test_unknown_figure_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    assert main(["reproduce", str(tmp_path), "--figure", "9.9"]) == 2
+    told = capsys.readouterr().err
+    assert told.count("\n") == 1
+    assert "9.9" in told
+    assert "3.11" in told
+
+
+def test_typographic_minus():
+    assert typographic("-13.5° from -3 to 40-60, 1e-12, two-segment") == "−13.5° from −3 to 40-60, 1e-12, two-segment"
