@@ -1,6 +1,6 @@
 """Long work in warm processes: a queue with honest positions, a stop that answers, and recovery from a process lost.
 
-A pool keeps one warm process from the start and adds others, up to its size, when work has to wait. Each has a thread
+A pool keeps one warm process from the start and adds others, up to its size, once there is work. Each has a thread
 that feeds it, so a process that dies or hangs costs its own job and nothing else.
 """
 
@@ -20,6 +20,8 @@ PATIENCE = 0.12
 """A process that has not answered a stop by then [s] is no longer waited for: the job ends with what was told."""
 GRACE = 3.0
 """A process that goes on for so long after a stop [s] is ended."""
+_LOOK = 2.0
+"""How often a thread without work looks whether its process still lives [s]."""
 _START = 60.0
 """[s] a new process may take to import and compile."""
 
@@ -154,16 +156,26 @@ class Pool:
         """Process ids of the processes that live."""
         return tuple(pid for hand in self._hands if (pid := hand.pid) is not None)
 
-    def next(self) -> Job | None:
-        """The job whose turn it is; waits for one. None: the pool closes."""
+    def next(self, patience: float) -> Job | None:
+        """The job whose turn it is; None when none came within `patience` [s] or the pool closes."""
         with self._change:
-            while not self._queue and not self._closed:
-                self._change.wait()
-            if self._closed:
+            if not self._queue and not self._closed:
+                self._change.wait(patience)
+            if self._closed or not self._queue:
                 return None
             job = self._queue.pop(0)
         self._tell_positions()
         return job
+
+    @property
+    def closed(self) -> bool:
+        return self._closed
+
+    def spare(self) -> None:
+        """Where one process has work, another may soon: warm it before it is asked for."""
+        with self._change:
+            if len(self._hands) < self._processes and not self._closed:
+                self._add_hand()
 
     def _add_hand(self) -> None:
         hand = _Hand(self, f"jobs-{len(self._hands)}")
@@ -196,9 +208,12 @@ class _Hand(threading.Thread):
         return process.pid if process is not None and process.is_alive() else None
 
     def run(self) -> None:
-        with suppress(OSError, EOFError):
-            self._ready()
-        while (job := self._pool.next()) is not None:
+        while not self._pool.closed:
+            with suppress(OSError, EOFError):
+                self._ready()  # Warm before anybody asks, and again after it was lost.
+            job = self._pool.next(_LOOK)
+            if job is None:
+                continue
             self.idle = False
             try:
                 self._do(job)
@@ -208,9 +223,7 @@ class _Hand(threading.Thread):
             except Exception as error:  # A task that does not pickle, for example: the hand must live on.
                 job.tell(Broken(f"The work could not be done: {error}"))
             self.idle = True
-            if not self._closed:
-                with suppress(OSError, EOFError):
-                    self._ready()  # Warm again before the next one asks.
+            self._pool.spare()
 
     def close(self) -> None:
         self._closed = True
@@ -221,13 +234,17 @@ class _Hand(threading.Thread):
         if self.pid is None or self._pipe is None:
             self._drop()
             context = get_context("spawn")
-            self._pipe, theirs = context.Pipe()
-            self._process = context.Process(target=serve, args=(theirs,), name=self.name, daemon=True)
-            self._process.start()
+            pipe, theirs = context.Pipe()
+            process = context.Process(target=serve, args=(theirs,), name=self.name, daemon=True)
+            process.start()
             theirs.close()  # So that the pipe ends with the process.
-            if not self._pipe.poll(_START):
+            self._process, self._pipe = process, pipe
+            if self._closed:
+                self._drop()
+            if not pipe.poll(_START):
                 raise EOFError
-            self._pipe.recv()
+            pipe.recv()
+            return pipe
         return self._pipe
 
     def _do(self, job: Job) -> None:

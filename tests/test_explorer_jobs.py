@@ -153,6 +153,19 @@ def test_a_killed_process_is_reported_and_replaced(pool: Pool):
     assert heard.until(Ended) == Ended(3)
 
 
+def test_a_process_lost_while_idle_is_replaced_before_it_is_needed(pool: Pool):
+    submit(pool, Count(1))[1].until(Ended)
+    (before,) = pool.pids
+    os.kill(before, signal.SIGKILL)
+    deadline = time.monotonic() + SOON
+    while pool.pids in ((), (before,)) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    assert pool.pids not in ((), (before,))
+    _, heard = submit(pool, Count(2))
+    assert heard.until(Ended) == Ended(2)
+    assert not any(isinstance(news, Broken) for news in heard)
+
+
 def test_a_process_that_will_not_stop_is_not_waited_for(pool: Pool):
     job, heard = submit(pool, Deaf())
     heard.until(Told)

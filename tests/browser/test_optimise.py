@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.browser
 SIZE = {"width": 1280, "height": 900}
-WAIT = 15_000
+WAIT = 30_000
+"""[ms]; far more than it takes, for machines with other things to do."""
 SLOW = "Three segments, free breaks"
 """With sixteen starts it takes many times as long as a test waits before it presses Stop."""
 
