@@ -32,7 +32,7 @@ class Scope:
 
 
 FULL = Scope((0.0, 0.10, 0.15, 0.20, 0.25, 0.30, 0.35), 3)
-QUICK = Scope((0.0, 0.15, 0.30), 1)
+QUICK = Scope((0.0, 0.15, 0.30), 2)
 """For tests."""
 
 
@@ -102,7 +102,8 @@ def best(name: str, concept: str, mu: float, scope: Scope = FULL) -> Best:
         near.append(best(name, "linear", mu, scope).twist)
     for spec in near:
         guesses.append(nearest(family, parse_twist(spec, builtin=design.twist, ideal_tip_pitch=0.0)))
-    starts = max(scope.starts if not neighbour else 1, len(guesses))
+    # One start more than the guesses: begun right at the optimum, a search sees too little to measure its band.
+    starts = max(scope.starts if not neighbour else 1, len(guesses) + 1)
     found = optimise(Search(design, family, starts=starts, guesses=tuple(guesses)))
     return _record(name, concept, mu, family, found)
 
