@@ -52,6 +52,19 @@ def closed_form_inflow(
     return sign * (np.sqrt(half**2 + 2.0 * k * sign * pitch * r) - half)
 
 
+def lift_curve(problem: Problem) -> tuple[Array, Array]:
+    """C_lα [1/rad] and the zero-lift pitch [rad] of each element's linear lift curve, (elements,); blended sections."""
+    disk = problem.disk
+    sections = [load_installed(name) for name in dict.fromkeys(s.section for s in problem.design.rotor.blade.spans)]
+    slopes = np.array([float(one.table.lift_slope(LIFT_CURVE_MACH)) for one in sections])
+    zeros = np.array([float(one.table.zero_lift_alpha(LIFT_CURVE_MACH)) + one.incidence_offset for one in sections])
+    first, second = disk.section.T
+    return (
+        slopes[first] + disk.weight * (slopes[second] - slopes[first]),
+        zeros[first] + disk.weight * (zeros[second] - zeros[first]),
+    )
+
+
 @dataclass(frozen=True, eq=False)
 class HoverResult:
     """Where the hover solution ended."""
@@ -108,9 +121,7 @@ class Annuli:
         disk = problem.disk
         self.inflow = np.full_like(disk.r, math.sqrt(problem.weight / 2.0))
         self.ones = np.ones_like(disk.r)
-        table = load_installed(problem.design.rotor.blade.spans[0].section).table
-        self.lift_slope = float(table.lift_slope(LIFT_CURVE_MACH))
-        self.zero_lift = float(table.zero_lift_alpha(LIFT_CURVE_MACH))
+        self.lift_slope, self.zero_lift = lift_curve(problem)
 
     def loads(self, theta0: float, inflow: Array) -> Array:
         """Section loads with derivatives, (rows, elements)."""

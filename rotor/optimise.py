@@ -82,9 +82,10 @@ def optimise(
         for k, x in enumerate(_starts(search, evaluate)):
             evaluate.start = k
             run.descend_from(k, x)
-        if run.best is not None and search.band and run.metric is not None:
+        if run.best is not None and search.band:
             evaluate.phase = "band"
-            run.band = measure_band(evaluate, run.metric, run.best)
+            metric = run.metric or plain_metric(run.best.x, run.best.watts)  # A start at the optimum leaves no trail.
+            run.band = measure_band(evaluate, metric, run.best)
     except Stopped:
         return run.result(stopped=True)
     return run.result(stopped=False)

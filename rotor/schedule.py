@@ -163,7 +163,8 @@ def _work_chunk(plan: Plan, legs: tuple[int, ...], known: _Known, stop: Callable
                 concept=concept,
                 objective=Objective(plan.quantity, (plan.legs[leg],)),
                 limits=plan.limits,
-                starts=plan.starts if neighbour is None else len(guesses),
+                # The neighbour's valley need not be the deepest here: other starts look elsewhere.
+                starts=max(plan.starts, len(guesses) + 1),
                 seed=plan.seed,
                 guesses=guesses,
                 band=False,

@@ -153,6 +153,7 @@ def test_a_killed_process_is_reported_and_replaced(pool: Pool):
     assert heard.until(Ended) == Ended(3)
 
 
+@pytest.mark.slow
 def test_a_process_lost_while_idle_is_replaced_before_it_is_needed(pool: Pool):
     submit(pool, Count(1))[1].until(Ended)
     (before,) = pool.pids
@@ -166,6 +167,7 @@ def test_a_process_lost_while_idle_is_replaced_before_it_is_needed(pool: Pool):
     assert not any(isinstance(news, Broken) for news in heard)
 
 
+@pytest.mark.slow
 def test_a_process_that_will_not_stop_is_not_waited_for(pool: Pool):
     job, heard = submit(pool, Deaf())
     heard.until(Told)
@@ -187,6 +189,7 @@ def test_nobody_hears_of_a_job_whose_browser_left(pool: Pool):
     assert len(heard) == known
 
 
+@pytest.mark.slow
 def test_closing_ends_every_process():
     pool = Pool(1)
     _, heard = submit(pool, Count(10_000, 0.01))

@@ -8,7 +8,9 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
-from rotor.hover import closed_form_inflow
+from rotor.airfoil.sections import load_installed
+from rotor.elements import lay_out
+from rotor.hover import closed_form_inflow, lift_curve
 from rotor.losses import loss_factor
 from rotor.presets import make_design
 from rotor.solution import Solution
@@ -57,8 +59,6 @@ def test_ideal_twist_gives_uniform_inflow():
 
 def test_thesis_hover_is_the_closed_form_with_its_factor():
     """The solver's inflow is eq. (3.3) with the F that belongs to that inflow, and 0.75 R pitch the collective."""
-    from rotor.airfoil.sections import load_installed
-
     solution = hover("thesis")
     rotor = solution.design.rotor
     r, lam = solution.disk.r, solution.disk.induced[:, 0]
@@ -122,7 +122,6 @@ def test_coning_by_the_moment_integral(preset: str):
 
 def test_collective_agrees_with_a_root_finder():
     """The collective that Newton finds is the one scipy's bracketing finds on thrust against collective."""
-    from rotor.elements import lay_out
     from rotor.hover import Annuli
 
     solution = hover()
@@ -137,3 +136,15 @@ def test_too_heavy_says_so_in_one_sentence():
     assert "lower the weight or the altitude" in solution.message
     with pytest.raises(RuntimeError, match="Not trimmed"):
         solution.require()
+
+
+def test_closed_form_uses_each_sections_own_lift_curve():
+    """Eq. (3.3) on the flown blade: slope and zero-lift pitch are those of the section there, R8 drooped by 1°."""
+    problem = lay_out(make_design("flight", advance_ratio=0.0))
+    slope, zero = lift_curve(problem)
+    for radius, name in ((0.3, "sc1095"), (0.65, "sc1094r8"), (0.95, "sc1095")):
+        element = int(np.argmin(np.abs(problem.disk.r - radius)))
+        section = load_installed(name)
+        assert_allclose(slope[element], section.table.lift_slope(0.3), rtol=1e-12)
+        assert_allclose(zero[element], section.table.zero_lift_alpha(0.3) + section.incidence_offset, rtol=1e-12)
+    assert_allclose(np.degrees(zero[len(zero) // 2] - zero[0]), -1.6 + 1.0 + 0.72, atol=0.1)  # XFOIL's own α0.

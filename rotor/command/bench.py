@@ -134,8 +134,14 @@ def _dynbem(design: Design) -> dict[str, float]:
     main, mu = design.rotor, design.condition.advance_ratio
     alpha = np.radians(np.arange(-180.0, 180.5, 1.0))
     polar = dynbem.TabulatedPolar(alpha, 1.1 * np.sin(2 * alpha), 0.01 + 1.2 * np.sin(alpha) ** 2)
+    stations = np.linspace(main.blade.root_cutout, 1.0, 20)
+    twisted = {
+        "r_stations_m": list(stations * main.radius),
+        "chord_stations_m": [main.reference_chord] * len(stations),
+        "twist_stations_deg": list(-16.0 * (stations - 0.75)),
+    }
     blade = dynbem.BladeGeometry(
-        main.blades, main.radius, main.blade.root_cutout * main.radius, main.reference_chord, -16.0, 40
+        main.blades, main.radius, main.blade.root_cutout * main.radius, main.reference_chord, 0.0, 40, **twisted
     )
     definition = dynbem.RotorDefinition(
         blade,
