@@ -9,6 +9,7 @@ from (2.24) with λ_c = 0 and Prandtl's F. With a lift curve C_lα α the balanc
 
 import math
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -55,14 +56,22 @@ def closed_form_inflow(
 def lift_curve(problem: Problem) -> tuple[Array, Array]:
     """C_lα [1/rad] and the zero-lift pitch [rad] of each element's linear lift curve, (elements,); blended sections."""
     disk = problem.disk
-    sections = [load_installed(name) for name in dict.fromkeys(s.section for s in problem.design.rotor.blade.spans)]
-    slopes = np.array([float(one.table.lift_slope(LIFT_CURVE_MACH)) for one in sections])
-    zeros = np.array([float(one.table.zero_lift_alpha(LIFT_CURVE_MACH)) + one.incidence_offset for one in sections])
+    names = dict.fromkeys(
+        span.section for span in problem.design.rotor.blade.spans
+    )  # In the order of the disk's tables.
+    slopes, zeros = np.array([_straight_line(name) for name in names]).T
     first, second = disk.section.T
     return (
         slopes[first] + disk.weight * (slopes[second] - slopes[first]),
         zeros[first] + disk.weight * (zeros[second] - zeros[first]),
     )
+
+
+@cache
+def _straight_line(name: str) -> tuple[float, float]:
+    section = load_installed(name)
+    zero = float(section.table.zero_lift_alpha(LIFT_CURVE_MACH)) + section.incidence_offset
+    return float(section.table.lift_slope(LIFT_CURVE_MACH)), zero
 
 
 @dataclass(frozen=True, eq=False)
