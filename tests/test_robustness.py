@@ -108,3 +108,19 @@ def test_impossible_input_is_one_sentence(arguments: dict[str, object], words: s
         make_design(**arguments)  # pyright: ignore[reportArgumentType]
     assert words in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.slow
+def test_two_hundred_random_blades_trim_with_the_dynamic_wake():
+    """Three random slopes −25…+8 °/R, random breaks, µ 0.03…0.4 at the reference weight: at most 1 % do not trim."""
+    random = np.random.default_rng(2)
+    lost = 0
+    for _ in range(200):
+        rates = ",".join(f"{rate:.4f}" for rate in random.uniform(-25.0, 8.0, 3))
+        first = random.uniform(0.25, 0.6)
+        second = first + random.uniform(0.05, 0.35)
+        twist = f"segments:{rates}@{first:.4f},{second:.4f}"
+        solution = solve(make_design(twist=twist, advance_ratio=random.uniform(0.03, 0.4)))
+        check(solution)
+        lost += not solution.converged
+    assert lost <= 2
