@@ -22,7 +22,7 @@ run: $(WARM)          ## start the explorer; ARGS are handed on, e.g. make run P
 	@exec $(BIN)/python -m explorer --host $(HOST) --port $(PORT) $(ARGS)
 
 test: setup-dev browser ## run all tests but the slow ones, browser included
-	$(BIN)/python -m pytest $(ARGS)
+	$(BIN)/python -m pytest -m 'not slow and not crosscheck' $(ARGS)
 
 slow: setup-dev browser ## run the slow tests: built wheel, rebuilt section data, long studies
 	$(BIN)/python -m pytest -m slow $(ARGS)
