@@ -9,9 +9,9 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebvander
 from numpy.typing import NDArray
 
+from rotor.assets import asset_path
 from rotor.design import Design
 from rotor.elements import expected_wake
-from rotor.library import asset_path
 from rotor.wake.ideal import BOUND_LATTICE, InducedPower, LinearBlade, least_induced_power, least_twisted_power
 
 Array = NDArray[np.float64]

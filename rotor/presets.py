@@ -7,10 +7,10 @@ from functools import cache
 from typing import Any
 
 from rotor.airfoil.sections import load_installed
+from rotor.assets import asset_path
 from rotor.blade import Blade, Rotor, Span, parse_airfoils
 from rotor.design import Design, Models
 from rotor.flight import FlightCondition, Fuselage
-from rotor.library import asset_path
 from rotor.momentum import ideal_tip_pitch
 from rotor.tail_rotor import TailRotor
 from rotor.twist import LinearTwist, TableTwist, TwistLaw

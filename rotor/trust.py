@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 from typing import Literal, get_args
 
-from rotor.library import asset_path
+from rotor.assets import asset_path
 
 Kind = Literal["verification", "public code", "validation", "indicative", "document"]
 KINDS: dict[Kind, str] = {

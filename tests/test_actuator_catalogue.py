@@ -15,7 +15,7 @@ from rotor.actuator.electrodes import (
     strain_curve,
     thermal_coefficients,
 )
-from rotor.library import asset_path
+from rotor.assets import asset_path
 
 PLIES = [actuator for actuator in actuators().values() if isinstance(actuator, PiezoPly)]
 

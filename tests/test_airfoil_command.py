@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 
 from rotor.airfoil import command, xfoil
 from rotor.airfoil.contour import load_contour
-from rotor.library import asset_path
+from rotor.assets import asset_path
 
 
 def run(*words: str) -> int:

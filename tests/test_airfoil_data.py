@@ -22,7 +22,7 @@ from rotor.airfoil.sections import load_installed
 from rotor.airfoil.table import load_section
 from rotor.airfoil.wrap import blend_weight, wrap_coefficients
 from rotor.airfoil.xfoil import XfoilMissing, require_xfoil
-from rotor.library import asset_path
+from rotor.assets import asset_path
 
 DECKS = ("sc1095", "sc1094r8")
 

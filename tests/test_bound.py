@@ -8,8 +8,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.__main__ import main
+from rotor.assets import asset_path
 from rotor.bound import find_bound, ideal_factor
-from rotor.library import asset_path
 from rotor.presets import make_design
 from rotor.solve import solve
 

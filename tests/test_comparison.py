@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from rotor.library import asset_path
+from rotor.assets import asset_path
 from rotor.presets import make_design
 from rotor.solve import solve
 

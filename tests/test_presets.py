@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor.assets import asset_path
 from rotor.case import case_of, design_of, read_case, write_case
-from rotor.library import asset_path
 from rotor.momentum import thrust_coefficient
 from rotor.presets import make_design, uh60a_data, uh60a_rotor
 

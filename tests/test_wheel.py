@@ -46,7 +46,7 @@ def test_it_is_the_wheel_that_runs(installed: Path, tmp_path: Path):
 
 
 def test_the_data_files_are_all_there(installed: Path, tmp_path: Path):
-    code = "import rotor.library; print(rotor.library.asset_path('uh60a.toml').parent)"
+    code = "import rotor.assets; print(rotor.assets.asset_path('uh60a.toml').parent)"
     shipped = Path(run(installed, "-c", code, cwd=tmp_path).strip())
     assert "site-packages" in shipped.parts
 

@@ -8,7 +8,7 @@ from functools import cache
 from typing import Any, Literal
 
 from rotor.actuator.laminate import Layer, Material
-from rotor.library import asset_path
+from rotor.assets import asset_path
 
 Electrodes = Literal["interdigitated", "continuous"]
 

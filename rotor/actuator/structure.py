@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rotor.actuator.laminate import Material
-from rotor.library import asset_path
+from rotor.assets import asset_path
 
 Array = NDArray[np.float64]
 

@@ -16,7 +16,7 @@ from rotor.airfoil.polars import read_polars, write_polars
 from rotor.airfoil.polynomial import THESIS_NAME
 from rotor.airfoil.sections import load_installed
 from rotor.airfoil.xfoil import XfoilError
-from rotor.library import asset_path
+from rotor.assets import asset_path
 
 CL_TOLERANCE = 0.01  # Convergence gaps of XFOIL move with its version and the machine, so bytes cannot be compared.
 CD_TOLERANCE = 0.03

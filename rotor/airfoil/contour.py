@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
-from rotor.library import asset_path
+from rotor.assets import asset_path
 
 FloatArray = NDArray[np.float64]
 

@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 from rotor.airfoil.bicubic import ALPHA_STEP, N_ALPHA, N_MACH, stack_coefficients
 from rotor.airfoil.polars import Polar, read_polars
 from rotor.airfoil.section_table import SectionTable, make_table
-from rotor.library import asset_path
+from rotor.assets import asset_path
 
 FloatArray = NDArray[np.float64]
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from rotor.airfoil.contour import load_contour
 from rotor.airfoil.xfoil import XfoilError, require_xfoil, run_commands
-from rotor.library import asset_path
+from rotor.assets import asset_path
 
 FloatArray = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ from rotor.airfoil.polynomial import THESIS_NAME, polynomial_table
 from rotor.airfoil.section_table import SectionCoefficients as SectionCoefficients
 from rotor.airfoil.section_table import SectionTable as SectionTable
 from rotor.airfoil.section_table import table_from_deck
-from rotor.library import asset_path
+from rotor.assets import asset_path
 
 TABLE_NAMES = (*SECTION_NAMES, THESIS_NAME)
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from rotor.library import asset_path
+from rotor.assets import asset_path
 from rotor.presets import make_design, uh60a_data
 from rotor.reproduce.report import Panel, Report, Verdict, curve, judged, table
 from rotor.reproduce.runs import solved

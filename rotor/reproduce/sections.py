@@ -5,7 +5,7 @@ import numpy as np
 from rotor.airfoil.polars import read_polars
 from rotor.airfoil.pressure import PRESSURE_CASES, Pressure, PressureCase, read_pressure, run_pressure
 from rotor.airfoil.xfoil import XfoilError
-from rotor.library import asset_path
+from rotor.assets import asset_path
 from rotor.reproduce.report import Panel, Report, Table, curve, judged, table
 
 TITLES = {"naca23015": "NACA 23015", "sc1095": "SC1095", "sc1094r8": "SC1094 R8"}
