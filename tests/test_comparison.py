@@ -50,7 +50,7 @@ def test_forward_curve_is_indicative():
     theirs = 0.7457 * np.array(forward["main_rotor_hp"])
     flight, thesis = np.array(ours).T
     assert abs(int(flight.argmin()) - int(theirs.argmin())) <= 1
-    # Beside their 2 % of reading and about 5 % of model error; at 160 kt our drag rise by Mach, which theirs lacks, adds.
+    # Their reading is good to 2 %, their model to about 5 %; at 160 kt our drag rise by Mach, which theirs lacks, adds.
     assert (np.abs(flight[:-1] / theirs[:-1] - 1.0) < 0.06).all()
     assert flight[-1] > theirs[-1]
     assert (thesis < flight).all()  # One incompressible polar with free transition: less drag everywhere.
