@@ -24,7 +24,9 @@ from rotor.airfoil.polars import FloatArray, Polar
 
 # gfortran's run-time calls this to switch the traps on; an empty one in front of it leaves them off.
 _TRAP_SHIM = "void _gfortran_set_fpe(int mask) { (void)mask; }\n"
-_TIME_LIMIT = 8.0  # s; a healthy sweep takes about 1 s, a hung one never ends.
+_CPU_LIMIT = 8  # s of processor time, the same on a busy machine; a healthy sweep takes 1 to 4 s, a hung one spins on.
+_TIME_LIMIT = 120.0  # s of the clock, for one that waits instead.
+_LIMITED = ("sh", "-c", f'ulimit -t {_CPU_LIMIT} && exec "$@"', "sh")
 _PANELINGS = ((160, 100), (200, 200), (240, 300), (180, 300), (220, 300))  # (panels, iterations), in this order.
 
 Row = tuple[float, float, float]
@@ -74,13 +76,16 @@ def _shim_folder() -> tempfile.TemporaryDirectory[str] | None:
     source = Path(folder.name) / "notraps.c"
     source.write_text(_TRAP_SHIM, encoding="utf-8")
     made = subprocess.run(
-        [compiler, "-shared", "-fPIC", "-O1", "-o", "notraps.so", source.name],
+        [compiler, "-shared", "-fPIC", "-nostdlib", "-O1", "-o", "notraps.so", source.name],
         cwd=folder.name,
         capture_output=True,
         timeout=60,
         check=False,
     )
-    return folder if made.returncode == 0 else None
+    if made.returncode != 0:
+        folder.cleanup()
+        return None
+    return folder
 
 
 def _sweep(
@@ -125,9 +130,9 @@ def run_commands(
 
 
 def _run(call: list[str], commands: str, folder: Path, environment: dict[str, str]) -> bool:
-    """Run one process on `commands`; False when it crashed or had to be killed for exceeding the time limit."""
+    """Run one process on `commands`; False when it crashed or was killed for exceeding a limit."""
     with subprocess.Popen(
-        call, cwd=folder, env=environment, text=True, start_new_session=True,
+        [*_LIMITED, *call], cwd=folder, env=environment, text=True, start_new_session=True,
         stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
     ) as process:  # fmt: skip
         try:

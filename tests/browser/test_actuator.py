@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from chromium import DRAW_NOTHING
 from test_page import SMALL, Watched
 
 from explorer.app import App
@@ -34,6 +35,7 @@ def open_slowly(watched: Watched, address: str) -> None:
 @pytest.fixture(scope="module")
 def shared(browser: "Browser", app: App) -> Iterator[Watched]:
     context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
+    context.add_init_script(DRAW_NOTHING)
     watched = Watched(context.new_page())
     open_slowly(watched, app.address + "?fixedDpr=0.5")
     watched.page.get_by_role("tab", name="Actuator").click()
@@ -99,6 +101,7 @@ def test_the_cut_takes_the_place_of_the_rotor_and_follows_the_voltage(watched: W
     watched.until_changed(lambda: seen(watched, "/cut"), True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("size", [(1500, 940), (1280, 720)])
 def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any, size: tuple[int, int]):

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from chromium import DRAW_NOTHING
 
 from explorer.app import App
 from explorer.state import Inputs
@@ -96,6 +97,7 @@ class Watched:
 def shared(browser: "Browser", app: App) -> Iterator[Watched]:
     """One page for all tests that leave it usable: loading it is what takes the time."""
     context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
+    context.add_init_script(DRAW_NOTHING)
     watched = Watched(context.new_page())
     watched.open(app.address)
     yield watched
@@ -224,6 +226,7 @@ def test_sessions_end_with_their_browsers(browser: "Browser", app: App):
 
     before = working()
     context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
+    context.add_init_script(DRAW_NOTHING)
     watched = Watched(context.new_page())
     watched.open(app.address)
     assert len(working()) == len(before) + 1
@@ -237,6 +240,7 @@ def test_sessions_end_with_their_browsers(browser: "Browser", app: App):
 
 def test_two_browsers_do_not_disturb_each_other(watched: Watched, browser: "Browser", app: App):
     context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
+    context.add_init_script(DRAW_NOTHING)
     other = Watched(context.new_page())
     other.open(app.address)
     other.press("Adv. ratio", "ArrowRight", 5)
@@ -283,6 +287,7 @@ def test_no_number_on_screen_is_not_a_number(watched: Watched):
         assert not re.search(r"\b(NaN|nan|inf|undefined)\b", watched.page.inner_text("body"))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 @pytest.mark.parametrize("size", [(1500, 940), (1280, 720)])
 def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any, size: tuple[int, int]):
@@ -303,6 +308,7 @@ def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any,
     context.close()
 
 
+@pytest.mark.slow
 def test_picture_of_the_readme(browser: "Browser", app: App, artefacts: Path):
     """docs/images/explorer.png is a copy of what this saves."""
     context = browser.new_context(viewport={"width": 1500, "height": 940})
