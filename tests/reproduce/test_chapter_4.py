@@ -47,7 +47,7 @@ def test_figure_4_2():
 
 @pytest.mark.slow
 def test_figure_4_3():
-    """With a = 0 the quadratic is the linear law, so its root-to-tip difference brackets the linear optimum by band."""
+    """With a = 0 the quadratic is the linear law, so it must never need more power."""
     check(figures.figure_4_3(QUICK), "quadratic")
 
 
