@@ -42,8 +42,7 @@ def table_3_1() -> Report:
     return _as_loaded(
         "3.1", "Tail rotor as loaded, beside the document's", DOCUMENT_3_1, loaded,
         "Twist −18° and section SC1095 stand in the document too; the tail rotor is solved by an energy method that "
-        "needs "
-        "neither.",
+        "needs neither.",
     )  # fmt: skip
 
 
@@ -93,8 +92,7 @@ def tail_rotor() -> Report:
         ours=", ".join(f"{100 * share:.1f} % at µ {mu:g}" for mu, share in zip(TAIL_SPEEDS, shares, strict=True)) + ".",
         verdict=judged(low >= 0.04 and high <= 0.06),
         because=f"Solved by speed it is no constant: {100 * low:.1f} to {100 * high:.1f} %. It is largest in hover, "
-        "where "
-        "induced power rules, and least where the main rotor's torque is small; the mean is near the document's "
+        "where induced power rules, and least where the main rotor's torque is small; the mean is near the document's "
         "number.",
         tables=(table("tail", ("mu", "main_rotor_kw", "tail_rotor_kw", "share_percent"), rows),),
         panels=(
@@ -127,8 +125,7 @@ def figure_3_10() -> Report:
         caption="Total power over advance ratio at 8322.4 kg, sea level, fuselage and tail rotor included; main-rotor "
         "power at 7257.5 kg, 1600 m beside a public model curve of the UH-60A; hover points beside digitised "
         "measurements. Indicative: the curve is a model's, the points' provenance is incomplete, and the document's "
-        "own "
-        "flight-test points are not known to us.",
+        "own flight-test points are not known to us.",
         statement="The predictions of the simple model are in good agreement with flight test (p. 26).",
         ours=f"Main rotor beside the public model curve at {int(moving.sum())} speeds above µ 0.075: flight "
         f"{100 * (ratio[moving].mean() - 1):+.1f} % in the mean, {100 * error:.1f} % rms. Hover: flight "
@@ -136,9 +133,8 @@ def figure_3_10() -> Report:
         f"Least total power at µ {bucket['flight']:g} (flight), {bucket['thesis']:g} (thesis).",
         verdict=Verdict.INDICATIVE,
         because="The thesis preset lies below the flight preset everywhere: free transition, one Mach number and "
-        "linear "
-        "inflow leave out drag and uneven induced power; agreement with flight test cannot be judged without its "
-        "points.",
+        "linear inflow leave out drag and uneven induced power; agreement with flight test cannot be judged without "
+        "its points.",
         tables=(
             table("total_kw", ("mu", *_NAMES), zip(SPEEDS, *(total[name] for name in _NAMES), strict=True)),
             table(

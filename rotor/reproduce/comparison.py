@@ -40,8 +40,7 @@ def figure_4_9() -> Report:
         number="4.9",
         kind="figure",
         caption="Planform of the UH-60A blade as the flight preset has it: sections, chord, root cut-out; the 20° "
-        "sweep of "
-        "the tip and the trailing-edge tab are not modelled.",
+        "sweep of the tip and the trailing-edge tab are not modelled.",
         statement=UNKNOWN,
         ours=f"SC1095 over {100 * shares['sc1095']:.0f} % of the radius, SC1094 R8 over "
         f"{100 * shares['sc1094r8']:.0f} %, "
@@ -109,16 +108,13 @@ def figure_4_12(scope: Scope = FULL) -> Report:
         number="4.12",
         kind="figure",
         caption="Main-rotor power of the flown blade and of the best three-segment blade at each speed, beside a "
-        "public "
-        "model curve of the UH-60A (7257.5 kg, 1600 m; indicative, not flight test).",
+        "public model curve of the UH-60A (7257.5 kg, 1600 m; indicative, not flight test).",
         statement=UNKNOWN,
         ours=f"The best three segments save {100 * savings.min():.1f} to {100 * savings.max():.1f} % of main-rotor "
-        "power "
-        "against the built-in twist.",
+        "power against the built-in twist.",
         verdict=Verdict.ALONE,
         because="A saving by twist is smaller than the distance between model and data, so only differences between "
-        "our "
-        "own curves mean something.",
+        "our own curves mean something.",
         tables=(
             table("main_rotor_kw", ("mu", "public_model_curve", "built_in_twist", "three_segments", "twist"), rows),
         ),

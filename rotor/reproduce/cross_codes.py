@@ -45,10 +45,8 @@ class Beside:
 
 DYNBEM_DIFFERENCES = (
     "Same: blade, twist, section table, collective, cyclic, shaft tilt, no loss factors. Theirs: three inflow states "
-    "driven "
-    "by thrust and both hub moments, rigid blades. Ours: the same states with zero hub moments, and coning taken away "
-    "by "
-    "a heavy blade."
+    "driven by thrust and both hub moments, rigid blades. Ours: the same states with zero hub moments, and coning "
+    "taken away by a heavy blade."
 )
 CCBLADE_DIFFERENCES = (
     "Same: blade, twist, section table, collective, Prandtl tip factor. Theirs: a turbine code run as a rotor (section "

@@ -73,8 +73,7 @@ def _error(number: str, which: str, chosen: int) -> Report:
         number=number,
         kind="figure",
         caption=f"Error of the {which} polynomial of SC1095 against its order, over two ranges of α. Data: XFOIL, M "
-        "0.3, "
-        "Re 3.68 million, Ncrit 9 (our assumption; the document states range and flow nowhere).",
+        "0.3, Re 3.68 million, Ncrit 9 (our assumption; the document states range and flow nowhere).",
         statement=f"Order {chosen} is a good compromise between error and cost (p. 18).",
         ours=f"Order {chosen}: rms {numbers['at_-10_15']:.5f} over −10…15°, {100 * share:.2f} % of the spread of "
         f"{symbol}; "

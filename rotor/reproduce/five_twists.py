@@ -30,11 +30,9 @@ def figure_3_12() -> Report:
         "At low speed highly twisted blades need less power (p. 28).",
         saves["thesis"] > 0.0,
         f"At µ {LOW[0]:g}, −16° against 0° saves {100 * saves['thesis']:+.1f} % in the thesis preset: its linear "
-        "inflow "
-        f"cannot see twist, so its best goes from {slow}° to {fast}° by profile drag alone. Once the wake answers, "
-        "twist "
-        f"saves {100 * saves[THESIS_WAKE]:.1f} % on the same blade, {100 * saves['flight']:.1f} % in the flight "
-        "preset.",
+        f"inflow cannot see twist, so its best goes from {slow}° to {fast}° by profile drag alone. Once the wake "
+        f"answers, twist saves {100 * saves[THESIS_WAKE]:.1f} % on the same blade, {100 * saves['flight']:.1f} % in "
+        "the flight preset.",
         {f"{name}_saving": value for name, value in saves.items()},
     )  # fmt: skip
 
@@ -49,8 +47,7 @@ def figure_3_13() -> Report:
         "Beyond µ 0.18 the twist of −8° needs the least power (p. 28).",
         set(after["thesis"]) == {-8},
         f"Beyond 0.18 the best of the five is {_best_words(after)}; −8° costs at most {_cost_words(cost)}. Linear "
-        "inflow "
-        "leaves the choice to profile drag, on a flat curve"
+        "inflow leaves the choice to profile drag, on a flat curve"
         + (
             "; with the wake in its place the same blade does what the document says."
             if set(after[THESIS_WAKE]) == {-8}
@@ -115,8 +112,7 @@ def figure_3_15() -> Report:
         number="3.15",
         kind="figure",
         caption="Five linear twists over speed, as power over that of −8°. The document shows here a figure of Han et "
-        "al. "
-        "2015 (elastic blades, variable twist), which cannot be rebuilt with rigid blades; this is its subject.",
+        "al. 2015 (elastic blades, variable twist), which cannot be rebuilt with rigid blades; this is its subject.",
         statement="A figure of another work, whose numbers the text we hold does not give (p. 29).",
         ours="Largest spread between the five: "
         + ", ".join(f"{100 * spread[name]:.1f} % ({name})" for name in NAMES)

@@ -84,8 +84,7 @@ def figure_3_9() -> Report:
         + ("" if needed >= 100 else ", but far fewer do for power")
         + ": evenly summed, a smooth periodic load converges faster than any power, and only the corners of stall, of "
         "reverse flow and of clamped polynomials leave a finite order. Flapping by harmonic balance asks for no more; "
-        "one "
-        "integrated in time, as the document's, may. The wake of the flight preset itself refuses fewer than 33.",
+        "one integrated in time, as the document's, may. The wake of the flight preset itself refuses fewer than 33.",
         tables=(table("power_kw", ("azimuths", *(name for name, _ in CASES), "flight-linear"), rows),),
         panels=(Panel("azimuths", f"power, relative error to {FINEST_AZIMUTHS}", tuple(curves), log="xy"),),
         numbers=numbers,
@@ -128,8 +127,7 @@ def _elements(number: str, mu: float, azimuths: int) -> Report:
         + ".",
         verdict=judged(worst < 5e-3),
         because="It settles. The midpoint rule has order 2 on smooth loads; Prandtl's factor ends in a square root at "
-        "the "
-        "tip, and the flown blade's airfoils and twist table have corners, which makes the order uneven.",
+        "the tip, and the flown blade's airfoils and twist table have corners, which makes the order uneven.",
         tables=(table("power_kw", ("elements", *(name for name, _ in CASES)), rows),),
         panels=(
             Panel("elements", "power [kW]", tuple(powers_of), log=""),

@@ -75,8 +75,7 @@ def figure_3_11() -> Report:
         kind="figure",
         caption="Power in hover against thrust for five linear twists.",
         statement="Power falls with more twist down to an optimum of −13.5°; −16° lies past it, because the inner "
-        "blade "
-        "stalls (p. 27).",
+        "blade stalls (p. 27).",
         ours="; ".join(words) + ".",
         verdict=judged(agrees),
         because=f"There is one shallow optimum, and −16° {place}. The document's −13.5° costs "

@@ -67,16 +67,14 @@ MISPRINTS: tuple[Misprint, ...] = (
     Misprint(
         "2.32", "13", "misprint", "kx = (15π/23) tan(χ/2), named Pitt–Peters",
         "15π/32 is the gain of their three-state matrix (½, 15π/64). Both are kept, by name; measured gradients lie "
-        "nearer "
-        "the print.",
+        "nearer the print.",
         "mean, gradient = 1 / 2, 15 * np.pi / 64",
         "15 * np.pi / 23, gradient / mean",
     ),
     Misprint(
         "3.3", "18", "omission", "one lift-curve slope for hover",
         "Closed form only for a straight lift curve; the flight preset balances each annulus with the real one. "
-        "Shown: hover "
-        "power, linear −16°, flight preset with either.",
+        "Shown: hover power, linear −16°, flight preset with either.",
         "design = make_design('flight', twist='linear:-16', advance_ratio=0.0)",
         "hover_kw(design, 'closed-form'), hover_kw(design, 'annulus')", "kW",
     ),
@@ -95,16 +93,14 @@ MISPRINTS: tuple[Misprint, ...] = (
     Misprint(
         "3.6", "21", "omission", "U_P without µ sin α ΩR",
         "The tilted disk sees the stream. Without it torque × Ω misses the parasite power: shown at µ 0.30, beside "
-        "the sum of "
-        "parts that the thesis preset takes as power.",
+        "the sum of parts that the thesis preset takes as power.",
         "power = solve(make_design('thesis', advance_ratio=0.30)).require().power",
         "power.shaft / 1e3, power.main_rotor / 1e3", "kW",
     ),
     Misprint(
         "3.4 and abstract", "20, ix", "omission", "linear inflow, and twist that evens the inflow",
         "Linear inflow does not answer to where the lift is. Shown: by how much induced power differs between 0° and "
-        "−16° at "
-        "µ 0.2, as printed and with the dynamic wake.",
+        "−16° at µ 0.2, as printed and with the dynamic wake.",
         "spread = lambda name: abs(induced_kw(name, 0) - induced_kw(name, -16))",
         "spread('thesis'), spread('thesis-wake')", "kW",
     ),

@@ -65,10 +65,8 @@ def figure_4_8(scope: Scope = FULL) -> Report:
     return _figure(
         "4.8", "two airfoils", _TWO, scope,
         " SC1094 R8 inboard, SC1095 outboard, changing at the division (our order; the document's is not known). In "
-        "the "
-        "thesis preset decks replace the polynomials and the annulus balance eq. (3.3), in the baseline too: the R8 "
-        "exists as "
-        "a deck only, and (3.3) knows one lift curve for a whole blade.",
+        "the thesis preset decks replace the polynomials and the annulus balance eq. (3.3), in the baseline too: the "
+        "R8 exists as a deck only, and (3.3) knows one lift curve for a whole blade.",
     )  # fmt: skip
 
 

@@ -72,9 +72,8 @@ def _head(made: Sequence[tuple[Entry, Report]], pictures: bool) -> str:
         "<p>Figures and tables of M. Lonoce, <i>Helicopter Blade Twist Optimization in Forward Flight</i> (MSc thesis, "
         "Instituto Superior Técnico, 2016), computed anew. Captions are ours; no picture is taken from there. "
         "<b>thesis</b> is what the document states, <b>flight</b> what we believe, <b>thesis-wake</b> the thesis "
-        "preset "
-        "with a wake that answers to where the lift is. We hold the text up to figure 3.15; of chapters 4 to 6 only "
-        "the "
+        "preset with a wake that answers to where the lift is. We hold the text up to figure 3.15; of chapters 4 to 6 "
+        "only the "
         f'captions.</p><p>{len(made)} rebuilt: {summary}. <a href="misprints.html">What the document omits or misprints'
         f"</a>.</p>{without}<details open><summary>Contents</summary><table class=toc>{rows}</table></details>"
     )

@@ -55,8 +55,7 @@ def page(rows: Iterable[TrustRow], changes: Iterable[SensitivityRow]) -> str:
     parts = [
         "# How far to trust the numbers",
         "Made by `python -m rotor reproduce OUT --trust` from actual runs; `tests/reproduce/test_trust.py` makes the "
-        "rows "
-        "again and compares.",
+        "rows again and compares.",
         "Three words, always kept apart: **verification** (against theory, identities, other codes: do we solve our "
         "equations?), **validation** (against measurement: are they the right ones?), **indicative** (against another "
         "model, or data of unclear origin: no proof either way). There is little validation here, because little is "
@@ -94,9 +93,8 @@ def _sensitivity_part(changes: Sequence[SensitivityRow]) -> list[str]:
     return [
         "## Sensitivity of the best linear twist and of its worth",
         "Flight preset with one choice changed; the best linear twist per radius with its band within 0.1 % of the "
-        "least "
-        "total power, and the saving of total power against a linear −16° under the same choice. The optimum moves by "
-        "degrees, its worth by tenths of a per cent up to a few: compare powers, never angles alone.",
+        "least total power, and the saving of total power against a linear −16° under the same choice. The optimum "
+        "moves by degrees, its worth by tenths of a per cent up to a few: compare powers, never angles alone.",
         "\n".join(lines),
     ]
 

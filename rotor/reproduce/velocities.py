@@ -71,8 +71,7 @@ def figure_2_7() -> Report:
         + ".",
         verdict=judged(good),
         because="Prandtl's factor takes the load off the end of the blade; the built-in twist of the UH-60A turns up "
-        "again "
-        "there and keeps it longer.",
+        "again there and keeps it longer.",
         tables=(table("blade", ("preset", "r", "lambda_i", "dct_dr"), rows),),
         panels=(
             Panel("r/R", "λ_i", tuple(inflow), title="Induced velocity / ΩR"),
