@@ -8,6 +8,7 @@ import numpy as np
 from explorer.actuator_picture import drive_text, share_colour
 from explorer.actuator_state import ActuatorInputs, Question
 from explorer.actuator_study import Findings
+from explorer.colours import css
 from explorer.readout import number
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly
 from rotor.actuator.fitted import Fitted
@@ -49,7 +50,7 @@ def voltage_bar(actuator: Actuator) -> str:
     low, high, unit = -100.0, 100.0, "%"
     if isinstance(actuator, PiezoPly):
         low, high, unit = *actuator.voltage_range, "V"
-    stops = ",".join("rgb({},{},{})".format(*share_colour(k / 8.0)) for k in range(-8, 9))
+    stops = ",".join(css(share_colour(k / 8.0)) for k in range(-8, 9))
     marks = ((0.0, low), (25.0, 0.5 * low), (50.0, 0.0), (75.0, 0.5 * high), (100.0, high))
     ticks = "".join(
         f'<i style="left:{at:g}%"></i><span style="left:{at:g}%{_SHIFT.get(at, "")};white-space:nowrap">'

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from explorer.actuator_picture import share_colour
+from explorer.colours import css
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.fitted import Fitted
 from rotor.actuator.pictures import Part, section_picture
@@ -34,8 +35,7 @@ def section_svg(fitted: Fitted, shares: Sequence[float]) -> str:
         elif part.role == "ply":
             marks.append(_ply(part, scale, share))
         elif part.role == "tube":
-            red, green, blue = share_colour(share)
-            fill = f'fill="rgb({red},{green},{blue})" stroke="currentColor" stroke-width=".6"'
+            fill = f'fill="{css(share_colour(share))}" stroke="currentColor" stroke-width=".6"'
             marks.append(_polygon(part, scale, fill))
         else:
             marks.append(_polygon(part, scale, f'fill="{_FILLS[part.role]}"'))

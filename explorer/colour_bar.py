@@ -11,6 +11,7 @@ from explorer.colours import (
     VOID,
     Rgb,
     colour_map,
+    css,
     greyed,
 )
 from explorer.fields import Field, ticks
@@ -21,7 +22,7 @@ def colour_bar(field: Field, low: float, high: float, faded: bool = False) -> st
     colours = colour_map(field.colours, 33)
     if faded:
         colours = greyed(colours)
-    stops = ",".join(_css(colour) for colour in colours.tolist())
+    stops = ",".join(css(colour) for colour in colours.tolist())
     marks = "".join(_mark(value, low, high) for value in ticks(low, high))
     return (
         f'<div class="rx rx-scale" data-explorer="colour-bar"><div>{escape(field.label)}</div>'
@@ -47,7 +48,7 @@ def outline_legend(field: Field) -> str:
         _line(STALL, CASING_LIGHT, "stall"),
         _line(DRAG_DIVERGENCE, CASING_LIGHT, "drag divergence"),
     )
-    patch = f'<span class="rx-patch" style="background:{_css(VOID)}"></span>not defined in reverse flow'
+    patch = f'<span class="rx-patch" style="background:{css(VOID)}"></span>not defined in reverse flow'
     return (
         f'<div class="rx rx-legend"><div class="rx-line">{"".join(lines)}</div>'
         f'<div class="rx-dim">{patch if field.void_in_reverse_flow else ""}</div></div>'
@@ -55,10 +56,5 @@ def outline_legend(field: Field) -> str:
 
 
 def _line(colour: Rgb, casing: Rgb, text: str) -> str:
-    swatch = f'<span class="rx-outline" style="background:{_css(colour)};border-color:{_css(casing)}"></span>'
+    swatch = f'<span class="rx-outline" style="background:{css(colour)};border-color:{css(casing)}"></span>'
     return f"<span>{swatch}{text}</span>"
-
-
-def _css(colour: Rgb | list[int]) -> str:
-    red, green, blue = colour
-    return f"rgb({red},{green},{blue})"

@@ -1,5 +1,6 @@
 """Colours: perceptual, colour-blind-safe maps made in OKLab, and the fixed colours of the page."""
 
+from collections.abc import Sequence
 from functools import cache
 from typing import Literal
 
@@ -52,6 +53,12 @@ DRAG_DIVERGENCE: Rgb = (10, 10, 12)
 CASING_DARK: Rgb = (20, 20, 24)
 """Outlines have a casing, so that each reads on every colour of the disk."""
 CASING_LIGHT: Rgb = (255, 255, 255)
+
+
+def css(colour: Sequence[int] | NDArray[np.uint8]) -> str:
+    """A colour of three channels 0…255 as style sheets and charts write it."""
+    red, green, blue = (int(channel) for channel in colour)
+    return f"rgb({red},{green},{blue})"
 
 
 def _linear_rgb(lightness: float, chroma: float, hue_deg: float) -> Array:

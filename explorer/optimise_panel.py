@@ -11,7 +11,7 @@ import viser
 
 from explorer import search_text
 from explorer.charts import Chart, line
-from explorer.colours import BASELINE, THIS, colour_map
+from explorer.colours import BASELINE, THIS, colour_map, css
 from explorer.concept_picture import concept_picture
 from explorer.jobs import Job, News, Pool, Told
 from explorer.search_plot import TRACES, search_plot
@@ -91,7 +91,7 @@ class OptimisePanel:
             "evaluation",
             (
                 line("as it is", BASELINE, 1.5, (5, 3)),
-                *(line(f"start {k + 1}", _css(shades[k]), 1.0) for k in range(TRACES)),
+                *(line(f"start {k + 1}", css(shades[k]), 1.0) for k in range(TRACES)),
                 line("best", THIS, 2.2),
             ),
             blank,
@@ -241,8 +241,3 @@ class OptimisePanel:
 
 def _boxed(picture: str, words: str) -> str:
     return f'<div class="rx rx-concept">{picture}<div class="rx-dim rx-small">{words}</div></div>'
-
-
-def _css(colour: Any) -> str:
-    red, green, blue = (int(channel) for channel in colour)
-    return f"rgb({red},{green},{blue})"

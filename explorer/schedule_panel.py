@@ -7,7 +7,7 @@ import viser
 
 from explorer import mission, schedule_view
 from explorer.charts import Chart, line
-from explorer.colours import BASELINE, NOW, THIS, colour_map
+from explorer.colours import BASELINE, NOW, THIS, colour_map, css
 from explorer.jobs import Broken, Ended, Job, News, Pool, Started, Told, Waiting
 from explorer.optimise_panel import Hooks
 from explorer.schedule_view import LEGS, Course
@@ -60,9 +60,9 @@ class SchedulePanel:
         self._twists = Chart(
             gui,
             "Best twist [°] over r/R",
-            (("hover", _css(shades[0])), ("fast", _css(shades[LEGS - 1])), ("fixed", NOW)),
+            (("hover", css(shades[0])), ("fast", css(shades[LEGS - 1])), ("fixed", NOW)),
             "radius r/R",
-            (*(line(f"leg {k + 1}", _css(shades[k]), 1.5) for k in range(LEGS)), line("fixed", NOW, 2.0, (5, 3))),
+            (*(line(f"leg {k + 1}", css(shades[k]), 1.5) for k in range(LEGS)), line("fixed", NOW, 2.0, (5, 3))),
             twists,
             (0.1, 1.02),
         )
@@ -172,8 +172,3 @@ class SchedulePanel:
         fixed = course.at(None)
         if fixed is not None and fixed.best is not None:
             self._hooks.apply(with_optimum(self._hooks.inputs(), fixed.design))
-
-
-def _css(colour: Any) -> str:
-    red, green, blue = (int(channel) for channel in colour)
-    return f"rgb({red},{green},{blue})"

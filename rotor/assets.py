@@ -1,5 +1,6 @@
 """Where the data files are: `assets/` of the checkout, or its copy inside an installed wheel."""
 
+import csv
 from pathlib import Path
 
 _PACKAGED = Path(__file__).parent / "_assets"
@@ -16,3 +17,9 @@ def asset_path(name: str) -> Path:
         if path.exists():
             return path
     raise FileNotFoundError(f"data file {name!r} is in neither {_PACKAGED} nor {_CHECKOUT}: reinstall rotor-explorer")
+
+
+def csv_rows(path: Path) -> list[dict[str, str]]:
+    """The rows of a table by column; lines that begin with # hold sources and are passed over."""
+    lines = path.read_text(encoding="utf-8").splitlines()
+    return list(csv.DictReader(line for line in lines if not line.startswith("#")))

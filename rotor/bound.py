@@ -1,6 +1,5 @@
 """The least induced power at a condition, as factors κ on momentum theory's C_T λ0; and the shipped table of them."""
 
-import csv
 import math
 from dataclasses import dataclass
 from functools import cache
@@ -9,7 +8,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebvander
 from numpy.typing import NDArray
 
-from rotor.assets import asset_path
+from rotor.assets import asset_path, csv_rows
 from rotor.design import Design
 from rotor.elements import expected_wake
 from rotor.wake.ideal import BOUND_LATTICE, InducedPower, LinearBlade, least_induced_power, least_twisted_power
@@ -94,8 +93,7 @@ def _between(x: float, places: Array, values: Array) -> float:
 @cache
 def _table() -> tuple[Array, Array, Array]:
     """Advance ratios, thrust coefficients, lift-limited κ (speeds, thrusts)."""
-    lines = asset_path("ideal_bound.csv").read_text(encoding="utf-8").splitlines()
-    rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
+    rows = csv_rows(asset_path("ideal_bound.csv"))
     speeds = sorted({float(row["mu"]) for row in rows})
     masses = sorted({float(row["mass_kg"]) for row in rows})
     by_place = {(float(row["mu"]), float(row["mass_kg"])): row for row in rows}

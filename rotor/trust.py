@@ -4,13 +4,12 @@ The rows are made by runs (`python -m rotor reproduce OUT --trust`) and shipped 
 assets/sensitivity.csv; a test makes them again and compares, so that they cannot rot.
 """
 
-import csv
 from dataclasses import dataclass, fields
 from functools import cache
 from pathlib import Path
 from typing import Literal, get_args
 
-from rotor.assets import asset_path
+from rotor.assets import asset_path, csv_rows
 
 Kind = Literal["verification", "public code", "validation", "indicative", "document"]
 KINDS: dict[Kind, str] = {
@@ -70,17 +69,16 @@ def trust_rows() -> tuple[TrustRow, ...]:
 @cache
 def sensitivity_rows() -> tuple[SensitivityRow, ...]:
     """The shipped sensitivities; rows of one change together."""
-    lines = _lines(asset_path("sensitivity.csv"))
     return tuple(
         SensitivityRow(row["change"], *(float(row[field.name]) for field in fields(SensitivityRow)[1:]))
-        for row in csv.DictReader(lines)
+        for row in csv_rows(asset_path("sensitivity.csv"))
     )
 
 
 def read_trust(path: Path) -> tuple[TrustRow, ...]:
     """Rows of a trust file; ValueError for a kind that is not known."""
     rows: list[TrustRow] = []
-    for row in csv.DictReader(_lines(path)):
+    for row in csv_rows(path):
         kind = next((kind for kind in get_args(Kind) if kind == row["kind"]), None)
         if kind is None:
             raise ValueError(f"{path.name} has a row of kind {row['kind']!r}: use one of {', '.join(KINDS)}")
@@ -91,7 +89,3 @@ def read_trust(path: Path) -> tuple[TrustRow, ...]:
             )
         )
     return tuple(rows)
-
-
-def _lines(path: Path) -> list[str]:
-    return [line for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
