@@ -4,6 +4,7 @@ from html import escape
 from itertools import groupby
 
 from explorer.readout import number
+from rotor.reproduce.report import typographic
 from rotor.trust import KINDS, SensitivityRow, TrustRow, sensitivity_rows, trust_rows
 
 
@@ -26,7 +27,8 @@ def _row(row: TrustRow) -> str:
     hint = escape(". ".join(part.rstrip(".") for part in (row.note, row.test) if part), quote=True)
     return (
         f'<div class="rx-trust-row" title="{hint}"><span>{escape(row.what)} '
-        f'<span class="rx-dim">{escape(row.against)}</span></span><b>{escape(row.shown)}</b></div>'
+        f'<span class="rx-dim">{escape(typographic(row.against))}</span></span>'
+        f"<b>{escape(typographic(row.shown))}</b></div>"
     )
 
 

@@ -16,3 +16,9 @@ def test_every_row_and_kind_is_on_the_page():
 
 def test_no_number_is_missing():
     assert not re.search(r"\b(nan|inf)\b", trust_page(), re.IGNORECASE)
+
+
+def test_minus_signs_are_minus_signs():
+    shown = re.sub(r'title="[^"]*"', "", trust_page())
+    assert "−0.02 %" in shown
+    assert not re.search(r"[> ]-\d", shown)
