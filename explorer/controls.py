@@ -136,6 +136,18 @@ class Controls:
             **{name: handle.value for name, handle in self._toggles.items()},
         )
 
+    def set_view(self, view: ViewState) -> None:
+        """Move the widgets of what is shown."""
+        self._field.value, self._azimuth.value, self._exaggeration.value = (
+            view.field,
+            view.azimuth_deg,
+            view.exaggeration,
+        )
+        self._dark.value = view.dark
+        for name, handle in self._toggles.items():
+            handle.value = getattr(view, name)
+        self._changed()
+
     def set_inputs(self, inputs: Inputs) -> None:
         """Move the widgets; the page follows as if they had been dragged."""
         if inputs.found is not None:

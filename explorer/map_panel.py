@@ -1,16 +1,14 @@
 """The Map tab: power over two parameters of the concept, in the background, and a click that takes a point."""
 
-from collections.abc import Callable
-
 import numpy as np
 import viser
 
 from explorer import power_map
+from explorer.desk import Desk
 from explorer.jobs import Broken, Ended, Job, News, Pool, Told
-from explorer.optimise_panel import Hooks
+from explorer.optimise_panel import OptimisePanel
 from explorer.state import with_optimum
 from explorer.tasks import MapLevel, MapTask
-from explorer.wishes import Wishes
 from rotor.concepts import Concept, nearest
 from rotor.design import Design
 from rotor.twist import TwistLaw
@@ -26,15 +24,9 @@ _NEAR = 1e-3
 class MapPanel:
     """One session's map."""
 
-    def __init__(
-        self,
-        gui: viser.GuiApi,
-        pool: Pool,
-        hooks: Hooks,
-        wishes: Callable[[], Wishes],
-        optimum_of: Callable[[Design, str], tuple[float, ...] | None],
-    ) -> None:
-        self._pool, self._hooks, self._wishes, self._optimum_of = pool, hooks, wishes, optimum_of
+    def __init__(self, gui: viser.GuiApi, pool: Pool, desk: Desk, search: OptimisePanel) -> None:
+        """The map is of what the Optimise tab asks for."""
+        self._pool, self._desk, self._search, self._wishes = pool, desk, search, search.wishes
         self._job: Job | None = None
         self._task: MapTask | None = None
         self._map: power_map.Map | None = None
@@ -43,7 +35,7 @@ class MapPanel:
         self._drawn: object = None
         self._here: tuple[object, tuple[float, ...], bool] | None = None
         self._title = gui.add_html("")
-        titles = tuple([parameter.title for parameter in wishes().known_concept().parameters])
+        titles = tuple([parameter.title for parameter in self._wishes().known_concept().parameters])
         self._x = gui.add_dropdown("Across", titles)
         self._y = gui.add_dropdown("Up", titles)
         self._draw = gui.add_button("Draw map", icon=viser.Icon.MAP_2)
@@ -57,26 +49,26 @@ class MapPanel:
     def begin(self) -> None:
         """Draw the map of the concept chosen for the search, about the design on the sliders."""
         try:
-            design, wishes = self._hooks.inputs().design(), self._wishes()
+            design, wishes = self._desk.inputs().design(), self._wishes()
             concept = wishes.known_concept()
             titles = [parameter.title for parameter in concept.parameters]
             if len(titles) < 2:
                 raise ValueError(f"{concept.title} has one parameter: choose a concept with more to draw a map.")
             axes = self._axes(titles)
-            objective = wishes.wanted(design, self._hooks.legs)
+            objective = wishes.wanted(design, self._search.legs)
         except ValueError as error:
             self._line = str(error)
-            self._hooks.wake()
+            self._desk.wake()
             return
-        values = self._optimum_of(design, concept.name) or nearest(concept, design.twist)
+        values = self._search.optimum_of(design, concept.name) or nearest(concept, design.twist)
         task = self._task = MapTask(design, concept, objective, axes, values)
         if self._job is not None:
             self._pool.stop(self._job, quiet=True)
         self._line = "Drawing …"
         self._job = self._pool.submit(task, lambda news: self._hear(task, news), TIME_LIMIT, _URGENCY)
-        self._hooks.wake()
+        self._desk.wake()
 
-    def close(self) -> None:
+    def stop(self) -> None:
         """The browser has left."""
         if self._job is not None:
             self._pool.stop(self._job, quiet=True)
@@ -133,7 +125,7 @@ class MapPanel:
                 self._line += "; time is up."
             case _:
                 pass
-        self._hooks.wake()
+        self._desk.wake()
 
     def _place(self, drawn: power_map.Map, design: Design | None) -> tuple[tuple[float, float] | None, bool]:
         """Where the design on the sliders lies on the map, and whether it lies in its plane."""
@@ -150,13 +142,13 @@ class MapPanel:
         if drawn is None or not self._point.value.strip():
             return
         try:
-            inputs = self._hooks.inputs()
+            inputs = self._desk.inputs()
             design = drawn.task.concept.apply(inputs.design(), power_map.point_of(self._point.value, drawn))
         except ValueError as error:
             self._line = str(error)
-            self._hooks.wake()
+            self._desk.wake()
             return
-        self._hooks.apply(with_optimum(inputs, design))
+        self._desk.set_inputs(with_optimum(inputs, design))
 
 
 def default_axes(concept: Concept) -> tuple[int, int]:

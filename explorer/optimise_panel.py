@@ -3,7 +3,6 @@
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -13,10 +12,11 @@ from explorer import search_text
 from explorer.charts import Chart, line
 from explorer.colours import BASELINE, THIS, colour_map, css
 from explorer.concept_picture import concept_picture
+from explorer.desk import Desk
 from explorer.jobs import Job, News, Pool, Told
 from explorer.search_plot import TRACES, search_plot
 from explorer.search_run import FRAME, SearchRun
-from explorer.state import Inputs, baseline_of, with_optimum
+from explorer.state import baseline_of, with_optimum
 from explorer.tasks import SearchTask
 from explorer.wishes import OBJECTIVES, Wishes
 from rotor.concepts import CONCEPTS
@@ -28,22 +28,12 @@ TIME_LIMIT = 60.0
 _HEIGHT = 118
 
 
-@dataclass(frozen=True)
-class Hooks:
-    """What the tab needs of its session."""
-
-    inputs: Callable[[], Inputs]
-    apply: Callable[[Inputs], None]
-    wake: Callable[[], None]
-    legs: Callable[[Design], tuple[Leg, ...]]
-    """The mission."""
-
-
 class OptimisePanel:
     """One session's search. Buttons act at once; everything that only shows happens in `refresh`."""
 
-    def __init__(self, gui: viser.GuiApi, pool: Pool, hooks: Hooks) -> None:
-        self._pool, self._hooks = pool, hooks
+    def __init__(self, gui: viser.GuiApi, pool: Pool, desk: Desk, legs: Callable[[Design], tuple[Leg, ...]]) -> None:
+        """`legs`: of the mission, for a design."""
+        self._pool, self._desk, self.legs = pool, desk, legs
         self._beginning = threading.Lock()
         self._job: Job | None = None
         self._run: SearchRun | None = None
@@ -104,7 +94,7 @@ class OptimisePanel:
         self._verdict.on_click(self._judge)
         self._scrubber.on_update(self._scrubbed)
         for widget in (self._concept, self._objective, self._limit_stall, self._limit_change, *self._numbers.values()):
-            widget.on_update(lambda event: hooks.wake() if event.client is not None else None)
+            widget.on_update(lambda event: desk.wake() if event.client is not None else None)
 
     def wishes(self) -> Wishes:
         """What the widgets ask for."""
@@ -127,18 +117,18 @@ class OptimisePanel:
             if self._run is not None and self._run.under_way:
                 return
             try:
-                design = self._hooks.inputs().design()
-                search = self.wishes().search(design, self._hooks.legs)
+                design = self._desk.inputs().design()
+                search = self.wishes().search(design, self.legs)
             except ValueError as error:
                 self._problem = str(error)
-                self._hooks.wake()
+                self._desk.wake()
                 return
             self._problem, self._offered = "", True
             run = self._run = SearchRun(search)
         self._job = self._pool.submit(
             SearchTask(search, baseline_of(design)), lambda news: self._hear(run, news), TIME_LIMIT
         )
-        self._hooks.wake()
+        self._desk.wake()
 
     def halt(self) -> None:
         """Stop the search under way; what it found stays."""
@@ -146,9 +136,9 @@ class OptimisePanel:
         if run is not None and job is not None and run.under_way:
             run.stopping()
             self._pool.stop(job)
-            self._hooks.wake()
+            self._desk.wake()
 
-    def close(self) -> None:
+    def stop(self) -> None:
         """The browser has left."""
         if self._job is not None:
             self._pool.stop(self._job, quiet=True)
@@ -160,7 +150,7 @@ class OptimisePanel:
             return None
         frame = run.shown()
         if run.playing:
-            timer = threading.Timer(FRAME, self._hooks.wake)
+            timer = threading.Timer(FRAME, self._desk.wake)
             timer.daemon = True
             timer.start()
         return None if frame is None else frame.design
@@ -216,7 +206,7 @@ class OptimisePanel:
         now = time.monotonic()
         if not isinstance(news, Told) or now - self._woken > FRAME:
             self._woken = now
-            self._hooks.wake()
+            self._desk.wake()
 
     def _judge(self, event: viser.GuiEvent[Any]) -> None:
         run = self._run
@@ -224,19 +214,19 @@ class OptimisePanel:
             return
         if event.target.value == "Replay":
             run.replay()
-            self._hooks.wake()
+            self._desk.wake()
             return
         self._offered = False
         if event.target.value == "Apply":
-            here = run.matches(self._hooks.inputs().design())
+            here = run.matches(self._desk.inputs().design())
             frame = run.chosen if here else run.frames[-1]
-            self._hooks.apply(with_optimum(self._hooks.inputs(), frame.design))
-        self._hooks.wake()
+            self._desk.set_inputs(with_optimum(self._desk.inputs(), frame.design))
+        self._desk.wake()
 
     def _scrubbed(self, event: viser.GuiEvent[Any]) -> None:
         if event.client is not None and self._run is not None:
             self._run.scrub(round(self._scrubber.value))
-            self._hooks.wake()
+            self._desk.wake()
 
 
 def _boxed(picture: str, words: str) -> str:

@@ -8,8 +8,8 @@ import viser
 from explorer import mission, schedule_view
 from explorer.charts import Chart, line
 from explorer.colours import BASELINE, NOW, THIS, colour_map, css
+from explorer.desk import Desk
 from explorer.jobs import Broken, Ended, Job, News, Pool, Started, Told, Waiting
-from explorer.optimise_panel import Hooks
 from explorer.schedule_view import LEGS, Course
 from explorer.state import with_optimum
 from explorer.tasks import FixedPowers, ScheduleTask
@@ -27,15 +27,8 @@ _URGENCY = 1
 class SchedulePanel:
     """One session's schedule."""
 
-    def __init__(
-        self,
-        gui: viser.GuiApi,
-        pool: Pool,
-        hooks: Hooks,
-        wishes: Callable[[], Wishes],
-        send: Callable[[str, bytes], None],
-    ) -> None:
-        self._pool, self._hooks, self._wishes, self._send = pool, hooks, wishes, send
+    def __init__(self, gui: viser.GuiApi, pool: Pool, desk: Desk, wishes: Callable[[], Wishes]) -> None:
+        self._pool, self._desk, self._wishes = pool, desk, wishes
         self._job: Job | None = None
         self._course: Course | None = None
         self._running = False
@@ -88,7 +81,7 @@ class SchedulePanel:
         if self._running:
             return
         try:
-            design, wishes = self._hooks.inputs().design(), self._wishes()
+            design, wishes = self._desk.inputs().design(), self._wishes()
             concept = wishes.known_concept()
             plan = Plan(
                 design,
@@ -100,21 +93,21 @@ class SchedulePanel:
             )
         except ValueError as error:
             self._line = str(error)
-            self._hooks.wake()
+            self._desk.wake()
             return
         course = self._course = Course(plan)
         self._running, self._line = True, "Starting a worker …"
         self._job = self._pool.submit(ScheduleTask(plan), lambda news: self._hear(course, news), TIME_LIMIT, _URGENCY)
-        self._hooks.wake()
+        self._desk.wake()
 
     def halt(self) -> None:
         """Stop; what was found stays."""
         if self._job is not None and self._running:
             self._line = "Stopping …"
             self._pool.stop(self._job)
-            self._hooks.wake()
+            self._desk.wake()
 
-    def close(self) -> None:
+    def stop(self) -> None:
         """The browser has left."""
         if self._job is not None:
             self._pool.stop(self._job, quiet=True)
@@ -160,15 +153,15 @@ class SchedulePanel:
                 self._running, self._line = False, message
             case _:
                 pass
-        self._hooks.wake()
+        self._desk.wake()
 
     def _judge(self, event: viser.GuiEvent[Any]) -> None:
         course = self._course
         if course is None:
             return
         if event.target.value == "Save CSV":
-            self._send("twist-schedule.csv", schedule_view.csv_of(course))
+            self._desk.send("twist-schedule.csv", schedule_view.csv_of(course))
             return
         fixed = course.at(None)
         if fixed is not None and fixed.best is not None:
-            self._hooks.apply(with_optimum(self._hooks.inputs(), fixed.design))
+            self._desk.set_inputs(with_optimum(self._desk.inputs(), fixed.design))

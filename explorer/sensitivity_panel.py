@@ -1,12 +1,11 @@
 """The tab that says where to twist: a chart that follows the sliders, and the same painted on the marked blade."""
 
-from collections.abc import Callable
-
 import viser
 
 from explorer import sensitivity
 from explorer.charts import Chart, line
 from explorer.colours import BASELINE, THIS
+from explorer.desk import Desk, Moment
 from explorer.meshes import blade_shape
 from explorer.overlays import Strip
 from rotor.solution import Solution
@@ -17,7 +16,7 @@ _HEIGHT = 150
 class SensitivityPanel:
     """One session's."""
 
-    def __init__(self, gui: viser.GuiApi, strip: Strip, changed: Callable[[], None]) -> None:
+    def __init__(self, gui: viser.GuiApi, strip: Strip, desk: Desk) -> None:
         self._strip = strip
         self._shown: tuple[Solution, bool, float] | None = None
         self._chart = Chart(
@@ -32,11 +31,11 @@ class SensitivityPanel:
         )
         self._words = gui.add_html("")
         self._paint = gui.add_checkbox("Paint blade", False, hint="Blue: more pitch here saves power. Rust: it costs.")
-        self._paint.on_update(lambda _: changed())
+        self._paint.on_update(lambda _: desk.wake())
 
-    def show(self, solution: Solution, exaggeration: float) -> None:
+    def show(self, moment: Moment) -> None:
         """Follow a converged solution."""
-        paint = self._paint.value
+        solution, exaggeration, paint = moment.solution, moment.view.exaggeration, self._paint.value
         if self._shown is not None and self._shown[0] is solution and self._shown[1:] == (paint, exaggeration):
             return
         plot = sensitivity.sensitivity_plot(solution, self._chart.y_range)
@@ -53,3 +52,6 @@ class SensitivityPanel:
         """The answer no longer holds."""
         self._shown = None
         self._strip.hide()
+
+    def stop(self) -> None:
+        """Nothing runs on."""

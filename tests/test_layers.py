@@ -16,6 +16,8 @@ KNOW_VISER = {
     "__main__.py",
     "app.py",
     "session.py",
+    "frame.py",
+    "results_panel.py",
     "scene.py",
     "camera.py",
     "controls.py",

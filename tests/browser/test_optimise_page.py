@@ -235,7 +235,7 @@ def test_a_click_on_the_map_takes_the_point(page: tuple[Watched, Session]):
     assert inputs.law == "two"
     assert inputs.two_division == pytest.approx(0.585, abs=0.01)
     assert inputs.two_outer == pytest.approx(-10.0, abs=0.4)
-    session._map.close()
+    session._map.stop()
     assert watched.complaints == []
 
 

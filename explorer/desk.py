@@ -1,0 +1,62 @@
+"""What a session gives its tabs: the moment it arrived at, and what they may ask of it; the rest stays hidden."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+from explorer.state import Inputs, ViewState
+from rotor.solution import Solution
+
+
+@dataclass(frozen=True, eq=False)
+class Moment:
+    """What a round of the session arrived at: one value that every tab reads."""
+
+    inputs: Inputs
+    view: ViewState
+    solution: Solution
+    """Converged."""
+    baseline: Solution
+    """What a change is counted from when nothing is pinned."""
+    pinned: Solution | None
+    """A of A/B, in its own flight condition."""
+
+    @property
+    def reference(self) -> Solution:
+        """What the read-outs compare with."""
+        return self.pinned or self.baseline
+
+
+@dataclass(frozen=True)
+class Desk:
+    """What a tab may ask of its session; from any thread."""
+
+    inputs: Callable[[], Inputs]
+    set_inputs: Callable[[Inputs], None]
+    """Move the widgets; the page follows as if they had been dragged."""
+    view: Callable[[], ViewState]
+    set_view: Callable[[ViewState], None]
+    wake: Callable[[], None]
+    """Something changed: the session's worker will do another round."""
+    send: Callable[[str, bytes], None]
+    """A file to the browser, saved at once: name, content."""
+    tell: Callable[[str, str], None]
+    """A notification: title, sentence."""
+    moment: Callable[[], Moment | None]
+    """The last good one; None before the first."""
+
+
+class Tab(Protocol):
+    """A part of the page that follows the session; called on the worker's thread."""
+
+    def show(self, moment: Moment) -> None:
+        """Follow a converged answer."""
+        ...
+
+    def lose(self) -> None:
+        """The inputs have no answer: what is shown no longer holds."""
+        ...
+
+    def stop(self) -> None:
+        """The browser has left."""
+        ...
