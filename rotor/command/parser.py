@@ -70,7 +70,7 @@ def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: floa
         inflow_model(args.inflow)
         design = replace(design, models=replace(design.models, inflow=args.inflow))
     if base and not args.preset:
-        design = replace(design, rotor=base.rotor)
+        design = replace(design, rotor=base.rotor, active_twist=base.active_twist)
     if args.airfoils:
         design = replace(design, rotor=change_airfoils(design.rotor, args.airfoils))
     return at_advance_ratio(design, advance_ratio)
