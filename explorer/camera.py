@@ -21,6 +21,9 @@ class FittedCamera:
     def __init__(self, client: viser.ClientHandle, radius: float) -> None:
         self._client = client
         self._radius = radius
+        self._view: View | None = "3d"
+        """None while something else than the rotor is looked at."""
+        self._azimuth = 0.0
         self._fit: Callable[[float], Camera] = partial(fit, "3d", radius)
         self._following = True
         self._put: tuple[np.ndarray, tuple[int, int], float] | None = None
@@ -29,11 +32,24 @@ class FittedCamera:
         client.camera.on_update(self._moved)
 
     def aim(self, view: View) -> None:
-        """Show the rotor whole, and go on doing so when the canvas changes."""
-        self.aim_with(partial(fit, view, self._radius))
+        """Show the rotor, and go on doing so when the canvas changes."""
+        self._view = view
+        self._aim(partial(fit, view, self._radius, azimuth=self._azimuth))
+
+    def ride(self, azimuth: float) -> None:
+        """The marked blade is at ψ [rad] now: a camera that looks along it goes with it, until the user takes over."""
+        if azimuth == self._azimuth:
+            return
+        self._azimuth = azimuth
+        if self._view == "blade" and self._following:
+            self.aim("blade")
 
     def aim_with(self, fitted: Callable[[float], Camera]) -> None:
-        """The same for any subject: `fitted` finds the camera for a canvas's width over height."""
+        """The same for any other subject: `fitted` finds the camera for a canvas's width over height."""
+        self._view = None
+        self._aim(fitted)
+
+    def _aim(self, fitted: Callable[[float], Camera]) -> None:
         camera = self._client.camera
         self._fit, self._following = fitted, True
         target = fitted(camera.aspect)
@@ -46,10 +62,10 @@ class FittedCamera:
         if not self._following:
             return
         if self._put is None:
-            self.aim_with(self._fit)
+            self._aim(self._fit)
             return
         position, size, since = self._put
         if (camera.image_width, camera.image_height) != size:
-            self.aim_with(self._fit)
+            self._aim(self._fit)
         elif time.monotonic() - since > _SETTLES and np.linalg.norm(camera.position - position) > _TAKEN:
             self._following = False

@@ -10,6 +10,7 @@ from explorer import readout
 from explorer.colour_bar import colour_bar, outline_legend
 from explorer.fields import FIELDS
 from explorer.state import INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs, ViewState, preset_inflow
+from explorer.view import View
 from rotor.inflow import INFLOW_MODELS
 from rotor.presets import make_design
 
@@ -52,6 +53,7 @@ SLIDERS: dict[str, Slider] = {
 }
 FOUR, INFINITE = "dynamic-wake", "dynamic-wake-infinite-blades"
 """The same theory with the rotor's own blades and with infinitely many."""
+VIEW_BUTTONS: dict[str, View] = {"3D": "3d", "Top": "top", "Blade": "blade", "Side": "side"}
 _TOGGLES = {"reverse_flow": "Reverse flow", "stall": "Stall", "drag_divergence": "Drag diverg."}
 
 
@@ -66,7 +68,9 @@ class Controls:
         """Holds what the laws mean that are not always there."""
         self._laws = _laws_of(start)
         self._inflows = {name: model.title for name, model in INFLOW_MODELS.items()}
-        self.view_buttons = gui.add_button_group("View", ("3D", "Top"), hint="Fit the rotor into the window.")
+        self.view_buttons = gui.add_button_group(
+            "View", tuple(VIEW_BUTTONS), hint="Fit it into the window: the rotor, its plan, the marked blade, the side."
+        )
         with gui.add_folder("Twist"):
             self._law = gui.add_dropdown("Law", tuple(self._laws.values()), initial_value=self._laws[start.law])
             self._inputs["law"] = self._watched(self._law)
@@ -115,7 +119,6 @@ class Controls:
             )
             self._dark = self._watched(gui.add_checkbox("Dark page", dark))
         self.reset_button = gui.add_button("Reset design")
-        self.reset_button.on_click(lambda _: self.set_inputs(self._start))
         self._inputs["preset"].on_update(self._preset_changed)
 
     def inputs(self) -> Inputs:
@@ -135,6 +138,10 @@ class Controls:
             dark=self._dark.value,
             **{name: handle.value for name, handle in self._toggles.items()},
         )
+
+    def reset(self) -> None:
+        """Back to the design the page began with."""
+        self.set_inputs(self._start)
 
     def set_view(self, view: ViewState) -> None:
         """Move the widgets of what is shown."""

@@ -1,7 +1,5 @@
 """The picture of one session: rotor, disk, ghost and colour range; draws only what has changed."""
 
-from typing import Any
-
 import viser
 
 from explorer.controls import Controls
@@ -29,7 +27,7 @@ class Frame:
         self._drawn: tuple[Solution, ViewState, Range, TwistLaw | None] | None = None
         self._ranges = {title: (field.low, field.high) for title, field in FIELDS.items()}
         self._order: str | None = None
-        """Button that asked for another range."""
+        """Another range that was asked for."""
 
     def draw(self, solution: Solution, view: ViewState, ghost: TwistLaw | None) -> None:
         """Show a converged answer, and the ghost of another blade on the marked one."""
@@ -60,9 +58,9 @@ class Frame:
         """Whether the rotor is in the scene, or makes room for something else."""
         self._scene.set_seen(seen)
 
-    def range_clicked(self, event: viser.GuiEvent[Any]) -> None:
-        """A button of the colour range; acts in the next round."""
-        self._order = event.target.value
+    def order_range(self, order: str) -> None:
+        """Fit the colour range to the data ("Rescale") or take its own again ("Default"), in the next round."""
+        self._order = order
 
     def _range(self, solution: Solution, view: ViewState) -> Range:
         """The colour range: held, unless a button asked for another."""

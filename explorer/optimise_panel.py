@@ -138,6 +138,14 @@ class OptimisePanel:
             self._pool.stop(job)
             self._desk.wake()
 
+    def toggle(self) -> None:
+        """Start a search, or stop the one under way."""
+        run = self._run
+        if run is not None and run.under_way:
+            self.halt()
+        else:
+            self.begin()
+
     def stop(self) -> None:
         """The browser has left."""
         if self._job is not None:

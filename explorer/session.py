@@ -13,10 +13,12 @@ from explorer import readout, solver, style, trust_readout
 from explorer.actuator_panel import ActuatorPanel
 from explorer.actuator_view import fit_cut
 from explorer.camera import FittedCamera
-from explorer.controls import Controls
+from explorer.commands import Actions, bind_commands
+from explorer.controls import VIEW_BUTTONS, Controls
 from explorer.desk import Desk, Moment, Tab
 from explorer.frame import Frame
 from explorer.jobs import Pool
+from explorer.keyboard import Keyboard
 from explorer.map_panel import MapPanel
 from explorer.optimise_panel import OptimisePanel
 from explorer.overlays import Strip
@@ -25,6 +27,7 @@ from explorer.results_panel import ResultsPanel
 from explorer.schedule_panel import SchedulePanel
 from explorer.sensitivity_panel import SensitivityPanel
 from explorer.state import Inputs, ViewState, baseline_of
+from explorer.view import View
 from explorer.worker import LatestWins
 from rotor.design import Design
 from rotor.presets import uh60a_rotor
@@ -69,6 +72,7 @@ class Session:
             send=self._send,
             tell=self._notify,
             moment=lambda: self._moment,
+            bind=Keyboard(client).bind,
         )
         with tabs.add_tab("Optimise"):
             self._optimise = OptimisePanel(gui, pool, desk, lambda design: self._schedule.legs(design))
@@ -93,10 +97,12 @@ class Session:
         """Everything that only follows."""
         self._camera = FittedCamera(client, rotor.radius)
         self._actuator.shown.on_update(self._cut_switched)
-        self._controls.reset_button.on_click(lambda _: self._actuator.rest())
-        self._controls.view_buttons.on_click(self._view_clicked)
-        self._controls.range_buttons.on_click(self._range_clicked)
-        self._controls.check_button.on_click(self._check_clicked)
+        controls = self._controls
+        controls.reset_button.on_click(lambda _: self._reset())
+        controls.view_buttons.on_click(lambda event: self._look(VIEW_BUTTONS[event.target.value]))
+        controls.range_buttons.on_click(lambda event: self._colour(event.target.value))
+        controls.check_button.on_click(lambda _: self._check())
+        bind_commands(desk, Actions(self._look, self._colour, self._check, self._reset, self._optimise.toggle))
 
     def start(self) -> None:
         self._actuator.start()
@@ -138,6 +144,7 @@ class Session:
             return
         self._good = solution
         self._frame.draw(solution, view, None if preview is None else plain.twist)
+        self._camera.ride(math.radians(view.azimuth_deg))
         self._actuator.show(actuator, plain, solution, math.radians(view.azimuth_deg))
         moment = self._moment = Moment(inputs, view, solution, self._baseline.solve(baseline_of(design)), None)
         self._results.show(moment)
@@ -192,15 +199,18 @@ class Session:
         else:
             self._camera.aim("3d")
 
-    def _view_clicked(self, event: viser.GuiEvent[Any]) -> None:
+    def _look(self, view: View) -> None:
         self._actuator.leave_cut()
-        self._camera.aim("3d" if event.target.value == "3D" else "top")
+        self._camera.aim(view)
 
-    def _check_clicked(self, event: viser.GuiEvent[Any]) -> None:
-        del event
+    def _check(self) -> None:
         self._results.check()
         self._worker.wake()
 
-    def _range_clicked(self, event: viser.GuiEvent[Any]) -> None:
-        self._frame.range_clicked(event)
+    def _colour(self, order: str) -> None:
+        self._frame.order_range(order)
         self._worker.wake()
+
+    def _reset(self) -> None:
+        self._actuator.rest()
+        self._controls.reset()

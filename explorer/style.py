@@ -58,6 +58,16 @@ SHEET = """<style>
 .rx-map { display: block; }
 .rx-map image { image-rendering: auto; }
 .rx-map-title { padding: 0 10px 0 36px; }
+.rx-dialog { border: 0; outline: 0; border-radius: 8px; padding: 14px 8px 16px; max-width: min(760px, 94vw);
+  color: var(--mantine-color-text); background: var(--mantine-color-body); box-shadow: 0 8px 40px rgba(0,0,0,.35); }
+.rx-dialog::backdrop { background: rgba(0,0,0,.35); }
+.rx-keys { columns: 2; column-gap: 34px; width: 690px; max-width: 100%; }
+.rx-keys section { break-inside: avoid; padding-bottom: 9px; }
+.rx-keys h4 { margin: 0 0 2px; font-size: 12.5px; }
+.rx-keys .rx-line { padding: 1.5px 0; }
+.rx-keys kbd { display: inline-block; min-width: 20px; margin-left: 3px; padding: 0 5px; text-align: center;
+  font: inherit; font-size: 11.5px; border: 1px solid rgba(128,128,128,.45); border-radius: 4px;
+  background: rgba(128,128,128,.10); }
 .rx-trust h4 { margin: 11px 0 3px; font-size: 12.5px; line-height: 1.25; }
 .rx-trust-row { display: flex; justify-content: space-between; gap: 10px; padding: 2px 0;
   border-top: 1px solid rgba(128,128,128,.18); }

@@ -19,7 +19,7 @@ from explorer.polar import PolarGrid, polar_grid
 from explorer.poses import about, blade_pose, compose, rotate, tip_path_pose
 from explorer.stall import stall_margin
 from explorer.state import ViewState
-from explorer.view import FIELD_OF_VIEW, fit
+from explorer.view import FIELD_OF_VIEW, Camera, View, fit
 from rotor.presets import make_design
 from rotor.solution import Solution
 from rotor.solve import solve
@@ -311,21 +311,53 @@ class TestPicture:
         assert make_picture(hover, ViewState(), (-4.0, 10.0)).flight_label == ""
 
 
+def on_canvas(camera: Camera, aspect: float, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Where points are seen: across and up in −1…1 of the canvas, and the camera's right in the world."""
+    forward = camera.look_at - camera.position
+    forward /= np.linalg.norm(forward)
+    right = np.cross(forward, [0.0, 0.0, 1.0])
+    right /= np.linalg.norm(right)
+    seen = points - camera.position
+    tan = math.tan(FIELD_OF_VIEW / 2.0)
+    depth = seen @ forward
+    assert depth.min() > 1.0  # The near plane.
+    return seen @ right / depth / (tan * aspect), seen @ np.cross(right, forward) / depth / tan, right
+
+
 class TestCamera:
-    @pytest.mark.parametrize("aspect", [0.6, 0.85, 1.3, 2.2])
+    ASPECTS = (0.6, 0.85, 1.3, 2.2)
+    PSI = np.linspace(0.0, 2.0 * math.pi, 60)
+    RIM = 8.18 * np.stack((np.cos(PSI), np.sin(PSI), np.zeros_like(PSI)), axis=1)
+
+    @pytest.mark.parametrize("aspect", ASPECTS)
     @pytest.mark.parametrize("view", ["3d", "top"])
-    def test_disk_fills_the_canvas_and_stays_inside(self, view, aspect: float):
-        camera = fit(view, 8.18, aspect)
-        forward = camera.look_at - camera.position
-        forward /= np.linalg.norm(forward)
-        right = np.cross(forward, [0.0, 0.0, 1.0])
-        right /= np.linalg.norm(right)
-        up = np.cross(right, forward)
+    def test_disk_fills_the_canvas_and_stays_inside(self, view: View, aspect: float):
+        x, y, right = on_canvas(fit(view, 8.18, aspect), aspect, self.RIM)
         assert_allclose(right, [0.0, 1.0, 0.0], atol=1e-9)  # ψ = 90° at the right.
-        psi = np.linspace(0.0, 2.0 * math.pi, 60)
-        rim = 8.18 * np.stack((np.cos(psi), np.sin(psi), np.zeros_like(psi)), axis=1) - camera.position
-        tan = math.tan(FIELD_OF_VIEW / 2.0)
-        x, y = rim @ right / (rim @ forward) / (tan * aspect), rim @ up / (rim @ forward) / tan
-        assert max(np.abs(x).max(), np.abs(y).max()) < 1.0
-        assert max(np.abs(x).max(), np.abs(y).max()) > 0.7
+        assert 0.7 < max(np.abs(x).max(), np.abs(y).max()) < 1.0
         assert y[0] < y[30]  # The tail is below the nose.
+
+    @pytest.mark.parametrize("aspect", ASPECTS)
+    def test_from_the_advancing_side_the_nose_is_right_and_the_disk_a_line(self, aspect: float):
+        x, y, right = on_canvas(fit("side", 8.18, aspect), aspect, self.RIM)
+        assert_allclose(right, [-1.0, 0.0, 0.0], atol=1e-9)
+        assert 0.7 < np.abs(x).max() < 1.0
+        assert np.ptp(y) < 0.25 * np.ptp(x) * aspect
+
+    @pytest.mark.parametrize("aspect", ASPECTS)
+    @pytest.mark.parametrize("psi", [0.0, 1.0, 3.0, 5.5])
+    def test_the_marked_blade_fills_the_canvas_wherever_it_is(self, psi: float, aspect: float):
+        r = np.linspace(0.05, 1.0, 12)[:, None] * 8.18
+        ahead = np.array([-math.sin(psi), math.cos(psi), 0.0])
+        blade = r * np.array([math.cos(psi), math.sin(psi), 0.06])  # Coned by 3.4°.
+        points = np.concatenate((blade + 0.15 * ahead, blade - 0.4 * ahead))
+        x, y, _ = on_canvas(fit("blade", 8.18, aspect, psi), aspect, points)
+        assert 0.7 < max(np.abs(x).max(), np.abs(y).max()) < 1.0
+        before, _, _ = on_canvas(fit("blade", 8.18, aspect, 0.0), aspect, points @ _about_z(psi))
+        assert_allclose(x, before, atol=1e-9)  # It rides with the blade.
+
+
+def _about_z(angle: float) -> np.ndarray:
+    """Right-hand factor that turns points back by `angle`."""
+    cos, sin = math.cos(angle), math.sin(angle)
+    return np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])

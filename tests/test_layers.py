@@ -20,6 +20,7 @@ KNOW_VISER = {
     "results_panel.py",
     "scene.py",
     "camera.py",
+    "keyboard.py",
     "controls.py",
     "map_panel.py",
     "optimise_panel.py",

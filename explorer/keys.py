@@ -1,0 +1,110 @@
+"""Every command of the page by name: its title, its key, and the list of them that people read.
+
+W, A, S, D, Q and E move the camera; Ctrl+K and Ctrl+Shift+P open the palette: none of them is given away here.
+"""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from html import escape
+
+SHIFT, CTRL, CTRL_SHIFT = "shift", "cmd/ctrl", "cmd/ctrl+shift"
+COARSE = 10
+"""Steps that Shift and an arrow, or Page up and down, move a slider or the probe at once."""
+
+_SHOWN = {
+    "arrowup": "↑", "arrowdown": "↓", "arrowleft": "←", "arrowright": "→", "space": "Space",
+    "pageup": "Page up", "pagedown": "Page down", "shift": "Shift", "cmd/ctrl": "Ctrl",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Key:
+    """A command of the palette."""
+
+    group: str
+    title: str
+    key: str = ""
+    """As the page names it; empty: in the palette only."""
+    modifier: str = ""
+    """`SHIFT`, `CTRL`, `CTRL_SHIFT`, or empty."""
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """The keys to press together, as they are printed on a keyboard."""
+        if not self.key:
+            return ()
+        # A question mark is typed with Shift, which it need not be told.
+        held = () if self.key == "?" or not self.modifier else self.modifier.split("+")
+        return tuple(_SHOWN.get(part, part) for part in (*held, self.key))
+
+
+_DESIGN, _FLIGHT, _VIEW, _PROBE, _PAGE = "Design", "Flight", "View", "Blade and probe", "Page"
+KEYS: dict[str, Key] = {
+    "undo": Key(_DESIGN, "Undo", "Z", CTRL),
+    "redo": Key(_DESIGN, "Redo", "Z", CTRL_SHIFT),
+    "optimise": Key(_DESIGN, "Optimise, or stop", "O"),
+    "pin": Key(_DESIGN, "Pin as A, or let go", "P"),
+    "reset": Key(_DESIGN, "Reset design", "R"),
+    "check": Key(_DESIGN, "Check with the vortex wake", "V"),
+    "hover": Key(_FLIGHT, "Hover", "H"),
+    "mu_015": Key(_FLIGHT, "Advance ratio 0.15", "J"),
+    "mu_024": Key(_FLIGHT, "Advance ratio 0.24", "K"),
+    "mu_037": Key(_FLIGHT, "Advance ratio 0.37", "L"),
+    "view_3d": Key(_VIEW, "View: 3D", "1"),
+    "view_top": Key(_VIEW, "View: from above", "2"),
+    "view_blade": Key(_VIEW, "View: the marked blade", "3"),
+    "view_side": Key(_VIEW, "View: from the advancing side", "4"),
+    "field_next": Key(_VIEW, "Next field on the disk", "F"),
+    "field_previous": Key(_VIEW, "Previous field on the disk", "F", SHIFT),
+    "rescale": Key(_VIEW, "Fit the colours to the data", "C"),
+    "rescale_default": Key(_VIEW, "Colours as they were", "C", SHIFT),
+    "units": Key(_VIEW, "SI or aviation units", "U"),
+    "dark": Key(_VIEW, "Dark or light page", "N"),
+    "play": Key(_PROBE, "Play, or pause, the marked blade", "space"),
+    "probe_out": Key(_PROBE, "Probe one step outboard", "arrowup"),
+    "probe_in": Key(_PROBE, "Probe one step inboard", "arrowdown"),
+    "probe_on": Key(_PROBE, "Probe one step round with the blade", "arrowright"),
+    "probe_back": Key(_PROBE, "Probe one step back", "arrowleft"),
+    "probe_far_out": Key(_PROBE, "Probe ten steps outboard", "arrowup", SHIFT),
+    "probe_far_in": Key(_PROBE, "Probe ten steps inboard", "arrowdown", SHIFT),
+    "probe_far_on": Key(_PROBE, "Probe ten steps round with the blade", "arrowright", SHIFT),
+    "probe_far_back": Key(_PROBE, "Probe ten steps back", "arrowleft", SHIFT),
+    "probe_hide": Key(_PROBE, "Show or hide the probe on the disk", "B"),
+    "lecture": Key(_PAGE, "Lecture mode", "T"),
+    "lecture_next": Key(_PAGE, "Next step of the lecture", "pagedown"),
+    "lecture_previous": Key(_PAGE, "Previous step of the lecture", "pageup"),
+    "share": Key(_PAGE, "Copy a link to this design", "Y"),
+    "export": Key(_PAGE, "Export", "X"),
+    "keys": Key(_PAGE, "Keys", "?", SHIFT),
+}
+"""In the order of the palette and of the list."""
+
+_ALWAYS = (
+    ("Sliders", "One step", ("←", "→")),
+    ("Sliders", "Ten steps", ("Shift", "←", "→")),
+    ("Sliders", "Ten steps", ("Page up", "Page down")),
+    ("Sliders", "To an end", ("Home", "End")),
+    ("Camera", "Orbit, move, zoom", ("mouse left", "right", "wheel")),
+    ("Camera", "Fly", ("W", "A", "S", "D", "Q", "E")),
+    (_PAGE, "Find a command", ("Ctrl", "K")),
+    (_PAGE, "Out of a field, so that keys work", ("Esc",)),
+)
+"""What works without being a command."""
+
+
+def keys_help(bound: Iterable[str]) -> str:
+    """The list of keys, by group, of the commands that this page has; as HTML."""
+    known = set(bound)
+    groups: dict[str, list[str]] = {}
+    for name, key in KEYS.items():
+        if name in known and key.key:
+            groups.setdefault(key.group, []).append(_row(key.title, key.parts))
+    for group, title, parts in _ALWAYS:
+        groups.setdefault(group, []).append(_row(title, parts))
+    lists = "".join(f"<section><h4>{escape(group)}</h4>{''.join(rows)}</section>" for group, rows in groups.items())
+    return f'<div class="rx rx-keys" data-explorer="keys">{lists}</div>'
+
+
+def _row(title: str, parts: tuple[str, ...]) -> str:
+    caps = "".join(f"<kbd>{escape(part)}</kbd>" for part in parts)
+    return f'<div class="rx-line"><span>{escape(title)}</span><span>{caps}</span></div>'
