@@ -43,7 +43,7 @@ class Bound:
 def find_bound(design: Design) -> Bound:
     """The bound for a design's rotor, thrust and speed (not for its twist or sections). Takes seconds."""
     rotor = design.rotor
-    drag = design.fuselage.drag(design.condition.density, design.airspeed) / design.thrust_unit
+    drag = design.drag / design.thrust_unit
     wake = expected_wake(design, drag)
     ct = math.hypot(design.weight_coefficient, drag)
     lattice = BOUND_LATTICE

@@ -14,6 +14,8 @@ from rotor.presets import change_airfoils, make_design, uh60a_rotor
 FORMAT = "rotor-explorer design"
 VERSION = 1
 
+_SWITCHES = ("tip_loss", "hub_loss", "reverse_flow", "flapping", "compressibility", "fuselage")
+"""Of `Models`, true or false."""
 _KEYS = (
     "format",
     "version",
@@ -23,8 +25,7 @@ _KEYS = (
     "mass_kg",
     "altitude_m",
     "inflow",
-    "tip_loss",
-    "hub_loss",
+    *_SWITCHES,
     "airfoils",
     "active_twist",
 )
@@ -43,8 +44,7 @@ def case_of(design: Design) -> dict[str, Any]:
         "mass_kg": design.condition.mass,
         "altitude_m": design.condition.altitude,
         "inflow": design.models.inflow,
-        "tip_loss": design.models.tip_loss,
-        "hub_loss": design.models.hub_loss,
+        **{name: getattr(design.models, name) for name in _SWITCHES},
         **({"airfoils": airfoils} if airfoils else {}),
         **({"active_twist": active_twist_record(design.active_twist)} if design.active_twist else {}),
     }
@@ -77,8 +77,7 @@ def design_of(case: dict[str, Any]) -> Design:
     models = replace(
         design.models,
         inflow=inflow,
-        tip_loss=_flag(case, "tip_loss", design.models.tip_loss),
-        hub_loss=_flag(case, "hub_loss", design.models.hub_loss),
+        **{name: _flag(case, name, getattr(design.models, name)) for name in _SWITCHES},
     )
     airfoils = _text(case, "airfoils", "")
     rotor = change_airfoils(design.rotor, airfoils) if airfoils else design.rotor

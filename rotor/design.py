@@ -34,9 +34,17 @@ class Models:
     tail_rotor_solved: bool
     """True: the tail rotor balances the torque; False: five per cent of the main rotor (thesis §3.2)."""
     tip_loss: bool = True
-    """Prandtl's tip factor, eq. (3.16)."""
+    """Prandtl's tip factor, eq. (3.16). Off: F_tip = 1; a dynamic wake is then that of infinitely many blades."""
     hub_loss: bool = True
-    """Root factor, eq. (3.17)."""
+    """Root factor, eq. (3.17), where the inflow does not answer to the load. Off: F_hub = 1."""
+    reverse_flow: bool = True
+    """Whether blade elements that the air meets from behind carry load. Off: none inside the circle r < −µ sin ψ."""
+    flapping: bool = True
+    """Whether the blades flap. Off: held rigid, β = 0, without cyclic; the hub carries the moments that are left."""
+    compressibility: bool = True
+    """Whether sections answer to the Mach number. Off: their data at Mach 0.3 everywhere."""
+    fuselage: bool = True
+    """Whether the airframe has drag, eq. (3.19). Off: drag area 0."""
     elements: int = 40
     """Blade elements, equally wide (eq. 3.14)."""
     azimuths: int = 120
@@ -67,6 +75,13 @@ class Design:
     def airspeed(self) -> float:
         """V = µΩR [m/s]"""
         return self.condition.advance_ratio * self.rotor.tip_speed
+
+    @property
+    def drag(self) -> float:
+        """What the airframe asks the rotor to overcome [N], eq. (3.19); 0 where the models leave it out."""
+        if not self.models.fuselage:
+            return 0.0
+        return self.fuselage.drag(self.condition.density, self.airspeed)
 
     @property
     def hovering(self) -> bool:

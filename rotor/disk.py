@@ -55,8 +55,11 @@ class Disk:
 
 
 @lru_cache(maxsize=16)
-def build_disk(rotor: Rotor, elements: int, azimuths: int) -> Disk:
-    """The rotor on a grid of equally wide elements and evenly spaced azimuths."""
+def build_disk(rotor: Rotor, elements: int, azimuths: int, only_mach: float | None = None) -> Disk:
+    """The rotor on a grid of equally wide elements and evenly spaced azimuths.
+
+    `only_mach`: sections answer as at that Mach number whatever the flow; None: as they do.
+    """
     blade = rotor.blade
     dr = (1.0 - blade.root_cutout) / elements
     r: Array = blade.root_cutout + dr * (np.arange(elements, dtype=np.float64) + 0.5)
@@ -64,6 +67,7 @@ def build_disk(rotor: Rotor, elements: int, azimuths: int) -> Disk:
 
     names = tuple(dict.fromkeys(span.section for span in blade.spans))
     installed = [load_installed(name) for name in names]
+    tables = [one.table if only_mach is None else one.table.held_at(only_mach) for one in installed]
     section = np.zeros((elements, 2), dtype=np.int64)
     weight = np.zeros(elements)
     offset = np.zeros((elements, 2))
@@ -89,8 +93,8 @@ def build_disk(rotor: Rotor, elements: int, azimuths: int) -> Disk:
         section=section,
         weight=weight,
         offset=offset,
-        tables=np.stack([one.table.coefficients for one in installed]),
-        stall=np.stack([one.table.stall_alpha(mach) for one in installed]),
-        mach_limit=min(one.table.mach_limit for one in installed),
+        tables=np.stack([table.coefficients for table in tables]),
+        stall=np.stack([table.stall_alpha(mach) for table in tables]),
+        mach_limit=min(table.mach_limit for table in tables),
         fit_range=polynomial_section().fit_range if THESIS_NAME in names else None,
     )

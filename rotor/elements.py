@@ -26,6 +26,10 @@ COLLECTIVE, CYCLIC_1C, CYCLIC_1S, SHAFT_TILT, CONING, FLAP_1C, FLAP_1S, LAMBDA0 
 
 N_STATE = 8
 
+LOW_MACH = 0.3
+"""Where sections are read with compressibility switched off: the document's own polar (Re 3.68 million); lift is within
+5 % of incompressible there (Prandtl–Glauert), drag rise is far."""
+
 LOSS_AZIMUTHS = 24
 """Azimuths over which the loss factor is averaged; 24 agree with 360 to 1e-4 in F (tested)."""
 
@@ -52,13 +56,19 @@ class Problem:
     drag: float
     """Fuselage drag over ρA(ΩR)²."""
     inflow: InflowModel
+    idle: NDArray[np.bool_] | None
+    """Where elements carry no load, (elements, azimuths): the reverse-flow circle r < −µ sin ψ, where it is left out.
+    Drawn with µ, not µ cos α: so the trim does not move it while it is being found, and derivatives stay exact."""
 
 
 def lay_out(design: Design) -> Problem:
     """The problem a design poses."""
     rotor, condition, models = design.rotor, design.condition, design.models
-    drag = design.fuselage.drag(condition.density, design.airspeed) / design.thrust_unit
-    disk = build_disk(rotor, models.elements, models.azimuths)
+    drag = design.drag / design.thrust_unit
+    disk = build_disk(rotor, models.elements, models.azimuths, None if models.compressibility else LOW_MACH)
+    inflow = inflow_model(models.inflow)
+    if not models.tip_loss:
+        inflow = inflow.without_tip_loss()
     return Problem(
         design=design,
         disk=disk,
@@ -69,7 +79,8 @@ def lay_out(design: Design) -> Problem:
         tip_mach=rotor.tip_speed / condition.sound_speed,
         weight=design.weight_coefficient,
         drag=drag,
-        inflow=inflow_model(models.inflow).laid_out(expected_wake(design, drag)),
+        inflow=inflow.laid_out(expected_wake(design, drag)),
+        idle=None if models.reverse_flow else disk.r[:, None] + condition.advance_ratio * disk.sin < 0.0,
     )
 
 
@@ -141,6 +152,9 @@ def run_pass(problem: Problem, state: Array, induced: Array | None = None) -> Pa
         theta, u_t, u_p, loss, problem.tip_mach,
         disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables,
     )  # fmt: skip
+    if problem.idle is not None:
+        loads[: kernel.ALPHA, problem.idle] = 0.0
+        loads[kernel.CL :, problem.idle] = 0.0
     if response is None:
         response = problem.inflow.respond(disk, skew, loads[kernel.FZ])
     return Pass(state, flow, theta, u_t, u_p, induced, response, loss, loss_slopes, beta, loads)

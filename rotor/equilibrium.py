@@ -3,7 +3,8 @@
 `propulsive` (flight preset): collective, cyclic, shaft tilt and coning so that the vertical force carries the weight,
 the forward force the drag, and the first-harmonic flapping is as wanted. `thrust` (thesis preset): collective and free
 flapping so that the thrust is the resultant of weight and drag; no cyclic. Both: λ0 closes eq. (2.30) with the axial
-flow of the tilted disk.
+flow of the tilted disk. Blades held rigid have no flapping to find and no cyclic to find it with: what remains is
+collective, λ0 and, where drag is balanced, the shaft tilt; the hub carries whatever moments come of it.
 """
 
 import math
@@ -11,6 +12,7 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
+from rotor.design import Models
 from rotor.elements import (
     COLLECTIVE,
     CONING,
@@ -33,15 +35,27 @@ UNKNOWNS: dict[str, tuple[int, ...]] = {
 }
 """Which state entries each trim solves for."""
 
+_HELD = {CONING, CYCLIC_1C, CYCLIC_1S, FLAP_1C, FLAP_1S}
+"""What is zero when the blades are held rigid: nothing flaps, and no cyclic keeps the rotor from rolling."""
+
+
+def unknowns_of(models: Models) -> tuple[int, ...]:
+    """The state entries that these models solve for, in the order of `UNKNOWNS`."""
+    chosen = UNKNOWNS[models.trim]
+    return chosen if models.flapping else tuple(entry for entry in chosen if entry not in _HELD)
+
 
 def with_givens(problem: Problem, start: Array) -> Array:
     """The start with every entry that is not solved for at its given value."""
     state = start.copy()
     condition = problem.design.condition
-    if problem.design.models.trim == "propulsive":
+    if not problem.design.models.flapping:
+        state[sorted(_HELD)] = 0.0
+    elif problem.design.models.trim == "propulsive":
         state[FLAP_1C], state[FLAP_1S] = condition.flap_1c, condition.flap_1s
     else:
         state[CYCLIC_1C] = state[CYCLIC_1S] = 0.0
+    if problem.design.models.trim == "thrust":
         state[SHAFT_TILT] = math.atan2(problem.drag, problem.weight)
     state[LAMBDA0] = max(state[LAMBDA0], 1e-4)
     return state
@@ -57,6 +71,8 @@ def residuals(problem: Problem, one: Pass) -> Array:
         total.moment[1] - (spring - 1.0) * state[FLAP_1C] / flap.load_gain,
         total.moment[2] - (spring - 1.0) * state[FLAP_1S] / flap.load_gain,
     ]
+    if not problem.design.models.flapping:
+        flapping = []
     momentum = 2.0 * one.flow.lambda0 * one.flow.speed - total.thrust
     if problem.design.models.trim == "propulsive":
         cos, sin = math.cos(state[SHAFT_TILT]), math.sin(state[SHAFT_TILT])
@@ -92,6 +108,8 @@ def jacobian(problem: Problem, one: Pass, made: Slopes) -> Array:
 def combine_sums(problem: Problem, one: Pass, total: Array) -> Array:
     """The part of the residuals that is linear in the sums, for columns of sums, (residuals, columns)."""
     thrust, drag, *moments = total
+    if not problem.design.models.flapping:
+        moments = []
     if problem.design.models.trim == "thrust":
         return np.stack([thrust, *moments, -thrust])
     cos, sin = math.cos(one.state[SHAFT_TILT]), math.sin(one.state[SHAFT_TILT])

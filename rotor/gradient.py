@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from rotor import kernel
 from rotor.elements import COLLECTIVE, CYCLIC_1C, CYCLIC_1S, Pass, Problem, lay_out, run_pass
-from rotor.equilibrium import UNKNOWNS, combine_sums, jacobian
+from rotor.equilibrium import combine_sums, jacobian, unknowns_of
 from rotor.hover import Annuli
 from rotor.inflow.seam import LoadLoop
 from rotor.solution import Solution
@@ -94,7 +94,7 @@ class Adjoint:
         """What the unknowns do to the pass, the inflow's loop, and the Jacobian of the trim."""
         problem, one = self.problem, self.one
         loop = one.response.loop(one.loads[kernel.FZ_UP]) if problem.inflow.reacts and one.response else None
-        made = slopes(problem, one, UNKNOWNS[problem.design.models.trim], loop)
+        made = slopes(problem, one, unknowns_of(problem.design.models), loop)
         return made, loop, jacobian(problem, one, made)
 
     def _forward(self, weights: Weights) -> Array:

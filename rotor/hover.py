@@ -210,7 +210,8 @@ class Annuli:
         moment = float(((disk.r - problem.flap.hinge) * loads[kernel.FZ, :, 0]).sum() * disk.dr)
         state = np.zeros(N_STATE)
         state[COLLECTIVE] = theta0
-        state[CONING] = (problem.flap.load_gain * moment - problem.flap.weight) / problem.flap.frequency_squared
+        if problem.design.models.flapping:
+            state[CONING] = (problem.flap.load_gain * moment - problem.flap.weight) / problem.flap.frequency_squared
         state[LAMBDA0] = math.sqrt(max(thrust, 0.0) / 2.0)
         return Pass(
             state, Wake(0.0, 0.0, float(state[LAMBDA0])), theta, u_t, induced, induced, None,

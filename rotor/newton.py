@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from rotor import kernel
 from rotor.elements import Pass, Problem, run_pass, skewed
-from rotor.equilibrium import UNKNOWNS, combine_sums, jacobian, residuals, with_givens
+from rotor.equilibrium import combine_sums, jacobian, residuals, unknowns_of, with_givens
 from rotor.inflow import INFLOW_MODELS
 from rotor.inflow.seam import LoadLoop
 from rotor.sums import Slopes, slopes, weigh
@@ -80,7 +80,7 @@ def newton(problem: Problem, start: Guess, max_passes: int = MAX_PASSES) -> Trim
     Eliminating the inflow by the model's own loop leaves a system of the trim unknowns only. For a model that reacts
     the derivatives are kept over several steps, because they cost more than a pass.
     """
-    unknowns = list(UNKNOWNS[problem.design.models.trim])
+    unknowns = list(unknowns_of(problem.design.models))
     state = with_givens(problem, start.state)
     induced = start.induced
     if problem.inflow.reacts and (induced is None or induced.shape != problem.disk.shape):

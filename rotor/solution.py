@@ -1,5 +1,6 @@
 """What a solve returns: status and sentence, trim, fields over the disk, power by parts."""
 
+import math
 from dataclasses import dataclass
 from enum import Enum
 
@@ -105,6 +106,20 @@ class PowerBudget:
         return self.main_rotor + self.tail
 
 
+@dataclass(frozen=True)
+class HubMoment:
+    """Steady moments that the rotor head hands to the shaft [N m]."""
+
+    roll: float
+    """Positive towards the retreating side: lift on the advancing side lifts that side."""
+    pitch: float
+    """Positive nose-up."""
+
+    @property
+    def size(self) -> float:
+        return math.hypot(self.roll, self.pitch)
+
+
 @dataclass(frozen=True, eq=False)
 class Solution:
     """One trimmed (or honestly untrimmed) rotor."""
@@ -116,6 +131,7 @@ class Solution:
     controls: Controls
     disk: DiskFields
     power: PowerBudget
+    hub_moment: HubMoment
     ct: float
     cp: float
     """Main-rotor power over ρA(ΩR)³, eq. (2.12)."""

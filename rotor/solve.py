@@ -23,6 +23,7 @@ from rotor.elements import (
     lay_out,
 )
 from rotor.hover import HoverResult, hover
+from rotor.hub import hub_moment
 from rotor.newton import TrimResult
 from rotor.power import power_budget
 from rotor.solution import Controls, DiskFields, Solution, Status
@@ -56,6 +57,7 @@ def _assemble(problem: Problem, ended: HoverResult | TrimResult, begin: float) -
     total = sums(problem, one)
     fields = _fields(problem, one)
     power = power_budget(problem, one)
+    moment = hub_moment(problem, one)
     area = _areas(problem, fields)
     converged = ended.converged
     message = "Trimmed." if converged else failure_sentence(design, ended.reached, area["stalled"])
@@ -69,10 +71,11 @@ def _assemble(problem: Problem, ended: HoverResult | TrimResult, begin: float) -
         design=design,
         status=Status.CONVERGED if converged else Status.NOT_CONVERGED,
         message=message,
-        caveats=caveats(problem, one, area["stalled"]) if converged else (),
+        caveats=caveats(problem, one, area["stalled"], moment) if converged else (),
         controls=_controls(one),
         disk=fields,
         power=power,
+        hub_moment=moment,
         ct=total.thrust,
         cp=power.main_rotor / design.power_unit,
         reverse_flow_area=area["reverse"],

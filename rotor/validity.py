@@ -3,7 +3,8 @@
 from rotor import kernel
 from rotor.design import Design
 from rotor.elements import Pass, Problem
-from rotor.solution import Caveat
+from rotor.solution import Caveat, HubMoment
+from rotor.switches import switched_off
 
 LOW_SPEED = 0.075
 """Below this advance ratio linear inflow is not trusted (thesis p. 26)."""
@@ -15,7 +16,7 @@ STALL_SHARE = 0.02
 """Stalled part of the disk from which dynamic stall would matter to the numbers."""
 
 
-def caveats(problem: Problem, one: Pass, stalled: float) -> tuple[Caveat, ...]:
+def caveats(problem: Problem, one: Pass, stalled: float, moment: HubMoment) -> tuple[Caveat, ...]:
     """Reasons to read a converged solution with care."""
     design, disk = problem.design, problem.disk
     mu = design.condition.advance_ratio
@@ -24,6 +25,17 @@ def caveats(problem: Problem, one: Pass, stalled: float) -> tuple[Caveat, ...]:
     def add(name: str, sentence: str) -> None:
         found.append(Caveat(name, sentence))
 
+    off = switched_off(design.models)
+    if off:
+        names = ", ".join(switch.title.lower() for switch in off)
+        add("switched-off", f"Switched off: {names}: a lesson, not the aircraft.")
+    if not design.models.flapping and mu > 0.0:
+        add("rigid-blades", _rigid(moment))
+        if not problem.inflow.reacts:
+            add(
+                "rigid-blades-linear-inflow",
+                "Linear inflow does not answer to lopsided lift: the induced power of rigid blades comes out too low.",
+            )
     if design.active_twist and design.hovering:
         add(
             "active-twist-rests", "Active twist follows the azimuth and rests in hover; only the twist law counts here."
@@ -63,6 +75,15 @@ def caveats(problem: Problem, one: Pass, stalled: float) -> tuple[Caveat, ...]:
     return tuple(found)
 
 
+def _rigid(moment: HubMoment) -> str:
+    side = "retreating" if moment.roll >= 0.0 else "advancing"
+    nose = "up" if moment.pitch >= 0.0 else "down"
+    return (
+        f"Blades held rigid, no cyclic: the hub carries {abs(moment.roll) / 1e3:.0f} kN m rolling to the {side} side "
+        f"and {abs(moment.pitch) / 1e3:.0f} kN m nose-{nose}."
+    )
+
+
 def failure_sentence(design: Design, reached: float, stalled: float) -> str:
     """Why a design did not trim, and what would help."""
     condition = design.condition
@@ -78,7 +99,7 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
     return (
         f"Not trimmed: {condition.mass:.0f} kg at {condition.altitude:.0f} m and advance ratio "
         f"{condition.advance_ratio:.3f} is beyond this rotor.{how_far}{share} "
-        "Lower the weight, the altitude or the speed."
+        f"Lower the weight, the altitude or the speed{'' if design.models.flapping else ', or let the blades flap'}."
     )
 
 

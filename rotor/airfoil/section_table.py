@@ -82,6 +82,18 @@ class SectionTable:
             value[..., 0], value[..., 1], by_alpha[..., 0], by_alpha[..., 1], by_mach[..., 0], by_mach[..., 1]
         )
 
+    def held_at(self, mach: float) -> "SectionTable":
+        """The section of one Mach number (0 to below 1) at every Mach number: no slope by it, and no limit."""
+        place = min(mach, self.mach_limit) / MACH_STEP
+        j = min(int(place), N_MACH - 1)
+        along = self.coefficients[:, j] @ (place - j) ** np.arange(4)  # (alpha cells, 2, 4)
+        flat = np.zeros_like(self.coefficients)
+        flat[..., 0] = along[:, None]
+        negative, positive = (np.full(N_MACH + 1, float(angle)) for angle in self.stall_alpha(mach))
+        return replace(
+            self, coefficients=flat, mach_limit=np.inf, alpha_stall_negative=negative, alpha_stall_positive=positive
+        )
+
     def stall_alpha(self, mach: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Stall angles (negative, positive) [rad] at `mach`, linear between the grid's Machs, held outside."""
         m = np.asarray(mach, dtype=np.float64)

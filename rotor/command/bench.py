@@ -16,7 +16,7 @@ from scipy.optimize import root  # pyright: ignore[reportMissingTypeStubs, repor
 from rotor.command.bench_search import TARGETS_S, measure_searches
 from rotor.design import Design
 from rotor.elements import N_STATE, Problem, lay_out, run_pass
-from rotor.equilibrium import UNKNOWNS, residuals
+from rotor.equilibrium import residuals, unknowns_of
 from rotor.gradient import power_gradient
 from rotor.newton import Guess, newton
 from rotor.presets import make_design
@@ -115,7 +115,7 @@ def _cases(inflow: str) -> _Cases:
 
 def _hybr(problem: Problem, start: Guess) -> None:
     """The same residual through scipy's Powell hybrid method with finite differences."""
-    unknowns = list(UNKNOWNS[problem.design.models.trim])
+    unknowns = list(unknowns_of(problem.design.models))
     base = start.state
 
     def residual(x: Any) -> Any:

@@ -13,6 +13,7 @@ from rotor.design import Design
 from rotor.inflow import inflow_model
 from rotor.presets import change_airfoils, make_design
 from rotor.sweep import at_advance_ratio
+from rotor.switches import parse_switches
 
 KNOT = 1852.0 / 3600.0
 """[m/s]"""
@@ -28,11 +29,11 @@ class OneLineParser(argparse.ArgumentParser):
 def build_parser() -> argparse.ArgumentParser:
     """All commands."""
     from rotor.airfoil import command as airfoil
-    from rotor.command import actuator, bench, ideal, optimise, reproduce, schedule, solve, sweep
+    from rotor.command import actuator, bench, ideal, optimise, reproduce, schedule, solve, sweep, waterfall
 
     parser = OneLineParser(prog="python -m rotor", description="UH-60A main rotor: trim, power, twist.")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=OneLineParser)
-    for command in (solve, sweep, optimise, schedule, ideal, actuator, reproduce, airfoil, bench):
+    for command in (solve, sweep, waterfall, optimise, schedule, ideal, actuator, reproduce, airfoil, bench):
         command.add_parser(commands)
     return parser
 
@@ -51,6 +52,7 @@ def add_design_arguments(parser: argparse.ArgumentParser, *, one_twist: bool) ->
     parser.add_argument("--mass-kg", type=finite, metavar="KG", help="aircraft mass (default 8322.4)")
     parser.add_argument("--altitude-m", type=finite, metavar="M", help="pressure altitude (default 0)")
     parser.add_argument("--airfoils", metavar="SPEC", help="sections root to tip, as sc1094r8,sc1095@0.5")
+    parser.add_argument("--off", metavar="NAMES", help="switch off parts of the physics, as tip-loss,reverse-flow")
     parser.add_argument("--case", metavar="FILE", help="design file (JSON); other flags override it")
 
 
@@ -69,6 +71,9 @@ def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: floa
     if args.inflow:
         inflow_model(args.inflow)
         design = replace(design, models=replace(design.models, inflow=args.inflow))
+    if args.off is not None:
+        off = parse_switches(args.off)
+        design = replace(design, models=replace(design.models, **dict.fromkeys(off, False)))
     if base and not args.preset:
         design = replace(design, rotor=base.rotor, active_twist=base.active_twist)
     if args.airfoils:

@@ -8,6 +8,7 @@ from typing import Any, cast
 from rotor.command.parser import KNOT, add_design_arguments, design_from, finite
 from rotor.solution import Solution
 from rotor.solve import solve
+from rotor.switches import switched_off
 
 
 def add_parser(commands: Any) -> None:
@@ -68,8 +69,22 @@ def record(solution: Solution) -> dict[str, Any]:
         "preset": design.preset,
         "inflow": design.models.inflow if not design.hovering else design.models.hover_inflow,
         "twist": design.twist.spec(),
+        **_switches_record(solution),
         **(values if solution.converged else _emptied(values)),
         "elapsed_ms": 1e3 * solution.elapsed,
+    }
+
+
+def _switches_record(solution: Solution) -> dict[str, Any]:
+    """What is switched off, and the hub moment that is then worth a look; nothing for the full model."""
+    off = switched_off(solution.design.models)
+    if not off:
+        return {}
+    moment = solution.hub_moment
+    known = solution.converged
+    return {
+        "switched_off": [switch.flag for switch in off],
+        "hub_moment_n_m": {"roll": moment.roll if known else None, "pitch": moment.pitch if known else None},
     }
 
 

@@ -1,6 +1,6 @@
 """The Peters–He dynamic wake as an inflow model; its mathematics is in `rotor.wake`."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,8 +22,13 @@ class DynamicWakeInflow:
     explanation: str
     order: int
     infinite_blades: bool = False
+    tip: bool = True
 
     reacts = True
+
+    def without_tip_loss(self) -> "DynamicWakeInflow":
+        """Infinitely many blades with F = 1: what a few blades lose at their tips is in the harmonics of their wake."""
+        return replace(self, infinite_blades=True, tip=False)
 
     def laid_out(self, expected: Wake) -> "DynamicWakeInflow":
         """Itself: the wake moves with the trim."""
@@ -32,7 +37,7 @@ class DynamicWakeInflow:
 
     def respond(self, disk: Disk, wake: Wake, load: Array) -> "DynamicWakeResponse":
         """λ_i = A d."""
-        model = DynamicWake.of(disk.blades, self.order, infinite_blades=self.infinite_blades)
+        model = DynamicWake.of(disk.blades, self.order, infinite_blades=self.infinite_blades, tip=self.tip)
         elements, azimuths = disk.shape
         projection = model.on(disk.root, elements, azimuths)
         return DynamicWakeResponse(model.response(projection, wake), load)

@@ -37,6 +37,10 @@ class LinearInflow:
 
     reacts = False
 
+    def without_tip_loss(self) -> "LinearInflow":
+        """Itself: the factor is on the section lift."""
+        return self
+
     def laid_out(self, expected: Wake) -> "LinearInflow":
         """Itself: the wake moves with the trim."""
         del expected

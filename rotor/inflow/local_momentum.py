@@ -1,6 +1,6 @@
 """Sector momentum as an inflow model; its mathematics is in `rotor.wake.local_momentum`."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +20,13 @@ class LocalMomentumInflow:
     name = "local-momentum"
     title = "Local momentum (sectors)"
     explanation = "Each sector answers its own load, with a fore-aft gradient: induced power 17–39 % low beyond µ 0.3."
+    tip: bool = True
+
     reacts = True
+
+    def without_tip_loss(self) -> "LocalMomentumInflow":
+        """F = 1."""
+        return replace(self, tip=False)
 
     def laid_out(self, expected: Wake) -> "LocalMomentumInflow":
         """Itself: the wake moves with the trim."""
@@ -29,7 +35,7 @@ class LocalMomentumInflow:
 
     def respond(self, disk: Disk, wake: Wake, load: Array) -> "LocalMomentumResponse":
         """λ_i = gain d + λ0 k_x r cos ψ."""
-        return LocalMomentumResponse(sector_response(disk.r, disk.cos, wake, disk.blades), load)
+        return LocalMomentumResponse(sector_response(disk.r, disk.cos, wake, disk.blades, tip=self.tip), load)
 
 
 class LocalMomentumResponse:

@@ -83,6 +83,10 @@ class InflowModel(Protocol):
         """
         ...
 
+    def without_tip_loss(self) -> "InflowModel":
+        """The model of a rotor that loses nothing at its tips; itself, where that is not the model's to say."""
+        ...
+
     def laid_out(self, expected: Wake) -> "InflowModel":
         """The model for a problem whose wake momentum theory expects so; itself, where the trim moves the wake."""
         ...

@@ -36,6 +36,10 @@ class VortexWakeInflow:
     explanation = "Each blade trails a rigid helical vortex sheet: the reference for the others, a second or so a trim."
     reacts = True
 
+    def without_tip_loss(self) -> "VortexWakeInflow":
+        """Itself: the blades of a lattice end where they end."""
+        return self
+
     def laid_out(self, expected: Wake) -> "VortexWakeInflow":
         """With its helices along the expected wake."""
         return replace(self, geometry=expected)

@@ -28,6 +28,8 @@ class DynamicWake:
     harmonics: int = 2
     """k: the wave numbers N_b, 2N_b, … kN_b around the azimuth that a blade meets again each revolution.
     0 is the time average: infinitely many blades, their number put back by λ_i/F."""
+    tip: bool = True
+    """Whether F puts it back; F = 1 otherwise."""
 
     def __post_init__(self) -> None:
         if self.order < 1:
@@ -39,14 +41,14 @@ class DynamicWake:
             )
 
     @classmethod
-    def of(cls, blades: int, order: int = 8, *, infinite_blades: bool = False) -> "DynamicWake":
+    def of(cls, blades: int, order: int = 8, *, infinite_blades: bool = False, tip: bool = True) -> "DynamicWake":
         """The wake nearest to `order` that keeps the truncation rule k = S/N_b.
 
         The rule is measured, not derived: with it the optimum twist at µ 0.2 is −12.5, −11.4, −11.2, −11.2° for
         S = 4, 8, 12, 16; broken it is −9.3° (S 8, k 1). Beyond S = 12 the swirl that the theory leaves out spoils it.
         """
         if infinite_blades:
-            return cls(blades, order, 0)
+            return cls(blades, order, 0, tip)
         harmonics = max(1, round(order / blades))
         return cls(blades, blades * harmonics, harmonics)
 
@@ -63,7 +65,7 @@ class DynamicWake:
         flow = flow_parameters(wake)
         responses = tuple(_FamilyResponse.solve(self, which, flow, projection.harmonics) for which in (0, 1))
         r = projection.r
-        if self.infinite_blades:
+        if self.infinite_blades and self.tip:
             factor, slope = tip_factor(r, wake, self.blades)
         else:
             factor, slope = np.ones_like(r), np.zeros_like(r)
