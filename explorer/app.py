@@ -49,7 +49,7 @@ class App:
         viser_compat.quiet_stop(self.server)
 
     def _connected(self, client: viser.ClientHandle) -> None:
-        session = Session(client, self._start, viser_compat.page_prefers_dark(client), self.pool)
+        session = Session(client, self._start, viser_compat.page_facts(client), self.pool)
         with self._lock:
             self._sessions[client.client_id] = session
         session.start()

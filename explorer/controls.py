@@ -1,7 +1,9 @@
 """The control panel: widgets ↔ `Inputs` and `ViewState`. Callbacks only say that something changed."""
 
+import threading
+import time
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, Protocol
 
 import viser
@@ -9,6 +11,7 @@ import viser
 from explorer import readout
 from explorer.colour_bar import colour_bar, outline_legend
 from explorer.fields import FIELDS
+from explorer.history import Pauses
 from explorer.state import INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs, ViewState, preset_inflow
 from explorer.view import View
 from rotor.inflow import INFLOW_MODELS
@@ -51,6 +54,8 @@ SLIDERS: dict[str, Slider] = {
     "mass_t": Slider("Weight [t]", 5.0, 11.0, 0.05, "Gross mass in tonnes."),
     "altitude_m": Slider("Altitude [m]", 0.0, 4000.0, 50.0, "Pressure altitude, standard atmosphere."),
 }
+LIMITS = {name: (slider.low, slider.high) for name, slider in SLIDERS.items()}
+"""What each slider can hold."""
 FOUR, INFINITE = "dynamic-wake", "dynamic-wake-infinite-blades"
 """The same theory with the rotor's own blades and with infinitely many."""
 VIEW_BUTTONS: dict[str, View] = {"3D": "3d", "Top": "top", "Blade": "blade", "Side": "side"}
@@ -66,6 +71,8 @@ class Controls:
         self._inputs: dict[str, Handle] = {}
         self._special = start
         """Holds what the laws mean that are not always there."""
+        self._moving = threading.RLock()
+        self.pauses = Pauses()
         self._laws = _laws_of(start)
         self._inflows = {name: model.title for name, model in INFLOW_MODELS.items()}
         self.view_buttons = gui.add_button_group(
@@ -123,12 +130,13 @@ class Controls:
 
     def inputs(self) -> Inputs:
         """What the widgets mean now."""
-        values = {name: handle.value for name, handle in self._inputs.items()}
+        with self._moving:
+            values = {name: handle.value for name, handle in self._inputs.items()}
+            special = self._special
         values["law"] = _key(self._laws, values["law"])
         values["preset"] = _key(PRESET_TITLES, values["preset"])
         values["inflow"] = _key(self._inflows, values["inflow"])
-        special = self._special
-        return Inputs(**values, given=special.given, found=special.found, found_airfoils=special.found_airfoils)
+        return Inputs(**values, given=special.given, found=special.found, airfoils=special.airfoils)
 
     def view(self) -> ViewState:
         return ViewState(
@@ -157,15 +165,16 @@ class Controls:
 
     def set_inputs(self, inputs: Inputs) -> None:
         """Move the widgets; the page follows as if they had been dragged."""
-        if inputs.found is not None:
-            self._special = replace(self._special, found=inputs.found, found_airfoils=inputs.found_airfoils)
-            self._laws = _laws_of(self._special)
-            self._law.options = tuple(self._laws.values())
-        titles = {"law": self._laws, "preset": PRESET_TITLES, "inflow": self._inflows}
-        for name in INPUT_NAMES:
-            if name in self._inputs:
-                value = getattr(inputs, name)
-                self._inputs[name].value = titles[name][value] if name in titles else value
+        with self._moving:  # A round that reads meanwhile would see half of them.
+            self._special = inputs
+            self._laws = _laws_of(inputs)
+            if self._law.options != tuple(self._laws.values()):
+                self._law.options = tuple(self._laws.values())
+            titles = {"law": self._laws, "preset": PRESET_TITLES, "inflow": self._inflows}
+            for name in INPUT_NAMES:
+                if name in self._inputs:
+                    value = getattr(inputs, name)
+                    self._inputs[name].value = titles[name][value] if name in titles else value
         self._changed()
 
     def refresh(self, inputs: Inputs) -> None:
@@ -192,8 +201,12 @@ class Controls:
             self._inputs[name] = self._watched(gui.add_slider(s.label, s.low, s.high, s.step, value, hint=s.hint))
 
     def _watched(self, handle: Any) -> Any:
-        handle.on_update(lambda _: self._changed())
+        handle.on_update(lambda _: self._moved())
         return handle
+
+    def _moved(self) -> None:
+        self.pauses.moved(time.monotonic())
+        self._changed()
 
     def _preset_changed(self, event: viser.GuiEvent[Any]) -> None:
         if event.client is not None:  # Not when the reset button moved it.

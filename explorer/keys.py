@@ -42,6 +42,7 @@ _DESIGN, _FLIGHT, _VIEW, _PROBE, _PAGE = "Design", "Flight", "View", "Blade and 
 KEYS: dict[str, Key] = {
     "undo": Key(_DESIGN, "Undo", "Z", CTRL),
     "redo": Key(_DESIGN, "Redo", "Z", CTRL_SHIFT),
+    "keep": Key(_DESIGN, "Keep this design", "M"),
     "optimise": Key(_DESIGN, "Optimise, or stop", "O"),
     "pin": Key(_DESIGN, "Pin as A, or let go", "P"),
     "reset": Key(_DESIGN, "Reset design", "R"),

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import RectBivariateSpline
 
+from explorer.clicks import write_to
 from explorer.colour_bar import tick_text
 from explorer.colours import NOW, colour_map
 from explorer.disk_image import encode_png
@@ -147,17 +148,9 @@ def _axis(parameter: Parameter, along: bool) -> str:
 def _script(x: Parameter, y: Parameter) -> str:
     """JavaScript of a click: write the point to the text field, as if it had been typed."""
     (x0, x1), (y0, y1) = ((p.shown(p.low), p.shown(p.high)) for p in (x, y))
-    return escape(
-        "const b=this.getBoundingClientRect();"
-        f"const x=({x0:.6g}+({x1 - x0:.6g})*(event.clientX-b.left)/b.width).toFixed({_digits(x)});"
-        f"const y=({y1:.6g}-({y1 - y0:.6g})*(event.clientY-b.top)/b.height).toFixed({_digits(y)});"
-        f"let n=this,l;while(n&&!(l=[...n.querySelectorAll('label')].find(e=>e.textContent==='{FIELD}')))"
-        "n=n.parentElement;"
-        "if(l){const i=l.closest('[class*=Flex-root]').querySelector('input');"
-        "Object.getOwnPropertyDescriptor(HTMLInputElement.prototype,'value').set.call(i,x+' '+y);"
-        "i.dispatchEvent(new Event('input',{bubbles:true}));}",
-        quote=True,
-    )
+    across = f"({x0:.6g}+({x1 - x0:.6g})*(event.clientX-b.left)/b.width).toFixed({_digits(x)})"
+    up = f"({y1:.6g}-({y1 - y0:.6g})*(event.clientY-b.top)/b.height).toFixed({_digits(y)})"
+    return "const b=this.getBoundingClientRect();" + write_to(FIELD, f"{across}+' '+{up}")
 
 
 def _digits(parameter: Parameter) -> int:

@@ -9,14 +9,16 @@ from typing import Any
 
 import viser
 
-from explorer import readout, solver, style, trust_readout
+from explorer import readout, share, solver, style, trust_readout
 from explorer.actuator_panel import ActuatorPanel
 from explorer.actuator_view import fit_cut
 from explorer.camera import FittedCamera
 from explorer.commands import Actions, bind_commands
-from explorer.controls import VIEW_BUTTONS, Controls
+from explorer.controls import LIMITS, VIEW_BUTTONS, Controls
 from explorer.desk import Desk, Moment, Tab
+from explorer.file_panel import FilePanel
 from explorer.frame import Frame
+from explorer.history_panel import HistoryPanel
 from explorer.jobs import Pool
 from explorer.keyboard import Keyboard
 from explorer.map_panel import MapPanel
@@ -28,6 +30,7 @@ from explorer.schedule_panel import SchedulePanel
 from explorer.sensitivity_panel import SensitivityPanel
 from explorer.state import Inputs, ViewState, baseline_of
 from explorer.view import View
+from explorer.viser_compat import PageFacts
 from explorer.worker import LatestWins
 from rotor.design import Design
 from rotor.presets import uh60a_rotor
@@ -43,15 +46,21 @@ _BRAND = (28, 126, 214)
 class Session:
     """Lives from connect to disconnect. After construction everything happens on the worker's thread."""
 
-    def __init__(self, client: viser.ClientHandle, start: Inputs, dark: bool, pool: Pool) -> None:
+    def __init__(self, client: viser.ClientHandle, start: Inputs, facts: PageFacts, pool: Pool) -> None:
+        """`start`: where the page's address holds no design."""
         self._client = client
+        problem = ""
+        try:
+            start = share.start_from(facts.query, start, LIMITS)
+        except ValueError as error:
+            problem = str(error)
         self._latest: Solution | None = None
         self._good: Solution | None = None
         """The last converged answer: what the picture shows."""
         self._moment: Moment | None = None
         self._baseline = solver.Baseline()
         self._curves = PowerCurves()
-        self._dark = dark
+        self._dark = dark = facts.dark
         self._worker = LatestWins(self._round, self._report, f"session-{client.client_id}")
 
         rotor = self._rotor = uh60a_rotor(start.preset)
@@ -80,6 +89,9 @@ class Session:
             self._map = MapPanel(gui, pool, desk, self._optimise)
         with tabs.add_tab("Schedule"):
             self._schedule = SchedulePanel(gui, pool, desk, self._optimise.wishes)
+        with tabs.add_tab("Session"):
+            self._history = HistoryPanel(gui, desk, start)
+            self._file = FilePanel(client, desk, LIMITS, facts.query)
         gui.main_panel.dock_right()
         gui.main_panel.set_width(_CONTROL_WIDTH)
         panel = gui.add_panel()
@@ -93,7 +105,7 @@ class Session:
             gui.add_html(trust_readout.trust_page())
         panel.dock_left()
         panel.set_width(_CHART_WIDTH)
-        self._tabs: tuple[Tab, ...] = (sensitivity,)
+        self._tabs: tuple[Tab, ...] = (sensitivity, self._history, self._file)
         """Everything that only follows."""
         self._camera = FittedCamera(client, rotor.radius)
         self._actuator.shown.on_update(self._cut_switched)
@@ -103,6 +115,8 @@ class Session:
         controls.range_buttons.on_click(lambda event: self._colour(event.target.value))
         controls.check_button.on_click(lambda _: self._check())
         bind_commands(desk, Actions(self._look, self._colour, self._check, self._reset, self._optimise.toggle))
+        if problem:
+            self._notify("Not the design of the link", problem)
 
     def start(self) -> None:
         self._actuator.start()
@@ -116,7 +130,7 @@ class Session:
 
     def _round(self, superseded: Callable[[], bool]) -> None:
         """Widgets → Design → Solution → pictures; the frame first, then what it is compared with."""
-        inputs, view = self._controls.inputs(), self._controls.view()
+        inputs, view = self._history.read(self._controls.pauses.longest()), self._controls.view()
         self._controls.refresh(inputs)
         if view.dark != self._dark:
             self._dark = view.dark
@@ -143,6 +157,7 @@ class Session:
             self._lose(view, readout.status_panel(solution))
             return
         self._good = solution
+        self._history.solved(inputs, solution.power.total)
         self._frame.draw(solution, view, None if preview is None else plain.twist)
         self._camera.ride(math.radians(view.azimuth_deg))
         self._actuator.show(actuator, plain, solution, math.radians(view.azimuth_deg))
@@ -152,8 +167,10 @@ class Session:
         if not superseded():
             for tab in self._tabs:
                 tab.show(moment)
+            self._file.follow(inputs)
         if self._curves.sweep(design, superseded):
             self._results.show_power(solution, self._curves.known(design))
+            self._file.follow(inputs)
 
     def _follow(self, design: Design | None) -> None:
         """Bring the tabs that start long work into line with the design on the sliders."""

@@ -49,8 +49,8 @@ class Inputs:
     """A twist from a design file that none of the laws holds."""
     found: TwistLaw | None = None
     """A twist from the optimiser that none of the laws holds."""
-    found_airfoils: str = ""
-    """SPEC of the airfoils that go with it; empty: the preset's."""
+    airfoils: str = ""
+    """SPEC of the airfoils that go with `given` or `found`; empty: the preset's."""
 
     def twist(self) -> TwistLaw | str:
         """The law on the sliders, or the SPEC of one that the rotor supplies."""
@@ -67,8 +67,8 @@ class Inputs:
             altitude=self.altitude_m,
             models=replace(models, inflow=self.inflow, tip_loss=self.losses, hub_loss=self.losses),
         )
-        if self.law == "found" and self.found_airfoils:
-            design = replace(design, rotor=change_airfoils(design.rotor, self.found_airfoils))
+        if self.law in NOT_ALWAYS and self.airfoils:
+            design = replace(design, rotor=change_airfoils(design.rotor, self.airfoils))
         return design
 
     @property
@@ -147,20 +147,23 @@ def inputs_of(design: Design) -> Inputs:
         inflow=design.models.inflow,
         losses=design.models.tip_loss or design.models.hub_loss,
     )
-    twist = design.twist
-    if twist == design.rotor.builtin_twist:
+    twist, airfoils = design.twist, _own_airfoils(design)
+    if not airfoils and twist == design.rotor.builtin_twist:
         return replace(start, law="uh60a")
-    return _with_law(start, twist) or replace(start, law="given", given=twist)
+    held = None if airfoils else _with_law(start, twist)
+    return held or replace(start, law="given", given=twist, airfoils=airfoils)
 
 
 def with_optimum(inputs: Inputs, design: Design) -> Inputs:
     """The same inputs with the blade of an optimum: on the sliders of a law where one holds it."""
-    if design.rotor == uh60a_rotor(inputs.preset):
-        held = _with_law(inputs, design.twist)
-        if held is not None:
-            return held
-    airfoils = airfoils_spec(design.rotor) if design.rotor != uh60a_rotor(inputs.preset) else None
-    return replace(inputs, law="found", found=design.twist, found_airfoils=airfoils or "")
+    airfoils = _own_airfoils(design)
+    held = None if airfoils else _with_law(inputs, design.twist)
+    return held or replace(inputs, law="found", found=design.twist, airfoils=airfoils)
+
+
+def _own_airfoils(design: Design) -> str:
+    """SPEC of a design's airfoils where they are not its preset's; else empty."""
+    return "" if design.rotor == uh60a_rotor(design.preset) else airfoils_spec(design.rotor) or ""
 
 
 def _with_law(inputs: Inputs, twist: TwistLaw) -> Inputs | None:

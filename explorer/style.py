@@ -3,6 +3,8 @@
 SHEET = """<style>
 /* The rows of the control panel, a little closer than they come. */
 [style*="padding-bottom: 0.5em"] { padding-bottom: 0.3em !important; }
+/* Tabs close enough for their names to stand in one row, or two. */
+.mantine-Tabs-tab { padding: 7px 8px !important; }
 .rx { font-size: 12.5px; line-height: 1.37; padding: 0 14px; }
 .rx-dim { color: var(--mantine-color-dimmed); }
 .rx-small { font-size: 11.5px; }
@@ -68,6 +70,12 @@ SHEET = """<style>
 .rx-keys kbd { display: inline-block; min-width: 20px; margin-left: 3px; padding: 0 5px; text-align: center;
   font: inherit; font-size: 11.5px; border: 1px solid rgba(128,128,128,.45); border-radius: 4px;
   background: rgba(128,128,128,.10); }
+/* A text field that only clicks write to: see explorer/clicks.py. */
+div:has(> .rx-bridge), div:has(> .rx-bridge) + div { display: none !important; }
+.rx-strip { display: block; }
+.rx-take { cursor: pointer; }
+.rx-kept-table td { padding: 3px 4px 3px 0; border-top: 1px solid rgba(128,128,128,.18); vertical-align: middle; }
+.rx-kept { overflow: hidden; text-overflow: ellipsis; max-width: 130px; }
 .rx-trust h4 { margin: 11px 0 3px; font-size: 12.5px; line-height: 1.25; }
 .rx-trust-row { display: flex; justify-content: space-between; gap: 10px; padding: 2px 0;
   border-top: 1px solid rgba(128,128,128,.18); }

@@ -2,6 +2,9 @@
 
 import contextlib
 import io
+import json
+import secrets
+from dataclasses import dataclass
 
 import viser
 from viser import _messages
@@ -34,11 +37,36 @@ def run_in_page(client: viser.ClientHandle, script: str) -> None:
     client._websock_connection.queue_message(_messages.RunJavascriptMessage(script))
 
 
-def page_prefers_dark(client: viser.ClientHandle, timeout: float = 2.0) -> bool:
-    """Whether the browser asks for dark pages. Blocks; not to be called on the event loop."""
+@dataclass(frozen=True)
+class PageFacts:
+    """What only the browser knows when a page opens."""
+
+    dark: bool = False
+    """Whether it asks for dark pages."""
+    query: str = ""
+    """Of its address, from the question mark on."""
+
+
+def page_facts(client: viser.ClientHandle, timeout: float = 2.0) -> PageFacts:
+    """Ask the browser. Blocks; not to be called on the event loop."""
+    key = f"facts-{client.client_id}-{secrets.token_hex(4)}"  # Other pages share the storage.
     dark = "matchMedia('(prefers-color-scheme: dark)').matches || new URLSearchParams(location.search).has('darkMode')"
-    run_in_page(client, f"localStorage.setItem('viser-user:prefers-dark', String({dark}))")
+    facts = f"JSON.stringify({{dark:{dark},query:location.search}})"
+    run_in_page(client, f"localStorage.setItem('viser-user:{key}',{facts})")
     try:
-        return client.local_storage.get_item("prefers-dark", timeout=timeout) == "true"
-    except (TimeoutError, RuntimeError):
-        return False
+        text = client.local_storage.get_item(key, timeout=timeout)
+        client.local_storage.remove_item(key)
+        found = json.loads(text or "{}")
+        return PageFacts(bool(found.get("dark")), str(found.get("query", "")))
+    except (TimeoutError, RuntimeError, ValueError):
+        return PageFacts()
+
+
+def set_query(client: viser.ClientHandle, query: str) -> None:
+    """Write the query of the page's address, without loading anything and without a step in its history."""
+    run_in_page(client, f"history.replaceState(null,'',location.pathname+{json.dumps(query)})")
+
+
+def copy_text(client: viser.ClientHandle, expression: str) -> None:
+    """Put the value of a JavaScript expression into the clipboard, where the browser allows it."""
+    run_in_page(client, f"navigator.clipboard&&navigator.clipboard.writeText({expression}).catch(()=>0)")

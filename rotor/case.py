@@ -10,6 +10,7 @@ from rotor.blade import airfoils_spec
 from rotor.design import Design
 from rotor.inflow import inflow_model
 from rotor.presets import change_airfoils, make_design, uh60a_rotor
+from rotor.twist_spec import inline_spec
 
 FORMAT = "rotor-explorer design"
 VERSION = 1
@@ -39,7 +40,7 @@ def case_of(design: Design) -> dict[str, Any]:
         "format": FORMAT,
         "version": VERSION,
         "preset": design.preset,
-        "twist": design.twist.spec(),
+        "twist": inline_spec(design.twist),
         "advance_ratio": design.condition.advance_ratio,
         "mass_kg": design.condition.mass,
         "altitude_m": design.condition.altitude,
@@ -89,14 +90,30 @@ def read_case(path: str | Path) -> Design:
     """Read a design file; ValueError with one sentence when it cannot be used."""
     path = Path(path)
     try:
-        record = json.loads(path.read_text(encoding="utf-8"))
+        content = path.read_bytes()
     except FileNotFoundError:
         raise ValueError(f"design file {str(path)!r} does not exist: give the path of a JSON design file") from None
-    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
+    except OSError as error:
         raise ValueError(f"design file {str(path)!r} cannot be read ({error}): give a JSON design file") from None
+    return design_of(_record(content, str(path)))
+
+
+def parse_case(content: bytes, name: str) -> Design:
+    """The same for a file from another machine, which must not make this one open files of its own."""
+    record = _record(content, name)
+    if "table:" in str(record.get("twist", "")):
+        raise ValueError(f"design file {name!r} names a twist table of another machine: give its rows as points:…@…")
+    return design_of(record)
+
+
+def _record(content: bytes, name: str) -> dict[str, Any]:
+    try:
+        record = json.loads(content.decode("utf-8"))
+    except (UnicodeDecodeError, json.JSONDecodeError) as error:
+        raise ValueError(f"design file {name!r} cannot be read ({error}): give a JSON design file") from None
     if not isinstance(record, dict):
-        raise ValueError(f'design file {str(path)!r} holds no JSON object: write {{"twist": "linear:-8", …}}')
-    return design_of(cast(dict[str, Any], record))
+        raise ValueError(f'design file {name!r} holds no JSON object: write {{"twist": "linear:-8", …}}')
+    return cast(dict[str, Any], record)
 
 
 def write_case(design: Design, path: str | Path) -> None:

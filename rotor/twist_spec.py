@@ -15,7 +15,7 @@ from rotor.twist import (
     TwistLaw,
 )
 
-_PLUS = re.compile(r"\+(?=(?:linear|quadratic|segments|spline|ideal|uh60a|table)\b)")
+_PLUS = re.compile(r"\+(?=(?:linear|quadratic|segments|spline|points|ideal|uh60a|table)\b)")
 """Between the laws of a sum; a plus sign in a number or in a file's name is none."""
 
 
@@ -23,7 +23,8 @@ def parse_twist(spec: str, *, builtin: TwistLaw, ideal_tip_pitch: float) -> Twis
     """Read a twist SPEC (DESIGN §8), degrees at this edge only.
 
     `linear:-8` · `quadratic:A,D` · `segments:-12,-4@0.5` · `spline:9,6,0,-5@0.13,0.4,0.75,1` ·
-    `ideal` or `ideal:6.4` · `uh60a` · `table:FILE`; `uh60a+linear:-2` adds one to another.
+    `points:9,6,0,-5@0.13,0.4,0.75,1` (straight lines between) · `ideal` or `ideal:6.4` · `uh60a` · `table:FILE`;
+    `uh60a+linear:-2` adds one to another.
     `builtin` is the rotor's own twist (for `uh60a`); `ideal_tip_pitch` [rad] serves `ideal` without a number.
     Raises ValueError with one sentence that names the value and the remedy.
     """
@@ -57,12 +58,32 @@ def parse_twist(spec: str, *, builtin: TwistLaw, ideal_tip_pitch: float) -> Twis
             tuple(_number(item, spec) for item in stations.split(",")) if stations else (),
             tuple(math.radians(_number(item, spec)) for item in angles.split(",")),
         )
+    if kind == "points":
+        angles, _, stations = rest.partition("@")
+        return TableTwist(
+            tuple(_number(item, spec) for item in stations.split(",")) if stations else (),
+            tuple(math.radians(_number(item, spec)) for item in angles.split(",")),
+            name=spec.strip(),
+        )
     if kind == "table" and rest:
         return read_twist_table(Path(rest))
     raise ValueError(
         f"twist {spec!r} is not known: "
-        "use linear:RATE, quadratic:A,D, segments:RATES@BREAKS, spline:ANGLES@STATIONS, ideal, uh60a or table:FILE"
+        "use linear:RATE, quadratic:A,D, segments:RATES@BREAKS, spline:ANGLES@STATIONS, "
+        "points:ANGLES@STATIONS, ideal, uh60a or table:FILE"
     )
+
+
+def inline_spec(law: TwistLaw) -> str:
+    """The SPEC of a law as any other machine can read it: the rows of a table file in place of its name."""
+    match law:
+        case TableTwist(stations, angles, name) if name.startswith("table"):
+            degrees = ",".join(f"{round(math.degrees(angle), 6):.10g}" for angle in angles)
+            return f"points:{degrees}@{','.join(f'{station:.10g}' for station in stations)}"
+        case SumTwist(base, change):
+            return f"{inline_spec(base)}+{inline_spec(change)}"
+        case _:
+            return law.spec()
 
 
 def read_twist_table(path: Path) -> TableTwist:

@@ -1,0 +1,93 @@
+"""The link of the design and its file: copied, saved, loaded."""
+
+import json
+import time
+from collections.abc import Mapping
+from typing import Any
+
+import viser
+
+from explorer import share, viser_compat
+from explorer.desk import Desk, Moment
+from explorer.state import Inputs, inputs_of
+from rotor.case import case_of, parse_case
+
+MOST_BYTES = 1_000_000
+"""A design file may have; written ones have a thousand."""
+_PATIENCE = 0.4
+"""[s] between two addresses: browsers take offence at a hundred in half a minute."""
+Limits = Mapping[str, tuple[float, float]]
+"""Of the sliders, by name of the input."""
+
+
+class FilePanel:
+    """One session's. The address of the page follows the design by itself."""
+
+    def __init__(self, client: viser.ClientHandle, desk: Desk, limits: Limits, query: str) -> None:
+        """`query`: of the address the page was opened with; what else it holds is kept."""
+        self._client, self._desk, self._limits, self._query = client, desk, limits, query
+        self._written = 0.0
+        gui = client.gui
+        with gui.add_folder("Link and file"):
+            self._link = gui.add_button("Copy link", icon=viser.Icon.LINK, hint="The address holds the whole design.")
+            self._save = gui.add_button("Save design", icon=viser.Icon.DOWNLOAD, color="gray")
+            self._load = gui.add_upload_button(
+                "Load design", icon=viser.Icon.UPLOAD, color="gray", mime_type=".json", hint="A design file (JSON)."
+            )
+        desk.bind("share", self.copy_link)
+        self._link.on_click(lambda _: self.copy_link())
+        self._save.on_click(lambda _: self.save())
+        self._load.on_upload(self._loaded)
+
+    def follow(self, inputs: Inputs) -> None:
+        """Bring the address into line with the design; at once, unless it has only just been written."""
+        try:
+            wanted = share.query_of(share.code_of(inputs.design()), self._query)
+        except ValueError:
+            return  # It has no address; the last one stays.
+        now = time.monotonic()
+        if wanted != self._query and now - self._written > _PATIENCE:
+            self._query, self._written = wanted, now
+            viser_compat.set_query(self._client, wanted)
+
+    def copy_link(self) -> None:
+        """The page's address into the clipboard."""
+        try:
+            share.code_of(self._desk.inputs().design())
+        except ValueError as error:
+            self._desk.tell("No link", str(error))
+            return
+        viser_compat.copy_text(self._client, "location.href")
+        self._desk.tell("Link copied", "It opens this design; the page's address is the same link.")
+
+    def save(self) -> None:
+        """The design file, as `--case` and `--design` read it."""
+        try:
+            record = case_of(self._desk.inputs().design())
+        except ValueError as error:
+            self._desk.tell("Nothing saved", str(error))
+            return
+        self._desk.send("design.json", (json.dumps(record, indent=2, ensure_ascii=False) + "\n").encode())
+
+    def show(self, moment: Moment) -> None:
+        """The address follows once the page is at rest: see `follow`."""
+
+    def lose(self) -> None:
+        """The address keeps the last design."""
+
+    def stop(self) -> None:
+        """Nothing runs on."""
+
+    def _loaded(self, event: viser.GuiEvent[Any]) -> None:
+        file = event.target.value
+        try:
+            if len(file.content) > MOST_BYTES:
+                raise ValueError(f"{file.name} has {len(file.content)} bytes: a design file has at most {MOST_BYTES}.")
+            design = parse_case(file.content, file.name)
+            inputs = share.within(inputs_of(design), self._limits)
+        except ValueError as error:
+            self._desk.tell("Not loaded", str(error))
+            return
+        self._desk.set_inputs(inputs)
+        more = " Its active twist is not taken: the Actuator tab drives the blade." if design.active_twist else ""
+        self._desk.tell("Loaded", f"{file.name} is on the sliders.{more}")

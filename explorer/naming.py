@@ -1,0 +1,29 @@
+"""A design in a few words: what its twist is and where it flies, for strips, lists and notes."""
+
+from explorer.readout import number
+from explorer.state import LAWS, Inputs
+
+_SHAPES = {
+    "linear": ("linear",),
+    "quadratic": ("quadratic_curvature", "quadratic_difference"),
+    "two": ("two_inner", "two_outer"),
+    "three": ("three_inner", "three_middle", "three_outer"),
+}
+_PLACES = {"two": ("two_division",), "three": ("three_first", "three_second")}
+
+
+def twist_name(inputs: Inputs) -> str:
+    """The twist: `Two segments −14/−8 at 0.5`."""
+    values = "/".join(number(getattr(inputs, name), 1).removesuffix(".0") for name in _SHAPES.get(inputs.law, ()))
+    places = "/".join(f"{getattr(inputs, name):g}" for name in _PLACES.get(inputs.law, ()))
+    name = LAWS[inputs.law].title
+    if values:
+        name += f" {values}" + ("°" if inputs.law == "linear" else "")
+    return name + (f" at {places}" if places else "")
+
+
+def flight_name(inputs: Inputs) -> str:
+    """The flight: `µ 0.25, 8.32 t`, and the altitude where it is not sea level."""
+    speed = f"µ {inputs.advance_ratio:g}" if inputs.advance_ratio else "hover"
+    high = f", {number(inputs.altitude_m)} m" if inputs.altitude_m else ""
+    return f"{speed}, {inputs.mass_t:g} t{high}"

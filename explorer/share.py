@@ -1,0 +1,117 @@
+"""A design as a short text for the page's address, and back; the same record as a design file, checked the same way.
+
+`1;segments:-14,-8@0.5;mu=0.25;mass=9000`: version, twist, and what differs from the preset's own design.
+"""
+
+import json
+from collections.abc import Mapping
+from typing import Any
+from urllib.parse import parse_qsl, quote, urlencode
+
+from explorer.state import Inputs, inputs_of
+from rotor.case import case_of, design_of
+from rotor.design import Design
+from rotor.presets import make_design
+
+VERSION = 1
+DESIGN = "d"
+"""Name of the design in the address."""
+LONGEST = 1800
+"""Characters a design may take: the length of address that every browser and mail program carries."""
+
+_SHORT = {"advance_ratio": "mu", "mass_kg": "mass", "altitude_m": "alt"}
+_LONG = {short: key for key, short in _SHORT.items()}
+_NEVER = ("format", "version", "twist")
+
+
+def code_of(design: Design) -> str:
+    """The design as a text; ValueError with one sentence for one that no address holds."""
+    record = case_of(design)
+    usual = {**case_of(make_design(record["preset"])), "preset": make_design().preset}
+    changed = {key: value for key, value in record.items() if key not in _NEVER and value != usual.get(key)}
+    words = [str(VERSION), record["twist"], *(f"{_SHORT.get(key, key)}={_word(v)}" for key, v in changed.items())]
+    code = ";".join(words)
+    if len(code) > LONGEST:
+        raise ValueError("This design is too large for an address: save it as a design file and send that.")
+    return code
+
+
+def design_from(code: str) -> Design:
+    """The design a text means; ValueError with one sentence for one that means none."""
+    version, _, rest = code.strip().partition(";")
+    if version != str(VERSION) or not rest:
+        raise ValueError(f"The design in the address, {_cut(code)!r}, is not of version {VERSION}: ask for a new link.")
+    if len(code) > LONGEST:
+        raise ValueError(f"The design in the address has {len(code)} characters: {LONGEST} are the most.")
+    twist, *words = rest.split(";")
+    if _reads_file(twist):
+        raise ValueError(f"The twist {_cut(twist)!r} is a file on the machine of the sender: ask for the design file.")
+    record: dict[str, Any] = {"twist": twist}
+    for word in words:
+        key, found, value = word.partition("=")
+        if not found:
+            raise ValueError(
+                f"The design in the address holds {_cut(word)!r}, which is no key=value: ask for a new link."
+            )
+        record[_LONG.get(key, key)] = _value(value)
+    try:
+        return design_of(record)
+    except ValueError as error:
+        raise ValueError(f"The design in the address cannot be used: {error}") from None
+
+
+def inputs_from(code: str, limits: Mapping[str, tuple[float, float]]) -> Inputs:
+    """The slider positions a text means; ValueError also for a position beyond `limits`, by name of the input."""
+    return within(inputs_of(design_from(code)), limits)
+
+
+def start_from(query: str, start: Inputs, limits: Mapping[str, tuple[float, float]]) -> Inputs:
+    """The inputs of the design in an address's query, or `start` where there is none."""
+    code = code_in(query)
+    return start if code is None else inputs_from(code, limits)
+
+
+def within(inputs: Inputs, limits: Mapping[str, tuple[float, float]]) -> Inputs:
+    """The inputs, where the page's sliders can hold them; else ValueError with one sentence."""
+    for name, (low, high) in limits.items():
+        value = getattr(inputs, name)
+        if not low - 1e-9 <= value <= high + 1e-9:
+            title = name.replace("_", " ")
+            raise ValueError(
+                f"The design has {title} {value:g}, outside this page's {low:g}…{high:g}: bring it inside."
+            )
+    return inputs
+
+
+def query_of(code: str, others: str = "") -> str:
+    """The address's query with the design in it; `others`: the query that was there."""
+    kept = [(key, value) for key, value in parse_qsl(others.lstrip("?"), keep_blank_values=True) if key != DESIGN]
+    design = f"{DESIGN}={quote(code, safe=':;,@=/')}"
+    return "?" + "&".join([*([urlencode(kept)] if kept else []), design])
+
+
+def code_in(query: str) -> str | None:
+    """The design in an address's query; None where there is none."""
+    return dict(parse_qsl(query.lstrip("?"))).get(DESIGN)
+
+
+def _reads_file(twist: str) -> bool:
+    """Whether a SPEC names a file: an address must not make the server open one."""
+    return "table:" in twist
+
+
+def _word(value: object) -> str:
+    if isinstance(value, float):
+        return f"{value:.10g}"
+    return value if isinstance(value, str) else json.dumps(value, separators=(",", ":"), ensure_ascii=False)
+
+
+def _value(word: str) -> object:
+    try:
+        return json.loads(word)
+    except json.JSONDecodeError:
+        return word
+
+
+def _cut(text: str) -> str:
+    return text if len(text) <= 40 else text[:39] + "…"

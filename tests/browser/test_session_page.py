@@ -1,0 +1,128 @@
+"""Undo, history, kept designs, the address, and design files, on the real page."""
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from chromium import DRAW_NOTHING
+from test_page import SMALL, WAIT, Watched
+
+from explorer.app import App
+from explorer.state import Inputs
+from rotor.case import case_of, read_case
+from rotor.presets import make_design
+from rotor.solve import solve
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture(scope="module")
+def app() -> Iterator[App]:
+    app = App("127.0.0.1", 0)
+    yield app
+    app.stop()
+
+
+def opened(browser: "Browser", app: App, query: str = "") -> Watched:
+    context = browser.new_context(viewport=SMALL, accept_downloads=True)  # pyright: ignore[reportArgumentType]
+    context.add_init_script(DRAW_NOTHING)
+    watched = Watched(context.new_page())
+    watched.open(app.address, "?fixedDpr=0.5" + query)
+    return watched
+
+
+def design_in_address(watched: Watched, text: str) -> None:
+    watched.page.wait_for_function("text => location.search.includes(text)", arg=text, timeout=WAIT)
+
+
+def shown_kw(watched: Watched) -> str:
+    return watched.text("total-power").removesuffix(" kW")
+
+
+def test_undo_redo_and_history(browser: "Browser", app: App):
+    watched = opened(browser, app)
+    page, begun = watched.page, shown_kw(watched)
+    watched.press("Inner", "ArrowLeft", 4)
+    design_in_address(watched, "segments:-14.4,-8@0.5")
+    watched.press("Adv. ratio", "ArrowRight", 4)
+    design_in_address(watched, "mu=0.22")
+    last = watched.until_changed(lambda: shown_kw(watched), begun)
+    page.keyboard.press("Control+z")
+    page.wait_for_function("() => !location.search.includes('mu=')", timeout=WAIT)
+    assert "segments:-14.4" in page.url  # Four keys were one step.
+    page.keyboard.press("Control+z")
+    design_in_address(watched, "segments:-14,-8@0.5")
+    assert watched.until_changed(lambda: shown_kw(watched), last) == begun
+    page.keyboard.press("Control+Shift+z")
+    page.keyboard.press("Control+Shift+z")
+    design_in_address(watched, "mu=0.22")
+    page.get_by_role("tab", name="Session").click()
+    strip = page.locator('[data-explorer="history"]')
+    strip.wait_for(timeout=WAIT)
+    assert (strip.get_attribute("data-steps"), strip.get_attribute("data-present")) == ("3", "2")
+    page.get_by_role("button", name="Keep").click()
+    page.locator('[data-explorer="kept"]').wait_for(timeout=WAIT)
+    strip.locator("g").first.click()
+    design_in_address(watched, "segments:-14,-8@0.5")
+    page.locator('[data-explorer="kept"] .rx-kept').click()
+    design_in_address(watched, "segments:-14.4,-8@0.5;mu=0.22")
+    page.locator('[data-explorer="kept"] a').click()
+    page.locator('[data-explorer="kept"]').wait_for(state="detached", timeout=WAIT)
+    assert watched.complaints == []
+    page.context.close()
+
+
+def test_the_address_is_the_design(browser: "Browser", app: App):
+    watched = opened(browser, app, "&d=1;linear:-9.5;mu=0.3;mass=9000;inflow=drees")
+    design = Inputs(law="linear", linear=-9.5, advance_ratio=0.3, mass_t=9.0, inflow="drees").design()
+    power = f"{solve(design).power.total / 1e3:,.0f}".replace(",", "\u2009")
+    assert shown_kw(watched) == power
+    watched.press("Rate", "ArrowLeft", 3)
+    design_in_address(watched, "linear:-9.8;mu=0.3")
+    assert "fixedDpr=0.5" in watched.page.url
+    shown = shown_kw(watched)
+    watched.page.reload()
+    watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
+    assert shown_kw(watched) == shown
+    watched.page.context.close()
+
+
+def test_a_bad_address_is_one_sentence_and_the_usual_design(browser: "Browser", app: App):
+    watched = opened(browser, app, "&d=1;linear:-9;wings=2")
+    watched.page.get_by_text("unknown key 'wings'").wait_for(timeout=WAIT)
+    design_in_address(watched, "segments:-14,-8@0.5")
+    watched.page.context.close()
+
+
+def test_save_and_load(browser: "Browser", app: App, tmp_path: Path):
+    watched = opened(browser, app, "&d=1;spline:9,6,0,-5@0.13,0.4,0.75,1;mu=0.1;airfoils=sc1095")
+    page = watched.page
+    page.get_by_role("tab", name="Session").click()
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Save design").click()
+    saved = tmp_path / "design.json"
+    download.value.save_as(saved)
+    design = read_case(saved)
+    assert design.twist.spec() == "spline:9,6,0,-5@0.13,0.4,0.75,1"
+    assert design.condition.advance_ratio == 0.1
+    before, other = shown_kw(watched), tmp_path / "other.json"
+    other.write_text(json.dumps({**case_of(make_design(twist="linear:-6")), "advance_ratio": 0.25}), encoding="utf-8")
+    file = page.locator("input[type=file]").first
+    file.set_input_files(other)
+    design_in_address(watched, "linear:-6;mu=0.25")
+    loaded = watched.until_changed(lambda: shown_kw(watched), before)
+    bad = tmp_path / "bad.json"
+    bad.write_text('{"twist": "linear:-6", "wings": 2}', encoding="utf-8")
+    file.set_input_files(bad)
+    page.get_by_text("unknown key 'wings'").wait_for(timeout=WAIT)
+    assert shown_kw(watched) == loaded
+    file.set_input_files(saved)
+    design_in_address(watched, "spline:9,6,0,-5@0.13,0.4,0.75,1;mu=0.1")
+    assert watched.until_changed(lambda: shown_kw(watched), loaded) == before
+    assert watched.complaints == []
+    page.context.close()
