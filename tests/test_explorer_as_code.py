@@ -32,7 +32,7 @@ DESIGNS = {
     "thesis, high": Inputs(preset="thesis", inflow="pitt-peters-15pi/23", law="three", altitude_m=1500.0).design(),
     "other inflow": Inputs(law="quadratic", inflow="pitt-peters", mass_t=7.35).design(),
     "built-in": Inputs(law="uh60a", advance_ratio=0.3).design(),
-    "found": Inputs(law="found", found=SPLINE, found_airfoils="sc1094r8,sc1095@0.5").design(),
+    "found": Inputs(law="found", found=SPLINE, airfoils="sc1094r8,sc1095@0.5").design(),
     "no losses": Inputs(losses=False).design(),
     "on top of another": make_design(twist=SumTwist(make_design().twist, LinearTwist(math.radians(-2.0)))),
     "active": replace(Inputs().design(), active_twist=ActiveTwist((Harmonic(2, 0.02, 0.4),))),
