@@ -49,7 +49,7 @@ def test_undo_redo_and_history(browser: "Browser", app: App):
     page, begun = watched.page, shown_kw(watched)
     watched.press("Inner", "ArrowLeft", 4)
     design_in_address(watched, "segments:-14.4,-8@0.5")
-    watched.press("Adv. ratio", "ArrowRight", 4)
+    watched.type("Adv. ratio", 0.22)
     design_in_address(watched, "mu=0.22")
     last = watched.until_changed(lambda: shown_kw(watched), begun)
     page.keyboard.press("Control+z")
