@@ -47,14 +47,14 @@ def shown_kw(watched: Watched) -> str:
 def test_undo_redo_and_history(browser: "Browser", app: App):
     watched = opened(browser, app)
     page, begun = watched.page, shown_kw(watched)
-    watched.press("Inner", "ArrowLeft", 4)
+    watched.type("Inner", -14.4)
     design_in_address(watched, "segments:-14.4,-8@0.5")
     watched.type("Adv. ratio", 0.22)
     design_in_address(watched, "mu=0.22")
     last = watched.until_changed(lambda: shown_kw(watched), begun)
     page.keyboard.press("Control+z")
     page.wait_for_function("() => !location.search.includes('mu=')", timeout=WAIT)
-    assert "segments:-14.4" in page.url  # Four keys were one step.
+    assert "segments:-14.4" in page.url
     page.keyboard.press("Control+z")
     design_in_address(watched, "segments:-14,-8@0.5")
     assert watched.until_changed(lambda: shown_kw(watched), last) == begun
