@@ -16,6 +16,7 @@ from rotor.case import case_of
 from rotor.command.parser import build_parser, design_from
 from rotor.design import Design
 from rotor.presets import make_design
+from rotor.switches import switched_off
 
 CASE_FILE = "design.json"
 """What a design file is called in a command."""
@@ -69,6 +70,9 @@ def _flags(design: Design) -> list[str]:
         words.append(f"--altitude-m {_plain(condition.altitude)}")
     if design.models.inflow != plain.models.inflow:
         words.append(f"--inflow {design.models.inflow}")
+    off = switched_off(design.models)
+    if off:
+        words.append(f"--off {','.join(switch.flag for switch in off)}")
     airfoils = airfoils_spec(design.rotor) if design.rotor != plain.rotor else None
     return [*words, f"--airfoils {shlex.quote(airfoils)}"] if airfoils else words
 

@@ -16,6 +16,7 @@ from explorer.state import INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs,
 from explorer.view import View
 from rotor.inflow import INFLOW_MODELS
 from rotor.presets import make_design
+from rotor.switches import SWITCHES
 
 
 class Handle(Protocol):
@@ -121,10 +122,11 @@ class Controls:
             self.check_button = gui.add_button(
                 "Check with the vortex wake", color="gray", hint="The same design with rigid helical vortices."
             )
-            self._inputs["losses"] = self._watched(
-                gui.add_checkbox("Tip, hub loss", start.losses, hint="Prandtl's factors, eqs. (3.16), (3.17).")
-            )
             self._dark = self._watched(gui.add_checkbox("Dark page", dark))
+        with gui.add_folder("Physics", expand_by_default=False):
+            for name, switch in SWITCHES.items():
+                box = gui.add_checkbox(switch.title, getattr(start, name), hint=f"{switch.on} Off: {switch.off}")
+                self._inputs[name] = self._watched(box)
         self.reset_button = gui.add_button("Reset design")
         self._inputs["preset"].on_update(self._preset_changed)
 

@@ -8,6 +8,7 @@ from explorer.state import KNOT, baseline_title
 from rotor.bound import ideal_factor
 from rotor.inflow import INFLOW_MODELS
 from rotor.solution import PowerBudget, Solution
+from rotor.switches import switched_off
 
 HORSEPOWER_KW = 0.745699872
 """Mechanical horsepower [kW]."""
@@ -170,10 +171,10 @@ def provenance(solution: Solution) -> str:
     inflow = INFLOW_MODELS[design.models.inflow].title
     if design.hovering:
         inflow = "annulus balance" if design.models.hover_inflow == "annulus" else "closed form, eq. (3.3)"
-    losses = "tip and hub loss" if design.models.tip_loss else "no losses"
+    off = ", ".join(f"no {switch.title.lower()}" for switch in switched_off(design.models))
     return (
         f'<div class="rx-small rx-dim" data-explorer="provenance">Preset <i>{escape(design.preset)}</i>: '
-        f"{escape(inflow)}, {escape(' / '.join(sections))}, {losses}, "
+        f"{escape(inflow)}, {escape(' / '.join(sections))}, {off or 'tip and hub loss'}, "
         f"{design.models.elements} × {design.models.azimuths} grid, {number(1e3 * solution.elapsed, 1)} ms. "
         "Indicative: a model, not a measurement.</div>"
     )

@@ -15,6 +15,7 @@ from rotor.presets import (
     make_design,
     uh60a_rotor,
 )
+from rotor.switches import SWITCHES
 from rotor.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, QuadraticTwist, TwistLaw
 
 KNOT = 1852.0 / 3600.0
@@ -44,7 +45,12 @@ class Inputs:
     mass_t: float = 8.32
     altitude_m: float = 0.0
     inflow: str = FLIGHT_MODELS.inflow
-    losses: bool = True
+    flapping: bool = True
+    tip_loss: bool = True
+    hub_loss: bool = True
+    reverse_flow: bool = True
+    compressibility: bool = True
+    fuselage: bool = True
     given: TwistLaw | None = None
     """A twist from a design file that none of the laws holds."""
     found: TwistLaw | None = None
@@ -65,7 +71,7 @@ class Inputs:
             advance_ratio=self.advance_ratio,
             mass=1e3 * self.mass_t,
             altitude=self.altitude_m,
-            models=replace(models, inflow=self.inflow, tip_loss=self.losses, hub_loss=self.losses),
+            models=replace(models, inflow=self.inflow, **{name: getattr(self, name) for name in SWITCHES}),
         )
         if self.law in NOT_ALWAYS and self.airfoils:
             design = replace(design, rotor=change_airfoils(design.rotor, self.airfoils))
@@ -145,7 +151,7 @@ def inputs_of(design: Design) -> Inputs:
         mass_t=design.condition.mass / 1e3,
         altitude_m=design.condition.altitude,
         inflow=design.models.inflow,
-        losses=design.models.tip_loss or design.models.hub_loss,
+        **{name: getattr(design.models, name) for name in SWITCHES},
     )
     twist, airfoils = design.twist, _own_airfoils(design)
     if not airfoils and twist == design.rotor.builtin_twist:

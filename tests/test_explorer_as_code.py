@@ -33,12 +33,12 @@ DESIGNS = {
     "other inflow": Inputs(law="quadratic", inflow="pitt-peters", mass_t=7.35).design(),
     "built-in": Inputs(law="uh60a", advance_ratio=0.3).design(),
     "found": Inputs(law="found", found=SPLINE, airfoils="sc1094r8,sc1095@0.5").design(),
-    "no losses": Inputs(losses=False).design(),
+    "switches": Inputs(tip_loss=False, reverse_flow=False).design(),
     "on top of another": make_design(twist=SumTwist(make_design().twist, LinearTwist(math.radians(-2.0)))),
     "active": replace(Inputs().design(), active_twist=ActiveTwist((Harmonic(2, 0.02, 0.4),))),
     "other grid": replace(make_design(), models=replace(make_design().models, elements=30, azimuths=72)),
 }
-BEYOND_FLAGS = {"no losses", "active"}
+BEYOND_FLAGS = {"active"}
 ONLY_PYTHON = {"other grid"}
 
 

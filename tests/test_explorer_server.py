@@ -131,7 +131,7 @@ class TestControls:
 
     @pytest.mark.parametrize("law", [law for law in LAWS if law not in NOT_ALWAYS])
     def test_inputs_go_through_the_widgets_unchanged(self, controls: Controls, law: str):
-        wanted = Inputs(law=law, advance_ratio=0.31, mass_t=9.1, altitude_m=1500.0, linear=-7.5, losses=False)
+        wanted = Inputs(law=law, advance_ratio=0.31, mass_t=9.1, altitude_m=1500.0, linear=-7.5, flapping=False)
         controls.set_inputs(wanted)
         assert controls.inputs() == wanted
 

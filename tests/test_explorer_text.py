@@ -19,6 +19,7 @@ from rotor.presets import PRESETS, make_design
 from rotor.solution import Caveat, Solution, Status
 from rotor.solve import solve
 from rotor.sweep import at_advance_ratio
+from rotor.switches import SWITCHES, switched_off
 from rotor.twist import TableTwist
 
 
@@ -45,10 +46,11 @@ class TestInputs:
         assert design.condition.mass == 7500.0
         assert design.condition.altitude == 1200.0
 
-    def test_losses_switch_both_factors(self):
-        models = Inputs(losses=False).design().models
-        assert not models.tip_loss
-        assert not models.hub_loss
+    def test_every_switch_of_the_physics_reaches_the_models(self):
+        for name in SWITCHES:
+            inputs = replace(Inputs(), **{name: False})
+            assert [switch.name for switch in switched_off(inputs.design().models)] == [name]
+            assert inputs_of(inputs.design()) == inputs
 
     def test_crossed_divisions_are_one_sentence(self):
         with pytest.raises(ValueError, match=r"divisions at 0\.8 and 0\.4 R are out of order") as caught:
