@@ -1,10 +1,10 @@
-"""The chart panel: four uplots, made once; afterwards only data are assigned, and a range when it must move."""
+"""The chart panel: uplots made once; afterwards only data are assigned, and a range when it must move."""
 
 import viser
 from viser import uplot
 
 from explorer import readout
-from explorer.colours import BASELINE, IDEAL, LIMIT, NOW, THIS
+from explorer.colours import BASELINE, IDEAL, LIMIT, NOW, PINNED, PINNED_DASH, THIS
 from explorer.plots import Plot, Range
 
 _HEIGHT = 94
@@ -12,12 +12,28 @@ _GRID = uplot.Axis_Grid(show=True, width=1)
 _TICKS = uplot.Axis_Ticks(show=True, width=1, size=4)
 _FONT = "11px sans-serif"
 
+Key = tuple[tuple[str, str] | tuple[str, str, bool], ...]
+"""Name, colour, and whether the line is dashed, of each series that is told apart."""
+AB_KEY: Key = (("B", THIS), ("A", PINNED, True))
+"""While two designs are compared."""
+POWER_KEY: Key = (("this design", THIS), ("baseline", BASELINE, True), ("ideal", IDEAL))
+TWIST_KEY: Key = (("this design", THIS), ("baseline", BASELINE, True))
+ALPHA_KEY: Key = (("marked blade", NOW), ("stall", LIMIT, True))
+LIFT_KEY: Key = (("marked blade", NOW),)
+IDEAL_KEY: Key = (("ideal", IDEAL),)
+STALL_KEY: Key = (("stall", LIMIT, True),)
+
 
 def line(label: str, colour: str, width: float = 2.0, dash: tuple[float, ...] | None = None) -> uplot.Series:
     series = uplot.Series(label=label, stroke=colour, width=width, points=uplot.Series_Points(show=False), pxAlign=0)
     if dash is not None:
         series["dash"] = dash
     return series
+
+
+def pinned_line() -> uplot.Series:
+    """A, in any chart."""
+    return line("A", PINNED, 1.8, PINNED_DASH)
 
 
 def points(label: str, colour: str, size: float) -> uplot.Series:
@@ -33,14 +49,15 @@ class Chart:
         self,
         gui: viser.GuiApi,
         title: str,
-        key: tuple[tuple[str, str], ...],
+        key: Key,
         abscissa: str,
         series: tuple[uplot.Series, ...],
         plot: Plot,
         x_range: Range,
         height: int = _HEIGHT,
     ) -> None:
-        gui.add_html(readout.heading(title, key))
+        self._title, self._key = title, key
+        self._heading = gui.add_html(readout.heading(title, key))
         self._x_range = x_range
         self._y_range = plot.y_range
         self._handle = gui.add_uplot(
@@ -57,13 +74,20 @@ class Chart:
             padding=(8, 14, 0, 0),
         )
 
-    def show(self, plot: Plot) -> None:
+    def show(self, plot: Plot, key: Key | None = None) -> None:
+        """New data; `key`: another than before, where other series than before are filled."""
+        if key is not None and key != self._key:
+            self._key = key
+            self._heading.content = readout.heading(self._title, key)
         x_range = plot.x_range or self._x_range
         if (plot.y_range, x_range) != (self._y_range, self._x_range):
             # A new scale rebuilds the chart in the page, so ranges are held as long as they serve.
             self._y_range, self._x_range = plot.y_range, x_range
             self._handle.scales = self._scales()
         self._handle.data = plot.data
+
+    def set_visible(self, visible: bool) -> None:
+        self._heading.visible = self._handle.visible = visible
 
     @property
     def y_range(self) -> Range:
@@ -74,44 +98,45 @@ class Chart:
 
 
 class Charts:
-    """Power against µ, twist, α and Cl along the blade."""
+    """Power against µ, twist, α and Cl along the blade; with a pinned design those of A and B, and B − A over µ."""
 
-    def __init__(self, gui: viser.GuiApi, power: Plot, twist: Plot, alpha: Plot, lift: Plot) -> None:
-        both = (("this design", THIS), ("baseline", BASELINE))
-        pair = (line("baseline", BASELINE, 1.5, (5, 3)), line("this design", THIS))
+    def __init__(self, gui: viser.GuiApi, power: Plot, apart: Plot, twist: Plot, alpha: Plot, lift: Plot) -> None:
+        three = (line("baseline", BASELINE, 1.5, (5, 3)), pinned_line(), line("this design", THIS))
         self.power = Chart(
             gui,
             "Power [kW] over µ",
-            (*both, ("ideal", IDEAL)),
+            POWER_KEY,
             "advance ratio µ",
             (
                 line("ideal for this lift", IDEAL, 1.2, (2, 3)),
-                *pair,
+                *three,
                 points("baseline, hover", BASELINE, 6),
+                points("A, hover", PINNED, 6),
                 points("this design, hover", THIS, 6),
                 points("now", NOW, 8),
             ),
             power,
             (-0.012, 0.462),
         )
-        self.twist = Chart(gui, "Twist [°] over r/R", both, "radius r/R", pair, twist, (0.1, 1.02))
-        blade = (("marked blade", NOW), ("stall", LIMIT))
+        self.apart = Chart(
+            gui,
+            "B − A [kW] over µ",
+            AB_KEY,
+            "advance ratio µ",
+            (
+                pinned_line(),
+                line("B", THIS),
+                points("hover", THIS, 6),
+                points("now", NOW, 8),
+            ),
+            apart,
+            (-0.012, 0.462),
+        )
+        self.apart.set_visible(False)
+        self.twist = Chart(gui, "Twist [°] over r/R", TWIST_KEY, "radius r/R", three, twist, (0.1, 1.02))
         stall = line("stall", LIMIT, 1.5, (5, 3))
+        marked = (line("marked blade", NOW), pinned_line(), line("B", THIS))
         self.alpha = Chart(
-            gui,
-            "Angle of attack [°] over r/R",
-            blade,
-            "radius r/R",
-            (stall, stall, line("marked blade", NOW)),
-            alpha,
-            (0.1, 1.02),
+            gui, "Angle of attack [°] over r/R", ALPHA_KEY, "radius r/R", (stall, stall, *marked), alpha, (0.1, 1.02)
         )
-        self.lift = Chart(
-            gui,
-            "Lift coefficient over r/R",
-            (("marked blade", NOW),),
-            "radius r/R",
-            (line("marked blade", NOW),),
-            lift,
-            (0.1, 1.02),
-        )
+        self.lift = Chart(gui, "Lift coefficient over r/R", LIFT_KEY, "radius r/R", marked, lift, (0.1, 1.02))

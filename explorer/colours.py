@@ -25,7 +25,11 @@ _LINEAR = np.array(
 )
 
 THIS = "#1c7ed6"
-"""The design on the sliders, in charts."""
+"""The design on the sliders, B where two are compared, in charts."""
+PINNED = "#d98a00"
+"""The pinned design, A: amber beside blue, which every eye tells apart, and dashed (`PINNED_DASH`) besides."""
+PINNED_DASH = (7.0, 3.0)
+"""Pixels drawn and left out."""
 BASELINE = "#868e96"
 """The baseline twist, in charts."""
 IDEAL = "#0ca678"
@@ -42,6 +46,8 @@ MARKED_BLADE: Rgb = (130, 20, 8)
 BLADE: Rgb = (40, 43, 50)
 GHOST: Rgb = (250, 250, 255)
 """The blade a search began from."""
+PINNED_GHOST: Rgb = (255, 176, 0)
+"""The blade of A, in the amber of its lines."""
 HUB: Rgb = (30, 32, 37)
 RIM: Rgb = (112, 118, 128)
 """A grey that reads on white and on near-black."""

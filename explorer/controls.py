@@ -10,7 +10,7 @@ import viser
 
 from explorer import readout
 from explorer.colour_bar import colour_bar, outline_legend
-from explorer.fields import FIELDS
+from explorer.fields import FIELDS, Field
 from explorer.history import Pauses
 from explorer.state import INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs, ViewState, preset_inflow
 from explorer.view import View
@@ -89,6 +89,11 @@ class Controls:
             self._sliders(gui, ("mass_t", "altitude_m"))
         with gui.add_folder("Disk and blades"):
             self._field = self._watched(gui.add_dropdown("Field", tuple(FIELDS), initial_value=ViewState.field))
+            self._difference = self._watched(
+                gui.add_checkbox(
+                    "Show B − A", False, visible=False, hint="The field of this design minus that of the pinned one."
+                )
+            )
             self._bar = gui.add_html("")
             self.range_buttons = gui.add_button_group(
                 "Colours",
@@ -145,6 +150,7 @@ class Controls:
             field=self._field.value,
             azimuth_deg=self._azimuth.value,
             exaggeration=self._exaggeration.value,
+            difference=self._difference.value,
             dark=self._dark.value,
             **{name: handle.value for name, handle in self._toggles.items()},
         )
@@ -161,6 +167,7 @@ class Controls:
             view.exaggeration,
         )
         self._dark.value = view.dark
+        self._difference.value = view.difference and self._difference.visible
         for name, handle in self._toggles.items():
             handle.value = getattr(view, name)
         self._changed()
@@ -191,10 +198,16 @@ class Controls:
         self._infinite.visible = inputs.inflow in (FOUR, INFINITE)
         self._infinite.value = inputs.inflow == INFINITE
 
-    def show_range(self, title: str, colour_range: tuple[float, float], faded: bool) -> None:
+    def show_range(self, field: Field, colour_range: tuple[float, float], faded: bool) -> None:
         """The colour bar and legend of a field."""
-        self._bar.content = colour_bar(FIELDS[title], *colour_range, faded)
-        self._legend.content = outline_legend(FIELDS[title])
+        self._bar.content = colour_bar(field, *colour_range, faded)
+        self._legend.content = outline_legend(field)
+
+    def allow_difference(self, allowed: bool) -> None:
+        """Whether there is a pinned design that the disk can show the difference from."""
+        if not allowed and self._difference.value:
+            self._difference.value = False
+        self._difference.visible = allowed
 
     def _sliders(self, gui: viser.GuiApi, names: tuple[str, ...]) -> None:
         for name in names:

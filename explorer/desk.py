@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
+from explorer.pinned import Pinned
 from explorer.state import Inputs, ViewState
 from rotor.solution import Solution
 
@@ -19,12 +20,14 @@ class Moment:
     baseline: Solution
     """What a change is counted from when nothing is pinned."""
     pinned: Solution | None
-    """A of A/B, in its own flight condition."""
+    """A of A/B, in the present flight or in its own, as the user wants; it may have no trim there."""
+    pin: Pinned | None = None
+    """What was pinned: its inputs, its title, and the answer it had then."""
 
     @property
     def reference(self) -> Solution:
         """What the read-outs compare with."""
-        return self.pinned or self.baseline
+        return self.baseline if self.pinned is None else self.pinned
 
 
 @dataclass(frozen=True)

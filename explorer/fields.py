@@ -29,6 +29,10 @@ class Field:
     """Values in `unit` on the polar grid, shape (radii, azimuths); finite everywhere."""
     void_in_reverse_flow: bool = False
     """Whether the quantity loses its meaning where the flow comes from the trailing edge."""
+    absent: Callable[[Solution, PolarGrid], NDArray[np.bool_]] | None = None
+    """Where else there is none of it, on the polar grid."""
+    note: str = ""
+    """What follows the unit in the label."""
 
     @property
     def two_sided(self) -> bool:
@@ -37,7 +41,14 @@ class Field:
 
     @property
     def label(self) -> str:
-        return f"{self.title} [{self.unit}]" if self.unit else self.title
+        return (f"{self.title} [{self.unit}]" if self.unit else self.title) + self.note
+
+    def void(self, solution: Solution, grid: PolarGrid) -> NDArray[np.bool_] | None:
+        """Where there is no value on the polar grid, shape (radii, azimuths); None: nowhere."""
+        parts = [] if self.absent is None else [self.absent(solution, grid)]
+        if self.void_in_reverse_flow:
+            parts.append(reverse_flow(solution, grid))
+        return np.logical_or.reduce(parts) if parts else None
 
 
 def reverse_flow(solution: Solution, grid: PolarGrid) -> NDArray[np.bool_]:
@@ -118,24 +129,26 @@ FIELDS: dict[str, Field] = {
 def fitted_range(field: Field, values: Array, shown: NDArray[np.bool_] | None = None) -> tuple[float, float]:
     """A round range that holds all but the outer half per cent of `values`; symmetric for a two-sided field."""
     data = values if shown is None else values[shown]
+    if not data.size:
+        return field.low, field.high
     low, high = (float(end) for end in np.quantile(data, (0.005, 0.995)))
     if field.two_sided:
-        high = max(abs(low), abs(high), 1e-6)
-        step = _nice(high / 4.0)
+        high = max(abs(low), abs(high), 1e-3 * field.high)
+        step = round_up(high / 4.0)
         high = step * math.ceil(high / step - 1e-9)
         return -high, high
-    step = _nice(max(high - low, 1e-6) / 5.0)
+    step = round_up(max(high - low, 1e-6) / 5.0)
     return step * math.floor(low / step + 1e-9), step * math.ceil(high / step - 1e-9)
 
 
 def ticks(low: float, high: float, about: int = 5) -> tuple[float, ...]:
     """Round tick values inside a range."""
-    step = _nice((high - low) / about)
+    step = round_up((high - low) / about)
     first = math.ceil(low / step - 1e-9)
     return tuple(step * k for k in range(first, math.floor(high / step + 1e-9) + 1))
 
 
-def _nice(step: float) -> float:
+def round_up(step: float) -> float:
     """The round number 1, 2 or 5 × 10ⁿ nearest above `step`."""
     power = 10.0 ** math.floor(math.log10(step))
     return power * next(factor for factor in (1.0, 2.0, 5.0, 10.0) if factor * power >= step * (1.0 - 1e-9))

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from explorer import colours, disk_image
 from explorer.actuator_blades import blade_twists
-from explorer.fields import FIELDS, Field, reverse_flow
+from explorer.fields import FIELDS, Field
 from explorer.meshes import blade_shape, blade_vertices
 from explorer.outlines import drag_divergence_segments, reverse_flow_segments, stall_segments
 from explorer.polar import polar_grid
@@ -53,8 +53,10 @@ class Picture:
     """Vertices blade by blade where twist follows the azimuth; empty when all are alike."""
 
 
-def make_picture(solution: Solution, view: ViewState, colour_range: tuple[float, float]) -> Picture:
-    """The frame for a converged solution."""
+def make_picture(
+    solution: Solution, view: ViewState, colour_range: tuple[float, float], field: Field | None = None
+) -> Picture:
+    """The frame for a converged solution. `field`: on the disk, where it is not just that of the view."""
     rotor, controls = solution.design.rotor, solution.controls
     step = 2.0 * math.pi / rotor.blades
     first = math.radians(view.azimuth_deg)
@@ -68,7 +70,7 @@ def make_picture(solution: Solution, view: ViewState, colour_range: tuple[float,
         blades=tuple(blade_pose(controls, psi, hinge) for psi in azimuths),
         blade_vertices=blade_vertices(shape, solution.design.twist, view.exaggeration),
         blade_faces=shape.faces,
-        png=disk_png(solution, FIELDS[view.field], colour_range),
+        png=disk_png(solution, field or FIELDS[view.field], colour_range),
         outlines=_outlines(solution, view),
         flight_label=f"{number(speed / KNOT)} kt" if speed > 0.0 else "",
         each_blade=tuple(
@@ -80,16 +82,15 @@ def make_picture(solution: Solution, view: ViewState, colour_range: tuple[float,
 def disk_png(solution: Solution, field: Field, colour_range: tuple[float, float], faded: bool = False) -> bytes:
     """The coloured disk as a PNG."""
     grid = polar_grid(solution.disk, disk_image.RADII, disk_image.AZIMUTHS)
-    void = reverse_flow(solution, grid) if field.void_in_reverse_flow else None
-    pixels = disk_image.indices(grid, field.sample(solution, grid), *colour_range, void)
+    pixels = disk_image.indices(grid, field.sample(solution, grid), *colour_range, field.void(solution, grid))
     return disk_image.encode_png(pixels, disk_image.palette(field.colours, faded))
 
 
 def field_values(solution: Solution, field: Field) -> Array:
     """All values of a field that the disk shows, to fit a range to."""
     grid = polar_grid(solution.disk, 80, 240)
-    values = field.sample(solution, grid)
-    return values[~reverse_flow(solution, grid)] if field.void_in_reverse_flow else values.ravel()
+    values, void = field.sample(solution, grid), field.void(solution, grid)
+    return values.ravel() if void is None else values[~void]
 
 
 def _outlines(solution: Solution, view: ViewState) -> dict[str, Array]:

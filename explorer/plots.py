@@ -1,7 +1,7 @@
 """Solution → chart data: finite arrays and axis ranges; a gap is NaN inside an array and never a number on screen."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,10 +32,11 @@ class Plot:
 
 @dataclass(frozen=True, eq=False)
 class PowerCurve:
-    """Total power [kW] over `SWEEP` for this design and the baseline; NaN where a point did not converge."""
+    """Total power [kW] over `SWEEP` of this design and its reference; NaN where a point did not converge."""
 
     design: Array
-    baseline: Array
+    reference: Array
+    """A when one is pinned, else the baseline."""
     ideal: Array
     """This design's power were its induced power the least that any circulation could have."""
 
@@ -54,64 +55,112 @@ def held_range(previous: Range | None, low: float, high: float) -> Range:
     return step * math.floor((low - foot) / step), step * math.ceil((high + 0.04 * span) / step)
 
 
-def power_plot(curve: PowerCurve, mu: float, power_kw: float | None, previous: Range | None) -> Plot:
-    """Series: ideal for this lift, baseline, this design, hover points of both, the present point.
+def power_plot(
+    curve: PowerCurve, mu: float, power_kw: float | None, previous: Range | None, pinned: bool = False
+) -> Plot:
+    """Series: ideal for this lift; baseline, A, this design; hover points of these three; the present point.
 
-    Hover and forward flight are two models, so the line starts at µ 0.075 and hover stands alone.
+    Hover and forward flight are two models, so the line starts at µ 0.075 and hover stands alone. `pinned`: the
+    reference of the curve is A, which takes the baseline's place.
     """
-    x = np.array(sorted({*SWEEP, mu}))
-    forward = np.array(SWEEP[1:])
-
-    def line(values: Array) -> Array:
-        y = np.interp(x, forward, values[1:], left=math.nan, right=math.nan)
-        y[x < LOW_SPEED] = math.nan
-        return y
-
-    def single(at: float, value: float) -> Array:
-        y = np.full(len(x), math.nan)
-        y[x == at] = value
-        return y
-
-    now = single(mu, math.nan if power_kw is None else power_kw)
-    data = (
-        x,
-        line(curve.ideal),
-        line(curve.baseline),
-        line(curve.design),
-        single(0.0, curve.baseline[0]),
-        single(0.0, curve.design[0]),
-        now,
-    )
-    # Ranged on what is flown: the last points climb so steeply that they would flatten everything else.
-    flown = x <= max(0.4, mu)
-    return Plot(data, _range_of([values[flown] for values in data[1:]], previous, floor=0.0))
+    x = _with_point(mu)
+    lines = (_line(x, curve.reference), _line(x, curve.design))
+    hovers = (_single(x, 0.0, curve.reference[0]), _single(x, 0.0, curve.design[0]))
+    now = _single(x, mu, math.nan if power_kw is None else power_kw)
+    data = (x, _line(x, curve.ideal), *_placed(pinned, *lines), *_placed(pinned, *hovers), now)
+    return Plot(data, _range_of(_flown(data, mu), previous, floor=0.0))
 
 
-def twist_plot(design: Design, baseline: Design, previous: Range | None) -> Plot:
-    """Series: baseline, this design [°]."""
+def apart_plot(curve: PowerCurve, mu: float, apart_kw: float | None, previous: Range | None) -> Plot:
+    """Series: zero, B − A [kW] over µ, its hover point, the present point."""
+    x = _with_point(mu)
+    apart = curve.design - curve.reference
+    now = _single(x, mu, math.nan if apart_kw is None else apart_kw)
+    data = (x, np.zeros(len(x)), _line(x, apart), _single(x, 0.0, apart[0]), now)
+    seen = np.concatenate([values[np.isfinite(values)] for values in _flown(data, mu)])
+    return Plot(data, held_range(previous, min(float(seen.min()), -1.0), max(float(seen.max()), 1.0)))
+
+
+def _with_point(mu: float) -> Array:
+    """The advance ratios of the sweep and the present one."""
+    return np.array(sorted({*SWEEP, mu}))
+
+
+def _line(x: Array, values: Array) -> Array:
+    """A curve over `SWEEP` at x, where forward flight is trusted."""
+    y = np.interp(x, np.array(SWEEP[1:]), values[1:], left=math.nan, right=math.nan)
+    y[x < LOW_SPEED] = math.nan
+    return y
+
+
+def _single(x: Array, at: float, value: float) -> Array:
+    y = np.full(len(x), math.nan)
+    y[x == at] = value
+    return y
+
+
+def _placed(pinned: bool, reference: Array, design: Array) -> tuple[Array, Array, Array]:
+    """Series of the baseline, of A, of the design: a chart has them all from the start, and one is empty."""
+    none = np.full_like(reference, math.nan)
+    return (none, reference, design) if pinned else (reference, none, design)
+
+
+def _flown(data: tuple[Array, ...], mu: float) -> list[Array]:
+    """What a range must hold: the last points climb so steeply that they would flatten everything else."""
+    flown = data[0] <= max(0.4, mu)
+    return [values[flown] for values in data[1:]]
+
+
+def twist_plot(design: Design, reference: Design, previous: Range | None, pinned: bool = False) -> Plot:
+    """Series: baseline, A, this design [°]. `pinned`: the reference is A."""
     r = np.linspace(design.rotor.blade.root_cutout, 1.0, 120)
-    series = (np.degrees(baseline.twist(r)), np.degrees(design.twist(r)))
+    one = np.degrees(reference.twist(r))
+    one[r < reference.rotor.blade.root_cutout] = math.nan
+    series = _placed(pinned, one, np.degrees(design.twist(r)))
     return Plot((r, *series), _range_of(series, previous))
 
 
-def alpha_plot(solution: Solution, azimuth_deg: float) -> Plot:
-    """Series: negative and positive stall angle, α [°] along the blade at one azimuth; gaps in reverse flow."""
-    disk = solution.disk
-    theta, u_t, u_p = (_at_azimuth(solution, values, azimuth_deg) for values in (disk.theta, disk.u_t, disk.u_p))
-    lower, upper = (_at_azimuth(solution, limit, azimuth_deg) for limit in stall_angles(solution))
+def alpha_plot(solution: Solution, azimuth_deg: float, pinned: Solution | None = None) -> Plot:
+    """Series: negative and positive stall angle, α [°] along the blade at one azimuth; gaps in reverse flow.
+
+    The α of the marked blade alone, or of A and of B when A is pinned.
+    """
     low, high = -15.0, 20.0
-    # Points far outside are pulled to just beyond the axis, where the chart cuts them off.
-    series = (
-        np.where(u_t > 0.0, np.clip(np.degrees(values), low - 5.0, high + 5.0), np.nan)
-        for values in (lower, upper, theta - np.arctan2(u_p, u_t))
-    )
-    return Plot((disk.r, *series), (low, high))
+
+    def shown(one: Solution, angles: Array) -> Array:
+        # Points far outside are pulled to just beyond the axis, where the chart cuts them off.
+        ahead = _at_azimuth(one, one.disk.u_t, azimuth_deg) > 0.0
+        return np.where(ahead, np.clip(np.degrees(angles), low - 5.0, high + 5.0), np.nan)
+
+    def alpha(one: Solution) -> Array:
+        disk = one.disk
+        theta, u_t, u_p = (_at_azimuth(one, values, azimuth_deg) for values in (disk.theta, disk.u_t, disk.u_p))
+        return shown(one, theta - np.arctan2(u_p, u_t))
+
+    limits = (shown(solution, _at_azimuth(solution, limit, azimuth_deg)) for limit in stall_angles(solution))
+    return Plot((solution.disk.r, *limits, *_marked(solution, pinned, alpha)), (low, high))
 
 
-def lift_plot(solution: Solution, azimuth_deg: float) -> Plot:
-    """Series: Cl along the blade at one azimuth, reverse flow included."""
-    cl = _at_azimuth(solution, solution.disk.cl, azimuth_deg)
-    return Plot((solution.disk.r, cl), (-0.5, 1.5))
+def lift_plot(solution: Solution, azimuth_deg: float, pinned: Solution | None = None) -> Plot:
+    """Series: Cl along the marked blade at one azimuth, or of A and of B when A is pinned; reverse flow included."""
+    series = _marked(solution, pinned, lambda one: _at_azimuth(one, one.disk.cl, azimuth_deg))
+    return Plot((solution.disk.r, *series), (-0.5, 1.5))
+
+
+def _marked(
+    solution: Solution, pinned: Solution | None, read: Callable[[Solution], Array]
+) -> tuple[Array, Array, Array]:
+    """Series of the marked blade, of A, of B, on the elements of `solution`; those that do not apply are empty."""
+    own, r = read(solution), solution.disk.r
+    none = np.full_like(own, math.nan)
+    if pinned is None:
+        return own, none, none
+    if not pinned.converged:
+        return none, none, own
+    other = read(pinned)
+    if not np.array_equal(r, pinned.disk.r):  # Beyond its own root and tip there is none of A.
+        other = np.interp(r, pinned.disk.r, other, left=math.nan, right=math.nan)
+    return none, other, own
 
 
 def _at_azimuth(solution: Solution, values: Array, azimuth_deg: float) -> Array:
@@ -131,18 +180,19 @@ def _range_of(series: Sequence[Array], previous: Range | None, floor: float | No
     return held_range(previous, low, float(finite.max()))
 
 
-def blank() -> tuple[Plot, Plot, Plot, Plot]:
-    """Empty charts for a page that waits for its first answer: power, twist, α, Cl.
+def blank() -> tuple[Plot, Plot, Plot, Plot, Plot]:
+    """Empty charts for a page that waits for its first answer: power, B − A, twist, α, Cl.
 
     Their ranges are none that an answer has, so that the first answer makes the page build each chart anew: viser's
     charts start with no width, and one that is fed while it gets its width would stay without axis numbers.
     """
     none = np.full(2, np.nan)
-    ends = np.array([0.13, 1.0])
+    mu, ends = np.array([0.0, 0.45]), np.array([0.13, 1.0])
     waiting = (-1e-3, 1e-3)
     return (
-        Plot((np.array([0.0, 0.45]), *(none,) * 6), waiting),
-        Plot((ends, none, none), waiting),
-        Plot((ends, none, none, none), waiting),
-        Plot((ends, none), waiting),
+        Plot((mu, *(none,) * 8), waiting),
+        Plot((mu, *(none,) * 4), waiting),
+        Plot((ends, *(none,) * 3), waiting),
+        Plot((ends, *(none,) * 5), waiting),
+        Plot((ends, *(none,) * 3), waiting),
     )

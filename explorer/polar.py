@@ -29,14 +29,28 @@ class PolarGrid:
         return self.along @ field @ self.around
 
 
-def polar_grid(disk: DiskFields, radii: int, azimuths: int) -> PolarGrid:
-    """The grid of `radii` × `azimuths` points over `disk`; kept for the next frame."""
-    return _build(len(disk.r), float(disk.r[0]), disk.dr, len(disk.psi), float(disk.psi[0]), radii, azimuths)
+def polar_grid(disk: DiskFields, radii: int, azimuths: int, ends: tuple[float, float] | None = None) -> PolarGrid:
+    """The grid of `radii` × `azimuths` points over `disk`; kept for the next frame.
+
+    `ends`: first and last y/R, where they are not those of `disk` itself; beyond them values are extrapolated.
+    """
+    first, last = float(disk.r[0]), float(disk.r[0]) + disk.dr * (len(disk.r) - 1)
+    ends = ends or (first - disk.dr / 2.0, last + disk.dr / 2.0)
+    return _build(len(disk.r), first, disk.dr, len(disk.psi), float(disk.psi[0]), radii, azimuths, ends)
 
 
 @lru_cache(maxsize=16)
-def _build(n_r: int, first_r: float, dr: float, n_psi: int, first_psi: float, radii: int, azimuths: int) -> PolarGrid:
-    r = np.linspace(first_r - dr / 2.0, first_r + dr * (n_r - 0.5), radii)
+def _build(
+    n_r: int,
+    first_r: float,
+    dr: float,
+    n_psi: int,
+    first_psi: float,
+    radii: int,
+    azimuths: int,
+    ends: tuple[float, float],
+) -> PolarGrid:
+    r = np.linspace(*ends, radii)
     psi = 2.0 * np.pi * np.arange(azimuths) / azimuths
     return PolarGrid(
         r=r,

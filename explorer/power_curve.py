@@ -11,7 +11,6 @@ from scipy.interpolate import PchipInterpolator
 
 from explorer.plots import SWEEP, PowerCurve
 from explorer.readout import ideal_induced
-from explorer.state import baseline_of
 from rotor.design import Design
 from rotor.solution import Solution
 from rotor.solve import solve
@@ -35,18 +34,18 @@ class PowerCurves:
         """Curves swept in haste, to be swept again once there is time."""
         self._last: tuple[Design | None, float] = (None, -math.inf)
 
-    def known(self, design: Design) -> PowerCurve:
-        """The curves of this design and its baseline; for the design's own, until it is swept, the one before it."""
+    def known(self, design: Design, reference: Design) -> PowerCurve:
+        """The curves of a design and of what it is compared with; of the design, until it is swept, the one before."""
         blank = np.full((2, len(SWEEP)), math.nan)
         last = self._last[0]
         before = self._curves.get(last, blank) if last is not None else blank
         total, ideal = self._curves.get(_family(design), before)
-        return PowerCurve(total, self._curves.get(_family(baseline_of(design)), blank)[0], ideal)
+        return PowerCurve(total, self._curves.get(_family(reference), blank)[0], ideal)
 
-    def sweep(self, design: Design, superseded: Callable[[], bool]) -> bool:
-        """Make the curves of this design and its baseline known; False when given up half way."""
+    def sweep(self, design: Design, reference: Design, superseded: Callable[[], bool]) -> bool:
+        """Make the curves of a design and of what it is compared with known; False when given up half way."""
         patient = time.monotonic() - self._last[1] < PATIENCE
-        for family in (_family(design), _family(baseline_of(design))):
+        for family in (_family(design), _family(reference)):
             if family in self._curves and family not in self._coarse:
                 continue
             coarse = False

@@ -13,7 +13,7 @@ from rotor.switches import switched_off
 HORSEPOWER_KW = 0.745699872
 """Mechanical horsepower [kW]."""
 _BLANK = "–"
-_PART_TITLES = {"induced": "Induced", "profile": "Profile", "parasite": "Parasite", "tail": "Tail rotor"}
+PART_TITLES = {"induced": "Induced", "profile": "Profile", "parasite": "Parasite", "tail": "Tail rotor"}
 
 
 def number(value: float | None, digits: int = 0, sign: bool = False) -> str:
@@ -36,10 +36,10 @@ def power_panel(solution: Solution, baseline: Solution | None) -> str:
         '<div class="rx" data-explorer="power"><div class="rx-line rx-base">'
         f'<span class="rx-total" data-explorer="total-power">{number(total)} kW</span>'
         f'<span class="rx-dim">{number(total / HORSEPOWER_KW)} hp</span>'
-        f'<span class="rx-push">{_change(power, reference)}</span></div>'
+        f'<span class="rx-push">{change(power, reference)}</span></div>'
         '<div class="rx-line rx-dim"><span>total power</span>'
         f"<span>against {escape(baseline_title(solution.design))}</span></div>"
-        f'<div class="rx-bar">{_bar(power, ideal)}</div><table>{rows}</table>{_ideal_line(solution, ideal)}</div>'
+        f'<div class="rx-bar">{bar(power, ideal)}</div><table>{rows}</table>{ideal_line(solution, ideal)}</div>'
     )
 
 
@@ -51,7 +51,7 @@ def ideal_induced(solution: Solution) -> float | None:
     return factor * solution.ct * solution.controls.lambda0 * solution.design.power_unit
 
 
-def _ideal_line(solution: Solution, ideal: float | None) -> str:
+def ideal_line(solution: Solution, ideal: float | None) -> str:
     """κ, and the bound beside it."""
     hint = "Induced power over that of an even load, C_T λ0. Ideal: least of any circulation with this lift, C_l ≤ 1.2."
     kappa = f'κ = Pi/(CT·λ0) <b data-explorer="kappa">{number(solution.induced_power_factor, 2)}</b>'
@@ -68,43 +68,51 @@ def check_panel(reference: Solution | None, solution: Solution) -> str:
         return '<div class="rx rx-dim rx-check">Vortex wake: computing …</div>'
     if not reference.converged:
         return f'<div class="rx rx-dim rx-check">Vortex wake: {escape(reference.message)}</div>'
-    change = 100.0 * (solution.power.total / reference.power.total - 1.0)
+    apart = 100.0 * (solution.power.total / reference.power.total - 1.0)
     return (
         '<div class="rx rx-check rx-line" data-explorer="check"><span class="rx-dim">Vortex wake</span>'
         f"<span><b>{number(reference.power.total / 1e3)} kW</b>, κ {number(reference.induced_power_factor, 2)}; "
-        f"shown is {number(change, 1, sign=True)} %</span></div>"
+        f"shown is {number(apart, 1, sign=True)} %</span></div>"
     )
 
 
-def _change(power: PowerBudget, reference: PowerBudget | None) -> str:
+def change(power: PowerBudget, reference: PowerBudget | None) -> str:
+    """Of the total [%], green for less, rust for more; a dash without a reference."""
     if reference is None or reference.total <= 0.0:
         return f'<span class="rx-dim">{_BLANK}</span>'
-    change = 100.0 * (power.total / reference.total - 1.0)
-    kind = "" if abs(change) < 0.05 else " rx-less" if change < 0.0 else " rx-more"
-    return f'<span class="rx-change{kind}" data-explorer="change">{number(change, 1, sign=True)} %</span>'
+    percent = 100.0 * (power.total / reference.total - 1.0)
+    return (
+        f'<span class="rx-change{direction(percent)}" data-explorer="change">{number(percent, 1, sign=True)} %</span>'
+    )
 
 
-def _bar(power: PowerBudget, ideal: float | None) -> str:
+def direction(percent: float) -> str:
+    """Class of a change that is not nothing: less is green, more is rust."""
+    return "" if abs(percent) < 0.05 else " rx-less" if percent < 0.0 else " rx-more"
+
+
+def bar(power: PowerBudget, ideal: float | None) -> str:
+    """The parts side by side, and a mark at the ideal induced power."""
     values = {name: getattr(power, name) for name in PARTS}
     parts = {name: value if value > 0.0 and math.isfinite(value) else 0.0 for name, value in values.items()}
     total = max(sum(parts.values()), 1.0)
-    bar = "".join(
+    spans = "".join(
         f'<span style="flex:{value / total:.5f};background:{PARTS[name]}"></span>' for name, value in parts.items()
     )
     if ideal is None:
-        return bar
-    return bar + f'<i class="rx-mark" style="position:absolute;left:{100.0 * ideal / total:.2f}%"></i>'
+        return spans
+    return spans + f'<i class="rx-mark" style="position:absolute;left:{100.0 * ideal / total:.2f}%"></i>'
 
 
 def _row(name: str, power: PowerBudget, reference: PowerBudget | None) -> str:
     value = getattr(power, name)
     share = 100.0 * value / power.total if power.total > 0.0 else None
-    change = None if reference is None else (value - getattr(reference, name)) / 1e3
+    apart = None if reference is None else (value - getattr(reference, name)) / 1e3
     return (
-        f'<tr><td><span class="rx-patch" style="background:{PARTS[name]}"></span>{_PART_TITLES[name]}</td>'
+        f'<tr><td><span class="rx-patch" style="background:{PARTS[name]}"></span>{PART_TITLES[name]}</td>'
         f'<td class="rx-num">{number(value / 1e3)} kW</td>'
         f'<td class="rx-num rx-dim" style="width:19%">{number(share)} %</td>'
-        f'<td class="rx-num rx-dim" style="width:25%">{number(change, sign=True)} kW</td></tr>'
+        f'<td class="rx-num rx-dim" style="width:25%">{number(apart, sign=True)} kW</td></tr>'
     )
 
 
@@ -138,8 +146,11 @@ def _deg(angle: float, digits: int = 2) -> str:
     return f"{number(math.degrees(angle), digits)}°"
 
 
-def status_panel(solution: Solution | None, problem: str | None = None) -> str:
-    """A box of constant height: how the solve ended, every reason to read it with care, and how it was computed."""
+def status_panel(solution: Solution | None, problem: str | None = None, pinned: Solution | None = None) -> str:
+    """A box of constant height: how the solve ended, every reason to read it with care, and how it was computed.
+
+    `pinned`: A, whose reasons count too where two designs are compared.
+    """
     if problem is None and solution is not None and not solution.converged:
         problem = solution.message
     if problem is not None:
@@ -147,11 +158,34 @@ def status_panel(solution: Solution | None, problem: str | None = None) -> str:
     if solution is None:
         return _status("waiting", "Solving the first trim …")
     caveats = "".join(
-        f'<div class="rx-care"><span>▲</span><span>{escape(c.sentence)}</span></div>' for c in solution.caveats
+        f'<div class="rx-care"><span>▲</span><span>{escape(sentence)}</span></div>'
+        for sentence in cautions(solution, pinned)
     )
     detail = f"Residual below {_tiny(solution.residual)} of weight, {solution.passes} passes."
     text = f'<div><span class="rx-good">●</span> {escape(solution.message)} {detail}</div>'
     return _status("converged", text + caveats + provenance(solution))
+
+
+def cautions(solution: Solution, pinned: Solution | None) -> list[str]:
+    """Reasons to read the numbers with care; with A beside them, whose each is and what else sets the two apart."""
+    own = [caveat.sentence for caveat in solution.caveats]
+    if pinned is None:
+        return own
+    if not pinned.converged:
+        return [f"A: {pinned.message}", *own]
+    other = [caveat.sentence for caveat in pinned.caveats]
+    a, b = pinned.design, solution.design
+    apart = []
+    if a.condition != b.condition:
+        apart.append("A and B do not fly the same: the difference is not the design's alone.")
+    if (a.preset, a.models) != (b.preset, b.models):
+        apart.append("A and B are computed with different models: the difference is not the blade's alone.")
+    return [
+        *apart,
+        *(sentence for sentence in own if sentence in other),
+        *(f"A: {sentence}" for sentence in other if sentence not in own),
+        *(f"B: {sentence}" for sentence in own if sentence not in other),
+    ]
 
 
 def _tiny(value: float) -> str:
@@ -195,12 +229,17 @@ def explanation(text: str) -> str:
     return f'<div class="rx rx-dim rx-small rx-explain">{escape(text)}</div>'
 
 
-def heading(title: str, key: tuple[tuple[str, str], ...]) -> str:
-    """A chart's title with the key of its lines: name and colour."""
-    entries = "".join(
-        f'<span><span class="rx-dash" style="background:{colour}"></span>{escape(name)}</span>' for name, colour in key
-    )
+def heading(title: str, key: tuple[tuple[str, str] | tuple[str, str, bool], ...]) -> str:
+    """A chart's title with the key of its lines: name, colour, and whether the line is dashed."""
+    entries = "".join(f"<span>{dash(colour, *dashed)}{escape(name)}</span>" for name, colour, *dashed in key)
     return f'<div class="rx rx-line rx-heading"><span>{escape(title)}</span>{entries}</div>'
+
+
+def dash(colour: str, dashed: bool = False) -> str:
+    """The sample of a line."""
+    if dashed:
+        return f'<span class="rx-dash rx-dashed" style="color:{colour}"></span>'
+    return f'<span class="rx-dash" style="background:{colour}"></span>'
 
 
 def faded(html: str) -> str:

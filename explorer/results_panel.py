@@ -3,8 +3,8 @@
 import numpy as np
 import viser
 
-from explorer import plots, readout
-from explorer.charts import Charts
+from explorer import ab_readout, plots, readout
+from explorer.charts import AB_KEY, ALPHA_KEY, IDEAL_KEY, LIFT_KEY, POWER_KEY, STALL_KEY, TWIST_KEY, Charts
 from explorer.desk import Moment
 from explorer.plots import PowerCurve
 from explorer.solver import with_vortex_wake
@@ -21,35 +21,47 @@ class ResultsPanel:
         self._trim = gui.add_html("")
         self._check = gui.add_html("")
         self._charts = Charts(gui, *plots.blank())
+        self._moment: Moment | None = None
+        """The last good one."""
         self._checked: Solution | None = None
         """The last check with the vortex wake."""
         self._check_wanted = False
 
     def show(self, moment: Moment) -> None:
         """Follow a converged answer."""
-        solution, azimuth = moment.solution, moment.view.azimuth_deg
-        self._status.content = readout.status_panel(solution)
-        self._power.content = readout.power_panel(solution, moment.baseline)
-        self._trim.content = readout.trim_panel(solution)
+        self._moment = moment
+        solution, pinned, azimuth = moment.solution, moment.pinned, moment.view.azimuth_deg
+        ab = pinned is not None
+        self._status.content = readout.status_panel(solution, pinned=pinned)
+        self._power.content, self._trim.content = _numbers(moment)
         charts = self._charts
-        charts.twist.show(plots.twist_plot(solution.design, moment.baseline.design, charts.twist.y_range))
-        charts.alpha.show(plots.alpha_plot(solution, azimuth))
-        charts.lift.show(plots.lift_plot(solution, azimuth))
+        twist = plots.twist_plot(solution.design, moment.reference.design, charts.twist.y_range, ab)
+        charts.twist.show(twist, AB_KEY if ab else TWIST_KEY)
+        charts.alpha.show(plots.alpha_plot(solution, azimuth, pinned), (*AB_KEY, *STALL_KEY) if ab else ALPHA_KEY)
+        charts.lift.show(plots.lift_plot(solution, azimuth, pinned), AB_KEY if ab else LIFT_KEY)
+        charts.apart.set_visible(ab)
         self._compare(solution)
 
-    def show_power(self, solution: Solution, curve: PowerCurve, lost: bool = False) -> None:
+    def show_power(self, moment: Moment, curve: PowerCurve, lost: bool = False) -> None:
         """Power over µ, once the first sweep has arrived; without the present point where there is none."""
         if not np.isfinite(curve.design).any():
             return
-        chart, now = self._charts.power, None if lost else solution.power.total / 1e3
-        chart.show(plots.power_plot(curve, solution.design.condition.advance_ratio, now, chart.y_range))
+        solution, pinned, charts = moment.solution, moment.pinned, self._charts
+        mu, ab = solution.design.condition.advance_ratio, pinned is not None
+        now = None if lost else solution.power.total / 1e3
+        power = plots.power_plot(curve, mu, now, charts.power.y_range, ab)
+        charts.power.show(power, (*AB_KEY, *IDEAL_KEY) if ab else POWER_KEY)
+        if pinned is not None:
+            apart = None
+            if not lost and pinned.converged and pinned.design.condition == solution.design.condition:
+                apart = (solution.power.total - pinned.power.total) / 1e3
+            charts.apart.show(plots.apart_plot(curve, mu, apart, charts.apart.y_range))
 
-    def problem(self, status: str, good: Solution | None) -> None:
+    def problem(self, status: str) -> None:
         """Keep the last good answer, but grey, with the sentence in red."""
         self._status.content = status
-        if good is not None:
-            self._power.content = readout.faded(readout.power_panel(good, None))
-            self._trim.content = readout.faded(readout.trim_panel(good))
+        if self._moment is not None:
+            self._power.content, self._trim.content = map(readout.faded, _numbers(self._moment))
 
     def check(self) -> None:
         """Compute the vortex wake beside the answer in the next round."""
@@ -65,3 +77,11 @@ class ResultsPanel:
             self._check.content = readout.check_panel(None, solution)
             self._checked = solve(with_vortex_wake(solution.design), solution)
             self._check.content = readout.check_panel(self._checked, solution)
+
+
+def _numbers(moment: Moment) -> tuple[str, str]:
+    """Power and trim: of this design, or of A and B."""
+    solution, pinned = moment.solution, moment.pinned
+    if pinned is None:
+        return readout.power_panel(solution, moment.baseline), readout.trim_panel(solution)
+    return ab_readout.power_panel(solution, pinned), ab_readout.trim_panel(solution, pinned)

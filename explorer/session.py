@@ -23,12 +23,13 @@ from explorer.jobs import Pool
 from explorer.keyboard import Keyboard
 from explorer.map_panel import MapPanel
 from explorer.optimise_panel import OptimisePanel
-from explorer.overlays import Strip
+from explorer.overlays import Strip, ghost_of
 from explorer.power_curve import PowerCurves
 from explorer.results_panel import ResultsPanel
 from explorer.schedule_panel import SchedulePanel
 from explorer.sensitivity_panel import SensitivityPanel
-from explorer.state import Inputs, ViewState, baseline_of
+from explorer.state import Inputs, ViewState, baseline_of, with_optimum
+from explorer.top_bar import TopBar
 from explorer.view import View
 from explorer.viser_compat import PageFacts
 from explorer.worker import LatestWins
@@ -68,6 +69,7 @@ class Session:
         self._theme()
         gui.set_panel_label("Rotor explorer")
         gui.add_html(style.SHEET)
+        self._top = TopBar(gui, self._worker.wake, lambda: self._history.undo(), lambda: self._history.redo())
         tabs = gui.add_tab_group()
         with tabs.add_tab("Design"):
             self._controls = Controls(gui, start, self._worker.wake, dark)
@@ -105,7 +107,7 @@ class Session:
             gui.add_html(trust_readout.trust_page())
         panel.dock_left()
         panel.set_width(_CHART_WIDTH)
-        self._tabs: tuple[Tab, ...] = (sensitivity, self._history, self._file)
+        self._tabs: tuple[Tab, ...] = (self._top, sensitivity, self._history, self._file)
         """Everything that only follows."""
         self._camera = FittedCamera(client, rotor.radius)
         self._actuator.shown.on_update(self._cut_switched)
@@ -114,6 +116,7 @@ class Session:
         controls.view_buttons.on_click(lambda event: self._look(VIEW_BUTTONS[event.target.value]))
         controls.range_buttons.on_click(lambda event: self._colour(event.target.value))
         controls.check_button.on_click(lambda _: self._check())
+        desk.bind("pin", self._top.toggle)
         bind_commands(desk, Actions(self._look, self._colour, self._check, self._reset, self._optimise.toggle))
         if problem:
             self._notify("Not the design of the link", problem)
@@ -142,6 +145,8 @@ class Session:
         except ValueError as error:
             self._follow(None)
             self._latest = None
+            if self._settle(inputs, None):
+                return
             self._actuator.lose(str(error))
             self._lose(view, readout.status_panel(None, str(error)))
             return
@@ -152,25 +157,38 @@ class Session:
         if self._latest is None or self._latest.design != design:
             self._latest = solve(design, self._good)
         solution = self._latest
+        if self._settle(inputs if preview is None else with_optimum(inputs, preview), solution):
+            return
         if not solution.converged:
             self._actuator.lose(solution.message)
             self._lose(view, readout.status_panel(solution))
             return
         self._good = solution
         self._history.solved(inputs, solution.power.total)
-        self._frame.draw(solution, view, None if preview is None else plain.twist)
+        top = self._top
+        # A before the frame only where the frame shows it: nothing else may hold the frame up.
+        on_disk = top.solve(design) if view.difference else None
+        self._frame.draw(solution, view, ghost_of(None if preview is None else plain, top.pinned), on_disk)
         self._camera.ride(math.radians(view.azimuth_deg))
         self._actuator.show(actuator, plain, solution, math.radians(view.azimuth_deg))
-        moment = self._moment = Moment(inputs, view, solution, self._baseline.solve(baseline_of(design)), None)
+        baseline = self._baseline.solve(baseline_of(design))
+        moment = self._moment = Moment(inputs, view, solution, baseline, top.solve(design), top.pinned)
+        reference = moment.reference.design
         self._results.show(moment)
-        self._results.show_power(solution, self._curves.known(design))
+        self._results.show_power(moment, self._curves.known(design, reference))
         if not superseded():
             for tab in self._tabs:
                 tab.show(moment)
             self._file.follow(inputs)
-        if self._curves.sweep(design, superseded):
-            self._results.show_power(solution, self._curves.known(design))
+        if self._curves.sweep(design, reference, superseded):
+            self._results.show_power(moment, self._curves.known(design, reference))
             self._file.follow(inputs)
+
+    def _settle(self, inputs: Inputs, solution: Solution | None) -> bool:
+        """Do what the buttons of A/B asked; whether that moves the sliders, so that another round follows."""
+        moved = self._top.settle(inputs, solution, self._desk)
+        self._controls.allow_difference(self._top.pinned is not None)
+        return moved
 
     def _follow(self, design: Design | None) -> None:
         """Bring the tabs that start long work into line with the design on the sliders."""
@@ -180,18 +198,18 @@ class Session:
 
     def _lose(self, view: ViewState, status: str) -> None:
         """The inputs have no answer: the last good one stays, grey, beneath the sentence."""
-        good = self._good
-        self._results.problem(status, good)
+        self._results.problem(status)
         for tab in self._tabs:
             tab.lose()
-        self._frame.fade(good, view)
-        if good is not None:
-            self._results.show_power(good, self._curves.known(good.design), lost=True)
+        self._frame.fade(self._good, view, self._top.answer if view.difference else None)
+        if (last := self._moment) is not None:
+            curve = self._curves.known(last.solution.design, last.reference.design)
+            self._results.show_power(last, curve, lost=True)
 
     def _report(self, error: Exception) -> None:
         _log.error("an update failed", exc_info=error)
         sentence = f"This update failed ({error}): move any slider to go on."
-        self._results.problem(readout.status_panel(None, sentence), None)
+        self._results.problem(readout.status_panel(None, sentence))
 
     def _send(self, name: str, content: bytes) -> None:
         self._client.send_file_download(name, content, save_immediately=True)

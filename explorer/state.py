@@ -137,6 +137,8 @@ class ViewState:
     field: str = "Angle of attack"
     azimuth_deg: float = 60.0
     exaggeration: float = 1.0
+    difference: bool = False
+    """Whether the disk shows B − A while a design is pinned."""
     reverse_flow: bool = True
     stall: bool = True
     drag_divergence: bool = True

@@ -5,6 +5,8 @@ SHEET = """<style>
 [style*="padding-bottom: 0.5em"] { padding-bottom: 0.3em !important; }
 /* Tabs close enough for their names to stand in one row, or two. */
 .mantine-Tabs-tab { padding: 7px 8px !important; }
+/* A row of buttons without a label has the whole width. */
+[class*=Flex-root]:has(> div > p > label:empty) > :first-child { display: none; }
 .rx { font-size: 12.5px; line-height: 1.37; padding: 0 14px; }
 .rx-dim { color: var(--mantine-color-dimmed); }
 .rx-small { font-size: 11.5px; }
@@ -27,6 +29,19 @@ SHEET = """<style>
 .rx table { width: 100%; border-collapse: collapse; white-space: nowrap; }
 .rx td { padding: 0; }
 .rx-patch { display: inline-block; width: 9px; height: 9px; border-radius: 2px; margin-right: 7px; }
+.rx-bars { display: grid; grid-template-columns: auto 1fr; column-gap: 6px; align-items: center; font-size: 10.5px;
+  line-height: 12px; margin: 4px 0 3px; }
+.rx-bars .rx-bar { margin: 1px 0; }
+.rx-ab { table-layout: fixed; }
+.rx-ab td:first-child { width: 34%; }
+.rx-ab .rx-dash { margin-right: 4px; }
+.rx-sum td { border-top: 1px solid rgba(128,128,128,.35); font-weight: 600; }
+.rx-four { display: grid; grid-template-columns: 1fr 1fr 1fr; text-align: right; white-space: nowrap;
+  font-variant-numeric: tabular-nums; }
+.rx-four > :first-child { text-align: left; }
+.rx-four .rx-dash { margin-right: 4px; }
+.rx-fit { overflow: hidden; text-overflow: ellipsis; }
+.rx-pinned { padding-bottom: 4px; }
 .rx-grid { display: grid; grid-template-columns: 1fr 1fr; column-gap: 18px; padding-top: 4px; }
 .rx-status { margin: 4px 10px 2px; padding: 5px 8px; height: 72px; overflow-y: auto; border-radius: 4px;
   font-size: 12px; line-height: 1.32; background: rgba(128,128,128,.10); }
@@ -40,6 +55,7 @@ SHEET = """<style>
 .rx-heading { padding-top: 3px; margin-bottom: -9px; font-size: 12px; gap: 10px; }
 .rx-heading > :first-child { font-weight: 600; margin-right: auto; }
 .rx-dash { display: inline-block; width: 12px; height: 3px; vertical-align: middle; margin-right: 4px; }
+.rx-dashed { background: repeating-linear-gradient(90deg, currentColor 0 5px, transparent 5px 7px); }
 .rx-scale { font-size: 12px; padding-bottom: 4px; }
 .rx-gradient { height: 12px; border-radius: 2px; margin-top: 3px; }
 .rx-ticks { position: relative; height: 19px; }

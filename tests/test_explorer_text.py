@@ -168,7 +168,7 @@ class TestPlots:
     def test_hover_stands_alone(self):
         """No line between µ 0 and 0.075: two models, and neither is trusted between."""
         plot = plots.power_plot(self.curve(), 0.05, 1000.0, None)
-        x, ideal, _, line, _, hover, now = plot.data
+        x, ideal, _, _, line, _, _, hover, now = plot.data
         assert np.isnan(line[x < 0.075]).all()
         assert np.isfinite(line[x >= 0.075]).all()
         assert (ideal[x >= 0.075] < line[x >= 0.075]).all()
@@ -192,7 +192,7 @@ class TestPlots:
 
     def test_angle_of_attack_has_a_gap_in_reverse_flow(self):
         solution = solve(make_design(advance_ratio=0.35)).require()
-        r, lower, upper, alpha = plots.alpha_plot(solution, 270.0).data
+        r, lower, upper, alpha = plots.alpha_plot(solution, 270.0).data[:4]
         assert np.isnan(alpha[r < 0.3]).all()
         assert np.isfinite(alpha[r > 0.4]).all()
         assert np.isnan(lower[r < 0.3]).all()
@@ -204,14 +204,14 @@ class TestPlots:
         assert_allclose(first, last, rtol=1e-12)
 
     def test_stall_limit_lies_above_an_unstalled_blade(self, forward: Solution):
-        r, lower, upper, alpha = plots.alpha_plot(forward, 60.0).data
+        r, lower, upper, alpha = plots.alpha_plot(forward, 60.0).data[:4]
         assert (upper > alpha).all()
         assert (lower < alpha).all()
         assert 10.0 < upper[r.searchsorted(0.4)] < 16.0
 
     def test_twist_in_degrees(self):
         design = Inputs(law="linear", linear=-10.0).design()
-        r, baseline, twist = plots.twist_plot(design, baseline_of(design), None).data
+        r, baseline, _, twist = plots.twist_plot(design, baseline_of(design), None).data
         assert_allclose(twist, -10.0 * (r - 0.75), atol=1e-12)
         assert baseline.max() == pytest.approx(9.6, abs=0.2)
 
@@ -220,33 +220,35 @@ class TestPowerCurves:
     def test_sweep_matches_single_solves(self):
         design = Inputs(law="linear", linear=-8.0).design()
         curves = PowerCurves()
-        assert np.isnan(curves.known(design).design).all()
-        assert curves.sweep(design, lambda: False)
+        assert np.isnan(curves.known(design, baseline_of(design)).design).all()
+        assert curves.sweep(design, baseline_of(design), lambda: False)
         k = plots.SWEEP.index(0.2)
-        assert_allclose(curves.known(design).design[k], solve(design).power.total / 1e3, rtol=1e-6)
-        assert_allclose(curves.known(design).baseline[k], solve(baseline_of(design)).power.total / 1e3, rtol=1e-6)
+        known = curves.known(design, baseline_of(design))
+        assert_allclose(known.design[k], solve(design).power.total / 1e3, rtol=1e-6)
+        assert_allclose(known.reference[k], solve(baseline_of(design)).power.total / 1e3, rtol=1e-6)
 
     def test_speed_does_not_make_a_new_curve(self):
         design = Inputs(advance_ratio=0.2).design()
         curves = PowerCurves()
-        curves.sweep(design, lambda: False)
+        curves.sweep(design, baseline_of(design), lambda: False)
         faster = Inputs(advance_ratio=0.3).design()
-        assert np.isfinite(curves.known(faster).design[1:10]).all()
+        assert np.isfinite(curves.known(faster, baseline_of(faster)).design[1:10]).all()
 
     def test_a_drag_never_starves_the_curve_but_gives_way_to_input(self):
         curves = PowerCurves()
-        assert curves.sweep(Inputs(law="linear", linear=-8.0).design(), lambda: True)  # Old enough: swept coarsely.
+        design = Inputs(law="linear", linear=-8.0).design()
+        assert curves.sweep(design, baseline_of(design), lambda: True)  # Old enough: swept coarsely.
         following = Inputs(law="linear", linear=-9.0).design()
-        assert not curves.sweep(following, lambda: True)  # Fresh enough: given up.
-        assert np.isfinite(curves.known(following).design[1:10]).all()  # The one before stays.
+        assert not curves.sweep(following, baseline_of(following), lambda: True)  # Fresh enough: given up.
+        assert np.isfinite(curves.known(following, baseline_of(following)).design[1:10]).all()  # The one before stays.
 
     def test_a_coarse_curve_is_swept_again_when_there_is_time(self):
         curves = PowerCurves()
         design = Inputs(law="linear", linear=-8.0).design()
-        curves.sweep(design, lambda: True)
-        coarse = curves.known(design).design
-        curves.sweep(design, lambda: False)
-        fine = curves.known(design).design
+        curves.sweep(design, baseline_of(design), lambda: True)
+        coarse = curves.known(design, baseline_of(design)).design
+        curves.sweep(design, baseline_of(design), lambda: False)
+        fine = curves.known(design, baseline_of(design)).design
         k = plots.SWEEP.index(0.15)
         assert_allclose(coarse[1:14], fine[1:14], rtol=0.03)
         assert coarse[k] != fine[k]

@@ -30,6 +30,7 @@ KNOW_VISER = {
     "schedule_panel.py",
     "sensitivity_panel.py",
     "charts.py",
+    "top_bar.py",
     "viser_compat.py",
     "actuator_controls.py",
     "actuator_panel.py",

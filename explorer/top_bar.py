@@ -1,0 +1,110 @@
+"""The row above the tabs, always at hand: undo, redo, pin; and while a design is pinned, what A is and its buttons."""
+
+from collections.abc import Callable
+from typing import Any
+
+import viser
+
+from explorer import ab_readout
+from explorer.desk import Desk, Moment
+from explorer.pinned import Order, Pinboard, Pinned
+from explorer.state import Inputs
+from rotor.design import Design
+from rotor.solution import Solution
+
+_PIN: dict[str, Order] = {"Pin as A": "pin"}
+_PINNED: dict[str, Order] = {"Swap A and B": "swap", "Back to A": "back", "Unpin": "unpin"}
+
+
+class TopBar:
+    """One session's."""
+
+    def __init__(
+        self,
+        gui: viser.GuiApi,
+        wake: Callable[[], None],
+        undo: Callable[[], None],
+        redo: Callable[[], None],
+    ) -> None:
+        self._board, self._wake = Pinboard(), wake
+        self._steps = {"Undo": undo, "Redo": redo}
+        hint = "Pin: every change becomes B beside A."
+        first = gui.add_button_group("", (*self._steps, *_PIN), hint=hint)
+        self._line = gui.add_html("", visible=False)
+        self._second = gui.add_button_group(
+            "",
+            tuple(_PINNED),
+            visible=False,
+            hint="Swap: A goes on the sliders and B becomes A. Back: the sliders of A.",
+        )
+        self._along = gui.add_checkbox(
+            "A flies along",
+            True,
+            visible=False,
+            hint="On: A at the speed, weight and altitude on the sliders. Off: A as it was when it was pinned.",
+        )
+        first.on_click(self._clicked)
+        self._second.on_click(self._clicked)
+        self._along.on_update(lambda _: wake())
+
+    @property
+    def pinned(self) -> Pinned | None:
+        """A."""
+        return self._board.pinned
+
+    @property
+    def answer(self) -> Solution | None:
+        """A's, as last solved."""
+        return self._board.answer
+
+    def solve(self, present: Design) -> Solution | None:
+        """A's answer beside the present design; None when nothing is pinned."""
+        return self._board.solve(present, self._along.value)
+
+    def settle(self, inputs: Inputs, solution: Solution | None, desk: Desk) -> bool:
+        """Do what was asked, with what is on the sliders and its answer; whether that moves the sliders."""
+        able = solution if solution is not None and solution.converged else None
+        outcome = self._board.settle(inputs, able, self._along.value)
+        if outcome is None:
+            return False
+        if outcome.sentence:
+            desk.tell("A and B", outcome.sentence)
+        if outcome.inputs is not None:
+            desk.set_inputs(outcome.inputs)
+        return outcome.inputs is not None
+
+    def toggle(self) -> None:
+        """Pin the design, or let go of the one that is pinned."""
+        self._ask("pin" if self.pinned is None else "unpin")
+
+    def show(self, moment: Moment) -> None:
+        """Follow a converged answer."""
+        del moment
+        self.refresh()
+
+    def lose(self) -> None:
+        """A holds all the same."""
+        self.refresh()
+
+    def stop(self) -> None:
+        """Nothing runs on."""
+
+    def refresh(self) -> None:
+        """What A is, and its power now."""
+        pinned = self._board.pinned
+        if pinned is not None:
+            where = "" if self._along.value else pinned.flight
+            self._line.content = ab_readout.pinned_line(pinned.title, self._board.answer, where)
+        for widget in (self._line, self._second, self._along):
+            widget.visible = pinned is not None
+
+    def _clicked(self, event: viser.GuiEvent[Any]) -> None:
+        name = event.target.value
+        if name in self._steps:
+            self._steps[name]()
+            return
+        self._ask((_PIN | _PINNED)[name])
+
+    def _ask(self, order: Order) -> None:
+        self._board.ask(order)
+        self._wake()
