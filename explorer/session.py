@@ -32,6 +32,7 @@ from explorer.state import Inputs, ViewState, baseline_of, with_optimum
 from explorer.top_bar import TopBar
 from explorer.view import View
 from explorer.viser_compat import PageFacts
+from explorer.waterfall_panel import WaterfallPanel
 from explorer.worker import LatestWins
 from rotor.design import Design
 from rotor.presets import uh60a_rotor
@@ -103,11 +104,13 @@ class Session:
             sensitivity = SensitivityPanel(gui, Strip(client.scene), desk)
         with panel.add_tab("Actuator"):
             self._actuator = ActuatorPanel(client, self._worker.wake, self._fly)
+        with panel.add_tab("Physics"):
+            self._waterfall = WaterfallPanel(gui, desk)
         with panel.add_tab("Trust"):
             gui.add_html(trust_readout.trust_page())
         panel.dock_left()
         panel.set_width(_CHART_WIDTH)
-        self._tabs: tuple[Tab, ...] = (self._top, sensitivity, self._history, self._file)
+        self._tabs: tuple[Tab, ...] = (self._top, sensitivity, self._waterfall, self._history, self._file)
         """Everything that only follows."""
         self._camera = FittedCamera(client, rotor.radius)
         self._actuator.shown.on_update(self._cut_switched)
@@ -183,6 +186,7 @@ class Session:
         if self._curves.sweep(design, reference, superseded):
             self._results.show_power(moment, self._curves.known(design, reference))
             self._file.follow(inputs)
+            self._waterfall.climb(superseded)
 
     def _settle(self, inputs: Inputs, solution: Solution | None) -> bool:
         """Do what the buttons of A/B asked; whether that moves the sliders, so that another round follows."""

@@ -4,7 +4,7 @@ SHEET = """<style>
 /* The rows of the control panel, a little closer than they come. */
 [style*="padding-bottom: 0.5em"] { padding-bottom: 0.3em !important; }
 /* Tabs close enough for their names to stand in one row, or two. */
-.mantine-Tabs-tab { padding: 7px 8px !important; }
+.mantine-Tabs-tab, [data-dock-tab] { padding: 7px 8px !important; }
 /* A row of buttons without a label has the whole width. */
 [class*=Flex-root]:has(> div > p > label:empty) > :first-child { display: none; }
 .rx { font-size: 12.5px; line-height: 1.37; padding: 0 14px; }
@@ -92,6 +92,15 @@ div:has(> .rx-bridge), div:has(> .rx-bridge) + div { display: none !important; }
 .rx-take { cursor: pointer; }
 .rx-kept-table td { padding: 3px 4px 3px 0; border-top: 1px solid rgba(128,128,128,.18); vertical-align: middle; }
 .rx-kept { overflow: hidden; text-overflow: ellipsis; max-width: 130px; }
+.rx-waterfall svg { display: block; }
+.rx-w { font-size: 12px; fill: currentColor; }
+.rx-w-strong { font-weight: 600; }
+.rx-w-number { text-anchor: end; font-variant-numeric: tabular-nums; }
+.rx-w-note { font-size: 10.5px; fill: var(--mantine-color-dimmed); stroke: var(--mantine-color-body); stroke-width: 3;
+  paint-order: stroke; }
+.rx-w-bad { fill: #d9480f; }
+.rx-w-link { stroke: currentColor; stroke-opacity: .35; stroke-width: 1; stroke-dasharray: 2 2; }
+.rx-alone tr + tr td { padding-top: 1.5px; }
 .rx-trust h4 { margin: 11px 0 3px; font-size: 12.5px; line-height: 1.25; }
 .rx-trust-row { display: flex; justify-content: space-between; gap: 10px; padding: 2px 0;
   border-top: 1px solid rgba(128,128,128,.18); }

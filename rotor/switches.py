@@ -100,7 +100,7 @@ def no_effect(design: Design, name: str) -> str:
         case "tip_loss" if not hovering and inflow.reacts and inflow.without_tip_loss() == inflow:
             return "the blades of this wake end where they end"
         case "hub_loss" if not hovering and inflow.reacts:
-            return "in this inflow the wake itself answers at the root"
+            return "this wake answers at the root itself"
         case "reverse_flow" if design.condition.advance_ratio <= design.rotor.blade.root_cutout:
             return "no blade is in reverse flow at this speed"
         case "compressibility" if _one_mach(design):

@@ -32,6 +32,7 @@ KNOW_VISER = {
     "charts.py",
     "top_bar.py",
     "viser_compat.py",
+    "waterfall_panel.py",
     "actuator_controls.py",
     "actuator_panel.py",
     "actuator_scene.py",

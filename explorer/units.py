@@ -1,0 +1,67 @@
+"""What numbers are shown in: SI as engineers write it, or what is painted in a cockpit. Inside all is SI."""
+
+import math
+from dataclasses import dataclass
+
+_BLANK = "–"
+
+
+def number(value: float | None, digits: int = 0, sign: bool = False) -> str:
+    """A number with thousands set apart and a true minus; a dash for what is not a number."""
+    if value is None or not math.isfinite(value):
+        return _BLANK
+    text = f"{value:{'+' if sign else ''},.{digits}f}".replace(",", "\u2009").replace("-", "−")
+    # What rounds to nothing has no direction.
+    return text.lstrip("+−") if not any(digit in text for digit in "123456789") else text
+
+
+@dataclass(frozen=True)
+class Unit:
+    """One unit."""
+
+    symbol: str
+    size: float
+    """In SI."""
+
+    def of(self, value: float) -> float:
+        """A value in SI, in this unit."""
+        return value / self.size
+
+    def text(self, value: float | None, digits: int = 0, sign: bool = False) -> str:
+        """A value in SI, with the symbol."""
+        return f"{number(None if value is None else self.of(value), digits, sign)} {self.symbol}"
+
+
+KILOWATT, HORSEPOWER = Unit("kW", 1e3), Unit("hp", 745.699872)
+"""[W]; the mechanical horsepower, 550 ft·lbf/s."""
+METRE_PER_SECOND, KILOMETRE_PER_HOUR, KNOT = Unit("m/s", 1.0), Unit("km/h", 1.0 / 3.6), Unit("kt", 1852.0 / 3600.0)
+KILOGRAM, TONNE, POUND = Unit("kg", 1.0), Unit("t", 1e3), Unit("lb", 0.45359237)
+METRE, FOOT = Unit("m", 1.0), Unit("ft", 0.3048)
+
+
+@dataclass(frozen=True)
+class Units:
+    """A choice of units, each quantity in the order in which it is read."""
+
+    title: str
+    power: tuple[Unit, Unit]
+    """What is shown, and what stands beside it in small."""
+    speed: tuple[Unit, Unit, Unit]
+    mass: Unit
+    altitude: Unit
+
+    def watts(self, value: float | None, digits: int = 0, sign: bool = False) -> str:
+        """A power [W] in the unit shown."""
+        return self.power[0].text(value, digits, sign)
+
+    def airspeed(self, value: float) -> str:
+        """A speed [m/s] as each reader reads it; `hover` for none."""
+        if value == 0.0:
+            return "hover"
+        return " · ".join(unit.text(value, 1 if unit is METRE_PER_SECOND else 0) for unit in self.speed)
+
+
+SI = Units("SI", (KILOWATT, HORSEPOWER), (KILOMETRE_PER_HOUR, METRE_PER_SECOND, KNOT), TONNE, METRE)
+AVIATION = Units("Aviation", (HORSEPOWER, KILOWATT), (KNOT, KILOMETRE_PER_HOUR, METRE_PER_SECOND), POUND, FOOT)
+UNITS = {units.title: units for units in (SI, AVIATION)}
+"""By the title of the menu."""
