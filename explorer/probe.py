@@ -20,7 +20,7 @@ class Region(Enum):
     ATTACHED = "attached"
     STALLED = "stalled"
     REVERSE = "reverse flow"
-    DIVERGED = "beyond drag divergence"
+    DIVERGED = "drag divergence"
 
 
 @dataclass(frozen=True)

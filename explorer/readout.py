@@ -201,7 +201,7 @@ def _status(kind: str, text: str) -> str:
 def provenance(solution: Solution) -> str:
     """How it was computed, and what kind of statement it is."""
     design = solution.design
-    sections = dict.fromkeys(_section_title(span.section) for span in design.rotor.blade.spans)
+    sections = dict.fromkeys(section_title(span.section) for span in design.rotor.blade.spans)
     inflow = INFLOW_MODELS[design.models.inflow].title
     if design.hovering:
         inflow = "annulus balance" if design.models.hover_inflow == "annulus" else "closed form, eq. (3.3)"
@@ -214,7 +214,8 @@ def provenance(solution: Solution) -> str:
     )
 
 
-def _section_title(section: str) -> str:
+def section_title(section: str) -> str:
+    """A section as it is written."""
     return {"sc1095": "SC1095", "sc1094r8": "SC1094 R8", "sc1095-thesis": "SC1095 polynomials"}.get(section, section)
 
 

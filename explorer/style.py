@@ -76,6 +76,17 @@ SHEET = """<style>
 .rx-map { display: block; }
 .rx-map image { image-rendering: auto; }
 .rx-map-title { padding: 0 10px 0 36px; }
+.rx-chip { padding: 0 7px; border-radius: 8px; font-size: 11.5px; line-height: 17px; align-self: center;
+  border: 1px solid currentColor; }
+.rx-chip-good { color: #0b8a6a; }
+.rx-chip-bad { color: #d6336c; }
+.rx-chip-back { color: #d9480f; }
+[data-mantine-color-scheme=dark] .rx-chip-good { color: #38d9a9; }
+[data-mantine-color-scheme=dark] .rx-chip-bad { color: #faa2c1; }
+[data-mantine-color-scheme=dark] .rx-chip-back { color: #ff922b; }
+.rx-probe svg { display: block; }
+.rx-probe sub { font-size: 8.5px; line-height: 0; }
+.rx-probe-title { padding-top: 7px; font-size: 12px; }
 .rx-dialog { border: 0; outline: 0; border-radius: 8px; padding: 14px 8px 16px; max-width: min(760px, 94vw);
   color: var(--mantine-color-text); background: var(--mantine-color-body); box-shadow: 0 8px 40px rgba(0,0,0,.35); }
 .rx-dialog::backdrop { background: rgba(0,0,0,.35); }

@@ -1,7 +1,9 @@
 """The probe: the disk's own values, the velocity triangle, the sums of the trim, and the click that sets it."""
 
 import math
+import re
 from dataclasses import replace
+from xml.etree import ElementTree
 
 import numpy as np
 import pytest
@@ -9,10 +11,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
+from explorer import svg
 from explorer.pick import pick
 from explorer.picture import DISK_DROP
 from explorer.poses import compose, rotate, rotor_pose, tip_path_pose
 from explorer.probe import Region, probe
+from explorer.probe_drawing import drawing
+from explorer.probe_readout import probe_panel
 from rotor.presets import make_design
 from rotor.solution import Solution
 from rotor.solve import solve
@@ -160,3 +165,88 @@ class TestPick:
         found = pick(fast, above, self.on_disk(fast, 1.01, 2.0) - above)
         assert found is not None
         assert found[0] == 1.0
+
+
+def numbers_of(text: str) -> list[float]:
+    return [float(number) for number in re.findall(r"-?\d+(?:\.\d+)?", text)]
+
+
+class TestDrawing:
+    PLACES = tuple((r, math.radians(psi)) for r in (0.14, 0.25, 0.4, 0.7, 0.98) for psi in range(0, 360, 36))
+
+    @staticmethod
+    def check_inside(drawn: str) -> None:
+        """Nothing leaves the drawing, words included (taken as 6 px a letter, more than they are)."""
+        root = ElementTree.fromstring(drawn)
+        low_x, low_y, width, height = numbers_of(root.attrib["viewBox"])
+        assert (low_x, low_y, width) == (0.0, 0.0, 312.0)
+        for node in root.iter():
+            if node.tag == "text":
+                reach = 6.0 * len("".join(node.itertext()))
+                share = {"start": 0.0, "middle": 0.5, "end": 1.0}[node.attrib["text-anchor"]]
+                left = float(node.attrib["x"]) - share * reach
+                assert left >= -2.0, ElementTree.tostring(node)
+                assert left + reach <= width + 2.0, ElementTree.tostring(node)
+                assert 7.0 <= float(node.attrib["y"]) <= height + 1.0, ElementTree.tostring(node)
+            elif node.tag == "polygon":
+                points = np.array(numbers_of(node.attrib["points"])).reshape(-1, 2)
+                assert points.min() >= -1.0
+                assert (points.max(axis=0) <= (width + 1.0, height + 1.0)).all(), ElementTree.tostring(node)
+
+    @pytest.mark.parametrize("opened", [False, True])
+    def test_nothing_leaves_the_panel_anywhere_on_the_disk(self, solution: Solution, opened: bool):
+        for r, psi in self.PLACES:
+            panel = probe_panel(probe(solution, max(r, solution.design.rotor.blade.root_cutout), psi), solution, opened)
+            assert "nan" not in panel
+            for drawn in re.findall(r"<svg.*?</svg>", panel):
+                self.check_inside(drawn)
+
+    def test_the_section_stands_at_its_pitch_and_the_wind_at_its_angle(self, fast: Solution):
+        p = probe(fast, 0.75, math.radians(270.0))
+        drawn, scales = drawing(p, 300.0, 8e3)
+        assert scales.angles == 1
+        shape = np.array(numbers_of(re.findall(r'points="([^"]*)"', drawn)[0])).reshape(-1, 2)
+        assert len(shape) == 61  # The outline is the first polygon.
+        nose, tail = shape[30], 0.5 * (shape[0] + shape[-1])
+        pitch = math.atan2(tail[1] - nose[1], tail[0] - nose[0])
+        assert pitch == pytest.approx(p.theta - p.section.installed()[0][0].incidence_offset, abs=math.radians(0.5))
+        reach = math.dist(nose, tail)
+        assert reach == pytest.approx(100.0, rel=0.02)
+
+    def test_in_reverse_flow_the_wind_comes_from_the_trailing_edge(self, fast: Solution):
+        p = probe(fast, 0.25, math.radians(270.0))
+        assert p.region is Region.REVERSE
+        drawn, scales = drawing(p, 300.0, 8e3, opened=True)
+        assert scales.angles == 1  # Large angles stay as they are.
+        wind = next(line for line in re.findall(r"<line[^>]*>", drawn) if 'stroke-width="2.6"' in line)
+        start, end = (float(wind.split(f'{name}="')[1].split('"')[0]) for name in ("x1", "x2"))
+        assert start > end > 180.0  # From the right, ending behind the trailing edge.
+        panel = probe_panel(p, fast)
+        assert "reverse flow" in panel
+        assert "retreating side" in panel
+
+    def test_opened_angles_say_so(self, fast: Solution):
+        p = probe(fast, 0.9, 0.0)
+        _, scales = drawing(p, 300.0, 8e3, opened=True)
+        assert scales.angles == 3
+        assert "angles ×3" in probe_panel(p, fast, opened=True)
+        assert "angles" not in probe_panel(p, fast)
+
+    def test_the_table_says_what_the_probe_holds(self, fast: Solution):
+        p = probe(fast, 0.75, math.radians(90.0))
+        text = re.sub(r"<[^>]*>", " ", probe_panel(p, fast)).replace("−", "-")
+        for value in (f"{p.u_t:.1f} m/s", f"{p.mach:.3f}", f"{p.cl:.3f}", f"{p.cd:.4f}", f"{p.power / 1e3:.1f} kW/m"):
+            assert value in text
+
+    def test_the_point_lies_on_the_lift_curve(self, fast: Solution):
+        """At a station exactly; between two as near as the stations are."""
+        disk = fast.disk
+        p = probe(fast, float(disk.r[25]), float(disk.psi[17]))
+        assert p.section.lift_curve(np.array([p.alpha]), p.mach)[0] == pytest.approx(p.cl, abs=1e-9)
+        q = probe(fast, float(disk.r[25] + 0.4 * disk.dr), float(disk.psi[17] + 0.01))
+        assert q.section.lift_curve(np.array([q.alpha]), q.mach)[0] == pytest.approx(q.cl, abs=2e-3)
+
+    def test_words_keep_their_distance_and_their_order(self):
+        placed = svg.spread([10.0, 11.0, 40.0, 9.0], 12.0)
+        assert placed[3] < placed[0] < placed[1] < placed[2] == 40.0
+        assert min(np.diff(sorted(placed))) > 11.5
