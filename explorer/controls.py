@@ -66,7 +66,15 @@ _TOGGLES = {"reverse_flow": "Reverse flow", "stall": "Stall", "drag_divergence":
 class Controls:
     """The widgets of one client, made once."""
 
-    def __init__(self, gui: viser.GuiApi, start: Inputs, changed: Callable[[], None], dark: bool) -> None:
+    def __init__(
+        self,
+        gui: viser.GuiApi,
+        start: Inputs,
+        changed: Callable[[], None],
+        dark: bool,
+        turned: Callable[[], None] | None = None,
+    ) -> None:
+        """`changed`: something moved. `turned`: it was only the marked blade."""
         self._start = start
         self._changed = changed
         self._inputs: dict[str, Handle] = {}
@@ -88,8 +96,8 @@ class Controls:
             self._speed = gui.add_html(readout.speed_line(0.0))
             self._sliders(gui, ("mass_t", "altitude_m"))
         with gui.add_folder("Disk and blades"):
-            self._field = self._watched(gui.add_dropdown("Field", tuple(FIELDS), initial_value=ViewState.field))
-            self._difference = self._watched(
+            self._field = self._seen(gui.add_dropdown("Field", tuple(FIELDS), initial_value=ViewState.field))
+            self._difference = self._seen(
                 gui.add_checkbox(
                     "Show B − A", False, visible=False, hint="The field of this design minus that of the pinned one."
                 )
@@ -101,11 +109,12 @@ class Controls:
                 hint="The range stays as it is while you drag; fit it to the data here.",
             )
             self._legend = gui.add_html("")
-            self._toggles = {name: self._watched(gui.add_checkbox(title, True)) for name, title in _TOGGLES.items()}
-            self._azimuth = self._watched(
-                gui.add_slider("Azimuth ψ [°]", 0.0, 360.0, 1.0, ViewState.azimuth_deg, hint="Of the marked blade.")
+            self._toggles = {name: self._seen(gui.add_checkbox(title, True)) for name, title in _TOGGLES.items()}
+            self._azimuth = gui.add_slider(
+                "Azimuth ψ [°]", 0.0, 360.0, 1.0, ViewState.azimuth_deg, hint="Of the marked blade."
             )
-            self._exaggeration = self._watched(
+            self._azimuth.on_update(lambda _: (turned or changed)())
+            self._exaggeration = self._seen(
                 gui.add_slider(
                     "Twist shown ×", 1.0, 5.0, 0.5, 1.0, hint="Exaggerates the twist of the drawn blades only."
                 )
@@ -127,7 +136,7 @@ class Controls:
             self.check_button = gui.add_button(
                 "Check with the vortex wake", color="gray", hint="The same design with rigid helical vortices."
             )
-            self._dark = self._watched(gui.add_checkbox("Dark page", dark))
+            self._dark = self._seen(gui.add_checkbox("Dark page", dark))
         with gui.add_folder("Physics", expand_by_default=False):
             for name, switch in SWITCHES.items():
                 box = gui.add_checkbox(switch.title, getattr(start, name), hint=f"{switch.on} Off: {switch.off}")
@@ -154,6 +163,10 @@ class Controls:
             dark=self._dark.value,
             **{name: handle.value for name, handle in self._toggles.items()},
         )
+
+    def turn(self, azimuth_deg: float) -> None:
+        """Move the marked blade."""
+        self._azimuth.value = azimuth_deg
 
     def reset(self) -> None:
         """Back to the design the page began with."""
@@ -217,6 +230,11 @@ class Controls:
 
     def _watched(self, handle: Any) -> Any:
         handle.on_update(lambda _: self._moved())
+        return handle
+
+    def _seen(self, handle: Any) -> Any:
+        """The same for what is only shown: it is no movement of the design."""
+        handle.on_update(lambda _: self._changed())
         return handle
 
     def _moved(self) -> None:

@@ -1,7 +1,7 @@
 """What a session gives its tabs: the moment it arrived at, and what they may ask of it; the rest stays hidden."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 from explorer.pinned import Pinned
@@ -24,6 +24,18 @@ class Moment:
     pin: Pinned | None = None
     """What was pinned: its inputs, its title, and the answer it had then."""
 
+    def only_turned(self, before: "Moment | None") -> bool:
+        """Whether nothing but the marked blade has moved since."""
+        return (
+            before is not None
+            and self.solution is before.solution
+            and self.baseline is before.baseline
+            and self.pinned is before.pinned
+            and self.inputs == before.inputs
+            and self.view == replace(before.view, azimuth_deg=self.view.azimuth_deg)
+            and self.view != before.view
+        )
+
     @property
     def reference(self) -> Solution:
         """What the read-outs compare with."""
@@ -39,6 +51,8 @@ class Desk:
     """Move the widgets; the page follows as if they had been dragged."""
     view: Callable[[], ViewState]
     set_view: Callable[[ViewState], None]
+    turn: Callable[[float], None]
+    """Move the marked blade to an azimuth [deg]; the cheapest change there is, made for 20 a second."""
     wake: Callable[[], None]
     """Something changed: the session's worker will do another round."""
     send: Callable[[str, bytes], None]

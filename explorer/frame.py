@@ -1,18 +1,36 @@
 """The picture of one session: rotor, disk, ghost and colour range; draws only what has changed."""
 
+from dataclasses import dataclass, replace
+
 import viser
 
 from explorer.controls import Controls
 from explorer.difference import shown_field
 from explorer.fields import Field, fitted_range
 from explorer.overlays import Ghost, OtherBlade
-from explorer.picture import disk_png, field_values, make_picture
+from explorer.picture import disk_png, field_values, make_picture, turned_blades
 from explorer.scene import Scene
 from explorer.state import ViewState
 from rotor.blade import Rotor
 from rotor.solution import Solution
 
 Range = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class _Drawn:
+    """What decides a frame."""
+
+    solution: Solution
+    pinned: Solution | None
+    """Where the disk shows the difference to it."""
+    view: ViewState
+    colour_range: Range
+    ghost: OtherBlade | None
+
+    def at(self, azimuth_deg: float) -> "_Drawn":
+        """The same with the marked blade elsewhere."""
+        return replace(self, view=replace(self.view, azimuth_deg=azimuth_deg))
 
 
 class Frame:
@@ -23,7 +41,7 @@ class Frame:
         self._controls = controls
         self._scene = Scene(client.scene, rotor)
         self._ghost = Ghost(client.scene, rotor)
-        self._drawn: tuple[object, ...] | None = None
+        self._drawn: _Drawn | None = None
         self._ranges: dict[str, Range] = {}
         """By title of the field, once one was held."""
         self._order: str | None = None
@@ -35,8 +53,15 @@ class Frame:
         """Show a converged answer, the ghost of another blade on the marked one, and on the disk B − A if wanted."""
         field = shown_field(view, pinned)
         colour_range = self._range(solution, field)
-        wanted = (solution, pinned if view.difference else None, view, colour_range, ghost)
+        wanted = _Drawn(solution, pinned if view.difference else None, view, colour_range, ghost)
         if self._drawn == wanted:
+            return
+        if self._drawn is not None and self._drawn.at(view.azimuth_deg) == wanted:
+            # The same disk, its colours and lines: only the blades turn.
+            with self._client.atomic():
+                self._scene.turn(turned_blades(solution, view))
+            self._client.flush()
+            self._drawn = wanted
             return
         picture = make_picture(solution, view, colour_range, field)
         with self._client.atomic():

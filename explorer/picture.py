@@ -33,15 +33,24 @@ OUTLINE_COLOURS = {
 
 
 @dataclass(frozen=True, eq=False)
+class Blades:
+    """Where the blades are; all that changes while the rotor turns."""
+
+    poses: tuple[Pose, ...]
+    """The marked blade first."""
+    shapes: tuple[Array, ...]
+    """Vertices blade by blade where twist follows the azimuth; empty when all are alike."""
+
+
+@dataclass(frozen=True, eq=False)
 class Picture:
     """What one frame shows."""
 
     rotor: Pose
     disk: Pose
-    blades: tuple[Pose, ...]
-    """The marked blade first."""
+    blades: Blades
     blade_vertices: Array
-    """Shape (n, 3); the same for every blade."""
+    """Shape (n, 3); the same for every blade, unless `blades` says otherwise."""
     blade_faces: NDArray[np.uint32]
     """Shape (m, 3); changes only with the rotor."""
     png: bytes
@@ -49,8 +58,19 @@ class Picture:
     """Segments in the disk plane [m], shape (n, 2, 3), by toggle; empty when off."""
     flight_label: str
     """Empty in hover."""
-    each_blade: tuple[Array, ...] = ()
-    """Vertices blade by blade where twist follows the azimuth; empty when all are alike."""
+
+
+def turned_blades(solution: Solution, view: ViewState) -> Blades:
+    """The blades with the marked one at the view's azimuth."""
+    rotor = solution.design.rotor
+    first, step = math.radians(view.azimuth_deg), 2.0 * math.pi / rotor.blades
+    azimuths = tuple(first + k * step for k in range(rotor.blades))
+    hinge = rotor.blade.flap_hinge * rotor.radius
+    twists = blade_twists(solution.design, azimuths)
+    return Blades(
+        poses=tuple(blade_pose(solution.controls, psi, hinge) for psi in azimuths),
+        shapes=tuple(blade_vertices(blade_shape(rotor), twist, view.exaggeration) for twist in twists),
+    )
 
 
 def make_picture(
@@ -58,24 +78,17 @@ def make_picture(
 ) -> Picture:
     """The frame for a converged solution. `field`: on the disk, where it is not just that of the view."""
     rotor, controls = solution.design.rotor, solution.controls
-    step = 2.0 * math.pi / rotor.blades
-    first = math.radians(view.azimuth_deg)
-    hinge = rotor.blade.flap_hinge * rotor.radius
     speed = solution.design.airspeed
     shape = blade_shape(rotor)
-    azimuths = tuple(first + k * step for k in range(rotor.blades))
     return Picture(
         rotor=rotor_pose(controls),
         disk=tip_path_pose(controls, DISK_DROP),
-        blades=tuple(blade_pose(controls, psi, hinge) for psi in azimuths),
+        blades=turned_blades(solution, view),
         blade_vertices=blade_vertices(shape, solution.design.twist, view.exaggeration),
         blade_faces=shape.faces,
         png=disk_png(solution, field or FIELDS[view.field], colour_range),
         outlines=_outlines(solution, view),
         flight_label=f"{number(speed / KNOT)} kt" if speed > 0.0 else "",
-        each_blade=tuple(
-            blade_vertices(shape, twist, view.exaggeration) for twist in blade_twists(solution.design, azimuths)
-        ),
     )
 
 

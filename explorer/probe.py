@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from explorer.outlines import DRAG_DIVERGENCE
 from rotor.airfoil.sections import Section, load_installed
+from rotor.elements import LOW_MACH
 from rotor.solution import DiskFields, Solution
 
 Array = NDArray[np.float64]
@@ -20,6 +21,7 @@ class Region(Enum):
     ATTACHED = "attached"
     STALLED = "stalled"
     REVERSE = "reverse flow"
+    IDLE = "reverse flow, left out"
     DIVERGED = "drag divergence"
 
 
@@ -77,6 +79,8 @@ class Probe:
     induced: float
     """Induced velocity, down [m/s]."""
     mach: float
+    table_mach: float
+    """Where the section data are read: the same, unless compressibility is switched off."""
     cl: float
     cd: float
     lift: float
@@ -90,9 +94,11 @@ class Probe:
     power: float
     """Ω y times the pull [W/m]."""
     stall: tuple[float, float]
-    """Negative and positive stall angle at this Mach number."""
+    """Negative and positive stall angle at `table_mach`."""
     cd_mach: float
     """∂C_d/∂M"""
+    idle: bool
+    """Whether the models leave its loads out, as they may in reverse flow."""
 
     @property
     def u(self) -> float:
@@ -120,7 +126,7 @@ class Probe:
     def region(self) -> Region:
         margin = self.stall_margin
         if margin is None:
-            return Region.REVERSE
+            return Region.IDLE if self.idle else Region.REVERSE
         if margin < 0.0:
             return Region.STALLED
         return Region.DIVERGED if self.cd_mach > DRAG_DIVERGENCE else Region.ATTACHED
@@ -143,6 +149,8 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
     per_metre = design.thrust_unit / (rotor.blades * rotor.radius)
     thrust, pull = per_metre * at.held(disk.dct), per_metre * at.held(disk.dcq)
     section = Blend(*rotor.blade.section_at(r))
+    mach = max(mach, 0.0)
+    table_mach = mach if design.models.compressibility else LOW_MACH
     return Probe(
         r=r,
         psi=psi,
@@ -155,7 +163,8 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
         u_t=speed * u_t,
         u_p=speed * u_p,
         induced=speed * at.reaching(disk.induced),
-        mach=max(mach, 0.0),
+        mach=mach,
+        table_mach=table_mach,
         cl=at.held(disk.cl),
         cd=at.held(disk.cd),
         lift=thrust * math.cos(phi) + pull * math.sin(phi),
@@ -163,8 +172,9 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
         thrust=thrust,
         pull=pull,
         power=pull * r * speed,
-        stall=section.stall_angles(mach),
+        stall=section.stall_angles(table_mach),
         cd_mach=at.held(disk.cd_mach),
+        idle=u_t < 0.0 and not design.models.reverse_flow,
     )
 
 

@@ -15,7 +15,13 @@ from rotor.solution import Solution
 
 Array = NDArray[np.float64]
 
-_CHIPS = {Region.ATTACHED: "good", Region.STALLED: "bad", Region.REVERSE: "back", Region.DIVERGED: "bad"}
+_CHIPS = {
+    Region.IDLE: "back",
+    Region.ATTACHED: "good",
+    Region.STALLED: "bad",
+    Region.REVERSE: "back",
+    Region.DIVERGED: "bad",
+}
 _WIDTH, _HEIGHT = 312.0, 96.0
 _LEFT, _RIGHT, _TOP, _BOTTOM = 26.0, 300.0, 6.0, 80.0
 
@@ -103,7 +109,7 @@ def lift_curve(probe: Probe) -> str:
     degrees = math.degrees(probe.alpha)
     low, high, step = (-15.0, 20.0, 5.0) if -15.0 < degrees < 20.0 else (-180.0, 180.0, 60.0)
     alpha = np.linspace(low, high, 91)
-    curve = probe.section.lift_curve(np.radians(alpha), probe.mach)
+    curve = probe.section.lift_curve(np.radians(alpha), probe.table_mach)
     bottom, top = min(-1.0, float(curve.min()), probe.cl), max(1.6, float(curve.max()), probe.cl)
 
     def x(value: float) -> float:
@@ -129,10 +135,11 @@ def lift_curve(probe: Probe) -> str:
     marks.append(f'<polyline points="{path}" fill="none" stroke="{LIFT}" stroke-width="1.8"/>')
     here = x(degrees), y(probe.cl)
     marks.append(svg.line((here[0], _BOTTOM), here, ALPHA, 1.0))
-    marks.append(f'<circle cx="{here[0]:.1f}" cy="{here[1]:.1f}" r="4" fill="{NOW}" stroke="{svg.BODY}"/>')
+    if not probe.idle:
+        marks.append(f'<circle cx="{here[0]:.1f}" cy="{here[1]:.1f}" r="4" fill="{NOW}" stroke="{svg.BODY}"/>')
     return (
         '<div class="rx-line rx-probe-title"><span><b>Lift curve</b></span>'
-        f'<span class="rx-dim">C<sub>l</sub> over α at Mach {number(probe.mach, 2)}</span>'
+        f'<span class="rx-dim">C<sub>l</sub> over α at Mach {number(probe.table_mach, 2)}</span>'
         f'<span><span class="rx-dash" style="background:{LIMIT}"></span>stall</span></div>'
         f'<svg viewBox="0 0 {_WIDTH:g} {_HEIGHT:g}" width="100%" role="img" '
         f'aria-label="Lift coefficient over angle of attack">{"".join(marks)}</svg>'

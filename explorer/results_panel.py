@@ -30,17 +30,23 @@ class ResultsPanel:
     def show(self, moment: Moment) -> None:
         """Follow a converged answer."""
         self._moment = moment
-        solution, pinned, azimuth = moment.solution, moment.pinned, moment.view.azimuth_deg
+        solution, pinned = moment.solution, moment.pinned
         ab = pinned is not None
         self._status.content = readout.status_panel(solution, pinned=pinned)
         self._power.content, self._trim.content = _numbers(moment)
         charts = self._charts
         twist = plots.twist_plot(solution.design, moment.reference.design, charts.twist.y_range, ab)
         charts.twist.show(twist, AB_KEY if ab else TWIST_KEY)
-        charts.alpha.show(plots.alpha_plot(solution, azimuth, pinned), (*AB_KEY, *STALL_KEY) if ab else ALPHA_KEY)
-        charts.lift.show(plots.lift_plot(solution, azimuth, pinned), AB_KEY if ab else LIFT_KEY)
+        self.turn(moment)
         charts.apart.set_visible(ab)
         self._compare(solution)
+
+    def turn(self, moment: Moment) -> None:
+        """The marked blade is elsewhere: what is drawn along it follows."""
+        solution, pinned, azimuth, charts = moment.solution, moment.pinned, moment.view.azimuth_deg, self._charts
+        ab = pinned is not None
+        charts.alpha.show(plots.alpha_plot(solution, azimuth, pinned), (*AB_KEY, *STALL_KEY) if ab else ALPHA_KEY)
+        charts.lift.show(plots.lift_plot(solution, azimuth, pinned), AB_KEY if ab else LIFT_KEY)
 
     def show_power(self, moment: Moment, curve: PowerCurve, lost: bool = False) -> None:
         """Power over µ, once the first sweep has arrived; without the present point where there is none."""

@@ -6,7 +6,7 @@ from numpy.typing import NDArray
 
 from explorer import colours, meshes, viser_compat
 from explorer.disk_image import half_width
-from explorer.picture import OUTLINE_COLOURS, Picture
+from explorer.picture import OUTLINE_COLOURS, Blades, Picture
 from explorer.poses import Pose
 from rotor.blade import Rotor
 
@@ -85,12 +85,12 @@ class Scene:
         """Assign one frame; call it inside `client.atomic()` so that the page draws it whole."""
         _place(self._rotor, picture.rotor)
         _place(self._disk, picture.disk)
-        shapes = picture.each_blade or (picture.blade_vertices,) * len(self._blades)
-        for handle, pose, shape in zip(self._blades, picture.blades, shapes, strict=True):
+        for handle in self._blades:
             if not np.array_equal(handle.faces, picture.blade_faces):
                 handle.faces = picture.blade_faces
-            handle.vertices = shape.astype(np.float32)
-            _place(handle, pose)
+            if not picture.blades.shapes:
+                handle.vertices = picture.blade_vertices.astype(np.float32)
+        self.turn(picture.blades)
         viser_compat.set_png(self._image, picture.png)
         for name, segments in picture.outlines.items():
             for lift, handle in enumerate(self._outlines[name]):
@@ -100,6 +100,13 @@ class Scene:
         self._flight.visible = self._seen and picture.flight_label != ""
         if picture.flight_label:
             self._flight_label.text = picture.flight_label
+
+    def turn(self, blades: Blades) -> None:
+        """Move the blades, and nothing else."""
+        for handle, pose in zip(self._blades, blades.poses, strict=True):
+            _place(handle, pose)
+        for handle, shape in zip(self._blades, blades.shapes, strict=False):
+            handle.vertices = shape.astype(np.float32)
 
     def set_seen(self, seen: bool) -> None:
         """Whether the rotor is in the scene, or makes room for something else."""

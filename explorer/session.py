@@ -25,6 +25,7 @@ from explorer.map_panel import MapPanel
 from explorer.optimise_panel import OptimisePanel
 from explorer.overlays import Strip, ghost_of
 from explorer.power_curve import PowerCurves
+from explorer.probe_panel import ProbePanel
 from explorer.results_panel import ResultsPanel
 from explorer.schedule_panel import SchedulePanel
 from explorer.sensitivity_panel import SensitivityPanel
@@ -60,6 +61,8 @@ class Session:
         self._good: Solution | None = None
         """The last converged answer: what the picture shows."""
         self._moment: Moment | None = None
+        self._whole_round = True
+        """Whether more may have changed since the last round than where the marked blade is."""
         self._baseline = solver.Baseline()
         self._curves = PowerCurves()
         self._dark = dark = facts.dark
@@ -70,17 +73,18 @@ class Session:
         self._theme()
         gui.set_panel_label("Rotor explorer")
         gui.add_html(style.SHEET)
-        self._top = TopBar(gui, self._worker.wake, lambda: self._history.undo(), lambda: self._history.redo())
+        self._top = TopBar(gui, self._wake, lambda: self._history.undo(), lambda: self._history.redo())
         tabs = gui.add_tab_group()
         with tabs.add_tab("Design"):
-            self._controls = Controls(gui, start, self._worker.wake, dark)
+            self._controls = Controls(gui, start, self._wake, dark, self._worker.wake)
         self._frame = Frame(client, rotor, self._controls)
         desk = self._desk = Desk(
             inputs=self._controls.inputs,
             set_inputs=self._controls.set_inputs,
             view=self._controls.view,
             set_view=self._controls.set_view,
-            wake=self._worker.wake,
+            turn=self._controls.turn,
+            wake=self._wake,
             send=self._send,
             tell=self._notify,
             moment=lambda: self._moment,
@@ -102,15 +106,18 @@ class Session:
             self._results = ResultsPanel(gui)
         with panel.add_tab("Where to twist"):
             sensitivity = SensitivityPanel(gui, Strip(client.scene), desk)
+        with panel.add_tab("Probe"):
+            self._probe = ProbePanel(client, desk, rotor)
         with panel.add_tab("Actuator"):
-            self._actuator = ActuatorPanel(client, self._worker.wake, self._fly)
+            self._actuator = ActuatorPanel(client, self._wake, self._fly)
         with panel.add_tab("Physics"):
             self._waterfall = WaterfallPanel(gui, desk)
         with panel.add_tab("Trust"):
             gui.add_html(trust_readout.trust_page())
         panel.dock_left()
         panel.set_width(_CHART_WIDTH)
-        self._tabs: tuple[Tab, ...] = (self._top, sensitivity, self._waterfall, self._history, self._file)
+        followers: tuple[Tab, ...] = (self._top, self._probe, sensitivity, self._waterfall)
+        self._tabs = (*followers, self._history, self._file)
         """Everything that only follows."""
         self._camera = FittedCamera(client, rotor.radius)
         self._actuator.shown.on_update(self._cut_switched)
@@ -127,15 +134,27 @@ class Session:
     def start(self) -> None:
         self._actuator.start()
         self._worker.start()
-        self._worker.wake()
+        self._wake()
 
     def stop(self) -> None:
+        self._whole_round = True
         for tab in (self._optimise, self._map, self._schedule, self._actuator, *self._tabs):
             tab.stop()
         self._worker.stop()
 
+    def _wake(self) -> None:
+        """Something changed."""
+        self._whole_round = True
+        self._worker.wake()
+
     def _round(self, superseded: Callable[[], bool]) -> None:
         """Widgets → Design → Solution → pictures; the frame first, then what it is compared with."""
+        whole, self._whole_round = self._whole_round, False
+
+        def overtaken() -> bool:
+            """Whether something waits that makes the rest of this round needless: not a blade that only turned."""
+            return self._whole_round and superseded()
+
         inputs, view = self._history.read(self._controls.pauses.longest()), self._controls.view()
         self._controls.refresh(inputs)
         if view.dark != self._dark:
@@ -175,18 +194,23 @@ class Session:
         self._camera.ride(math.radians(view.azimuth_deg))
         self._actuator.show(actuator, plain, solution, math.radians(view.azimuth_deg))
         baseline = self._baseline.solve(baseline_of(design))
-        moment = self._moment = Moment(inputs, view, solution, baseline, top.solve(design), top.pinned)
+        moment = Moment(inputs, view, solution, baseline, top.solve(design), top.pinned)
+        before, self._moment = self._moment, moment
+        if not whole and moment.only_turned(before):
+            self._results.turn(moment)
+            self._probe.show(moment)
+            return
         reference = moment.reference.design
         self._results.show(moment)
         self._results.show_power(moment, self._curves.known(design, reference))
-        if not superseded():
+        if not overtaken():
             for tab in self._tabs:
                 tab.show(moment)
             self._file.follow(inputs)
-        if self._curves.sweep(design, reference, superseded):
+        if self._curves.sweep(design, reference, overtaken):
             self._results.show_power(moment, self._curves.known(design, reference))
             self._file.follow(inputs)
-            self._waterfall.climb(superseded)
+            self._waterfall.climb(overtaken)
 
     def _settle(self, inputs: Inputs, solution: Solution | None) -> bool:
         """Do what the buttons of A/B asked; whether that moves the sliders, so that another round follows."""
@@ -233,6 +257,7 @@ class Session:
         """One blade, cut open, in place of the rotor."""
         cut = bool(event.target.value)
         self._frame.set_seen(not cut)
+        self._probe.set_seen(not cut)
         if cut:
             self._camera.aim_with(partial(fit_cut, self._rotor.radius))
         else:
@@ -244,11 +269,11 @@ class Session:
 
     def _check(self) -> None:
         self._results.check()
-        self._worker.wake()
+        self._wake()
 
     def _colour(self, order: str) -> None:
         self._frame.order_range(order)
-        self._worker.wake()
+        self._wake()
 
     def _reset(self) -> None:
         self._actuator.rest()

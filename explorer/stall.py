@@ -5,6 +5,7 @@ from numpy.typing import NDArray
 
 from explorer.polar import PolarGrid
 from rotor.airfoil.sections import load_installed
+from rotor.elements import LOW_MACH
 from rotor.solution import Solution
 
 Array = NDArray[np.float64]
@@ -15,10 +16,11 @@ def stall_angles(solution: Solution) -> tuple[Array, Array]:
     disk, blade = solution.disk, solution.design.rotor.blade
     places = [blade.section_at(float(r)) for r in disk.r]
     lower, upper = np.zeros_like(disk.mach), np.zeros_like(disk.mach)
+    mach = disk.mach if solution.design.models.compressibility else np.full_like(disk.mach, LOW_MACH)
     for name in {span.section for span in blade.spans}:
         section = load_installed(name)
         share = np.array([(1.0 - w) * (inner == name) + w * (outer == name) for inner, outer, w in places])[:, None]
-        negative, positive = section.table.stall_alpha(disk.mach)
+        negative, positive = section.table.stall_alpha(mach)
         lower += share * (negative + section.incidence_offset)
         upper += share * (positive + section.incidence_offset)
     return lower, upper

@@ -41,8 +41,8 @@ def fit(view: View, radius: float, aspect: float, azimuth: float = 0.0) -> Camer
     aside = np.array([0.0, 1.0, 0.0]) if view == "side" else np.array([1.0, 0.0, 0.0])
     backward = math.cos(elevation) * aside + np.array([0.0, 0.0, math.sin(elevation)])
     points = _outline(radius)
-    if view == "side":  # Mast, coning and a forward tilt need height where the disk has none.
-        points = np.concatenate((points, radius * np.array([[0.0, 0.0, -0.24], [-1.0, 0.0, -0.2], [1.0, 0.0, 0.2]])))
+    if view == "side":  # Mast, coning and tilt need height where the disk has none; the speed, room ahead.
+        points = np.concatenate((points, radius * np.array([[0.0, 0.0, -0.24], [-1.42, 0.0, -0.1], [1.0, 0.0, 0.2]])))
     return framed(points, backward, aspect)
 
 

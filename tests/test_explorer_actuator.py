@@ -77,8 +77,8 @@ def test_a_new_twist_changes_power_and_a_harmonic_too():
 
 def test_each_blade_is_drawn_with_the_twist_of_its_azimuth():
     still, turning = (solve(i.apply(DESIGN)) for i in (ActuatorInputs(), ActuatorInputs(per_rev=1, amplitude=100.0)))
-    assert make_picture(still, ViewState(), (0.0, 10.0)).each_blade == ()
-    shapes = make_picture(turning, ViewState(), (0.0, 10.0)).each_blade
+    assert make_picture(still, ViewState(), (0.0, 10.0)).blades.shapes == ()
+    shapes = make_picture(turning, ViewState(), (0.0, 10.0)).blades.shapes
     assert len(shapes) == DESIGN.rotor.blades
     middle = 0.5 * (shapes[0] + shapes[2])  # Opposite blades at 1/rev move against each other.
     assert_allclose(middle, make_picture(still, ViewState(), (0.0, 10.0)).blade_vertices, atol=1e-3)

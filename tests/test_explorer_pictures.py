@@ -297,7 +297,7 @@ class TestPicture:
     def test_marked_blade_is_first_and_blades_are_evenly_spaced(self, forward: Solution):
         view = ViewState(azimuth_deg=30.0)
         picture = make_picture(forward, view, (-4.0, 10.0))
-        azimuths = [math.degrees(math.atan2(p.position[1], p.position[0])) % 360 for p in picture.blades]
+        azimuths = [math.degrees(math.atan2(p.position[1], p.position[0])) % 360 for p in picture.blades.poses]
         assert_allclose(azimuths, [30.0, 120.0, 210.0, 300.0], atol=1e-9)
         assert picture.flight_label == "129 kt"
 

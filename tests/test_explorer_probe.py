@@ -18,15 +18,17 @@ from explorer.poses import compose, rotate, rotor_pose, tip_path_pose
 from explorer.probe import Region, probe
 from explorer.probe_drawing import drawing
 from explorer.probe_readout import probe_panel
-from rotor.presets import make_design
+from rotor.presets import FLIGHT_MODELS, make_design
 from rotor.solution import Solution
 from rotor.solve import solve
 
+SIMPLE = replace(FLIGHT_MODELS, reverse_flow=False, compressibility=False, tip_loss=False)
 CASES = {
     "hover": make_design("flight", advance_ratio=0.0),
     "cruise": make_design("flight", advance_ratio=0.2),
     "fast": make_design("flight", advance_ratio=0.37),
     "thesis": make_design("thesis", advance_ratio=0.3),
+    "switched off": make_design("flight", advance_ratio=0.3, models=SIMPLE),
 }
 
 
@@ -54,7 +56,7 @@ def test_at_a_station_it_is_what_the_disk_holds(solution: Solution):
         assert_allclose(seen, [field[i, j] for field in fields], rtol=1e-14, atol=1e-15)
         assert_allclose(math.remainder(p.alpha - disk.alpha[i, j], math.tau), 0.0, atol=1e-13)
         if disk.u_t[i, j] < 0.0:
-            assert p.region is Region.REVERSE
+            assert p.region is (Region.REVERSE if solution.design.models.reverse_flow else Region.IDLE)
         else:
             assert p.stall_margin == pytest.approx(disk.stall_margin[i, j], abs=1e-12)
             assert (p.region is Region.STALLED) == (disk.stall_margin[i, j] < 0.0)
@@ -226,7 +228,7 @@ class TestDrawing:
         assert "retreating side" in panel
 
     def test_opened_angles_say_so(self, fast: Solution):
-        p = probe(fast, 0.9, 0.0)
+        p = probe(fast, 0.75, math.radians(90.0))
         _, scales = drawing(p, 300.0, 8e3, opened=True)
         assert scales.angles == 3
         assert "angles ×3" in probe_panel(p, fast, opened=True)

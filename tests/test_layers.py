@@ -23,6 +23,8 @@ KNOW_VISER = {
     "scene.py",
     "camera.py",
     "keyboard.py",
+    "probe_cursor.py",
+    "probe_panel.py",
     "controls.py",
     "map_panel.py",
     "optimise_panel.py",
