@@ -17,19 +17,31 @@ from rotor.airfoil.contour import (
 
 
 # Public: SC1095 is 9.5 % thick, SC1094 R8 9.4 %, both at 27 % chord; camber measured on the NASA coordinates.
-@pytest.mark.parametrize(("name", "thickness", "camber"), [("sc1095", 0.095, 0.0081), ("sc1094r8", 0.094, 0.0213)])
-def test_thickness_is_the_published_one(name: str, thickness: float, camber: float) -> None:
+# By construction: NACA 0012 is 12 % thick at 30 %, 63-015A 15 % at 35 %, NACA 23012 has 1.84 % camber (Report 537).
+@pytest.mark.parametrize(
+    ("name", "thickness", "place", "camber"),
+    [
+        ("sc1095", 0.095, 0.27, 0.0081),
+        ("sc1094r8", 0.094, 0.27, 0.0213),
+        ("naca0012", 0.12, 0.30, 0.0),
+        ("naca63a015", 0.15, 0.35, 0.0),
+        ("naca23012", 0.12, 0.30, 0.0184),
+        ("naca4412", 0.12, 0.30, 0.04),
+    ],
+)
+def test_thickness_is_the_published_one(name: str, thickness: float, place: float, camber: float) -> None:
     got = thickness_and_camber(load_contour(name))
-    assert_allclose(got[0], thickness, atol=0.0003)
-    assert_allclose(got[1], 0.27, atol=0.01)
-    assert_allclose(got[2], camber, atol=0.0002)
+    assert_allclose(got[0], thickness, atol=0.0007)  # measured across the chord, a cambered one is a little thicker
+    assert_allclose(got[1], place, atol=0.012)
+    assert_allclose(got[2], camber, atol=0.0003)
 
 
 @pytest.mark.parametrize("name", SECTION_NAMES)
 def test_outline_runs_over_the_top_first_and_keeps_its_gap(name: str) -> None:
     points = load_contour(name).points
     assert points[3, 1] > points[-4, 1]
-    assert_allclose(points[0] - points[-1], [0.0, 0.0034], atol=0.0002)
+    gap = {"naca0012": 0.00252, "naca63a015": 0.00064}.get(name, 0.0034)  # The formula's 0.252 % for 12 %; Report 903.
+    assert_allclose(points[0] - points[-1], [0.0, gap], atol=0.0002)
     nose, tail = chord_line(load_contour(name))
     assert_allclose(nose, [0.0, 0.0], atol=1e-6)
     assert_allclose(tail, [1.0, 0.0], atol=1e-6)
@@ -50,12 +62,14 @@ def test_resampling_keeps_the_shape(name: str, n: int) -> None:
         x, y = points.T
         return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
 
-    # The area enclosed by n chords falls short by about (arc / n)^2 times the curvature: 1 % at 41 points.
-    assert_allclose(area(again.points), area(contour.points), rtol=0.01 * (41 / n) ** 2 + 1e-4)
+    # The area enclosed by n chords falls short by about (arc / n)^2 times the curvature: 1 % at 41 points. The spline
+    # gives back what the 51 chords of the 63-015A's published table leave out.
+    given = 2e-3 if name == "naca63a015" else 1e-4
+    assert_allclose(area(again.points), area(contour.points), rtol=0.01 * (41 / n) ** 2 + given)
 
 
 def test_sections_blend_point_by_point() -> None:
-    one, two = (resample(load_contour(name), 81).points for name in SECTION_NAMES)
+    one, two = (resample(load_contour(name), 81).points for name in ("sc1095", "sc1094r8"))
     assert np.abs(one - two).max() < 0.03, "corresponding points lie near each other"
     half = 0.5 * (one + two)
     assert np.all(np.diff(half[:41, 0]) < 0.0)

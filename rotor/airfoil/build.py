@@ -1,8 +1,6 @@
 """From coordinates and raw XFOIL polars to the C81 deck that ships, and back to check it.
 
-Polars (trip at 5 % chord, Re = 12.27e6 Mach) at Mach 0.1 to 0.4 -> gaps closed -> compressibility -> the
-closed form beyond stall -> rounded C81 deck. The Mach 0 column repeats Mach 0.1; Mach 0.95 and 1.0 use
-the same formulas and are extrapolation.
+Polars (trip at 5 % chord, the Reynolds number of the section's own chord) at Mach 0.1 to 0.4 -> `assemble`.
 """
 
 from collections.abc import Callable
@@ -10,50 +8,52 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import PchipInterpolator
 
-from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81
-from rotor.airfoil.compressibility import (
-    BASE_MACH,
-    NATIVE_MACH_LIMIT,
-    SectionTraits,
-    capped_polar,
-    corrected_polar,
-)
+from rotor.airfoil.assemble import assemble_deck
+from rotor.airfoil.c81 import C81Deck
+from rotor.airfoil.compressibility import SectionTraits
 from rotor.airfoil.contour import load_contour
 from rotor.airfoil.polars import Polar, PolarSet
-from rotor.airfoil.wrap import BLEND_END_DEG, blend
+from rotor.airfoil.wrap import BLEND_END_DEG
 from rotor.airfoil.xfoil import XfoilCase, run_polar
 
 FloatArray = NDArray[np.float64]
 
-REYNOLDS_PER_MACH = 12.27e6  # c = 0.527 m, ISA sea level.
 TRIP = 0.05  # Transition at 5 % chord, both sides: free transition gives 16-35 % too little drag.
 NATIVE_MACHS = (0.1, 0.2, 0.3, 0.4)
 POLAR_ALPHA_DEG = np.arange(-36, 37, dtype=np.float64) * 0.5
-USED_ALPHA_DEG = 16.0  # Beyond, XFOIL jumps between separated branches; values are held there and blended away.
 THESIS_CASE = XfoilCase(mach=0.3, reynolds=3.68e6, n_crit=9.0, trip=None)
 THESIS_ALPHA_DEG = np.arange(-60, 81, dtype=np.float64) * 0.25  # -15..20 deg
-DECK_MACH = np.array([0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0])
 
-TRAITS = {
-    # t/c measured on the coordinates. negative_ratio: XFOIL's own |cl_min| / cl_max at Mach 0.3.
-    "sc1095": SectionTraits(thickness=0.095, cap_ratio=1.0, cap_native=False, negative_ratio=0.80),
+
+@dataclass(frozen=True)
+class Recipe:
+    """How a bundled section is made: title of its deck, Reynolds number per Mach at sea level, and its traits."""
+
+    title: str
+    reynolds_per_mach: float
+    traits: SectionTraits
+
+
+RECIPES = {
+    # t/c measured on the coordinates. negative_ratio: XFOIL's own |cl_min| / cl_max at Mach 0.3. Chord 0.527 m.
+    "sc1095": Recipe("SC1095 XFOIL TRIP5 WRAP", 12.27e6, SectionTraits(thickness=0.095, negative_ratio=0.80)),
     # No public R8 table exists to check against. XFOIL's cl_max (1.96 at M 0.3, growing with Mach) is not
     # believed; a neural network trained on XFOIL gives R8 1.09-1.10 times the SC1095 value at M 0.3-0.5.
     # Its negative_ratio is a rounded guess near XFOIL's 0.42: negative stall moves with the paneling anyway.
-    "sc1094r8": SectionTraits(thickness=0.094, cap_ratio=1.10, cap_native=True, negative_ratio=0.45),
+    "sc1094r8": Recipe(
+        "SC1094R8 XFOIL TRIP5 WRAP",
+        12.27e6,
+        SectionTraits(thickness=0.094, cap_ratio=1.10, cap_native=True, negative_ratio=0.45),
+    ),
+    # The S-61's chord, 0.464 m. Cap and Korn's factor read off the public NACA 0012 C81 table (CITATION.md).
+    "naca0012": Recipe("NACA0012 XFOIL TRIP5 WRAP", 10.80e6, SectionTraits(thickness=0.12, cap_ratio=0.90, korn=0.87)),
+    # The R22's chord, 0.189 m. No public table with Mach was found: the cap is that of the NACA 0012, Korn's factor
+    # the textbook's for six-series sections (Mason 1990).
+    "naca63a015": Recipe(
+        "NACA63A015 XFOIL TRIP5 WRAP", 4.40e6, SectionTraits(thickness=0.15, cap_ratio=0.90, korn=0.87)
+    ),
 }
-TITLES = {"sc1095": "SC1095 XFOIL TRIP5 WRAP", "sc1094r8": "SC1094R8 XFOIL TRIP5 WRAP"}
-
-
-def deck_alpha_deg() -> FloatArray:
-    """The deck's angles [deg], at most 99: dense where flow separates and where reverse flow peaks."""
-    reverse = [180.0, 177.5, 175.0, 172.5, 170.0, 167.5, 165.0, 160.0, 155.0, 150.0]
-    broadside = [140.0, 130.0, 120.0, 105.0, 90.0, 75.0, 60.0, 50.0, 40.0, 35.0, 30.0, 26.0, 24.0, 22.0, 20.0, 18.0]
-    far = np.array(reverse + broadside)
-    near = np.concatenate((np.arange(-16.0, 8.0), np.arange(8.0, 16.0, 0.5), [16.0, 17.0]))
-    return np.concatenate((-far, near, far[::-1]))
 
 
 @dataclass(frozen=True)
@@ -72,22 +72,22 @@ class Difference:
 
 def check_name(name: str) -> None:
     """ValueError unless `name` is a section this project can build."""
-    if name not in TRAITS:
-        raise ValueError(f"no section named {name!r}: choose one of {', '.join(TRAITS)}")
+    if name not in RECIPES:
+        raise ValueError(f"no section named {name!r}: choose one of {', '.join(RECIPES)}")
 
 
 def run_trip_polars(name: str, report: Callable[[str], None]) -> PolarSet:
     """Run XFOIL for the deck of `name`; minutes at worst."""
     check_name(name)
-    contour = load_contour(name)
+    contour, per_mach = load_contour(name), RECIPES[name].reynolds_per_mach
     header = (
         f"{name}: polars computed with XFOIL 6.99 by this project from the coordinates in {name}.contour",
-        f"transition fixed at {TRIP:g} chord on both sides, Ncrit 9, Re = {REYNOLDS_PER_MACH:.4g} * Mach",
+        f"transition fixed at {TRIP:g} chord on both sides, Ncrit 9, Re = {per_mach:.4g} * Mach",
         "angles where no paneling converged are left out",
     )
     polars: list[Polar] = []
     for mach in NATIVE_MACHS:
-        case = XfoilCase(mach, REYNOLDS_PER_MACH * mach, 9.0, TRIP)
+        case = XfoilCase(mach, per_mach * mach, 9.0, TRIP)
         polars.append(run_polar(contour, case, POLAR_ALPHA_DEG, report))
     return PolarSet(header, tuple(polars))
 
@@ -102,58 +102,14 @@ def run_thesis_polar(report: Callable[[str], None]) -> PolarSet:
     return PolarSet(header, (run_polar(load_contour("sc1095"), THESIS_CASE, THESIS_ALPHA_DEG, report),))
 
 
-def _at(polar: Polar, alpha_deg: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """A polar at `alpha_deg`: gaps bridged monotonically, values held beyond USED_ALPHA_DEG."""
-    where = np.clip(alpha_deg, max(polar.alpha_deg[0], -USED_ALPHA_DEG), min(polar.alpha_deg[-1], USED_ALPHA_DEG))
-    cl, log_cd, cm = (
-        np.asarray(PchipInterpolator(polar.alpha_deg, y)(where)) for y in (polar.cl, np.log(polar.cd), polar.cm)
-    )
-    # Fully separated, the force stays normal to the chord: its drag leans on with tan(alpha).
-    beyond = np.deg2rad(np.maximum(np.abs(alpha_deg), USED_ALPHA_DEG))
-    return cl, np.exp(log_cd) * np.tan(beyond) / np.tan(np.deg2rad(USED_ALPHA_DEG)), cm
-
-
-def _drag_grows_to_broadside(alpha_deg: FloatArray, cd: FloatArray) -> FloatArray:
-    """`cd` of one Mach made to grow outward from its least value to +-90 deg.
-
-    The closed form knows no Mach number, so that above Mach 0.8 the blend would fall into it.
-    """
-    out = cd.copy()
-    best = int(np.argmin(np.where(np.abs(alpha_deg) < 16.0, cd, np.inf)))
-    up = slice(best, int(np.searchsorted(alpha_deg, 90.0)) + 1)
-    down = slice(best, int(np.searchsorted(alpha_deg, -90.0)) - 1, -1)
-    for side in (up, down):
-        out[side] = np.maximum.accumulate(cd[side])
-    return out
-
-
 def make_deck(name: str, polars: PolarSet) -> C81Deck:
     """The deck of `name` from its raw polars, rounded as the C81 text rounds it."""
     check_name(name)
-    traits = TRAITS[name]
     by_mach = {round(p.mach, 3): p for p in polars.polars}
     missing = [m for m in NATIVE_MACHS if m not in by_mach]
     if missing:
         raise ValueError(f"the polars of {name} lack Mach {missing[0]:g}: run `python -m rotor airfoil build {name}`")
-    alpha_deg = deck_alpha_deg()
-    alpha = np.deg2rad(alpha_deg)
-    near = np.abs(alpha_deg) < BLEND_END_DEG
-    columns: list[tuple[FloatArray, FloatArray, FloatArray]] = []
-    for mach in DECK_MACH:
-        native = mach <= NATIVE_MACH_LIMIT + 1e-9
-        polar = by_mach[round(max(float(mach), NATIVE_MACHS[0]), 3) if native else BASE_MACH]
-        correct = capped_polar if native else corrected_polar
-        inner = correct(float(mach), alpha[near], *_at(polar, alpha_deg[near]), traits)
-        full = [np.ones_like(alpha) for _ in range(3)]
-        for whole, part in zip(full, inner, strict=True):
-            whole[near] = part
-        cl_here, cd_here, cm_here = blend(alpha, full[0], full[1], full[2])
-        columns.append((cl_here, _drag_grows_to_broadside(alpha_deg, cd_here), cm_here))
-    cl, cd, cm = (np.stack([column[k] for column in columns], axis=1) for k in range(3))
-    cl[[0, -1]] = cl[[0, -1]].mean(axis=0)  # The two ends are one angle.
-    cm[[0, -1]] = cm[[0, -1]].mean(axis=0)
-    deck = C81Deck(TITLES[name], *(C81Block(DECK_MACH, alpha_deg, values) for values in (cl, cd, cm)))
-    return parse_c81(format_c81(deck), TITLES[name])
+    return assemble_deck(RECIPES[name].title, [by_mach[m] for m in NATIVE_MACHS], RECIPES[name].traits)
 
 
 def compare_decks(new: C81Deck, old: C81Deck) -> Difference:

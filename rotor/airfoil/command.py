@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from rotor.airfoil.build import TRAITS, check_name, compare_decks, make_deck, run_thesis_polar, run_trip_polars
+from rotor.airfoil.build import RECIPES, check_name, compare_decks, make_deck, run_thesis_polar, run_trip_polars
 from rotor.airfoil.c81 import format_c81, read_c81
 from rotor.airfoil.polars import read_polars, write_polars
 from rotor.airfoil.polynomial import THESIS_NAME
@@ -26,7 +26,7 @@ def add_parser(subparsers: Any) -> None:
     """Register the command and its three actions."""
     parser = subparsers.add_parser("airfoil", help="section data: build|verify|show NAME")
     parser.add_argument("action", choices=("build", "verify", "show"), help="what to do")
-    parser.add_argument("name", metavar="NAME", help=f"{', '.join(TRAITS)}; show also takes {THESIS_NAME}")
+    parser.add_argument("name", metavar="NAME", help=f"{', '.join(RECIPES)}; show also takes {THESIS_NAME}")
     parser.add_argument(
         "--from-polars", action="store_true", help="build, verify: start from the bundled raw polars, without XFOIL"
     )

@@ -34,13 +34,15 @@ class SectionTraits:
     """What the corrections need to know of a section.
 
     `thickness` is t/c [-]; `cap_ratio` multiplies the SC1095 cap; `cap_native` says whether XFOIL's own
-    lift is capped below Mach 0.4 too; `negative_ratio` is the cap at negative lift over that at positive.
+    lift is capped below Mach 0.4 too; `negative_ratio` is the cap at negative lift over that at positive;
+    `korn` is the technology factor of Korn's relation.
     """
 
     thickness: float
-    cap_ratio: float
-    cap_native: bool
-    negative_ratio: float
+    cap_ratio: float = 1.0
+    cap_native: bool = False
+    negative_ratio: float = 1.0
+    korn: float = KORN_KAPPA
 
 
 def lift_cap(mach: float, traits: SectionTraits) -> float:
@@ -54,19 +56,19 @@ def smooth_cap(cl: FloatArray, upper: float, lower: float, sharpness: float = CA
     return np.asarray(cl / (1.0 + np.abs(cl / cap) ** sharpness) ** (1.0 / sharpness), dtype=np.float64)
 
 
-def prandtl_glauert(mach: float) -> float:
-    """Growth of lift from BASE_MACH to `mach`: sqrt(1 - M0^2) / sqrt(1 - M^2), constant above lift divergence."""
+def prandtl_glauert(mach: float, base: float = BASE_MACH) -> float:
+    """Growth of lift from `base` to `mach`: sqrt(1 - M0^2) / sqrt(1 - M^2), constant above lift divergence."""
     held = min(mach, LIFT_DIVERGENCE_MACH)
-    return float(np.sqrt((1.0 - BASE_MACH**2) / (1.0 - held**2)))
+    return float(np.sqrt((1.0 - base**2) / (1.0 - held**2)))
 
 
-def wave_drag(mach: float, cl: FloatArray, thickness: float) -> FloatArray:
+def wave_drag(mach: float, cl: FloatArray, thickness: float, korn: float = KORN_KAPPA) -> FloatArray:
     """Wave drag coefficient [-] by Korn's relation and Lock's fourth-power law, for an unswept section.
 
     M_dd = kappa - t/c - |cl|/10, M_cr = M_dd - (0.1/80)^(1/3), cd = 20 (M - M_cr)^4 (Mason 1990),
     continued with its own slope beyond M - M_cr = LINEAR_RISE_FROM.
     """
-    critical = KORN_KAPPA - thickness - np.abs(cl) / 10.0 - (0.1 / 80.0) ** (1.0 / 3.0)
+    critical = korn - thickness - np.abs(cl) / 10.0 - (0.1 / 80.0) ** (1.0 / 3.0)
     excess = np.maximum(mach - critical, 0.0)
     quartic = np.minimum(excess, LINEAR_RISE_FROM)
     return 20.0 * quartic**4 + 80.0 * LINEAR_RISE_FROM**3 * (excess - quartic)
@@ -86,14 +88,19 @@ def with_lost_suction(alpha: FloatArray, potential_cl: FloatArray, cl: FloatArra
 
 
 def corrected_polar(
-    mach: float, alpha: FloatArray, cl: FloatArray, cd: FloatArray, cm: FloatArray, traits: SectionTraits
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """(cl, cd, cm) at `mach` above NATIVE_MACH_LIMIT from the polar at BASE_MACH; `alpha` [rad] within +-0.5."""
-    growth = prandtl_glauert(mach)
+    mach: float, alpha: FloatArray, cl: FloatArray, cd: FloatArray, cm: FloatArray, traits: SectionTraits,
+    base: float = BASE_MACH,
+) -> tuple[FloatArray, FloatArray, FloatArray]:  # fmt: skip
+    """(cl, cd, cm) at a `mach` where the polar itself ends, from the polar at `base`; `alpha` [rad] within +-0.5."""
+    growth = prandtl_glauert(mach, base)
     cap = lift_cap(mach, traits)
     lifted = smooth_cap(cl * growth, cap, cap * traits.negative_ratio)
-    friction = float(np.min(cd)) * (1.0 - (mach / BASE_MACH) ** FRICTION_REYNOLDS_POWER)
-    drag = with_lost_suction(alpha, cl * growth, lifted, cd) - friction + wave_drag(mach, lifted, traits.thickness)
+    friction = float(np.min(cd)) * (1.0 - (mach / base) ** FRICTION_REYNOLDS_POWER)
+    drag = (
+        with_lost_suction(alpha, cl * growth, lifted, cd)
+        - friction
+        + wave_drag(mach, lifted, traits.thickness, traits.korn)
+    )
     return lifted, drag, cm * growth
 
 

@@ -4,7 +4,7 @@ Order everywhere: from the upper trailing edge forward around the nose to the lo
 chord lengths, x aft from the leading edge, y up. The small trailing-edge gap of the real sections is kept.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -12,11 +12,12 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
+from rotor.airfoil.naca import is_naca, naca_points
 from rotor.assets import asset_path
 
 FloatArray = NDArray[np.float64]
 
-SECTION_NAMES = ("sc1095", "sc1094r8")
+SECTION_NAMES = ("sc1095", "sc1094r8", "naca0012", "naca63a015")
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,12 +32,17 @@ class Contour:
 
 
 def read_contour(path: Path, name: str | None = None) -> Contour:
-    """Read a coordinate file: `x y` per line, `#` lines and one title line ignored.
+    """Read a coordinate file, see `parse_contour`."""
+    return replace(parse_contour(path.read_text(encoding="utf-8"), path.name), name=name or path.stem)
 
-    Both our own files and plain Selig files pass; anything else is a ValueError that names the line.
+
+def parse_contour(text: str, name: str) -> Contour:
+    """The outline in `text`: `x y` per line, `#` lines and one title line ignored.
+
+    Both our own files and plain Selig files pass; anything else is a ValueError that names the line of `name`.
     """
     rows: list[tuple[float, float]] = []
-    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+    for number, line in enumerate(text.splitlines(), start=1):
         words = line.split("#")[0].split()
         if not words:
             continue
@@ -45,24 +51,30 @@ def read_contour(path: Path, name: str | None = None) -> Contour:
         except ValueError:
             if not rows and number == 1:
                 continue  # Selig files start with a title.
-            raise ValueError(f"{path.name}, line {number}: {line!r} is not `x y`: give two numbers a line") from None
+            raise ValueError(f"{name}, line {number}: {line!r} is not `x y`: give two numbers a line") from None
         rows.append((x, y))
     points = np.array(rows, dtype=np.float64)
     if len(rows) < 20:
-        raise ValueError(f"{path.name} has {len(rows)} points: a section outline needs at least 20")
+        raise ValueError(f"{name} has {len(rows)} points: a section outline needs at least 20")
     if points[:5, 1].mean() < points[-5:, 1].mean():
-        raise ValueError(f"{path.name} starts on the lower side: order the points from the upper trailing edge")
-    return Contour(name or path.stem, points)
+        raise ValueError(f"{name} starts on the lower side: order the points from the upper trailing edge")
+    if not (np.isfinite(points).all() and 0.9 < np.ptp(points[:, 0]) < 1.1 and np.abs(points).max() < 1.5):
+        raise ValueError(f"{name} does not run from x 0 to 1: give the coordinates in chord lengths")
+    return Contour(name, points)
 
 
 @lru_cache(maxsize=8)
 def load_contour(name: str) -> Contour:
-    """The bundled outline of `name`, one of `SECTION_NAMES`; 141 (SC1095) and 145 (SC1094 R8) points.
+    """The bundled outline of `name`, one of `SECTION_NAMES`, or a NACA outline of four or five digits by formula.
 
-    Source: NASA/TP-2003-212265 coordinates as carried by the UIUC airfoil database.
+    Sources: `assets/airfoils/CITATION.md`.
     """
     if name not in SECTION_NAMES:
-        raise ValueError(f"no outline named {name!r}: choose one of {', '.join(SECTION_NAMES)}")
+        if is_naca(name):
+            return Contour(name, naca_points(name))
+        raise ValueError(
+            f"no outline named {name!r}: choose one of {', '.join(SECTION_NAMES)} or a NACA section as naca23012"
+        )
     return read_contour(asset_path(f"airfoils/{name}.contour"), name)
 
 

@@ -8,7 +8,8 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 
-_COLUMNS = "mach,reynolds,alpha_deg,cl,cd,cm"
+COLUMNS = "mach,reynolds,alpha_deg,cl,cd,cm"
+"""Heading of the CSV."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +41,7 @@ class PolarSet:
 
 def write_polars(path: Path, polar_set: PolarSet) -> None:
     """Write a polar set; four to five decimals, as XFOIL prints them, so nothing is lost."""
-    lines = [f"# {line}" for line in polar_set.header] + [_COLUMNS]
+    lines = [f"# {line}" for line in polar_set.header] + [COLUMNS]
     for p in polar_set.polars:
         for a, cl, cd, cm in zip(p.alpha_deg, p.cl, p.cd, p.cm, strict=True):
             lines.append(f"{p.mach:g},{p.reynolds:.0f},{a:g},{cl:.4f},{cd:.5f},{cm:.4f}")
@@ -48,24 +49,29 @@ def write_polars(path: Path, polar_set: PolarSet) -> None:
 
 
 def read_polars(path: Path) -> PolarSet:
-    """Read a polar set written by `write_polars`; a damaged line is a ValueError that names it."""
+    """Read a polar set written by `write_polars`, see `parse_polars`."""
+    return parse_polars(path.read_text(encoding="utf-8"), path.name)
+
+
+def parse_polars(text: str, name: str) -> PolarSet:
+    """The polar set in `text`; a damaged line is a ValueError that names it in `name`."""
     header: list[str] = []
     rows: list[tuple[float, ...]] = []
-    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+    for number, line in enumerate(text.splitlines(), start=1):
         if line.startswith("#"):
             header.append(line[1:].strip())
             continue
-        if line == _COLUMNS or not line.strip():
+        if line == COLUMNS or not line.strip():
             continue
         try:
             row = tuple(float(word) for word in line.split(","))
         except ValueError:
             row = ()
-        if len(row) != 6 or not row[4] > 0.0:
-            raise ValueError(f"{path.name}, line {number}: {line!r} is not `{_COLUMNS}` with cd > 0: fix the line")
+        if len(row) != 6 or not np.isfinite(row).all() or not row[4] > 0.0:
+            raise ValueError(f"{name}, line {number}: {line!r} is not `{COLUMNS}` with cd > 0: fix the line")
         rows.append(row)
     if not rows:
-        raise ValueError(f"{path.name} holds no polar: rebuild it with `python -m rotor airfoil build`")
+        raise ValueError(f"{name} holds no polar: rebuild it with `python -m rotor airfoil build`")
     data = np.array(rows, dtype=np.float64)
     polars: list[Polar] = []
     for mach in np.unique(data[:, 0]):

@@ -1,10 +1,19 @@
-"""The sections of the blade as installed: aerodynamic table, chord line and chord against the SC1095 line."""
+"""The sections of the blade as installed: aerodynamic table, outline, chord line and chord against the blade's line.
+
+Bundled sections go by name. A section that a user brings is a value (`OwnSection`) that holds its whole deck as text,
+so that a design stays hashable and travels to other processes as it is.
+"""
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
-from rotor.airfoil.section_table import SectionTable
+from rotor.airfoil.c81 import parse_c81
+from rotor.airfoil.contour import Contour, load_contour, parse_contour
+from rotor.airfoil.polynomial import THESIS_NAME
+from rotor.airfoil.regrid import on_run_time_grid
+from rotor.airfoil.section_table import SectionTable, table_from_deck
 from rotor.airfoil.table import load_section
 
 # The UIUC outline `sc1095r8`, the R8 in SC1095 axes, has its chord line 0.997 deg nose-down and 1.010 times
@@ -17,18 +26,50 @@ _R8_CHORD_RATIO = 1.009875
 class Section:
     """A section on the blade.
 
-    `incidence_offset` [rad] is how far its chord line points nose-down of the SC1095 chord line: the table is
-    asked at alpha_blade - incidence_offset. `chord_ratio` [-] is its chord over the SC1095 chord.
+    `incidence_offset` [rad] is how far its chord line points nose-down of the blade's line (on the UH-60A that of
+    the SC1095): the table is asked at alpha_blade - incidence_offset. `chord_ratio` [-] is its chord over the
+    blade's. `outline` is its shape, for pictures.
     """
 
     name: str
     table: SectionTable
     incidence_offset: float
     chord_ratio: float
+    outline: Contour
+
+
+@dataclass(frozen=True)
+class OwnSection:
+    """Section data from a user's files, as one value without arrays."""
+
+    name: str
+    deck: str
+    """C81 text: the user's deck, or one made of the user's polars."""
+    outline: str
+    """Name of a bundled or NACA outline, or coordinates as text (Selig), one point a line."""
+    source: str
+    """Files it came from."""
+    incidence_offset: float = 0.0
+    """[rad], nose-down positive."""
+    chord_ratio: float = 1.0
 
 
 def load_installed(name: str) -> Section:
-    """The bundled section `name` (`sc1095`, `sc1094r8`, `sc1095-thesis`) with its installation."""
+    """The bundled section `name` (`sc1095`, `sc1094r8`, `naca0012`, …) with its installation."""
+    table = load_section(name)
+    outline = load_contour("sc1095" if name == THESIS_NAME else name)
     if name == "sc1094r8":
-        return Section(name, load_section(name), float(np.deg2rad(_R8_DROOP_DEG)), _R8_CHORD_RATIO)
-    return Section(name, load_section(name), 0.0, 1.0)
+        return Section(name, table, float(np.deg2rad(_R8_DROOP_DEG)), _R8_CHORD_RATIO, outline)
+    return Section(name, table, 0.0, 1.0, outline)
+
+
+@lru_cache(maxsize=16)
+def install_own(own: OwnSection) -> Section:
+    """A user's section; read and laid out once a process, in some 30 ms.
+
+    Raises ValueError with one sentence that names line and remedy for a deck or an outline that cannot be used.
+    """
+    deck = on_run_time_grid(parse_c81(own.deck, own.name))
+    outline = parse_contour(own.outline, own.name) if "\n" in own.outline else load_contour(own.outline)
+    table = table_from_deck(own.name, own.source, deck)
+    return Section(own.name, table, own.incidence_offset, own.chord_ratio, outline)

@@ -16,10 +16,10 @@ from rotor.assets import asset_path
 
 TABLE_NAMES = (*SECTION_NAMES, THESIS_NAME)
 
-_SOURCE = "XFOIL 6.99 tripped at 5 % chord, Re = 12.27e6 Mach, compressibility and +-180 deg wrap by this project"
+_SOURCE = "XFOIL 6.99 tripped at 5 % chord, Re of its own rotor, compressibility and +-180 deg wrap by this project"
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=16)
 def load_section(name: str) -> SectionTable:
     """The bundled table of `name`, one of `TABLE_NAMES`; read and laid out once, in about 20 ms."""
     if name == THESIS_NAME:
