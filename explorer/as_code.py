@@ -11,12 +11,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from explorer.code_writer import Writer, exact_spec, same
+from rotor.assets import SHIPPED_ROTORS
 from rotor.blade import airfoils_spec
 from rotor.case import case_of
 from rotor.command.parser import build_parser, design_from
 from rotor.design import Design
 from rotor.presets import make_design
 from rotor.switches import switched_off
+from rotor.twist import TwistLaw
 
 CASE_FILE = "design.json"
 """What a design file is called in a command."""
@@ -62,8 +64,9 @@ def as_command_line(design: Design) -> CommandLine:
 
 def _flags(design: Design) -> list[str]:
     """Flag and value in one string each."""
-    condition, plain = design.condition, make_design(design.preset)
-    words = [f"--preset {design.preset}"] if design.preset != "flight" else []
+    condition, plain = design.condition, make_design(design.preset, aircraft=design.aircraft)
+    words = [f"--rotor {design.aircraft.key}"] if design.aircraft.key not in ("", SHIPPED_ROTORS[0]) else []
+    words += [f"--preset {design.preset}"] if design.preset != "flight" else []
     words.append("--hover" if design.hovering else f"--mu {_plain(condition.advance_ratio)}")
     words += [f"--twist {shlex.quote(exact_spec(design.twist))}", f"--mass-kg {_plain(condition.mass)}"]
     if condition.altitude:
@@ -101,6 +104,21 @@ def _on_lines(words: list[str]) -> str:
     return " \\\n".join(lines)
 
 
+def _twist_of(design: Design, spec: str) -> TwistLaw:
+    """What a SPEC means on this design's rotor at its weight."""
+    return make_design(design.preset, aircraft=design.aircraft, twist=spec, mass=design.condition.mass).twist
+
+
+def _aircraft(design: Design, writer: Writer) -> list[str]:
+    """The argument that names the aircraft, nothing for the default; a user's own is written out with all its files."""
+    files = design.aircraft.files
+    if files is None:
+        return [] if design.aircraft.key == SHIPPED_ROTORS[0] else [f"aircraft={writer.value(design.aircraft.key)}"]
+    writer.name("rotor.rotor_file", "read_aircraft")
+    texts = ", ".join(f"{writer.value(name)}: {writer.value(text)}" for name, text in files.texts)
+    return [f"aircraft=read_aircraft({writer.value(files.main)}, {{{texts}}})"]
+
+
 def as_python(design: Design) -> str:
     """A script that makes the design with `rotor`'s own names, solves it, and prints power by parts and caveats.
 
@@ -110,13 +128,18 @@ def as_python(design: Design) -> str:
     writer.name("rotor", "make_design")
     writer.name("rotor", "solve")
     start = make_design(
-        design.preset, advance_ratio=condition.advance_ratio, mass=condition.mass, altitude=condition.altitude
+        design.preset,
+        aircraft=design.aircraft,
+        advance_ratio=condition.advance_ratio,
+        mass=condition.mass,
+        altitude=condition.altitude,
     )
     spec = exact_spec(design.twist)
     # A SPEC is what people write; it serves where it says the law to the last digit and needs no file.
-    spoken = "table:" not in spec and make_design(design.preset, twist=spec, mass=condition.mass).twist == design.twist
+    spoken = "table:" not in spec and _twist_of(design, spec) == design.twist
     arguments = [
         writer.value(design.preset),
+        *_aircraft(design, writer),
         f"twist={writer.value(spec if spoken else design.twist)}",
         f"advance_ratio={float(condition.advance_ratio)!r}",
         f"mass={float(condition.mass)!r}",

@@ -3,6 +3,9 @@
 import csv
 from pathlib import Path
 
+SHIPPED_ROTORS = ("uh60a", "r22", "s61")
+"""Names of the rotors that ship; `assets/<name>.toml` holds each. The first is the default."""
+
 _PACKAGED = Path(__file__).parent / "_assets"
 _CHECKOUT = Path(__file__).parent.parent / "assets"
 

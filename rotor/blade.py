@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rotor.airfoil.sections import OwnSection, Section, install_own, load_installed
 from rotor.twist import TwistLaw
 
 Array = NDArray[np.float64]
@@ -49,6 +50,8 @@ class Blade:
     """First mass moment about the flap hinge [kg m]."""
     mass: float
     """[kg]"""
+    own_sections: tuple[OwnSection, ...] = ()
+    """Section data a user brought, which spans name beside the bundled ones."""
 
     def __post_init__(self) -> None:
         if len(self.chord_stations) != len(self.chords) or not self.chords:
@@ -63,6 +66,11 @@ class Blade:
     def chord(self, r: ArrayLike) -> Array:
         """Reference chord [m] at r = y/R."""
         return np.interp(np.asarray(r, dtype=float), self.chord_stations, self.chords)
+
+    def installed(self, name: str) -> Section:
+        """The section `name` with its table and outline: a user's own, or a bundled one (ValueError for neither)."""
+        own = next((one for one in self.own_sections if one.name == name), None)
+        return install_own(own) if own else load_installed(name)
 
     def section_at(self, r: float) -> tuple[str, str, float]:
         """Inner section, outer section and the weight of the outer one (0 within a span) at r = y/R."""

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rotor.assets import asset_path, csv_rows
 from rotor.design import Design
 from rotor.elements import expected_wake
-from rotor.wake.ideal import BOUND_LATTICE, InducedPower, LinearBlade, least_induced_power, least_twisted_power
+from rotor.wake.ideal import InducedPower, LinearBlade, bound_lattice, least_induced_power, least_twisted_power
 
 Array = NDArray[np.float64]
 
@@ -46,7 +46,7 @@ def find_bound(design: Design) -> Bound:
     drag = design.drag / design.thrust_unit
     wake = expected_wake(design, drag)
     ct = math.hypot(design.weight_coefficient, drag)
-    lattice = BOUND_LATTICE
+    lattice = bound_lattice(rotor.blades, round(rotor.blade.root_cutout, 2))
     r = lattice.r
     blade = LinearBlade(chord=rotor.reference_chord / rotor.radius)
     across = (2.0 * r - 1.0 - lattice.root) / (1.0 - lattice.root)
@@ -73,14 +73,19 @@ def find_bound(design: Design) -> Bound:
     )
 
 
-def ideal_factor(mu: float, ct: float) -> float | None:
-    """κ of any circulation within the lift limit, from the shipped table (`python -m rotor ideal`).
+TABLE_ROTOR = "uh60a"
+"""The shipped table is of this rotor; another's bound takes `python -m rotor ideal --rotor`."""
+
+
+def ideal_factor(mu: float, ct: float, rotor: str = TABLE_ROTOR) -> float | None:
+    """κ of any circulation within the lift limit, from the shipped table (`python -m rotor ideal`) of the UH-60A.
 
     Linear between the table's advance ratios and C_T, held beyond its C_T; 1 in hover, where an even load is ideal.
-    None beyond its fastest, 0.40: there reverse-flow lift decides and the bound has not settled.
+    None beyond its fastest, 0.40: there reverse-flow lift decides and the bound has not settled. None for any other
+    `rotor` by name: its blade number, root and chord make another bound.
     """
     speeds, thrusts, factors = _table()
-    if mu > speeds[-1]:
+    if mu > speeds[-1] or rotor != TABLE_ROTOR:
         return None
     at_thrust = [_between(ct, thrusts, row) for row in factors]
     return float(np.interp(mu, [0.0, *speeds.tolist()], [1.0, *at_thrust]))

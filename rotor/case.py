@@ -1,4 +1,7 @@
-"""Design files: the choices behind a UH-60A `Design` as JSON that a person can read and edit."""
+"""Design files: the choices behind a `Design` as JSON that a person can read and edit.
+
+`rotor` names a shipped rotor, or holds a user's own files word for word, so that nothing is lost with them.
+"""
 
 import json
 from dataclasses import replace
@@ -6,20 +9,27 @@ from pathlib import Path
 from typing import Any, cast
 
 from rotor.active_twist import active_twist_record, read_active_twist
+from rotor.aircraft import Aircraft
+from rotor.assets import SHIPPED_ROTORS
 from rotor.blade import airfoils_spec
 from rotor.design import Design
+from rotor.fleet import find_aircraft, shipped_aircraft
 from rotor.inflow import inflow_model
-from rotor.presets import change_airfoils, make_design, uh60a_rotor
+from rotor.presets import change_airfoils, make_design
+from rotor.rotor_file import LARGEST_FILE, read_aircraft
 from rotor.twist_spec import inline_spec
 
 FORMAT = "rotor-explorer design"
-VERSION = 1
+VERSION = 2
+READS = (1, 2)
+"""Version 1 knew no `rotor`: its designs are the UH-60A's."""
 
 _SWITCHES = ("tip_loss", "hub_loss", "reverse_flow", "flapping", "compressibility", "fuselage")
 """Of `Models`, true or false."""
 _KEYS = (
     "format",
     "version",
+    "rotor",
     "preset",
     "twist",
     "advance_ratio",
@@ -34,11 +44,12 @@ _KEYS = (
 
 def case_of(design: Design) -> dict[str, Any]:
     """The design as a JSON-ready record."""
-    changed = design.rotor != uh60a_rotor(design.preset)
+    changed = design.rotor != design.aircraft.rotor_for(design.preset)
     airfoils = airfoils_spec(design.rotor) if changed else None
     return {
         "format": FORMAT,
         "version": VERSION,
+        "rotor": rotor_record(design.aircraft),
         "preset": design.preset,
         "twist": inline_spec(design.twist),
         "advance_ratio": design.condition.advance_ratio,
@@ -51,23 +62,54 @@ def case_of(design: Design) -> dict[str, Any]:
     }
 
 
-def design_of(case: dict[str, Any]) -> Design:
-    """The design a record describes; what it leaves out is the preset's.
+def rotor_record(aircraft: Aircraft) -> Any:
+    """A shipped rotor's name; of a user's own all its files, line by line."""
+    if aircraft.files is None:
+        return aircraft.key
+    return {
+        "main": aircraft.files.main,
+        "files": {name: text.splitlines() for name, text in aircraft.files.texts},
+    }
+
+
+def read_rotor_record(record: Any, *, paths: bool = False) -> Aircraft:
+    """The inverse; with `paths`, a text may also be the path of a rotor file on this machine.
+
+    Raises ValueError with one sentence for anything else.
+    """
+    if isinstance(record, str):
+        return find_aircraft(record) if paths else shipped_aircraft(record)
+    try:
+        main, files = record["main"], record["files"]
+        texts = {str(name): "".join(f"{line}\n" for line in lines) for name, lines in files.items()}
+        if main not in texts or sum(map(len, texts.values())) > LARGEST_FILE:
+            raise KeyError(main)
+    except (KeyError, TypeError, AttributeError):
+        raise ValueError(
+            f"design file key 'rotor' is no rotor: write one of {', '.join(SHIPPED_ROTORS)}, "
+            'or {"main": "my.toml", "files": {"my.toml": ["line", …]}}'
+        ) from None
+    return read_aircraft(main, texts)
+
+
+def design_of(case: dict[str, Any], *, paths: bool = False) -> Design:
+    """The design a record describes; what it leaves out is the preset's. `paths` as in `read_rotor_record`.
 
     Raises ValueError with one sentence for anything it cannot use.
     """
     unknown = sorted(set(case) - set(_KEYS))
     if unknown:
         raise ValueError(f"design file has the unknown key {unknown[0]!r}: the keys are {', '.join(_KEYS)}")
-    if case.get("format", FORMAT) != FORMAT or case.get("version", VERSION) != VERSION:
+    if case.get("format", FORMAT) != FORMAT or case.get("version", VERSION) not in READS:
         raise ValueError(
             f"design file is {case.get('format')!r} version {case.get('version')!r}: this program reads "
-            f"{FORMAT!r} version {VERSION}"
+            f"{FORMAT!r} version {' and '.join(map(str, READS))}"
         )
     preset = _text(case, "preset", "flight")
     twist = _text(case, "twist", "")
     design = make_design(
         preset,
+        aircraft=read_rotor_record(case.get("rotor", SHIPPED_ROTORS[0]), paths=paths),
         twist=twist or None,
         advance_ratio=_number(case, "advance_ratio", 0.2),
         mass=_number(case, "mass_kg", None),
@@ -95,7 +137,7 @@ def read_case(path: str | Path) -> Design:
         raise ValueError(f"design file {str(path)!r} does not exist: give the path of a JSON design file") from None
     except OSError as error:
         raise ValueError(f"design file {str(path)!r} cannot be read ({error}): give a JSON design file") from None
-    return design_of(_record(content, str(path)))
+    return design_of(_record(content, str(path)), paths=True)
 
 
 def parse_case(content: bytes, name: str) -> Design:

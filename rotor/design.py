@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from rotor.active_twist import ActiveTwist
+from rotor.aircraft import Aircraft
 from rotor.blade import Rotor
 from rotor.flight import FlightCondition, Fuselage
 from rotor.tail_rotor import TailRotor
@@ -62,11 +63,13 @@ class Design:
     """A rotor, its twist, the flight condition and the models that compute it."""
 
     preset: str
+    aircraft: Aircraft
+    """What the design began as: its baseline, its name, its hub."""
     rotor: Rotor
     twist: TwistLaw
     condition: FlightCondition
     fuselage: Fuselage
-    tail_rotor: TailRotor
+    tail_rotor: TailRotor | None
     models: Models
     active_twist: ActiveTwist | None = None
     """Twist that follows the azimuth, added to the law in forward flight."""

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotor.airfoil.polynomial import THESIS_NAME, polynomial_section
-from rotor.airfoil.sections import load_installed
 from rotor.airfoil.table import MACH_STEP, N_MACH
 from rotor.blade import Rotor
 
@@ -66,7 +65,7 @@ def build_disk(rotor: Rotor, elements: int, azimuths: int, only_mach: float | No
     psi = 2.0 * math.pi * np.arange(azimuths) / azimuths
 
     names = tuple(dict.fromkeys(span.section for span in blade.spans))
-    installed = [load_installed(name) for name in names]
+    installed = [blade.installed(name) for name in names]
     tables = [one.table if only_mach is None else one.table.held_at(only_mach) for one in installed]
     section = np.zeros((elements, 2), dtype=np.int64)
     weight = np.zeros(elements)

@@ -21,9 +21,9 @@ from rotor.elements import COLLECTIVE, CYCLIC_1C, CYCLIC_1S, Pass, Problem, lay_
 from rotor.equilibrium import combine_sums, jacobian, unknowns_of
 from rotor.hover import Annuli
 from rotor.inflow.seam import LoadLoop
+from rotor.power import tail_power
 from rotor.solution import Solution
 from rotor.sums import Slopes, slopes, unweigh, velocity_columns
-from rotor.tail_rotor import FIXED_SHARE
 from rotor.trim import guess_of
 
 Array = NDArray[np.float64]
@@ -165,12 +165,7 @@ def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradie
 
 def _tail_gain(solution: Solution) -> float:
     """What one watt at the shaft costs in all, the tail rotor included."""
-    design = solution.design
-    if not design.models.tail_rotor_solved:
-        return 1.0 + FIXED_SHARE
-    torque = solution.power.main_rotor / design.rotor.angular_speed
-    _, slope = design.tail_rotor.power(torque, design.airspeed, design.condition.density)
-    return 1.0 + slope / design.rotor.angular_speed
+    return 1.0 + tail_power(solution.design, solution.power.main_rotor)[1]
 
 
 def _dot(stack: Array, weight: Array | float) -> Array:

@@ -9,13 +9,13 @@ from (2.24) with λ_c = 0 and Prandtl's F. With a lift curve C_lα α the balanc
 
 import math
 from dataclasses import dataclass
-from functools import cache
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rotor import kernel
-from rotor.airfoil.sections import load_installed
+from rotor.airfoil.sections import Section
 from rotor.elements import COLLECTIVE, CONING, LAMBDA0, N_STATE, Pass, Problem
 from rotor.inflow import Wake
 from rotor.losses import loss_factor
@@ -55,11 +55,9 @@ def closed_form_inflow(
 
 def lift_curve(problem: Problem) -> tuple[Array, Array]:
     """C_lα [1/rad] and the zero-lift pitch [rad] of each element's linear lift curve, (elements,); blended sections."""
-    disk = problem.disk
-    names = dict.fromkeys(
-        span.section for span in problem.design.rotor.blade.spans
-    )  # In the order of the disk's tables.
-    slopes, zeros = np.array([_straight_line(name) for name in names]).T
+    disk, blade = problem.disk, problem.design.rotor.blade
+    names = dict.fromkeys(span.section for span in blade.spans)  # In the order of the disk's tables.
+    slopes, zeros = np.array([_straight_line(blade.installed(name)) for name in names]).T
     first, second = disk.section.T
     return (
         slopes[first] + disk.weight * (slopes[second] - slopes[first]),
@@ -67,9 +65,8 @@ def lift_curve(problem: Problem) -> tuple[Array, Array]:
     )
 
 
-@cache
-def _straight_line(name: str) -> tuple[float, float]:
-    section = load_installed(name)
+@lru_cache(maxsize=64)
+def _straight_line(section: Section) -> tuple[float, float]:
     zero = float(section.table.zero_lift_alpha(LIFT_CURVE_MACH)) + section.incidence_offset
     return float(section.table.lift_slope(LIFT_CURVE_MACH)), zero
 

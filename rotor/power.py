@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotor import kernel
+from rotor.design import Design
 from rotor.elements import Pass, Problem
 from rotor.solution import PowerBudget
 from rotor.tail_rotor import FIXED_SHARE
@@ -32,12 +33,20 @@ def power_budget(problem: Problem, one: Pass) -> PowerBudget:
     parasite = problem.drag * design.condition.advance_ratio * design.power_unit
     shaft = float((disk.r @ loads[kernel.FX]).sum()) * unit
     main = induced + profile + parasite
-    if design.models.tail_rotor_solved:
-        torque = main / design.rotor.angular_speed
-        tail, _ = design.tail_rotor.power(torque, design.airspeed, design.condition.density)
-    else:
-        tail = FIXED_SHARE * main
+    tail, _ = tail_power(design, main)
     return PowerBudget(induced=induced, profile=profile, parasite=parasite, tail=tail, shaft=shaft)
+
+
+def tail_power(design: Design, main: float) -> tuple[float, float]:
+    """Tail rotor power [W] beside a main rotor's [W], and its slope by that: solved, or the document's fixed share.
+
+    The share also stands where the aircraft has no tail rotor, or an unknown one.
+    """
+    if design.tail_rotor is None or not design.models.tail_rotor_solved:
+        return FIXED_SHARE * main, FIXED_SHARE
+    speed = design.rotor.angular_speed
+    tail, slope = design.tail_rotor.power(main / speed, design.airspeed, design.condition.density)
+    return tail, slope / speed
 
 
 def profile_power_coefficient(solidity: float, drag_coefficient: float, advance_ratio: float) -> float:

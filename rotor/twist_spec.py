@@ -2,8 +2,10 @@
 
 import math
 import re
+from collections.abc import Callable
 from pathlib import Path
 
+from rotor.assets import SHIPPED_ROTORS
 from rotor.twist import (
     IdealTwist,
     LinearTwist,
@@ -15,28 +17,44 @@ from rotor.twist import (
     TwistLaw,
 )
 
-_PLUS = re.compile(r"\+(?=(?:linear|quadratic|segments|spline|points|ideal|uh60a|table)\b)")
+_LAWS = ("linear", "quadratic", "segments", "spline", "points", "ideal", "builtin", "table", *SHIPPED_ROTORS)
+_PLUS = re.compile(rf"\+(?=(?:{'|'.join(_LAWS)})\b)")
 """Between the laws of a sum; a plus sign in a number or in a file's name is none."""
 
 
-def parse_twist(spec: str, *, builtin: TwistLaw, ideal_tip_pitch: float) -> TwistLaw:
+def _no_name(name: str) -> TwistLaw | None:
+    del name
+    return None
+
+
+def parse_twist(
+    spec: str,
+    *,
+    builtin: TwistLaw,
+    ideal_tip_pitch: float,
+    named: Callable[[str], TwistLaw | None] = _no_name,
+) -> TwistLaw:
     """Read a twist SPEC (DESIGN §8), degrees at this edge only.
 
     `linear:-8` · `quadratic:A,D` · `segments:-12,-4@0.5` · `spline:9,6,0,-5@0.13,0.4,0.75,1` ·
-    `points:9,6,0,-5@0.13,0.4,0.75,1` (straight lines between) · `ideal` or `ideal:6.4` · `uh60a` · `table:FILE`;
-    `uh60a+linear:-2` adds one to another.
-    `builtin` is the rotor's own twist (for `uh60a`); `ideal_tip_pitch` [rad] serves `ideal` without a number.
+    `points:9,6,0,-5@0.13,0.4,0.75,1` (straight lines between) · `ideal` or `ideal:6.4` · `builtin`, the rotor's own ·
+    `uh60a` and the like, a shipped rotor's · `table:FILE`; `builtin+linear:-2` adds one to another. `named` knows the
+    shipped rotors' twists; `ideal_tip_pitch` [rad] serves `ideal` without a number.
     Raises ValueError with one sentence that names the value and the remedy.
     """
     first, *others = _PLUS.split(spec.strip())
     if others:
-        law = parse_twist(first, builtin=builtin, ideal_tip_pitch=ideal_tip_pitch)
+        law = parse_twist(first, builtin=builtin, ideal_tip_pitch=ideal_tip_pitch, named=named)
         for other in others:
-            law = SumTwist(law, parse_twist(other, builtin=builtin, ideal_tip_pitch=ideal_tip_pitch))
+            added = parse_twist(other, builtin=builtin, ideal_tip_pitch=ideal_tip_pitch, named=named)
+            law = SumTwist(law, added)
         return law
     kind, _, rest = spec.strip().partition(":")
-    if kind == "uh60a" and not rest:
+    if not rest and kind in ("builtin", builtin.spec()):
         return builtin
+    known = named(kind) if not rest else None
+    if known is not None:
+        return known
     if kind == "ideal":
         return IdealTwist(math.radians(_number(rest, spec)) if rest else ideal_tip_pitch)
     if kind == "linear":
@@ -70,7 +88,7 @@ def parse_twist(spec: str, *, builtin: TwistLaw, ideal_tip_pitch: float) -> Twis
     raise ValueError(
         f"twist {spec!r} is not known: "
         "use linear:RATE, quadratic:A,D, segments:RATES@BREAKS, spline:ANGLES@STATIONS, "
-        "points:ANGLES@STATIONS, ideal, uh60a or table:FILE"
+        "points:ANGLES@STATIONS, ideal, builtin, uh60a or table:FILE"
     )
 
 

@@ -5,6 +5,7 @@ from rotor.design import Design
 from rotor.elements import Pass, Problem
 from rotor.solution import Caveat, HubMoment
 from rotor.switches import switched_off
+from rotor.tail_rotor import FIXED_SHARE
 
 LOW_SPEED = 0.075
 """Below this advance ratio linear inflow is not trusted (thesis p. 26)."""
@@ -25,6 +26,21 @@ def caveats(problem: Problem, one: Pass, stalled: float, moment: HubMoment) -> t
     def add(name: str, sentence: str) -> None:
         found.append(Caveat(name, sentence))
 
+    if design.aircraft.hub == "teetering":
+        add(
+            "teetering",
+            "A teetering hub holds its coning; here the blades cone as if hinged at the shaft, where they teeter.",
+        )
+    if design.tail_rotor is None and design.models.tail_rotor_solved:
+        add(
+            "no-tail-rotor",
+            f"The rotor file has no tail rotor: {100.0 * FIXED_SHARE:.0f} % of the main rotor's power stand for it.",
+        )
+    if design.preset == "thesis" and design.aircraft.stated is None:
+        add(
+            "thesis-models",
+            f"The document knows no {design.aircraft.name}: these are its models on this rotor's own blade.",
+        )
     off = switched_off(design.models)
     if off:
         names = ", ".join(switch.title.lower() for switch in off)

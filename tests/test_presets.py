@@ -85,7 +85,7 @@ def test_design_files_round_trip(tmp_path: Path, preset: str, twist: str | None)
     r = np.linspace(0.13, 1.0, 20)
     assert_allclose(back.twist(r), design.twist(r), atol=1e-8)  # Angles are kept to 1e-6 of a degree.
     assert case_of(back) == case_of(design)
-    assert json.loads(path.read_text())["version"] == 1
+    assert json.loads(path.read_text())["version"] == 2
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,10 @@ from typing import Any
 
 from tqdm import tqdm
 
+from rotor.assets import SHIPPED_ROTORS
 from rotor.bound import Bound, find_bound
-from rotor.command.parser import parse_range, write_table
+from rotor.command.parser import add_rotor_argument, parse_range, write_table
+from rotor.fleet import find_aircraft
 from rotor.presets import make_design
 
 COLUMNS = (
@@ -17,10 +19,10 @@ COLUMNS = (
 )  # fmt: skip
 
 _EXPLANATION = (
-    "# Least induced power over C_T λ0 (momentum theory, glauert_kw) of the UH-60A at sea level: any circulation; any\n"
-    "# within section lift −0.6…1.2; any steady twist; the best linear twist and its rate. Vortex lattice, rigid\n"
+    "# Least induced power over C_T λ0 (momentum theory, glauert_kw) of the {rotor} at sea level: any circulation;\n"
+    "# any within section lift −0.6…1.2; any steady twist; the best linear twist and its rate. Vortex lattice, rigid\n"
     "# helical wake, zero hub moments, linear aerodynamics.\n"
-    "# Made by: python -m rotor ideal --mu A:B:STEP --mass-kg LIST --csv FILE\n"
+    "# Made by: python -m rotor ideal --mu A:B:STEP --mass-kg LIST --csv FILE{flag}\n"
 )
 
 
@@ -30,17 +32,22 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--mu", required=True, metavar="A:B:STEP", help="advance ratios above 0, for example 0.1:0.4:0.1"
     )
-    parser.add_argument("--mass-kg", default="8322.4", metavar="LIST", help="aircraft masses, for example 5000,8322.4")
+    parser.add_argument(
+        "--mass-kg", metavar="LIST", help="aircraft masses, as 5000,8322.4 (default: the reference mass)"
+    )
+    add_rotor_argument(parser)
     parser.add_argument("--csv", metavar="FILE", help="write the table to a file as well")
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
     """0; bad input is for the caller."""
-    speeds, masses = parse_range(args.mu), parse_range(args.mass_kg)
+    craft = find_aircraft(args.rotor or SHIPPED_ROTORS[0])
+    speeds = parse_range(args.mu)
+    masses = parse_range(args.mass_kg) if args.mass_kg else [craft.mass]
     if min(speeds) < 0.02:
         raise ValueError(f"advance ratio {min(speeds):g} is too slow for a skewed wake: start at 0.02 or more")
-    designs = [make_design(advance_ratio=mu, mass=mass) for mu in speeds for mass in masses]
+    designs = [make_design(aircraft=craft, advance_ratio=mu, mass=mass) for mu in speeds for mass in masses]
     rows: list[tuple[str, ...]] = []
     print("".join(f"{name:>16}" for name in COLUMNS))
     for design in tqdm(designs, disable=not sys.stderr.isatty(), leave=False):
@@ -48,7 +55,8 @@ def run(args: argparse.Namespace) -> int:
         rows.append(_row(design.condition.mass, bound, bound.ct * bound.lambda0 * design.power_unit))
         print("".join(f"{cell:>16}" for cell in rows[-1]))
     if args.csv:
-        write_table(args.csv, [COLUMNS, *rows], _EXPLANATION)
+        flag = f" --rotor {args.rotor}" if args.rotor else ""
+        write_table(args.csv, [COLUMNS, *rows], _EXPLANATION.format(rotor=craft.name, flag=flag))
     return 0
 
 

@@ -9,7 +9,7 @@ aerodynamics, no profile drag).
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebvander
@@ -17,16 +17,23 @@ from numpy.typing import NDArray
 from scipy.optimize import nnls
 
 from rotor.inflow.wake import Wake
-from rotor.wake.vortex_lattice import Lattice
+from rotor.wake.vortex_lattice import Lattice, shared_azimuths
 
 Array = NDArray[np.float64]
 
 RADIAL_SHAPES = 7
 """Chebyshev polynomials over the span."""
 BOUND_LATTICE = Lattice(panels=20, azimuths=72, bare_from=0.0)
-"""Fine enough for the bound to 0.2 %. No core in a blade's own young wake: the optimum would exploit it."""
+"""Fine enough for the bound to 0.2 %. No core in a blade's own young wake: the optimum would exploit it.
+Of the UH-60A; `bound_lattice` for others."""
 REVERSE_FLOW_BLEND = 0.05
 """U_T over which the linear blade's lift fades out into the reverse-flow region."""
+
+
+def bound_lattice(blades: int, root: float) -> Lattice:
+    """The same for a rotor of other blades and another root, r/R."""
+    azimuths = shared_azimuths(BOUND_LATTICE.azimuths, blades)
+    return replace(BOUND_LATTICE, blades=blades, root=root, azimuths=azimuths)
 
 
 @dataclass(frozen=True, eq=False)

@@ -94,6 +94,11 @@ class Lattice:
         return _downwash(self, wake.mu_x, wake.axial)
 
 
+def shared_azimuths(least: int, blades: int) -> int:
+    """The fewest azimuths, `least` or more, that the blades can share."""
+    return -(-least // blades) * blades
+
+
 @lru_cache(maxsize=8)
 def _downwash(lattice: Lattice, mu_x: float, axial: float) -> Array:
     speed = math.hypot(mu_x, axial)
