@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 Faces = NDArray[np.uint32]
 
 _RING = 45
-"""Points round a section (odd)."""
+"""Points round a section of the page's blade (odd)."""
 _SHANK_RADIUS = 0.085
 """A plausible round root shank [m]; the flown cuff's own shape is not in the data."""
 _SHANK_END = 0.70
@@ -28,6 +28,22 @@ class Mesh:
     """Shape (n, 3)."""
     faces: Faces
     """Shape (m, 3), counter-clockwise seen from outside."""
+
+
+@dataclass(frozen=True)
+class Detail:
+    """How finely a blade is lofted."""
+
+    points: int = _RING
+    """Round a section (odd)."""
+    stations: int = 43
+    """Sections from root cut-out to tip; those where the blade's own sections change come on top."""
+    also: tuple[float, ...] = ()
+    """r/R of further sections, such as kinks of the twist."""
+
+
+PAGE = Detail()
+"""What a slider can drag."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,28 +60,31 @@ class BladeShape:
 
 
 @lru_cache(maxsize=4)
-def blade_shape(rotor: Rotor) -> BladeShape:
+def blade_shape(rotor: Rotor, detail: Detail = PAGE) -> BladeShape:
     """The untwisted loft: round shank from the hinge, a fairing, then the blade's own sections to the tip."""
     blade = rotor.blade
     hinge, cutout = blade.flap_hinge, blade.root_cutout
-    knots = [edge for span in blade.spans for edge in (span.start, span.end)]
-    lifting = np.unique(np.round(np.concatenate((np.linspace(cutout, 1.0, 43), np.clip(knots, cutout, 1.0))), 5))
+    knots = [edge for span in blade.spans for edge in (span.start, span.end)] + list(detail.also)
+    even = np.linspace(cutout, 1.0, detail.stations)
+    lifting = np.unique(np.round(np.concatenate((even, np.clip(knots, cutout, 1.0))), 5))
     shank = hinge + (cutout - hinge) * np.array([0.0, _SHANK_END, 0.76, 0.82, 0.88, 0.94])
     # Half a step short of closing: the ring's last side stands for the blunt trailing edge.
-    angle = 2.0 * math.pi * (np.arange(_RING) + 0.5) / _RING
-    root = _section_ring(rotor, cutout)
+    points = detail.points
+    angle = 2.0 * math.pi * (np.arange(points) + 0.5) / points
+    root = _section_ring(rotor, cutout, points)
     # The circle runs as the outlines do: from the trailing edge over the upper side to the nose.
     circle = _SHANK_RADIUS * np.stack((-np.cos(angle), np.sin(angle)), axis=1)
     fairing = np.clip((shank - shank[1]) / (cutout - shank[1]), 0.0, 1.0)
     fairing = fairing**2 * (3.0 - 2.0 * fairing)
-    rings = [(1.0 - f) * circle + f * root for f in fairing] + [_section_ring(rotor, float(r)) for r in lifting]
+    rings = [(1.0 - f) * circle + f * root for f in fairing]
+    rings += [_section_ring(rotor, float(r), points) for r in lifting]
     r = np.concatenate((shank, lifting))
-    return BladeShape(r, np.array(rings), (r - hinge) * rotor.radius, _loft_faces(len(r), _RING))
+    return BladeShape(r, np.array(rings), (r - hinge) * rotor.radius, _loft_faces(len(r), points))
 
 
-def _section_ring(rotor: Rotor, r: float) -> Array:
+def _section_ring(rotor: Rotor, r: float, points: int) -> Array:
     inner, outer, weight = rotor.blade.section_at(r)
-    outline = (1.0 - weight) * blade_axes_outline(inner, _RING) + weight * blade_axes_outline(outer, _RING)
+    outline = (1.0 - weight) * blade_axes_outline(inner, points) + weight * blade_axes_outline(outer, points)
     return float(rotor.blade.chord(r)) * outline
 
 
