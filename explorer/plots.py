@@ -127,18 +127,24 @@ def alpha_plot(solution: Solution, azimuth_deg: float, pinned: Solution | None =
     """
     low, high = -15.0, 20.0
 
-    def shown(one: Solution, angles: Array) -> Array:
+    def shown(angles: Array) -> Array:
         # Points far outside are pulled to just beyond the axis, where the chart cuts them off.
-        ahead = _at_azimuth(one, one.disk.u_t, azimuth_deg) > 0.0
-        return np.where(ahead, np.clip(np.degrees(angles), low - 5.0, high + 5.0), np.nan)
+        return np.clip(angles, low - 5.0, high + 5.0)
 
     def alpha(one: Solution) -> Array:
-        disk = one.disk
-        theta, u_t, u_p = (_at_azimuth(one, values, azimuth_deg) for values in (disk.theta, disk.u_t, disk.u_p))
-        return shown(one, theta - np.arctan2(u_p, u_t))
+        return shown(angles_along(one, azimuth_deg)[2])
 
-    limits = (shown(solution, _at_azimuth(solution, limit, azimuth_deg)) for limit in stall_angles(solution))
+    limits = (shown(limit) for limit in angles_along(solution, azimuth_deg)[:2])
     return Plot((solution.disk.r, *limits, *_marked(solution, pinned, alpha)), (low, high))
+
+
+def angles_along(solution: Solution, azimuth_deg: float) -> tuple[Array, Array, Array]:
+    """Negative and positive stall angle, and α [°], at the elements of one azimuth; NaN in reverse flow."""
+    disk = solution.disk
+    theta, u_t, u_p = (_at_azimuth(solution, values, azimuth_deg) for values in (disk.theta, disk.u_t, disk.u_p))
+    lower, upper = (_at_azimuth(solution, limit, azimuth_deg) for limit in stall_angles(solution))
+    outside, alpha = np.where(u_t > 0.0, 1.0, np.nan), theta - np.arctan2(u_p, u_t)
+    return outside * np.degrees(lower), outside * np.degrees(upper), outside * np.degrees(alpha)
 
 
 def lift_plot(solution: Solution, azimuth_deg: float, pinned: Solution | None = None) -> Plot:
