@@ -92,10 +92,18 @@ def make_picture(
     )
 
 
-def disk_png(solution: Solution, field: Field, colour_range: tuple[float, float], faded: bool = False) -> bytes:
-    """The coloured disk as a PNG."""
-    grid = polar_grid(solution.disk, disk_image.RADII, disk_image.AZIMUTHS)
-    pixels = disk_image.indices(grid, field.sample(solution, grid), *colour_range, field.void(solution, grid))
+def disk_png(
+    solution: Solution,
+    field: Field,
+    colour_range: tuple[float, float],
+    faded: bool = False,
+    size: int = disk_image.SIZE,
+) -> bytes:
+    """The coloured disk as a PNG of `size` pixels along each edge, at most `disk_image.LARGEST`."""
+    size = min(size, disk_image.LARGEST)
+    fineness = size / disk_image.SIZE
+    grid = polar_grid(solution.disk, round(fineness * disk_image.RADII), round(fineness * disk_image.AZIMUTHS))
+    pixels = disk_image.indices(grid, field.sample(solution, grid), *colour_range, field.void(solution, grid), size)
     return disk_image.encode_png(pixels, disk_image.palette(field.colours, faded))
 
 

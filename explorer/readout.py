@@ -161,7 +161,7 @@ def status_panel(solution: Solution | None, problem: str | None = None, pinned: 
         f'<div class="rx-care"><span>▲</span><span>{escape(sentence)}</span></div>'
         for sentence in cautions(solution, pinned)
     )
-    detail = f"Residual below {_tiny(solution.residual)} of weight, {solution.passes} passes."
+    detail = f"Residual below {tiny(solution.residual)} of weight, {solution.passes} passes."
     text = f'<div><span class="rx-good">●</span> {escape(solution.message)} {detail}</div>'
     return _status("converged", text + caveats + provenance(solution))
 
@@ -188,7 +188,7 @@ def cautions(solution: Solution, pinned: Solution | None) -> list[str]:
     ]
 
 
-def _tiny(value: float) -> str:
+def tiny(value: float) -> str:
     """The power of ten above a small positive number."""
     exponent = min(math.floor(-math.log10(value)), 15) if 0.0 < value < 1.0 else 15
     return "10⁻" + str(exponent).translate(str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹"))
