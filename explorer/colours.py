@@ -34,12 +34,12 @@ BASELINE = "#868e96"
 """The baseline twist, in charts."""
 IDEAL = "#0ca678"
 """The power of an ideal lift, in charts."""
-NOW = "#e8590c"
+NOW = "#e03131"
 """The present point and the marked blade, in charts."""
-LIMIT = "#d6336c"
+LIMIT = "#b5179e"
 """A limit, in charts."""
-PARTS = {"induced": "#3b82c4", "profile": "#e6a117", "parasite": "#8d949c", "tail": "#c4709f"}
-"""Power parts, distinct without relying on red against green."""
+PARTS = {"induced": "#3b82c4", "profile": "#e6a117", "parasite": "#8d949c", "tail": "#983a6e"}
+"""Power parts, told apart by every eye (tested, as are the lines of charts and the maps)."""
 
 MARKED_BLADE: Rgb = (130, 20, 8)
 """Dark albedos: the page's lights bleach, and this one shows as a clear orange-red."""

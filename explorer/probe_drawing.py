@@ -20,7 +20,7 @@ from explorer.svg import Point
 Array = NDArray[np.float64]
 
 WIDTH, HEIGHT = 312.0, 176.0
-LIFT, DRAG, ALPHA = THIS, NOW, "#845ef7"
+LIFT, DRAG, ALPHA = THIS, NOW, "#099268"
 OPENED = 3
 """How many times wider small angles are drawn on request."""
 _QUARTER: Point = (126.0, 92.0)

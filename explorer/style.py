@@ -79,7 +79,7 @@ SHEET = """<style>
 .rx-chip { padding: 0 7px; border-radius: 8px; font-size: 11.5px; line-height: 17px; align-self: center;
   border: 1px solid currentColor; }
 .rx-chip-good { color: #0b8a6a; }
-.rx-chip-bad { color: #d6336c; }
+.rx-chip-bad { color: #b5179e; }
 .rx-chip-back { color: #d9480f; }
 [data-mantine-color-scheme=dark] .rx-chip-good { color: #38d9a9; }
 [data-mantine-color-scheme=dark] .rx-chip-bad { color: #faa2c1; }
