@@ -24,7 +24,7 @@ from rotor.elements import (
 )
 from rotor.hover import HoverResult, hover
 from rotor.hub import hub_moment
-from rotor.newton import TrimResult
+from rotor.newton import Guess, TrimResult
 from rotor.power import power_budget
 from rotor.solution import Controls, DiskFields, Solution, Status
 from rotor.sums import sums
@@ -37,19 +37,26 @@ Array = NDArray[np.float64]
 threadpool_limits(limits=1, user_api="blas")
 
 
-def solve(design: Design, start: Solution | None = None) -> Solution:
-    """Trim the design; `start` is any earlier solution to begin from.
+def solve(design: Design, start: Solution | Guess | None = None) -> Solution:
+    """Trim the design; `start` is any earlier solution to begin from, or a guess made from several.
 
     Always returns: a design that does not trim comes back with `Status.NOT_CONVERGED` and one sentence.
     """
     begin = time.perf_counter()
     problem = lay_out(design)
-    warm = start if start is not None and start.converged else None
+    guess = _guess(design, start) if isinstance(start, Solution) else start
     if design.hovering:
-        ended: HoverResult | TrimResult = hover(problem, warm.controls.collective if warm else None)
+        ended: HoverResult | TrimResult = hover(problem, None if guess is None else float(guess.state[COLLECTIVE]))
     else:
-        ended = trim(problem, guess_of(warm) if warm and not warm.design.hovering else None)
+        ended = trim(problem, guess)
     return _assemble(problem, ended, begin)
+
+
+def _guess(design: Design, earlier: Solution) -> Guess | None:
+    """What an earlier solution offers: nothing when it did not converge, or hovered and this one flies."""
+    if not earlier.converged or (earlier.design.hovering and not design.hovering):
+        return None
+    return guess_of(earlier)
 
 
 def _assemble(problem: Problem, ended: HoverResult | TrimResult, begin: float) -> Solution:

@@ -14,6 +14,7 @@ from rotor.design import Design
 from rotor.fleet import find_aircraft
 from rotor.inflow import inflow_model
 from rotor.presets import change_airfoils, make_design
+from rotor.ranges import parse_range as parse_range
 from rotor.sweep import at_advance_ratio
 from rotor.switches import parse_switches
 
@@ -31,11 +32,11 @@ class OneLineParser(argparse.ArgumentParser):
 def build_parser() -> argparse.ArgumentParser:
     """All commands."""
     from rotor.airfoil import command as airfoil
-    from rotor.command import actuator, bench, ideal, optimise, reproduce, schedule, solve, sweep, waterfall
+    from rotor.command import actuator, bench, ideal, optimise, reproduce, schedule, solve, study, sweep, waterfall
 
     parser = OneLineParser(prog="python -m rotor", description="Helicopter main rotors: trim, power, twist.")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=OneLineParser)
-    for command in (solve, sweep, waterfall, optimise, schedule, ideal, actuator, reproduce, airfoil, bench):
+    for command in (solve, sweep, waterfall, optimise, schedule, study, ideal, actuator, reproduce, airfoil, bench):
         command.add_parser(commands)
     return parser
 
@@ -93,23 +94,6 @@ def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: floa
     if args.airfoils:
         design = replace(design, rotor=change_airfoils(design.rotor, args.airfoils))
     return at_advance_ratio(design, advance_ratio)
-
-
-def parse_range(text: str) -> list[float]:
-    """`a:b:step`, both ends included, or a comma-separated list, or one number."""
-    try:
-        if ":" not in text:
-            values = [float(item) for item in text.split(",")]
-        else:
-            low, high, step = (float(item) for item in text.split(":"))
-            if not (step > 0.0 and high >= low and (high - low) / step < 10_000):
-                raise ValueError
-            values = [low + k * step for k in range(math.floor((high - low) / step + 1e-9) + 1)]
-    except (ValueError, OverflowError):
-        raise ValueError(f"range {text!r} is not understood: write a:b:step, for example 0.05:0.40:0.05") from None
-    if not all(math.isfinite(value) for value in values):
-        raise ValueError(f"range {text!r} holds a value that is not a number: write for example 0.05:0.40:0.05")
-    return [round(value, 12) for value in values]
 
 
 def write_table(path: str, rows: Iterable[Iterable[str]], heading: str = "") -> None:

@@ -1,0 +1,189 @@
+"""`study`: many designs from one file, on Dask; `study show`: what a result says."""
+
+import argparse
+import json
+import sys
+import time
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from rotor.command.progress import STOPPED, interruptible
+from rotor.command.study_show import record, report
+from rotor.study.chunks import Done, Provenance, work
+from rotor.study.cluster import ClusterLost, connected, need_packages, run_chunks
+from rotor.study.provenance import commit, package_version
+from rotor.study.results import read_results
+from rotor.study.store import Store, sha256
+from rotor.study.study_file import StudyFile, read_study
+
+_SAY_EVERY = 60.0
+"""[s] between lines of progress where nobody watches a terminal."""
+
+
+def add_parser(commands: Any) -> None:
+    """Register the command."""
+    parser = commands.add_parser(
+        "study",
+        help="many designs from one file, on one machine or many",
+        description="Run a study file; or `study show DIR`: the best, the robust best and the sensitivities.",
+    )
+    parser.add_argument(
+        "file", metavar="FILE.toml", help="study file, or an example by name: two_segment.toml; or show"
+    )
+    parser.add_argument("folder", metavar="DIR", nargs="?", help="with show: the --out DIR of a study")
+    parser.add_argument(
+        "--scheduler", metavar="tcp://HOST:PORT", help="a running Dask cluster (default: one made here)"
+    )
+    parser.add_argument(
+        "--workers", type=int, metavar="N", help="processes of the cluster made here (default: one a core)"
+    )
+    parser.add_argument("--out", metavar="DIR", help="where results go (default: the file's name); continued if begun")
+    parser.add_argument("--dry-run", action="store_true", help="check the file and say what it would cost, run nothing")
+    parser.add_argument("--least", metavar="COLUMN", help="with show: the column to make small")
+    parser.add_argument("--uncertain", metavar="AXIS,…", help="with show: axes that nobody can choose")
+    parser.add_argument("--json", action="store_true", help="with show: machine-readable output")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """0 every point converged, 1 some did not, 130 stopped by Ctrl-C with all finished chunks kept."""
+    if args.file == "show":
+        return _show(args)
+    for flag in ("folder", "least", "uncertain"):
+        if getattr(args, flag):
+            raise ValueError(f"{getattr(args, flag)!r} belongs to show: write `study show DIR`")
+    file = read_study(args.file)
+    if args.workers is not None and not 1 <= args.workers <= 1024:
+        raise ValueError(f"{args.workers} workers are outside 1…1024: give one a core")
+    if args.workers is not None and args.scheduler:
+        raise ValueError("--workers is for the cluster made here: leave it out, or leave out --scheduler")
+    if args.dry_run:
+        return _dry_run(file)
+    need_packages()
+    provenance = Provenance(package_version(), commit(), sha256(file.text))
+    store = Store(args.out or Path(file.path).stem, file, provenance)
+    try:
+        return _run(args, store, provenance)
+    finally:
+        store.close()
+
+
+def _run(args: argparse.Namespace, store: Store, provenance: Provenance) -> int:
+    study = store.study
+    missing = store.missing()
+    spans = {chunk: study.span(chunk) for chunk in missing}
+    left = sum(last - first for first, last in spans.values())
+    print(f"{study.title}: {study.count:,} points, {study.count - left:,} done → {store.folder}", flush=True)
+    message, stopped, lost = "", False, list[int]()
+    if missing:
+        if args.scheduler is None:
+            work(study, 0, 1)  # Before all processes do: the kernels are compiled once, not in each of them.
+        with interruptible() as stop, _progress(study.count, study.count - left) as advance:
+
+            def take(done: Done) -> None:
+                store.keep(done.chunk, done.content)
+                advance(done.rows, done.failures)
+
+            try:
+                with connected(args.scheduler, args.workers) as client:
+                    outcome = run_chunks(client, study, missing, provenance, take, stop, _tell_lonely(args.scheduler))
+                stopped, lost = outcome.stopped, outcome.lost
+            except ClusterLost as error:
+                message = str(error)
+    return _summary(store, stopped, lost, message)
+
+
+def _summary(store: Store, stopped: bool, lost: list[int], message: str) -> int:
+    missing = store.missing()
+    done = store.study.count - sum(b - a for a, b in map(store.study.span, missing))
+    if done:
+        print(report(read_results(store.folder)))
+    if stopped and missing:
+        print(
+            f"rotor: stopped with {done:,} of {store.study.count:,} points kept; the same command goes on",
+            file=sys.stderr,
+        )
+        return STOPPED
+    if lost:
+        message = (
+            f"{len(lost)} chunk(s) took their workers down, perhaps for lack of memory: run the same command again"
+        )
+    if message:
+        print(f"rotor: {message}", file=sys.stderr)
+    return 0 if not missing and bool(read_results(store.folder, ()).good.all()) else 1
+
+
+def _show(args: argparse.Namespace) -> int:
+    if not args.folder:
+        raise ValueError("show needs a folder: write `study show DIR`")
+    need_packages()
+    results = read_results(args.folder)
+    uncertain = None if args.uncertain is None else tuple(args.uncertain.split(","))
+    shown = record(results, args.least, uncertain)
+    print(json.dumps(shown, indent=2, allow_nan=False) if args.json else report(results, args.least, uncertain))
+    return 0
+
+
+def _dry_run(file: StudyFile) -> int:
+    """What a study would cost, from a few of its points worked off here."""
+    study = file.study
+    few = min(study.chunk, 4 if study.searching is not None else 40)
+    work(study, 0, few)  # Compiles, lays out grids.
+    begin = time.process_time()
+    work(study, 0, few)
+    each = (time.process_time() - begin) / few
+    print(f"{study.title}: {study.count:,} points in {study.chunks:,} chunks of {study.chunk:,}")
+    print(
+        f"{1e3 * each:.1f} ms a point on this core (mean of the first {few}), {_span(each * study.count)} on one core"
+    )
+    return 0
+
+
+def _tell_lonely(address: str | None) -> Callable[[], None]:
+    def tell() -> None:
+        print(f"rotor: no workers yet; start some with `dask worker {address}`", file=sys.stderr)
+
+    return tell
+
+
+@contextmanager
+def _progress(total: int, done: int) -> Generator[Callable[[int, int], None]]:
+    """A bar where somebody watches, else a line a minute: rate, time left, failures."""
+    begin, first, failed = time.monotonic(), done, 0
+    said = begin
+    bar: Any = None
+    if sys.stderr.isatty():
+        from tqdm import tqdm
+
+        bar = tqdm(total=total, initial=done, unit=" points", file=sys.stderr, dynamic_ncols=True, smoothing=0.05)
+
+    def advance(rows: int, failures: int) -> None:
+        nonlocal done, failed, said
+        done, failed = done + rows, failed + failures
+        if bar is not None:
+            bar.set_postfix_str(f"{failed:,} failed", refresh=False)
+            bar.update(rows)
+        elif time.monotonic() - said > _SAY_EVERY:
+            said = time.monotonic()
+            rate = (done - first) / (said - begin)
+            print(
+                f"{done:,} of {total:,} points, {rate:,.0f}/s, {_span((total - done) / rate)} left, {failed:,} failed",
+                file=sys.stderr,
+                flush=True,
+            )
+
+    try:
+        yield advance
+    finally:
+        if bar is not None:
+            bar.close()
+
+
+def _span(seconds: float) -> str:
+    """A time as people say it."""
+    for size, name in ((86400.0, "days"), (3600.0, "h"), (60.0, "min")):
+        if seconds >= 2.0 * size:
+            return f"{seconds / size:,.1f} {name}"
+    return f"{seconds:.0f} s"

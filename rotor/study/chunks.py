@@ -1,0 +1,107 @@
+"""One chunk of a study: its points one after the other, and the Parquet file that they make."""
+
+import importlib
+import io
+import json
+import os
+import socket
+import time
+from dataclasses import dataclass
+from typing import Any
+
+from rotor.study.columns import Column, columns_of
+from rotor.study.memory import Memory
+from rotor.study.point import Row, evaluate
+from rotor.study.provenance import package_version
+from rotor.study.study import Study
+
+GOOD = "converged"
+"""The status of a row that has its answer."""
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """What every file of a study says about itself."""
+
+    version: str
+    commit: str | None
+    file_sha256: str
+
+
+@dataclass(frozen=True)
+class Done:
+    """A chunk worked off. It travels: the file as bytes, so that only the one who asked needs its disk."""
+
+    chunk: int
+    rows: int
+    failures: int
+    seconds: float
+    """Processor time."""
+    content: bytes
+    """Parquet."""
+
+
+class OtherVersion(ValueError):
+    """A worker has another version of this package."""
+
+
+def work(study: Study, first: int, last: int) -> list[Row]:
+    """The rows of the points first … last − 1. Each begins with what those before it left."""
+    memory = Memory(study.places.ranges)
+    rows: list[Row] = []
+    for number, values in enumerate(study.values(first, last), start=first):
+        rows.append({"point": number, **evaluate(values, study.searching, memory)})
+    return rows
+
+
+def work_chunk(study: Study, chunk: int, provenance: Provenance) -> Done:
+    """A chunk as a worker does it. Raises OtherVersion where its package is not the one that asks."""
+    if package_version() != provenance.version:
+        raise OtherVersion(
+            f"a worker has rotor-explorer {package_version()}, this command {provenance.version}: "
+            "install the same version on every worker"
+        )
+    begin = time.process_time()
+    rows = work(study, *study.span(chunk))
+    content = parquet_of(
+        rows, columns_of(study), describe(study, provenance) | {"chunk": str(chunk), "worker": _worker()}
+    )
+    failures = sum(row["status"] != GOOD for row in rows)
+    return Done(chunk, len(rows), failures, time.process_time() - begin, content)
+
+
+def _worker() -> str:
+    return f"{socket.gethostname()}:{os.getpid()}"
+
+
+def describe(study: Study, provenance: Provenance) -> dict[str, str]:
+    """Provenance as it stands in the metadata of every file."""
+    given = dict(study.given)
+    models = ("inflow", "tip_loss", "hub_loss", "elements", "azimuths")
+    return {
+        "format": "rotor-explorer study",
+        "format_version": "1",
+        "title": study.title,
+        "package_version": provenance.version,
+        "commit": provenance.commit or "",
+        "study": study.fingerprint,
+        "study_file_sha256": provenance.file_sha256,
+        "preset": str(given.get("preset", "as the column says" if "preset" in study.axis_names else "flight")),
+        "models": json.dumps({name: given[name] for name in models if name in given}),
+        "units": json.dumps({column.name: column.unit for column in columns_of(study) if column.unit}),
+    }
+
+
+def parquet_of(rows: list[Row], columns: tuple[Column, ...], about: dict[str, str]) -> bytes:
+    """The rows as a Parquet file: units on each column, `about` on the whole, null where a row has no value."""
+    arrow: Any = importlib.import_module("pyarrow")
+    parquet: Any = importlib.import_module("pyarrow.parquet")
+    kinds = {"number": arrow.float64(), "count": arrow.int64(), "text": arrow.string()}
+    schema = arrow.schema(
+        [arrow.field(one.name, kinds[one.kind], metadata={"unit": one.unit} if one.unit else None) for one in columns],
+        metadata=about,
+    )
+    table = arrow.table({one.name: [row.get(one.name) for row in rows] for one in columns}, schema=schema)
+    out = io.BytesIO()
+    parquet.write_table(table, out, compression="zstd")
+    return out.getvalue()

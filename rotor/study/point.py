@@ -1,0 +1,214 @@
+"""One point of a study: from its values to a design, its trim or its optimum, and the row they make.
+
+A point always makes a row: what does not trim, what no design can be made of, and what fails in a way that nobody
+thought of, is a row with its status and its sentence.
+"""
+
+import math
+import time
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any, cast
+
+from rotor.concepts import Concept, restrict
+from rotor.design import Design
+from rotor.inflow import inflow_model
+from rotor.objective import at_condition, hover_and_cruise
+from rotor.optimise import Ended, Limits, Optimum, Search, optimise
+from rotor.presets import FLIGHT_MODELS, THESIS_MODELS, change_airfoils, check_preset, make_design
+from rotor.solution import Solution
+from rotor.solve import solve
+from rotor.study.memory import Memory
+from rotor.study.quantities import PLAIN, Value, blade_concept
+from rotor.study.study import Searching
+from rotor.sweep import at_advance_ratio
+
+_KNOT = 1852.0 / 3600.0
+"""[m/s]"""
+_CRUISE = 0.2
+"""Advance ratio where a study says none."""
+
+Row = dict[str, Any]
+Values = Mapping[str, Value]
+
+
+def design_of(values: Values) -> Design:
+    """The design that a point's values describe; a twist still to be searched for is the preset's own.
+
+    Raises ValueError with one sentence.
+    """
+    preset = str(values.get("preset", "flight"))
+    check_preset(preset)
+    models = FLIGHT_MODELS if preset == "flight" else THESIS_MODELS
+    changed: dict[str, Any] = {name: values[name] for name in ("inflow", "tip_loss", "hub_loss") if name in values}
+    if "inflow" in changed:
+        inflow_model(str(changed["inflow"]))
+    for name in ("elements", "azimuths"):
+        if name in values:
+            changed[name] = int(cast(float, values[name]))
+    design = make_design(
+        preset,
+        twist=str(values["twist"]) if "twist" in values else None,
+        advance_ratio=float(values.get("mu", _CRUISE)),
+        mass=float(values["mass_kg"]) if "mass_kg" in values else None,
+        altitude=float(values.get("altitude_m", 0.0)),
+        models=replace(models, **changed) if changed else models,
+    )
+    if "speed_kt" in values:
+        if "mu" in values:
+            raise ValueError("mu and speed_kt are both given: leave one out")
+        design = at_advance_ratio(design, float(values["speed_kt"]) * _KNOT / design.rotor.tip_speed)
+    if "airfoils" in values:
+        design = replace(design, rotor=change_airfoils(design.rotor, str(values["airfoils"])))
+    return design
+
+
+def check_point(values: Values, searching: Searching | None) -> None:
+    """Raise ValueError, with one sentence, for values that no point of such a study can have."""
+    design = design_of(values)
+    if searching is None:
+        _bladed(design, values)
+    else:
+        _search(design, values, searching, Memory({}))
+
+
+def evaluate(values: Values, searching: Searching | None, memory: Memory) -> Row:
+    """The row of one point. Begins with what the points before left, and leaves what it found."""
+    begin = time.perf_counter()
+    row: Row = {name: value for name, value in values.items() if not isinstance(value, bool)}
+    try:
+        design = design_of(values)
+        row |= _condition(design)
+        if searching is None:
+            design = _bladed(design, values)
+            solution = solve(design, memory.guess(values, hovering=design.hovering))
+            row |= {"status": solution.status.value, "message": solution.message}
+        else:
+            search = _search(design, values, searching, memory)
+            optimum = optimise(search)
+            solution = solve(optimum.design, memory.guess(values, hovering=design.hovering))
+            row |= _found(optimum, search) | {"status": optimum.status.value, "message": optimum.message}
+            if optimum.status is Ended.CONVERGED and not solution.converged:
+                row |= {"status": solution.status.value, "message": solution.message}
+            if optimum.best is not None:
+                memory.concept, memory.optimum = _name(search.concept), optimum.best.parameters
+        row["twist"] = values.get("twist") or solution.design.twist.spec()
+        if solution.converged:
+            row |= _answer(solution)
+            memory.keep(values, solution)
+    except ValueError as error:
+        row |= {"status": "bad-input", "message": str(error)}
+    except Exception as error:  # One point that nobody foresaw must not cost the others of its chunk.
+        row |= {"status": "error", "message": f"{type(error).__name__}: {error}"}
+    row["elapsed_ms"] = 1e3 * (time.perf_counter() - begin)
+    return row
+
+
+def _bladed(design: Design, values: Values) -> Design:
+    """The design with the blade of a concept whose parameters are all given; else as it is."""
+    given = _parameters(values)
+    if "concept" not in values:
+        if given:
+            raise ValueError(f"{next(iter(given))} belongs to a twist concept: name it in [fixed] as concept = …")
+        return design
+    if "twist" in values:
+        raise ValueError("twist and concept are both given: leave one out")
+    concept, held = blade_concept(str(values["concept"]), given)
+    missing = [one.label for one in concept.parameters if one.name not in held]
+    if missing:
+        raise ValueError(
+            f"the concept {concept.name} needs a value of {missing[0]}: add it to [axes] or [fixed], "
+            "or add [optimum] to search for it"
+        )
+    return concept.apply(design, [held[one.name] for one in concept.parameters])
+
+
+def _search(design: Design, values: Values, searching: Searching, memory: Memory) -> Search:
+    if "concept" not in values:
+        raise ValueError('an optimum needs a twist concept: add for example concept = "two-segment" to [fixed]')
+    wide, held = blade_concept(str(values["concept"]), _parameters(values))
+    concept = restrict(wide, held) if held else wide
+    share = values.get("hover_share")
+    objective = (
+        at_condition(design, searching.objective)
+        if share is None
+        else hover_and_cruise(design, float(share), design.condition.advance_ratio, searching.objective)
+    )
+    near = memory.optimum if memory.concept == _name(concept) else ()
+    return Search(
+        design=design,
+        concept=concept,
+        objective=objective,
+        limits=Limits(rate=searching.rate, stalled=searching.stalled),
+        starts=searching.starts,
+        seed=searching.seed,
+        guesses=(near,) if near else (),
+        band=False,
+    )
+
+
+def _name(concept: Concept) -> str:
+    return " ".join((concept.name, *(parameter.name for parameter in concept.parameters)))
+
+
+def _parameters(values: Values) -> dict[str, float]:
+    return {name: float(value) for name, value in values.items() if name not in PLAIN}
+
+
+def _condition(design: Design) -> Row:
+    condition = design.condition
+    return {
+        "mu": condition.advance_ratio,
+        "speed_m_s": design.airspeed,
+        "mass_kg": condition.mass,
+        "altitude_m": condition.altitude,
+        "preset": design.preset,
+        "inflow": design.models.inflow,
+    }
+
+
+def _found(optimum: Optimum, search: Search) -> Row:
+    best = optimum.best
+    row: Row = {
+        "baseline_power_w": optimum.baseline_power,
+        "saving_percent": None if optimum.saving is None else 100.0 * optimum.saving,
+        "local_minima": len(optimum.minima),
+        "evaluations": optimum.evaluations,
+    }
+    if best is None:
+        return row
+    for parameter, value in zip(search.concept.parameters, best.parameters, strict=True):
+        row[parameter.label] = parameter.shown(value)
+    row |= {"mean_power_w": best.power, "active": ", ".join(best.active)}
+    assert search.objective is not None
+    if any(leg.condition.advance_ratio == 0.0 for leg in search.objective.legs) and len(search.objective.legs) > 1:
+        hover = solve(at_advance_ratio(optimum.design, 0.0))
+        row["hover_power_w"] = hover.power.total if hover.converged else None
+    return row
+
+
+def _answer(solution: Solution) -> Row:
+    controls, power = solution.controls, solution.power
+    return {
+        "power_total_w": power.total,
+        "power_main_rotor_w": power.main_rotor,
+        "power_induced_w": power.induced,
+        "power_profile_w": power.profile,
+        "power_parasite_w": power.parasite,
+        "power_tail_w": power.tail,
+        "ct": solution.ct,
+        "cp": solution.cp,
+        "ct_over_sigma": solution.ct_over_sigma,
+        "lambda0": controls.lambda0,
+        "collective_deg": math.degrees(controls.collective),
+        "cyclic_1c_deg": math.degrees(controls.cyclic_1c),
+        "cyclic_1s_deg": math.degrees(controls.cyclic_1s),
+        "coning_deg": math.degrees(controls.coning),
+        "flap_1c_deg": math.degrees(controls.flap_1c),
+        "flap_1s_deg": math.degrees(controls.flap_1s),
+        "shaft_tilt_deg": math.degrees(controls.shaft_tilt),
+        "reverse_flow_area_percent": 100.0 * solution.reverse_flow_area,
+        "stalled_area_percent": 100.0 * solution.stalled_area,
+        "caveats": ", ".join(caveat.name for caveat in solution.caveats),
+        "passes": solution.passes,
+    }

@@ -1,0 +1,84 @@
+"""What a study can set: names, units, and where in the file they stand."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from rotor.concepts import CONCEPTS, Concept
+from rotor.concepts.catalogue import THREE_SEGMENT_FREE, TWO_AIRFOILS, TWO_SEGMENT_FREE
+
+Value = float | str | bool
+Kind = Literal["number", "text", "flag"]
+Place = Literal["fixed", "models"]
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """One thing that a study can hold or vary."""
+
+    name: str
+    kind: Kind
+    unit: str
+    place: Place
+    """The section of the study file that holds it; as an axis it stands in [axes]."""
+
+
+_PARAMETERS = [parameter for concept in CONCEPTS.values() for parameter in concept.parameters]
+_LABELS = {parameter.label for parameter in _PARAMETERS}
+
+
+def _all() -> dict[str, Quantity]:
+    plain = [
+        Quantity("mu", "number", "", "fixed"),
+        Quantity("speed_kt", "number", "kt", "fixed"),
+        Quantity("mass_kg", "number", "kg", "fixed"),
+        Quantity("altitude_m", "number", "m", "fixed"),
+        Quantity("twist", "text", "", "fixed"),
+        Quantity("airfoils", "text", "", "fixed"),
+        Quantity("concept", "text", "", "fixed"),
+        Quantity("hover_share", "number", "", "fixed"),
+        Quantity("preset", "text", "", "models"),
+        Quantity("inflow", "text", "", "models"),
+        Quantity("tip_loss", "flag", "", "models"),
+        Quantity("hub_loss", "flag", "", "models"),
+        Quantity("elements", "number", "", "models"),
+        Quantity("azimuths", "number", "", "models"),
+    ]
+    made = [Quantity(one.label, "number", one.shown_unit, "fixed") for one in _PARAMETERS]
+    return {one.name: one for one in (*plain, *made)}
+
+
+QUANTITIES: dict[str, Quantity] = _all()
+"""By name; the parameters of all twist concepts are among them, angles in degrees with names that end in _deg."""
+
+PLAIN = tuple(name for name in QUANTITIES if name not in _LABELS)
+"""Those that are no parameter of a concept."""
+
+_WIDER: dict[str, Concept] = {
+    "two-segment": TWO_SEGMENT_FREE,
+    "two-segment-two-airfoils": TWO_AIRFOILS,
+    "three-segment": THREE_SEGMENT_FREE,
+}
+"""Concepts with breaks held, and the same with breaks that a study can set."""
+
+
+def blade_concept(name: str, given: dict[str, float]) -> tuple[Concept, dict[str, float]]:
+    """The concept whose parameters include those given by label, and their values by name in SI.
+
+    Raises ValueError for a concept or a parameter that there is not.
+    """
+    if name not in CONCEPTS:
+        raise ValueError(f"concept {name!r} is not known: use one of {', '.join(CONCEPTS)}")
+    concept = CONCEPTS[name]
+    if name in _WIDER and any(label not in [one.label for one in concept.parameters] for label in given):
+        concept = _WIDER[name]
+    known = {one.label: one for one in concept.parameters}
+    for label in given:
+        if label not in known:
+            raise ValueError(f"{label} is no parameter of the concept {name}: it has {', '.join(known)}")
+    return concept, {known[label].name: known[label].from_shown(value) for label, value in given.items()}
+
+
+def concept_labels(name: str, given: tuple[str, ...]) -> tuple[str, ...]:
+    """Labels of a concept's parameters, with the breaks where a study sets those."""
+    concept, _ = blade_concept(name, dict.fromkeys(given, 0.0))
+    return tuple(parameter.label for parameter in concept.parameters)

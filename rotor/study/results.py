@@ -1,0 +1,191 @@
+"""A study's table read back, and what it says: the best point, the robust best, what matters.
+
+Works on whatever is there, so that a run that goes on, or was broken off, can be looked at.
+"""
+
+import importlib
+import math
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rotor.study.chunks import GOOD
+from rotor.study.store import read_about
+
+Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+
+
+_MANY = 20
+"""Values of an axis from which it is looked at in tenths."""
+
+
+@dataclass(frozen=True, eq=False)
+class Results:
+    """The table of a study as far as it is there."""
+
+    about: dict[str, Any]
+    """The folder's `_study.json`, or the metadata of one file."""
+    axes: tuple[str, ...]
+    columns: dict[str, NDArray[Any]]
+    """Numbers as float64 with NaN where a row has none, texts as objects; (rows,)."""
+
+    @property
+    def rows(self) -> int:
+        return len(self.columns["point"])
+
+    @property
+    def points(self) -> int:
+        """How many there will be."""
+        return int(self.about.get("points", self.rows))
+
+    @property
+    def good(self) -> NDArray[np.bool_]:
+        """Rows that have their answer."""
+        return self.columns["status"] == GOOD
+
+    def unit(self, column: str) -> str:
+        return str(self.about.get("units", {}).get(column, ""))
+
+    def numeric(self, column: str) -> bool:
+        return self.columns[column].dtype == np.float64
+
+    def codes(self, names: tuple[str, ...]) -> Ints:
+        """The same number for rows that agree in all these columns, 0 upward, (rows,)."""
+        code = np.zeros(self.rows, dtype=np.int64)
+        for name in names:
+            values = self.columns[name]
+            _, own = np.unique(values if self.numeric(name) else values.astype(str), return_inverse=True)
+            code = np.unique(code * (int(own.max(initial=0)) + 1) + own, return_inverse=True)[1].astype(np.int64)
+        return code
+
+
+def read_results(folder: str | Path, columns: tuple[str, ...] | None = None) -> Results:
+    """The results in a folder; `columns` limits what is read to these, the axes and the status.
+
+    ValueError with one sentence for a folder without a study, or without a result yet.
+    """
+    about = read_about(folder)
+    paths = sorted(Path(folder).glob("chunk-*.parquet"))
+    if not paths:
+        raise ValueError(f"folder {str(folder)!r} has no finished chunk yet: run its study for longer")
+    parquet: Any = importlib.import_module("pyarrow.parquet")
+    axes = tuple(str(name) for name in about["axes"])
+    wanted = None if columns is None else list(dict.fromkeys(("point", "status", "message", *axes, *columns)))
+    return Results(about, axes, columns_from(parquet.read_table([str(path) for path in paths], columns=wanted)))
+
+
+def columns_from(table: Any) -> dict[str, NDArray[Any]]:
+    """An Arrow table's columns as arrays."""
+    arrow: Any = importlib.import_module("pyarrow")
+    made: dict[str, NDArray[Any]] = {}
+    for name in table.column_names:
+        column = table.column(name)
+        if arrow.types.is_string(column.type):
+            made[name] = np.array(column.to_pylist(), dtype=object)
+        else:
+            made[name] = column.cast(arrow.float64()).to_numpy()
+    return made
+
+
+@dataclass(frozen=True)
+class Robust:
+    """A design, and how it does over everything that nobody can choose."""
+
+    design: dict[str, Any]
+    """Values of the axes that can be chosen."""
+    worst: float
+    mean: float
+    cases: int
+
+
+@dataclass(frozen=True)
+class RobustBest:
+    """The designs that do best over all uncertain cases."""
+
+    least_worst: Robust
+    least_mean: Robust
+    designs: int
+    """Compared: those that have an answer in every case."""
+    dropped: int
+    """Left out, because a case failed or is still missing."""
+
+
+def best_row(results: Results, least: str) -> int | None:
+    """The row with the least value of a column; None where no row has one."""
+    values = np.where(results.good, results.columns[least], math.nan)
+    return int(np.nanargmin(values)) if np.isfinite(values).any() else None
+
+
+def robust_best(results: Results, least: str, uncertain: tuple[str, ...]) -> RobustBest | None:
+    """The design of the least worst case and that of the least mean; None where no design has all its cases.
+
+    Designs are told apart by the axes that are not uncertain. Each must have answers in as many cases as the study
+    has combinations of the uncertain axes, as far as the finished rows show them.
+    """
+    chosen = tuple(name for name in results.axes if name not in uncertain)
+    design, case = results.codes(chosen), results.codes(uncertain)
+    cases, designs = int(case.max()) + 1, int(design.max()) + 1
+    values = np.where(results.good, results.columns[least], math.nan)
+    known = np.isfinite(values)
+    count = np.bincount(design[known], minlength=designs)
+    whole = count == cases
+    if not whole.any():
+        return None
+    worst = np.full(designs, -math.inf)
+    np.maximum.at(worst, design[known], values[known])
+    mean = np.bincount(design[known], weights=values[known], minlength=designs) / np.maximum(count, 1)
+
+    def robust(of: Floats) -> Robust:
+        at = int(np.argmin(np.where(whole, of, math.inf)))
+        row = int(np.argmax(design == at))
+        return Robust({name: results.columns[name][row] for name in chosen}, float(worst[at]), float(mean[at]), cases)
+
+    return RobustBest(robust(worst), robust(mean), int(whole.sum()), int((~whole).sum()))
+
+
+@dataclass(frozen=True)
+class Effect:
+    """What one axis does by itself, all others averaged over."""
+
+    axis: str
+    share: float
+    """Part of the column's variance that goes with this axis alone (0…1); the first-order index of Sobol' sense."""
+    least_at: Any
+    least: float
+    """Mean of the column at the value, or in the tenth of the range, where that is least."""
+    most_at: Any
+    most: float
+
+
+def effects(results: Results, column: str) -> tuple[Effect, ...]:
+    """The main effect of every axis on a column, the strongest first; ranges in tenths."""
+    values = results.columns[column]
+    known = results.good & np.isfinite(values)
+    if known.sum() < 2 or float(np.var(values[known])) == 0.0:
+        return ()
+    found = [_effect(axis, results.columns[axis][known], values[known]) for axis in results.axes]
+    return tuple(sorted(found, key=lambda one: -one.share))
+
+
+def _effect(axis: str, at: NDArray[Any], values: Floats) -> Effect:
+    levels, code = _levels(at)
+    count = np.bincount(code, minlength=len(levels))
+    means = np.bincount(code, weights=values, minlength=len(levels)) / np.maximum(count, 1)
+    share = float((count * (means - values.mean()) ** 2).sum() / count.sum() / np.var(values))
+    low = int(np.argmin(np.where(count > 0, means, math.inf)))
+    high = int(np.argmax(np.where(count > 0, means, -math.inf)))
+    return Effect(axis, share, levels[low], float(means[low]), levels[high], float(means[high]))
+
+
+def _levels(at: NDArray[Any]) -> tuple[list[Any], Ints]:
+    """The values of an axis, or the middles of tenths of its range where it has many; and which one each row has."""
+    levels, code = np.unique(at if at.dtype == np.float64 else at.astype(str), return_inverse=True)
+    if at.dtype == np.float64 and len(levels) > _MANY:
+        low, tenth = float(levels[0]), 0.1 * float(levels[-1] - levels[0])
+        middles = [low + (k + 0.5) * tenth for k in range(10)]
+        return middles, np.clip(np.floor((at - low) / tenth), 0, 9).astype(np.int64)
+    return levels.tolist(), code.astype(np.int64)

@@ -1,0 +1,111 @@
+"""What a study is: a value, that pickles, compares and has a fingerprint."""
+
+import hashlib
+from dataclasses import dataclass
+
+from rotor.objective import Quantity as Objective
+from rotor.study.axes import Places
+from rotor.study.quantities import PLAIN, QUANTITIES, Value
+
+
+@dataclass(frozen=True)
+class Searching:
+    """How the twist of least power is searched for at each point."""
+
+    starts: int = 3
+    """One of them begins at the optimum of the point before."""
+    seed: int = 0
+    objective: Objective = "total"
+    rate: tuple[float, float] | None = None
+    """Steepest and flattest twist rate [rad/R]."""
+    stalled: float | None = None
+    """Largest stalled share of the disk (0…1)."""
+
+
+@dataclass(frozen=True)
+class Aims:
+    """What `show` looks for. No answer of a point depends on it."""
+
+    least: str = "power_total_w"
+    """The column to make small."""
+    uncertain: tuple[str, ...] = ()
+    """Axes that nobody can choose: a robust design is best over all of their values."""
+
+
+@dataclass(frozen=True)
+class Study:
+    """Many designs, and what is wanted of each."""
+
+    title: str
+    places: Places
+    given: tuple[tuple[str, Value], ...]
+    """Values that all points share."""
+    searching: Searching | None
+    """None: each point is a trim."""
+    chunk: int
+    """Points worked off together."""
+    aims: Aims
+
+    @property
+    def count(self) -> int:
+        """How many points."""
+        return self.places.count
+
+    @property
+    def chunks(self) -> int:
+        return -(-self.count // self.chunk)
+
+    def span(self, chunk: int) -> tuple[int, int]:
+        """First point of a chunk, and the one after its last."""
+        return chunk * self.chunk, min((chunk + 1) * self.chunk, self.count)
+
+    def values(self, first: int, last: int) -> list[dict[str, Value]]:
+        """All values of the points first … last − 1."""
+        shared = dict(self.given)
+        return [{**shared, **own} for own in self.places.at(first, last)]
+
+    @property
+    def axis_names(self) -> tuple[str, ...]:
+        """Axes in the order of the file, sampled ranges last."""
+        sampled = () if self.places.sample is None else tuple(name for name, _, _ in self.places.sample.ranges)
+        return (*(axis.name for axis in self.places.axes), *sampled)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """All quantities that the study sets."""
+        return (*self.axis_names, *(name for name, _ in self.given))
+
+    @property
+    def concepts(self) -> tuple[str, ...]:
+        """The twist concepts that occur."""
+        for axis in self.places.axes:
+            if axis.name == "concept":
+                return tuple(str(value) for value in axis.values)
+        found = dict(self.given).get("concept")
+        return () if found is None else (str(found),)
+
+    @property
+    def parameters(self) -> tuple[str, ...]:
+        """The concept parameters that the study sets, by label."""
+        return tuple(name for name in self.names if name not in PLAIN)
+
+    @property
+    def fingerprint(self) -> str:
+        """The same for studies whose points have the same answers: all of it is values, so its text says everything."""
+        decisive = (self.places, sorted(self.given), self.searching, self.chunk)
+        return hashlib.sha256(repr(decisive).encode()).hexdigest()[:16]
+
+
+def units_of(study: Study) -> dict[str, str]:
+    """Unit of each quantity that the study sets."""
+    return {name: QUANTITIES[name].unit for name in study.names}
+
+
+def good_chunk(count: int, *, search: bool) -> int:
+    """Points a chunk unless the file says otherwise: seconds of work, files that a folder can hold.
+
+    A trim takes some 5 ms, an optimum some 0.3 s; a chunk starts cold, and is what a lost worker or a Ctrl-C costs.
+    """
+    most = 16 if search else 500
+    few = max(count // 64, 4)
+    return max(min(most, few), -(-count // 20_000))
