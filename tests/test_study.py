@@ -106,6 +106,8 @@ BAD = {
     "least": ("[axes]\nmu = [0.1]\n[show]\nleast = 'noise'\n", "line 4", "power_total_w"),
     "uncertain": ("[axes]\nmu = [0.1]\n[show]\nuncertain = ['wind']\n", "line 4", "mu"),
     "chunk": ("chunk = 0\n[axes]\nmu = [0.1]\n", "line 1", "whole number"),
+    "rotor": ("[axes]\nrotor = ['uh60a', 'mine.toml']\n", "line 2", "mine.toml"),
+    "table": ("[axes]\nmu = [0.1]\n[fixed]\ntwist = 'table:mine.csv'\n", "line 4", "mine.csv"),
     "speeds": ("[axes]\nspeed_kt = [90]\nmu = [0.1]\n", "line 2", "leave one out"),
 }  # fmt: skip
 
@@ -155,6 +157,22 @@ def test_rows_are_what_single_trims_answer():
         assert (row["status"], row["twist"]) == ("converged", design.twist.spec())
         assert_allclose(row["power_total_w"], alone.power.total, rtol=1e-8)
         assert_allclose(row["collective_deg"], math.degrees(alone.controls.collective), rtol=1e-7)
+
+
+def test_a_rotor_and_a_table_of_the_users_own_travel_with_the_study(tmp_path: Path):
+    """A worker has none of the user's files, so that all they say is in the study."""
+    (tmp_path / "mine.toml").write_text(asset_path("r22.toml").read_text(encoding="utf-8"), encoding="utf-8")
+    (tmp_path / "twist.csv").write_text("0.1, 5\n1, -5\n")
+    text = f'[axes]\nrotor = ["mine.toml", "s61"]\n[fixed]\ntwist = "table:{tmp_path}/twist.csv"\n' + COARSE
+    (tmp_path / "study.toml").write_text(text, encoding="utf-8")
+    study = read_study(tmp_path / "study.toml").study
+    for name in ("mine.toml", "twist.csv"):
+        (tmp_path / name).unlink()
+    rows = work(study, 0, 2)
+    assert [row["status"] for row in rows] == ["converged", "converged"]
+    assert [row["rotor"] for row in rows] == ["mine.toml", "s61"]
+    assert rows[0]["mass_kg"] < 700.0 < rows[1]["mass_kg"]
+    assert rows[0]["twist"] == "points:5,-5@0.1,1"
 
 
 def test_an_optimum_says_what_it_found():

@@ -13,6 +13,7 @@ from rotor.study.columns import Column, columns_of
 from rotor.study.memory import Memory
 from rotor.study.point import Row, evaluate
 from rotor.study.provenance import package_version
+from rotor.study.quantities import QUANTITIES
 from rotor.study.study import Study
 
 GOOD = "converged"
@@ -50,7 +51,7 @@ def work(study: Study, first: int, last: int) -> list[Row]:
     memory = Memory(study.places.ranges)
     rows: list[Row] = []
     for number, values in enumerate(study.values(first, last), start=first):
-        rows.append({"point": number, **evaluate(values, study.searching, memory)})
+        rows.append({"point": number, **evaluate(values, study, memory)})
     return rows
 
 
@@ -77,7 +78,6 @@ def _worker() -> str:
 def describe(study: Study, provenance: Provenance) -> dict[str, str]:
     """Provenance as it stands in the metadata of every file."""
     given = dict(study.given)
-    models = ("inflow", "tip_loss", "hub_loss", "elements", "azimuths")
     return {
         "format": "rotor-explorer study",
         "format_version": "1",
@@ -87,7 +87,7 @@ def describe(study: Study, provenance: Provenance) -> dict[str, str]:
         "study": study.fingerprint,
         "study_file_sha256": provenance.file_sha256,
         "preset": str(given.get("preset", "as the column says" if "preset" in study.axis_names else "flight")),
-        "models": json.dumps({name: given[name] for name in models if name in given}),
+        "models": json.dumps({name: value for name, value in given.items() if QUANTITIES[name].place == "models"}),
         "units": json.dumps({column.name: column.unit for column in columns_of(study) if column.unit}),
     }
 

@@ -32,6 +32,7 @@ _HEAD = (
     Column("message", "text"),
 )
 _CONDITION = (
+    Column("rotor", "text"),
     Column("mu", "number"),
     Column("speed_m_s", "number", "m/s"),
     Column("mass_kg", "number", "kg"),

@@ -10,6 +10,8 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, cast
 
+from rotor.aircraft import Aircraft
+from rotor.assets import SHIPPED_ROTORS
 from rotor.concepts import Concept, restrict
 from rotor.design import Design
 from rotor.inflow import inflow_model
@@ -20,8 +22,9 @@ from rotor.solution import Solution
 from rotor.solve import solve
 from rotor.study.memory import Memory
 from rotor.study.quantities import PLAIN, Value, blade_concept
-from rotor.study.study import Searching
+from rotor.study.study import Searching, Study
 from rotor.sweep import at_advance_ratio
+from rotor.switches import SWITCHES
 
 _KNOT = 1852.0 / 3600.0
 """[m/s]"""
@@ -32,22 +35,24 @@ Row = dict[str, Any]
 Values = Mapping[str, Value]
 
 
-def design_of(values: Values) -> Design:
+def design_of(values: Values, aircraft: Mapping[str, Aircraft]) -> Design:
     """The design that a point's values describe; a twist still to be searched for is the preset's own.
 
-    Raises ValueError with one sentence.
+    `aircraft`: rotors of the user's own by name. Raises ValueError with one sentence.
     """
     preset = str(values.get("preset", "flight"))
     check_preset(preset)
     models = FLIGHT_MODELS if preset == "flight" else THESIS_MODELS
-    changed: dict[str, Any] = {name: values[name] for name in ("inflow", "tip_loss", "hub_loss") if name in values}
+    changed: dict[str, Any] = {name: values[name] for name in ("inflow", *SWITCHES) if name in values}
     if "inflow" in changed:
         inflow_model(str(changed["inflow"]))
     for name in ("elements", "azimuths"):
         if name in values:
             changed[name] = int(cast(float, values[name]))
+    rotor = str(values.get("rotor", SHIPPED_ROTORS[0]))
     design = make_design(
         preset,
+        aircraft=aircraft.get(rotor, rotor),
         twist=str(values["twist"]) if "twist" in values else None,
         advance_ratio=float(values.get("mu", _CRUISE)),
         mass=float(values["mass_kg"]) if "mass_kg" in values else None,
@@ -63,28 +68,28 @@ def design_of(values: Values) -> Design:
     return design
 
 
-def check_point(values: Values, searching: Searching | None) -> None:
-    """Raise ValueError, with one sentence, for values that no point of such a study can have."""
-    design = design_of(values)
-    if searching is None:
+def check_point(values: Values, study: Study) -> None:
+    """Raise ValueError, with one sentence, for values that no point of the study can have."""
+    design = design_of(values, dict(study.aircraft))
+    if study.searching is None:
         _bladed(design, values)
     else:
-        _search(design, values, searching, Memory({}))
+        _search(design, values, study.searching, Memory({}))
 
 
-def evaluate(values: Values, searching: Searching | None, memory: Memory) -> Row:
+def evaluate(values: Values, study: Study, memory: Memory) -> Row:
     """The row of one point. Begins with what the points before left, and leaves what it found."""
     begin = time.perf_counter()
     row: Row = {name: value for name, value in values.items() if not isinstance(value, bool)}
     try:
-        design = design_of(values)
-        row |= _condition(design)
-        if searching is None:
+        design = design_of(values, dict(study.aircraft))
+        row = _condition(design) | row
+        if study.searching is None:
             design = _bladed(design, values)
             solution = solve(design, memory.guess(values, hovering=design.hovering))
             row |= {"status": solution.status.value, "message": solution.message}
         else:
-            search = _search(design, values, searching, memory)
+            search = _search(design, values, study.searching, memory)
             optimum = optimise(search)
             solution = solve(optimum.design, memory.guess(values, hovering=design.hovering))
             row |= _found(optimum, search) | {"status": optimum.status.value, "message": optimum.message}
@@ -158,6 +163,7 @@ def _parameters(values: Values) -> dict[str, float]:
 def _condition(design: Design) -> Row:
     condition = design.condition
     return {
+        "rotor": design.aircraft.key or design.aircraft.name,
         "mu": condition.advance_ratio,
         "speed_m_s": design.airspeed,
         "mass_kg": condition.mass,

@@ -5,6 +5,7 @@ from typing import Literal
 
 from rotor.concepts import CONCEPTS, Concept
 from rotor.concepts.catalogue import THREE_SEGMENT_FREE, TWO_AIRFOILS, TWO_SEGMENT_FREE
+from rotor.switches import SWITCHES
 
 Value = float | str | bool
 Kind = Literal["number", "text", "flag"]
@@ -28,6 +29,7 @@ _LABELS = {parameter.label for parameter in _PARAMETERS}
 
 def _all() -> dict[str, Quantity]:
     plain = [
+        Quantity("rotor", "text", "", "fixed"),
         Quantity("mu", "number", "", "fixed"),
         Quantity("speed_kt", "number", "kt", "fixed"),
         Quantity("mass_kg", "number", "kg", "fixed"),
@@ -38,8 +40,7 @@ def _all() -> dict[str, Quantity]:
         Quantity("hover_share", "number", "", "fixed"),
         Quantity("preset", "text", "", "models"),
         Quantity("inflow", "text", "", "models"),
-        Quantity("tip_loss", "flag", "", "models"),
-        Quantity("hub_loss", "flag", "", "models"),
+        *(Quantity(name, "flag", "", "models") for name in SWITCHES),
         Quantity("elements", "number", "", "models"),
         Quantity("azimuths", "number", "", "models"),
     ]

@@ -3,6 +3,7 @@
 import hashlib
 from dataclasses import dataclass
 
+from rotor.aircraft import Aircraft
 from rotor.objective import Quantity as Objective
 from rotor.study.axes import Places
 from rotor.study.quantities import PLAIN, QUANTITIES, Value
@@ -45,6 +46,8 @@ class Study:
     chunk: int
     """Points worked off together."""
     aims: Aims
+    aircraft: tuple[tuple[str, Aircraft], ...] = ()
+    """Rotors from files of the user's own, by the names that the study file gives them: a worker has no such files."""
 
     @property
     def count(self) -> int:
@@ -92,7 +95,7 @@ class Study:
     @property
     def fingerprint(self) -> str:
         """The same for studies whose points have the same answers: all of it is values, so its text says everything."""
-        decisive = (self.places, sorted(self.given), self.searching, self.chunk)
+        decisive = (self.places, sorted(self.given), self.searching, self.chunk, self.aircraft)
         return hashlib.sha256(repr(decisive).encode()).hexdigest()[:16]
 
 

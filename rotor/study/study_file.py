@@ -2,11 +2,14 @@
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, cast
 
-from rotor.assets import asset_path
+from rotor.aircraft import Aircraft
+from rotor.assets import SHIPPED_ROTORS, asset_path
+from rotor.fleet import find_aircraft
+from rotor.presets import make_design
 from rotor.ranges import parse_range
 from rotor.study.axes import Axis, Places, Sample
 from rotor.study.columns import columns_of
@@ -14,6 +17,7 @@ from rotor.study.document import Document
 from rotor.study.point import check_point
 from rotor.study.quantities import QUANTITIES, Value
 from rotor.study.study import Aims, Searching, Study, good_chunk
+from rotor.twist_spec import inline_spec
 
 _MANY = 10**10
 
@@ -49,14 +53,15 @@ def read_study(path: str | Path) -> StudyFile:
 
 def parse_study(text: str, name: str = "study.toml") -> Study:
     """The study of a file's text. ValueError with one sentence that names file, line, key and remedy."""
-    return _Reader(Document(text, name), Path(name).stem).study()
+    return _Reader(Document(text, name), Path(name)).study()
 
 
 class _Reader:
     """A document becoming a study."""
 
-    def __init__(self, file: Document, name: str) -> None:
-        self._file, self._name = file, name
+    def __init__(self, file: Document, path: Path) -> None:
+        self._file, self._path = file, path
+        self._aircraft: dict[str, Aircraft] = {}
 
     def study(self) -> Study:
         sample = self._file.section("sample")
@@ -66,7 +71,7 @@ class _Reader:
             raise self._file.wrong("", "axes", "the study has no axes: add for example mu = [0.1, 0.2, 0.3] to [axes]")
         given = self._given({axis.name for axis in axes} | {name for name, _, _ in ranges})
         searching = self._searching()
-        title, chunk = self._file.section("").get("title", self._name), self._file.section("").get("chunk")
+        title, chunk = self._file.section("").get("title", self._path.stem), self._file.section("").get("chunk")
         if not isinstance(title, str):
             raise self._file.wrong("", "title", f"title is {title!r}: give a text")
         if places.count > _MANY:
@@ -74,9 +79,10 @@ class _Reader:
         if chunk is None:
             chunk = good_chunk(places.count, search=searching is not None)
         chunk = int(self._whole("", "chunk", chunk, 1, 10**6))
-        study = Study(title, places, tuple(given.items()), searching, chunk, Aims())
+        aircraft = tuple(self._aircraft.items())
+        study = Study(title, places, tuple(given.items()), searching, chunk, Aims(), aircraft)
         self._try_points(study)
-        return Study(title, places, study.given, searching, chunk, self._aims(study))
+        return replace(study, aims=self._aims(study))
 
     def _axes(self) -> tuple[tuple[Axis, ...], list[tuple[str, float, float]]]:
         axes: list[Axis] = []
@@ -103,7 +109,7 @@ class _Reader:
         if QUANTITIES[key].kind == "text":
             if not isinstance(value, list) or not all(isinstance(one, str) for one in cast(list[Any], value)):
                 raise self._file.wrong("axes", key, f'axis {key} is {value!r}: give a list of texts, as ["a", "b"]')
-            found: list[Any] = cast(list[str], value)
+            found: list[Any] = [self._portable("axes", key, one) for one in cast(list[str], value)]
         elif isinstance(value, str):
             try:
                 found = list(parse_range(value))
@@ -121,6 +127,18 @@ class _Reader:
         if len(set(found)) < len(found):
             raise self._file.wrong("axes", key, f"axis {key} holds a value twice: leave one out")
         return tuple(found) if QUANTITIES[key].kind == "text" else tuple(float(one) for one in found)
+
+    def _portable(self, section: str, key: str, text: str) -> str:
+        """What another machine can read as well: a rotor's file is read here, a twist table becomes its rows."""
+        try:
+            if key == "rotor" and text not in SHIPPED_ROTORS:
+                beside = self._path.parent / text
+                self._aircraft[text] = find_aircraft(str(beside) if beside.is_file() else text)
+            elif key == "twist" and "table:" in text:
+                return inline_spec(make_design(twist=text).twist)
+        except ValueError as error:
+            raise self._file.wrong(section, key, str(error)) from None
+        return text
 
     def _range(self, key: str, value: dict[str, Any]) -> tuple[float, float]:
         low, high = value.get("low"), value.get("high")
@@ -166,6 +184,8 @@ class _Reader:
                 if not right[one.kind]:
                     wanted = {"number": "a number", "text": "a text", "flag": "true or false"}[one.kind]
                     raise self._file.wrong(section, key, f"{key} is {value!r}: give {wanted}")
+                if one.kind == "text":
+                    value = self._portable(section, key, value)
                 given[key] = float(value) if one.kind == "number" else value
         return given
 
@@ -216,7 +236,7 @@ class _Reader:
         tried.extend((name, {name: value}) for name, low, high in sampled for value in (low, high))
         for key, own in tried:
             try:
-                check_point({**shared, **first, **own}, study.searching)
+                check_point({**shared, **first, **own}, study)
             except ValueError as error:
                 section, at = ("axes", key) if key else self._culprit(str(error))
                 raise self._file.wrong(section, at, str(error)) from None
