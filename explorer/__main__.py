@@ -1,15 +1,23 @@
 """`python -m explorer`: start the page, print its address, open a browser where there is one."""
 
 import argparse
+import signal
 import sys
 import threading
 import webbrowser
 from collections.abc import Sequence
 
+from explorer.house import SESSIONS, SLEEP_AFTER
+
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Exit code 0 after Ctrl-C, 2 for bad input."""
-    options = _parser().parse_args(arguments)
+    """Exit code 0 after Ctrl-C, 2 for bad input; those of `explorer.soak.command` for `soak`."""
+    given = list(sys.argv[1:] if arguments is None else arguments)
+    if given[:1] == ["soak"]:
+        from explorer.soak.command import main as soak
+
+        return soak(given[1:])
+    options = _parser().parse_args(given)
     try:
         return _run(options)
     except KeyboardInterrupt:
@@ -19,19 +27,25 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(options: argparse.Namespace) -> int:
     from explorer.app import App, PortBusy
+    from explorer.doors import is_loopback, warning
+    from explorer.house import House
     from explorer.state import Inputs, inputs_of
     from rotor.case import read_case
 
     try:
         start = inputs_of(read_case(options.design)) if options.design else Inputs()
-        app = App(options.host, options.port, start)
+        house = House(options.max_sessions, 60.0 * options.sleep_after, tuple(options.allow_host))
+        app = App(options.host, options.port, start, house)
     except (ValueError, FileNotFoundError, PortBusy) as error:
         print(f"explorer: {error}", file=sys.stderr)
         return 2
     try:
+        if not is_loopback(options.host):
+            print(warning(options.host), file=sys.stderr, flush=True)
         print(f"Rotor explorer: {app.address}   (Ctrl-C stops it)", flush=True)
         if not options.no_browser:
             _open_browser(app.address)
+        signal.signal(signal.SIGTERM, signal.default_int_handler)  # A service manager's stop is as clean as Ctrl-C.
         threading.Event().wait()
     finally:
         app.stop()
@@ -40,12 +54,35 @@ def _run(options: argparse.Namespace) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="python -m explorer", description="Explore helicopter blade twist in a browser."
+        prog="python -m explorer",
+        description="Explore helicopter blade twist in a browser.",
+        epilog="python -m explorer soak: many browsers at once, and what they find; see its --help.",
     )
     parser.add_argument("--host", default="127.0.0.1", help="address to listen on (default: this machine only)")
     parser.add_argument("--port", type=_port, default=8080, help="port to listen on (default 8080)")
     parser.add_argument("--design", metavar="FILE", help="design file (JSON) to start from")
     parser.add_argument("--no-browser", action="store_true", help="do not open a browser")
+    parser.add_argument(
+        "--allow-host",
+        metavar="NAME",
+        action="append",
+        default=[],
+        help="a name the page is reached by, as behind a reverse proxy (may be given again)",
+    )
+    parser.add_argument(
+        "--max-sessions",
+        metavar="N",
+        type=_sessions,
+        default=SESSIONS,
+        help=f"pages at work at once (default {SESSIONS}); further visitors wait in line",
+    )
+    parser.add_argument(
+        "--sleep-after",
+        metavar="MINUTES",
+        type=_minutes,
+        default=SLEEP_AFTER / 60.0,
+        help=f"rest after which a page makes room for others, and loses nothing (default {SLEEP_AFTER / 60.0:g})",
+    )
     return parser
 
 
@@ -53,6 +90,22 @@ def _port(text: str) -> int:
     if not text.isdigit() or int(text) > 65535:
         raise argparse.ArgumentTypeError(f"{text!r} is not a port: give a number in 0…65535")
     return int(text)
+
+
+def _sessions(text: str) -> int:
+    if not text.isdigit() or not 1 <= int(text) <= 1000:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number of pages: give 1…1000")
+    return int(text)
+
+
+def _minutes(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0.01 <= value <= 1e5:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a time in minutes: give 0.01…100000")
+    return value
 
 
 def _open_browser(address: str) -> None:

@@ -1,15 +1,22 @@
-"""The server: one `Session` for each browser that connects."""
+"""The server: one `Session` for each browser that connects and finds a place."""
 
 import logging
 import socket
 import threading
+from functools import partial
 
 import viser
 
 from explorer import solver, viser_compat
+from explorer.doors import Doors
+from explorer.gate import Gate
+from explorer.guest import Guest
+from explorer.hall import Hall
+from explorer.house import House
 from explorer.jobs import Pool
 from explorer.session import Session
 from explorer.state import Inputs
+from explorer.worker import Sleep
 
 _log = logging.getLogger(__name__)
 
@@ -19,16 +26,17 @@ class PortBusy(RuntimeError):
 
 
 class App:
-    """A running server and its sessions."""
+    """A running server and its guests."""
 
-    def __init__(self, host: str, port: int, start: Inputs | None = None) -> None:
-        if port:
-            _check_free(host, port)
+    def __init__(self, host: str, port: int, start: Inputs | None = None, house: House | None = None) -> None:
+        _check_free(host, port)
         self._start = start or Inputs()
-        self._sessions: dict[int, Session] = {}
-        self._lock = threading.Lock()
+        self._house = house or House()
+        self._guests: dict[int, Guest] = {}
+        self._hall: Hall[Guest] = Hall(self._house.sessions)
         self.pool = Pool()
-        self.server = viser_compat.quiet_server(host, port, "Rotor explorer")
+        gate = Gate(Doors(host, self._house.allow_hosts), self._house.connections)
+        self.server = viser_compat.quiet_server(host, port, "Rotor explorer", gate)
         viser_compat.remove_share_tunnel(self.server)
         self.server.on_client_connect(self._connected)
         self.server.on_client_disconnect(self._disconnected)
@@ -37,28 +45,56 @@ class App:
     @property
     def address(self) -> str:
         host = self.server.get_host()
-        shown = "127.0.0.1" if host in ("0.0.0.0", "") else host
+        shown = "127.0.0.1" if host in ("0.0.0.0", "::", "") else f"[{host}]" if ":" in host else host
         return f"http://{shown}:{self.server.get_port()}"
 
     def stop(self) -> None:
-        with self._lock:
-            sessions, self._sessions = list(self._sessions.values()), {}
-        for session in sessions:
-            session.stop()
+        guests, self._guests = list(self._guests.values()), {}
+        for guest in guests:
+            guest.leave()
         self.pool.close()
         viser_compat.quiet_stop(self.server)
 
     def _connected(self, client: viser.ClientHandle) -> None:
-        session = Session(client, self._start, viser_compat.page_facts(client), self.pool)
-        with self._lock:
-            self._sessions[client.client_id] = session
-        session.start()
+        guest = self._guests[client.client_id] = Guest(client)
+        # On a thread of its own: viser's are shared by all pages, and a slow browser would hold one.
+        _aside(f"welcome-{client.client_id}", partial(self._welcome, guest))
 
     def _disconnected(self, client: viser.ClientHandle) -> None:
-        with self._lock:
-            session = self._sessions.pop(client.client_id, None)
-        if session is not None:
-            session.stop()
+        guest = self._guests.pop(client.client_id, None)
+        if guest is not None:
+            _aside(f"goodbye-{client.client_id}", partial(self._goodbye, guest))
+
+    def _welcome(self, guest: Guest) -> None:
+        guest.ask()
+        if self._hall.arrive(guest):
+            guest.sit(partial(self._session, guest))
+        else:
+            self._tell_line()
+        if guest.client.client_id not in self._guests:  # It left before it was known.
+            self._goodbye(guest)
+
+    def _goodbye(self, guest: Guest) -> None:
+        guest.leave()
+        self._seat(self._hall.leave(guest))
+
+    def _session(self, guest: Guest, client: viser.ClientHandle, facts: viser_compat.PageFacts) -> Session:
+        sleep = Sleep(
+            self._house.sleep_after,
+            lambda: self._seat(self._hall.doze(guest)),
+            lambda: self._hall.wake(guest),
+        )
+        return Session(client, self._start, facts, self.pool, sleep)
+
+    def _seat(self, coming: list[Guest]) -> None:
+        """Those in line whose turn it is."""
+        for guest in coming:
+            _aside(f"seat-{guest.client.client_id}", partial(guest.sit, partial(self._session, guest)))
+        self._tell_line()
+
+    def _tell_line(self) -> None:
+        for ahead, guest in enumerate(self._hall.line):
+            guest.wait(self._house.sessions, ahead)
 
     def _warm(self) -> None:
         try:
@@ -68,11 +104,25 @@ class App:
         self.pool.warm()  # Only now: the first page does not compete with it.
 
 
-def _check_free(host: str, port: int) -> None:
-    """Raise PortBusy when something listens there: viser would move to the next port without a word."""
-    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
-        probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+def _aside(name: str, work: partial[None]) -> None:
+    def run() -> None:
         try:
-            probe.bind((host, port))
-        except OSError as error:
-            raise PortBusy(f"{host}:{port} cannot be used ({error.strerror}): choose another with --port") from error
+            work()
+        except Exception:  # One page's trouble is not the server's.
+            _log.exception("%s failed", name)
+
+    threading.Thread(target=run, name=name, daemon=True).start()
+
+
+def _check_free(host: str, port: int) -> None:
+    """Raise PortBusy when this place cannot be listened on: viser would try a thousand ports without a word."""
+    try:
+        family, kind, protocol, _, place = socket.getaddrinfo(
+            host or None, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE
+        )[0]
+        with socket.socket(family, kind, protocol) as probe:
+            probe.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+            probe.bind(place)
+    except OSError as error:
+        remedy = f"choose another with {'--port' if port and not isinstance(error, socket.gaierror) else '--host'}"
+        raise PortBusy(f"{host}:{port} cannot be used ({error.strerror}): {remedy}") from error

@@ -11,6 +11,7 @@ from scipy.interpolate import PchipInterpolator
 
 from explorer.plots import SWEEP, PowerCurve
 from explorer.readout import ideal_induced
+from explorer.turns import TURNS
 from rotor.design import Design
 from rotor.solution import Solution
 from rotor.solve import solve
@@ -53,7 +54,7 @@ class PowerCurves:
             start: Solution | None = None
             for k, mu in enumerate(SWEEP):
                 if superseded():
-                    if patient:
+                    if patient or TURNS.waiting:
                         return False
                     coarse = True
                 if coarse and k > 0 and (k - 1) % 3:

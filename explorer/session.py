@@ -32,9 +32,9 @@ from explorer.sensitivity_panel import SensitivityPanel
 from explorer.state import Inputs, ViewState, baseline_of, with_optimum
 from explorer.top_bar import TopBar
 from explorer.view import View
-from explorer.viser_compat import PageFacts
+from explorer.viser_compat import PageFacts, set_style
 from explorer.waterfall_panel import WaterfallPanel
-from explorer.worker import LatestWins
+from explorer.worker import LatestWins, Sleep
 from rotor.design import Design
 from rotor.presets import uh60a_rotor
 from rotor.solution import Solution
@@ -49,8 +49,10 @@ _BRAND = (28, 126, 214)
 class Session:
     """Lives from connect to disconnect. After construction everything happens on the worker's thread."""
 
-    def __init__(self, client: viser.ClientHandle, start: Inputs, facts: PageFacts, pool: Pool) -> None:
-        """`start`: where the page's address holds no design."""
+    def __init__(
+        self, client: viser.ClientHandle, start: Inputs, facts: PageFacts, pool: Pool, sleep: Sleep | None = None
+    ) -> None:
+        """`start`: where the page's address holds no design; `sleep`: what the house does about rest."""
         self._client = client
         problem = ""
         try:
@@ -66,13 +68,13 @@ class Session:
         self._baseline = solver.Baseline()
         self._curves = PowerCurves()
         self._dark = dark = facts.dark
-        self._worker = LatestWins(self._round, self._report, f"session-{client.client_id}")
+        self._worker = LatestWins(self._round, self._report, f"session-{client.client_id}", self._resting(sleep))
 
         rotor = self._rotor = uh60a_rotor(start.preset)
         gui = client.gui
         self._theme()
         gui.set_panel_label("Rotor explorer")
-        gui.add_html(style.SHEET)
+        set_style(client, style.SHEET)
         self._top = TopBar(gui, self._wake, lambda: self._history.undo(), lambda: self._history.redo())
         tabs = gui.add_tab_group()
         with tabs.add_tab("Design"):
@@ -153,7 +155,7 @@ class Session:
 
         def overtaken() -> bool:
             """Whether something waits that makes the rest of this round needless: not a blade that only turned."""
-            return self._whole_round and superseded()
+            return superseded() and self._whole_round
 
         inputs, view = self._history.read(self._controls.pauses.longest()), self._controls.view()
         self._controls.refresh(inputs)
@@ -233,6 +235,16 @@ class Session:
         if (last := self._moment) is not None:
             curve = self._curves.known(last.solution.design, last.reference.design)
             self._results.show_power(last, curve, lost=True)
+
+    def _resting(self, sleep: Sleep | None) -> Sleep | None:
+        """What is only kept to be quick goes when the page falls asleep; the first touch computes it anew."""
+
+        def falls() -> None:
+            self._latest, self._baseline, self._curves = None, solver.Baseline(), PowerCurves()
+            if sleep is not None:
+                sleep.falls()
+
+        return sleep and replace(sleep, falls=falls)
 
     def _report(self, error: Exception) -> None:
         _log.error("an update failed", exc_info=error)

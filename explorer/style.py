@@ -1,6 +1,6 @@
 """The page's style sheet: classes of the read-outs, and a tighter set of rows in the panels."""
 
-SHEET = """<style>
+SHEET = """
 /* The rows of the control panel, a little closer than they come. */
 [style*="padding-bottom: 0.5em"] { padding-bottom: 0.3em !important; }
 /* Tabs close enough for their names to stand in one row, or two. */
@@ -115,5 +115,7 @@ div:has(> .rx-bridge), div:has(> .rx-bridge) + div { display: none !important; }
 .rx-trust h4 { margin: 11px 0 3px; font-size: 12.5px; line-height: 1.25; }
 .rx-trust-row { display: flex; justify-content: space-between; gap: 10px; padding: 2px 0;
   border-top: 1px solid rgba(128,128,128,.18); }
+.rx-lobby { padding: 0 2px 6px; font-size: 13.5px; line-height: 1.45; }
+.rx-lobby p { margin: 0 0 9px; }
 .rx-trust-row b { white-space: nowrap; font-weight: 600; }
-</style>"""
+"""

@@ -4,16 +4,48 @@ import contextlib
 import io
 import json
 import secrets
+import threading
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 import viser
+import websockets.asyncio.server
 from viser import _messages
 
+from explorer import uploads
+from explorer.gate import Gate
 
-def quiet_server(host: str, port: int, label: str) -> viser.ViserServer:
-    """A server that leaves it to us what is printed; `verbose=False` still prints a banner."""
-    with contextlib.redirect_stdout(io.StringIO()):
+_starting = threading.Lock()
+
+
+def quiet_server(host: str, port: int, label: str, gate: Gate | None = None) -> viser.ViserServer:
+    """A server that leaves it to us what is printed, `verbose=False` still prints a banner; with `gate` before it."""
+    with contextlib.redirect_stdout(io.StringIO()), _behind(gate) if gate else contextlib.nullcontext():
         return viser.ViserServer(host=host, port=port, label=label, verbose=False)
+
+
+@contextlib.contextmanager
+def _behind(gate: Gate) -> Iterator[None]:
+    """While a server starts, what it asks of `websockets` goes through the gate: viser offers no way to say so.
+
+    RuntimeError where it did not come by: a server that looks guarded must be.
+    """
+    serve, passed = websockets.asyncio.server.serve, []
+
+    def gated(handler: Any, *where: Any, **options: Any) -> Any:
+        passed.append(True)
+        handler, options = gate.around(handler, options)
+        return serve(handler, *where, **options)
+
+    with _starting:
+        websockets.asyncio.server.serve = gated  # pyright: ignore[reportAttributeAccessIssue]
+        try:
+            yield
+        finally:
+            websockets.asyncio.server.serve = serve
+    if not passed:
+        raise RuntimeError("The server started without its gate: this viser starts its server in another way.")
 
 
 def quiet_stop(server: viser.ViserServer) -> None:
@@ -27,6 +59,45 @@ def remove_share_tunnel(server: viser.ViserServer) -> None:
         server._websock_server.unregister_handler(message)
 
 
+def guard_uploads(client: viser.ClientHandle, tell: Callable[[str], None]) -> None:
+    """Let only such uploads begin, and go on, as `uploads` allows; `tell` hears why one was refused."""
+    gui, connection = client.gui, client._websock_connection
+    begin, more = gui._handle_file_transfer_start, gui._handle_file_transfer_part
+    under_way = gui._current_file_upload_states
+
+    def refuse(component: str | None, transfer: str, sentence: str) -> None:
+        under_way.pop(transfer, None)
+        # The button is free again, and the page's own notice of progress goes.
+        connection.queue_message(_messages.FileTransferPartAck(component, transfer, 1, 1))
+        connection.queue_message(_messages.RemoveNotificationMessage(f"upload-{transfer}"))
+        tell(sentence)
+
+    def started(client_id: Any, message: _messages.FileTransferStartUpload) -> None:
+        button = gui._gui_input_handle_from_uuid.get(message.source_component_uuid)
+        if button is None:
+            return
+        accepts = getattr(button._impl.props, "mime_type", "")
+        sentence = uploads.refusal(message.filename, message.size_bytes, message.part_count, len(under_way), accepts)
+        if sentence is None:
+            begin(client_id, message)
+        else:
+            refuse(message.source_component_uuid, message.transfer_uuid, sentence)
+
+    def continued(client_id: Any, message: _messages.FileTransferPart) -> None:
+        state = under_way.get(message.transfer_uuid)
+        if state is None:
+            return  # Refused, or never begun: dropped.
+        if state["transferred_bytes"] + len(message.content) > state["total_bytes"]:
+            refuse(message.source_component_uuid, message.transfer_uuid, "A file was longer than its sender had said.")
+        else:
+            more(client_id, message)
+
+    connection.unregister_handler(_messages.FileTransferStartUpload, begin)
+    connection.register_handler(_messages.FileTransferStartUpload, started)
+    connection.unregister_handler(_messages.FileTransferPart, more)
+    connection.register_handler(_messages.FileTransferPart, continued)
+
+
 def set_png(handle: viser.ImageHandle, png: bytes) -> None:
     """Assign an encoded PNG: the public setter would encode again, in true colour, for ten times the time."""
     handle._data = png
@@ -35,6 +106,15 @@ def set_png(handle: viser.ImageHandle, png: bytes) -> None:
 def run_in_page(client: viser.ClientHandle, script: str) -> None:
     """Run a line of JavaScript in the page of one client."""
     client._websock_connection.queue_message(_messages.RunJavascriptMessage(script))
+
+
+def set_style(client: viser.ClientHandle, sheet: str) -> None:
+    """Put a style sheet into the page's head: one inside a panel goes when that panel is folded away."""
+    run_in_page(
+        client,
+        "(()=>{const id='rx-sheet';const sheet=document.getElementById(id)||document.createElement('style');"
+        f"sheet.id=id;sheet.textContent={json.dumps(sheet)};document.head.appendChild(sheet)}})()",
+    )
 
 
 @dataclass(frozen=True)

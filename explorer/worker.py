@@ -3,17 +3,41 @@
 import contextlib
 import threading
 from collections.abc import Callable
+from dataclasses import dataclass
+
+from explorer.turns import TURNS, Turn, Turns
 
 Job = Callable[[Callable[[], bool]], None]
-"""Does one round; may ask its argument whether a newer round is already wanted, and return early."""
+"""Does one round; once its frame is out it asks its argument, between steps, whether a newer round is already wanted,
+and returns early if so. Asking is also where a round in a crowd waits while the frames of others go first."""
+
+
+@dataclass(frozen=True)
+class Sleep:
+    """What happens when nothing is wanted for long; on the worker's thread."""
+
+    after: float
+    """[s]"""
+    falls: Callable[[], None]
+    wakes: Callable[[], None]
+    """Before the round that ends it."""
 
 
 class LatestWins:
     """Runs `job` once after every `wake`; wakes that come while it runs are answered by a single further run."""
 
-    def __init__(self, job: Job, on_error: Callable[[Exception], None], name: str) -> None:
+    def __init__(
+        self,
+        job: Job,
+        on_error: Callable[[Exception], None],
+        name: str,
+        sleep: Sleep | None = None,
+        turns: Turns = TURNS,
+    ) -> None:
         self._job = job
         self._on_error = on_error
+        self._sleep = sleep
+        self._turns = turns
         self._wanted = threading.Event()
         self._stopped = False
         self._thread = threading.Thread(target=self._loop, name=name, daemon=True)
@@ -35,15 +59,30 @@ class LatestWins:
     def _superseded(self) -> bool:
         return self._stopped or self._wanted.is_set()
 
+    def _asking(self, turn: Turn) -> Callable[[], bool]:
+        return lambda: not turn.give_way(self._superseded) or self._superseded()
+
+    def _rest(self) -> None:
+        """Until something is wanted; one look at the clock on the way to sleep, none in it."""
+        sleep = self._sleep
+        if self._wanted.wait(None if sleep is None else sleep.after):
+            return
+        assert sleep is not None
+        sleep.falls()
+        self._wanted.wait()
+        sleep.wakes()
+
     def _loop(self) -> None:
         while True:
-            self._wanted.wait()
-            # Cleared before the job reads anything, so that a change during the job wakes it again.
-            self._wanted.clear()
-            if self._stopped:
-                return
+            self._rest()
             try:
-                self._job(self._superseded)
+                with self._turns.take() as turn:
+                    # Cleared before the job reads anything, so that a change during the job wakes it again; and not
+                    # while it waits for its turn, for what changes then it will see.
+                    self._wanted.clear()
+                    if self._stopped:
+                        return
+                    self._job(self._asking(turn))
             except Exception as error:  # The session must survive whatever one round does.
                 if not self._stopped:
                     with contextlib.suppress(Exception):  # The browser may be gone: nobody is left to tell.

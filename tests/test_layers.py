@@ -33,6 +33,8 @@ KNOW_VISER = {
     "sensitivity_panel.py",
     "charts.py",
     "top_bar.py",
+    "guest.py",
+    "lobby_panel.py",
     "viser_compat.py",
     "waterfall_panel.py",
     "actuator_controls.py",

@@ -1,0 +1,143 @@
+"""One visitor's work: drag a slider to and fro, stop, and see whether the last answer is the right one."""
+
+import asyncio
+import math
+import random
+import time
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+
+from explorer.meshes import blade_shape, blade_vertices
+from explorer.soak.figures import Visit
+from explorer.soak.visitor import Visitor
+from explorer.state import Inputs
+from rotor.solve import solve
+
+SLIDER, NAME = "Inner [°/R]", "two_inner"
+"""The slider that is dragged, and the field of `Inputs` behind it."""
+_LOW, _HIGH, _STEP = -20.0, 4.0, 0.1
+_DRAG = 3.0
+"""[s] from taking the slider to letting it go."""
+_PATIENCE = 30.0
+"""[s] after which an answer that has not come is lost."""
+_AGREE = 1.0
+"""[kW]: the page shows whole kilowatts, and where a solve starts from moves the last digits."""
+
+
+class Dragger:
+    """Drives a visitor and keeps the book: which twist a frame shows, and when it was asked for."""
+
+    def __init__(self, name: str, seed: int) -> None:
+        self.visitor = Visitor(self._seen)
+        self._name = name
+        self._random = random.Random(seed)
+        self._value = Inputs().two_inner
+        self._asked: dict[bytes, list[int]] = {_vertices(self._value): []}
+        """Numbers of the edits that asked for a blade, by its vertices."""
+        self._times: list[float] = []
+        """When each edit was sent [s]."""
+        self._answered = 0
+        """All edits before this one have been answered."""
+        self._delays: list[float] = []
+        self._frames = self._rounds = 0
+        self._lost: list[str] = []
+        self._measuring = False
+
+    async def run(self, address: str, begin: float, end: float, rate: float) -> Visit:
+        """Come, drag from `begin` to `end` (`time.monotonic`) with short rests, leave."""
+        complaints: list[str] = []
+        visitor = self.visitor
+        try:
+            await visitor.open(address)
+            await visitor.until(lambda: visitor.text("status") == "converged", _PATIENCE)
+            await asyncio.sleep(max(begin - time.monotonic(), 0.0))
+            self._measuring, bytes_before = True, visitor.bytes
+            while time.monotonic() < end:
+                await self._drag(min(time.monotonic() + _DRAG, end), 1.0 / rate)
+                await self._check()
+        except (ConnectionError, TimeoutError, LookupError, OSError) as error:
+            complaints.append(f"{self._name}: {error or type(error).__name__}")
+            bytes_before = 0
+        await visitor.close()
+        megabytes = (visitor.bytes - bytes_before) / 1e6
+        complaints += [f"{self._name}: {notice}" for notice in visitor.notices]
+        return Visit(
+            len(self._times),
+            tuple(self._delays),
+            self._rounds,
+            tuple(self._lost),
+            self._frames,
+            megabytes,
+            tuple(complaints),
+        )
+
+    async def _drag(self, until: float, period: float) -> None:
+        """To and fro as a hand does, in steps of the slider, one edit a period."""
+        middle, swing = self._random.uniform(-14.0, -4.0), self._random.uniform(2.0, 6.0)
+        pace, begin = self._random.uniform(0.2, 0.6), time.monotonic()
+        due = begin
+        while (now := time.monotonic()) < until:
+            wanted = middle + swing * math.sin(2.0 * math.pi * pace * (now - begin))
+            value = round(round(min(max(wanted, _LOW), _HIGH) / _STEP) * _STEP, 1)
+            if value != self._value:
+                await self._edit(value)
+            due += period
+            await asyncio.sleep(max(due - time.monotonic(), 0.0))
+
+    async def _edit(self, value: float) -> None:
+        self._value = value
+        self._asked.setdefault(_vertices(value), []).append(len(self._times))
+        self._times.append(time.monotonic())
+        await self.visitor.move(SLIDER, value)
+
+    def _seen(self, vertices: bytes) -> None:
+        """A frame: it answers the last edit that asked for its blade, and all before that one."""
+        if not self._measuring:
+            return
+        self._frames += 1
+        asked = self._asked.get(vertices)
+        if asked is None:
+            self._lost.append(f"{self._name}: a frame showed a blade that nobody asked for")
+            return
+        now = time.monotonic()
+        while asked and self._answered <= asked[-1]:
+            self._delays.append(1e3 * (now - self._times[self._answered]))
+            self._answered += 1
+
+    async def _check(self) -> None:
+        """The slider rests: blade and power must become those of its value."""
+        self._rounds += 1
+        visitor, blade, power = self.visitor, _vertices(self._value), _power_kw(self._value)
+
+        def right() -> bool:
+            shown = _kilowatts(visitor.text("total-power"))
+            return visitor.blade == blade and abs(shown - power) <= _AGREE
+
+        try:
+            await visitor.until(right, _PATIENCE)
+        except TimeoutError:
+            shown = visitor.text("total-power")
+            self._lost.append(f"{self._name}: {SLIDER} {self._value:g} means {power:.1f} kW, the page shows {shown!r}")
+
+
+@cache
+def _vertices(value: float) -> bytes:
+    """What the page is sent as the blade of a slider's value."""
+    design = _inputs(value).design()
+    return blade_vertices(blade_shape(design.rotor), design.twist).astype(np.float32).tobytes()
+
+
+@cache
+def _power_kw(value: float) -> float:
+    return solve(_inputs(value).design()).power.total / 1e3
+
+
+def _inputs(value: float) -> Inputs:
+    return replace(Inputs(), **{NAME: value})
+
+
+def _kilowatts(text: str) -> float:
+    digits = "".join(c for c in text if c.isdigit() or c == ".")
+    return float(digits) if digits else math.nan

@@ -1,0 +1,80 @@
+"""A soak from end to end: a server of its own, visitors, a watch on its memory, a report."""
+
+import asyncio
+import re
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+
+from explorer.soak.drag import Dragger
+from explorer.soak.figures import Report, judge
+from explorer.soak.process import processor_seconds, resident_mb
+
+_START = 60.0
+"""[s] a server may take to print its address."""
+_WATCH = 2.0
+"""[s] between looks at memory, less in a short run."""
+_ARRIVAL = 0.05
+"""[s] between one visitor's coming and the next one's."""
+
+
+@dataclass(frozen=True)
+class Soak:
+    """How many, how long, how fast."""
+
+    browsers: int = 20
+    minutes: float = 10.0
+    rate: float = 20.0
+    """Edits a second while a slider is held: the page sends no more."""
+
+
+@contextmanager
+def server(*options: str) -> Iterator[tuple[str, int]]:
+    """A server in a process of its own: its address and process id. RuntimeError if it does not start."""
+    command = [sys.executable, "-m", "explorer", "--port", "0", "--no-browser", *options]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    try:
+        assert process.stdout is not None
+        for line in process.stdout:
+            if found := re.search(r"http://\S+", line):
+                yield found[0], process.pid
+                return
+        raise RuntimeError(f"The server ended with exit code {process.wait(_START)} before it printed an address.")
+    finally:
+        process.terminate()
+        try:
+            process.wait(10.0)
+        except subprocess.TimeoutExpired:
+            process.kill()
+
+
+def soak(plan: Soak, tell: Callable[[str], None] = lambda line: None) -> Report:
+    """Run it; `tell` hears a line now and then."""
+    with server("--max-sessions", str(plan.browsers)) as (address, pid):
+        return asyncio.run(_soak(plan, address, pid, tell))
+
+
+async def _soak(plan: Soak, address: str, pid: int, tell: Callable[[str], None]) -> Report:
+    begin = time.monotonic() + 2.0 + 0.3 * plan.browsers
+    end = begin + 60.0 * plan.minutes
+    tell(f"{address}: {plan.browsers} browsers for {plan.minutes:g} min")
+    samples: list[tuple[float, float]] = []
+    async with asyncio.TaskGroup() as group:
+        visits = []
+        for k in range(plan.browsers):
+            visits.append(group.create_task(Dragger(f"browser {k + 1}", k).run(address, begin, end, plan.rate)))
+            await asyncio.sleep(_ARRIVAL)
+        await asyncio.sleep(max(begin - time.monotonic(), 0.0))
+        before, told = processor_seconds(pid), begin
+        every = min(_WATCH, plan.minutes * 60.0 / 40.0)
+        while time.monotonic() < end and not all(task.done() for task in visits):
+            await asyncio.sleep(every)
+            samples.append((time.monotonic(), resident_mb(pid)))
+            if samples[-1][0] - told > 30.0:
+                told = samples[-1][0]
+                tell(f"{(told - begin) / 60.0:5.1f} min  {samples[-1][1]:.0f} MB")
+        seconds, used = time.monotonic() - begin, processor_seconds(pid) - before
+    return judge([task.result() for task in visits], plan.rate, seconds, used, samples)

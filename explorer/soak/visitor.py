@@ -1,0 +1,139 @@
+"""A browser without a screen: knows its widgets, reads every frame, moves sliders as the page would."""
+
+import asyncio
+import re
+from collections.abc import Callable
+from typing import Any
+
+from websockets.asyncio.client import ClientConnection, connect
+from websockets.exceptions import ConnectionClosed
+from websockets.typing import Subprotocol
+
+from explorer.soak import wire
+
+BLADE = "/rotor/blade_0"
+"""The marked blade: its vertices tell which twist a frame shows."""
+_CAMERA = {
+    "wxyz": (1.0, 0.0, 0.0, 0.0),
+    "position": (20.0, 0.0, 20.0),
+    "fov": 0.5,
+    "near": 1.0,
+    "far": 1000.0,
+    "image_height": 940,
+    "image_width": 840,
+    "look_at": (0.0, 0.0, 0.0),
+    "up_direction": (0.0, 0.0, 1.0),
+}
+_SHOWN = re.compile(r'data-explorer="([\w-]+)"([^>]*)>([^<]*)')
+_KIND = re.compile(r'data-kind="(\w+)"')
+
+
+class Visitor:
+    """One connection, from `open` to `close`."""
+
+    def __init__(self, seen: Callable[[bytes], None] = lambda vertices: None) -> None:
+        self._seen = seen
+        """Called with the marked blade's vertices whenever a frame brings them."""
+        self._socket: ClientConnection | None = None
+        self._reading: asyncio.Task[None] | None = None
+        self._news = asyncio.Event()
+        self.widgets: dict[str, dict[str, Any]] = {}
+        """Properties by identity, as the page holds them; a widget's value under `value`."""
+        self.notices: list[str] = []
+        self.blade = b""
+        self.frames = 0
+        self.bytes = 0
+        self.gone: str | None = None
+        """Why the connection ended, once it has."""
+
+    async def open(self, address: str, **options: Any) -> None:
+        """Connect to `http://host:port` and say where the camera is, as a page does once it is laid out."""
+        uri = "ws" + address.removeprefix("http")
+        subprotocols = [Subprotocol(wire.SUBPROTOCOL)]
+        self._socket = await connect(uri, subprotocols=subprotocols, max_size=None, compression=None, **options)
+        self._reading = asyncio.create_task(self._read(self._socket))
+        await self.send("ViewerCameraMessage", **_CAMERA)
+
+    async def close(self) -> None:
+        if self._socket is not None:
+            await self._socket.close()
+        if self._reading is not None:
+            await self._reading
+
+    async def send(self, kind: str, **fields: Any) -> None:
+        """Any message, as raw as the page's own; silent once the connection has ended, as the page is."""
+        if self._socket is None or self.gone is not None:
+            return
+        try:
+            await self._socket.send(wire.encode(kind, **fields))
+        except ConnectionClosed as closed:
+            self._lost(closed)
+
+    async def move(self, label: str, value: Any) -> None:
+        """Set the visible widget of that label."""
+        uuid = self.find(label)
+        self.widgets[uuid]["value"] = value
+        await self.send("GuiUpdateMessage", uuid=uuid, updates={"value": value})
+
+    def find(self, label: str) -> str:
+        """Identity of the visible widget of a label; LookupError where none is shown."""
+        for uuid, widget in self.widgets.items():
+            if widget.get("label") == label and widget.get("visible", True):
+                return uuid
+        raise LookupError(f"No widget {label!r} is shown.")
+
+    def text(self, part: str) -> str:
+        """Text or kind of an element that the page marks with `data-explorer`; empty where there is none."""
+        for widget in self.widgets.values():
+            content = widget.get("content")
+            if isinstance(content, str) and part in content:
+                for name, attributes, text in _SHOWN.findall(content):
+                    if name == part:
+                        kind = _KIND.search(attributes)
+                        return kind[1] if kind else text
+        return ""
+
+    async def until(self, true: Callable[[], bool], patience: float = 30.0) -> None:
+        """Wait for something the server's messages bring about; TimeoutError after `patience` [s]."""
+        async with asyncio.timeout(patience):
+            while not true():
+                if self.gone is not None:
+                    raise ConnectionError(self.gone)
+                self._news.clear()
+                await self._news.wait()
+
+    async def _read(self, socket: ClientConnection) -> None:
+        try:
+            async for frame in socket:
+                assert isinstance(frame, bytes)
+                self.frames += 1
+                self.bytes += len(frame)
+                for message in wire.decode(frame):
+                    await self._hear(message)
+                self._news.set()
+            self.gone = "closed"
+        except ConnectionClosed as closed:
+            self._lost(closed)
+        self._news.set()
+
+    def _lost(self, closed: ConnectionClosed) -> None:
+        self.gone = str(closed.rcvd or closed)
+
+    async def _hear(self, message: wire.Message) -> None:
+        match message["type"]:
+            case "GuiUpdateMessage":
+                self.widgets.setdefault(message["uuid"], {}).update(message["updates"])
+            case "GuiRemoveMessage":
+                self.widgets.pop(message["uuid"], None)
+            case "SceneNodeUpdateMessage" if message["name"] == BLADE and "vertices" in message["updates"]:
+                self.blade = bytes(message["updates"]["vertices"])
+                self._seen(self.blade)
+            case "LocalStorageGetItemRequestMessage":
+                await self.send(
+                    "LocalStorageGetItemResponseMessage", value=None, error=None, request_uuid=message["request_uuid"]
+                )
+            case "NotificationShowMessage":
+                props = message.get("props", message)
+                self.notices.append(f"{props.get('title', '')}: {props.get('body', '')}")
+            case _ if "props" in message and "uuid" in message:
+                self.widgets[message["uuid"]] = {**message["props"], "value": message.get("value")}
