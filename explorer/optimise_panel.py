@@ -3,6 +3,7 @@
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from explorer.desk import Desk
 from explorer.jobs import Job, News, Pool, Told
 from explorer.search_plot import TRACES, search_plot
 from explorer.search_run import FRAME, SearchRun
-from explorer.state import baseline_of, with_optimum
+from explorer.state import baseline_of, baseline_title, with_optimum
 from explorer.tasks import SearchTask
 from explorer.wishes import OBJECTIVES, Wishes
 from rotor.concepts import CONCEPTS
@@ -124,11 +125,18 @@ class OptimisePanel:
                 self._desk.wake()
                 return
             self._problem, self._offered = "", True
-            run = self._run = SearchRun(search)
-        self._job = self._pool.submit(
-            SearchTask(search, baseline_of(design)), lambda news: self._hear(run, news), TIME_LIMIT
-        )
+            reference, title = self._reference(design)
+            run = self._run = SearchRun(search, title)
+        self._job = self._pool.submit(SearchTask(search, reference), lambda news: self._hear(run, news), TIME_LIMIT)
         self._desk.wake()
+
+    def _reference(self, design: Design) -> tuple[Design, str]:
+        """What a saving is also measured against: A's blade in the same flight and models, else the baseline."""
+        moment = self._desk.moment()
+        if moment is None or moment.pin is None:
+            return baseline_of(design), baseline_title(design)
+        a = moment.pin.solution.design
+        return replace(design, rotor=a.rotor, twist=a.twist, active_twist=a.active_twist), "A's blade"
 
     def halt(self) -> None:
         """Stop the search under way; what it found stays."""

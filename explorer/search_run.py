@@ -31,14 +31,15 @@ class Frame:
 class SearchRun:
     """Written by the pool's threads (`hear`), read by the session's."""
 
-    def __init__(self, search: Search) -> None:
-        self.search = search
+    def __init__(self, search: Search, reference_title: str = "") -> None:
+        """`reference_title`: what the saving is also measured against."""
+        self.search, self.reference_title = search, reference_title
         self.state: State = "starting"
         self.ahead = 0
         self.sentence = ""
         self.start_power: float | None = None
         """Of the design it began from [W]."""
-        self.baseline_power: float | None = None
+        self.reference_power: float | None = None
         self.frames: list[Frame] = []
         self.traces: list[list[float]] = [[] for _ in range(search.starts)]
         """Power at each evaluation of each start [W]; one that does not trim repeats the one before."""
@@ -102,7 +103,7 @@ class SearchRun:
                 self.start_power = power
                 self.frames.append(Frame(0, float("inf") if power is None else power, self.search.design))
             case Reference(power):
-                self.baseline_power = power
+                self.reference_power = power
             case Progress():
                 self._step(item)
             case _:

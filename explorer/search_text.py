@@ -4,7 +4,6 @@ from html import escape
 
 from explorer.readout import number
 from explorer.search_run import SearchRun
-from explorer.state import baseline_title
 from rotor.concepts import Concept
 from rotor.optimise import Optimum
 
@@ -67,8 +66,8 @@ def found(run: SearchRun) -> str:
         f"{'best so far' if run.under_way else 'best found'}</span></div>"
     )
     rows = [_saving("the start", best.power, run.start_power)]
-    if run.baseline_power != run.start_power:
-        rows.append(_saving(f"{baseline_title(run.search.design)}", best.power, run.baseline_power))
+    if run.reference_power != run.start_power:
+        rows.append(_saving(run.reference_title, best.power, run.reference_power))
     parts.append(f"<table>{''.join(rows)}</table>")
     return _block(parts)
 

@@ -19,20 +19,27 @@ _ALONG, _ACROSS = 150, 9
 _COLOURS = 127
 
 
-def sensitivity_plot(solution: Solution, previous: Range | None) -> Plot:
-    """Series: zero, induced power alone, total power, all in kW per degree per unit of r/R. Trim kept throughout."""
+def sensitivity_plot(solution: Solution, previous: Range | None, pinned: Solution | None = None) -> Plot:
+    """Series: zero, induced power alone, total power of A, total power. Trim kept throughout.
+
+    All in kW per degree per unit of r/R; that of A is empty where none is pinned or it has no trim.
+    """
     adjoint = Adjoint(solution)
     total, induced = power_along(adjoint, "total"), power_along(adjoint, "induced")
-    lines = [part.density * _KILOWATT_PER_DEGREE for part in (induced, total)]
-    both = np.concatenate(lines)
-    low, high = min(float(both.min()), -1.0), max(float(both.max()), 1.0)
+    other = np.full_like(total.r, np.nan)
+    if pinned is not None and pinned.converged:
+        along = power_along(Adjoint(pinned), "total")
+        other = np.interp(total.r, along.r, along.density, left=np.nan, right=np.nan)
+    lines = [density * _KILOWATT_PER_DEGREE for density in (induced.density, other, total.density)]
+    seen = np.concatenate(lines)
+    low, high = min(float(np.nanmin(seen)), -1.0), max(float(np.nanmax(seen)), 1.0)
     return Plot((total.r, np.zeros_like(total.r), *lines), held_range(previous, low, high))
 
 
 def blank_sensitivity() -> Plot:
     """The chart before the first answer; its range is none that an answer has."""
     none = np.full(2, np.nan)
-    return Plot((np.array([0.13, 1.0]), none, none, none), (-1e-3, 1e-3))
+    return Plot((np.array([0.13, 1.0]), none, none, none, none), (-1e-3, 1e-3))
 
 
 def strip(

@@ -3,7 +3,7 @@
 import viser
 
 from explorer import sensitivity
-from explorer.charts import Chart, line
+from explorer.charts import AB_KEY, Chart, Key, line, pinned_line
 from explorer.colours import BASELINE, THIS
 from explorer.desk import Desk, Moment
 from explorer.meshes import blade_shape
@@ -11,6 +11,8 @@ from explorer.overlays import Strip
 from rotor.solution import Solution
 
 _HEIGHT = 150
+_INDUCED = ("induced", BASELINE, True)
+_KEY: Key = (("total", THIS), _INDUCED)
 
 
 class SensitivityPanel:
@@ -18,13 +20,13 @@ class SensitivityPanel:
 
     def __init__(self, gui: viser.GuiApi, strip: Strip, desk: Desk) -> None:
         self._strip = strip
-        self._shown: tuple[Solution, bool, float] | None = None
+        self._shown: tuple[Solution, Solution | None, bool, float] | None = None
         self._chart = Chart(
             gui,
             "dP/dθ [kW/° per r/R]",
-            (("total", THIS), ("induced", BASELINE)),
+            _KEY,
             "radius r/R",
-            (line("zero", BASELINE, 0.7), line("induced", BASELINE, 1.5, (5, 3)), line("total", THIS)),
+            (line("zero", BASELINE, 0.7), line("induced", BASELINE, 1.5, (5, 3)), pinned_line(), line("total", THIS)),
             sensitivity.blank_sensitivity(),
             (0.1, 1.02),
             _HEIGHT,
@@ -36,17 +38,18 @@ class SensitivityPanel:
     def show(self, moment: Moment) -> None:
         """Follow a converged solution."""
         solution, exaggeration, paint = moment.solution, moment.view.exaggeration, self._paint.value
-        if self._shown is not None and self._shown[0] is solution and self._shown[1:] == (paint, exaggeration):
+        wanted = (solution, moment.pinned, paint, exaggeration)
+        if self._shown == wanted:
             return
-        plot = sensitivity.sensitivity_plot(solution, self._chart.y_range)
-        self._chart.show(plot)
+        plot = sensitivity.sensitivity_plot(solution, self._chart.y_range, moment.pinned)
+        self._chart.show(plot, _KEY if moment.pinned is None else (*AB_KEY, _INDUCED))
         self._words.content = sensitivity.explanation(plot)
         if paint:
             shape = blade_shape(solution.design.rotor)
             self._strip.show(*sensitivity.strip(shape, solution.design.twist, exaggeration, plot))
         else:
             self._strip.hide()
-        self._shown = (solution, paint, exaggeration)
+        self._shown = wanted
 
     def lose(self) -> None:
         """The answer no longer holds."""

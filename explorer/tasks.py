@@ -14,7 +14,7 @@ from rotor.solution import Solution
 
 @dataclass(frozen=True)
 class Reference:
-    """Power of the baseline by the objective of a search [W]; None when it does not trim."""
+    """Power of what the saving is also measured against, by the objective of a search [W]; None: does not trim."""
 
     power: float | None
 
@@ -31,7 +31,7 @@ class SearchTask:
     """A search for the twist of least power."""
 
     search: Search
-    baseline: Design
+    reference: Design
     """What the saving is also measured against."""
 
     def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Optimum:
@@ -40,10 +40,10 @@ class SearchTask:
         objective = search.objective or at_condition(search.design)
         begin = measure(objective, search.design, gradient=False)
         tell(Beginning(begin.power))
-        if self.baseline == search.design:
+        if self.reference == search.design:
             tell(Reference(begin.power))
         elif not stop():
-            tell(Reference(measure(objective, self.baseline, gradient=False).power))
+            tell(Reference(measure(objective, self.reference, gradient=False).power))
         return optimise(search, tell, stop)
 
 

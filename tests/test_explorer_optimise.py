@@ -43,7 +43,7 @@ def no_stop() -> bool:
 
 def run_of(wishes: Wishes, design: Any) -> SearchRun:
     """A search run here, its news heard as from a process."""
-    run = SearchRun(wishes.search(design, mission.legs))
+    run = SearchRun(wishes.search(design, mission.legs), "UH-60A twist")
     run.hear(Started())
     task = SearchTask(run.search, baseline_of(design))
     run.hear(Ended(task.run(lambda item: run.hear(Told(item)), no_stop)))
@@ -75,7 +75,7 @@ class TestSearchRun:
 
     def test_baseline_and_start_are_measured(self, run: SearchRun):
         assert run.start_power == pytest.approx(solve(run.search.design).power.total, rel=1e-9)
-        assert run.baseline_power == pytest.approx(solve(baseline_of(run.search.design)).power.total, rel=1e-9)
+        assert run.reference_power == pytest.approx(solve(baseline_of(run.search.design)).power.total, rel=1e-9)
 
     def test_playing_shows_each_frame_and_ends_with_the_last(self, run: SearchRun, monkeypatch: pytest.MonkeyPatch):
         now = 100.0
@@ -149,7 +149,8 @@ class TestCharts:
     def test_sensitivity_knows_that_turning_the_whole_blade_changes_nothing(self):
         solution = solve(make_design(advance_ratio=0.2))
         plot = sensitivity.sensitivity_plot(solution, None)
-        assert finite(plot)
+        assert np.isnan(plot.data[3]).all()  # No A.
+        assert finite(sensitivity.sensitivity_plot(solution, None, solution))
         r, total = plot.data[0], plot.data[-1]
         assert abs(total.mean()) < 1e-6 * np.abs(total).max()
         assert r[np.argmin(total)] != r[np.argmax(total)]
