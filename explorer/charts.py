@@ -16,11 +16,11 @@ Key = tuple[tuple[str, str] | tuple[str, str, bool], ...]
 """Name, colour, and whether the line is dashed, of each series that is told apart."""
 AB_KEY: Key = (("B", THIS), ("A", PINNED, True))
 """While two designs are compared."""
-POWER_KEY: Key = (("this design", THIS), ("baseline", BASELINE, True), ("ideal", IDEAL))
+POWER_KEY: Key = (("this design", THIS), ("baseline", BASELINE, True), ("ideal", IDEAL, True))
 TWIST_KEY: Key = (("this design", THIS), ("baseline", BASELINE, True))
 ALPHA_KEY: Key = (("marked blade", NOW), ("stall", LIMIT, True))
 LIFT_KEY: Key = (("marked blade", NOW),)
-IDEAL_KEY: Key = (("ideal", IDEAL),)
+IDEAL_KEY: Key = (("ideal", IDEAL, True),)
 STALL_KEY: Key = (("stall", LIMIT, True),)
 
 

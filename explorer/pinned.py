@@ -114,8 +114,12 @@ class Pinboard:
             self.answer = None if pinned is None else pinned.solution
             self._known = Baseline() if pinned is None else Baseline(pinned.solution.design, pinned.solution)
 
-    def solve(self, present: Design, along: bool) -> Solution | None:
-        """A's answer: in the flight of the present design when it flies along, else as it was."""
-        if self.pinned is not None:
-            self.answer = self._known.solve(self.pinned.design(present)) if along else self.pinned.solution
+    def solve(self, present: Design, along: bool, hurried: bool = False) -> Solution | None:
+        """A's answer: in the flight of the present design when it flies along, else as it was.
+
+        A trim that fails takes half a second to fail: `hurried`, when newer input waits, it is not tried again.
+        """
+        if self.pinned is None or (along and hurried and self.answer is not None and not self.answer.converged):
+            return self.answer
+        self.answer = self._known.solve(self.pinned.design(present)) if along else self.pinned.solution
         return self.answer

@@ -43,30 +43,49 @@ class PowerCurves:
         total, ideal = self._curves.get(_family(design), before)
         return PowerCurve(total, self._curves.get(_family(reference), blank)[0], ideal)
 
-    def sweep(self, design: Design, reference: Design, superseded: Callable[[], bool]) -> bool:
-        """Make the curves of a design and of what it is compared with known; False when given up half way."""
+    def sweep(
+        self,
+        design: Design,
+        reference: Design,
+        superseded: Callable[[], bool],
+        known: Callable[[], None] = lambda: None,
+    ) -> bool:
+        """Make the curves of a design and of what it is compared with known; False when given up half way.
+
+        `known`: called after each of the two.
+        """
         patient = time.monotonic() - self._last[1] < PATIENCE
         for family in (_family(design), _family(reference)):
-            if family in self._curves and family not in self._coarse:
-                continue
-            coarse = False
-            values = np.full((2, len(SWEEP)), math.nan)
-            start: Solution | None = None
-            for k, mu in enumerate(SWEEP):
-                if superseded():
-                    if patient or TURNS.waiting:
-                        return False
-                    coarse = True
-                if coarse and k > 0 and (k - 1) % 3:
-                    continue
-                point = solve(at_advance_ratio(family, mu), start)
-                if point.converged:
-                    start, values[:, k] = point, _powers(point)
-            if coarse:
-                values = np.stack([_bridged(row) for row in values])
-            self._keep(family, values, coarse)
-        self._last = (_family(design), time.monotonic())
+            if family not in self._curves or family in self._coarse:
+                values, coarse = self._swept(family, superseded, patient)
+                if values is None:
+                    return False
+                self._keep(family, values, coarse)
+            if family == _family(design):
+                self._last = (family, time.monotonic())
+            known()
         return True
+
+    def _swept(self, family: Design, superseded: Callable[[], bool], patient: bool) -> tuple[Array | None, bool]:
+        """Total and ideal power over `SWEEP`, and whether in haste; None when given up to newer input."""
+        coarse = False
+        values = np.full((2, len(SWEEP)), math.nan)
+        start: Solution | None = None
+        lost = 0
+        for k, mu in enumerate(SWEEP):
+            if lost == 2:
+                break  # Beyond this rotor; faster there is none either, and to find that out takes long.
+            if superseded():
+                if patient or TURNS.waiting:
+                    return None, False
+                coarse = True
+            if coarse and k > 0 and (k - 1) % 3:
+                continue
+            point = solve(at_advance_ratio(family, mu), start)
+            lost = 0 if point.converged else lost + 1
+            if point.converged:
+                start, values[:, k] = point, _powers(point)
+        return np.stack([_bridged(row) for row in values]) if coarse else values, coarse
 
     def _keep(self, family: Design, values: Array, coarse: bool) -> None:
         if len(self._curves) >= _KEPT:

@@ -191,26 +191,29 @@ class Session:
         self._history.solved(inputs, solution.power.total)
         top = self._top
         # A before the frame only where the frame shows it: nothing else may hold the frame up.
-        on_disk = top.solve(design) if view.difference else None
+        on_disk = top.solve(design, overtaken()) if view.difference else None
         self._frame.draw(solution, view, ghost_of(None if preview is None else plain, top.pinned), on_disk)
         self._camera.ride(math.radians(view.azimuth_deg))
         self._actuator.show(actuator, plain, solution, math.radians(view.azimuth_deg))
         baseline = self._baseline.solve(baseline_of(design))
-        moment = Moment(inputs, view, solution, baseline, top.solve(design), top.pinned)
+        moment = Moment(inputs, view, solution, baseline, top.solve(design, overtaken()), top.pinned)
         before, self._moment = self._moment, moment
         if not whole and moment.only_turned(before):
             self._results.turn(moment)
             self._probe.show(moment)
             return
         reference = moment.reference.design
+
+        def show_power() -> None:
+            self._results.show_power(moment, self._curves.known(design, reference))
+
         self._results.show(moment)
-        self._results.show_power(moment, self._curves.known(design, reference))
+        show_power()
         if not overtaken():
             for tab in self._tabs:
                 tab.show(moment)
             self._file.follow(inputs)
-        if self._curves.sweep(design, reference, overtaken):
-            self._results.show_power(moment, self._curves.known(design, reference))
+        if self._curves.sweep(design, reference, overtaken, show_power):
             self._file.follow(inputs)
             self._waterfall.climb(overtaken)
 

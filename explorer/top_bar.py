@@ -57,9 +57,9 @@ class TopBar:
         """A's, as last solved."""
         return self._board.answer
 
-    def solve(self, present: Design) -> Solution | None:
-        """A's answer beside the present design; None when nothing is pinned."""
-        return self._board.solve(present, self._along.value)
+    def solve(self, present: Design, hurried: bool = False) -> Solution | None:
+        """A's answer beside the present design; None when nothing is pinned. `hurried`: newer input waits."""
+        return self._board.solve(present, self._along.value, hurried)
 
     def settle(self, inputs: Inputs, solution: Solution | None, desk: Desk) -> bool:
         """Do what was asked, with what is on the sliders and its answer; whether that moves the sliders."""

@@ -138,6 +138,7 @@ class TestPinboard:
         answer = board.solve(heavy, True)
         assert answer is not None
         assert not answer.converged
+        assert board.solve(a.design, True, hurried=True) is answer
         back = board.solve(a.design, True)
         assert back is not None
         assert back.converged

@@ -1,0 +1,116 @@
+"""A and B on the real page: pin, move, read the difference, see it on the disk, swap, go back, let go."""
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from chromium import DRAW_NOTHING
+from test_page import SMALL, WAIT, Watched
+
+from explorer.app import App
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture(scope="module")
+def app() -> Iterator[App]:
+    app = App("127.0.0.1", 0)
+    yield app
+    app.stop()
+
+
+def ghost_seen(watched: Watched) -> bool:
+    return watched.page.evaluate("() => window.__viserMutable.nodeRefFromName['/rotor/blade_0/ghost'].visible")
+
+
+def total_row(watched: Watched) -> list[str]:
+    """A, B, Δ kW, Δ % of the total."""
+    cells = watched.page.locator('[data-explorer="ab"] tr', has_text="Total").locator("td").all_inner_texts()
+    return [text.strip() for text in cells[1:]]
+
+
+def press(watched: Watched, name: str) -> None:
+    watched.page.get_by_role("button", name=name, exact=True).click()
+
+
+def test_pin_move_compare_swap_back_and_let_go(browser: "Browser", app: App):
+    context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
+    context.add_init_script(DRAW_NOTHING)
+    watched = Watched(context.new_page())
+    watched.open(app.address)
+    page = watched.page
+    begun = watched.text("total-power")
+    assert page.get_by_label("Show B − A").count() == 0
+
+    press(watched, "Pin as A")
+    page.wait_for_selector('[data-explorer="pinned"]', timeout=WAIT)
+    assert re.search(r"A:\s*Two segments −14/−8 at 0\.5\s+" + begun, watched.text("pinned"))
+    assert total_row(watched)[2:] == ["0.0", "0.0"]
+    watched.until_changed(lambda: ghost_seen(watched), False)
+    page.wait_for_function("() => Object.keys(window.__viserTestpoints.uplots).length === 5", timeout=WAIT)
+
+    disk = watched.node("/rotor/disk/field")
+    watched.press("Inner", "PageUp", 4)
+    moved = watched.until_changed(lambda: total_row(watched)[2], "0.0")
+    page.wait_for_timeout(500)
+    a, b, apart, percent = total_row(watched)
+    assert f"{a} kW" == begun
+    assert f"{b} kW" == watched.text("total-power")
+    assert re.fullmatch(r"[+−]\d+\.\d", moved)
+    assert watched.text("change").startswith(percent)
+    plain = watched.until_changed(lambda: watched.node("/rotor/disk/field"), disk)
+
+    page.get_by_label("Show B − A").check()
+    watched.until_changed(lambda: watched.node("/rotor/disk/field"), plain)
+    assert "Δ angle of attack [°], B − A" in watched.text("colour-bar")
+
+    press(watched, "Swap A and B")
+    watched.until_changed(lambda: watched.text("total-power"), f"{b} kW")
+    watched.until_changed(lambda: total_row(watched)[2], apart)
+    swapped = total_row(watched)
+    assert swapped[:2] == [b, a]
+    assert swapped[2].lstrip("+−") == apart.lstrip("+−")
+
+    press(watched, "Back to A")
+    watched.until_changed(lambda: total_row(watched)[2], swapped[2])
+    assert total_row(watched) == [b, b, "0.0", "0.0"]
+
+    press(watched, "Unpin")
+    page.wait_for_selector('[data-explorer="ab"]', state="detached", timeout=WAIT)
+    page.wait_for_selector('[data-explorer="pinned"]', state="detached", timeout=WAIT)
+    watched.until_changed(lambda: ghost_seen(watched), True)
+    assert "against UH-60A twist" in watched.text("power")
+    assert watched.text("colour-bar").startswith("Angle of attack [°]\n")
+    assert page.get_by_label("Show B − A").count() == 0
+    page.wait_for_function("() => Object.keys(window.__viserTestpoints.uplots).length === 4", timeout=WAIT)
+    assert not re.search(r"\b(NaN|nan|inf|undefined)\b", page.inner_text("body"))
+    assert watched.complaints == []
+    context.close()
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("size", [(1500, 940), (1280, 720)])
+def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any, size: tuple[int, int]):
+    """Not compared with anything: kept for people to look at."""
+    context = browser.new_context(viewport={"width": size[0], "height": size[1]}, color_scheme=scheme)
+    watched = Watched(context.new_page())
+    watched.open(app.address, query="")
+    press(watched, "Pin as A")
+    watched.page.wait_for_selector('[data-explorer="pinned"]', timeout=WAIT)
+    for label, value in (("Inner", -20), ("Outer", -2), ("Division", 0.6)):
+        watched.type(label, value)
+        watched.page.wait_for_timeout(300)
+    watched.page.get_by_label("Show B − A").check()
+    watched.page.wait_for_timeout(2500)
+    watched.quiet()
+    path = artefacts / f"ab-{scheme}-{size[0]}x{size[1]}.png"
+    watched.page.screenshot(path=path)
+    assert path.stat().st_size > 50_000
+    assert watched.complaints == []
+    context.close()
