@@ -31,7 +31,7 @@ _SCRIPT = """(() => {
     const widget = '[role=slider], [role=tab], [role=option], [role=listbox], [role=menu], [role=separator], input';
     const moves = arrows.has(event.key) || event.key in pages;
     const presses = event.key === ' ' || event.key === 'Enter';
-    if ((moves && on(event.target, widget)) || (presses && on(event.target, 'button, a, summary, [role=tab], input')))
+    if ((moves && on(event.target, widget)) || (presses && on(event.target, 'button:not([role=tab]), a, summary, input')))
       event.stopPropagation();
   });
 

@@ -106,7 +106,7 @@ class Session:
         panel = gui.add_panel()
         with panel.add_tab("Results"):
             self._results = ResultsPanel(gui)
-        with panel.add_tab("Where to twist"):
+        with panel.add_tab("Twist"):
             sensitivity = SensitivityPanel(gui, Strip(client.scene), desk)
         with panel.add_tab("Probe"):
             self._probe = ProbePanel(client, desk, rotor)

@@ -1,0 +1,243 @@
+"""The probe, play, views and keys in a real browser."""
+
+import math
+import re
+import threading
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+from chromium import DRAW_NOTHING
+from test_page import SMALL, WAIT, Watched
+
+from explorer.app import App
+from explorer.state import Inputs
+from explorer.view import FIELD_OF_VIEW, View, fit
+from rotor.presets import uh60a_rotor
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+pytestmark = pytest.mark.browser
+RADIUS = uh60a_rotor("flight").radius
+
+
+@pytest.fixture(scope="module")
+def app() -> Iterator[App]:
+    app = App("127.0.0.1", 0, Inputs(law="uh60a"))
+    yield app
+    app.stop()
+
+
+@pytest.fixture(scope="module")
+def watched(browser: "Browser", app: App) -> Iterator[Watched]:
+    context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
+    context.add_init_script(DRAW_NOTHING)
+    watched = Watched(context.new_page())
+    watched.open(app.address)
+    watched.quiet()
+    watched.page.get_by_role("tab", name="Probe").click()
+    watched.page.wait_for_selector('[data-explorer="probe"]')
+    yield watched
+    assert watched.complaints == []
+    context.close()
+
+
+def number(watched: Watched, label: str) -> float:
+    return float(watched.row(label).locator("input:not([type=hidden])").last.input_value())
+
+
+def seen(watched: Watched, name: str) -> bool:
+    return watched.page.evaluate("name => window.__viserMutable.nodeRefFromName[name].visible", name)
+
+
+def pose(watched: Watched, name: str) -> list[float]:
+    return watched.page.evaluate("name => window.__viserMutable.nodeRefFromName[name].quaternion.toArray()", name)
+
+
+def eye(watched: Watched) -> np.ndarray:
+    """Where the camera is, in the axes of the rotor."""
+    x, y, z = watched.page.evaluate("() => window.__viserMutable.cameraControl.camera.position.toArray()")
+    return np.array([-z, -x, y])  # three.js has y up; the session's world is turned against it.
+
+
+def click_disk(watched: Watched, r: float, psi_deg: float) -> None:
+    """Click where the plan shows (r, ψ)."""
+    box = watched.page.locator("canvas").first.bounding_box()
+    assert box is not None
+    camera = fit("top", RADIUS, box["width"] / box["height"])
+    scale = 0.5 * box["height"] / math.tan(FIELD_OF_VIEW / 2.0)
+    psi = math.radians(psi_deg)
+    x, y = RADIUS * r * math.sin(psi), -RADIUS * r * math.cos(psi) + float(camera.look_at[0])
+    depth = float(camera.position[2])
+    place = box["x"] + box["width"] / 2 + scale * x / depth, box["y"] + box["height"] / 2 - scale * y / depth
+    watched.page.mouse.click(*place)
+
+
+def test_a_click_on_the_disk_sets_the_probe_and_shows_it(watched: Watched):
+    page = watched.page
+    assert not seen(watched, "/rotor/disk/probe")
+    page.keyboard.press("2")
+    page.wait_for_timeout(900)
+    blade = pose(watched, "/rotor/blade_0")
+    click_disk(watched, 0.6, 300.0)
+    watched.until_changed(lambda: pose(watched, "/rotor/blade_0"), blade)
+    page.wait_for_function(
+        "() => document.querySelector('[data-explorer=probe-place]').innerText.includes('retreating')"
+    )
+    assert number(watched, "Radius r/R") == pytest.approx(0.6, abs=0.02)
+    assert number(watched, "Azimuth") == pytest.approx(300.0, abs=2.0)
+    assert seen(watched, "/rotor/disk/probe")
+    assert watched.text("probe-alpha").startswith("α")
+
+
+def test_arrow_keys_step_the_probe_and_leave_the_camera_alone(watched: Watched):
+    page = watched.page
+    page.evaluate("() => document.activeElement?.blur()")
+    r, psi, camera = number(watched, "Radius r/R"), number(watched, "Azimuth"), eye(watched)
+    for key in ("ArrowUp", "Shift+ArrowUp", "ArrowRight", "Shift+ArrowLeft"):
+        page.keyboard.press(key)
+        page.wait_for_timeout(150)
+    page.wait_for_function(f"() => document.querySelector('[data-explorer=probe-place]') && {r} > 0")
+    assert number(watched, "Radius r/R") == pytest.approx(r + 0.11, abs=1e-9)
+    assert number(watched, "Azimuth") == pytest.approx((psi + 1 - 10) % 360, abs=1e-9)
+    np.testing.assert_allclose(eye(watched), camera, atol=1e-6)
+
+
+def test_sliders_step_finely_and_coarsely_and_their_number_follows(watched: Watched):
+    page, row = watched.page, watched.row("Speed")
+    slider, field = row.get_by_role("slider"), row.locator("input:not([type=hidden])").last
+    for key, change in (("ArrowRight", 5), ("Shift+ArrowLeft", -50), ("PageUp", 50), ("ArrowLeft", -5)):
+        before = float(field.input_value())
+        slider.focus()
+        page.keyboard.press(key)
+        page.wait_for_timeout(400)
+        wanted = min(max(before + change, 5.0), 120.0)
+        assert float(field.input_value()) == wanted
+        assert float(slider.get_attribute("aria-valuenow") or "nan") == wanted
+    field.focus()
+    page.keyboard.press("ArrowUp")
+    page.wait_for_timeout(300)
+    assert float(slider.get_attribute("aria-valuenow") or "nan") == float(field.input_value())
+    page.keyboard.press("Escape")
+    assert page.evaluate("() => document.activeElement.tagName") != "INPUT"
+
+
+def test_play_turns_the_blades_alone_and_ends_with_pause(watched: Watched):
+    page = watched.page
+    disk = watched.node("/rotor/disk/field")
+    alpha, blade = watched.text("probe-alpha"), pose(watched, "/rotor/blade_0")
+    page.keyboard.press("Space")
+    page.get_by_role("button", name="Pause").wait_for(timeout=WAIT)
+    for _ in range(3):
+        blade = watched.until_changed(lambda: pose(watched, "/rotor/blade_0"), blade)
+    watched.until_changed(lambda: watched.text("probe-alpha"), alpha)
+    page.keyboard.press("Space")
+    page.wait_for_timeout(500)
+    stands = pose(watched, "/rotor/blade_0")
+    page.wait_for_timeout(300)
+    assert pose(watched, "/rotor/blade_0") == stands
+    assert watched.node("/rotor/disk/field") == disk
+    assert not [thread.name for thread in threading.enumerate() if thread.name.startswith("play-")]
+
+
+def test_the_blade_stops_for_the_hand_that_takes_it(watched: Watched):
+    page = watched.page
+    page.keyboard.press("Space")
+    page.wait_for_timeout(400)
+    page.keyboard.press("ArrowUp")  # The radius alone: it plays on.
+    page.wait_for_timeout(300)
+    assert page.get_by_role("button", name="Pause").count()
+    page.keyboard.press("Shift+ArrowRight")
+    page.get_by_role("button", name="Play").wait_for(timeout=WAIT)
+
+
+@pytest.mark.parametrize(("key", "view"), [("1", "3d"), ("2", "top"), ("4", "side")])
+def test_views_have_keys(watched: Watched, key: str, view: View):
+    page = watched.page
+    box = page.locator("canvas").first.bounding_box()
+    assert box is not None
+    page.keyboard.press(key)
+    page.wait_for_timeout(700)
+    place = eye(watched)
+    wanted = fit(view, RADIUS, box["width"] / box["height"]).position
+    np.testing.assert_allclose(np.linalg.norm(place), np.linalg.norm(wanted), rtol=0.02)
+    np.testing.assert_allclose(place[2], wanted[2], rtol=0.03)
+
+
+def test_the_view_along_the_blade_rides_with_it(watched: Watched):
+    page = watched.page
+    page.keyboard.press("3")
+    page.wait_for_timeout(500)
+    before = eye(watched)
+    page.keyboard.press("Shift+ArrowRight")
+    page.keyboard.press("Shift+ArrowRight")
+    page.wait_for_timeout(700)
+    after = eye(watched)
+    assert after[2] == pytest.approx(before[2], abs=0.05)
+    turned = math.degrees(math.atan2(after[1], after[0]) - math.atan2(before[1], before[0])) % 360
+    assert turned == pytest.approx(20.0, abs=1.0)
+    page.keyboard.press("1")
+
+
+def test_keys_are_listed_and_the_palette_finds_them(watched: Watched):
+    page = watched.page
+    page.keyboard.press("Shift+?")
+    page.wait_for_selector("dialog.rx-dialog")
+    text = page.locator("dialog.rx-dialog").inner_text()
+    assert "Play, or pause, the marked blade" in text
+    page.keyboard.press("Escape")
+    page.wait_for_selector("dialog.rx-dialog", state="detached")
+    page.keyboard.press("Control+k")
+    page.get_by_placeholder("Search commands").fill("hover")
+    page.locator(".mantine-Spotlight-action", has_text="Hover").click()
+    page.wait_for_function("() => document.querySelector('[data-explorer=speed]').innerText === 'hover'", timeout=WAIT)
+    page.locator("[class*=Spotlight-overlay]").wait_for(state="detached")
+    page.keyboard.press("k")
+    page.wait_for_function(
+        "() => document.querySelector('[data-explorer=speed]').innerText.includes('103 kt')", timeout=WAIT
+    )
+
+
+def test_a_sentence_in_red_dims_the_probe_and_stops_play(watched: Watched):
+    page = watched.page
+    page.keyboard.press("Space")
+    watched.choose("Law", "Three segments")
+    watched.type("Division 2", 0.3)
+    page.wait_for_selector(".rx-faded [data-explorer=probe]", timeout=WAIT)
+    assert page.get_by_role("button", name="Play").count()
+    page.get_by_role("button", name="Reset design").click()
+    page.wait_for_selector(".rx-faded [data-explorer=probe]", state="detached", timeout=WAIT)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("size", [(1500, 940), (1280, 720)])
+def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any, size: tuple[int, int]):
+    """Not compared with anything: kept for people to look at."""
+    context = browser.new_context(viewport={"width": size[0], "height": size[1]}, color_scheme=scheme)
+    watched = Watched(context.new_page())
+    watched.open(app.address, query="")
+    watched.type("Adv. ratio", 0.37)
+    page = watched.page
+    page.get_by_role("tab", name="Probe").click()
+    page.wait_for_timeout(2500)
+    watched.quiet()
+    page.keyboard.press("Escape")
+    for name, r, psi, key in (
+        ("advancing", 0.8, 90.0, "1"),
+        ("retreating", 0.75, 270.0, "3"),
+        ("reverse", 0.25, 270.0, "4"),
+    ):
+        watched.type("Radius r/R", r)
+        page.wait_for_timeout(100)
+        watched.type("Azimuth", psi)
+        page.keyboard.press("Escape")
+        page.keyboard.press(key)
+        page.wait_for_timeout(1500)
+        page.screenshot(path=artefacts / f"probe-{name}-{scheme}-{size[0]}x{size[1]}.png")
+    assert re.search("reverse flow", watched.text("probe-region"))
+    assert watched.complaints == []
+    context.close()
