@@ -84,7 +84,7 @@ class App:
             lambda: self._seat(self._hall.doze(guest)),
             lambda: self._hall.wake(guest),
         )
-        return Session(client, self._start, facts, self.pool, sleep)
+        return Session(client, self._start, facts, self.pool.share(), sleep)
 
     def _seat(self, coming: list[Guest]) -> None:
         """Those in line whose turn it is."""

@@ -11,6 +11,9 @@ from typing import Any, Protocol
 for _threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ.setdefault(_threads, "1")  # Nothing here has met NumPy yet: its BLAS makes no threads that only hinder.
 
+_NICE = 5
+"""Where processors are short, the frames of those who drag come before searches."""
+
 Tell = Callable[[Any], None]
 Stop = Callable[[], bool]
 
@@ -46,6 +49,8 @@ class Said:
 def serve(pipe: "Connection[Any, Any]") -> None:
     """The process's whole life: until the pipe closes, which it does when the page's server ends, however it ends."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the server to understand.
+    if hasattr(os, "nice"):
+        os.nice(_NICE)
     from explorer import solver
 
     solver.warm()

@@ -1,7 +1,7 @@
 """Long work in warm processes: a queue with honest positions, a stop that answers, and recovery from a process lost.
 
 A pool keeps one warm process from the start and adds others, up to its size, once there is work. Each has a thread
-that feeds it, so a process that dies or hangs costs its own job and nothing else.
+that feeds it, so a process that dies or hangs costs its own job and nothing else. Whose job is next: `job_queue`.
 """
 
 import itertools
@@ -9,12 +9,19 @@ import threading
 import time
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
 from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
 from typing import Any
 
+from explorer.job import Broken as Broken
+from explorer.job import Ended as Ended
+from explorer.job import Job as Job
+from explorer.job import News as News
+from explorer.job import Started as Started
+from explorer.job import Told as Told
+from explorer.job import Waiting as Waiting
 from explorer.job_process import Begin, Halt, Said, Task, serve
+from explorer.job_queue import MOST_WAITING, Queue
 
 PATIENCE = 0.12
 """A process that has not answered a stop by then [s] is no longer waited for: the job ends with what was told."""
@@ -26,83 +33,28 @@ _START = 60.0
 """[s] a new process may take to import and compile."""
 
 
-@dataclass(frozen=True)
-class Waiting:
-    """In the queue, behind so many others that wait."""
-
-    ahead: int
-
-
-@dataclass(frozen=True)
-class Started:
-    """A process has it."""
-
-
-@dataclass(frozen=True)
-class Told:
-    """Something found on the way."""
-
-    item: Any
-
-
-@dataclass(frozen=True)
-class Ended:
-    """The end: the task's result, or None where it was stopped before it had one."""
-
-    result: Any
-    stopped: bool = False
-    late: bool = False
-    """Stopped by the time limit."""
-
-
-@dataclass(frozen=True)
-class Broken:
-    """The end without a result, with a sentence for the page."""
-
-    message: str
-
-
-News = Waiting | Started | Told | Ended | Broken
-
-
-class Job:
-    """One task on its way through the pool."""
-
-    def __init__(self, number: int, task: Task, hear: Callable[[News], None], limit: float, urgency: int) -> None:
-        self.number, self.task, self.limit, self.urgency = number, task, limit, urgency
-        self.stopping = threading.Event()
-        self._hear = hear
-        self._lock = threading.Lock()
-        self._over = False
-
-    @property
-    def over(self) -> bool:
-        return self._over
-
-    def tell(self, news: News) -> None:
-        """Pass news on; nothing follows the end."""
-        with self._lock:
-            if self._over:
-                return
-            self._over = isinstance(news, (Ended, Broken))
-            self._hear(news)
-
-    def silence(self) -> None:
-        """Nobody listens any more."""
-        with self._lock:
-            self._over = True
-
-
 class Pool:
     """Processes shared by all sessions."""
 
     def __init__(self, processes: int = 2) -> None:
         self._numbers = itertools.count(1)
-        self._queue: list[Job] = []
+        self._queue = Queue(processes)
         self._change = threading.Condition()
         self._hands: list[_Hand] = []
         self._processes = processes
         self._closed = False
+
+    def share(self) -> "Share":
+        """A page's own way in."""
+        with self._change:
+            self._queue.pages += 1
+        return Share(self)
+
+    def leave(self) -> None:
+        """A page has gone; its jobs are stopped by those who began them."""
+        with self._change:
+            self._queue.pages -= 1
+            self._change.notify_all()
 
     def warm(self) -> None:
         """Start the first process before anybody asks."""
@@ -110,15 +62,24 @@ class Pool:
             if not self._hands and not self._closed:
                 self._add_hand()
 
-    def submit(self, task: Task, hear: Callable[[News], None], limit: float = 60.0, urgency: int = 0) -> Job:
+    def submit(
+        self,
+        task: Task,
+        hear: Callable[[News], None],
+        limit: float = 60.0,
+        urgency: int = 0,
+        owner: "Share | None" = None,
+    ) -> Job:
         """Queue a task; `hear` is called from threads of the pool and must be quick. Less `urgency` goes first."""
         with self._change:
-            job = Job(next(self._numbers), task, hear, limit, urgency)
+            job = Job(next(self._numbers), task, hear, limit, urgency, owner)
             if self._closed:
                 job.tell(Broken("The page is closing."))
                 return job
-            self._queue.append(job)
-            self._queue.sort(key=lambda one: (one.urgency, one.number))
+            if self._queue.full(owner):
+                job.tell(Broken(f"{MOST_WAITING} jobs of this page wait already: stop one of them first."))
+                return job
+            self._queue.add(job)
             idle = sum(hand.idle for hand in self._hands)
             if idle < len(self._queue) and len(self._hands) < self._processes:
                 self._add_hand()
@@ -143,10 +104,9 @@ class Pool:
         """End all processes."""
         with self._change:
             self._closed = True
-            hands, queue = list(self._hands), list(self._queue)
-            self._queue.clear()
+            hands, waiting = list(self._hands), self._queue.clear()
             self._change.notify_all()
-        for job in queue:
+        for job in waiting:
             job.silence()
         for hand in hands:
             hand.close()
@@ -159,13 +119,22 @@ class Pool:
     def next(self, patience: float) -> Job | None:
         """The job whose turn it is; None when none came within `patience` [s] or the pool closes."""
         with self._change:
-            if not self._queue and not self._closed:
-                self._change.wait(patience)
-            if self._closed or not self._queue:
+            if self._closed:
                 return None
-            job = self._queue.pop(0)
+            job = self._queue.take()
+            if job is None:
+                self._change.wait(patience)
+                job = None if self._closed else self._queue.take()
+            if job is None:
+                return None
         self._tell_positions()
         return job
+
+    def done(self, job: Job) -> None:
+        """A process has no more to do with it."""
+        with self._change:
+            self._queue.done(job)
+            self._change.notify_all()
 
     @property
     def closed(self) -> bool:
@@ -184,11 +153,27 @@ class Pool:
 
     def _tell_positions(self) -> None:
         with self._change:
-            queue = list(self._queue)
-            idle = sum(hand.idle for hand in self._hands)
-        for ahead, job in enumerate(queue):
-            if ahead >= idle:
-                job.tell(Waiting(ahead - idle))
+            stays = self._queue.stays(sum(hand.idle for hand in self._hands))
+        for ahead, job in enumerate(stays):
+            job.tell(Waiting(ahead))
+
+
+class Share:
+    """What a page holds of the pool."""
+
+    def __init__(self, pool: Pool) -> None:
+        self._pool = pool
+
+    def submit(self, task: Task, hear: Callable[[News], None], limit: float = 60.0, urgency: int = 0) -> Job:
+        """As `Pool.submit`, in this page's name."""
+        return self._pool.submit(task, hear, limit, urgency, self)
+
+    def stop(self, job: Job, quiet: bool = False) -> None:
+        self._pool.stop(job, quiet)
+
+    def leave(self) -> None:
+        """The page has gone."""
+        self._pool.leave()
 
 
 class _Hand(threading.Thread):
@@ -223,6 +208,7 @@ class _Hand(threading.Thread):
             except Exception as error:  # A task that does not pickle, for example: the hand must live on.
                 job.tell(Broken(f"The work could not be done: {error}"))
             self.idle = True
+            self._pool.done(job)
             self._pool.spare()
 
     def close(self) -> None:

@@ -5,7 +5,7 @@ import viser
 
 from explorer import power_map
 from explorer.desk import Desk
-from explorer.jobs import Broken, Ended, Job, News, Pool, Told
+from explorer.jobs import Broken, Ended, Job, News, Share, Told
 from explorer.optimise_panel import OptimisePanel
 from explorer.state import with_optimum
 from explorer.tasks import MapLevel, MapTask
@@ -24,7 +24,7 @@ _NEAR = 1e-3
 class MapPanel:
     """One session's map."""
 
-    def __init__(self, gui: viser.GuiApi, pool: Pool, desk: Desk, search: OptimisePanel) -> None:
+    def __init__(self, gui: viser.GuiApi, pool: Share, desk: Desk, search: OptimisePanel) -> None:
         """The map is of what the Optimise tab asks for."""
         self._pool, self._desk, self._search, self._wishes = pool, desk, search, search.wishes
         self._job: Job | None = None

@@ -14,7 +14,7 @@ from explorer.charts import Chart, line
 from explorer.colours import BASELINE, THIS, colour_map, css
 from explorer.concept_picture import concept_picture
 from explorer.desk import Desk
-from explorer.jobs import Job, News, Pool, Told
+from explorer.jobs import Job, News, Share, Told
 from explorer.search_plot import TRACES, search_plot
 from explorer.search_run import FRAME, SearchRun
 from explorer.state import baseline_of, baseline_title, with_optimum
@@ -32,7 +32,7 @@ _HEIGHT = 118
 class OptimisePanel:
     """One session's search. Buttons act at once; everything that only shows happens in `refresh`."""
 
-    def __init__(self, gui: viser.GuiApi, pool: Pool, desk: Desk, legs: Callable[[Design], tuple[Leg, ...]]) -> None:
+    def __init__(self, gui: viser.GuiApi, pool: Share, desk: Desk, legs: Callable[[Design], tuple[Leg, ...]]) -> None:
         """`legs`: of the mission, for a design."""
         self._pool, self._desk, self.legs = pool, desk, legs
         self._beginning = threading.Lock()

@@ -9,7 +9,7 @@ from explorer import mission, schedule_view
 from explorer.charts import Chart, line
 from explorer.colours import BASELINE, NOW, THIS, colour_map, css
 from explorer.desk import Desk
-from explorer.jobs import Broken, Ended, Job, News, Pool, Started, Told, Waiting
+from explorer.jobs import Broken, Ended, Job, News, Share, Started, Told, Waiting
 from explorer.schedule_view import LEGS, Course
 from explorer.state import with_optimum
 from explorer.tasks import FixedPowers, ScheduleTask
@@ -27,7 +27,7 @@ _URGENCY = 1
 class SchedulePanel:
     """One session's schedule."""
 
-    def __init__(self, gui: viser.GuiApi, pool: Pool, desk: Desk, wishes: Callable[[], Wishes]) -> None:
+    def __init__(self, gui: viser.GuiApi, pool: Share, desk: Desk, wishes: Callable[[], Wishes]) -> None:
         self._pool, self._desk, self._wishes = pool, desk, wishes
         self._job: Job | None = None
         self._course: Course | None = None

@@ -19,7 +19,7 @@ from explorer.desk import Desk, Moment, Tab
 from explorer.file_panel import FilePanel
 from explorer.frame import Frame
 from explorer.history_panel import HistoryPanel
-from explorer.jobs import Pool
+from explorer.jobs import Share
 from explorer.keyboard import Keyboard
 from explorer.map_panel import MapPanel
 from explorer.optimise_panel import OptimisePanel
@@ -50,10 +50,10 @@ class Session:
     """Lives from connect to disconnect. After construction everything happens on the worker's thread."""
 
     def __init__(
-        self, client: viser.ClientHandle, start: Inputs, facts: PageFacts, pool: Pool, sleep: Sleep | None = None
+        self, client: viser.ClientHandle, start: Inputs, facts: PageFacts, pool: Share, sleep: Sleep | None = None
     ) -> None:
         """`start`: where the page's address holds no design; `sleep`: what the house does about rest."""
-        self._client = client
+        self._client, self._pool = client, pool
         problem = ""
         try:
             start = share.start_from(facts.query, start, LIMITS)
@@ -142,6 +142,7 @@ class Session:
         self._whole_round = True
         for tab in (self._optimise, self._map, self._schedule, self._actuator, *self._tabs):
             tab.stop()
+        self._pool.leave()
         self._worker.stop()
 
     def _wake(self) -> None:

@@ -1,5 +1,6 @@
 """Long work in worker processes: results in order, a stop that answers, a queue, and recovery from what goes wrong."""
 
+import itertools
 import os
 import signal
 import subprocess
@@ -12,6 +13,7 @@ from typing import Any
 
 import pytest
 
+from explorer.job_queue import MOST_WAITING, Queue
 from explorer.jobs import Broken, Ended, Job, News, Pool, Started, Told, Waiting
 
 ROOT = Path(__file__).parent.parent
@@ -121,6 +123,61 @@ def test_positions_in_the_queue_are_honest(pool: Pool):
     last.until(Ended)
     assert [type(news) for news in urgent][-3:] == [Started, Told, Ended]
     assert third.over
+
+
+class TestQueue:
+    def order(self, queue: Queue) -> list[int]:
+        """Numbers of the jobs as they are taken, each done before the next."""
+        taken = []
+        while (job := queue.take()) is not None:
+            taken.append(job.number)
+            queue.done(job)
+        return taken
+
+    def filled(self, queue: Queue, *owners: str, urgency: int = 0) -> Queue:
+        for owner in owners:
+            queue.add(Job(next(self.numbers), Count(1), lambda news: None, 1.0, urgency, owner))
+        return queue
+
+    @pytest.fixture(autouse=True)
+    def fresh(self) -> None:
+        self.numbers = itertools.count(1)
+
+    def test_pages_take_turns(self):
+        queue = self.filled(Queue(2), "a", "a", "a", "b", "c", "b")
+        assert self.order(queue) == [1, 4, 5, 2, 6, 3]
+
+    def test_what_is_urgent_comes_first_among_equals(self):
+        queue = self.filled(Queue(2), "a", "a", urgency=1)
+        self.filled(queue, "b")
+        assert self.order(queue) == [3, 1, 2]
+
+    def test_no_page_has_all_processes_while_there_are_others(self):
+        queue = self.filled(Queue(2), "a", "a")
+        queue.pages = 2
+        first = queue.take()
+        assert first is not None
+        assert queue.take() is None  # One process is kept for who comes.
+        self.filled(queue, "b")
+        assert [job.owner for job in queue.stays(1)] == ["a"]
+        other = queue.take()
+        assert other is not None
+        assert other.owner == "b"
+        queue.done(first)
+        assert (second := queue.take()) is not None
+        assert second.owner == "a"
+
+    def test_alone_a_page_has_all(self):
+        queue = self.filled(Queue(2), "a", "a")
+        queue.pages = 1
+        assert queue.take()
+        assert queue.take()
+
+    def test_a_page_cannot_fill_the_queue(self):
+        queue = self.filled(Queue(2), *"a" * MOST_WAITING)
+        assert queue.full("a")
+        assert not queue.full("b")
+        assert not queue.full(None)
 
 
 def test_time_is_limited(pool: Pool):
