@@ -21,6 +21,8 @@ Array = NDArray[np.float64]
 
 PATIENCE = 0.6
 """A curve older than this [s] is swept, coarsely, even while a slider moves, so that a drag never starves it."""
+HASTE = 0.15
+"""[s] that such a sweep may hold a drag up: where it takes longer, the machine is busy, and frames come first."""
 _KEPT = 200
 """Curves remembered per session."""
 
@@ -28,7 +30,8 @@ _KEPT = 200
 class PowerCurves:
     """Remembers the curves of one session, total and ideal power; a curve belongs to a design whatever its speed."""
 
-    def __init__(self) -> None:
+    def __init__(self, haste: float = HASTE) -> None:
+        self._haste = haste
         self._curves: dict[Design, Array] = {}
         """(2, points): total and ideal [kW]."""
         self._coarse: set[Design] = set()
@@ -68,7 +71,7 @@ class PowerCurves:
 
     def _swept(self, family: Design, superseded: Callable[[], bool], patient: bool) -> tuple[Array | None, bool]:
         """Total and ideal power over `SWEEP`, and whether in haste; None when given up to newer input."""
-        coarse = False
+        coarse, begun = False, time.monotonic()
         values = np.full((2, len(SWEEP)), math.nan)
         start: Solution | None = None
         lost = 0
@@ -76,7 +79,7 @@ class PowerCurves:
             if lost == 2:
                 break  # Beyond this rotor; faster there is none either, and to find that out takes long.
             if superseded():
-                if patient or TURNS.waiting:
+                if patient or TURNS.waiting or time.monotonic() - begun > self._haste:
                     return None, False
                 coarse = True
             if coarse and k > 0 and (k - 1) % 3:

@@ -235,7 +235,7 @@ class TestPowerCurves:
         assert np.isfinite(curves.known(faster, baseline_of(faster)).design[1:10]).all()
 
     def test_a_drag_never_starves_the_curve_but_gives_way_to_input(self):
-        curves = PowerCurves()
+        curves = PowerCurves(haste=math.inf)
         design = Inputs(law="linear", linear=-8.0).design()
         assert curves.sweep(design, baseline_of(design), lambda: True)  # Old enough: swept coarsely.
         following = Inputs(law="linear", linear=-9.0).design()
@@ -243,7 +243,7 @@ class TestPowerCurves:
         assert np.isfinite(curves.known(following, baseline_of(following)).design[1:10]).all()  # The one before stays.
 
     def test_a_coarse_curve_is_swept_again_when_there_is_time(self):
-        curves = PowerCurves()
+        curves = PowerCurves(haste=math.inf)
         design = Inputs(law="linear", linear=-8.0).design()
         curves.sweep(design, baseline_of(design), lambda: True)
         coarse = curves.known(design, baseline_of(design)).design
@@ -253,6 +253,11 @@ class TestPowerCurves:
         assert_allclose(coarse[1:14], fine[1:14], rtol=0.03)
         assert coarse[k] != fine[k]
         assert_allclose(fine[k], solve(at_advance_ratio(design, 0.15)).power.total / 1e3, rtol=1e-6)
+
+    def test_on_a_busy_machine_frames_come_first(self):
+        curves = PowerCurves(haste=0.0)
+        design = Inputs(law="linear", linear=-8.0).design()
+        assert not curves.sweep(design, baseline_of(design), lambda: True)
 
 
 class TestLatestWins:
