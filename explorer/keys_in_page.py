@@ -31,8 +31,8 @@ _SCRIPT = """(() => {
     const widget = '[role=slider], [role=tab], [role=option], [role=listbox], [role=menu], [role=separator], input';
     const moves = arrows.has(event.key) || event.key in pages;
     const presses = event.key === ' ' || event.key === 'Enter';
-    if ((moves && on(event.target, widget)) || (presses && on(event.target, 'button:not([role=tab]), a, summary, input')))
-      event.stopPropagation();
+    const pressed = 'button:not([role=tab]), a, summary, input';
+    if ((moves && on(event.target, widget)) || (presses && on(event.target, pressed))) event.stopPropagation();
   });
 
   // Arrows step the probe; viser would turn the camera with them too. Commands listen here, its camera further out.
