@@ -45,6 +45,8 @@ KEYS: dict[str, Key] = {
     "keep": Key(_DESIGN, "Keep this design", "M"),
     "optimise": Key(_DESIGN, "Optimise, or stop", "O"),
     "pin": Key(_DESIGN, "Pin as A, or let go", "P"),
+    "swap": Key(_DESIGN, "Swap A and B"),
+    "back": Key(_DESIGN, "Back to A"),
     "reset": Key(_DESIGN, "Reset design", "R"),
     "check": Key(_DESIGN, "Check with the vortex wake", "V"),
     "hover": Key(_FLIGHT, "Hover", "H"),

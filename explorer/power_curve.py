@@ -76,12 +76,12 @@ class PowerCurves:
         start: Solution | None = None
         lost = 0
         for k, mu in enumerate(SWEEP):
-            if lost == 2:
-                break  # Beyond this rotor; faster there is none either, and to find that out takes long.
             if superseded():
                 if patient or TURNS.waiting or time.monotonic() - begun > self._haste:
                     return None, False
                 coarse = True
+            if lost == (1 if coarse else 2):
+                break  # Beyond this rotor: faster there is no trim either, and to find that out takes long.
             if coarse and k > 0 and (k - 1) % 3:
                 continue
             point = solve(at_advance_ratio(family, mu), start)

@@ -128,7 +128,7 @@ class Session:
         controls.view_buttons.on_click(lambda event: self._look(VIEW_BUTTONS[event.target.value]))
         controls.range_buttons.on_click(lambda event: self._colour(event.target.value))
         controls.check_button.on_click(lambda _: self._check())
-        desk.bind("pin", self._top.toggle)
+        self._top.bind(desk)
         bind_commands(desk, Actions(self._look, self._colour, self._check, self._reset, self._optimise.toggle))
         if problem:
             self._notify("Not the design of the link", problem)

@@ -73,9 +73,11 @@ class TopBar:
             desk.set_inputs(outcome.inputs)
         return outcome.inputs is not None
 
-    def toggle(self) -> None:
-        """Pin the design, or let go of the one that is pinned."""
-        self._ask("pin" if self.pinned is None else "unpin")
+    def bind(self, desk: Desk) -> None:
+        """Its commands; undo and redo have theirs."""
+        desk.bind("pin", lambda: self._ask("pin" if self.pinned is None else "unpin"))
+        desk.bind("swap", lambda: self._ask("swap"))
+        desk.bind("back", lambda: self._ask("back"))
 
     def show(self, moment: Moment) -> None:
         """Follow a converged answer."""

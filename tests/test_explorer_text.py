@@ -15,6 +15,7 @@ from explorer.power_curve import PowerCurves
 from explorer.solver import with_vortex_wake
 from explorer.state import LAWS, Inputs, baseline_of, baseline_title, inputs_of, preset_inflow
 from explorer.worker import LatestWins
+from rotor.design import Design
 from rotor.presets import PRESETS, make_design
 from rotor.solution import Caveat, Solution, Status
 from rotor.solve import solve
@@ -233,6 +234,25 @@ class TestPowerCurves:
         curves.sweep(design, baseline_of(design), lambda: False)
         faster = Inputs(advance_ratio=0.3).design()
         assert np.isfinite(curves.known(faster, baseline_of(faster)).design[1:10]).all()
+
+    def test_beyond_the_rotor_the_sweep_ends(self, monkeypatch: pytest.MonkeyPatch):
+        """A trim that fails is slow to fail: two in a row are enough, one in haste."""
+        asked: list[float] = []
+
+        def failing(design: Design, start: Solution | None) -> Solution:
+            asked.append(design.condition.advance_ratio)
+            answer = solve(design, start)
+            return replace(answer, status=Status.NOT_CONVERGED) if asked[-1] > 0.26 else answer
+
+        monkeypatch.setattr("explorer.power_curve.solve", failing)
+        design = Inputs(law="linear", linear=-8.0).design()
+        curves = PowerCurves()
+        curves.sweep(design, design, lambda: True)
+        assert asked[-2:] == [0.225, 0.3]
+        curves.sweep(design, design, lambda: False)
+        assert asked[-3:] == [0.25, 0.275, 0.3]
+        assert np.isfinite(curves.known(design, design).design[1:9]).all()
+        assert np.isnan(curves.known(design, design).design[9:]).all()
 
     def test_a_drag_never_starves_the_curve_but_gives_way_to_input(self):
         curves = PowerCurves(haste=math.inf)
