@@ -1,6 +1,7 @@
 """Where to twist: the change of power by pitch along the blade, as a chart and as colours on the blade."""
 
 import math
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -8,7 +9,7 @@ from numpy.typing import NDArray
 from explorer.colours import colour_map
 from explorer.meshes import BladeShape, blade_vertices
 from explorer.plots import Plot, Range, held_range
-from rotor.gradient import Adjoint, power_along
+from rotor.gradient import Adjoint, PitchGradient, power_along
 from rotor.solution import Solution
 from rotor.twist import TwistLaw
 
@@ -28,12 +29,18 @@ def sensitivity_plot(solution: Solution, previous: Range | None, pinned: Solutio
     total, induced = power_along(adjoint, "total"), power_along(adjoint, "induced")
     other = np.full_like(total.r, np.nan)
     if pinned is not None and pinned.converged:
-        along = power_along(Adjoint(pinned), "total")
+        along = _of_pinned(pinned)
         other = np.interp(total.r, along.r, along.density, left=np.nan, right=np.nan)
     lines = [density * _KILOWATT_PER_DEGREE for density in (induced.density, other, total.density)]
     seen = np.concatenate(lines)
     low, high = min(float(np.nanmin(seen)), -1.0), max(float(np.nanmax(seen)), 1.0)
     return Plot((total.r, np.zeros_like(total.r), *lines), held_range(previous, low, high))
+
+
+@lru_cache(maxsize=4)
+def _of_pinned(solution: Solution) -> PitchGradient:
+    """A stays while the sliders move: half the work of a round."""
+    return power_along(Adjoint(solution), "total")
 
 
 def blank_sensitivity() -> Plot:
