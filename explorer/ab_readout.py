@@ -5,83 +5,80 @@ from collections.abc import Callable
 from html import escape
 
 from explorer.colours import PARTS, PINNED, THIS
+from explorer.glossary import tip
 from explorer.readout import (
-    HORSEPOWER_KW,
     PART_TITLES,
     bar,
-    change,
     dash,
     direction,
     ideal_induced,
     ideal_line,
     number,
+    total_line,
 )
+from explorer.units import SI, Units
 from rotor.solution import PowerBudget, Solution
 
 _Entry = tuple[str, str, Callable[[Solution], float | None], int]
-"""Sign, words, what reads it, digits."""
+"""Sign, name in the glossary, what reads it, digits."""
 
 
-def power_panel(solution: Solution, pinned: Solution) -> str:
+def power_panel(solution: Solution, pinned: Solution, units: Units = SI) -> str:
     """Total power with its change against A, the bars of both on one scale, and the parts of both.
 
     Dashes stand for A where it has no trim.
     """
     power = solution.power
     reference = pinned.power if pinned.converged else None
-    total = power.total / 1e3
-    against = (
-        f"against {_name('A')}, {number(reference.total / 1e3)} kW" if reference else f"{_name('A')}: no trim here"
-    )
+    against = f"against {_name('A')}, {units.watts(reference.total)}" if reference else f"{_name('A')}: no trim here"
     ideal = ideal_induced(solution)
-    rows = [_row(PART_TITLES[name], power, reference, lambda p, n=name: getattr(p, n), PARTS[name]) for name in PARTS]
-    rows.append(_row("Total", power, reference, lambda p: p.total))
-    head = _cells("kW", (_name("A"), _name("B"), "Δ kW", "Δ %"), "rx-dim rx-small")
+    rows = [_row(PART_TITLES[name], power, reference, lambda p, n=name: getattr(p, n), units, name) for name in PARTS]
+    rows.append(_row("Total", power, reference, lambda p: p.total, units))
+    symbol = units.power[0].symbol
+    head = _cells(symbol, (_name("A"), _name("B"), f"Δ {symbol}", "Δ %"), "rx-dim rx-small")
     table = f'<table class="rx-ab" data-explorer="ab">{head}{"".join(rows)}</table>'
     return (
-        '<div class="rx" data-explorer="power"><div class="rx-line rx-base">'
-        f'<span class="rx-total" data-explorer="total-power">{number(total)} kW</span>'
-        f'<span class="rx-dim">{number(total / HORSEPOWER_KW)} hp</span>'
-        f'<span class="rx-push">{change(power, reference)}</span></div>'
-        f'<div class="rx-line rx-dim"><span>total power of {_name("B")}</span><span>{against}</span></div>'
-        f"{_bars(power, reference, ideal)}{table}{ideal_line(solution, ideal)}</div>"
+        f'<div class="rx" data-explorer="power">{total_line(power, reference, units)}'
+        f'<div class="rx-line rx-dim"{tip("change")}><span>total power of {_name("B")}</span>'
+        f"<span>{against}</span></div>"
+        f"{_bars(power, reference, ideal)}{table}{ideal_line(solution, ideal, units)}</div>"
     )
 
 
 def trim_panel(solution: Solution, pinned: Solution) -> str:
     """Trim angles, loading, efficiency and areas of A and B, in two columns."""
     degrees, per_cent = math.degrees, 100.0
-    efficiency: _Entry = ("L/De", "Rotor lift over drag", lambda s: s.lift_to_drag, 2)
+    efficiency: _Entry = ("L/De", "lift_to_drag", lambda s: s.lift_to_drag, 2)
     if solution.design.hovering:
-        efficiency = ("FM", "Figure of merit", lambda s: s.figure_of_merit, 3)
+        efficiency = ("FM", "figure_of_merit", lambda s: s.figure_of_merit, 3)
     entries: tuple[_Entry, ...] = (
-        ("θ0 [°]", "Collective, pitch at 0.75 R", lambda s: degrees(s.controls.collective), 2),
-        ("α [°]", "Shaft tilt, positive forward", lambda s: degrees(s.controls.shaft_tilt), 2),
-        ("θ1c [°]", "Cyclic, cosine", lambda s: degrees(s.controls.cyclic_1c), 2),
-        ("β0 [°]", "Coning", lambda s: degrees(s.controls.coning), 2),
-        ("θ1s [°]", "Cyclic, sine", lambda s: degrees(s.controls.cyclic_1s), 2),
-        ("β1c [°]", "Flapping, cosine: negative when the disk tilts back", lambda s: degrees(s.controls.flap_1c), 2),
-        ("CT/σ", "Blade loading", lambda s: s.ct_over_sigma, 4),
-        ("β1s [°]", "Flapping, sine", lambda s: degrees(s.controls.flap_1s), 2),
-        ("κ", "Induced power over that of an even load", lambda s: s.induced_power_factor, 2),
+        ("θ0 [°]", "collective", lambda s: degrees(s.controls.collective), 2),
+        ("α [°]", "shaft_tilt", lambda s: degrees(s.controls.shaft_tilt), 2),
+        ("θ1c [°]", "cyclic_1c", lambda s: degrees(s.controls.cyclic_1c), 2),
+        ("β0 [°]", "coning", lambda s: degrees(s.controls.coning), 2),
+        ("θ1s [°]", "cyclic_1s", lambda s: degrees(s.controls.cyclic_1s), 2),
+        ("β1c [°]", "flap_1c", lambda s: degrees(s.controls.flap_1c), 2),
+        ("CT/σ", "ct_over_sigma", lambda s: s.ct_over_sigma, 4),
+        ("β1s [°]", "flap_1s", lambda s: degrees(s.controls.flap_1s), 2),
+        ("κ", "kappa", lambda s: s.induced_power_factor, 2),
         efficiency,
-        ("rev. [%]", "Reverse flow, part of the disk", lambda s: per_cent * s.reverse_flow_area, 1),
-        ("stall [%]", "Stalled area, part of the disk", lambda s: per_cent * s.stalled_area, 1),
+        ("rev. [%]", "reverse_flow_area", lambda s: per_cent * s.reverse_flow_area, 1),
+        ("stall [%]", "stalled_area", lambda s: per_cent * s.stalled_area, 1),
     )
     head = f'<div class="rx-four rx-dim rx-small"><span></span><span>{_name("A")}</span><span>{_name("B")}</span></div>'
     cells = [head, head]
-    for short, long, read, digits in entries:
+    for short, key, read, digits in entries:
         a = number(read(pinned) if pinned.converged else None, digits)
         cells.append(
-            f'<div class="rx-four" title="{long}"><span class="rx-dim">{short}</span>'
+            f'<div class="rx-four"{tip(key)}><span class="rx-dim">{short}</span>'
             f"<span>{a}</span><span>{number(read(solution), digits)}</span></div>"
         )
     return f'<div class="rx rx-grid" data-explorer="trim">{"".join(cells)}</div>'
 
 
-def pinned_line(title: str, answer: Solution | None, where: str) -> str:
+def pinned_line(title: str, answer: Solution | None, where: str, units: Units = SI) -> str:
     """What A is, in one line that never wraps. `where`: its own flight, empty when it flies along."""
-    power = "no trim here" if answer is None or not answer.converged else f"{number(answer.power.total / 1e3)} kW"
+    power = "no trim here" if answer is None or not answer.converged else units.watts(answer.power.total)
     title = escape(title, quote=True)
     whole = f"A: {title}, {power}" + (f" at {where}" if where else "")
     flight = f'<div class="rx-line rx-dim rx-small"><span class="rx-push">at {where}</span></div>' if where else ""
@@ -112,22 +109,23 @@ def _row(
     power: PowerBudget,
     reference: PowerBudget | None,
     read: Callable[[PowerBudget], float],
-    colour: str | None = None,
+    units: Units,
+    part: str = "",
 ) -> str:
-    b = read(power) / 1e3
-    a = None if reference is None else read(reference) / 1e3
+    unit = units.power[0]
+    b = unit.of(read(power))
+    a = None if reference is None else unit.of(read(reference))
     apart = None if a is None else b - a
     percent = None if a is None or apart is None or a <= 0.0 else 100.0 * apart / a
     changes = (number(apart, 1, sign=True), number(percent, 1, sign=True))
-    if colour is not None:
-        return _cells(
-            f'<span class="rx-patch" style="background:{colour}"></span>{title}', (number(a), number(b), *changes)
-        )
+    if part:
+        patch = f'<span class="rx-patch" style="background:{PARTS[part]}"></span>'
+        return _cells(patch + title, (number(a), number(b), *changes), tooltip=tip(part))
     kind = "" if percent is None else direction(percent)
     coloured = (f'<span class="{kind.strip()}">{text}</span>' for text in changes)
-    return _cells(title, (number(a), number(b), *coloured), "rx-sum")
+    return _cells(title, (number(a), number(b), *coloured), "rx-sum", tip("total_power"))
 
 
-def _cells(title: str, values: tuple[str, ...], kind: str = "") -> str:
+def _cells(title: str, values: tuple[str, ...], kind: str = "", tooltip: str = "") -> str:
     cells = "".join(f'<td class="rx-num">{value}</td>' for value in values)
-    return f'<tr class="{kind}"><td>{title}</td>{cells}</tr>'
+    return f'<tr class="{kind}"{tooltip}><td>{title}</td>{cells}</tr>'

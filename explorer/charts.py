@@ -55,9 +55,11 @@ class Chart:
         plot: Plot,
         x_range: Range,
         height: int = _HEIGHT,
+        name: str = "",
     ) -> None:
-        self._title, self._key = title, key
-        self._heading = gui.add_html(readout.heading(title, key))
+        """`name`: of the chart in the glossary."""
+        self._title, self._key, self._name = title, key, name
+        self._heading = gui.add_html(readout.heading(title, key, name))
         self._x_range = x_range
         self._y_range = plot.y_range
         self._handle = gui.add_uplot(
@@ -74,11 +76,12 @@ class Chart:
             padding=(8, 14, 0, 0),
         )
 
-    def show(self, plot: Plot, key: Key | None = None) -> None:
-        """New data; `key`: another than before, where other series than before are filled."""
-        if key is not None and key != self._key:
-            self._key = key
-            self._heading.content = readout.heading(self._title, key)
+    def show(self, plot: Plot, key: Key | None = None, title: str = "") -> None:
+        """New data; `key`, `title`: others than before, where other series are filled or the unit has changed."""
+        named = title or self._title, key or self._key
+        if named != (self._title, self._key):
+            self._title, self._key = named
+            self._heading.content = readout.heading(*named, self._name)
         x_range = plot.x_range or self._x_range
         if (plot.y_range, x_range) != (self._y_range, self._x_range):
             # A new scale rebuilds the chart in the page, so ranges are held as long as they serve.
@@ -117,6 +120,7 @@ class Charts:
             ),
             power,
             (-0.012, 0.462),
+            name="chart_power",
         )
         self.apart = Chart(
             gui,
@@ -131,12 +135,17 @@ class Charts:
             ),
             apart,
             (-0.012, 0.462),
+            name="chart_apart",
         )
         self.apart.set_visible(False)
-        self.twist = Chart(gui, "Twist [°] over r/R", TWIST_KEY, "radius r/R", three, twist, (0.1, 1.02))
+        span = (0.1, 1.02)
+        self.twist = Chart(gui, "Twist [°] over r/R", TWIST_KEY, "radius r/R", three, twist, span, name="chart_twist")
         stall = line("stall", LIMIT, 1.5, (5, 3))
         marked = (line("marked blade", NOW), pinned_line(), line("B", THIS))
+        ends = (stall, stall, *marked)
         self.alpha = Chart(
-            gui, "Angle of attack [°] over r/R", ALPHA_KEY, "radius r/R", (stall, stall, *marked), alpha, (0.1, 1.02)
+            gui, "Angle of attack [°] over r/R", ALPHA_KEY, "radius r/R", ends, alpha, span, name="chart_alpha"
         )
-        self.lift = Chart(gui, "Lift coefficient over r/R", LIFT_KEY, "radius r/R", marked, lift, (0.1, 1.02))
+        self.lift = Chart(
+            gui, "Lift coefficient over r/R", LIFT_KEY, "radius r/R", marked, lift, span, name="chart_lift"
+        )

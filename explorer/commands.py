@@ -6,6 +6,7 @@ from functools import partial
 
 from explorer.desk import Desk
 from explorer.fields import FIELDS
+from explorer.units import UNITS
 from explorer.view import View
 
 SPEEDS = {"hover": 0.0, "mu_015": 0.15, "mu_024": 0.24, "mu_037": 0.37}
@@ -37,6 +38,7 @@ def bind_commands(desk: Desk, actions: Actions) -> None:
     desk.bind("rescale", partial(actions.colours, "Rescale"))
     desk.bind("rescale_default", partial(actions.colours, "Default"))
     desk.bind("dark", lambda: desk.set_view(replace(desk.view(), dark=not desk.view().dark)))
+    desk.bind("units", partial(_change_units, desk))
     desk.bind("check", actions.check)
     desk.bind("reset", actions.reset)
     desk.bind("optimise", actions.search)
@@ -44,6 +46,11 @@ def bind_commands(desk: Desk, actions: Actions) -> None:
 
 def _fly(desk: Desk, mu: float) -> None:
     desk.set_inputs(replace(desk.inputs(), advance_ratio=mu))
+
+
+def _change_units(desk: Desk) -> None:
+    view, titles = desk.view(), tuple(UNITS)
+    desk.set_view(replace(view, units=titles[(titles.index(view.units) + 1) % len(titles)]))
 
 
 def _show_field(desk: Desk, step: int) -> None:

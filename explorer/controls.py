@@ -3,7 +3,6 @@
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any, Protocol
 
 import viser
@@ -11,8 +10,11 @@ import viser
 from explorer import readout
 from explorer.colour_bar import colour_bar, outline_legend
 from explorer.fields import FIELDS, Field
+from explorer.glossary import hint
 from explorer.history import Pauses
+from explorer.sliders import SLIDERS, meant, shown, slider
 from explorer.state import INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs, ViewState, preset_inflow
+from explorer.units import SI, UNITS, Units
 from explorer.view import View
 from rotor.inflow import INFLOW_MODELS
 from rotor.presets import make_design
@@ -28,35 +30,6 @@ class Handle(Protocol):
     def on_update(self, func: Callable[[Any], None]) -> Any: ...
 
 
-@dataclass(frozen=True)
-class Slider:
-    label: str
-    low: float
-    high: float
-    step: float
-    hint: str
-
-
-_RATE = "Slope of the twist in degrees per radius; negative: the outer end is nose-down."
-_DIVISION = "Where two segments meet, as a fraction of the radius."
-SLIDERS: dict[str, Slider] = {
-    "linear": Slider("Rate [°/R]", -30.0, 10.0, 0.1, _RATE),
-    "quadratic_curvature": Slider("Curve [°/R²]", -40.0, 40.0, 0.5, "Second-order coefficient; 0 is the linear law."),
-    "quadratic_difference": Slider("Tip−root [°]", -30.0, 10.0, 0.1, "Twist at the tip minus twist at the centre."),
-    "two_inner": Slider("Inner [°/R]", -30.0, 10.0, 0.1, _RATE),
-    "two_outer": Slider("Outer [°/R]", -30.0, 10.0, 0.1, _RATE),
-    "two_division": Slider("Division [R]", 0.2, 0.95, 0.01, _DIVISION),
-    "three_inner": Slider("Inner [°/R]", -30.0, 10.0, 0.1, _RATE),
-    "three_middle": Slider("Middle [°/R]", -30.0, 10.0, 0.1, _RATE),
-    "three_outer": Slider("Outer [°/R]", -30.0, 10.0, 0.1, _RATE),
-    "three_first": Slider("Division 1 [R]", 0.2, 0.95, 0.01, _DIVISION),
-    "three_second": Slider("Division 2 [R]", 0.2, 0.95, 0.01, _DIVISION),
-    "advance_ratio": Slider("Adv. ratio µ", 0.0, 0.45, 0.005, "Airspeed over tip speed; 0 is hover."),
-    "mass_t": Slider("Weight [t]", 5.0, 11.0, 0.05, "Gross mass in tonnes."),
-    "altitude_m": Slider("Altitude [m]", 0.0, 4000.0, 50.0, "Pressure altitude, standard atmosphere."),
-}
-LIMITS = {name: (slider.low, slider.high) for name, slider in SLIDERS.items()}
-"""What each slider can hold."""
 FOUR, INFINITE = "dynamic-wake", "dynamic-wake-infinite-blades"
 """The same theory with the rotor's own blades and with infinitely many."""
 VIEW_BUTTONS: dict[str, View] = {"3D": "3d", "Top": "top", "Blade": "blade", "Side": "side"}
@@ -84,11 +57,13 @@ class Controls:
         self.pauses = Pauses()
         self._laws = _laws_of(start)
         self._inflows = {name: model.title for name, model in INFLOW_MODELS.items()}
-        self.view_buttons = gui.add_button_group(
-            "View", tuple(VIEW_BUTTONS), hint="Fit it into the window: the rotor, its plan, the marked blade, the side."
-        )
+        self._units = SI
+        """Of the weight and altitude sliders now."""
+        self.view_buttons = gui.add_button_group("View", tuple(VIEW_BUTTONS), hint=hint("view"))
         with gui.add_folder("Twist"):
-            self._law = gui.add_dropdown("Law", tuple(self._laws.values()), initial_value=self._laws[start.law])
+            self._law = gui.add_dropdown(
+                "Law", tuple(self._laws.values()), initial_value=self._laws[start.law], hint=hint("law")
+            )
             self._inputs["law"] = self._watched(self._law)
             self._sliders(gui, tuple(name for law in LAWS.values() for name in law.inputs))
         with gui.add_folder("Flight"):
@@ -96,58 +71,50 @@ class Controls:
             self._speed = gui.add_html(readout.speed_line(0.0))
             self._sliders(gui, ("mass_t", "altitude_m"))
         with gui.add_folder("Disk and blades"):
-            self._field = self._seen(gui.add_dropdown("Field", tuple(FIELDS), initial_value=ViewState.field))
-            self._difference = self._seen(
-                gui.add_checkbox(
-                    "Show B − A", False, visible=False, hint="The field of this design minus that of the pinned one."
-                )
+            self._field = self._seen(
+                gui.add_dropdown("Field", tuple(FIELDS), initial_value=ViewState.field, hint=hint("field"))
             )
+            self._difference = self._seen(gui.add_checkbox("Show B − A", False, visible=False, hint=hint("difference")))
             self._bar = gui.add_html("")
-            self.range_buttons = gui.add_button_group(
-                "Colours",
-                ("Rescale", "Default"),
-                hint="The range stays as it is while you drag; fit it to the data here.",
-            )
+            self.range_buttons = gui.add_button_group("Colours", ("Rescale", "Default"), hint=hint("colours"))
             self._legend = gui.add_html("")
-            self._toggles = {name: self._seen(gui.add_checkbox(title, True)) for name, title in _TOGGLES.items()}
+            self._toggles = {
+                name: self._seen(gui.add_checkbox(title, True, hint=hint(f"outline_{name}")))
+                for name, title in _TOGGLES.items()
+            }
             self._azimuth = gui.add_slider(
-                "Azimuth ψ [°]", 0.0, 360.0, 1.0, ViewState.azimuth_deg, hint="Of the marked blade."
+                "Azimuth ψ [°]", 0.0, 360.0, 1.0, ViewState.azimuth_deg, hint=hint("azimuth_deg")
             )
             self._azimuth.on_update(lambda _: (turned or changed)())
             self._exaggeration = self._seen(
-                gui.add_slider(
-                    "Twist shown ×", 1.0, 5.0, 0.5, 1.0, hint="Exaggerates the twist of the drawn blades only."
-                )
+                gui.add_slider("Twist shown ×", 1.0, 5.0, 0.5, 1.0, hint=hint("exaggeration"))
             )
         with gui.add_folder("Model"):
-            self._inputs["preset"] = self._watched(
-                gui.add_dropdown("Preset", tuple(PRESET_TITLES.values()), initial_value=PRESET_TITLES[start.preset])
-            )
-            self._inputs["inflow"] = self._watched(
-                gui.add_dropdown("Inflow", tuple(self._inflows.values()), initial_value=self._inflows[start.inflow])
-            )
+            titles = tuple(PRESET_TITLES.values())
+            preset = gui.add_dropdown("Preset", titles, initial_value=PRESET_TITLES[start.preset], hint=hint("preset"))
+            self._inputs["preset"] = self._watched(preset)
+            titles = tuple(self._inflows.values())
+            inflow = gui.add_dropdown("Inflow", titles, initial_value=self._inflows[start.inflow], hint=hint("inflow"))
+            self._inputs["inflow"] = self._watched(inflow)
             self._explanation = gui.add_html("")
-            self._infinite = gui.add_checkbox(
-                "Infinite blades",
-                start.inflow == INFINITE,
-                hint="The same wake averaged over time: the rotor that textbooks untwist for speed.",
-            )
+            self._infinite = gui.add_checkbox("Infinite blades", start.inflow == INFINITE, hint=hint("infinite"))
             self._infinite.on_update(self._infinite_changed)
-            self.check_button = gui.add_button(
-                "Check with the vortex wake", color="gray", hint="The same design with rigid helical vortices."
+            self.check_button = gui.add_button("Check with the vortex wake", color="gray", hint=hint("vortex_check"))
+            self._system = self._seen(
+                gui.add_dropdown("Units", tuple(UNITS), initial_value=ViewState.units, hint=hint("units"))
             )
-            self._dark = self._seen(gui.add_checkbox("Dark page", dark))
+            self._dark = self._seen(gui.add_checkbox("Dark page", dark, hint=hint("dark")))
         with gui.add_folder("Physics", expand_by_default=False):
             for name, switch in SWITCHES.items():
-                box = gui.add_checkbox(switch.title, getattr(start, name), hint=f"{switch.on} Off: {switch.off}")
+                box = gui.add_checkbox(switch.title, getattr(start, name), hint=hint(name))
                 self._inputs[name] = self._watched(box)
-        self.reset_button = gui.add_button("Reset design")
+        self.reset_button = gui.add_button("Reset design", hint=hint("reset"))
         self._inputs["preset"].on_update(self._preset_changed)
 
     def inputs(self) -> Inputs:
         """What the widgets mean now."""
         with self._moving:
-            values = {name: handle.value for name, handle in self._inputs.items()}
+            values = {name: self._read(name, handle.value) for name, handle in self._inputs.items()}
             special = self._special
         values["law"] = _key(self._laws, values["law"])
         values["preset"] = _key(PRESET_TITLES, values["preset"])
@@ -161,6 +128,7 @@ class Controls:
             exaggeration=self._exaggeration.value,
             difference=self._difference.value,
             dark=self._dark.value,
+            units=self._system.value,
             **{name: handle.value for name, handle in self._toggles.items()},
         )
 
@@ -179,7 +147,7 @@ class Controls:
             view.azimuth_deg,
             view.exaggeration,
         )
-        self._dark.value = view.dark
+        self._dark.value, self._system.value = view.dark, view.units
         self._difference.value = view.difference and self._difference.visible
         for name, handle in self._toggles.items():
             handle.value = getattr(view, name)
@@ -196,16 +164,19 @@ class Controls:
             for name in INPUT_NAMES:
                 if name in self._inputs:
                     value = getattr(inputs, name)
-                    self._inputs[name].value = titles[name][value] if name in titles else value
+                    place = titles[name][value] if name in titles else self._shown(name, value)
+                    self._inputs[name].value = place
         self._changed()
 
-    def refresh(self, inputs: Inputs) -> None:
-        """Bring everything that only follows the widgets into line: which sliders show, speed, explanations."""
+    def refresh(self, inputs: Inputs, view: ViewState) -> None:
+        """Bring everything that only follows the widgets into line: which sliders show, speed, units, explanations."""
+        units = UNITS[view.units]
+        self._change_units(units)
         for key, law in LAWS.items():
             for name in law.inputs:
                 self._inputs[name].visible = key == inputs.law
         self._speed.content = readout.speed_line(
-            make_design(inputs.preset, advance_ratio=inputs.advance_ratio).airspeed
+            make_design(inputs.preset, advance_ratio=inputs.advance_ratio).airspeed, units
         )
         self._explanation.content = readout.explanation(INFLOW_MODELS[inputs.inflow].explanation)
         self._infinite.visible = inputs.inflow in (FOUR, INFINITE)
@@ -222,11 +193,31 @@ class Controls:
             self._difference.value = False
         self._difference.visible = allowed
 
+    def _change_units(self, units: Units) -> None:
+        """Weight and altitude in other units; the inputs stay what they are."""
+        if units is self._units:
+            return
+        with self._moving:
+            for name in ("mass_t", "altitude_m"):
+                handle: Any = self._inputs[name]
+                value, form = self._read(name, handle.value), slider(name, units)
+                handle.label, handle.step, handle.precision = form.label, form.step, form.digits
+                handle.min, handle.max = form.low, form.high
+                handle.value = shown(name, value, units)
+            self._units = units
+
+    def _read(self, name: str, place: Any) -> Any:
+        """The input that a widget's value means, but for titles."""
+        return meant(name, place, self._units) if name in SLIDERS else place
+
+    def _shown(self, name: str, value: Any) -> Any:
+        return shown(name, value, self._units) if name in SLIDERS else value
+
     def _sliders(self, gui: viser.GuiApi, names: tuple[str, ...]) -> None:
         for name in names:
-            s = SLIDERS[name]
+            s = slider(name, SI)
             value = min(max(float(getattr(self._start, name)), s.low), s.high)
-            self._inputs[name] = self._watched(gui.add_slider(s.label, s.low, s.high, s.step, value, hint=s.hint))
+            self._inputs[name] = self._watched(gui.add_slider(s.label, s.low, s.high, s.step, value, hint=hint(name)))
 
     def _watched(self, handle: Any) -> Any:
         handle.on_update(lambda _: self._moved())

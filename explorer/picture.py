@@ -13,8 +13,8 @@ from explorer.meshes import blade_shape, blade_vertices
 from explorer.outlines import drag_divergence_segments, reverse_flow_segments, stall_segments
 from explorer.polar import polar_grid
 from explorer.poses import Pose, blade_pose, rotor_pose, tip_path_pose
-from explorer.readout import number
-from explorer.state import KNOT, ViewState
+from explorer.state import ViewState
+from explorer.units import UNITS
 from rotor.solution import Solution
 
 Array = NDArray[np.float64]
@@ -88,7 +88,7 @@ def make_picture(
         blade_faces=shape.faces,
         png=disk_png(solution, field or FIELDS[view.field], colour_range),
         outlines=_outlines(solution, view),
-        flight_label=f"{number(speed / KNOT)} kt" if speed > 0.0 else "",
+        flight_label=UNITS[view.units].speed[0].text(speed) if speed > 0.0 else "",
     )
 
 

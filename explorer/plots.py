@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from explorer.stall import stall_angles
+from explorer.units import KILOWATT, Unit
 from rotor.design import Design
 from rotor.solution import Solution
 from rotor.validity import LOW_SPEED
@@ -40,6 +41,11 @@ class PowerCurve:
     ideal: Array
     """This design's power were its induced power the least that any circulation could have."""
 
+    def in_unit(self, unit: Unit) -> "PowerCurve":
+        """The same in another unit than kW."""
+        factor = KILOWATT.size / unit.size
+        return PowerCurve(factor * self.design, factor * self.reference, factor * self.ideal)
+
 
 def held_range(previous: Range | None, low: float, high: float) -> Range:
     """A round axis range that stays as it is while the data fit it and fill it reasonably."""
@@ -55,9 +61,7 @@ def held_range(previous: Range | None, low: float, high: float) -> Range:
     return step * math.floor((low - foot) / step), step * math.ceil((high + 0.04 * span) / step)
 
 
-def power_plot(
-    curve: PowerCurve, mu: float, power_kw: float | None, previous: Range | None, pinned: bool = False
-) -> Plot:
+def power_plot(curve: PowerCurve, mu: float, power: float | None, previous: Range | None, pinned: bool = False) -> Plot:
     """Series: ideal for this lift; baseline, A, this design; hover points of these three; the present point.
 
     Hover and forward flight are two models, so the line starts at µ 0.075 and hover stands alone. `pinned`: the
@@ -66,16 +70,16 @@ def power_plot(
     x = _with_point(mu)
     lines = (_line(x, curve.reference), _line(x, curve.design))
     hovers = (_single(x, 0.0, curve.reference[0]), _single(x, 0.0, curve.design[0]))
-    now = _single(x, mu, math.nan if power_kw is None else power_kw)
+    now = _single(x, mu, math.nan if power is None else power)
     data = (x, _line(x, curve.ideal), *_placed(pinned, *lines), *_placed(pinned, *hovers), now)
     return Plot(data, _range_of(_flown(data, mu), previous, floor=0.0))
 
 
-def apart_plot(curve: PowerCurve, mu: float, apart_kw: float | None, previous: Range | None) -> Plot:
-    """Series: zero, B − A [kW] over µ, its hover point, the present point."""
+def apart_plot(curve: PowerCurve, mu: float, apart_now: float | None, previous: Range | None) -> Plot:
+    """Series: zero, B − A over µ, its hover point, the present point."""
     x = _with_point(mu)
     apart = curve.design - curve.reference
-    now = _single(x, mu, math.nan if apart_kw is None else apart_kw)
+    now = _single(x, mu, math.nan if apart_now is None else apart_now)
     data = (x, np.zeros(len(x)), _line(x, apart), _single(x, 0.0, apart[0]), now)
     seen = np.concatenate([values[np.isfinite(values)] for values in _flown(data, mu)])
     return Plot(data, held_range(previous, min(float(seen.min()), -1.0), max(float(seen.max()), 1.0)))

@@ -4,42 +4,39 @@ import math
 from html import escape
 
 from explorer.colours import PARTS
-from explorer.state import KNOT, baseline_title
+from explorer.glossary import tip
+from explorer.state import baseline_title
+from explorer.units import BLANK, SI, Units
+from explorer.units import number as number
 from rotor.bound import ideal_factor
 from rotor.inflow import INFLOW_MODELS
 from rotor.solution import PowerBudget, Solution
 from rotor.switches import switched_off
 
-HORSEPOWER_KW = 0.745699872
-"""Mechanical horsepower [kW]."""
-_BLANK = "–"
 PART_TITLES = {"induced": "Induced", "profile": "Profile", "parasite": "Parasite", "tail": "Tail rotor"}
 
 
-def number(value: float | None, digits: int = 0, sign: bool = False) -> str:
-    """A number with thousands set apart and a true minus; a dash for what is not a number."""
-    if value is None or not math.isfinite(value):
-        return _BLANK
-    text = f"{value:{'+' if sign else ''},.{digits}f}".replace(",", "\u2009").replace("-", "−")
-    # What rounds to nothing has no direction.
-    return text.lstrip("+−") if not any(digit in text for digit in "123456789") else text
-
-
-def power_panel(solution: Solution, baseline: Solution | None) -> str:
+def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI) -> str:
     """Total power with its change, the bar of parts, and the table of parts."""
     power = solution.power
     reference = baseline.power if baseline is not None and baseline.converged else None
-    total = power.total / 1e3
-    rows = "".join(_row(name, power, reference) for name in PARTS)
+    rows = "".join(_row(name, power, reference, units) for name in PARTS)
     ideal = ideal_induced(solution)
     return (
-        '<div class="rx" data-explorer="power"><div class="rx-line rx-base">'
-        f'<span class="rx-total" data-explorer="total-power">{number(total)} kW</span>'
-        f'<span class="rx-dim">{number(total / HORSEPOWER_KW)} hp</span>'
-        f'<span class="rx-push">{change(power, reference)}</span></div>'
-        '<div class="rx-line rx-dim"><span>total power</span>'
+        f'<div class="rx" data-explorer="power">{total_line(power, reference, units)}'
+        f'<div class="rx-line rx-dim"{tip("change")}><span>total power</span>'
         f"<span>against {escape(baseline_title(solution.design))}</span></div>"
-        f'<div class="rx-bar">{bar(power, ideal)}</div><table>{rows}</table>{ideal_line(solution, ideal)}</div>'
+        f'<div class="rx-bar">{bar(power, ideal)}</div><table>{rows}</table>{ideal_line(solution, ideal, units)}</div>'
+    )
+
+
+def total_line(power: PowerBudget, reference: PowerBudget | None, units: Units) -> str:
+    """The total in both units of power, and its change."""
+    large, small = units.power
+    return (
+        f'<div class="rx-line rx-base"><span class="rx-total" data-explorer="total-power"{tip("total_power")}>'
+        f'{large.text(power.total)}</span><span class="rx-dim">{small.text(power.total)}</span>'
+        f'<span class="rx-push"{tip("change")}>{change(power, reference)}</span></div>'
     )
 
 
@@ -51,18 +48,17 @@ def ideal_induced(solution: Solution) -> float | None:
     return factor * solution.ct * solution.controls.lambda0 * solution.design.power_unit
 
 
-def ideal_line(solution: Solution, ideal: float | None) -> str:
+def ideal_line(solution: Solution, ideal: float | None, units: Units = SI) -> str:
     """κ, and the bound beside it."""
-    hint = "Induced power over that of an even load, C_T λ0. Ideal: least of any circulation with this lift, C_l ≤ 1.2."
     kappa = f'κ = Pi/(CT·λ0) <b data-explorer="kappa">{number(solution.induced_power_factor, 2)}</b>'
     bound = "ideal: not settled above µ 0.40"
     if ideal is not None:
         unit = solution.ct * solution.controls.lambda0 * solution.design.power_unit
-        bound = f'<i class="rx-mark"></i> ideal <b>{number(ideal / 1e3)} kW</b>, κ {number(ideal / unit, 2)}'
-    return f'<div class="rx-line rx-dim rx-kappa" title="{hint}"><span>{kappa}</span><span>{bound}</span></div>'
+        bound = f'<i class="rx-mark"></i> ideal <b>{units.watts(ideal)}</b>, κ {number(ideal / unit, 2)}'
+    return f'<div class="rx-line rx-dim rx-kappa"{tip("kappa")}><span>{kappa}</span><span>{bound}</span></div>'
 
 
-def check_panel(reference: Solution | None, solution: Solution) -> str:
+def check_panel(reference: Solution | None, solution: Solution, units: Units = SI) -> str:
     """The same design with the vortex wake, beside what is shown."""
     if reference is None:
         return '<div class="rx rx-dim rx-check">Vortex wake: computing …</div>'
@@ -70,8 +66,9 @@ def check_panel(reference: Solution | None, solution: Solution) -> str:
         return f'<div class="rx rx-dim rx-check">Vortex wake: {escape(reference.message)}</div>'
     apart = 100.0 * (solution.power.total / reference.power.total - 1.0)
     return (
-        '<div class="rx rx-check rx-line" data-explorer="check"><span class="rx-dim">Vortex wake</span>'
-        f"<span><b>{number(reference.power.total / 1e3)} kW</b>, κ {number(reference.induced_power_factor, 2)}; "
+        f'<div class="rx rx-check rx-line" data-explorer="check"{tip("vortex_check")}>'
+        '<span class="rx-dim">Vortex wake</span>'
+        f"<span><b>{units.watts(reference.power.total)}</b>, κ {number(reference.induced_power_factor, 2)}; "
         f"shown is {number(apart, 1, sign=True)} %</span></div>"
     )
 
@@ -79,7 +76,7 @@ def check_panel(reference: Solution | None, solution: Solution) -> str:
 def change(power: PowerBudget, reference: PowerBudget | None) -> str:
     """Of the total [%], green for less, rust for more; a dash without a reference."""
     if reference is None or reference.total <= 0.0:
-        return f'<span class="rx-dim">{_BLANK}</span>'
+        return f'<span class="rx-dim">{BLANK}</span>'
     percent = 100.0 * (power.total / reference.total - 1.0)
     return (
         f'<span class="rx-change{direction(percent)}" data-explorer="change">{number(percent, 1, sign=True)} %</span>'
@@ -104,40 +101,39 @@ def bar(power: PowerBudget, ideal: float | None) -> str:
     return spans + f'<i class="rx-mark" style="position:absolute;left:{100.0 * ideal / total:.2f}%"></i>'
 
 
-def _row(name: str, power: PowerBudget, reference: PowerBudget | None) -> str:
+def _row(name: str, power: PowerBudget, reference: PowerBudget | None, units: Units) -> str:
     value = getattr(power, name)
     share = 100.0 * value / power.total if power.total > 0.0 else None
-    apart = None if reference is None else (value - getattr(reference, name)) / 1e3
+    apart = None if reference is None else value - getattr(reference, name)
     return (
-        f'<tr><td><span class="rx-patch" style="background:{PARTS[name]}"></span>{PART_TITLES[name]}</td>'
-        f'<td class="rx-num">{number(value / 1e3)} kW</td>'
+        f'<tr{tip(name)}><td><span class="rx-patch" style="background:{PARTS[name]}"></span>{PART_TITLES[name]}</td>'
+        f'<td class="rx-num">{units.watts(value)}</td>'
         f'<td class="rx-num rx-dim" style="width:19%">{number(share)} %</td>'
-        f'<td class="rx-num rx-dim" style="width:25%">{number(apart, sign=True)} kW</td></tr>'
+        f'<td class="rx-num rx-dim" style="width:25%">{units.watts(apart, sign=True)}</td></tr>'
     )
 
 
 def trim_panel(solution: Solution) -> str:
     """Trim angles, loading, efficiency and areas, in two columns."""
     c = solution.controls
+    efficiency = ("lift_to_drag", "Rotor L/De", number(solution.lift_to_drag, 2))
     if solution.design.hovering:
-        efficiency = ("Figure of merit", number(solution.figure_of_merit, 3))
-    else:
-        efficiency = ("Rotor L/De", number(solution.lift_to_drag, 2))
+        efficiency = ("figure_of_merit", "Figure of merit", number(solution.figure_of_merit, 3))
     entries = (
-        ("Collective θ0", _deg(c.collective)),
-        ("Shaft tilt α", _deg(c.shaft_tilt)),
-        ("Cyclic θ1c", _deg(c.cyclic_1c)),
-        ("Coning β0", _deg(c.coning)),
-        ("Cyclic θ1s", _deg(c.cyclic_1s)),
-        ("Flap β1c, β1s", f"{number(math.degrees(c.flap_1c), 1)}, {_deg(c.flap_1s, 1)}"),
-        ("CT/σ", number(solution.ct_over_sigma, 4)),
+        ("collective", "Collective θ0", _deg(c.collective)),
+        ("shaft_tilt", "Shaft tilt α", _deg(c.shaft_tilt)),
+        ("cyclic_1c", "Cyclic θ1c", _deg(c.cyclic_1c)),
+        ("coning", "Coning β0", _deg(c.coning)),
+        ("cyclic_1s", "Cyclic θ1s", _deg(c.cyclic_1s)),
+        ("flapping_1", "Flap β1c, β1s", f"{number(math.degrees(c.flap_1c), 1)}, {_deg(c.flap_1s, 1)}"),
+        ("ct_over_sigma", "CT/σ", number(solution.ct_over_sigma, 4)),
         efficiency,
-        ("Reverse flow", f"{number(100.0 * solution.reverse_flow_area, 1)} %"),
-        ("Stalled area", f"{number(100.0 * solution.stalled_area, 1)} %"),
+        ("reverse_flow_area", "Reverse flow", f"{number(100.0 * solution.reverse_flow_area, 1)} %"),
+        ("stalled_area", "Stalled area", f"{number(100.0 * solution.stalled_area, 1)} %"),
     )
     cells = "".join(
-        f'<div class="rx-line"><span class="rx-dim">{name}</span><span class="rx-num">{value}</span></div>'
-        for name, value in entries
+        f'<div class="rx-line"{tip(key)}><span class="rx-dim">{name}</span><span class="rx-num">{value}</span></div>'
+        for key, name, value in entries
     )
     return f'<div class="rx rx-grid" data-explorer="trim">{cells}</div>'
 
@@ -195,7 +191,7 @@ def tiny(value: float) -> str:
 
 
 def _status(kind: str, text: str) -> str:
-    return f'<div class="rx-status rx-{kind}" data-explorer="status" data-kind="{kind}">{text}</div>'
+    return f'<div class="rx-status rx-{kind}" data-explorer="status" data-kind="{kind}"{tip("status")}>{text}</div>'
 
 
 def provenance(solution: Solution) -> str:
@@ -219,10 +215,10 @@ def section_title(section: str) -> str:
     return {"sc1095": "SC1095", "sc1094r8": "SC1094 R8", "sc1095-thesis": "SC1095 polynomials"}.get(section, section)
 
 
-def speed_line(speed: float) -> str:
-    """Airspeed [m/s] as the pilot, the driver and the engineer read it."""
-    text = f"{number(speed / KNOT)} kt · {number(3.6 * speed)} km/h · {number(speed, 1)} m/s" if speed else "hover"
-    return f'<div class="rx rx-dim rx-speed" data-explorer="speed">{text}</div>'
+def speed_line(speed: float, units: Units = SI) -> str:
+    """Airspeed [m/s] as the engineer, the driver and the pilot read it."""
+    words = units.airspeed(speed)
+    return f'<div class="rx rx-dim rx-speed" data-explorer="speed"{tip("speed")}>{words}</div>'
 
 
 def explanation(text: str) -> str:
@@ -230,10 +226,12 @@ def explanation(text: str) -> str:
     return f'<div class="rx rx-dim rx-small rx-explain">{escape(text)}</div>'
 
 
-def heading(title: str, key: tuple[tuple[str, str] | tuple[str, str, bool], ...]) -> str:
-    """A chart's title with the key of its lines: name, colour, and whether the line is dashed."""
+def heading(title: str, key: tuple[tuple[str, str] | tuple[str, str, bool], ...], entry: str = "") -> str:
+    """A chart's title with the key of its lines: name, colour, and whether the line is dashed. `entry`: its tooltip."""
     entries = "".join(f"<span>{dash(colour, *dashed)}{escape(name)}</span>" for name, colour, *dashed in key)
-    return f'<div class="rx rx-line rx-heading"><span>{escape(title)}</span>{entries}</div>'
+    return (
+        f'<div class="rx rx-line rx-heading"{tip(entry) if entry else ""}><span>{escape(title)}</span>{entries}</div>'
+    )
 
 
 def dash(colour: str, dashed: bool = False) -> str:

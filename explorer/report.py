@@ -13,10 +13,11 @@ from explorer.fields import FIELDS, Field
 from explorer.plots import Range
 from explorer.power_curve import PowerCurves
 from explorer.provenance import PROGRAM, versions
-from explorer.readout import HORSEPOWER_KW, number, tiny
+from explorer.readout import number, tiny
 from explorer.report_style import SCRIPT, SHEET
 from explorer.stage import Stage
 from explorer.state import ViewState
+from explorer.units import HORSEPOWER
 from rotor.solution import Solution
 
 COLOURS = ("#1c7ed6", "#e8590c", "#0ca678", "#9c36b5", "#c99700", "#c2255c", "#0b7285", "#5f3dc4")
@@ -127,7 +128,7 @@ def _card(report: Report, k: int, colour: str) -> str:
     return (
         f'<article class="card" style="--mark:{colour}"><h3>{title}</h3>'
         f'<div class="big"><b data-report="total-power">{number(power.total / 1e3)} kW</b>'
-        f'<span class="dim">{number(power.total / 1e3 / HORSEPOWER_KW)} hp</span>{change}</div>'
+        f'<span class="dim">{HORSEPOWER.text(power.total)}</span>{change}</div>'
         f'<div class="bar">{bar}</div><div>{escape(title_words(design))}</div>'
         f'<div class="dim">{escape(flight_words(design))}</div></article>'
     )

@@ -8,6 +8,7 @@ from explorer.charts import AB_KEY, ALPHA_KEY, IDEAL_KEY, LIFT_KEY, POWER_KEY, S
 from explorer.desk import Moment
 from explorer.plots import PowerCurve
 from explorer.solver import with_vortex_wake
+from explorer.units import UNITS, Units
 from rotor.solution import Solution
 from rotor.solve import solve
 
@@ -39,7 +40,7 @@ class ResultsPanel:
         charts.twist.show(twist, AB_KEY if ab else TWIST_KEY)
         self.turn(moment)
         charts.apart.set_visible(ab)
-        self._compare(solution)
+        self._compare(solution, UNITS[moment.view.units])
 
     def turn(self, moment: Moment) -> None:
         """The marked blade is elsewhere: what is drawn along it follows."""
@@ -54,14 +55,17 @@ class ResultsPanel:
             return
         solution, pinned, charts = moment.solution, moment.pinned, self._charts
         mu, ab = solution.design.condition.advance_ratio, pinned is not None
-        now = None if lost else solution.power.total / 1e3
+        unit = UNITS[moment.view.units].power[0]
+        curve = curve.in_unit(unit)
+        now = None if lost else unit.of(solution.power.total)
         power = plots.power_plot(curve, mu, now, charts.power.y_range, ab)
-        charts.power.show(power, (*AB_KEY, *IDEAL_KEY) if ab else POWER_KEY)
+        charts.power.show(power, (*AB_KEY, *IDEAL_KEY) if ab else POWER_KEY, f"Power [{unit.symbol}] over µ")
         if pinned is not None:
             apart = None
             if not lost and pinned.converged and pinned.design.condition == solution.design.condition:
-                apart = (solution.power.total - pinned.power.total) / 1e3
-            charts.apart.show(plots.apart_plot(curve, mu, apart, charts.apart.y_range))
+                apart = unit.of(solution.power.total - pinned.power.total)
+            plot = plots.apart_plot(curve, mu, apart, charts.apart.y_range)
+            charts.apart.show(plot, title=f"B − A [{unit.symbol}] over µ")
 
     def problem(self, status: str) -> None:
         """Keep the last good answer, but grey, with the sentence in red."""
@@ -73,21 +77,22 @@ class ResultsPanel:
         """Compute the vortex wake beside the answer in the next round."""
         self._check_wanted = True
 
-    def _compare(self, solution: Solution) -> None:
+    def _compare(self, solution: Solution, units: Units) -> None:
         """The vortex wake beside the answer, once asked for; an older check is taken away."""
         if self._checked is not None and self._checked.design != with_vortex_wake(solution.design):
             self._checked = None
             self._check.content = ""
         if self._check_wanted:
             self._check_wanted = False
-            self._check.content = readout.check_panel(None, solution)
+            self._check.content = readout.check_panel(None, solution, units)
             self._checked = solve(with_vortex_wake(solution.design), solution)
-            self._check.content = readout.check_panel(self._checked, solution)
+        if self._checked is not None:
+            self._check.content = readout.check_panel(self._checked, solution, units)
 
 
 def _numbers(moment: Moment) -> tuple[str, str]:
     """Power and trim: of this design, or of A and B."""
-    solution, pinned = moment.solution, moment.pinned
+    solution, pinned, units = moment.solution, moment.pinned, UNITS[moment.view.units]
     if pinned is None:
-        return readout.power_panel(solution, moment.baseline), readout.trim_panel(solution)
-    return ab_readout.power_panel(solution, pinned), ab_readout.trim_panel(solution, pinned)
+        return readout.power_panel(solution, moment.baseline, units), readout.trim_panel(solution)
+    return ab_readout.power_panel(solution, pinned, units), ab_readout.trim_panel(solution, pinned)

@@ -6,6 +6,7 @@ from explorer import sensitivity
 from explorer.charts import AB_KEY, Chart, Key, line, pinned_line
 from explorer.colours import BASELINE, THIS
 from explorer.desk import Desk, Moment
+from explorer.glossary import hint
 from explorer.meshes import blade_shape
 from explorer.overlays import Strip
 from rotor.solution import Solution
@@ -30,9 +31,10 @@ class SensitivityPanel:
             sensitivity.blank_sensitivity(),
             (0.1, 1.02),
             _HEIGHT,
+            name="chart_sensitivity",
         )
         self._words = gui.add_html("")
-        self._paint = gui.add_checkbox("Paint blade", False, hint="Blue: more pitch here saves power. Rust: it costs.")
+        self._paint = gui.add_checkbox("Paint blade", False, hint=hint("paint"))
         self._paint.on_update(lambda _: desk.wake())
 
     def show(self, moment: Moment) -> None:

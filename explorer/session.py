@@ -14,7 +14,7 @@ from explorer.actuator_panel import ActuatorPanel
 from explorer.actuator_view import fit_cut
 from explorer.camera import FittedCamera
 from explorer.commands import Actions, bind_commands
-from explorer.controls import LIMITS, VIEW_BUTTONS, Controls
+from explorer.controls import VIEW_BUTTONS, Controls
 from explorer.desk import Desk, Moment, Tab
 from explorer.file_panel import FilePanel
 from explorer.frame import Frame
@@ -29,6 +29,7 @@ from explorer.probe_panel import ProbePanel
 from explorer.results_panel import ResultsPanel
 from explorer.schedule_panel import SchedulePanel
 from explorer.sensitivity_panel import SensitivityPanel
+from explorer.sliders import LIMITS
 from explorer.state import Inputs, ViewState, baseline_of, with_optimum
 from explorer.top_bar import TopBar
 from explorer.view import View
@@ -159,7 +160,7 @@ class Session:
             return superseded() and self._whole_round
 
         inputs, view = self._history.read(self._controls.pauses.longest()), self._controls.view()
-        self._controls.refresh(inputs)
+        self._controls.refresh(inputs, view)
         if view.dark != self._dark:
             self._dark = view.dark
             self._theme()

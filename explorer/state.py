@@ -5,6 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from itertools import pairwise
 
+from explorer.units import SI
 from rotor.blade import airfoils_spec
 from rotor.design import Design
 from rotor.presets import (
@@ -143,6 +144,8 @@ class ViewState:
     stall: bool = True
     drag_divergence: bool = True
     dark: bool = False
+    units: str = SI.title
+    """A title of `explorer.units.UNITS`."""
 
 
 def inputs_of(design: Design) -> Inputs:

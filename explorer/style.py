@@ -3,6 +3,10 @@
 SHEET = """
 /* The rows of the control panel, a little closer than they come. */
 [style*="padding-bottom: 0.5em"] { padding-bottom: 0.3em !important; }
+/* A box with a hint is no higher than one without. */
+div:has(> .mantine-Checkbox-root) { display: flex !important; }
+/* What explains itself says so. */
+.rx [title] { cursor: help; }
 /* Tabs close enough for their names to stand in one row, or two. */
 .mantine-Tabs-tab, [data-dock-tab] { padding: 7px 8px !important; }
 /* A row of buttons without a label has the whole width. */

@@ -9,6 +9,7 @@ from explorer import ab_readout
 from explorer.desk import Desk, Moment
 from explorer.pinned import Order, Pinboard, Pinned
 from explorer.state import Inputs
+from explorer.units import SI, UNITS
 from rotor.design import Design
 from rotor.solution import Solution
 
@@ -26,7 +27,7 @@ class TopBar:
         undo: Callable[[], None],
         redo: Callable[[], None],
     ) -> None:
-        self._board, self._wake = Pinboard(), wake
+        self._board, self._wake, self._units = Pinboard(), wake, SI
         self._steps = {"Undo": undo, "Redo": redo}
         hint = "Pin: every change becomes B beside A."
         first = gui.add_button_group("", (*self._steps, *_PIN), hint=hint)
@@ -81,7 +82,7 @@ class TopBar:
 
     def show(self, moment: Moment) -> None:
         """Follow a converged answer."""
-        del moment
+        self._units = UNITS[moment.view.units]
         self.refresh()
 
     def lose(self) -> None:
@@ -96,7 +97,7 @@ class TopBar:
         pinned = self._board.pinned
         if pinned is not None:
             where = "" if self._along.value else pinned.flight
-            self._line.content = ab_readout.pinned_line(pinned.title, self._board.answer, where)
+            self._line.content = ab_readout.pinned_line(pinned.title, self._board.answer, where, self._units)
         for widget in (self._line, self._second, self._along):
             widget.visible = pinned is not None
 

@@ -6,7 +6,8 @@ import viser
 
 from explorer import readout
 from explorer.desk import Desk, Moment
-from explorer.units import SI
+from explorer.glossary import hint
+from explorer.units import SI, UNITS
 from explorer.waterfall_view import alone_table, waterfall_chart
 from rotor.design import Design
 from rotor.solution import Solution
@@ -25,7 +26,7 @@ class WaterfallPanel:
 
     def __init__(self, gui: viser.GuiApi, desk: Desk) -> None:
         gui.add_html(_WORDS)
-        self._wanted = gui.add_checkbox("Show, and follow", False, hint="Thirteen trims after each change.")
+        self._wanted = gui.add_checkbox("Show, and follow", False, hint=hint("waterfall"))
         self._wanted.on_update(lambda _: desk.wake())
         self._chart = gui.add_html("")
         self._table = gui.add_html("")
@@ -42,8 +43,11 @@ class WaterfallPanel:
         if design != self._design:
             self._design, self._coming, self._steps = design, _all_steps(design), []
             self._fade()
+        units, self._units = self._units, UNITS[moment.view.units]
         if not self._wanted.value:
             self._write("", "")
+        elif units is not self._units and self._steps:
+            self._draw()
 
     def climb(self, superseded: Callable[[], bool]) -> None:
         """Compute and show the steps that are missing, one after another, until the page has something else to do."""

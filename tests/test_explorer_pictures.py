@@ -299,7 +299,7 @@ class TestPicture:
         picture = make_picture(forward, view, (-4.0, 10.0))
         azimuths = [math.degrees(math.atan2(p.position[1], p.position[0])) % 360 for p in picture.blades.poses]
         assert_allclose(azimuths, [30.0, 120.0, 210.0, 300.0], atol=1e-9)
-        assert picture.flight_label == "129 kt"
+        assert picture.flight_label == "238 km/h"
 
     def test_outlines_can_be_switched_off(self, forward: Solution):
         picture = make_picture(forward, ViewState(reverse_flow=False, stall=False), (-4.0, 10.0))

@@ -18,9 +18,10 @@ from viser import _messages
 from explorer import __main__ as command
 from explorer import disk_image, viser_compat
 from explorer.app import App, PortBusy
-from explorer.controls import SLIDERS, Controls
+from explorer.controls import Controls
 from explorer.picture import make_picture
 from explorer.scene import Scene
+from explorer.sliders import SLIDERS
 from explorer.state import LAWS, NOT_ALWAYS, Inputs, ViewState, with_optimum
 from rotor.concepts import CONCEPTS
 from rotor.presets import make_design, uh60a_rotor
@@ -155,7 +156,7 @@ class TestControls:
         np.testing.assert_allclose(applied.twist(r), design.twist(r), atol=2e-6)
 
     def test_only_the_sliders_of_the_law_show(self, controls: Controls):
-        controls.refresh(Inputs(law="two"))
+        controls.refresh(Inputs(law="two"), ViewState())
         shown = {name for name in SLIDERS if controls._inputs[name].visible}
         assert shown == {"two_inner", "two_outer", "two_division", "advance_ratio", "mass_t", "altitude_m"}
 

@@ -157,7 +157,7 @@ class TestReadout:
         assert with_vortex_wake(hover) == hover
 
     def test_speed_in_knots(self):
-        assert "97 kt · 180 km/h · 50.0 m/s" in readout.speed_line(50.0)
+        assert "180 km/h · 50.0 m/s · 97 kt" in readout.speed_line(50.0)
         assert "hover" in readout.speed_line(0.0)
 
 

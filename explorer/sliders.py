@@ -1,0 +1,83 @@
+"""The sliders of the Design tab: what each can hold, and how weight and altitude read in other units."""
+
+import math
+from dataclasses import dataclass
+
+from explorer.units import AVIATION, Unit, Units
+
+
+@dataclass(frozen=True)
+class Slider:
+    """A slider as it is shown."""
+
+    label: str
+    low: float
+    high: float
+    step: float
+
+    @property
+    def digits(self) -> int:
+        """Decimals that tell two steps apart."""
+        return max(0, -math.floor(math.log10(self.step)))
+
+
+SLIDERS: dict[str, Slider] = {
+    "linear": Slider("Rate [°/R]", -30.0, 10.0, 0.1),
+    "quadratic_curvature": Slider("Curve [°/R²]", -40.0, 40.0, 0.5),
+    "quadratic_difference": Slider("Tip−root [°]", -30.0, 10.0, 0.1),
+    "two_inner": Slider("Inner [°/R]", -30.0, 10.0, 0.1),
+    "two_outer": Slider("Outer [°/R]", -30.0, 10.0, 0.1),
+    "two_division": Slider("Division [R]", 0.2, 0.95, 0.01),
+    "three_inner": Slider("Inner [°/R]", -30.0, 10.0, 0.1),
+    "three_middle": Slider("Middle [°/R]", -30.0, 10.0, 0.1),
+    "three_outer": Slider("Outer [°/R]", -30.0, 10.0, 0.1),
+    "three_first": Slider("Division 1 [R]", 0.2, 0.95, 0.01),
+    "three_second": Slider("Division 2 [R]", 0.2, 0.95, 0.01),
+    "advance_ratio": Slider("Adv. ratio µ", 0.0, 0.45, 0.005),
+    "mass_t": Slider("Weight [t]", 5.0, 11.0, 0.05),
+    "altitude_m": Slider("Altitude [m]", 0.0, 4000.0, 50.0),
+}
+"""By the field of `Inputs`, in SI."""
+_AVIATION = {
+    "mass_t": Slider("Weight [lb]", 11_000.0, 24_300.0, 100.0),
+    "altitude_m": Slider("Altitude [ft]", 0.0, 13_200.0, 100.0),
+}
+_SIZES = {"mass_t": 1e3, "altitude_m": 1.0}
+"""What one of the input is in SI."""
+
+
+def slider(name: str, units: Units) -> Slider:
+    """As it is shown in these units."""
+    return _AVIATION[name] if units is AVIATION and name in _AVIATION else SLIDERS[name]
+
+
+def shown(name: str, value: float, units: Units) -> float:
+    """The place of an input on its slider."""
+    if name not in _SIZES:
+        return value
+    return _unit(name, units).of(value * _SIZES[name])
+
+
+def meant(name: str, place: float, units: Units) -> float:
+    """The input that a place means. To nine digits, so that an input shown in other units and read again is itself."""
+    if name not in _SIZES:
+        return place
+    return round(place * _unit(name, units).size / _SIZES[name], 9)
+
+
+def _unit(name: str, units: Units) -> Unit:
+    return units.mass if name == "mass_t" else units.altitude
+
+
+def _limits(name: str) -> tuple[float, float]:
+    """What the slider can hold in whichever units are shown."""
+    one = SLIDERS[name]
+    if name not in _AVIATION:
+        return one.low, one.high
+    other = _AVIATION[name]
+    low, high = meant(name, other.low, AVIATION), meant(name, other.high, AVIATION)
+    return min(one.low, low), max(one.high, high)
+
+
+LIMITS = {name: _limits(name) for name in SLIDERS}
+"""The inputs that a design may have on this page."""

@@ -1,0 +1,86 @@
+"""Switches, waterfall, tooltips and units in a real browser."""
+
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import pytest
+from chromium import DRAW_NOTHING
+from test_page import SMALL, WAIT, Watched, kilowatts
+
+from explorer.app import App
+from explorer.state import Inputs
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture(scope="module")
+def watched(browser: "Browser") -> Iterator[Watched]:
+    app = App("127.0.0.1", 0, Inputs(law="uh60a", advance_ratio=0.3))
+    context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
+    context.add_init_script(DRAW_NOTHING)
+    watched = Watched(context.new_page())
+    watched.open(app.address)
+    yield watched
+    context.close()
+    app.stop()
+    assert watched.complaints == []
+
+
+def box(watched: Watched, label: str) -> None:
+    """Click a checkbox."""
+    watched.row(label).locator("input[type=checkbox]").click()
+
+
+def test_a_switch_changes_the_power_and_the_page_says_so(watched: Watched):
+    before = watched.text("total-power")
+    watched.page.get_by_text("Physics", exact=True).last.click()  # The folder; the tab comes before it.
+    box(watched, "Flapping")
+    with_moment = watched.until_changed(lambda: watched.text("total-power"), before)
+    assert kilowatts(with_moment) > kilowatts(before) + 100.0
+    status = watched.text("status")
+    assert "Switched off: flapping: a lesson, not the aircraft." in status
+    assert re.search(r"the hub carries 2\d\d kN m rolling to the retreating side", status)
+    box(watched, "Flapping")
+    watched.until_changed(lambda: watched.text("total-power"), with_moment)
+    assert watched.text("total-power") == before
+
+
+def test_the_waterfall_adds_up_on_the_page(watched: Watched):
+    watched.page.get_by_role("tab", name="Physics").click()
+    box(watched, "Show, and follow")
+    watched.page.wait_for_selector('[data-explorer="each-alone"] tr:nth-child(7)', timeout=WAIT)
+    shown = watched.page.locator('[data-explorer="waterfall"] .rx-w-number').all_text_contents()
+    column = [float(text.replace("−", "-").replace("\u2009", "")) for text in shown]
+    assert len(column) == 8
+    assert sum(column[:-1]) == pytest.approx(column[-1], abs=0.4)
+    watched.page.get_by_role("tab", name="Results").click()
+    assert column[-1] == pytest.approx(kilowatts(watched.text("total-power")), abs=0.6)
+
+
+def test_controls_and_read_outs_explain_themselves(watched: Watched):
+    total = watched.page.locator('[data-explorer="total-power"]').first
+    assert "tail rotor that balances its torque" in (total.get_attribute("title") or "")
+    assert "Eq. (3.19)" in (watched.page.locator("tr", has_text="Parasite").first.get_attribute("title") or "")
+    watched.row("Adv. ratio").get_by_role("slider").hover()
+    watched.page.get_by_text("Airspeed over tip speed, µ = V/ΩR; 0 is hover. Theory, section 1.").wait_for(timeout=WAIT)
+
+
+def test_units_change_what_is_read_and_not_the_design(watched: Watched):
+    before = watched.text("total-power")
+    watched.choose("Units", "Aviation")
+    after = watched.until_changed(lambda: watched.text("total-power"), before)
+    assert after.endswith("hp")
+    assert kilowatts(after) == pytest.approx(kilowatts(before) / 0.745699872, abs=1.5)
+    assert watched.text("speed").startswith("129 kt")
+    assert watched.text("change") == "0.0 %"
+    watched.row("Weight [lb]").locator("input:not([type=hidden])").last.wait_for(timeout=WAIT)
+    assert watched.row("Weight [lb]").locator("input:not([type=hidden])").last.input_value() == "18342"
+    watched.type("Altitude [ft]", 5000)
+    thin = watched.until_changed(lambda: watched.text("total-power"), after)
+    watched.choose("Units", "SI")
+    watched.until_changed(lambda: watched.text("total-power"), thin)
+    assert watched.row("Altitude [m]").locator("input:not([type=hidden])").last.input_value() == "1524"
