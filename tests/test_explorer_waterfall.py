@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import fields, replace
 from typing import Any
 
 import pytest
@@ -90,7 +90,7 @@ class TestPanel:
     def panel(self) -> Iterator[WaterfallPanel]:
         server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
         nothing: Any = lambda *_: None  # noqa: E731
-        desk = Desk(nothing, nothing, nothing, nothing, nothing, nothing, nothing, nothing)
+        desk = Desk(**{field.name: nothing for field in fields(Desk)})
         yield WaterfallPanel(server.gui, desk)
         server.stop()
 
