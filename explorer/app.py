@@ -14,6 +14,7 @@ from explorer.guest import Guest
 from explorer.hall import Hall
 from explorer.house import House
 from explorer.jobs import Pool
+from explorer.presentation import Stage
 from explorer.session import Session
 from explorer.state import Inputs
 from explorer.worker import Sleep
@@ -35,6 +36,7 @@ class App:
         self._guests: dict[int, Guest] = {}
         self._hall: Hall[Guest] = Hall(self._house.sessions)
         self.pool = Pool()
+        self.stage = Stage()
         gate = Gate(Doors(host, self._house.allow_hosts), self._house.connections)
         self.server = viser_compat.quiet_server(host, port, "Rotor explorer", gate)
         viser_compat.remove_share_tunnel(self.server)
@@ -84,7 +86,7 @@ class App:
             lambda: self._seat(self._hall.doze(guest)),
             lambda: self._hall.wake(guest),
         )
-        return Session(client, self._start, facts, self.pool.share(), sleep)
+        return Session(client, self._start, facts, self.pool.share(), self.stage, sleep)
 
     def _seat(self, coming: list[Guest]) -> None:
         """Those in line whose turn it is."""

@@ -26,6 +26,7 @@ class Handle(Protocol):
 
     value: Any
     visible: bool
+    disabled: bool
 
     def on_update(self, func: Callable[[Any], None]) -> Any: ...
 
@@ -139,6 +140,19 @@ class Controls:
     def reset(self) -> None:
         """Back to the design the page began with."""
         self.set_inputs(self._start)
+
+    def hold(self, held: bool) -> None:
+        """Take the widgets from the user, or give them back."""
+        own = (
+            self._field,
+            self._azimuth,
+            self._exaggeration,
+            *self._toggles.values(),
+            self._infinite,
+            self.reset_button,
+        )
+        for handle in (*self._inputs.values(), *own):
+            handle.disabled = held
 
     def set_view(self, view: ViewState) -> None:
         """Move the widgets of what is shown."""

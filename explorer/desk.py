@@ -61,6 +61,8 @@ class Desk:
     """A notification: title, sentence."""
     moment: Callable[[], Moment | None]
     """The last good one; None before the first."""
+    pin: Callable[[Inputs | None], None] = lambda inputs: None
+    """Let these inputs be A; None: nothing."""
     bind: Callable[[str, Callable[[], None]], None] = lambda name, action: None
     """Give a command of `explorer.keys` its action: it is in the palette and has its key from then on."""
 

@@ -1,21 +1,19 @@
 """The link of the design and its file: copied, saved, loaded."""
 
 import json
-import time
 from collections.abc import Mapping
 from typing import Any
 
 import viser
 
 from explorer import share, viser_compat
+from explorer.address import Address
 from explorer.desk import Desk, Moment
 from explorer.state import Inputs, inputs_of
 from rotor.case import case_of, parse_case
 
 MOST_BYTES = 1_000_000
 """A design file may have; written ones have a thousand."""
-_PATIENCE = 0.4
-"""[s] between two addresses: browsers take offence at a hundred in half a minute."""
 Limits = Mapping[str, tuple[float, float]]
 """Of the sliders, by name of the input."""
 
@@ -23,10 +21,8 @@ Limits = Mapping[str, tuple[float, float]]
 class FilePanel:
     """One session's. The address of the page follows the design by itself."""
 
-    def __init__(self, client: viser.ClientHandle, desk: Desk, limits: Limits, query: str) -> None:
-        """`query`: of the address the page was opened with; what else it holds is kept."""
-        self._client, self._desk, self._limits, self._query = client, desk, limits, query
-        self._written = 0.0
+    def __init__(self, client: viser.ClientHandle, desk: Desk, limits: Limits, address: Address) -> None:
+        self._client, self._desk, self._limits, self._address = client, desk, limits, address
         gui = client.gui
         with gui.add_folder("Link and file"):
             self._link = gui.add_button("Copy link", icon=viser.Icon.LINK, hint="The address holds the whole design.")
@@ -40,15 +36,11 @@ class FilePanel:
         self._load.on_upload(self._loaded)
 
     def follow(self, inputs: Inputs) -> None:
-        """Bring the address into line with the design; at once, unless it has only just been written."""
+        """Bring the address into line with the design."""
         try:
-            wanted = share.query_of(share.code_of(inputs.design()), self._query)
+            self._address[share.DESIGN] = share.code_of(inputs.design())
         except ValueError:
             return  # It has no address; the last one stays.
-        now = time.monotonic()
-        if wanted != self._query and now - self._written > _PATIENCE:
-            self._query, self._written = wanted, now
-            viser_compat.set_query(self._client, wanted)
 
     def copy_link(self) -> None:
         """The page's address into the clipboard."""
@@ -76,7 +68,7 @@ class FilePanel:
         """The address keeps the last design."""
 
     def stop(self) -> None:
-        """Nothing runs on."""
+        self._address.stop()
 
     def _loaded(self, event: viser.GuiEvent[Any]) -> None:
         file = event.target.value

@@ -9,6 +9,7 @@ from explorer.solver import Baseline
 from explorer.state import Inputs
 from rotor.design import Design
 from rotor.solution import Solution
+from rotor.solve import solve
 from rotor.twist import SumTwist
 
 Order = Literal["pin", "unpin", "swap", "back"]
@@ -90,11 +91,16 @@ class Pinboard:
         self.answer: Solution | None = None
         """A's, as last compared; it may not have converged."""
         self._asked: deque[Order] = deque()
+        self._put: deque[Inputs | None] = deque()
         self._known = Baseline()
 
     def ask(self, order: Order) -> None:
         """A button was pressed; acts in the next round."""
         self._asked.append(order)
+
+    def put(self, inputs: Inputs | None) -> None:
+        """These inputs shall be A, or nothing; acts in the next round."""
+        self._put.append(inputs)
 
     def settle(self, inputs: Inputs, solution: Solution | None, along: bool) -> Outcome | None:
         """Do what was asked, with what is on the sliders and its answer; None when nothing was.
@@ -102,6 +108,10 @@ class Pinboard:
         What was asked after a button that moves the sliders waits for the round in which they have moved.
         """
         outcome = None
+        while self._put:
+            given = self._put.popleft()
+            answer = None if given is None else solve(given.design())
+            self.pin(None if given is None or answer is None or not answer.converged else Pinned(given, answer))
         while self._asked and (outcome is None or outcome.inputs is None):
             outcome = act(self._asked.popleft(), self.pinned, inputs, solution, along)
             self.pin(outcome.pinned)

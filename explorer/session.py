@@ -9,9 +9,10 @@ from typing import Any
 
 import viser
 
-from explorer import readout, share, solver, style, trust_readout
+from explorer import readout, share, solver, style, trust_readout, viser_compat
 from explorer.actuator_panel import ActuatorPanel
 from explorer.actuator_view import fit_cut
+from explorer.address import Address
 from explorer.camera import FittedCamera
 from explorer.commands import Actions, bind_commands
 from explorer.controls import VIEW_BUTTONS, Controls
@@ -21,10 +22,13 @@ from explorer.frame import Frame
 from explorer.history_panel import HistoryPanel
 from explorer.jobs import Share
 from explorer.keyboard import Keyboard
+from explorer.lecture_panel import LecturePanel
 from explorer.map_panel import MapPanel
 from explorer.optimise_panel import OptimisePanel
 from explorer.overlays import Strip, ghost_of
 from explorer.power_curve import PowerCurves
+from explorer.presence import Hands, Presence
+from explorer.presentation import Stage
 from explorer.probe_panel import ProbePanel
 from explorer.results_panel import ResultsPanel
 from explorer.schedule_panel import SchedulePanel
@@ -44,6 +48,7 @@ from rotor.solve import solve
 _log = logging.getLogger(__name__)
 _CHART_WIDTH, _CONTROL_WIDTH = 340, 320
 """[px]; what they leave at 1280 is still a square."""
+_WIDER = 1.25
 _BRAND = (28, 126, 214)
 
 
@@ -51,13 +56,21 @@ class Session:
     """Lives from connect to disconnect. After construction everything happens on the worker's thread."""
 
     def __init__(
-        self, client: viser.ClientHandle, start: Inputs, facts: PageFacts, pool: Share, sleep: Sleep | None = None
+        self,
+        client: viser.ClientHandle,
+        start: Inputs,
+        facts: PageFacts,
+        pool: Share,
+        stage: Stage,
+        sleep: Sleep | None = None,
     ) -> None:
         """`start`: where the page's address holds no design; `sleep`: what the house does about rest."""
         self._client, self._pool = client, pool
+        address = Address(facts.query, partial(viser_compat.set_query, client))
         problem = ""
         try:
-            start = share.start_from(facts.query, start, LIMITS)
+            code = address[share.DESIGN]
+            start = start if code is None else share.inputs_from(code, LIMITS)
         except ValueError as error:
             problem = str(error)
         self._latest: Solution | None = None
@@ -75,7 +88,8 @@ class Session:
         gui = client.gui
         self._theme()
         gui.set_panel_label("Rotor explorer")
-        set_style(client, style.SHEET)
+        set_style(client, style.SHEET)  # Before the first widget.
+        self._presence = Presence(client, stage, address)
         self._top = TopBar(gui, self._wake, lambda: self._history.undo(), lambda: self._history.redo())
         tabs = gui.add_tab_group()
         with tabs.add_tab("Design"):
@@ -91,6 +105,7 @@ class Session:
             send=self._send,
             tell=self._notify,
             moment=lambda: self._moment,
+            pin=self._top.pin_inputs,
             bind=Keyboard(client).bind,
         )
         with tabs.add_tab("Optimise"):
@@ -101,9 +116,10 @@ class Session:
             self._schedule = SchedulePanel(gui, pool, desk, self._optimise.wishes)
         with tabs.add_tab("Session"):
             self._history = HistoryPanel(gui, desk, start)
-            self._file = FilePanel(client, desk, LIMITS, facts.query)
+            self._file = FilePanel(client, desk, LIMITS, address)
+        with tabs.add_tab("Lecture"):
+            self._lecture = LecturePanel(client, desk, self._presence, self._enlarge)
         gui.main_panel.dock_right()
-        gui.main_panel.set_width(_CONTROL_WIDTH)
         panel = gui.add_panel()
         with panel.add_tab("Results"):
             self._results = ResultsPanel(gui)
@@ -118,9 +134,10 @@ class Session:
         with panel.add_tab("Trust"):
             gui.add_html(trust_readout.trust_page())
         panel.dock_left()
-        panel.set_width(_CHART_WIDTH)
+        self._panel = panel
+        self._enlarge(False)
         followers: tuple[Tab, ...] = (self._top, self._probe, sensitivity, self._waterfall)
-        self._tabs = (*followers, self._history, self._file)
+        self._tabs = (*followers, self._history, self._file, self._lecture, self._presence)
         """Everything that only follows."""
         self._camera = FittedCamera(client, rotor.radius)
         self._actuator.shown.on_update(self._cut_switched)
@@ -130,6 +147,7 @@ class Session:
         controls.range_buttons.on_click(lambda event: self._colour(event.target.value))
         controls.check_button.on_click(lambda _: self._check())
         self._top.bind(desk)
+        self._presence.begin(desk, Hands(lambda: self._lecture.step, self._lecture.follow, self._controls.hold))
         bind_commands(desk, Actions(self._look, self._colour, self._check, self._reset, self._optimise.toggle))
         if problem:
             self._notify("Not the design of the link", problem)
@@ -261,6 +279,13 @@ class Session:
 
     def _notify(self, title: str, sentence: str) -> None:
         self._client.add_notification(title, sentence, auto_close_seconds=6)
+
+    def _enlarge(self, big: bool) -> None:
+        """Big type in wider panels, or panels as wide as the rotor beside them can spare."""
+        set_style(self._client, style.SHEET + (style.BIG if big else ""))
+        factor = _WIDER if big else 1.0
+        self._panel.set_width(factor * _CHART_WIDTH)
+        self._client.gui.main_panel.set_width(factor * _CONTROL_WIDTH)
 
     def _theme(self) -> None:
         self._client.gui.configure_theme(

@@ -6,7 +6,6 @@
 import json
 from collections.abc import Mapping
 from typing import Any
-from urllib.parse import parse_qsl, quote, urlencode
 
 from explorer.state import Inputs, inputs_of
 from rotor.case import case_of, design_of
@@ -65,12 +64,6 @@ def inputs_from(code: str, limits: Mapping[str, tuple[float, float]]) -> Inputs:
     return within(inputs_of(design_from(code)), limits)
 
 
-def start_from(query: str, start: Inputs, limits: Mapping[str, tuple[float, float]]) -> Inputs:
-    """The inputs of the design in an address's query, or `start` where there is none."""
-    code = code_in(query)
-    return start if code is None else inputs_from(code, limits)
-
-
 def within(inputs: Inputs, limits: Mapping[str, tuple[float, float]]) -> Inputs:
     """The inputs, where the page's sliders can hold them; else ValueError with one sentence."""
     for name, (low, high) in limits.items():
@@ -81,18 +74,6 @@ def within(inputs: Inputs, limits: Mapping[str, tuple[float, float]]) -> Inputs:
                 f"The design has {title} {value:g}, outside this page's {low:g}…{high:g}: bring it inside."
             )
     return inputs
-
-
-def query_of(code: str, others: str = "") -> str:
-    """The address's query with the design in it; `others`: the query that was there."""
-    kept = [(key, value) for key, value in parse_qsl(others.lstrip("?"), keep_blank_values=True) if key != DESIGN]
-    design = f"{DESIGN}={quote(code, safe=':;,@=/')}"
-    return "?" + "&".join([*([urlencode(kept)] if kept else []), design])
-
-
-def code_in(query: str) -> str | None:
-    """The design in an address's query; None where there is none."""
-    return dict(parse_qsl(query.lstrip("?"))).get(DESIGN)
 
 
 def _reads_file(twist: str) -> bool:

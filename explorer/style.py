@@ -8,7 +8,7 @@ div:has(> .mantine-Checkbox-root) { display: flex !important; }
 /* What explains itself says so. */
 .rx [title] { cursor: help; }
 /* Tabs close enough for their names to stand in one row, or two. */
-.mantine-Tabs-tab, [data-dock-tab] { padding: 7px 8px !important; }
+[data-dock-tab] { padding: 0 0.6em !important; height: 2.15em !important; }
 /* A row of buttons without a label has the whole width. */
 [class*=Flex-root]:has(> div > p > label:empty) > :first-child { display: none; }
 .rx { font-size: 12.5px; line-height: 1.37; padding: 0 14px; }
@@ -103,6 +103,15 @@ div:has(> .mantine-Checkbox-root) { display: flex !important; }
   background: rgba(128,128,128,.10); }
 /* A text field that only clicks write to: see explorer/clicks.py. */
 div:has(> .rx-bridge), div:has(> .rx-bridge) + div { display: none !important; }
+.rx-lecture { font-size: 14px; line-height: 1.4; padding-bottom: 4px; }
+.rx-lecture h3 { margin: 2px 0 4px; font-size: 18px; line-height: 1.2; white-space: normal; }
+.rx-lecture p { margin: 0 0 6px; }
+.rx-said { font-weight: 600; font-variant-numeric: tabular-nums; }
+.rx-dots { padding-top: 8px; }
+.rx-dots i { display: inline-block; width: 7px; height: 7px; border-radius: 50%; margin-left: 4px;
+  background: rgba(128,128,128,.35); }
+.rx-dots .rx-here { background: #1c7ed6; }
+.rx-presence { margin: 2px 10px 4px; padding: 6px 10px; border-radius: 4px; background: rgba(28,126,214,.14); }
 .rx-strip { display: block; }
 .rx-take { cursor: pointer; }
 .rx-kept-table td { padding: 3px 4px 3px 0; border-top: 1px solid rgba(128,128,128,.18); vertical-align: middle; }
@@ -123,3 +132,14 @@ div:has(> .rx-bridge), div:has(> .rx-bridge) + div { display: none !important; }
 .rx-lobby p { margin: 0 0 9px; }
 .rx-trust-row b { white-space: nowrap; font-weight: 600; }
 """
+
+BIG = """
+:root { --mantine-scale: 1.2; }
+.rx, .rx-status, .rx-heading, .rx-legend, .rx-scale, .rx-kappa, .rx-speed, .rx-check { font-size: 15.5px; }
+.rx-small { font-size: 14px; }
+.rx-total { font-size: 38px; }
+.rx-change { font-size: 23px; }
+.rx-lecture { font-size: 18px; }
+.rx-lecture h3 { font-size: 24px; }
+"""
+"""Laid over the sheet for those who sit at the back."""

@@ -80,6 +80,11 @@ class TopBar:
         desk.bind("swap", lambda: self._ask("swap"))
         desk.bind("back", lambda: self._ask("back"))
 
+    def pin_inputs(self, inputs: Inputs | None) -> None:
+        """Let these inputs be A, whatever is on the sliders; None: nothing."""
+        self._board.put(inputs)
+        self._wake()
+
     def show(self, moment: Moment) -> None:
         """Follow a converged answer."""
         self._units = UNITS[moment.view.units]

@@ -150,3 +150,9 @@ def set_query(client: viser.ClientHandle, query: str) -> None:
 def copy_text(client: viser.ClientHandle, expression: str) -> None:
     """Put the value of a JavaScript expression into the clipboard, where the browser allows it."""
     run_in_page(client, f"navigator.clipboard&&navigator.clipboard.writeText({expression}).catch(()=>0)")
+
+
+def open_tab(client: viser.ClientHandle, name: str) -> None:
+    """Open the tab of that name, as Enter on it would: viser's tabs are dragged, so they do not hear clicks."""
+    tab = f"[...document.querySelectorAll('[role=tab]')].find(t=>t.textContent.trim()==={json.dumps(name)})"
+    run_in_page(client, f"{tab}?.dispatchEvent(new KeyboardEvent('keydown',{{key:'Enter',bubbles:true}}))")

@@ -18,6 +18,8 @@ KNOW_VISER = {
     "session.py",
     "frame.py",
     "results_panel.py",
+    "lecture_panel.py",
+    "presence.py",
     "history_panel.py",
     "file_panel.py",
     "scene.py",

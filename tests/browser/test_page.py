@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 pytestmark = pytest.mark.browser
 SMALL = {"width": 1000, "height": 600}
-WAIT = 15_000
+WAIT = 45_000
 """[ms]; far more than it takes, for machines that draw in software."""
 
 

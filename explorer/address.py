@@ -1,0 +1,66 @@
+"""The query of the page's address, kept by the server: several parts of the page each have a name in it."""
+
+import math
+import threading
+import time
+from collections.abc import Callable
+from urllib.parse import parse_qsl, quote
+
+_PLAIN = ":;,@/="
+"""Characters that a query may hold as they are, so that a design in it can be read."""
+
+_PAUSE = 0.4
+"""[s] between two addresses: browsers take offence at a hundred in half a minute."""
+
+
+def parameter(query: str, name: str) -> str | None:
+    """The value of a name; None where it is not there."""
+    return dict(parse_qsl(query.lstrip("?"), keep_blank_values=True)).get(name)
+
+
+def with_parameter(query: str, name: str, value: str | None) -> str:
+    """The query with a name set, at its end; None takes it away. Everything else stays."""
+    pairs = [pair for pair in parse_qsl(query.lstrip("?"), keep_blank_values=True) if pair[0] != name]
+    if value is not None:
+        pairs.append((name, value))
+    return "?" + "&".join(f"{quote(key, _PLAIN)}={quote(text, _PLAIN)}" for key, text in pairs)
+
+
+class Address:
+    """Of one page. Any thread may call."""
+
+    def __init__(self, query: str, write: Callable[[str], None], pause: float = _PAUSE) -> None:
+        """`query`: that the page was opened with; `write` puts another into the address, `pause` [s] apart or more."""
+        self._query, self._write, self._pause = query, write, pause
+        self._lock = threading.Lock()
+        self._written = -math.inf
+        self._waiting: threading.Timer | None = None
+
+    def __getitem__(self, name: str) -> str | None:
+        return parameter(self._query, name)
+
+    def __setitem__(self, name: str, value: str | None) -> None:
+        with self._lock:
+            if value == parameter(self._query, name):
+                return
+            self._query = with_parameter(self._query, name, value)
+            wait = self._pause - (time.monotonic() - self._written)
+            if self._waiting is not None:
+                return  # What waits to be written will be the newest.
+            if wait > 0.0:
+                self._waiting = threading.Timer(wait, self._put)
+                self._waiting.daemon = True
+                self._waiting.start()
+                return
+        self._put()
+
+    def stop(self) -> None:
+        """The page has gone."""
+        with self._lock:
+            if self._waiting is not None:
+                self._waiting.cancel()
+
+    def _put(self) -> None:
+        with self._lock:
+            self._waiting, self._written = None, time.monotonic()
+            self._write(self._query)

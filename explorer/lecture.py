@@ -1,0 +1,171 @@
+"""The lecture: eight steps that set the page, say what to watch, and state what is seen in numbers of the moment."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from explorer.desk import Moment
+from explorer.readout import number
+from explorer.state import Inputs, ViewState
+from rotor.solution import PowerBudget
+
+Say = Callable[[Moment], str]
+
+
+@dataclass(frozen=True)
+class Step:
+    """One stop of the lecture."""
+
+    title: str
+    watch: str
+    """What to look at, and why it is so."""
+    do: str
+    """What to try."""
+    inputs: Inputs
+    say: Say
+    """What is seen, in the numbers of the moment; it holds for whatever the sliders are moved to."""
+    against: Inputs | None = None
+    """A of A/B."""
+    field: str = "Induced inflow λi"
+    tab: str = "Results"
+    """Of the left panel, to be opened."""
+    view: str = "3d"
+
+
+def view_of(step: Step, view: ViewState) -> ViewState:
+    """What is shown at a step."""
+    return replace(view, field=step.field, reverse_flow=True, stall=True, exaggeration=1.0)
+
+
+def _kw(watts: float, sign: bool = False) -> str:
+    return f"{number(watts / 1e3, sign=sign)} kW"
+
+
+def _shares(moment: Moment) -> str:
+    power = moment.solution.power
+    parts = (("induced", power.induced), ("profile", power.profile), ("parasite", power.parasite))
+    shares = ", ".join(f"{name} {number(100.0 * value / power.total)} %" for name, value in parts)
+    return f"Now {_kw(power.total)}: {shares}."
+
+
+def _change(part: str) -> Say:
+    """The change of one part of the power from A to B."""
+
+    def say(moment: Moment) -> str:
+        before, after = _powers(moment)
+        a, b = getattr(before, part), getattr(after, part)
+        name = {"induced": "Induced power", "total": "Total power"}[part]
+        change = number(100.0 * (b / a - 1.0), 1, sign=True)
+        return f"{name}: A {_kw(a)}, B {_kw(b)}; {_kw(b - a, sign=True)} ({change} %)."
+
+    return say
+
+
+def _both(moment: Moment) -> str:
+    before, after = _powers(moment)
+    induced, profile = after.induced - before.induced, after.profile - before.profile
+    return f"From A to B: induced {_kw(induced, sign=True)}, profile {_kw(profile, sign=True)}."
+
+
+def _reverse(moment: Moment) -> str:
+    before, after = _powers(moment)
+    area = number(100.0 * moment.solution.reverse_flow_area, 1)
+    return f"{area} % of the disk is in reverse flow; it costs {_kw(after.total - before.total)} in all."
+
+
+def _per_cent(moment: Moment) -> str:
+    before, after = _powers(moment)
+    saving = before.total - after.total
+    return f"B needs {_kw(saving)} less than A: {number(100.0 * saving / before.total, 2)} % of {_kw(before.total)}."
+
+
+def _actuator(moment: Moment) -> str:
+    return (
+        f"The blade at rest needs {_kw(moment.solution.power.total)} here; the tab says what moving it is worth, net."
+    )
+
+
+def _powers(moment: Moment) -> tuple[PowerBudget, PowerBudget]:
+    return moment.reference.power, moment.solution.power
+
+
+_LINEAR = Inputs(law="linear")
+_UH60A = Inputs(law="uh60a")
+
+STEPS: tuple[Step, ...] = (
+    Step(
+        "A rotor in trim",
+        "Every picture is a rotor in trim: it carries the weight, overcomes the drag, and its disk is held level "
+        "by the controls. Power has three parts: induced (making lift), profile (dragging blades), parasite "
+        "(pushing the fuselage).",
+        "Drag the advance ratio from 0 to 0.3: induced power falls to about a third, parasite power grows with "
+        "the cube of the speed, and their sum has a valley.",
+        _UH60A,
+        _shares,
+    ),
+    Step(
+        "Why more twist helps hover",
+        "Without twist (A) the inflow of a hovering disk grows towards the tip. Twist moves lift inboard and "
+        "evens the inflow: the same thrust for less induced power.",
+        "Drag Rate on from −16° towards −24°: the gain ends where the inflow becomes uneven the other way.",
+        replace(_LINEAR, linear=-16.0, advance_ratio=0.0),
+        _change("induced"),
+        against=replace(_LINEAR, linear=0.0, advance_ratio=0.0),
+    ),
+    Step(
+        "Why linear inflow cannot see it",
+        "A linear model takes its inflow from thrust and speed, not from where on the disk the lift is. Twist "
+        "then changes profile power only; the induced part, the largest at this speed, stays where it was.",
+        "Drag Rate anywhere: watch the induced line. Then go on to the next step.",
+        replace(_LINEAR, linear=-12.0, inflow="pitt-peters"),
+        _both,
+        against=replace(_LINEAR, linear=0.0, inflow="pitt-peters"),
+    ),
+    Step(
+        "A wake that answers",
+        "The same two blades with a wake that follows the lift over the disk and over time: now the induced part "
+        "answers, and most of what twist saves in forward flight is induced power.",
+        "Drag Rate again; or compare with Drees and Coleman in the Inflow menu.",
+        replace(_LINEAR, linear=-12.0),
+        _both,
+        against=replace(_LINEAR, linear=0.0),
+    ),
+    Step(
+        "Four blades are not infinitely many",
+        "Textbooks untwist a blade for speed. That rotor has infinitely many blades: its wake is steady, and −16°"
+        " (B) costs it induced power against −8° (A). Four blades shed a wake that beats with them.",
+        "Untick Infinite blades (Model folder): with four blades the same twist costs nothing.",
+        replace(_LINEAR, linear=-16.0, advance_ratio=0.3, inflow="dynamic-wake-infinite-blades"),
+        _change("induced"),
+        against=replace(_LINEAR, linear=-8.0, advance_ratio=0.3, inflow="dynamic-wake-infinite-blades"),
+    ),
+    Step(
+        "Where the reverse flow eats power",
+        "Inside the outline the air meets the retreating blade from behind. It even drives the blade there, but "
+        "its drag pushes the rotor back and its lift points down: the rest of the disk pays for both. A is "
+        "computed without it.",
+        "Open Probe and walk r at ψ = 270° through the outline; drag the advance ratio: the circle is µR wide.",
+        replace(_UH60A, advance_ratio=0.37),
+        _reverse,
+        against=replace(_UH60A, advance_ratio=0.37, reverse_flow=False),
+        field="Power dP/dr",
+    ),
+    Step(
+        "What two segments add",
+        "A is the best straight blade at this speed, B the best of two straight pieces. The valley of power is so"
+        " flat that degrees of twist decide about tenths of a per cent: compare powers, never angles.",
+        "Move Division and both rates: how far can each go before a kilowatt is lost? Or press Optimise.",
+        replace(Inputs(), two_inner=-7.9, two_outer=-16.7, two_division=0.7, advance_ratio=0.3),
+        _per_cent,
+        against=replace(_LINEAR, linear=-13.1, advance_ratio=0.3),
+        field="Thrust dT/dr",
+    ),
+    Step(
+        "What a piezo ply can move",
+        "Plies of piezoelectric fibres at ±45° twist the blade when a voltage stretches them. The tab holds what "
+        "they can reach against what the best twist asks for, and what is left after their mass is carried.",
+        "Drag a voltage and watch the blade; add plies: twist grows, so does the mass; then read the verdict.",
+        replace(_UH60A, advance_ratio=0.3),
+        _actuator,
+        tab="Actuator",
+    ),
+)

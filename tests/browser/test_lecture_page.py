@@ -1,0 +1,98 @@
+"""The lecture and the presenter on the real page."""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import pytest
+from test_page import WAIT
+from test_session_page import design_in_address, opened, shown_kw
+
+from explorer.app import App
+from explorer.lecture import STEPS
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Page
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture(scope="module")
+def app() -> Iterator[App]:
+    app = App("127.0.0.1", 0)
+    yield app
+    app.stop()
+
+
+def stands_at(page: "Page", step: int) -> None:
+    page.wait_for_selector(f'[data-explorer="lecture"][data-step="{step}"]', timeout=WAIT)
+    page.wait_for_function(
+        """() => /\\d/.test(document.querySelector('[data-explorer="said"]').innerText)""", timeout=WAIT
+    )
+
+
+def test_the_lecture_sets_the_page_and_says_what_is_seen(browser: "Browser", app: App):
+    watched = opened(browser, app)
+    page = watched.page
+    page.get_by_role("tab", name="Lecture").click()
+    page.get_by_role("button", name="Start the lecture").click()
+    stands_at(page, 1)
+    design_in_address(watched, "d=1;uh60a")
+    page.get_by_role("button", name="Next").click()
+    stands_at(page, 2)
+    design_in_address(watched, "linear:-16;mu=0")
+    said = watched.text("said")
+    assert said.startswith("Induced power: A ")
+    page.get_by_role("tab", name="Design").click()
+    watched.type("Rate", -10)
+    assert watched.until_changed(lambda: watched.text("said"), said).startswith("Induced power: A ")
+    page.keyboard.press("Escape")
+    for k in range(3, len(STEPS) + 1):
+        page.keyboard.press("PageDown")
+        stands_at(page, k)
+    assert page.get_by_role("tab", name="Actuator").get_attribute("aria-selected") == "true"
+    page.keyboard.press("PageUp")
+    stands_at(page, len(STEPS) - 1)
+    page.get_by_role("button", name="End", exact=True).click()
+    page.wait_for_selector('[data-explorer="lecture"]', state="detached", timeout=WAIT)
+    page.get_by_role("tab", name="Lecture").click()
+    page.get_by_label("Big type").check()
+    page.wait_for_function(
+        """() => parseFloat(getComputedStyle(document.querySelector('[data-explorer="total-power"]')).fontSize) > 30""",
+        timeout=WAIT,
+    )
+    assert watched.complaints == []
+    page.context.close()
+
+
+def test_others_follow_the_presenter_and_may_leave(browser: "Browser", app: App):
+    presenter = opened(browser, app)
+    page = presenter.page
+    page.get_by_role("tab", name="Lecture").click()
+    page.get_by_role("button", name="Present", exact=True).click()
+    page.wait_for_function("() => location.search.includes('present=')", timeout=WAIT)
+    (name,) = app.stage.names
+    follower = opened(browser, app, f"&follow={name}")
+    other = follower.page
+    assert "moves by itself" in follower.text("presence")
+    page.wait_for_function(
+        """() => document.querySelector('[data-explorer="presence"]').innerText.includes('1 follows')""", timeout=WAIT
+    )
+    before = shown_kw(follower)
+    page.get_by_role("tab", name="Design").click()
+    presenter.type("Adv. ratio", 0.3)
+    assert follower.until_changed(lambda: shown_kw(follower), before) == presenter.until_changed(
+        lambda: shown_kw(presenter), before
+    )
+    assert follower.row("Adv. ratio").locator("input:not([type=hidden])").last.is_disabled()
+    other.get_by_role("button", name="Leave, and go on alone").click()
+    other.wait_for_function("() => !location.search.includes('follow=')", timeout=WAIT)
+    there = shown_kw(follower)
+    presenter.type("Adv. ratio", 0.1)
+    presenter.until_changed(lambda: shown_kw(presenter), there)
+    other.wait_for_timeout(500)
+    assert shown_kw(follower) == there
+    follower.type("Adv. ratio", 0.2)
+    follower.until_changed(lambda: shown_kw(follower), there)
+    assert presenter.complaints == follower.complaints == []
+    other.context.close()
+    page.context.close()
