@@ -19,14 +19,14 @@ from explorer.svg import Point
 
 Array = NDArray[np.float64]
 
-WIDTH, HEIGHT = 312.0, 176.0
+WIDTH, HEIGHT = 312.0, 166.0
 LIFT, DRAG, ALPHA = THIS, NOW, "#099268"
 OPENED = 3
 """How many times wider small angles are drawn on request."""
-_QUARTER: Point = (126.0, 92.0)
+_QUARTER: Point = (126.0, 82.0)
 """Where the quarter chord is drawn."""
 _CHORD = 100.0
-_FASTEST, _STRONGEST = 88.0, 80.0
+_FASTEST, _STRONGEST = 88.0, 70.0
 """Lengths of the greatest velocity and load of the disk."""
 _DRAG_FACTORS = (10, 5, 2)
 """Drag is a fiftieth of the lift: on its scale it would not be seen."""

@@ -219,9 +219,10 @@ def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any,
     """Not compared with anything: kept for people to look at."""
     context = browser.new_context(viewport={"width": size[0], "height": size[1]}, color_scheme=scheme)
     watched = Watched(context.new_page())
-    watched.open(app.address, query="")
-    watched.type("Adv. ratio", 0.37)
     page = watched.page
+    page.goto(app.address)
+    page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=4 * WAIT)
+    watched.type("Adv. ratio", 0.37)
     page.get_by_role("tab", name="Probe").click()
     page.wait_for_timeout(2500)
     watched.quiet()
