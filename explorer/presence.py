@@ -42,6 +42,8 @@ class Presence:
         self._desk: Desk | None = None
         self._hands: Hands | None = None
         self._unfollow: Callable[[], None] | None = None
+        self._shown: Shown | None = None
+        """What the presenter shows."""
         self._looked = 0.0
         self._pending: threading.Timer | None = None
         self._camera: tuple[Point, Point] | None = None
@@ -104,9 +106,11 @@ class Presence:
         """Publish what the page shows, if it presents."""
         del moment
         self._publish()
+        self._hold_still()
 
     def lose(self) -> None:
         self._publish()
+        self._hold_still()
 
     def stop(self) -> None:
         """The browser has left. A presenter may come back by the same address, so followers wait."""
@@ -126,6 +130,12 @@ class Presence:
     def _announce(self, count: int) -> None:
         self._say(f"Presenting: {count} {'follows' if count == 1 else 'follow'}.")
 
+    def _hold_still(self) -> None:
+        """A follower's page shows the presenter's design: viser's number fields can be typed into even if disabled."""
+        shown, desk = self._shown, self._desk
+        if self._name and shown is not None and desk is not None and desk.inputs() != shown.inputs:
+            desk.set_inputs(shown.inputs)
+
     def _hear(self, shown: Shown | None) -> None:
         """What the presenter shows; on the presenter's thread."""
         desk, hands = self._desk, self._hands
@@ -136,6 +146,7 @@ class Presence:
             desk.tell("The presentation is over", "The page is yours.")
             return
         with self._lock:
+            self._shown = shown
             view = desk.view()
             wanted = replace(shown.view, dark=view.dark)
             if wanted != view:

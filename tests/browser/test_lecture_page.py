@@ -83,7 +83,15 @@ def test_others_follow_the_presenter_and_may_leave(browser: "Browser", app: App)
     assert follower.until_changed(lambda: shown_kw(follower), before) == presenter.until_changed(
         lambda: shown_kw(presenter), before
     )
-    assert follower.row("Adv. ratio").locator("input:not([type=hidden])").last.is_disabled()
+    follower.type("Adv. ratio", 0.2)  # Read-only: it goes back.
+    here = shown_kw(presenter)
+    other.wait_for_timeout(1500)
+    other.wait_for_function(
+        "text => document.querySelector('[data-explorer=\"total-power\"]').innerText.startsWith(text)",
+        arg=here,
+        timeout=WAIT,
+    )
+    design_in_address(follower, "mu=0.3")
     other.get_by_role("button", name="Leave, and go on alone").click()
     other.wait_for_function("() => !location.search.includes('follow=')", timeout=WAIT)
     there = shown_kw(follower)
