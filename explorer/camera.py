@@ -1,5 +1,6 @@
 """The camera of one client: fits the rotor into the canvas and follows its size until the user takes over."""
 
+import math
 import time
 from collections.abc import Callable
 from functools import partial
@@ -43,6 +44,15 @@ class FittedCamera:
         self._azimuth = azimuth
         if self._view == "blade" and self._following:
             self.aim("blade")
+
+    def pictured(self, aspect: float) -> tuple[np.ndarray, np.ndarray, float]:
+        """Orientation wxyz, position [m] and vertical field of view [rad] that show at `aspect` what the page shows."""
+        camera = self._client.camera
+        if self._following:
+            return camera.wxyz, self._fit(aspect).position, camera.fov
+        # A narrower picture takes in more height, so that nothing at the sides is lost.
+        wider = max(1.0, camera.aspect / aspect)
+        return camera.wxyz, camera.position, 2.0 * math.atan(wider * math.tan(camera.fov / 2.0))
 
     def aim_with(self, fitted: Callable[[float], Camera]) -> None:
         """The same for any other subject: `fitted` finds the camera for a canvas's width over height."""

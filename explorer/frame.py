@@ -87,6 +87,10 @@ class Frame:
         """Whether the rotor is in the scene, or makes room for something else."""
         self._scene.set_seen(seen)
 
+    def held_range(self, field: Field) -> Range:
+        """The colour range a field has on the page."""
+        return self._ranges.get(field.title, (field.low, field.high))
+
     def order_range(self, order: str) -> None:
         """Fit the colour range to the data ("Rescale") or take its own again ("Default"), in the next round."""
         self._order = order

@@ -48,6 +48,8 @@ class Report:
     when: datetime
     ranges: Mapping[str, Range] = field(default_factory=dict)
     """Colour range by title of a field where it is not the usual one; the same for all designs."""
+    own_section: bool = False
+    """Whether the reference is a design of the user's, to be shown as the others are."""
 
     def colour_range(self, shown: Field) -> Range:
         """Of a field."""
@@ -59,7 +61,13 @@ class Report:
 
     @property
     def all(self) -> tuple[Entry, ...]:
+        """The reference last."""
         return (*self.entries, self.reference)
+
+    @property
+    def shown(self) -> tuple[Entry, ...]:
+        """Those with a section and a scene of their own: the first of `all`."""
+        return self.all if self.own_section else self.entries
 
 
 def colours_of(report: Report) -> list[str]:
@@ -74,7 +82,7 @@ def fields_of(report: Report) -> list[Field]:
 
 
 def report_html(report: Report, stage: Stage | None, curves: PowerCurves | None = None) -> str:
-    """The file's text. `stage`: the 3D scenes of the entries, in their order; `curves`: power already swept."""
+    """The file's text. `stage`: the 3D scenes of `report.shown`, in their order; `curves`: power already swept."""
     several = len(report.entries) > 1
     title = f"{len(report.entries)} blades compared" if several else title_words(report.entries[0].solution.design)
     overview = [
@@ -83,7 +91,7 @@ def report_html(report: Report, stage: Stage | None, curves: PowerCurves | None 
         report_tables.comparison(report),
         report_figures.overview(report, curves or PowerCurves()),
     ]
-    sections = [_section(report, k) for k in range(len(report.entries))]
+    sections = [_section(report, k) for k in range(len(report.shown))]
     return (
         '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
         '<meta name="viewport" content="width=device-width,initial-scale=1">'
@@ -123,7 +131,7 @@ def _card(report: Report, k: int, colour: str) -> str:
     )
     change = report_tables.change_words(report, entry)
     title = escape(entry.title)
-    if entry is not report.reference:
+    if entry in report.shown:
         title = f'<a href="#design-{k}">{title}</a>'
     return (
         f'<article class="card" style="--mark:{colour}"><h3>{title}</h3>'
@@ -138,14 +146,13 @@ def _stage(report: Report, stage: Stage | None) -> str:
     if stage is None:
         return ""
     tabs = "".join(
-        f'<button type="button" data-scene="{k}">{escape(entry.title)}</button>'
-        for k, entry in enumerate(report.entries)
+        f'<button type="button" data-scene="{k}">{escape(entry.title)}</button>' for k, entry in enumerate(report.shown)
     )
     shown = FIELDS[report.view.field]
     bar = report_figures.bar(shown, report.colour_range(shown), "stage-bar")
     return (
         f'<section class="stage"><h2>The rotor in trim</h2>'
-        f'<div class="tabs">{tabs if len(report.entries) > 1 else ""}<span class="dim">'
+        f'<div class="tabs">{tabs if len(report.shown) > 1 else ""}<span class="dim">'
         "Drag to turn, right button to move, wheel to come closer.</span></div>"
         '<iframe id="viewer" title="The rotor in three dimensions"></iframe>'
         f'<div class="scale">{bar}</div><script id="stage" type="application/json">{stage.json}</script></section>'
@@ -154,7 +161,7 @@ def _stage(report: Report, stage: Stage | None) -> str:
 
 def _section(report: Report, k: int) -> str:
     """Everything about one design."""
-    entry, colour = report.entries[k], colours_of(report)[k]
+    entry, colour = report.shown[k], colours_of(report)[k]
     solution = entry.solution
     active = ""
     if solution.design.active_twist is not None:
@@ -210,6 +217,8 @@ def report_of(
     entries: Sequence[Entry],
     view: ViewState,
     ranges: Mapping[str, Range] | None = None,
+    *,
+    own_section: bool = False,
 ) -> Report:
     """A report as of now; ValueError where there is nothing to report on, or where one does not hold."""
     if not entries:
@@ -217,4 +226,4 @@ def report_of(
     for entry in (*entries, reference):
         if not entry.solution.converged:
             raise ValueError(f"{entry.title} is not trimmed, so it cannot be reported: {entry.solution.message}")
-    return Report(reference, tuple(entries), view, datetime.now().astimezone(), ranges or {})
+    return Report(reference, tuple(entries), view, datetime.now().astimezone(), ranges or {}, own_section)

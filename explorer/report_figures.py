@@ -139,7 +139,7 @@ def disks(report: "Report", entry: "Entry", k: int) -> str:
     key = "".join(
         f'<span><svg width="14" height="8">{swatch}</svg> {escape(title)}</span>' for title, swatch in keys.items()
     )
-    several = " Colours are the same for all designs." if len(report.entries) > 1 else ""
+    several = " Colours are the same for all designs." if len(report.shown) > 1 else ""
     return (
         f'<h3>Over the disk</h3><div class="disks">{"".join(figures)}</div><p class="key">{key}'
         f'<span class="dim">From above, nose up, advancing side right.{several}</span></p>'

@@ -17,6 +17,7 @@ from explorer.camera import FittedCamera
 from explorer.commands import Actions, bind_commands
 from explorer.controls import VIEW_BUTTONS, Controls
 from explorer.desk import Desk, Moment, Tab
+from explorer.export_panel import ExportPanel, Sources
 from explorer.file_panel import FilePanel
 from explorer.frame import Frame
 from explorer.history_panel import HistoryPanel
@@ -117,6 +118,8 @@ class Session:
         with tabs.add_tab("Session"):
             self._history = HistoryPanel(gui, desk, start)
             self._file = FilePanel(client, desk, LIMITS, address)
+            sources = Sources(lambda: self._camera, lambda: self._history.kept, self._frame.held_range)
+            export = ExportPanel(client, desk, sources)
         with tabs.add_tab("Lecture"):
             self._lecture = LecturePanel(client, desk, self._presence, self._enlarge)
         gui.main_panel.dock_right()
@@ -137,7 +140,7 @@ class Session:
         self._panel = panel
         self._enlarge(False)
         followers: tuple[Tab, ...] = (self._top, self._probe, sensitivity, self._waterfall)
-        self._tabs = (*followers, self._history, self._file, self._lecture, self._presence)
+        self._tabs = (*followers, self._history, self._file, export, self._lecture, self._presence)
         """Everything that only follows."""
         self._camera = FittedCamera(client, rotor.radius)
         self._actuator.shown.on_update(self._cut_switched)

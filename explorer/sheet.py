@@ -122,12 +122,14 @@ def view_sheet(solution: Solution, shown: Shown, paper: Paper, render: bytes) ->
     if not paper.beside:
         return _page(paper, seen + _above_and_below(solution, shown, paper))
     u = paper.unit
-    right = paper.width - 40 * u
-    words = _heading(solution, shown.note, 4 * u, 7 * u, 58 * u, u) + _power(
-        solution, 4 * u, paper.height - 25 * u, 33 * u, u
-    )
+    right, caveats = paper.width - 40 * u, _caveats(solution, 42 * u, u)
+    bottom = paper.height - 3 * u
+    above = bottom - 2.5 * u * sum(map(len, caveats)) - 18 * u
+    words = _heading(solution, shown.note, 4 * u, 7 * u, 58 * u, u) + _power(solution, 4 * u, above, 30 * u, u)
     scale = _scale(solution, shown, right, paper.height - 21 * u, 36 * u, u)
-    return _page(paper, seen + words + scale + _foot(paper, right, "start"))
+    return _page(
+        paper, seen + words + scale + _warning(solution, 4 * u, bottom, 42 * u, u) + _foot(paper, right + 36 * u, "end")
+    )
 
 
 _SQUARE = f"{-HALF:g} {-HALF:g} {2 * HALF:g} {2 * HALF:g}"
@@ -184,14 +186,14 @@ def _power(solution: Solution, x: float, y: float, wide: float, u: float) -> str
     power = solution.power
     values = {name: max(getattr(power, name), 0.0) for name in PARTS}
     total = max(sum(values.values()), 1.0)
-    bars, words, at = [], [], x
+    bars, words, at, columns = [], [], x, 2 if wide > 40 * u else 1
     for k, (name, value) in enumerate(values.items()):
         bars.append(
             f'<rect x="{at:.1f}" y="{y + 2.2 * u:.1f}" width="{wide * value / total:.1f}" height="{1.8 * u:.1f}" '
             f'fill="{PARTS[name]}"/>'
         )
         at += wide * value / total
-        column, row = x + (k % 2) * wide / 2, y + (7.0 + 3.1 * (k // 2)) * u
+        column, row = x + (k % columns) * wide / 2, y + (7.0 + 2.9 * (k // columns)) * u
         words.append(
             f'<rect x="{column:.1f}" y="{row - 1.5 * u:.1f}" width="{1.5 * u:.1f}" height="{1.5 * u:.1f}" '
             f'fill="{PARTS[name]}"/>'

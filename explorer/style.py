@@ -125,6 +125,11 @@ div:has(> .rx-bridge), div:has(> .rx-bridge) + div { display: none !important; }
 .rx-w-bad { fill: #d9480f; }
 .rx-w-link { stroke: currentColor; stroke-opacity: .35; stroke-width: 1; stroke-dasharray: 2 2; }
 .rx-alone tr + tr td { padding-top: 1.5px; }
+.rx-export { min-height: 34px; padding-bottom: 6px; overflow-wrap: anywhere; color: var(--mantine-color-dimmed); }
+.rx-export[data-kind=problem] { color: #c92a2a; }
+[data-mantine-color-scheme=dark] .rx-export[data-kind=problem] { color: #ff8787; }
+.rx-code { max-height: 52vh; overflow: auto; padding: 8px 10px; border-radius: 4px; font-size: 11.5px;
+  line-height: 1.4; white-space: pre-wrap; overflow-wrap: anywhere; background: rgba(128,128,128,.12); }
 .rx-trust h4 { margin: 11px 0 3px; font-size: 12.5px; line-height: 1.25; }
 .rx-trust-row { display: flex; justify-content: space-between; gap: 10px; padding: 2px 0;
   border-top: 1px solid rgba(128,128,128,.18); }

@@ -5,6 +5,7 @@ import io
 import json
 import secrets
 import threading
+import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
@@ -15,6 +16,7 @@ from viser import _messages
 
 from explorer import uploads
 from explorer.gate import Gate
+from explorer.picture_in_page import picture_script
 
 _starting = threading.Lock()
 
@@ -156,3 +158,28 @@ def open_tab(client: viser.ClientHandle, name: str) -> None:
     """Open the tab of that name, as Enter on it would: viser's tabs are dragged, so they do not hear clicks."""
     tab = f"[...document.querySelectorAll('[role=tab]')].find(t=>t.textContent.trim()==={json.dumps(name)})"
     run_in_page(client, f"{tab}?.dispatchEvent(new KeyboardEvent('keydown',{{key:'Enter',bubbles:true}}))")
+
+
+def save_picture(client: viser.ClientHandle, drawing: str, size: tuple[int, int], name: str, patience: float) -> int:
+    """Have the page save an SVG as a PNG of `size` pixels; how many bytes it has. Not to be called on the event loop.
+
+    RuntimeError with the browser's reason where it could not, or has left; TimeoutError after `patience` [s].
+    """
+    key = f"picture-{client.client_id}-{secrets.token_hex(4)}"
+    run_in_page(client, picture_script(drawing, *size, name, key))
+    deadline = time.monotonic() + patience
+    while (said := client.local_storage.get_item(key, timeout=patience)) is None:
+        if time.monotonic() > deadline:
+            raise TimeoutError(f"the page has not drawn the picture within {patience:g} s")
+        time.sleep(0.1)
+    client.local_storage.remove_item(key)
+    if not said.isdigit():
+        raise RuntimeError(said.removeprefix("failed: "))
+    return int(said)
+
+
+def reveal(client: viser.ClientHandle, tab: str, selector: str) -> None:
+    """Open a tab by its name and bring an element of it before the eyes."""
+    open_tab(client, tab)
+    seen = f"document.querySelector({json.dumps(selector)})?.scrollIntoView({{block:'center'}})"
+    run_in_page(client, f"setTimeout(()=>{seen},200)")

@@ -28,6 +28,7 @@ KNOW_VISER = {
     "probe_cursor.py",
     "probe_panel.py",
     "controls.py",
+    "export_panel.py",
     "map_panel.py",
     "optimise_panel.py",
     "overlays.py",

@@ -1,0 +1,206 @@
+"""The Export folder in a real browser: every button saves a file that is right, and the report opens by itself."""
+
+import io
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+import trimesh
+from chromium import DRAW_NOTHING
+from PIL import Image
+from test_page import SMALL, Watched
+
+from explorer.app import App
+from explorer.state import Inputs
+from rotor.solve import solve
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, BrowserContext
+
+pytestmark = pytest.mark.browser
+WAIT = 60_000
+"""[ms]; a report or a picture beside a browser that draws in software."""
+FAST = Inputs(law="linear", linear=-16.0, advance_ratio=0.41)
+"""A design with a caveat."""
+
+
+@pytest.fixture(scope="module")
+def app() -> Iterator[App]:
+    app = App("127.0.0.1", 0, FAST)
+    yield app
+    app.stop()
+
+
+@pytest.fixture(scope="module")
+def context(browser: "Browser") -> "Iterator[BrowserContext]":
+    context = browser.new_context(
+        viewport=SMALL,  # pyright: ignore[reportArgumentType]
+        permissions=["clipboard-read", "clipboard-write"],
+    )
+    context.add_init_script(DRAW_NOTHING)
+    yield context
+    context.close()
+
+
+@pytest.fixture(scope="module")
+def shared(context: "BrowserContext", app: App) -> Watched:
+    watched = Watched(context.new_page())
+    watched.page.goto(app.address + "?fixedDpr=0.5")
+    watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
+    watched.page.get_by_role("tab", name="Session").click()
+    watched.page.wait_for_selector('[data-explorer="export"]')
+    return watched
+
+
+@pytest.fixture
+def watched(shared: Watched) -> Iterator[Watched]:
+    yield shared
+    assert shared.complaints == []
+
+
+def until(watched: Watched, kind: str) -> str:
+    watched.page.wait_for_selector(f'[data-explorer="export"][data-kind="{kind}"]', timeout=WAIT)
+    return watched.text("export")
+
+
+def saved(watched: Watched, button: str, folder: Path) -> Path:
+    """What a button downloads."""
+    with watched.page.expect_download(timeout=WAIT) as download:
+        watched.page.get_by_role("button", name=button, exact=True).click()
+    path = folder / download.value.suggested_filename
+    download.value.save_as(path)
+    assert download.value.suggested_filename in until(watched, "done")
+    return path
+
+
+def test_shapes_are_closed_and_to_scale(watched: Watched, tmp_path: Path):
+    design = FAST.design()
+    blade = trimesh.load_mesh(saved(watched, "Blade STL", tmp_path))
+    assert isinstance(blade, trimesh.Trimesh)
+    assert blade.is_watertight
+    assert blade.volume > 0.0
+    assert blade.bounds[1, 0] == pytest.approx(design.rotor.radius, rel=1e-6)
+    scene = trimesh.load_scene(saved(watched, "Rotor GLB", tmp_path))
+    assert isinstance(scene, trimesh.Scene)
+    assert len([name for name in scene.graph.nodes_geometry if name.startswith("blade")]) == design.rotor.blades
+
+
+@pytest.mark.parametrize(("button", "rows"), [("Disk", 40 * 120), ("Blade", 40), ("Power", 17)])
+def test_tables_are_read_back(watched: Watched, tmp_path: Path, button: str, rows: int):
+    text = saved(watched, button, tmp_path).read_text(encoding="utf-8")
+    lines = [line for line in text.splitlines() if not line.startswith("#")]
+    table = np.genfromtxt(io.StringIO("\n".join(lines)), delimiter=",", skip_header=1)
+    assert table.shape == (rows, lines[0].count(",") + 1)
+    assert np.isfinite(table[:, 0]).all()
+    assert "linear:-16" in text
+
+
+def test_pictures_have_the_pixels_asked_for(watched: Watched, tmp_path: Path):
+    watched.choose("Size [px]", "1280 × 720")
+    with Image.open(saved(watched, "PNG", tmp_path)) as disk:
+        assert disk.size == (1280, 720)
+        assert disk.getpixel((3, 3)) == (255, 255, 255, 255)
+        assert len(disk.convert("RGB").getcolors(1 << 21) or []) > 200  # Something is drawn.
+    drawing = saved(watched, "SVG", tmp_path).read_text(encoding="utf-8")
+    assert drawing.startswith('<svg xmlns="http://www.w3.org/2000/svg" width="1280" height="720"')
+    watched.choose("Picture", "3D view")
+    watched.page.get_by_role("button", name="SVG", exact=True).click()
+    assert "save it as PNG" in until(watched, "problem")
+    watched.choose("Size [px]", "2000 × 2000")
+    with Image.open(saved(watched, "PNG", tmp_path)) as view:
+        assert view.size == (2000, 2000)
+    watched.choose("Size [px]", "Own size")
+    watched.page.get_by_text("W, H [px]").wait_for(timeout=WAIT)
+    first, second = watched.row("W, H").locator("input:not([type=hidden])").all()
+    first.fill("3000")
+    watched.page.wait_for_timeout(100)
+    second.fill("400")
+    watched.page.keyboard.press("Enter")
+    watched.page.wait_for_timeout(100)
+    watched.page.get_by_role("button", name="PNG", exact=True).click()
+    assert re.search(r"3000 × 400 leaves no room", until(watched, "problem"))
+    watched.choose("Picture", "Disk")
+
+
+def test_text_is_shown_copied_and_has_the_power_of_the_page(watched: Watched):
+    page, power = watched.page, solve(FAST.design()).power.total
+    page.get_by_role("button", name="Command", exact=True).click()
+    command = page.wait_for_selector('[data-explorer="code"]', timeout=WAIT)
+    assert command is not None
+    assert command.inner_text().strip() == "python -m rotor solve --mu 0.41 --twist linear:-16 --mass-kg 8320"
+    assert page.evaluate("navigator.clipboard.readText()").strip() == command.inner_text().strip()
+    page.get_by_role("button", name="Close", exact=True).click()
+    page.wait_for_selector('[data-explorer="code"]', state="detached")
+    page.get_by_role("button", name="Python", exact=True).click()
+    page.wait_for_selector('[data-explorer="code"]', timeout=WAIT)
+    names: dict[str, Any] = {}
+    exec(compile(page.evaluate("navigator.clipboard.readText()"), "copied", "exec"), names)
+    assert names["solution"].power.total == pytest.approx(power, rel=1e-9)
+    page.get_by_role("button", name="Close", exact=True).click()
+
+
+def test_the_report_opens_without_a_server_and_asks_for_nothing(
+    watched: Watched, context: "BrowserContext", tmp_path: Path
+):
+    shown = watched.text("total-power")
+    watched.page.get_by_role("button", name="Keep", exact=True).click()
+    path = saved(watched, "Report of this session", tmp_path)
+    assert path.stat().st_size < 3_000_000
+    report = Watched(context.new_page())
+    asked: list[str] = []
+    report.page.on("request", lambda request: asked.append(request.url))
+    with report.page.expect_console_message(lambda message: "Embedded data loaded" in message.text, timeout=WAIT):
+        report.page.goto(path.as_uri())
+    assert report.page.locator('[data-report="total-power"]').first.inner_text() == shown
+    assert "quasi-steady sections" in report.page.inner_text(".care")
+    ground = "() => getComputedStyle(document.body).backgroundColor"
+    light = report.page.evaluate(ground)
+    report.page.get_by_role("button", name="Dark / light").click()
+    assert report.page.evaluate(ground) != light
+    report.page.wait_for_timeout(500)
+    assert [url for url in asked if not url.startswith(("file:", "blob:", "data:", "about:"))] == []
+    assert asked.count(path.as_uri()) == 1
+    assert report.complaints == []
+    report.page.close()
+
+
+def test_the_key_brings_the_folder_before_the_eyes(watched: Watched):
+    watched.page.get_by_role("tab", name="Design").click()
+    watched.page.keyboard.press("Escape")
+    watched.page.keyboard.press("x")
+    watched.page.wait_for_selector('[data-explorer="export"]', state="visible", timeout=WAIT)
+
+
+def test_a_design_without_an_answer_is_said_to_have_none(watched: Watched, tmp_path: Path):
+    watched.page.get_by_role("tab", name="Design").click()
+    watched.type("Altitude", 4000.0)
+    watched.page.wait_for_selector('[data-explorer="status"][data-kind="problem"]', timeout=WAIT)
+    watched.page.get_by_role("tab", name="Session").click()
+    path = saved(watched, "Power", tmp_path)
+    assert "the sliders have none" in watched.text("export")
+    assert "8320 kg, 0 m" in path.read_text(encoding="utf-8")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_screenshots_of_report_and_pictures(browser: "Browser", app: App, artefacts: Path, tmp_path: Path, scheme: Any):
+    """Not compared with anything: kept for people to look at."""
+    context = browser.new_context(viewport={"width": 1280, "height": 720}, color_scheme=scheme)
+    watched = Watched(context.new_page())
+    watched.page.goto(app.address)
+    watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
+    watched.page.get_by_role("tab", name="Session").click()
+    watched.page.get_by_role("button", name="Keep", exact=True).click()
+    watched.choose("Picture", "3D view")
+    picture = saved(watched, "PNG", tmp_path)
+    picture.rename(artefacts / f"export-view-{scheme}.png")
+    report = Watched(context.new_page())
+    report.page.goto(saved(watched, "Report of this session", tmp_path).as_uri())
+    report.page.wait_for_timeout(6000)
+    report.page.screenshot(path=artefacts / f"report-{scheme}.png", full_page=True)
+    assert not re.search(r"\b(NaN|nan|inf|undefined)\b", report.page.inner_text("body"))
+    assert watched.complaints == report.complaints == []
+    context.close()
