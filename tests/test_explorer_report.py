@@ -43,7 +43,7 @@ SVG = "{http://www.w3.org/2000/svg}"
 class Swept(PowerCurves):
     """Curves that cost nothing."""
 
-    def sweep(self, design: Design, reference: Design, superseded: object) -> bool:
+    def sweep(self, design: Design, reference: Design, superseded: object, known: object = None) -> bool:
         return True
 
     def known(self, design: Design, reference: Design) -> PowerCurve:
