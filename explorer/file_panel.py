@@ -9,7 +9,7 @@ import viser
 from explorer import share, viser_compat
 from explorer.address import Address
 from explorer.desk import Desk, Moment
-from explorer.state import Inputs, inputs_of
+from explorer.state import inputs_of
 from rotor.case import case_of, parse_case
 
 MOST_BYTES = 1_000_000
@@ -35,12 +35,23 @@ class FilePanel:
         self._save.on_click(lambda _: self.save())
         self._load.on_upload(self._loaded)
 
-    def follow(self, inputs: Inputs) -> None:
-        """Bring the address into line with the design."""
-        try:
-            self._address[share.DESIGN] = share.code_of(inputs.design())
-        except ValueError:
-            return  # It has no address; the last one stays.
+    def follow(self, moment: Moment) -> None:
+        """Bring the address into line with the design, and with the one that is pinned."""
+        pinned = None if moment.pin is None else moment.pin.inputs
+        for name, inputs in ((share.DESIGN, moment.inputs), (share.PINNED, pinned)):
+            try:
+                self._address[name] = None if inputs is None else share.code_of(inputs.design())
+            except ValueError:
+                continue  # It has no address; the last one stays.
+
+    def begin(self) -> None:
+        """Pin what the address says is pinned."""
+        code = self._address[share.PINNED]
+        if code is not None:
+            try:
+                self._desk.pin(share.inputs_from(code, self._limits))
+            except ValueError as error:
+                self._desk.tell("Not the A of the link", str(error))
 
     def copy_link(self) -> None:
         """The page's address into the clipboard."""

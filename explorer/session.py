@@ -152,6 +152,7 @@ class Session:
         self._top.bind(desk)
         self._presence.begin(desk, Hands(lambda: self._lecture.step, self._lecture.follow, self._controls.hold))
         bind_commands(desk, Actions(self._look, self._colour, self._check, self._reset, self._optimise.toggle))
+        self._file.begin()
         if problem:
             self._notify("Not the design of the link", problem)
 
@@ -235,9 +236,9 @@ class Session:
         if not overtaken():
             for tab in self._tabs:
                 tab.show(moment)
-            self._file.follow(inputs)
+            self._file.follow(moment)
         if self._curves.sweep(design, reference, overtaken, show_power):
-            self._file.follow(inputs)
+            self._file.follow(moment)
             self._waterfall.climb(overtaken)
 
     def _settle(self, inputs: Inputs, solution: Solution | None) -> bool:

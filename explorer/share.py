@@ -15,6 +15,8 @@ from rotor.presets import make_design
 VERSION = 1
 DESIGN = "d"
 """Name of the design in the address."""
+PINNED = "a"
+"""Name of the design that is pinned beside it."""
 LONGEST = 1800
 """Characters a design may take: the length of address that every browser and mail program carries."""
 

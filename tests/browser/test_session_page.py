@@ -87,9 +87,12 @@ def test_the_address_is_the_design(browser: "Browser", app: App):
     design_in_address(watched, "linear:-9.8;mu=0.3")
     assert "fixedDpr=0.5" in watched.page.url
     shown = shown_kw(watched)
+    watched.page.get_by_role("button", name="Pin as A").click()
+    design_in_address(watched, "&a=1;linear:-9.8;mu=0.3")
     watched.page.reload()
     watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
     assert shown_kw(watched) == shown
+    watched.page.get_by_role("button", name="Back to A").wait_for(timeout=WAIT)
     watched.page.context.close()
 
 
