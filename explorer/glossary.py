@@ -61,6 +61,13 @@ CONTROLS: dict[str, Entry] = {
     "vortex_check": Entry(
         "Solves the same design with rigid helical vortices, the reference of the others.", section=9
     ),
+    "play": Entry("Walks the marked blade round the disk, flapping and pitching as it does; nothing is solved anew."),
+    "play_speed": Entry("How fast the marked blade is walked; a real one needs a fraction of a second for a turn."),
+    "probe_r": Entry("Where along the blade; or click the disk, or press arrow up and down."),
+    "probe_psi": Entry("Where round the disk, 0° over the tail; arrow left and right.", section=1),
+    "probe_follow": Entry("The probe sits on the marked blade: where one goes, the other follows."),
+    "probe_shown": Entry("Ring and ray on the disk where the probe is, and its section on the blade."),
+    "probe_opened": Entry("Draws angles up to three times wider, to make the triangle of velocities visible."),
     "units": Entry("kW, km/h, t and m, or hp, kt, lb and ft."),
     "dark": Entry("Light letters on a dark page."),
     "reset": Entry("Back to the design the page began with."),
@@ -105,6 +112,27 @@ READOUTS: dict[str, Entry] = {
         "Angle of attack along the marked blade, and its stall angles; gaps: reverse flow.", section=8
     ),
     "chart_lift": Entry("Section lift coefficient along the marked blade.", ("3.8",)),
+    "probe_alpha": Entry("α = θ − φ: pitch less inflow angle, about the blade's reference line.", section=8),
+    "probe_region": Entry("Attached, beyond the stall angle, beyond drag divergence, or met from behind.", section=5),
+    "probe_u_t": Entry("Velocity in the plane of the disk and normal to the blade; negative: from behind.", ("3.5",)),
+    "probe_u_p": Entry("Velocity down through the blade: inflow, flapping and coning.", ("3.6",)),
+    "probe_induced": Entry("Velocity down that the rotor's own wake induces here.", section=9),
+    "probe_theta": Entry("Pitch here: collective, cyclic and twist.", section=1),
+    "probe_phi": Entry("How steeply the air comes down, φ = atan2(U_P, U_T); near 180° it comes from behind.", section=8),
+    "probe_margin": Entry("Angle of attack left before the section stalls at this Mach number.", section=5),
+    "probe_section": Entry("Whose measured or computed coefficients hold here.", section=5),
+    "probe_mach": Entry("Resultant velocity over the speed of sound.", section=8),
+    "probe_cl": Entry("Section lift coefficient at this α and Mach number.", section=5),
+    "probe_cd": Entry("Section drag coefficient at this α and Mach number.", section=5),
+    "probe_ratio": Entry("Lift over drag of the section.", section=5),
+    "probe_m2cn": Entry("Normal force over chord and γp/2: what vibration and stall are read from.", section=8),
+    "probe_drag": Entry("Force along the flow, of one blade and a metre of it.", ("3.8",)),
+    "probe_thrust": Entry("Force along the shaft, of one blade and a metre of it; losses taken off.", ("2.17", "3.8")),
+    "probe_torque": Entry("About the shaft, against the rotation, of one blade and a metre of it.", ("2.18", "3.10")),
+    "probe_power": Entry("Torque times rotor speed; negative where the air drives the blade.", section=12),
+    "chart_lift_curve": Entry(
+        "The section's own curve at this Mach number, and where the element is on it.", section=5
+    ),
     "chart_sensitivity": Entry("What a degree more pitch costs at each place along the blade, trim kept.", section=13),
 }
 

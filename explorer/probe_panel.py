@@ -8,6 +8,7 @@ import viser
 
 from explorer.actuator_blades import blade_twists
 from explorer.desk import Desk, Moment
+from explorer.glossary import hint
 from explorer.keys import COARSE
 from explorer.pick import pick
 from explorer.player import Player
@@ -18,6 +19,8 @@ from explorer.readout import faded
 from rotor.blade import Rotor
 from rotor.solution import Solution
 
+LONGEST = 600.0
+"""Play ends after this time [s]: a page that was forgotten may fall asleep."""
 _R_STEP, _PSI_STEP = 0.01, 1.0
 _STEPS = {"out": (_R_STEP, 0.0), "in": (-_R_STEP, 0.0), "on": (0.0, _PSI_STEP), "back": (0.0, -_PSI_STEP)}
 
@@ -44,16 +47,18 @@ class ProbePanel:
         self._player = Player(self._walk, f"play-{client.client_id}")
         self._walked: float | None = None
         """Where the clock left the marked blade [deg]."""
+        self._left = 0.0
+        """How long it may play on [s]."""
         gui = client.gui
-        self._button = gui.add_button("Play", icon=viser.Icon.PLAYER_PLAY)
-        self._speed = gui.add_slider("Speed [°/s]", 5.0, 120.0, 5.0, 40.0, hint="At which the marked blade goes round.")
+        self._button = gui.add_button("Play", icon=viser.Icon.PLAYER_PLAY, hint=hint("play"))
+        self._speed = gui.add_slider("Speed [°/s]", 5.0, 120.0, 5.0, 40.0, hint=hint("play_speed"))
         root = _R_STEP * math.ceil(rotor.blade.root_cutout / _R_STEP)
-        self._r = gui.add_slider("Radius r/R", root, 1.0, _R_STEP, 0.75, hint="Or click the disk; arrows up and down.")
-        self._psi = gui.add_slider("Azimuth ψ [°]", 0.0, 360.0, _PSI_STEP, 60.0, hint="Arrows left and right.")
+        self._r = gui.add_slider("Radius r/R", root, 1.0, _R_STEP, 0.75, hint=hint("probe_r"))
+        self._psi = gui.add_slider("Azimuth ψ [°]", 0.0, 360.0, _PSI_STEP, 60.0, hint=hint("probe_psi"))
         self._panel = gui.add_html("")
-        self._follow = gui.add_checkbox("With the blade", True, hint="The probe sits on the marked blade.")
-        self._shown = gui.add_checkbox("On the disk", False, hint="Ring and ray where the probe is; key B.")
-        self._opened = gui.add_checkbox("Angles ×3", False, hint="Draw small angles wider, to see the triangle.")
+        self._follow = gui.add_checkbox("With the blade", True, hint=hint("probe_follow"))
+        self._shown = gui.add_checkbox("On the disk", False, hint=hint("probe_shown"))
+        self._opened = gui.add_checkbox("Angles ×3", False, hint=hint("probe_opened"))
         self._button.on_click(lambda _: self.toggle())
         self._psi.on_update(lambda event: self._psi_moved() if event.client is not None else None)
         self._r.on_update(lambda event: self._moved() if event.client is not None else None)
@@ -101,19 +106,22 @@ class ProbePanel:
         if self._player.playing or self._desk.moment() is None:
             self._pause()
             return
-        self._walked = None
+        self._walked, self._left = None, LONGEST
         self._player.play()
         self._button.label, self._button.icon = "Pause", viser.Icon.PLAYER_PAUSE
 
     def _pause(self) -> None:
-        self._player.pause()
+        if self._player.playing:
+            self._player.pause()
+            self._desk.wake()  # What does not follow every turn of the blade follows now.
         self._button.label, self._button.icon = "Play", viser.Icon.PLAYER_PLAY
 
     def _walk(self, seconds: float) -> None:
         """A step of the clock."""
         now = self._desk.view().azimuth_deg
-        if self._walked is not None and now != self._walked:
-            self._pause()  # The user has taken the blade.
+        self._left -= seconds
+        if (self._walked is not None and now != self._walked) or self._left <= 0.0:
+            self._pause()  # The user has taken the blade, or gone.
             return
         self._walked = (now + self._speed.value * seconds) % 360.0
         self._desk.turn(self._walked)

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from explorer import svg
 from explorer.colours import LIMIT, NOW
+from explorer.glossary import tip
 from explorer.probe import Blend, Probe, Region
 from explorer.probe_drawing import ALPHA, DRAG, LIFT, Scales, drawing
 from explorer.readout import number, section_title
@@ -52,12 +53,13 @@ def sections_of(section: Blend) -> str:
 
 
 def _head(probe: Probe) -> str:
+    alpha, region = tip("probe_alpha"), tip("probe_region")
+    chip = f"rx-push rx-chip rx-chip-{_CHIPS[probe.region]}"
     return (
-        '<div class="rx-line rx-base"><span class="rx-best" data-explorer="probe-alpha">'
+        f'<div class="rx-line rx-base"><span class="rx-best" data-explorer="probe-alpha"{alpha}>'
         f"α {_deg(probe.alpha, 1)}</span>"
         f'<span class="rx-dim" data-explorer="probe-place">{where(probe.psi)}</span>'
-        f'<span class="rx-push rx-chip rx-chip-{_CHIPS[probe.region]}" data-explorer="probe-region">'
-        f"{probe.region.value}</span></div>"
+        f'<span class="{chip}" data-explorer="probe-region"{region}>{probe.region.value}</span></div>'
     )
 
 
@@ -80,26 +82,26 @@ def _table(probe: Probe) -> str:
     margin = probe.stall_margin
     efficiency = probe.cl / probe.cd if probe.cd > 0.0 else None
     entries = (
-        ("In plane U<sub>T</sub>", f"{number(probe.u_t, 1)} m/s"),
-        ("Mach", number(probe.mach, 3)),
-        ("Down U<sub>P</sub>", f"{number(probe.u_p, 1)} m/s"),
-        ("C<sub>l</sub>", number(probe.cl, 3)),
-        ("Induced v<sub>i</sub>", f"{number(probe.induced, 1)} m/s"),
-        ("C<sub>d</sub>", number(probe.cd, 4)),
-        ("Pitch θ", _deg(probe.theta)),
-        ("C<sub>l</sub>/C<sub>d</sub>", number(efficiency, 1)),
-        ("Inflow φ", _deg(probe.phi)),
-        ("M²c<sub>n</sub>", number(probe.m2cn, 3)),
-        ("Stall margin", "–" if margin is None else _deg(margin, 1)),
-        ("Drag", f"{number(probe.drag)} N/m"),
-        ("Thrust", f"{number(probe.thrust / 1e3, 2)} kN/m"),
-        ("Torque", f"{number(probe.torque / 1e3, 2)} kN m/m"),
-        ("Section", escape(sections_of(probe.section))),
-        ("Power", f"{number(probe.power / 1e3, 1)} kW/m"),
+        ("probe_u_t", "In plane U<sub>T</sub>", f"{number(probe.u_t, 1)} m/s"),
+        ("probe_mach", "Mach", number(probe.mach, 3)),
+        ("probe_u_p", "Down U<sub>P</sub>", f"{number(probe.u_p, 1)} m/s"),
+        ("probe_cl", "C<sub>l</sub>", number(probe.cl, 3)),
+        ("probe_induced", "Induced v<sub>i</sub>", f"{number(probe.induced, 1)} m/s"),
+        ("probe_cd", "C<sub>d</sub>", number(probe.cd, 4)),
+        ("probe_theta", "Pitch θ", _deg(probe.theta)),
+        ("probe_ratio", "C<sub>l</sub>/C<sub>d</sub>", number(efficiency, 1)),
+        ("probe_phi", "Inflow φ", _deg(probe.phi)),
+        ("probe_m2cn", "M²c<sub>n</sub>", number(probe.m2cn, 3)),
+        ("probe_margin", "Stall margin", "–" if margin is None else _deg(margin, 1)),
+        ("probe_drag", "Drag", f"{number(probe.drag)} N/m"),
+        ("probe_thrust", "Thrust", f"{number(probe.thrust / 1e3, 2)} kN/m"),
+        ("probe_torque", "Torque", f"{number(probe.torque / 1e3, 2)} kN m/m"),
+        ("probe_section", "Section", escape(sections_of(probe.section))),
+        ("probe_power", "Power", f"{number(probe.power / 1e3, 1)} kW/m"),
     )
     cells = "".join(
-        f'<div class="rx-line"><span class="rx-dim">{name}</span><span class="rx-num">{value}</span></div>'
-        for name, value in entries
+        f'<div class="rx-line"{tip(key)}><span class="rx-dim">{name}</span><span class="rx-num">{value}</span></div>'
+        for key, name, value in entries
     )
     return f'<div class="rx-grid">{cells}</div>'
 
@@ -138,7 +140,7 @@ def lift_curve(probe: Probe) -> str:
     if not probe.idle:
         marks.append(f'<circle cx="{here[0]:.1f}" cy="{here[1]:.1f}" r="4" fill="{NOW}" stroke="{svg.BODY}"/>')
     return (
-        '<div class="rx-line rx-probe-title"><span><b>Lift curve</b></span>'
+        f'<div class="rx-line rx-probe-title"{tip("chart_lift_curve")}><span><b>Lift curve</b></span>'
         f'<span class="rx-dim">C<sub>l</sub> over α at Mach {number(probe.table_mach, 2)}</span>'
         f'<span><span class="rx-dash" style="background:{LIMIT}"></span>stall</span></div>'
         f'<svg viewBox="0 0 {_WIDTH:g} {_HEIGHT:g}" width="100%" role="img" '

@@ -240,6 +240,11 @@ class TestDrawing:
         for value in (f"{p.u_t:.1f} m/s", f"{p.mach:.3f}", f"{p.cl:.3f}", f"{p.cd:.4f}", f"{p.power / 1e3:.1f} kW/m"):
             assert value in text
 
+    def test_every_line_explains_itself(self, fast: Solution):
+        panel = probe_panel(probe(fast, 0.75, 1.0), fast)
+        grid = panel.split('<div class="rx-grid">')[1].split("</div></div>")[0]
+        assert grid.count('<div class="rx-line"') == grid.count("title=") == 16
+
     def test_the_point_lies_on_the_lift_curve(self, fast: Solution):
         """At a station exactly; between two as near as the stations are."""
         disk = fast.disk
