@@ -118,7 +118,9 @@ READOUTS: dict[str, Entry] = {
     "probe_u_p": Entry("Velocity down through the blade: inflow, flapping and coning.", ("3.6",)),
     "probe_induced": Entry("Velocity down that the rotor's own wake induces here.", section=9),
     "probe_theta": Entry("Pitch here: collective, cyclic and twist.", section=1),
-    "probe_phi": Entry("How steeply the air comes down, φ = atan2(U_P, U_T); near 180° it comes from behind.", section=8),
+    "probe_phi": Entry(
+        "How steeply the air comes down, φ = atan2(U_P, U_T); near 180° it comes from behind.", section=8
+    ),
     "probe_margin": Entry("Angle of attack left before the section stalls at this Mach number.", section=5),
     "probe_section": Entry("Whose measured or computed coefficients hold here.", section=5),
     "probe_mach": Entry("Resultant velocity over the speed of sound.", section=8),
