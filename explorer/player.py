@@ -1,8 +1,11 @@
 """A clock that walks something on in small steps, in a thread of its own that lives only while it plays."""
 
+import logging
 import threading
 import time
 from collections.abc import Callable
+
+_log = logging.getLogger(__name__)
 
 BEAT = 0.05
 """Time between steps [s]; more often than 20 times a second no browser is asked to draw."""
@@ -43,8 +46,7 @@ class Player:
             now = time.monotonic()
             try:
                 self._step(now - before)
-            except Exception:
-                # Whoever is walked has gone, as a browser may at any moment: there is nothing to play to.
+            except Exception:  # Whoever is walked has gone, as a browser may at any moment.
                 self.pause()
-                raise
+                _log.exception("play ended")
             before = now

@@ -52,8 +52,7 @@ class ProbePanel:
         gui = client.gui
         self._button = gui.add_button("Play", icon=viser.Icon.PLAYER_PLAY, hint=hint("play"))
         self._speed = gui.add_slider("Speed [°/s]", 5.0, 120.0, 5.0, 40.0, hint=hint("play_speed"))
-        root = _R_STEP * math.ceil(rotor.blade.root_cutout / _R_STEP)
-        self._r = gui.add_slider("Radius r/R", root, 1.0, _R_STEP, 0.75, hint=hint("probe_r"))
+        self._r = gui.add_slider("Radius r/R", _innermost(rotor), 1.0, _R_STEP, 0.75, hint=hint("probe_r"))
         self._psi = gui.add_slider("Azimuth ψ [°]", 0.0, 360.0, _PSI_STEP, 60.0, hint=hint("probe_psi"))
         self._panel = gui.add_html("")
         self._follow = gui.add_checkbox("With the blade", True, hint=hint("probe_follow"))
@@ -71,7 +70,9 @@ class ProbePanel:
         """Follow a converged answer, or the marked blade."""
         if self._follow.value and self._psi.value != moment.view.azimuth_deg:
             self._psi.value = moment.view.azimuth_deg
-        solution, place = moment.solution, self._place()
+        solution = moment.solution
+        self._r.min = _innermost(solution.design.rotor)
+        place = self._place()
         here = self._probe(solution, place)
         tied = abs(math.remainder(place.psi_deg - moment.view.azimuth_deg, 360.0)) < 0.5 * _PSI_STEP
         pitch = _drawn_pitch(moment, here) if tied else None
@@ -130,8 +131,8 @@ class ProbePanel:
         return _Place(self._r.value, self._psi.value, self._shown.value and self._seen, self._opened.value)
 
     def _probe(self, solution: Solution, place: _Place) -> Probe:
-        root = solution.design.rotor.blade.root_cutout
-        return probe(solution, min(max(place.r, root), 1.0), math.radians(place.psi_deg))
+        r = min(max(place.r, _innermost(solution.design.rotor)), 1.0)
+        return probe(solution, r, math.radians(place.psi_deg))
 
     def _set(self, r: float, psi_deg: float) -> None:
         """Move the probe, and with it the marked blade where they are tied."""
@@ -170,6 +171,11 @@ class ProbePanel:
             bind(f"probe_{name}", partial(self._step, r, psi))
             bind(f"probe_far_{name}", partial(self._step, COARSE * r, COARSE * psi))
         bind("probe_hide", self._hide)
+
+
+def _innermost(rotor: Rotor) -> float:
+    """The first step of r/R on the blade."""
+    return round(_R_STEP * math.ceil(rotor.blade.root_cutout / _R_STEP - 1e-9), 2)
 
 
 def _drawn_pitch(moment: Moment, here: Probe) -> float:
