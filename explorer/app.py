@@ -14,6 +14,7 @@ from explorer.guest import Guest
 from explorer.hall import Hall
 from explorer.house import House
 from explorer.jobs import Pool
+from explorer.page import veiled
 from explorer.presentation import Stage
 from explorer.session import Session
 from explorer.state import Inputs
@@ -37,7 +38,8 @@ class App:
         self._hall: Hall[Guest] = Hall(self._house.sessions)
         self.pool = Pool()
         self.stage = Stage()
-        gate = Gate(Doors(host, self._house.allow_hosts), self._house.connections)
+        doors, page = Doors(host, self._house.allow_hosts), veiled(viser_compat.client_html())
+        gate = Gate(doors, self._house.connections, page)
         self.server = viser_compat.quiet_server(host, port, "Rotor explorer", gate)
         viser_compat.remove_share_tunnel(self.server)
         self.server.on_client_connect(self._connected)

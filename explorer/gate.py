@@ -17,6 +17,7 @@ from websockets.http11 import Request, Response
 
 from explorer.doors import Doors
 from explorer.meter import LARGEST, Meter
+from explorer.page import Page
 
 _log = logging.getLogger(__name__)
 
@@ -40,6 +41,8 @@ class Gate:
     doors: Doors
     connections: int
     """WebSockets at once; more than sessions, for some wait, sleep, or have not said who they are."""
+    page: Page | None = None
+    """What is served in place of the server's own page."""
 
     def around(self, handler: Handler, options: dict[str, Any]) -> tuple[Handler, dict[str, Any]]:
         """A server's handler and options with the gate before them."""
@@ -59,6 +62,8 @@ class Gate:
                 return _plain(http.HTTPStatus.FORBIDDEN, sentence)
             if upgrade and len(connection.server.connections) >= self.connections:
                 return _plain(http.HTTPStatus.SERVICE_UNAVAILABLE, "Too many pages are open: try again later.")
+            if not upgrade and self.page is not None and request.path.partition("?")[0] in ("/", "/index.html"):
+                return _served(self.page, request)
             answer = inner(connection, request)
             if answer is not None:
                 for name, value in _HEADERS.items():
@@ -104,6 +109,20 @@ async def _part(connection: ServerConnection, code: CloseCode, reason: str) -> N
     with contextlib.suppress(TimeoutError):
         await asyncio.wait_for(connection.close(code, reason), _PARTING)
     connection.transport.abort()
+
+
+def _served(page: Page, request: Request) -> Response:
+    """The page, or the word that the browser's own copy still holds."""
+    headers = Headers({"ETag": page.tag, "Cache-Control": "no-cache", "Vary": "Accept-Encoding", **_HEADERS})
+    if page.tag in ",".join(request.headers.get_all("If-None-Match")):
+        return Response(http.HTTPStatus.NOT_MODIFIED, http.HTTPStatus.NOT_MODIFIED.phrase, headers)
+    packs = "gzip" in ",".join(request.headers.get_all("Accept-Encoding"))
+    body = page.packed if packs else page.html
+    headers["Content-Type"] = "text/html; charset=utf-8"
+    headers["Content-Length"] = str(len(body))
+    if packs:
+        headers["Content-Encoding"] = "gzip"
+    return Response(http.HTTPStatus.OK, http.HTTPStatus.OK.phrase, headers, body)
 
 
 def _plain(status: http.HTTPStatus, sentence: str) -> Response:

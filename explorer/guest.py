@@ -9,6 +9,8 @@ from explorer import viser_compat
 from explorer.lobby_panel import LobbyPanel
 from explorer.session import Session
 
+FIRST = 0.6
+"""[s] the page stays blank for its first answer; one that takes longer finds the page saying that it is on its way."""
 Seat = Callable[[viser.ClientHandle, viser_compat.PageFacts], Session]
 
 
@@ -46,8 +48,10 @@ class Guest:
                 self._lobby.close()
                 self._lobby = None
             viser_compat.guard_uploads(self.client, self._refused)
-            self._session = seat(self.client, self._facts)
-            self._session.start()
+            with viser_compat.at_once(self.client):
+                self._session = seat(self.client, self._facts)
+                self._session.start()
+                self._session.until_shown(FIRST)
 
     def _refused(self, sentence: str) -> None:
         self.client.add_notification("File refused", sentence, color="red", auto_close_seconds=10)

@@ -2,6 +2,7 @@
 
 import logging
 import math
+import threading
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
@@ -78,6 +79,8 @@ class Session:
         self._good: Solution | None = None
         """The last converged answer: what the picture shows."""
         self._moment: Moment | None = None
+        self._shown = threading.Event()
+        """Set once the page has its first answer, or the sentence why there is none."""
         self._whole_round = True
         """Whether more may have changed since the last round than where the marked blade is."""
         self._baseline = solver.Baseline()
@@ -173,12 +176,20 @@ class Session:
         self._whole_round = True
         self._worker.wake()
 
+    def until_shown(self, patience: float) -> None:
+        """Wait for the first answer to be on its way, at most so long [s]."""
+        self._shown.wait(patience)
+
     def _round(self, superseded: Callable[[], bool]) -> None:
         """Widgets → Design → Solution → pictures; the frame first, then what it is compared with."""
         whole, self._whole_round = self._whole_round, False
 
         def overtaken() -> bool:
             """Whether something waits that makes the rest of this round needless: not a blade that only turned."""
+            return self._whole_round and self._worker.superseded
+
+        def pause() -> bool:
+            """The same between two steps of what can wait, where the frames of other pages go first."""
             return superseded() and self._whole_round
 
         inputs, view = self._history.read(self._controls.pauses.longest()), self._controls.view()
@@ -237,9 +248,10 @@ class Session:
             for tab in self._tabs:
                 tab.show(moment)
             self._file.follow(moment)
-        if self._curves.sweep(design, reference, overtaken, show_power):
+        self._shown.set()
+        if self._curves.sweep(design, reference, pause, show_power):
             self._file.follow(moment)
-            self._waterfall.climb(overtaken)
+            self._waterfall.climb(pause)
 
     def _settle(self, inputs: Inputs, solution: Solution | None) -> bool:
         """Do what the buttons of A/B asked; whether that moves the sliders, so that another round follows."""
@@ -256,6 +268,7 @@ class Session:
     def _lose(self, view: ViewState, status: str) -> None:
         """The inputs have no answer: the last good one stays, grey, beneath the sentence."""
         self._results.problem(status)
+        self._shown.set()
         for tab in self._tabs:
             tab.lose()
         self._frame.fade(self._good, view, self._top.answer if view.difference else None)
@@ -274,6 +287,7 @@ class Session:
         return sleep and replace(sleep, falls=falls)
 
     def _report(self, error: Exception) -> None:
+        self._shown.set()
         _log.error("an update failed", exc_info=error)
         sentence = f"This update failed ({error}): move any slider to go on."
         self._results.problem(readout.status_panel(None, sentence))

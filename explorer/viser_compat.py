@@ -8,6 +8,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 import viser
@@ -19,6 +20,10 @@ from explorer.gate import Gate
 from explorer.picture_in_page import picture_script
 
 _starting = threading.Lock()
+_SHEET = "rx-sheet"
+"""Identity of our style sheet in the page."""
+_ONE_PIECE = 4096
+"""Messages; a page has some five hundred to begin with."""
 
 
 def quiet_server(host: str, port: int, label: str, gate: Gate | None = None) -> viser.ViserServer:
@@ -48,6 +53,11 @@ def _behind(gate: Gate) -> Iterator[None]:
             websockets.asyncio.server.serve = serve
     if not passed:
         raise RuntimeError("The server started without its gate: this viser starts its server in another way.")
+
+
+def client_html() -> str:
+    """The page of the client, as it was built."""
+    return (Path(viser.__file__).parent / "client" / "build" / "index.html").read_text(encoding="utf-8")
 
 
 def quiet_stop(server: viser.ViserServer) -> None:
@@ -110,11 +120,20 @@ def run_in_page(client: viser.ClientHandle, script: str) -> None:
     client._websock_connection.queue_message(_messages.RunJavascriptMessage(script))
 
 
+@contextlib.contextmanager
+def at_once(client: viser.ClientHandle) -> Iterator[None]:
+    """Everything queued meanwhile reaches the page in one piece, so that it is laid out once; by itself it comes in
+    pieces of 128 messages, and what is there already jumps at each. Nothing may wait for the page's answer inside."""
+    client._websock_connection.get_message_buffer().max_window_size = _ONE_PIECE
+    with client.atomic():
+        yield
+
+
 def set_style(client: viser.ClientHandle, sheet: str) -> None:
     """Put a style sheet into the page's head: one inside a panel goes when that panel is folded away."""
     run_in_page(
         client,
-        "(()=>{const id='rx-sheet';const sheet=document.getElementById(id)||document.createElement('style');"
+        f"(()=>{{const id='{_SHEET}';const sheet=document.getElementById(id)||document.createElement('style');"
         f"sheet.id=id;sheet.textContent={json.dumps(sheet)};document.head.appendChild(sheet)}})()",
     )
 
@@ -133,6 +152,8 @@ def page_facts(client: viser.ClientHandle, timeout: float = 2.0) -> PageFacts:
     """Ask the browser. Blocks; not to be called on the event loop."""
     key = f"facts-{client.client_id}-{secrets.token_hex(4)}"  # Other pages share the storage.
     dark = "matchMedia('(prefers-color-scheme: dark)').matches || new URLSearchParams(location.search).has('darkMode')"
+    # A page that was open before, and whose server has come back, stays as it was.
+    dark = f"document.getElementById('{_SHEET}')?document.documentElement.dataset.mantineColorScheme==='dark':({dark})"
     facts = f"JSON.stringify({{dark:{dark},query:location.search}})"
     run_in_page(client, f"localStorage.setItem('viser-user:{key}',{facts})")
     try:

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from explorer.turns import TURNS, Turn, Turns
 
 Job = Callable[[Callable[[], bool]], None]
-"""Does one round; once its frame is out it asks its argument, between steps, whether a newer round is already wanted,
-and returns early if so. Asking is also where a round in a crowd waits while the frames of others go first."""
+"""Does one round; once its frame is out it asks its argument, between steps of what can wait, whether a newer round is
+already wanted, and returns early if so. Asking is where it waits, in a crowd, while the frames of others go first."""
 
 
 @dataclass(frozen=True)
@@ -56,11 +56,13 @@ class LatestWins:
         if threading.current_thread() is not self._thread and self._thread.is_alive():
             self._thread.join(timeout)
 
-    def _superseded(self) -> bool:
+    @property
+    def superseded(self) -> bool:
+        """Whether a newer round is already wanted."""
         return self._stopped or self._wanted.is_set()
 
     def _asking(self, turn: Turn) -> Callable[[], bool]:
-        return lambda: not turn.give_way(self._superseded) or self._superseded()
+        return lambda: not turn.give_way(lambda: self.superseded) or self.superseded
 
     def _rest(self) -> None:
         """Until something is wanted; one look at the clock on the way to sleep, none in it."""

@@ -13,8 +13,8 @@ from explorer.soak.drag import Dragger
 from explorer.soak.figures import Report, judge
 from explorer.soak.process import processor_seconds, resident_mb
 
-_START = 60.0
-"""[s] a server may take to print its address."""
+_END = 10.0
+"""[s] a server may take to end."""
 _WATCH = 2.0
 """[s] between looks at memory, less in a short run."""
 _ARRIVAL = 0.05
@@ -35,20 +35,20 @@ class Soak:
 def server(*options: str) -> Iterator[tuple[str, int]]:
     """A server in a process of its own: its address and process id. RuntimeError if it does not start."""
     command = [sys.executable, "-m", "explorer", "--port", "0", "--no-browser", *options]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
-    try:
-        assert process.stdout is not None
-        for line in process.stdout:
-            if found := re.search(r"http://\S+", line):
-                yield found[0], process.pid
-                return
-        raise RuntimeError(f"The server ended with exit code {process.wait(_START)} before it printed an address.")
-    finally:
-        process.terminate()
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as process:
         try:
-            process.wait(10.0)
-        except subprocess.TimeoutExpired:
-            process.kill()
+            assert process.stdout is not None
+            for line in process.stdout:
+                if found := re.search(r"http://\S+", line):
+                    yield found[0], process.pid
+                    return
+            raise RuntimeError(f"The server ended with exit code {process.wait()} before it printed an address.")
+        finally:
+            process.terminate()
+            try:
+                process.wait(_END)
+            except subprocess.TimeoutExpired:
+                process.kill()
 
 
 def soak(plan: Soak, tell: Callable[[str], None] = lambda line: None) -> Report:

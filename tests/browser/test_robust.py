@@ -1,0 +1,152 @@
+"""A page that opens quickly and whole, waits where it must, and outlives its server."""
+
+import socket
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from chromium import DRAW_NOTHING
+
+from explorer.app import App
+from explorer.house import House
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, BrowserContext, Page
+
+pytestmark = pytest.mark.browser
+ROOT = Path(__file__).parent.parent.parent
+WAIT = 40_000
+"""[ms]; far more than it takes, for busy machines."""
+_WATCH = """
+window.__shift = 0; window.__opened = null;
+new PerformanceObserver(list => { for (const entry of list.getEntries()) window.__shift += entry.value; })
+    .observe({type: 'layout-shift', buffered: true});
+const look = () => {
+  const open = document.querySelector('[data-explorer=status][data-kind=converged]')
+    && !document.documentElement.classList.contains('rx-veiled');
+  if (open) window.__opened = performance.now(); else requestAnimationFrame(look);
+};
+requestAnimationFrame(look);
+"""
+_OPEN = """() => document.querySelector('[data-explorer=status]')?.dataset.kind === 'converged'
+    && !document.documentElement.classList.contains('rx-veiled')"""
+
+
+@pytest.fixture
+def context(browser: "Browser") -> "Iterator[BrowserContext]":
+    context = browser.new_context(viewport={"width": 1280, "height": 720})
+    context.add_init_script(DRAW_NOTHING)
+    context.add_init_script(_WATCH)
+    yield context
+    context.close()
+
+
+def field(page: "Page", label: str) -> str:
+    row = page.locator("label", has_text=label).first.locator("xpath=ancestor::div[contains(@class,'Flex-root')][1]")
+    return row.locator("input:not([type=hidden])").last.input_value()
+
+
+def set_field(page: "Page", label: str, value: str) -> None:
+    row = page.locator("label", has_text=label).first.locator("xpath=ancestor::div[contains(@class,'Flex-root')][1]")
+    row.locator("input:not([type=hidden])").last.fill(value)
+    page.keyboard.press("Enter")
+
+
+def test_opens_whole_and_then_nothing_jumps(context: "BrowserContext", artefacts: Path):
+    app = App("127.0.0.1", 0)
+    try:
+        page = context.new_page()
+        page.goto(app.address)
+        page.wait_for_function(_OPEN, timeout=WAIT)  # Warms the server: the figures are those of the next page.
+        page.reload()
+        page.wait_for_function(_OPEN, timeout=WAIT)
+        page.wait_for_timeout(1500)
+        painted = page.evaluate("performance.getEntriesByName('first-contentful-paint')[0].startTime")
+        opened, shift = page.evaluate("[window.__opened, window.__shift]")
+        sheet = page.evaluate("document.querySelector('head #rx-sheet') !== null")
+    finally:
+        app.stop()
+    line = f"first page: painted {painted:.0f} ms, answer seen {opened:.0f} ms, layout shift {shift:.4f}"
+    print(line)
+    with (artefacts / "latency.txt").open("a", encoding="utf-8") as file:
+        file.write(line + "\n")
+    assert shift < 0.02  # 0.1 counts as good; only the veil's own words may move.
+    assert painted < 5_000  # The targets are 500 and 2000; machines that run tests are busy.
+    assert opened < 15_000
+    assert sheet  # In the head: a panel that is folded away would take it along.
+
+
+def test_a_full_house_lets_in_who_waits(context: "BrowserContext", artefacts: Path):
+    app = App("127.0.0.1", 0, house=House(sessions=1))
+    try:
+        first, second = context.new_page(), context.new_page()
+        first.goto(app.address)
+        first.wait_for_function(_OPEN, timeout=WAIT)
+        second.goto(app.address)
+        second.wait_for_selector("[data-explorer=lobby]", timeout=WAIT)
+        assert "You are next" in second.locator("[data-explorer=lobby]").inner_text()
+        assert second.locator("[role=slider]").count() == 0
+        second.wait_for_timeout(400)
+        second.screenshot(path=artefacts / "full-house.png")
+        first.close()
+        second.wait_for_function(_OPEN, timeout=WAIT)
+        assert second.locator("[data-explorer=lobby]").count() == 0
+        assert second.locator("[role=slider]").first.is_visible()
+    finally:
+        app.stop()
+
+
+def test_a_foreign_page_cannot_talk_to_the_server(context: "BrowserContext"):
+    """Another server of this machine stands for any site: the browser names it in Origin."""
+    ours, foreign = App("127.0.0.1", 0), App("127.0.0.1", 0)
+    try:
+        page = context.new_page()
+        page.goto(foreign.address)
+        tried = """address => new Promise(done => {
+            const socket = new WebSocket('ws' + address.slice(4), ['viser-v1.1.1']);
+            socket.onopen = () => done('open'); socket.onclose = event => done(event.code);
+        })"""
+        assert page.evaluate(tried, ours.address) == 1006
+        assert page.evaluate(tried, foreign.address) == "open"
+    finally:
+        ours.stop()
+        foreign.stop()
+
+
+def test_outlives_its_server(context: "BrowserContext", artefacts: Path):
+    """A real restart on the same port: the page says so, comes back by itself, and shows the same design."""
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        port = probe.getsockname()[1]
+    page = context.new_page()
+    with served(port) as address:
+        page.goto(address)
+        page.wait_for_function(_OPEN, timeout=WAIT)
+        set_field(page, "Inner", "-11.5")
+        page.wait_for_function("() => location.search.includes('-11.5')", timeout=WAIT)
+        power = page.locator("[data-explorer=total-power]").first.inner_text()
+    page.wait_for_selector("#rx-gone", timeout=WAIT)
+    page.screenshot(path=artefacts / "server-gone.png")
+    with served(port):
+        page.wait_for_selector("#rx-gone", state="detached", timeout=WAIT)
+        page.wait_for_function(_OPEN, timeout=WAIT)
+        assert field(page, "Inner") == "-11.5"
+        same = "power => document.querySelector('[data-explorer=total-power]').innerText === power"
+        page.wait_for_function(same, arg=power, timeout=WAIT)
+
+
+@contextmanager
+def served(port: int) -> Iterator[str]:
+    """A server of its own process, ended as a service manager ends it."""
+    command = [sys.executable, "-m", "explorer", "--port", str(port), "--no-browser"]
+    with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) as server:
+        assert server.stdout is not None
+        while "http://" not in server.stdout.readline():
+            assert server.poll() is None
+        yield f"http://127.0.0.1:{port}"
+        server.terminate()
+        assert server.wait(20) == 0
