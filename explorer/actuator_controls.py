@@ -17,6 +17,7 @@ from explorer.actuator_state import (
 )
 from explorer.charts import Chart
 from explorer.colours import BASELINE, NOW, THIS
+from explorer.glossary import hint
 from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube, find_actuator
 from rotor.actuator.fitted import Fitted
 from rotor.concepts import find_concept
@@ -36,53 +37,47 @@ class ActuatorControls:
         start = ActuatorInputs()
         watched = self._watched
         gui.add_html(actuator_readout.SHEET)
-        self.shown = watched(
-            gui.add_checkbox("Show blade cut", False, hint="Shows one blade, opened, in place of the rotor.")
-        )
-        self._magnified = watched(
-            gui.add_slider("Movement ×", 1.0, 20.0, 1.0, start.magnified, hint="Exaggerates it in the cut blade only.")
-        )
+        self.shown = watched(gui.add_checkbox("Show blade cut", False, hint=hint("cut")))
+        self._magnified = watched(gui.add_slider("Movement ×", 1.0, 20.0, 1.0, start.magnified, hint=hint("magnified")))
         self.now = gui.add_html("")
         self._drives = [
-            watched(gui.add_slider("Voltage [%]", -100.0, 100.0, 1.0, 0.0, hint=_DRIVE_HINT))
+            watched(gui.add_slider("Voltage [%]", -100.0, 100.0, 1.0, 0.0, hint=hint("voltage")))
             for _ in range(MOST_SEGMENTS)
         ]
         self.bar = gui.add_html("")
-        self.fly_buttons = gui.add_button_group(
-            "Set", FLY, hint="Voltages of the verdict at its two flight conditions, and the advance ratio with them."
-        )
+        self.fly_buttons = gui.add_button_group("Set", FLY, hint=hint("fly"))
         self.verdict = gui.add_html("")
         self.numbers = gui.add_html("")
         with gui.add_folder("Actuator and placement"):
-            self._actuator = watched(gui.add_dropdown("Actuator", tuple(self._titles.values())))
-            self._plies = watched(gui.add_slider("Plies a side", 1, 8, 1, start.plies, hint="Tubes, for the tube."))
+            self._actuator = watched(gui.add_dropdown("Actuator", tuple(self._titles.values()), hint=hint("actuator")))
+            self._plies = watched(gui.add_slider("Plies a side", 1, 8, 1, start.plies, hint=hint("plies")))
             self._span = watched(
-                gui.add_multi_slider("Span [R]", 0.14, 1.0, 0.01, start.span, min_range=0.05, hint="Active, from–to.")
+                gui.add_multi_slider("Span [R]", 0.14, 1.0, 0.01, start.span, min_range=0.05, hint=hint("span"))
             )
             self._chord = watched(
                 gui.add_multi_slider(
                     "Chord [c]", 0.0, 0.95, 0.01, start.chord, min_range=0.05,
-                    hint="Active, from–to. The de-ice mat heats the first 0.12 c.",
+                    hint=hint("chord_range"),
                 )
             )  # fmt: skip
-            self._blade = watched(gui.add_dropdown("Blade type", tuple(BLADES)))
+            self._blade = watched(gui.add_dropdown("Blade type", tuple(BLADES), hint=hint("blade_type")))
             self._stiffness = watched(
-                gui.add_slider("GJ of new ×", 0.2, 1.5, 0.05, start.stiffness, hint="Over the flown blade's.")
+                gui.add_slider("GJ of new ×", 0.2, 1.5, 0.05, start.stiffness, hint=hint("stiffness"))
             )
-            self._crossed = watched(
-                gui.add_checkbox("Fibres crossed", False, hint="Laid at −45°: positive voltage turns the tip down.")
-            )
+            self._crossed = watched(gui.add_checkbox("Fibres crossed", False, hint=hint("crossed")))
             self._counted = watched(
                 gui.add_slider(
                     "Derating [%]", 40.0, 100.0, 1.0, start.counted,
-                    hint="Share of the nominal twist to count on. A tested blade showed about 62 % of its model.",
+                    hint=hint("derating"),
                 )
             )  # fmt: skip
         with gui.add_folder("Question"):
-            self._concept = watched(gui.add_dropdown("Concept", tuple(self._concepts.values())))
+            self._concept = watched(
+                gui.add_dropdown("Concept", tuple(self._concepts.values()), hint=hint("actuator_concept"))
+            )
             self._pair = watched(
                 gui.add_multi_slider(
-                    "µ from, to", 0.0, 0.4, 0.01, start.advance_ratios, min_range=0.02, hint="Two flight conditions."
+                    "µ from, to", 0.0, 0.4, 0.01, start.advance_ratios, min_range=0.02, hint=hint("pair")
                 )
             )
         key = (("attainable", BASELINE), ("required", NOW), ("used", _USED), ("now", THIS))
@@ -107,15 +102,11 @@ class ActuatorControls:
         with gui.add_folder("All actuators on this blade"):
             self.table = gui.add_html("")
         with gui.add_folder("Twist that follows the azimuth"):
-            self._per_rev = watched(
-                gui.add_dropdown("Harmonic", tuple(HARMONICS), hint="Of rotor speed; rests in hover.")
-            )
+            self._per_rev = watched(gui.add_dropdown("Harmonic", tuple(HARMONICS), hint=hint("harmonic")))
             self._amplitude = watched(
-                gui.add_slider("Amplitude [%]", 0.0, 100.0, 1.0, start.amplitude, hint="Of half the voltage range.")
+                gui.add_slider("Amplitude [%]", 0.0, 100.0, 1.0, start.amplitude, hint=hint("amplitude"))
             )
-            self._phase = watched(
-                gui.add_slider("Phase [°]", 0.0, 360.0, 5.0, start.phase, hint="The tip is most nose-up at phase/n.")
-            )
+            self._phase = watched(gui.add_slider("Phase [°]", 0.0, 360.0, 5.0, start.phase, hint=hint("phase")))
 
     def inputs(self) -> ActuatorInputs:
         """What the widgets mean now."""
@@ -192,9 +183,6 @@ class ActuatorControls:
     def _watched(self, handle: Any) -> Any:
         handle.on_update(lambda event: self._moved(event.client is not None))
         return handle
-
-
-_DRIVE_HINT = "Per cent of the positive, or of the smaller negative, end of the voltage range."
 
 
 def _line(label: str, colour: str, width: float = 2.0, dash: tuple[float, ...] | None = None) -> uplot.Series:

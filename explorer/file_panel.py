@@ -9,6 +9,7 @@ import viser
 from explorer import share, viser_compat
 from explorer.address import Address
 from explorer.desk import Desk, Moment
+from explorer.glossary import hint
 from explorer.state import inputs_of
 from rotor.case import case_of, parse_case
 
@@ -25,10 +26,10 @@ class FilePanel:
         self._client, self._desk, self._limits, self._address = client, desk, limits, address
         gui = client.gui
         with gui.add_folder("Link and file"):
-            self._link = gui.add_button("Copy link", icon=viser.Icon.LINK, hint="The address holds the whole design.")
-            self._save = gui.add_button("Save design", icon=viser.Icon.DOWNLOAD, color="gray")
+            self._link = gui.add_button("Copy link", icon=viser.Icon.LINK, hint=hint("link"))
+            self._save = gui.add_button("Save design", icon=viser.Icon.DOWNLOAD, color="gray", hint=hint("save"))
             self._load = gui.add_upload_button(
-                "Load design", icon=viser.Icon.UPLOAD, color="gray", mime_type=".json", hint="A design file (JSON)."
+                "Load design", icon=viser.Icon.UPLOAD, color="gray", mime_type=".json", hint=hint("load")
             )
         desk.bind("share", self.copy_link)
         self._link.on_click(lambda _: self.copy_link())

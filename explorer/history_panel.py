@@ -7,6 +7,7 @@ import viser
 
 from explorer import history_view
 from explorer.desk import Desk, Moment
+from explorer.glossary import hint
 from explorer.history import History
 from explorer.history_view import FIELD, MOST_KEPT, Kept
 from explorer.state import Inputs
@@ -24,11 +25,11 @@ class HistoryPanel:
         self._kept: list[Kept] = []
         self._drawn: object = None
         with gui.add_folder("History"):
-            self._buttons = gui.add_button_group("Step", ("Undo", "Redo", "Keep"), hint="Ctrl+Z, Ctrl+Shift+Z; Keep: M")
+            self._buttons = gui.add_button_group("Step", ("Undo", "Redo", "Keep"), hint=hint("step"))
             self._strip = gui.add_html("")
             self._rows = gui.add_html("")
             gui.add_html('<div class="rx-bridge"></div>')  # The style sheet hides the row after it.
-            self._field = gui.add_text(FIELD, "")
+            self._field = gui.add_text(FIELD, "", hint=hint("take"))
         for name, act in (("undo", self.undo), ("redo", self.redo), ("keep", self.keep)):
             desk.bind(name, act)
         self._buttons.on_click(self._clicked)

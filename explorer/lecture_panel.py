@@ -8,6 +8,7 @@ import viser
 
 from explorer import cases, lecture, lecture_view, viser_compat
 from explorer.desk import Desk, Moment
+from explorer.glossary import hint
 from explorer.lecture import STEPS
 from explorer.presence import Presence
 
@@ -31,22 +32,18 @@ class LecturePanel:
         self._step: int | None = None
         self._told = ""
         gui = client.gui
-        self._begin = gui.add_button(
-            "Start the lecture", icon=viser.Icon.SCHOOL, hint="Eight steps; keys: Page down, up."
-        )
+        self._begin = gui.add_button("Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture"))
         gui.add_html('<div class="rx rx-dim rx-small">Eight steps set the page and say what to watch.</div>')
-        self._big = gui.add_checkbox("Big type", False, hint="For those who sit at the back.")
-        self._flights = gui.add_button_group("Fly at µ", tuple(cases.FLIGHTS), hint="Set the advance ratio.")
-        self._case = gui.add_dropdown(
-            "Document", ("–", *cases.DOCUMENT), hint="The document's own designs, in its preset."
-        )
+        self._big = gui.add_checkbox("Big type", False, hint=hint("big_type"))
+        self._flights = gui.add_button_group("Fly at µ", tuple(cases.FLIGHTS), hint=hint("lecture_flights"))
+        self._case = gui.add_dropdown("Document", ("–", *cases.DOCUMENT), hint=hint("document_case"))
         with gui.add_folder("Present to others"):
-            self._present = gui.add_button("Present", icon=viser.Icon.PRESENTATION, color="gray")
+            self._present = gui.add_button("Present", icon=viser.Icon.PRESENTATION, color="gray", hint=hint("present"))
             gui.add_html(_PRESENTING)
         self._caption_panel = gui.add_panel(visible=False)
         with self._caption_panel.add_tab("Lecture", viser.Icon.SCHOOL):
             self._caption = gui.add_html("")
-            self._buttons = gui.add_button_group("", ("Back", "Set again", "Next", "End"))
+            self._buttons = gui.add_button_group("", ("Back", "Set again", "Next", "End"), hint=hint("lecture_step"))
         self._caption_panel.float(x=_LIFT, y=-_LIFT, width=_CAPTION_WIDTH)
         self._begin.on_click(lambda _: self.toggle())
         self._buttons.on_click(self._clicked)

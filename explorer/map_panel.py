@@ -5,6 +5,7 @@ import viser
 
 from explorer import power_map
 from explorer.desk import Desk
+from explorer.glossary import hint
 from explorer.jobs import Broken, Ended, Job, News, Share, Told
 from explorer.optimise_panel import OptimisePanel
 from explorer.state import with_optimum
@@ -36,12 +37,12 @@ class MapPanel:
         self._here: tuple[object, tuple[float, ...], bool] | None = None
         self._title = gui.add_html("")
         titles = tuple([parameter.title for parameter in self._wishes().known_concept().parameters])
-        self._x = gui.add_dropdown("Across", titles)
-        self._y = gui.add_dropdown("Up", titles)
-        self._draw = gui.add_button("Draw map", icon=viser.Icon.MAP_2)
+        self._x = gui.add_dropdown("Across", titles, hint=hint("map_across"))
+        self._y = gui.add_dropdown("Up", titles, hint=hint("map_up"))
+        self._draw = gui.add_button("Draw map", icon=viser.Icon.MAP_2, hint=hint("map_draw"))
         self._state = gui.add_html("")
         self._picture = gui.add_html("")
-        self._point = gui.add_text(power_map.FIELD, "", visible=False, hint="Click the map, or write x and y.")
+        self._point = gui.add_text(power_map.FIELD, "", visible=False, hint=hint("map_point"))
         self._legend = gui.add_html("")
         self._draw.on_click(lambda _: self.begin())
         self._point.on_update(lambda event: self._take() if event.client is not None else None)

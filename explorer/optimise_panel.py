@@ -14,6 +14,7 @@ from explorer.charts import Chart, line
 from explorer.colours import BASELINE, THIS, colour_map, css
 from explorer.concept_picture import concept_picture
 from explorer.desk import Desk
+from explorer.glossary import hint
 from explorer.jobs import Job, News, Share, Told
 from explorer.search_plot import TRACES, search_plot
 from explorer.search_run import FRAME, SearchRun
@@ -44,34 +45,33 @@ class OptimisePanel:
         self._woken = 0.0
         self._drawn: object = None
         self._titles = {name: concept.title for name, concept in CONCEPTS.items()}
-        self._concept = gui.add_dropdown(
-            "Concept", tuple(self._titles.values()), initial_value=self._titles["two-segment-free"]
-        )
+        titles, first = tuple(self._titles.values()), self._titles["two-segment-free"]
+        self._concept = gui.add_dropdown("Concept", titles, initial_value=first, hint=hint("search_concept"))
         self._picture = gui.add_html("")
-        self._objective = gui.add_dropdown("Objective", tuple(OBJECTIVES.values()))
-        defaults = Wishes()
+        self._objective = gui.add_dropdown("Objective", tuple(OBJECTIVES.values()), hint=hint("objective"))
+        defaults, where = Wishes(), hint("search_division")
         self._numbers: dict[str, viser.GuiSliderHandle[float]] = {
-            "hover_share": gui.add_slider("Hover [%]", 0.0, 100.0, 5.0, 50.0, hint="Part of the time spent hovering."),
-            "division": gui.add_slider("Division [R]", 0.25, 0.92, 0.01, defaults.division),
-            "first": gui.add_slider("Division 1 [R]", 0.2, 0.6, 0.01, defaults.first),
-            "second": gui.add_slider("Division 2 [R]", 0.65, 0.95, 0.01, defaults.second),
-            "starts": gui.add_slider("Starts", 1, TRACES, 1, defaults.starts, hint="Descents from different twists."),
+            "hover_share": gui.add_slider("Hover [%]", 0.0, 100.0, 5.0, 50.0, hint=hint("hover_share")),
+            "division": gui.add_slider("Division [R]", 0.25, 0.92, 0.01, defaults.division, hint=where),
+            "first": gui.add_slider("Division 1 [R]", 0.2, 0.6, 0.01, defaults.first, hint=where),
+            "second": gui.add_slider("Division 2 [R]", 0.65, 0.95, 0.01, defaults.second, hint=where),
+            "starts": gui.add_slider("Starts", 1, TRACES, 1, defaults.starts, hint=hint("starts")),
         }
         with gui.add_folder("Limits", expand_by_default=False):
-            self._limit_stall = gui.add_checkbox("Limit stall", False, hint="Hold the stalled part of the disk down.")
-            self._numbers["stalled"] = gui.add_slider("Stalled [%]", 0.0, 20.0, 0.5, 5.0)
-            self._limit_change = gui.add_checkbox("Limit change", False, hint="Stay within reach of an actuator.")
-            self._numbers["change"] = gui.add_slider(
-                "At tip [°]", 0.5, 15.0, 0.5, 4.0, hint="Largest change of twist, root to tip."
-            )
-        self._begin = gui.add_button("Optimise", icon=viser.Icon.PLAYER_PLAY)
-        self._halt = gui.add_button("Stop", icon=viser.Icon.PLAYER_STOP, color="red", visible=False)
+            self._limit_stall = gui.add_checkbox("Limit stall", False, hint=hint("limit_stall"))
+            self._numbers["stalled"] = gui.add_slider("Stalled [%]", 0.0, 20.0, 0.5, 5.0, hint=hint("stalled_limit"))
+            self._limit_change = gui.add_checkbox("Limit change", False, hint=hint("limit_change"))
+            self._numbers["change"] = gui.add_slider("At tip [°]", 0.5, 15.0, 0.5, 4.0, hint=hint("change_limit"))
+        self._begin = gui.add_button("Optimise", icon=viser.Icon.PLAYER_PLAY, hint=hint("optimise"))
+        self._halt = gui.add_button("Stop", icon=viser.Icon.PLAYER_STOP, color="red", visible=False, hint=hint("stop"))
         self._bar = gui.add_progress_bar(0.0)
         self._standing = gui.add_html(search_text.standing(None))
         self._found = gui.add_html("")
-        self._scrubber = gui.add_slider("Replay", 0, 1, 1, 0, visible=False, hint="The designs on the way to the best.")
+        self._scrubber = gui.add_slider("Replay", 0, 1, 1, 0, visible=False, hint=hint("replay"))
         self._frame = gui.add_html("")
-        self._verdict = gui.add_button_group("Result", ("Apply", "Discard", "Replay"), visible=False)
+        self._verdict = gui.add_button_group(
+            "Result", ("Apply", "Discard", "Replay"), visible=False, hint=hint("search_result")
+        )
         # In steps of seven, so that a few starts already have colours apart.
         shades = colour_map("sequential", TRACES + 2)[7 * np.arange(TRACES) % TRACES]
         blank = search_plot(None, None)

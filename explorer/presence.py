@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from explorer import viser_compat
 from explorer.address import Address
 from explorer.desk import Desk, Moment
+from explorer.glossary import hint
 from explorer.presentation import FOLLOW, PRESENT, Point, Shown, Stage, follow_name, new_secret
 
 _CAMERA_EVERY = 0.1
@@ -48,7 +49,7 @@ class Presence:
         self._pending: threading.Timer | None = None
         self._camera: tuple[Point, Point] | None = None
         self._banner = client.gui.add_html("", visible=False)
-        self._leave = client.gui.add_button("Leave, and go on alone", color="gray", visible=False)
+        self._leave = client.gui.add_button("Leave, and go on alone", color="gray", visible=False, hint=hint("leave"))
         self._leave.on_click(lambda _: self.leave())
 
     def begin(self, desk: Desk, hands: Hands) -> None:

@@ -9,6 +9,7 @@ from explorer import mission, schedule_view
 from explorer.charts import Chart, line
 from explorer.colours import BASELINE, NOW, THIS, colour_map, css
 from explorer.desk import Desk
+from explorer.glossary import hint
 from explorer.jobs import Broken, Ended, Job, News, Share, Started, Told, Waiting
 from explorer.schedule_view import LEGS, Course
 from explorer.state import with_optimum
@@ -38,16 +39,25 @@ class SchedulePanel:
         with gui.add_folder("Mission: µ and hours"):
             self._rows = [
                 gui.add_vector2(
-                    f"Leg {k + 1}", (row.advance_ratio, row.hours), min=(0.0, 0.0), max=(0.45, 99.0), step=0.05
+                    f"Leg {k + 1}",
+                    (row.advance_ratio, row.hours),
+                    min=(0.0, 0.0),
+                    max=(0.45, 99.0),
+                    step=0.05,
+                    hint=hint("leg"),
                 )
                 for k, row in enumerate(mission.ROWS)
             ]
-        self._begin = gui.add_button("Work out", icon=viser.Icon.PLAYER_PLAY)
-        self._halt = gui.add_button("Stop schedule", icon=viser.Icon.PLAYER_STOP, color="red", visible=False)
+        self._begin = gui.add_button("Work out", icon=viser.Icon.PLAYER_PLAY, hint=hint("schedule"))
+        self._halt = gui.add_button(
+            "Stop schedule", icon=viser.Icon.PLAYER_STOP, color="red", visible=False, hint=hint("schedule_stop")
+        )
         self._bar = gui.add_progress_bar(0.0)
         self._state = gui.add_html("")
         self._table = gui.add_html("")
-        self._verdict = gui.add_button_group("Result", ("Apply fixed", "Save CSV"), visible=False)
+        self._verdict = gui.add_button_group(
+            "Result", ("Apply fixed", "Save CSV"), visible=False, hint=hint("schedule_result")
+        )
         shades = colour_map("sequential", LEGS + 1)
         twists, savings = schedule_view.twist_plot(None, None), schedule_view.saving_plot(None, None)
         self._twists = Chart(

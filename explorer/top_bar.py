@@ -7,6 +7,7 @@ import viser
 
 from explorer import ab_readout
 from explorer.desk import Desk, Moment
+from explorer.glossary import hint
 from explorer.pinned import Order, Pinboard, Pinned
 from explorer.state import Inputs
 from explorer.units import SI, UNITS
@@ -29,20 +30,19 @@ class TopBar:
     ) -> None:
         self._board, self._wake, self._units = Pinboard(), wake, SI
         self._steps = {"Undo": undo, "Redo": redo}
-        hint = "Pin: every change becomes B beside A."
-        first = gui.add_button_group("", (*self._steps, *_PIN), hint=hint)
+        first = gui.add_button_group("", (*self._steps, *_PIN), hint=hint("pin"))
         self._line = gui.add_html("", visible=False)
         self._second = gui.add_button_group(
             "",
             tuple(_PINNED),
             visible=False,
-            hint="Swap: A goes on the sliders and B becomes A. Back: the sliders of A.",
+            hint=hint("pinned"),
         )
         self._along = gui.add_checkbox(
             "A flies along",
             True,
             visible=False,
-            hint="On: A at the speed, weight and altitude on the sliders. Off: A as it was when it was pinned.",
+            hint=hint("along"),
         )
         first.on_click(self._clicked)
         self._second.on_click(self._clicked)

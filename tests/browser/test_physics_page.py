@@ -9,6 +9,7 @@ from chromium import DRAW_NOTHING
 from test_page import SMALL, WAIT, Watched, kilowatts
 
 from explorer.app import App
+from explorer.glossary import CONTROLS
 from explorer.state import Inputs
 
 if TYPE_CHECKING:
@@ -18,15 +19,20 @@ pytestmark = pytest.mark.browser
 
 
 @pytest.fixture(scope="module")
-def watched(browser: "Browser") -> Iterator[Watched]:
+def app() -> Iterator[App]:
     app = App("127.0.0.1", 0, Inputs(law="uh60a", advance_ratio=0.3))
+    yield app
+    app.stop()
+
+
+@pytest.fixture(scope="module")
+def watched(browser: "Browser", app: App) -> Iterator[Watched]:
     context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
     context.add_init_script(DRAW_NOTHING)
     watched = Watched(context.new_page())
     watched.open(app.address)
     yield watched
     context.close()
-    app.stop()
     assert watched.complaints == []
 
 
@@ -67,6 +73,16 @@ def test_controls_and_read_outs_explain_themselves(watched: Watched):
     assert "Eq. (3.19)" in (watched.page.locator("tr", has_text="Parasite").first.get_attribute("title") or "")
     watched.row("Adv. ratio").get_by_role("slider").hover()
     watched.page.get_by_text("Airspeed over tip speed, µ = V/ΩR; 0 is hover. Theory, section 1.").wait_for(timeout=WAIT)
+
+
+@pytest.mark.usefixtures("watched")
+def test_every_widget_of_every_tab_has_an_entry(app: App):
+    texts = {entry.text for entry in CONTROLS.values()}
+    for client in app.server.get_clients().values():
+        handles = [handle for handle in client.gui._gui_input_handle_from_uuid.values() if hasattr(handle, "hint")]
+        assert len(handles) > 80
+        silent = [handle.label for handle in handles if handle.hint not in texts]
+        assert silent == [], "give them a sentence in explorer/glossary.py"
 
 
 def test_units_change_what_is_read_and_not_the_design(watched: Watched):
