@@ -47,6 +47,6 @@ class Player:
             try:
                 self._step(now - before)
             except Exception:  # Whoever is walked has gone, as a browser may at any moment.
-                self.pause()
                 _log.exception("play ended")
+                self.pause()
             before = now
