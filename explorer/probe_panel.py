@@ -1,6 +1,7 @@
 """The Probe tab of one browser: a blade element at (r, ψ), set by sliders, keys or a click on the disk; and play."""
 
 import math
+import threading
 from dataclasses import dataclass
 from functools import partial
 
@@ -45,6 +46,8 @@ class ProbePanel:
         self._html = ""
         self._cursor = Cursor(client.scene)
         self._player = Player(self._walk, f"play-{client.client_id}")
+        self._hand = threading.Lock()
+        """Held by whoever turns the blade: the clock or the user."""
         self._walked: float | None = None
         """Where the clock left the marked blade [deg]."""
         self._left = 0.0
@@ -59,7 +62,7 @@ class ProbePanel:
         self._shown = gui.add_checkbox("On the disk", False, hint=hint("probe_shown"))
         self._opened = gui.add_checkbox("Angles ×3", False, hint=hint("probe_opened"))
         self._button.on_click(lambda _: self.toggle())
-        self._psi.on_update(lambda event: self._psi_moved() if event.client is not None else None)
+        self._psi.on_update(lambda event: self._psi_moved(event.target.value) if event.client is not None else None)
         self._r.on_update(lambda event: self._moved() if event.client is not None else None)
         for box in (self._follow, self._shown, self._opened):
             box.on_update(lambda event: desk.wake() if event.client is not None else None)
@@ -68,13 +71,16 @@ class ProbePanel:
 
     def show(self, moment: Moment) -> None:
         """Follow a converged answer, or the marked blade."""
-        if self._follow.value and self._psi.value != moment.view.azimuth_deg:
-            self._psi.value = moment.view.azimuth_deg
+        if self._follow.value:
+            # Where the blade is by now: an older place would pull a slider that is dragged back.
+            self._psi.value = self._desk.view().azimuth_deg
         solution = moment.solution
         self._r.min = _innermost(solution.design.rotor)
         place = self._place()
         here = self._probe(solution, place)
-        tied = abs(math.remainder(place.psi_deg - moment.view.azimuth_deg, 360.0)) < 0.5 * _PSI_STEP
+        tied = (
+            self._follow.value or abs(math.remainder(place.psi_deg - moment.view.azimuth_deg, 360.0)) < 0.5 * _PSI_STEP
+        )
         pitch = _drawn_pitch(moment, here) if tied else None
         if self._drawn == (solution, place, pitch):
             return
@@ -119,6 +125,11 @@ class ProbePanel:
 
     def _walk(self, seconds: float) -> None:
         """A step of the clock."""
+        with self._hand:
+            if self._player.playing:
+                self._walk_on(seconds)
+
+    def _walk_on(self, seconds: float) -> None:
         now = self._desk.view().azimuth_deg
         self._left -= seconds
         if (self._walked is not None and now != self._walked) or self._left <= 0.0:
@@ -134,15 +145,20 @@ class ProbePanel:
         r = min(max(place.r, _innermost(solution.design.rotor)), 1.0)
         return probe(solution, r, math.radians(place.psi_deg))
 
-    def _set(self, r: float, psi_deg: float) -> None:
-        """Move the probe, and with it the marked blade where they are tied."""
+    def _set(self, r: float, psi_deg: float | None = None) -> None:
+        """Move the probe, and with it the marked blade where they are tied; without ψ only along the blade."""
         self._r.value = round(min(max(r, self._r.min), 1.0), 2)
-        self._psi.value = psi_deg % 360.0
-        self._psi_moved()
+        if psi_deg is None:
+            self._moved()
+        else:
+            self._psi_moved(psi_deg % 360.0)
 
-    def _psi_moved(self) -> None:
+    def _psi_moved(self, psi_deg: float) -> None:
         if self._follow.value:
-            self._desk.turn(self._psi.value)
+            with self._hand:  # No step of the clock comes between.
+                self._pause()
+                self._desk.turn(psi_deg)
+        self._psi.value = psi_deg
         self._moved()
 
     def _moved(self) -> None:
@@ -150,7 +166,7 @@ class ProbePanel:
         self._desk.wake()
 
     def _step(self, r: float, psi_deg: float) -> None:
-        self._set(self._r.value + r, round(self._psi.value) + psi_deg if psi_deg else self._psi.value)
+        self._set(self._r.value + r, round(self._psi.value) + psi_deg if psi_deg else None)
 
     def _hide(self) -> None:
         self._shown.value = not self._shown.value
