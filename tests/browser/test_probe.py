@@ -114,7 +114,7 @@ def test_sliders_step_finely_and_coarsely_and_their_number_follows(watched: Watc
         slider.focus()
         page.keyboard.press(key)
         wanted = min(max(before + change, 5.0), 120.0)
-        watched.until_changed(lambda: float(field.input_value()) == wanted, before=False)
+        watched.until_changed(lambda wanted=wanted: float(field.input_value()) == wanted, before=False)
         assert float(slider.get_attribute("aria-valuenow") or "nan") == wanted
     field.focus()
     page.keyboard.press("ArrowUp")
