@@ -11,6 +11,7 @@ from explorer.glossary import hint
 from explorer.history import History
 from explorer.history_view import FIELD, MOST_KEPT, Kept
 from explorer.state import Inputs
+from explorer.units import UNITS
 from rotor.solution import Solution
 
 
@@ -44,7 +45,7 @@ class HistoryPanel:
 
     def solved(self, inputs: Inputs, power: float) -> None:
         """They have an answer: total power [W]."""
-        self._powers[inputs] = power / 1e3
+        self._powers[inputs] = power
 
     def undo(self) -> None:
         with self._lock:
@@ -83,12 +84,13 @@ class HistoryPanel:
         with self._lock:
             steps, present, kept = self._history.steps, len(self._history.past), tuple(self._kept)
             self._powers = {step: self._powers[step] for step in steps if step in self._powers}
-            if self._drawn == (steps, present, kept, solution):
+            units = UNITS[self._desk.view().units]
+            if self._drawn == (steps, present, kept, solution, units):
                 return
-            self._drawn = (steps, present, kept, solution)
-            strip = history_view.strip(self._history, self._powers) + history_view.caption(self._history)
+            self._drawn = (steps, present, kept, solution, units)
+            strip = history_view.strip(self._history, self._powers, units) + history_view.caption(self._history)
         self._strip.content = f'<div class="rx">{strip}</div>'
-        self._rows.content = f'<div class="rx">{history_view.kept_rows(kept, solution)}</div>'
+        self._rows.content = f'<div class="rx">{history_view.kept_rows(kept, solution, units)}</div>'
 
     def _take(self, inputs: Inputs | None) -> None:
         """Move the widgets, under the lock."""

@@ -11,8 +11,8 @@ from explorer.clicks import write_to
 from explorer.colours import BASELINE, NOW, THIS
 from explorer.history import History
 from explorer.naming import flight_name, twist_name
-from explorer.readout import number
 from explorer.state import Inputs
+from explorer.units import SI, Units
 from rotor.solution import Solution
 
 FIELD = "Take step"
@@ -33,12 +33,13 @@ class Kept:
     solution: Solution
 
     @property
-    def kilowatts(self) -> float:
-        return self.solution.power.total / 1e3
+    def power(self) -> float:
+        """Total [W]."""
+        return self.solution.power.total
 
 
-def strip(history: History, powers: Mapping[Inputs, float]) -> str:
-    """SVG of the steps; `powers` [kW] of those that were solved, a hollow bar for those that have no answer."""
+def strip(history: History, powers: Mapping[Inputs, float], units: Units = SI) -> str:
+    """SVG of the steps; `powers` [W] of those that were solved, a hollow bar for those that have no answer."""
     steps, present = history.steps, len(history.past)
     first = min(max(len(steps) - SHOWN, 0), present)  # The newest, unless undo has gone further back.
     shown = steps[first : first + SHOWN]
@@ -53,7 +54,8 @@ def strip(history: History, powers: Mapping[Inputs, float]) -> str:
         height = _LOWEST + share * (_HEIGHT - _LOWEST)
         colour = NOW if number_of == present else THIS if number_of < present else BASELINE
         fill = "none" if power is None else colour
-        told = f"{twist_name(step)}; {flight_name(step)}; " + ("no trim" if power is None else f"{number(power)} kW")
+        told = f"{twist_name(step)}; {flight_name(step, units)}; "
+        told += "no trim" if power is None else units.watts(power)
         bars.append(
             f'<g onclick="{write_to(FIELD, f"{chr(39)}step {number_of}{chr(39)}")}" style="cursor:pointer">'
             f"<title>{escape(told)}</title>"
@@ -76,19 +78,19 @@ def caption(history: History) -> str:
     )
 
 
-def kept_rows(kept: Sequence[Kept], present: Solution | None) -> str:
+def kept_rows(kept: Sequence[Kept], present: Solution | None, units: Units = SI) -> str:
     """The kept designs: outline of the twist, name, power, and the change of the present design from it."""
     if not kept:
         return '<div class="rx-dim rx-small">Nothing kept yet: Keep sets the present design aside.</div>'
     rows = []
     for k, item in enumerate(kept):
-        change = _blank_change(present, item)
+        change = _blank_change(present, item, units)
         take, drop = (write_to(FIELD, f"'{verb} {k}'") for verb in ("take", "drop"))
         rows.append(
             f'<tr><td onclick="{take}" class="rx-take">{_spark(item.solution)}</td>'
             f'<td onclick="{take}" class="rx-take rx-kept"><div>{escape(twist_name(item.inputs))}</div>'
-            f'<div class="rx-dim rx-small">{escape(flight_name(item.inputs))}</div></td>'
-            f'<td onclick="{take}" class="rx-take rx-num">{number(item.kilowatts)} kW'
+            f'<div class="rx-dim rx-small">{escape(flight_name(item.inputs, units))}</div></td>'
+            f'<td onclick="{take}" class="rx-take rx-num">{units.watts(item.power)}'
             f'<div class="rx-dim rx-small">{change}</div></td>'
             f'<td class="rx-num"><a onclick="{drop}" class="rx-take rx-dim" title="Forget it">✕</a></td></tr>'
         )
@@ -101,10 +103,10 @@ def asked(text: str) -> tuple[str, int] | None:
     return (verb, int(digits)) if verb in ("step", "take", "drop") and digits.isdigit() else None
 
 
-def _blank_change(present: Solution | None, item: Kept) -> str:
-    if present is None or not math.isfinite(item.kilowatts):
+def _blank_change(present: Solution | None, item: Kept, units: Units) -> str:
+    if present is None or not math.isfinite(item.power):
         return ""
-    return f"now {number(present.power.total / 1e3 - item.kilowatts, sign=True)} kW"
+    return f"now {units.watts(present.power.total - item.power, sign=True)}"
 
 
 def _spark(solution: Solution) -> str:

@@ -10,6 +10,7 @@ from explorer.jobs import Broken, Ended, Job, News, Share, Told
 from explorer.optimise_panel import OptimisePanel
 from explorer.state import with_optimum
 from explorer.tasks import MapLevel, MapTask
+from explorer.units import UNITS
 from rotor.concepts import Concept, nearest
 from rotor.design import Design
 from rotor.twist import TwistLaw
@@ -90,13 +91,14 @@ class MapPanel:
         if drawn is None:
             return
         here, exact = self._place(drawn, design)
-        seen = (id(drawn), here, exact)
+        units = UNITS[self._desk.view().units]
+        seen = (id(drawn), here, exact, units)
         if seen != self._drawn:
             self._drawn = seen
             self._picture.content = (
                 f'<div class="rx">{power_map.title(drawn)}{power_map.drawing(drawn, here, exact)}</div>'
             )
-            self._legend.content = power_map.legend(drawn)
+            self._legend.content = power_map.legend(drawn, units)
             self._point.visible = True
 
     def _axes(self, titles: list[str]) -> tuple[int, int]:

@@ -2,6 +2,8 @@
 
 from explorer.readout import number
 from explorer.state import LAWS, Inputs
+from explorer.units import SI, Units
+from rotor.switches import SWITCHES
 
 _SHAPES = {
     "linear": ("linear",),
@@ -22,8 +24,10 @@ def twist_name(inputs: Inputs) -> str:
     return name + (f" at {places}" if places else "")
 
 
-def flight_name(inputs: Inputs) -> str:
-    """The flight: `µ 0.25, 8.32 t`, and the altitude where it is not sea level."""
+def flight_name(inputs: Inputs, units: Units = SI) -> str:
+    """The flight: `µ 0.25, 8.32 t`, the altitude where it is not sea level, and what of the physics is switched off."""
     speed = f"µ {inputs.advance_ratio:g}" if inputs.advance_ratio else "hover"
-    high = f", {number(inputs.altitude_m)} m" if inputs.altitude_m else ""
-    return f"{speed}, {inputs.mass_t:g} t{high}"
+    high = f", {units.altitude.text(inputs.altitude_m)}" if inputs.altitude_m else ""
+    mass = f"{inputs.mass_t:g} t" if units is SI else units.mass.text(1e3 * inputs.mass_t)
+    off = "".join(f", no {switch.title.lower()}" for name, switch in SWITCHES.items() if not getattr(inputs, name))
+    return f"{speed}, {mass}{high}{off}"

@@ -20,6 +20,7 @@ from explorer.search_plot import TRACES, search_plot
 from explorer.search_run import FRAME, SearchRun
 from explorer.state import baseline_of, baseline_title, with_optimum
 from explorer.tasks import SearchTask
+from explorer.units import UNITS
 from explorer.wishes import OBJECTIVES, Wishes
 from rotor.concepts import CONCEPTS
 from rotor.design import Design
@@ -185,7 +186,7 @@ class OptimisePanel:
 
     def refresh(self, design: Design | None) -> None:
         """Bring everything that only shows into line. `design`: on the sliders; None when they mean none."""
-        run, wishes = self._run, self.wishes()
+        run, wishes, units = self._run, self.wishes(), UNITS[self._desk.view().units]
         for name, handle in self._numbers.items():
             handle.visible = wishes.asks_for(name)
         self._picture.content = _boxed(concept_picture(wishes.known_concept()), wishes.known_concept().explanation)
@@ -196,8 +197,8 @@ class OptimisePanel:
             return
         self._bar.value = round(100.0 * run.part_done, 1)
         self._bar.animated = under_way
-        self._found.content = search_text.found(run)
-        self._details.content = search_text.details(run)
+        self._found.content = search_text.found(run, units)
+        self._details.content = search_text.details(run, units)
         on_offer = self._offered and not under_way and len(run.frames) > 1
         here = design is not None and run.matches(design)
         if on_offer and here and self._scrubber.max != len(run.frames) - 1:
@@ -207,15 +208,15 @@ class OptimisePanel:
         if on_offer and here:
             if self._scrubber.value != run.cursor:
                 self._scrubber.value = run.cursor
-            self._frame.content = search_text.frame_line(run)
+            self._frame.content = search_text.frame_line(run, units)
         elif on_offer:
             self._frame.content = search_text.moved_on()
         else:
             self._frame.content = ""
-        seen = (id(run), run.progress, run.state)
+        seen = (id(run), run.progress, run.state, units)
         if seen != self._drawn:
-            self._drawn = seen
-            self._chart.show(search_plot(run, self._chart.y_range))
+            self._drawn, unit = seen, units.power[0]
+            self._chart.show(search_plot(run, self._chart.y_range, unit), title=f"Power [{unit.symbol}] per start")
 
     def _hear(self, run: SearchRun, news: News) -> None:
         run.hear(news)

@@ -16,6 +16,7 @@ from explorer.disk_image import encode_png
 from explorer.fields import ticks
 from explorer.readout import number
 from explorer.tasks import MapTask
+from explorer.units import SI, Units
 from rotor.concepts import Parameter
 from rotor.search.metric import BAND as _BAND
 
@@ -172,7 +173,7 @@ def point_of(text: str, drawn: Map) -> tuple[float, ...]:
     return tuple(values)
 
 
-def legend(drawn: Map) -> str:
+def legend(drawn: Map, units: Units = SI) -> str:
     """Axes, least power, lines, and what is held."""
     x, y = drawn.parameters
     at_x, at_y, power = drawn.least
@@ -188,7 +189,7 @@ def legend(drawn: Map) -> str:
     lines = ", ".join(f"{100 * part:g}" for part in CONTOURS)
     return (
         '<div class="rx rx-small" data-explorer="map-legend">'
-        f"<div>★ {number(power / 1e3, 1)} kW at {', '.join(best)}</div>"
+        f"<div>★ {units.watts(power, 1)} at {', '.join(best)}</div>"
         f'<div class="rx-dim">Outline: {100 * _BAND:g} % above. Lines: {lines} %.</div>'
         f'<div class="rx-dim">{"Held: " + escape(", ".join(held)) + "." if held else ""}</div></div>'
     )

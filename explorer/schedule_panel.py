@@ -14,6 +14,7 @@ from explorer.jobs import Broken, Ended, Job, News, Share, Started, Told, Waitin
 from explorer.schedule_view import LEGS, Course
 from explorer.state import with_optimum
 from explorer.tasks import FixedPowers, ScheduleTask
+from explorer.units import UNITS
 from explorer.wishes import Wishes
 from rotor.design import Design
 from rotor.objective import Leg
@@ -137,10 +138,11 @@ class SchedulePanel:
         self._bar.value = round(100.0 * (course.part_done if self._running else 1.0), 1)
         self._bar.animated = self._running
         self._verdict.visible = not self._running and course.at(None) is not None
-        seen = (id(course), len(course.cells), len(course.fixed_powers))
+        units = UNITS[self._desk.view().units]
+        seen = (id(course), len(course.cells), len(course.fixed_powers), units)
         if seen != self._drawn:
             self._drawn = seen
-            self._table.content = schedule_view.table(course)
+            self._table.content = schedule_view.table(course, units)
             self._twists.show(schedule_view.twist_plot(course, self._twists.y_range))
             self._savings.show(schedule_view.saving_plot(course, self._savings.y_range))
 

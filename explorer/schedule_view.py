@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from explorer.plots import Plot, Range, held_range
 from explorer.readout import number
+from explorer.units import SI, Units
 from rotor.optimise import Optimum
 from rotor.schedule import Cell, Plan, Schedule
 
@@ -86,36 +87,36 @@ def _saving(course: Course, leg: int) -> tuple[float, float]:
     return 100.0 * one.saving, math.nan if fixed is None else 100.0 * (1.0 - fixed / one.baseline_power)
 
 
-def table(course: Course) -> str:
+def table(course: Course, units: Units = SI) -> str:
     """HTML: one row a leg, then what moving is worth."""
     rows = []
     for k, leg in enumerate(course.plan.legs):
         one = course.at(k)
         moving, fixed = _saving(course, k)
-        baseline = None if one is None or one.baseline_power is None else one.baseline_power / 1e3
+        baseline = None if one is None or one.baseline_power is None else units.power[0].of(one.baseline_power)
         rows.append(
             f"<tr><td>{number(leg.condition.advance_ratio, 2) if leg.condition.advance_ratio else 'hover'}</td>"
             f'<td class="rx-num">{number(baseline)}</td><td class="rx-num">{number(fixed, 2)}</td>'
             f'<td class="rx-num">{number(moving, 2)}</td></tr>'
         )
     heading = (
-        '<tr class="rx-dim rx-small"><td>µ</td><td class="rx-num">as it is [kW]</td>'
+        f'<tr class="rx-dim rx-small"><td>µ</td><td class="rx-num">as it is [{units.power[0].symbol}]</td>'
         '<td class="rx-num">fixed [%]</td><td class="rx-num">moving [%]</td></tr>'
     )
-    body = f"{verdict(course)}<table>{heading}{''.join(rows)}</table>"
+    body = f"{verdict(course, units)}<table>{heading}{''.join(rows)}</table>"
     return f'<div class="rx rx-found" data-explorer="schedule">{body}</div>'
 
 
-def verdict(course: Course) -> str:
+def verdict(course: Course, units: Units = SI) -> str:
     """What the best fixed blade saves, and what moving is worth beyond it."""
     worth = course.schedule.worth(course.plan.concepts[0].name)
     if worth is None:
         return ""
     saved = worth.baseline - worth.fixed
     return (
-        f'<table><tr><td>Best fixed blade saves</td><td class="rx-num">{number(saved / 1e3, 1)} kW</td>'
+        f'<table><tr><td>Best fixed blade saves</td><td class="rx-num">{units.watts(saved, 1)}</td>'
         f'<td class="rx-num" style="width:26%">{number(100.0 * saved / worth.baseline, 2)} %</td></tr>'
-        f'<tr><td><b>Moving saves beyond it</b></td><td class="rx-num"><b>{number(worth.gain / 1e3, 1)} kW</b></td>'
+        f'<tr><td><b>Moving saves beyond it</b></td><td class="rx-num"><b>{units.watts(worth.gain, 1)}</b></td>'
         f'<td class="rx-num"><b>{number(100.0 * worth.share, 2)} %</b></td></tr></table>'
     )
 

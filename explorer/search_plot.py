@@ -6,22 +6,23 @@ import numpy as np
 
 from explorer.plots import Plot, Range, held_range
 from explorer.search_run import SearchRun
+from explorer.units import KILOWATT, Unit
 
 TRACES = 16
 """Traces of the chart, and the most starts of a search on the page."""
 _SHORTEST = 24
 
 
-def search_plot(run: SearchRun | None, previous: Range | None) -> Plot:
-    """Series: the design it began from, TRACES starts, the best start again; all [kW] over the start's own evaluations.
+def search_plot(run: SearchRun | None, previous: Range | None, unit: Unit = KILOWATT) -> Plot:
+    """Series: the design it began from, TRACES starts, the best start again; over the start's own evaluations.
 
     A start that has ended goes on level; one that has not begun lies outside the axis.
     """
     traces = [list(trace) for trace in run.traces[:TRACES]] if run is not None else []
     length = _round_up(max([_SHORTEST, *(len(trace) for trace in traces)]))
     x = np.arange(1.0, length + 1.0)
-    begun = [np.array(trace) / 1e3 for trace in traces if trace]
-    start = run.start_power / 1e3 if run is not None and run.start_power is not None else None
+    begun = [np.array(trace) / unit.size for trace in traces if trace]
+    start = unit.of(run.start_power) if run is not None and run.start_power is not None else None
     if begun:
         least = min(float(trace.min()) for trace in begun)
         # Ranged on where the starts end and on what they improve, not on the worst design that was tried.
@@ -34,7 +35,7 @@ def search_plot(run: SearchRun | None, previous: Range | None) -> Plot:
     best = np.full(length, outside)
     for k, trace in enumerate(traces):
         if trace:
-            values = np.array(trace) / 1e3
+            values = np.array(trace) / unit.size
             lines[k] = np.minimum(np.concatenate((values, np.full(length - len(values), values.min()))), outside)
             if values.min() == least:
                 best = np.minimum.accumulate(lines[k])

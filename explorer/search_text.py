@@ -4,6 +4,7 @@ from html import escape
 
 from explorer.readout import number
 from explorer.search_run import SearchRun
+from explorer.units import SI, Units
 from rotor.concepts import Concept
 from rotor.optimise import Optimum
 
@@ -49,7 +50,7 @@ def _where(run: SearchRun) -> str:
             return "Ended early, best so far kept" if run.best else "Ended early"
 
 
-def found(run: SearchRun) -> str:
+def found(run: SearchRun, units: Units = SI) -> str:
     """The best so far, and what it saves."""
     best = run.best
     parts = []
@@ -62,20 +63,20 @@ def found(run: SearchRun) -> str:
     mean = "mean power" if len(_legs(run)) > 1 else f"{_quantity(run)} power"
     parts.append(
         '<div class="rx-line rx-base"><span class="rx-best" data-explorer="best">'
-        f"{number(best.power / 1e3, 1)} kW</span><span class='rx-dim'>{mean}, "
+        f"{units.watts(best.power, 1)}</span><span class='rx-dim'>{mean}, "
         f"{'best so far' if run.under_way else 'best found'}</span></div>"
     )
-    rows = [_saving("the start", best.power, run.start_power)]
+    rows = [_saving("the start", best.power, run.start_power, units)]
     if run.reference_power != run.start_power:
-        rows.append(_saving(run.reference_title, best.power, run.reference_power))
+        rows.append(_saving(run.reference_title, best.power, run.reference_power, units))
     parts.append(f"<table>{''.join(rows)}</table>")
     return _block(parts)
 
 
-def details(run: SearchRun) -> str:
+def details(run: SearchRun, units: Units = SI) -> str:
     """What the optimum is made of, how flat it is, and what else was found."""
     optimum = run.optimum
-    return "" if optimum is None or optimum.best is None else _block([_optimum(optimum, run.concept)], "details")
+    return "" if optimum is None or optimum.best is None else _block([_optimum(optimum, run.concept, units)], "details")
 
 
 def _block(parts: list[str], name: str = "found") -> str:
@@ -90,7 +91,7 @@ def _quantity(run: SearchRun) -> str:
     return run.search.objective.quantity if run.search.objective is not None else "total"
 
 
-def _saving(title: str, power: float, reference: float | None) -> str:
+def _saving(title: str, power: float, reference: float | None, units: Units) -> str:
     if reference is None or reference <= 0.0:
         return f'<tr><td class="rx-dim">{escape(title)}</td><td class="rx-num">does not trim</td><td></td></tr>'
     less = power <= reference
@@ -98,12 +99,12 @@ def _saving(title: str, power: float, reference: float | None) -> str:
     kind = "" if abs(percent) < 0.005 else " rx-less" if less else " rx-more"
     return (
         f'<tr><td class="rx-dim">{"below" if less else "above"} {escape(title)}</td>'
-        f'<td class="rx-num">{number(abs(power - reference) / 1e3, 1)} kW</td>'
+        f'<td class="rx-num">{units.watts(abs(power - reference), 1)}</td>'
         f'<td class="rx-num{kind}" style="width:26%">{number(percent, 2, sign=True)} %</td></tr>'
     )
 
 
-def _optimum(optimum: Optimum, concept: Concept) -> str:
+def _optimum(optimum: Optimum, concept: Concept, units: Units) -> str:
     best = optimum.best
     assert best is not None
     bands = {band.parameter: band for band in optimum.band}
@@ -123,23 +124,23 @@ def _optimum(optimum: Optimum, concept: Concept) -> str:
     notes = [optimum.message]
     if best.active:
         notes.append(f"Held by: {', '.join(name.replace('_', ' ') for name in best.active)}.")
-    others = [f"{number(other.power / 1e3, 1)} kW" for other in optimum.minima[1:3]]
+    others = [units.watts(other.power, 1) for other in optimum.minima[1:3]]
     if others:
         notes.append(f"Other minima: {', '.join(others)}.")
     lines.append(f'<div class="rx-dim rx-small">{escape(" ".join(notes))}</div>')
     return "".join(lines)
 
 
-def frame_line(run: SearchRun) -> str:
+def frame_line(run: SearchRun, units: Units = SI) -> str:
     """What the scrubber points at."""
     if not run.frames:
         return ""
     frame = run.frames[run.cursor]
-    power = frame.power / 1e3
+    power = frame.power if frame.power < 1e12 else None  # A design that did not trim has no power.
     what = "the blade it began from" if run.cursor == 0 else f"design {frame.evaluation}"
     return (
         f'<div class="rx rx-line rx-dim rx-small" data-explorer="frame"><span>{what}</span>'
-        f"<span>{number(power, 1) if power < 1e9 else '–'} kW</span></div>"
+        f"<span>{units.watts(power, 1)}</span></div>"
     )
 
 

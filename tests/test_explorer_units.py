@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 import viser
 
-from explorer import ab_readout, plots, readout
+from explorer import ab_readout, history_view, plots, readout
 from explorer.controls import Controls
+from explorer.history import History
+from explorer.naming import flight_name
 from explorer.sliders import LIMITS, SLIDERS, meant, shown, slider
 from explorer.state import Inputs, ViewState
 from explorer.units import AVIATION, FOOT, HORSEPOWER, KNOT, POUND, SI, UNITS
@@ -52,6 +54,22 @@ def test_a_and_b_in_horsepower(solution: Solution):
     assert "Δ hp" in html
     assert "Δ kW" not in html
     assert AVIATION.watts(solution.power.total) in html
+
+
+def test_names_say_the_flight_in_the_chosen_units_and_what_is_off():
+    inputs = Inputs(mass_t=9.0, altitude_m=1524.0, flapping=False, hub_loss=False)
+    assert flight_name(inputs) == "µ 0.2, 9 t, 1\u2009524 m, no flapping, no hub loss"
+    assert flight_name(Inputs(altitude_m=1524.0), AVIATION) == "µ 0.2, 18\u2009342 lb, 5\u2009000 ft"
+
+
+def test_searches_and_history_in_horsepower(solution: Solution):
+    history = History(Inputs())
+    for units in (SI, AVIATION):
+        shown = units.watts(solution.power.total)
+        assert shown in history_view.strip(history, {Inputs(): solution.power.total}, units)
+        assert shown in history_view.kept_rows((history_view.Kept(Inputs(), solution),), None, units)
+    kept = history_view.Kept(Inputs(), solution)
+    assert "now 0 hp" in history_view.kept_rows((kept,), solution, AVIATION)
 
 
 def test_curves_change_with_the_unit():
