@@ -16,8 +16,8 @@ Faces = NDArray[np.uint32]
 
 _RING = 45
 """Points round a section of the page's blade (odd)."""
-_SHANK_RADIUS = 0.085
-"""A plausible round root shank [m]; the flown cuff's own shape is not in the data."""
+_SHANK_RADIUS = 0.16
+"""A plausible round root shank, in reference chords; the flown cuff's own shape is not in the data."""
 _SHANK_END = 0.70
 """Where the shank begins to fair into the blade, as a part of the stretch from hinge to root cut-out."""
 
@@ -73,7 +73,7 @@ def blade_shape(rotor: Rotor, detail: Detail = PAGE) -> BladeShape:
     angle = 2.0 * math.pi * (np.arange(points) + 0.5) / points
     root = _section_ring(rotor, cutout, points)
     # The circle runs as the outlines do: from the trailing edge over the upper side to the nose.
-    circle = _SHANK_RADIUS * np.stack((-np.cos(angle), np.sin(angle)), axis=1)
+    circle = _SHANK_RADIUS * rotor.reference_chord * np.stack((-np.cos(angle), np.sin(angle)), axis=1)
     fairing = np.clip((shank - shank[1]) / (cutout - shank[1]), 0.0, 1.0)
     fairing = fairing**2 * (3.0 - 2.0 * fairing)
     rings = [(1.0 - f) * circle + f * root for f in fairing]

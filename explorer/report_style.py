@@ -32,6 +32,8 @@ padding:4px 12px;cursor:pointer}}button:hover,button.on{{border-color:#1c7ed6}}b
 padding:12px 16px 13px}}
 .card h3{{margin:0;font-size:13px;color:var(--mark)}}
 .big{{display:flex;align-items:baseline;gap:10px}}.big b{{font-size:29px;font-weight:650;letter-spacing:-.6px}}
+.big b,.big .dim{{white-space:nowrap}}
+.big .change{{white-space:normal;text-align:right;line-height:1.2}}
 .change{{margin-left:auto;font-size:17px;font-weight:600}}.change.dim{{font-size:13px;font-weight:400}}
 .less{{color:var(--less)}}.more{{color:var(--more)}}
 .bar{{display:flex;gap:1px;height:10px;margin:3px 0 8px;background:var(--grid);border-radius:2px;overflow:hidden}}
@@ -51,6 +53,7 @@ th{{font-size:13px}}
 .comparison table{{table-layout:fixed}}.comparison .words td{{font-size:12.5px;line-height:1.4}}
 .comparison .total td{{border-top:2px solid var(--line);font-weight:600}}.total small{{font-weight:400}}
 .tables{{display:grid;grid-template-columns:repeat(auto-fit,minmax(300px,1fr));gap:0 40px}}
+.tables td:last-child{{white-space:nowrap}}
 .design{{border-top:3px solid var(--mark);margin-top:54px}}.design h2{{margin-top:16px;color:var(--mark)}}
 .lead{{font-size:18px;font-weight:600}}
 .care,.good{{border-radius:6px;padding:9px 14px;margin:14px 0;font-size:14px}}
@@ -74,7 +77,9 @@ main{{max-width:none;padding:0}}body{{font-size:10.5pt}}
 .stage,#theme,details{{display:none}}
 .card,figure,tr,.care,.tables>div{{break-inside:avoid}}h2,h3{{break-after:avoid}}
 .design{{break-before:page;margin-top:0}}
-.cards,.tables{{grid-template-columns:1fr 1fr}}.charts{{grid-template-columns:1fr 1fr}}
+.cards,.charts{{grid-template-columns:1fr 1fr}}.tables{{grid-template-columns:repeat(3,1fr);gap:0 16px}}
+table,.comparison .words td,.blade table{{font-size:8pt}}.wide{{overflow:visible}}
+.tables td:first-child{{white-space:normal}}.comparison table{{width:100%!important}}.comparison td{{min-width:0}}.blade .words td,small{{font-size:7pt}}
 *{{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
 }}
 """

@@ -148,8 +148,8 @@ def blade(design: Design) -> str:
     places = [shape.section_at(r) for r in stations]
     sections = [section_title(inner) if inner == outer else "blended" for inner, outer, _ in places]
     rows = [
-        _row("Twist", [f"{number(angle, 2, sign=True)}°" for angle in angles]),
-        _row("Chord", [f"{number(chord, 3)} m" for chord in chords]),
+        _row("Twist [°]", [number(angle, 2, sign=True) for angle in angles]),
+        _row("Chord [m]", [number(chord, 3) for chord in chords]),
         _row("Section", [escape(name) for name in sections], "words"),
     ]
     head = "".join(f"<th>{number(r, 2)}</th>" for r in stations)
