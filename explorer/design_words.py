@@ -2,8 +2,8 @@
 
 import math
 
-from explorer.readout import number
-from explorer.state import KNOT, PRESET_TITLES
+from explorer.state import PRESET_TITLES
+from explorer.units import METRE_PER_SECOND, SI, TONNE, Units, number
 from rotor.active_twist import ActiveTwist
 from rotor.design import Design
 from rotor.inflow import INFLOW_MODELS
@@ -60,11 +60,13 @@ def title_words(design: Design) -> str:
     return words if words.startswith(design.rotor.name) else f"{design.rotor.name} · {words}"
 
 
-def flight_words(design: Design) -> str:
+def flight_words(design: Design, units: Units = SI) -> str:
     """Speed, weight and height in one line."""
-    condition, speed = design.condition, design.airspeed
-    where = "Hover" if design.hovering else f"µ {number(condition.advance_ratio, 3)} · {number(speed / KNOT)} kt"
-    return f"{where} · {number(condition.mass)} kg · {number(condition.altitude)} m"
+    condition = design.condition
+    speeds = " · ".join(unit.text(design.airspeed) for unit in units.speed if unit is not METRE_PER_SECOND)
+    where = "Hover" if design.hovering else f"µ {number(condition.advance_ratio, 3)} · {speeds}"
+    mass = units.mass.text(condition.mass, 2 if units.mass is TONNE else 0)
+    return f"{where} · {mass} · {units.altitude.text(condition.altitude)}"
 
 
 def model_words(design: Design) -> str:

@@ -12,8 +12,7 @@ from explorer.colours import RIM, VOID, colour_map, css
 from explorer.fields import Field, ticks
 from explorer.outlines import drag_divergence_segments, reverse_flow_segments, stall_segments
 from explorer.picture import OUTLINE_COLOURS, disk_png
-from explorer.readout import number
-from explorer.state import KNOT
+from explorer.units import SI, Units
 from rotor.solution import Solution
 
 Array = NDArray[np.float64]
@@ -37,6 +36,7 @@ def disk_drawing(
     pixels: int = disk_image.SIZE,
     shown: tuple[str, ...] = tuple(OUTLINES),
     letters: float = 9.0,
+    units: Units = SI,
 ) -> str:
     """The inside of an SVG that spans −HALF…HALF: nose up, advancing side right.
 
@@ -47,7 +47,7 @@ def disk_drawing(
     cutout = 100.0 * solution.design.rotor.blade.root_cutout
     rings = "".join(f'<circle r="{r:.2f}" fill="none"/>' for r in (100.0, cutout))
     rim = f'<g stroke="{css(RIM)}" stroke-width=".8">{rings}<path d="{_ticks()}"/></g>'
-    return f"{picture}{rim}{_lines(solution, shown)}{_labels(letters)}{_flight(solution, letters)}"
+    return f"{picture}{rim}{_lines(solution, shown)}{_labels(letters)}{_flight(solution, letters, units)}"
 
 
 def _lines(solution: Solution, shown: tuple[str, ...]) -> str:
@@ -115,13 +115,13 @@ def _at(psi_deg: float, r: float) -> tuple[float, float]:
     return r * math.sin(psi), r * math.cos(psi)
 
 
-def _flight(solution: Solution, size: float) -> str:
+def _flight(solution: Solution, size: float, units: Units) -> str:
     """The arrow ahead of the nose with the speed; nothing in hover."""
     speed = solution.design.airspeed
     if speed == 0.0:
         return ""
     arrow = '<path d="M0,-131 l4.4,7 h-2.9 v6 h-3 v-6 h-2.9 Z" fill="#c92a2a"/>'
-    return arrow + marks.text(7, -124.5 + 0.35 * size, f"{number(speed / KNOT)} kt", size)
+    return arrow + marks.text(7, -124.5 + 0.35 * size, units.speed[0].text(speed), size)
 
 
 def bar_drawing(field: Field, colour_range: Range, wide: float, name: str, size: float = 9.0) -> str:

@@ -13,11 +13,11 @@ from explorer.fields import FIELDS, Field
 from explorer.plots import Range
 from explorer.power_curve import PowerCurves
 from explorer.provenance import PROGRAM, versions
-from explorer.readout import number, tiny
+from explorer.readout import tiny
 from explorer.report_style import SCRIPT, SHEET
 from explorer.stage import Stage
 from explorer.state import ViewState
-from explorer.units import HORSEPOWER
+from explorer.units import UNITS, Units
 from rotor.solution import Solution
 
 COLOURS = ("#1c7ed6", "#e8590c", "#0ca678", "#9c36b5", "#c99700", "#c2255c", "#0b7285", "#5f3dc4")
@@ -51,6 +51,11 @@ class Report:
     own_section: bool = False
     """Whether the reference is a design of the user's, to be shown as the others are."""
 
+    @property
+    def units(self) -> Units:
+        """Of powers, speeds and weights."""
+        return UNITS[self.view.units]
+
     def colour_range(self, shown: Field) -> Range:
         """Of a field."""
         return self.ranges.get(shown.title, (shown.low, shown.high))
@@ -83,8 +88,8 @@ def fields_of(report: Report) -> list[Field]:
 
 def report_html(report: Report, stage: Stage | None, curves: PowerCurves | None = None) -> str:
     """The file's text. `stage`: the 3D scenes of `report.shown`, in their order; `curves`: power already swept."""
-    several = len(report.entries) > 1
-    title = f"{len(report.entries)} blades compared" if several else title_words(report.entries[0].solution.design)
+    several = len(report.shown) > 1
+    title = f"{len(report.shown)} designs compared" if several else title_words(report.entries[0].solution.design)
     overview = [
         _glance(report),
         _stage(report, stage),
@@ -135,10 +140,10 @@ def _card(report: Report, k: int, colour: str) -> str:
         title = f'<a href="#design-{k}">{title}</a>'
     return (
         f'<article class="card" style="--mark:{colour}"><h3>{title}</h3>'
-        f'<div class="big"><b data-report="total-power">{number(power.total / 1e3)} kW</b>'
-        f'<span class="dim">{HORSEPOWER.text(power.total)}</span>{change}</div>'
+        f'<div class="big"><b data-report="total-power">{report.units.watts(power.total)}</b>'
+        f'<span class="dim">{report.units.power[1].text(power.total)}</span>{change}</div>'
         f'<div class="bar">{bar}</div><div>{escape(title_words(design))}</div>'
-        f'<div class="dim">{escape(flight_words(design))}</div></article>'
+        f'<div class="dim">{escape(flight_words(design, report.units))}</div></article>'
     )
 
 
@@ -169,7 +174,8 @@ def _section(report: Report, k: int) -> str:
     return (
         f'<section class="design" id="design-{k}" style="--mark:{colour}"><h2>{escape(entry.title)}</h2>'
         f'<p class="lead">{escape(title_words(solution.design))}</p>{active}'
-        f'<p class="dim">{escape(flight_words(solution.design))}<br>{escape(model_words(solution.design))}</p>'
+        f'<p class="dim">{escape(flight_words(solution.design, report.units))}<br>'
+        f"{escape(model_words(solution.design))}</p>"
         f"{_caveats(solution)}"
         f'<div class="tables">{report_tables.conditions(solution)}{report_tables.parts(report, entry)}'
         f"{report_tables.trim(solution)}</div>{report_tables.blade(solution.design)}"

@@ -51,7 +51,7 @@ def overview(report: "Report", curves: PowerCurves) -> str:
         line_chart(
             "Power over advance ratio",
             "advance ratio µ; hover stands alone, it is another model",
-            "total power [kW]",
+            f"total power [{report.units.power[0].symbol}]",
             power,
             (-0.01, 0.46),
             plots.held_range(None, 0.0, top),
@@ -80,13 +80,15 @@ def _power(report: "Report", entry: "Entry", colour: str, curves: PowerCurves) -
     curves.sweep(design, report.reference.solution.design, lambda: False)
     curve, mu = curves.known(design, report.reference.solution.design), np.array(SWEEP)
     is_reference = entry is report.reference
-    here = np.array([design.condition.advance_ratio]), np.array([entry.solution.power.total / 1e3])
+    unit = report.units.power[0]
+    here = np.array([design.condition.advance_ratio]), np.array([unit.of(entry.solution.power.total)])
+    total, ideal = (1e3 * values / unit.size for values in (curve.design, curve.ideal))
     traces = [
-        Trace(entry.title, colour, *_smooth(curve.design), "6 4" if is_reference else "", 1.6 if is_reference else 2.2),
-        Trace("", colour, mu[:1], curve.design[:1], points=True),
+        Trace(entry.title, colour, *_smooth(total), "6 4" if is_reference else "", 1.6 if is_reference else 2.2),
+        Trace("", colour, mu[:1], total[:1], points=True),
     ]
     if entry is report.entries[0]:
-        traces.insert(0, Trace("ideal for its lift", IDEAL, *_smooth(curve.ideal), "2 3", 1.4))
+        traces.insert(0, Trace("ideal for its lift", IDEAL, *_smooth(ideal), "2 3", 1.4))
     return traces if is_reference else [*traces, Trace("", colour, *here, points=True)]
 
 
@@ -127,7 +129,7 @@ def disks(report: "Report", entry: "Entry", k: int) -> str:
     solution, figures = entry.solution, []
     for n, field in enumerate(fields_of(report)):
         colour_range = report.colour_range(field)
-        drawn = disk_drawing(solution, field, colour_range, PIXELS, letters=_LETTERS)
+        drawn = disk_drawing(solution, field, colour_range, PIXELS, letters=_LETTERS, units=report.units)
         figures.append(
             f'<figure><svg viewBox="{-HALF:g} {-HALF:g} {2 * HALF:g} {2 * HALF:g}" role="img" '
             f'aria-label="{escape(field.title, quote=True)} over the disk">{drawn}</svg>'

@@ -79,7 +79,8 @@ main{{max-width:none;padding:0}}body{{font-size:10.5pt}}
 .design{{break-before:page;margin-top:0}}
 .cards,.charts{{grid-template-columns:1fr 1fr}}.tables{{grid-template-columns:repeat(3,1fr);gap:0 16px}}
 table,.comparison .words td,.blade table{{font-size:8pt}}.wide{{overflow:visible}}
-.tables td:first-child{{white-space:normal}}.comparison table{{width:100%!important}}.comparison td{{min-width:0}}.blade .words td,small{{font-size:7pt}}
+.tables td:first-child{{white-space:normal}}.comparison table{{width:100%!important}}
+.comparison td{{min-width:0}}.blade .words td,small{{font-size:7pt}}
 *{{-webkit-print-color-adjust:exact;print-color-adjust:exact}}
 }}
 """

@@ -9,8 +9,9 @@ import numpy as np
 
 from explorer.colours import PARTS
 from explorer.design_words import inflow_words, physics_words, twist_words
-from explorer.readout import ideal_induced, number, section_title
-from explorer.state import KNOT, PRESET_TITLES
+from explorer.readout import ideal_induced, section_title
+from explorer.state import PRESET_TITLES
+from explorer.units import FOOT, KILOGRAM, METRE, POUND, SI, TONNE, Units, number
 from rotor.design import Design
 from rotor.solution import Solution
 
@@ -48,7 +49,7 @@ def comparison(report: "Report") -> str:
 
     def compared(value: Callable[[Solution], float]) -> list[str]:
         return [
-            _with_change(entry.solution, reference if report.comparable(entry) else entry.solution, value)
+            _with_change(entry.solution, reference if report.comparable(entry) else entry.solution, value, report.units)
             for entry in report.all
         ]
 
@@ -58,8 +59,8 @@ def comparison(report: "Report") -> str:
     )  # [px]; more than fit are scrolled.
     rows = [
         _row("Twist", [escape(twist_words(entry.solution.design.twist)) for entry in report.all], "words"),
-        _row("Speed", [_speed(entry.solution.design) for entry in report.all]),
-        _row("Weight, altitude", [_weight(entry.solution.design) for entry in report.all]),
+        _row("Speed", [_speed(entry.solution.design, report.units) for entry in report.all]),
+        _row("Weight, altitude", [_weight(entry.solution.design, report.units) for entry in report.all]),
         _row("Model", [_model(entry.solution.design) for entry in report.all], "words"),
         _row("<b>Total power</b>", compared(_total), "total"),
         *(
@@ -86,9 +87,9 @@ def conditions(solution: Solution) -> str:
     condition, rotor, models = design.condition, design.rotor, design.models
     rows = [
         ("Advance ratio µ", number(condition.advance_ratio, 3)),
-        ("Airspeed", f"{number(design.airspeed / KNOT, 1)} kt · {number(design.airspeed, 1)} m/s"),
-        ("Mass", f"{number(condition.mass)} kg"),
-        ("Pressure altitude", f"{number(condition.altitude)} m"),
+        ("Airspeed", SI.airspeed(design.airspeed)),
+        ("Mass", f"{KILOGRAM.text(condition.mass, 1)} · {POUND.text(condition.mass)}"),
+        ("Pressure altitude", f"{METRE.text(condition.altitude)} · {FOOT.text(condition.altitude)}"),
         ("Air density", f"{number(condition.density, 4)} kg/m³"),
         ("Radius, tip speed", f"{number(rotor.radius, 3)} m, {number(rotor.tip_speed, 1)} m/s"),
         ("Blades, solidity", f"{rotor.blades}, {number(rotor.solidity, 4)}"),
@@ -103,20 +104,20 @@ def conditions(solution: Solution) -> str:
 
 def parts(report: "Report", entry: "Entry") -> str:
     """Power by parts with shares and the change against the reference."""
-    power, reference = entry.solution.power, report.reference.solution.power
+    power, units = entry.solution.power, report.units
     ideal = ideal_induced(entry.solution)
     rows = [
-        (f'<i style="background:{PARTS[name]}"></i>{title}', _kilowatts(getattr(power, name), power.total))
+        (f'<i style="background:{PARTS[name]}"></i>{title}', _share(getattr(power, name), power.total, units))
         for name, title in PART_TITLES.items()
     ]
-    total = (power.total - reference.total) / 1e3
-    rows = [
-        *rows,
-        ("Main rotor", f"{number(power.main_rotor / 1e3, 1)} kW"),
-        ("<b>Total</b>", f"<b>{number(power.total / 1e3, 1)} kW</b>"),
-        (f"Against {escape(report.reference.title)}", f"{number(total, 1, sign=True)} kW"),
-        ("Least induced, any circulation", "not settled" if ideal is None else f"{number(ideal / 1e3, 1)} kW"),
+    rows += [
+        ("Main rotor", units.watts(power.main_rotor, 1)),
+        ("<b>Total</b>", f"<b>{units.watts(power.total, 1)}</b>"),
     ]
+    if report.comparable(entry):
+        change = units.watts(power.total - report.reference.solution.power.total, 1, sign=True)
+        rows.append((f"Against {escape(report.reference.title)}", change))
+    rows.append(("Least induced, any circulation", "not settled" if ideal is None else units.watts(ideal, 1)))
     return _table("Power", rows, raw=True)
 
 
@@ -172,13 +173,13 @@ def _row(name: str, cells: list[str], kind: str = "") -> str:
     return f'<tr class="{kind}"><td>{name}</td>{"".join(f"<td>{cell}</td>" for cell in cells)}</tr>'
 
 
-def _with_change(solution: Solution, reference: Solution, value: Callable[[Solution], float]) -> str:
-    """Kilowatts, and beneath them the difference in kilowatts and per cent."""
+def _with_change(solution: Solution, reference: Solution, value: Callable[[Solution], float], units: Units) -> str:
+    """A power, and beneath it the difference, in its unit and in per cent."""
     here, there = value(solution), value(reference)
     if solution is reference:
-        return f"{number(here / 1e3, 1)} kW"
+        return units.watts(here, 1)
     per_cent = f" · {number(100.0 * (here / there - 1.0), 1, sign=True)} %" if abs(there) > 1.0 else ""
-    return f"{number(here / 1e3, 1)} kW<br><small>{number((here - there) / 1e3, 1, sign=True)} kW{per_cent}</small>"
+    return f"{units.watts(here, 1)}<br><small>{units.watts(here - there, 1, sign=True)}{per_cent}</small>"
 
 
 def _total(solution: Solution) -> float:
@@ -189,18 +190,19 @@ def _part(name: str) -> Callable[[Solution], float]:
     return lambda solution: float(getattr(solution.power, name))
 
 
-def _kilowatts(part: float, total: float) -> str:
-    return f"{number(part / 1e3, 1)} kW <small>{number(100.0 * part / total)} %</small>"
+def _share(part: float, total: float, units: Units) -> str:
+    return f"{units.watts(part, 1)} <small>{number(100.0 * part / total)} %</small>"
 
 
-def _speed(design: Design) -> str:
+def _speed(design: Design, units: Units) -> str:
     if design.hovering:
         return "hover"
-    return f"µ {number(design.condition.advance_ratio, 3)}<br><small>{number(design.airspeed / KNOT)} kt</small>"
+    return f"µ {number(design.condition.advance_ratio, 3)}<br><small>{units.speed[0].text(design.airspeed)}</small>"
 
 
-def _weight(design: Design) -> str:
-    return f"{number(design.condition.mass)} kg<br><small>{number(design.condition.altitude)} m</small>"
+def _weight(design: Design, units: Units) -> str:
+    mass = units.mass.text(design.condition.mass, 2 if units.mass is TONNE else 0)
+    return f"{mass}<br><small>{units.altitude.text(design.condition.altitude)}</small>"
 
 
 def _model(design: Design) -> str:

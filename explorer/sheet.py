@@ -12,8 +12,8 @@ from explorer.design_words import active_words, flight_words, model_words, title
 from explorer.disk_drawing import HALF, OUTLINES, bar_drawing, disk_drawing, key_entries
 from explorer.fields import FIELDS, Field
 from explorer.provenance import PROGRAM, versions
-from explorer.readout import number
 from explorer.state import ViewState
+from explorer.units import SI, UNITS, Units
 from rotor.solution import Solution
 
 SIZES = {
@@ -76,6 +76,7 @@ class Shown:
     """By their names in `ViewState`."""
     note: str = ""
     """A line below the title, for example what A is."""
+    units: Units = SI
 
 
 def shown(
@@ -83,7 +84,13 @@ def shown(
 ) -> Shown:
     """What the page shows; `field` where it is not just that of the view, and its colour range where it was moved."""
     field = field or FIELDS[view.field]
-    return Shown(field, colour_range or (field.low, field.high), tuple(n for n in OUTLINES if getattr(view, n)), note)
+    return Shown(
+        field,
+        colour_range or (field.low, field.high),
+        tuple(n for n in OUTLINES if getattr(view, n)),
+        note,
+        UNITS[view.units],
+    )
 
 
 def window(solution: Solution, paper: Paper) -> tuple[int, int, int, int]:
@@ -107,7 +114,7 @@ def disk_sheet(solution: Solution, shown: Shown, paper: Paper) -> str:
     x = 1 * u if paper.beside else 0.5 * (paper.width - edge)
     y = 0.5 * (paper.height - edge) if paper.beside else 13 * u
     pixels = round(edge * 100.0 / HALF)
-    drawn = disk_drawing(solution, shown.field, shown.colour_range, pixels, shown.outlines, letters=6.5)
+    drawn = disk_drawing(solution, shown.field, shown.colour_range, pixels, shown.outlines, 6.5, shown.units)
     disk = f'<svg x="{x:.1f}" y="{y:.1f}" width="{edge:.1f}" height="{edge:.1f}" viewBox="{_SQUARE}">{drawn}</svg>'
     if not paper.beside:
         return _page(paper, disk + _above_and_below(solution, shown, paper))
@@ -125,7 +132,7 @@ def view_sheet(solution: Solution, shown: Shown, paper: Paper, render: bytes) ->
     right, caveats = paper.width - 40 * u, _caveats(solution, 42 * u, u)
     bottom = paper.height - 3 * u
     above = bottom - 2.5 * u * sum(map(len, caveats)) - 18 * u
-    words = _heading(solution, shown.note, 4 * u, 7 * u, 58 * u, u) + _power(solution, 4 * u, above, 30 * u, u)
+    words = _heading(solution, shown, 4 * u, 7 * u, 58 * u, u) + _power(solution, shown.units, 4 * u, above, 30 * u, u)
     scale = _scale(solution, shown, right, paper.height - 21 * u, 36 * u, u)
     return _page(
         paper, seen + words + scale + _warning(solution, 4 * u, bottom, 42 * u, u) + _foot(paper, right + 36 * u, "end")
@@ -148,8 +155,8 @@ def _column(solution: Solution, shown: Shown, paper: Paper, x: float, wide: floa
     """Everything that is said, beside the disk."""
     u = paper.unit
     return (
-        _heading(solution, shown.note, x, 9 * u, wide, u)
-        + _power(solution, x, 32 * u, wide, u)
+        _heading(solution, shown, x, 9 * u, wide, u)
+        + _power(solution, shown.units, x, 32 * u, wide, u)
         + _scale(solution, shown, x, 61 * u, wide, u)
         + _warning(solution, x, paper.height - 7 * u, wide, u)
         + _foot(paper, x, "start")
@@ -160,28 +167,28 @@ def _above_and_below(solution: Solution, shown: Shown, paper: Paper) -> str:
     u, wide = paper.unit, paper.width
     top = paper.height - (_below(solution, paper) - 1) * u
     return (
-        _heading(solution, shown.note, 4 * u, 5.5 * u, wide - 8 * u, u)
-        + _power(solution, 4 * u, top, 0.44 * wide, u)
+        _heading(solution, shown, 4 * u, 5.5 * u, wide - 8 * u, u)
+        + _power(solution, shown.units, 4 * u, top, 0.44 * wide, u)
         + _scale(solution, shown, 0.55 * wide, top, wide * 0.45 - 4 * u, u)
         + _warning(solution, 4 * u, paper.height - 5.5 * u, wide - 8 * u, u)
         + _foot(paper, wide - 4 * u, "end")
     )
 
 
-def _heading(solution: Solution, note: str, x: float, y: float, wide: float, u: float) -> str:
+def _heading(solution: Solution, shown: Shown, x: float, y: float, wide: float, u: float) -> str:
     """Twist, flight and models."""
     design = solution.design
     title = _wrapped(title_words(design), wide, 3.0 * u, bold=True)
-    below = [flight_words(design), *_wrapped(model_words(design), wide, 2.1 * u)]
-    if note:
-        below.append(note)
+    below = [flight_words(design, shown.units), *_wrapped(model_words(design), wide, 2.1 * u)]
+    if shown.note:
+        below.append(shown.note)
     if design.active_twist is not None and not design.hovering:
         below.insert(0, f"with {active_words(design.active_twist)}")
     under = y + len(title) * 3.9 * u
     return _lines(title, x, y, 3.0 * u, 650) + _lines(below, x, under, 2.1 * u, opacity=0.8)
 
 
-def _power(solution: Solution, x: float, y: float, wide: float, u: float) -> str:
+def _power(solution: Solution, units: Units, x: float, y: float, wide: float, u: float) -> str:
     """Total power, and its parts as a bar and in words."""
     power = solution.power
     values = {name: max(getattr(power, name), 0.0) for name in PARTS}
@@ -197,10 +204,10 @@ def _power(solution: Solution, x: float, y: float, wide: float, u: float) -> str
         words.append(
             f'<rect x="{column:.1f}" y="{row - 1.5 * u:.1f}" width="{1.5 * u:.1f}" height="{1.5 * u:.1f}" '
             f'fill="{PARTS[name]}"/>'
-            + marks.text(column + 2.4 * u, row, f"{_TITLES[name]} {number(value / 1e3)} kW", 1.9 * u)
+            + marks.text(column + 2.4 * u, row, f"{_TITLES[name]} {units.watts(value)}", 1.9 * u)
         )
     return (
-        marks.text(x, y, f"{number(power.total / 1e3)} kW", 4.6 * u, weight=650)
+        marks.text(x, y, units.watts(power.total), 4.6 * u, weight=650)
         + marks.text(x + wide, y, "total power", 2.0 * u, anchor="end", opacity=0.7)
         + "".join(bars + words)
     )
