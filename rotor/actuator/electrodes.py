@@ -6,6 +6,7 @@ thickness (d31, gap = thickness).
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -89,6 +90,7 @@ class FieldMap:
     """|E| over V/gap, (rows, columns)."""
 
 
+@lru_cache(maxsize=16)
 def field_map(ply: PiezoPly, finger: float = 0.2, points: int = 61, sweeps: int = 4000) -> FieldMap:
     """Potential between two interdigitated fingers (or two plates), by relaxation of Laplace's equation.
 

@@ -39,8 +39,8 @@ class PressureCase:
 
 
 PRESSURE_CASES = tuple(PressureCase(name, 3.0, 0.3, 3.68e6, 9.0) for name in ("naca23015", "sc1095", "sc1094r8"))
-"""α 3° stands in the document for the SC sections; Mach, Reynolds number and transition are our assumptions "
-"throughout."""
+"""α 3° stands in the document for the SC sections; Mach, Reynolds number and transition are our assumptions
+throughout."""
 
 
 @dataclass(frozen=True, eq=False)

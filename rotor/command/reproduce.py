@@ -1,12 +1,15 @@
 """`reproduce`: rebuild the document's figures and tables, and the trust table."""
 
 import argparse
+import os
 import sys
 import time
 from pathlib import Path
 from typing import Any
 
 from tqdm import tqdm
+
+from rotor.command.progress import STOPPED, bar, interruptible
 
 
 def add_parser(commands: Any) -> None:
@@ -19,20 +22,25 @@ def add_parser(commands: Any) -> None:
     parser.add_argument(
         "--trust", action="store_true", help="also make the trust page: validation.md, trust.csv, sensitivity.csv"
     )
+    parser.add_argument("--processes", type=int, metavar="N", help="processes to use (default: one a core, at most 4)")
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
-    """0; bad input is for the caller."""
+    """0, or 130 when broken off; bad input is for the caller."""
     # Here, because no other command needs the catalogue.
-    from rotor.reproduce.catalogue import ENTRIES, Entry, find_entry
+    from rotor.reproduce.catalogue import ENTRIES, Entry, find_entry, searches_of
     from rotor.reproduce.files import write_all, write_report
     from rotor.reproduce.pictures import NO_PICTURES, can_draw
+    from rotor.reproduce.remember import work_off
     from rotor.reproduce.report import Report, typographic
     from rotor.reproduce.trust_files import write_trust
 
     if args.trust and args.figure:
         raise ValueError("--trust needs every figure: leave --figure out")
+    processes = args.processes if args.processes is not None else min(os.cpu_count() or 1, 4)
+    if not 1 <= processes <= 64:
+        raise ValueError(f"{processes} processes are outside 1…64: give one a core")
     entries = [find_entry(number) for number in args.figure] if args.figure else list(ENTRIES)
     folder = Path(args.out)
     try:
@@ -42,15 +50,30 @@ def run(args: argparse.Namespace) -> int:
     begin = time.perf_counter()
     made: list[tuple[Entry, Report]] = []
     pictures = can_draw()
-    for entry in tqdm(entries, disable=not sys.stderr.isatty(), leave=False, unit="figure"):
-        report = entry.make()
-        write_report(report, folder, pictures=pictures)
-        made.append((entry, report))
-        tqdm.write(f"{report.title:<14}{report.verdict.value:<14}{typographic(report.ours)}")
+
+    def make(wanted: list[Entry]) -> None:
+        for entry in tqdm(wanted, disable=not sys.stderr.isatty(), leave=False, unit="figure"):
+            report = entry.make()
+            write_report(report, folder, pictures=pictures)
+            made.append((entry, report))
+            tqdm.write(f"{report.title:<14}{report.verdict.value:<14}{typographic(report.ours)}")
+
+    make([entry for entry in entries if not entry.slow])
+    groups = searches_of(entries)
+    count = sum(map(len, groups))
+    stopped = False
+    if count:
+        print(f"{count} searches for the optima of chapter 4, in {processes} processes", file=sys.stderr)
+        with interruptible() as stop, bar(count, "search") as advance:
+            stopped = work_off(groups, processes, advance, stop)
+    if not stopped:
+        make([entry for entry in entries if entry.slow])
+    made.sort(key=lambda pair: entries.index(pair[0]))
     page = write_all(made, folder)
     if not pictures:
         print(f"note: {NO_PICTURES}", file=sys.stderr)
-    if args.trust:
+    if args.trust and not stopped:
         print(f"trust page: {write_trust([report for _, report in made], folder)}")
-    print(f"{len(made)} rebuilt in {time.perf_counter() - begin:.0f} s: {page}")
-    return 0
+    left = f", {len(entries) - len(made)} left out because you broke off" if stopped else ""
+    print(f"{len(made)} rebuilt in {time.perf_counter() - begin:.0f} s{left}: {page}")
+    return STOPPED if stopped else 0

@@ -1,13 +1,18 @@
 """Every figure and table that can be rebuilt, in the document's order."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from rotor.reproduce import (
+    actuated_blade,
     aircraft,
+    beside_data,
     comparison,
+    electrodes,
     fits,
     five_twists,
+    flown_blade,
+    free_strain,
     grids,
     hover_twists,
     keys,
@@ -15,7 +20,10 @@ from rotor.reproduce import (
     sections,
     velocities,
 )
+from rotor.reproduce.optima import CONCEPTS, FULL, best_fixed, searches
+from rotor.reproduce.remember import Call
 from rotor.reproduce.report import Report
+from rotor.reproduce.runs import EVERY_VARIANT, choices
 
 
 @dataclass(frozen=True)
@@ -25,8 +33,29 @@ class Entry:
     number: str
     make: Callable[[], Report]
     chapter: str
-    slow: bool = False
-    """Whether it searches for optima: seconds rather than tenths."""
+    needs: Callable[[str], Sequence[Call]] | None = None
+    """The searches it rests on, of one variant."""
+
+    @property
+    def slow(self) -> bool:
+        """Whether it searches for optima: minutes rather than tenths of a second."""
+        return self.needs is not None
+
+
+def _of(*concepts: str) -> Callable[[str], Sequence[Call]]:
+    return lambda name: searches(concepts, name, FULL)
+
+
+def _all_and_fixed(name: str) -> Sequence[Call]:
+    return [*searches(tuple(CONCEPTS), name, FULL), (best_fixed, (name, FULL))]
+
+
+def _compared(name: str) -> Sequence[Call]:
+    return [(actuated_blade.compared, (name,))] if name == "flight" else []
+
+
+def _beside_data(name: str) -> Sequence[Call]:
+    return [(beside_data.three_beside, (name, FULL))]
 
 
 _SECTIONS = "2 Background"
@@ -34,6 +63,7 @@ _MODEL = "3.1 Numerical model"
 _AIRCRAFT = "3.2 Verification and validation"
 _TWIST = "3.3 Effect of blade twist on main-rotor power"
 _OPTIMUM = "4 Results"
+_CONCEPT = "5 Concept"
 
 ENTRIES: tuple[Entry, ...] = (
     Entry("2.3", sections.figure_2_3, _SECTIONS),
@@ -60,20 +90,31 @@ ENTRIES: tuple[Entry, ...] = (
     Entry("3.14", five_twists.figure_3_14, _TWIST),
     Entry("3.15", five_twists.figure_3_15, _TWIST),
     Entry("keys 1987", keys.keys_1987, _TWIST),
-    Entry("4.1", optimum_twist.figure_4_1, _OPTIMUM, slow=True),
-    Entry("4.2", optimum_twist.figure_4_2, _OPTIMUM, slow=True),
-    Entry("4.3", optimum_twist.figure_4_3, _OPTIMUM, slow=True),
-    Entry("4.4", optimum_twist.figure_4_4, _OPTIMUM, slow=True),
-    Entry("4.5", optimum_twist.figure_4_5, _OPTIMUM, slow=True),
-    Entry("4.6", optimum_twist.figure_4_6, _OPTIMUM, slow=True),
-    Entry("4.7", optimum_twist.figure_4_7, _OPTIMUM, slow=True),
-    Entry("4.8", optimum_twist.figure_4_8, _OPTIMUM, slow=True),
-    Entry("4.9", comparison.figure_4_9, _OPTIMUM),
-    Entry("4.10", optimum_twist.figure_4_10, _OPTIMUM, slow=True),
-    Entry("4.11", comparison.figure_4_11, _OPTIMUM),
-    Entry("4.12", comparison.figure_4_12, _OPTIMUM, slow=True),
-    Entry("4.13", comparison.figure_4_13, _OPTIMUM, slow=True),
-    Entry("table 4.1", comparison.table_4_1, _OPTIMUM, slow=True),
+    Entry("4.1", optimum_twist.figure_4_1, _OPTIMUM, _of("linear")),
+    Entry("4.2", optimum_twist.figure_4_2, _OPTIMUM, _of("quadratic")),
+    Entry("4.3", optimum_twist.figure_4_3, _OPTIMUM, _of("quadratic")),
+    Entry("4.4", optimum_twist.figure_4_4, _OPTIMUM, _of("two 40-60")),
+    Entry("4.5", optimum_twist.figure_4_5, _OPTIMUM, _of("two 50-50")),
+    Entry("4.6", optimum_twist.figure_4_6, _OPTIMUM, _of("two 60-40")),
+    Entry("4.7", optimum_twist.figure_4_7, _OPTIMUM, _of("two 70-30")),
+    Entry("4.8", optimum_twist.figure_4_8, _OPTIMUM, _of("two airfoils")),
+    Entry("4.9", flown_blade.figure_4_9, _OPTIMUM),
+    Entry("4.10", optimum_twist.figure_4_10, _OPTIMUM, _of("three")),
+    Entry("4.11", flown_blade.figure_4_11, _OPTIMUM),
+    Entry("4.12", beside_data.figure_4_12, _OPTIMUM, _beside_data),
+    Entry("4.13", comparison.figure_4_13, _OPTIMUM, _of(*CONCEPTS)),
+    Entry("table 4.1", comparison.table_4_1, _OPTIMUM, _all_and_fixed),
+    Entry("5.2", electrodes.figure_5_2, _CONCEPT),
+    Entry("5.3", electrodes.figure_5_3, _CONCEPT),
+    Entry("5.4", electrodes.figure_5_4, _CONCEPT),
+    Entry("5.5", free_strain.figure_5_5, _CONCEPT),
+    Entry("5.6", free_strain.figure_5_6, _CONCEPT),
+    Entry("5.7", free_strain.figure_5_7, _CONCEPT),
+    Entry("5.8", actuated_blade.figure_5_8, _CONCEPT),
+    Entry("5.9", actuated_blade.figure_5_9, _CONCEPT),
+    Entry("5.10", actuated_blade.figure_5_10, _CONCEPT),
+    Entry("table 5.1", actuated_blade.table_5_1, _CONCEPT),
+    Entry("table 5.2", actuated_blade.table_5_2, _CONCEPT, _compared),
 )
 
 
@@ -83,3 +124,12 @@ def find_entry(number: str) -> Entry:
         if entry.number.lower() == number.lower():
             return entry
     raise ValueError(f"figure {number!r} cannot be rebuilt: choose one of {', '.join(e.number for e in ENTRIES)}")
+
+
+def searches_of(entries: Sequence[Entry]) -> list[list[Call]]:
+    """All that the entries rest on, a list a variant, the slowest inflow model first."""
+    order = sorted(EVERY_VARIANT, key=lambda name: choices(name)[1] != "vortex-wake")
+    return [
+        list(dict.fromkeys(call for entry in entries if entry.needs is not None for call in entry.needs(name)))
+        for name in order
+    ]

@@ -1,222 +1,124 @@
-"""Figures 4.9, 4.11–4.13 and Table 4.1: the flown blade, three segments beside public data, all concepts side by "
-"side."""
+"""Figure 4.13 and Table 4.1: all concepts side by side, and how much of their saving a fixed blade would have."""
 
-from functools import lru_cache
-
-import numpy as np
-
-from rotor.airfoil.sections import load_installed
-from rotor.concepts import find_concept
-from rotor.optimise import Search, optimise
-from rotor.presets import make_design, uh60a_rotor, uh60a_twist
-from rotor.reproduce.aircraft import HORSEPOWER_KW, KNOT, public_data
-from rotor.reproduce.optima import CONCEPTS, FULL, Scope, best
-from rotor.reproduce.optimum_twist import SHORT, UNKNOWN
-from rotor.reproduce.report import Curve, Panel, Report, Table, Verdict, curve, judged, table
-from rotor.reproduce.runs import VARIANT_TITLES, VARIANTS, solved
-from rotor.solve import solve
-
-RATES = tuple(range(-24, 5, 2))
-"""Fixed linear blades among which the best is looked for [°/R]."""
+from rotor.reproduce import every_inflow
+from rotor.reproduce.optima import CONCEPTS, FULL, Scope, best, best_fixed
+from rotor.reproduce.optimum_twist import SHORT, UNKNOWN, Variants
+from rotor.reproduce.report import Curve, Panel, Report, Table, Verdict, curve, table
+from rotor.reproduce.runs import EVERY_VARIANT, VARIANT_TITLES, VARIANTS, choices
 
 
-def figure_4_9() -> Report:
-    """The blade's planform."""
-    rotor = uh60a_rotor("flight")
-    blade = rotor.blade
-    curves: list[Curve] = []
-    rows: list[tuple[str | float, ...]] = []
-    for span in blade.spans:
-        ratio = load_installed(span.section).chord_ratio
-        chord = float(blade.chord(0.5 * (span.start + span.end))) * ratio / rotor.radius
-        rows.append((span.section, span.start, span.end, chord * rotor.radius))
-        x = (span.start, span.end, span.end, span.start, span.start)
-        front, back = 0.25 * chord, -0.75 * chord
-        colour = 0 if span.section == "sc1095" else 1
-        label = span.section.upper() if span.section not in [str(row[0]) for row in rows[:-1]] else ""
-        curves.append(curve(label, x, (front, front, back, back, front), colour=colour))
-    shares = {name: sum(float(r[2]) - float(r[1]) for r in rows if r[0] == name) for name in ("sc1095", "sc1094r8")}
-    return Report(
-        number="4.9",
-        kind="figure",
-        caption="Planform of the UH-60A blade as the flight preset has it: sections, chord, root cut-out; the 20° "
-        "sweep of the tip and the trailing-edge tab are not modelled.",
-        statement=UNKNOWN,
-        ours=f"SC1095 over {100 * shares['sc1095']:.0f} % of the radius, SC1094 R8 over "
-        f"{100 * shares['sc1094r8']:.0f} %, "
-        "blended between.",
-        verdict=Verdict.ALONE,
-        because="Numbers and sources stand in assets/uh60a.toml.",
-        tables=(table("spans", ("section", "start_r", "end_r", "chord_m"), rows),),
-        panels=(Panel("r/R", "from the quarter chord, over R", tuple(curves), equal=True),),
-        numbers=shares,
-    )
-
-
-def figure_4_11() -> Report:
-    """The flown twist beside −16°."""
-    law = uh60a_twist()
-    r = np.linspace(0.2, 1.0, 321)
-    angle = np.degrees(law(r))
-    plain = float(np.polyfit(r, angle, 1)[0])
-    weighted = float(np.polyfit(r, angle, 1, w=r)[0])  # polyfit squares its weights: r² here.
-    return Report(
-        number="4.11",
-        kind="figure",
-        caption="Built-in twist of the UH-60A and the linear twist that stands for it.",
-        statement="The nonlinear twist is approximated by a linear −16° (p. 25).",
-        ours=f"Straight line through it from 0.2 R to the tip: {plain:.1f}° unweighted, {weighted:.1f}° weighted by "
-        "r².",
-        verdict=judged(min(abs(plain + 16.0), abs(weighted + 16.0)) < 0.5),
-        because="−16° is its linear equivalent; the often quoted −18° is a nominal value.",
-        tables=(
-            table("twist", ("r", "uh60a_deg", "linear_16_deg"), zip(r, angle, -16.0 * (r - 0.75), strict=True)),
-        ),
-        panels=(
-            Panel(
-                "r/R", "twist, zero at 0.75 R [°]",
-                (curve("UH-60A", r, angle), curve("linear −16°", r, -16.0 * (r - 0.75), "dashed")),
-            ),
-        ),
-        numbers={"unweighted": plain, "weighted": weighted},
-    )  # fmt: skip
-
-
-def figure_4_12(scope: Scope = FULL) -> Report:
-    """Three segments beside public data."""
-    forward = public_data()["forward"]
-    tip_speed = make_design().rotor.tip_speed
-    rows: list[tuple[float | str, ...]] = []
-    concept = find_concept("three-segment")
-    guess: tuple[tuple[float, ...], ...] = ()
-    for knots, horsepower in zip(forward["speed_kt"], forward["main_rotor_hp"], strict=True):
-        mu = knots * KNOT / tip_speed
-        if 0.0 < mu < 0.075:
-            continue
-        design = make_design(advance_ratio=mu, mass=forward["mass_kg"], altitude=forward["altitude_m"])
-        found = optimise(Search(design, concept, starts=1, guesses=guess, band=False))
-        assert found.best is not None, found.message
-        guess = (found.best.parameters,)
-        flown = solve(design).require().power.main_rotor / 1e3
-        moved = solve(found.design).require().power.main_rotor / 1e3
-        rows.append((mu, HORSEPOWER_KW * horsepower, flown, moved, found.best.twist))
-        if len(rows) == 3 and scope is not FULL:
-            break
-    speeds, theirs, flown_kw, moved_kw = ([float(row[k]) for row in rows] for k in range(4))
-    savings = 1.0 - np.array(moved_kw) / np.array(flown_kw)
-    return Report(
-        number="4.12",
-        kind="figure",
-        caption="Main-rotor power of the flown blade and of the best three-segment blade at each speed, beside a "
-        "public model curve of the UH-60A (7257.5 kg, 1600 m; indicative, not flight test).",
-        statement=UNKNOWN,
-        ours=f"The best three segments save {100 * savings.min():.1f} to {100 * savings.max():.1f} % of main-rotor "
-        "power against the built-in twist.",
-        verdict=Verdict.ALONE,
-        because="A saving by twist is smaller than the distance between model and data, so only differences between "
-        "our own curves mean something.",
-        tables=(
-            table("main_rotor_kw", ("mu", "public_model_curve", "built_in_twist", "three_segments", "twist"), rows),
-        ),
-        panels=(
-            Panel(
-                "advance ratio µ", "main-rotor power [kW]",
-                (
-                    curve("built-in twist", speeds, flown_kw, "both"),
-                    curve("three segments, moving", speeds, moved_kw, "both"),
-                    curve("public model curve (indicative)", speeds, theirs, "points", colour=7),
-                ),
-            ),
-        ),
-        numbers={"least_saving": float(savings.min()), "largest_saving": float(savings.max())},
-    )  # fmt: skip
-
-
-def figure_4_13(scope: Scope = FULL) -> Report:
+def figure_4_13(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Report:
     """All concepts side by side."""
     panels: list[Panel] = []
     numbers: dict[str, float] = {}
     for name in VARIANTS:
         curves: list[Curve] = []
         for k, concept in enumerate(CONCEPTS):
-            savings = [100.0 * best(name, concept, mu, scope).saving for mu in scope.speeds]
+            savings = [_percent(name, concept, mu, scope) for mu in scope.speeds]
             curves.append(curve(concept if name == VARIANTS[1] else "", scope.speeds, savings, "both", colour=k))
             numbers[f"{name}_{concept}_largest"] = max(savings) / 100.0
         panels.append(Panel("advance ratio µ", "saving of total power [%]", tuple(curves), title=VARIANT_TITLES[name]))
-    gain = {
-        name: max(best(name, "three", mu, scope).saving - best(name, "linear", mu, scope).saving for mu in scope.speeds)
-        for name in VARIANTS
-    }
+
+    def gain(name: str, place: int) -> float:
+        mu = scope.speeds[place]
+        return _percent(name, "three", mu, scope) - _percent(name, "linear", mu, scope)
+
+    largest = {name: max(gain(name, k) for k in range(len(scope.speeds))) for name in variants}
     return Report(
         number="4.13",
         kind="figure",
         caption="Saving of total power by each concept, moved to its optimum at each speed, against a fixed linear "
-        "−16°.",
+        "−16°. Below it, with every inflow model: what one linear twist saves, and what three segments add to it.",
         statement=UNKNOWN,
         ours="Three segments save beyond one linear twist at most "
-        + ", ".join(f"{100 * gain[name]:.2f} % ({SHORT[name]})" for name in VARIANTS)
-        + ".",
+        + ", ".join(f"{largest[name]:.2f} % ({SHORT[name]})" for name in VARIANTS)
+        + f"; {max(largest.values()):.2f} % with any inflow model.",
         verdict=Verdict.ALONE,
         because="One linear twist, moved, takes most of what steady twist can give.",
-        tables=(_savings_table(scope),),
+        tables=(
+            every_inflow.by_model("three_beyond_linear_percent", gain, variants, scope),
+            _savings_table(scope, variants),
+        ),
         panels=tuple(panels),
-        numbers={**numbers, **{f"{name}_three_over_linear": value for name, value in gain.items()}},
+        companion=(
+            *every_inflow.model_panels(
+                "one linear twist saves [%]",
+                lambda name, k: _percent(name, "linear", scope.speeds[k], scope),
+                variants,
+                scope,
+                key=True,
+            ),
+            *every_inflow.model_panels("three segments add [%]", gain, variants, scope, key=False),
+        ),
+        numbers={**numbers, **{f"{name}_three_over_linear": value / 100.0 for name, value in largest.items()}},
     )
 
 
-def table_4_1(scope: Scope = FULL) -> Report:
+def table_4_1(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Report:
     """Reduction of power, and how much of it a better fixed blade would have had too."""
     rows: list[tuple[str | float, ...]] = []
     numbers: dict[str, float] = {}
     words: list[str] = []
-    for name in VARIANTS:
-        rate, fixed = best_fixed_linear(name, scope.speeds)
-        moving = float(np.mean([best(name, "linear", mu, scope).power_kw for mu in scope.speeds]))
-        baseline = float(np.mean([best(name, "linear", mu, scope).baseline_kw for mu in scope.speeds]))
-        rows.append((name, baseline, rate, fixed, moving, 100 * (1 - fixed / baseline), 100 * (1 - moving / fixed)))
+    for name in variants:
+        one = best_fixed(name, scope)
+        moving = sum(best(name, "linear", mu, scope).power_kw for mu in scope.speeds) / len(scope.speeds)
+        baseline, fixed = one.baseline_kw, one.power_kw
+        rows.append((
+            *choices(name), baseline, one.rate_deg, fixed, moving, 100 * (1 - fixed / baseline),
+            100 * (1 - moving / fixed),
+        ))  # fmt: skip
         numbers |= {f"{name}_fixed": 1 - fixed / baseline, f"{name}_moving": 1 - moving / fixed}
-        words.append(
-            f"{SHORT[name]}: moving one linear twist saves {100 * (1 - moving / baseline):.1f} % of mean power against "
-            f"−16°, but a fixed {rate:g}° saves {100 * (1 - fixed / baseline):.1f} %, so moving is worth "
-            f"{100 * (1 - moving / fixed):.1f} %"
-        )
+        if name in VARIANTS:
+            words.append(
+                f"{SHORT[name]}: moving one linear twist saves {100 * (1 - moving / baseline):.1f} % of mean power "
+                f"against −16°, but a fixed {one.rate_deg:.1f}° saves {100 * (1 - fixed / baseline):.1f} %, so moving "
+                f"is worth {100 * (1 - moving / fixed):.1f} %"
+            )
+    most = max(numbers[f"{name}_moving"] for name in variants)
     return Report(
         number="4.1",
         kind="table",
-        caption="Reduction of total power between a fixed linear −16° and each concept; below, how much of it the best "
-        "fixed linear blade would take without moving (every speed flown equally long).",
+        caption="Reduction of total power between a fixed linear −16° and each concept, mean over the speeds and speed "
+        "by speed, with every inflow model; and how much of it the best fixed linear blade would take without moving "
+        "(every speed flown equally long).",
         statement=UNKNOWN,
-        ours="; ".join(words) + ".",
+        ours="; ".join(words) + f". With no inflow model is moving worth more than {100 * most:.1f} %.",
         verdict=Verdict.ALONE,
         because="Against −16° a part of every saving is only that −16° is not the best fixed blade for these speeds.",
         tables=(
-            _savings_table(scope),
+            _mean_savings(scope, variants),
             table(
                 "fixed_and_moving",
-                ("variant", "baseline_kw", "best_fixed_deg", "best_fixed_kw", "moving_kw", "fixed_saves_percent",
-                 "moving_saves_beyond_percent"),
+                ("preset", "inflow", "baseline_kw", "best_fixed_deg", "best_fixed_kw", "moving_kw",
+                 "fixed_saves_percent", "moving_saves_beyond_percent"),
                 rows,
             ),
+            _savings_table(scope, variants),
         ),
         numbers=numbers,
     )  # fmt: skip
 
 
-@lru_cache(maxsize=16)
-def best_fixed_linear(name: str, speeds: tuple[float, ...]) -> tuple[float, float]:
-    """The linear rate [°/R], in whole pairs of degrees, with the least mean total power [kW] over the speeds."""
-    means = {
-        rate: float(np.mean([solved(name, f"linear:{rate}", mu).require().power.total / 1e3 for mu in speeds]))
-        for rate in RATES
-    }
-    rate = min(means, key=lambda one: means[one])
-    return float(rate), means[rate]
+def _percent(name: str, concept: str, mu: float, scope: Scope) -> float:
+    return 100.0 * best(name, concept, mu, scope).saving
 
 
-def _savings_table(scope: Scope) -> Table:
+def _mean_savings(scope: Scope, variants: Variants) -> Table:
+    """A row a model, a column a concept: mean power over the speeds against the mean of the baseline's [%]."""
+    rows: list[tuple[str | float, ...]] = []
+    for name in variants:
+        row: list[float] = []
+        for concept in CONCEPTS:
+            found = [best(name, concept, mu, scope) for mu in scope.speeds]
+            row.append(100.0 * (1.0 - sum(one.power_kw for one in found) / sum(one.baseline_kw for one in found)))
+        rows.append((*choices(name), *row))
+    return table("mean_saving_percent", ("preset", "inflow", *CONCEPTS), rows)
+
+
+def _savings_table(scope: Scope, variants: Variants) -> Table:
     rows = [
-        (name, concept, *(100.0 * best(name, concept, mu, scope).saving for mu in scope.speeds))
-        for name in VARIANTS
+        (*choices(name), concept, *(_percent(name, concept, mu, scope) for mu in scope.speeds))
+        for name in variants
         for concept in CONCEPTS
     ]
-    return table("saving_percent", ("variant", "concept", *(f"mu_{mu:g}" for mu in scope.speeds)), rows)
+    return table("saving_percent", ("preset", "inflow", "concept", *(f"mu_{mu:g}" for mu in scope.speeds)), rows)

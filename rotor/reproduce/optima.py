@@ -1,4 +1,4 @@
-"""Chapter 4: the twist of least power for every concept, over speed, in both presets and with both kinds of inflow.
+"""Chapter 4: the twist of least power for every concept, over speed, in both presets and with every inflow model.
 
 The document's own numbers of chapter 4 are not known to us, so nothing here is compared with them. What is said of
 each optimum: parameters, the band within 0.1 % of its power, the power, and the saving against the document's
@@ -6,14 +6,15 @@ baseline, a fixed linear twist of −16°.
 """
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
 
 from rotor.blade import with_airfoils
 from rotor.concepts import Concept, find_concept, nearest
+from rotor.objective import Leg, Objective
 from rotor.optimise import Band, Ended, Optimum, Search, optimise
-from rotor.reproduce.runs import VARIANTS, variant
+from rotor.reproduce.remember import Call, Remembered
+from rotor.reproduce.runs import choices, variant
 from rotor.twist_spec import parse_twist
 
 BASELINE = "linear:-16"
@@ -83,9 +84,12 @@ CONCEPTS: dict[str, tuple[str, Callable[[], Concept]]] = {
 """The document's concepts: title, and the concept."""
 
 
-@lru_cache(maxsize=4096)
-def best(name: str, concept: str, mu: float, scope: Scope = FULL) -> Best:
+@Remembered
+def best(name: str, concept: str, mu: float, scope: Scope) -> Best:
     """The optimum of a concept at a speed, started from the slower neighbour's and from the linear one's."""
+    preset = choices(name)[0]
+    if mu == 0.0 and name != preset:  # Hover balances its annuli, whatever the model of forward flight.
+        return replace(best(preset, concept, mu, scope), variant=name)
     family = CONCEPTS[concept][1]()
     design = variant(name, twist=BASELINE, mu=mu)
     if concept == "two airfoils" and design.preset == "thesis":
@@ -108,12 +112,36 @@ def best(name: str, concept: str, mu: float, scope: Scope = FULL) -> Best:
     return _record(name, concept, mu, family, found)
 
 
-def all_bests(scope: Scope = FULL) -> Iterator[Best]:
-    """Everything, in the order that lets each start from its simpler and slower neighbours."""
-    for name in VARIANTS:
-        for concept in CONCEPTS:
-            for mu in scope.speeds:
-                yield best(name, concept, mu, scope)
+@dataclass(frozen=True)
+class Fixed:
+    """The linear blade of least mean power over all speeds, each flown equally long."""
+
+    rate_deg: float
+    """[°/R]"""
+    power_kw: float
+    """Mean total power."""
+    baseline_kw: float
+    """Mean total power of `BASELINE`."""
+
+
+@Remembered
+def best_fixed(name: str, scope: Scope) -> Fixed:
+    """The fixed blade that a moving one has to beat, started from the mean of the moving ones."""
+    family = CONCEPTS["linear"][1]()
+    design = variant(name, twist=BASELINE, mu=scope.speeds[0])
+    legs = tuple(Leg(replace(design.condition, advance_ratio=mu)) for mu in scope.speeds)
+    middle = sum(best(name, "linear", mu, scope).values[0] for mu in scope.speeds) / len(scope.speeds)
+    guess = (math.radians(middle),)
+    found = optimise(Search(design, family, Objective("total", legs), starts=1, guesses=(guess,), band=False))
+    assert found.best is not None, f"{name}: {found.message}"
+    assert found.baseline_power is not None, f"{name}: the baseline blade does not trim at every speed"
+    return Fixed(math.degrees(found.best.parameters[0]), found.best.power / 1e3, found.baseline_power / 1e3)
+
+
+def searches(concepts: Sequence[str], name: str, scope: Scope) -> list[Call]:
+    """The calls of `best` for these concepts, in the order that lets each start from its neighbours."""
+    wanted = dict.fromkeys(("linear", *concepts))
+    return [(best, (name, concept, mu, scope)) for concept in wanted for mu in scope.speeds]
 
 
 def _record(name: str, concept: str, mu: float, family: Concept, found: Optimum) -> Best:

@@ -1,12 +1,13 @@
-"""Figures 4.1–4.8 and 4.10: the optimum twist of each concept over speed. Known by their captions only: ours stand "
-"alone."""
+"""Figures 4.1–4.8 and 4.10: the optimum twist of each concept over speed. Known by their captions only: ours stand
+alone."""
 
 import math
 from collections.abc import Sequence
 
+from rotor.reproduce import every_inflow
 from rotor.reproduce.optima import CONCEPTS, FULL, Best, Scope, best
 from rotor.reproduce.report import Curve, Panel, Report, Table, Verdict, curve, table
-from rotor.reproduce.runs import VARIANT_TITLES, VARIANTS
+from rotor.reproduce.runs import EVERY_VARIANT, VARIANT_TITLES, VARIANTS, choices
 
 UNKNOWN = "Only the caption is known to us; the document's numbers are not."
 SHORT = {
@@ -15,7 +16,7 @@ SHORT = {
     "flight": "flight",
     "flight-linear": "flight, linear inflow",
 }
-_NAMES = {
+NAMES = {
     "rate_deg": "twist rate [°/R]",
     "curvature_deg": "parameter a [°/R²]",
     "difference_deg": "root to tip [°]",
@@ -24,56 +25,59 @@ _NAMES = {
     "outboard_rate_deg": "outboard rate [°/R]",
 }
 
+Variants = Sequence[str]
+"""Which to search; those of VARIANTS are among them."""
 
-def figure_4_1(scope: Scope = FULL) -> Report:
+
+def figure_4_1(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Report:
     """One section."""
-    return _figure("4.1", "linear", ("rate_deg",), scope)
+    return _figure("4.1", "linear", ("rate_deg",), scope, variants)
 
 
-def figure_4_2(scope: Scope = FULL) -> Report:
+def figure_4_2(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Report:
     """Quadratic twist, its second-order parameter."""
-    return _figure("4.2", "quadratic", ("curvature_deg",), scope)
+    return _figure("4.2", "quadratic", ("curvature_deg",), scope, variants)
 
 
-def figure_4_3(scope: Scope = FULL) -> Report:
+def figure_4_3(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Report:
     """Quadratic twist, root to tip."""
-    return _figure("4.3", "quadratic", ("difference_deg",), scope)
+    return _figure("4.3", "quadratic", ("difference_deg",), scope, variants)
 
 
-def figure_4_4(scope: Scope = FULL) -> Report:
+def figure_4_4(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Report:
     """Two sections 40 – 60."""
-    return _figure("4.4", "two 40-60", _TWO, scope)
+    return _figure("4.4", "two 40-60", _TWO, scope, variants)
 
 
-def figure_4_5(scope: Scope = FULL) -> Report:
+def figure_4_5(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Report:
     """Two sections 50 – 50."""
-    return _figure("4.5", "two 50-50", _TWO, scope)
+    return _figure("4.5", "two 50-50", _TWO, scope, variants)
 
 
-def figure_4_6(scope: Scope = FULL) -> Report:
+def figure_4_6(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Report:
     """Two sections 60 – 40."""
-    return _figure("4.6", "two 60-40", _TWO, scope)
+    return _figure("4.6", "two 60-40", _TWO, scope, variants)
 
 
-def figure_4_7(scope: Scope = FULL) -> Report:
+def figure_4_7(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Report:
     """Two sections 70 – 30."""
-    return _figure("4.7", "two 70-30", _TWO, scope)
+    return _figure("4.7", "two 70-30", _TWO, scope, variants)
 
 
-def figure_4_8(scope: Scope = FULL) -> Report:
+def figure_4_8(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Report:
     """Two sections, two airfoils."""
     return _figure(
-        "4.8", "two airfoils", _TWO, scope,
+        "4.8", "two airfoils", _TWO, scope, variants,
         " SC1094 R8 inboard, SC1095 outboard, changing at the division (our order; the document's is not known). In "
         "the thesis preset decks replace the polynomials and the annulus balance eq. (3.3), in the baseline too: the "
         "R8 exists as a deck only, and (3.3) knows one lift curve for a whole blade.",
     )  # fmt: skip
 
 
-def figure_4_10(scope: Scope = FULL) -> Report:
+def figure_4_10(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Report:
     """Three sections."""
     return _figure(
-        "4.10", "three", ("inboard_rate_deg", "middle_rate_deg", "outboard_rate_deg"), scope,
+        "4.10", "three", ("inboard_rate_deg", "middle_rate_deg", "outboard_rate_deg"), scope, variants,
         " Divided where the UH-60A changes its airfoils.",
     )  # fmt: skip
 
@@ -81,12 +85,14 @@ def figure_4_10(scope: Scope = FULL) -> Report:
 _TWO = ("inboard_rate_deg", "outboard_rate_deg")
 
 
-def _figure(number: str, concept: str, shown: Sequence[str], scope: Scope, note: str = "") -> Report:
+def _figure(
+    number: str, concept: str, shown: Sequence[str], scope: Scope, variants: Variants, note: str = ""
+) -> Report:
     title = CONCEPTS[concept][0]
-    found = {name: [best(name, concept, mu, scope) for mu in scope.speeds] for name in VARIANTS}
+    found = {name: [best(name, concept, mu, scope) for mu in scope.speeds] for name in variants}
     settled = all(one.converged for row in found.values() for one in row)
     numbers: dict[str, float] = {}
-    for name in VARIANTS:
+    for name in variants:
         for one in found[name]:
             for key in shown:
                 numbers[f"{name}_{key}_at_{one.mu:g}"] = _value(one, key)
@@ -95,61 +101,109 @@ def _figure(number: str, concept: str, shown: Sequence[str], scope: Scope, note:
     words = "; ".join(
         f"{SHORT[name]}: "
         + ", ".join(
-            f"{_NAMES[key].partition(' [')[0]} {_value(found[name][0], key):.1f}° in hover to "
+            f"{_word(key)} {_value(found[name][0], key):.1f}° in hover to "
             f"{_value(found[name][-1], key):.1f}° at µ {scope.speeds[-1]:g}"
             for key in shown
         )
         + f", saving at most {100 * largest[name].saving:.1f} % (µ {largest[name].mu:g})"
         for name in VARIANTS
     )
-    widths = [high - low for row in found.values() for one in row for low, high in [_band(one, shown[0])]]
+    widths = [high - low for name in VARIANTS for one in found[name] for low, high in [_band(one, shown[0])]]
     widest = max(width for width in widths if math.isfinite(width))
     return Report(
         number=number,
         kind="figure",
         caption=f"Twist of least total power over speed: {title}. Shaded: within 0.1 % of that power, the other "
-        f"parameters following.{note}",
+        f"parameters following.{note} Below it, every inflow model in both presets. {every_inflow.NOTE}",
         statement=UNKNOWN,
-        ours=words + ".",
+        ours=f"{words}. {_across_models(found, shown, scope)}",
         verdict=Verdict.ALONE,
         because=f"The optimum is flat (up to {widest:.0f}° of twist for 0.1 % of power): read the band, not the line. "
-        "With linear inflow it moves by profile drag alone; with the wake induced power moves it too."
+        "With linear inflow it moves by profile drag alone; with an inflow that answers induced power moves it too."
         + ("" if settled else " Not every search settled; see the table."),
-        tables=(_table(found, shown),),
+        tables=(*_by_model(found, shown, scope), _table(found, shown)),
         panels=tuple(_panel(name, found[name], shown) for name in VARIANTS),
+        companion=_companion(found, shown, scope),
         numbers=numbers,
     )
+
+
+_Found = dict[str, list[Best]]
+"""By variant, over the speeds."""
+
+
+def _across_models(found: _Found, shown: Sequence[str], scope: Scope) -> str:
+    """What the choice of inflow model does at the middle of the speeds."""
+    place = len(scope.speeds) // 2
+    key = shown[-1]
+    rates = every_inflow.spread(lambda name, k: _value(found[name][k], key), tuple(found), place)
+    savings = every_inflow.spread(lambda name, k: 100.0 * found[name][k].saving, tuple(found), place, " %")
+    return f"At µ {scope.speeds[place]:g} the {_word(key)} is {rates}; the saving {savings}."
+
+
+def _companion(found: _Found, shown: Sequence[str], scope: Scope) -> tuple[Panel, ...]:
+    panels: list[Panel] = []
+    for row, key in enumerate(shown):
+        panels += every_inflow.model_panels(
+            NAMES[key], lambda name, k, key=key: _value(found[name][k], key), tuple(found), scope, key=row == 0
+        )
+    return (
+        *panels,
+        *every_inflow.model_panels(
+            "saving of total power [%]", lambda name, k: 100.0 * found[name][k].saving, tuple(found), scope, key=False
+        ),
+    )
+
+
+def _by_model(found: _Found, shown: Sequence[str], scope: Scope) -> tuple[Table, ...]:
+    rates = [
+        every_inflow.by_model(
+            f"{key}_by_inflow",
+            lambda name, k, key=key: every_inflow.with_band(found[name][k], key),
+            tuple(found),
+            scope,
+        )
+        for key in shown
+    ]
+    saving = every_inflow.by_model(
+        "saving_percent_by_inflow", lambda name, k: 100.0 * found[name][k].saving, tuple(found), scope
+    )
+    return (*rates, saving)
 
 
 def _panel(name: str, row: list[Best], shown: Sequence[str]) -> Panel:
     curves: list[Curve] = []
     hover, flying = [one for one in row if one.mu == 0.0], [one for one in row if one.mu > 0.0]
     for k, key in enumerate(shown):
-        label = _NAMES[key].partition(" [")[0] if len(shown) > 1 else "optimum"
+        label = _word(key) if len(shown) > 1 else "optimum"
         # Between hover and the slowest flight no inflow model is proven: a gap, not a line.
         for part, words in ((flying, label), (hover, "")):
             speeds = [one.mu for one in part]
             low, high = ([_band(one, key)[end] for one in part] for end in (0, 1))
             curves.append(curve("", speeds, low, "band", upper=high, colour=k))
             curves.append(curve(words, speeds, [_value(one, key) for one in part], "both", colour=k))
-    y_label = _NAMES[shown[0]] if len(shown) == 1 else "twist rate [°/R]"
+    y_label = NAMES[shown[0]] if len(shown) == 1 else "twist rate [°/R]"
     return Panel("advance ratio µ", y_label, tuple(curves), title=VARIANT_TITLES[name])
 
 
-def _table(found: dict[str, list[Best]], shown: Sequence[str]) -> Table:
-    columns = ["variant", "mu", "status"]
+def _table(found: _Found, shown: Sequence[str]) -> Table:
+    columns = ["preset", "inflow", "mu", "status"]
     for key in shown:
         columns += [key, f"{key}_low", f"{key}_high"]
     columns += ["twist", "total_kw", "baseline_total_kw", "saving_percent", "local_minima"]
     rows: list[list[str | float]] = []
-    for name in VARIANTS:
-        for one in found[name]:
-            row: list[str | float] = [name, one.mu, "converged" if one.converged else one.message]
+    for name, bests in found.items():
+        for one in bests:
+            row: list[str | float] = [*choices(name), one.mu, "converged" if one.converged else one.message]
             for key in shown:
                 row += [_value(one, key), *_band(one, key)]
             row += [one.twist, one.power_kw, one.baseline_kw, 100.0 * one.saving, one.minima]
             rows.append(row)
     return table("optimum", columns, rows)
+
+
+def _word(key: str) -> str:
+    return NAMES[key].partition(" [")[0]
 
 
 def _value(one: Best, key: str) -> float:

@@ -7,14 +7,14 @@ from itertools import groupby
 from pathlib import Path
 
 from rotor.reproduce.catalogue import Entry
-from rotor.reproduce.pictures import NO_PICTURES
+from rotor.reproduce.pictures import NO_PICTURES, pictures_of
 from rotor.reproduce.report import Report, Table, Verdict, typographic
 
 ROWS = 60
 """Rows of a table shown on the page; the CSV has them all."""
 NOT_REBUILT = (
     ("2.1, 2.2, 2.5, 2.9", "drawings of other books"),
-    ("5.1–5.8, tables 5.1, 5.2", "actuators: drawings and data of chapter 5; see `python -m rotor actuator`"),
+    ("5.1", "a drawing of what active twist control is"),
 )
 COLOURS = {
     Verdict.AGREES: "#1d7a46",
@@ -81,12 +81,11 @@ def _head(made: Sequence[tuple[Entry, Report]], pictures: bool) -> str:
 
 def _article(report: Report, folder: Path, *, pictures: bool) -> str:
     image = ""
-    svg = folder / f"{report.stem}.svg"
     files = [_csv_link(report, one) for one in report.tables]
-    if pictures and report.panels and svg.is_file():
-        data = base64.b64encode(svg.read_bytes()).decode("ascii")
-        image = f'<img alt="{escape(report.title)}" src="data:image/svg+xml;base64,{data}">'
-        files += [f'<a href="{report.stem}.{end}">{end.upper()}</a>' for end in ("svg", "png")]
+    for stem, _ in pictures_of(report) if pictures else ():
+        data = base64.b64encode((folder / f"{stem}.svg").read_bytes()).decode("ascii")
+        image += f'<img alt="{escape(report.title)}" src="data:image/svg+xml;base64,{data}">'
+        files += [f'<a href="{stem}.{end}">{end.upper()}</a>' for end in ("svg", "png")]
     tables = "".join(_details(one) for one in report.tables)
     return (
         f'<article id="{report.stem}"><h3>{escape(report.title)} {_chip(report.verdict)}</h3>'

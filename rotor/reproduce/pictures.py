@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.reproduce.report import DiskPanel, Panel, Report, typographic
+from rotor.reproduce.report import AnyPanel, DiskPanel, FieldPanel, Panel, Report, typographic
 
 Array = NDArray[np.float64]
 
@@ -45,33 +45,44 @@ def can_draw() -> bool:
     return importlib.util.find_spec("matplotlib") is not None
 
 
-def draw(report: Report, folder: Path) -> tuple[Path, ...]:
-    """Write `stem.svg` and `stem.png`; nothing for a report without panels."""
-    if not report.panels:
-        return ()
+def draw(report: Report, folder: Path) -> None:
+    """Write `stem.svg` and `stem.png` for each picture of the report; nothing for a report without panels."""
+    for stem, panels in pictures_of(report):
+        _draw_picture(stem, panels, folder, legend_below=panels is report.companion)
+
+
+def pictures_of(report: Report) -> tuple[tuple[str, tuple[AnyPanel, ...]], ...]:
+    """Stem and panels of each picture."""
+    both = ((report.stem, report.panels), (f"{report.stem}-inflow", report.companion))
+    return tuple((stem, panels) for stem, panels in both if panels)
+
+
+def _draw_picture(stem: str, panels: tuple[AnyPanel, ...], folder: Path, *, legend_below: bool) -> None:
     matplotlib: Any = importlib.import_module("matplotlib")
     figure_module: Any = importlib.import_module("matplotlib.figure")
-    count = len(report.panels)
+    count = len(panels)
     across = count if count <= 3 else 2
     down = math.ceil(count / across)
     with matplotlib.rc_context(_STYLE):
         figure: Any = figure_module.Figure(figsize=(_WIDTH * across, _HEIGHT * down), layout="constrained")
         axes: Any = figure.subplots(down, across, squeeze=False)
-        for k, panel in enumerate(report.panels):
+        for k, panel in enumerate(panels):
             place = axes[k // across][k % across]
             if isinstance(panel, DiskPanel):
                 _draw_disk(figure, place, panel)
+            elif isinstance(panel, FieldPanel):
+                _draw_field(figure, place, panel)
             else:
-                _draw_panel(place, panel)
+                _draw_panel(place, panel, legend=not legend_below)
+        if legend_below:
+            figure.legend(loc="outside lower center", ncols=3)
         for k in range(count, down * across):
             axes[k // across][k % across].axis("off")
-        paths = folder / f"{report.stem}.svg", folder / f"{report.stem}.png"
-        figure.savefig(paths[0], metadata={"Date": None})
-        figure.savefig(paths[1], dpi=130)
-    return paths
+        figure.savefig(folder / f"{stem}.svg", metadata={"Date": None})
+        figure.savefig(folder / f"{stem}.png", dpi=130)
 
 
-def _draw_panel(axes: Any, panel: Panel) -> None:
+def _draw_panel(axes: Any, panel: Panel, *, legend: bool) -> None:
     turn = 0
     for one in panel.curves:
         place = one.colour if one.colour is not None else turn
@@ -83,8 +94,13 @@ def _draw_panel(axes: Any, panel: Panel) -> None:
                 continue
             axes.fill_between(one.x, one.y, one.upper, color=colour, alpha=0.15, linewidth=0)
             continue
+        if one.style == "fill":
+            label = typographic(one.label) or None
+            axes.fill(one.x, one.y, facecolor=colour, edgecolor=colour, alpha=0.55, linewidth=0.8, label=label)
+            continue
         look: dict[str, Any] = {
             "line": {},
+            "thin": {"linewidth": 0.8},
             "points": {"linestyle": "none", "marker": "o", "markersize": 4},
             "dashed": {"linestyle": "--"},
             "both": {"marker": "o", "markersize": 3},
@@ -104,9 +120,25 @@ def _draw_panel(axes: Any, panel: Panel) -> None:
         axes.set_aspect("equal", adjustable="datalim")
     if panel.y_limits:
         axes.set_ylim(*panel.y_limits)
-    if sum(bool(one.label) for one in panel.curves) > 1:
+    if legend and sum(bool(one.label) for one in panel.curves) > 1:
         many = len(panel.curves) > MANY
         axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5)) if many else axes.legend()
+
+
+def _draw_field(figure: Any, axes: Any, panel: FieldPanel) -> None:
+    low, high = panel.limits or (None, None)
+    shade = axes.pcolormesh(
+        panel.x, panel.y, panel.values, cmap="viridis", vmin=low, vmax=high, shading="gouraud", rasterized=True
+    )
+    figure.colorbar(shade, ax=axes, label=panel.label, shrink=0.85)
+    if panel.lines:
+        axes.contour(panel.x, panel.y, panel.lines, levels=9, colors="white", linewidths=0.7)
+    for one in panel.marks:
+        axes.plot(one.x, one.y, color="#c0392b", linewidth=5, solid_capstyle="butt", clip_on=False)
+    axes.set_xlabel(panel.x_label)
+    axes.set_ylabel(panel.y_label)
+    axes.set_title(panel.title)
+    axes.grid(False)
 
 
 def _draw_disk(figure: Any, axes: Any, panel: DiskPanel) -> None:

@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-Style = Literal["line", "points", "dashed", "both", "band"]
+Style = Literal["line", "thin", "points", "dashed", "both", "band", "fill"]
 Cell = str | float | int
 
 
@@ -72,6 +72,29 @@ class DiskPanel:
 
 
 @dataclass(frozen=True)
+class FieldPanel:
+    """A field over a rectangle, with lines of equal value on top where a second field is given."""
+
+    x_label: str
+    y_label: str
+    label: str
+    x: tuple[float, ...]
+    y: tuple[float, ...]
+    values: tuple[tuple[float, ...], ...]
+    """(y, x)"""
+    lines: tuple[tuple[float, ...], ...] = ()
+    """(y, x): drawn as ten contours."""
+    title: str = ""
+    limits: tuple[float, float] | None = None
+    """Of the colours."""
+    marks: tuple[Curve, ...] = ()
+    """Thick red lines on top."""
+
+
+AnyPanel = Panel | DiskPanel | FieldPanel
+
+
+@dataclass(frozen=True)
 class Table:
     """Rows of numbers and words, as they go into a CSV."""
 
@@ -98,7 +121,9 @@ class Report:
     because: str
     """Why it differs, or what the agreement rests on; one sentence."""
     tables: tuple[Table, ...]
-    panels: tuple[Panel | DiskPanel, ...] = ()
+    panels: tuple[AnyPanel, ...] = ()
+    companion: tuple[AnyPanel, ...] = ()
+    """A second picture, where one would hold too much."""
     numbers: Mapping[str, float] = field(default_factory=dict[str, float])
     """What the statement was judged by, by name."""
 

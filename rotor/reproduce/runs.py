@@ -4,44 +4,68 @@ from dataclasses import replace
 from functools import lru_cache
 
 from rotor.design import Design
+from rotor.inflow.models import INFLOW_MODELS
 from rotor.presets import make_design
 from rotor.solution import Solution
 from rotor.solve import solve
 
+PRESETS = ("thesis", "flight")
 FIVE_RATES = (0, -4, -8, -12, -16)
 """The document's linear twists [degrees per radius] (thesis §3.3)."""
 
 THESIS_WAKE = "thesis-wake"
-"""The `thesis` preset with the dynamic wake for its linear inflow: the least change that lets twist act on induced "
-"power."""
+"""The `thesis` preset with the dynamic wake for its linear inflow: the least change that lets twist act on induced
+power."""
 FLIGHT_LINEAR = "flight-linear"
 """The `flight` preset with linear (Pitt–Peters) inflow."""
 
 THESIS_TRIMMED = "thesis-trimmed"
-"""The `thesis` preset's blade and section with the dynamic wake and the `flight` preset's trim: cyclic, and µ sin α "
-"in U_P."""
+"""The `thesis` preset's blade and section with the dynamic wake and the `flight` preset's trim: cyclic, and µ sin α
+in U_P."""
 
 VARIANTS = ("thesis", THESIS_WAKE, "flight", FLIGHT_LINEAR)
+"""Those that have a picture of their own: each preset with an inflow that answers to the load, and with one that does
+not."""
 VARIANT_TITLES = {
     "thesis": "thesis preset (linear inflow as printed)",
     THESIS_WAKE: "thesis preset with the dynamic wake",
     "flight": "flight preset (dynamic wake)",
     FLIGHT_LINEAR: "flight preset with linear inflow",
 }
+_INFLOW = {
+    "thesis": "pitt-peters-15pi/23",
+    THESIS_WAKE: "dynamic-wake",
+    THESIS_TRIMMED: "dynamic-wake",
+    "flight": "dynamic-wake",
+    FLIGHT_LINEAR: "pitt-peters",
+}
+"""Inflow model of the variants that have a name."""
+
+
+def with_inflow(preset: str, inflow: str) -> str:
+    """The variant of a preset with any inflow model: its name where it has one, else `preset:inflow`."""
+    own = (name for name in VARIANTS if choices(name) == (preset, inflow))
+    return next(own, f"{preset}:{inflow}")
+
+
+def choices(name: str) -> tuple[str, str]:
+    """Preset and inflow model of a variant."""
+    preset, _, inflow = name.partition(":")
+    return preset.partition("-")[0], inflow or _INFLOW[name]
+
+
+EVERY_VARIANT = tuple(with_inflow(preset, inflow) for preset in PRESETS for inflow in INFLOW_MODELS)
+"""Both presets with every inflow model."""
 
 
 def variant(name: str, *, twist: str | None = None, mu: float = 0.2, mass: float | None = None) -> Design:
     """A preset, or a preset with its inflow exchanged."""
-    preset = name.partition("-")[0]
+    preset, inflow = choices(name)
     design = make_design(preset, twist=twist, advance_ratio=mu, mass=mass)
-    if name == THESIS_WAKE:
-        design = replace(design, models=replace(design.models, inflow="dynamic-wake"))
+    models = replace(design.models, inflow=inflow)
     if name == THESIS_TRIMMED:
-        models = replace(design.models, inflow="dynamic-wake", trim="propulsive", disk_axial_flow=True)
-        design = replace(design, models=models)
-    if name == FLIGHT_LINEAR:
-        design = replace(design, models=replace(design.models, inflow="pitt-peters"))
-    return design
+        models = replace(models, trim="propulsive", disk_axial_flow=True)
+    return replace(design, models=models)
 
 
 @lru_cache(maxsize=4096)

@@ -1,5 +1,5 @@
-"""The statements behind the figures of chapter 2. Physical statements, not pictures; bounds come from outside the "
-"code."""
+"""The statements behind the figures of chapter 2. Physical statements, not pictures; bounds come from outside the
+code."""
 
 import math
 from collections.abc import Callable

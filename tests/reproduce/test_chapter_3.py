@@ -1,5 +1,5 @@
-"""The statements behind the figures and tables of chapter 3, as the document makes them or as our numbers refuse "
-"them."""
+"""The statements behind the figures and tables of chapter 3, as the document makes them or as our numbers refuse
+them."""
 
 from collections.abc import Callable
 

@@ -1,18 +1,23 @@
 """`python -m rotor reproduce`: files, page, and what happens without matplotlib."""
 
 import csv
+import pickle
 from pathlib import Path
 
 import pytest
 
 from rotor.__main__ import main
 from rotor.reproduce import pictures
-from rotor.reproduce.catalogue import ENTRIES
+from rotor.reproduce.catalogue import ENTRIES, find_entry, searches_of
+from rotor.reproduce.optima import FULL, best
+from rotor.reproduce.remember import Remembered, work_off
 from rotor.reproduce.report import typographic
+from rotor.reproduce.runs import EVERY_VARIANT
 
 WANTED = {
     "2.3", "2.4", "2.6", "2.7", "2.8", "table 3.1", "table 3.2", "tail rotor", "table 4.1",
     *(f"3.{k}" for k in range(1, 16)), *(f"4.{k}" for k in range(1, 14)),
+    *(f"5.{k}" for k in range(2, 11)), "table 5.1", "table 5.2",
 }  # fmt: skip
 
 
@@ -49,6 +54,48 @@ def test_without_matplotlib_tables_still_come(
     assert not list(tmp_path.glob("*.svg"))
     assert (tmp_path / "figure-2_6.csv").is_file()
     assert "matplotlib is not installed" in (tmp_path / "index.html").read_text(encoding="utf-8")
+
+
+def test_chapter_5_is_drawn(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    assert main(["reproduce", str(tmp_path), "--figure", "5.3", "--figure", "table 5.1"]) == 0
+    assert "Table 5.1" in capsys.readouterr().out
+    assert {"figure-5_3.csv", "table-5_1.csv"} <= {path.name for path in tmp_path.iterdir()}
+    if pictures.can_draw():
+        page = (tmp_path / "index.html").read_text(encoding="utf-8")
+        assert page.count("data:image/svg+xml") == 1
+        assert (tmp_path / "figure-5_3.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_what_other_processes_find_is_not_computed_again():
+    """Only what is not known is asked for; every answer is heard of once."""
+    asked: list[float] = []
+
+    def slow_square(x: float) -> float:
+        asked.append(x)
+        return x * x
+
+    remembered = Remembered(slow_square)
+    heard: list[str] = []
+    assert remembered(2.0) == 4.0
+    assert not work_off([[(remembered, (2.0,)), (remembered, (3.0,))]], 1, heard.append)
+    assert (asked, heard) == ([2.0, 3.0], ["3.0"])
+    assert remembered(3.0) == 9.0
+    assert asked == [2.0, 3.0]
+    assert pickle.loads(pickle.dumps(best)) is best
+
+
+def test_each_figure_of_chapter_4_asks_for_what_it_shows():
+    """Worked off before it is made, so that nothing is left for one process alone."""
+    for entry in ENTRIES:
+        if entry.number.startswith("4.") and entry.slow:
+            calls = {call for group in searches_of([entry]) for call in group}
+            assert len(calls) >= len(EVERY_VARIANT)
+    assert sum(map(len, searches_of([find_entry("4.1")]))) == len(EVERY_VARIANT) * len(FULL.speeds)
+
+
+def test_processes_out_of_range_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    assert main(["reproduce", str(tmp_path), "--processes", "0"]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
 
 
 def test_unknown_figure_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]):

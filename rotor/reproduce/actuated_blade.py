@@ -1,0 +1,188 @@
+"""Figures 5.8–5.10 and tables 5.1, 5.2: plies on the blade, how far they twist it, and whether it pays. Ours alone."""
+
+import math
+
+import numpy as np
+
+from rotor.actuator import tables as actuator_tables
+from rotor.actuator.fitted import Fitted, fit
+from rotor.actuator.pictures import black_box, section_picture, twist_under_voltage
+from rotor.actuator.placement import Host, default_placement
+from rotor.actuator.reach import Pair
+from rotor.concepts import find_concept
+from rotor.presets import uh60a_rotor
+from rotor.reproduce.electrodes import sheet
+from rotor.reproduce.optimum_twist import UNKNOWN
+from rotor.reproduce.remember import Remembered
+from rotor.reproduce.report import Curve, Panel, Report, Style, Table, Verdict, curve, table
+from rotor.reproduce.runs import variant
+from rotor.twist import PiecewiseLinearTwist
+
+SPEEDS = (0.0, 0.3)
+"""The two flight conditions of Table 5.2."""
+BLADES: dict[str, tuple[int, Host]] = {
+    "flown blade, 1 ply": (1, Host()),
+    "flown blade, 2 plies": (2, Host()),
+    "flown blade, 4 plies": (4, Host()),
+    "new blade, GJ/2, 2 plies": (2, Host("new", 0.5)),
+}
+STYLES: dict[str, Style] = {"outline": "thin", "ply": "line"}
+"""Of the parts of a section that are too thin to fill."""
+
+
+def fitted_blade(plies: int, host: Host, divisions: tuple[float, ...] = ()) -> Fitted:
+    """MFC P1 as the worked example places it."""
+    return fit(sheet("MFC_P1"), default_placement(plies, divisions), host, uh60a_rotor("flight"))
+
+
+def figure_5_8() -> Report:
+    """The blade with its black box."""
+    rotor = uh60a_rotor("flight")
+    law = find_concept("three-segment").twist((0.0, 0.0, 0.0))
+    assert isinstance(law, PiecewiseLinearTwist)
+    fitted = fitted_blade(2, Host(), law.breaks)
+    box, placement = black_box(fitted), fitted.placement
+    front, rear = (0.25 - x for x in placement.chord)
+    blade = (rotor.blade.root_cutout, 1.0)
+    curves = [
+        _box("blade", blade, (0.25, -0.75), 7),
+        *(_box(f"segment {k + 1}", ends, (front, rear), k, "fill") for k, ends in enumerate(placement.segments)),
+        _box("drive electronics", box, (0.12, -0.12), 3, "fill"),
+    ]
+    rows = [("drive electronics", *box), *((f"segment {k + 1}", *ends) for k, ends in enumerate(placement.segments))]
+    bill = fitted.bill
+    return Report(
+        number="5.8",
+        kind="figure",
+        caption="The blade with its plies in three electrical segments, each with a voltage of its own, and the box "
+        "of drive electronics inboard of them (our layout).",
+        statement=UNKNOWN,
+        ours=f"Active from {placement.span[0]:.2f} to {placement.span[1]:.2f} R and {placement.chord[0]:.2f} to "
+        f"{placement.chord[1]:.2f} c, both skins, 2 plies: {bill.actuator:.1f} kg of plies, {bill.wiring:.1f} kg of "
+        f"leads and {bill.balance:.1f} kg of nose weight on a blade.",
+        verdict=Verdict.ALONE,
+        because="The de-ice mat keeps plies off the nose, the pressurised spar keeps leads out of it; assets/"
+        "uh60a_structure.toml names the sources.",
+        tables=(table("layout", ("part", "start_r", "end_r"), rows),),
+        panels=(Panel("r/R", "from the quarter chord [c]", tuple(curves), y_limits=(-1.75, 0.4)),),
+        numbers={"box_end": box[1], "active_start": placement.span[0], "ply_kg": bill.actuator},
+    )
+
+
+def figure_5_9() -> Report:
+    """The section with its actuators."""
+    panels: list[Panel] = []
+    rows: list[tuple[str | float, ...]] = []
+    for title, host in (("flown blade: plies on the spar and the aft skin", Host()),
+                        ("new blade: plies in its torsion box", Host("new", 0.5))):  # fmt: skip
+        picture = section_picture(fitted_blade(2, host), exaggerate=3.0)
+        curves: list[Curve] = []
+        roles: set[str] = set()
+        for part in picture.parts:
+            points = np.vstack([part.points, part.points[:1]]) / picture.chord
+            label = "" if part.role in roles else part.role
+            roles.add(part.role)
+            colour = ("outline", "spar", "skin", "web", "ply").index(part.role)
+            style = STYLES.get(part.role, "fill")
+            curves.append(curve(label, points[:, 0], points[:, 1], style, colour=(7, 0, 5, 6, 1)[colour]))
+            rows += [(host.label, part.label, y, z) for y, z in points]
+        panels.append(Panel("x/c", "z/c", tuple(curves), title=title, equal=True))
+    fitted = fitted_blade(2, Host())
+    return Report(
+        number="5.9",
+        kind="figure",
+        caption="Section SC1095 with ±45° plies on both skins; walls and plies three times as thick as they are.",
+        statement=UNKNOWN,
+        ours=f"On the flown blade the section keeps GJ {fitted.section_stiffness:.3g} N·m² and is asked for "
+        f"{fitted.moment:.0f} N·m by the whole voltage range.",
+        verdict=Verdict.ALONE,
+        because="Contour from the section's own coordinates, wall thickness calibrated on the published GJ.",
+        tables=(table("outlines", ("blade", "part", "x_c", "z_c"), rows),),
+        panels=tuple(panels),
+        numbers={"stiffness": fitted.section_stiffness, "moment": fitted.moment},
+    )
+
+
+def figure_5_10() -> Report:
+    """Torsion angle along the blade."""
+    curves: list[Curve] = []
+    rows: list[tuple[str | float, ...]] = []
+    numbers: dict[str, float] = {}
+    low, high = sheet("MFC_P1").voltage_range
+    for k, (name, (plies, host)) in enumerate(BLADES.items()):
+        fitted = fitted_blade(plies, host)
+        up, down = (twist_under_voltage(fitted, [volts]) for volts in (high, low))
+        curves.append(curve(name, up.r, np.degrees(up.twist), colour=k))
+        curves.append(curve("", down.r, np.degrees(down.twist), "dashed", colour=k))
+        rows += [(name, r, *np.degrees(ends)) for r, *ends in zip(up.r, up.twist, down.twist, strict=True)]
+        numbers[name] = math.degrees(fitted.attainable)
+    return Report(
+        number="5.10",
+        kind="figure",
+        caption=f"Twist of the rotating blade with every ply at {high:.0f} V (full) and at {low:.0f} V (dashed), zero "
+        "at 0 V: each volt loads the plies as a kelvin of the thermal analogy would.",
+        statement=UNKNOWN,
+        ours="Root to tip over the whole range: "
+        + ", ".join(f"{name} {value:.2f}°" for name, value in numbers.items())
+        + ".",
+        verdict=Verdict.ALONE,
+        because="Thin-walled laminate section (Bredt–Batho) on a rotating beam in torsion; finite elements of the "
+        "section agree within 2 % (tests/test_actuator_fem.py). A tested blade showed about 62 % of its model.",
+        tables=(table("twist", ("blade", "r", f"at_{high:.0f}_v_deg", f"at_{low:.0f}_v_deg"), rows),),
+        panels=(Panel("r/R", "twist [°]", tuple(curves)),),
+        numbers=numbers,
+    )
+
+
+def table_5_1() -> Report:
+    """Properties of actuators."""
+    made = actuator_tables.table_5_1()
+    return Report(
+        number="5.1",
+        kind="table",
+        caption="Properties of the actuators that this package knows; columns and choice are ours.",
+        statement=UNKNOWN,
+        ours=f"{len(made.rows)} actuators. " + " ".join(made.notes),
+        verdict=Verdict.ALONE,
+        because="Each number carries its source and grade in assets/actuators.toml.",
+        tables=(_as_table("properties", made),),
+        numbers={"actuators": float(len(made.rows))},
+    )
+
+
+@Remembered
+def compared(name: str) -> actuator_tables.Table:
+    """Table 5.2 of one variant: four optima a concept, and the reach of six actuators."""
+    return actuator_tables.table_5_2(Pair(variant(name, mu=SPEEDS[0]), SPEEDS))
+
+
+def table_5_2() -> Report:
+    """Actuators and concepts compared."""
+    made = compared("flight")
+    net = made.columns.index("net kW")
+    best = made.rows[0]
+    gains = [float(row[net]) for row in made.rows]
+    return Report(
+        number="5.2",
+        kind="table",
+        caption=f"Actuators and twist concepts compared between hover and µ {SPEEDS[1]:g}, half the time each, on the "
+        "flown blade (flight preset); best net saving first.",
+        statement=UNKNOWN,
+        ours=f"{sum(gain > 0.0 for gain in gains)} of {len(gains)} pay. The least loss is {best[0]} with the "
+        f"{best[1]} concept: {best[net]} kW net. {made.notes[1]}",
+        verdict=Verdict.ALONE,
+        because=made.notes[0],
+        tables=(_as_table("verdicts", made),),
+        numbers={"largest_net_kw": max(gains), "rows": float(len(gains))},
+    )
+
+
+def _as_table(name: str, made: actuator_tables.Table) -> Table:
+    return table(name, made.columns, made.rows)
+
+
+def _box(
+    label: str, along: tuple[float, float], across: tuple[float, float], colour: int, style: Style = "line"
+) -> Curve:
+    (a, b), (c, d) = along, across
+    return curve(label, (a, b, b, a, a), (c, c, d, d, c), style, colour=colour)
