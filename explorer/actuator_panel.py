@@ -11,7 +11,8 @@ from explorer.actuator_picture import cut_picture, voltage_shares
 from explorer.actuator_scene import CutScene
 from explorer.actuator_section import section_svg
 from explorer.actuator_state import MOST_SEGMENTS, ActuatorInputs, Question, question_of
-from explorer.actuator_study import Study
+from explorer.actuator_study import Answers, Study
+from explorer.jobs import Pool
 from rotor.actuator.fitted import Fitted
 from rotor.design import Design
 from rotor.solution import Solution
@@ -20,18 +21,21 @@ from rotor.solution import Solution
 class ActuatorPanel:
     """Widgets, cut blade and background study; everything but `inputs` happens on the session's worker."""
 
-    def __init__(self, client: viser.ClientHandle, changed: Callable[[], None], fly: Callable[[float], None]) -> None:
+    def __init__(
+        self, client: viser.ClientHandle, pool: Pool, changed: Callable[[], None], fly: Callable[[float], None]
+    ) -> None:
         """`changed`: something moved. `fly`: set the page's advance ratio."""
         self._changed = changed
         self._fly = fly
         self._client = client
         self._touched = False
         self._cut = CutScene(client.scene)
-        self._study = Study(changed, f"study-{client.client_id}")
+        self._study = Study(Answers(pool), changed, f"study-{client.client_id}")
         self._rest = solver.Baseline()
         self._told: dict[str, str] = {}
         self._drawn: tuple[object, ...] | None = None
         self._asked: Question | None = None
+        self._before: tuple[object, ...] = ()
         self._controls = ActuatorControls(client.gui, self._moved)
         self._controls.fly_buttons.on_click(self._fly_clicked)
         self.shown = self._controls.shown
@@ -47,7 +51,7 @@ class ActuatorPanel:
         """Everything that follows: `design` is without the actuator's twist, `solution` with it."""
         try:
             fitted = inputs.fitted(design.rotor)
-            question = question_of(inputs, design) if self._touched else None
+            question = question_of(inputs, design)
         except ValueError as error:
             self.lose(str(error))
             return
@@ -59,14 +63,14 @@ class ActuatorPanel:
         self._tell("section", self._controls.section, section_svg(fitted, voltage_shares(inputs, fitted, psi)))
         self._tell("bar", self._controls.bar, actuator_readout.voltage_bar(fitted.actuator))
         self._asked = question
-        if question is not None:
-            self._study.ask(question)
+        now = (inputs, design, psi)
+        self._study.ask(question, wanted=self._touched, stirred=now != self._before)
+        self._before = now
         self._judge(inputs, fitted, question, design.rotor.blade.root_cutout)
 
     def lose(self, problem: str) -> None:
         """There is no such design: the sentence in place of the verdict, all else as it was."""
-        text = actuator_readout.verdict_panel(self._study.findings, None, problem)
-        self._tell("verdict", self._controls.verdict, text)
+        self._tell("verdict", self._controls.verdict, actuator_readout.problem_panel(problem))
 
     def rest(self) -> None:
         """Let go of the blade."""
@@ -77,9 +81,9 @@ class ActuatorPanel:
         if self.shown.value:
             self.shown.value = False
 
-    def _judge(self, inputs: ActuatorInputs, fitted: Fitted, question: Question | None, root: float) -> None:
+    def _judge(self, inputs: ActuatorInputs, fitted: Fitted, question: Question, root: float) -> None:
         findings = self._study.findings
-        verdict = findings.verdict if question is not None and findings.question == question else None
+        verdict = findings.verdict if findings.question == question else None
         tell, places = self._tell, self._controls
         tell("verdict", places.verdict, actuator_readout.verdict_panel(findings, question))
         tell("numbers", places.numbers, actuator_readout.fit_panel(inputs, fitted, verdict))

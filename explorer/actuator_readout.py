@@ -136,18 +136,23 @@ def fit_panel(inputs: ActuatorInputs, fitted: Fitted, verdict: Verdict | None) -
     return f'<div class="rx rx-grid" data-explorer="actuator-numbers">{cells}</div>'
 
 
-def verdict_panel(findings: Findings, question: Question | None, problem: str | None = None) -> str:
-    """The verdict's sentence, or what it is waiting for."""
-    if problem is not None:
-        return _box("wrong", "problem", escape(problem))
-    if question is None:
-        return _box("wait", "idle", "Would it pay? Move anything on this tab, and the verdict is worked out.")
+def problem_panel(problem: str) -> str:
+    """Why there is no verdict."""
+    return _box("wrong", "problem", escape(problem))
+
+
+def verdict_panel(findings: Findings, question: Question) -> str:
+    """The verdict's sentence, or that it is on its way."""
     if findings.question != question or findings.outcome is None:
         old = findings.verdict
         before = "" if old is None else f'<div class="rx-faded">{escape(old.sentence)}</div>'
-        return _box("wait", "computing", f"Computing… optimum twists at both conditions, then the best reach.{before}")
+        return _box(
+            "wait",
+            "computing",
+            f"Would it pay? Computing… optimum twists at both conditions, then the best reach.{before}",
+        )
     if isinstance(findings.outcome, str):
-        return _box("wrong", "problem", escape(findings.outcome))
+        return problem_panel(findings.outcome)
     verdict = findings.outcome
     return _box("yes" if verdict.pays else "no", "ready", escape(verdict.sentence))
 

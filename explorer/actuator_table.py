@@ -10,10 +10,8 @@ from rotor.actuator.catalogue import Actuator, PiezoPly, TorqueTube, actuators, 
 from rotor.actuator.verdict import Verdict
 
 
-def table_panel(findings: Findings, question: Question | None) -> str:
+def table_panel(findings: Findings, question: Question) -> str:
     """All actuators on this blade for this question, one row each."""
-    if question is None:
-        return ""
     asked = findings.question
     known = dict(findings.others)
     # Rows are about the same question whatever actuator is chosen now.

@@ -100,6 +100,16 @@ class Pool:
             job.tell(Ended(None, stopped=True))
             self._tell_positions()
 
+    def leave(self, job: Job) -> None:
+        """Nobody waits for its answer any more: out of the queue, or on to its end."""
+        with self._change:
+            waiting = job in self._queue
+            if waiting:
+                self._queue.remove(job)
+        if waiting:
+            job.silence()
+            self._tell_positions()
+
     def close(self) -> None:
         """End all processes."""
         with self._change:

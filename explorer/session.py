@@ -134,7 +134,7 @@ class Session:
         with panel.add_tab("Probe"):
             self._probe = ProbePanel(client, desk, rotor)
         with panel.add_tab("Actuator"):
-            self._actuator = ActuatorPanel(client, self._wake, self._fly)
+            self._actuator = ActuatorPanel(client, pool, self._wake, self._fly)
         with panel.add_tab("Physics"):
             self._waterfall = WaterfallPanel(gui, desk)
         with panel.add_tab("Trust"):

@@ -1,15 +1,17 @@
 """The Actuator tab without a browser: settings, shapes, pictures and words."""
 
 import math
+import pickle
 import re
-import threading
+import time
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from explorer import actuator_cut, actuator_plots, actuator_readout, actuator_table, actuator_view
+from explorer import actuator_cut, actuator_plots, actuator_readout, actuator_study, actuator_table, actuator_view
 from explorer.actuator_picture import cut_picture, share_colour, voltage_shares
 from explorer.actuator_section import section_svg
 from explorer.actuator_state import (
@@ -21,8 +23,9 @@ from explorer.actuator_state import (
     question_of,
     swing_of,
 )
-from explorer.actuator_study import Findings, Study, answer
+from explorer.actuator_study import Findings, Study, VerdictTask, answer, lean
 from explorer.picture import make_picture
+from explorer.plots import Plot
 from explorer.state import ViewState, baseline_of
 from explorer.view import FIELD_OF_VIEW
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
@@ -202,7 +205,7 @@ def test_more_voltage_than_there_is_is_said():
 
 @pytest.fixture(scope="module")
 def verdict() -> Verdict:
-    found = answer(question_of(ActuatorInputs(), DESIGN), "MFC_P1")
+    found = answer(question_of(ActuatorInputs(), DESIGN))
     assert isinstance(found, Verdict)
     return found
 
@@ -234,7 +237,7 @@ def test_an_old_verdict_is_not_shown_as_the_new_one(verdict: Verdict):
 
 
 def test_derating_of_ones_own_counts(verdict: Verdict):
-    half = answer(replace(question_of(ActuatorInputs(), DESIGN), share=0.5), "MFC_P1")
+    half = answer(replace(question_of(ActuatorInputs(), DESIGN), share=0.5))
     assert isinstance(half, Verdict)
     assert_allclose(half.ratio, 2.0 * verdict.ratio, rtol=1e-9)
     assert half.gross_saving < verdict.gross_saving
@@ -242,7 +245,7 @@ def test_derating_of_ones_own_counts(verdict: Verdict):
 
 def test_what_cannot_be_built_is_a_sentence():
     question = question_of(ActuatorInputs(), DESIGN)
-    assert "use one of" in str(answer(question, "unobtainium"))
+    assert "use one of" in str(answer(replace(question, actuator="unobtainium")))
 
 
 def test_the_chart_shows_need_and_reach(verdict: Verdict):
@@ -257,15 +260,75 @@ def test_the_chart_shows_need_and_reach(verdict: Verdict):
     assert r[0] == pytest.approx(0.13)
 
 
+class Here:
+    """For the processes of the page: answers at once, and remembers what it was asked."""
+
+    def __init__(self) -> None:
+        self.asked: list[str] = []
+
+    def find(self, task: VerdictTask, superseded: Callable[[], bool]) -> Verdict | str | None:
+        self.asked.append(task.question.actuator)
+        return None if superseded() else "no verdict"
+
+
+def until(true: Callable[[], bool]) -> None:
+    """Fails after ten seconds."""
+    end = time.monotonic() + 10.0
+    while not true():
+        assert time.monotonic() < end
+        time.sleep(0.01)
+
+
 def test_the_study_answers_the_newest_question():
     inputs = ActuatorInputs(actuator="extension_twist")
     first, last = question_of(inputs, DESIGN), question_of(replace(inputs, plies=3), DESIGN)
-    found = threading.Event()
-    study = Study(found.set, "study-test")
+    here = Here()
+    study = Study(here, lambda: None, "study-test")
     study.start()
     study.ask(first)
     study.ask(last)
-    assert found.wait(60.0)
+    until(lambda: study.findings.complete)
     assert study.current(last)
-    assert study.findings.verdict is not None
+    assert here.asked[0] == "extension_twist"  # The chosen one first.
+    assert sorted(here.asked) == sorted(ALL)
     study.stop()
+
+
+def test_what_nobody_asked_for_waits_until_the_page_is_still(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(actuator_study, "IDLE", 0.15)
+    here = Here()
+    study = Study(here, lambda: None, "study-idle")
+    question = question_of(ActuatorInputs(), DESIGN)
+    study.start()
+    for _ in range(10):  # Somebody drags: far longer than the wait, but never still.
+        study.ask(question, wanted=False)
+        time.sleep(0.03)
+    assert here.asked == []
+    until(lambda: study.findings.complete)
+    study.ask(question, wanted=False, stirred=False)  # A round that the findings themselves woke.
+    assert study.current(question)
+    study.stop()
+
+
+def test_a_lean_verdict_tells_the_same(verdict: Verdict):
+    """What comes through the pipe has everything that the tab shows, at a hundredth of the size."""
+    small = lean(verdict)
+    assert len(pickle.dumps(small)) < 0.03 * len(pickle.dumps(verdict))
+    question = question_of(ActuatorInputs(), DESIGN)
+    panels = [
+        (
+            actuator_readout.verdict_panel(Findings(question, one), question),
+            actuator_readout.fit_panel(ActuatorInputs(), one.fitted, one),
+            actuator_readout.segments_panel(one.fitted, 1.0, one),
+            actuator_readout.limits_panel(one),
+            actuator_table.table_panel(Findings(question, one, (("MFC_P1", one),)), question),
+        )
+        for one in (verdict, small)
+    ]
+    assert panels[0] == panels[1]
+    for full, left in zip(*(reach(one).data for one in (verdict, small)), strict=True):
+        assert_allclose(left, full)
+
+
+def reach(verdict: Verdict) -> Plot:
+    return actuator_plots.reach_plot(ActuatorInputs(), verdict.fitted, verdict, 0.13, None)
