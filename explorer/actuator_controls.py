@@ -4,7 +4,6 @@ from collections.abc import Callable
 from typing import Any
 
 import viser
-from viser import uplot
 
 from explorer import actuator_plots, actuator_readout, actuator_table
 from explorer.actuator_state import (
@@ -15,8 +14,9 @@ from explorer.actuator_state import (
     ActuatorInputs,
     drive_of,
 )
-from explorer.charts import Chart
+from explorer.charts import Chart, line
 from explorer.colours import BASELINE, NOW, THIS
+from explorer.electrodes_panel import ElectrodesPanel
 from explorer.glossary import hint
 from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube, find_actuator
 from rotor.actuator.fitted import Fitted
@@ -87,11 +87,11 @@ class ActuatorControls:
             key,
             "radius r/R",
             (
-                _line("attainable", BASELINE, 1.5),
-                _line("as counted", BASELINE, 1.5, (5, 3)),
-                _line("required", NOW),
-                _line("used", _USED, 1.5),
-                _line("now", THIS),
+                line("attainable", BASELINE, 1.5),
+                line("as counted", BASELINE, 1.5, (5, 3)),
+                line("required", NOW),
+                line("used", _USED, 1.5),
+                line("now", THIS),
             ),
             actuator_plots.blank(),
             (0.1, 1.02),
@@ -101,6 +101,7 @@ class ActuatorControls:
         self.limits = gui.add_html("")
         with gui.add_folder("All actuators on this blade"):
             self.table = gui.add_html("")
+        self.electrodes = ElectrodesPanel(gui)
         with gui.add_folder("Twist that follows the azimuth"):
             self._per_rev = watched(gui.add_dropdown("Harmonic", tuple(HARMONICS), hint=hint("harmonic")))
             self._amplitude = watched(
@@ -183,13 +184,6 @@ class ActuatorControls:
     def _watched(self, handle: Any) -> Any:
         handle.on_update(lambda event: self._moved(event.client is not None))
         return handle
-
-
-def _line(label: str, colour: str, width: float = 2.0, dash: tuple[float, ...] | None = None) -> uplot.Series:
-    series = uplot.Series(label=label, stroke=colour, width=width, points=uplot.Series_Points(show=False), pxAlign=0)
-    if dash is not None:
-        series["dash"] = dash
-    return series
 
 
 def _ends(values: tuple[float, ...]) -> tuple[float, float]:

@@ -12,7 +12,7 @@ from explorer.actuator_scene import CutScene
 from explorer.actuator_section import section_svg
 from explorer.actuator_state import MOST_SEGMENTS, ActuatorInputs, Question, question_of
 from explorer.actuator_study import Answers, Study
-from explorer.jobs import Pool
+from explorer.jobs import Share
 from rotor.actuator.fitted import Fitted
 from rotor.design import Design
 from rotor.solution import Solution
@@ -22,7 +22,7 @@ class ActuatorPanel:
     """Widgets, cut blade and background study; everything but `inputs` happens on the session's worker."""
 
     def __init__(
-        self, client: viser.ClientHandle, pool: Pool, changed: Callable[[], None], fly: Callable[[float], None]
+        self, client: viser.ClientHandle, pool: Share, changed: Callable[[], None], fly: Callable[[float], None]
     ) -> None:
         """`changed`: something moved. `fly`: set the page's advance ratio."""
         self._changed = changed
@@ -61,6 +61,7 @@ class ActuatorPanel:
         change = solution.power.total - rest.power.total if rest is not None and rest.converged else None
         self._tell("now", self._controls.now, actuator_readout.now_panel(inputs, fitted, change))
         self._tell("section", self._controls.section, section_svg(fitted, voltage_shares(inputs, fitted, psi)))
+        self._controls.electrodes.show(fitted.actuator, inputs.volts(fitted))
         self._tell("bar", self._controls.bar, actuator_readout.voltage_bar(fitted.actuator))
         self._asked = question
         now = (inputs, design, psi)

@@ -37,6 +37,7 @@ SHEET = """<style>
 .rxa-bars { display: grid; grid-template-columns: auto 1fr auto; gap: 2px 8px; align-items: center; font-size: 11.5px; }
 .rxa-track { position: relative; height: 10px; background: rgba(128,128,128,.14); border-radius: 2px; }
 .rxa-track > i { position: absolute; left: 0; top: 0; bottom: 0; border-radius: 2px; }
+.rxa-track > u { position: absolute; top: -1px; bottom: -1px; width: 1px; background: currentColor; opacity: .5; }
 .rxa-track > b { position: absolute; top: -2px; bottom: -2px; width: 2px; background: #e03131; }
 </style>"""
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 from explorer.actuator_state import Question
-from explorer.jobs import Broken, Ended, News, Pool
+from explorer.jobs import Broken, Ended, News, Share
 from explorer.worker import LatestWins
 from rotor.actuator.catalogue import actuators, find_actuator
 from rotor.actuator.verdict import Verdict, judge
@@ -99,7 +99,7 @@ class Source(Protocol):
 class Answers:
     """What is known already, else a process of the pool."""
 
-    def __init__(self, pool: Pool) -> None:
+    def __init__(self, pool: Share) -> None:
         self._pool = pool
 
     def find(self, task: VerdictTask, superseded: Superseded) -> Outcome | None:
@@ -125,7 +125,7 @@ class Answers:
         job = self._pool.submit(task, hear, urgency=URGENCY)
         while not over.wait(_LOOK):
             if superseded():
-                self._pool.leave(job)
+                self._pool.abandon(job)
                 return None
         return _recall(task) or heard[0] or "The verdict was stopped: change any setting to try again."
 

@@ -100,7 +100,7 @@ class Pool:
             job.tell(Ended(None, stopped=True))
             self._tell_positions()
 
-    def leave(self, job: Job) -> None:
+    def abandon(self, job: Job) -> None:
         """Nobody waits for its answer any more: out of the queue, or on to its end."""
         with self._change:
             waiting = job in self._queue
@@ -180,6 +180,9 @@ class Share:
 
     def stop(self, job: Job, quiet: bool = False) -> None:
         self._pool.stop(job, quiet)
+
+    def abandon(self, job: Job) -> None:
+        self._pool.abandon(job)
 
     def leave(self) -> None:
         """The page has gone."""

@@ -43,6 +43,7 @@ KNOW_VISER = {
     "actuator_controls.py",
     "actuator_panel.py",
     "actuator_scene.py",
+    "electrodes_panel.py",
 }
 
 

@@ -59,6 +59,28 @@ def seen(watched: Watched, name: str) -> bool:
     return watched.page.evaluate("name => window.__viserMutable.nodeRefFromName[name].visible", name)
 
 
+def test_the_first_verdict_comes_by_itself(watched: Watched):
+    """Nobody has moved anything: worked out in another process once the page was still."""
+    watched.page.wait_for_selector('[data-explorer="verdict"][data-kind="ready"]', timeout=VERDICT)
+    assert "Macro fibre composite P1" in watched.text("verdict")
+
+
+def test_electrodes_follow_actuator_and_voltage(watched: Watched):
+    watched.page.get_by_text("Electrodes", exact=True).click()
+    watched.page.wait_for_selector('[data-explorer="electrodes"]', state="visible")
+    now = watched.text("field-now")
+    watched.press("Voltage", "End")
+    assert "+3.00 kV/mm" in watched.until_changed(lambda: watched.text("field-now"), now)
+    kinds = watched.text("electrodes")
+    assert kinds.index("interdigitated") < kinds.index("continuous")
+    watched.choose("Actuator", "MFC P2: d31 sheet")
+    kinds = watched.until_changed(lambda: watched.text("electrodes"), kinds)
+    assert kinds.index("continuous") < kinds.index("interdigitated")
+    watched.choose("Actuator", "SMA tube: heated tube")  # Has none.
+    watched.page.wait_for_selector('[data-explorer="electrodes"]', state="detached")
+    watched.choose("Actuator", "MFC P1: d33 fibres")
+
+
 def test_voltage_twists_the_blades_and_moves_power(watched: Watched):
     blade, now = watched.node("/rotor/blade_0"), watched.text("actuator-now")
     watched.press("Voltage", "End")
