@@ -64,7 +64,7 @@ class ActuatorPanel:
         self._controls.electrodes.show(fitted.actuator, inputs.volts(fitted))
         self._tell("bar", self._controls.bar, actuator_readout.voltage_bar(fitted.actuator))
         self._asked = question
-        now = (inputs, design, psi)
+        now = (inputs, design)
         self._study.ask(question, wanted=self._touched, stirred=now != self._before)
         self._before = now
         self._judge(inputs, fitted, question, design.rotor.blade.root_cutout)

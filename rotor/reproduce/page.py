@@ -85,7 +85,8 @@ def _article(report: Report, folder: Path, *, pictures: bool) -> str:
     for stem, _ in pictures_of(report) if pictures else ():
         data = base64.b64encode((folder / f"{stem}.svg").read_bytes()).decode("ascii")
         image += f'<img alt="{escape(report.title)}" src="data:image/svg+xml;base64,{data}">'
-        files += [f'<a href="{stem}.{end}">{end.upper()}</a>' for end in ("svg", "png")]
+        which = " every inflow" if stem != report.stem else ""
+        files += [f'<a href="{stem}.{end}">{end.upper()}{which}</a>' for end in ("svg", "png")]
     tables = "".join(_details(one) for one in report.tables)
     return (
         f'<article id="{report.stem}"><h3>{escape(report.title)} {_chip(report.verdict)}</h3>'
