@@ -86,7 +86,8 @@ def table_4_1(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Report
         "by speed, with every inflow model; and how much of it the best fixed linear blade would take without moving "
         "(every speed flown equally long).",
         statement=UNKNOWN,
-        ours="; ".join(words[name] for name in VARIANTS) + f". With no inflow model is moving worth more than {100 * most:.1f} %.",
+        ours="; ".join(words[name] for name in VARIANTS)
+        + f". With no inflow model is moving worth more than {100 * most:.1f} %.",
         verdict=Verdict.ALONE,
         because="Against −16° a part of every saving is only that −16° is not the best fixed blade for these speeds.",
         tables=(
