@@ -80,6 +80,7 @@ def test_flags_reach_the_search(capsys: pytest.CaptureFixture[str], tmp_path: Pa
         [], ["--objective", "induced"], ["--objective", "hover-cruise", "--hover-share", "0.3"],
         ["--mission", str(mission)], ["--rate-deg=-8,0"], ["--bound", "rate=-6,-2"],
         ["--change-deg", "1", "--on-top"],
+        ["--actuator", "MFC_P1", "--plies", "1", "--derated", "--on-top"],
         ["--preset", "thesis"], ["--inflow", "uniform"],
     ):  # fmt: skip
         code, out, _ = run(capsys, *base, *flags)
@@ -88,7 +89,7 @@ def test_flags_reach_the_search(capsys: pytest.CaptureFixture[str], tmp_path: Pa
     assert len({answer["power_w"] for answer in answers}) == len(answers)
     assert_allclose(answers[4]["parameters"]["rate_deg"], -8.0, atol=0.01)
     assert answers[5]["active"] == ["rate low"]
-    assert answers[6]["active"] == ["change"]
+    assert answers[6]["active"] == answers[7]["active"] == ["change"]
 
 
 @pytest.mark.parametrize(
@@ -106,6 +107,9 @@ def test_flags_reach_the_search(capsys: pytest.CaptureFixture[str], tmp_path: Pa
         (["optimise", "--bound", "rate=1"], "write two numbers"),
         (["optimise", "--rate-deg", "steep"], "'steep' is not understood"),
         (["optimise", "--change-deg", "-1"], "negative"),
+        (["optimise", "--change-deg", "1", "--actuator", "MFC_P1"], "give one of them"),
+        (["optimise", "--actuator", "MFC"], "'MFC' is not known"),
+        (["schedule", "--plies", "3"], "add --actuator"),
         (["optimise", "--stalled-percent", "200"], "200 %"),
         (["optimise", "--mission", "nowhere.csv"], "does not exist"),
         (["optimise", "--mu", "0.9"], "0.9"),

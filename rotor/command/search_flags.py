@@ -3,10 +3,14 @@
 import argparse
 import math
 
+from rotor.actuator.catalogue import find_actuator
+from rotor.actuator.fitted import fit
+from rotor.actuator.placement import Host, default_placement
+from rotor.actuator.verdict import change_limit
 from rotor.command.parser import finite
 from rotor.concepts import CONCEPTS, Concept
 from rotor.design import Design
-from rotor.optimise import Limits, reach
+from rotor.optimise import ChangeLimit, Limits, reach
 
 
 def add_search_arguments(parser: argparse.ArgumentParser, starts: int) -> None:
@@ -29,6 +33,12 @@ def add_search_arguments(parser: argparse.ArgumentParser, starts: int) -> None:
         "--change-deg", type=finite, metavar="DEG",
         help="largest change from the design's own twist, root to tip, growing evenly along the blade",
     )  # fmt: skip
+    limits.add_argument(
+        "--actuator", metavar="ID",
+        help="stay within what this actuator on the flown blade can change of the design's own twist, e.g. MFC_P1",
+    )  # fmt: skip
+    limits.add_argument("--plies", type=int, metavar="N", help="of that actuator, per skin (default 2)")
+    limits.add_argument("--derated", action="store_true", help="count on what a tested blade showed of such a change")
 
 
 def limits_from(args: argparse.Namespace, design: Design, concepts: tuple[Concept, ...]) -> Limits:
@@ -48,13 +58,26 @@ def limits_from(args: argparse.Namespace, design: Design, concepts: tuple[Concep
         rate = math.radians(low), math.radians(high)
     if args.change_deg is not None and args.change_deg < 0.0:
         raise ValueError(f"change limit {args.change_deg:g}° is negative: give 0 or more")
-    root = design.rotor.blade.root_cutout
     return Limits(
         bounds=tuple(bounds),
         rate=rate,
         stalled=None if args.stalled_percent is None else args.stalled_percent / 100.0,
-        change=None if args.change_deg is None else reach(design.twist, math.radians(args.change_deg), root),
+        change=_change(args, design),
     )
+
+
+def _change(args: argparse.Namespace, design: Design) -> ChangeLimit | None:
+    """Change from the design's own twist: an angle, or what an actuator can make."""
+    if args.actuator is None:
+        if args.plies is not None or args.derated:
+            raise ValueError("--plies and --derated are of an actuator: add --actuator, for example MFC_P1")
+        root = design.rotor.blade.root_cutout
+        return None if args.change_deg is None else reach(design.twist, math.radians(args.change_deg), root)
+    if args.change_deg is not None:
+        raise ValueError("--change-deg and --actuator both limit the change of twist: give one of them")
+    placement = default_placement(2 if args.plies is None else args.plies)
+    fitted = fit(find_actuator(args.actuator), placement, Host(), design.rotor)
+    return change_limit(fitted, design.twist, root=design.rotor.blade.root_cutout, derated=args.derated)
 
 
 def concept_help() -> str:

@@ -2,6 +2,7 @@
 
 import ast
 import math
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -38,6 +39,14 @@ def still_true(made: TrustRow) -> None:
 def test_the_page_is_made_of_the_shipped_rows():
     made = page(trust_rows(), sensitivity_rows())
     assert (DOCS / "validation.md").read_text(encoding="utf-8") == made, "copy validation.md of a --trust run to docs/"
+
+
+def test_every_link_of_the_pages_leads_somewhere():
+    """Theory, trust page and README point at files that are there."""
+    for text in (*DOCS.glob("*.md"), DOCS.parent / "README.md"):
+        links = re.findall(r"\]\(([^)#]+)", text.read_text(encoding="utf-8"))
+        missing = [link for link in links if "://" not in link and not (text.parent / link).exists()]
+        assert not missing, f"{text.name}: {missing}"
 
 
 def test_every_row_names_a_test_that_exists():
