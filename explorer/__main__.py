@@ -4,6 +4,7 @@ import argparse
 import signal
 import sys
 import threading
+import warnings
 import webbrowser
 from collections.abc import Sequence
 
@@ -49,6 +50,8 @@ def _run(options: argparse.Namespace) -> int:
         print(f"Rotor explorer: {app.address}   (Ctrl-C stops it)", flush=True)
         if not options.no_browser:
             _open_browser(app.address)
+        # That a browser leaves in the middle of a round is no news.
+        warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # A service manager's stop is as clean as Ctrl-C.
         threading.Event().wait()
     finally:

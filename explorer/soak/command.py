@@ -11,7 +11,7 @@ from explorer.soak.run import Soak, soak
 def main(arguments: list[str]) -> int:
     """Exit code 0 when it passed, 1 when memory grew or an update was lost, 2 for bad input."""
     options = _parser().parse_args(arguments)
-    plan = Soak(options.browsers, options.minutes, options.rate)
+    plan = Soak(options.browsers, options.minutes, options.rate, options.real)
     try:
         report = soak(plan, lambda line: print(line, file=sys.stderr, flush=True))
     except RuntimeError as error:
@@ -30,6 +30,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--browsers", type=_count, default=Soak.browsers, help="how many at once (default 20)")
     parser.add_argument("--minutes", type=_positive, default=Soak.minutes, help="how long they drag (default 10)")
     parser.add_argument("--rate", type=_positive, default=Soak.rate, help="edits a second while dragging (default 20)")
+    parser.add_argument("--real", type=_pages, default=0, metavar="K", help="and K pages of Chromium")
     parser.add_argument("--json", action="store_true", help="print the report as JSON")
     return parser
 
@@ -38,6 +39,10 @@ def _count(text: str) -> int:
     if not text.isdigit() or not 1 <= int(text) <= 500:
         raise argparse.ArgumentTypeError(f"{text!r} is not a number of browsers: give 1…500")
     return int(text)
+
+
+def _pages(text: str) -> int:
+    return 0 if text == "0" else _count(text)
 
 
 def _positive(text: str) -> float:

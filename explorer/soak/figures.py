@@ -87,6 +87,8 @@ class Report:
     """The same for each frame: what does not depend on how busy the machine is."""
     memory: Memory | None
     """None where there were too few samples."""
+    real: Delays | None = None
+    """From a key to the frame, in real browsers among the others; None where there were none."""
 
     @property
     def passed(self) -> bool:
@@ -132,8 +134,10 @@ def judge(
     seconds: float,
     cpu_seconds: float,
     samples: Sequence[tuple[float, float]],
+    real: Sequence[Visit] = (),
 ) -> Report:
     """The report of a run of `seconds`, with the server's processor time and memory samples."""
+    everybody = (*visits, *real)
     late = [delays(visit.delays_ms).p95 for visit in visits if visit.delays_ms]
     frames = sum(visit.frames for visit in visits)
     span = max(seconds, 1e-9)
@@ -144,8 +148,8 @@ def judge(
         edits=sum(visit.edits for visit in visits),
         answered=sum(len(visit.delays_ms) for visit in visits),
         rounds=sum(visit.rounds for visit in visits),
-        lost=tuple(line for visit in visits for line in visit.lost),
-        complaints=tuple(line for visit in visits for line in visit.complaints),
+        lost=tuple(line for visit in everybody for line in visit.lost),
+        complaints=tuple(line for visit in everybody for line in visit.complaints),
         delays=delays([value for visit in visits for value in visit.delays_ms]),
         slowest_browser_p95=max(late, default=0.0),
         fastest_browser_p95=min(late, default=0.0),
@@ -154,6 +158,7 @@ def judge(
         cpu_percent=100.0 * cpu_seconds / span,
         cpu_ms_per_frame=1e3 * cpu_seconds / max(frames, 1),
         memory=memory(samples),
+        real=delays([value for visit in real for value in visit.delays_ms]) if real else None,
     )
 
 
@@ -175,6 +180,11 @@ def words(report: Report) -> str:
         else f"memory     {m.start_mb:.0f} → {m.end_mb:.0f} MB, slope {m.slope_mb_per_minute:+.2f} MB/min "
         f"(at least {m.slope_low:+.2f}) over {m.minutes:.1f} min: {'GROWS' if m.grows else 'flat'}",
     ]
+    if report.real is not None:
+        r = report.real
+        lines.append(
+            f"Chromium   {r.count} keys, key to frame p50 {r.p50:.0f} ms, p95 {r.p95:.0f} ms, worst {r.worst:.0f} ms"
+        )
     lines += [f"LOST       {line}" for line in report.lost[:10]]
     lines += [f"COMPLAINT  {line}" for line in report.complaints[:10]]
     lines.append("passed" if report.passed else "FAILED")

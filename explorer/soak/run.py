@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from explorer.soak.drag import Dragger
 from explorer.soak.figures import Report, judge
 from explorer.soak.process import processor_seconds, resident_mb
+from explorer.soak.real import visit
 
 _END = 10.0
 """[s] a server may take to end."""
@@ -29,6 +30,8 @@ class Soak:
     minutes: float = 10.0
     rate: float = 20.0
     """Edits a second while a slider is held: the page sends no more."""
+    real: int = 0
+    """Chromium pages among them, besides the others."""
 
 
 @contextmanager
@@ -52,18 +55,22 @@ def server(*options: str) -> Iterator[tuple[str, int]]:
 
 
 def soak(plan: Soak, tell: Callable[[str], None] = lambda line: None) -> Report:
-    """Run it; `tell` hears a line now and then."""
-    with server("--max-sessions", str(plan.browsers)) as (address, pid):
-        return asyncio.run(_soak(plan, address, pid, tell))
+    """Run it; `tell` hears a line now and then. RuntimeError where there is no server, or no browser to be had."""
+    with server("--max-sessions", str(plan.browsers + plan.real)) as (address, pid):
+        try:
+            return asyncio.run(_soak(plan, address, pid, tell))
+        except ExceptionGroup as group:
+            raise group.exceptions[0] from None
 
 
 async def _soak(plan: Soak, address: str, pid: int, tell: Callable[[str], None]) -> Report:
-    begin = time.monotonic() + 2.0 + 0.3 * plan.browsers
+    begin = time.monotonic() + 2.0 + 0.3 * plan.browsers + 5.0 * plan.real
     end = begin + 60.0 * plan.minutes
     tell(f"{address}: {plan.browsers} browsers for {plan.minutes:g} min")
     samples: list[tuple[float, float]] = []
     async with asyncio.TaskGroup() as group:
         visits = []
+        pages = group.create_task(visit(address, plan.real, begin, end)) if plan.real else None
         for k in range(plan.browsers):
             visits.append(group.create_task(Dragger(f"browser {k + 1}", k).run(address, begin, end, plan.rate)))
             await asyncio.sleep(_ARRIVAL)
@@ -77,4 +84,5 @@ async def _soak(plan: Soak, address: str, pid: int, tell: Callable[[str], None])
                 told = samples[-1][0]
                 tell(f"{(told - begin) / 60.0:5.1f} min  {samples[-1][1]:.0f} MB")
         seconds, used = time.monotonic() - begin, processor_seconds(pid) - before
-    return judge([task.result() for task in visits], plan.rate, seconds, used, samples)
+    real = pages.result() if pages else []
+    return judge([task.result() for task in visits], plan.rate, seconds, used, samples, real)
