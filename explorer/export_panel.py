@@ -19,6 +19,7 @@ from explorer.difference import shown_field
 from explorer.disk_image import encode_rgba
 from explorer.export_files import File
 from explorer.fields import FIELDS, Field
+from explorer.glossary import hint
 from explorer.history_view import Kept
 from explorer.plots import Range
 from explorer.power_curve import PowerCurves
@@ -55,31 +56,21 @@ class ExportPanel:
         """Whether the sliders mean a design without an answer, so that the last good one is exported."""
         gui = client.gui
         with gui.add_folder("Export"):
-            shapes = gui.add_button_group("Shape", tuple(_SHAPES), hint="Metres, true scale, closed surfaces.")
-            tables = gui.add_button_group(
-                "CSV", ("Disk", "Blade", "Power"), hint="Disk: all fields. Blade: at the marked azimuth. Power: over µ."
-            )
-            self._what = gui.add_dropdown("Picture", (_DISK, _VIEW))
-            self._size = gui.add_dropdown("Size [px]", (*SIZES, _OWN), initial_value=list(SIZES)[1])
+            shapes = gui.add_button_group("Shape", tuple(_SHAPES), hint=hint("export_shape"))
+            tables = gui.add_button_group("CSV", ("Disk", "Blade", "Power"), hint=hint("export_table"))
+            self._what = gui.add_dropdown("Picture", (_DISK, _VIEW), hint=hint("export_picture"))
+            size = list(SIZES)[1]
+            self._size = gui.add_dropdown("Size [px]", (*SIZES, _OWN), initial_value=size, hint=hint("export_size"))
+            low, high = (SMALLEST, SMALLEST), (LARGEST, LARGEST)
             self._own = gui.add_vector2(
-                "W, H [px]",
-                (1600, 900),
-                min=(SMALLEST, SMALLEST),
-                max=(LARGEST, LARGEST),
-                step=1,
-                visible=False,
+                "W, H [px]", (1600, 900), min=low, max=high, step=1, visible=False, hint=hint("export_own")
             )
-            self._clear = gui.add_checkbox("Transparent", False, hint="No background, for slides that have their own.")
-            pictures = gui.add_button_group("Save as", ("PNG", "SVG"), hint="SVG: of the disk, sharp at any size.")
+            self._clear = gui.add_checkbox("Transparent", False, hint=hint("export_clear"))
+            pictures = gui.add_button_group("Save as", ("PNG", "SVG"), hint=hint("export_kind"))
             report = gui.add_button(
-                "Report of this session",
-                icon=viser.Icon.REPORT,
-                color="gray",
-                hint="One HTML file with all designs, A and the kept ones; it opens without a server.",
+                "Report of this session", icon=viser.Icon.REPORT, color="gray", hint=hint("export_report")
             )
-            texts = gui.add_button_group(
-                "Copy as", ("Python", "Command"), hint="Text that computes this design's power elsewhere."
-            )
+            texts = gui.add_button_group("Copy as", ("Python", "Command"), hint=hint("export_text"))
             self._state = gui.add_html("")
         self._say("idle", "Exports the design that is shown.")
         shapes.on_click(lambda event: self._save(_SHAPES[event.target.value]))
@@ -196,7 +187,7 @@ class ExportPanel:
                 '<div class="rx rx-dim">Copied where the browser allows it; else select it here.</div>'
                 f'<pre class="rx-code" data-explorer="code">{escape(text)}</pre>'
             )
-            gui.add_button("Close").on_click(lambda _: modal.close())
+            gui.add_button("Close", hint=hint("close")).on_click(lambda _: modal.close())
 
     def _do(self, what: str, work: Callable[[Moment], str]) -> None:
         """Start `work`, unless other work is under way; it returns what was made."""

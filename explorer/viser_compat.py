@@ -19,7 +19,7 @@ from explorer import uploads
 from explorer.gate import Gate
 from explorer.picture_in_page import picture_script
 
-_starting = threading.Lock()
+_starting, _silent = threading.Lock(), threading.Lock()
 _SHEET = "rx-sheet"
 """Identity of our style sheet in the page."""
 _ONE_PIECE = 4096
@@ -28,8 +28,15 @@ _ONE_PIECE = 4096
 
 def quiet_server(host: str, port: int, label: str, gate: Gate | None = None) -> viser.ViserServer:
     """A server that leaves it to us what is printed, `verbose=False` still prints a banner; with `gate` before it."""
-    with contextlib.redirect_stdout(io.StringIO()), _behind(gate) if gate else contextlib.nullcontext():
+    with _silence(), _behind(gate) if gate else contextlib.nullcontext():
         return viser.ViserServer(host=host, port=port, label=label, verbose=False)
+
+
+@contextlib.contextmanager
+def _silence() -> Iterator[None]:
+    """Print nothing; one thread at a time, for two that take turns at it would leave the program mute."""
+    with _silent, contextlib.redirect_stdout(io.StringIO()):
+        yield
 
 
 @contextlib.contextmanager
@@ -61,7 +68,7 @@ def client_html() -> str:
 
 
 def quiet_stop(server: viser.ViserServer) -> None:
-    with contextlib.redirect_stdout(io.StringIO()):
+    with _silence():
         server.stop()
 
 

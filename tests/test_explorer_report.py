@@ -4,6 +4,7 @@ import io
 import json
 import math
 import re
+import threading
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 from html.parser import HTMLParser
@@ -244,6 +245,15 @@ class TestStage:
         assert "window.__VISER_EMBED_CONFIG__={darkMode:true};" in page
         assert stage.scenes[0] != stage.scenes[1]
         assert len(stage.json) < 1_500_000
+
+    def test_two_at_once_leave_the_program_its_voice(self, capsys: pytest.CaptureFixture[str]):
+        threads = [threading.Thread(target=make_stage, args=([NOW], VIEW, RANGE)) for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        print("still heard")
+        assert capsys.readouterr().out == "still heard\n"
 
     def test_another_viewer_is_one_sentence(self):
         with pytest.raises(ValueError, match="not laid out as it was"):

@@ -104,6 +104,11 @@ def test_pictures_have_the_pixels_asked_for(watched: Watched, tmp_path: Path):
         assert disk.size == (1280, 720)
         assert disk.getpixel((3, 3)) == (255, 255, 255, 255)
         assert len(disk.convert("RGB").getcolors(1 << 21) or []) > 200  # Something is drawn.
+    watched.page.get_by_label("Transparent").first.click()
+    watched.page.wait_for_timeout(100)
+    with Image.open(saved(watched, "PNG", tmp_path)) as disk:
+        assert disk.getpixel((3, 3))[3] == 0  # pyright: ignore[reportIndexIssue, reportOptionalSubscript]
+    watched.page.get_by_label("Transparent").first.click()
     drawing = saved(watched, "SVG", tmp_path).read_text(encoding="utf-8")
     assert drawing.startswith('<svg xmlns="http://www.w3.org/2000/svg" width="1280" height="720"')
     watched.choose("Picture", "3D view")
