@@ -62,6 +62,7 @@ def test_at_a_station_it_is_what_the_disk_holds(solution: Solution):
             assert (p.region is Region.STALLED) == (disk.stall_margin[i, j] < 0.0)
 
 
+@pytest.mark.parametrize("solution", ["fast", "thesis"], indirect=True)
 def test_its_loads_add_up_to_the_trim(solution: Solution):
     """Σ over stations of N_b dT = C_T ρA(ΩR)², and of the power likewise, whatever the loss factor took."""
     design, disk = solution.design, solution.disk
