@@ -7,6 +7,7 @@ import threading
 import warnings
 import webbrowser
 from collections.abc import Sequence
+from pathlib import Path
 
 from explorer.house import SESSIONS, SLEEP_AFTER
 
@@ -39,7 +40,9 @@ def _run(options: argparse.Namespace) -> int:
 
     try:
         start = inputs_of(read_case(options.design)) if options.design else Inputs()
-        house = House(options.max_sessions, 60.0 * options.sleep_after, tuple(options.allow_host))
+        house = House(
+            options.max_sessions, 60.0 * options.sleep_after, tuple(options.allow_host), Path(options.studies)
+        )
         app = App(options.host, options.port, start, house)
     except (ValueError, FileNotFoundError, PortBusy) as error:
         print(f"explorer: {error}", file=sys.stderr)
@@ -83,6 +86,9 @@ def _parser() -> argparse.ArgumentParser:
         type=_sessions,
         default=SESSIONS,
         help=f"pages at work at once (default {SESSIONS}); further visitors wait in line",
+    )
+    parser.add_argument(
+        "--studies", metavar="DIR", default=".", help="where results of studies are looked for (default: here)"
     )
     parser.add_argument(
         "--sleep-after",

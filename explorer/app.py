@@ -88,7 +88,7 @@ class App:
             lambda: self._seat(self._hall.doze(guest)),
             lambda: self._hall.wake(guest),
         )
-        return Session(client, self._start, facts, self.pool.share(), self.stage, sleep)
+        return Session(client, self._start, facts, self.pool.share(), self.stage, sleep, self._house.studies)
 
     def _seat(self, coming: list[Guest]) -> None:
         """Those in line whose turn it is."""

@@ -16,3 +16,22 @@ def write_to(field: str, expression: str) -> str:
         "i.dispatchEvent(new Event('input',{bubbles:true}));}",
         quote=True,
     )
+
+
+def charts_write_to(field: str) -> str:
+    """A script for the page: from then on a click on a point of any Plotly chart writes its `customdata` into a field.
+
+    viser's chart tells the server of no click. Plotly itself does, in the page, but forgets who listens when a chart is
+    drawn anew; so every drawing is followed by listening again. The field is the one with that label, wherever it is.
+    """
+    return (
+        "if(window.Plotly&&!Plotly.heard){const react=Plotly.react;"
+        "const hear=e=>{const p=e.points&&e.points[0];if(!p||p.customdata===undefined)return;"
+        f"const l=[...document.querySelectorAll('label')].find(e=>e.textContent==='{field}');if(!l)return;"
+        "const i=l.closest('[class*=Flex-root]').querySelector('input');"
+        "Object.getOwnPropertyDescriptor(HTMLInputElement.prototype,'value').set.call(i,String(p.customdata));"
+        "i.dispatchEvent(new Event('input',{bubbles:true}));};"
+        "window.Plotly={...Plotly,heard:true,react:(node,...rest)=>{const done=react(node,...rest);"
+        "Promise.resolve(done).then(()=>{if(node.on){node.removeAllListeners('plotly_click');"
+        "node.on('plotly_click',hear);}});return done;}};}"
+    )

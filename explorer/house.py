@@ -1,6 +1,7 @@
 """Bounds of one server: how many pages at once, and how long one may rest before it sleeps."""
 
 from dataclasses import dataclass
+from pathlib import Path
 
 SESSIONS = 24
 """Places by default: a class. Each takes some 5 MB, and all of them dragging at once still get a frame a second."""
@@ -20,6 +21,8 @@ class House:
     """[s] without a change after which a page sleeps: its caches go, its place is free for others."""
     allow_hosts: tuple[str, ...] = ()
     """Further names the server is reached by."""
+    studies: Path = Path()
+    """Results of studies beneath this folder are offered to every page; nothing else of the machine's disk is."""
 
     @property
     def connections(self) -> int:

@@ -6,6 +6,7 @@ import threading
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 import viser
@@ -37,6 +38,7 @@ from explorer.schedule_panel import SchedulePanel
 from explorer.sensitivity_panel import SensitivityPanel
 from explorer.sliders import LIMITS
 from explorer.state import Inputs, ViewState, baseline_of, with_optimum
+from explorer.studies_panel import StudiesPanel
 from explorer.top_bar import TopBar
 from explorer.view import View
 from explorer.viser_compat import PageFacts, set_style
@@ -65,8 +67,12 @@ class Session:
         pool: Share,
         stage: Stage,
         sleep: Sleep | None = None,
+        studies: Path = Path(),
     ) -> None:
-        """`start`: where the page's address holds no design; `sleep`: what the house does about rest."""
+        """`start`: where the page's address holds no design; `sleep`: what the house does about rest.
+
+        `studies`: the folder whose results the Studies tab offers.
+        """
         self._client, self._pool = client, pool
         address = Address(facts.query, partial(viser_compat.set_query, client))
         problem = ""
@@ -137,13 +143,15 @@ class Session:
             self._actuator = ActuatorPanel(client, pool, self._wake, self._fly)
         with panel.add_tab("Physics"):
             self._waterfall = WaterfallPanel(gui, desk)
+        with panel.add_tab("Studies"):
+            self._studies = StudiesPanel(client, desk, LIMITS, studies)
         with panel.add_tab("Trust"):
             gui.add_html(trust_readout.trust_page())
         panel.dock_left()
         self._panel = panel
         self._enlarge(False)
         followers: tuple[Tab, ...] = (self._top, self._probe, sensitivity, self._waterfall)
-        self._tabs = (*followers, self._history, self._file, export, self._lecture, self._presence)
+        self._tabs = (*followers, self._studies, self._history, self._file, export, self._lecture, self._presence)
         """Everything that only follows."""
         self._camera = FittedCamera(client, rotor.radius)
         self._actuator.shown.on_update(self._cut_switched)

@@ -8,7 +8,7 @@ div:has(> .mantine-Checkbox-root) { display: flex !important; }
 /* What explains itself says so. */
 .rx [title] { cursor: help; }
 /* Tabs close enough for their names to stand in one row. */
-[data-dock-tab] { padding: 0 0.38em !important; height: 2.15em !important; }
+[data-dock-tab] { padding: 0 0.37em !important; height: 2.15em !important; }
 /* A row of buttons without a label has the whole width. */
 [class*=Flex-root]:has(> div > p > label:empty) > :first-child { display: none; }
 .rx { font-size: 12.5px; line-height: 1.37; padding: 0 14px; }

@@ -34,6 +34,7 @@ KNOW_VISER = {
     "overlays.py",
     "schedule_panel.py",
     "sensitivity_panel.py",
+    "studies_panel.py",
     "charts.py",
     "top_bar.py",
     "guest.py",

@@ -112,7 +112,7 @@ def _summary(store: Store, stopped: bool, lost: list[int], message: str) -> int:
         )
     if message:
         print(f"rotor: {message}", file=sys.stderr)
-    return 0 if not missing and bool(read_results(store.folder, ()).good.all()) else 1
+    return 0 if not missing and bool(read_results(store.folder, texts=False).good.all()) else 1
 
 
 def _show(args: argparse.Namespace) -> int:
@@ -169,7 +169,7 @@ def _progress(total: int, done: int) -> Generator[Callable[[int, int], None]]:
             said = time.monotonic()
             rate = (done - first) / (said - begin)
             print(
-                f"{done:,} of {total:,} points, {rate:,.0f}/s, {_span((total - done) / rate)} left, {failed:,} failed",
+                f"{done:,} of {total:,} points, {_rate(rate)}, {_span((total - done) / rate)} left, {failed:,} failed",
                 file=sys.stderr,
                 flush=True,
             )
@@ -179,6 +179,11 @@ def _progress(total: int, done: int) -> Generator[Callable[[int, int], None]]:
     finally:
         if bar is not None:
             bar.close()
+
+
+def _rate(points_per_second: float) -> str:
+    """Points a second, or a minute where they take that long."""
+    return f"{points_per_second:,.0f}/s" if points_per_second >= 5.0 else f"{60.0 * points_per_second:,.0f}/min"
 
 
 def _span(seconds: float) -> str:

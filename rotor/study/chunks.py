@@ -88,6 +88,8 @@ def describe(study: Study, provenance: Provenance) -> dict[str, str]:
         "study_file_sha256": provenance.file_sha256,
         "preset": str(given.get("preset", "as the column says" if "preset" in study.axis_names else "flight")),
         "models": json.dumps({name: value for name, value in given.items() if QUANTITIES[name].place == "models"}),
+        "axes": json.dumps(study.axis_names),
+        "given": json.dumps(given),
         "units": json.dumps({column.name: column.unit for column in columns_of(study) if column.unit}),
     }
 

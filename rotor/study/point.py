@@ -68,6 +68,11 @@ def design_of(values: Values, aircraft: Mapping[str, Aircraft]) -> Design:
     return design
 
 
+def trim_of(values: Values, study: Study) -> Design:
+    """The design that a point of a study without a search trims. Raises ValueError with one sentence."""
+    return _bladed(design_of(values, dict(study.aircraft)), values)
+
+
 def check_point(values: Values, study: Study) -> None:
     """Raise ValueError, with one sentence, for values that no point of the study can have."""
     design = design_of(values, dict(study.aircraft))

@@ -4,6 +4,7 @@ Works on whatever is there, so that a run that goes on, or was broken off, can b
 """
 
 import importlib
+import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -63,8 +64,8 @@ class Results:
         return code
 
 
-def read_results(folder: str | Path, columns: tuple[str, ...] | None = None) -> Results:
-    """The results in a folder; `columns` limits what is read to these, the axes and the status.
+def read_results(folder: str | Path, *, texts: bool = True) -> Results:
+    """The results in a folder; without `texts` those columns are left out but for axes and status, which is quicker.
 
     ValueError with one sentence for a folder without a study, or without a result yet.
     """
@@ -72,10 +73,31 @@ def read_results(folder: str | Path, columns: tuple[str, ...] | None = None) -> 
     paths = sorted(Path(folder).glob("chunk-*.parquet"))
     if not paths:
         raise ValueError(f"folder {str(folder)!r} has no finished chunk yet: run its study for longer")
+    arrow: Any = importlib.import_module("pyarrow")
     parquet: Any = importlib.import_module("pyarrow.parquet")
     axes = tuple(str(name) for name in about["axes"])
-    wanted = None if columns is None else list(dict.fromkeys(("point", "status", "message", *axes, *columns)))
-    return Results(about, axes, columns_from(parquet.read_table([str(path) for path in paths], columns=wanted)))
+    names = [
+        one.name
+        for one in parquet.read_schema(paths[0])
+        if texts or not arrow.types.is_string(one.type) or one.name in (*axes, "status")
+    ]
+    return Results(about, axes, columns_from(parquet.read_table([str(path) for path in paths], columns=names)))
+
+
+def read_file(content: bytes, name: str) -> Results:
+    """The results in one Parquet file of a study, or in several that were joined; ValueError for any other file."""
+    parquet: Any = importlib.import_module("pyarrow.parquet")
+    arrow: Any = importlib.import_module("pyarrow")
+    try:
+        table = parquet.read_table(arrow.BufferReader(content))
+    except (OSError, arrow.ArrowException) as error:
+        raise ValueError(f"{name!r} is no Parquet file ({error}): give a chunk-….parquet of a study") from None
+    metadata: dict[bytes, bytes] = table.schema.metadata or {}
+    said: dict[str, Any] = {key.decode(): value.decode() for key, value in metadata.items() if key != b"ARROW:schema"}
+    if said.get("format") != "rotor-explorer study" or "axes" not in said:
+        raise ValueError(f"{name!r} is no result of a study: give a chunk-….parquet of its folder")
+    said |= {key: json.loads(said[key]) for key in ("axes", "given", "units", "models")}
+    return Results(said, tuple(said["axes"]), columns_from(table))
 
 
 def columns_from(table: Any) -> dict[str, NDArray[Any]]:

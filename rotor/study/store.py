@@ -117,7 +117,7 @@ def _about(study: Study, provenance: Provenance, known: dict[str, Any] | None) -
         "units": json.loads(said["units"]),
         "axes": axes,
         "sample": None if places.sample is None else [places.sample.method, places.sample.count, places.sample.seed],
-        "given": dict(study.given),
+        "given": json.loads(said["given"]),
         "points": study.count,
         "chunk": study.chunk,
         "chunks": study.chunks,

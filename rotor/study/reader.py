@@ -1,0 +1,226 @@
+"""From the sections of a study file to a study; whatever is wrong is a sentence with its line and the remedy."""
+
+import math
+import re
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, cast
+
+from rotor.aircraft import Aircraft
+from rotor.assets import SHIPPED_ROTORS
+from rotor.fleet import find_aircraft
+from rotor.presets import make_design
+from rotor.ranges import parse_range
+from rotor.study.axes import Axis, Places, Sample
+from rotor.study.columns import columns_of
+from rotor.study.document import Document
+from rotor.study.point import check_point
+from rotor.study.quantities import QUANTITIES, Value
+from rotor.study.study import Aims, Searching, Study, good_chunk
+from rotor.twist_spec import inline_spec
+
+_MANY = 10**10
+
+
+class Reader:
+    """A document becoming a study."""
+
+    def __init__(self, file: Document, path: Path) -> None:
+        self._file, self._path = file, path
+        self._aircraft: dict[str, Aircraft] = {}
+
+    def study(self) -> Study:
+        sample = self._file.section("sample")
+        axes, ranges = self._axes()
+        places = Places(axes, self._sample(sample, ranges))
+        if not axes and places.sample is None:
+            raise self._file.wrong("", "axes", "the study has no axes: add for example mu = [0.1, 0.2, 0.3] to [axes]")
+        given = self._given({axis.name for axis in axes} | {name for name, _, _ in ranges})
+        searching = self._searching()
+        title, chunk = self._file.section("").get("title", self._path.stem), self._file.section("").get("chunk")
+        if not isinstance(title, str):
+            raise self._file.wrong("", "title", f"title is {title!r}: give a text")
+        if places.count > _MANY:
+            raise self._file.wrong("axes", "", f"the study has {places.count:.3g} points: keep below {_MANY:.0e}")
+        if chunk is None:
+            chunk = good_chunk(places.count, search=searching is not None)
+        chunk = int(self._whole("", "chunk", chunk, 1, 10**6))
+        aircraft = tuple(self._aircraft.items())
+        study = Study(title, places, tuple(given.items()), searching, chunk, Aims(), aircraft)
+        self._try_points(study)
+        return replace(study, aims=self._aims(study))
+
+    def _axes(self) -> tuple[tuple[Axis, ...], list[tuple[str, float, float]]]:
+        axes: list[Axis] = []
+        ranges: list[tuple[str, float, float]] = []
+        for key, value in self._file.section("axes").items():
+            self._known("axes", key)
+            if isinstance(value, dict):
+                ranges.append((key, *self._range(key, cast(dict[str, Any], value))))
+            else:
+                axes.append(Axis(key, self._listed(key, value)))
+        return tuple(axes), ranges
+
+    def _known(self, section: str, key: str) -> None:
+        if key not in QUANTITIES:
+            raise self._file.wrong(
+                section, key, f"{key!r} is no quantity of a study: use one of {', '.join(QUANTITIES)}"
+            )
+        if QUANTITIES[key].kind == "flag" and section == "axes":
+            raise self._file.wrong(section, key, f"{key} cannot be an axis: set it in [models] and make two studies")
+
+    def _listed(self, key: str, value: Any) -> tuple[float, ...] | tuple[str, ...]:
+        """The values of an axis: a list, or a range written as a text."""
+        how = 'give a list, a range such as "0.05:0.40:0.05", or { low = 0.1, high = 0.3 } to sample'
+        if QUANTITIES[key].kind == "text":
+            if not isinstance(value, list) or not all(isinstance(one, str) for one in cast(list[Any], value)):
+                raise self._file.wrong("axes", key, f'axis {key} is {value!r}: give a list of texts, as ["a", "b"]')
+            found: list[Any] = [self._portable("axes", key, one) for one in cast(list[str], value)]
+        elif isinstance(value, str):
+            try:
+                found = list(parse_range(value))
+            except ValueError as error:
+                raise self._file.wrong("axes", key, f"axis {key}: {error}") from None
+        elif isinstance(value, list):
+            found = cast(list[Any], value)
+        else:
+            raise self._file.wrong("axes", key, f"axis {key} is {value!r}: {how}")
+        if not found:
+            raise self._file.wrong("axes", key, f"axis {key} has no values: give one at least")
+        for one in found:
+            if QUANTITIES[key].kind == "number" and not _finite(one):
+                raise self._file.wrong("axes", key, f"axis {key} holds {one!r}: {how}")
+        if len(set(found)) < len(found):
+            raise self._file.wrong("axes", key, f"axis {key} holds a value twice: leave one out")
+        return tuple(found) if QUANTITIES[key].kind == "text" else tuple(float(one) for one in found)
+
+    def _portable(self, section: str, key: str, text: str) -> str:
+        """What another machine can read as well: a rotor's file is read here, a twist table becomes its rows."""
+        try:
+            if key == "rotor" and text not in SHIPPED_ROTORS:
+                beside = self._path.parent / text
+                self._aircraft[text] = find_aircraft(str(beside) if beside.is_file() else text)
+            elif key == "twist" and "table:" in text:
+                return inline_spec(make_design(twist=text).twist)
+        except ValueError as error:
+            raise self._file.wrong(section, key, str(error)) from None
+        return text
+
+    def _range(self, key: str, value: dict[str, Any]) -> tuple[float, float]:
+        low, high = value.get("low"), value.get("high")
+        if (
+            QUANTITIES[key].kind != "number" or set(value) != {"low", "high"} or not (_finite(low) and _finite(high))
+        ):  # fmt: skip
+            raise self._file.wrong(
+                "axes", key, f"axis {key} is {value!r}: give two numbers, {{ low = 0.1, high = 0.3 }}"
+            )
+        if not cast(float, low) < cast(float, high):
+            raise self._file.wrong("axes", key, f"axis {key} runs from {low:g} to {high:g}: give the lower one first")
+        return float(cast(float, low)), float(cast(float, high))
+
+    def _sample(self, record: dict[str, Any], ranges: list[tuple[str, float, float]]) -> Sample | None:
+        if not ranges:
+            if record:
+                raise self._file.wrong(
+                    "", "sample", "[sample] has no range to sample: give an axis as { low = …, high = … }"
+                )
+            return None
+        if not record:
+            key = ranges[0][0]
+            raise self._file.wrong("axes", key, f"axis {key} is a range: add [sample] with method and count")
+        method = record.get("method", "sobol")
+        if method not in ("sobol", "latin-hypercube"):
+            raise self._file.wrong("sample", "method", f"method is {method!r}: use sobol or latin-hypercube")
+        if "count" not in record:
+            raise self._file.wrong("", "sample", "[sample] has no count: say how many points, for example count = 1024")
+        count = int(self._whole("sample", "count", record["count"], 1, 2**24))
+        return Sample(method, count, int(self._whole("sample", "seed", record.get("seed", 0), 0, 2**31)), tuple(ranges))
+
+    def _given(self, varied: set[str]) -> dict[str, Value]:
+        given: dict[str, Value] = {}
+        for section in ("fixed", "models"):
+            for key, value in self._file.section(section).items():
+                self._known(section, key)
+                one = QUANTITIES[key]
+                if one.place != section:
+                    raise self._file.wrong(section, key, f"{key} stands in [{section}]: move it to [{one.place}]")
+                if key in varied:
+                    raise self._file.wrong(section, key, f"{key} is an axis and in [{section}] as well: leave one out")
+                right = {"number": _finite(value), "text": isinstance(value, str), "flag": isinstance(value, bool)}
+                if not right[one.kind]:
+                    wanted = {"number": "a number", "text": "a text", "flag": "true or false"}[one.kind]
+                    raise self._file.wrong(section, key, f"{key} is {value!r}: give {wanted}")
+                if one.kind == "text":
+                    value = self._portable(section, key, value)
+                given[key] = float(value) if one.kind == "number" else value
+        return given
+
+    def _searching(self) -> Searching | None:
+        if not self._file.has("optimum"):
+            return None
+        record, plain = self._file.section("optimum"), Searching()
+        objective = record.get("objective", "total")
+        if objective not in ("total", "induced"):
+            raise self._file.wrong("optimum", "objective", f"objective is {objective!r}: use total or induced")
+        rate, stalled = record.get("rate_deg"), record.get("stalled_percent")
+        if rate is not None:
+            pair = cast(list[Any], rate) if isinstance(rate, list) else []
+            if len(pair) != 2 or not all(_finite(one) for one in pair) or not pair[0] < pair[1]:
+                raise self._file.wrong("optimum", "rate_deg", f"rate_deg is {rate!r}: give two numbers, as [-20, 0]")
+            rate = math.radians(pair[0]), math.radians(pair[1])
+        if stalled is not None and not (_finite(stalled) and 0.0 <= stalled <= 100.0):
+            raise self._file.wrong("optimum", "stalled_percent", f"stalled_percent is {stalled!r}: give 0 to 100")
+        return Searching(
+            starts=int(self._whole("optimum", "starts", record.get("starts", plain.starts), 1, 1000)),
+            seed=int(self._whole("optimum", "seed", record.get("seed", 0), 0, 2**31)),
+            objective=objective,
+            rate=rate,
+            stalled=None if stalled is None else stalled / 100.0,
+        )
+
+    def _aims(self, study: Study) -> Aims:
+        record, plain = self._file.section("show"), Aims()
+        least, uncertain = record.get("least", plain.least), record.get("uncertain", [])
+        numbers = [column.name for column in columns_of(study) if column.kind == "number"]
+        if least not in numbers:
+            raise self._file.wrong("show", "least", f"least is {least!r}: name a column, one of {', '.join(numbers)}")
+        names = study.axis_names
+        if not isinstance(uncertain, list) or not all(one in names for one in cast(list[Any], uncertain)):
+            raise self._file.wrong("show", "uncertain", f"uncertain is {uncertain!r}: list axes, of {', '.join(names)}")
+        return Aims(least, tuple(cast(list[str], uncertain)))
+
+    def _try_points(self, study: Study) -> None:
+        """Every value of every axis once, the others at their first: what no point can use is said before the run."""
+        first: dict[str, Value] = {axis.name: axis.values[0] for axis in study.places.axes}
+        sampled = () if study.places.sample is None else study.places.sample.ranges
+        first |= {name: low for name, low, _ in sampled}
+        shared = dict(study.given)
+        tried: list[tuple[str, dict[str, Value]]] = [("", {})]
+        for axis in study.places.axes:
+            ends = axis.values if axis.textual else (min(axis.values), max(axis.values))
+            tried.extend((axis.name, {axis.name: value}) for value in ends)
+        tried.extend((name, {name: value}) for name, low, high in sampled for value in (low, high))
+        for key, own in tried:
+            try:
+                check_point({**shared, **first, **own}, study)
+            except ValueError as error:
+                section, at = ("axes", key) if key else self._culprit(str(error))
+                raise self._file.wrong(section, at, str(error)) from None
+
+    def _culprit(self, sentence: str) -> tuple[str, str]:
+        """The key that a sentence about fixed values speaks of, as far as that can be told."""
+        keys = [(section, key) for section in ("fixed", "models", "axes") for key in self._file.section(section)]
+        for whole in (True, False):  # "mass_kg"; failing that "mass", as the physics says it.
+            for section, key in keys:
+                if re.search(rf"\b{re.escape(key if whole else key.partition('_')[0])}\b", sentence):
+                    return section, key
+        return "axes", ""
+
+    def _whole(self, section: str, key: str, value: Any, low: int, high: int) -> int:
+        if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
+            raise self._file.wrong(section, key, f"{key} is {value!r}: give a whole number in {low}…{high}")
+        return value
+
+
+def _finite(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)

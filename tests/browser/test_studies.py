@@ -1,0 +1,130 @@
+"""The Studies tab in a real browser: a result opened, a click on a point flown, charts changed; Plotly only then."""
+
+import os
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from chromium import DRAW_NOTHING
+from test_page import Watched
+
+from explorer.app import App
+from explorer.house import House
+from explorer.session import Session
+from rotor.study.chunks import Provenance, work_chunk
+from rotor.study.provenance import package_version
+from rotor.study.results import read_results
+from rotor.study.store import Store
+from rotor.study.study_file import StudyFile, parse_study
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+pytestmark = pytest.mark.browser
+WAIT = 30_000
+"""[ms]; far more than it takes, for machines with other things to do."""
+
+STUDY = """
+title = "Blades in hover and cruise"
+chunk = 100
+[axes]
+mu = [0, 0.15, 0.3]
+inboard_rate_deg = [-16, -8, 0]
+outboard_rate_deg = [-16, -8]
+division = [0.4, 0.6]
+[fixed]
+concept = "two-segment"
+[models]
+inflow = "pitt-peters"
+elements = 16
+azimuths = 48
+"""
+
+
+@pytest.fixture(scope="module")
+def studies(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with one finished study."""
+    folder = tmp_path_factory.mktemp("studies")
+    whence = Provenance(package_version(), None, "0")
+    store = Store(folder / "blades", StudyFile(parse_study(STUDY), STUDY, "study.toml"), whence)
+    store.keep(0, work_chunk(store.study, 0, whence).content)
+    store.close()
+    return folder
+
+
+@pytest.fixture(scope="module")
+def page(browser: "Browser", studies: Path) -> Iterator[tuple[Watched, Session]]:
+    app = App("127.0.0.1", 0, house=House(studies=studies))
+    seated: list[Session] = []
+    make = app._session
+
+    def seat(*given: Any, **named: Any) -> Session:
+        seated.append(make(*given, **named))
+        return seated[-1]
+
+    app._session = seat
+    context = browser.new_context(viewport={"width": 1280, "height": 900})
+    context.add_init_script(DRAW_NOTHING)
+    watched = Watched(context.new_page())
+    watched.open(app.address)
+    watched.page.get_by_role("tab", name="Studies").click()
+    yield watched, seated[-1]
+    context.close()
+    app.stop()
+
+
+def test_a_click_on_a_point_puts_it_on_the_sliders(page: tuple[Watched, Session], studies: Path):
+    watched, session = page
+    tab = watched.page
+    assert tab.evaluate("window.Plotly === undefined")  # 1.7 MB that a page without studies never asks for.
+    watched.choose("Result", "blades")
+    tab.wait_for_selector('[data-explorer="study-state"][data-kind="done"]', timeout=WAIT)
+    assert "36 of 36 points" in watched.text("study-state")
+    dots = tab.locator(".js-plotly-plot .points path")
+    dots.first.wait_for(timeout=WAIT)
+    assert dots.count() == 12  # Blades: each a pair of hover and cruise.
+    before = watched.text("total-power")
+    dots.last.click(force=True)
+    tab.wait_for_function("() => document.querySelector('[data-explorer=study-point]')?.innerText.startsWith('Taken')")
+    row = int(watched.text("study-point").split("point ")[1].split()[0])
+    results = read_results(studies / "blades")
+    inputs = session._controls.inputs()
+    assert (inputs.law, inputs.inflow) == ("two", "pitt-peters")
+    assert inputs.advance_ratio == results.columns["mu"][row] == 0.3
+    assert inputs.two_inner == pytest.approx(results.columns["inboard_rate_deg"][row])
+    assert inputs.two_outer == pytest.approx(results.columns["outboard_rate_deg"][row])
+    assert inputs.two_division == pytest.approx(results.columns["division"][row])
+    watched.until_changed(lambda: watched.text("total-power"), before)
+    assert watched.complaints == []
+
+
+def test_other_charts_and_a_point_by_its_number(page: tuple[Watched, Session], artefacts: Path):
+    watched, session = page
+    tab = watched.page
+    watched.choose("Chart", "Scatter")
+    watched.choose("Across", "division r/R")
+    tab.wait_for_function("() => document.querySelectorAll('.js-plotly-plot .points path').length >= 36")
+    watched.choose("Chart", "Parallel coordinates")
+    tab.locator(".js-plotly-plot .parcoords").first.wait_for(timeout=WAIT)
+    tab.screenshot(path=artefacts / "studies.png")
+    watched.type("Point no.", 0)
+    tab.wait_for_function("() => document.querySelector('[data-explorer=study-point]')?.innerText.includes('point 0')")
+    assert session._controls.inputs().advance_ratio == 0.0
+    watched.type("Point no.", 99)
+    tab.wait_for_function("() => document.querySelector('[data-explorer=study-point]')?.innerText.includes('0…35')")
+    assert watched.complaints == []
+
+
+def test_a_file_that_is_no_result_is_one_sentence(page: tuple[Watched, Session], tmp_path: Path):
+    watched, _ = page
+    tab = watched.page
+    wrong = tmp_path / "wrong.parquet"
+    wrong.write_bytes(os.urandom(100))
+    tab.get_by_text("Not in the list?").click()
+    with tab.expect_file_chooser() as chooser:
+        tab.get_by_role("button", name="Open a Parquet file").click()
+    chooser.value.set_files(wrong)
+    tab.wait_for_selector('[data-explorer="study-state"][data-kind="problem"]', timeout=WAIT)
+    assert "wrong.parquet" in watched.text("study-state")
+    assert watched.complaints == []

@@ -1,0 +1,173 @@
+"""Studies on the page without a page: what is found on disk, the front, charts, and a row flown again."""
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+from explorer import study_charts
+from explorer.clicks import charts_write_to
+from explorer.study_list import find_studies, open_study
+from explorer.study_readout import point_line, summary
+from rotor.solve import solve
+from rotor.study.chunks import Provenance, work_chunk
+from rotor.study.front import Pairs, cruise_speeds, pairs_at
+from rotor.study.provenance import package_version
+from rotor.study.replay import design_of_row
+from rotor.study.results import Results, read_file
+from rotor.study.store import Store
+from rotor.study.study_file import StudyFile, parse_study
+
+TRIMS = """
+chunk = 10
+[axes]
+mu = [0, 0.2]
+outboard_rate_deg = [-16, -8]
+division = [0.4, 0.6]
+[fixed]
+concept = "two-segment"
+inboard_rate_deg = -12
+[models]
+inflow = "pitt-peters"
+elements = 12
+azimuths = 24
+"""
+OPTIMA = """
+[axes]
+concept = ["linear", "two-segment-two-airfoils"]
+[fixed]
+hover_share = 0.5
+[models]
+inflow = "pitt-peters"
+elements = 12
+azimuths = 24
+[optimum]
+starts = 1
+"""
+WHENCE = Provenance(package_version(), None, "0")
+
+
+def finished(folder: Path, text: str) -> Results:
+    store = Store(folder, StudyFile(parse_study(text), text, "study.toml"), WHENCE)
+    for chunk in range(store.study.chunks):
+        store.keep(chunk, work_chunk(store.study, chunk, WHENCE).content)
+    store.close()
+    return open_study(folder)
+
+
+@pytest.fixture(scope="module")
+def trims(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Results]:
+    folder = tmp_path_factory.mktemp("page") / "deep" / "trims"
+    return folder, finished(folder, TRIMS)
+
+
+@pytest.fixture(scope="module")
+def optima(tmp_path_factory: pytest.TempPathFactory) -> Results:
+    return finished(tmp_path_factory.mktemp("page") / "optima", OPTIMA)
+
+
+def test_results_are_found_beneath_a_folder_but_not_too_deep(trims: tuple[Path, Results]):
+    folder, _ = trims
+    root = folder.parent.parent
+    (found,) = find_studies(root)
+    assert (found.path, found.label(root), found.title) == (folder, "deep/trims", "study")
+    assert find_studies(folder) == (found,)
+    assert find_studies(root / "nowhere") == ()
+    buried = root / "a" / "b" / "c" / "d"
+    buried.mkdir(parents=True)
+    (buried / "_study.json").write_text("{}")
+    assert len(find_studies(root)) == 1
+
+
+def test_a_result_that_has_gone_on_is_read_again(tmp_path: Path):
+    store = Store(tmp_path, StudyFile(parse_study(TRIMS.replace("10", "4")), TRIMS, "study.toml"), WHENCE)
+    store.keep(0, work_chunk(store.study, 0, WHENCE).content)
+    assert open_study(tmp_path).rows == 4
+    store.keep(1, work_chunk(store.study, 1, WHENCE).content)
+    assert open_study(tmp_path).rows == 8
+
+
+@pytest.mark.parametrize("row", range(8))
+def test_a_row_is_a_design_again(trims: tuple[Path, Results], row: int):
+    _, results = trims
+    design = design_of_row(results, row)
+    assert_allclose(solve(design).power.total, results.columns["power_total_w"][row], rtol=1e-8)
+
+
+def test_an_optimum_brings_its_blade_with_it(optima: Results):
+    for row in range(2):
+        design = design_of_row(optima, row)
+        assert_allclose(solve(design).power.total, optima.columns["power_total_w"][row], rtol=1e-7)
+    assert {span.section for span in design_of_row(optima, 1).rotor.blade.spans} == {"sc1094r8", "sc1095"}
+
+
+def test_a_single_file_says_enough(trims: tuple[Path, Results]):
+    folder, results = trims
+    alone = read_file((folder / "chunk-000000.parquet").read_bytes(), "chunk-000000.parquet")
+    assert design_of_row(alone, 3) == design_of_row(results, 3)
+    with pytest.raises(ValueError, match=r"letter\.txt"):
+        read_file(b"dear", "letter.txt")
+
+
+def test_the_front_is_what_none_beats_in_both():
+    hover, cruise = np.array([3.0, 2.0, 1.0, 2.0, 4.0]), np.array([1.0, 2.0, 4.0, 3.0, 1.0])
+    assert_array_equal(Pairs(hover, cruise, np.arange(5)).best, [True, True, True, False, False])
+
+
+def test_hover_goes_with_the_cruise_of_the_same_blade(trims: tuple[Path, Results], optima: Results):
+    _, results = trims
+    assert cruise_speeds(results) == (0.2,)
+    pairs = pairs_at(results, 0.2)
+    assert len(pairs.row) == 4
+    for hover, row in zip(pairs.hover, pairs.row, strict=True):
+        same = np.flatnonzero(
+            (results.columns["mu"] == 0.0)
+            & (results.columns["division"] == results.columns["division"][row])
+            & (results.columns["outboard_rate_deg"] == results.columns["outboard_rate_deg"][row])
+        )
+        assert hover == results.columns["power_total_w"][same[0]]
+    known = pairs_at(optima, cruise_speeds(optima)[0])
+    assert_array_equal(known.hover, optima.columns["hover_power_w"])
+    assert_allclose(0.5 * (known.hover + known.cruise), optima.columns["mean_power_w"], rtol=1e-7)
+
+
+@pytest.mark.parametrize("dark", [False, True])
+def test_charts_hold_the_rows_that_a_click_takes(trims: tuple[Path, Results], dark: bool):
+    _, results = trims
+    assert study_charts.choices(results)[:4] == ("mu", "outboard_rate_deg", "division", "power_total_w")
+    for figure, points in (
+        (study_charts.scatter(results, "mu", "power_total_w", "division", 3, dark), 8),
+        (study_charts.front(results, pairs_at(results, 0.2), 0.2, None, dark), 4),
+        (study_charts.parallel(results, "division", dark), 0),
+    ):
+        made = json.loads(figure.to_json())
+        rows = [row for trace in figure.data[:2] for row in (trace.customdata if trace.customdata is not None else ())]
+        assert len(set(rows)) == (points if points else 0)
+        assert "NaN" not in json.dumps(made)
+    assert max(results.columns["power_total_w"]) > 1e5 > max(study_charts.shown(results, "power_total_w"))
+
+
+def test_many_points_are_thinned_but_the_taken_one_stays():
+    count = 10_000
+    columns: dict[str, Any] = {"point": np.arange(count, dtype=float), "power_total_w": np.ones(count)}
+    columns["status"] = np.array(["converged"] * count, dtype=object)
+    results = Results({"title": "Many", "points": 20_000}, (), columns)
+    rows = study_charts.picked(results, 7)
+    assert study_charts.MOST_POINTS <= len(rows) <= study_charts.MOST_POINTS + 1
+    assert 7 in rows
+    assert "10\u2009000 of 20\u2009000 points" in summary(results)
+
+
+def test_numbers_have_the_digits_that_count():
+    values = (8322.4, 0.16172, -11.8512, 0.0, 1e-9, math.nan)
+    assert [study_charts.plain(value) for value in values] == ["8\u2009322.4", "0.16172", "−11.851", "0", "0", "–"]
+
+
+def test_what_is_said_of_a_point_is_escaped(trims: tuple[Path, Results]):
+    _, results = trims
+    assert "&lt;b&gt;" in point_line(results, 0, "<b>")
+    assert "'Point no.'" in charts_write_to("Point no.")
