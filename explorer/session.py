@@ -219,7 +219,8 @@ class Session:
             return
         # What a search shows is a blade at rest: a driven actuator goes first.
         preview = self._optimise.preview(plain) if design == plain else None
-        self._follow(plain)
+        if whole:
+            self._follow(plain)
         design = preview or design
         if self._latest is None or self._latest.design != design:
             self._latest = solve(design, self._good)
@@ -237,7 +238,8 @@ class Session:
         on_disk = top.solve(design, overtaken()) if view.difference else None
         self._frame.draw(solution, view, ghost_of(None if preview is None else plain, top.pinned), on_disk)
         self._camera.ride(math.radians(view.azimuth_deg))
-        self._actuator.show(actuator, plain, solution, math.radians(view.azimuth_deg))
+        if whole or actuator.per_rev:  # Only at harmonics does its picture turn with the blade.
+            self._actuator.show(actuator, plain, solution, math.radians(view.azimuth_deg))
         baseline = self._baseline.solve(baseline_of(design))
         moment = Moment(inputs, view, solution, baseline, top.solve(design, overtaken()), top.pinned)
         before, self._moment = self._moment, moment

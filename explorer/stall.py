@@ -1,5 +1,7 @@
 """Where the blade stalls: both stall angles of every element, and the margin between them on any grid."""
 
+from functools import lru_cache
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,8 +13,12 @@ from rotor.solution import Solution
 Array = NDArray[np.float64]
 
 
+@lru_cache(maxsize=8)  # A blade that turns asks again and again for the same answer's.
 def stall_angles(solution: Solution) -> tuple[Array, Array]:
-    """Negative and positive stall angle [rad] about the blade's reference line, (elements, azimuths) each."""
+    """Negative and positive stall angle [rad] about the blade's reference line, (elements, azimuths) each.
+
+    Of the last few solutions they are kept: do not write into them.
+    """
     disk, blade = solution.disk, solution.design.rotor.blade
     places = [blade.section_at(float(r)) for r in disk.r]
     lower, upper = np.zeros_like(disk.mach), np.zeros_like(disk.mach)
