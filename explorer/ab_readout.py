@@ -11,6 +11,7 @@ from explorer.readout import (
     bar,
     dash,
     direction,
+    fineness,
     ideal_induced,
     ideal_line,
     number,
@@ -118,12 +119,13 @@ def _row(
     apart = None if a is None else b - a
     percent = None if a is None or apart is None or a <= 0.0 else 100.0 * apart / a
     changes = (number(apart, 1, sign=True), number(percent, 1, sign=True))
+    fine = fineness(power)
     if part:
         patch = f'<span class="rx-patch" style="background:{PARTS[part]}"></span>'
-        return _cells(patch + title, (number(a), number(b), *changes), tooltip=tip(part))
+        return _cells(patch + title, (number(a, fine), number(b, fine), *changes), tooltip=tip(part))
     kind = "" if percent is None else direction(percent)
     coloured = (f'<span class="{kind.strip()}">{text}</span>' for text in changes)
-    return _cells(title, (number(a), number(b), *coloured), "rx-sum", tip("total_power"))
+    return _cells(title, (number(a, fine), number(b, fine), *coloured), "rx-sum", tip("total_power"))
 
 
 def _cells(title: str, values: tuple[str, ...], kind: str = "", tooltip: str = "") -> str:

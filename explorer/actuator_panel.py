@@ -14,6 +14,7 @@ from explorer.actuator_state import MOST_SEGMENTS, ActuatorInputs, Question, que
 from explorer.actuator_study import Answers, Study
 from explorer.jobs import Share
 from rotor.actuator.fitted import Fitted
+from rotor.actuator.structure import check_blade
 from rotor.design import Design
 from rotor.solution import Solution
 
@@ -50,9 +51,12 @@ class ActuatorPanel:
     def show(self, inputs: ActuatorInputs, design: Design, solution: Solution, psi: float) -> None:
         """Everything that follows: `design` is without the actuator's twist, `solution` with it."""
         try:
+            check_blade(design.aircraft)
             fitted = inputs.fitted(design.rotor)
             question = question_of(inputs, design)
         except ValueError as error:
+            self._cut.hide()
+            self._drawn = None
             self.lose(str(error))
             return
         self._controls.arrange(inputs, fitted)

@@ -13,6 +13,7 @@ from rotor.actuator.fitted import Fitted, fit
 from rotor.actuator.harmonic import DynamicTwist, dynamic_twist, with_harmonic
 from rotor.actuator.placement import BladeKind, Host, Placement
 from rotor.actuator.reach import STATIONS, Pair, twisted
+from rotor.actuator.structure import KNOWN_BLADE
 from rotor.blade import Rotor
 from rotor.concepts import find_concept
 from rotor.design import Design
@@ -113,8 +114,8 @@ class ActuatorInputs:
         return wave * np.interp(stations, made.stations, made.shape)
 
     def apply(self, design: Design) -> Design:
-        """The design as the actuator twists it; the very same design while nothing is driven."""
-        if not self.driven:
+        """The design as the actuator twists it; the very same one at rest, and on a blade of unknown structure."""
+        if not self.driven or design.aircraft.key != KNOWN_BLADE:
             return design
         fitted = self.fitted(design.rotor)
         if any(self.swings(fitted)):

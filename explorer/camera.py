@@ -37,6 +37,14 @@ class FittedCamera:
         self._view = view
         self._aim(partial(fit, view, self._radius, azimuth=self._azimuth))
 
+    def resize(self, radius: float) -> None:
+        """The rotor is of another radius [m] now: fit it anew, unless something else is looked at."""
+        if radius == self._radius:
+            return
+        self._radius = radius
+        if self._view is not None:
+            self.aim(self._view)
+
     def ride(self, azimuth: float) -> None:
         """The marked blade is at ψ [rad] now: a camera that looks along it goes with it, until the user takes over."""
         if azimuth == self._azimuth:

@@ -12,12 +12,13 @@ from explorer.colour_bar import colour_bar, outline_legend
 from explorer.fields import FIELDS, Field
 from explorer.glossary import hint
 from explorer.history import Pauses
+from explorer.rotor_shelf import SUFFIXES
+from explorer.rotors import menu_titles
 from explorer.sliders import SLIDERS, meant, shown, slider
-from explorer.state import INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs, ViewState, preset_inflow
+from explorer.state import INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs, ViewState, preset_inflow, with_rotor
 from explorer.units import SI, UNITS, Units
 from explorer.view import View
 from rotor.inflow import INFLOW_MODELS
-from rotor.presets import make_design
 from rotor.switches import SWITCHES
 
 
@@ -57,6 +58,7 @@ class Controls:
         self._moving = threading.RLock()
         self.pauses = Pauses()
         self._laws = _laws_of(start)
+        self._rotors = menu_titles(start.own_rotor)
         self._inflows = {name: model.title for name, model in INFLOW_MODELS.items()}
         self._units = SI
         """Of the weight and altitude sliders now."""
@@ -91,6 +93,12 @@ class Controls:
                 gui.add_slider("Twist shown ×", 1.0, 5.0, 0.5, 1.0, hint=hint("exaggeration"))
             )
         with gui.add_folder("Model"):
+            titles = tuple(self._rotors.values())
+            self._rotor = gui.add_dropdown("Rotor", titles, initial_value=self._rotors[start.rotor], hint=hint("rotor"))
+            self.upload = gui.add_upload_button(
+                "Load rotor file …", icon=viser.Icon.UPLOAD, color="gray", mime_type=",".join(SUFFIXES),
+                hint=hint("rotor_file"),
+            )  # fmt: skip
             titles = tuple(PRESET_TITLES.values())
             preset = gui.add_dropdown("Preset", titles, initial_value=PRESET_TITLES[start.preset], hint=hint("preset"))
             self._inputs["preset"] = self._watched(preset)
@@ -111,6 +119,7 @@ class Controls:
                 self._inputs[name] = self._watched(box)
         self.reset_button = gui.add_button("Reset design", hint=hint("reset"))
         self._inputs["preset"].on_update(self._preset_changed)
+        self._rotor.on_update(self._rotor_changed)
 
     def inputs(self) -> Inputs:
         """What the widgets mean now."""
@@ -120,7 +129,8 @@ class Controls:
         values["law"] = _key(self._laws, values["law"])
         values["preset"] = _key(PRESET_TITLES, values["preset"])
         values["inflow"] = _key(self._inflows, values["inflow"])
-        return Inputs(**values, given=special.given, found=special.found, airfoils=special.airfoils)
+        held = {name: getattr(special, name) for name in _HELD}
+        return Inputs(**values, **held)
 
     def view(self) -> ViewState:
         return ViewState(
@@ -149,6 +159,8 @@ class Controls:
             self._exaggeration,
             *self._toggles.values(),
             self._infinite,
+            self._rotor,
+            self.upload,
             self.reset_button,
         )
         for handle in (*self._inputs.values(), *own):
@@ -174,6 +186,11 @@ class Controls:
             self._laws = _laws_of(inputs)
             if self._law.options != tuple(self._laws.values()):
                 self._law.options = tuple(self._laws.values())
+            self._rotors = menu_titles(inputs.own_rotor)
+            if self._rotor.options != tuple(self._rotors.values()):
+                self._rotor.options = tuple(self._rotors.values())
+            self._fit_mass(inputs)
+            self._rotor.value = self._rotors[inputs.rotor]
             titles = {"law": self._laws, "preset": PRESET_TITLES, "inflow": self._inflows}
             for name in INPUT_NAMES:
                 if name in self._inputs:
@@ -189,9 +206,7 @@ class Controls:
         for key, law in LAWS.items():
             for name in law.inputs:
                 self._inputs[name].visible = key == inputs.law
-        self._speed.content = readout.speed_line(
-            make_design(inputs.preset, advance_ratio=inputs.advance_ratio).airspeed, units
-        )
+        self._speed.content = readout.speed_line(inputs.advance_ratio * inputs.aircraft.rotor.tip_speed, units)
         self._explanation.content = readout.explanation(INFLOW_MODELS[inputs.inflow].explanation)
         self._infinite.visible = inputs.inflow in (FOUR, INFINITE)
         self._infinite.value = inputs.inflow == INFINITE
@@ -214,7 +229,7 @@ class Controls:
         with self._moving:
             for name in ("mass_t", "altitude_m"):
                 handle: Any = self._inputs[name]
-                value, form = self._read(name, handle.value), slider(name, units)
+                value, form = self._read(name, handle.value), slider(name, units, self._special.aircraft)
                 handle.label, handle.step, handle.precision = form.label, form.step, form.digits
                 handle.min, handle.max = form.low, form.high
                 handle.value = shown(name, value, units)
@@ -229,7 +244,7 @@ class Controls:
 
     def _sliders(self, gui: viser.GuiApi, names: tuple[str, ...]) -> None:
         for name in names:
-            s = slider(name, SI)
+            s = slider(name, SI, self._start.aircraft)
             value = min(max(float(getattr(self._start, name)), s.low), s.high)
             self._inputs[name] = self._watched(gui.add_slider(s.label, s.low, s.high, s.step, value, hint=hint(name)))
 
@@ -250,9 +265,29 @@ class Controls:
         if event.client is not None:  # Not when the reset button moved it.
             self._inputs["inflow"].value = self._inflows[preset_inflow(self.inputs().preset)]
 
+    def _rotor_changed(self, event: viser.GuiEvent[Any]) -> None:
+        if event.client is not None:  # Not when a loaded design moved it.
+            self.pauses.moved(time.monotonic())
+            self.set_inputs(with_rotor(self.inputs(), _key(self._rotors, event.target.value)))
+
+    def _fit_mass(self, inputs: Inputs) -> None:
+        """The weight slider about the rotor's own reference mass."""
+        handle: Any = self._inputs["mass_t"]
+        form = slider("mass_t", self._units, inputs.aircraft)
+        if (handle.min, handle.max) != (form.low, form.high):
+            # In an order that never leaves the value outside its ends.
+            handle.min, handle.max = min(form.low, handle.min), max(form.high, handle.max)
+            handle.step, handle.precision = form.step, form.digits
+            handle.value = shown("mass_t", inputs.mass_t, self._units)
+            handle.min, handle.max = form.low, form.high
+
     def _infinite_changed(self, event: viser.GuiEvent[Any]) -> None:
         if event.client is not None:  # Not when the menu moved it.
             self._inputs["inflow"].value = self._inflows[INFINITE if event.target.value else FOUR]
+
+
+_HELD = ("rotor", "own_rotor", "given", "found", "airfoils")
+"""Inputs that no slider moves by itself: a menu or a file brings them, with others."""
 
 
 def _laws_of(inputs: Inputs) -> dict[str, str]:

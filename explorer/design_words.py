@@ -5,7 +5,9 @@ import math
 from explorer.state import PRESET_TITLES
 from explorer.units import METRE_PER_SECOND, SI, TONNE, Units, number
 from rotor.active_twist import ActiveTwist
+from rotor.assets import SHIPPED_ROTORS
 from rotor.design import Design
+from rotor.fleet import shipped_aircraft
 from rotor.inflow import INFLOW_MODELS
 from rotor.switches import switched_off
 from rotor.twist import (
@@ -40,8 +42,10 @@ def twist_words(law: TwistLaw) -> str:
         case SumTwist(base, change):
             later = twist_words(change)
             return f"{twist_words(base)}, with {later[:1].lower()}{later[1:]} on top"
-        case TableTwist(name="uh60a"):
-            return "UH-60A built-in twist"
+        case TableTwist(name=name) if name in SHIPPED_ROTORS:
+            return f"{shipped_aircraft(name).name} built-in twist"
+        case TableTwist(name="builtin"):
+            return "Built-in twist"
         case TableTwist():
             return "Twist from a table"
         case _:

@@ -52,7 +52,7 @@ def rotor_scene(solution: Solution, azimuth_deg: float) -> trimesh.Scene:
     design, controls = solution.design, solution.controls
     scene = trimesh.Scene()
     body = _Z_UP @ _matrix(rotor_pose(controls))
-    for name, mesh in (("hub", meshes.hub(design.rotor)), ("mast", meshes.mast())):
+    for name, mesh in (("hub", meshes.hub(design.rotor)), ("mast", meshes.mast(design.rotor.radius))):
         scene.add_geometry(_painted(mesh.vertices, mesh.faces, colours.HUB), name, name, transform=body)
     step = 2.0 * math.pi / design.rotor.blades
     azimuths = tuple(math.radians(azimuth_deg) + k * step for k in range(design.rotor.blades))

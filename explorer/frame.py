@@ -65,6 +65,7 @@ class Frame:
             return
         picture = make_picture(solution, view, colour_range, field)
         with self._client.atomic():
+            self._scene.fit(solution.design.rotor)
             self._scene.show(picture)
             self._ghost.show(ghost, view.exaggeration)
         self._client.flush()  # The frame goes out now; read-outs and charts follow while it is drawn.

@@ -55,6 +55,10 @@ CONTROLS: dict[str, Entry] = {
     "outline_drag_divergence": Entry("Draws where drag grows by 0.1 per Mach number.", section=5),
     "azimuth_deg": Entry("Place of the marked blade: 0° over the tail, 90° on the advancing side.", section=1),
     "exaggeration": Entry("Exaggerates the twist of the drawn blades only."),
+    "rotor": Entry("Which helicopter's rotor: its blades, sections, speed and weight, as it is built.", section=4),
+    "rotor_file": Entry(
+        "A rotor of your own: a TOML file (docs/rotor_file.md); decks, polars and outlines it names before or after it."
+    ),
     "preset": Entry("What the source document states, or what we believe; each choice can be changed.", section=15),
     "inflow": Entry("How the air through the disk answers to speed and load.", ("3.4",)),
     "infinite": Entry("The same wake averaged over time: the rotor that textbooks untwist for speed.", section=9),

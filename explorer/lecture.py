@@ -89,7 +89,7 @@ def _powers(moment: Moment) -> tuple[PowerBudget, PowerBudget]:
 
 
 _LINEAR = Inputs(law="linear")
-_UH60A = Inputs(law="uh60a")
+_UH60A = Inputs(law="builtin")
 
 STEPS: tuple[Step, ...] = (
     Step(

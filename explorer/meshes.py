@@ -16,6 +16,8 @@ Faces = NDArray[np.uint32]
 
 _RING = 45
 """Points round a section of the page's blade (odd)."""
+_DRAWN_FOR = 8.1788
+"""Radius [m] that hub and mast are drawn for; on other rotors they grow and shrink with it."""
 _SHANK_RADIUS = 0.16
 """A plausible round root shank, in reference chords; the flown cuff's own shape is not in the data."""
 _SHANK_END = 0.70
@@ -84,8 +86,8 @@ def blade_shape(rotor: Rotor, detail: Detail = PAGE) -> BladeShape:
 
 def _section_ring(rotor: Rotor, r: float, points: int) -> Array:
     inner, outer, weight = rotor.blade.section_at(r)
-    outline = (1.0 - weight) * blade_axes_outline(inner, points) + weight * blade_axes_outline(outer, points)
-    return float(rotor.blade.chord(r)) * outline
+    one, two = (blade_axes_outline(rotor.blade.installed(name), points) for name in (inner, outer))
+    return float(rotor.blade.chord(r)) * ((1.0 - weight) * one + weight * two)
 
 
 def blade_vertices(shape: BladeShape, twist: TwistLaw, exaggeration: float = 1.0) -> Array:
@@ -152,14 +154,20 @@ def revolved(profile: Array, segments: int = 40) -> Mesh:
 
 def hub(rotor: Rotor) -> Mesh:
     """A hub that reaches the flap hinges."""
-    reach = max(rotor.blade.flap_hinge * rotor.radius, 0.3)
+    scale = size(rotor.radius)
+    reach = max(rotor.blade.flap_hinge * rotor.radius / scale, 0.3)
     outline = [[0.0, -0.14], [reach, -0.14], [reach, -0.12], [1.06 * reach, 0.0], [reach, 0.1], [0.6 * reach, 0.17]]
-    return revolved(np.array([*outline, [0.25 * reach, 0.22], [0.0, 0.22]]))
+    return revolved(scale * np.array([*outline, [0.25 * reach, 0.22], [0.0, 0.22]]))
 
 
-def mast() -> Mesh:
-    """The shaft below the hub."""
-    return revolved(np.array([[0.0, -1.9], [0.26, -1.9], [0.15, -0.9], [0.15, -0.1], [0.0, -0.1]]), 28)
+def mast(radius: float) -> Mesh:
+    """The shaft below the hub of a rotor of this radius [m]."""
+    return revolved(size(radius) * np.array([[0.0, -1.9], [0.26, -1.9], [0.15, -0.9], [0.15, -0.1], [0.0, -0.1]]), 28)
+
+
+def size(radius: float) -> float:
+    """How large a rotor of this radius [m] is beside the one that fixed measures were drawn for."""
+    return radius / _DRAWN_FOR
 
 
 def rotation_arrow(radius: float) -> Mesh:

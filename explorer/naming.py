@@ -3,6 +3,7 @@
 from explorer.readout import number
 from explorer.state import LAWS, Inputs
 from explorer.units import SI, Units
+from rotor.assets import SHIPPED_ROTORS
 from rotor.switches import SWITCHES
 
 _SHAPES = {
@@ -15,13 +16,14 @@ _PLACES = {"two": ("two_division",), "three": ("three_first", "three_second")}
 
 
 def twist_name(inputs: Inputs) -> str:
-    """The twist: `Two segments −14/−8 at 0.5`."""
+    """The twist: `Two segments −14/−8 at 0.5`, and before it the rotor where it is not the page's first."""
     values = "/".join(number(getattr(inputs, name), 1).removesuffix(".0") for name in _SHAPES.get(inputs.law, ()))
     places = "/".join(f"{getattr(inputs, name):g}" for name in _PLACES.get(inputs.law, ()))
     name = LAWS[inputs.law].title
     if values:
         name += f" {values}" + ("°" if inputs.law == "linear" else "")
-    return name + (f" at {places}" if places else "")
+    rotor = "" if inputs.rotor == SHIPPED_ROTORS[0] else f"{inputs.aircraft.name}, "
+    return rotor + name + (f" at {places}" if places else "")
 
 
 def flight_name(inputs: Inputs, units: Units = SI) -> str:

@@ -5,7 +5,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from explorer.picture import DISK_DROP
+from explorer.picture import disk_drop
 from explorer.poses import compose, rotate, rotor_pose, tip_path_pose
 from rotor.solution import Solution
 
@@ -18,7 +18,7 @@ _BESIDE = 0.02
 def pick(solution: Solution, origin: ArrayLike, direction: ArrayLike) -> tuple[float, float] | None:
     """(r/R, ψ [rad]) where a ray of the world meets the drawn disk; None where it misses the blades' annulus."""
     rotor, controls = solution.design.rotor, solution.controls
-    shaft, disk = rotor_pose(controls), tip_path_pose(controls, DISK_DROP)
+    shaft, disk = rotor_pose(controls), tip_path_pose(controls, disk_drop(rotor))
     turn = compose(shaft.wxyz, disk.wxyz)
     centre = shaft.position + rotate(shaft.wxyz, disk.position)
     start, along = np.asarray(origin, dtype=np.float64), np.asarray(direction, dtype=np.float64)

@@ -9,18 +9,19 @@ from numpy.typing import NDArray
 from explorer import colours, disk_image
 from explorer.actuator_blades import blade_twists
 from explorer.fields import FIELDS, Field
-from explorer.meshes import blade_shape, blade_vertices
+from explorer.meshes import blade_shape, blade_vertices, size
 from explorer.outlines import drag_divergence_segments, reverse_flow_segments, stall_segments
 from explorer.polar import polar_grid
 from explorer.poses import Pose, blade_pose, rotor_pose, tip_path_pose
 from explorer.state import ViewState
 from explorer.units import UNITS
+from rotor.blade import Rotor
 from rotor.solution import Solution
 
 Array = NDArray[np.float64]
 
 DISK_DROP = 0.35
-"""How far the coloured disk lies below the hub [m], so that blades are seen on it."""
+"""How far the coloured disk lies below the hub [m], so that blades are seen on it; of the UH-60A's size."""
 LINE_LIFT = 0.02
 """How far lines lie above the disk [m]."""
 
@@ -60,6 +61,11 @@ class Picture:
     """Empty in hover."""
 
 
+def disk_drop(rotor: Rotor) -> float:
+    """How far the coloured disk lies below the hub of this rotor [m]."""
+    return DISK_DROP * size(rotor.radius)
+
+
 def turned_blades(solution: Solution, view: ViewState) -> Blades:
     """The blades with the marked one at the view's azimuth."""
     rotor = solution.design.rotor
@@ -82,7 +88,7 @@ def make_picture(
     shape = blade_shape(rotor)
     return Picture(
         rotor=rotor_pose(controls),
-        disk=tip_path_pose(controls, DISK_DROP),
+        disk=tip_path_pose(controls, disk_drop(rotor)),
         blades=turned_blades(solution, view),
         blade_vertices=blade_vertices(shape, solution.design.twist, view.exaggeration),
         blade_faces=shape.faces,

@@ -50,8 +50,13 @@ class Pinned:
         return replace(self.solution.design, condition=present.condition)
 
     def sliders(self, present: Inputs, along: bool) -> Inputs:
-        """The slider positions that mean A: in the present flight when it flies along, else in its own."""
-        return replace(self.inputs, **{name: getattr(present, name) for name in FLIGHT}) if along else self.inputs
+        """The slider positions that mean A: in the present flight when it flies along, else in its own.
+
+        Another rotor does not fly along: its weight is its own.
+        """
+        if not along or self.inputs.aircraft != present.aircraft:
+            return self.inputs
+        return replace(self.inputs, **{name: getattr(present, name) for name in FLIGHT})
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,8 +132,10 @@ class Pinboard:
     def solve(self, present: Design, along: bool, hurried: bool = False) -> Solution | None:
         """A's answer: in the flight of the present design when it flies along, else as it was.
 
-        A trim that fails takes half a second to fail: `hurried`, when newer input waits, it is not tried again.
+        A of another rotor stays as it was: its weight is its own. A trim that fails takes half a second to fail:
+        `hurried`, when newer input waits, it is not tried again.
         """
+        along = along and self.pinned is not None and self.pinned.solution.design.aircraft == present.aircraft
         if self.pinned is None or (along and hurried and self.answer is not None and not self.answer.converged):
             return self.answer
         self.answer = self._known.solve(self.pinned.design(present)) if along else self.pinned.solution

@@ -42,7 +42,8 @@ class PowerCurves:
         """The curves of a design and of what it is compared with; of the design, until it is swept, the one before."""
         blank = np.full((2, len(SWEEP)), math.nan)
         last = self._last[0]
-        before = self._curves.get(last, blank) if last is not None else blank
+        alike = last is not None and last.aircraft == design.aircraft
+        before = self._curves.get(last, blank) if last is not None and alike else blank
         total, ideal = self._curves.get(_family(design), before)
         return PowerCurve(total, self._curves.get(_family(reference), blank)[0], ideal)
 

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from explorer.outlines import DRAG_DIVERGENCE
-from rotor.airfoil.sections import Section, load_installed
+from rotor.airfoil.sections import Section
 from rotor.elements import LOW_MACH
 from rotor.solution import DiskFields, Solution
 
@@ -29,15 +29,15 @@ class Region(Enum):
 class Blend:
     """The section at a radius: between two spans a mixture."""
 
-    inner: str
-    outer: str
+    inner: Section
+    outer: Section
     weight: float
     """Of the outer one, 0…1."""
 
     def installed(self) -> tuple[tuple[Section, float], ...]:
         """The sections that take part, with their shares."""
         pair = ((self.inner, 1.0 - self.weight), (self.outer, self.weight))
-        return tuple((load_installed(name), share) for name, share in pair if share > 0.0)
+        return tuple((section, share) for section, share in pair if share > 0.0)
 
     def stall_angles(self, mach: float) -> tuple[float, float]:
         """Negative and positive stall angle [rad] about the blade's reference line."""
@@ -148,7 +148,8 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
     phi = math.atan2(u_p, u_t)
     per_metre = design.thrust_unit / (rotor.blades * rotor.radius)
     thrust, pull = per_metre * at.held(disk.dct), per_metre * at.held(disk.dcq)
-    section = Blend(*rotor.blade.section_at(r))
+    inner, outer, weight = rotor.blade.section_at(r)
+    section = Blend(rotor.blade.installed(inner), rotor.blade.installed(outer), weight)
     mach = max(mach, 0.0)
     table_mach = mach if design.models.compressibility else LOW_MACH
     return Probe(

@@ -39,7 +39,7 @@ class _Place:
 class ProbePanel:
     """Widgets, cursor and clock. Clicks and keys only move widgets; everything is drawn on the session's worker."""
 
-    def __init__(self, client: viser.ClientHandle, desk: Desk, rotor: Rotor) -> None:
+    def __init__(self, client: viser.ClientHandle, desk: Desk) -> None:
         self._client, self._desk = client, desk
         self._seen = True
         self._drawn: tuple[Solution, _Place, float | None] | None = None
@@ -55,7 +55,7 @@ class ProbePanel:
         gui = client.gui
         self._button = gui.add_button("Play", icon=viser.Icon.PLAYER_PLAY, hint=hint("play"))
         self._speed = gui.add_slider("Speed [°/s]", 5.0, 120.0, 5.0, 40.0, hint=hint("play_speed"))
-        self._r = gui.add_slider("Radius r/R", _innermost(rotor), 1.0, _R_STEP, 0.75, hint=hint("probe_r"))
+        self._r = gui.add_slider("Radius r/R", 0.5, 1.0, _R_STEP, 0.75, hint=hint("probe_r"))
         self._psi = gui.add_slider("Azimuth ψ [°]", 0.0, 360.0, _PSI_STEP, 60.0, hint=hint("probe_psi"))
         self._panel = gui.add_html("")
         self._follow = gui.add_checkbox("With the blade", True, hint=hint("probe_follow"))

@@ -8,7 +8,7 @@ from explorer.glossary import tip
 from explorer.state import baseline_title
 from explorer.units import BLANK, SI, Units
 from explorer.units import number as number
-from rotor.bound import ideal_factor
+from rotor.bound import TABLE_ROTOR, ideal_factor
 from rotor.inflow import INFLOW_MODELS
 from rotor.solution import PowerBudget, Solution
 from rotor.switches import switched_off
@@ -35,23 +35,25 @@ def total_line(power: PowerBudget, reference: PowerBudget | None, units: Units) 
     large, small = units.power
     return (
         f'<div class="rx-line rx-base"><span class="rx-total" data-explorer="total-power"{tip("total_power")}>'
-        f'{large.text(power.total)}</span><span class="rx-dim">{small.text(power.total)}</span>'
+        f'{large.text(power.total, fineness(power))}</span><span class="rx-dim">{small.text(power.total)}</span>'
         f'<span class="rx-push"{tip("change")}>{change(power, reference)}</span></div>'
     )
 
 
 def ideal_induced(solution: Solution) -> float | None:
     """The least induced power [W] that any circulation could have at this lift; None where it has not settled."""
-    factor = ideal_factor(solution.design.condition.advance_ratio, solution.ct)
+    design = solution.design
+    factor = ideal_factor(design.condition.advance_ratio, solution.ct, design.aircraft.key)
     if factor is None or not math.isfinite(solution.ct):
         return None
-    return factor * solution.ct * solution.controls.lambda0 * solution.design.power_unit
+    return factor * solution.ct * solution.controls.lambda0 * design.power_unit
 
 
 def ideal_line(solution: Solution, ideal: float | None, units: Units = SI) -> str:
     """κ, and the bound beside it."""
     kappa = f'κ = Pi/(CT·λ0) <b data-explorer="kappa">{number(solution.induced_power_factor, 2)}</b>'
-    bound = "ideal: not settled above µ 0.40"
+    known = solution.design.aircraft.key == TABLE_ROTOR
+    bound = "ideal: not settled above µ 0.40" if known else "ideal: not computed for this rotor"
     if ideal is not None:
         unit = solution.ct * solution.controls.lambda0 * solution.design.power_unit
         bound = f'<i class="rx-mark"></i> ideal <b>{units.watts(ideal)}</b>, κ {number(ideal / unit, 2)}'
@@ -101,15 +103,20 @@ def bar(power: PowerBudget, ideal: float | None) -> str:
     return spans + f'<i class="rx-mark" style="position:absolute;left:{100.0 * ideal / total:.2f}%"></i>'
 
 
+def fineness(power: PowerBudget) -> int:
+    """Decimals of a power: one for a light helicopter, none for a heavy one."""
+    return 1 if power.total < 2e5 else 0
+
+
 def _row(name: str, power: PowerBudget, reference: PowerBudget | None, units: Units) -> str:
     value = getattr(power, name)
     share = 100.0 * value / power.total if power.total > 0.0 else None
     apart = None if reference is None else value - getattr(reference, name)
     return (
         f'<tr{tip(name)}><td><span class="rx-patch" style="background:{PARTS[name]}"></span>{PART_TITLES[name]}</td>'
-        f'<td class="rx-num">{units.watts(value)}</td>'
+        f'<td class="rx-num">{units.watts(value, fineness(power))}</td>'
         f'<td class="rx-num rx-dim" style="width:19%">{number(share)} %</td>'
-        f'<td class="rx-num rx-dim" style="width:25%">{units.watts(apart, sign=True)}</td></tr>'
+        f'<td class="rx-num rx-dim" style="width:25%">{units.watts(apart, fineness(power), sign=True)}</td></tr>'
     )
 
 
@@ -212,7 +219,14 @@ def provenance(solution: Solution) -> str:
 
 def section_title(section: str) -> str:
     """A section as it is written."""
-    return {"sc1095": "SC1095", "sc1094r8": "SC1094 R8", "sc1095-thesis": "SC1095 polynomials"}.get(section, section)
+    titles = {
+        "sc1095": "SC1095",
+        "sc1094r8": "SC1094 R8",
+        "sc1095-thesis": "SC1095 polynomials",
+        "naca0012": "NACA 0012",
+        "naca63a015": "NACA 63-015A",
+    }
+    return titles.get(section, section)
 
 
 def speed_line(speed: float, units: Units = SI) -> str:

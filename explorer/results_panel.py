@@ -59,7 +59,10 @@ class ResultsPanel:
         curve = curve.in_unit(unit)
         now = None if lost else unit.of(solution.power.total)
         power = plots.power_plot(curve, mu, now, charts.power.y_range, ab)
-        charts.power.show(power, (*AB_KEY, *IDEAL_KEY) if ab else POWER_KEY, f"Power [{unit.symbol}] over µ")
+        key = (*AB_KEY, *IDEAL_KEY) if ab else POWER_KEY
+        if not np.isfinite(curve.ideal).any():
+            key = tuple(line for line in key if line not in IDEAL_KEY)
+        charts.power.show(power, key, f"Power [{unit.symbol}] over µ")
         if pinned is not None:
             apart = None
             if not lost and pinned.converged and pinned.design.condition == solution.design.condition:

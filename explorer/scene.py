@@ -1,4 +1,4 @@
-"""The 3D scene of one client: handles made once, assigned afterwards, never made anew."""
+"""The 3D scene of one client: handles made once, assigned afterwards, never made anew, whatever rotor comes."""
 
 import numpy as np
 import viser
@@ -23,69 +23,76 @@ class Scene:
     def __init__(self, api: viser.SceneApi, rotor: Rotor) -> None:
         api.set_up_direction("+z")
         api.configure_default_lights(cast_shadow=False)
-        radius = rotor.radius
+        self._api = api
         self._seen = True
+        self._fitted: Rotor | None = None
         self._rotor = api.add_frame("/rotor", show_axes=False)
-        hub, mast = meshes.hub(rotor), meshes.mast()
-        self._solid(api, "/rotor/hub", hub, colours.HUB)
-        self._solid(api, "/rotor/mast", mast, colours.HUB)
-        shape = meshes.blade_shape(rotor)
-        start = meshes.blade_vertices(shape, rotor.builtin_twist)
-        self._blades = [
-            api.add_mesh_simple(
-                f"/rotor/blade_{k}",
-                start,
-                shape.faces,
-                color=colours.MARKED_BLADE if k == 0 else colours.BLADE,
-                side="double",
-                cast_shadow=False,
-                receive_shadow=False,
-            )
-            for k in range(rotor.blades)
-        ]
+        some = meshes.mast(1.0)
+        self._hub = self._solid(api, "/rotor/hub", some, colours.HUB)
+        self._mast = self._solid(api, "/rotor/mast", some, colours.HUB)
+        self._blades: list[viser.MeshHandle] = []
+        """Of the rotor with most blades so far; those beyond this rotor's are hidden."""
         self._disk = api.add_frame("/rotor/disk", show_axes=False)
-        width = 2.0 * half_width(radius)
         self._image = api.add_image(
             "/rotor/disk/field",
             np.zeros((2, 2, 4), dtype=np.uint8),
-            width,
-            width,
+            1.0,
+            1.0,
             format="png",
             wxyz=_DISK_TURN,
             cast_shadow=False,
             receive_shadow=False,
         )
-        cutout = rotor.blade.root_cutout * radius
-        rim = np.concatenate(
-            (meshes.circle_segments(radius), meshes.circle_segments(cutout, 60), meshes.tick_segments(radius))
-        )
-        self._line(api, "/rotor/disk/rim", rim, colours.RIM, 1.6)
+        self._rim = self._line(api, "/rotor/disk/rim", np.zeros((1, 2, 3)), colours.RIM, 1.6)
         self._outlines: dict[str, tuple[viser.LineSegmentsHandle, ...]] = {}
         for name, (line, casing) in OUTLINE_COLOURS.items():
             self._outlines[name] = (
                 self._line(api, f"/rotor/disk/{name}_casing", _NOTHING, casing, 4.6),
                 self._line(api, f"/rotor/disk/{name}", _NOTHING, line, 2.0),
             )
-        self._solid(api, "/rotor/disk/rotation", meshes.rotation_arrow(radius), colours.RIM)
-        for degrees in (0, 90, 180, 270):
-            psi = np.radians(degrees)
-            api.add_label(
-                f"/rotor/disk/psi_{degrees}",
-                f"ψ = {degrees}°" if degrees else "ψ = 0°",
-                position=1.135 * radius * np.array([np.cos(psi), np.sin(psi), 0.0]),
-                anchor="center-center",
-            )
+        self._turning = self._solid(api, "/rotor/disk/rotation", meshes.rotation_arrow(1.0), colours.RIM)
+        self._azimuths = {
+            degrees: api.add_label(f"/rotor/disk/psi_{degrees}", f"ψ = {degrees}°", anchor="center-center")
+            for degrees in (0, 90, 180, 270)
+        }
         self._flight = api.add_frame("/flight", show_axes=False, visible=False)
-        self._solid(api, "/flight/arrow", meshes.flight_arrow(radius), colours.MARKED_BLADE)
-        self._flight_label = api.add_label(
-            "/flight/label", "", position=(-1.27 * radius, 0.035 * radius, 0.0), anchor="center-left"
-        )
+        self._arrow = self._solid(api, "/flight/arrow", meshes.flight_arrow(1.0), colours.MARKED_BLADE)
+        self._flight_label = api.add_label("/flight/label", "", anchor="center-left")
+        self.fit(rotor)
+
+    def fit(self, rotor: Rotor) -> None:
+        """Make room for a rotor: its blades, hub, disk and marks; nothing when it is the one that is shown."""
+        if rotor == self._fitted:
+            return
+        self._fitted, radius = rotor, rotor.radius
+        for handle, mesh in (
+            (self._hub, meshes.hub(rotor)),
+            (self._mast, meshes.mast(radius)),
+            (self._turning, meshes.rotation_arrow(radius)),
+            (self._arrow, meshes.flight_arrow(radius)),
+        ):
+            handle.vertices, handle.faces = mesh.vertices.astype(np.float32), mesh.faces
+        shape = meshes.blade_shape(rotor)
+        start = meshes.blade_vertices(shape, rotor.builtin_twist)
+        for k in range(len(self._blades), rotor.blades):
+            colour = colours.BLADE if k else colours.MARKED_BLADE
+            self._blades.append(self._solid(self._api, f"/rotor/blade_{k}", meshes.Mesh(start, shape.faces), colour))
+        for k, handle in enumerate(self._blades):
+            handle.visible = k < rotor.blades
+        self._image.render_width = self._image.render_height = 2.0 * half_width(radius)
+        cutout = rotor.blade.root_cutout * radius
+        rim = (meshes.circle_segments(radius), meshes.circle_segments(cutout, 60), meshes.tick_segments(radius))
+        self._rim.points = np.concatenate(rim).astype(np.float32)
+        for degrees, label in self._azimuths.items():
+            psi = np.radians(degrees)
+            label.position = 1.135 * radius * np.array([np.cos(psi), np.sin(psi), 0.0])
+        self._flight_label.position = np.array([-1.27 * radius, 0.035 * radius, 0.0])
 
     def show(self, picture: Picture) -> None:
         """Assign one frame; call it inside `client.atomic()` so that the page draws it whole."""
         _place(self._rotor, picture.rotor)
         _place(self._disk, picture.disk)
-        for handle in self._blades:
+        for handle, _ in zip(self._blades, picture.blades.poses, strict=False):
             if not np.array_equal(handle.faces, picture.blade_faces):
                 handle.faces = picture.blade_faces
             if not picture.blades.shapes:
@@ -103,7 +110,7 @@ class Scene:
 
     def turn(self, blades: Blades) -> None:
         """Move the blades, and nothing else."""
-        for handle, pose in zip(self._blades, blades.poses, strict=True):
+        for handle, pose in zip(self._blades, blades.poses, strict=False):
             _place(handle, pose)
         for handle, shape in zip(self._blades, blades.shapes, strict=False):
             handle.vertices = shape.astype(np.float32)

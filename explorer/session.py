@@ -34,6 +34,7 @@ from explorer.presence import Hands, Presence
 from explorer.presentation import Stage
 from explorer.probe_panel import ProbePanel
 from explorer.results_panel import ResultsPanel
+from explorer.rotor_upload import RotorUpload
 from explorer.schedule_panel import SchedulePanel
 from explorer.sensitivity_panel import SensitivityPanel
 from explorer.sliders import LIMITS
@@ -45,7 +46,6 @@ from explorer.viser_compat import PageFacts, set_style
 from explorer.waterfall_panel import WaterfallPanel
 from explorer.worker import LatestWins, Sleep
 from rotor.design import Design
-from rotor.presets import uh60a_rotor
 from rotor.solution import Solution
 from rotor.solve import solve
 
@@ -94,7 +94,7 @@ class Session:
         self._dark = dark = facts.dark
         self._worker = LatestWins(self._round, self._report, f"session-{client.client_id}", self._resting(sleep))
 
-        rotor = self._rotor = uh60a_rotor(start.preset)
+        rotor = self._rotor = start.aircraft.rotor_for(start.preset)
         gui = client.gui
         self._theme()
         gui.set_panel_label("Rotor explorer")
@@ -138,7 +138,7 @@ class Session:
         with panel.add_tab("Twist"):
             sensitivity = SensitivityPanel(gui, Strip(client.scene), desk)
         with panel.add_tab("Probe"):
-            self._probe = ProbePanel(client, desk, rotor)
+            self._probe = ProbePanel(client, desk)
         with panel.add_tab("Actuator"):
             self._actuator = ActuatorPanel(client, pool, self._wake, self._fly)
         with panel.add_tab("Physics"):
@@ -154,6 +154,7 @@ class Session:
         self._tabs = (*followers, self._studies, self._history, self._file, export, self._lecture, self._presence)
         """Everything that only follows."""
         self._camera = FittedCamera(client, rotor.radius)
+        RotorUpload(self._controls.upload, desk)
         self._actuator.shown.on_update(self._cut_switched)
         controls = self._controls
         controls.reset_button.on_click(lambda _: self._reset())
@@ -236,6 +237,8 @@ class Session:
         top = self._top
         # A before the frame only where the frame shows it: nothing else may hold the frame up.
         on_disk = top.solve(design, overtaken()) if view.difference else None
+        self._rotor = solution.design.rotor
+        self._camera.resize(self._rotor.radius)
         self._frame.draw(solution, view, ghost_of(None if preview is None else plain, top.pinned), on_disk)
         self._camera.ride(math.radians(view.azimuth_deg))
         if whole or actuator.per_rev:  # Only at harmonics does its picture turn with the blade.

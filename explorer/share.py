@@ -7,7 +7,9 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
+from explorer.sliders import limits as slider_limits
 from explorer.state import Inputs, inputs_of
+from rotor.assets import SHIPPED_ROTORS
 from rotor.case import case_of, design_of
 from rotor.design import Design
 from rotor.presets import make_design
@@ -27,8 +29,12 @@ _NEVER = ("format", "version", "twist")
 
 def code_of(design: Design) -> str:
     """The design as a text; ValueError with one sentence for one that no address holds."""
+    if design.aircraft.files is not None:
+        raise ValueError("A rotor of your own fits in no address: save it as a design file and send that.")
     record = case_of(design)
-    usual = {**case_of(make_design(record["preset"])), "preset": make_design().preset}
+    plain = make_design()
+    usual = case_of(make_design(record["preset"], aircraft=design.aircraft))
+    usual |= {"preset": plain.preset, "rotor": plain.aircraft.key}
     changed = {key: value for key, value in record.items() if key not in _NEVER and value != usual.get(key)}
     words = [str(VERSION), record["twist"], *(f"{_SHORT.get(key, key)}={_word(v)}" for key, v in changed.items())]
     code = ";".join(words)
@@ -68,7 +74,8 @@ def inputs_from(code: str, limits: Mapping[str, tuple[float, float]]) -> Inputs:
 
 def within(inputs: Inputs, limits: Mapping[str, tuple[float, float]]) -> Inputs:
     """The inputs, where the page's sliders can hold them; else ValueError with one sentence."""
-    for name, (low, high) in limits.items():
+    own = {"mass_t": slider_limits("mass_t", inputs.aircraft)} if inputs.rotor != SHIPPED_ROTORS[0] else {}
+    for name, (low, high) in {**limits, **own}.items():
         value = getattr(inputs, name)
         if not low - 1e-9 <= value <= high + 1e-9:
             title = name.replace("_", " ")

@@ -3,7 +3,11 @@
 import math
 from dataclasses import dataclass
 
-from explorer.units import AVIATION, Unit, Units
+from explorer.rotors import mass_range
+from explorer.units import AVIATION, POUND, SI, Unit, Units
+from rotor.aircraft import Aircraft
+from rotor.assets import SHIPPED_ROTORS
+from rotor.fleet import shipped_aircraft
 
 
 @dataclass(frozen=True)
@@ -21,6 +25,17 @@ class Slider:
         return max(0, -math.floor(math.log10(self.step)))
 
 
+def _weight(aircraft: Aircraft, units: Units) -> Slider:
+    """About the aircraft's reference mass: in tonnes round numbers, in pounds those that reach as far."""
+    low, high, step = mass_range(aircraft)
+    if units is not AVIATION:
+        return Slider("Weight [t]", low, high, step)
+    coarse = 100.0 if high > 4.0 else 10.0
+    ends = (math.floor(POUND.of(1e3 * low) / coarse), math.ceil(POUND.of(1e3 * high) / coarse))
+    return Slider("Weight [lb]", coarse * ends[0], coarse * ends[1], coarse)
+
+
+_FIRST = shipped_aircraft(SHIPPED_ROTORS[0])
 SLIDERS: dict[str, Slider] = {
     "linear": Slider("Rate [°/R]", -30.0, 10.0, 0.1),
     "quadratic_curvature": Slider("Curve [°/R²]", -40.0, 40.0, 0.5),
@@ -34,20 +49,22 @@ SLIDERS: dict[str, Slider] = {
     "three_first": Slider("Division 1 [R]", 0.2, 0.95, 0.01),
     "three_second": Slider("Division 2 [R]", 0.2, 0.95, 0.01),
     "advance_ratio": Slider("Adv. ratio µ", 0.0, 0.45, 0.005),
-    "mass_t": Slider("Weight [t]", 5.0, 11.0, 0.05),
+    "mass_t": _weight(_FIRST, SI),
     "altitude_m": Slider("Altitude [m]", 0.0, 4000.0, 50.0),
 }
-"""By the field of `Inputs`, in SI."""
+"""By the field of `Inputs`, in SI; the weight is the first rotor's."""
 _AVIATION = {
-    "mass_t": Slider("Weight [lb]", 11_000.0, 24_300.0, 100.0),
+    "mass_t": _weight(_FIRST, AVIATION),
     "altitude_m": Slider("Altitude [ft]", 0.0, 13_200.0, 100.0),
 }
 _SIZES = {"mass_t": 1e3, "altitude_m": 1.0}
 """What one of the input is in SI."""
 
 
-def slider(name: str, units: Units) -> Slider:
-    """As it is shown in these units."""
+def slider(name: str, units: Units, aircraft: Aircraft = _FIRST) -> Slider:
+    """As it is shown in these units, for this aircraft."""
+    if name == "mass_t":
+        return _weight(aircraft, units)
     return _AVIATION[name] if units is AVIATION and name in _AVIATION else SLIDERS[name]
 
 
@@ -69,15 +86,14 @@ def _unit(name: str, units: Units) -> Unit:
     return units.mass if name == "mass_t" else units.altitude
 
 
-def _limits(name: str) -> tuple[float, float]:
+def limits(name: str, aircraft: Aircraft = _FIRST) -> tuple[float, float]:
     """What the slider can hold in whichever units are shown."""
-    one = SLIDERS[name]
+    one, other = slider(name, SI, aircraft), slider(name, AVIATION, aircraft)
     if name not in _AVIATION:
         return one.low, one.high
-    other = _AVIATION[name]
     low, high = meant(name, other.low, AVIATION), meant(name, other.high, AVIATION)
     return min(one.low, low), max(one.high, high)
 
 
-LIMITS = {name: _limits(name) for name in SLIDERS}
-"""The inputs that a design may have on this page."""
+LIMITS = {name: limits(name) for name in SLIDERS}
+"""The inputs that a design of the first rotor may have on this page; others have another weight: `limits`."""

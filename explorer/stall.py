@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from explorer.polar import PolarGrid
-from rotor.airfoil.sections import load_installed
 from rotor.elements import LOW_MACH
 from rotor.solution import Solution
 
@@ -24,7 +23,7 @@ def stall_angles(solution: Solution) -> tuple[Array, Array]:
     lower, upper = np.zeros_like(disk.mach), np.zeros_like(disk.mach)
     mach = disk.mach if solution.design.models.compressibility else np.full_like(disk.mach, LOW_MACH)
     for name in {span.section for span in blade.spans}:
-        section = load_installed(name)
+        section = blade.installed(name)
         share = np.array([(1.0 - w) * (inner == name) + w * (outer == name) for inner, outer, w in places])[:, None]
         negative, positive = section.table.stall_alpha(mach)
         lower += share * (negative + section.incidence_offset)

@@ -5,17 +5,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from itertools import pairwise
 
+from explorer.rotors import OWN, reference_mass_t
 from explorer.units import SI
+from rotor.aircraft import Aircraft
+from rotor.assets import SHIPPED_ROTORS
 from rotor.blade import airfoils_spec
 from rotor.design import Design
-from rotor.presets import (
-    FLIGHT_MODELS,
-    THESIS_MODELS,
-    baseline_twist,
-    change_airfoils,
-    make_design,
-    uh60a_rotor,
-)
+from rotor.fleet import shipped_aircraft
+from rotor.presets import FLIGHT_MODELS, THESIS_MODELS, change_airfoils, make_design
 from rotor.switches import SWITCHES
 from rotor.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, QuadraticTwist, TwistLaw
 
@@ -29,6 +26,10 @@ PRESET_TITLES = {"flight": "Flight (our best)", "thesis": "Thesis (as stated)"}
 class Inputs:
     """Everything on the sliders that decides the answer. Rates are degrees per radius."""
 
+    rotor: str = SHIPPED_ROTORS[0]
+    """Name of a shipped rotor, or `OWN`."""
+    own_rotor: Aircraft | None = None
+    """The rotor that the user brought; kept while another one is looked at."""
     preset: str = "flight"
     law: str = "two"
     linear: float = -12.0
@@ -59,6 +60,11 @@ class Inputs:
     airfoils: str = ""
     """SPEC of the airfoils that go with `given` or `found`; empty: the preset's."""
 
+    @property
+    def aircraft(self) -> Aircraft:
+        """The aircraft of the menu."""
+        return self.own_rotor if self.rotor == OWN and self.own_rotor is not None else shipped_aircraft(self.rotor)
+
     def twist(self) -> TwistLaw | str:
         """The law on the sliders, or the SPEC of one that the rotor supplies."""
         return LAWS[self.law].make(self)
@@ -68,6 +74,7 @@ class Inputs:
         models = FLIGHT_MODELS if self.preset == "flight" else THESIS_MODELS
         design = make_design(
             self.preset,
+            aircraft=self.aircraft,
             twist=self.twist(),
             advance_ratio=self.advance_ratio,
             mass=1e3 * self.mass_t,
@@ -80,7 +87,7 @@ class Inputs:
 
     @property
     def speed_kt(self) -> float:
-        return make_design(self.preset, advance_ratio=self.advance_ratio).airspeed / KNOT
+        return self.advance_ratio * self.aircraft.rotor.tip_speed / KNOT
 
 
 @dataclass(frozen=True)
@@ -102,11 +109,11 @@ def _segments(rates: tuple[float, ...], breaks: tuple[float, ...]) -> PiecewiseL
 
 
 def _given(inputs: Inputs) -> TwistLaw:
-    return inputs.given or baseline_twist(inputs.preset)
+    return inputs.given or inputs.aircraft.twist_for(inputs.preset)
 
 
 LAWS: dict[str, Law] = {
-    "uh60a": Law("UH-60A built-in", (), lambda i: "uh60a"),
+    "builtin": Law("Built-in", (), lambda i: "builtin"),
     "linear": Law("Linear", ("linear",), lambda i: LinearTwist(math.radians(i.linear))),
     "quadratic": Law(
         "Quadratic",
@@ -125,7 +132,7 @@ LAWS: dict[str, Law] = {
     ),
     "ideal": Law("Ideal (θtip/r)", (), lambda i: "ideal"),
     "given": Law("From the design file", (), _given),
-    "found": Law("From the optimiser", (), lambda i: i.found or baseline_twist(i.preset)),
+    "found": Law("From the optimiser", (), lambda i: i.found or i.aircraft.twist_for(i.preset)),
 }
 NOT_ALWAYS = ("given", "found")
 """Laws that are in the menu only when the field of `Inputs` of the same name holds what they mean."""
@@ -151,6 +158,8 @@ class ViewState:
 def inputs_of(design: Design) -> Inputs:
     """The slider positions that mean `design`, as near as the sliders can hold it."""
     start = Inputs(
+        rotor=design.aircraft.key or OWN,
+        own_rotor=None if design.aircraft.key else design.aircraft,
         preset=design.preset,
         advance_ratio=design.condition.advance_ratio,
         mass_t=design.condition.mass / 1e3,
@@ -160,9 +169,16 @@ def inputs_of(design: Design) -> Inputs:
     )
     twist, airfoils = design.twist, _own_airfoils(design)
     if not airfoils and twist == design.rotor.builtin_twist:
-        return replace(start, law="uh60a")
+        return replace(start, law="builtin")
     held = None if airfoils else _with_law(start, twist)
     return held or replace(start, law="given", given=twist, airfoils=airfoils)
+
+
+def with_rotor(inputs: Inputs, name: str, own: Aircraft | None = None) -> Inputs:
+    """The same flight with another rotor as it is built, at its own reference mass; `own`: one newly brought."""
+    changed = replace(inputs, rotor=name, own_rotor=own or inputs.own_rotor)
+    mass = reference_mass_t(changed.aircraft)
+    return replace(changed, law="builtin", mass_t=mass, given=None, found=None, airfoils="")
 
 
 def with_optimum(inputs: Inputs, design: Design) -> Inputs:
@@ -174,7 +190,8 @@ def with_optimum(inputs: Inputs, design: Design) -> Inputs:
 
 def _own_airfoils(design: Design) -> str:
     """SPEC of a design's airfoils where they are not its preset's; else empty."""
-    return "" if design.rotor == uh60a_rotor(design.preset) else airfoils_spec(design.rotor) or ""
+    same = design.rotor == design.aircraft.rotor_for(design.preset)
+    return "" if same else airfoils_spec(design.rotor) or ""
 
 
 def _with_law(inputs: Inputs, twist: TwistLaw) -> Inputs | None:
@@ -205,13 +222,13 @@ def preset_inflow(preset: str) -> str:
 
 def baseline_of(design: Design) -> Design:
     """The same flight and models with the preset's rotor and its baseline twist, at rest."""
-    rotor = uh60a_rotor(design.preset)
-    return replace(design, twist=baseline_twist(design.preset), rotor=rotor, active_twist=None)
+    craft, preset = design.aircraft, design.preset
+    return replace(design, twist=craft.twist_for(preset), rotor=craft.rotor_for(preset), active_twist=None)
 
 
 def baseline_title(design: Design) -> str:
     """What the change of power is measured against, in the user's words."""
-    return "UH-60A twist" if design.preset == "flight" else "linear −16°"
+    return design.aircraft.twist_title(design.preset)
 
 
 INPUT_NAMES = tuple(field.name for field in fields(Inputs))

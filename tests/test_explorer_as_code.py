@@ -31,7 +31,7 @@ DESIGNS = {
     "hover, ideal": Inputs(law="ideal", advance_ratio=0.0).design(),
     "thesis, high": Inputs(preset="thesis", inflow="pitt-peters-15pi/23", law="three", altitude_m=1500.0).design(),
     "other inflow": Inputs(law="quadratic", inflow="pitt-peters", mass_t=7.35).design(),
-    "built-in": Inputs(law="uh60a", advance_ratio=0.3).design(),
+    "built-in": Inputs(law="builtin", advance_ratio=0.3).design(),
     "found": Inputs(law="found", found=SPLINE, airfoils="sc1094r8,sc1095@0.5").design(),
     "switches": Inputs(tip_loss=False, reverse_flow=False).design(),
     "on top of another": make_design(twist=SumTwist(make_design().twist, LinearTwist(math.radians(-2.0)))),

@@ -108,7 +108,7 @@ def positions(draw: st.DrawFn) -> Inputs:
     rate = st.integers(-300, 100).map(lambda n: n / 10.0)
     return Inputs(
         preset=draw(st.sampled_from(("flight", "thesis"))),
-        law=draw(st.sampled_from(("uh60a", "linear", "quadratic", "two", "three", "ideal"))),
+        law=draw(st.sampled_from(("builtin", "linear", "quadratic", "two", "three", "ideal"))),
         linear=draw(rate),
         two_inner=draw(rate),
         two_division=draw(st.integers(20, 95)) / 100.0,

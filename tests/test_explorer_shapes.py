@@ -10,6 +10,7 @@ from numpy.testing import assert_allclose
 from explorer import meshes
 from explorer.section_outline import blade_axes_outline
 from rotor.airfoil.contour import load_contour, thickness_and_camber
+from rotor.airfoil.sections import load_installed
 from rotor.presets import uh60a_rotor
 from rotor.twist import LinearTwist
 
@@ -76,7 +77,7 @@ def test_only_vertices_change_with_the_twist():
 
 
 def test_sc1095_outline_keeps_its_thickness():
-    outline = blade_axes_outline("sc1095", 45)
+    outline = blade_axes_outline(load_installed("sc1095"), 45)
     thickness, _, _ = thickness_and_camber(load_contour("sc1095"))
     assert_allclose(np.ptp(outline[:, 0]), 1.0, atol=2e-3)
     assert thickness - 0.004 < np.ptp(outline[:, 1]) < thickness + 0.012  # Camber adds to the height.
@@ -88,7 +89,7 @@ def test_r8_is_drooped_by_one_degree_and_longer():
 
     own = resample(load_contour("sc1094r8"), 45).points
     own_axes = np.stack((0.25 - own[:, 0], own[:, 1]), axis=1)
-    installed = blade_axes_outline("sc1094r8", 45)
+    installed = blade_axes_outline(load_installed("sc1094r8"), 45)
     nose, tail = 22, 0
     before, after = own_axes[nose] - own_axes[tail], installed[nose] - installed[tail]
     assert_allclose(np.hypot(*after) / np.hypot(*before), 1.009875, rtol=1e-9)
@@ -96,7 +97,7 @@ def test_r8_is_drooped_by_one_degree_and_longer():
     assert_allclose(turn, -1.0, atol=1e-9)
 
 
-@pytest.mark.parametrize("mesh", [meshes.hub(ROTOR), meshes.mast()], ids=["hub", "mast"])
+@pytest.mark.parametrize("mesh", [meshes.hub(ROTOR), meshes.mast(ROTOR.radius)], ids=["hub", "mast"])
 def test_hub_and_mast_are_closed(mesh: meshes.Mesh):
     body = trimesh.Trimesh(mesh.vertices, mesh.faces)
     assert body.is_watertight

@@ -20,6 +20,7 @@ KNOW_VISER = {
     "results_panel.py",
     "lecture_panel.py",
     "presence.py",
+    "rotor_upload.py",
     "history_panel.py",
     "file_panel.py",
     "scene.py",

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rotor.actuator.laminate import Material
+from rotor.aircraft import Aircraft
 from rotor.assets import asset_path
 
 Array = NDArray[np.float64]
@@ -60,6 +61,19 @@ class BladeStructure:
 def structure_data() -> dict[str, Any]:
     """The parsed `assets/uh60a_structure.toml`."""
     return tomllib.loads(asset_path("uh60a_structure.toml").read_text(encoding="utf-8"))
+
+
+KNOWN_BLADE = "uh60a"
+"""The rotor whose blade structure we hold."""
+
+
+def check_blade(aircraft: Aircraft) -> None:
+    """Raise ValueError for a rotor whose blade structure nobody has given us."""
+    if aircraft.key != KNOWN_BLADE:
+        raise ValueError(
+            f"The structure of the {aircraft.name} blade is not known: actuators are worked out for the UH-60A only, "
+            "so choose that rotor."
+        )
 
 
 @cache

@@ -63,7 +63,7 @@ def parse_contour(text: str, name: str) -> Contour:
     return Contour(name, points)
 
 
-@lru_cache(maxsize=8)
+@lru_cache(maxsize=32)
 def load_contour(name: str) -> Contour:
     """The bundled outline of `name`, one of `SECTION_NAMES`, or a NACA outline of four or five digits by formula.
 

@@ -10,6 +10,7 @@ from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.harmonic import PhaseSweep, phase_sweep
 from rotor.actuator.placement import BladeKind, Host, Placement, default_placement
 from rotor.actuator.reach import Pair
+from rotor.actuator.structure import check_blade
 from rotor.actuator.tables import table_5_1, table_5_2
 from rotor.actuator.verdict import Verdict, judge
 from rotor.command.parser import add_design_arguments, design_from, finite
@@ -48,6 +49,7 @@ def run(args: argparse.Namespace) -> int:
         return 0
     actuator, concept = find_actuator(args.actuator), find_concept(args.concept, _divisions(args.division))
     pair = Pair(design_from(args, args.twist, args.from_mu), (args.from_mu, args.to_mu), args.share)
+    check_blade(pair.design.aircraft)
     pair.designs()  # Bad input speaks before anything is computed.
     if args.harmonic is not None:
         Harmonic(args.harmonic, 0.0)

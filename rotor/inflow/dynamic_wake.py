@@ -85,7 +85,7 @@ DYNAMIC_WAKES = (
     DynamicWakeInflow(
         "dynamic-wake-infinite-blades",
         "Dynamic wake, infinite blades",
-        "The time-averaged wake of infinitely many blades with Prandtl's tip factor: compare it with the real four.",
+        "The time-averaged wake of infinitely many blades with Prandtl's tip factor: compare it with the real number.",
         order=8,
         infinite_blades=True,
     ),

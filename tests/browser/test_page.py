@@ -24,7 +24,7 @@ WAIT = 45_000
 
 @pytest.fixture(scope="module")
 def app() -> Iterator[App]:
-    app = App("127.0.0.1", 0, Inputs(law="uh60a"))
+    app = App("127.0.0.1", 0, Inputs(law="builtin"))
     yield app
     app.stop()
 

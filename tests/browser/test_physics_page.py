@@ -20,7 +20,7 @@ pytestmark = pytest.mark.browser
 
 @pytest.fixture(scope="module")
 def app() -> Iterator[App]:
-    app = App("127.0.0.1", 0, Inputs(law="uh60a", advance_ratio=0.3))
+    app = App("127.0.0.1", 0, Inputs(law="builtin", advance_ratio=0.3))
     yield app
     app.stop()
 

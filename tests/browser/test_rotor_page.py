@@ -1,0 +1,96 @@
+"""Other rotors on the real page: chosen from the menu, and brought as files."""
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+from chromium import DRAW_NOTHING
+from test_page import SMALL, WAIT, Watched
+
+from explorer.app import App
+from explorer.state import Inputs
+from rotor.assets import asset_path
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+pytestmark = pytest.mark.browser
+BLADES = r"""() => Object.entries(window.__viserSceneTree.getState()).filter(
+    ([name, node]) => /blade_\d+$/.test(name) && (node.overrideVisibility ?? node.visibility) !== false).length"""
+
+
+@pytest.fixture(scope="module")
+def app() -> Iterator[App]:
+    app = App("127.0.0.1", 0, Inputs(law="builtin"))
+    yield app
+    app.stop()
+
+
+@pytest.fixture
+def watched(app: App, browser: "Browser") -> Iterator[Watched]:
+    context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
+    context.add_init_script(DRAW_NOTHING)
+    watched = Watched(context.new_page())
+    watched.open(app.address)
+    yield watched
+    context.close()
+
+
+def shown(watched: Watched, part: str, text: str) -> None:
+    """Wait until a part of the page says so."""
+    watched.page.wait_for_function(
+        "([part, text]) => document.querySelector(`[data-explorer='${part}']`)?.innerText.includes(text)",
+        arg=[part, text],
+        timeout=2 * WAIT,
+    )
+
+
+def load(watched: Watched, file: Path) -> None:
+    """As a user picks a file."""
+    with watched.page.expect_file_chooser() as chooser:
+        watched.page.get_by_role("button", name="Load rotor file").click()
+    chooser.value.set_files(file)
+
+
+def test_a_two_bladed_rotor_and_back(watched: Watched):
+    heavy = watched.text("total-power")
+    assert watched.page.evaluate(BLADES) == 4
+    watched.choose("Rotor", "Robinson R22")
+    shown(watched, "provenance", "NACA 63-015A")
+    shown(watched, "power", "against Robinson R22 twist")
+    assert watched.page.evaluate(BLADES) == 2
+    assert float(watched.text("total-power").split()[0]) < 100.0
+    watched.choose("Rotor", "Sikorsky S-61")
+    shown(watched, "provenance", "NACA 0012")
+    assert watched.page.evaluate(BLADES) == 5
+    watched.choose("Rotor", "UH-60A")
+    shown(watched, "total-power", heavy)
+    assert watched.page.evaluate(BLADES) == 4
+    assert watched.complaints == []
+
+
+def test_optimise_works_on_another_rotor(watched: Watched):
+    watched.choose("Rotor", "Robinson R22")
+    shown(watched, "provenance", "NACA 63-015A")
+    watched.page.get_by_role("tab", name="Optimise").click()
+    watched.page.get_by_role("button", name="Optimise", exact=True).click()
+    watched.page.wait_for_selector('[data-explorer="search"][data-kind="done"]', timeout=6 * WAIT)
+    assert "Robinson R22 twist" in watched.page.inner_text("body")
+    assert float(watched.text("best").split()[0]) < 100.0  # [kW]
+    assert watched.complaints == []
+
+
+def test_files_of_ones_own(watched: Watched, tmp_path: Path):
+    text = asset_path("r22.toml").read_text(encoding="utf-8").replace("Robinson R22", "Mine")
+    file = tmp_path / "mine.toml"
+    file.write_text(text.replace("radius_m = 3.8354", "radius_m = -3.8"), encoding="utf-8")
+    load(watched, file)
+    watched.page.wait_for_selector("text=mine.toml, line 14: radius_m is -3.8, outside", timeout=WAIT)
+    assert "SC1095" in watched.text("provenance")  # Nothing is lost.
+    file.write_text(text, encoding="utf-8")  # Mended, under the same name.
+    load(watched, file)
+    shown(watched, "power", "against Mine twist")
+    assert watched.page.evaluate(BLADES) == 2
+    assert watched.row("Rotor").locator("input").first.input_value() == "Mine (own)"
+    assert watched.complaints == []
