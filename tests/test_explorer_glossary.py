@@ -1,5 +1,6 @@
 """Everything on the page explains itself, and every equation it names is in docs/theory.md."""
 
+import ast
 import re
 from collections.abc import Iterator
 from dataclasses import replace
@@ -18,7 +19,13 @@ from rotor.presets import make_design
 from rotor.solve import solve
 from rotor.switches import SWITCHES
 
-THEORY = (Path(__file__).parent.parent / "docs" / "theory.md").read_text(encoding="utf-8")
+ROOT = Path(__file__).parent.parent
+THEORY = (ROOT / "docs" / "theory.md").read_text(encoding="utf-8")
+WIDGETS = {
+    f"add_{kind}"
+    for kind in ("slider", "multi_slider", "number", "vector2", "text", "checkbox", "dropdown", "button",
+                 "button_group", "upload_button")
+}  # fmt: skip
 ENTRIES = {**{f"control {k}": v for k, v in CONTROLS.items()}, **{f"read-out {k}": v for k, v in READOUTS.items()}}
 
 
@@ -57,6 +64,19 @@ def test_every_widget_of_the_design_tab_has_its_sentence(server: viser.ViserServ
     assert len(handles) > 30
     for handle in handles:
         assert handle.hint in texts, f"{handle.label!r} explains nothing"
+
+
+def test_every_widget_that_is_made_anywhere_asks_the_glossary():
+    """Of all tabs, by reading the code: `hint=hint("name")`, or a variable that holds it."""
+    for path in sorted((ROOT / "explorer").glob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in WIDGETS):
+                continue
+            label = node.args[0].value if node.args and isinstance(node.args[0], ast.Constant) else ""
+            given = [keyword.value for keyword in node.keywords if keyword.arg == "hint"]
+            where = f"{path.name}:{node.lineno}, {label!r}"
+            assert given or label == "Close", f"{where}: give it hint=hint(…) and a sentence in explorer/glossary.py"
+            assert not any(isinstance(value, ast.Constant) for value in given), f"{where}: put it into the glossary"
 
 
 @pytest.mark.parametrize("mu", [0.0, 0.25])
