@@ -9,11 +9,12 @@ from explorer.export_blade import blade_stl, rotor_glb
 from explorer.export_csv import blade_csv, disk_csv, power_csv
 from explorer.fields import FIELDS
 from explorer.history_view import Kept
+from explorer.paper import Paper
 from explorer.plots import Range
 from explorer.power_curve import PowerCurves
 from explorer.provenance import file_stem
 from explorer.report import Entry, Report, report_html, report_of
-from explorer.sheet import Paper, Shown
+from explorer.sheet import Shown
 from explorer.stage import Stage
 from explorer.state import baseline_title
 from rotor.solution import Solution

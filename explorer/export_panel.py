@@ -21,9 +21,10 @@ from explorer.export_files import File
 from explorer.fields import FIELDS, Field
 from explorer.glossary import hint
 from explorer.history_view import Kept
+from explorer.paper import LARGEST, SIZES, SMALLEST, Paper
 from explorer.plots import Range
 from explorer.power_curve import PowerCurves
-from explorer.sheet import LARGEST, SIZES, SMALLEST, Paper, Shown, disk_sheet, shown, view_sheet, window
+from explorer.sheet import Shown, disk_sheet, shown, view_sheet, window
 from explorer.still_scene import make_stage
 
 _log = logging.getLogger(__name__)

@@ -5,11 +5,14 @@ from dataclasses import dataclass, field
 from datetime import datetime
 from html import escape
 
+import numpy as np
+
 from explorer import report_figures, report_tables
 from explorer.as_code import as_command_line, as_python
 from explorer.colours import BASELINE, PARTS
 from explorer.design_words import active_words, flight_words, model_words, title_words
-from explorer.fields import FIELDS, Field
+from explorer.fields import FIELDS, Field, fitted_range
+from explorer.picture import field_values
 from explorer.plots import Range
 from explorer.power_curve import PowerCurves
 from explorer.provenance import PROGRAM, versions
@@ -232,4 +235,12 @@ def report_of(
     for entry in (*entries, reference):
         if not entry.solution.converged:
             raise ValueError(f"{entry.title} is not trimmed, so it cannot be reported: {entry.solution.message}")
-    return Report(reference, tuple(entries), view, datetime.now().astimezone(), ranges or {}, own_section)
+    fitted = {name: _fitted(FIELDS[name], entries) for name in _USUAL if not FIELDS[name].void_in_reverse_flow}
+    return Report(
+        reference, tuple(entries), view, datetime.now().astimezone(), {**fitted, **(ranges or {})}, own_section
+    )
+
+
+def _fitted(shown: Field, entries: Sequence[Entry]) -> Range:
+    """A range that holds what all the designs have, so that their pictures can be compared."""
+    return fitted_range(shown, np.concatenate([field_values(entry.solution, shown).ravel() for entry in entries]))

@@ -11,59 +11,18 @@ from explorer.colours import PARTS
 from explorer.design_words import active_words, flight_words, model_words, title_words
 from explorer.disk_drawing import HALF, OUTLINES, bar_drawing, disk_drawing, key_entries
 from explorer.fields import FIELDS, Field
+from explorer.paper import Paper
 from explorer.provenance import PROGRAM, versions
 from explorer.state import ViewState
 from explorer.units import SI, UNITS, Units
 from rotor.solution import Solution
 
-SIZES = {
-    "1280 × 720": (1280, 720),
-    "1920 × 1080": (1920, 1080),
-    "3840 × 2160": (3840, 2160),
-    "2000 × 2000": (2000, 2000),
-}
-SMALLEST, LARGEST = 300, 4096
-"""[px], along either edge: below, words cannot be read; above, some browsers have no canvas."""
 _PAPER = {False: "#ffffff", True: "#141416"}
 _INK = {False: "#212529", True: "#e9ecef"}
 _FONT = "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', Helvetica, Arial, sans-serif"
 _INDENT = "\u2003 "
 """As wide as the sign of a caveat."""
 _TITLES = {"induced": "Induced", "profile": "Profile", "parasite": "Parasite", "tail": "Tail rotor"}
-
-
-@dataclass(frozen=True)
-class Paper:
-    """What a picture is drawn on."""
-
-    width: int
-    height: int
-    """[px]"""
-    dark: bool = False
-    transparent: bool = False
-
-    def __post_init__(self) -> None:
-        for edge in (self.width, self.height):
-            if not SMALLEST <= edge <= LARGEST:
-                raise ValueError(
-                    f"A picture of {self.width} × {self.height} pixels cannot be made: "
-                    f"keep both edges within {SMALLEST}…{LARGEST}."
-                )
-        if not 0.4 <= self.width / self.height <= 3.0:
-            raise ValueError(
-                f"{self.width} × {self.height} leaves no room for words beside the disk: "
-                "keep the longer edge within two and a half times the shorter."
-            )
-
-    @property
-    def unit(self) -> float:
-        """Hundredth part of what the words and the disk are measured by [px]."""
-        return min(self.width, self.height) / 100.0
-
-    @property
-    def beside(self) -> bool:
-        """Whether words stand beside the picture, or above and below it."""
-        return self.width >= 1.35 * self.height
 
 
 @dataclass(frozen=True, eq=False)
@@ -206,9 +165,10 @@ def _power(solution: Solution, units: Units, x: float, y: float, wide: float, u:
             f'fill="{PARTS[name]}"/>'
             + marks.text(column + 2.4 * u, row, f"{_TITLES[name]} {units.watts(value)}", 1.9 * u)
         )
+    beside = (x + wide, y) if columns > 1 else (x, y - 4.6 * u)
     return (
         marks.text(x, y, units.watts(power.total), 4.6 * u, weight=650)
-        + marks.text(x + wide, y, "total power", 2.0 * u, anchor="end", opacity=0.7)
+        + marks.text(*beside, "total power", 2.0 * u, anchor="end" if columns > 1 else "start", opacity=0.7)
         + "".join(bars + words)
     )
 

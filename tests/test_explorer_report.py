@@ -20,12 +20,13 @@ from explorer import disk_image, marks, report_command
 from explorer.disk_image import SIZE
 from explorer.fields import FIELDS
 from explorer.line_chart import Trace, line_chart
+from explorer.paper import SIZES, Paper
 from explorer.picture import disk_png
 from explorer.plots import SWEEP, PowerCurve
 from explorer.power_curve import PowerCurves
 from explorer.provenance import versions
 from explorer.report import Entry, Report, report_html, report_of
-from explorer.sheet import SIZES, Paper, disk_sheet, shown, view_sheet, window
+from explorer.sheet import disk_sheet, shown, view_sheet, window
 from explorer.stage import Stage, stage_of
 from explorer.state import Inputs, ViewState, baseline_of
 from explorer.still_scene import make_stage
