@@ -13,6 +13,7 @@ import viser
 from explorer import share, study_charts, viser_compat
 from explorer.clicks import charts_write_to
 from explorer.desk import Desk, Moment
+from explorer.glossary import hint
 from explorer.state import inputs_of
 from explorer.study_list import Found, find_studies, open_study
 from explorer.study_readout import point_line, problem_line, summary
@@ -59,22 +60,24 @@ class StudiesPanel:
             gui.add_html(f'<div class="rx rx-small" data-explorer="studies-missing">{_MISSING}</div>')
             return
         gui.add_html(f'<div class="rx rx-dim rx-small">{_HINT}</div>')
-        self._menu = _menu(gui, "Result", visible=True)
+        self._menu = _menu(gui, "Result", "study", visible=True)
         with gui.add_folder("Not in the list?", expand_by_default=False):
-            self._look = gui.add_button("Look for new results", icon=viser.Icon.REFRESH, color="gray")
+            self._look = gui.add_button(
+                "Look for new results", icon=viser.Icon.REFRESH, color="gray", hint=hint("study_look")
+            )
             self._file = gui.add_upload_button(
                 "Open a Parquet file", icon=viser.Icon.UPLOAD, color="gray", mime_type=".parquet",
-                hint="One chunk of a result, from this computer.",
+                hint=hint("study_file"),
             )  # fmt: skip
         self._state = gui.add_html("")
-        self._kind = _menu(gui, "Chart")
-        self._x = _menu(gui, "Across")
-        self._y = _menu(gui, "Up")
-        self._colour = _menu(gui, "Colour")
-        self._cruise = _menu(gui, "Cruise at")
+        self._kind = _menu(gui, "Chart", "study_chart")
+        self._x = _menu(gui, "Across", "study_axis")
+        self._y = _menu(gui, "Up", "study_axis")
+        self._colour = _menu(gui, "Colour", "study_colour")
+        self._cruise = _menu(gui, "Cruise at", "study_cruise")
         self._place = gui.add_folder(None)
         """Where the chart goes, once there is one: Plotly is 1.7 MB for the browser."""
-        self._point = gui.add_text(FIELD, "", visible=False, hint="Click a point, or write its number.")
+        self._point = gui.add_text(FIELD, "", visible=False, hint=hint("study_point"))
         self._said = gui.add_html("")
         self._menu.on_update(self._by_browser(self._chosen))
         self._look.on_click(lambda _: self.look())
@@ -232,7 +235,7 @@ class StudiesPanel:
         return lambda event: action() if event.client is not None else None
 
 
-def _menu(gui: viser.GuiApi, label: str, *, visible: bool = False) -> viser.GuiDropdownHandle[str]:
-    """A menu without choices yet."""
+def _menu(gui: viser.GuiApi, label: str, entry: str, *, visible: bool = False) -> viser.GuiDropdownHandle[str]:
+    """A menu without choices yet; `entry`: its sentence in the glossary."""
     nothing: list[str] = [_NONE]
-    return gui.add_dropdown(label, tuple(nothing), visible=visible)
+    return gui.add_dropdown(label, tuple(nothing), visible=visible, hint=hint(entry))
