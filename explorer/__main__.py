@@ -56,6 +56,7 @@ def _run(options: argparse.Namespace) -> int:
         # That a browser leaves in the middle of a round is no news.
         warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
         signal.signal(signal.SIGTERM, signal.default_int_handler)  # A service manager's stop is as clean as Ctrl-C.
+        app.settle()
         threading.Event().wait()
     finally:
         app.stop()

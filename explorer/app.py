@@ -7,7 +7,7 @@ from functools import partial
 
 import viser
 
-from explorer import solver, viser_compat
+from explorer import memory, solver, viser_compat
 from explorer.doors import Doors
 from explorer.gate import Gate
 from explorer.guest import Guest
@@ -37,6 +37,7 @@ class App:
         self._guests: dict[int, Guest] = {}
         self._hall: Hall[Guest] = Hall(self._house.sessions)
         self.pool = Pool()
+        self._warmed = threading.Event()
         self.stage = Stage()
         doors, page = Doors(host, self._house.allow_hosts), veiled(viser_compat.client_html())
         gate = Gate(doors, self._house.connections, page)
@@ -51,6 +52,12 @@ class App:
         host = self.server.get_host()
         shown = "127.0.0.1" if host in ("0.0.0.0", "::", "") else f"[{host}]" if ":" in host else host
         return f"http://{shown}:{self.server.get_port()}"
+
+    def settle(self) -> None:
+        """Wait until everything is loaded, and let it stay: for a process that does nothing else."""
+        self._warmed.wait()
+        if not self._guests:  # What a page holds must go with it.
+            memory.settle()
 
     def stop(self) -> None:
         guests, self._guests = list(self._guests.values()), {}
@@ -81,14 +88,19 @@ class App:
     def _goodbye(self, guest: Guest) -> None:
         guest.leave()
         self._seat(self._hall.leave(guest))
+        memory.give_back_soon()
 
     def _session(self, guest: Guest, client: viser.ClientHandle, facts: viser_compat.PageFacts) -> Session:
         sleep = Sleep(
             self._house.sleep_after,
-            lambda: self._seat(self._hall.doze(guest)),
+            lambda: self._rest(guest),
             lambda: self._hall.wake(guest),
         )
         return Session(client, self._start, facts, self.pool.share(), self.stage, sleep, self._house.studies)
+
+    def _rest(self, guest: Guest) -> None:
+        self._seat(self._hall.doze(guest))
+        memory.give_back_soon()
 
     def _seat(self, coming: list[Guest]) -> None:
         """Those in line whose turn it is."""
@@ -106,6 +118,7 @@ class App:
         except Exception:  # The sessions will meet the same error and show it.
             _log.exception("warming the solver failed")
         self.pool.warm()  # Only now: the first page does not compete with it.
+        self._warmed.set()
 
 
 def _aside(name: str, work: partial[None]) -> None:

@@ -5,6 +5,7 @@ import time
 
 import pytest
 
+from explorer import memory
 from explorer.doors import Doors, is_loopback, warning
 from explorer.hall import Hall
 from explorer.meter import Allowance, Meter
@@ -320,3 +321,15 @@ class TestWorker:
             time.sleep(0.002)
         worker.stop()
         assert events[:3] == ["falls", "wakes", "round"]
+
+
+class TestMemory:
+    def test_pages_that_go_together_are_cleared_away_once(self, monkeypatch: pytest.MonkeyPatch):
+        cleared = threading.Semaphore(0)
+        monkeypatch.setattr(memory.gc, "collect", lambda: cleared.release())
+        for _ in range(5):
+            memory.give_back_soon(0.02)
+        assert cleared.acquire(timeout=2.0)
+        assert not cleared.acquire(timeout=0.05)
+        memory.give_back_soon(0.0)
+        assert cleared.acquire(timeout=2.0)
