@@ -14,8 +14,9 @@ from explorer.actuator_state import MOST_SEGMENTS, ActuatorInputs, Question, que
 from explorer.actuator_study import Answers, Study
 from explorer.jobs import Share
 from rotor.actuator.fitted import Fitted
-from rotor.actuator.structure import check_blade
+from rotor.actuator.structure import KNOWN_BLADE, check_blade
 from rotor.design import Design
+from rotor.presets import uh60a_rotor
 from rotor.solution import Solution
 
 
@@ -51,6 +52,8 @@ class ActuatorPanel:
     def show(self, inputs: ActuatorInputs, design: Design, solution: Solution, psi: float) -> None:
         """Everything that follows: `design` is without the actuator's twist, `solution` with it."""
         try:
+            if design.aircraft.key != KNOWN_BLADE:
+                self._controls.arrange(inputs, inputs.fitted(uh60a_rotor(design.preset)))
             check_blade(design.aircraft)
             fitted = inputs.fitted(design.rotor)
             question = question_of(inputs, design)

@@ -1,4 +1,4 @@
-"""Helicopter main-rotor aerodynamics: trim, power and twist of the UH-60A.
+"""Helicopter main-rotor aerodynamics: trim, power and twist, of the UH-60A where no other rotor is named.
 
 Conventions, said once:
 

@@ -5,7 +5,8 @@ from pathlib import Path
 
 from rotor.aircraft import Aircraft
 from rotor.assets import SHIPPED_ROTORS, asset_path
-from rotor.rotor_file import read_aircraft, read_rotor_file
+from rotor.rotor_file import LARGEST_FILE, named_files, read_aircraft
+from rotor.toml_table import read_toml
 
 
 @cache
@@ -24,3 +25,30 @@ def find_aircraft(name: str) -> Aircraft:
     if name in SHIPPED_ROTORS or not ("." in name or "/" in name or Path(name).exists()):
         return shipped_aircraft(name)
     return read_rotor_file(name)
+
+
+def read_rotor_file(path: str | Path) -> Aircraft:
+    """The aircraft of a rotor file on disk, with the section files beside it.
+
+    Raises ValueError with one sentence that names file, line and remedy.
+    """
+    path = Path(path)
+    texts = {path.name: read_text(path)}
+    top = read_toml(path.name, texts[path.name])
+    for name in named_files(top):
+        beside = path.parent / name
+        if beside.is_file():
+            texts[name] = read_text(beside)
+    return read_aircraft(path.name, texts)
+
+
+def read_text(path: Path) -> str:
+    """The text of a file; ValueError where it cannot be had."""
+    try:
+        if path.stat().st_size > LARGEST_FILE:
+            raise ValueError(f"{path.name} has {path.stat().st_size / 1e6:.1f} MB: a rotor's files have 2 MB at most")
+        return path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise ValueError(f"rotor file {str(path)!r} does not exist: give a shipped rotor's name or a path") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise ValueError(f"{path.name} cannot be read as text ({error}): save it as UTF-8") from None

@@ -7,7 +7,6 @@ import math
 from collections.abc import Mapping
 from dataclasses import replace
 from itertools import pairwise
-from pathlib import Path
 from typing import Any, cast
 
 from rotor.aircraft import HUBS, Aircraft, Hub, RotorFiles, Stated
@@ -27,33 +26,6 @@ LIFT_SLOPE = 5.73
 
 LARGEST_FILE = 2_000_000
 """[bytes] of a rotor file or of a file it names; a deck has some 40 000."""
-
-
-def read_rotor_file(path: str | Path) -> Aircraft:
-    """The aircraft of a rotor file on disk, with the section files beside it.
-
-    Raises ValueError with one sentence that names file, line and remedy.
-    """
-    path = Path(path)
-    texts = {path.name: read_text(path)}
-    top = read_toml(path.name, texts[path.name])
-    for name in named_files(top):
-        beside = path.parent / name
-        if beside.is_file():
-            texts[name] = read_text(beside)
-    return read_aircraft(path.name, texts)
-
-
-def read_text(path: Path) -> str:
-    """The text of a file; ValueError where it cannot be had."""
-    try:
-        if path.stat().st_size > LARGEST_FILE:
-            raise ValueError(f"{path.name} has {path.stat().st_size / 1e6:.1f} MB: a rotor's files have 2 MB at most")
-        return path.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        raise ValueError(f"rotor file {str(path)!r} does not exist: give a shipped rotor's name or a path") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise ValueError(f"{path.name} cannot be read as text ({error}): save it as UTF-8") from None
 
 
 def named_files(top: Table) -> list[str]:

@@ -26,6 +26,8 @@ def caveats(problem: Problem, one: Pass, stalled: float, moment: HubMoment) -> t
     def add(name: str, sentence: str) -> None:
         found.append(Caveat(name, sentence))
 
+    for remark in design.aircraft.remarks:
+        add("rotor-file", remark)
     if design.aircraft.hub == "teetering":
         add(
             "teetering",

@@ -2,12 +2,14 @@
 
 import math
 import pickle
+import re
 from pathlib import Path
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor import make_design, solve
 from rotor.aircraft import Aircraft
 from rotor.airfoil.build import make_deck
 from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81
@@ -16,7 +18,8 @@ from rotor.airfoil.regrid import on_run_time_grid
 from rotor.airfoil.sections import load_installed
 from rotor.airfoil.xfoil_file import parse_polar_file
 from rotor.assets import asset_path
-from rotor.rotor_file import read_aircraft, read_rotor_file
+from rotor.fleet import read_rotor_file
+from rotor.rotor_file import read_aircraft
 
 GOOD = """\
 name = "Test rotor"
@@ -203,6 +206,24 @@ def test_foreign_decks_come_to_the_run_time_grid():
     assert deck.cd.values.min() > 0.0
     with pytest.raises(ValueError, match=r"ODD: cl covers -4\.7…4\.7 deg: give at least −8…8 deg"):
         on_run_time_grid(C81Deck("ODD", C81Block(mach, alpha[2:5], lift.values[2:5]), drag, drag))
+
+
+def test_what_was_assumed_of_the_files_is_said_with_the_answer():
+    polar = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars[2]
+    one = '\n[sections.mine]\npolars = "a.txt"\noutline = "naca0012"\n'
+    craft = read(GOOD.replace('"naca0012"', '"mine"', 1) + one, **{"a.txt": polar_file(polar)})
+    caveats = solve(make_design(aircraft=craft, advance_ratio=0.2)).require().caveats
+    assert [caveat.name for caveat in caveats] == ["rotor-file", "no-tail-rotor"]
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/rotor_file.md"])
+def test_the_examples_in_the_docs_are_rotor_files(page: str):
+    text = (Path(__file__).parent.parent / page).read_text(encoding="utf-8")
+    found = re.search(r"```toml\n(.*?)```", text, re.DOTALL)
+    assert found is not None
+    polars = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars
+    files = {f"n23012_m0{k + 1}.txt": polar_file(polars[k]) for k in (1, 2, 3)}
+    assert solve(make_design(aircraft=read(found[1], **files), advance_ratio=0.2)).converged
 
 
 def test_files_beside_the_rotor_file_are_found(tmp_path: Path):
