@@ -1,6 +1,6 @@
 """The section with its plies, as an SVG picture made from the polygons of the structural model."""
 
-from collections.abc import Sequence
+from functools import lru_cache
 from html import escape
 
 import numpy as np
@@ -22,7 +22,8 @@ _GAP = 0.2
 _FILLS = {"spar": "#5c6b80", "skin": "#9aa3ad", "web": "#3f4b5c", "tube": "#b7791f"}
 
 
-def section_svg(fitted: Fitted, shares: Sequence[float]) -> str:
+@lru_cache(maxsize=32)
+def section_svg(fitted: Fitted, shares: tuple[float, ...]) -> str:
     """The cut through the blade at its middle segment; `shares` −1…1 colour the plies as they do on the blade."""
     middle = len(shares) // 2
     share = shares[middle]
