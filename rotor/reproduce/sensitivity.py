@@ -71,7 +71,7 @@ CHANGES: tuple[tuple[str, Change], ...] = (
     ("inflow: local momentum", _models(inflow="local-momentum")),
     ("inflow: dynamic wake, infinite blades", _models(inflow="dynamic-wake-infinite-blades")),
     ("inflow: dynamic wake, few states", _models(inflow="dynamic-wake-quick")),
-    ("losses off in hover", _models(tip_loss=False, hub_loss=False)),
+    ("losses off: hub, and tips as of infinitely many blades", _models(tip_loss=False, hub_loss=False)),
     ("trim: thrust only, flapping free, no cyclic", _models(trim="thrust")),
     ("U_P without µ sin α, as (3.6) prints", _models(disk_axial_flow=False)),
     ("both of these", _models(trim="thrust", disk_axial_flow=False)),
