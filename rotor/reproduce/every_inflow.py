@@ -46,7 +46,7 @@ def model_panels(y_label: str, value: Value, variants: Sequence[str], scope: Sco
 
 def by_model(title: str, cell: Callable[[str, int], Cell], variants: Sequence[str], scope: Scope) -> Table:
     """A row a model, a column a speed."""
-    columns = ("preset", "inflow", *("hover" if mu == 0.0 else f"mu_{mu:g}" for mu in scope.speeds))
+    columns = ("preset", "inflow", *("hover" if mu == 0.0 else f"mu_{mu:.3g}" for mu in scope.speeds))
     places = range(len(scope.speeds))
     return table(title, columns, [(*choices(name), *(cell(name, k) for k in places)) for name in variants])
 

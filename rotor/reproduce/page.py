@@ -33,7 +33,7 @@ dl{display:grid;grid-template-columns:110px 1fr;gap:4px 14px;margin:10px 0}dt{co
 img{max-width:100%;height:auto;display:block;margin:8px auto}
 table{border-collapse:collapse;font-size:13px}td,th{padding:2px 10px;text-align:right;border-bottom:1px solid #e6eaed}
 td:first-child,th:first-child{text-align:left}details{margin-top:6px}summary{cursor:pointer;color:#0b5fa5}
-.scroll{overflow-x:auto}a{color:#0b5fa5}.small{font-size:13px;color:#5b6770}
+.scroll{overflow-x:auto}.scroll td,.scroll th{white-space:nowrap}a{color:#0b5fa5}.small{font-size:13px;color:#5b6770}
 .toc{width:100%}.toc td{text-align:left;vertical-align:top}.toc td:first-child{white-space:nowrap}
 """
 
