@@ -15,6 +15,7 @@ from explorer.hall import Hall
 from explorer.house import House
 from explorer.jobs import Pool
 from explorer.page import veiled
+from explorer.panels import Commons
 from explorer.presentation import Stage
 from explorer.session import Session
 from explorer.state import Inputs
@@ -59,6 +60,11 @@ class App:
         if not self._guests:  # What a page holds must go with it.
             memory.settle()
 
+    @property
+    def sessions(self) -> tuple[Session, ...]:
+        """Those at work, in the order they came."""
+        return tuple(guest.session for guest in tuple(self._guests.values()) if guest.session is not None)
+
     def stop(self) -> None:
         guests, self._guests = list(self._guests.values()), {}
         for guest in guests:
@@ -96,7 +102,8 @@ class App:
             lambda: self._rest(guest),
             lambda: self._hall.wake(guest),
         )
-        return Session(client, self._start, facts, self.pool.share(), self.stage, sleep, self._house.studies)
+        commons = Commons(self.pool.share(), self.stage, self._house.studies)
+        return Session(client, self._start, facts, commons, sleep)
 
     def _rest(self, guest: Guest) -> None:
         self._seat(self._hall.doze(guest))

@@ -1,7 +1,6 @@
 """The link of the design and its file: copied, saved, loaded."""
 
 import json
-from collections.abc import Mapping
 from typing import Any
 
 import viser
@@ -15,15 +14,13 @@ from rotor.case import case_of, parse_case
 
 MOST_BYTES = 1_000_000
 """A design file may have; written ones have a thousand."""
-Limits = Mapping[str, tuple[float, float]]
-"""Of the sliders, by name of the input."""
 
 
 class FilePanel:
     """One session's. The address of the page follows the design by itself."""
 
-    def __init__(self, client: viser.ClientHandle, desk: Desk, limits: Limits, address: Address) -> None:
-        self._client, self._desk, self._limits, self._address = client, desk, limits, address
+    def __init__(self, client: viser.ClientHandle, desk: Desk, address: Address) -> None:
+        self._client, self._desk, self._address = client, desk, address
         gui = client.gui
         with gui.add_folder("Link and file"):
             self._link = gui.add_button("Copy link", icon=viser.Icon.LINK, hint=hint("link"))
@@ -50,7 +47,7 @@ class FilePanel:
         code = self._address[share.PINNED]
         if code is not None:
             try:
-                self._desk.pin(share.inputs_from(code, self._limits))
+                self._desk.pin(share.inputs_from(code))
             except ValueError as error:
                 self._desk.tell("Not the A of the link", str(error))
 
@@ -88,7 +85,7 @@ class FilePanel:
             if len(file.content) > MOST_BYTES:
                 raise ValueError(f"{file.name} has {len(file.content)} bytes: a design file has at most {MOST_BYTES}.")
             design = parse_case(file.content, file.name)
-            inputs = share.within(inputs_of(design), self._limits)
+            inputs = share.within(inputs_of(design))
         except ValueError as error:
             self._desk.tell("Not loaded", str(error))
             return

@@ -56,6 +56,11 @@ class Guest:
     def _refused(self, sentence: str) -> None:
         self.client.add_notification("File refused", sentence, color="red", auto_close_seconds=10)
 
+    @property
+    def session(self) -> Session | None:
+        """Behind the page, once it has a place."""
+        return self._session
+
     def leave(self) -> None:
         """The connection has ended."""
         with self._lock:

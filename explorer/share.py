@@ -4,12 +4,10 @@
 """
 
 import json
-from collections.abc import Mapping
 from typing import Any
 
-from explorer.sliders import limits as slider_limits
+from explorer.sliders import SLIDERS, limits
 from explorer.state import Inputs, inputs_of
-from rotor.assets import SHIPPED_ROTORS
 from rotor.case import case_of, design_of
 from rotor.design import Design
 from rotor.presets import make_design
@@ -67,16 +65,15 @@ def design_from(code: str) -> Design:
         raise ValueError(f"The design in the address cannot be used: {error}") from None
 
 
-def inputs_from(code: str, limits: Mapping[str, tuple[float, float]]) -> Inputs:
-    """The slider positions a text means; ValueError also for a position beyond `limits`, by name of the input."""
-    return within(inputs_of(design_from(code)), limits)
+def inputs_from(code: str) -> Inputs:
+    """The slider positions a text means; ValueError also for a position that no slider holds."""
+    return within(inputs_of(design_from(code)))
 
 
-def within(inputs: Inputs, limits: Mapping[str, tuple[float, float]]) -> Inputs:
+def within(inputs: Inputs) -> Inputs:
     """The inputs, where the page's sliders can hold them; else ValueError with one sentence."""
-    own = {"mass_t": slider_limits("mass_t", inputs.aircraft)} if inputs.rotor != SHIPPED_ROTORS[0] else {}
-    for name, (low, high) in {**limits, **own}.items():
-        value = getattr(inputs, name)
+    for name in SLIDERS:
+        value, (low, high) = getattr(inputs, name), limits(name, inputs.aircraft)
         if not low - 1e-9 <= value <= high + 1e-9:
             title = name.replace("_", " ")
             raise ValueError(

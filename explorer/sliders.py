@@ -93,7 +93,3 @@ def limits(name: str, aircraft: Aircraft = _FIRST) -> tuple[float, float]:
         return one.low, one.high
     low, high = meant(name, other.low, AVIATION), meant(name, other.high, AVIATION)
     return min(one.low, low), max(one.high, high)
-
-
-LIMITS = {name: limits(name) for name in SLIDERS}
-"""The inputs that a design of the first rotor may have on this page; others have another weight: `limits`."""

@@ -2,7 +2,7 @@
 
 import logging
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from html import escape
 from importlib.util import find_spec
 from pathlib import Path
@@ -41,11 +41,9 @@ _CONFIG = {"displayModeBar": False, "doubleClick": "reset+autosize"}
 class StudiesPanel:
     """One session's."""
 
-    def __init__(
-        self, client: viser.ClientHandle, desk: Desk, limits: Mapping[str, tuple[float, float]], root: Path
-    ) -> None:
-        """`limits` of the sliders, by name of the input; `root`: results beneath it are offered."""
-        self._client, self._desk, self._limits, self._root = client, desk, limits, root
+    def __init__(self, client: viser.ClientHandle, desk: Desk, root: Path) -> None:
+        """`root`: results beneath it are offered."""
+        self._client, self._desk, self._root = client, desk, root
         self._results: Results | None = None
         self._chart: viser.GuiPlotlyHandle | None = None
         self._now: int | None = None
@@ -215,7 +213,7 @@ class StudiesPanel:
                 raise ValueError(f"{text!r} is no point of this result: write a number in 0…{results.rows - 1}.")
             if not results.good[row]:
                 raise ValueError(f"Point {row} did not converge: choose another one.")
-            inputs = share.within(inputs_of(design_of_row(results, row)), self._limits)
+            inputs = share.within(inputs_of(design_of_row(results, row)))
         except ValueError as error:
             self._said.content = problem_line(str(error))
             return

@@ -13,7 +13,6 @@ from explorer.state import Inputs
 from rotor.presets import make_design
 from rotor.twist import TableTwist
 
-LIMITS = {"advance_ratio": (0.0, 0.45), "mass_t": (5.0, 11.0)}
 START = Inputs()
 
 
@@ -129,7 +128,7 @@ class TestShare:
         code = parameter(with_parameter("?fixedDpr=0.5", "d", code_of(design)), "d")
         assert code is not None
         assert code_of(design_from(code)) == code
-        again = inputs_from(code, LIMITS).design()
+        again = inputs_from(code).design()
         assert (again.twist.spec(), again.models, again.preset) == (design.twist.spec(), design.models, design.preset)
         assert again.condition.mass == pytest.approx(design.condition.mass, rel=1e-9)
 
@@ -163,6 +162,6 @@ class TestShare:
     )
     def test_a_bad_one_is_one_sentence(self, code: str, sentence: str):
         with pytest.raises(ValueError, match=r"\w") as caught:
-            inputs_from(code, LIMITS)
+            inputs_from(code)
         assert sentence in str(caught.value)
         assert "\n" not in str(caught.value)

@@ -16,7 +16,6 @@ from explorer.pinned import Pinboard, Pinned
 from explorer.readout import ideal_line, power_panel
 from explorer.rotor_shelf import SUFFIXES, Shelf
 from explorer.rotors import OWN, mass_range, menu_titles, reference_mass_t
-from explorer.sliders import LIMITS
 from explorer.state import Inputs, ViewState, baseline_of, inputs_of, with_optimum, with_rotor
 from rotor.actuator.structure import check_blade
 from rotor.airfoil.polars import read_polars
@@ -73,9 +72,9 @@ def test_ones_own_rotor_stays_in_the_menu():
 def test_designs_of_other_rotors_in_addresses_and_files():
     code = share.code_of(R22.design())
     assert code == "1;linear:-8;rotor=r22;mass=621"
-    assert share.inputs_from(code, LIMITS) == R22
+    assert share.inputs_from(code) == R22
     with pytest.raises(ValueError, match=r"mass t 8\.32, outside this page's 0\.37"):
-        share.within(replace(R22, mass_t=8.32), LIMITS)
+        share.within(replace(R22, mass_t=8.32))
     own = with_rotor(Inputs(), OWN, Shelf().take("my.toml", GOOD.encode()).aircraft)
     with pytest.raises(ValueError, match="A rotor of your own fits in no address: save it as a design file"):
         share.code_of(own.design())

@@ -11,7 +11,7 @@ from explorer import ab_readout, history_view, plots, readout
 from explorer.controls import Controls
 from explorer.history import History
 from explorer.naming import flight_name
-from explorer.sliders import LIMITS, SLIDERS, meant, shown, slider
+from explorer.sliders import SLIDERS, limits, meant, shown, slider
 from explorer.state import Inputs, ViewState
 from explorer.units import AVIATION, FOOT, HORSEPOWER, KNOT, POUND, SI, UNITS
 from rotor.presets import make_design
@@ -79,10 +79,10 @@ def test_curves_change_with_the_unit():
 
 @pytest.mark.parametrize("name", ["mass_t", "altitude_m"])
 def test_an_input_is_itself_after_other_units(name: str):
-    for value in np.linspace(*LIMITS[name], 173):
+    for value in np.linspace(*limits(name), 173):
         kept = round(float(value), 6)
         assert meant(name, shown(name, kept, AVIATION), AVIATION) == kept
-    low, high = LIMITS[name]
+    low, high = limits(name)
     for units in UNITS.values():
         form = slider(name, units)
         assert low <= meant(name, form.low, units) <= meant(name, form.high, units) <= high

@@ -16,6 +16,7 @@ KNOW_VISER = {
     "__main__.py",
     "app.py",
     "session.py",
+    "panels.py",
     "frame.py",
     "results_panel.py",
     "lecture_panel.py",

@@ -35,13 +35,13 @@ def app() -> Iterator[App]:
 
 
 def opened(browser: "Browser", app: App) -> "tuple[BrowserContext, Watched, Session]":
-    known = set(app._sessions)
+    known = app.sessions
     context = browser.new_context(viewport=SIZE)  # pyright: ignore[reportArgumentType]
     context.add_init_script(DRAW_NOTHING)
     watched = Watched(context.new_page())
     watched.open(app.address)
-    (new,) = set(app._sessions) - known
-    return context, watched, app._sessions[new]
+    (new,) = (session for session in app.sessions if session not in known)
+    return context, watched, new
 
 
 @pytest.fixture(scope="module")
@@ -72,7 +72,7 @@ def press(watched: Watched, name: str) -> None:
 
 
 def run_of(session: Session) -> Any:
-    run = session._optimise._run
+    run = session.panels.optimise._run
     assert run is not None
     return run
 
@@ -88,20 +88,20 @@ def until_better(session: Session) -> None:
 def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tuple[Watched, Session]):
     watched, session = page
     before, blade = watched.text("total-power"), watched.node("/rotor/blade_0")
-    law = session._controls.inputs().law
+    law = session.panels.controls.inputs().law
     watched.choose("Concept", "Two segments")
     press(watched, "Optimise")
     until(watched, "done")
     # The picture follows the search; the sliders have not moved.
     watched.until_changed(lambda: watched.text("total-power"), before)
     watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)
-    assert session._controls.inputs().law == law
+    assert session.panels.controls.inputs().law == law
     run = run_of(session)
     watched.page.wait_for_function(f"() => document.body.innerText.includes('design {run.frames[-1].evaluation}')")
     press(watched, "Apply")
     watched.page.wait_for_timeout(600)
-    design = session._controls.inputs().design()
-    assert session._controls.inputs().law == "two"
+    design = session.panels.controls.inputs().design()
+    assert session.panels.controls.inputs().law == "two"
     power = solve(design).power.total
     assert power == pytest.approx(run.optimum.best.power, rel=1e-6)
     assert power < run.start_power
@@ -111,7 +111,7 @@ def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tu
 
 def test_a_replay_goes_back_to_the_start_and_discard_leaves_the_sliders(page: tuple[Watched, Session]):
     watched, session = page
-    inputs = session._controls.inputs()
+    inputs = session.panels.controls.inputs()
     before = watched.text("total-power")
     watched.choose("Concept", "Linear")
     press(watched, "Optimise")
@@ -129,13 +129,13 @@ def test_a_replay_goes_back_to_the_start_and_discard_leaves_the_sliders(page: tu
     )
     press(watched, "Discard")
     watched.page.wait_for_timeout(400)
-    assert session._controls.inputs() == inputs
+    assert session.panels.controls.inputs() == inputs
     assert watched.page.get_by_role("button", name="Apply", exact=True).count() == 0
 
 
 def test_stop_answers_within_three_tenths_of_a_second_and_keeps_the_best(page: tuple[Watched, Session]):
     watched, session = page
-    panel = session._optimise
+    panel = session.panels.optimise
     watched.choose("Concept", SLOW)
     watched.row("Starts").get_by_role("slider").focus()
     watched.page.keyboard.press("End")
@@ -163,7 +163,7 @@ def test_stop_answers_within_three_tenths_of_a_second_and_keeps_the_best(page: t
     assert solve(run.best.design).power.total == pytest.approx(run.best.power, rel=1e-6)
     press(watched, "Apply")
     watched.page.wait_for_timeout(400)
-    assert solve(session._controls.inputs().design()).power.total == pytest.approx(run.frames[-1].power, rel=1e-6)
+    assert solve(session.panels.controls.inputs().design()).power.total == pytest.approx(run.frames[-1].power, rel=1e-6)
 
 
 def test_the_page_goes_on_when_its_worker_is_killed(page: tuple[Watched, Session], app: App):
@@ -198,7 +198,7 @@ def test_two_browsers_at_once_do_not_disturb_each_other(page: tuple[Watched, Ses
     press(watched, "Optimise")
     until(watched, "running")
     other.page.get_by_role("tab", name="Optimise").click()
-    assert 'data-kind="idle"' in others._optimise._standing.content
+    assert 'data-kind="idle"' in others.panels.optimise._standing.content
     assert other.text("total-power") == before
     other.choose("Concept", "Linear")
     press(other, "Optimise")
@@ -210,10 +210,12 @@ def test_two_browsers_at_once_do_not_disturb_each_other(page: tuple[Watched, Ses
     press(other, "Optimise")
     context.close()  # It leaves with a search under way: the search ends with it.
     deadline = time.monotonic() + 10.0
-    while others._optimise._job is not None and not others._optimise._job.over and time.monotonic() < deadline:
+    while (
+        others.panels.optimise._job is not None and not others.panels.optimise._job.over and time.monotonic() < deadline
+    ):
         time.sleep(0.05)
-    assert others._optimise._job is not None
-    assert others._optimise._job.over
+    assert others.panels.optimise._job is not None
+    assert others.panels.optimise._job.over
     if run_of(session).under_way:
         press(watched, "Stop")
     until(watched, "stopped", "done")
@@ -231,11 +233,11 @@ def test_a_click_on_the_map_takes_the_point(page: tuple[Watched, Session]):
     assert box is not None
     watched.page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
     watched.page.wait_for_timeout(700)
-    inputs = session._controls.inputs()
+    inputs = session.panels.controls.inputs()
     assert inputs.law == "two"
     assert inputs.two_division == pytest.approx(0.585, abs=0.01)
     assert inputs.two_outer == pytest.approx(-10.0, abs=0.4)
-    session._map.stop()
+    session.panels.map.stop()
     assert watched.complaints == []
 
 
@@ -253,5 +255,5 @@ def test_a_schedule_can_be_saved(page: tuple[Watched, Session], tmp_path: Path):
         press(watched, "Save CSV")
     download.value.save_as(tmp_path / "schedule.csv")
     lines = (tmp_path / "schedule.csv").read_text().splitlines()
-    assert len(lines) == 1 + len(session._schedule._rows) + 1
+    assert len(lines) == 1 + len(session.panels.schedule._rows) + 1
     assert watched.complaints == []

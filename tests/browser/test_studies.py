@@ -3,7 +3,7 @@
 import os
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pytest
 from chromium import DRAW_NOTHING
@@ -56,20 +56,12 @@ def studies(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def page(browser: "Browser", studies: Path) -> Iterator[tuple[Watched, Session]]:
     app = App("127.0.0.1", 0, house=House(studies=studies))
-    seated: list[Session] = []
-    make = app._session
-
-    def seat(*given: Any, **named: Any) -> Session:
-        seated.append(make(*given, **named))
-        return seated[-1]
-
-    app._session = seat
     context = browser.new_context(viewport={"width": 1280, "height": 900})
     context.add_init_script(DRAW_NOTHING)
     watched = Watched(context.new_page())
     watched.open(app.address)
     watched.page.get_by_role("tab", name="Studies").click()
-    yield watched, seated[-1]
+    yield watched, app.sessions[-1]
     context.close()
     app.stop()
 
@@ -89,7 +81,7 @@ def test_a_click_on_a_point_puts_it_on_the_sliders(page: tuple[Watched, Session]
     tab.wait_for_function("() => document.querySelector('[data-explorer=study-point]')?.innerText.startsWith('Taken')")
     row = int(watched.text("study-point").split("point ")[1].split()[0])
     results = read_results(studies / "blades")
-    inputs = session._controls.inputs()
+    inputs = session.panels.controls.inputs()
     assert (inputs.law, inputs.inflow) == ("two", "pitt-peters")
     assert inputs.advance_ratio == results.columns["mu"][row] == 0.3
     assert inputs.two_inner == pytest.approx(results.columns["inboard_rate_deg"][row])
@@ -110,7 +102,7 @@ def test_other_charts_and_a_point_by_its_number(page: tuple[Watched, Session], a
     tab.screenshot(path=artefacts / "studies.png")
     watched.type("Point no.", 0)
     tab.wait_for_function("() => document.querySelector('[data-explorer=study-point]')?.innerText.includes('point 0')")
-    assert session._controls.inputs().advance_ratio == 0.0
+    assert session.panels.controls.inputs().advance_ratio == 0.0
     watched.type("Point no.", 99)
     tab.wait_for_function("() => document.querySelector('[data-explorer=study-point]')?.innerText.includes('0…35')")
     assert watched.complaints == []
