@@ -116,7 +116,7 @@ def test_save_and_load(browser: "Browser", app: App, tmp_path: Path):
     assert design.condition.advance_ratio == 0.1
     before, other = shown_kw(watched), tmp_path / "other.json"
     other.write_text(json.dumps({**case_of(make_design(twist="linear:-6")), "advance_ratio": 0.25}), encoding="utf-8")
-    file = page.locator("input[type=file]").first
+    file = page.get_by_role("button", name="Load design").locator("xpath=../input[@type='file']")
     file.set_input_files(other)
     design_in_address(watched, "linear:-6;mu=0.25")
     loaded = watched.until_changed(lambda: shown_kw(watched), before)
