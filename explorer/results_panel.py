@@ -9,6 +9,7 @@ from explorer.desk import Moment
 from explorer.plots import PowerCurve
 from explorer.solver import with_vortex_wake
 from explorer.units import UNITS, Units
+from rotor.aircraft import Aircraft
 from rotor.solution import Solution
 from rotor.solve import solve
 
@@ -24,6 +25,8 @@ class ResultsPanel:
         self._charts = Charts(gui, *plots.blank())
         self._moment: Moment | None = None
         """The last good one."""
+        self._charted: Aircraft | None = None
+        """Whose power the chart shows."""
         self._checked: Solution | None = None
         """The last check with the vortex wake."""
         self._check_wanted = False
@@ -50,10 +53,15 @@ class ResultsPanel:
         charts.lift.show(plots.lift_plot(solution, azimuth, pinned), AB_KEY if ab else LIFT_KEY)
 
     def show_power(self, moment: Moment, curve: PowerCurve, lost: bool = False) -> None:
-        """Power over µ, once the first sweep has arrived; without the present point where there is none."""
-        if not np.isfinite(curve.design).any():
-            return
+        """Power over µ, once the first sweep has arrived; without the present point where there is none.
+
+        A curve of another rotor does not wait for that: it is taken away.
+        """
         solution, pinned, charts = moment.solution, moment.pinned, self._charts
+        stale = self._charted not in (None, solution.design.aircraft)
+        if not np.isfinite(curve.design).any() and not stale:
+            return
+        self._charted = solution.design.aircraft
         mu, ab = solution.design.condition.advance_ratio, pinned is not None
         unit = UNITS[moment.view.units].power[0]
         curve = curve.in_unit(unit)

@@ -4,6 +4,7 @@ The shipped files in `assets/` are read by the same code. Errors name file, line
 """
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from itertools import pairwise
@@ -24,6 +25,8 @@ BAILEY_POLAR = (0.0087, -0.0216, 0.4)
 LIFT_SLOPE = 5.73
 """[1/rad], the textbook's, for tail rotors without one."""
 
+_NAME = r"[\w .,'()+/-]{1,40}"
+"""It stands in read-outs and menus."""
 LARGEST_FILE = 2_000_000
 """[bytes] of a rotor file or of a file it names; a deck has some 40 000."""
 
@@ -50,6 +53,8 @@ def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraf
     """
     top = read_toml(main, texts[main])
     name = top.string("name")
+    if not re.fullmatch(_NAME, name):
+        raise top.fail("name", f"name is {name[:60]!r}: use 1 to 40 letters, digits, blanks and . , ' ( ) + / -")
     remarks: list[str] = []
     used = {main: texts[main]}
     own = _own_sections(top, texts, used, remarks)
