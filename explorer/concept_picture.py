@@ -1,6 +1,7 @@
 """A small drawing of what a concept moves: its twist along the blade, and an arrow for every degree of freedom."""
 
 from collections.abc import Callable
+from functools import lru_cache
 
 import numpy as np
 
@@ -15,6 +16,7 @@ _NOMINAL = {"tilt": (-0.21, -0.09, -0.24), "bend": (0.28,), "lift": (0.17, 0.09,
 """Typical values [SI] that tell the shapes apart; a slide stands where it is typical."""
 
 
+@lru_cache(maxsize=32)
 def concept_picture(concept: Concept) -> str:
     """SVG: root at the left, tip at the right, nose-up above."""
     values, counts = [], {"tilt": 0, "bend": 0, "lift": 0}

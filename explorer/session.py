@@ -113,7 +113,8 @@ class Session:
         panels.fit(solution.design.rotor.radius)
         panels.frame.draw(solution, view, ghost_of(None if preview is None else plain, top.pinned), on_disk)
         panels.camera.ride(math.radians(view.azimuth_deg))
-        if whole or actuator.per_rev:  # Only at harmonics does its picture turn with the blade.
+        pictured = actuator.shown or actuator.driven  # Then it is part of the frame; else its tab can wait.
+        if pictured and (whole or actuator.per_rev):  # Only at harmonics does its picture turn with the blade.
             panels.actuator.show(actuator, plain, solution, math.radians(view.azimuth_deg))
         baseline = self._baseline.solve(baseline_of(design))
         moment = Moment(inputs, view, solution, baseline, top.solve(design, overtaken()), top.pinned)
@@ -130,6 +131,8 @@ class Session:
         panels.results.show(moment)
         show_power()
         if not overtaken():
+            if not pictured:
+                panels.actuator.show(actuator, plain, solution, math.radians(view.azimuth_deg))
             for tab in panels.tabs:
                 tab.show(moment)
             panels.file.follow(moment)
