@@ -12,8 +12,7 @@ from explorer.colour_bar import colour_bar, outline_legend
 from explorer.fields import FIELDS, Field
 from explorer.glossary import hint
 from explorer.history import Pauses
-from explorer.rotor_shelf import SUFFIXES
-from explorer.rotors import menu_titles
+from explorer.rotor_menu import RotorMenu
 from explorer.sliders import SLIDERS, meant, shown, slider
 from explorer.state import INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs, ViewState, preset_inflow, with_rotor
 from explorer.units import SI, UNITS, Units
@@ -58,7 +57,6 @@ class Controls:
         self._moving = threading.RLock()
         self.pauses = Pauses()
         self._laws = _laws_of(start)
-        self._rotors = menu_titles(start.own_rotor)
         self._inflows = {name: model.title for name, model in INFLOW_MODELS.items()}
         self._units = SI
         """Of the weight and altitude sliders now."""
@@ -93,12 +91,7 @@ class Controls:
                 gui.add_slider("Twist shown ×", 1.0, 5.0, 0.5, 1.0, hint=hint("exaggeration"))
             )
         with gui.add_folder("Model"):
-            titles = tuple(self._rotors.values())
-            self._rotor = gui.add_dropdown("Rotor", titles, initial_value=self._rotors[start.rotor], hint=hint("rotor"))
-            self.upload = gui.add_upload_button(
-                "Load rotor file …", icon=viser.Icon.UPLOAD, color="gray", mime_type=",".join(SUFFIXES),
-                hint=hint("rotor_file"),
-            )  # fmt: skip
+            self.rotor = RotorMenu(gui, start, self._rotor_chosen)
             titles = tuple(PRESET_TITLES.values())
             preset = gui.add_dropdown("Preset", titles, initial_value=PRESET_TITLES[start.preset], hint=hint("preset"))
             self._inputs["preset"] = self._watched(preset)
@@ -119,7 +112,6 @@ class Controls:
                 self._inputs[name] = self._watched(box)
         self.reset_button = gui.add_button("Reset design", hint=hint("reset"))
         self._inputs["preset"].on_update(self._preset_changed)
-        self._rotor.on_update(self._rotor_changed)
 
     def inputs(self) -> Inputs:
         """What the widgets mean now."""
@@ -159,8 +151,8 @@ class Controls:
             self._exaggeration,
             *self._toggles.values(),
             self._infinite,
-            self._rotor,
-            self.upload,
+            self.rotor.menu,
+            self.rotor.button,
             self.reset_button,
         )
         for handle in (*self._inputs.values(), *own):
@@ -186,11 +178,8 @@ class Controls:
             self._laws = _laws_of(inputs)
             if self._law.options != tuple(self._laws.values()):
                 self._law.options = tuple(self._laws.values())
-            self._rotors = menu_titles(inputs.own_rotor)
-            if self._rotor.options != tuple(self._rotors.values()):
-                self._rotor.options = tuple(self._rotors.values())
+            self.rotor.show(inputs)
             self._fit_mass(inputs)
-            self._rotor.value = self._rotors[inputs.rotor]
             titles = {"law": self._laws, "preset": PRESET_TITLES, "inflow": self._inflows}
             for name in INPUT_NAMES:
                 if name in self._inputs:
@@ -265,10 +254,9 @@ class Controls:
         if event.client is not None:  # Not when the reset button moved it.
             self._inputs["inflow"].value = self._inflows[preset_inflow(self.inputs().preset)]
 
-    def _rotor_changed(self, event: viser.GuiEvent[Any]) -> None:
-        if event.client is not None:  # Not when a loaded design moved it.
-            self.pauses.moved(time.monotonic())
-            self.set_inputs(with_rotor(self.inputs(), _key(self._rotors, event.target.value)))
+    def _rotor_chosen(self, name: str) -> None:
+        self.pauses.moved(time.monotonic())
+        self.set_inputs(with_rotor(self.inputs(), name))
 
     def _fit_mass(self, inputs: Inputs) -> None:
         """The weight slider about the rotor's own reference mass."""

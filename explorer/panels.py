@@ -30,7 +30,7 @@ from explorer.presence import Hands, Presence
 from explorer.presentation import Stage
 from explorer.probe_panel import ProbePanel
 from explorer.results_panel import ResultsPanel
-from explorer.rotor_upload import RotorUpload
+from explorer.rotor_menu import RotorUpload
 from explorer.schedule_panel import SchedulePanel
 from explorer.sensitivity_panel import SensitivityPanel
 from explorer.state import Inputs
@@ -139,7 +139,7 @@ class Panels:
         self.tabs = (*followers, self.history, self.file, export, self.lecture, self._presence)
         """Everything that only follows."""
         self.camera = FittedCamera(client, rotor.radius)
-        RotorUpload(self.controls.upload, desk)
+        RotorUpload(self.controls.rotor.button, desk)
         self._wire()
         if problem:
             self._notify("Not the design of the link", problem)

@@ -21,7 +21,7 @@ KNOW_VISER = {
     "results_panel.py",
     "lecture_panel.py",
     "presence.py",
-    "rotor_upload.py",
+    "rotor_menu.py",
     "history_panel.py",
     "file_panel.py",
     "scene.py",
