@@ -2,13 +2,12 @@
 
 import platform
 import re
-import subprocess
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
-from pathlib import Path
 
 from explorer.design_words import inflow_words, physics_words
 from rotor.design import Design
+from rotor.provenance import commit
 from rotor.solution import Solution
 
 PROGRAM = "rotor explorer"
@@ -24,29 +23,11 @@ def versions() -> dict[str, str]:
             found[shown] = version(package)
         except PackageNotFoundError:
             found[shown] = "unknown"
-    commit = _commit()
-    if commit:
-        found[PROGRAM] += f" ({commit})"
+    at = commit()
+    if at:
+        found[PROGRAM] += f" (commit {at.removesuffix('+')}{', changed' if at.endswith('+') else ''})"
     found["Python"] = platform.python_version()
     return found
-
-
-def _commit() -> str | None:
-    """The checkout's commit, marked where files differ from it; None for an installed package."""
-    root = Path(__file__).parent.parent
-    if not (root / ".git").exists():
-        return None
-    try:
-        done = subprocess.run(
-            ["git", "-C", str(root), "describe", "--always", "--dirty=, changed", "--exclude=*"],
-            capture_output=True,
-            text=True,
-            timeout=5.0,
-            check=True,
-        )
-    except (OSError, subprocess.SubprocessError):
-        return None
-    return f"commit {done.stdout.strip()}"
 
 
 def condition_line(design: Design) -> str:

@@ -13,10 +13,10 @@ from explorer import study_charts
 from explorer.clicks import charts_write_to
 from explorer.study_list import find_studies, open_study
 from explorer.study_readout import point_line, summary
+from rotor.provenance import package_version
 from rotor.solve import solve
 from rotor.study.chunks import Provenance, work_chunk
 from rotor.study.front import Pairs, cruise_speeds, pairs_at
-from rotor.study.provenance import package_version
 from rotor.study.replay import design_of_row
 from rotor.study.results import Results, read_file
 from rotor.study.store import Store

@@ -6,14 +6,15 @@ import sys
 import time
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from rotor.command.progress import STOPPED, interruptible
 from rotor.command.study_show import record, report
+from rotor.provenance import commit, package_version
 from rotor.study.chunks import Done, Provenance, work
 from rotor.study.cluster import ClusterLost, connected, need_packages, run_chunks
-from rotor.study.provenance import commit, package_version
 from rotor.study.results import read_results
 from rotor.study.store import Store, sha256
 from rotor.study.study_file import StudyFile, read_study
@@ -76,7 +77,7 @@ def _run(args: argparse.Namespace, store: Store, provenance: Provenance) -> int:
     spans = {chunk: study.span(chunk) for chunk in missing}
     left = sum(last - first for first, last in spans.values())
     print(f"{study.title}: {study.count:,} points, {study.count - left:,} done → {store.folder}", flush=True)
-    message, stopped, lost = "", False, list[int]()
+    message, stopped, lost, effort = "", False, list[int](), _Effort()
     if missing:
         if args.scheduler is None:
             work(study, 0, 1)  # Before all processes do: the kernels are compiled once, not in each of them.
@@ -84,6 +85,7 @@ def _run(args: argparse.Namespace, store: Store, provenance: Provenance) -> int:
 
             def take(done: Done) -> None:
                 store.keep(done.chunk, done.content)
+                effort.add(done)
                 advance(done.rows, done.failures)
 
             try:
@@ -92,7 +94,31 @@ def _run(args: argparse.Namespace, store: Store, provenance: Provenance) -> int:
                 stopped, lost = outcome.stopped, outcome.lost
             except ClusterLost as error:
                 message = str(error)
+        if effort.points:
+            print(effort.sentence())
     return _summary(store, stopped, lost, message)
+
+
+@dataclass
+class _Effort:
+    """What a run took."""
+
+    begun: float = field(default_factory=time.monotonic)
+    points: int = 0
+    seconds: float = 0.0
+    """Processor time of the workers."""
+    workers: set[str] = field(default_factory=set[str])
+
+    def add(self, done: Done) -> None:
+        self.points += done.rows
+        self.seconds += done.seconds
+        self.workers.add(done.worker)
+
+    def sentence(self) -> str:
+        elapsed = time.monotonic() - self.begun
+        rate, each = _rate(self.points / elapsed), 1e3 * self.seconds / self.points
+        workers = f"{len(self.workers)} worker{'s' if len(self.workers) > 1 else ''}"
+        return f"{self.points:,} points in {_span(elapsed)} on {workers}: {rate}, {each:.2f} ms of processor time each"
 
 
 def _summary(store: Store, stopped: bool, lost: list[int], message: str) -> int:

@@ -9,10 +9,10 @@ import time
 from dataclasses import dataclass
 from typing import Any
 
+from rotor.provenance import package_version
 from rotor.study.columns import Column, columns_of
 from rotor.study.memory import Memory
 from rotor.study.point import Row, evaluate
-from rotor.study.provenance import package_version
 from rotor.study.quantities import QUANTITIES
 from rotor.study.study import Study
 
@@ -38,6 +38,8 @@ class Done:
     failures: int
     seconds: float
     """Processor time."""
+    worker: str
+    """Machine and process."""
     content: bytes
     """Parquet."""
 
@@ -68,7 +70,7 @@ def work_chunk(study: Study, chunk: int, provenance: Provenance) -> Done:
         rows, columns_of(study), describe(study, provenance) | {"chunk": str(chunk), "worker": _worker()}
     )
     failures = sum(row["status"] != GOOD for row in rows)
-    return Done(chunk, len(rows), failures, time.process_time() - begin, content)
+    return Done(chunk, len(rows), failures, time.process_time() - begin, _worker(), content)
 
 
 def _worker() -> str:

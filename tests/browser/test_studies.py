@@ -12,8 +12,8 @@ from test_page import Watched
 from explorer.app import App
 from explorer.house import House
 from explorer.session import Session
+from rotor.provenance import package_version
 from rotor.study.chunks import Provenance, work_chunk
-from rotor.study.provenance import package_version
 from rotor.study.results import read_results
 from rotor.study.store import Store
 from rotor.study.study_file import StudyFile, parse_study
