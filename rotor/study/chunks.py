@@ -1,12 +1,15 @@
 """One chunk of a study: its points one after the other, and the Parquet file that they make."""
 
+import ctypes
 import importlib
 import io
 import json
 import os
 import socket
 import time
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 from rotor.provenance import package_version
@@ -15,6 +18,8 @@ from rotor.study.memory import Memory
 from rotor.study.point import Row, evaluate
 from rotor.study.quantities import QUANTITIES
 from rotor.study.study import Study
+
+_M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3  # malloc.h of glibc
 
 GOOD = "converged"
 """The status of a row that has its answer."""
@@ -64,6 +69,7 @@ def work_chunk(study: Study, chunk: int, provenance: Provenance) -> Done:
             f"a worker has rotor-explorer {package_version()}, this command {provenance.version}: "
             "install the same version on every worker"
         )
+    keep_memory()
     begin = time.process_time()
     rows = work(study, *study.span(chunk))
     content = parquet_of(
@@ -71,6 +77,19 @@ def work_chunk(study: Study, chunk: int, provenance: Provenance) -> Done:
     )
     failures = sum(row["status"] != GOOD for row in rows)
     return Done(chunk, len(rows), failures, time.process_time() - begin, _worker(), content)
+
+
+@cache
+def keep_memory() -> None:
+    """Let this process keep what memory it frees, up to 64 MB, where the C library is GNU's.
+
+    Dask starts its workers so that they give back all above 64 kB at once. A trim takes and frees arrays of 38 kB to
+    1 MB all the time, and spent a third of its processor time on asking for them again.
+    """
+    with suppress(OSError, AttributeError, TypeError):
+        libc = ctypes.CDLL(None)
+        libc.mallopt(_M_TRIM_THRESHOLD, 64 * 2**20)
+        libc.mallopt(_M_MMAP_THRESHOLD, 32 * 2**20)
 
 
 def _worker() -> str:

@@ -110,5 +110,5 @@ def good_chunk(count: int, *, search: bool) -> int:
     A trim takes some 5 ms, an optimum some 0.3 s; a chunk starts cold, and is what a lost worker or a Ctrl-C costs.
     """
     most = 16 if search else 500
-    few = max(count // 64, 4)
+    few = max(count // 32, 4)
     return max(min(most, few), -(-count // 20_000))
