@@ -34,6 +34,8 @@ class Handle(Protocol):
 FOUR, INFINITE = "dynamic-wake", "dynamic-wake-infinite-blades"
 """The same theory with the rotor's own blades and with infinitely many."""
 VIEW_BUTTONS: dict[str, View] = {"3D": "3d", "Top": "top", "Blade": "blade", "Side": "side"}
+_BAR, _LEGEND = 54, 40
+"""Heights of the colour bar and of the key of the outlines [px]."""
 _TOGGLES = {"reverse_flow": "Reverse flow", "stall": "Stall", "drag_divergence": "Drag diverg."}
 
 
@@ -76,9 +78,9 @@ class Controls:
                 gui.add_dropdown("Field", tuple(FIELDS), initial_value=ViewState.field, hint=hint("field"))
             )
             self._difference = self._seen(gui.add_checkbox("Show B − A", False, visible=False, hint=hint("difference")))
-            self._bar = gui.add_html("")
+            self._bar = gui.add_html(readout.reserved(_BAR))
             self.range_buttons = gui.add_button_group("Colours", ("Rescale", "Default"), hint=hint("colours"))
-            self._legend = gui.add_html("")
+            self._legend = gui.add_html(readout.reserved(_LEGEND))
             self._toggles = {
                 name: self._seen(gui.add_checkbox(title, True, hint=hint(f"outline_{name}")))
                 for name, title in _TOGGLES.items()

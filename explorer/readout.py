@@ -157,7 +157,9 @@ def status_panel(solution: Solution | None, problem: str | None = None, pinned: 
     if problem is None and solution is not None and not solution.converged:
         problem = solution.message
     if problem is not None:
-        return _status("problem", f"{escape(problem)} In grey: the last good answer.")
+        # Whole, also where it takes a line more than the box: it then lies over numbers that no longer hold.
+        sentence = f"{escape(problem)} In grey: the last good answer."
+        return _status("problem", f'<div class="rx-sentence">{sentence}</div>')
     if solution is None:
         return _status("waiting", "Solving the first trim …")
     caveats = "".join(
@@ -195,6 +197,11 @@ def tiny(value: float) -> str:
     """The power of ten above a small positive number."""
     exponent = min(math.floor(-math.log10(value)), 15) if 0.0 < value < 1.0 else 15
     return "10⁻" + str(exponent).translate(str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹"))
+
+
+def reserved(height: int) -> str:
+    """The place of a read-out before the first answer, so that nothing moves when it comes. `height` in pixels."""
+    return f'<div class="rx"><div class="rx-reserved" style="height:{height}px"></div></div>'
 
 
 def _status(kind: str, text: str) -> str:

@@ -13,14 +13,17 @@ from rotor.aircraft import Aircraft
 from rotor.solution import Solution
 from rotor.solve import solve
 
+_POWER, _TRIM = 158, 90
+"""Heights of the two read-outs [px]."""
+
 
 class ResultsPanel:
     """One session's."""
 
     def __init__(self, gui: viser.GuiApi) -> None:
         self._status = gui.add_html(readout.status_panel(None))
-        self._power = gui.add_html("")
-        self._trim = gui.add_html("")
+        self._power = gui.add_html(readout.reserved(_POWER))
+        self._trim = gui.add_html(readout.reserved(_TRIM))
         self._check = gui.add_html("")
         self._charts = Charts(gui, *plots.blank())
         self._moment: Moment | None = None

@@ -1,5 +1,7 @@
 """The 3D scene of one client: handles made once, assigned afterwards, never made anew, whatever rotor comes."""
 
+import math
+
 import numpy as np
 import viser
 from numpy.typing import NDArray
@@ -7,7 +9,8 @@ from numpy.typing import NDArray
 from explorer import colours, meshes, viser_compat
 from explorer.disk_image import half_width
 from explorer.picture import OUTLINE_COLOURS, Blades, Picture
-from explorer.poses import Pose
+from explorer.poses import Pose, about
+from explorer.state import ViewState
 from rotor.blade import Rotor
 
 Array = NDArray[np.float64]
@@ -77,6 +80,9 @@ class Scene:
         for k in range(len(self._blades), rotor.blades):
             colour = colours.BLADE if k else colours.MARKED_BLADE
             self._blades.append(self._solid(self._api, f"/rotor/blade_{k}", meshes.Mesh(start, shape.faces), colour))
+            psi = math.radians(ViewState.azimuth_deg) + k * 2.0 * math.pi / rotor.blades
+            hinge = rotor.blade.flap_hinge * radius * np.array([math.cos(psi), math.sin(psi), 0.0])
+            _place(self._blades[k], Pose(about(2, psi), hinge))  # Until the first answer says more.
         for k, handle in enumerate(self._blades):
             handle.visible = k < rotor.blades
         self._image.render_width = self._image.render_height = 2.0 * half_width(radius)

@@ -49,7 +49,10 @@ div:has(> .mantine-Checkbox-root) { display: flex !important; }
 .rx-grid { display: grid; grid-template-columns: 1fr 1fr; column-gap: 18px; padding-top: 4px; }
 .rx-status { margin: 4px 10px 2px; padding: 5px 8px; height: 72px; overflow-y: auto; border-radius: 4px;
   font-size: 12px; line-height: 1.32; background: rgba(128,128,128,.10); }
-.rx-problem { background: #c92a2a; color: #fff; }
+.rx-reserved { border-radius: 4px; background: rgba(128,128,128,.06); }
+.rx-status.rx-problem { padding: 0; overflow: visible; background: none; position: relative; }
+.rx-sentence { position: absolute; z-index: 3; inset: 0 0 auto; min-height: 72px; padding: 5px 8px; border-radius: 4px;
+  background: #c92a2a; color: #fff; }
 .rx-good { color: #0ca678; }
 .rx-care { display: flex; gap: 6px; }
 .rx-care > span:first-child { color: #e67700; }
