@@ -7,14 +7,17 @@ LARGEST = 4 * 2**20
 """[bytes]: ten times the largest deck of section data anybody publishes."""
 _PARTS = 64
 """The page sends parts of half a megabyte; a million small ones would take a hundred times their size."""
+_OF_TYPE = {".parquet": 32 * 2**20}
+"""[bytes] the same for files that are larger by nature: results of a study, some hundred thousand designs."""
 AT_ONCE = 2
 """Files on their way from one page."""
 
 
 def refusal(name: str, size: int, parts: int, under_way: int, accepts: str) -> str | None:
     """Why a file is not taken, in a sentence; None where it is. `accepts`: as in HTML, ".json,.toml" or "*/*"."""
-    if size > LARGEST:
-        return f"{_cut(name)} has {size / 2**20:.1f} MB: {LARGEST // 2**20} MB are the most."
+    most = next((bytes for ending, bytes in _OF_TYPE.items() if name.lower().endswith(ending)), LARGEST)
+    if size > most:
+        return f"{_cut(name)} has {size / 2**20:.1f} MB: {most // 2**20} MB are the most."
     if not _fits(name, accepts):
         return f"{_cut(name)} is not of a type that is read here: choose a {accepts.replace(',', ' or ')} file."
     if under_way >= AT_ONCE:

@@ -105,11 +105,14 @@ class TestUploads:
         assert refusal("A.JSON", 1000, 1, 0, ".toml, .json") is None
         assert refusal("deck.c81", LARGEST, 8, 1, "*/*") is None
         assert refusal("empty.json", 0, 0, 0, ".json") is None
+        assert refusal("study.parquet", 8 * LARGEST, 64, 0, ".parquet") is None
 
     @pytest.mark.parametrize(
         ("sent", "sentence"),
         [
             (("film.json", 2 * LARGEST, 16, 0, ".json"), "8.0 MB: 4 MB are the most"),
+            (("study.parquet", 9 * LARGEST, 64, 0, ".parquet"), "36.0 MB: 32 MB are the most"),
+            (("large.parquet", 8 * LARGEST, 64, 0, ".json"), "choose a .json file"),
             (("film.mp4", 1000, 1, 0, ".json,.toml"), "choose a .json or .toml file"),
             (("third.json", 1000, 1, 2, ".json"), "must wait"),
             (("crumbs.json", 1000, 1000, 0, ".json"), "1000 parts"),
