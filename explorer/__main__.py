@@ -9,6 +9,7 @@ import webbrowser
 from collections.abc import Sequence
 from pathlib import Path
 
+from explorer.doors import host_name
 from explorer.house import SESSIONS, SLEEP_AFTER
 
 
@@ -77,6 +78,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument(
         "--allow-host",
         metavar="NAME",
+        type=_host_name,
         action="append",
         default=[],
         help="a name the page is reached by, as behind a reverse proxy (may be given again)",
@@ -105,6 +107,13 @@ def _port(text: str) -> int:
     if not text.isdigit() or int(text) > 65535:
         raise argparse.ArgumentTypeError(f"{text!r} is not a port: give a number in 0…65535")
     return int(text)
+
+
+def _host_name(text: str) -> str:
+    try:
+        return host_name(text)
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
 
 
 def _sessions(text: str) -> int:

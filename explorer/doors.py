@@ -66,6 +66,14 @@ class Doors:
         return tuple(_split(name)[0] for name in self.also)
 
 
+def host_name(text: str) -> str:
+    """A name as it is given to be allowed; ValueError with one sentence for what is none."""
+    name, _ = _split(text)
+    if not name:
+        raise ValueError(f"{text!r} is not the name of a host: give it as in rotor.example, without https:// and path")
+    return name
+
+
 def is_loopback(host: str) -> bool:
     """Whether an address to listen on is reached from this machine only."""
     if host.lower() == "localhost":

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 SESSIONS = 24
-"""Places by default: a class. Each takes some 5 MB, and all of them dragging at once still get a frame a second."""
+"""Places by default: a class. Each takes some 8 MB, and all of them dragging at once still get a frame a second."""
 SLEEP_AFTER = 1800.0
 """[s]; a lecture's break."""
 _SPARE = 40

@@ -60,7 +60,7 @@ _STYLE = """
 @keyframes rx-turn { to { transform: rotate(-360deg); } }
 @media (prefers-reduced-motion: reduce) { #rx-veil g { animation: none; } }
 .rx-veiled #root, .rx-veiled [class*=Notifications-root], .rx-veiled .mantine-Modal-root { visibility: hidden; }
-#rx-gone { position: fixed; z-index: 9999; left: 50%; top: 14px; transform: translateX(-50%);
+#rx-gone { position: fixed; z-index: 10001; left: 50%; top: 14px; transform: translateX(-50%);
   max-width: min(560px, 92vw);
   padding: 9px 16px 10px; border-radius: 6px; background: #c92a2a; color: #fff; box-shadow: 0 3px 16px rgba(0,0,0,.28);
   font: 13.5px/1.42 system-ui, -apple-system, "Segoe UI", Roboto, Arial, sans-serif; }
@@ -112,8 +112,8 @@ _VEIL = """<div id="rx-veil"><svg viewBox="0 0 100 100"><circle cx="50" cy="50" 
     const note = document.createElement('div');
     note.id = 'rx-gone';
     note.setAttribute('role', 'alert');
-    note.textContent = 'The server is gone, or starts again. This page goes on by itself as soon as it answers; '
-      + 'what is on the sliders stands in its address.';
+    note.textContent = 'The server does not answer: it is gone, starts again, or is full. This page goes on by itself '
+      + 'as soon as it does; what is on the sliders stands in its address.';
     document.body.append(note);
   }
 

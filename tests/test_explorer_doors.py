@@ -6,7 +6,7 @@ import time
 import pytest
 
 from explorer import memory
-from explorer.doors import Doors, is_loopback, warning
+from explorer.doors import Doors, host_name, is_loopback, warning
 from explorer.hall import Hall
 from explorer.meter import Allowance, Meter
 from explorer.turns import Turns
@@ -70,6 +70,12 @@ class TestDoors:
 
     def test_what_is_no_browser_says_no_origin_and_may(self):
         assert Doors("127.0.0.1").refusal("127.0.0.1:8080", None) is None
+
+    def test_a_name_to_allow_is_a_name(self):
+        assert host_name("Rotor.example:8080") == "rotor.example"
+        for wrong in ("https://rotor.example", "rotor.example/page", "", "a@b"):
+            with pytest.raises(ValueError, match="not the name of a host"):
+                host_name(wrong)
 
     def test_loopback(self):
         assert all(map(is_loopback, ("127.0.0.1", "127.1.2.3", "::1", "localhost")))

@@ -212,6 +212,16 @@ class TestPlaces:
         alone(work)
         settle(app)
 
+    def test_a_page_comes_in_one_piece_with_its_first_answer(self, app: App):
+        async def work() -> None:
+            visitor = await arrive(app)
+            assert visitor.frames <= 6  # What the server says to all, what it asks, and the page; not four hundred.
+            assert visitor.blade
+            assert visitor.text("total-power").endswith("kW")
+            await visitor.close()
+
+        alone(work)
+
     def test_who_leaves_before_being_known_leaves_nothing(self, app: App):
         async def work() -> None:
             for _ in range(3):

@@ -102,6 +102,27 @@ class TestCommand:
         assert caught.value.code == 2
         assert "is not a port" in capsys.readouterr().err
 
+    @pytest.mark.parametrize(("host", "lines"), [("127.0.0.1", 0), ("0.0.0.0", 2)])
+    def test_who_opens_the_server_to_others_is_warned(
+        self, host: str, lines: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    ):
+        class Started:
+            address = "http://somewhere"
+
+            def __init__(self, *_: object) -> None: ...
+
+            def settle(self) -> None:
+                raise KeyboardInterrupt
+
+            def stop(self) -> None: ...
+
+        monkeypatch.setattr("explorer.app.App", Started)
+        monkeypatch.setattr(signal, "signal", lambda *_: None)
+        assert command.main(["--host", host, "--no-browser"]) == 0
+        said = capsys.readouterr()
+        assert said.err.count("\n") == lines
+        assert ("reverse proxy" in said.err) == (lines > 0)
+
     def test_prints_its_address_and_ends_cleanly_on_interrupt(self):
         process = subprocess.Popen(
             [sys.executable, "-m", "explorer", "--port", str(free_port()), "--no-browser"],
