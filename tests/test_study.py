@@ -3,6 +3,7 @@
 import importlib
 import json
 import math
+import signal
 from collections.abc import Callable
 from dataclasses import replace
 from itertools import pairwise
@@ -15,6 +16,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from rotor.__main__ import main
 from rotor.assets import asset_path
+from rotor.command.progress import interruptible
 from rotor.presets import make_design
 from rotor.solve import solve
 from rotor.study import cluster
@@ -335,3 +337,10 @@ def test_without_the_packages_it_says_how_to_get_them(monkeypatch: pytest.Monkey
     monkeypatch.setattr(cluster.importlib, "import_module", missing)
     with pytest.raises(ValueError, match=r"pip install 'rotor-explorer\[study\]'"):
         cluster.need_packages()
+
+
+def test_one_ctrl_c_handed_on_twice_is_one():
+    with interruptible() as stop:
+        signal.raise_signal(signal.SIGINT)
+        signal.raise_signal(signal.SIGINT)
+        assert stop()

@@ -2,11 +2,14 @@
 
 import signal
 import sys
+import time
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from types import FrameType
 from typing import Any
 
+_TWICE = 0.5
+"""[s]"""
 STOPPED = 130
 """Exit code after Ctrl-C; what was found has been printed."""
 
@@ -33,13 +36,18 @@ def bar(total: int | None, unit: str) -> Generator[Callable[[str], None]]:
 
 @contextmanager
 def interruptible() -> Generator[Callable[[], bool]]:
-    """A `stop` that turns True at the first Ctrl-C; the second one breaks off at once."""
-    asked: list[int] = []
+    """A `stop` that turns True at the first Ctrl-C; the second one breaks off at once.
+
+    Some programs hand one Ctrl-C on twice, to a process and to its group: within half a second two are one.
+    """
+    asked: list[float] = []
 
     def ask(number: int, frame: FrameType | None) -> None:
-        del frame
-        asked.append(number)
-        signal.signal(signal.SIGINT, signal.default_int_handler)
+        now = time.monotonic()
+        if asked and now - asked[0] > _TWICE:
+            signal.default_int_handler(number, frame)
+        if not asked:
+            asked.append(now)
 
     before = signal.signal(signal.SIGINT, ask)
     try:
