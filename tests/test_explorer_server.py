@@ -139,7 +139,7 @@ class TestCommand:
                 assert line, "ended without printing its address"
                 printed += line
             process.send_signal(signal.SIGINT)
-            _, error = process.communicate(timeout=20)
+            _, error = process.communicate(timeout=60)
         finally:
             process.kill()
         assert process.returncode == 0
