@@ -57,13 +57,13 @@ def test_pin_move_compare_swap_back_and_let_go(browser: "Browser", app: App):
     disk = watched.node("/rotor/disk/field")
     watched.press("Inner", "PageUp", 4)
     moved = watched.until_changed(lambda: total_row(watched)[2], "0.0")
-    page.wait_for_timeout(500)
-    a, b, apart, percent = total_row(watched)
+    a, b, apart, percent = watched.at_rest(lambda: total_row(watched))
     assert f"{a} kW" == begun
     assert f"{b} kW" == watched.text("total-power")
     assert re.fullmatch(r"[+−]\d+\.\d", moved)
     assert watched.text("change").startswith(percent)
-    plain = watched.until_changed(lambda: watched.node("/rotor/disk/field"), disk)
+    watched.until_changed(lambda: watched.node("/rotor/disk/field"), disk)
+    plain = watched.at_rest(lambda: watched.node("/rotor/disk/field"))
 
     page.get_by_label("Show B − A").check()
     watched.until_changed(lambda: watched.node("/rotor/disk/field"), plain)
@@ -72,13 +72,13 @@ def test_pin_move_compare_swap_back_and_let_go(browser: "Browser", app: App):
     press(watched, "Swap A and B")
     watched.until_changed(lambda: watched.text("total-power"), f"{b} kW")
     watched.until_changed(lambda: total_row(watched)[2], apart)
-    swapped = total_row(watched)
+    swapped = watched.at_rest(lambda: total_row(watched))
     assert swapped[:2] == [b, a]
     assert swapped[2].lstrip("+−") == apart.lstrip("+−")
 
     press(watched, "Back to A")
     watched.until_changed(lambda: total_row(watched)[2], swapped[2])
-    assert total_row(watched) == [b, b, "0.0", "0.0"]
+    assert watched.at_rest(lambda: total_row(watched)) == [b, b, "0.0", "0.0"]
 
     press(watched, "Unpin")
     page.wait_for_selector('[data-explorer="ab"]', state="detached", timeout=WAIT)

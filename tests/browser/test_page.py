@@ -71,6 +71,17 @@ class Watched:
             self.page.wait_for_timeout(100)
         raise AssertionError(f"nothing changed: still {before!r:.200}")
 
+    def at_rest(self, read: Callable[[], Any], rest: float = 1.2) -> Any:
+        """What is read once it has stayed the same so long [s]: a busy machine is still answering the last key."""
+        now, since = read(), time.monotonic()
+        deadline = since + WAIT / 1e3
+        while time.monotonic() - since < rest:
+            assert time.monotonic() < deadline, f"never at rest: {now!r:.200}"
+            self.page.wait_for_timeout(100)
+            if (new := read()) != now:
+                now, since = new, time.monotonic()
+        return now
+
     def node(self, name: str) -> str:
         """A digest of what the browser holds for a scene node: vertices or picture."""
         return self.page.evaluate(
