@@ -6,12 +6,7 @@ that feeds it, so a process that dies or hangs costs its own job and nothing els
 
 import itertools
 import threading
-import time
 from collections.abc import Callable
-from contextlib import suppress
-from multiprocessing import get_context
-from multiprocessing.connection import Connection, wait
-from typing import Any
 
 from explorer.job import Broken as Broken
 from explorer.job import Ended as Ended
@@ -20,17 +15,9 @@ from explorer.job import News as News
 from explorer.job import Started as Started
 from explorer.job import Told as Told
 from explorer.job import Waiting as Waiting
-from explorer.job_process import Begin, Halt, Said, Task, serve
+from explorer.job_hand import Hand
+from explorer.job_process import Task
 from explorer.job_queue import MOST_WAITING, Queue
-
-PATIENCE = 0.12
-"""A process that has not answered a stop by then [s] is no longer waited for: the job ends with what was told."""
-GRACE = 3.0
-"""A process that goes on for so long after a stop [s] is ended."""
-_LOOK = 2.0
-"""How often a thread without work looks whether its process still lives [s]."""
-_START = 60.0
-"""[s] a new process may take to import and compile."""
 
 
 class Pool:
@@ -40,7 +27,7 @@ class Pool:
         self._numbers = itertools.count(1)
         self._queue = Queue(processes)
         self._change = threading.Condition()
-        self._hands: list[_Hand] = []
+        self._hands: list[Hand] = []
         self._processes = processes
         self._closed = False
 
@@ -157,7 +144,7 @@ class Pool:
                 self._add_hand()
 
     def _add_hand(self) -> None:
-        hand = _Hand(self, f"jobs-{len(self._hands)}")
+        hand = Hand(self, f"jobs-{len(self._hands)}")
         self._hands.append(hand)
         hand.start()
 
@@ -187,105 +174,3 @@ class Share:
     def leave(self) -> None:
         """The page has gone."""
         self._pool.leave()
-
-
-class _Hand(threading.Thread):
-    """A thread and the process that it feeds."""
-
-    def __init__(self, pool: Pool, name: str) -> None:
-        super().__init__(name=name, daemon=True)
-        self.idle = True
-        self._pool = pool
-        self._process: Any = None
-        self._pipe: Connection[Any, Any] | None = None
-        self._closed = False
-
-    @property
-    def pid(self) -> int | None:
-        process = self._process
-        return process.pid if process is not None and process.is_alive() else None
-
-    def run(self) -> None:
-        while not self._pool.closed:
-            with suppress(OSError, EOFError):
-                self._ready()  # Warm before anybody asks, and again after it was lost.
-            job = self._pool.next(_LOOK)
-            if job is None:
-                continue
-            self.idle = False
-            try:
-                self._do(job)
-            except (OSError, EOFError):
-                self._drop()
-                job.tell(Broken("The worker process ended unexpectedly; a new one is on its way. Press again."))
-            except Exception as error:  # A task that does not pickle, for example: the hand must live on.
-                job.tell(Broken(f"The work could not be done: {error}"))
-            self.idle = True
-            self._pool.done(job)
-            self._pool.spare()
-
-    def close(self) -> None:
-        self._closed = True
-        self._drop()
-
-    def _ready(self) -> "Connection[Any, Any]":
-        """A live, warm process."""
-        if self.pid is None or self._pipe is None:
-            self._drop()
-            context = get_context("spawn")
-            pipe, theirs = context.Pipe()
-            process = context.Process(target=serve, args=(theirs,), name=self.name, daemon=True)
-            process.start()
-            theirs.close()  # So that the pipe ends with the process.
-            self._process, self._pipe = process, pipe
-            if self._closed:
-                self._drop()
-            if not pipe.poll(_START):
-                raise EOFError
-            pipe.recv()
-            return pipe
-        return self._pipe
-
-    def _do(self, job: Job) -> None:
-        pipe = self._ready()
-        if job.stopping.is_set():
-            job.tell(Ended(None, stopped=True))
-            return
-        job.tell(Started())
-        begun, asked, late = time.monotonic(), None, False
-        pipe.send(Begin(job.number, job.task))
-        while True:
-            now = time.monotonic()
-            if now - begun > job.limit and asked is None:
-                late = True
-                job.stopping.set()
-            if job.stopping.is_set() and asked is None:
-                asked = now
-                pipe.send(Halt(job.number))
-            if asked is not None and now - asked > PATIENCE:
-                job.tell(Ended(None, stopped=True, late=late))
-            if asked is not None and now - asked > GRACE:
-                self._drop()
-                return
-            if not wait([pipe], 0.01):
-                continue
-            said: Said = pipe.recv()
-            if said.number != job.number:
-                continue
-            if said.kind == "told":
-                job.tell(Told(said.item))
-            elif said.kind == "done":
-                job.tell(Ended(said.item, stopped=asked is not None, late=late))
-                return
-            else:
-                job.tell(Broken(f"The work failed ({said.item})."))
-                return
-
-    def _drop(self) -> None:
-        process, self._process = self._process, None
-        pipe, self._pipe = self._pipe, None
-        if process is not None and process.is_alive():
-            process.kill()
-            process.join(1.0)
-        if pipe is not None:
-            pipe.close()
