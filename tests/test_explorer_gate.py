@@ -121,6 +121,7 @@ class TestDoors:
             App("no.such.host.invalid", 0)
 
 
+@pytest.mark.slow
 class TestStrangers:
     def test_a_request_for_a_public_tunnel_reaches_nobody(self, app: App, monkeypatch: pytest.MonkeyPatch):
         asked = threading.Event()
@@ -201,6 +202,7 @@ class TestUploads:
         assert _messages.RemoveNotificationMessage("x").uuid == "x"
 
 
+@pytest.mark.slow
 class TestPlaces:
     def test_the_third_waits_and_is_seated_when_one_leaves(self, app: App):
         async def work() -> None:

@@ -59,6 +59,7 @@ def test_energy_identity_and_closure():
     assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-9)
 
 
+@pytest.mark.slow
 def test_the_lattice_is_fine_enough(monkeypatch: pytest.MonkeyPatch):
     """Power on 16 × 36 panels and 40 elements against 24 × 60 and 80: 0.4 %."""
     import rotor.inflow.vortex_wake as module

@@ -39,6 +39,7 @@ def grid_powers(design: Design, concept_name: str, *axes: np.ndarray) -> np.ndar
     return out
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("mu", [0.0, 0.2, 0.35])
 def test_grid_finds_nothing_better_in_one_variable(mu: float):
     design = small(mu)
@@ -130,6 +131,7 @@ def test_seed_decides_everything():
     assert_allclose(other.best.power, first.best.power, rtol=1e-6)  # The same minimum from elsewhere.
 
 
+@pytest.mark.slow
 def test_many_starts_end_in_one_minimum_and_richer_concepts_do_better():
     design = small(0.25)
     powers = {}

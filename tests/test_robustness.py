@@ -38,7 +38,7 @@ def check(solution: Solution) -> None:
         assert solution.message.startswith(("Not trimmed:", "The trim found"))
 
 
-@settings(max_examples=120)
+@settings(max_examples=60)
 @given(
     preset=st.sampled_from(PRESETS),
     inflow=st.sampled_from(sorted(INFLOW_MODELS)),

@@ -104,6 +104,7 @@ def test_two_processes_find_the_same():
         assert a.optimum.best == b.optimum.best
 
 
+@pytest.mark.slow
 def test_what_is_found_survives_a_stop_and_is_not_sought_again(tmp_path: Path):
     path, whole = tmp_path / "found.jsonl", plan("linear", "two-segment")
     heard: list[Cell] = []

@@ -37,6 +37,7 @@ def test_axial_optimum_is_prandtls(axial: float, tolerance: float):
     assert_allclose(power * 2.0 * axial / 0.005**2, 0.5 / np.trapezoid(factor * r, r), rtol=tolerance)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", [("0.1", "0.032"), ("0.2", "0.0257"), ("0.3", "0.043")], ids=str)
 def test_inflow_matches_an_independent_lattice(case: tuple[str, str]):
     """Field values at 24 × 72 from another program with the same rules, itself good to 1–2 %."""
