@@ -115,7 +115,7 @@ CONTROLS: dict[str, Entry] = {
     "harmonic": Entry("How often the twist goes up and down in a revolution; it rests in hover."),
     "amplitude": Entry("Of the twist that follows the azimuth, as part of half the voltage range."),
     "phase": Entry("Of the twist that follows the azimuth: the tip is most nose-up at phase over harmonic."),
-    "step": Entry("Back (Ctrl+Z), forth (Ctrl+Shift+Z), or set the design aside (M)."),
+    "keep": Entry("Sets the design aside (M), to come back to or to compare with."),
     "take": Entry("Clicks on the strip write here which step to take."),
     "link": Entry("Copies the page's address, which holds the whole design."),
     "save": Entry("Saves the design as a file that people and the command line can read."),

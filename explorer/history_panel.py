@@ -1,7 +1,6 @@
 """Undo, redo, the strip of steps and the kept designs of one session."""
 
 import threading
-from typing import Any
 
 import viser
 
@@ -26,14 +25,14 @@ class HistoryPanel:
         self._kept: list[Kept] = []
         self._drawn: object = None
         with gui.add_folder("History"):
-            self._buttons = gui.add_button_group("Step", ("Undo", "Redo", "Keep"), hint=hint("step"))
             self._strip = gui.add_html("")
+            keep = gui.add_button("Keep this design", color="gray", hint=hint("keep"))
             self._rows = gui.add_html("")
             gui.add_html('<div class="rx-bridge"></div>')  # The style sheet hides the row after it.
             self._field = gui.add_text(FIELD, "", hint=hint("take"))
         for name, act in (("undo", self.undo), ("redo", self.redo), ("keep", self.keep)):
             desk.bind(name, act)
-        self._buttons.on_click(self._clicked)
+        keep.on_click(lambda _: self.keep())
         self._field.on_update(lambda event: self._asked() if event.client is not None else None)
 
     def read(self, pause: float) -> Inputs:
@@ -98,9 +97,6 @@ class HistoryPanel:
             self._desk.wake()
         else:
             self._desk.set_inputs(inputs)
-
-    def _clicked(self, event: viser.GuiEvent[Any]) -> None:
-        {"Undo": self.undo, "Redo": self.redo, "Keep": self.keep}[event.target.value]()
 
     def _asked(self) -> None:
         asked = history_view.asked(self._field.value)

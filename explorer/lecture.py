@@ -28,7 +28,6 @@ class Step:
     field: str = "Induced inflow λi"
     tab: str = "Results"
     """Of the left panel, to be opened."""
-    view: str = "3d"
 
 
 def view_of(step: Step, view: ViewState) -> ViewState:
@@ -47,17 +46,11 @@ def _shares(moment: Moment) -> str:
     return f"Now {_kw(power.total)}: {shares}."
 
 
-def _change(part: str) -> Say:
-    """The change of one part of the power from A to B."""
-
-    def say(moment: Moment) -> str:
-        before, after = _powers(moment)
-        a, b = getattr(before, part), getattr(after, part)
-        name = {"induced": "Induced power", "total": "Total power"}[part]
-        change = number(100.0 * (b / a - 1.0), 1, sign=True)
-        return f"{name}: A {_kw(a)}, B {_kw(b)}; {_kw(b - a, sign=True)} ({change} %)."
-
-    return say
+def _induced(moment: Moment) -> str:
+    before, after = _powers(moment)
+    a, b = before.induced, after.induced
+    change = number(100.0 * (b / a - 1.0), 1, sign=True)
+    return f"Induced power: A {_kw(a)}, B {_kw(b)}; {_kw(b - a, sign=True)} ({change} %)."
 
 
 def _both(moment: Moment) -> str:
@@ -108,7 +101,7 @@ STEPS: tuple[Step, ...] = (
         "evens the inflow: the same thrust for less induced power.",
         "Drag Rate on from −16° towards −24°: the gain ends where the inflow becomes uneven the other way.",
         replace(_LINEAR, linear=-16.0, advance_ratio=0.0),
-        _change("induced"),
+        _induced,
         against=replace(_LINEAR, linear=0.0, advance_ratio=0.0),
     ),
     Step(
@@ -135,7 +128,7 @@ STEPS: tuple[Step, ...] = (
         " (B) costs it induced power against −8° (A). Four blades shed a wake that beats with them.",
         "Untick Infinite blades (Model folder): with four blades the same twist costs nothing.",
         replace(_LINEAR, linear=-16.0, advance_ratio=0.3, inflow="dynamic-wake-infinite-blades"),
-        _change("induced"),
+        _induced,
         against=replace(_LINEAR, linear=-8.0, advance_ratio=0.3, inflow="dynamic-wake-infinite-blades"),
     ),
     Step(

@@ -40,6 +40,7 @@ class LecturePanel:
         with gui.add_folder("Present to others"):
             self._present = gui.add_button("Present", icon=viser.Icon.PRESENTATION, color="gray", hint=hint("present"))
             gui.add_html(_PRESENTING)
+            self._name_present()  # A presenter who loads the page again presents on.
         self._caption_panel = gui.add_panel(visible=False)
         with self._caption_panel.add_tab("Lecture", viser.Icon.SCHOOL):
             self._caption = gui.add_html("")
@@ -129,6 +130,9 @@ class LecturePanel:
             self._presence.end()
         else:
             self._presence.present()
+        self._name_present()
+
+    def _name_present(self) -> None:
         self._present.label = "Stop presenting" if self._presence.presenting else "Present"
 
     def _take_case(self, event: viser.GuiEvent[Any]) -> None:

@@ -67,10 +67,6 @@ class Presence:
     def presenting(self) -> bool:
         return bool(self._secret)
 
-    @property
-    def following(self) -> bool:
-        return bool(self._name)
-
     def present(self) -> None:
         """Begin to present; the link of followers goes into the clipboard. The own address remembers it."""
         if self._name:
@@ -80,10 +76,9 @@ class Presence:
             self._address[PRESENT] = self._secret
         self._stage.watch(self._secret, self._announce)
         self._publish()
-        link = f"location.origin+location.pathname+'?{FOLLOW}={follow_name(self._secret)}'"
-        viser_compat.copy_text(self._client, link)
+        viser_compat.copy_text(self._client, f"new URL('{self._link}', location.href).href")
         if self._desk is not None:
-            self._desk.tell("Presenting", "The link for those who follow is in the clipboard.")
+            self._desk.tell("Presenting", "The link for those who follow is in the clipboard, and in the line above.")
 
     def end(self) -> None:
         """Stop presenting."""
@@ -129,7 +124,14 @@ class Presence:
         self._stage.present(self._secret, shown)
 
     def _announce(self, count: int) -> None:
-        self._say(f"Presenting: {count} {'follows' if count == 1 else 'follow'}.")
+        follow = "follows" if count == 1 else "follow"
+        link = f'<a href="{self._link}" target="_blank" rel="noopener">the link for others</a>'
+        self._say(f"Presenting: {count} {follow}; {link}.")
+
+    @property
+    def _link(self) -> str:
+        """What followers open, relative to the page."""
+        return f"?{FOLLOW}={follow_name(self._secret)}"
 
     def _hold_still(self) -> None:
         """A follower's page shows the presenter's design: viser's number fields can be typed into even if disabled."""

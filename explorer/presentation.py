@@ -1,18 +1,21 @@
 """One page presents, others follow: what the presenters of a server show, and who looks. Any thread may call."""
 
 import hashlib
+import logging
 import secrets
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from explorer.state import Inputs, ViewState
 
+_log = logging.getLogger(__name__)
+
 PRESENT, FOLLOW = "present", "follow"
 """Names in the page's address: the presenter's own secret, and what the others are given."""
 
-
 Point = tuple[float, float, float]
+"""[m]"""
 
 
 @dataclass(frozen=True)
@@ -66,8 +69,7 @@ class Stage:
                 return
             self._shown[name] = shown
             listeners = tuple(self._listeners.get(name, {}).values())
-        for listener in listeners:
-            listener(shown)
+        _tell(listeners, shown)
 
     def end(self, secret: str) -> None:
         """The presenter has stopped; who follows keeps what was shown last."""
@@ -76,8 +78,7 @@ class Stage:
             self._shown.pop(name, None)
             self._watchers.pop(name, None)
             listeners = tuple(self._listeners.get(name, {}).values())
-        for listener in listeners:
-            listener(None)
+        _tell(listeners, None)
 
     def follow(self, name: str, listener: Listener) -> Callable[[], None]:
         """Hear what is shown, from now on; the answer ends it. A presenter who has not come yet is waited for."""
@@ -99,14 +100,17 @@ class Stage:
 
         return leave
 
-    @property
-    def names(self) -> tuple[str, ...]:
-        """Of what is presented now."""
-        with self._lock:
-            return tuple(self._shown)
-
     def _count(self, name: str) -> None:
         with self._lock:
             watcher, count = self._watchers.get(name), len(self._listeners.get(name, {}))
         if watcher is not None:
             watcher(count)
+
+
+def _tell(listeners: Iterable[Listener], shown: Shown | None) -> None:
+    """One page that cannot follow, because its browser is just leaving, must not keep it from the others."""
+    for listener in listeners:
+        try:
+            listener(shown)
+        except Exception:
+            _log.exception("a follower did not hear")

@@ -4,10 +4,12 @@
 """
 
 import json
+from dataclasses import replace
 from typing import Any
 
-from explorer.sliders import SLIDERS, limits
-from explorer.state import Inputs, inputs_of
+from explorer.sliders import SLIDERS, limits, slider
+from explorer.state import LAWS, Inputs, inputs_of
+from explorer.units import SI
 from rotor.case import case_of, design_of
 from rotor.design import Design
 from rotor.presets import make_design
@@ -22,6 +24,8 @@ LONGEST = 1800
 
 _SHORT = {"advance_ratio": "mu", "mass_kg": "mass", "altitude_m": "alt"}
 _LONG = {short: key for key, short in _SHORT.items()}
+_PLAIN = Inputs()
+_TWISTS = tuple(name for law in LAWS.values() for name in law.inputs)
 _NEVER = ("format", "version", "twist")
 
 
@@ -71,15 +75,26 @@ def inputs_from(code: str) -> Inputs:
 
 
 def within(inputs: Inputs) -> Inputs:
-    """The inputs, where the page's sliders can hold them; else ValueError with one sentence."""
+    """The inputs, where the page's sliders can hold them; else ValueError with one sentence.
+
+    A twist beyond its sliders is kept as it is, as one from a file.
+    """
+    if any(not _holds(name, inputs) for name in LAWS[inputs.law].inputs):
+        law = inputs.design().twist
+        inputs = replace(inputs, law="given", given=law, **{name: getattr(_PLAIN, name) for name in _TWISTS})
     for name in SLIDERS:
-        value, (low, high) = getattr(inputs, name), limits(name, inputs.aircraft)
-        if not low - 1e-9 <= value <= high + 1e-9:
-            title = name.replace("_", " ")
+        if not _holds(name, inputs):
+            form = slider(name, SI, inputs.aircraft)
             raise ValueError(
-                f"The design has {title} {value:g}, outside this page's {low:g}…{high:g}: bring it inside."
+                f"{form.label} is {getattr(inputs, name):g}, outside this page's {form.low:g}…{form.high:g}: "
+                "bring it inside."
             )
     return inputs
+
+
+def _holds(name: str, inputs: Inputs) -> bool:
+    low, high = limits(name, inputs.aircraft)
+    return low - 1e-9 <= getattr(inputs, name) <= high + 1e-9
 
 
 def _reads_file(twist: str) -> bool:

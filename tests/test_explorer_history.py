@@ -142,6 +142,13 @@ class TestShare:
         r = (0.2, 0.33, 0.75, 1.0)
         assert design_from(code).twist(r) == pytest.approx(table(r), abs=1e-8)
 
+    @pytest.mark.parametrize("twist", ["linear:-35", "segments:-40,-2@0.5", "segments:-8,-2@0.1"])
+    def test_a_twist_beyond_the_sliders_is_kept_as_it_is(self, twist: str):
+        inputs = inputs_from(f"1;{twist};mu=0.3")
+        assert inputs.law == "given"
+        assert inputs.design().twist.spec() == twist
+        assert code_of(inputs.design()) == f"1;{twist};mu=0.3"
+
     @pytest.mark.parametrize(
         ("code", "sentence"),
         [
@@ -155,7 +162,7 @@ class TestShare:
             ("1;linear:-8;wings=2", "unknown key 'wings'"),
             ("1;linear:-8;inflow=magic", "magic"),
             ("1;bent:3", "is not known"),
-            ("1;linear:-8;mu=0.47", "outside this page"),
+            ("1;linear:-8;mu=0.47", "Adv. ratio µ is 0.47, outside this page's 0…0.45"),
             ("1;linear:-8;mass=1e9", "mass"),
             ("1;linear:-8" + ";mu=0.2" * 400, f"{LONGEST} are the most"),
         ],

@@ -138,6 +138,19 @@ class TestStage:
         assert late[-1] is None
         assert counted == [1, 2, 1]
 
+    def test_one_that_fails_does_not_keep_it_from_the_others(self, caplog: pytest.LogCaptureFixture):
+        stage, secret = Stage(), new_secret()
+        heard: list[Shown | None] = []
+
+        def fails(_: Shown | None) -> None:
+            raise RuntimeError("its browser has just left")
+
+        stage.follow(follow_name(secret), fails)
+        stage.follow(follow_name(secret), heard.append)
+        stage.present(secret, Shown(Inputs(), ViewState()))
+        assert len(heard) == 1
+        assert "did not hear" in caplog.text
+
     def test_the_name_does_not_tell_the_secret(self):
         stage, secret = Stage(), new_secret()
         heard: list[Shown | None] = []

@@ -73,7 +73,7 @@ def test_designs_of_other_rotors_in_addresses_and_files():
     code = share.code_of(R22.design())
     assert code == "1;linear:-8;rotor=r22;mass=621"
     assert share.inputs_from(code) == R22
-    with pytest.raises(ValueError, match=r"mass t 8\.32, outside this page's 0\.37"):
+    with pytest.raises(ValueError, match=r"Weight \[t\] is 8\.32, outside this page's 0\.37"):
         share.within(replace(R22, mass_t=8.32))
     own = with_rotor(Inputs(), OWN, Shelf().take("my.toml", GOOD.encode()).aircraft)
     with pytest.raises(ValueError, match="A rotor of your own fits in no address: save it as a design file"):

@@ -70,7 +70,10 @@ def test_others_follow_the_presenter_and_may_leave(browser: "Browser", app: App)
     page.get_by_role("tab", name="Lecture").click()
     page.get_by_role("button", name="Present", exact=True).click()
     page.wait_for_function("() => location.search.includes('present=')", timeout=WAIT)
-    (name,) = app.stage.names
+    link = presenter.page.locator('[data-explorer="presence"] a').get_attribute("href")
+    assert link is not None
+    name = link.removeprefix("?follow=")
+    assert name not in page.url  # The address holds the presenter's secret, the link does not.
     follower = opened(browser, app, f"&follow={name}")
     other = follower.page
     assert "moves by itself" in follower.text("presence")
