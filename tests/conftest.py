@@ -16,8 +16,9 @@ ROOT = Path(__file__).parent.parent
 IN_CI = os.environ.get("CI", "").lower() in ("1", "true")
 
 # The same examples every time and no clock: a test that fails here fails everywhere.
-# HYPOTHESIS_PROFILE=wide searches further, and differently every time.
-hypothesis.settings.register_profile("repeatable", derandomize=True, deadline=None, max_examples=50)
+# CI looks at more of them (HYPOTHESIS_PROFILE=thorough); `wide` searches further, and differently every time.
+hypothesis.settings.register_profile("repeatable", derandomize=True, deadline=None, max_examples=25)
+hypothesis.settings.register_profile("thorough", derandomize=True, deadline=None, max_examples=200)
 hypothesis.settings.register_profile("wide", deadline=None, max_examples=1000)
 hypothesis.settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
 

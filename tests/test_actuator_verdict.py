@@ -46,6 +46,7 @@ def verdict(id: str = "MFC_P1", concept: str = "linear", kind: str = "new", shar
     return judge(find_actuator(id), pair(), find_concept(concept), default_placement(2), host)
 
 
+@pytest.mark.slow
 def test_baseline_against_the_optimiser():
     """Two codes for one optimum: the search of `optimise` finds no better linear twist at either condition."""
     base = baseline(pair(), find_concept("linear"))
@@ -55,6 +56,7 @@ def test_baseline_against_the_optimiser():
         assert_allclose(best.power, found.best.power, rtol=1e-5)
 
 
+@pytest.mark.slow
 def test_reached_against_brute_force():
     """Linear jig and one swing on a grid: nothing on it is better, and the neighbours are barely worse."""
     judged = verdict()
@@ -74,6 +76,7 @@ def test_reached_against_brute_force():
     assert_allclose(judged.reached.power, least, rtol=2e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("concept", CONCEPTS)
 def test_moving_beats_fixed_before_it_is_carried(concept: str):
     judged = verdict(concept=concept)
@@ -139,6 +142,7 @@ def test_sentence_says_what_the_numbers_say():
     assert "rotor-speed" in passive.sentence
 
 
+@pytest.mark.slow
 def test_thesis_preset_asks_for_more():
     """The document's optima lie farther apart (−13.5° in hover, −4…−8° fast): no ply reaches that on this blade."""
     base = baseline(pair("thesis"), find_concept("linear"))
@@ -206,6 +210,7 @@ def test_command_json(capsys: pytest.CaptureFixture[str]):
     assert answer["net_saving_w"] < answer["gross_saving_w"]
 
 
+@pytest.mark.slow
 def test_command_text(capsys: pytest.CaptureFixture[str]):
     assert main(["actuator", "--preset", "thesis", "--blade", "new", "--harmonic", "2"]) == 0
     out, _ = capsys.readouterr()

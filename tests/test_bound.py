@@ -19,6 +19,7 @@ def rows(path: Path) -> list[dict[str, str]]:
     return list(csv.DictReader(line for line in lines if not line.startswith("#")))
 
 
+@pytest.mark.slow
 def test_the_command_makes_the_asset(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     path = tmp_path / "bound.csv"
     assert main(["ideal", "--mu", "0.3", "--mass-kg", "8322.4", "--csv", str(path)]) == 0
@@ -39,7 +40,7 @@ def test_more_freedom_never_costs():
     assert 1.0 < bound.any_circulation < bound.lift_limited < bound.steady_twist < bound.linear_twist
 
 
-@pytest.mark.parametrize("inflow", ["dynamic-wake", "vortex-wake"])
+@pytest.mark.parametrize("inflow", ["dynamic-wake", pytest.param("vortex-wake", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("mu", [0.1, 0.2, 0.3])
 def test_no_blade_of_ours_is_below_the_bound(inflow: str, mu: float):
     design = make_design(advance_ratio=mu, twist="linear:-14")

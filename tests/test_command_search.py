@@ -183,8 +183,9 @@ def test_ctrl_c_prints_the_best_so_far(capsys: pytest.CaptureFixture[str], monke
     assert answer["twist"].startswith("segments:")
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
-@pytest.mark.parametrize("processes", ["1", pytest.param("2", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("processes", ["1", "2"])
 def test_ctrl_c_on_a_schedule_keeps_what_is_found(processes: str, tmp_path: Path):
     found = tmp_path / "found.jsonl"
     started = subprocess.Popen(

@@ -236,6 +236,7 @@ def test_an_old_verdict_is_not_shown_as_the_new_one(verdict: Verdict):
     assert actuator_table.table_panel(findings, other).count("computing…") == len(ALL)
 
 
+@pytest.mark.slow
 def test_derating_of_ones_own_counts(verdict: Verdict):
     half = answer(replace(question_of(ActuatorInputs(), DESIGN), share=0.5))
     assert isinstance(half, Verdict)
@@ -294,6 +295,7 @@ def test_the_study_answers_the_newest_question():
     study.stop()
 
 
+@pytest.mark.slow
 def test_what_nobody_asked_for_waits_until_the_page_is_still(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(actuator_study, "IDLE", 0.15)
     here = Here()

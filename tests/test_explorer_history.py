@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from explorer.address import parameter, with_parameter
@@ -121,7 +121,6 @@ def positions(draw: st.DrawFn) -> Inputs:
 
 
 class TestShare:
-    @settings(max_examples=60, deadline=None)
     @given(positions())
     def test_address_and_back(self, inputs: Inputs):
         design = inputs.design()

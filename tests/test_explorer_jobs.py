@@ -203,6 +203,7 @@ def test_a_task_that_cannot_travel_says_so(pool: Pool):
     assert heard.until(Ended) == Ended(1)
 
 
+@pytest.mark.slow
 def test_a_killed_process_is_reported_and_replaced(pool: Pool):
     _, heard = submit(pool, Killed())
     assert "ended unexpectedly" in heard.until(Broken).message
@@ -259,6 +260,7 @@ def test_closing_ends_every_process():
     assert after.until(Broken)
 
 
+@pytest.mark.slow
 def test_worker_processes_load_no_page():
     code = "import sys, explorer.job_process, explorer.tasks; print('viser' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)

@@ -123,6 +123,7 @@ class TestCommand:
         assert said.err.count("\n") == lines
         assert ("reverse proxy" in said.err) == (lines > 0)
 
+    @pytest.mark.slow
     def test_prints_its_address_and_ends_cleanly_on_interrupt(self):
         process = subprocess.Popen(
             [sys.executable, "-m", "explorer", "--port", str(free_port()), "--no-browser"],

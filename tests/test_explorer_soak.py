@@ -2,6 +2,8 @@
 
 import json
 import os
+import subprocess
+import sys
 import time
 
 import msgspec.msgpack
@@ -12,7 +14,6 @@ import zstandard
 from explorer.soak import command, wire
 from explorer.soak.figures import Memory, Visit, delays, judge, memory, words
 from explorer.soak.process import processor_seconds, resident_mb
-from explorer.soak.run import Soak, soak
 from explorer.soak.visitor import Visitor
 
 
@@ -145,8 +146,11 @@ class TestCommand:
 
 @pytest.mark.slow
 def test_a_short_soak_loses_nothing():
-    report = soak(Soak(browsers=4, minutes=0.12))
-    assert report.lost == ()
-    assert report.complaints == ()
-    assert report.rounds >= 4
-    assert report.answered > 40
+    """As a user types it. Whether memory grows takes minutes to tell, so the exit code is not asked."""
+    typed = [sys.executable, "-m", "explorer", "soak", "--browsers", "4", "--minutes", "0.12", "--json"]
+    ended = subprocess.run(typed, capture_output=True, text=True, timeout=120, check=False)
+    assert ended.stdout, ended.stderr
+    report = json.loads(ended.stdout)
+    assert (report["lost"], report["complaints"]) == ([], [])
+    assert report["rounds"] >= 4
+    assert report["answered"] > 40

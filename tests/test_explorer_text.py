@@ -228,6 +228,7 @@ class TestPowerCurves:
         assert_allclose(known.design[k], solve(design).power.total / 1e3, rtol=1e-6)
         assert_allclose(known.reference[k], solve(baseline_of(design)).power.total / 1e3, rtol=1e-6)
 
+    @pytest.mark.slow
     def test_speed_does_not_make_a_new_curve(self):
         design = Inputs(advance_ratio=0.2).design()
         curves = PowerCurves()
@@ -262,6 +263,7 @@ class TestPowerCurves:
         assert not curves.sweep(following, baseline_of(following), lambda: True)  # Fresh enough: given up.
         assert np.isfinite(curves.known(following, baseline_of(following)).design[1:10]).all()  # The one before stays.
 
+    @pytest.mark.slow
     def test_a_coarse_curve_is_swept_again_when_there_is_time(self):
         curves = PowerCurves(haste=math.inf)
         design = Inputs(law="linear", linear=-8.0).design()

@@ -56,6 +56,7 @@ def test_grid_finds_nothing_better_in_one_variable(mu: float):
     assert_allclose(found.best.power, c - b * b / (4.0 * a), rtol=2e-4)
 
 
+@pytest.mark.slow
 def test_grid_finds_nothing_better_in_two_variables():
     design = small(0.25)
     axis = np.radians(np.arange(-30.0, 10.1, 4.0))
@@ -101,6 +102,7 @@ def test_band_in_one_variable_is_where_the_power_is_a_thousandth_higher():
         assert_allclose(power / found.best.power - 1.0, 1e-3, atol=5e-5)
 
 
+@pytest.mark.slow
 def test_band_in_two_variables_on_a_grid():
     """Along one parameter the other is free: the grid's points inside the band reach as far, to a grid step."""
     design = small(0.3)
@@ -121,6 +123,7 @@ def same(a: Optimum, b: Optimum) -> bool:
     return replace(a, elapsed=0.0) == replace(b, elapsed=0.0)
 
 
+@pytest.mark.slow
 def test_seed_decides_everything():
     search = Search(small(0.2), CONCEPTS["two-segment"], starts=3, seed=4)
     assert same(optimise(search), optimise(pickle.loads(pickle.dumps(search))))
@@ -255,6 +258,7 @@ def test_limits_that_nothing_keeps_are_said():
     assert "limits" in found.message
 
 
+@pytest.mark.slow
 def test_near_the_edge_of_flight_starts_that_do_not_trim_are_survived():
     """At µ 0.4 and 9.3 t strong untwist does not trim: the search goes round it."""
     design = replace(small(0.4), condition=FlightCondition(0.4, 9300.0))

@@ -20,7 +20,7 @@ TWISTS = ["uh60a", "linear:0", "linear:-16", "segments:-20,-4@0.5", "quadratic:8
 
 
 @pytest.mark.parametrize("inflow", INFLOW_MODELS)
-@pytest.mark.parametrize("mu", [0.08, 0.2, 0.35])
+@pytest.mark.parametrize("mu", [0.08, pytest.param(0.2, marks=pytest.mark.slow), 0.35])
 @pytest.mark.parametrize("twist", TWISTS)
 def test_energy_identity(inflow: str, mu: float, twist: str):
     """P_shaft = Σ(λ_i dF_z + U dD) + D·V: torque, dissipation and trim are computed apart and must meet."""

@@ -18,6 +18,7 @@ from rotor.presets import make_design, uh60a_data, uh60a_rotor
 def test_tables_3_1_and_3_2():
     """Thesis tables 3.1 (tail rotor) and 3.2 (main rotor)."""
     rotor, tail = uh60a_rotor("thesis"), make_design().tail_rotor
+    assert tail is not None
     assert (rotor.radius, rotor.angular_speed, rotor.reference_chord, rotor.blades) == (8.1788, 27.0, 0.5273, 4)
     assert_allclose(rotor.blade.mass / rotor.radius, 13.92, rtol=1e-12)
     assert (tail.radius, tail.angular_speed, tail.chord, tail.blades, tail.arm) == (1.6764, 124.62, 0.2469, 4, 9.926)
@@ -114,4 +115,6 @@ def test_unreadable_design_file(tmp_path: Path):
 
 
 def test_tilt_and_cant_are_radians():
-    assert_allclose(make_design().tail_rotor.cant, math.radians(20.0), rtol=1e-15)
+    tail = make_design().tail_rotor
+    assert tail is not None
+    assert_allclose(tail.cant, math.radians(20.0), rtol=1e-15)

@@ -5,7 +5,7 @@ from dataclasses import fields, replace
 
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from rotor.inflow import INFLOW_MODELS
@@ -38,7 +38,6 @@ def check(solution: Solution) -> None:
         assert solution.message.startswith(("Not trimmed:", "The trim found"))
 
 
-@settings(max_examples=60)
 @given(
     preset=st.sampled_from(PRESETS),
     inflow=st.sampled_from(sorted(INFLOW_MODELS)),
@@ -60,7 +59,6 @@ def test_converged_or_a_sentence(
     check(solve(replace(design, models=models)))
 
 
-@settings(max_examples=60)
 @given(
     rates=st.lists(st.floats(-24.0, 5.0), min_size=2, max_size=3),
     first=st.floats(0.25, 0.6),

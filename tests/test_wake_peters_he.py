@@ -136,7 +136,7 @@ def test_pitt_peters_gains():
 
 
 @pytest.mark.parametrize(("m", "sine"), [(1, False), (2, False), (3, False), (1, True), (2, True), (3, True)])
-@pytest.mark.parametrize("chi_deg", [45.0, 75.0])
+@pytest.mark.parametrize("chi_deg", [pytest.param(45.0, marks=pytest.mark.slow), 75.0])
 def test_independent_of_the_fourier_operator_of_the_actuator_disk(m: int, sine: bool, chi_deg: float):
     """The linear disk in the plane of its Fourier transform: ŵ = p̂/[2V (cos χ + i sin χ cos θ_k)].
 

@@ -15,6 +15,7 @@ from rotor.wake.lattice_transfer import transfer
 from rotor.wake.vortex_lattice import Lattice
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("axial", [0.08, 0.16])
 def test_uniform_circulation_in_axial_flow_is_a_vortex_cylinder(axial: float):
     """Far from tip and root, w = N_b Γ/(4π λ): half the jump across a semi-infinite cylinder of tip vortices."""

@@ -4,6 +4,7 @@ them."""
 from collections.abc import Callable
 
 import numpy as np
+import pytest
 from numpy.testing import assert_allclose
 
 from rotor.reproduce import Report, Verdict
@@ -127,6 +128,7 @@ def test_figure_3_10(report: Make):
     assert -0.15 < one.numbers["hover_least"] < one.numbers["hover_largest"] < 0.0
 
 
+@pytest.mark.slow
 def test_figure_3_11(report: Make):
     """One shallow optimum in hover: −13.5° costs under 0.3 %, no twist over 5 %. Ours lies lower."""
     one = report("3.11")
@@ -142,6 +144,7 @@ def test_figure_3_11(report: Make):
         assert (np.diff(powers, axis=0) < 0.0).all()
 
 
+@pytest.mark.slow
 def test_figure_3_12(report: Make):
     """Low speed likes strong twist, once the wake answers; with linear inflow by a tenth of a per cent only."""
     numbers = report("3.12").numbers
@@ -150,6 +153,7 @@ def test_figure_3_12(report: Make):
     assert numbers["flight_saving"] > 0.05
 
 
+@pytest.mark.slow
 def test_figure_3_13(report: Make):
     """−8° is the best of five beyond µ 0.18 with the wake on the document's rotor; with linear inflow it costs < 0.5 "
     "%."""
@@ -158,6 +162,7 @@ def test_figure_3_13(report: Make):
     assert 0.0 < numbers["thesis_cost_of_8"] < 5e-3
 
 
+@pytest.mark.slow
 def test_figure_3_14(report: Make):
     """−4° wins at µ 0.35 on the document's rotor with either inflow, not in the flight preset, nor once trimmed by "
     "cyclic."""
@@ -167,6 +172,7 @@ def test_figure_3_14(report: Make):
     assert numbers["flight_cost_of_4"] > 0.02
 
 
+@pytest.mark.slow
 def test_figure_3_15(report: Make):
     """Linear inflow leaves the five within a few per cent; a wake that answers spreads them more."""
     one = report("3.15")
@@ -182,6 +188,7 @@ def test_crossings_are_where_powers_meet():
     assert 0.075 < found[0] < 0.135
 
 
+@pytest.mark.slow
 def test_keys_1987(report: Make):
     """More twist helps in hover in every preset; at 330 km/h it costs on the document's rotor. Another rotor: "
     "indicative."""

@@ -44,6 +44,7 @@ def test_every_inflow_model_stands_in_both_presets():
     assert max(powers) == min(powers)
 
 
+@pytest.mark.slow
 def test_figure_4_1():
     """One linear twist: much in hover, less in flight, in every variant."""
     check(figures.figure_4_1(QUICK, VARIANTS), "linear", VARIANTS)

@@ -56,6 +56,7 @@ def test_without_matplotlib_tables_still_come(
     assert "matplotlib is not installed" in (tmp_path / "index.html").read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_chapter_5_is_drawn(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     assert main(["reproduce", str(tmp_path), "--figure", "5.3", "--figure", "table 5.1"]) == 0
     assert "Table 5.1" in capsys.readouterr().out

@@ -65,12 +65,14 @@ def test_every_kind_has_rows():
     assert {row.kind for row in trust_rows()} == set(KINDS)
 
 
+@pytest.mark.slow
 def test_fast_rows_still_hold():
     for make in FAST:
         for row in make():
             still_true(row)
 
 
+@pytest.mark.slow
 def test_verdicts_still_hold(report: Callable[[str], Report]):
     """What became of the document's statements; chapter 4 makes none that can be judged."""
     shown = {row.what: row.shown for row in trust_rows() if row.kind == "document"}
