@@ -9,8 +9,8 @@ import webbrowser
 from collections.abc import Sequence
 from pathlib import Path
 
-from explorer.doors import host_name
-from explorer.house import SESSIONS, SLEEP_AFTER
+from explorer.server.doors import host_name
+from explorer.server.house import SESSIONS, SLEEP_AFTER
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -21,7 +21,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
         return soak(given[1:])
     if given[:1] == ["report"]:
-        from explorer.report_command import main as report
+        from explorer.report.command import main as report
 
         return report(given[1:])
     options = _parser().parse_args(given)
@@ -34,8 +34,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(options: argparse.Namespace) -> int:
     from explorer.app import App, PortBusy
-    from explorer.doors import is_loopback, warning
-    from explorer.house import House
+    from explorer.server.doors import is_loopback, warning
+    from explorer.server.house import House
     from explorer.state import Inputs, inputs_of
     from rotor.case import read_case
 

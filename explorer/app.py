@@ -7,16 +7,17 @@ from functools import partial
 
 import viser
 
-from explorer import memory, solver, viser_compat
-from explorer.doors import Doors
-from explorer.gate import Gate
-from explorer.guest import Guest
-from explorer.hall import Hall
-from explorer.house import House
-from explorer.jobs import Pool
-from explorer.page import veiled
+from explorer import solver, viser_compat
+from explorer.jobs.pool import Pool
+from explorer.lecture.presentation import Stage
 from explorer.panels import Commons
-from explorer.presentation import Stage
+from explorer.server import memory
+from explorer.server.doors import Doors
+from explorer.server.gate import Gate
+from explorer.server.guest import Guest
+from explorer.server.hall import Hall
+from explorer.server.house import House
+from explorer.server.page import veiled
 from explorer.session import Session
 from explorer.state import Inputs
 from explorer.worker import Sleep

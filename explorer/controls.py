@@ -1,4 +1,4 @@
-"""The control panel: widgets ↔ `Inputs` and `ViewState`. Callbacks only say that something changed."""
+"""The Design tab: widgets ↔ `Inputs`. Callbacks only say that something changed."""
 
 import threading
 import time
@@ -8,15 +8,14 @@ from typing import Any, Protocol
 import viser
 
 from explorer import readout
-from explorer.colour_bar import colour_bar, outline_legend
-from explorer.fields import FIELDS, Field
+from explorer.display import Display
 from explorer.glossary import hint
-from explorer.history import Pauses
-from explorer.rotor_menu import RotorMenu
+from explorer.history.undo import Pauses
+from explorer.rotors.menu import RotorMenu
+from explorer.scene.view import View
 from explorer.sliders import SLIDERS, meant, shown, slider
-from explorer.state import INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs, ViewState, preset_inflow, with_rotor
-from explorer.units import SI, UNITS, Units
-from explorer.view import View
+from explorer.state import INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs, preset_inflow, with_rotor
+from explorer.units import SI, Units
 from rotor.inflow import INFLOW_MODELS
 from rotor.switches import SWITCHES
 
@@ -34,9 +33,6 @@ class Handle(Protocol):
 FOUR, INFINITE = "dynamic-wake", "dynamic-wake-infinite-blades"
 """The same theory with the rotor's own blades and with infinitely many."""
 VIEW_BUTTONS: dict[str, View] = {"3D": "3d", "Top": "top", "Blade": "blade", "Side": "side"}
-_BAR, _LEGEND = 54, 40
-"""Heights of the colour bar and of the key of the outlines [px]."""
-_TOGGLES = {"reverse_flow": "Reverse flow", "stall": "Stall", "drag_divergence": "Drag diverg."}
 
 
 class Controls:
@@ -74,24 +70,7 @@ class Controls:
             self._speed = gui.add_html(readout.speed_line(0.0))
             self._sliders(gui, ("mass_t", "altitude_m"))
         with gui.add_folder("Disk and blades"):
-            self._field = self._seen(
-                gui.add_dropdown("Field", tuple(FIELDS), initial_value=ViewState.field, hint=hint("field"))
-            )
-            self._difference = self._seen(gui.add_checkbox("Show B − A", False, visible=False, hint=hint("difference")))
-            self._bar = gui.add_html(readout.reserved(_BAR))
-            self.range_buttons = gui.add_button_group("Colours", ("Rescale", "Default"), hint=hint("colours"))
-            self._legend = gui.add_html(readout.reserved(_LEGEND))
-            self._toggles = {
-                name: self._seen(gui.add_checkbox(title, True, hint=hint(f"outline_{name}")))
-                for name, title in _TOGGLES.items()
-            }
-            self._azimuth = gui.add_slider(
-                "Azimuth ψ [°]", 0.0, 360.0, 1.0, ViewState.azimuth_deg, hint=hint("azimuth_deg")
-            )
-            self._azimuth.on_update(lambda _: (turned or changed)())
-            self._exaggeration = self._seen(
-                gui.add_slider("Twist shown ×", 1.0, 5.0, 0.5, 1.0, hint=hint("exaggeration"))
-            )
+            self.display = Display(gui, changed, turned or changed)
         with gui.add_folder("Model"):
             self.rotor = RotorMenu(gui, start, self._rotor_chosen)
             titles = tuple(PRESET_TITLES.values())
@@ -104,10 +83,7 @@ class Controls:
             self._infinite = gui.add_checkbox("Infinite blades", start.inflow == INFINITE, hint=hint("infinite"))
             self._infinite.on_update(self._infinite_changed)
             self.check_button = gui.add_button("Check with the vortex wake", color="gray", hint=hint("vortex_check"))
-            self._system = self._seen(
-                gui.add_dropdown("Units", tuple(UNITS), initial_value=ViewState.units, hint=hint("units"))
-            )
-            self._dark = self._seen(gui.add_checkbox("Dark page", dark, hint=hint("dark")))
+            self.display.add_page(gui, dark)
         with gui.add_folder("Physics", expand_by_default=False):
             for name, switch in SWITCHES.items():
                 box = gui.add_checkbox(switch.title, getattr(start, name), hint=hint(name))
@@ -126,52 +102,16 @@ class Controls:
         held = {name: getattr(special, name) for name in _HELD}
         return Inputs(**values, **held)
 
-    def view(self) -> ViewState:
-        return ViewState(
-            field=self._field.value,
-            azimuth_deg=self._azimuth.value,
-            exaggeration=self._exaggeration.value,
-            difference=self._difference.value,
-            dark=self._dark.value,
-            units=self._system.value,
-            **{name: handle.value for name, handle in self._toggles.items()},
-        )
-
-    def turn(self, azimuth_deg: float) -> None:
-        """Move the marked blade."""
-        self._azimuth.value = azimuth_deg
-
     def reset(self) -> None:
         """Back to the design the page began with."""
         self.set_inputs(self._start)
 
     def hold(self, held: bool) -> None:
         """Take the widgets from the user, or give them back."""
-        own = (
-            self._field,
-            self._azimuth,
-            self._exaggeration,
-            *self._toggles.values(),
-            self._infinite,
-            self.rotor.menu,
-            self.rotor.button,
-            self.reset_button,
-        )
+        own = (self._infinite, self.rotor.menu, self.rotor.button, self.reset_button)
         for handle in (*self._inputs.values(), *own):
             handle.disabled = held
-
-    def set_view(self, view: ViewState) -> None:
-        """Move the widgets of what is shown."""
-        self._field.value, self._azimuth.value, self._exaggeration.value = (
-            view.field,
-            view.azimuth_deg,
-            view.exaggeration,
-        )
-        self._dark.value, self._system.value = view.dark, view.units
-        self._difference.value = view.difference and self._difference.visible
-        for name, handle in self._toggles.items():
-            handle.value = getattr(view, name)
-        self._changed()
+        self.display.hold(held)
 
     def set_inputs(self, inputs: Inputs) -> None:
         """Move the widgets; the page follows as if they had been dragged."""
@@ -190,9 +130,8 @@ class Controls:
                     self._inputs[name].value = place
         self._changed()
 
-    def refresh(self, inputs: Inputs, view: ViewState) -> None:
+    def refresh(self, inputs: Inputs, units: Units) -> None:
         """Bring everything that only follows the widgets into line: which sliders show, speed, units, explanations."""
-        units = UNITS[view.units]
         self._change_units(units)
         for key, law in LAWS.items():
             for name in law.inputs:
@@ -201,17 +140,6 @@ class Controls:
         self._explanation.content = readout.explanation(INFLOW_MODELS[inputs.inflow].explanation)
         self._infinite.visible = inputs.inflow in (FOUR, INFINITE)
         self._infinite.value = inputs.inflow == INFINITE
-
-    def show_range(self, field: Field, colour_range: tuple[float, float], faded: bool) -> None:
-        """The colour bar and legend of a field."""
-        self._bar.content = colour_bar(field, *colour_range, faded)
-        self._legend.content = outline_legend(field)
-
-    def allow_difference(self, allowed: bool) -> None:
-        """Whether there is a pinned design that the disk can show the difference from."""
-        if not allowed and self._difference.value:
-            self._difference.value = False
-        self._difference.visible = allowed
 
     def _change_units(self, units: Units) -> None:
         """Weight and altitude in other units; the inputs stay what they are."""
@@ -241,11 +169,6 @@ class Controls:
 
     def _watched(self, handle: Any) -> Any:
         handle.on_update(lambda _: self._moved())
-        return handle
-
-    def _seen(self, handle: Any) -> Any:
-        """The same for what is only shown: it is no movement of the design."""
-        handle.on_update(lambda _: self._changed())
         return handle
 
     def _moved(self) -> None:

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from explorer.pinned import Pinned
+from explorer.compare.pinned import Pinned
 from explorer.state import Inputs, ViewState
 from rotor.solution import Solution
 
@@ -64,7 +64,7 @@ class Desk:
     pin: Callable[[Inputs | None], None] = lambda inputs: None
     """Let these inputs be A; None: nothing."""
     bind: Callable[[str, Callable[[], None]], None] = lambda name, action: None
-    """Give a command of `explorer.keys` its action: it is in the palette and has its key from then on."""
+    """Give a command of `explorer.keys.names` its action: it is in the palette and has its key from then on."""
 
 
 class Tab(Protocol):

@@ -4,12 +4,12 @@ from dataclasses import dataclass, replace
 
 import viser
 
-from explorer.controls import Controls
-from explorer.difference import shown_field
-from explorer.fields import Field, fitted_range
-from explorer.overlays import Ghost, OtherBlade
-from explorer.picture import disk_png, field_values, make_picture, turned_blades
-from explorer.scene import Scene
+from explorer.disk.difference import shown_field
+from explorer.disk.fields import Field, fitted_range
+from explorer.display import Display
+from explorer.scene.overlays import Ghost, OtherBlade
+from explorer.scene.picture import disk_png, field_values, make_picture, turned_blades
+from explorer.scene.scene import Scene
 from explorer.state import ViewState
 from rotor.blade import Rotor
 from rotor.solution import Solution
@@ -36,9 +36,9 @@ class _Drawn:
 class Frame:
     """One session's; everything but the buttons happens on its worker."""
 
-    def __init__(self, client: viser.ClientHandle, rotor: Rotor, controls: Controls) -> None:
+    def __init__(self, client: viser.ClientHandle, rotor: Rotor, display: Display) -> None:
         self._client = client
-        self._controls = controls
+        self._display = display
         self._scene = Scene(client.scene, rotor)
         self._ghost = Ghost(client.scene, rotor)
         self._drawn: _Drawn | None = None
@@ -69,7 +69,7 @@ class Frame:
             self._scene.show(picture)
             self._ghost.show(ghost, view.exaggeration)
         self._client.flush()  # The frame goes out now; read-outs and charts follow while it is drawn.
-        self._controls.show_range(field, colour_range, faded=False)
+        self._display.show_range(field, colour_range, faded=False)
         self._drawn = wanted
 
     def fade(self, good: Solution | None, view: ViewState, pinned: Solution | None = None) -> None:
@@ -82,7 +82,7 @@ class Frame:
         png = disk_png(good, field, colour_range, faded=True)
         with self._client.atomic():
             self._scene.fade(png)
-        self._controls.show_range(field, colour_range, faded=True)
+        self._display.show_range(field, colour_range, faded=True)
 
     def set_seen(self, seen: bool) -> None:
         """Whether the rotor is in the scene, or makes room for something else."""

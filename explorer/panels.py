@@ -8,37 +8,38 @@ from typing import Any
 
 import viser
 
-from explorer import share, style, trust_readout, viser_compat
-from explorer.actuator_panel import ActuatorPanel
-from explorer.actuator_view import fit_cut
-from explorer.address import Address
-from explorer.camera import FittedCamera
-from explorer.commands import Actions, bind_commands
+from explorer import style, trust_readout, viser_compat
+from explorer.actuator.panel import ActuatorPanel
+from explorer.actuator.view import fit_cut
 from explorer.controls import VIEW_BUTTONS, Controls
 from explorer.desk import Desk, Moment, Tab
-from explorer.export_panel import ExportPanel, Sources
-from explorer.file_panel import FilePanel
+from explorer.export.panel import ExportPanel, Sources
 from explorer.frame import Frame
-from explorer.history_panel import HistoryPanel
-from explorer.jobs import Share
-from explorer.keyboard import Keyboard
-from explorer.lecture_panel import LecturePanel
-from explorer.map_panel import MapPanel
-from explorer.optimise_panel import OptimisePanel
-from explorer.overlays import Strip
-from explorer.presence import Hands, Presence
-from explorer.presentation import Stage
-from explorer.probe_panel import ProbePanel
+from explorer.history.panel import HistoryPanel
+from explorer.jobs.pool import Share
+from explorer.keys.commands import Actions, bind_commands
+from explorer.keys.keyboard import Keyboard
+from explorer.lecture.panel import LecturePanel
+from explorer.lecture.presence import Hands, Presence
+from explorer.lecture.presentation import Stage
+from explorer.physics.waterfall_panel import WaterfallPanel
+from explorer.probe.panel import ProbePanel
 from explorer.results_panel import ResultsPanel
-from explorer.rotor_menu import RotorUpload
-from explorer.schedule_panel import SchedulePanel
-from explorer.sensitivity_panel import SensitivityPanel
+from explorer.rotors.menu import RotorUpload
+from explorer.scene.camera import FittedCamera
+from explorer.scene.overlays import Strip
+from explorer.scene.view import View
+from explorer.search.map_panel import MapPanel
+from explorer.search.optimise_panel import OptimisePanel
+from explorer.search.schedule_panel import SchedulePanel
+from explorer.search.sensitivity_panel import SensitivityPanel
+from explorer.sharing import share
+from explorer.sharing.address import Address
+from explorer.sharing.file_panel import FilePanel
 from explorer.state import Inputs
-from explorer.studies_panel import StudiesPanel
+from explorer.studies.panel import StudiesPanel
 from explorer.top_bar import TopBar
-from explorer.view import View
 from explorer.viser_compat import PageFacts, set_style
-from explorer.waterfall_panel import WaterfallPanel
 from rotor.design import Design
 
 _CHART_WIDTH, _CONTROL_WIDTH = 340, 320
@@ -90,13 +91,13 @@ class Panels:
             self.controls = Controls(gui, start, works.wake, facts.dark, works.turned)
         rotor = start.aircraft.rotor_for(start.preset)
         self._radius = rotor.radius
-        self.frame = Frame(client, rotor, self.controls)
+        self.frame = Frame(client, rotor, self.controls.display)
         desk = self.desk = Desk(
             inputs=self.controls.inputs,
             set_inputs=self.controls.set_inputs,
-            view=self.controls.view,
-            set_view=self.controls.set_view,
-            turn=self.controls.turn,
+            view=self.controls.display.view,
+            set_view=self.controls.display.set_view,
+            turn=self.controls.display.turn,
             wake=works.wake,
             send=self._send,
             tell=self._notify,
@@ -172,7 +173,7 @@ class Panels:
         self.actuator.shown.on_update(self._cut_switched)
         controls.reset_button.on_click(lambda _: self._reset())
         controls.view_buttons.on_click(lambda event: self._look(VIEW_BUTTONS[event.target.value]))
-        controls.range_buttons.on_click(lambda event: self._colour(event.target.value))
+        controls.display.range_buttons.on_click(lambda event: self._colour(event.target.value))
         controls.check_button.on_click(lambda _: self._check())
         self.top.bind(desk)
         self._presence.begin(desk, Hands(lambda: self.lecture.step, self.lecture.follow, controls.hold))

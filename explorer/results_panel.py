@@ -3,10 +3,12 @@
 import numpy as np
 import viser
 
-from explorer import ab_readout, plots, readout
-from explorer.charts import AB_KEY, ALPHA_KEY, IDEAL_KEY, LIFT_KEY, POWER_KEY, STALL_KEY, TWIST_KEY, Charts
+from explorer import readout
+from explorer.charts import plots
+from explorer.charts.panel import AB_KEY, ALPHA_KEY, IDEAL_KEY, LIFT_KEY, POWER_KEY, STALL_KEY, TWIST_KEY, Charts
+from explorer.charts.plots import PowerCurve
+from explorer.compare import readout as ab_readout
 from explorer.desk import Moment
-from explorer.plots import PowerCurve
 from explorer.solver import with_vortex_wake
 from explorer.units import UNITS, Units
 from rotor.aircraft import Aircraft

@@ -9,11 +9,12 @@ from dataclasses import replace
 import viser
 
 from explorer import readout, solver
+from explorer.charts.power_curve import PowerCurves
 from explorer.desk import Moment
-from explorer.overlays import ghost_of
 from explorer.panels import Commons, Panels, Works
-from explorer.power_curve import PowerCurves
+from explorer.scene.overlays import ghost_of
 from explorer.state import Inputs, ViewState, baseline_of, with_optimum
+from explorer.units import UNITS
 from explorer.viser_compat import PageFacts
 from explorer.worker import LatestWins, Sleep
 from rotor.solution import Solution
@@ -76,8 +77,8 @@ class Session:
             """The same between two steps of what can wait, where the frames of other pages go first."""
             return superseded() and self._whole_round
 
-        inputs, view = panels.history.read(panels.controls.pauses.longest()), panels.controls.view()
-        panels.controls.refresh(inputs, view)
+        inputs, view = panels.history.read(panels.controls.pauses.longest()), panels.controls.display.view()
+        panels.controls.refresh(inputs, UNITS[view.units])
         panels.set_dark(view.dark)
         try:
             plain = inputs.design()
@@ -144,7 +145,7 @@ class Session:
     def _settle(self, inputs: Inputs, solution: Solution | None) -> bool:
         """Do what the buttons of A/B asked; whether that moves the sliders, so that another round follows."""
         moved = self.panels.top.settle(inputs, solution, self.panels.desk)
-        self.panels.controls.allow_difference(self.panels.top.pinned is not None)
+        self.panels.controls.display.allow_difference(self.panels.top.pinned is not None)
         return moved
 
     def _lose(self, view: ViewState, status: str) -> None:

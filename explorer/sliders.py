@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from explorer.rotors import mass_range
+from explorer.rotors.choice import mass_range
 from explorer.units import AVIATION, POUND, SI, Unit, Units
 from rotor.aircraft import Aircraft
 from rotor.assets import SHIPPED_ROTORS

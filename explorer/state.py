@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from itertools import pairwise
 
-from explorer.rotors import OWN, reference_mass_t
+from explorer.rotors.choice import OWN, reference_mass_t
 from explorer.units import SI
 from rotor.aircraft import Aircraft
 from rotor.assets import SHIPPED_ROTORS

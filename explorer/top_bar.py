@@ -5,10 +5,10 @@ from typing import Any
 
 import viser
 
-from explorer import ab_readout
+from explorer.compare import readout as ab_readout
+from explorer.compare.pinned import Order, Pinboard, Pinned
 from explorer.desk import Desk, Moment
 from explorer.glossary import hint
-from explorer.pinned import Order, Pinboard, Pinned
 from explorer.state import Inputs
 from explorer.units import SI, UNITS
 from rotor.design import Design

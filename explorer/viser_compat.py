@@ -15,9 +15,9 @@ import viser
 import websockets.asyncio.server
 from viser import _messages
 
-from explorer import uploads
-from explorer.gate import Gate
-from explorer.picture_in_page import picture_script
+from explorer.export.picture_in_page import picture_script
+from explorer.server import uploads
+from explorer.server.gate import Gate
 
 _starting, _silent = threading.Lock(), threading.Lock()
 _SHEET = "rx-sheet"

@@ -5,7 +5,7 @@ import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from explorer.turns import TURNS, Turn, Turns
+from explorer.server.turns import TURNS, Turn, Turns
 
 Job = Callable[[Callable[[], bool]], None]
 """Does one round; once its frame is out it asks its argument, between steps of what can wait, whether a newer round is

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 
 from explorer import colours
 from explorer.colours import BASELINE, IDEAL, LIMIT, NOW, PARTS, PINNED, THIS, Scheme, colour_map
-from explorer.picture import OUTLINE_COLOURS
-from explorer.probe_drawing import ALPHA, DRAG, LIFT
+from explorer.probe.drawing import ALPHA, DRAG, LIFT
+from explorer.scene.picture import OUTLINE_COLOURS
 
 Array = NDArray[np.float64]
 

@@ -9,15 +9,17 @@ import pytest
 from numpy.testing import assert_allclose
 from PIL import Image
 
-from explorer import ab_readout, plots, readout
-from explorer.colour_bar import colour_bar
+from explorer import readout
+from explorer.charts import plots
 from explorer.colours import GHOST, PINNED_GHOST, VOID
-from explorer.difference import difference, shown_field
-from explorer.fields import FIELDS, fitted_range
-from explorer.overlays import ghost_of
-from explorer.picture import disk_png, field_values
-from explorer.pinned import Pinboard, Pinned, act
-from explorer.polar import polar_grid
+from explorer.compare import readout as ab_readout
+from explorer.compare.pinned import Pinboard, Pinned, act
+from explorer.disk.colour_bar import colour_bar
+from explorer.disk.difference import difference, shown_field
+from explorer.disk.fields import FIELDS, fitted_range
+from explorer.disk.polar import polar_grid
+from explorer.scene.overlays import ghost_of
+from explorer.scene.picture import disk_png, field_values
 from explorer.state import Inputs, ViewState
 from rotor.design import Design
 from rotor.presets import make_design

@@ -11,10 +11,15 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from explorer import actuator_cut, actuator_plots, actuator_readout, actuator_study, actuator_table, actuator_view
-from explorer.actuator_picture import cut_picture, share_colour, voltage_shares
-from explorer.actuator_section import section_svg
-from explorer.actuator_state import (
+from explorer.actuator import cut as actuator_cut
+from explorer.actuator import plots as actuator_plots
+from explorer.actuator import readout as actuator_readout
+from explorer.actuator import study as actuator_study
+from explorer.actuator import table as actuator_table
+from explorer.actuator import view as actuator_view
+from explorer.actuator.picture import cut_picture, share_colour, voltage_shares
+from explorer.actuator.section import section_svg
+from explorer.actuator.state import (
     CONCEPTS,
     MOST_SEGMENTS,
     ActuatorInputs,
@@ -23,11 +28,11 @@ from explorer.actuator_state import (
     question_of,
     swing_of,
 )
-from explorer.actuator_study import Findings, Study, VerdictTask, answer, lean
-from explorer.picture import make_picture
-from explorer.plots import Plot
+from explorer.actuator.study import Findings, Study, VerdictTask, answer, lean
+from explorer.charts.plots import Plot
+from explorer.scene.picture import make_picture
+from explorer.scene.view import FIELD_OF_VIEW
 from explorer.state import ViewState, baseline_of
-from explorer.view import FIELD_OF_VIEW
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.verdict import Verdict
 from rotor.presets import make_design

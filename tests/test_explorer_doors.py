@@ -5,12 +5,12 @@ import time
 
 import pytest
 
-from explorer import memory
-from explorer.doors import Doors, host_name, is_loopback, warning
-from explorer.hall import Hall
-from explorer.meter import Allowance, Meter
-from explorer.turns import Turns
-from explorer.uploads import LARGEST, refusal
+from explorer.server import memory
+from explorer.server.doors import Doors, host_name, is_loopback, warning
+from explorer.server.hall import Hall
+from explorer.server.meter import Allowance, Meter
+from explorer.server.turns import Turns
+from explorer.server.uploads import LARGEST, refusal
 from explorer.worker import LatestWins, Sleep
 
 

@@ -9,7 +9,7 @@ import pytest
 import trimesh
 from numpy.testing import assert_allclose
 
-from explorer.export_blade import blade_mesh, blade_stl, kinks, rotor_glb
+from explorer.export.blade import blade_mesh, blade_stl, kinks, rotor_glb
 from explorer.provenance import file_stem
 from explorer.state import Inputs
 from rotor.active_twist import ActiveTwist, Harmonic

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from explorer.export_csv import blade_csv, disk_csv, power_csv
-from explorer.plots import SWEEP, PowerCurve
+from explorer.charts.plots import SWEEP, PowerCurve
+from explorer.export.tables import blade_csv, disk_csv, power_csv
 from explorer.state import Inputs, baseline_of
 from rotor.solve import solve
 

@@ -17,11 +17,12 @@ from websockets.asyncio.client import connect
 from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Subprotocol
 
-from explorer import gate, meter, uploads, viser_compat
+from explorer import viser_compat
 from explorer.app import App, PortBusy
-from explorer.doors import Doors
-from explorer.gate import Gate
-from explorer.house import House
+from explorer.server import gate, meter, uploads
+from explorer.server.doors import Doors
+from explorer.server.gate import Gate
+from explorer.server.house import House
 from explorer.soak import wire
 from explorer.soak.visitor import Visitor
 

@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 import viser
 
-from explorer import ab_readout, readout
+from explorer import readout
+from explorer.compare import readout as ab_readout
 from explorer.controls import Controls
 from explorer.glossary import CONTROLS, READOUTS, hint, tip
 from explorer.state import Inputs
@@ -68,13 +69,13 @@ def test_every_widget_of_the_design_tab_has_its_sentence(server: viser.ViserServ
 
 def test_every_widget_that_is_made_anywhere_asks_the_glossary():
     """Of all tabs, by reading the code: `hint=hint("name")`, or a variable that holds it."""
-    for path in sorted((ROOT / "explorer").glob("*.py")):
+    for path in sorted((ROOT / "explorer").rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
             if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in WIDGETS):
                 continue
             label = node.args[0].value if node.args and isinstance(node.args[0], ast.Constant) else ""
             given = [keyword.value for keyword in node.keywords if keyword.arg == "hint"]
-            where = f"{path.name}:{node.lineno}, {label!r}"
+            where = f"{path.relative_to(ROOT)}:{node.lineno}, {label!r}"
             assert given or label == "Close", f"{where}: give it hint=hint(…) and a sentence in explorer/glossary.py"
             assert not any(isinstance(value, ast.Constant) for value in given), f"{where}: put it into the glossary"
 

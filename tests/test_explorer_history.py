@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from explorer.address import parameter, with_parameter
-from explorer.history import PAUSE, STEPS, History, Pauses
-from explorer.share import LONGEST, code_of, design_from, inputs_from
+from explorer.history.undo import PAUSE, STEPS, History, Pauses
+from explorer.sharing.address import parameter, with_parameter
+from explorer.sharing.share import LONGEST, code_of, design_from, inputs_from
 from explorer.state import Inputs
 from rotor.presets import make_design
 from rotor.twist import TableTwist

@@ -13,8 +13,9 @@ from typing import Any
 
 import pytest
 
-from explorer.job_queue import MOST_WAITING, Queue
-from explorer.jobs import Broken, Ended, Job, News, Pool, Started, Told, Waiting
+from explorer.jobs.job import Broken, Ended, Job, News, Started, Told, Waiting
+from explorer.jobs.pool import Pool
+from explorer.jobs.queue import MOST_WAITING, Queue
 
 ROOT = Path(__file__).parent.parent
 SOON = 60.0
@@ -262,6 +263,6 @@ def test_closing_ends_every_process():
 
 @pytest.mark.slow
 def test_worker_processes_load_no_page():
-    code = "import sys, explorer.job_process, explorer.tasks; print('viser' in sys.modules)"
+    code = "import sys, explorer.jobs.process, explorer.jobs.tasks; print('viser' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "False"

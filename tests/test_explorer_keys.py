@@ -8,9 +8,9 @@ import pytest
 import viser
 from viser import _messages
 
-from explorer.keyboard import Keyboard
-from explorer.keys import CTRL, CTRL_SHIFT, KEYS, SHIFT, keys_help
-from explorer.keys_in_page import dialog_script, page_script
+from explorer.keys.in_page import dialog_script, page_script
+from explorer.keys.keyboard import Keyboard
+from explorer.keys.names import CTRL, CTRL_SHIFT, KEYS, SHIFT, keys_help
 
 TAKEN_BY_THE_CAMERA = set("WASDQE")
 TAKEN_BY_BROWSERS = (

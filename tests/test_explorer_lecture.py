@@ -6,14 +6,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from explorer.address import Address, parameter, with_parameter
-from explorer.cases import DOCUMENT
 from explorer.desk import Moment
-from explorer.fields import FIELDS
-from explorer.keys import KEYS
-from explorer.lecture import STEPS, Step, view_of
-from explorer.lecture_view import caption
-from explorer.presentation import Shown, Stage, follow_name, new_secret
+from explorer.disk.fields import FIELDS
+from explorer.keys.names import KEYS
+from explorer.lecture.cases import DOCUMENT
+from explorer.lecture.presentation import Shown, Stage, follow_name, new_secret
+from explorer.lecture.steps import STEPS, Step, view_of
+from explorer.lecture.view import caption
+from explorer.sharing.address import Address, parameter, with_parameter
 from explorer.state import Inputs, ViewState, baseline_of
 from rotor.solution import Solution
 from rotor.solve import solve

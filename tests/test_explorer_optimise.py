@@ -11,17 +11,18 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from explorer import mission, power_map, schedule_view, search_text, sensitivity
-from explorer.concept_picture import concept_picture
-from explorer.jobs import Broken, Ended, Started, Told, Waiting
-from explorer.map_panel import default_axes
-from explorer.meshes import blade_shape, blade_vertices, ghost_segments
-from explorer.plots import Plot
-from explorer.search_plot import TRACES, search_plot
-from explorer.search_run import SearchRun
+from explorer.charts.plots import Plot
+from explorer.jobs.job import Broken, Ended, Started, Told, Waiting
+from explorer.jobs.tasks import FixedPowers, MapLevel, MapTask, ScheduleTask, SearchTask
+from explorer.scene.meshes import blade_shape, blade_vertices, ghost_segments
+from explorer.search import mission, power_map, schedule_view, sensitivity
+from explorer.search import text as search_text
+from explorer.search.concept_picture import concept_picture
+from explorer.search.map_panel import default_axes
+from explorer.search.plot import TRACES, search_plot
+from explorer.search.run import SearchRun
+from explorer.search.wishes import OBJECTIVES, Wishes
 from explorer.state import baseline_of
-from explorer.tasks import FixedPowers, MapLevel, MapTask, ScheduleTask, SearchTask
-from explorer.wishes import OBJECTIVES, Wishes
 from rotor.concepts import CONCEPTS
 from rotor.objective import at_condition
 from rotor.optimise import Ended as Status
@@ -79,7 +80,7 @@ class TestSearchRun:
 
     def test_playing_shows_each_frame_and_ends_with_the_last(self, run: SearchRun, monkeypatch: pytest.MonkeyPatch):
         now = 100.0
-        monkeypatch.setattr("explorer.search_run.time.monotonic", lambda: now)
+        monkeypatch.setattr("explorer.search.run.time.monotonic", lambda: now)
         run.replay()
         seen = []
         for _ in range(10 * len(run.frames)):
@@ -96,7 +97,7 @@ class TestSearchRun:
 
     def test_while_it_runs_the_picture_does_not_fall_far_behind(self, monkeypatch: pytest.MonkeyPatch):
         now = 100.0
-        monkeypatch.setattr("explorer.search_run.time.monotonic", lambda: now)
+        monkeypatch.setattr("explorer.search.run.time.monotonic", lambda: now)
         run = SearchRun(Wishes().search(quick(), mission.legs))
         for k in range(100):
             run._add(k, 1000.0 - k, quick())

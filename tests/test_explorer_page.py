@@ -8,9 +8,9 @@ import pytest
 import viser
 
 from explorer import viser_compat
-from explorer.doors import Doors
-from explorer.gate import Gate
-from explorer.page import veiled
+from explorer.server.doors import Doors
+from explorer.server.gate import Gate
+from explorer.server.page import veiled
 
 CLIENT = (
     "<!doctype html><html><head><title>Viser</title>\n<script data-p=x>go()</script></head>\n"

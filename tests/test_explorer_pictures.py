@@ -9,17 +9,17 @@ import pytest
 from numpy.testing import assert_allclose
 from PIL import Image
 
-from explorer import disk_image
-from explorer.colour_bar import colour_bar, tick_text
 from explorer.colours import VOID, colour_map, greyed
-from explorer.fields import FIELDS, filled, fitted_range, reverse_flow, ticks
-from explorer.outlines import contour, reverse_flow_segments, stall_segments
-from explorer.picture import DISK_DROP, disk_png, field_values, make_picture
-from explorer.polar import PolarGrid, polar_grid
-from explorer.poses import about, blade_pose, compose, rotate, tip_path_pose
-from explorer.stall import stall_margin
+from explorer.disk import image as disk_image
+from explorer.disk.colour_bar import colour_bar, tick_text
+from explorer.disk.fields import FIELDS, filled, fitted_range, reverse_flow, ticks
+from explorer.disk.outlines import contour, reverse_flow_segments, stall_segments
+from explorer.disk.polar import PolarGrid, polar_grid
+from explorer.disk.stall import stall_margin
+from explorer.scene.picture import DISK_DROP, disk_png, field_values, make_picture
+from explorer.scene.poses import about, blade_pose, compose, rotate, tip_path_pose
+from explorer.scene.view import FIELD_OF_VIEW, Camera, View, fit
 from explorer.state import ViewState
-from explorer.view import FIELD_OF_VIEW, Camera, View, fit
 from rotor.presets import make_design
 from rotor.solution import Solution
 from rotor.solve import solve

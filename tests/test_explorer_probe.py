@@ -11,13 +11,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from explorer import svg
-from explorer.pick import pick
-from explorer.picture import DISK_DROP
-from explorer.poses import compose, rotate, rotor_pose, tip_path_pose
-from explorer.probe import Region, probe
-from explorer.probe_drawing import drawing
-from explorer.probe_readout import probe_panel
+from explorer.charts import svg
+from explorer.probe.drawing import drawing
+from explorer.probe.element import Region, probe
+from explorer.probe.readout import probe_panel
+from explorer.scene.pick import pick
+from explorer.scene.picture import DISK_DROP
+from explorer.scene.poses import compose, rotate, rotor_pose, tip_path_pose
 from rotor.presets import FLIGHT_MODELS, make_design
 from rotor.solution import Solution
 from rotor.solve import solve

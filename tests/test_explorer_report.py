@@ -16,20 +16,22 @@ from numpy.testing import assert_allclose
 from PIL import Image
 
 from explorer import __main__ as command
-from explorer import disk_image, marks, report_command
-from explorer.disk_image import SIZE
-from explorer.fields import FIELDS
-from explorer.line_chart import Trace, line_chart
-from explorer.paper import SIZES, Paper
-from explorer.picture import disk_png
-from explorer.plots import SWEEP, PowerCurve
-from explorer.power_curve import PowerCurves
+from explorer.charts import marks
+from explorer.charts.line_chart import Trace, line_chart
+from explorer.charts.paper import SIZES, Paper
+from explorer.charts.plots import SWEEP, PowerCurve
+from explorer.charts.power_curve import PowerCurves
+from explorer.disk import image as disk_image
+from explorer.disk.fields import FIELDS
+from explorer.disk.image import SIZE
+from explorer.export.sheet import disk_sheet, shown, view_sheet, window
 from explorer.provenance import versions
-from explorer.report import Entry, Report, report_html, report_of
-from explorer.sheet import disk_sheet, shown, view_sheet, window
-from explorer.stage import Stage, stage_of
+from explorer.report import command as report_command
+from explorer.report.document import Entry, Report, report_html, report_of
+from explorer.scene.picture import disk_png
+from explorer.scene.stage import Stage, stage_of
+from explorer.scene.still_scene import make_stage
 from explorer.state import Inputs, ViewState, baseline_of
-from explorer.still_scene import make_stage
 from rotor.case import write_case
 from rotor.design import Design
 from rotor.solution import Status

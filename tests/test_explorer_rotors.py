@@ -9,13 +9,13 @@ import pytest
 from numpy.testing import assert_allclose
 from test_rotor_file import GOOD, polar_file
 
-from explorer import share
+from explorer.compare.pinned import Pinboard, Pinned
 from explorer.naming import twist_name
-from explorer.picture import turned_blades
-from explorer.pinned import Pinboard, Pinned
 from explorer.readout import ideal_line, power_panel
-from explorer.rotor_shelf import SUFFIXES, Shelf
-from explorer.rotors import OWN, mass_range, menu_titles, reference_mass_t
+from explorer.rotors.choice import OWN, mass_range, menu_titles, reference_mass_t
+from explorer.rotors.shelf import SUFFIXES, Shelf
+from explorer.scene.picture import turned_blades
+from explorer.sharing import share
 from explorer.state import Inputs, ViewState, baseline_of, inputs_of, with_optimum, with_rotor
 from rotor.actuator.structure import check_blade
 from rotor.airfoil.polars import read_polars

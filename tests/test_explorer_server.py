@@ -16,13 +16,15 @@ from PIL import Image
 from viser import _messages
 
 from explorer import __main__ as command
-from explorer import disk_image, viser_compat
+from explorer import viser_compat
 from explorer.app import App, PortBusy
 from explorer.controls import Controls
-from explorer.picture import make_picture
-from explorer.scene import Scene
+from explorer.disk import image as disk_image
+from explorer.scene.picture import make_picture
+from explorer.scene.scene import Scene
 from explorer.sliders import SLIDERS
 from explorer.state import LAWS, NOT_ALWAYS, Inputs, ViewState, with_optimum
+from explorer.units import SI
 from rotor.concepts import CONCEPTS
 from rotor.presets import make_design, uh60a_rotor
 from rotor.solve import solve
@@ -152,7 +154,7 @@ class TestCommand:
 class TestControls:
     def test_widgets_start_as_the_inputs(self, controls: Controls):
         assert controls.inputs() == Inputs()
-        assert controls.view() == ViewState()
+        assert controls.display.view() == ViewState()
 
     @pytest.mark.parametrize("law", [law for law in LAWS if law not in NOT_ALWAYS])
     def test_inputs_go_through_the_widgets_unchanged(self, controls: Controls, law: str):
@@ -180,7 +182,7 @@ class TestControls:
         np.testing.assert_allclose(applied.twist(r), design.twist(r), atol=2e-6)
 
     def test_only_the_sliders_of_the_law_show(self, controls: Controls):
-        controls.refresh(Inputs(law="two"), ViewState())
+        controls.refresh(Inputs(law="two"), SI)
         shown = {name for name in SLIDERS if controls._inputs[name].visible}
         assert shown == {"two_inner", "two_outer", "two_division", "advance_ratio", "mass_t", "altitude_m"}
 

@@ -7,8 +7,8 @@ import pytest
 import trimesh
 from numpy.testing import assert_allclose
 
-from explorer import meshes
-from explorer.section_outline import blade_axes_outline
+from explorer.scene import meshes
+from explorer.scene.section_outline import blade_axes_outline
 from rotor.airfoil.contour import load_contour, thickness_and_camber
 from rotor.airfoil.sections import load_installed
 from rotor.presets import uh60a_rotor

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from explorer import study_charts
 from explorer.clicks import charts_write_to
-from explorer.study_list import find_studies, open_study
-from explorer.study_readout import point_line, summary
+from explorer.studies import charts as study_charts
+from explorer.studies.readout import point_line, summary
+from explorer.studies.results import find_studies, open_study
 from rotor.provenance import package_version
 from rotor.solve import solve
 from rotor.study.chunks import Provenance, work_chunk

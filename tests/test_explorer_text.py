@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from explorer import plots, readout
-from explorer.power_curve import PowerCurves
+from explorer import readout
+from explorer.charts import plots
+from explorer.charts.power_curve import PowerCurves
 from explorer.solver import with_vortex_wake
 from explorer.state import LAWS, Inputs, baseline_of, baseline_title, inputs_of, preset_inflow
 from explorer.worker import LatestWins
@@ -245,7 +246,7 @@ class TestPowerCurves:
             answer = solve(design, start)
             return replace(answer, status=Status.NOT_CONVERGED) if asked[-1] > 0.26 else answer
 
-        monkeypatch.setattr("explorer.power_curve.solve", failing)
+        monkeypatch.setattr("explorer.charts.power_curve.solve", failing)
         design = Inputs(law="linear", linear=-8.0).design()
         curves = PowerCurves()
         curves.sweep(design, design, lambda: True)

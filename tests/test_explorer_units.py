@@ -7,9 +7,12 @@ import numpy as np
 import pytest
 import viser
 
-from explorer import ab_readout, history_view, plots, readout
+from explorer import readout
+from explorer.charts import plots
+from explorer.compare import readout as ab_readout
 from explorer.controls import Controls
-from explorer.history import History
+from explorer.history import view as history_view
+from explorer.history.undo import History
 from explorer.naming import flight_name
 from explorer.sliders import SLIDERS, limits, meant, shown, slider
 from explorer.state import Inputs, ViewState
@@ -93,22 +96,22 @@ class TestControls:
     def test_units_move_the_sliders_and_not_the_design(self, controls: Controls):
         wanted = Inputs(mass_t=9.05, altitude_m=1550.0)
         controls.set_inputs(wanted)
-        controls.refresh(wanted, replace(ViewState(), units="Aviation"))
+        controls.refresh(wanted, UNITS["Aviation"])
         assert controls.inputs() == wanted
         handle = controls._inputs["mass_t"]
         assert handle.value == pytest.approx(9050.0 / 0.45359237)
         assert handle.label == "Weight [lb]"  # pyright: ignore[reportAttributeAccessIssue]
         controls.set_inputs(replace(wanted, altitude_m=3048.0))
         assert controls._inputs["altitude_m"].value == pytest.approx(10_000.0)
-        controls.refresh(wanted, ViewState())
+        controls.refresh(wanted, SI)
         assert controls.inputs() == replace(wanted, altitude_m=3048.0)
         assert handle.value == 9.05
 
     def test_a_pound_that_is_typed_as_a_whole_number(self, controls: Controls):
-        controls.refresh(Inputs(), replace(ViewState(), units="Aviation"))
+        controls.refresh(Inputs(), UNITS["Aviation"])
         controls._inputs["mass_t"].value = 20000
         assert controls.inputs().mass_t == pytest.approx(9.0718474)
 
     def test_the_view_holds_the_choice(self, controls: Controls):
-        controls.set_view(replace(ViewState(), units="Aviation"))
-        assert controls.view().units == "Aviation"
+        controls.display.set_view(replace(ViewState(), units="Aviation"))
+        assert controls.display.view().units == "Aviation"

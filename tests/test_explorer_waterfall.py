@@ -9,10 +9,10 @@ import pytest
 import viser
 
 from explorer.desk import Desk, Moment
+from explorer.physics.waterfall_panel import WaterfallPanel
+from explorer.physics.waterfall_view import alone_table, waterfall_chart
 from explorer.state import Inputs, ViewState
 from explorer.units import AVIATION, HORSEPOWER, KILOWATT, SI
-from explorer.waterfall_panel import WaterfallPanel
-from explorer.waterfall_view import alone_table, waterfall_chart
 from rotor.design import Design
 from rotor.presets import make_design
 from rotor.solution import Solution, Status

@@ -9,7 +9,7 @@ from functools import cache
 
 import numpy as np
 
-from explorer.meshes import blade_shape, blade_vertices
+from explorer.scene.meshes import blade_shape, blade_vertices
 from explorer.soak.figures import Visit
 from explorer.soak.visitor import Visitor
 from explorer.state import Inputs

@@ -8,7 +8,7 @@ from test_page import WAIT
 from test_session_page import design_in_address, opened, shown_kw
 
 from explorer.app import App
-from explorer.lecture import STEPS
+from explorer.lecture.steps import STEPS
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page

@@ -13,8 +13,8 @@ from chromium import DRAW_NOTHING
 from test_page import SMALL, WAIT, Watched
 
 from explorer.app import App
+from explorer.scene.view import FIELD_OF_VIEW, View, fit
 from explorer.state import Inputs
-from explorer.view import FIELD_OF_VIEW, View, fit
 from rotor.presets import uh60a_rotor
 
 if TYPE_CHECKING:

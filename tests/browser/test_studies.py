@@ -10,7 +10,7 @@ from chromium import DRAW_NOTHING
 from test_page import Watched
 
 from explorer.app import App
-from explorer.house import House
+from explorer.server.house import House
 from explorer.session import Session
 from rotor.provenance import package_version
 from rotor.study.chunks import Provenance, work_chunk

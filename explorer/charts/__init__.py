@@ -1,0 +1,1 @@
+"""Charts: their data, the panel of live ones, and drawings as SVG."""

@@ -1,0 +1,118 @@
+"""Power against advance ratio, swept after the frame and given up when newer input waits."""
+
+import math
+import time
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import PchipInterpolator
+
+from explorer.charts.plots import SWEEP, PowerCurve
+from explorer.readout import ideal_induced
+from explorer.server.turns import TURNS
+from rotor.design import Design
+from rotor.solution import Solution
+from rotor.solve import solve
+from rotor.sweep import at_advance_ratio
+
+Array = NDArray[np.float64]
+
+PATIENCE = 0.6
+"""A curve older than this [s] is swept, coarsely, even while a slider moves, so that a drag never starves it."""
+HASTE = 0.15
+"""[s] that such a sweep may hold a drag up: where it takes longer, the machine is busy, and frames come first."""
+_KEPT = 200
+"""Curves remembered per session."""
+
+
+class PowerCurves:
+    """Remembers the curves of one session, total and ideal power; a curve belongs to a design whatever its speed."""
+
+    def __init__(self, haste: float = HASTE) -> None:
+        self._haste = haste
+        self._curves: dict[Design, Array] = {}
+        """(2, points): total and ideal [kW]."""
+        self._coarse: set[Design] = set()
+        """Curves swept in haste, to be swept again once there is time."""
+        self._last: tuple[Design | None, float] = (None, -math.inf)
+
+    def known(self, design: Design, reference: Design) -> PowerCurve:
+        """The curves of a design and of what it is compared with; of the design, until it is swept, the one before."""
+        blank = np.full((2, len(SWEEP)), math.nan)
+        last = self._last[0]
+        alike = last is not None and last.aircraft == design.aircraft
+        before = self._curves.get(last, blank) if last is not None and alike else blank
+        total, ideal = self._curves.get(_family(design), before)
+        return PowerCurve(total, self._curves.get(_family(reference), blank)[0], ideal)
+
+    def sweep(
+        self,
+        design: Design,
+        reference: Design,
+        superseded: Callable[[], bool],
+        known: Callable[[], None] = lambda: None,
+    ) -> bool:
+        """Make the curves of a design and of what it is compared with known; False when given up half way.
+
+        `known`: called after each of the two.
+        """
+        patient = time.monotonic() - self._last[1] < PATIENCE
+        for family in (_family(design), _family(reference)):
+            if family not in self._curves or family in self._coarse:
+                values, coarse = self._swept(family, superseded, patient)
+                if values is None:
+                    return False
+                self._keep(family, values, coarse)
+            if family == _family(design):
+                self._last = (family, time.monotonic())
+            known()
+        return True
+
+    def _swept(self, family: Design, superseded: Callable[[], bool], patient: bool) -> tuple[Array | None, bool]:
+        """Total and ideal power over `SWEEP`, and whether in haste; None when given up to newer input."""
+        coarse, begun = False, time.monotonic()
+        values = np.full((2, len(SWEEP)), math.nan)
+        start: Solution | None = None
+        lost = 0
+        for k, mu in enumerate(SWEEP):
+            if superseded():
+                if patient or TURNS.waiting or time.monotonic() - begun > self._haste:
+                    return None, False
+                coarse = True
+            if lost == (1 if coarse else 2):
+                break  # Beyond this rotor: faster there is no trim either, and to find that out takes long.
+            if coarse and k > 0 and (k - 1) % 3:
+                continue
+            point = solve(at_advance_ratio(family, mu), start)
+            lost = 0 if point.converged else lost + 1
+            if point.converged:
+                start, values[:, k] = point, _powers(point)
+        return np.stack([_bridged(row) for row in values]) if coarse else values, coarse
+
+    def _keep(self, family: Design, values: Array, coarse: bool) -> None:
+        if len(self._curves) >= _KEPT:
+            del self._curves[next(iter(self._curves))]
+        self._curves[family] = values
+        self._coarse = (self._coarse | {family}) if coarse else (self._coarse - {family})
+
+
+def _family(design: Design) -> Design:
+    return replace(design, condition=replace(design.condition, advance_ratio=0.0))
+
+
+def _powers(point: Solution) -> tuple[float, float]:
+    """Total power, and what it would be with the least induced power at this lift [kW]."""
+    total, ideal = point.power.total / 1e3, ideal_induced(point)
+    return total, math.nan if ideal is None else total - (point.power.induced - ideal) / 1e3
+
+
+def _bridged(values: Array) -> Array:
+    """Points left out of a coarse sweep, on a smooth line between those of forward flight, not beyond them."""
+    k = np.arange(len(values))
+    have = np.isfinite(values) & (k > 0)
+    if have.sum() < 2:
+        return values
+    line = PchipInterpolator(k[have], values[have], extrapolate=False)
+    return np.where(k > 0, line(k), values)

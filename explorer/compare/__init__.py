@@ -1,0 +1,1 @@
+"""A and B: what is pinned, and both side by side."""

@@ -1,0 +1,1 @@
+"""What leaves the page: shapes, tables, pictures, text that runs elsewhere."""

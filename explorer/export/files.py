@@ -1,0 +1,96 @@
+"""What the session saves, as file names and bytes: shapes, tables, the report. From one moment of the session."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from explorer.charts.paper import Paper
+from explorer.charts.plots import Range
+from explorer.charts.power_curve import PowerCurves
+from explorer.desk import Moment
+from explorer.disk.fields import FIELDS
+from explorer.export.blade import blade_stl, rotor_glb
+from explorer.export.sheet import Shown
+from explorer.export.tables import blade_csv, disk_csv, power_csv
+from explorer.history.view import Kept
+from explorer.provenance import file_stem
+from explorer.report.document import Entry, Report, report_html, report_of
+from explorer.scene.stage import Stage
+from explorer.state import baseline_title
+from rotor.solution import Solution
+
+
+@dataclass(frozen=True)
+class File:
+    """To be saved."""
+
+    name: str
+    content: bytes
+
+    @property
+    def size(self) -> str:
+        """In a reader's words."""
+        count = len(self.content)
+        return f"{count / 1e6:.1f} MB" if count >= 1e6 else f"{max(count / 1e3, 1.0):.0f} kB"
+
+
+def blade_file(moment: Moment) -> File:
+    """One blade as STL; where the twist follows the azimuth, the marked one as it is drawn."""
+    design, azimuth = moment.solution.design, moment.view.azimuth_deg
+    active = design.active_twist is not None and not design.hovering
+    parts = ("blade", f"psi{azimuth:.0f}") if active else ("blade",)
+    return File(f"{file_stem(design, *parts)}.stl", blade_stl(design, math.radians(azimuth) if active else None))
+
+
+def rotor_file(moment: Moment) -> File:
+    """The rotor in trim as GLB."""
+    solution = moment.solution
+    return File(f"{file_stem(solution.design, 'rotor')}.glb", rotor_glb(solution, moment.view.azimuth_deg))
+
+
+def disk_file(moment: Moment) -> File:
+    """Every field over the disk as CSV."""
+    return File(f"{file_stem(moment.solution.design, 'disk')}.csv", disk_csv(moment.solution))
+
+
+def along_file(moment: Moment) -> File:
+    """The blade at the marked azimuth as CSV."""
+    azimuth = moment.view.azimuth_deg
+    content = blade_csv(moment.solution, moment.reference.design, azimuth)
+    return File(f"{file_stem(moment.solution.design, 'blade', f'psi{azimuth:.0f}')}.csv", content)
+
+
+def power_file(moment: Moment, curves: PowerCurves) -> File:
+    """Power over advance ratio as CSV; sweeps what is not known yet."""
+    design, reference = moment.solution.design, moment.reference.design
+    curves.sweep(design, reference, lambda: False)
+    content = power_csv(moment.solution, reference, curves.known(design, reference))
+    return File(f"{file_stem(design, 'power')}.csv", content)
+
+
+def session_report(moment: Moment, kept: Sequence[Kept], colour_range: Range) -> Report:
+    """The present design, the kept ones, and A or the baseline that they are compared with."""
+    pinned, solution = moment.pinned, moment.solution
+    if moment.pin is None:
+        reference = Entry(baseline_title(solution.design), moment.baseline)
+    else:
+        # A may have no trim in the present flight; then as it was when it was pinned.
+        flies = pinned is not None and pinned.converged
+        reference = Entry("A, pinned", pinned if pinned is not None and flies else moment.pin.solution)
+    others = [item for item in kept if item.solution.design not in (solution.design, reference.solution.design)]
+    entries = [Entry("Now", solution), *(Entry(f"Kept {k + 1}", item.solution) for k, item in enumerate(others))]
+    return report_of(
+        reference, entries, moment.view, {moment.view.field: colour_range}, own_section=moment.pin is not None
+    )
+
+
+def report_file(report: Report, stage: Stage | None, curves: PowerCurves) -> File:
+    """The report as one HTML file."""
+    name = file_stem(report.entries[0].solution.design, "report")
+    return File(f"{name}.html", report_html(report, stage, curves).encode("utf-8"))
+
+
+def picture_name(solution: Solution, shown: Shown, what: str, paper: Paper, ending: str) -> str:
+    """Of a picture; what is on the disk and its size are in it."""
+    field = next((title for title in FIELDS if title == shown.field.title), "difference")
+    return f"{file_stem(solution.design, what, field, f'{paper.width}x{paper.height}')}.{ending}"

@@ -1,0 +1,1 @@
+"""Undo and redo, and the designs that are kept."""

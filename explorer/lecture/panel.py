@@ -1,0 +1,153 @@
+"""The Lecture tab of one session, and the caption that floats over the rotor while a lecture runs."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import viser
+
+from explorer import viser_compat
+from explorer.desk import Desk, Moment
+from explorer.glossary import hint
+from explorer.lecture import cases, view
+from explorer.lecture import steps as lecture
+from explorer.lecture.presence import Presence
+from explorer.lecture.steps import STEPS
+
+_CAPTION_WIDTH = 520
+_PRESENTING = (
+    '<div class="rx rx-dim rx-small">Copies a link. Who opens it sees what you set here, as you set it, '
+    "and may leave at any time.</div>"
+)
+_LIFT = 14
+"""[px] between the caption and the lower edge of the canvas."""
+
+
+class LecturePanel:
+    """One session's. Buttons act at once; the caption's numbers follow the session."""
+
+    def __init__(
+        self, client: viser.ClientHandle, desk: Desk, presence: Presence, enlarge: Callable[[bool], None]
+    ) -> None:
+        """`enlarge`: big type for the whole page, or as it was."""
+        self._client, self._desk, self._presence = client, desk, presence
+        self._step: int | None = None
+        self._told = ""
+        gui = client.gui
+        self._begin = gui.add_button("Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture"))
+        gui.add_html('<div class="rx rx-dim rx-small">Eight steps set the page and say what to watch.</div>')
+        self._big = gui.add_checkbox("Big type", False, hint=hint("big_type"))
+        self._flights = gui.add_button_group("Fly at µ", tuple(cases.FLIGHTS), hint=hint("lecture_flights"))
+        self._case = gui.add_dropdown("Document", ("–", *cases.DOCUMENT), hint=hint("document_case"))
+        with gui.add_folder("Present to others"):
+            self._present = gui.add_button("Present", icon=viser.Icon.PRESENTATION, color="gray", hint=hint("present"))
+            gui.add_html(_PRESENTING)
+            self._name_present()  # A presenter who loads the page again presents on.
+        self._caption_panel = gui.add_panel(visible=False)
+        with self._caption_panel.add_tab("Lecture", viser.Icon.SCHOOL):
+            self._caption = gui.add_html("")
+            self._buttons = gui.add_button_group("", ("Back", "Set again", "Next", "End"), hint=hint("lecture_step"))
+        self._caption_panel.float(x=_LIFT, y=-_LIFT, width=_CAPTION_WIDTH)
+        self._begin.on_click(lambda _: self.toggle())
+        self._buttons.on_click(self._clicked)
+        self._big.on_update(lambda event: enlarge(event.target.value))
+        self._present.on_click(lambda _: self._present_or_end())
+        self._flights.on_click(lambda event: self._fly(cases.FLIGHTS[event.target.value]))
+        self._case.on_update(self._take_case)
+        desk.bind("lecture", self.toggle)
+        desk.bind("lecture_next", lambda: self.go(1))
+        desk.bind("lecture_previous", lambda: self.go(-1))
+
+    @property
+    def step(self) -> int | None:
+        """The step that stands; None outside the lecture."""
+        return self._step
+
+    def toggle(self) -> None:
+        """Begin with the first step, or end."""
+        if self._step is None:
+            self.set(0)
+        else:
+            self.end()
+
+    def go(self, by: int) -> None:
+        """To another step; beyond the last the lecture ends."""
+        step = 0 if self._step is None else self._step + by
+        if step >= len(STEPS):
+            self.end()
+        else:
+            self.set(max(step, 0))
+
+    def set(self, step: int) -> None:
+        """Set the page as a step wants it."""
+        self._stand_at(step)
+        wanted, desk = STEPS[step], self._desk
+        desk.pin(wanted.against)
+        desk.set_view(lecture.view_of(wanted, desk.view()))
+        desk.set_inputs(wanted.inputs)
+        viser_compat.open_tab(self._client, wanted.tab)
+
+    def follow(self, step: int | None) -> None:
+        """Show the step of another page, which sets the rest."""
+        if step != self._step:
+            self._stand_at(step)
+
+    def end(self) -> None:
+        """The caption goes; the page stays as it is."""
+        self._stand_at(None)
+
+    def show(self, moment: Moment) -> None:
+        """Say what is seen now."""
+        if self._step is not None:
+            self._tell(STEPS[self._step].say(moment))
+
+    def lose(self) -> None:
+        if self._step is not None:
+            self._tell("")
+
+    def stop(self) -> None:
+        """Nothing runs on."""
+
+    def _stand_at(self, step: int | None) -> None:
+        self._step = step
+        self._caption_panel.visible = step is not None
+        self._begin.label = "Start the lecture" if step is None else "End the lecture"
+        if step is not None:
+            self._tell("")
+        self._desk.wake()
+
+    def _tell(self, said: str) -> None:
+        step = self._step
+        if step is None:
+            return
+        content = view.caption(STEPS[step], said)
+        if content != self._told:
+            self._told = self._caption.content = content
+
+    def _fly(self, advance_ratio: float) -> None:
+        self._desk.set_inputs(replace(self._desk.inputs(), advance_ratio=advance_ratio))
+
+    def _present_or_end(self) -> None:
+        if self._presence.presenting:
+            self._presence.end()
+        else:
+            self._presence.present()
+        self._name_present()
+
+    def _name_present(self) -> None:
+        self._present.label = "Stop presenting" if self._presence.presenting else "Present"
+
+    def _take_case(self, event: viser.GuiEvent[Any]) -> None:
+        if event.client is not None and event.target.value in cases.DOCUMENT:
+            self._desk.set_inputs(cases.DOCUMENT[event.target.value])
+
+    def _clicked(self, event: viser.GuiEvent[Any]) -> None:
+        match event.target.value:
+            case "Back":
+                self.go(-1)
+            case "Next":
+                self.go(1)
+            case "Set again" if self._step is not None:
+                self.set(self._step)
+            case _:
+                self.end()

@@ -1,0 +1,1 @@
+"""The Physics tab: what each part of the physics costs."""

@@ -1,0 +1,1 @@
+"""The menu of rotors and the files of one's own."""

@@ -1,0 +1,89 @@
+"""The camera of one client: fits the rotor into the canvas and follows its size until the user takes over."""
+
+import math
+import time
+from collections.abc import Callable
+from functools import partial
+
+import numpy as np
+import viser
+
+from explorer.scene.view import FIELD_OF_VIEW, Camera, View, fit
+
+_SETTLES = 1.5
+"""While the page lays itself out [s], camera messages still tell of older positions."""
+_TAKEN = 0.3
+"""A camera this far [m] from where it was put was moved by the user."""
+
+
+class FittedCamera:
+    """Aims once the canvas is known, again whenever its size changes, and when a view is asked for."""
+
+    def __init__(self, client: viser.ClientHandle, radius: float) -> None:
+        self._client = client
+        self._radius = radius
+        self._view: View | None = "3d"
+        """None while something else than the rotor is looked at."""
+        self._azimuth = 0.0
+        self._fit: Callable[[float], Camera] = partial(fit, "3d", radius)
+        self._following = True
+        self._put: tuple[np.ndarray, tuple[int, int], float] | None = None
+        client.camera.fov = FIELD_OF_VIEW
+        client.camera.near = 1.0  # A far near plane keeps the depth resolution that lines on the disk need.
+        client.camera.on_update(self._moved)
+
+    def aim(self, view: View) -> None:
+        """Show the rotor, and go on doing so when the canvas changes."""
+        self._view = view
+        self._aim(partial(fit, view, self._radius, azimuth=self._azimuth))
+
+    def resize(self, radius: float) -> None:
+        """The rotor is of another radius [m] now: fit it anew, unless something else is looked at."""
+        if radius == self._radius:
+            return
+        self._radius = radius
+        if self._view is not None:
+            self.aim(self._view)
+
+    def ride(self, azimuth: float) -> None:
+        """The marked blade is at ψ [rad] now: a camera that looks along it goes with it, until the user takes over."""
+        if azimuth == self._azimuth:
+            return
+        self._azimuth = azimuth
+        if self._view == "blade" and self._following:
+            self.aim("blade")
+
+    def pictured(self, aspect: float) -> tuple[np.ndarray, np.ndarray, float]:
+        """Orientation wxyz, position [m] and vertical field of view [rad] that show at `aspect` what the page shows."""
+        camera = self._client.camera
+        if self._following:
+            return camera.wxyz, self._fit(aspect).position, camera.fov
+        # A narrower picture takes in more height, so that nothing at the sides is lost.
+        wider = max(1.0, camera.aspect / aspect)
+        return camera.wxyz, camera.position, 2.0 * math.atan(wider * math.tan(camera.fov / 2.0))
+
+    def aim_with(self, fitted: Callable[[float], Camera]) -> None:
+        """The same for any other subject: `fitted` finds the camera for a canvas's width over height."""
+        self._view = None
+        self._aim(fitted)
+
+    def _aim(self, fitted: Callable[[float], Camera]) -> None:
+        camera = self._client.camera
+        self._fit, self._following = fitted, True
+        target = fitted(camera.aspect)
+        with self._client.atomic():
+            camera.position = target.position
+            camera.look_at = target.look_at
+        self._put = (target.position, (camera.image_width, camera.image_height), time.monotonic())
+
+    def _moved(self, camera: viser.CameraHandle) -> None:
+        if not self._following:
+            return
+        if self._put is None:
+            self._aim(self._fit)
+            return
+        position, size, since = self._put
+        if (camera.image_width, camera.image_height) != size:
+            self._aim(self._fit)
+        elif time.monotonic() - since > _SETTLES and np.linalg.norm(camera.position - position) > _TAKEN:
+            self._following = False

@@ -1,0 +1,33 @@
+"""Rotors recorded as scenes that viser's viewer shows without a server."""
+
+from collections.abc import Sequence
+
+from explorer import viser_compat
+from explorer.scene.picture import make_picture
+from explorer.scene.scene import Scene
+from explorer.scene.stage import Stage, stage_of
+from explorer.scene.view import FIELD_OF_VIEW, fit
+from explorer.state import ViewState
+from rotor.solution import Solution
+
+_ASPECT = 16.0 / 9.0
+"""Of the window that the camera is fitted to."""
+
+
+def make_stage(solutions: Sequence[Solution], view: ViewState, colour_range: tuple[float, float]) -> Stage:
+    """The rotors of converged solutions as the page shows them, their cameras fitted."""
+    return stage_of([_still(solution, view, colour_range) for solution in solutions])
+
+
+def _still(solution: Solution, view: ViewState, colour_range: tuple[float, float]) -> str:
+    """One as a page of its own; from a server that nobody else sees, for only servers can record."""
+    server = viser_compat.quiet_server("127.0.0.1", 0, "still")
+    try:
+        camera = fit("3d", solution.design.rotor.radius, _ASPECT)
+        server.initial_camera.position = camera.position
+        server.initial_camera.look_at = camera.look_at
+        server.initial_camera.fov = FIELD_OF_VIEW
+        Scene(server.scene, solution.design.rotor).show(make_picture(solution, view, colour_range))
+        return server.scene.as_html()
+    finally:
+        viser_compat.quiet_stop(server)

@@ -1,0 +1,1 @@
+"""The design in the address and in files."""
