@@ -1,13 +1,11 @@
 """A and B on the real page: pin, move, read the difference, see it on the disk, swap, go back, let go."""
 
 import re
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from chromium import DRAW_NOTHING
-from test_page import SMALL, WAIT, Watched
+from watched import WAIT, Watched, for_people, opened, painted
 
 from explorer.app import App
 
@@ -15,13 +13,6 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.browser
-
-
-@pytest.fixture(scope="module")
-def app() -> Iterator[App]:
-    app = App("127.0.0.1", 0)
-    yield app
-    app.stop()
 
 
 def ghost_seen(watched: Watched) -> bool:
@@ -39,10 +30,7 @@ def press(watched: Watched, name: str) -> None:
 
 
 def test_pin_move_compare_swap_back_and_let_go(browser: "Browser", app: App):
-    context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
-    context.add_init_script(DRAW_NOTHING)
-    watched = Watched(context.new_page())
-    watched.open(app.address)
+    watched = opened(browser, app.address)
     page = watched.page
     begun = watched.text("total-power")
     assert page.get_by_label("Show B − A").count() == 0
@@ -90,17 +78,12 @@ def test_pin_move_compare_swap_back_and_let_go(browser: "Browser", app: App):
     page.wait_for_function("() => Object.keys(window.__viserTestpoints.uplots).length === 4", timeout=WAIT)
     assert not re.search(r"\b(NaN|nan|inf|undefined)\b", page.inner_text("body"))
     assert watched.complaints == []
-    context.close()
+    watched.close()
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("size", [(1500, 940), (1280, 720)])
+@for_people
 def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any, size: tuple[int, int]):
-    """Not compared with anything: kept for people to look at."""
-    context = browser.new_context(viewport={"width": size[0], "height": size[1]}, color_scheme=scheme)
-    watched = Watched(context.new_page())
-    watched.open(app.address, query="")
+    watched = painted(browser, app.address, scheme, size)
     press(watched, "Pin as A")
     watched.page.wait_for_selector('[data-explorer="pinned"]', timeout=WAIT)
     for label, value in (("Inner", -20), ("Outer", -2), ("Division", 0.6)):
@@ -113,4 +96,4 @@ def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any,
     watched.page.screenshot(path=path)
     assert path.stat().st_size > 50_000
     assert watched.complaints == []
-    context.close()
+    watched.close()

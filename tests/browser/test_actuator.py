@@ -6,8 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from chromium import DRAW_NOTHING
-from test_page import SMALL, Watched
+from watched import Watched, for_people, opened, painted
 
 from explorer.app import App
 
@@ -20,28 +19,12 @@ VERDICT = 60_000
 
 
 @pytest.fixture(scope="module")
-def app() -> Iterator[App]:
-    app = App("127.0.0.1", 0)
-    yield app
-    app.stop()
-
-
-def open_slowly(watched: Watched, address: str) -> None:
-    """Whatever else the machine is doing: the first trim may wait for kernels to compile."""
-    watched.page.goto(address)
-    watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=VERDICT)
-
-
-@pytest.fixture(scope="module")
 def shared(browser: "Browser", app: App) -> Iterator[Watched]:
-    context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
-    context.add_init_script(DRAW_NOTHING)
-    watched = Watched(context.new_page())
-    open_slowly(watched, app.address + "?fixedDpr=0.5")
+    watched = opened(browser, app.address)
     watched.page.get_by_role("tab", name="Actuator").click()
     watched.page.wait_for_selector('[data-explorer="actuator-now"]')
     yield watched
-    context.close()
+    watched.close()
 
 
 @pytest.fixture
@@ -123,14 +106,9 @@ def test_the_cut_takes_the_place_of_the_rotor_and_follows_the_voltage(watched: W
     watched.until_changed(lambda: seen(watched, "/cut"), True)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("size", [(1500, 940), (1280, 720)])
+@for_people
 def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any, size: tuple[int, int]):
-    """Not compared with anything: kept for people to look at."""
-    context = browser.new_context(viewport={"width": size[0], "height": size[1]}, color_scheme=scheme)
-    watched = Watched(context.new_page())
-    open_slowly(watched, app.address)
+    watched = painted(browser, app.address, scheme, size)
     watched.page.get_by_role("tab", name="Actuator").click()
     watched.quiet()
     watched.page.get_by_label("Show blade cut").first.click()
@@ -143,4 +121,4 @@ def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any,
     assert path.stat().st_size > 50_000
     assert not re.search(r"\b(NaN|nan|inf|undefined)\b", watched.page.inner_text("body"))
     assert watched.complaints == []
-    context.close()
+    watched.close()

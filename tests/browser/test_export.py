@@ -9,50 +9,29 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 import trimesh
-from chromium import DRAW_NOTHING
 from PIL import Image
-from test_page import SMALL, Watched
+from watched import WAIT, Watched, opened, painted
 
 from explorer.app import App
 from explorer.state import Inputs
 from rotor.solve import solve
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, BrowserContext
+    from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.browser
-WAIT = 60_000
-"""[ms]; a report or a picture beside a browser that draws in software."""
-FAST = Inputs(law="linear", linear=-16.0, advance_ratio=0.41)
+START = Inputs(law="linear", linear=-16.0, advance_ratio=0.41)
 """A design with a caveat."""
 
 
 @pytest.fixture(scope="module")
-def app() -> Iterator[App]:
-    app = App("127.0.0.1", 0, FAST)
-    yield app
-    app.stop()
-
-
-@pytest.fixture(scope="module")
-def context(browser: "Browser") -> "Iterator[BrowserContext]":
-    context = browser.new_context(
-        viewport=SMALL,  # pyright: ignore[reportArgumentType]
-        permissions=["clipboard-read", "clipboard-write"],
-    )
-    context.add_init_script(DRAW_NOTHING)
-    yield context
-    context.close()
-
-
-@pytest.fixture(scope="module")
-def shared(context: "BrowserContext", app: App) -> Watched:
-    watched = Watched(context.new_page())
-    watched.page.goto(app.address + "?fixedDpr=0.5")
-    watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
+def shared(browser: "Browser", app: App) -> Iterator[Watched]:
+    watched = opened(browser, app.address)
+    watched.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
     watched.page.get_by_role("tab", name="Session").click()
     watched.page.wait_for_selector('[data-explorer="export"]')
-    return watched
+    yield watched
+    watched.close()
 
 
 @pytest.fixture
@@ -77,7 +56,7 @@ def saved(watched: Watched, button: str, folder: Path) -> Path:
 
 
 def test_shapes_are_closed_and_to_scale(watched: Watched, tmp_path: Path):
-    design = FAST.design()
+    design = START.design()
     blade = trimesh.load_mesh(saved(watched, "Blade STL", tmp_path))
     assert isinstance(blade, trimesh.Trimesh)
     assert blade.is_watertight
@@ -131,7 +110,7 @@ def test_pictures_have_the_pixels_asked_for(watched: Watched, tmp_path: Path):
 
 
 def test_text_is_shown_copied_and_has_the_power_of_the_page(watched: Watched):
-    page, power = watched.page, solve(FAST.design()).power.total
+    page, power = watched.page, solve(START.design()).power.total
     page.get_by_role("button", name="Command", exact=True).click()
     command = page.wait_for_selector('[data-explorer="code"]', timeout=WAIT)
     assert command is not None
@@ -147,14 +126,12 @@ def test_text_is_shown_copied_and_has_the_power_of_the_page(watched: Watched):
     page.get_by_role("button", name="Close", exact=True).click()
 
 
-def test_the_report_opens_without_a_server_and_asks_for_nothing(
-    watched: Watched, context: "BrowserContext", tmp_path: Path
-):
+def test_the_report_opens_without_a_server_and_asks_for_nothing(watched: Watched, tmp_path: Path):
     shown = watched.text("total-power")
-    watched.page.get_by_role("button", name="Keep", exact=True).click()
+    watched.page.get_by_role("button", name="Keep this design").click()
     path = saved(watched, "Report of this session", tmp_path)
     assert path.stat().st_size < 3_000_000
-    report = Watched(context.new_page())
+    report = Watched(watched.page.context.new_page())
     asked: list[str] = []
     report.page.on("request", lambda request: asked.append(request.url))
     with report.page.expect_console_message(lambda message: "Embedded data loaded" in message.text, timeout=WAIT):
@@ -192,20 +169,16 @@ def test_a_design_without_an_answer_is_said_to_have_none(watched: Watched, tmp_p
 @pytest.mark.slow
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_screenshots_of_report_and_pictures(browser: "Browser", app: App, artefacts: Path, tmp_path: Path, scheme: Any):
-    """Not compared with anything: kept for people to look at."""
-    context = browser.new_context(viewport={"width": 1280, "height": 720}, color_scheme=scheme)
-    watched = Watched(context.new_page())
-    watched.page.goto(app.address)
-    watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
+    watched = painted(browser, app.address, scheme, (1280, 720))
     watched.page.get_by_role("tab", name="Session").click()
-    watched.page.get_by_role("button", name="Keep", exact=True).click()
+    watched.page.get_by_role("button", name="Keep this design").click()
     watched.choose("Picture", "3D view")
     picture = saved(watched, "PNG", tmp_path)
     picture.rename(artefacts / f"export-view-{scheme}.png")
-    report = Watched(context.new_page())
+    report = Watched(watched.page.context.new_page())
     report.page.goto(saved(watched, "Report of this session", tmp_path).as_uri())
     report.page.wait_for_timeout(6000)
     report.page.screenshot(path=artefacts / f"report-{scheme}.png", full_page=True)
     assert not re.search(r"\b(NaN|nan|inf|undefined)\b", report.page.inner_text("body"))
     assert watched.complaints == report.complaints == []
-    context.close()
+    watched.close()

@@ -4,8 +4,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import pytest
-from chromium import DRAW_NOTHING
-from test_page import Watched
+from watched import Watched, opened
 
 from explorer.app import App
 from explorer.state import Inputs
@@ -14,6 +13,7 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.browser
+START = Inputs(law="three")
 
 _FAULTS = """() => {
   const faults = new Set();
@@ -56,16 +56,11 @@ _ROWS_OF_TABS = """() => {
 
 
 @pytest.fixture(scope="module")
-def watched(browser: "Browser") -> Iterator[Watched]:
-    app = App("127.0.0.1", 0, Inputs(law="three"))
-    context = browser.new_context(viewport={"width": 1280, "height": 720})
-    context.add_init_script(DRAW_NOTHING)
-    watched = Watched(context.new_page())
-    watched.open(app.address, query="")
+def watched(browser: "Browser", app: App) -> Iterator[Watched]:
+    watched = opened(browser, app.address, query="", size=(1280, 720))
     watched.quiet()
     yield watched
-    context.close()
-    app.stop()
+    watched.close()
 
 
 def faults(watched: Watched) -> dict[str, list[str]]:

@@ -1,11 +1,10 @@
 """The lecture and the presenter on the real page."""
 
-from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import pytest
-from test_page import WAIT
-from test_session_page import design_in_address, opened, shown_kw
+from test_session_page import design_in_address, shown_kw
+from watched import COARSE, WAIT, opened
 
 from explorer.app import App
 from explorer.lecture.steps import STEPS
@@ -16,13 +15,6 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.browser
 
 
-@pytest.fixture(scope="module")
-def app() -> Iterator[App]:
-    app = App("127.0.0.1", 0)
-    yield app
-    app.stop()
-
-
 def stands_at(page: "Page", step: int) -> None:
     page.wait_for_selector(f'[data-explorer="lecture"][data-step="{step}"]', timeout=WAIT)
     page.wait_for_function(
@@ -31,7 +23,7 @@ def stands_at(page: "Page", step: int) -> None:
 
 
 def test_the_lecture_sets_the_page_and_says_what_is_seen(browser: "Browser", app: App):
-    watched = opened(browser, app)
+    watched = opened(browser, app.address)
     page = watched.page
     page.get_by_role("tab", name="Lecture").click()
     page.get_by_role("button", name="Start the lecture").click()
@@ -61,11 +53,11 @@ def test_the_lecture_sets_the_page_and_says_what_is_seen(browser: "Browser", app
         timeout=WAIT,
     )
     assert watched.complaints == []
-    page.context.close()
+    watched.close()
 
 
 def test_others_follow_the_presenter_and_may_leave(browser: "Browser", app: App):
-    presenter = opened(browser, app)
+    presenter = opened(browser, app.address)
     page = presenter.page
     page.get_by_role("tab", name="Lecture").click()
     page.get_by_role("button", name="Present", exact=True).click()
@@ -74,7 +66,7 @@ def test_others_follow_the_presenter_and_may_leave(browser: "Browser", app: App)
     assert link is not None
     name = link.removeprefix("?follow=")
     assert name not in page.url  # The address holds the presenter's secret, the link does not.
-    follower = opened(browser, app, f"&follow={name}")
+    follower = opened(browser, app.address, COARSE + f"&follow={name}")
     other = follower.page
     assert "moves by itself" in follower.text("presence")
     page.wait_for_function(
@@ -105,5 +97,5 @@ def test_others_follow_the_presenter_and_may_leave(browser: "Browser", app: App)
     follower.type("Adv. ratio", 0.2)
     follower.until_changed(lambda: shown_kw(follower), there)
     assert presenter.complaints == follower.complaints == []
-    other.context.close()
-    page.context.close()
+    follower.close()
+    presenter.close()

@@ -9,46 +9,32 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from chromium import DRAW_NOTHING
-from test_page import Watched
+from watched import WAIT, Watched, opened
 
 from explorer.app import App
 from explorer.session import Session
 from rotor.solve import solve
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, BrowserContext
+    from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.browser
-SIZE = {"width": 1280, "height": 900}
-WAIT = 30_000
-"""[ms]; far more than it takes, for machines with other things to do."""
 SLOW = "Three segments, free breaks"
 """With sixteen starts it takes many times as long as a test waits before it presses Stop."""
 
 
-@pytest.fixture(scope="module")
-def app() -> Iterator[App]:
-    app = App("127.0.0.1", 0)
-    yield app
-    app.stop()
-
-
-def opened(browser: "Browser", app: App) -> "tuple[BrowserContext, Watched, Session]":
+def visit(browser: "Browser", app: App) -> tuple[Watched, Session]:
     known = app.sessions
-    context = browser.new_context(viewport=SIZE)  # pyright: ignore[reportArgumentType]
-    context.add_init_script(DRAW_NOTHING)
-    watched = Watched(context.new_page())
-    watched.open(app.address)
+    watched = opened(browser, app.address, size=(1280, 900))
     (new,) = (session for session in app.sessions if session not in known)
-    return context, watched, new
+    return watched, new
 
 
 @pytest.fixture(scope="module")
 def shared(browser: "Browser", app: App) -> "Iterator[tuple[Watched, Session]]":
-    context, watched, session = opened(browser, app)
+    watched, session = visit(browser, app)
     yield watched, session
-    context.close()
+    watched.close()
 
 
 @pytest.fixture
@@ -192,7 +178,7 @@ def test_the_page_goes_on_when_its_worker_is_killed(page: tuple[Watched, Session
 
 def test_two_browsers_at_once_do_not_disturb_each_other(page: tuple[Watched, Session], browser: "Browser", app: App):
     watched, session = page
-    context, other, others = opened(browser, app)
+    other, others = visit(browser, app)
     before = other.text("total-power")
     watched.choose("Concept", SLOW)
     press(watched, "Optimise")
@@ -208,7 +194,7 @@ def test_two_browsers_at_once_do_not_disturb_each_other(page: tuple[Watched, Ses
     assert mine.concept.name == "three-segment-free"
     assert theirs.optimum.best.power >= solve(theirs.optimum.design).power.total * (1.0 - 1e-9)
     press(other, "Optimise")
-    context.close()  # It leaves with a search under way: the search ends with it.
+    other.close()  # It leaves with a search under way: the search ends with it.
     deadline = time.monotonic() + 10.0
     while (
         others.panels.optimise._job is not None and not others.panels.optimise._job.over and time.monotonic() < deadline

@@ -3,116 +3,29 @@
 import re
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
-from chromium import DRAW_NOTHING
+from watched import WAIT, Watched, for_people, opened, painted
 
 from explorer.app import App
 from explorer.state import Inputs
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, Locator, Page
+    from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.browser
-SMALL = {"width": 1000, "height": 600}
-WAIT = 45_000
-"""[ms]; far more than it takes, for machines that draw in software."""
-
-
-@pytest.fixture(scope="module")
-def app() -> Iterator[App]:
-    app = App("127.0.0.1", 0, Inputs(law="builtin"))
-    yield app
-    app.stop()
-
-
-class Watched:
-    """A page and everything it complained about."""
-
-    def __init__(self, page: "Page") -> None:
-        self.page = page
-        self.complaints: list[str] = []
-        page.on("pageerror", lambda error: self.complaints.append(str(error)))
-        page.on("console", lambda m: self.complaints.append(m.text) if m.type == "error" else None)
-
-    def open(self, address: str, query: str = "?fixedDpr=0.5") -> None:
-        self.page.goto(address + query)
-        self.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
-
-    def row(self, label: str) -> "Locator":
-        named = self.page.locator("label", has_text=re.compile(rf"^{re.escape(label)}")).first
-        return named.locator("xpath=ancestor::div[contains(@class,'Flex-root')][1]")
-
-    def press(self, label: str, key: str, times: int = 1) -> None:
-        self.row(label).get_by_role("slider").focus()
-        for _ in range(times):
-            self.page.keyboard.press(key)
-            self.page.wait_for_timeout(70)  # viser loses an edit that follows another within 50 ms.
-
-    def choose(self, label: str, option: str) -> None:
-        self.row(label).locator("input").first.click()
-        self.page.get_by_role("option", name=option, exact=True).click()
-
-    def type(self, label: str, value: float) -> None:
-        self.row(label).locator("input:not([type=hidden])").last.fill(f"{value:g}")
-        self.page.keyboard.press("Enter")
-
-    def text(self, part: str) -> str:
-        return self.page.locator(f'[data-explorer="{part}"]').first.inner_text()
-
-    def until_changed(self, read: Callable[[], Any], before: Any) -> Any:
-        for _ in range(WAIT // 100):
-            now = read()
-            if now != before:
-                return now
-            self.page.wait_for_timeout(100)
-        raise AssertionError(f"nothing changed: still {before!r:.200}")
-
-    def at_rest(self, read: Callable[[], Any], rest: float = 1.2) -> Any:
-        """What is read once it has stayed the same so long [s]: a busy machine is still answering the last key."""
-        now, since = read(), time.monotonic()
-        deadline = since + WAIT / 1e3
-        while time.monotonic() - since < rest:
-            assert time.monotonic() < deadline, f"never at rest: {now!r:.200}"
-            self.page.wait_for_timeout(100)
-            if (new := read()) != now:
-                now, since = new, time.monotonic()
-        return now
-
-    def node(self, name: str) -> str:
-        """A digest of what the browser holds for a scene node: vertices or picture."""
-        return self.page.evaluate(
-            """name => {
-                const props = window.__viserSceneTree.getState()[name].message.props;
-                const bytes = props.vertices ?? props._data;
-                const view = new Uint8Array(bytes.buffer ?? bytes, bytes.byteOffset ?? 0, bytes.byteLength);
-                let hash = 5381;
-                for (const byte of view) hash = (hash * 33 + byte) | 0;
-                return view.length + ':' + hash;
-            }""",
-            name,
-        )
-
-    def quiet(self) -> None:
-        """Close viser's remark on drawing in software, which only headless browsers see."""
-        close = self.page.locator("[class*=otification] button")
-        if close.count():
-            close.first.click()
-            self.page.wait_for_timeout(400)
+START = Inputs(law="builtin")
 
 
 @pytest.fixture(scope="module")
 def shared(browser: "Browser", app: App) -> Iterator[Watched]:
     """One page for all tests that leave it usable: loading it is what takes the time."""
-    context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
-    context.add_init_script(DRAW_NOTHING)
-    watched = Watched(context.new_page())
-    watched.open(app.address)
+    watched = opened(browser, app.address)
     yield watched
-    context.close()
+    watched.close()
 
 
 @pytest.fixture
@@ -236,13 +149,10 @@ def test_sessions_end_with_their_browsers(browser: "Browser", app: App):
         return {thread.name for thread in threading.enumerate() if thread.name.startswith("session-")}
 
     before = working()
-    context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
-    context.add_init_script(DRAW_NOTHING)
-    watched = Watched(context.new_page())
-    watched.open(app.address)
+    watched = opened(browser, app.address)
     assert len(working()) == len(before) + 1
     watched.press("Adv. ratio", "ArrowRight")
-    context.close()
+    watched.close()
     deadline = time.monotonic() + 10.0
     while working() != before and time.monotonic() < deadline:
         time.sleep(0.1)
@@ -250,15 +160,12 @@ def test_sessions_end_with_their_browsers(browser: "Browser", app: App):
 
 
 def test_two_browsers_do_not_disturb_each_other(watched: Watched, browser: "Browser", app: App):
-    context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
-    context.add_init_script(DRAW_NOTHING)
-    other = Watched(context.new_page())
-    other.open(app.address)
+    other = opened(browser, app.address)
     other.press("Adv. ratio", "ArrowRight", 5)
     other.until_changed(lambda: other.text("speed"), "159 km/h · 44.2 m/s · 86 kt")
     assert watched.text("speed") == "159 km/h · 44.2 m/s · 86 kt"
     assert other.complaints == []
-    context.close()
+    other.close()
 
 
 def test_crossed_divisions_are_one_red_sentence(watched: Watched):
@@ -298,14 +205,9 @@ def test_no_number_on_screen_is_not_a_number(watched: Watched):
         assert not re.search(r"\b(NaN|nan|inf|undefined)\b", watched.page.inner_text("body"))
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("size", [(1500, 940), (1280, 720)])
+@for_people
 def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any, size: tuple[int, int]):
-    """Not compared with anything: kept for people to look at."""
-    context = browser.new_context(viewport={"width": size[0], "height": size[1]}, color_scheme=scheme)
-    watched = Watched(context.new_page())
-    watched.open(app.address, query="")
+    watched = painted(browser, app.address, scheme, size)
     watched.type("Adv. ratio", 0.3)
     watched.page.wait_for_timeout(2500)
     watched.quiet()
@@ -316,19 +218,17 @@ def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any,
     overlap = watched.page.evaluate("() => document.querySelector('canvas').getBoundingClientRect().width")
     assert overlap <= size[0] - 600  # The panels stand beside the canvas, not on it.
     assert watched.complaints == []
-    context.close()
+    watched.close()
 
 
 @pytest.mark.slow
 def test_picture_of_the_readme(browser: "Browser", app: App, artefacts: Path):
     """docs/images/explorer.png is a copy of what this saves."""
-    context = browser.new_context(viewport={"width": 1500, "height": 940})
-    watched = Watched(context.new_page())
-    watched.open(app.address, query="")
+    watched = painted(browser, app.address, "light", (1500, 940))
     watched.choose("Law", "Two segments")
     watched.choose("Field", "Induced inflow λi")
     watched.page.wait_for_timeout(2500)
     watched.quiet()
     watched.page.screenshot(path=artefacts / "explorer.png")
     assert watched.complaints == []
-    context.close()
+    watched.close()

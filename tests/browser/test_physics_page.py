@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import pytest
-from chromium import DRAW_NOTHING
-from test_page import SMALL, WAIT, Watched, kilowatts
+from test_page import kilowatts
+from watched import WAIT, Watched, opened
 
 from explorer.app import App
 from explorer.glossary import CONTROLS
@@ -16,23 +16,14 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.browser
-
-
-@pytest.fixture(scope="module")
-def app() -> Iterator[App]:
-    app = App("127.0.0.1", 0, Inputs(law="builtin", advance_ratio=0.3))
-    yield app
-    app.stop()
+START = Inputs(law="builtin", advance_ratio=0.3)
 
 
 @pytest.fixture(scope="module")
 def watched(browser: "Browser", app: App) -> Iterator[Watched]:
-    context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
-    context.add_init_script(DRAW_NOTHING)
-    watched = Watched(context.new_page())
-    watched.open(app.address)
+    watched = opened(browser, app.address)
     yield watched
-    context.close()
+    watched.close()
     assert watched.complaints == []
 
 

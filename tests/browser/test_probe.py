@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from chromium import DRAW_NOTHING
-from test_page import SMALL, WAIT, Watched
+from watched import WAIT, Watched, for_people, opened, painted
 
 from explorer.app import App
 from explorer.scene.view import FIELD_OF_VIEW, View, fit
@@ -21,28 +20,19 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.browser
+START = Inputs(law="builtin")
 RADIUS = uh60a_rotor("flight").radius
 
 
 @pytest.fixture(scope="module")
-def app() -> Iterator[App]:
-    app = App("127.0.0.1", 0, Inputs(law="builtin"))
-    yield app
-    app.stop()
-
-
-@pytest.fixture(scope="module")
 def watched(browser: "Browser", app: App) -> Iterator[Watched]:
-    context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
-    context.add_init_script(DRAW_NOTHING)
-    watched = Watched(context.new_page())
-    watched.open(app.address)
+    watched = opened(browser, app.address)
     watched.quiet()
     watched.page.get_by_role("tab", name="Probe").click()
     watched.page.wait_for_selector('[data-explorer="probe"]')
     yield watched
     assert watched.complaints == []
-    context.close()
+    watched.close()
 
 
 def number(watched: Watched, label: str) -> float:
@@ -211,16 +201,10 @@ def test_a_sentence_in_red_dims_the_probe_and_stops_play(watched: Watched):
     page.wait_for_selector(".rx-faded [data-explorer=probe]", state="detached", timeout=WAIT)
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("size", [(1500, 940), (1280, 720)])
+@for_people
 def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any, size: tuple[int, int]):
-    """Not compared with anything: kept for people to look at."""
-    context = browser.new_context(viewport={"width": size[0], "height": size[1]}, color_scheme=scheme)
-    watched = Watched(context.new_page())
+    watched = painted(browser, app.address, scheme, size)
     page = watched.page
-    page.goto(app.address)
-    page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=4 * WAIT)
     watched.type("Adv. ratio", 0.37)
     page.get_by_role("tab", name="Probe").click()
     page.wait_for_timeout(2500)
@@ -240,4 +224,4 @@ def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any,
         page.screenshot(path=artefacts / f"probe-{name}-{scheme}-{size[0]}x{size[1]}.png")
     assert re.search("reverse flow", watched.text("probe-region"))
     assert watched.complaints == []
-    context.close()
+    watched.close()

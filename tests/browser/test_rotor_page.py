@@ -5,8 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
-from chromium import DRAW_NOTHING
-from test_page import SMALL, WAIT, Watched
+from watched import WAIT, Watched, opened
 
 from explorer.app import App
 from explorer.state import Inputs
@@ -16,25 +15,16 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.browser
+START = Inputs(law="builtin")
 BLADES = r"""() => Object.entries(window.__viserSceneTree.getState()).filter(
     ([name, node]) => /blade_\d+$/.test(name) && (node.overrideVisibility ?? node.visibility) !== false).length"""
 
 
-@pytest.fixture(scope="module")
-def app() -> Iterator[App]:
-    app = App("127.0.0.1", 0, Inputs(law="builtin"))
-    yield app
-    app.stop()
-
-
 @pytest.fixture
 def watched(app: App, browser: "Browser") -> Iterator[Watched]:
-    context = browser.new_context(viewport=SMALL)  # pyright: ignore[reportArgumentType]
-    context.add_init_script(DRAW_NOTHING)
-    watched = Watched(context.new_page())
-    watched.open(app.address)
+    watched = opened(browser, app.address)
     yield watched
-    context.close()
+    watched.close()
 
 
 def shown(watched: Watched, part: str, text: str) -> None:

@@ -1,13 +1,11 @@
 """Undo, history, kept designs, the address, and design files, on the real page."""
 
 import json
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
-from chromium import DRAW_NOTHING
-from test_page import SMALL, WAIT, Watched
+from watched import COARSE, WAIT, Watched, opened
 
 from explorer.app import App
 from explorer.state import Inputs
@@ -21,21 +19,6 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.browser
 
 
-@pytest.fixture(scope="module")
-def app() -> Iterator[App]:
-    app = App("127.0.0.1", 0)
-    yield app
-    app.stop()
-
-
-def opened(browser: "Browser", app: App, query: str = "") -> Watched:
-    context = browser.new_context(viewport=SMALL, accept_downloads=True)  # pyright: ignore[reportArgumentType]
-    context.add_init_script(DRAW_NOTHING)
-    watched = Watched(context.new_page())
-    watched.open(app.address, "?fixedDpr=0.5" + query)
-    return watched
-
-
 def design_in_address(watched: Watched, text: str) -> None:
     watched.page.wait_for_function("text => location.search.includes(text)", arg=text, timeout=WAIT)
 
@@ -45,7 +28,7 @@ def shown_kw(watched: Watched) -> str:
 
 
 def test_undo_redo_and_history(browser: "Browser", app: App):
-    watched = opened(browser, app)
+    watched = opened(browser, app.address)
     page, begun = watched.page, shown_kw(watched)
     watched.type("Inner", -14.4)
     design_in_address(watched, "segments:-14.4,-8@0.5")
@@ -66,7 +49,7 @@ def test_undo_redo_and_history(browser: "Browser", app: App):
     strip = page.locator('[data-explorer="history"]')
     strip.wait_for(timeout=WAIT)
     assert (strip.get_attribute("data-steps"), strip.get_attribute("data-present")) == ("3", "2")
-    page.get_by_role("button", name="Keep").click()
+    page.get_by_role("button", name="Keep this design").click()
     page.locator('[data-explorer="kept"]').wait_for(timeout=WAIT)
     strip.locator("g").first.click()
     design_in_address(watched, "segments:-14,-8@0.5")
@@ -75,11 +58,11 @@ def test_undo_redo_and_history(browser: "Browser", app: App):
     page.locator('[data-explorer="kept"] a').click()
     page.locator('[data-explorer="kept"]').wait_for(state="detached", timeout=WAIT)
     assert watched.complaints == []
-    page.context.close()
+    watched.close()
 
 
 def test_the_address_is_the_design(browser: "Browser", app: App):
-    watched = opened(browser, app, "&d=1;linear:-9.5;mu=0.3;mass=9000;inflow=drees")
+    watched = opened(browser, app.address, COARSE + "&d=1;linear:-9.5;mu=0.3;mass=9000;inflow=drees")
     design = Inputs(law="linear", linear=-9.5, advance_ratio=0.3, mass_t=9.0, inflow="drees").design()
     power = f"{solve(design).power.total / 1e3:,.0f}".replace(",", "\u2009")
     assert shown_kw(watched) == power
@@ -93,18 +76,18 @@ def test_the_address_is_the_design(browser: "Browser", app: App):
     watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
     assert shown_kw(watched) == shown
     watched.page.get_by_role("button", name="Back to A").wait_for(timeout=WAIT)
-    watched.page.context.close()
+    watched.close()
 
 
 def test_a_bad_address_is_one_sentence_and_the_usual_design(browser: "Browser", app: App):
-    watched = opened(browser, app, "&d=1;linear:-9;wings=2")
+    watched = opened(browser, app.address, COARSE + "&d=1;linear:-9;wings=2")
     watched.page.get_by_text("unknown key 'wings'").wait_for(timeout=WAIT)
     design_in_address(watched, "segments:-14,-8@0.5")
-    watched.page.context.close()
+    watched.close()
 
 
 def test_save_and_load(browser: "Browser", app: App, tmp_path: Path):
-    watched = opened(browser, app, "&d=1;spline:9,6,0,-5@0.13,0.4,0.75,1;mu=0.1;airfoils=sc1095")
+    watched = opened(browser, app.address, COARSE + "&d=1;spline:9,6,0,-5@0.13,0.4,0.75,1;mu=0.1;airfoils=sc1095")
     page = watched.page
     page.get_by_role("tab", name="Session").click()
     with page.expect_download() as download:
@@ -129,4 +112,4 @@ def test_save_and_load(browser: "Browser", app: App, tmp_path: Path):
     design_in_address(watched, "spline:9,6,0,-5@0.13,0.4,0.75,1;mu=0.1")
     assert watched.until_changed(lambda: shown_kw(watched), loaded) == before
     assert watched.complaints == []
-    page.context.close()
+    watched.close()

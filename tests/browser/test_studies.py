@@ -6,8 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
-from chromium import DRAW_NOTHING
-from test_page import Watched
+from watched import Watched, opened
 
 from explorer.app import App
 from explorer.server.house import House
@@ -56,13 +55,10 @@ def studies(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module")
 def page(browser: "Browser", studies: Path) -> Iterator[tuple[Watched, Session]]:
     app = App("127.0.0.1", 0, house=House(studies=studies))
-    context = browser.new_context(viewport={"width": 1280, "height": 900})
-    context.add_init_script(DRAW_NOTHING)
-    watched = Watched(context.new_page())
-    watched.open(app.address)
+    watched = opened(browser, app.address, size=(1280, 900))
     watched.page.get_by_role("tab", name="Studies").click()
     yield watched, app.sessions[-1]
-    context.close()
+    watched.close()
     app.stop()
 
 

@@ -1,0 +1,120 @@
+"""The explorer in a browser as tests use it: sliders moved, parts read, complaints collected."""
+
+import re
+import time
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from chromium import DRAW_NOTHING
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, Locator, Page
+
+SMALL = (1000, 600)
+WAIT = 45_000
+"""[ms]; far more than it takes, for machines that draw in software."""
+COARSE = "?fixedDpr=0.5"
+"""Half as many pixels each way, for tests that read no picture."""
+
+
+class Watched:
+    """A page and everything it complained about."""
+
+    def __init__(self, page: "Page") -> None:
+        self.page = page
+        self.complaints: list[str] = []
+        page.on("pageerror", lambda error: self.complaints.append(str(error)))
+        page.on("console", lambda m: self.complaints.append(m.text) if m.type == "error" else None)
+
+    def open(self, address: str, query: str = COARSE) -> None:
+        self.page.goto(address + query)
+        self.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
+
+    def close(self) -> None:
+        """With all pages of its window."""
+        self.page.context.close()
+
+    def row(self, label: str) -> "Locator":
+        named = self.page.locator("label", has_text=re.compile(rf"^{re.escape(label)}")).first
+        return named.locator("xpath=ancestor::div[contains(@class,'Flex-root')][1]")
+
+    def press(self, label: str, key: str, times: int = 1) -> None:
+        self.row(label).get_by_role("slider").focus()
+        for _ in range(times):
+            self.page.keyboard.press(key)
+            self.page.wait_for_timeout(70)  # viser loses an edit that follows another within 50 ms.
+
+    def choose(self, label: str, option: str) -> None:
+        self.row(label).locator("input").first.click()
+        self.page.get_by_role("option", name=option, exact=True).click()
+
+    def type(self, label: str, value: float) -> None:
+        self.row(label).locator("input:not([type=hidden])").last.fill(f"{value:g}")
+        self.page.keyboard.press("Enter")
+
+    def text(self, part: str) -> str:
+        return self.page.locator(f'[data-explorer="{part}"]').first.inner_text()
+
+    def until_changed(self, read: Callable[[], Any], before: Any) -> Any:
+        for _ in range(WAIT // 100):
+            now = read()
+            if now != before:
+                return now
+            self.page.wait_for_timeout(100)
+        raise AssertionError(f"nothing changed: still {before!r:.200}")
+
+    def at_rest(self, read: Callable[[], Any], rest: float = 1.2) -> Any:
+        """What is read once it has stayed the same so long [s]: a busy machine is still answering the last key."""
+        now, since = read(), time.monotonic()
+        deadline = since + WAIT / 1e3
+        while time.monotonic() - since < rest:
+            assert time.monotonic() < deadline, f"never at rest: {now!r:.200}"
+            self.page.wait_for_timeout(100)
+            if (new := read()) != now:
+                now, since = new, time.monotonic()
+        return now
+
+    def node(self, name: str) -> str:
+        """A digest of what the browser holds for a scene node: vertices or picture."""
+        return self.page.evaluate(
+            """name => {
+                const props = window.__viserSceneTree.getState()[name].message.props;
+                const bytes = props.vertices ?? props._data;
+                const view = new Uint8Array(bytes.buffer ?? bytes, bytes.byteOffset ?? 0, bytes.byteLength);
+                let hash = 5381;
+                for (const byte of view) hash = (hash * 33 + byte) | 0;
+                return view.length + ':' + hash;
+            }""",
+            name,
+        )
+
+    def quiet(self) -> None:
+        """Close viser's remark on drawing in software, which only headless browsers see."""
+        close = self.page.locator("[class*=otification] button")
+        if close.count():
+            close.first.click()
+            self.page.wait_for_timeout(400)
+
+
+def opened(browser: "Browser", address: str, query: str = COARSE, size: tuple[int, int] = SMALL) -> Watched:
+    """A window of its own in which nothing is painted: what a test reads needs no pixels."""
+    context = browser.new_context(viewport={"width": size[0], "height": size[1]})
+    context.add_init_script(DRAW_NOTHING)
+    watched = Watched(context.new_page())
+    watched.open(address, query)
+    return watched
+
+
+def painted(browser: "Browser", address: str, scheme: Any, size: tuple[int, int]) -> Watched:
+    """A window of its own as a person sees it, for pictures."""
+    context = browser.new_context(viewport={"width": size[0], "height": size[1]}, color_scheme=scheme)
+    watched = Watched(context.new_page())
+    watched.open(address, query="")
+    return watched
+
+
+def for_people(test: Any) -> Any:
+    """A test that takes pictures in both schemes and sizes. Not compared with anything: kept for people to look at."""
+    test = pytest.mark.parametrize("scheme", ["light", "dark"])(test)
+    return pytest.mark.slow(pytest.mark.parametrize("size", [(1500, 940), (1280, 720)])(test))
