@@ -18,6 +18,7 @@ from rotor.actuator.placement import Host, default_placement
 from rotor.actuator.reach import STATIONS, Pair, best_reach, twisted
 from rotor.actuator.tables import table_5_1, verdict_table
 from rotor.actuator.verdict import Verdict, change_limit, judge
+from rotor.actuator.wording import verdict_sentence
 from rotor.concepts import find_concept
 from rotor.optimise import Search, optimise
 from rotor.presets import make_design
@@ -133,13 +134,13 @@ def test_required_twist_by_hand():
 
 def test_sentence_says_what_the_numbers_say():
     judged = verdict(kind="retrofit")
-    assert "cannot make" in judged.sentence
-    assert "does not pay" in judged.sentence
-    assert "temperature" in judged.sentence
-    assert "can make" in verdict().sentence
+    assert "cannot make" in verdict_sentence(judged)
+    assert "does not pay" in verdict_sentence(judged)
+    assert "temperature" in verdict_sentence(judged)
+    assert "can make" in verdict_sentence(verdict())
     passive = verdict("extension_twist")
     assert not passive.pays
-    assert "rotor-speed" in passive.sentence
+    assert "rotor-speed" in verdict_sentence(passive)
 
 
 @pytest.mark.slow

@@ -10,7 +10,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.__main__ import main
-from rotor.command.parser import parse_range
+from rotor.ranges import parse_range
 
 KEYS = [
     "status", "message", "caveats", "mu", "speed_m_s", "preset", "inflow", "twist", "power_w", "ct", "cp",

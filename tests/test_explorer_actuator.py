@@ -35,6 +35,7 @@ from explorer.scene.view import FIELD_OF_VIEW
 from explorer.state import ViewState, baseline_of
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.verdict import Verdict
+from rotor.actuator.wording import verdict_sentence
 from rotor.presets import make_design
 from rotor.solve import solve
 
@@ -221,7 +222,7 @@ def test_the_verdict_is_told_whole(verdict: Verdict):
     findings = Findings(question, verdict, (("MFC_P1", verdict),))
     panel = actuator_readout.verdict_panel(findings, question)
     assert 'data-kind="ready"' in panel
-    assert verdict.sentence[:40] in panel
+    assert verdict_sentence(verdict)[:40] in panel
     numbers = actuator_readout.fit_panel(inputs, verdict.fitted, verdict)
     assert re.search(r"Required Δtwist</span><span class=\"rx-num\">\d", numbers)
     limits = actuator_readout.limits_panel(verdict)

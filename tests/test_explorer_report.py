@@ -27,7 +27,8 @@ from explorer.disk.image import SIZE
 from explorer.export.sheet import disk_sheet, shown, view_sheet, window
 from explorer.provenance import versions
 from explorer.report import command as report_command
-from explorer.report.document import Entry, Report, report_html, report_of
+from explorer.report.contents import Entry, Report, report_of
+from explorer.report.document import report_html
 from explorer.scene.picture import disk_png
 from explorer.scene.stage import Stage, stage_of
 from explorer.scene.still_scene import make_stage

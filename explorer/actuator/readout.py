@@ -14,6 +14,7 @@ from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly
 from rotor.actuator.fitted import Fitted
 from rotor.actuator.limits import Limit
 from rotor.actuator.verdict import Verdict
+from rotor.actuator.wording import verdict_sentence
 
 SHEET = """<style>
 .rxa-now { display: flex; align-items: baseline; gap: 8px; white-space: nowrap; }
@@ -146,7 +147,7 @@ def verdict_panel(findings: Findings, question: Question) -> str:
     """The verdict's sentence, or that it is on its way."""
     if findings.question != question or findings.outcome is None:
         old = findings.verdict
-        before = "" if old is None else f'<div class="rx-faded">{escape(old.sentence)}</div>'
+        before = "" if old is None else f'<div class="rx-faded">{escape(verdict_sentence(old))}</div>'
         return _box(
             "wait",
             "computing",
@@ -155,7 +156,7 @@ def verdict_panel(findings: Findings, question: Question) -> str:
     if isinstance(findings.outcome, str):
         return problem_panel(findings.outcome)
     verdict = findings.outcome
-    return _box("yes" if verdict.pays else "no", "ready", escape(verdict.sentence))
+    return _box("yes" if verdict.pays else "no", "ready", escape(verdict_sentence(verdict)))
 
 
 def _box(look: str, kind: str, text: str) -> str:

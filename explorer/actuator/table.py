@@ -8,6 +8,7 @@ from explorer.actuator.study import Findings, Outcome
 from explorer.readout import number
 from rotor.actuator.catalogue import Actuator, PiezoPly, TorqueTube, actuators, find_actuator
 from rotor.actuator.verdict import Verdict
+from rotor.actuator.wording import verdict_sentence
 
 
 def table_panel(findings: Findings, question: Question) -> str:
@@ -47,7 +48,8 @@ def _row(id: str, outcome: Outcome | None, chosen: bool) -> str:
         number(1e-3 * outcome.net_saving, 1, sign=True),
     )
     numbers = "".join(f'<td class="rx-num">{cell}</td>' for cell in cells)
-    return f'<tr{look}>{name}{numbers}<td class="rx-num {kind}" title="{escape(outcome.sentence)}">{words}</td></tr>'
+    why = escape(verdict_sentence(outcome))
+    return f'<tr{look}>{name}{numbers}<td class="rx-num {kind}" title="{why}">{words}</td></tr>'
 
 
 def short_verdict(verdict: Verdict) -> tuple[str, str]:

@@ -14,7 +14,8 @@ from explorer.export.code_writer import Writer, exact_spec, same
 from rotor.assets import SHIPPED_ROTORS
 from rotor.blade import airfoils_spec
 from rotor.case import case_of
-from rotor.command.parser import build_parser, design_from
+from rotor.command.flags import design_from
+from rotor.command.parser import build_parser
 from rotor.design import Design
 from rotor.presets import make_design
 from rotor.switches import switched_off

@@ -14,7 +14,8 @@ from explorer.export.sheet import Shown
 from explorer.export.tables import blade_csv, disk_csv, power_csv
 from explorer.history.view import Kept
 from explorer.provenance import file_stem
-from explorer.report.document import Entry, Report, report_html, report_of
+from explorer.report.contents import Entry, Report, report_of
+from explorer.report.document import report_html
 from explorer.scene.stage import Stage
 from explorer.state import baseline_title
 from rotor.solution import Solution

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from explorer.disk.fields import FIELDS
-from explorer.report.document import Entry, report_html, report_of
+from explorer.report.contents import Entry, report_of
+from explorer.report.document import report_html
 from explorer.scene.still_scene import make_stage
 from explorer.state import ViewState, baseline_of, baseline_title
 from rotor.case import read_case

@@ -3,7 +3,6 @@
 import math
 from dataclasses import replace
 from html import escape
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,10 +15,8 @@ from explorer.charts.power_curve import PowerCurves
 from explorer.colours import BASELINE, IDEAL
 from explorer.disk.drawing import HALF, bar_drawing, disk_drawing, key_entries
 from explorer.disk.fields import Field
+from explorer.report.contents import Entry, Report, colours_of, fields_of
 from rotor.solution import Solution
-
-if TYPE_CHECKING:
-    from explorer.report.document import Entry, Report
 
 Array = NDArray[np.float64]
 
@@ -31,10 +28,8 @@ _BAR = 200.0
 _LETTERS = 10.0
 
 
-def overview(report: "Report", curves: PowerCurves) -> str:
+def overview(report: Report, curves: PowerCurves) -> str:
     """Power over advance ratio and twist along the blade, all designs together."""
-    from explorer.report.document import colours_of
-
     colours = colours_of(report)
     pairs = list(zip(report.all, colours, strict=True))
     power = [trace for entry, colour in reversed(pairs) for trace in _power(report, entry, colour, curves)]
@@ -74,7 +69,7 @@ def overview(report: "Report", curves: PowerCurves) -> str:
     return f'<section><h2>Over speed and along the blade</h2><div class="charts">{"".join(charts)}</div></section>'
 
 
-def _power(report: "Report", entry: "Entry", colour: str, curves: PowerCurves) -> list[Trace]:
+def _power(report: Report, entry: Entry, colour: str, curves: PowerCurves) -> list[Trace]:
     """Curve from where forward inflow is trusted, hover as a point, the present condition as a point."""
     design = entry.solution.design
     curves.sweep(design, report.reference.solution.design, lambda: False)
@@ -98,7 +93,7 @@ def _mean_load(solution: Solution) -> Array:
     return solution.disk.dct.mean(axis=1) * design.thrust_unit / (design.rotor.blades * design.rotor.radius) / 1e3
 
 
-def _change(report: "Report", entry: "Entry", colour: str, curves: PowerCurves) -> list[Trace]:
+def _change(report: Report, entry: Entry, colour: str, curves: PowerCurves) -> list[Trace]:
     """Against the reference over speed, for blades that carry the same weight at the same height."""
     design, reference = entry.solution.design, report.reference.solution.design
     alike = replace(design.condition, advance_ratio=0.0) == replace(reference.condition, advance_ratio=0.0)
@@ -122,10 +117,8 @@ def _smooth(values: Array) -> tuple[Array, Array]:
     return line, PchipInterpolator(mu[known], values[known])(line)
 
 
-def disks(report: "Report", entry: "Entry", k: int) -> str:
+def disks(report: Report, entry: Entry, k: int) -> str:
     """The fields over the disk, each with its scale; what the lines mean stands below."""
-    from explorer.report.document import fields_of
-
     solution, figures = entry.solution, []
     for n, field in enumerate(fields_of(report)):
         colour_range = report.colour_range(field)

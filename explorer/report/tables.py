@@ -3,20 +3,17 @@
 import math
 from collections.abc import Callable
 from html import escape
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from explorer.colours import PARTS
 from explorer.design_words import inflow_words, physics_words, twist_words
 from explorer.readout import ideal_induced, section_title
+from explorer.report.contents import Entry, Report
 from explorer.state import PRESET_TITLES
 from explorer.units import FOOT, KILOGRAM, METRE, POUND, SI, TONNE, Units, number
 from rotor.design import Design
 from rotor.solution import Solution
-
-if TYPE_CHECKING:
-    from explorer.report.document import Entry, Report
 
 PART_TITLES = {"induced": "Induced", "profile": "Profile", "parasite": "Parasite", "tail": "Tail rotor"}
 STATIONS = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0)
@@ -24,7 +21,7 @@ STATIONS = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0)
 Row = tuple[str, str]
 
 
-def change_words(report: "Report", entry: "Entry") -> str:
+def change_words(report: Report, entry: Entry) -> str:
     """Change of total power against the reference, where both fly alike."""
     reference = report.reference
     if entry is reference:
@@ -36,7 +33,7 @@ def change_words(report: "Report", entry: "Entry") -> str:
     return f'<span class="change{kind}">{number(change, 1, sign=True)} %</span>'
 
 
-def comparison(report: "Report") -> str:
+def comparison(report: Report) -> str:
     """Every design in a column, the reference last; differences beside the powers."""
     reference = report.reference.solution
     elsewhere = [entry.title for entry in report.entries if not report.comparable(entry)]
@@ -102,7 +99,7 @@ def conditions(solution: Solution) -> str:
     return _table("Condition and model", rows)
 
 
-def parts(report: "Report", entry: "Entry") -> str:
+def parts(report: Report, entry: Entry) -> str:
     """Power by parts with shares and the change against the reference."""
     power, units = entry.solution.power, report.units
     ideal = ideal_induced(entry.solution)

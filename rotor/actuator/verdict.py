@@ -12,7 +12,6 @@ from rotor.actuator.fitted import Fitted, fit
 from rotor.actuator.limits import Limit, limits
 from rotor.actuator.placement import Host, Placement
 from rotor.actuator.reach import Pair, Reached, best_reach
-from rotor.actuator.wording import verdict_sentence
 from rotor.concepts import Concept
 from rotor.design import Design
 from rotor.search.limits import ChangeLimit
@@ -115,10 +114,6 @@ class Verdict:
         base = self.baseline
         design = base.pair.designs()[1]
         return design if self.fitted.host.kind == "retrofit" else base.concept.apply(design, base.fixed.values)
-
-    @property
-    def sentence(self) -> str:
-        return verdict_sentence(self)
 
 
 def judge(

@@ -1,16 +1,14 @@
 """The verdict as a sentence."""
 
 import math
-from typing import TYPE_CHECKING
 
-if TYPE_CHECKING:
-    from rotor.actuator.verdict import Verdict
+from rotor.actuator.verdict import Verdict
 
 SMALL = 1.0
 """Powers nearer to zero are called nothing [W]."""
 
 
-def verdict_sentence(verdict: "Verdict") -> str:
+def verdict_sentence(verdict: Verdict) -> str:
     """What an engineer takes home, in two or three short sentences."""
     fitted, pair = verdict.fitted, verdict.baseline.pair
     what = f"{fitted.actuator.name} ({count(verdict)}, {fitted.host.label})"
@@ -38,7 +36,7 @@ def verdict_sentence(verdict: "Verdict") -> str:
     return f"{reach} {pay}{stops}"
 
 
-def count(verdict: "Verdict") -> str:
+def count(verdict: Verdict) -> str:
     """Plies, tubes or nothing to count."""
     plies = verdict.fitted.placement.plies
     kind = type(verdict.fitted.actuator).__name__

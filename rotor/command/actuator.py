@@ -13,7 +13,8 @@ from rotor.actuator.reach import Pair
 from rotor.actuator.structure import check_blade
 from rotor.actuator.tables import table_5_1, table_5_2
 from rotor.actuator.verdict import Verdict, judge
-from rotor.command.parser import add_design_arguments, design_from, finite
+from rotor.actuator.wording import verdict_sentence
+from rotor.command.flags import add_design_arguments, design_from, finite
 from rotor.concepts import find_concept
 
 
@@ -73,7 +74,7 @@ def record(verdict: Verdict, turned: PhaseSweep | None = None) -> dict[str, Any]
     """The JSON of `actuator --json` (DESIGN §8). Savings are means over both conditions."""
     values: dict[str, Any] = {
         "status": "converged",
-        "message": verdict.sentence,
+        "message": verdict_sentence(verdict),
         "actuator": verdict.fitted.actuator.id,
         "plies": verdict.fitted.placement.plies,
         "concept": verdict.baseline.concept.name,
@@ -131,7 +132,7 @@ def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
     first, second = (best.power / 1e3 for best in base.best)
     twists = [base.concept.twist(best.values).spec() for best in (*base.best, base.fixed)]
     lines = [
-        verdict.sentence,
+        verdict_sentence(verdict),
         "",
         f"best twist at each condition  {twists[0]} ({first:.1f} kW), {twists[1]} ({second:.1f} kW)",
         f"best fixed blade              {twists[2]} (mean {base.fixed.power / 1e3:.1f} kW)",

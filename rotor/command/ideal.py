@@ -9,9 +9,10 @@ from tqdm import tqdm
 
 from rotor.assets import SHIPPED_ROTORS
 from rotor.bound import Bound, find_bound
-from rotor.command.parser import add_rotor_argument, parse_range, write_table
+from rotor.command.flags import add_rotor_argument, write_table
 from rotor.fleet import find_aircraft
 from rotor.presets import make_design
+from rotor.ranges import parse_range
 
 COLUMNS = (
     "mu", "mass_kg", "ct", "lambda0", "glauert_kw", "any_circulation", "lift_limited", "steady_twist", "linear_twist",

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from rotor.blade import airfoils_spec
-from rotor.command.parser import KNOT, add_design_arguments, design_from, finite
+from rotor.command.flags import KNOT, add_design_arguments, design_from, finite
 from rotor.command.progress import STOPPED, bar, interruptible
 from rotor.command.search_flags import add_search_arguments, concept_help, limits_from, parse_division
 from rotor.concepts import Concept, find_concept, on_top

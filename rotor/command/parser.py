@@ -1,25 +1,10 @@
-"""The argument parser and what several commands share."""
+"""The argument parser of all commands."""
 
 import argparse
-import csv
-import math
-from collections.abc import Iterable
-from dataclasses import replace
-from pathlib import Path
 from typing import NoReturn
 
-from rotor.assets import SHIPPED_ROTORS
-from rotor.case import read_case
-from rotor.design import Design
-from rotor.fleet import find_aircraft
-from rotor.inflow import inflow_model
-from rotor.presets import change_airfoils, make_design
-from rotor.ranges import parse_range as parse_range
-from rotor.sweep import at_advance_ratio
-from rotor.switches import parse_switches
-
-KNOT = 1852.0 / 3600.0
-"""[m/s]"""
+from rotor.airfoil import command as airfoil
+from rotor.command import actuator, bench, ideal, optimise, reproduce, schedule, solve, study, sweep, waterfall
 
 
 class OneLineParser(argparse.ArgumentParser):
@@ -31,83 +16,8 @@ class OneLineParser(argparse.ArgumentParser):
 
 def build_parser() -> argparse.ArgumentParser:
     """All commands."""
-    from rotor.airfoil import command as airfoil
-    from rotor.command import actuator, bench, ideal, optimise, reproduce, schedule, solve, study, sweep, waterfall
-
     parser = OneLineParser(prog="python -m rotor", description="Helicopter main rotors: trim, power, twist.")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=OneLineParser)
     for command in (solve, sweep, waterfall, optimise, schedule, study, ideal, actuator, reproduce, airfoil, bench):
         command.add_parser(commands)
     return parser
-
-
-def add_design_arguments(parser: argparse.ArgumentParser, *, one_twist: bool) -> None:
-    """The flags that describe a design."""
-    twist = (
-        "linear:-8 | quadratic:A,D | segments:-12,-4@0.5 | spline:ANGLES@STATIONS | ideal | builtin | uh60a | "
-        "table:FILE (degrees, per radius)"
-    )
-    add_rotor_argument(parser)
-    parser.add_argument("--twist", metavar="SPEC", nargs=None if one_twist else "+", help=twist)
-    parser.add_argument(
-        "--preset", metavar="NAME", help="flight (default): what we believe; thesis: as the document states"
-    )
-    parser.add_argument("--inflow", metavar="NAME", help="forward-flight inflow model, for example pitt-peters")
-    parser.add_argument(
-        "--mass-kg", type=finite, metavar="KG", help="aircraft mass (default: the rotor's reference mass)"
-    )
-    parser.add_argument("--altitude-m", type=finite, metavar="M", help="pressure altitude (default 0)")
-    parser.add_argument("--airfoils", metavar="SPEC", help="sections root to tip, as sc1094r8,sc1095@0.5")
-    parser.add_argument("--off", metavar="NAMES", help="switch off parts of the physics, as tip-loss,reverse-flow")
-    parser.add_argument("--case", metavar="FILE", help="design file (JSON); other flags override it")
-
-
-def add_rotor_argument(parser: argparse.ArgumentParser) -> None:
-    """`--rotor`."""
-    parser.add_argument(
-        "--rotor", metavar="NAME|FILE", help=f"{', '.join(SHIPPED_ROTORS)} or a rotor file (docs/rotor_file.md)"
-    )
-
-
-def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: float | None) -> Design:
-    """The design that the flags describe, on top of a design file where one is given."""
-    base = read_case(args.case) if args.case else None
-    blade = base if base and not (args.preset or args.rotor) else None  # Another rotor, or preset, has its own blade.
-    design = make_design(
-        args.preset or (base.preset if base else "flight"),
-        aircraft=find_aircraft(args.rotor) if args.rotor else base.aircraft if base else None,
-        twist=twist or (blade.twist if blade else None),
-        mass=args.mass_kg if args.mass_kg is not None else (base.condition.mass if base and not args.rotor else None),
-        altitude=args.altitude_m if args.altitude_m is not None else (base.condition.altitude if base else 0.0),
-        models=base.models if base and not args.preset else None,
-    )
-    if advance_ratio is None:
-        advance_ratio = base.condition.advance_ratio if base else 0.2
-    if args.inflow:
-        inflow_model(args.inflow)
-        design = replace(design, models=replace(design.models, inflow=args.inflow))
-    if args.off is not None:
-        off = parse_switches(args.off)
-        design = replace(design, models=replace(design.models, **dict.fromkeys(off, False)))
-    if blade:
-        design = replace(design, rotor=blade.rotor, active_twist=blade.active_twist)
-    if args.airfoils:
-        design = replace(design, rotor=change_airfoils(design.rotor, args.airfoils))
-    return at_advance_ratio(design, advance_ratio)
-
-
-def write_table(path: str, rows: Iterable[Iterable[str]], heading: str = "") -> None:
-    """Write rows as CSV below a heading of comment lines; ValueError when the file cannot be written."""
-    try:
-        with Path(path).open("w", newline="", encoding="utf-8") as file:
-            file.write(heading)
-            csv.writer(file, lineterminator="\n").writerows(rows)
-    except OSError as error:
-        raise ValueError(f"cannot write {path!r} ({error.strerror}): give a writable file") from None
-
-
-def finite(text: str) -> float:
-    value = float(text)
-    if not math.isfinite(value):
-        raise argparse.ArgumentTypeError(f"{text!r} is not a finite number")
-    return value

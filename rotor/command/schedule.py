@@ -9,14 +9,15 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from rotor.command.flags import add_design_arguments, design_from
 from rotor.command.optimise import named
-from rotor.command.parser import add_design_arguments, design_from, parse_range
 from rotor.command.progress import STOPPED, bar, interruptible
 from rotor.command.search_flags import add_search_arguments, concept_help, limits_from, parse_division
 from rotor.concepts import CONCEPTS, Concept, find_concept, on_top
 from rotor.mission import read_mission
 from rotor.objective import QUANTITIES, Leg
 from rotor.optimise import Optimum
+from rotor.ranges import parse_range
 from rotor.schedule import Cell, Plan, Schedule, run_plan
 from rotor.schedule_file import open_cells, read_cells
 

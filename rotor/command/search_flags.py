@@ -7,7 +7,7 @@ from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.fitted import fit
 from rotor.actuator.placement import Host, default_placement
 from rotor.actuator.verdict import change_limit
-from rotor.command.parser import finite
+from rotor.command.flags import finite
 from rotor.concepts import CONCEPTS, Concept
 from rotor.design import Design
 from rotor.optimise import ChangeLimit, Limits, reach

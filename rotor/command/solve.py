@@ -5,7 +5,7 @@ import json
 import math
 from typing import Any, cast
 
-from rotor.command.parser import KNOT, add_design_arguments, design_from, finite
+from rotor.command.flags import KNOT, add_design_arguments, design_from, finite
 from rotor.solution import Solution
 from rotor.solve import solve
 from rotor.switches import switched_off

@@ -3,7 +3,8 @@
 import argparse
 from typing import Any
 
-from rotor.command.parser import KNOT, add_design_arguments, design_from, parse_range, write_table
+from rotor.command.flags import KNOT, add_design_arguments, design_from, write_table
+from rotor.ranges import parse_range
 from rotor.solution import Solution
 from rotor.sweep import sweep
 

@@ -4,7 +4,7 @@ import argparse
 import json
 from typing import Any
 
-from rotor.command.parser import add_design_arguments, design_from, finite
+from rotor.command.flags import add_design_arguments, design_from, finite
 from rotor.waterfall import PARTS, Step, Waterfall, waterfall
 
 
