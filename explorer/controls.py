@@ -14,7 +14,7 @@ from explorer.history.undo import Pauses
 from explorer.rotors.menu import RotorMenu
 from explorer.scene.view import View
 from explorer.sliders import SLIDERS, meant, shown, slider
-from explorer.state import INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs, preset_inflow, with_rotor
+from explorer.state import INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs, ViewState, preset_inflow, with_rotor
 from explorer.units import SI, Units
 from rotor.inflow import INFLOW_MODELS
 from rotor.switches import SWITCHES
@@ -43,10 +43,10 @@ class Controls:
         gui: viser.GuiApi,
         start: Inputs,
         changed: Callable[[], None],
-        dark: bool,
+        view: ViewState,
         turned: Callable[[], None] | None = None,
     ) -> None:
-        """`changed`: something moved. `turned`: it was only the marked blade."""
+        """`view`: what is shown at first. `changed`: something moved. `turned`: it was only the marked blade."""
         self._start = start
         self._changed = changed
         self._inputs: dict[str, Handle] = {}
@@ -70,7 +70,7 @@ class Controls:
             self._speed = gui.add_html(readout.speed_line(0.0))
             self._sliders(gui, ("mass_t", "altitude_m"))
         with gui.add_folder("Disk and blades"):
-            self.display = Display(gui, changed, turned or changed)
+            self.display = Display(gui, view, changed, turned or changed)
         with gui.add_folder("Model"):
             self.rotor = RotorMenu(gui, start, self._rotor_chosen)
             titles = tuple(PRESET_TITLES.values())
@@ -83,7 +83,7 @@ class Controls:
             self._infinite = gui.add_checkbox("Infinite blades", start.inflow == INFINITE, hint=hint("infinite"))
             self._infinite.on_update(self._infinite_changed)
             self.check_button = gui.add_button("Check with the vortex wake", color="gray", hint=hint("vortex_check"))
-            self.display.add_page(gui, dark)
+            self.display.add_page(gui, view)
         with gui.add_folder("Physics", expand_by_default=False):
             for name, switch in SWITCHES.items():
                 box = gui.add_checkbox(switch.title, getattr(start, name), hint=hint(name))

@@ -9,7 +9,7 @@ from explorer import readout
 from explorer.disk.colour_bar import colour_bar, outline_legend
 from explorer.disk.fields import FIELDS, Field
 from explorer.glossary import hint
-from explorer.state import ViewState
+from explorer.state import TWIST_SHOWN, ViewState
 from explorer.units import UNITS
 
 _BAR, _LEGEND = 54, 40
@@ -20,31 +20,35 @@ _OUTLINES = {"reverse_flow": "Reverse flow", "stall": "Stall", "drag_divergence"
 class Display:
     """The widgets of one client's view, made once: the disk's where they are made, the page's where asked for."""
 
-    def __init__(self, gui: viser.GuiApi, changed: Callable[[], None], turned: Callable[[], None]) -> None:
+    def __init__(
+        self, gui: viser.GuiApi, start: ViewState, changed: Callable[[], None], turned: Callable[[], None]
+    ) -> None:
         """`changed`: something is shown otherwise. `turned`: it was only the marked blade."""
         self._changed = changed
         self._field = self._seen(
-            gui.add_dropdown("Field", tuple(FIELDS), initial_value=ViewState.field, hint=hint("field"))
+            gui.add_dropdown("Field", tuple(FIELDS), initial_value=start.field, hint=hint("field"))
         )
-        self._difference = self._seen(gui.add_checkbox("Show B − A", False, visible=False, hint=hint("difference")))
+        self._difference = self._seen(
+            gui.add_checkbox("Show B − A", start.difference, visible=False, hint=hint("difference"))
+        )
         self._bar = gui.add_html(readout.reserved(_BAR))
         self.range_buttons = gui.add_button_group("Colours", ("Rescale", "Default"), hint=hint("colours"))
         self._legend = gui.add_html(readout.reserved(_LEGEND))
         self._outlines = {
-            name: self._seen(gui.add_checkbox(title, True, hint=hint(f"outline_{name}")))
+            name: self._seen(gui.add_checkbox(title, getattr(start, name), hint=hint(f"outline_{name}")))
             for name, title in _OUTLINES.items()
         }
-        self._azimuth = gui.add_slider(
-            "Azimuth ψ [°]", 0.0, 360.0, 1.0, ViewState.azimuth_deg, hint=hint("azimuth_deg")
-        )
+        self._azimuth = gui.add_slider("Azimuth ψ [°]", 0.0, 360.0, 1.0, start.azimuth_deg, hint=hint("azimuth_deg"))
         self._azimuth.on_update(lambda _: turned())
-        self._exaggeration = self._seen(gui.add_slider("Twist shown ×", 1.0, 5.0, 0.5, 1.0, hint=hint("exaggeration")))
+        self._exaggeration = self._seen(
+            gui.add_slider("Twist shown ×", *TWIST_SHOWN, 0.5, start.exaggeration, hint=hint("exaggeration"))
+        )
 
-    def add_page(self, gui: viser.GuiApi, dark: bool) -> None:
+    def add_page(self, gui: viser.GuiApi, start: ViewState) -> None:
         """The units and the ground of the whole page, in the folder that is open."""
-        units = gui.add_dropdown("Units", tuple(UNITS), initial_value=ViewState.units, hint=hint("units"))
+        units = gui.add_dropdown("Units", tuple(UNITS), initial_value=start.units, hint=hint("units"))
         self._units = self._seen(units)
-        self._dark = self._seen(gui.add_checkbox("Dark page", dark, hint=hint("dark")))
+        self._dark = self._seen(gui.add_checkbox("Dark page", start.dark, hint=hint("dark")))
 
     def view(self) -> ViewState:
         """What the widgets mean now."""

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import viser
 
@@ -36,7 +36,8 @@ from explorer.search.sensitivity_panel import SensitivityPanel
 from explorer.sharing import share
 from explorer.sharing.address import Address
 from explorer.sharing.file_panel import FilePanel
-from explorer.state import Inputs
+from explorer.sharing.view_code import VIEW, view_from
+from explorer.state import Inputs, ViewState
 from explorer.studies.panel import StudiesPanel
 from explorer.top_bar import TopBar
 from explorer.viser_compat import PageFacts, set_style
@@ -79,7 +80,9 @@ class Panels:
         """`start`: where the page's address holds no design."""
         self._client, self._works, self._dark = client, works, facts.dark
         address = Address(facts.query, partial(viser_compat.set_query, client))
-        start, problem = _begun(address, start)
+        problems: list[tuple[str, str]] = []
+        start = _told(address[share.DESIGN], share.inputs_from, start, "Not the design of the link", problems)
+        view = _told(address[VIEW], view_from, ViewState(), "Not the view of the link", problems)
         gui = client.gui
         self._theme()
         gui.set_panel_label("Rotor explorer")
@@ -88,7 +91,7 @@ class Panels:
         self.top = TopBar(gui, works.wake, lambda: self.history.undo(), lambda: self.history.redo())
         tabs = gui.add_tab_group()
         with tabs.add_tab("Design"):
-            self.controls = Controls(gui, start, works.wake, facts.dark, works.turned)
+            self.controls = Controls(gui, start, works.wake, replace(view, dark=facts.dark), works.turned)
         rotor = start.aircraft.rotor_for(start.preset)
         self._radius = rotor.radius
         self.frame = Frame(client, rotor, self.controls.display)
@@ -142,8 +145,8 @@ class Panels:
         self.camera = FittedCamera(client, rotor.radius)
         RotorUpload(self.controls.rotor.button, desk)
         self._wire()
-        if problem:
-            self._notify("Not the design of the link", problem)
+        for title, sentence in problems:
+            self._notify(title, sentence)
 
     def follow(self, design: Design | None) -> None:
         """Bring the tabs that start long work into line with the design on the sliders; None: they mean none."""
@@ -228,10 +231,15 @@ class Panels:
         self.controls.reset()
 
 
-def _begun(address: Address, start: Inputs) -> tuple[Inputs, str]:
-    """The design in the address, or `start`, and in one sentence why it is not the address's."""
-    code = address[share.DESIGN]
+_Part = TypeVar("_Part", Inputs, ViewState)
+
+
+def _told(
+    code: str | None, read: Callable[[str], _Part], usual: _Part, title: str, problems: list[tuple[str, str]]
+) -> _Part:
+    """What a part of the address means, or the usual, and then under `title` why it is not the address's."""
     try:
-        return (start if code is None else share.inputs_from(code)), ""
+        return usual if code is None else read(code)
     except ValueError as error:
-        return start, str(error)
+        problems.append((title, str(error)))
+        return usual

@@ -138,6 +138,10 @@ NOT_ALWAYS = ("given", "found")
 """Laws that are in the menu only when the field of `Inputs` of the same name holds what they mean."""
 
 
+TWIST_SHOWN = 1.0, 5.0
+"""Least and most times its twist that a blade is drawn with."""
+
+
 @dataclass(frozen=True)
 class ViewState:
     """What is shown, which no answer depends on."""

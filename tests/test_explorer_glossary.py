@@ -14,7 +14,7 @@ from explorer import readout
 from explorer.compare import readout as ab_readout
 from explorer.controls import Controls
 from explorer.glossary import CONTROLS, READOUTS, hint, tip
-from explorer.state import Inputs
+from explorer.state import Inputs, ViewState
 from explorer.units import SI
 from rotor.presets import make_design
 from rotor.solve import solve
@@ -59,7 +59,7 @@ def test_switches_say_what_is_on_and_what_is_off():
 
 
 def test_every_widget_of_the_design_tab_has_its_sentence(server: viser.ViserServer):
-    Controls(server.gui, Inputs(), lambda: None, dark=False)
+    Controls(server.gui, Inputs(), lambda: None, view=ViewState())
     texts = {entry.text for entry in CONTROLS.values()}
     handles = list(server.gui._gui_input_handle_from_uuid.values())
     assert len(handles) > 30

@@ -41,7 +41,7 @@ def server() -> Iterator[viser.ViserServer]:
 
 @pytest.fixture
 def controls(server: viser.ViserServer) -> Controls:
-    return Controls(server.gui, Inputs(), lambda: None, dark=False)
+    return Controls(server.gui, Inputs(), lambda: None, view=ViewState())
 
 
 def free_port() -> int:

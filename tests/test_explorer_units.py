@@ -30,7 +30,7 @@ def solution() -> Solution:
 @pytest.fixture
 def controls() -> Iterator[Controls]:
     server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    yield Controls(server.gui, Inputs(), lambda: None, dark=False)
+    yield Controls(server.gui, Inputs(), lambda: None, view=ViewState())
     server.stop()
 
 

@@ -1,1 +1,1 @@
-"""The design in the address and in files."""
+"""The design in the address and in files, and the view in the address."""

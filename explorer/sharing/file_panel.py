@@ -10,6 +10,7 @@ from explorer.desk import Desk, Moment
 from explorer.glossary import hint
 from explorer.sharing import share
 from explorer.sharing.address import Address
+from explorer.sharing.view_code import VIEW, view_code
 from explorer.state import inputs_of
 from rotor.case import case_of, parse_case
 
@@ -18,7 +19,7 @@ MOST_BYTES = 1_000_000
 
 
 class FilePanel:
-    """One session's. The address of the page follows the design by itself."""
+    """One session's. The address of the page follows the design, and what is shown of it, by itself."""
 
     def __init__(self, client: viser.ClientHandle, desk: Desk, address: Address) -> None:
         self._client, self._desk, self._address = client, desk, address
@@ -35,13 +36,14 @@ class FilePanel:
         self._load.on_upload(self._loaded)
 
     def follow(self, moment: Moment) -> None:
-        """Bring the address into line with the design, and with the one that is pinned."""
+        """Bring the address into line with the design, with the one that is pinned, and with the view."""
         pinned = None if moment.pin is None else moment.pin.inputs
         for name, inputs in ((share.DESIGN, moment.inputs), (share.PINNED, pinned)):
             try:
                 self._address[name] = None if inputs is None else share.code_of(inputs.design())
             except ValueError:
                 continue  # It has no address; the last one stays.
+        self._address[VIEW] = view_code(moment.view)
 
     def begin(self) -> None:
         """Pin what the address says is pinned."""

@@ -49,18 +49,18 @@ def design_from(code: str) -> Design:
     """The design a text means; ValueError with one sentence for one that means none."""
     version, _, rest = code.strip().partition(";")
     if version != str(VERSION) or not rest:
-        raise ValueError(f"The design in the address, {_cut(code)!r}, is not of version {VERSION}: ask for a new link.")
+        raise ValueError(f"The design in the address, {cut(code)!r}, is not of version {VERSION}: ask for a new link.")
     if len(code) > LONGEST:
         raise ValueError(f"The design in the address has {len(code)} characters: {LONGEST} are the most.")
     twist, *words = rest.split(";")
     if _reads_file(twist):
-        raise ValueError(f"The twist {_cut(twist)!r} is a file on the machine of the sender: ask for the design file.")
+        raise ValueError(f"The twist {cut(twist)!r} is a file on the machine of the sender: ask for the design file.")
     record: dict[str, Any] = {"twist": twist}
     for word in words:
         key, found, value = word.partition("=")
         if not found:
             raise ValueError(
-                f"The design in the address holds {_cut(word)!r}, which is no key=value: ask for a new link."
+                f"The design in the address holds {cut(word)!r}, which is no key=value: ask for a new link."
             )
         record[_LONG.get(key, key)] = _value(value)
     try:
@@ -115,5 +115,6 @@ def _value(word: str) -> object:
         return word
 
 
-def _cut(text: str) -> str:
+def cut(text: str) -> str:
+    """A text of the address as a sentence can hold it."""
     return text if len(text) <= 40 else text[:39] + "…"

@@ -70,12 +70,17 @@ def test_the_address_is_the_design(browser: "Browser", app: App):
     design_in_address(watched, "linear:-9.8;mu=0.3")
     assert "fixedDpr=0.5" in watched.page.url
     shown = shown_kw(watched)
+    watched.choose("Field", "Mach number")
+    watched.page.get_by_label("Stall").uncheck()
+    design_in_address(watched, "&v=1;field=mach;stall=off")
     watched.page.get_by_role("button", name="Pin as A").click()
     design_in_address(watched, "&a=1;linear:-9.8;mu=0.3")
     watched.page.reload()
     watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
     assert shown_kw(watched) == shown
     watched.page.get_by_role("button", name="Back to A").wait_for(timeout=WAIT)
+    assert watched.row("Field").locator("input").first.input_value() == "Mach number"
+    assert not watched.page.get_by_label("Stall").is_checked()
     watched.close()
 
 
