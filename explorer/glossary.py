@@ -75,7 +75,6 @@ CONTROLS: dict[str, Entry] = {
     "units": Entry("kW, km/h, t and m, or hp, kt, lb and ft."),
     "dark": Entry("Light letters on a dark page."),
     "reset": Entry("Back to the design the page began with."),
-    "waterfall": Entry("Computes thirteen trims after each change, when the page rests.", section=16),
     "paint": Entry("Blue: more pitch here saves power; rust: it costs.", section=13),
     "search_concept": Entry("Kind of twist law to search, from one rate to a free form.", section=13),
     "objective": Entry("What the search makes small: here, in hover and here, or over the mission.", section=13),

@@ -132,7 +132,7 @@ class Panels:
         with panel.add_tab("Actuator"):
             self.actuator = ActuatorPanel(client, commons.pool, works.wake, self._fly)
         with panel.add_tab("Physics"):
-            self.waterfall = WaterfallPanel(gui, desk)
+            self.waterfall = WaterfallPanel(gui)
         with panel.add_tab("Studies"):
             studies = StudiesPanel(client, desk, commons.studies)
         with panel.add_tab("Trust"):

@@ -1,14 +1,14 @@
-"""The waterfall on the page: the drawing adds up, and it is computed only when it is wanted and the page rests."""
+"""The waterfall on the page: the drawing adds up, and it is computed only when the page rests."""
 
 import re
 from collections.abc import Iterator
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Any
 
 import pytest
 import viser
 
-from explorer.desk import Desk, Moment
+from explorer.desk import Moment
 from explorer.physics.waterfall_panel import WaterfallPanel
 from explorer.physics.waterfall_view import alone_table, waterfall_chart
 from explorer.state import Inputs, ViewState
@@ -89,31 +89,27 @@ class TestPanel:
     @pytest.fixture
     def panel(self) -> Iterator[WaterfallPanel]:
         server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-        nothing: Any = lambda *_: None  # noqa: E731
-        desk = Desk(**{field.name: nothing for field in fields(Desk)})
-        yield WaterfallPanel(server.gui, desk)
+        yield WaterfallPanel(server.gui)
         server.stop()
 
-    def test_nothing_is_computed_unless_wanted_and_never_while_superseded(self, panel: WaterfallPanel):
+    def test_it_comes_by_itself_and_never_while_superseded(self, panel: WaterfallPanel):
         solution = solve(coarse(0.2))
         moment = Moment(Inputs(), ViewState(), solution, solution, None, None)
+        panel.climb(lambda: False)  # Before there is an answer.
         panel.show(moment)
-        panel.climb(lambda: False)
-        assert panel._chart.content == ""
-        panel._wanted.value = True
-        panel.show(moment)
+        assert "Computing" in panel._chart.content
         panel.climb(lambda: True)
         assert panel._steps == []
         asked = iter([False, False, True])
         panel.climb(lambda: next(asked))
-        assert 'data-steps="2"' in panel._chart.content
+        assert len(panel._steps) == 2
+        assert "Computing" in panel._chart.content  # Whole, or not at all: it would grow under the eyes.
         panel.climb(lambda: False)  # Goes on where it was interrupted.
         assert len(panel._steps) == 2 * len(SWITCHES) + 1
         assert "All switched on" in panel._chart.content
         assert "no compressibility" in panel._table.content
 
     def test_a_new_design_fades_the_old_answer_once(self, panel: WaterfallPanel):
-        panel._wanted.value = True
         for mu in (0.1, 0.2, 0.3):
             solution = solve(coarse(mu))
             panel.show(Moment(Inputs(), ViewState(), solution, solution, None, None))
@@ -123,7 +119,6 @@ class TestPanel:
         assert panel._steps == []
 
     def test_the_azimuth_does_not_start_it_again(self, panel: WaterfallPanel):
-        panel._wanted.value = True
         solution: Solution = solve(coarse(0.2))
         panel.show(Moment(Inputs(), ViewState(), solution, solution, None, None))
         panel.climb(lambda: False)

@@ -1,12 +1,11 @@
-"""The tab of the physics: what each part costs, computed when the page rests and only while it is wanted."""
+"""The tab of the physics: what each part costs, computed when the page rests."""
 
 from collections.abc import Callable, Iterator
 
 import viser
 
 from explorer import readout
-from explorer.desk import Desk, Moment
-from explorer.glossary import hint
+from explorer.desk import Moment
 from explorer.physics.waterfall_view import alone_table, waterfall_chart
 from explorer.units import SI, UNITS
 from rotor.design import Design
@@ -19,23 +18,23 @@ _WORDS = (
     "compressibility and drag, then with one more at a time: every row is a trim. "
     "What a part costs depends on what is there already, so beneath stands each left out alone.</div>"
 )
+_CLIMB, _ALL = len(SWITCHES) + 1, 2 * len(SWITCHES) + 1
+"""Steps from everything off to everything on, and with each switch off alone."""
 
 
 class WaterfallPanel:
     """One session's."""
 
-    def __init__(self, gui: viser.GuiApi, desk: Desk) -> None:
+    def __init__(self, gui: viser.GuiApi) -> None:
         gui.add_html(_WORDS)
-        self._wanted = gui.add_checkbox("Show, and follow", False, hint=hint("waterfall"))
-        self._wanted.on_update(lambda _: desk.wake())
-        self._chart = gui.add_html("")
+        self._chart = gui.add_html(waterfall_chart(()))
         self._table = gui.add_html("")
         self._design: Design | None = None
         """With everything on: what the steps are of."""
         self._units = SI
         self._coming: Iterator[Step] = iter(())
         self._steps: list[Step] = []
-        self._drawn = "", ""
+        self._drawn = waterfall_chart(()), ""
 
     def show(self, moment: Moment) -> None:
         """Say that the steps on the page are no longer this design's; the new ones come when the page rests."""
@@ -44,21 +43,15 @@ class WaterfallPanel:
             self._design, self._coming, self._steps = design, _all_steps(design), []
             self._fade()
         units, self._units = self._units, UNITS[moment.view.units]
-        if not self._wanted.value:
-            self._write("", "")
-        elif units is not self._units and self._steps:
+        if units is not self._units and len(self._steps) == _ALL:
             self._draw()
 
     def climb(self, superseded: Callable[[], bool]) -> None:
-        """Compute and show the steps that are missing, one after another, until the page has something else to do."""
-        if not self._wanted.value or self._design is None:
-            return
-        while not superseded():
-            step = next(self._coming, None)
-            if step is None:
-                return
-            self._steps.append(step)
-            self._draw()
+        """Compute the steps that are missing, until the page has something else to do; show them once all are there."""
+        while self._design is not None and len(self._steps) < _ALL and not superseded():
+            self._steps.append(next(self._coming))
+            if len(self._steps) == _ALL:
+                self._draw()
 
     def lose(self) -> None:
         """The inputs have no answer."""
@@ -69,12 +62,9 @@ class WaterfallPanel:
         """Nothing runs on."""
 
     def _draw(self) -> None:
-        rows = len(SWITCHES) + 1
-        self._write(waterfall_chart(self._steps[:rows], self._units), alone_table(self._steps[rows:], self._units))
-
-    def _write(self, chart: str, table: str) -> None:
-        self._drawn = chart, table
-        self._chart.content, self._table.content = chart, table
+        climbed, alone = self._steps[:_CLIMB], self._steps[_CLIMB:]
+        self._drawn = waterfall_chart(climbed, self._units), alone_table(alone, self._units)
+        self._chart.content, self._table.content = self._drawn
 
     def _fade(self) -> None:
         self._chart.content, self._table.content = map(readout.faded, self._drawn)

@@ -34,7 +34,7 @@ def waterfall_chart(steps: Sequence[Step], units: Units = SI) -> str:
     done = f'data-explorer="waterfall" data-steps="{len(steps)}"'
     return (
         f'<div class="rx rx-waterfall" {done}><svg viewBox="0 0 {WIDTH} {height:.0f}" width="100%" role="img" '
-        f'aria-label="Waterfall of power">{"".join(rows)}</svg>{_key()}</div>'
+        f'aria-label="Waterfall of power">{"".join(rows)}</svg>{_key(units)}</div>'
     )
 
 
@@ -101,12 +101,13 @@ def _spoken(step: Step, units: Units) -> str:
     return f"{step.title} on: {unit.text(step.added, 1, sign=True)} ({parts}). {what}"
 
 
-def _key() -> str:
+def _key(units: Units) -> str:
+    """The parts' colours, and the unit of every number above."""
     entries = "".join(
         f'<span><span class="rx-patch" style="background:{colour}"></span>{escape(name)}</span>'
         for name, colour in PARTS.items()
     )
-    return f'<div class="rx-dim rx-small rx-line">{entries}</div>'
+    return f'<div class="rx-dim rx-small rx-line">{entries}<span>[{units.power[0].symbol}]</span></div>'
 
 
 def alone_table(steps: Sequence[Step], units: Units = SI) -> str:

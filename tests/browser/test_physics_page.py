@@ -48,7 +48,6 @@ def test_a_switch_changes_the_power_and_the_page_says_so(watched: Watched):
 
 def test_the_waterfall_adds_up_on_the_page(watched: Watched):
     watched.page.get_by_role("tab", name="Physics").click()
-    box(watched, "Show, and follow")
     watched.page.wait_for_selector('[data-explorer="each-alone"] tr:nth-child(7)', timeout=WAIT)
     shown = watched.page.locator('[data-explorer="waterfall"] .rx-w-number').all_text_contents()
     column = [float(text.replace("−", "-").replace("\u2009", "")) for text in shown]
