@@ -248,7 +248,7 @@ class TestPowerCurves:
 
         monkeypatch.setattr("explorer.charts.power_curve.solve", failing)
         design = Inputs(law="linear", linear=-8.0).design()
-        curves = PowerCurves()
+        curves = PowerCurves(haste=math.inf)
         curves.sweep(design, design, lambda: True)
         assert asked[-2:] == [0.225, 0.3]
         curves.sweep(design, design, lambda: False)
