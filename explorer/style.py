@@ -5,6 +5,9 @@ SHEET = """
 [style*="padding-bottom: 0.5em"] { padding-bottom: 0.3em !important; }
 /* A box with a hint is no higher than one without. */
 div:has(> .mantine-Checkbox-root) { display: flex !important; }
+/* Tabs do not touch the row above them, nor a scroll bar what it stands beside. */
+div:has(> [data-dock-area]) { margin-top: 0 !important; }
+.mantine-ScrollArea-root { --scrollarea-scrollbar-size: 7px !important; }
 /* What explains itself says so. */
 .rx [title] { cursor: help; }
 /* Tabs close enough for their names to stand in one row. */
@@ -46,7 +49,7 @@ div:has(> .mantine-Checkbox-root) { display: flex !important; }
 .rx-four .rx-dash { margin-right: 4px; }
 .rx-fit { overflow: hidden; text-overflow: ellipsis; }
 .rx-pinned { padding-bottom: 4px; }
-.rx-grid { display: grid; grid-template-columns: 1fr 1fr; column-gap: 18px; padding-top: 4px; }
+.rx-grid { display: grid; grid-template-columns: 1fr 1fr; column-gap: 18px; padding: 4px 14px 5px; }
 .rx-status { margin: 4px 10px 2px; padding: 5px 8px; height: 72px; overflow-y: auto; border-radius: 4px;
   font-size: 12px; line-height: 1.32; background: rgba(128,128,128,.10); }
 .rx-reserved { border-radius: 4px; background: rgba(128,128,128,.06); }
@@ -127,6 +130,7 @@ div:has(> .rx-bridge), div:has(> .rx-bridge) + div { display: none !important; }
   paint-order: stroke; }
 .rx-w-bad { fill: #d9480f; }
 .rx-w-link { stroke: currentColor; stroke-opacity: .35; stroke-width: 1; stroke-dasharray: 2 2; }
+.rx-alone { margin-top: 10px; }
 .rx-alone tr + tr td { padding-top: 1.5px; }
 .rx-export { min-height: 34px; padding-bottom: 6px; overflow-wrap: anywhere; color: var(--mantine-color-dimmed); }
 .rx-export[data-kind=problem] { color: #c92a2a; }

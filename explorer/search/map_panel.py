@@ -33,7 +33,7 @@ class MapPanel:
         self._job: Job | None = None
         self._task: MapTask | None = None
         self._map: power_map.Map | None = None
-        self._line = ""
+        self._line = "Power over two parameters, the others as they are; a click on the map takes a point."
         self._offered: tuple[str, ...] = ()
         self._drawn: object = None
         self._here: tuple[object, tuple[float, ...], bool] | None = None

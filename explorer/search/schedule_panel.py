@@ -134,6 +134,9 @@ class SchedulePanel:
             f'<div class="rx rx-dim" data-explorer="schedule-state" data-kind="{kind}">{self._line}</div>'
         )
         course = self._course
+        self._bar.visible = course is not None
+        self._twists.set_visible(course is not None)
+        self._savings.set_visible(course is not None)
         if course is None:
             return
         self._bar.value = round(100.0 * (course.part_done if self._running else 1.0), 1)

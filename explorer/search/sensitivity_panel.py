@@ -11,7 +11,11 @@ from explorer.scene.overlays import Strip
 from explorer.search import sensitivity
 from rotor.solution import Solution
 
-_HEIGHT = 150
+_HEIGHT = 220
+_WORDS = (
+    '<div class="rx rx-dim rx-small rx-found">Power that a degree more pitch costs at each radius, or saves where '
+    "it is below zero, with the rotor trimmed again.</div>"
+)
 _INDUCED = ("induced", BASELINE, True)
 _KEY: Key = (("total", THIS), _INDUCED)
 
@@ -22,6 +26,7 @@ class SensitivityPanel:
     def __init__(self, gui: viser.GuiApi, strip: Strip, desk: Desk) -> None:
         self._strip = strip
         self._shown: tuple[Solution, Solution | None, bool, float] | None = None
+        gui.add_html(_WORDS)
         self._chart = Chart(
             gui,
             "dP/dθ [kW/° per r/R]",
