@@ -108,7 +108,7 @@ CONTROLS: dict[str, Entry] = {
     "blade_type": Entry("The blade that is flown, or one built to be turned."),
     "stiffness": Entry("Torsional stiffness of the new blade over the flown one's."),
     "crossed": Entry("Fibres laid at −45°: positive voltage turns the tip down."),
-    "derating": Entry("Share of the nominal twist to count on; a tested blade showed about 62 % of its model."),
+    "derating": Entry("Share of the nominal twist to count on: 62 % by low-end strain and what a tested blade showed."),
     "actuator_concept": Entry("Kind of twist whose best at either speed the actuator should reach.", section=13),
     "pair": Entry("The two advance ratios between which the twist would change."),
     "harmonic": Entry("How often the twist goes up and down in a revolution; it rests in hover."),

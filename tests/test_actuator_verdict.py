@@ -13,6 +13,8 @@ from numpy.testing import assert_allclose
 from rotor.__main__ import main
 from rotor.actuator.baseline import baseline
 from rotor.actuator.catalogue import find_actuator
+from rotor.actuator.fitted import fit
+from rotor.actuator.limits import limits
 from rotor.actuator.pictures import need_and_reach, section_picture, twist_under_voltage
 from rotor.actuator.placement import Host, default_placement
 from rotor.actuator.reach import STATIONS, Pair, best_reach, twisted
@@ -143,6 +145,21 @@ def test_sentence_says_what_the_numbers_say():
     assert "rotor-speed" in verdict_sentence(passive)
 
 
+def test_limits_say_what_they_found():
+    """Kept or broken, one sentence holds; a sheet that cannot shear is not asked for millions of volts."""
+    rotor = pair().design.rotor
+    thick = fit(find_actuator("MFC_P1"), default_placement(1), Host(), rotor)
+    said = {limit.name: limit for limit in limits(thick, (0.5,))}
+    assert said["fibre-strain"].ok
+    assert "follows linearly up to 1000" in said["fibre-strain"].sentence
+    assert "Plies a side: 1;" in said["space"].sentence
+    assert "a swing of 1000 V" in said["voltage"].sentence
+    patch = fit(find_actuator("PZT5A"), default_placement(1), Host(), rotor)
+    said = {limit.name: limit for limit in limits(patch, (5e4,))}
+    assert "beyond any voltage" in said["voltage"].sentence
+    assert not said["voltage"].ok
+
+
 @pytest.mark.slow
 def test_thesis_preset_asks_for_more():
     """The document's optima lie farther apart (−13.5° in hover, −4…−8° fast): no ply reaches that on this blade."""
@@ -233,6 +250,7 @@ def test_nothing_trims_is_exit_1(capsys: pytest.CaptureFixture[str]):
     [
         (["--actuator", "glue"], "actuator 'glue' is not known"),
         (["--concept", "wavy"], "concept 'wavy' is not known"),
+        (["--concept", "two-segment", "--division", "1.5"], "division 1.5 of concept two-segment is outside"),
         (["--plies", "0"], "0 plies"),
         (["--from-mu", "0.3"], "both conditions have advance ratio 0.3"),
         (["--to-mu", "2"], "advance ratio 2 is outside"),

@@ -131,7 +131,7 @@ def test_a_change_on_top_of_a_law_that_stays():
     ("call", "words"),
     [
         (lambda: find_concept("cubic"), "'cubic' is not known"),
-        (lambda: find_concept("linear", [0.5]), "takes no 1 division"),
+        (lambda: find_concept("linear", [0.5]), "cannot take 1 division"),
         (lambda: find_concept("two-segment", [0.99]), "outside 0.25…0.92"),
         (lambda: find_concept("three-segment", [0.8, 0.4]), "must ascend"),
         (lambda: restrict(CONCEPTS["quadratic"], {"rate": 0.0}), "no parameter 'rate'"),

@@ -15,6 +15,7 @@ from rotor.actuator.fitted import Fitted
 from rotor.actuator.limits import Limit
 from rotor.actuator.verdict import Verdict
 from rotor.actuator.wording import verdict_sentence
+from rotor.reproduce.report import typographic
 
 SHEET = """<style>
 .rxa-now { display: flex; align-items: baseline; gap: 8px; white-space: nowrap; }
@@ -196,7 +197,7 @@ def limits_panel(verdict: Verdict | None) -> str:
 
 def _limit(limit: Limit) -> str:
     name = escape(limit.name.replace("-", " "))
-    return f'<div><span class="rxa-bad">✕</span><span><b>{name}</b> {escape(limit.sentence)}</span></div>'
+    return f'<div><span class="rxa-bad">✕</span><span><b>{name}</b> {escape(typographic(limit.sentence))}</span></div>'
 
 
 def _kw(power: float | None) -> str:

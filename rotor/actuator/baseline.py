@@ -35,7 +35,7 @@ class Baseline:
 
     @property
     def ideal_saving(self) -> float:
-        """Of free movement over the best fixed blade [W]: no actuator of this concept saves more."""
+        """Of free movement over the best fixed blade [W]; the shape that plies make can save a little more."""
         return self.fixed.power - self.ideal_power
 
     @property

@@ -12,6 +12,8 @@ SECTION_THICKNESS = 0.095
 """Of the SC1095, in chords."""
 WEB_HEIGHT = 0.0907
 """Of the spar's web at 0.40 c, in chords."""
+HOPELESS = 100.0
+"""Times the range from which a number of volts says nothing any more: a sheet that hardly shears."""
 
 
 @dataclass(frozen=True)
@@ -54,14 +56,16 @@ def _electrical(ply: PiezoPly, swings: tuple[float, ...]) -> list[Limit]:
     field = most / ply.electrode_gap * 1e-6
     allowed = ply.voltage_swing / ply.electrode_gap * 1e-6
     span = f"{low:g}…{high:g} V ({low / ply.electrode_gap * 1e-6:.2g}…{high / ply.electrode_gap * 1e-6:.2g} kV/mm)"
+    needs = f"needs a swing of {most:.0f} V" if most < HOPELESS * ply.voltage_swing else "is beyond any voltage"
+    swings_by = f"swings by {field:.2f} kV/mm" if field < HOPELESS * allowed else "would have to be hundreds of kV/mm"
     return [
         Limit(
             "voltage", ok, most, ply.voltage_swing, "V",
-            f"The twist asked for needs a swing of {most:.0f} V; the range is {span}.",
+            f"The twist asked for {needs}; the range is {span}.",
         ),
         Limit(
             "field", ok, field, allowed, "kV/mm",
-            f"The field swings by {field:.2f} kV/mm; reverse field beyond the range would depolarise the sheet.",
+            f"The field {swings_by}; reverse field beyond the range would depolarise the sheet.",
         ),
     ]  # fmt: skip
 
@@ -70,12 +74,11 @@ def _strain(fitted: Fitted, ply: PiezoPly, solution: Solution | None) -> Limit:
     strain = fibre_strain(fitted, solution)
     worst = float(strain.total.max())
     where = float(strain.r[strain.total.argmax()])
-    kind = "follows linearly" if worst <= ply.linear_strain else "no longer follows linearly"
     flap = "with flap bending of the trimmed rotor" if solution else "flap bending not counted"
     return Limit(
         "fibre-strain", worst <= ply.linear_strain, 1e6 * worst, 1e6 * ply.linear_strain, "µε",
-        f"Fibres are stretched by up to {1e6 * worst:.0f} µε at {where:.2f} R ({flap}); the sheet {kind} "
-        f"beyond {1e6 * ply.linear_strain:.0f} and must stay below {1e6 * ply.largest_strain:.0f}.",
+        f"Fibres are stretched by up to {1e6 * worst:.0f} µε at {where:.2f} R ({flap}); the sheet "
+        f"follows linearly up to {1e6 * ply.linear_strain:.0f} and must stay below {1e6 * ply.largest_strain:.0f}.",
     )  # fmt: skip
 
 
@@ -86,7 +89,7 @@ def _surface(fitted: Fitted, ply: PiezoPly) -> Limit:
     where = "outside the skins, so they change the contour" if outside else "inside the torsion skin"
     return Limit(
         "space", not outside or share <= bound, 100.0 * share, 100.0 * bound, "% of thickness",
-        f"{fitted.placement.plies} plies a side lie {where}: {100.0 * share:.1f} % of the section's thickness.",
+        f"Plies a side: {fitted.placement.plies}; they lie {where}: {100.0 * share:.1f} % of the section's thickness.",
     )  # fmt: skip
 
 
@@ -102,8 +105,8 @@ def _tube(fitted: Fitted, tube: TorqueTube, swings: tuple[float, ...]) -> list[L
     return [
         Limit(
             "torque", worst <= 1.0 + 1e-9, worst * fitted.moment, fitted.moment, "N·m",
-            f"The twist asked for needs {worst * fitted.moment:.0f} N·m; "
-            f"{fitted.placement.plies} tube(s) give {fitted.moment:.0f} N·m before they yield any of it by twisting.",
+            f"The twist asked for needs {worst * fitted.moment:.0f} N·m; tubes a segment: {fitted.placement.plies}, "
+            f"which give {fitted.moment:.0f} N·m before they lose any of it by twisting themselves.",
         ),
         Limit(
             "space", not retrofit and tube.diameter <= height, 1e3 * tube.diameter, 1e3 * height, "mm",
@@ -124,8 +127,8 @@ def _temperature(fitted: Fitted) -> Limit:
     data = structure_data()["limits"]
     actuator = fitted.actuator
     assert not isinstance(actuator, ExtensionTwist)
-    top = min(actuator.temperature_range[1], 1e9)
-    if top <= 85.0:
+    top = actuator.temperature_range[1]
+    if top <= 85.0:  # Makers' storage limit; in use they ask for less.
         top = min(top, float(data["running_temperature_c"]))
     on_heater = fitted.placement.chord[0] < float(data["de_ice_end_c"]) and isinstance(actuator, PiezoPly)
     hottest = float(data["de_ice_temperature_c"] if on_heater else data["hot_day_c"])

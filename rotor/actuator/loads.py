@@ -52,7 +52,7 @@ def fibre_strain(fitted: Fitted, solution: Solution | None = None, stations: int
         moment = np.abs(elastic_flap_moment(solution, rotor_structure, metres)).max(axis=1)
         arm = HALF_THICKNESS * rotor_structure.chord
         bending = moment * arm / rotor_structure.at(metres, rotor_structure.flap_stiffness)
-    # 2A/s of the closed contour is about its mean thickness.
+    # 2A/s of a closed contour is its mean thickness, at most the greatest: on the safe side.
     shear = abs(fitted.twist_rate) * 2.0 * HALF_THICKNESS * rotor_structure.chord
     return FibreStrain(
         r=r,

@@ -148,9 +148,9 @@ def verdict_table(verdicts: Sequence[Verdict]) -> Table:
     mu = " and ".join(f"{mu:g}" for mu in pair.advance_ratios)
     notes = (
         "Angles: change from root to tip between the conditions, segments added whatever their sign; nominal over the "
-        "whole voltage range, tested as one blade showed of its model.",
-        "Ideal: saving of a twist free to move, over the best fixed blade; gross and net: of the best this actuator "
-        "can reach, before and after its mass is carried.",
+        "whole voltage range, tested by the low end of the maker's strain and what one blade showed of its model.",
+        "Ideal: saving of the concept free to move, over its best fixed blade; gross and net: of the best this "
+        "actuator can reach, before and after its mass is carried.",
     )
     return Table(f"Table 5.2  Actuators and concepts compared, advance ratios {mu}", columns, tuple(rows), notes)
 

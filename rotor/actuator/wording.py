@@ -30,7 +30,8 @@ def verdict_sentence(verdict: Verdict) -> str:
         pay = f"It would save {kw(net)} over the {against}, if it could be built and driven."
     else:
         pay = f"It does not pay: {saves}, and carrying its {mass:.0f} kg costs {kw(gross - net)}."
-    pay += f" Twist free to move would save {kw(verdict.baseline.ideal_saving)} over the best fixed blade."
+    concept, ideal = verdict.baseline.concept.name, verdict.baseline.ideal_saving
+    pay += f" The {concept} concept, free to move, would save {kw(ideal)} over its best fixed blade."
     broken = verdict.broken
     stops = f" Limits broken: {', '.join(limit.name for limit in broken)}." if broken else ""
     return f"{reach} {pay}{stops}"

@@ -131,18 +131,18 @@ def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
     bill = fitted.bill
     first, second = (best.power / 1e3 for best in base.best)
     twists = [base.concept.twist(best.values).spec() for best in (*base.best, base.fixed)]
+    tested = f"  ({math.degrees(verdict.attainable_derated):.2f}° as tests suggest)" if fitted.derating < 1.0 else ""
     lines = [
         verdict_sentence(verdict),
         "",
         f"best twist at each condition  {twists[0]} ({first:.1f} kW), {twists[1]} ({second:.1f} kW)",
         f"best fixed blade              {twists[2]} (mean {base.fixed.power / 1e3:.1f} kW)",
-        f"free movement would save      {base.ideal_saving / 1e3:8.2f} kW",
-        f"this actuator saves, gross    {verdict.gross_saving / 1e3:8.2f} kW",
-        f"after its mass is carried     {verdict.net_saving / 1e3:8.2f} kW",
+        f"free movement would save      {_kw(base.ideal_saving)}",
+        f"this actuator saves, gross    {_kw(verdict.gross_saving)}",
+        f"after its mass is carried     {_kw(verdict.net_saving)}",
         "",
         f"twist needed      {math.degrees(verdict.required):8.2f} °  (segments added)",
-        f"twist attainable  {math.degrees(verdict.attainable):8.2f} °  "
-        f"({math.degrees(verdict.attainable_derated):.2f}° as tests suggest)",
+        f"twist attainable  {math.degrees(verdict.attainable):8.2f} °{tested}",
         f"used              {math.degrees(verdict.attained):8.2f} °",
         f"moment            {fitted.moment:8.0f} N·m on GJ {fitted.section_stiffness:.0f} N·m²",
         f"torsion           {fitted.frequency:8.2f} /rev",
@@ -165,6 +165,11 @@ def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
     return "\n".join([*lines, *(f"caveat: {caveat}" for caveat in verdict.caveats)])
 
 
+def _kw(power: float) -> str:
+    """Two decimals in a column, and no negative nothing."""
+    return f"{round(power / 1e3, 2) + 0.0:8.2f} kW"
+
+
 def _host(kind: BladeKind, stiffness: float | None) -> Host:
     if stiffness is None:
         stiffness = 1.0 if kind == "retrofit" else 0.5
@@ -176,7 +181,9 @@ def _placement(args: argparse.Namespace) -> Placement:
     span = _ends(args.span, "span") or base.span
     chord = _ends(args.chord, "chord") or base.chord
     if not 0.0 < args.angle_deg < 90.0:
-        raise ValueError(f"fibre angle {args.angle_deg:g}° is outside 0…90°: 45 twists most")
+        raise ValueError(
+            f"fibre angle {args.angle_deg:g}° is not between 0 and 90°: choose a value inside, 45 twists most"
+        )
     return Placement(span, chord, args.plies, math.radians(args.angle_deg))
 
 

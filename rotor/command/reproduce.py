@@ -41,7 +41,8 @@ def run(args: argparse.Namespace) -> int:
     processes = args.processes if args.processes is not None else min(os.cpu_count() or 1, 4)
     if not 1 <= processes <= 64:
         raise ValueError(f"{processes} processes are outside 1…64: give one a core")
-    entries = [find_entry(number) for number in args.figure] if args.figure else list(ENTRIES)
+    wanted = [find_entry(number) for number in args.figure or ()]
+    entries = [entry for entry in ENTRIES if entry in wanted] if wanted else list(ENTRIES)  # In the document's order.
     folder = Path(args.out)
     try:
         folder.mkdir(parents=True, exist_ok=True)

@@ -96,7 +96,8 @@ def find_concept(name: str, division: Sequence[float] | None = None) -> Concept:
         return restrict(TWO_AIRFOILS, {"division": division[0]})
     if name == "three-segment" and len(division) == 2:
         return _three_segment(division[0], division[1])
+    given = "1 division" if len(division) == 1 else f"{len(division)} divisions"
     raise ValueError(
-        f"concept {name} takes no {len(division)} division(s): give one with two-segment and "
+        f"concept {name} cannot take {given}: give one with two-segment and "
         "two-segment-two-airfoils, two with three-segment, none with the others"
     )

@@ -113,22 +113,23 @@ def restrict(
 ) -> Concept:
     """The concept with some parameters held at values (SI); ValueError for a name or a value it cannot take."""
     known = {parameter.name: parameter for parameter in concept.parameters}
+    name = name or concept.name
     for key, value in fixed.items():
         if key not in known:
-            raise ValueError(f"concept {concept.name} has no parameter {key!r}: it has {', '.join(known)}")
+            raise ValueError(f"concept {name} has no parameter {key!r}: it has {', '.join(known)}")
         low, high = known[key].low, known[key].high
         if not low <= value <= high:
             shown = known[key].shown
             raise ValueError(
-                f"{key} {shown(value):g} of concept {concept.name} is outside {shown(low):g}…{shown(high):g}: "
+                f"{key} {shown(value):g} of concept {name} is outside {shown(low):g}…{shown(high):g}: "
                 "choose a value inside"
             )
     if len(fixed) >= len(known):
-        raise ValueError(f"concept {concept.name} has nothing left to vary: leave at least one parameter free")
+        raise ValueError(f"concept {name} has nothing left to vary: leave at least one parameter free")
     return Restricted(
         concept,
         tuple(fixed.items()),
-        name or concept.name,
+        name,
         title or concept.title,
         explanation or concept.explanation,
     )

@@ -54,7 +54,7 @@ def table_3_2() -> Report:
     loaded = {key: float(sources[key]) for key in DOCUMENT_3_2}
     return _as_loaded(
         "3.2", "Main rotor and mass as loaded, beside the document's", DOCUMENT_3_2, loaded,
-        "The document calls 8322.4 kg a weight; it is the mass of C_W = 0.0065 at sea level. The `flight` preset uses "
+        "The document calls 8322.4 kg a weight; it is the mass of C_W = 0.0065 at sea level. The flight preset uses "
         "measured blade mass and flap inertia instead of 13.92 kg/m.",
     )  # fmt: skip
 
@@ -92,8 +92,8 @@ def tail_rotor() -> Report:
         ours=", ".join(f"{100 * share:.1f} % at µ {mu:g}" for mu, share in zip(TAIL_SPEEDS, shares, strict=True)) + ".",
         verdict=judged(low >= 0.04 and high <= 0.06),
         because=f"Solved by speed it is no constant: {100 * low:.1f} to {100 * high:.1f} %. It is largest in hover, "
-        "where induced power rules, and least where the main rotor's torque is small; the mean is near the document's "
-        "number.",
+        "where induced power rules, and falls with speed although torque rises again: air through its disk takes the "
+        "induced power down. The mean is near the document's number.",
         tables=(table("tail", ("mu", "main_rotor_kw", "tail_rotor_kw", "share_percent"), rows),),
         panels=(
             Panel(

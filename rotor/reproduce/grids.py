@@ -73,8 +73,8 @@ def figure_3_9() -> Report:
         kind="figure",
         caption=f"Power in forward flight, µ {FORWARD:.2f}, against the number of azimuths (40 elements).",
         statement="At least 100 azimuthal positions are needed (p. 22).",
-        ours=f"At 100 azimuths power is within {100 * worst:.1g} % of {FINEST_AZIMUTHS} in both presets; within 0.1 % "
-        "from "
+        ours=f"At 100 azimuths power is within {1e6 * worst:.1g} millionths of {FINEST_AZIMUTHS} in both presets; "
+        "within 0.1 % from "
         + ", ".join(f"{numbers[f'{name}_needed']:.0f} ({name})" for name, _ in CASES)
         + " on. From 100 to 360 azimuths the error falls with order "
         + ", ".join(f"{numbers[f'{name}_order']:.1f} ({name})" for name, _ in CASES)

@@ -16,8 +16,12 @@ from rotor.airfoil.table import load_section
 from rotor.losses import prandtl
 from rotor.momentum import glauert_inflow
 from rotor.presets import make_design
+from rotor.reproduce.report import typographic
 from rotor.reproduce.runs import variant
 from rotor.solve import solve
+
+ROUNDING = 1e-9
+"""Nothing smaller is shown as a number."""
 
 
 @dataclass(frozen=True)
@@ -92,8 +96,8 @@ MISPRINTS: tuple[Misprint, ...] = (
     ),
     Misprint(
         "3.6", "21", "omission", "U_P without µ sin α ΩR",
-        "The tilted disk sees the stream. Without it torque × Ω misses the parasite power: shown at µ 0.30, beside "
-        "the sum of parts that the thesis preset takes as power.",
+        "The tilted disk sees the stream. Without it torque × Ω misses the parasite power, and what the disk, flapped "
+        "back, draws from the stream: shown at µ 0.30, beside the sum of parts that the thesis preset takes as power.",
         "power = solve(make_design('thesis', advance_ratio=0.30)).require().power",
         "power.shaft / 1e3, power.main_rotor / 1e3", "kW",
     ),
@@ -201,4 +205,6 @@ def write_misprints(folder: Path) -> Path:
 
 
 def _short(value: float) -> str:
-    return f"{value:.4g}" if math.isfinite(value) else "—"
+    if not math.isfinite(value):
+        return "—"
+    return typographic(f"{value:.4g}") if abs(value) > ROUNDING else "0"

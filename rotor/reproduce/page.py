@@ -58,7 +58,7 @@ def escape(text: str) -> str:
 
 def _head(made: Sequence[tuple[Entry, Report]], pictures: bool) -> str:
     counts = {verdict: sum(report.verdict is verdict for _, report in made) for verdict in Verdict}
-    summary = ", ".join(f"{count} {verdict.value}" for verdict, count in counts.items() if count)
+    summary = ", ".join(f"{verdict.value} {count}" for verdict, count in counts.items() if count)
     rows = "".join(
         f'<tr><td><a href="#{report.stem}">{escape(report.title)}</a></td><td>{_chip(report.verdict)}</td>'
         f"<td>{escape(report.statement)}</td></tr>"

@@ -93,7 +93,7 @@ def _forces(number: str, section: str, statement: str) -> Report:
         statement=statement,
         ours=f"cl {pressure.cl:.3f}, cd {pressure.cd:.5f}, cm {pressure.cm:.3f}; the arrows add up to cl "
         f"{integrated:.3f} "
-        f"({100 * gap:+.2f} %). {beside[0]}".rstrip(),
+        f"({round(100 * gap, 2) + 0.0:+.2f} %). {beside[0]}".rstrip(),
         verdict=judged(abs(gap) < 5e-3),
         because="The arrows carry XFOIL's lift, which proves order, sign and scale, not XFOIL; the document prints no "
         "number to set beside.",

@@ -2,6 +2,7 @@
 
 import csv
 import pickle
+import re
 from pathlib import Path
 
 import pytest
@@ -41,6 +42,16 @@ def test_one_figure(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     rows = list(csv.reader(line for line in lines if not line.startswith("#")))
     assert rows[0][:2] == ["mass_kg", "ct_over_sigma"]
     assert all(len(row) == len(rows[0]) for row in rows)
+
+
+def test_figures_come_once_and_in_the_documents_order(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    asked = ["--figure", "table 5.1", "--figure", "Table 3.2", "--figure", "table 5.1", "--figure", "table 3.1"]
+    assert main(["reproduce", str(tmp_path), *asked]) == 0
+    capsys.readouterr()
+    page = (tmp_path / "index.html").read_text(encoding="utf-8")
+    found = re.findall(r'<article id="([\w-]+)"', page)
+    assert found == ["table-3_1", "table-3_2", "table-5_1"]
+    assert "3 rebuilt: agrees 2, stands alone 1." in page
 
 
 def test_without_matplotlib_tables_still_come(
