@@ -31,6 +31,8 @@ class Display:
         self._difference = self._seen(
             gui.add_checkbox("Show B − A", start.difference, visible=False, hint=hint("difference"))
         )
+        self._awaited = False
+        """B − A is to be shown as soon as there is an A."""
         self._bar = gui.add_html(readout.reserved(_BAR))
         self.range_buttons = gui.add_button_group("Colours", ("Rescale", "Default"), hint=hint("colours"))
         self._legend = gui.add_html(readout.reserved(_LEGEND))
@@ -67,7 +69,8 @@ class Display:
         self._field.value, self._azimuth.value = view.field, view.azimuth_deg
         self._exaggeration.value = view.exaggeration
         self._dark.value, self._units.value = view.dark, view.units
-        self._difference.value = view.difference and self._difference.visible
+        self._awaited = view.difference and not self._difference.visible
+        self._difference.value = view.difference and not self._awaited
         for name, handle in self._outlines.items():
             handle.value = getattr(view, name)
         self._changed()
@@ -78,7 +81,7 @@ class Display:
 
     def hold(self, held: bool) -> None:
         """Take the rotor's part of the widgets from the user, or give it back; units and ground stay their own."""
-        for handle in (self._field, self._azimuth, self._exaggeration, *self._outlines.values()):
+        for handle in (self._field, self._difference, self._azimuth, self._exaggeration, *self._outlines.values()):
             handle.disabled = held
 
     def show_range(self, field: Field, colour_range: tuple[float, float], faded: bool) -> None:
@@ -91,6 +94,9 @@ class Display:
         if not allowed and self._difference.value:
             self._difference.value = False
         self._difference.visible = allowed
+        if allowed and self._awaited:
+            self._awaited = False
+            self._difference.value = True
 
     def _seen(self, handle: Any) -> Any:
         handle.on_update(lambda _: self._changed())

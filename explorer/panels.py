@@ -87,6 +87,7 @@ class Panels:
         self._theme()
         gui.set_panel_label("Rotor explorer")
         set_style(client, style.SHEET)  # Before the first widget.
+        gui.main_panel.dock_right()
         self._presence = Presence(client, commons.stage, address)
         self.top = TopBar(gui, works.wake, lambda: self.history.undo(), lambda: self.history.redo())
         tabs = gui.add_tab_group()
@@ -121,7 +122,6 @@ class Panels:
             export = ExportPanel(client, desk, sources)
         with tabs.add_tab("Lecture"):
             self.lecture = LecturePanel(client, desk, self._presence, self._enlarge)
-        gui.main_panel.dock_right()
         panel = self._panel = gui.add_panel()
         with panel.add_tab("Results"):
             self.results = ResultsPanel(gui)

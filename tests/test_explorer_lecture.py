@@ -1,5 +1,6 @@
 """What the lecture claims, claim by claim, against the solver; presentations; the page's address."""
 
+import re
 import time
 from dataclasses import replace
 
@@ -11,7 +12,7 @@ from explorer.disk.fields import FIELDS
 from explorer.keys.names import KEYS
 from explorer.lecture.cases import DOCUMENT
 from explorer.lecture.presentation import Shown, Stage, follow_name, new_secret
-from explorer.lecture.steps import STEPS, Step, view_of
+from explorer.lecture.steps import STEPS, Step, beside, view_of
 from explorer.lecture.view import caption
 from explorer.sharing.address import Address, parameter, with_parameter
 from explorer.state import Inputs, ViewState, baseline_of
@@ -100,11 +101,43 @@ def test_a_step_says_what_is_seen(step: Step):
     pinned = None if step.against is None else solved(step.against)
     said = step.say(Moment(step.inputs, ViewState(), solution, baseline, pinned))
     assert any(character.isdigit() for character in said)
+    assert not any(f" {unit}" in said for unit in ("kW", "%"))  # A number and its unit stay on one line.
     assert "nan" not in said
     html = caption(step, said)
     assert f'data-step="{STEPS.index(step) + 1}"' in html
     assert view_of(step, ViewState(dark=True)).dark
     assert step.field in FIELDS
+
+
+def test_what_is_said_of_power_adds_up():
+    step = BY_TITLE["A rotor in trim"]
+    solution = solved(step.inputs)
+    said = step.say(Moment(step.inputs, ViewState(), solution, solution, None))
+    shares = re.findall(r"([\d.]+)\u00a0%", said)
+    assert sum(map(float, shares)) == pytest.approx(100.0, abs=1.0)
+
+
+class TestBeside:
+    """A differs from B by what the step is about, whatever else the user changes."""
+
+    @pytest.mark.parametrize("step", STEPS, ids=lambda step: step.title)
+    def test_at_first_it_is_the_steps_own(self, step: Step):
+        against = beside(step, step.inputs)
+        if step.against is None or against is None:
+            assert step.against is against is None
+        else:
+            assert against.design() == step.against.design()
+
+    def test_the_other_wake_is_compared_with_itself(self):
+        step = BY_TITLE["Four blades are not infinitely many"]
+        against = beside(step, replace(step.inputs, inflow="dynamic-wake", linear=-17.0))
+        assert against is not None
+        assert against.design() == replace(step.against or Inputs(), inflow="dynamic-wake").design()
+
+    def test_the_twist_and_the_flight_are_the_users(self):
+        step = BY_TITLE["Where the reverse flow eats power"]
+        against = beside(step, replace(step.inputs, advance_ratio=0.3, tip_loss=False))
+        assert against == replace(step.inputs, advance_ratio=0.3, tip_loss=False, reverse_flow=False)
 
 
 def test_eight_steps_and_their_keys():

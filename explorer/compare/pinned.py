@@ -59,6 +59,11 @@ class Pinned:
         return replace(self.inputs, **{name: getattr(present, name) for name in FLIGHT})
 
 
+def same_but_flight(one: Inputs, other: Inputs) -> bool:
+    """Whether two inputs mean the same blade, computed in the same way."""
+    return replace(one, **{name: getattr(other, name) for name in FLIGHT}) == other
+
+
 @dataclass(frozen=True, eq=False)
 class Outcome:
     """What a button leads to."""

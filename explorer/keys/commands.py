@@ -6,10 +6,11 @@ from functools import partial
 
 from explorer.desk import Desk
 from explorer.disk.fields import FIELDS
+from explorer.lecture.cases import FLIGHTS
 from explorer.scene.view import View
 from explorer.units import UNITS
 
-SPEEDS = {"hover": 0.0, "mu_015": 0.15, "mu_024": 0.24, "mu_037": 0.37}
+SPEEDS = dict(zip(("hover", "mu_015", "mu_024", "mu_037"), FLIGHTS.values(), strict=True))
 """Advance ratios of the flight presets, by command."""
 VIEWS: dict[str, View] = {"view_3d": "3d", "view_top": "top", "view_blade": "blade", "view_side": "side"}
 

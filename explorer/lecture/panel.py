@@ -1,4 +1,4 @@
-"""The Lecture tab of one session, and the caption that floats over the rotor while a lecture runs."""
+"""The Lecture tab of one session, and the caption that stands below the controls while a lecture runs."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -7,20 +7,20 @@ from typing import Any
 import viser
 
 from explorer import viser_compat
+from explorer.compare.pinned import same_but_flight
 from explorer.desk import Desk, Moment
 from explorer.glossary import hint
 from explorer.lecture import cases, view
 from explorer.lecture import steps as lecture
 from explorer.lecture.presence import Presence
 from explorer.lecture.steps import STEPS
+from explorer.state import Inputs
 
-_CAPTION_WIDTH = 520
+_NO_CASE = "–"
 _PRESENTING = (
     '<div class="rx rx-dim rx-small">Copies a link. Who opens it sees what you set here, as you set it, '
     "and may leave at any time.</div>"
 )
-_LIFT = 14
-"""[px] between the caption and the lower edge of the canvas."""
 
 
 class LecturePanel:
@@ -32,22 +32,26 @@ class LecturePanel:
         """`enlarge`: big type for the whole page, or as it was."""
         self._client, self._desk, self._presence = client, desk, presence
         self._step: int | None = None
+        self._against: Inputs | None = None
+        """A, as the step wants it beside what is on the sliders."""
         self._told = ""
         gui = client.gui
         self._begin = gui.add_button("Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture"))
         gui.add_html('<div class="rx rx-dim rx-small">Eight steps set the page and say what to watch.</div>')
         self._big = gui.add_checkbox("Big type", False, hint=hint("big_type"))
         self._flights = gui.add_button_group("Fly at µ", tuple(cases.FLIGHTS), hint=hint("lecture_flights"))
-        self._case = gui.add_dropdown("Document", ("–", *cases.DOCUMENT), hint=hint("document_case"))
+        self._case = gui.add_dropdown("Document", (_NO_CASE, *cases.DOCUMENT), hint=hint("document_case"))
         with gui.add_folder("Present to others"):
             self._present = gui.add_button("Present", icon=viser.Icon.PRESENTATION, color="gray", hint=hint("present"))
             gui.add_html(_PRESENTING)
             self._name_present()  # A presenter who loads the page again presents on.
         self._caption_panel = gui.add_panel(visible=False)
-        with self._caption_panel.add_tab("Lecture", viser.Icon.SCHOOL):
-            self._caption = gui.add_html("")
+        with self._caption_panel.add_tab("What to watch", viser.Icon.SCHOOL):
+            # First, so that they stay where they are however long the text is.
             self._buttons = gui.add_button_group("", ("Back", "Set again", "Next", "End"), hint=hint("lecture_step"))
-        self._caption_panel.float(x=_LIFT, y=-_LIFT, width=_CAPTION_WIDTH)
+            self._caption = gui.add_html("")
+        # It covers neither the rotor nor the controls, also in a small window.
+        self._caption_panel.dock_below(gui.main_panel)
         self._begin.on_click(lambda _: self.toggle())
         self._buttons.on_click(self._clicked)
         self._big.on_update(lambda event: enlarge(event.target.value))
@@ -82,14 +86,18 @@ class LecturePanel:
         """Set the page as a step wants it."""
         self._stand_at(step)
         wanted, desk = STEPS[step], self._desk
-        desk.pin(wanted.against)
+        inputs = self._kept(wanted.inputs)
+        self._against = lecture.beside(wanted, inputs)
+        desk.pin(self._against)
         desk.set_view(lecture.view_of(wanted, desk.view()))
-        desk.set_inputs(wanted.inputs)
-        viser_compat.open_tab(self._client, wanted.tab)
+        desk.set_inputs(inputs)
+        for tab in (wanted.tab, "Design"):  # To watch; to try.
+            viser_compat.open_tab(self._client, tab)
 
     def follow(self, step: int | None) -> None:
         """Show the step of another page, which sets the rest."""
         if step != self._step:
+            self._against = None
             self._stand_at(step)
 
     def end(self) -> None:
@@ -98,8 +106,17 @@ class LecturePanel:
 
     def show(self, moment: Moment) -> None:
         """Say what is seen now."""
-        if self._step is not None:
-            self._tell(STEPS[self._step].say(moment))
+        self._name_case(moment.inputs)
+        step = self._step
+        if step is None:
+            return
+        self._tell(STEPS[step].say(moment))
+        if self._against is None or moment.pin is None or moment.pin.inputs != self._against:
+            return  # The user has made another design A.
+        against = lecture.beside(STEPS[step], moment.inputs)
+        if against is not None and not same_but_flight(against, self._against):
+            self._against = against
+            self._desk.pin(against)
 
     def lose(self) -> None:
         if self._step is not None:
@@ -139,7 +156,17 @@ class LecturePanel:
 
     def _take_case(self, event: viser.GuiEvent[Any]) -> None:
         if event.client is not None and event.target.value in cases.DOCUMENT:
-            self._desk.set_inputs(cases.DOCUMENT[event.target.value])
+            self._desk.set_inputs(self._kept(cases.DOCUMENT[event.target.value]))
+
+    def _name_case(self, inputs: Inputs) -> None:
+        """The menu names a case for as long as the sliders hold it."""
+        held = (title for title, case in cases.DOCUMENT.items() if self._kept(case) == inputs)
+        if self._case.value != (title := next(held, _NO_CASE)):
+            self._case.value = title
+
+    def _kept(self, inputs: Inputs) -> Inputs:
+        """These inputs, with the rotor that the user brought still in the menu."""
+        return replace(inputs, own_rotor=self._desk.inputs().own_rotor)
 
     def _clicked(self, event: viser.GuiEvent[Any]) -> None:
         match event.target.value:

@@ -4,8 +4,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from explorer.desk import Moment
-from explorer.readout import number
-from explorer.state import Inputs, ViewState
+from explorer.readout import PART_TITLES, number
+from explorer.state import INPUT_NAMES, LAWS, Inputs, ViewState
+from explorer.units import UNITS
 from rotor.solution import PowerBudget
 
 Say = Callable[[Moment], str]
@@ -26,55 +27,77 @@ class Step:
     against: Inputs | None = None
     """A of A/B."""
     field: str = "Induced inflow λi"
+    difference: bool = False
+    """Whether the disk shows B − A."""
     tab: str = "Results"
     """Of the left panel, to be opened."""
 
 
 def view_of(step: Step, view: ViewState) -> ViewState:
     """What is shown at a step."""
-    return replace(view, field=step.field, reverse_flow=True, stall=True, exaggeration=1.0)
+    return replace(view, field=step.field, difference=step.difference, reverse_flow=True, stall=True, exaggeration=1.0)
 
 
-def _kw(watts: float, sign: bool = False) -> str:
-    return f"{number(watts / 1e3, sign=sign)} kW"
+def beside(step: Step, inputs: Inputs) -> Inputs | None:
+    """A of a step beside what is on the sliders: its own blade and whatever else sets it apart, else as B is computed.
+
+    So that A and B differ by what the step is about, also after the user has chosen another inflow.
+    """
+    if step.against is None:
+        return None
+    own = {name for name in INPUT_NAMES if getattr(step.against, name) != getattr(step.inputs, name)}
+    return replace(inputs, **{name: getattr(step.against, name) for name in own | _TWIST})
+
+
+_TWIST = {"law"}.union(*(law.inputs for law in LAWS.values()))
+
+
+def _power(moment: Moment, watts: float, sign: bool = False) -> str:
+    """In the units that are chosen; number and unit stay on one line."""
+    return UNITS[moment.view.units].watts(watts, sign=sign).replace(" ", "\u00a0")
+
+
+def _percent(share: float, digits: int = 0, sign: bool = False) -> str:
+    return f"{number(100.0 * share, digits, sign=sign)}\u00a0%"
 
 
 def _shares(moment: Moment) -> str:
     power = moment.solution.power
-    parts = (("induced", power.induced), ("profile", power.profile), ("parasite", power.parasite))
-    shares = ", ".join(f"{name} {number(100.0 * value / power.total)} %" for name, value in parts)
-    return f"Now {_kw(power.total)}: {shares}."
+    shares = ", ".join(
+        f"{title.lower()} {_percent(getattr(power, name) / power.total)}" for name, title in PART_TITLES.items()
+    )
+    return f"Now {_power(moment, power.total)}: {shares}."
 
 
 def _induced(moment: Moment) -> str:
     before, after = _powers(moment)
     a, b = before.induced, after.induced
-    change = number(100.0 * (b / a - 1.0), 1, sign=True)
-    return f"Induced power: A {_kw(a)}, B {_kw(b)}; {_kw(b - a, sign=True)} ({change} %)."
+    change = f"{_power(moment, b - a, sign=True)} ({_percent(b / a - 1.0, 1, sign=True)})"
+    return f"Induced power: A {_power(moment, a)}, B {_power(moment, b)}; {change}."
 
 
 def _both(moment: Moment) -> str:
     before, after = _powers(moment)
     induced, profile = after.induced - before.induced, after.profile - before.profile
-    return f"From A to B: induced {_kw(induced, sign=True)}, profile {_kw(profile, sign=True)}."
+    return f"From A to B: induced {_power(moment, induced, sign=True)}, profile {_power(moment, profile, sign=True)}."
 
 
 def _reverse(moment: Moment) -> str:
     before, after = _powers(moment)
-    area = number(100.0 * moment.solution.reverse_flow_area, 1)
-    return f"{area} % of the disk is in reverse flow; it costs {_kw(after.total - before.total)} in all."
+    area = _percent(moment.solution.reverse_flow_area, 1)
+    return f"{area} of the disk is in reverse flow; it costs {_power(moment, after.total - before.total)} in all."
 
 
 def _per_cent(moment: Moment) -> str:
     before, after = _powers(moment)
     saving = before.total - after.total
-    return f"B needs {_kw(saving)} less than A: {number(100.0 * saving / before.total, 2)} % of {_kw(before.total)}."
+    share = f"{_percent(saving / before.total, 2)} of {_power(moment, before.total)}"
+    return f"B needs {_power(moment, saving)} less than A: {share}."
 
 
 def _actuator(moment: Moment) -> str:
-    return (
-        f"The blade at rest needs {_kw(moment.solution.power.total)} here; the tab says what moving it is worth, net."
-    )
+    needs = _power(moment, moment.solution.power.total)
+    return f"This blade needs {needs} here; the tab says what moving it is worth, net."
 
 
 def _powers(moment: Moment) -> tuple[PowerBudget, PowerBudget]:
@@ -87,11 +110,11 @@ _UH60A = Inputs(law="builtin")
 STEPS: tuple[Step, ...] = (
     Step(
         "A rotor in trim",
-        "Every picture is a rotor in trim: it carries the weight, overcomes the drag, and its disk is held level "
-        "by the controls. Power has three parts: induced (making lift), profile (dragging blades), parasite "
-        "(pushing the fuselage).",
+        "Every picture is a rotor in trim: it carries the weight, overcomes the drag, and cyclic pitch holds its "
+        "disk square to the shaft. Its power has three parts: induced (making lift), profile (dragging blades), "
+        "parasite (pushing the fuselage); the tail rotor takes some more.",
         "Drag the advance ratio from 0 to 0.3: induced power falls to about a third, parasite power grows with "
-        "the cube of the speed, and their sum has a valley.",
+        "the cube of the speed, and the total has a valley.",
         _UH60A,
         _shares,
     ),
@@ -103,6 +126,7 @@ STEPS: tuple[Step, ...] = (
         replace(_LINEAR, linear=-16.0, advance_ratio=0.0),
         _induced,
         against=replace(_LINEAR, linear=0.0, advance_ratio=0.0),
+        difference=True,
     ),
     Step(
         "Why linear inflow cannot see it",
@@ -112,6 +136,7 @@ STEPS: tuple[Step, ...] = (
         replace(_LINEAR, linear=-12.0, inflow="pitt-peters"),
         _both,
         against=replace(_LINEAR, linear=0.0, inflow="pitt-peters"),
+        difference=True,
     ),
     Step(
         "A wake that answers",
@@ -121,6 +146,7 @@ STEPS: tuple[Step, ...] = (
         replace(_LINEAR, linear=-12.0),
         _both,
         against=replace(_LINEAR, linear=0.0),
+        difference=True,
     ),
     Step(
         "Four blades are not infinitely many",
@@ -130,6 +156,7 @@ STEPS: tuple[Step, ...] = (
         replace(_LINEAR, linear=-16.0, advance_ratio=0.3, inflow="dynamic-wake-infinite-blades"),
         _induced,
         against=replace(_LINEAR, linear=-8.0, advance_ratio=0.3, inflow="dynamic-wake-infinite-blades"),
+        difference=True,
     ),
     Step(
         "Where the reverse flow eats power",

@@ -1,5 +1,6 @@
 """The lecture and the presenter on the real page."""
 
+import re
 from typing import TYPE_CHECKING
 
 import pytest
@@ -53,6 +54,52 @@ def test_the_lecture_sets_the_page_and_says_what_is_seen(browser: "Browser", app
         timeout=WAIT,
     )
     assert watched.complaints == []
+    watched.close()
+
+
+def test_the_caption_leaves_a_tablets_rotor_and_controls_in_sight(browser: "Browser", app: App):
+    watched = opened(browser, app.address, size=(1024, 768))
+    page = watched.page
+    page.keyboard.press("t")
+    stands_at(page, 1)
+    page.keyboard.press("PageDown")
+    stands_at(page, 2)
+    page.wait_for_function(  # Wanted before there was an A.
+        """() => document.evaluate("//label[.='Show B − A']/ancestor::div[contains(@class,'Flex-root')][1]//input",
+            document, null, 9).singleNodeValue?.checked""",
+        timeout=WAIT,
+    )
+    # At its middle each is what is seen there: nothing lies over it.
+    seen = """e => { const box = e.getBoundingClientRect();
+        return e.contains(document.elementFromPoint(box.x + box.width / 2, box.y + box.height / 2)); }"""
+    for label in ("Rate", "Adv. ratio"):
+        assert watched.row(label).get_by_role("slider").evaluate(seen), label
+    assert page.locator(".rx-said").evaluate(seen)
+    assert page.get_by_role("button", name="Next", exact=True).evaluate(seen)
+    scene, caption = page.locator("canvas[data-engine]"), page.locator('[data-explorer="lecture"]')
+    reaches = scene.evaluate("e => e.getBoundingClientRect().right")
+    assert caption.evaluate("e => e.getBoundingClientRect().left") >= reaches
+    watched.close()
+
+
+def test_with_four_blades_a_step_compares_four_with_four(browser: "Browser", app: App):
+    """What the step says of them must be seen: the same twist costs nothing."""
+    watched = opened(browser, app.address)
+    page = watched.page
+    page.keyboard.press("t")
+    for k in range(1, 5):
+        stands_at(page, k)
+        page.keyboard.press("PageDown")
+    stands_at(page, 5)
+    before = watched.at_rest(lambda: watched.text("said"))
+    assert "(+1" in before
+    page.get_by_label("Infinite blades").uncheck()
+    watched.until_changed(lambda: watched.text("said"), before)
+    after = watched.at_rest(lambda: watched.text("said"))
+    change = re.search(r"\(([+−][\d.]+)", after)
+    assert change is not None
+    assert float(change[1].replace("−", "-")) < 1.0
+    assert "different models" not in watched.text("status")
     watched.close()
 
 
