@@ -23,7 +23,7 @@ from rotor.study import cluster
 from rotor.study.axes import Axis, Places, Sample
 from rotor.study.chunks import Done, Provenance, work, work_chunk
 from rotor.study.memory import Memory
-from rotor.study.results import Results, best_row, effects, read_results, robust_best
+from rotor.study.results import Results, best_row, effects, read_file, read_results, robust_best
 from rotor.study.store import Store
 from rotor.study.study import good_chunk
 from rotor.study.study_file import StudyFile, parse_study, read_study
@@ -110,6 +110,22 @@ BAD = {
     "chunk": ("chunk = 0\n[axes]\nmu = [0.1]\n", "line 1", "whole number"),
     "rotor": ("[axes]\nrotor = ['uh60a', 'mine.toml']\n", "line 2", "mine.toml"),
     "table": ("[axes]\nmu = [0.1]\n[fixed]\ntwist = 'table:mine.csv'\n", "line 4", "mine.csv"),
+    "no section": ("axes = 3\n", "line 1", "write [axes]"),
+    "dotted key": ("title = 'x'\naxes.mu = [0.1, 0.9]\n", "line 2", "0.9"),
+    "section in braces": ("axes = { mu = [0.1, 0.9] }\n", "line 1", "0.9"),
+    "heading of a key": ("[axes.mu]\nlow = 0.1\nhigh = 0.9\n[sample]\ncount = 8\n", "line 1", "0.9"),
+    "long range": ("[axes]\nmu = '0.1:0.3:0.00001'\n", "line 2", "larger step"),
+    "one value outside": ("title = 'x'\n[axes]\nspeed_kt = [-5]\n", "line 3", "advance ratio"),
+    "section data": ("[axes]\nmu = [0.1]\n[fixed]\nairfoils = 'flat'\n", "line 4", "'flat'"),
+    "half an element": ("[axes]\nmu = [0.1]\n[models]\nelements = 40.5\n", "line 4", "whole number"),
+    "half an element of an axis": ("[axes]\nazimuths = [36, 40.5]\n", "line 2", "whole number"),
+    "elements sampled": ("[axes]\nelements = { low = 20, high = 40 }\n[sample]\ncount = 8\n", "line 2", "list"),
+    "share without optimum": ("[axes]\nmu = [0.1]\n[fixed]\nhover_share = 0.5\n", "line 4", "[optimum]"),
+    "twist and optimum": ("[axes]\nmu = [0.1]\n[fixed]\ntwist = 'ideal'\n[optimum]\n", "line 4", "leave"),
+    "all uncertain": ("[axes]\nmu = [0.1]\n[show]\nuncertain = ['mu']\n", "line 4", "leave one out"),
+    "partly sampled": (
+        "[axes]\nmu = { low = 0.1, high = 0.3 }\nmass_kg = { low = 7000, high = 8000 }\n[sample]\ncount = 8\n"
+        "[show]\nuncertain = ['mu']\n", "line 7", "list of values"),
     "speeds": ("[axes]\nspeed_kt = [90]\nmu = [0.1]\n", "line 2", "leave one out"),
 }  # fmt: skip
 
@@ -134,6 +150,8 @@ def test_a_bad_study_file_is_one_sentence(name: str, tmp_path: Path, capsys: pyt
         (["a/nowhere.toml"], "a/nowhere.toml"),
         (["two_segment.toml", "DIR"], "study show DIR"),
         (["two_segment.toml", "--workers", "0"], "1…1024"),
+        (["two_segment.toml", "--json"], "study show DIR"),
+        (["show", "nowhere", "--dry-run"], "--dry-run"),
         (["show"], "study show DIR"),
         (["show", "nowhere"], "nowhere"),
     ],
@@ -273,7 +291,10 @@ def test_files_say_units_and_whence_they_came(tmp_path: Path, done: Callable[[St
     assert about["study"] == store.study.fingerprint
     assert about["package_version"] == "0.0"
     assert json.loads(about["units"])["mass_kg"] == "kg"
-    assert json.loads(about["models"])["inflow"] == "pitt-peters"
+    models = json.loads(about["models"])
+    assert (models["inflow"], models["elements"], models["trim"], models["tip_loss"]) == (
+        "pitt-peters", 12, "propulsive", True
+    )  # fmt: skip
     results = read_results(tmp_path / "out")
     assert_array_equal(results.columns["point"], np.arange(6))
     assert parquet.read_table(tmp_path / "out").num_rows == 6  # As pandas reads a folder.
@@ -328,6 +349,36 @@ def test_effects_share_the_variance_as_the_formula_says():
     many = np.linspace(0.0, 1.0, 1000)
     fine = effects(results_of(x=many, power_total_w=many), "power_total_w")[0]
     assert_allclose(fine.share, 0.99, atol=1e-3)  # Tenths see all but 1/100 of a straight line's variance.
+
+
+def test_a_short_sample_is_not_taken_for_an_effect():
+    """Power depends on x alone; with a level for each of sixteen points y would have all of the variance as well."""
+    x, y = np.random.default_rng(0).random((2, 16))
+    results = results_of(x=x, y=y, power_total_w=x)
+    results.about["axes"] = {name: {"low": 0.0, "high": 1.0} for name in "xy"}
+    found = {one.axis: one.share for one in effects(results, "power_total_w")}
+    assert found["x"] > 0.5
+    assert found["y"] < 0.2
+
+
+def test_a_small_file_that_unpacks_to_much_is_one_sentence():
+    parquet: Any = importlib.import_module("pyarrow.parquet")
+    arrow: Any = importlib.import_module("pyarrow")
+    about = {"format": "rotor-explorer study", "axes": "[]", "given": "{}", "units": "{}", "models": "{}"}
+
+    def packed(rows: int, text: str) -> bytes:
+        coded = arrow.DictionaryArray.from_arrays(np.zeros(rows, dtype=np.int32), [text])
+        table = arrow.table({"status": coded.cast(arrow.string()), "point": np.zeros(rows)})
+        out = arrow.BufferOutputStream()
+        parquet.write_table(table.replace_schema_metadata(about), out, compression="zstd", write_batch_size=10**6)
+        return out.getvalue().to_pybytes()
+
+    content = packed(1000, "converged")
+    assert read_file(content, "small.parquet").good.all()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("rotor.study.results._LARGEST", 8000)
+        with pytest.raises(ValueError, match=r"'small.parquet' unpacks to 0 MB"):
+            read_file(content, "small.parquet")
 
 
 def test_without_the_packages_it_says_how_to_get_them(monkeypatch: pytest.MonkeyPatch):

@@ -52,9 +52,14 @@ def run(args: argparse.Namespace) -> int:
     """0 every point converged, 1 some did not, 130 stopped by Ctrl-C with all finished chunks kept."""
     if args.file == "show":
         return _show(args)
-    for flag in ("folder", "least", "uncertain"):
+    for flag, name in (
+        ("folder", repr(args.folder)),
+        ("least", "--least"),
+        ("uncertain", "--uncertain"),
+        ("json", "--json"),
+    ):
         if getattr(args, flag):
-            raise ValueError(f"{getattr(args, flag)!r} belongs to show: write `study show DIR`")
+            raise ValueError(f"{name} belongs to show: write `study show DIR`")
     file = read_study(args.file)
     if args.workers is not None and not 1 <= args.workers <= 1024:
         raise ValueError(f"{args.workers} workers are outside 1…1024: give one a core")
@@ -144,9 +149,12 @@ def _summary(store: Store, stopped: bool, lost: list[int], message: str) -> int:
 def _show(args: argparse.Namespace) -> int:
     if not args.folder:
         raise ValueError("show needs a folder: write `study show DIR`")
+    for flag in ("scheduler", "workers", "out", "dry_run"):
+        if getattr(args, flag):
+            raise ValueError(f"--{flag.replace('_', '-')} is for a run: leave it out of `study show`")
     need_packages()
     results = read_results(args.folder)
-    uncertain = None if args.uncertain is None else tuple(args.uncertain.split(","))
+    uncertain = None if args.uncertain is None else tuple(name.strip() for name in args.uncertain.split(","))
     shown = record(results, args.least, uncertain)
     print(json.dumps(shown, indent=2, allow_nan=False) if args.json else report(results, args.least, uncertain))
     return 0
@@ -217,4 +225,4 @@ def _span(seconds: float) -> str:
     for size, name in ((86400.0, "days"), (3600.0, "h"), (60.0, "min")):
         if seconds >= 2.0 * size:
             return f"{seconds / size:,.1f} {name}"
-    return f"{seconds:.0f} s"
+    return f"{seconds:.0f} s" if seconds >= 1.0 else "less than a second"

@@ -5,6 +5,7 @@ from collections import Counter
 from typing import Any
 
 from rotor.study.results import Effect, Results, Robust, best_row, effects, robust_best
+from rotor.study.study import check_uncertain
 
 _SENTENCES = 3
 """Different sentences of failed points that are printed."""
@@ -57,11 +58,12 @@ def report(results: Results, least: str | None = None, uncertain: tuple[str, ...
     robust = shown["robust"]
     if robust is not None:
         cases = robust["least_worst"]["cases"]
-        lines += ["", f"robust over {', '.join(shown['uncertain'])} ({cases:,} cases; {robust['designs']:,} designs)"]
+        counts = f"{_count(cases, 'case')}; {_count(robust['designs'], 'design')}"
+        lines += ["", f"robust over {', '.join(shown['uncertain'])} ({counts})"]
         for name, one in (("least worst case", robust["least_worst"]), ("least mean", robust["least_mean"])):
             lines.append(f"  {name:<17} worst {value(one['worst'])}, mean {value(one['mean'])}: {_at(one['design'])}")
         if robust["dropped"]:
-            lines.append(f"  {robust['dropped']:,} designs left out: a case failed, or is not done yet")
+            lines.append(f"  {_count(robust['dropped'], 'design')} left out: a case failed, or is not done yet")
     elif shown["uncertain"]:
         lines += ["", f"no design has an answer in every case of {', '.join(shown['uncertain'])}"]
     if shown["sensitivities"]:
@@ -89,9 +91,8 @@ def _aims(results: Results, least: str | None, uncertain: tuple[str, ...] | None
         raise ValueError(f"column {least!r} is not there to make small: use one of {', '.join(numbers)}")
     if uncertain is None:
         uncertain = tuple(results.about.get("uncertain", ()))
-    for name in uncertain:
-        if name not in results.axes:
-            raise ValueError(f"axis {name!r} is none of this study: use some of {', '.join(results.axes)}")
+    else:
+        check_uncertain(uncertain, results.axes, results.sampled)
     return least, uncertain
 
 
@@ -120,6 +121,10 @@ def _plain(value: Any) -> Any:
 
 def _at(values: dict[str, Any]) -> str:
     return ", ".join(f"{name} {_text(value)}" for name, value in values.items())
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number:,} {noun}{'' if number == 1 else 's'}"
 
 
 def _text(value: Any) -> str:

@@ -8,15 +8,16 @@ import os
 import socket
 import time
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cache
 from typing import Any
 
+from rotor.presets import FLIGHT_MODELS, THESIS_MODELS
 from rotor.provenance import package_version
 from rotor.study.columns import Column, columns_of
 from rotor.study.memory import Memory
 from rotor.study.point import Row, evaluate
-from rotor.study.quantities import QUANTITIES
+from rotor.study.quantities import QUANTITIES, Value
 from rotor.study.study import Study
 
 _M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3  # malloc.h of glibc
@@ -108,11 +109,20 @@ def describe(study: Study, provenance: Provenance) -> dict[str, str]:
         "study": study.fingerprint,
         "study_file_sha256": provenance.file_sha256,
         "preset": str(given.get("preset", "as the column says" if "preset" in study.axis_names else "flight")),
-        "models": json.dumps({name: value for name, value in given.items() if QUANTITIES[name].place == "models"}),
+        "models": json.dumps(_models(study)),
         "axes": json.dumps(study.axis_names),
         "given": json.dumps(given),
         "units": json.dumps({column.name: column.unit for column in columns_of(study) if column.unit}),
     }
+
+
+def _models(study: Study) -> dict[str, Value]:
+    """The models that all points share: those of the preset, but for what the study sets; its axes are columns."""
+    given = {name: value for name, value in study.given if QUANTITIES[name].place == "models"}
+    if "preset" in study.axis_names:
+        return given
+    models = asdict(THESIS_MODELS if given.get("preset") == "thesis" else FLIGHT_MODELS)
+    return {name: value for name, value in models.items() if name not in study.axis_names} | given
 
 
 def parquet_of(rows: list[Row], columns: tuple[Column, ...], about: dict[str, str]) -> bytes:

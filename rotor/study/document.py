@@ -26,9 +26,11 @@ class Document:
         except tomllib.TOMLDecodeError as error:
             raise ValueError(f"study file {name!r} is no TOML ({error}): mend that line") from None
         for key, value in self._content.items():
-            if key not in SECTIONS[""] and (key not in SECTIONS or not isinstance(value, dict)):
+            if key not in SECTIONS[""] and key not in SECTIONS:
                 names = ", ".join([*SECTIONS[""], *(f"[{name}]" for name in SECTIONS if name)])
                 raise self.wrong("", key, f"{key!r} is not known there: a study file has {names}")
+            if key in SECTIONS and not isinstance(value, dict):
+                raise self.wrong("", key, f"{key} is no section: write [{key}] on a line, and its keys beneath")
         for section, keys in SECTIONS.items():
             for key in self.section(section) if keys and section else ():
                 if key not in keys:
@@ -47,14 +49,20 @@ class Document:
         return ValueError(f"study file {self._name!r}{f' line {line}' if line else ''}: {sentence}")
 
     def _line(self, section: str, key: str) -> int | None:
-        """Where a key stands, or its section's heading; from 1."""
+        """Where a key stands, or its section, written as [section], [section.key], section.key = or section = {…}."""
         here, found = "", None
         for number, line in enumerate(self._lines, start=1):
-            heading = re.match(r"\s*\[+\s*([\w-]+)\s*\]", line)
+            heading = re.match(r"\s*\[+\s*([\w-]+)\s*(?:\.\s*([\w-]+)\s*)?\]", line)
             if heading:
                 here = heading[1]
-                if here == (section or key):
+                if heading[2] and (here, heading[2]) == (section, key):
+                    return number
+                if here == (section or key) and not heading[2]:
                     found = number
             elif here == section and key and re.match(rf"\s*[\"']?{re.escape(key)}[\"']?\s*[.=]", line):
                 return number
+            elif here == "" and section and (dotted := re.match(rf"\s*{section}\s*(?:\.\s*([\w-]+)\s*)?[.=]", line)):
+                if dotted[1] == key:
+                    return number
+                found = number
         return found

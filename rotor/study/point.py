@@ -117,6 +117,8 @@ def evaluate(values: Values, study: Study, memory: Memory) -> Row:
 def _bladed(design: Design, values: Values) -> Design:
     """The design with the blade of a concept whose parameters are all given; else as it is."""
     given = _parameters(values)
+    if "hover_share" in values:
+        raise ValueError("hover_share is for an optimum: add [optimum], or leave it out")
     if "concept" not in values:
         if given:
             raise ValueError(f"{next(iter(given))} belongs to a twist concept: name it in [fixed] as concept = …")
@@ -134,6 +136,8 @@ def _bladed(design: Design, values: Values) -> Design:
 
 
 def _search(design: Design, values: Values, searching: Searching, memory: Memory) -> Search:
+    if "twist" in values:
+        raise ValueError("an optimum searches for the twist: leave twist out")
     if "concept" not in values:
         raise ValueError('an optimum needs a twist concept: add for example concept = "two-segment" to [fixed]')
     wide, held = blade_concept(str(values["concept"]), _parameters(values))

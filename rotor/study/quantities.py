@@ -21,6 +21,8 @@ class Quantity:
     unit: str
     place: Place
     """The section of the study file that holds it; as an axis it stands in [axes]."""
+    whole: bool = False
+    """Whether a number of it is a whole one."""
 
 
 _PARAMETERS = [parameter for concept in CONCEPTS.values() for parameter in concept.parameters]
@@ -41,8 +43,8 @@ def _all() -> dict[str, Quantity]:
         Quantity("preset", "text", "", "models"),
         Quantity("inflow", "text", "", "models"),
         *(Quantity(name, "flag", "", "models") for name in SWITCHES),
-        Quantity("elements", "number", "", "models"),
-        Quantity("azimuths", "number", "", "models"),
+        Quantity("elements", "number", "", "models", whole=True),
+        Quantity("azimuths", "number", "", "models", whole=True),
     ]
     made = [Quantity(one.label, "number", one.shown_unit, "fixed") for one in _PARAMETERS]
     return {one.name: one for one in (*plain, *made)}

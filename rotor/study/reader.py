@@ -2,6 +2,7 @@
 
 import math
 import re
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
@@ -16,7 +17,7 @@ from rotor.study.columns import columns_of
 from rotor.study.document import Document
 from rotor.study.point import check_point
 from rotor.study.quantities import QUANTITIES, Value
-from rotor.study.study import Aims, Searching, Study, good_chunk
+from rotor.study.study import Aims, Searching, Study, check_uncertain, good_chunk
 from rotor.twist_spec import inline_spec
 
 _MANY = 10**10
@@ -63,8 +64,13 @@ class Reader:
 
     def _known(self, section: str, key: str) -> None:
         if key not in QUANTITIES:
+            names = [
+                name
+                for name, one in QUANTITIES.items()
+                if (one.kind != "flag" if section == "axes" else one.place == section)
+            ]
             raise self._file.wrong(
-                section, key, f"{key!r} is no quantity of a study: use one of {', '.join(QUANTITIES)}"
+                section, key, f"{key!r} is no quantity of [{section}]: use one of {', '.join(names)}"
             )
         if QUANTITIES[key].kind == "flag" and section == "axes":
             raise self._file.wrong(section, key, f"{key} cannot be an axis: set it in [models] and make two studies")
@@ -90,6 +96,8 @@ class Reader:
         for one in found:
             if QUANTITIES[key].kind == "number" and not _finite(one):
                 raise self._file.wrong("axes", key, f"axis {key} holds {one!r}: {how}")
+            if QUANTITIES[key].whole and float(one) % 1.0:
+                raise self._file.wrong("axes", key, f"axis {key} holds {one!r}: give whole numbers")
         if len(set(found)) < len(found):
             raise self._file.wrong("axes", key, f"axis {key} holds a value twice: leave one out")
         return tuple(found) if QUANTITIES[key].kind == "text" else tuple(float(one) for one in found)
@@ -114,6 +122,8 @@ class Reader:
             raise self._file.wrong(
                 "axes", key, f"axis {key} is {value!r}: give two numbers, {{ low = 0.1, high = 0.3 }}"
             )
+        if QUANTITIES[key].whole:
+            raise self._file.wrong("axes", key, f"axis {key} takes whole numbers: give a list, as [20, 40]")
         if not cast(float, low) < cast(float, high):
             raise self._file.wrong("axes", key, f"axis {key} runs from {low:g} to {high:g}: give the lower one first")
         return float(cast(float, low)), float(cast(float, high))
@@ -146,9 +156,11 @@ class Reader:
                     raise self._file.wrong(section, key, f"{key} stands in [{section}]: move it to [{one.place}]")
                 if key in varied:
                     raise self._file.wrong(section, key, f"{key} is an axis and in [{section}] as well: leave one out")
-                right = {"number": _finite(value), "text": isinstance(value, str), "flag": isinstance(value, bool)}
+                number = _finite(value) and not (one.whole and value % 1)
+                right = {"number": number, "text": isinstance(value, str), "flag": isinstance(value, bool)}
                 if not right[one.kind]:
-                    wanted = {"number": "a number", "text": "a text", "flag": "true or false"}[one.kind]
+                    wanted = {"number": "a whole number" if one.whole else "a number", "text": "a text",
+                              "flag": "true or false"}[one.kind]  # fmt: skip
                     raise self._file.wrong(section, key, f"{key} is {value!r}: give {wanted}")
                 if one.kind == "text":
                     value = self._portable(section, key, value)
@@ -187,6 +199,11 @@ class Reader:
         names = study.axis_names
         if not isinstance(uncertain, list) or not all(one in names for one in cast(list[Any], uncertain)):
             raise self._file.wrong("show", "uncertain", f"uncertain is {uncertain!r}: list axes, of {', '.join(names)}")
+        sampled = () if study.places.sample is None else tuple(name for name, _, _ in study.places.sample.ranges)
+        try:
+            check_uncertain(tuple(cast(list[str], uncertain)), names, sampled)
+        except ValueError as error:
+            raise self._file.wrong("show", "uncertain", str(error)) from None
         return Aims(least, tuple(cast(list[str], uncertain)))
 
     def _try_points(self, study: Study) -> None:
@@ -204,16 +221,20 @@ class Reader:
             try:
                 check_point({**shared, **first, **own}, study)
             except ValueError as error:
-                section, at = ("axes", key) if key else self._culprit(str(error))
+                section, at = ("axes", key) if key else self._culprit(str(error), {**shared, **first}, study)
                 raise self._file.wrong(section, at, str(error)) from None
 
-    def _culprit(self, sentence: str) -> tuple[str, str]:
-        """The key that a sentence about fixed values speaks of, as far as that can be told."""
+    def _culprit(self, sentence: str, values: dict[str, Value], study: Study) -> tuple[str, str]:
+        """The key that a sentence about one point speaks of; failing that the one without which the point is good."""
         keys = [(section, key) for section in ("fixed", "models", "axes") for key in self._file.section(section)]
-        for whole in (True, False):  # "mass_kg"; failing that "mass", as the physics says it.
-            for section, key in keys:
-                if re.search(rf"\b{re.escape(key if whole else key.partition('_')[0])}\b", sentence):
-                    return section, key
+        for section, key in keys:
+            value = values[key]
+            if re.search(rf"\b{re.escape(key)}\b", sentence) or (isinstance(value, str) and repr(value) in sentence):
+                return section, key
+        for section, key in keys:
+            with suppress(ValueError):
+                check_point({name: value for name, value in values.items() if name != key}, study)
+                return section, key
         return "axes", ""
 
     def _whole(self, section: str, key: str, value: Any, low: int, high: int) -> int:

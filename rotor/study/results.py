@@ -8,7 +8,7 @@ import json
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +22,10 @@ Ints = NDArray[np.int64]
 
 _MANY = 20
 """Values of an axis from which it is looked at in tenths."""
+_FEW = 10
+"""Values of a sampled axis that a part of its range must hold in the mean: with less, chance looks like an effect."""
+_LARGEST = 400_000_000
+"""Bytes that a single file may unpack to."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +58,13 @@ class Results:
     def numeric(self, column: str) -> bool:
         return self.columns[column].dtype == np.float64
 
+    @property
+    def sampled(self) -> tuple[str, ...]:
+        """Axes that are sampled together, where the whole folder was read."""
+        said = self.about.get("axes")
+        ranges = cast(dict[str, Any], said) if isinstance(said, dict) else {}
+        return tuple(name for name in self.axes if isinstance(ranges.get(name), dict))
+
     def codes(self, names: tuple[str, ...]) -> Ints:
         """The same number for rows that agree in all these columns, 0 upward, (rows,)."""
         code = np.zeros(self.rows, dtype=np.int64)
@@ -73,41 +84,59 @@ def read_results(folder: str | Path, *, texts: bool = True) -> Results:
     paths = sorted(Path(folder).glob("chunk-*.parquet"))
     if not paths:
         raise ValueError(f"folder {str(folder)!r} has no finished chunk yet: run its study for longer")
-    arrow: Any = importlib.import_module("pyarrow")
     parquet: Any = importlib.import_module("pyarrow.parquet")
     axes = tuple(str(name) for name in about["axes"])
-    names = [
-        one.name
-        for one in parquet.read_schema(paths[0])
-        if texts or not arrow.types.is_string(one.type) or one.name in (*axes, "status")
-    ]
+    names = _wanted(parquet.read_schema(paths[0]), axes, texts)
     return Results(about, axes, columns_from(parquet.read_table([str(path) for path in paths], columns=names)))
 
 
 def read_file(content: bytes, name: str) -> Results:
-    """The results in one Parquet file of a study, or in several that were joined; ValueError for any other file."""
+    """The results in one Parquet file of a study, or in several that were joined, without texts as `read_results`.
+
+    ValueError for any other file, and for one that would fill the memory: some bytes can stand for millions of rows.
+    """
     parquet: Any = importlib.import_module("pyarrow.parquet")
     arrow: Any = importlib.import_module("pyarrow")
     try:
-        table = parquet.read_table(arrow.BufferReader(content))
+        file = parquet.ParquetFile(arrow.BufferReader(content))
+        metadata: dict[bytes, bytes] = file.schema_arrow.metadata or {}
+        said: dict[str, Any] = {
+            key.decode(): value.decode() for key, value in metadata.items() if key != b"ARROW:schema"
+        }
+        if said.get("format") != "rotor-explorer study" or "axes" not in said:
+            raise ValueError(f"{name!r} is no result of a study: give a chunk-….parquet of its folder")
+        said |= {key: json.loads(said[key]) for key in ("axes", "given", "units", "models")}
+        about, axes = file.metadata, tuple(said["axes"])
+        packed = sum(about.row_group(k).total_byte_size for k in range(about.num_row_groups))
+        size = max(packed, 8 * about.num_rows * about.num_columns)
+        if size > _LARGEST:
+            raise ValueError(
+                f"{name!r} unpacks to {size / 1e6:,.0f} MB, more than {_LARGEST / 1e6:.0f} MB: "
+                "give a smaller file, or open the study's folder"
+            )
+        names = _wanted(file.schema_arrow, axes, texts=False)
+        table = parquet.read_table(arrow.BufferReader(content), columns=names, read_dictionary=names)
     except (OSError, arrow.ArrowException) as error:
         raise ValueError(f"{name!r} is no Parquet file ({error}): give a chunk-….parquet of a study") from None
-    metadata: dict[bytes, bytes] = table.schema.metadata or {}
-    said: dict[str, Any] = {key.decode(): value.decode() for key, value in metadata.items() if key != b"ARROW:schema"}
-    if said.get("format") != "rotor-explorer study" or "axes" not in said:
-        raise ValueError(f"{name!r} is no result of a study: give a chunk-….parquet of its folder")
-    said |= {key: json.loads(said[key]) for key in ("axes", "given", "units", "models")}
-    return Results(said, tuple(said["axes"]), columns_from(table))
+    return Results(said, axes, columns_from(table))
+
+
+def _wanted(schema: Any, axes: tuple[str, ...], texts: bool) -> list[str]:
+    """Names of the columns to read: numbers, axes and status, and the other texts on demand."""
+    arrow: Any = importlib.import_module("pyarrow")
+    return [one.name for one in schema if texts or not arrow.types.is_string(one.type) or one.name in (*axes, "status")]
 
 
 def columns_from(table: Any) -> dict[str, NDArray[Any]]:
-    """An Arrow table's columns as arrays."""
+    """An Arrow table's columns as arrays; equal texts are one object."""
     arrow: Any = importlib.import_module("pyarrow")
     made: dict[str, NDArray[Any]] = {}
     for name in table.column_names:
         column = table.column(name)
-        if arrow.types.is_string(column.type):
-            made[name] = np.array(column.to_pylist(), dtype=object)
+        if arrow.types.is_string(column.type) or arrow.types.is_dictionary(column.type):
+            coded = column.dictionary_encode().combine_chunks()
+            words = np.array([*coded.dictionary.to_pylist(), None], dtype=object)
+            made[name] = words[coded.indices.fill_null(len(words) - 1).to_numpy()]
         else:
             made[name] = column.cast(arrow.float64()).to_numpy()
     return made
@@ -178,23 +207,25 @@ class Effect:
     """Part of the column's variance that goes with this axis alone (0…1); the first-order index of Sobol' sense."""
     least_at: Any
     least: float
-    """Mean of the column at the value, or in the tenth of the range, where that is least."""
+    """Mean of the column at the value, or in the part of the range, where that is least."""
     most_at: Any
     most: float
 
 
 def effects(results: Results, column: str) -> tuple[Effect, ...]:
-    """The main effect of every axis on a column, the strongest first; ranges in tenths."""
+    """The main effect of every axis on a column, the strongest first; ranges in tenths, or in fewer parts."""
     values = results.columns[column]
     known = results.good & np.isfinite(values)
     if known.sum() < 2 or float(np.var(values[known])) == 0.0:
         return ()
-    found = [_effect(axis, results.columns[axis][known], values[known]) for axis in results.axes]
+    found = [
+        _effect(axis, *_levels(results.columns[axis][known], axis in results.sampled), values[known])
+        for axis in results.axes
+    ]
     return tuple(sorted(found, key=lambda one: -one.share))
 
 
-def _effect(axis: str, at: NDArray[Any], values: Floats) -> Effect:
-    levels, code = _levels(at)
+def _effect(axis: str, levels: list[Any], code: Ints, values: Floats) -> Effect:
     count = np.bincount(code, minlength=len(levels))
     means = np.bincount(code, weights=values, minlength=len(levels)) / np.maximum(count, 1)
     share = float((count * (means - values.mean()) ** 2).sum() / count.sum() / np.var(values))
@@ -203,11 +234,12 @@ def _effect(axis: str, at: NDArray[Any], values: Floats) -> Effect:
     return Effect(axis, share, levels[low], float(means[low]), levels[high], float(means[high]))
 
 
-def _levels(at: NDArray[Any]) -> tuple[list[Any], Ints]:
-    """The values of an axis, or the middles of tenths of its range where it has many; and which one each row has."""
+def _levels(at: NDArray[Any], sampled: bool) -> tuple[list[Any], Ints]:
+    """The values of an axis, or the middles of parts of its range where it has many; and which one each row has."""
     levels, code = np.unique(at if at.dtype == np.float64 else at.astype(str), return_inverse=True)
-    if at.dtype == np.float64 and len(levels) > _MANY:
-        low, tenth = float(levels[0]), 0.1 * float(levels[-1] - levels[0])
-        middles = [low + (k + 0.5) * tenth for k in range(10)]
-        return middles, np.clip(np.floor((at - low) / tenth), 0, 9).astype(np.int64)
+    if at.dtype == np.float64 and (sampled or len(levels) > _MANY):
+        parts = min(10, max(2, len(levels) // _FEW)) if sampled else 10
+        low, part = float(levels[0]), float(levels[-1] - levels[0]) / parts or 1.0
+        middles = [low + (k + 0.5) * part for k in range(parts)]
+        return middles, np.clip(np.floor((at - low) / part), 0, parts - 1).astype(np.int64)
     return levels.tolist(), code.astype(np.int64)

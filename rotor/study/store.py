@@ -96,8 +96,8 @@ def read_about(folder: str | Path) -> dict[str, Any]:
     path = Path(folder) / ABOUT
     try:
         about: Any = json.loads(path.read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise ValueError(f"folder {str(folder)!r} holds no study: give the --out DIR of a study") from None
+    except (FileNotFoundError, NotADirectoryError):
+        raise ValueError(f"{str(folder)!r} holds no study: give the --out DIR of a study") from None
     except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
         raise ValueError(f"{str(path)!r} cannot be read ({error}): give the --out DIR of a study") from None
     if not isinstance(about, dict) or about.get("format") != "rotor-explorer study":  # pyright: ignore[reportUnknownMemberType]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from rotor.aircraft import Aircraft
 from rotor.objective import Quantity as Objective
 from rotor.study.axes import Places
-from rotor.study.quantities import PLAIN, QUANTITIES, Value
+from rotor.study.quantities import PLAIN, Value
 
 
 @dataclass(frozen=True)
@@ -99,9 +99,19 @@ class Study:
         return hashlib.sha256(repr(decisive).encode()).hexdigest()[:16]
 
 
-def units_of(study: Study) -> dict[str, str]:
-    """Unit of each quantity that the study sets."""
-    return {name: QUANTITIES[name].unit for name in study.names}
+def check_uncertain(uncertain: tuple[str, ...], axes: tuple[str, ...], sampled: tuple[str, ...]) -> None:
+    """ValueError, with one sentence, for uncertain axes over which no design can be the robust best."""
+    for name in uncertain:
+        if name not in axes:
+            raise ValueError(f"axis {name!r} is none of this study: use some of {', '.join(axes)}")
+    if set(axes) <= set(uncertain):
+        raise ValueError("every axis is uncertain, so that no design is left to choose: leave one out")
+    fixed = [name for name in sampled if name not in uncertain]
+    if fixed and (mixed := [name for name in sampled if name in uncertain]):
+        raise ValueError(
+            f"{mixed[0]} is sampled together with {fixed[0]}, so that no two designs meet the same cases: "
+            f"give {mixed[0]} a list of values"
+        )
 
 
 def good_chunk(count: int, *, search: bool) -> int:

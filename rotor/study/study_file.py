@@ -30,7 +30,7 @@ def read_study(path: str | Path) -> StudyFile:
                 f"study file {path.name!r} does not exist: give a TOML file, or an example of the package: {examples}"
             ) from None
     try:
-        text = path.read_text(encoding="utf-8")
+        text = path.read_text(encoding="utf-8-sig")  # Notepad puts a mark before the text.
     except FileNotFoundError:
         raise ValueError(f"study file {str(path)!r} does not exist: give the path of a TOML file") from None
     except (OSError, UnicodeDecodeError) as error:
