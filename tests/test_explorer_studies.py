@@ -3,6 +3,7 @@
 import json
 import math
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,8 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from explorer.clicks import charts_write_to
 from explorer.studies import charts as study_charts
-from explorer.studies.readout import point_line, summary
+from explorer.studies.panel import StudiesPanel
+from explorer.studies.readout import numbers, point_line, summary
 from explorer.studies.results import find_studies, open_study
 from rotor.provenance import package_version
 from rotor.solve import solve
@@ -111,6 +113,53 @@ def test_a_single_file_says_enough(trims: tuple[Path, Results]):
     assert design_of_row(alone, 3) == design_of_row(results, 3)
     with pytest.raises(ValueError, match=r"letter\.txt"):
         read_file(b"dear", "letter.txt")
+
+
+def test_points_go_by_their_numbers_where_some_are_missing(tmp_path: Path):
+    text = TRIMS.replace("chunk = 10", "chunk = 3")
+    store = Store(tmp_path, StudyFile(parse_study(text), text, "study.toml"), WHENCE)
+    for chunk in (0, 2):
+        store.keep(chunk, work_chunk(store.study, chunk, WHENCE).content)
+    results = open_study(tmp_path)
+    assert [results.row_of(point) for point in (0, 3, 6)] == [0, None, 3]
+    assert numbers(results) == "0…7, but for those not done yet"
+    assert "point 6" in point_line(results, 3, "Taken")
+    drawn = study_charts.scatter(results, "mu", "power_total_w", "division", None, dark=False).data[0]
+    assert list(drawn.customdata) == [0, 1, 2, 6, 7]
+    assert drawn.hovertext[3].startswith("point 6")
+
+
+def test_what_only_some_points_have_comes_last_and_texts_are_scales(optima: Results):
+    names = study_charts.choices(optima)
+    whole = [bool(np.isfinite(optima.columns[name]).all()) for name in names]
+    assert whole == sorted(whole, reverse=True)
+    assert not all(whole)
+    scale = study_charts.parallel(optima, "power_total_w", dark=False).data[0].dimensions[0]
+    assert (scale.label, list(scale.values), list(scale.ticktext)) == (
+        "concept", [0, 1], ["linear", "two-segment-two-airfoils"]
+    )  # fmt: skip
+
+
+def test_a_range_of_one_chart_is_not_left_to_the_next(trims: tuple[Path, Results]):
+    _, results = trims
+    front = study_charts.front(results, pairs_at(results, 0.2), 0.2, None, dark=False)
+    scatter = study_charts.scatter(results, "mu", "power_total_w", "division", None, dark=False)
+    for axis in ("xaxis", "yaxis"):
+        assert (front.layout[axis].autorange, scatter.layout[axis].autorange) == (False, True)
+
+
+def test_without_the_packages_the_tab_says_how_to_get_them(monkeypatch: pytest.MonkeyPatch):
+    said: list[str] = []
+    monkeypatch.setattr("explorer.studies.panel.find_spec", lambda name: None)
+    client: Any = SimpleNamespace(gui=SimpleNamespace(add_html=said.append))
+    moment: Any = SimpleNamespace(view=SimpleNamespace(dark=True))
+    desk: Any = None
+    panel = StudiesPanel(client, desk, Path())
+    assert len(said) == 1
+    assert "pip install 'rotor-explorer[study]'" in said[0]
+    panel.show(moment)
+    panel.lose()
+    panel.stop()
 
 
 def test_the_front_is_what_none_beats_in_both():

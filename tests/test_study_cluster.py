@@ -4,6 +4,7 @@ import importlib
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -191,6 +192,24 @@ def group_lives(group: int) -> bool:
     except ProcessLookupError:
         return False
     return True
+
+
+def test_a_cluster_beside_it_is_not_in_its_way(tmp_path: Path):
+    """Whoever else has Dask's usual port: nothing is said of it."""
+    file = tmp_path / "two.toml"
+    file.write_text(STUDY.replace('"6000:9000:100"', "[7000]").replace('"0.05:0.34:0.01"', "[0.2]"), encoding="utf-8")
+    with socket.socket() as taken:
+        with suppress(OSError):  # Somebody else has it, which does as well.
+            taken.bind(("127.0.0.1", 8787))
+            taken.listen()
+        done = subprocess.run(
+            command(file, tmp_path / "out", "--workers", "1"),
+            cwd=ROOT,
+            capture_output=True,
+            text=True,
+            timeout=PATIENCE,
+        )
+    assert (done.returncode, done.stderr) == (0, "")
 
 
 def test_nobody_at_the_address_is_one_sentence(tmp_path: Path):

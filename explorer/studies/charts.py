@@ -1,6 +1,6 @@
 """Charts of a study as Plotly figures: scatter, parallel coordinates, the front of hover against cruise power.
 
-Each point carries its row, for the click that takes it. Plotly is imported when the first chart is made.
+Each point carries its number, for the click that takes it. Plotly is imported when the first chart is made.
 """
 
 import importlib
@@ -58,11 +58,15 @@ def shown(results: Results, name: str) -> NDArray[np.float64]:
 
 
 def choices(results: Results) -> tuple[str, ...]:
-    """Columns worth an axis of a chart: numbers that vary; what the study varies first, then power."""
+    """Columns worth an axis of a chart: numbers that vary; what the study varies first, then power.
+
+    Last those that some points have no value of, as of a parameter that only one of several concepts has.
+    """
     numbers = [name for name in results.columns if results.numeric(name) and name not in _HIDDEN]
     varying = [name for name in numbers if len(np.unique(results.columns[name][results.good])) > 1]
+    whole = [name for name in varying if np.isfinite(results.columns[name][results.good]).all()]
     front = [name for name in (*results.axes, "power_total_w") if name in varying]
-    return tuple(dict.fromkeys((*front, *varying)))
+    return tuple(dict.fromkeys((*front, *whole, *varying)))
 
 
 def picked(results: Results, keep: int | None = None, *, most: int = MOST_POINTS) -> Ints:
@@ -88,14 +92,14 @@ def scatter(results: Results, x: str, y: str, colour: str, now: int | None, dark
         "mode": "markers",
         "x": shown(results, x)[rows],
         "y": shown(results, y)[rows],
-        "customdata": rows,
+        "customdata": _numbers(results, rows),
         "marker": marks,
         "hovertext": _hover(results, rows),
         "hoverinfo": "text",
     }
     traces = [points]
     if now is not None:
-        traces.append(_ring(float(shown(results, x)[now]), float(shown(results, y)[now]), now))
+        traces.append(_ring(float(shown(results, x)[now]), float(shown(results, y)[now])))
     return _figure(traces, title(results, x), title(results, y), dark)
 
 
@@ -116,18 +120,18 @@ def front(results: Results, pairs: Pairs, cruise: float, now: int | None, dark: 
                 "type": "scatter",
                 "x": pairs.cruise[chosen] / 1e3,
                 "y": pairs.hover[chosen] / 1e3,
-                "customdata": pairs.row[chosen],
+                "customdata": _numbers(results, pairs.row[chosen]),
                 "hovertext": _hover(results, pairs.row[chosen]),
                 "hoverinfo": "text",
                 **style,
             }
         )
     if now is not None and (at := np.flatnonzero(pairs.row == now)).size:
-        traces.append(_ring(float(pairs.cruise[at[0]]) / 1e3, float(pairs.hover[at[0]]) / 1e3, now))
+        traces.append(_ring(float(pairs.cruise[at[0]]) / 1e3, float(pairs.hover[at[0]]) / 1e3))
     figure = _figure(traces, f"power at µ {cruise:g} [kW]", "power in hover [kW]", dark)
     # Near the front; what lies far from it comes with a double click.
-    figure.update_xaxes(range=_near(pairs.cruise, pairs.cruise[best]))
-    figure.update_yaxes(range=_near(pairs.hover, pairs.hover[best]))
+    figure.update_xaxes(range=_near(pairs.cruise, pairs.cruise[best]), autorange=False)
+    figure.update_yaxes(range=_near(pairs.hover, pairs.hover[best]), autorange=False)
     return figure
 
 
@@ -146,12 +150,13 @@ def empty(dark: bool) -> Any:
 def parallel(results: Results, colour: str, dark: bool) -> Any:
     """Every axis and the power as upright scales, a line for each row; a drag along a scale picks lines out."""
     rows = picked(results, most=_MOST_LINES)
-    texts = [name for name in results.axes if not results.numeric(name)]
-    names = [name for name in dict.fromkeys((*results.axes, "power_total_w", colour)) if name not in texts]
-    names = [name for name in names if name in choices(results)]
+    texts = tuple(name for name in results.axes if not results.numeric(name))
+    names = [
+        name for name in dict.fromkeys((*results.axes, "power_total_w", colour)) if name in (*texts, *choices(results))
+    ]
     lines = {
         "type": "parcoords",
-        "dimensions": [{"label": _short(results, name), "values": shown(results, name)[rows]} for name in names],
+        "dimensions": [_dimension(results, name, rows) for name in names],
         "line": {"color": shown(results, colour)[rows], "colorscale": _scale()},
         "labelangle": -30,
         "labelfont": {"size": 11},
@@ -161,6 +166,15 @@ def parallel(results: Results, colour: str, dark: bool) -> Any:
     figure = _figure([lines], "", "", dark)
     figure.update_layout(margin={"l": 40, "r": 52, "t": 78, "b": 26})
     return figure
+
+
+def _dimension(results: Results, name: str, rows: Ints) -> dict[str, Any]:
+    """One upright scale; texts stand on it at 0, 1, …"""
+    label = _short(results, name)
+    if results.numeric(name):
+        return {"label": label, "values": shown(results, name)[rows]}
+    texts, codes = np.unique(results.columns[name][rows].astype(str), return_inverse=True)
+    return {"label": label, "values": codes, "tickvals": list(range(len(texts))), "ticktext": texts.tolist()}
 
 
 def plain(value: float) -> str:
@@ -176,6 +190,7 @@ def _short(results: Results, name: str) -> str:
 
 def _hover(results: Results, rows: Ints) -> list[str]:
     """What a point says under the mouse: its number, every axis, the power."""
+    points = _numbers(results, rows)
     names = [name for name in dict.fromkeys((*results.axes, "power_total_w")) if name in results.columns]
     columns = [
         [plain(value) for value in shown(results, name)[rows]]
@@ -185,17 +200,19 @@ def _hover(results: Results, rows: Ints) -> list[str]:
     ]
     heads = [title(results, name) for name in names]
     return [
-        "<br>".join([f"point {row}", *(f"{head} {one}" for head, one in zip(heads, line, strict=True))])
-        for row, line in zip(rows.tolist(), zip(*columns, strict=True), strict=True)
+        "<br>".join([f"point {point}", *(f"{head} {one}" for head, one in zip(heads, line, strict=True))])
+        for point, line in zip(points.tolist(), zip(*columns, strict=True), strict=True)
     ]
 
 
-def _ring(x: float, y: float, row: int) -> dict[str, Any]:
+def _numbers(results: Results, rows: Ints) -> Ints:
+    """The numbers of the points in these rows."""
+    return results.columns["point"][rows].astype(np.int64)
+
+
+def _ring(x: float, y: float) -> dict[str, Any]:
     mark = {"size": 13, "color": "rgba(0,0,0,0)", "line": {"color": NOW, "width": 2.5}}
-    return {
-        "type": "scatter", "mode": "markers", "x": [x], "y": [y], "customdata": [row], "marker": mark,
-        "hoverinfo": "skip",
-    }  # fmt: skip
+    return {"type": "scatter", "mode": "markers", "x": [x], "y": [y], "marker": mark, "hoverinfo": "skip"}
 
 
 def _scale() -> list[list[Any]]:
@@ -206,7 +223,14 @@ def _scale() -> list[list[Any]]:
 def _figure(traces: list[dict[str, Any]], x: str, y: str, dark: bool) -> Any:
     plotly: Any = importlib.import_module("plotly.graph_objects")
     ink, grid = ("#c9c9c9", "rgba(255,255,255,0.13)") if dark else ("#333", "rgba(0,0,0,0.10)")
-    axis = {"gridcolor": grid, "zeroline": False, "linecolor": grid, "title": {"standoff": 4}, "automargin": True}
+    axis: dict[str, Any] = {
+        "gridcolor": grid,
+        "zeroline": False,
+        "linecolor": grid,
+        "title": {"standoff": 4},
+        "automargin": True,
+    }
+    axis["autorange"] = True  # Said, because Plotly else keeps that the chart before had a range of its own.
     return plotly.Figure(
         data=traces,
         layout={

@@ -17,7 +17,7 @@ from explorer.glossary import hint
 from explorer.sharing import share
 from explorer.state import inputs_of
 from explorer.studies import charts as study_charts
-from explorer.studies.readout import point_line, problem_line, summary
+from explorer.studies.readout import numbers, point_line, problem_line, summary
 from explorer.studies.results import Found, find_studies, open_study
 from rotor.study.front import cruise_speeds, pairs_at
 from rotor.study.replay import design_of_row
@@ -32,6 +32,10 @@ _NONE = "Choose …"
 _MISSING = (
     "The packages for studies are not installed here. Stop the page, run "
     "<code>pip install 'rotor-explorer[study]'</code>, start it again."
+)
+_EMPTY = (
+    "No results beneath the folder that the page looks in (python -m explorer --studies DIR). To make one there: "
+    "python -m rotor study hover_cruise.toml"
 )
 _HINT = (
     "Results of <code>python -m rotor study FILE.toml</code>. A click on a point puts its blade and its flight on the "
@@ -96,7 +100,7 @@ class StudiesPanel:
         self._menu.options = (_NONE, *found)
         self._menu.value = kept
         if not found:
-            self._say("No results beneath the folder that the page was started in: python -m explorer --studies DIR")
+            self._say(_EMPTY)
 
     def open(self, read: Callable[[], Results], name: str) -> None:
         """Read a result in the background and show it; what was asked for later wins."""
@@ -199,7 +203,7 @@ class StudiesPanel:
                 self._chart = self._client.gui.add_plotly(
                     study_charts.empty(self._dark),
                     aspect=0.92,
-                    config={"displayModeBar": False, "doubleClick": "reset+autosize"},
+                    config=_CONFIG,
                 )
             viser_compat.run_in_page(self._client, charts_write_to(FIELD))
         return self._chart
@@ -210,11 +214,11 @@ class StudiesPanel:
         if results is None or not text:
             return
         try:
-            row = int(text) if text.isdigit() else -1
-            if not 0 <= row < results.rows:
-                raise ValueError(f"{text!r} is no point of this result: write a number in 0…{results.rows - 1}.")
+            row = results.row_of(int(text)) if text.isdecimal() else None
+            if row is None:
+                raise ValueError(f"{text!r} is no point that is there: write a number in {numbers(results)}.")
             if not results.good[row]:
-                raise ValueError(f"Point {row} did not converge: choose another one.")
+                raise ValueError(f"Point {text} did not converge: choose another one.")
             inputs = share.within(inputs_of(design_of_row(results, row)))
         except ValueError as error:
             self._said.content = problem_line(str(error))

@@ -19,6 +19,13 @@ def summary(results: Results) -> str:
     return f"{results.about.get('title', '')}: {', '.join(words)}."
 
 
+def numbers(results: Results) -> str:
+    """The numbers of the points that are there."""
+    points = results.columns["point"]
+    gaps = ", but for those not done yet" if points[-1] - points[0] >= results.rows else ""
+    return f"{points[0]:.0f}…{points[-1]:.0f}{gaps}"
+
+
 def point_line(results: Results, row: int | None, heading: str) -> str:
     """A small table of a point: power, and the value of every axis."""
     if row is None:
@@ -27,7 +34,7 @@ def point_line(results: Results, row: int | None, heading: str) -> str:
         name for name in dict.fromkeys(("power_total_w", "hover_power_w", *results.axes)) if name in results.columns
     ]
     cells = "".join(_line(results, name, row) for name in names)
-    head = f"<b>{escape(heading)}: point {row}</b>"
+    head = f"<b>{escape(heading)}: point {results.columns['point'][row]:.0f}</b>"
     return f'<div class="rx rx-small" data-explorer="study-point">{head}<table>{cells}</table></div>'
 
 

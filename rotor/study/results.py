@@ -52,6 +52,11 @@ class Results:
         """Rows that have their answer."""
         return self.columns["status"] == GOOD
 
+    def row_of(self, point: int) -> int | None:
+        """The row of a point by its number; None for one that is not there, or not yet."""
+        found = np.flatnonzero(self.columns["point"] == point)
+        return int(found[0]) if found.size else None
+
     def unit(self, column: str) -> str:
         return str(self.about.get("units", {}).get(column, ""))
 

@@ -93,6 +93,10 @@ def test_other_charts_and_a_point_by_its_number(page: tuple[Watched, Session], a
     watched.choose("Chart", "Scatter")
     watched.choose("Across", "division r/R")
     tab.wait_for_function("() => document.querySelectorAll('.js-plotly-plot .points path').length >= 36")
+    watched.choose("Chart", "Hover against cruise")
+    tab.wait_for_function("() => document.querySelectorAll('.js-plotly-plot .points path').length == 13")
+    watched.choose("Chart", "Scatter")  # Whose axes have all points on them again.
+    tab.wait_for_function("() => document.querySelector('.js-plotly-plot')._fullLayout.yaxis.range[0] > 100")
     watched.choose("Chart", "Parallel coordinates")
     tab.locator(".js-plotly-plot .parcoords").first.wait_for(timeout=WAIT)
     tab.screenshot(path=artefacts / "studies.png")
