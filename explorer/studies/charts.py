@@ -164,7 +164,8 @@ def parallel(results: Results, colour: str, dark: bool) -> Any:
         "rangefont": {"size": 9},
     }
     figure = _figure([lines], "", "", dark)
-    figure.update_layout(margin={"l": 40, "r": 52, "t": 78, "b": 26})
+    slanting = round(5.2 * len(_short(results, names[-1])))  # [px] that the last label reaches to the right
+    figure.update_layout(margin={"l": 40, "r": max(52, slanting), "t": 78, "b": 26})
     return figure
 
 
