@@ -49,7 +49,7 @@ div:has(> [data-dock-area]) { margin-top: 0 !important; }
 .rx-four .rx-dash { margin-right: 4px; }
 .rx-fit { overflow: hidden; text-overflow: ellipsis; }
 .rx-pinned { padding-bottom: 4px; }
-.rx-grid { display: grid; grid-template-columns: 1fr 1fr; column-gap: 18px; padding: 4px 14px 5px; }
+.rx-grid { display: grid; grid-template-columns: 1fr 1fr; column-gap: 18px; padding-top: 4px; padding-bottom: 5px; }
 .rx-status { margin: 4px 10px 2px; padding: 5px 8px; height: 72px; overflow-y: auto; border-radius: 4px;
   font-size: 12px; line-height: 1.32; background: rgba(128,128,128,.10); }
 .rx-reserved { border-radius: 4px; background: rgba(128,128,128,.06); }

@@ -120,6 +120,8 @@ class TestSearchRun:
         run.hear(Ended(None, stopped=True))
         assert run.state == "stopped"
         assert not run.under_way
+        assert "Stopped, nothing found yet" in search_text.standing(run)
+        assert search_text.found(run) == ""
 
     def test_a_broken_process_keeps_the_best(self, run: SearchRun):
         broken = SearchRun(run.search)

@@ -195,7 +195,7 @@ class OptimisePanel:
         self._begin.visible, self._halt.visible = not under_way, under_way
         self._standing.content = text.standing(run, self._problem)
         self._bar.visible = run is not None
-        self._chart.set_visible(run is not None)
+        self._chart.set_visible(run is not None and any(run.traces))
         if run is None:
             return
         self._bar.value = round(100.0 * run.part_done, 1)

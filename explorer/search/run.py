@@ -126,11 +126,8 @@ class SearchRun:
     def _finish(self, optimum: Optimum | None) -> None:
         self.optimum = optimum
         if optimum is None:
-            self.sentence = "Stopped; the best so far is kept."
             return
         self.sentence = optimum.message
-        if self.state == "late":
-            self.sentence = "The time allowed is over; the best so far is kept."
         if optimum.best is not None and self.frames and optimum.design != self.frames[-1].design:
             self._add(optimum.evaluations, optimum.best.power, optimum.design)
 

@@ -60,7 +60,7 @@ class SchedulePanel:
         self._verdict = gui.add_button_group(
             "Result", ("Apply fixed", "Save CSV"), visible=False, hint=hint("schedule_result")
         )
-        shades = colour_map("sequential", LEGS + 1)
+        shades = colour_map("sequential", LEGS + 3)[2:]  # Neither end is seen on every page.
         twists, savings = schedule_view.twist_plot(None, None), schedule_view.saving_plot(None, None)
         self._twists = Chart(
             gui,

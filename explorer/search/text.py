@@ -26,7 +26,7 @@ def standing(run: SearchRun | None, problem: str = "") -> str:
 
 
 def _where(run: SearchRun) -> str:
-    progress = run.progress
+    progress, kept = run.progress, "best so far kept" if run.best else "nothing found yet"
     match run.state:
         case "starting":
             return "Starting a worker …"
@@ -43,11 +43,11 @@ def _where(run: SearchRun) -> str:
         case "done":
             return "Done"
         case "stopped":
-            return "Stopped, best so far kept"
+            return f"Stopped, {kept}"
         case "late":
-            return "Time is up, best so far kept"
+            return f"Time is up, {kept}"
         case "broken":
-            return "Ended early, best so far kept" if run.best else "Ended early"
+            return f"Ended early, {kept}"
 
 
 def found(run: SearchRun, units: Units = SI) -> str:
@@ -57,7 +57,7 @@ def found(run: SearchRun, units: Units = SI) -> str:
     if run.state == "broken":
         parts.append(f"<div class='rx-broken'>{escape(run.sentence)}</div>")
     if best is None:
-        if run.state in ("done", "stopped", "late"):
+        if run.state == "done":
             parts.append(f"<div>{escape(run.sentence)}</div>")
         return _block(parts)
     mean = "mean power" if len(_legs(run)) > 1 else f"{_quantity(run)} power"
