@@ -315,6 +315,13 @@ class TestSchedule:
         assert "nan" not in table.lower()
         assert "Moving" not in schedule_view.table(schedule_view.Course(course.plan))
 
+    def test_legs_to_come_are_not_drawn(self, course: schedule_view.Course):
+        half = schedule_view.Course(course.plan, [cell for cell in course.cells if cell.leg == 1])
+        mu, _, fixed, moving = schedule_view.saving_plot(half, None).data
+        np.testing.assert_allclose(mu, [0.3])
+        np.testing.assert_allclose(moving, schedule_view.saving_plot(course, None).data[3][1:])
+        assert fixed[0] > 10.0  # Beyond the axis: not known yet.
+
     def test_csv_reads_back(self, course: schedule_view.Course):
         rows = list(csv.DictReader(io.StringIO(schedule_view.csv_of(course).decode())))
         assert [row["mu"] for row in rows] == ["0", "0.3", "mean"]

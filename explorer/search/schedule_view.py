@@ -62,13 +62,10 @@ def twist_plot(course: Course | None, previous: Range | None) -> Plot:
 
 
 def saving_plot(course: Course | None, previous: Range | None) -> Plot:
-    """Series: no saving, best fixed blade, best twist per leg [% of the blade as it is] over µ."""
-    legs = () if course is None else course.plan.legs
-    mu = np.array([leg.condition.advance_ratio for leg in legs] or [0.0, 0.4])
-    fixed, moving = np.full(len(mu), math.nan), np.full(len(mu), math.nan)
-    if course is not None:
-        for k in range(len(legs)):
-            moving[k], fixed[k] = _saving(course, k)
+    """Series: no saving, best fixed blade, best twist per leg [% of the blade as it is] over µ; legs that are known."""
+    legs = [] if course is None else [(leg, *_saving(course, k)) for k, leg in enumerate(course.plan.legs)]
+    points = sorted((leg.condition.advance_ratio, *saved) for leg, *saved in legs if math.isfinite(saved[0]))
+    mu, moving, fixed = np.array(points or [(0.0, math.nan, math.nan), (0.4, math.nan, math.nan)]).T
     known = np.concatenate((fixed, moving))
     known = known[np.isfinite(known)]
     y_range = previous or (0.0, 1.0)
