@@ -138,8 +138,9 @@ div:has(> .rx-bridge), div:has(> .rx-bridge) + div { display: none !important; }
 .rx-code { max-height: 52vh; overflow: auto; padding: 8px 10px; border-radius: 4px; font-size: 11.5px;
   line-height: 1.4; white-space: pre-wrap; overflow-wrap: anywhere; background: rgba(128,128,128,.12); }
 .rx-trust h4 { margin: 11px 0 3px; font-size: 12.5px; line-height: 1.25; }
-.rx-trust-row { display: flex; justify-content: space-between; gap: 10px; padding: 2px 0;
-  border-top: 1px solid rgba(128,128,128,.18); }
+.rx-trust-row, .rx-trust-change { padding: 2px 0; border-top: 1px solid rgba(128,128,128,.18); }
+.rx-trust-row { display: flex; justify-content: space-between; gap: 10px; }
+.rx-trust-speeds { display: grid; grid-template-columns: repeat(3, 1fr); white-space: nowrap; }
 .rx-lobby { padding: 0 2px 6px; font-size: 13.5px; line-height: 1.45; }
 .rx-lobby p { margin: 0 0 9px; }
 .rx-trust-row b { white-space: nowrap; font-weight: 600; }

@@ -1,5 +1,6 @@
 """The trust page as HTML: what the numbers were set against, how far they are off, and which test holds it."""
 
+from collections.abc import Iterable
 from html import escape
 from itertools import groupby
 
@@ -19,6 +20,8 @@ def trust_page() -> str:
         rows = "".join(_row(row) for row in trust_rows() if row.kind == kind)
         parts.append(f"<h4>{escape(title)}</h4>{rows}")
     parts.append("<h4>Best linear twist and what it saves against −16°, choice by choice</h4>")
+    speeds = dict.fromkeys(row.mu for row in sensitivity_rows())
+    parts.append(_cells("hover" if mu == 0.0 else f"µ {mu:g}" for mu in speeds))
     parts.extend(_change(change, list(rows)) for change, rows in groupby(sensitivity_rows(), lambda row: row.change))
     return "".join([*parts, "</div>"])
 
@@ -33,7 +36,10 @@ def _row(row: TrustRow) -> str:
 
 
 def _change(change: str, rows: list[SensitivityRow]) -> str:
-    cells = " · ".join(
-        f"µ {number(row.mu, 2)}: {number(row.optimum_deg, 1)}°, {number(row.saving_percent, 1)} %" for row in rows
-    )
-    return f'<div class="rx-trust-row"><span>{escape(change)}<br><span class="rx-dim">{cells}</span></span></div>'
+    found = _cells(f"{number(row.optimum_deg, 1)}°, {number(row.saving_percent, 1)} %" for row in rows)
+    return f'<div class="rx-trust-change">{escape(change)}{found}</div>'
+
+
+def _cells(texts: Iterable[str]) -> str:
+    """Side by side, one a speed."""
+    return f'<div class="rx-dim rx-trust-speeds">{"".join(f"<span>{text}</span>" for text in texts)}</div>'

@@ -50,6 +50,17 @@ def test_rotating_twist_closed_form(gj: float):
     assert_allclose(twist_under_moment(beam, np.full(240, 400.0))[-1], expected, rtol=1e-4)
 
 
+@pytest.mark.parametrize(("host", "taken"), [(Host(), 0.07), (Host("new", 0.5), 0.13)])
+def test_what_rotation_takes_off_the_twist(host: Host, taken: float):
+    """The shares that docs/theory.md §17 states, by trapeze effect and propeller moment, with two plies."""
+    fitted = mfc(2, host)
+    low, high = (fitted.beam.r[-1] * end for end in fitted.placement.span)
+    moment = fitted.moment * np.diff(np.clip(fitted.beam.r, low, high)) / np.diff(fitted.beam.r)
+    still = torsion_beam(uh60a_structure(), 0.0, scale=host.stiffness, addition=fitted.added)
+    share = 1.0 - fitted.attainable / twist_under_moment(still, moment)[-1]
+    assert_allclose(share, taken, atol=0.006)
+
+
 def test_still_twist_is_moment_over_stiffness():
     beam = torsion_beam(uniform(), 0.0)
     assert_allclose(twist_under_moment(beam, np.full(240, 400.0))[-1], 400.0 / 7e4 * 6.0, rtol=1e-10)

@@ -29,7 +29,8 @@ _STYLE = {
     "axes.edgecolor": "#888888",
     "axes.titlesize": 9.0,
     "legend.fontsize": 8.0,
-    "legend.frameon": False,
+    "legend.framealpha": 0.8,  # Above the lines, where no corner is free.
+    "legend.edgecolor": "none",
     "lines.linewidth": 1.6,
     "svg.fonttype": "none",
     "svg.hashsalt": "rotor",
