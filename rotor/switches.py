@@ -5,7 +5,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rotor.airfoil.sections import load_installed
 from rotor.design import Design, Models
 from rotor.inflow import inflow_model
 
@@ -111,5 +110,6 @@ def no_effect(design: Design, name: str) -> str:
 
 def _one_mach(design: Design) -> bool:
     """Whether no section of the blade answers to the Mach number."""
-    names = {span.section for span in design.rotor.blade.spans}
-    return not any(np.any(load_installed(name).table.coefficients[..., 1:]) for name in names)
+    blade = design.rotor.blade
+    names = {span.section for span in blade.spans}
+    return not any(np.any(blade.installed(name).table.coefficients[..., 1:]) for name in names)

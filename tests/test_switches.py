@@ -14,6 +14,7 @@ from scipy.integrate import dblquad
 from rotor import kernel, newton
 from rotor.__main__ import main
 from rotor.airfoil.sections import load_installed
+from rotor.assets import asset_path
 from rotor.case import case_of, design_of
 from rotor.design import Design
 from rotor.elements import LAMBDA0, LOW_MACH, N_STATE, lay_out, run_pass
@@ -24,6 +25,7 @@ from rotor.inflow import INFLOW_MODELS
 from rotor.inflow.wake import Wake
 from rotor.power import power_budget
 from rotor.presets import make_design
+from rotor.rotor_file import read_aircraft
 from rotor.solve import solve
 from rotor.sums import slopes
 from rotor.switches import SWITCHES, no_effect, parse_switches, switched_off, with_switches
@@ -185,6 +187,13 @@ class TestCompressibility:
                 assert_allclose(got.cd_alpha, want.cd_alpha, atol=1e-10)
                 assert not got.cl_mach.any()
                 assert_allclose(held.stall_alpha(other), table.stall_alpha(mach), atol=1e-12)
+
+    def test_a_section_of_ones_own_is_asked_too(self):
+        deck = asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8")
+        text = asset_path("r22.toml").read_text(encoding="utf-8").replace('"naca63a015"', '"mine"')
+        text += '\n[sections.mine]\ndeck = "mine.c81"\n'
+        craft = read_aircraft("my.toml", {"my.toml": text, "mine.c81": deck})
+        assert no_effect(make_design(aircraft=craft, advance_ratio=0.2), "compressibility") == ""
 
     def test_the_document_knows_one_mach_number(self):
         design = make_design("thesis", advance_ratio=0.3)

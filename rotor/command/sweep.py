@@ -30,7 +30,8 @@ def run(args: argparse.Namespace) -> int:
     designs = [design_from(args, spec, mu) for spec in specs for mu in advance_ratios]  # Bad input speaks first.
     rows: list[tuple[str, ...]] = []
     converged = True
-    widths = (22, 7, 8, 14, 9, 13, 10, 10, 11, 8)
+    longest = max(len(design.twist.spec()) for design in designs)
+    widths = (max(22, longest + 2), 7, 10, 14, 10, 15, 12, 12, 13, 8)
     print("".join(f"{name:<{width}}" for name, width in zip(COLUMNS, widths, strict=False)))
     for design in designs[:: len(advance_ratios)]:
         for solution in sweep(design, advance_ratios):

@@ -83,4 +83,13 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     shown(watched, "power", "against Mine twist")
     assert watched.page.evaluate(BLADES) == 2
     assert watched.row("Rotor").locator("input").first.input_value() == "Mine (own)"
+    file.write_text(text.replace('"naca63a015"', '"own"') + '\n[sections.own]\ndeck = "own.c81"\n', encoding="utf-8")
+    load(watched, file)
+    watched.page.wait_for_selector("text=mine.toml is kept and waits for own.c81: load that next.", timeout=WAIT)
+    deck = tmp_path / "own.c81"
+    deck.write_text(asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8"), encoding="utf-8")
+    load(watched, deck)
+    shown(watched, "provenance", "own")
+    watched.at_rest(lambda: watched.text("status"), rest=4.0)  # What can wait is computed with it too.
+    assert watched.page.locator('[data-explorer="status"]').get_attribute("data-kind") == "converged"
     assert watched.complaints == []
