@@ -237,6 +237,21 @@ def test_command_text(capsys: pytest.CaptureFixture[str]):
     assert main(["actuator", "--table", "5.1"]) == 0
 
 
+def test_a_table_as_json(capsys: pytest.CaptureFixture[str]):
+    assert main(["actuator", "--table", "5.1", "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert list(answer) == ["title", "columns", "rows", "notes"]
+    assert answer["rows"][0][0] == "MFC_P1"
+
+
+@pytest.mark.slow
+def test_tubes_are_counted_by_segment():
+    """Two tubes in one segment, two in each of two."""
+    linear, two = (verdict("SMA_tube", concept) for concept in ("linear", "two-segment"))
+    assert "(2 tubes, new blade" in verdict_sentence(linear)
+    assert "(2 tubes a segment, new blade" in verdict_sentence(two)
+
+
 def test_nothing_trims_is_exit_1(capsys: pytest.CaptureFixture[str]):
     assert main(["actuator", "--json", "--mass-kg", "20000", "--altitude-m", "4000"]) == 1
     answer = json.loads(capsys.readouterr().out)

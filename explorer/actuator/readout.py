@@ -123,7 +123,7 @@ def fit_panel(inputs: ActuatorInputs, fitted: Fitted, verdict: Verdict | None) -
         ("Added mass", f"{number(bill.aircraft)} kg"),
         ("Attainable", f"{number(nominal, 2)}°"),
         ("on each blade", f"{number(bill.blade, 1)} kg"),
-        ("as tests suggest", f"{number(tested, 2)}°"),
+        ("as tests suggest", f"{number(tested, 2)}°" if fitted.derating < 1.0 else _NONE),
         ("First torsion", f"{number(fitted.frequency, 2)} /rev"),
         (f"counted ({number(inputs.counted)} %)", f"{number(nominal * inputs.share, 2)}°"),
         ("Moment", f"{number(fitted.moment)} N·m" if fitted.moment else _NONE),

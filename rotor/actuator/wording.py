@@ -2,6 +2,7 @@
 
 import math
 
+from rotor.actuator.catalogue import ExtensionTwist, PiezoPly
 from rotor.actuator.verdict import Verdict
 
 SMALL = 1.0
@@ -39,12 +40,13 @@ def verdict_sentence(verdict: Verdict) -> str:
 
 def count(verdict: Verdict) -> str:
     """Plies, tubes or nothing to count."""
-    plies = verdict.fitted.placement.plies
-    kind = type(verdict.fitted.actuator).__name__
-    if kind == "ExtensionTwist":
+    actuator, placement = verdict.fitted.actuator, verdict.fitted.placement
+    if isinstance(actuator, ExtensionTwist):
         return "passive"
-    noun = "tube" if kind == "TorqueTube" else "ply"
-    return f"{plies} {noun if plies == 1 else {'tube': 'tubes', 'ply': 'plies'}[noun]}"
+    if isinstance(actuator, PiezoPly):
+        return f"{placement.plies} {'ply' if placement.plies == 1 else 'plies'}"
+    each = " a segment" if placement.divisions else ""
+    return f"{placement.plies} {'tube' if placement.plies == 1 else 'tubes'}{each}"
 
 
 def flight(advance_ratio: float) -> str:

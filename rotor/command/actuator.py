@@ -3,6 +3,7 @@
 import argparse
 import json
 import math
+from dataclasses import asdict
 from typing import Any
 
 from rotor.active_twist import Harmonic
@@ -11,7 +12,7 @@ from rotor.actuator.harmonic import PhaseSweep, phase_sweep
 from rotor.actuator.placement import BladeKind, Host, Placement, default_placement
 from rotor.actuator.reach import Pair
 from rotor.actuator.structure import check_blade
-from rotor.actuator.tables import table_5_1, table_5_2
+from rotor.actuator.tables import Table, table_5_1, table_5_2
 from rotor.actuator.verdict import Verdict, judge
 from rotor.actuator.wording import verdict_sentence
 from rotor.command.flags import add_design_arguments, design_from, finite
@@ -46,7 +47,7 @@ def add_parser(commands: Any) -> None:
 def run(args: argparse.Namespace) -> int:
     """0 answered (yes or no), 1 where nothing trims."""
     if args.table == "5.1":
-        print(table_5_1().text())
+        _show(table_5_1(), args.json)
         return 0
     actuator, concept = find_actuator(args.actuator), find_concept(args.concept, _divisions(args.division))
     pair = Pair(design_from(args, args.twist, args.from_mu), (args.from_mu, args.to_mu), args.share)
@@ -57,7 +58,7 @@ def run(args: argparse.Namespace) -> int:
     placement, host = _placement(args), _host(args.blade, args.stiffness)
     try:
         if args.table == "5.2":
-            print(table_5_2(pair, placement=placement, host=host, derated=args.derated).text())
+            _show(table_5_2(pair, placement=placement, host=host, derated=args.derated), args.json)
             return 0
         verdict = judge(actuator, pair, concept, placement, host, derated=args.derated)
         turned = None
@@ -163,6 +164,10 @@ def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
         ]
     lines += ["", *(f"{'ok    ' if limit.ok else 'BROKEN'} {limit.sentence}" for limit in verdict.limits)]
     return "\n".join([*lines, *(f"caveat: {caveat}" for caveat in verdict.caveats)])
+
+
+def _show(table: Table, as_json: bool) -> None:
+    print(json.dumps(asdict(table), indent=2) if as_json else table.text())
 
 
 def _kw(power: float) -> str:
