@@ -103,6 +103,15 @@ def test_bad_input_is_exit_2_and_one_line(capsys: pytest.CaptureFixture[str], ar
     assert words in err
 
 
+@pytest.mark.parametrize("command", [[], ["solve"], ["sweep"], ["airfoil"], ["bench"], ["study"]])
+def test_help_says_what_the_command_is_for(command: list[str], capsys: pytest.CaptureFixture[str]):
+    with pytest.raises(SystemExit):
+        main([*command, "--help"])
+    usage, words, *_ = capsys.readouterr().out.split("\n\n")
+    assert usage.startswith("usage: ")
+    assert words.rstrip().endswith(".")
+
+
 def test_sweep_table_and_csv(capsys: pytest.CaptureFixture[str], tmp_path: Path):
     path = tmp_path / "sweep.csv"
     code, out, _ = run(capsys, "sweep", "--mu", "0.1:0.3:0.1", "--twist", "linear:-8", "linear:-16", "--csv", str(path))

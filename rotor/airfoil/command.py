@@ -17,6 +17,7 @@ from rotor.airfoil.polynomial import THESIS_NAME
 from rotor.airfoil.sections import load_installed
 from rotor.airfoil.xfoil import XfoilError
 from rotor.assets import asset_path
+from rotor.command.flags import add_command
 
 CL_TOLERANCE = 0.01  # Convergence gaps of XFOIL move with its version and the machine, so bytes cannot be compared.
 CD_TOLERANCE = 0.03
@@ -24,7 +25,7 @@ CD_TOLERANCE = 0.03
 
 def add_parser(subparsers: Any) -> None:
     """Register the command and its three actions."""
-    parser = subparsers.add_parser("airfoil", help="section data: build|verify|show NAME")
+    parser = add_command(subparsers, "airfoil", "section data: build, verify or show them")
     parser.add_argument("action", choices=("build", "verify", "show"), help="what to do")
     parser.add_argument("name", metavar="NAME", help=f"{', '.join(RECIPES)}; show also takes {THESIS_NAME}")
     parser.add_argument(

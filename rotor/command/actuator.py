@@ -15,24 +15,30 @@ from rotor.actuator.structure import check_blade
 from rotor.actuator.tables import Table, table_5_1, table_5_2
 from rotor.actuator.verdict import Verdict, judge
 from rotor.actuator.wording import verdict_sentence
-from rotor.command.flags import add_design_arguments, design_from, finite
+from rotor.command.flags import add_command, add_design_arguments, design_from, finite
 from rotor.concepts import find_concept
 
 
 def add_parser(commands: Any) -> None:
     """Register the command."""
-    parser = commands.add_parser("actuator", help="whether an actuator could make a change of twist, and would it pay")
+    parser = add_command(
+        commands, "actuator", "whether an actuator could make a change of twist, and whether that would pay"
+    )
     parser.add_argument("--actuator", metavar="ID", default="MFC_P1", help="MFC_P1 (default) … see --table 5.1")
     parser.add_argument("--plies", type=int, default=2, metavar="N", help="per skin (default 2); tubes for a tube")
     parser.add_argument("--concept", default="linear", metavar="NAME", help="twist concept (default linear)")
     parser.add_argument("--division", metavar="R,…", help="where segments meet, r/R, with segmented concepts")
     parser.add_argument("--from-mu", type=finite, default=0.0, metavar="MU", help="first advance ratio (default hover)")
     parser.add_argument("--to-mu", type=finite, default=0.3, metavar="MU", help="second advance ratio (default 0.3)")
-    parser.add_argument("--share", type=finite, default=0.5, metavar="0…1", help="part of the time in the second")
     parser.add_argument(
-        "--blade", choices=("retrofit", "new"), default="retrofit", help="flown blade, or one made for it"
+        "--share", type=finite, default=0.5, metavar="0…1", help="part of the time in the second (default 0.5)"
     )
-    parser.add_argument("--stiffness", type=finite, metavar="G", help="GJ of a new blade over the flown one's (0.5)")
+    parser.add_argument(
+        "--blade", choices=("retrofit", "new"), default="retrofit", help="the flown blade (default), or one made for it"
+    )
+    parser.add_argument(
+        "--stiffness", type=finite, metavar="G", help="GJ of a new blade over the flown one's (default 0.5)"
+    )
     parser.add_argument("--span", metavar="A:B", help="active span, r/R (default 0.2433:0.9292)")
     parser.add_argument("--chord", metavar="A:B", help="active chord, x/c (default 0.05:0.80)")
     parser.add_argument("--angle-deg", type=finite, default=45.0, metavar="DEG", help="fibre angle (default 45)")

@@ -15,6 +15,7 @@ from scipy.optimize import root  # pyright: ignore[reportMissingTypeStubs, repor
 
 from rotor.command.bench_batch import TARGET_PER_SECOND, measure_batch
 from rotor.command.bench_search import TARGETS_S, measure_searches
+from rotor.command.flags import add_command
 from rotor.design import Design
 from rotor.elements import N_STATE, Problem, lay_out, run_pass
 from rotor.equilibrium import residuals, unknowns_of
@@ -39,7 +40,7 @@ _ADVANCE_RATIOS = (0.1, 0.15, 0.2, 0.25, 0.3, 0.35)
 
 def add_parser(commands: Any) -> None:
     """Register the command."""
-    parser = commands.add_parser("bench", help="time evaluations and trims beside scipy's root and dynbem")
+    parser = add_command(commands, "bench", "time evaluations and trims beside scipy's root and dynbem")
     parser.add_argument("--long", action="store_true", help="time a schedule of all concepts as well, about a minute")
     parser.add_argument("--json", action="store_true", help="machine-readable output")
     parser.set_defaults(run=run)

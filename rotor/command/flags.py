@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 from rotor.assets import SHIPPED_ROTORS
 from rotor.case import read_case
@@ -20,11 +21,16 @@ KNOT = 1852.0 / 3600.0
 """[m/s]"""
 
 
+def add_command(commands: Any, name: str, words: str, description: str = "") -> argparse.ArgumentParser:
+    """A command's parser; its words stand in the list of commands, and above its own flags unless there are others."""
+    return commands.add_parser(name, help=words, description=description or f"{words[0].upper()}{words[1:]}.")
+
+
 def add_design_arguments(parser: argparse.ArgumentParser, *, one_twist: bool) -> None:
     """The flags that describe a design."""
     twist = (
-        "linear:-8 | quadratic:A,D | segments:-12,-4@0.5 | spline:ANGLES@STATIONS | ideal | builtin | uh60a | "
-        "table:FILE (degrees, per radius)"
+        "linear:-8 | quadratic:A,D | segments:-12,-4@0.5 | spline:ANGLES@STATIONS | points:ANGLES@STATIONS | ideal | "
+        "builtin | uh60a | table:FILE (degrees, per radius)"
     )
     add_rotor_argument(parser)
     parser.add_argument("--twist", metavar="SPEC", nargs=None if one_twist else "+", help=twist)

@@ -9,7 +9,7 @@ from tqdm import tqdm
 
 from rotor.assets import SHIPPED_ROTORS
 from rotor.bound import Bound, find_bound
-from rotor.command.flags import add_rotor_argument, write_table
+from rotor.command.flags import add_command, add_rotor_argument, write_table
 from rotor.fleet import find_aircraft
 from rotor.presets import make_design
 from rotor.ranges import parse_range
@@ -29,7 +29,7 @@ _EXPLANATION = (
 
 def add_parser(commands: Any) -> None:
     """Register the command."""
-    parser = commands.add_parser("ideal", help="least induced power of any circulation and of any steady twist")
+    parser = add_command(commands, "ideal", "least induced power of any circulation and of any steady twist")
     parser.add_argument(
         "--mu", required=True, metavar="A:B:STEP", help="advance ratios above 0, for example 0.1:0.4:0.1"
     )

@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import Any
 
 from rotor.blade import airfoils_spec
-from rotor.command.flags import KNOT, add_design_arguments, design_from, finite
+from rotor.command.flags import KNOT, add_command, add_design_arguments, design_from, finite
 from rotor.command.progress import STOPPED, bar, interruptible
 from rotor.command.search_flags import add_search_arguments, concept_help, limits_from, parse_division
 from rotor.concepts import Concept, find_concept, on_top
@@ -18,7 +18,7 @@ from rotor.optimise import STARTS, Ended, Minimum, Optimum, Progress, Search, op
 
 def add_parser(commands: Any) -> None:
     """Register the command."""
-    parser = commands.add_parser("optimise", help="the twist of least power, how flat the optimum is, what it saves")
+    parser = add_command(commands, "optimise", "the twist of least power, how flat the optimum is, what it saves")
     parser.add_argument("--concept", default="linear", metavar="NAME", help=concept_help())
     parser.add_argument("--division", metavar="R", help="where segments meet, r/R: 0.5, or 0.48,0.84 for three")
     speed = parser.add_mutually_exclusive_group()

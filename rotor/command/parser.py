@@ -1,6 +1,7 @@
 """The argument parser of all commands."""
 
 import argparse
+from functools import partial
 from typing import NoReturn
 
 from rotor.airfoil import command as airfoil
@@ -16,7 +17,12 @@ class OneLineParser(argparse.ArgumentParser):
 
 def build_parser() -> argparse.ArgumentParser:
     """All commands."""
-    parser = OneLineParser(prog="python -m rotor", description="Helicopter main rotors: trim, power, twist.")
+    parser = OneLineParser(
+        prog="python -m rotor",
+        description="Helicopter main rotors: trim, power, twist.",
+        epilog="Each command has its --help.",
+        formatter_class=partial(argparse.HelpFormatter, indent_increment=1),  # All names stand beside their words.
+    )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=OneLineParser)
     for command in (solve, sweep, waterfall, optimise, schedule, study, ideal, actuator, reproduce, airfoil, bench):
         command.add_parser(commands)

@@ -9,12 +9,13 @@ from typing import Any
 
 from tqdm import tqdm
 
+from rotor.command.flags import add_command
 from rotor.command.progress import STOPPED, bar, interruptible
 
 
 def add_parser(commands: Any) -> None:
     """Register the command."""
-    parser = commands.add_parser("reproduce", help="every figure and table of the document that can be rebuilt")
+    parser = add_command(commands, "reproduce", "every figure and table of the document that can be rebuilt")
     parser.add_argument("out", metavar="OUT_DIR", help="folder for CSV, SVG, PNG and index.html; made when missing")
     parser.add_argument(
         "--figure", metavar="N", action="append", help="only this one, for example 3.11 or 'table 4.1'; repeatable"

@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from rotor.command.flags import add_design_arguments, design_from
+from rotor.command.flags import add_command, add_design_arguments, design_from
 from rotor.command.optimise import named
 from rotor.command.progress import STOPPED, bar, interruptible
 from rotor.command.search_flags import add_search_arguments, concept_help, limits_from, parse_division
@@ -29,7 +29,7 @@ COLUMNS = ("mu", "mass_kg", "altitude_m", "hours", "concept", "status", "baselin
 
 def add_parser(commands: Any) -> None:
     """Register the command."""
-    parser = commands.add_parser("schedule", help="best twist per condition, best fixed blade, worth of moving")
+    parser = add_command(commands, "schedule", "best twist per condition, best fixed blade, worth of moving")
     parser.add_argument(
         "--concept", nargs="+", default=list(DEFAULT_CONCEPTS), metavar="NAME", help=f"all | {concept_help()}"
     )

@@ -5,7 +5,7 @@ import json
 import math
 from typing import Any, cast
 
-from rotor.command.flags import KNOT, add_design_arguments, design_from, finite
+from rotor.command.flags import KNOT, add_command, add_design_arguments, design_from, finite
 from rotor.solution import Solution
 from rotor.solve import solve
 from rotor.switches import switched_off
@@ -13,7 +13,7 @@ from rotor.switches import switched_off
 
 def add_parser(commands: Any) -> None:
     """Register the command."""
-    parser = commands.add_parser("solve", help="trim one design; power, trim and caveats")
+    parser = add_command(commands, "solve", "trim one design; power, trim and caveats")
     speed = parser.add_mutually_exclusive_group()
     speed.add_argument("--mu", type=finite, metavar="MU", help="advance ratio (default 0.2)")
     speed.add_argument("--speed-kt", type=finite, metavar="KT", help="airspeed in knots")

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from rotor.command.flags import add_command
 from rotor.command.progress import STOPPED, interruptible
 from rotor.command.study_show import record, report
 from rotor.provenance import commit, package_version
@@ -25,10 +26,11 @@ _SAY_EVERY = 60.0
 
 def add_parser(commands: Any) -> None:
     """Register the command."""
-    parser = commands.add_parser(
+    parser = add_command(
+        commands,
         "study",
-        help="many designs from one file, on one machine or many",
-        description="Run a study file; or `study show DIR`: the best, the robust best and the sensitivities.",
+        "many designs from one file, on one machine or many",
+        "Run a study file; or `study show DIR`: the best, the robust best and the sensitivities.",
     )
     parser.add_argument(
         "file", metavar="FILE.toml", help="study file, or an example by name: two_segment.toml; or show"

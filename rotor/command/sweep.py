@@ -3,7 +3,7 @@
 import argparse
 from typing import Any
 
-from rotor.command.flags import KNOT, add_design_arguments, design_from, write_table
+from rotor.command.flags import KNOT, add_command, add_design_arguments, design_from, write_table
 from rotor.ranges import parse_range
 from rotor.solution import Solution
 from rotor.sweep import sweep
@@ -16,7 +16,7 @@ COLUMNS = (
 
 def add_parser(commands: Any) -> None:
     """Register the command."""
-    parser = commands.add_parser("sweep", help="power of one or more twists over advance ratio")
+    parser = add_command(commands, "sweep", "power of one or more twists over advance ratio")
     parser.add_argument("--mu", required=True, metavar="A:B:STEP", help="for example 0.05:0.40:0.05; 0 is hover")
     add_design_arguments(parser, one_twist=False)
     parser.add_argument("--csv", metavar="FILE", help="write the table to a file as well")

@@ -4,13 +4,13 @@ import argparse
 import json
 from typing import Any
 
-from rotor.command.flags import add_design_arguments, design_from, finite
+from rotor.command.flags import add_command, add_design_arguments, design_from, finite
 from rotor.waterfall import PARTS, Step, Waterfall, waterfall
 
 
 def add_parser(commands: Any) -> None:
     """Register the command."""
-    parser = commands.add_parser("waterfall", help="what tip loss, flapping, reverse flow … cost, one after another")
+    parser = add_command(commands, "waterfall", "what tip loss, flapping, reverse flow … cost, one after another")
     parser.add_argument("--mu", type=finite, metavar="MU", help="advance ratio (default 0.2); 0 is hover")
     add_design_arguments(parser, one_twist=True)
     parser.add_argument("--json", action="store_true", help="machine-readable output")
