@@ -96,7 +96,7 @@ def test_flags_reach_the_search(capsys: pytest.CaptureFixture[str], tmp_path: Pa
     ("arguments", "words"),
     [
         (["optimise", "--concept", "cubic"], "'cubic' is not known"),
-        (["optimise", "--concept", "linear", "--division", "0.5"], "takes no 1 division"),
+        (["optimise", "--concept", "linear", "--division", "0.5"], "cannot take 1 division"),
         (["optimise", "--concept", "two-segment", "--division", "half"], "'half' is not understood"),
         (["optimise", "--objective", "noise"], "'noise' is not known"),
         (["optimise", "--hover-share", "0.5"], "add --objective hover-cruise"),
