@@ -81,7 +81,8 @@ class Panels:
         self._client, self._works, self._dark = client, works, facts.dark
         address = Address(facts.query, partial(viser_compat.set_query, client))
         problems: list[tuple[str, str]] = []
-        start = _told(address[share.DESIGN], share.inputs_from, start, "Not the design of the link", problems)
+        inputs_from = partial(share.inputs_from, kept=facts.kept.get(share.DESIGN))
+        start = _told(address[share.DESIGN], inputs_from, start, "Not the design of the link", problems)
         view = _told(address[VIEW], view_from, ViewState(), "Not the view of the link", problems)
         gui = client.gui
         self._theme()
@@ -117,7 +118,7 @@ class Panels:
             self.schedule = SchedulePanel(gui, commons.pool, desk, self.optimise.wishes)
         with tabs.add_tab("Session"):
             self.history = HistoryPanel(gui, desk, start)
-            self.file = FilePanel(client, desk, address)
+            self.file = FilePanel(client, desk, address, facts.kept)
             sources = Sources(lambda: self.camera, lambda: self.history.kept, self.frame.held_range)
             export = ExportPanel(client, desk, sources)
         with tabs.add_tab("Lecture"):

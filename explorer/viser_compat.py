@@ -6,8 +6,8 @@ import json
 import secrets
 import threading
 import time
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +22,8 @@ from explorer.server.gate import Gate
 _starting, _silent = threading.Lock(), threading.Lock()
 _SHEET = "rx-sheet"
 """Identity of our style sheet in the page."""
+_KEPT = "rx-kept"
+"""Where the page keeps what it is given."""
 _ONE_PIECE = 4096
 """Messages; a page has some five hundred to begin with."""
 
@@ -153,6 +155,8 @@ class PageFacts:
     """Whether it asks for dark pages."""
     query: str = ""
     """Of its address, from the question mark on."""
+    kept: Mapping[str, str] = field(default_factory=dict[str, str])
+    """Texts that it was given to keep by name: see `keep_in_page`."""
 
 
 def page_facts(client: viser.ClientHandle, timeout: float = 2.0) -> PageFacts:
@@ -161,15 +165,26 @@ def page_facts(client: viser.ClientHandle, timeout: float = 2.0) -> PageFacts:
     dark = "matchMedia('(prefers-color-scheme: dark)').matches || new URLSearchParams(location.search).has('darkMode')"
     # A page that was open before, and whose server has come back, stays as it was.
     dark = f"document.getElementById('{_SHEET}')?document.documentElement.dataset.mantineColorScheme==='dark':({dark})"
-    facts = f"JSON.stringify({{dark:{dark},query:location.search}})"
+    kept = f"JSON.parse(sessionStorage.getItem('{_KEPT}')??'{{}}')"
+    facts = f"JSON.stringify({{dark:{dark},query:location.search,kept:{kept}}})"
     run_in_page(client, f"localStorage.setItem('viser-user:{key}',{facts})")
     try:
         text = client.local_storage.get_item(key, timeout=timeout)
         client.local_storage.remove_item(key)
         found = json.loads(text or "{}")
-        return PageFacts(bool(found.get("dark")), str(found.get("query", "")))
-    except (TimeoutError, RuntimeError, ValueError):
+        kept = {str(name): str(value) for name, value in found.get("kept", {}).items()}
+        return PageFacts(bool(found.get("dark")), str(found.get("query", "")), kept)
+    except (TimeoutError, RuntimeError, ValueError, AttributeError):
         return PageFacts()
+
+
+def keep_in_page(client: viser.ClientHandle, name: str, text: str) -> None:
+    """Give the page a text to keep until its window is closed, also while it is loaded again."""
+    run_in_page(
+        client,
+        f"(()=>{{const all=JSON.parse(sessionStorage.getItem('{_KEPT}')??'{{}}');"
+        f"all[{json.dumps(name)}]={json.dumps(text)};sessionStorage.setItem('{_KEPT}',JSON.stringify(all))}})()",
+    )
 
 
 def set_query(client: viser.ClientHandle, query: str) -> None:

@@ -80,6 +80,10 @@ def test_designs_of_other_rotors_in_addresses_and_files():
         share.code_of(own.design())
     read = parse_case(json.dumps(case_of(own.design())).encode(), "mine.json")
     assert inputs_of(read) == own
+    assert share.inputs_from(share.KEPT, json.dumps(case_of(own.design()))) == own
+    for kept in (None, "{", '{"rotor": 1}'):
+        with pytest.raises(ValueError, match=r"sender's own|cannot be read|rotor"):
+            share.inputs_from(share.KEPT, kept)
 
 
 class TestShelf:

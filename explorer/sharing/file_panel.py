@@ -1,6 +1,7 @@
 """The link of the design and its file: copied, saved, loaded."""
 
 import json
+from collections.abc import Mapping
 from typing import Any
 
 import viser
@@ -13,6 +14,7 @@ from explorer.sharing.address import Address
 from explorer.sharing.view_code import VIEW, view_code
 from explorer.state import inputs_of
 from rotor.case import case_of, parse_case
+from rotor.design import Design
 
 MOST_BYTES = 1_000_000
 """A design file may have; written ones have a thousand."""
@@ -21,8 +23,9 @@ MOST_BYTES = 1_000_000
 class FilePanel:
     """One session's. The address of the page follows the design, and what is shown of it, by itself."""
 
-    def __init__(self, client: viser.ClientHandle, desk: Desk, address: Address) -> None:
-        self._client, self._desk, self._address = client, desk, address
+    def __init__(self, client: viser.ClientHandle, desk: Desk, address: Address, kept: Mapping[str, str]) -> None:
+        """`kept`: design files that the page kept for what its address cannot hold, by name in the address."""
+        self._client, self._desk, self._address, self._kept = client, desk, address, dict(kept)
         gui = client.gui
         with gui.add_folder("Link and file"):
             self._link = gui.add_button("Copy link", icon=viser.Icon.LINK, hint=hint("link"))
@@ -40,17 +43,28 @@ class FilePanel:
         pinned = None if moment.pin is None else moment.pin.inputs
         for name, inputs in ((share.DESIGN, moment.inputs), (share.PINNED, pinned)):
             try:
-                self._address[name] = None if inputs is None else share.code_of(inputs.design())
+                self._address[name] = None if inputs is None else self._code_of(name, inputs.design())
             except ValueError:
-                continue  # It has no address; the last one stays.
+                continue  # It cannot be written; the last one stays.
         self._address[VIEW] = view_code(moment.view)
+
+    def _code_of(self, name: str, design: Design) -> str:
+        """What the address says of a design; one that it cannot hold, the page keeps."""
+        try:
+            return share.code_of(design)
+        except ValueError:
+            text = json.dumps(case_of(design), ensure_ascii=False)
+            if self._kept.get(name) != text:
+                self._kept[name] = text
+                viser_compat.keep_in_page(self._client, name, text)
+            return share.KEPT
 
     def begin(self) -> None:
         """Pin what the address says is pinned."""
         code = self._address[share.PINNED]
         if code is not None:
             try:
-                self._desk.pin(share.inputs_from(code))
+                self._desk.pin(share.inputs_from(code, self._kept.get(share.PINNED)))
             except ValueError as error:
                 self._desk.tell("Not the A of the link", str(error))
 

@@ -10,7 +10,7 @@ from typing import Any
 from explorer.sliders import SLIDERS, limits, slider
 from explorer.state import LAWS, Inputs, inputs_of
 from explorer.units import SI
-from rotor.case import case_of, design_of
+from rotor.case import case_of, design_of, parse_case
 from rotor.design import Design
 from rotor.presets import make_design
 
@@ -21,6 +21,9 @@ PINNED = "a"
 """Name of the design that is pinned beside it."""
 LONGEST = 1800
 """Characters a design may take: the length of address that every browser and mail program carries."""
+
+KEPT = "own"
+"""In place of a design that no address holds: the page itself keeps its file, and has it after a reload."""
 
 _SHORT = {"advance_ratio": "mu", "mass_kg": "mass", "altitude_m": "alt"}
 _LONG = {short: key for key, short in _SHORT.items()}
@@ -69,9 +72,16 @@ def design_from(code: str) -> Design:
         raise ValueError(f"The design in the address cannot be used: {error}") from None
 
 
-def inputs_from(code: str) -> Inputs:
-    """The slider positions a text means; ValueError also for a position that no slider holds."""
-    return within(inputs_of(design_from(code)))
+def inputs_from(code: str, kept: str | None = None) -> Inputs:
+    """The slider positions a text means; ValueError also for a position that no slider holds.
+
+    `kept`: the design file that the page has where the text is `KEPT`.
+    """
+    if code != KEPT:
+        return within(inputs_of(design_from(code)))
+    if kept is None:
+        raise ValueError("Its rotor is its sender's own, and no address holds that: ask for the design file.")
+    return within(inputs_of(parse_case(kept.encode(), "of this page")))
 
 
 def within(inputs: Inputs) -> Inputs:

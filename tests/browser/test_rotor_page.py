@@ -92,4 +92,14 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     shown(watched, "provenance", "own")
     watched.at_rest(lambda: watched.text("status"), rest=4.0)  # What can wait is computed with it too.
     assert watched.page.locator('[data-explorer="status"]').get_attribute("data-kind") == "converged"
+    watched.page.wait_for_function("() => location.search.includes('d=own')", timeout=WAIT)
+    power, address = watched.text("total-power"), watched.page.url
+    watched.page.reload()  # No address holds it: the page itself does.
+    shown(watched, "provenance", "own")
+    shown(watched, "total-power", power)
+    assert watched.row("Rotor").locator("input").first.input_value() == "Mine (own)"
+    other = watched.page.context.new_page()  # Of another window, which does not.
+    other.goto(address)
+    other.wait_for_selector("text=Its rotor is its sender's own", timeout=WAIT)
+    other.close()
     assert watched.complaints == []
