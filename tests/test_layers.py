@@ -123,3 +123,13 @@ def test_pinned_versions_satisfy_what_is_declared():
     groups = [group for name, group in project["optional-dependencies"].items() if name != "crosscheck"]
     extras = {re.split(r"[^\w-]", item)[0] for group in groups for item in group}
     assert extras - {"rotor-explorer"} <= pins["requirements.txt"] | pins["requirements-dev.txt"]
+
+
+@pytest.mark.parametrize("package", ["rotor", "explorer"])
+def test_the_map_in_the_readme_is_complete(package: str):
+    """Each row of the table names files of one folder; a folder stands for all that is in it."""
+    rows = re.findall(rf"^\| (`{package}/.*?) \|", (ROOT / "README.md").read_text(encoding="utf-8"), re.MULTILINE)
+    names = {name.removeprefix(f"{package}/").rstrip("/") for row in rows for name in re.findall(r"`([^`]+)`", row)}
+    there = {path.name for path in (ROOT / package).iterdir() if not path.name.startswith(("_", "."))}
+    mapped = {name.partition("/")[0] for name in names if name.partition("/")[0] != "assets"}
+    assert mapped == {name for name in there if name not in {"py.typed"}}
