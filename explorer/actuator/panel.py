@@ -57,6 +57,7 @@ class ActuatorPanel:
                 self._controls.arrange(inputs, inputs.fitted(uh60a_rotor(design.preset)))
             check_blade(design.aircraft)
             fitted = inputs.fitted(design.rotor)
+            inputs.turning(fitted)  # Resonance speaks here.
             question = question_of(inputs, design)
         except ValueError as error:
             self._cut.hide()

@@ -5,7 +5,6 @@ The inflow has to answer to where the lift is, so use an inflow that reacts (dyn
 """
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -25,6 +24,8 @@ Array = NDArray[np.float64]
 
 SHAPE_STATIONS = 41
 PHASES = 12
+TOO_NEAR = 0.25
+"""From the first torsion frequency, where only damping, which is not modelled, limits the twist [per rev]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,10 +45,15 @@ class DynamicTwist:
 def dynamic_twist(fitted: Fitted, per_rev: int, *, derated: bool = False) -> DynamicTwist:
     """Amplitude and shape at a harmonic; zero for actuators that cannot follow (heat, rotor speed).
 
-    Undamped, so within 0.3/rev of the torsion frequency it overstates.
+    Undamped: ValueError with one sentence at resonance.
     """
     if not isinstance(fitted.actuator, PiezoPly):
         return DynamicTwist(per_rev, 0.0, 0.0, (0.0, 1.0), (0.0, 1.0))
+    if abs(per_rev - fitted.frequency) < TOO_NEAR:
+        raise ValueError(
+            f"{per_rev}/rev is too near to the first torsion frequency of {fitted.frequency:.2f}/rev, where only damping "
+            "limits the twist and none is modelled: choose another harmonic, stiffness or number of plies"
+        )
     low, high = (fitted.beam.r[-1] * end for end in fitted.placement.span)
     share = np.diff(np.clip(fitted.beam.r, low, high)) / np.diff(fitted.beam.r)
     moment = 0.5 * fitted.moment * share * (fitted.derating if derated else 1.0)
@@ -129,36 +135,6 @@ def phase_sweep(design: Design, fitted: Fitted, per_rev: int, *, derated: bool =
         drive_loss=loss,
         carried_power=heavy.power.total + loss if heavy.converged else None,
     )
-
-
-@dataclass(frozen=True, eq=False)
-class OverSpeed:
-    """What one harmonic of active twist is worth over speed; conditions that do not trim are left out."""
-
-    advance_ratio: Array
-    gross: Array
-    """Before mass and losses [W]."""
-    net: Array
-    """After [W]."""
-    power: Array
-    """Without actuator [W]."""
-
-
-def over_speed(
-    design: Design, fitted: Fitted, per_rev: int, advance_ratios: Sequence[float], *, derated: bool = False
-) -> OverSpeed:
-    """A phase sweep at every advance ratio: where harmonic active twist begins to pay."""
-    rows: list[tuple[float, float, float, float]] = []
-    for mu in advance_ratios:
-        there = replace(design, condition=replace(design.condition, advance_ratio=mu))
-        try:
-            swept = phase_sweep(there, fitted, per_rev, derated=derated)
-        except RuntimeError:
-            continue
-        if swept.net_saving is not None:
-            rows.append((mu, swept.gross_saving, swept.net_saving, swept.still.power.total))
-    table = np.array(rows).reshape(-1, 4)
-    return OverSpeed(table[:, 0], table[:, 1], table[:, 2], table[:, 3])
 
 
 def with_harmonic(design: Design, made: DynamicTwist, share: float, phase: float) -> Design:

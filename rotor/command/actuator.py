@@ -160,7 +160,9 @@ def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
     edges = (base.pair.design.rotor.blade.root_cutout, *fitted.placement.divisions, 1.0)
     for k, (a, b) in enumerate(verdict.voltages):
         lines.append(f"segment {k + 1}         {edges[k]:.2f}…{edges[k + 1]:.2f} R: {a:.0f} V, then {b:.0f} V")
-    if turned is not None:
+    if turned is not None and not turned.dynamic.amplitude:
+        lines += ["", f"{turned.dynamic.per_rev}/rev: this actuator cannot follow it"]
+    elif turned is not None:
         left = "no trim with" if turned.net_saving is None else f"{turned.net_saving / 1e3:.1f} kW after"
         lines += [
             "",
