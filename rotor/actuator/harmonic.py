@@ -51,8 +51,8 @@ def dynamic_twist(fitted: Fitted, per_rev: int, *, derated: bool = False) -> Dyn
         return DynamicTwist(per_rev, 0.0, 0.0, (0.0, 1.0), (0.0, 1.0))
     if abs(per_rev - fitted.frequency) < TOO_NEAR:
         raise ValueError(
-            f"{per_rev}/rev is too near to the first torsion frequency of {fitted.frequency:.2f}/rev, where only damping "
-            "limits the twist and none is modelled: choose another harmonic, stiffness or number of plies"
+            f"{per_rev}/rev is too near to the first torsion frequency of {fitted.frequency:.2f}/rev, where only "
+            "damping limits the twist and none is modelled: choose another harmonic, stiffness or number of plies"
         )
     low, high = (fitted.beam.r[-1] * end for end in fitted.placement.span)
     share = np.diff(np.clip(fitted.beam.r, low, high)) / np.diff(fitted.beam.r)
