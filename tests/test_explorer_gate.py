@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import socket
 import threading
 import urllib.error
 import urllib.request
@@ -104,6 +105,14 @@ class TestDoors:
 
     def test_two_hosts_are_none(self, app: App):
         assert ran(lambda: handshake(app, Host="evil.example")) == 403
+
+    def test_what_is_no_request_prints_nothing(self, app: App, caplog: pytest.LogCaptureFixture):
+        with socket.create_connection(("127.0.0.1", app.server.get_port()), timeout=20.0) as probe:
+            probe.sendall(b"HEAD / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n")
+            while probe.recv(4096):
+                pass
+        assert ran(lambda: handshake(app)) == 101  # By then the server has done with the probe.
+        assert caplog.text == ""
 
     def test_a_server_that_does_not_pass_its_gate_does_not_start(self, monkeypatch: pytest.MonkeyPatch):
         class Elsewhere:

@@ -20,6 +20,8 @@ from explorer.server.meter import LARGEST, Meter
 from explorer.server.page import Page
 
 _log = logging.getLogger(__name__)
+_visitors = logging.getLogger(f"{__name__}.visitors")
+_visitors.setLevel(logging.CRITICAL)  # A probe that sends no proper request is no error of ours to print.
 
 Answer = Callable[[ServerConnection, Request], Response | None]
 Handler = Callable[[ServerConnection], Awaitable[None]]
@@ -46,7 +48,7 @@ class Gate:
 
     def around(self, handler: Handler, options: dict[str, Any]) -> tuple[Handler, dict[str, Any]]:
         """A server's handler and options with the gate before them."""
-        gated = {**options, "max_size": LARGEST, "create_connection": Metered}
+        gated = {**options, "max_size": LARGEST, "create_connection": Metered, "logger": _visitors}
         gated["process_request"] = self._asked(options["process_request"])
         return _contained(handler), gated
 
