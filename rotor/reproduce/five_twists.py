@@ -25,14 +25,16 @@ def figure_3_12() -> Report:
     best = {name: [best_of_five(name, mu) for mu in LOW] for name in NAMES}
     slow, fast = best["thesis"][0], best["thesis"][-1]
     saves = {name: main_rotor_kw(name, 0, LOW[0]) / main_rotor_kw(name, -16, LOW[0]) - 1.0 for name in NAMES}
+    costs = [mu for mu in LOW if main_rotor_kw("thesis", -16, mu) > main_rotor_kw("thesis", 0, mu)]
     return _speeds(
         "3.12", "low", LOW,
         "At low speed highly twisted blades need less power (p. 28).",
-        saves["thesis"] > 0.0,
-        f"At µ {LOW[0]:g}, −16° against 0° saves {100 * saves['thesis']:+.1f} % in the thesis preset: its linear "
-        f"inflow cannot see twist, so its best goes from {slow}° to {fast}° by profile drag alone. Once the wake "
-        f"answers, twist saves {100 * saves[THESIS_WAKE]:.1f} % on the same blade, {100 * saves['flight']:.1f} % in "
-        "the flight preset.",
+        not costs,
+        f"At µ {LOW[0]:g}, −16° against 0° saves {100 * saves['thesis']:.1f} % in the thesis preset"
+        + (f", and from µ {costs[0]:g} on it costs power" if costs else "")
+        + f": its linear inflow cannot see twist, so its best goes from {slow}° to {fast}° by profile drag alone. Once "
+        f"the wake answers, twist saves {100 * saves[THESIS_WAKE]:.1f} % on the same blade, {100 * saves['flight']:.1f} % "
+        "in the flight preset.",
         {f"{name}_saving": value for name, value in saves.items()},
     )  # fmt: skip
 
