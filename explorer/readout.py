@@ -158,7 +158,7 @@ def status_panel(solution: Solution | None, problem: str | None = None, pinned: 
         problem = solution.message
     if problem is not None:
         # Whole, also where it takes a line more than the box: it then lies over numbers that no longer hold.
-        sentence = f"{escape(problem)} In grey: the last good answer."
+        sentence = f"{escape(problem.rstrip('.'))}. In grey: the last good answer."
         return _status("problem", f'<div class="rx-sentence">{sentence}</div>')
     if solution is None:
         return _status("waiting", "Solving the first trim …")

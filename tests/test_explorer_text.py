@@ -119,7 +119,8 @@ class TestReadout:
         lost = replace(forward, status=Status.NOT_CONVERGED, message="Not trimmed: too heavy.")
         html = readout.status_panel(lost)
         assert 'data-kind="problem"' in html
-        assert "Not trimmed: too heavy." in html
+        assert "Not trimmed: too heavy. In grey" in html
+        assert "choose less. In grey" in readout.status_panel(None, "too much: choose less")
 
     def test_provenance_names_preset_inflow_sections_and_kind(self, forward: Solution):
         html = readout.provenance(forward)

@@ -33,8 +33,8 @@ def figure_3_12() -> Report:
         f"At µ {LOW[0]:g}, −16° against 0° saves {100 * saves['thesis']:.1f} % in the thesis preset"
         + (f", and from µ {costs[0]:g} on it costs power" if costs else "")
         + f": its linear inflow cannot see twist, so its best goes from {slow}° to {fast}° by profile drag alone. Once "
-        f"the wake answers, twist saves {100 * saves[THESIS_WAKE]:.1f} % on the same blade, {100 * saves['flight']:.1f} % "
-        "in the flight preset.",
+        f"the wake answers, twist saves {100 * saves[THESIS_WAKE]:.1f} % on the same blade, "
+        f"{100 * saves['flight']:.1f} % in the flight preset.",
         {f"{name}_saving": value for name, value in saves.items()},
     )  # fmt: skip
 
