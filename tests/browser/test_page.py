@@ -198,6 +198,26 @@ def test_charts_are_fed_not_rebuilt(watched: Watched):
     assert watched.page.evaluate(read) == before
 
 
+def test_a_chart_that_gets_width_and_data_at_once_keeps_its_axis(watched: Watched):
+    """As when data arrive while a page opens, or a tab does."""
+    numbers = watched.page.evaluate(
+        """async () => {
+            const {chart} = Object.values(window.__viserTestpoints.uplots)[0], {width, height} = chart;
+            const numbers = () => chart.axes[0]._found[0] ? chart.axes[0]._values.length : 0;
+            const painted = () => new Promise(done => setTimeout(done, 50));
+            chart.setSize({width: 0, height});
+            await painted();
+            const none = numbers();
+            chart.setSize({width, height});
+            chart.redraw();
+            await painted();
+            return [none, numbers()];
+        }"""
+    )
+    assert numbers[0] == 0
+    assert numbers[1] >= 4
+
+
 def test_no_number_on_screen_is_not_a_number(watched: Watched):
     for key in ("Home", "End"):
         watched.press("Adv. ratio", key)
