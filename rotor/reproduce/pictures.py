@@ -37,6 +37,10 @@ _STYLE = {
 }
 _WIDTH, _HEIGHT = 4.2, 3.2
 """Inches of one panel."""
+FEW = 3
+"""Curves for whose names there is room in a panel."""
+MOST = 5
+"""Names on one line of a legend below."""
 MANY = 14
 """Curves, bands included, from which the legend stands beside the panel."""
 
@@ -49,13 +53,19 @@ def can_draw() -> bool:
 def draw(report: Report, folder: Path) -> None:
     """Write `stem.svg` and `stem.png` for each picture of the report; nothing for a report without panels."""
     for stem, panels in pictures_of(report):
-        _draw_picture(stem, panels, folder, legend_below=panels is report.companion)
+        _draw_picture(stem, panels, folder, legend_below=panels is report.companion or same_key(panels))
 
 
 def pictures_of(report: Report) -> tuple[tuple[str, tuple[AnyPanel, ...]], ...]:
     """Stem and panels of each picture."""
     both = ((report.stem, report.panels), (f"{report.stem}-inflow", report.companion))
     return tuple((stem, panels) for stem, panels in both if panels)
+
+
+def same_key(panels: tuple[AnyPanel, ...]) -> bool:
+    """Whether several panels name the same curves, too many to lie over them: one legend below serves all."""
+    keys = [tuple(one.label for one in panel.curves) for panel in panels if isinstance(panel, Panel)]
+    return len(keys) == len(panels) > 1 and len(set(keys)) == 1 and len(keys[0]) > FEW
 
 
 def _draw_picture(stem: str, panels: tuple[AnyPanel, ...], folder: Path, *, legend_below: bool) -> None:
@@ -76,7 +86,11 @@ def _draw_picture(stem: str, panels: tuple[AnyPanel, ...], folder: Path, *, lege
             else:
                 _draw_panel(place, panel, legend=not legend_below)
         if legend_below:
-            figure.legend(loc="outside lower center", ncols=3)
+            pairs = [pair for place in axes.flat for pair in zip(*place.get_legend_handles_labels(), strict=True)]
+            key = {label: handle for handle, label in pairs}
+            figure.legend(
+                key.values(), key.keys(), loc="outside lower center", ncols=3 if len(key) > MOST else len(key)
+            )
         for k in range(count, down * across):
             axes[k // across][k % across].axis("off")
         figure.savefig(folder / f"{stem}.svg", metadata={"Date": None})

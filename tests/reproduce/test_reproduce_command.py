@@ -12,7 +12,7 @@ from rotor.reproduce import pictures
 from rotor.reproduce.catalogue import ENTRIES, find_entry, searches_of
 from rotor.reproduce.optima import FULL, best
 from rotor.reproduce.remember import Remembered, work_off
-from rotor.reproduce.report import typographic
+from rotor.reproduce.report import Panel, curve, typographic
 from rotor.reproduce.runs import EVERY_VARIANT
 
 WANTED = {
@@ -52,6 +52,16 @@ def test_figures_come_once_and_in_the_documents_order(tmp_path: Path, capsys: py
     found = re.findall(r'<article id="([\w-]+)"', page)
     assert found == ["table-3_1", "table-3_2", "table-5_1"]
     assert "3 rebuilt: agrees 2, stands alone 1." in page
+
+
+def test_one_legend_serves_panels_that_name_the_same():
+    def panel(count: int, last: str = "−16°") -> Panel:
+        return Panel("x", "y", tuple(curve(last if k == count - 1 else f"{k}", [0.0], [0.0]) for k in range(count)))
+
+    assert pictures.same_key((panel(5), panel(5)))
+    assert not pictures.same_key((panel(5),))
+    assert not pictures.same_key((panel(5), panel(5, "other")))
+    assert not pictures.same_key((panel(2), panel(2)))
 
 
 def test_without_matplotlib_tables_still_come(
