@@ -174,7 +174,8 @@ class _Run:
         else:
             status = Ended.CONVERGED
             agree = len(minima[0].starts)
-            message = f"{agree} of {evaluate.starts} starts ended in the best of {len(minima)} local minima."
+            which = "only local minimum found" if len(minima) == 1 else f"best of {len(minima)} local minima"
+            message = f"{agree} of {evaluate.starts} starts ended in the {which}."
             if self.lost:
                 message += f" {self.lost} found no trim."
         return Optimum(

@@ -280,6 +280,14 @@ def test_a_folder_goes_on_where_it_was(tmp_path: Path, done: Callable[[Store, in
         stored(tmp_path / "mine")
 
 
+def test_what_is_done_first_is_spread_over_the_study(tmp_path: Path):
+    store = stored(tmp_path / "out", SMALL.replace("[0.1, 0.2, 0.3]", '"0.1:0.299:0.001"'))
+    left = store.missing()
+    assert sorted(left) == list(range(100))
+    assert 35 < np.mean(left[:20]) < 65
+    assert left == store.missing()
+
+
 def test_files_say_units_and_whence_they_came(tmp_path: Path, done: Callable[[Store, int], Done]):
     parquet: Any = importlib.import_module("pyarrow.parquet")
     store = stored(tmp_path / "out")
@@ -309,7 +317,9 @@ def test_show_is_text_and_json(tmp_path: Path, done: Callable[[Store, int], Done
     assert (shown["points"], shown["done"], shown["failed"]) == (6, 4, 0)
     assert shown["best"]["status"] == "converged"
     assert main(["study", "show", str(tmp_path / "out"), "--least", "stalled_area_percent"]) == 0
-    assert "least stalled_area_percent" in capsys.readouterr().out
+    out = capsys.readouterr().out
+    assert "least stalled_area_percent" in out
+    assert "depends on, as far as it is known" in out
     assert main(["study", "show", str(tmp_path / "out"), "--least", "noise"]) == 2
     assert "noise" in capsys.readouterr().err
 

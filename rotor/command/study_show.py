@@ -67,7 +67,8 @@ def report(results: Results, least: str | None = None, uncertain: tuple[str, ...
     elif shown["uncertain"]:
         lines += ["", f"no design has an answer in every case of {', '.join(shown['uncertain'])}"]
     if shown["sensitivities"]:
-        lines += ["", f"what {least} depends on: share of its variance; mean where that is least … most"]
+        so_far = "" if shown["done"] == shown["points"] else ", as far as it is known"
+        lines += ["", f"what {least} depends on{so_far}: share of its variance; mean where that is least … most"]
         for one in shown["sensitivities"]:
             ends = (
                 f"{value(one['least'])} at {_text(one['least_at'])} … {value(one['most'])} at {_text(one['most_at'])}"

@@ -8,6 +8,7 @@ import hashlib
 import importlib
 import json
 import os
+import random
 from contextlib import suppress
 from datetime import UTC, datetime
 from pathlib import Path
@@ -54,7 +55,10 @@ class Store:
             self._lock = None
 
     def missing(self) -> list[int]:
-        """Chunks still to do. A file of another study, or one that cannot be read, counts as missing."""
+        """Chunks still to do, mixed: a run broken off has looked everywhere, and the time left is that of all.
+
+        A file of another study, or one that cannot be read, counts as missing.
+        """
         parquet: Any = importlib.import_module("pyarrow.parquet")
         found: set[int] = set()
         for path in self.folder.glob("chunk-*.parquet"):
@@ -64,7 +68,9 @@ class Store:
                 first, last = self.study.span(number)
                 if about.metadata[b"study"].decode() == self.study.fingerprint and about.num_rows == last - first:
                     found.add(number)
-        return [chunk for chunk in range(self.study.chunks) if chunk not in found]
+        left = [chunk for chunk in range(self.study.chunks) if chunk not in found]
+        random.Random(0).shuffle(left)
+        return left
 
     def keep(self, chunk: int, content: bytes) -> None:
         """Store a chunk. OSError, for example of a full disk, leaves the folder as it was."""
