@@ -83,6 +83,8 @@ div:has(> [data-dock-area]) { margin-top: 0 !important; }
 .rx-best { font-size: 21px; font-weight: 650; letter-spacing: -0.4px; margin-right: 7px; }
 .rx-broken { color: #c92a2a; }
 [data-mantine-color-scheme=dark] .rx-broken { color: #ff8787; }
+/* viser's button that makes a chart large is white in every theme. */
+[data-mantine-color-scheme=dark] .js-plotly-plot + button { background: transparent !important; }
 .rx-map { display: block; }
 .rx-map image { image-rendering: auto; }
 .rx-map-title { padding: 0 10px 0 36px; }
