@@ -337,8 +337,8 @@ class TestMemory:
         cleared = threading.Semaphore(0)
         monkeypatch.setattr(memory.gc, "collect", lambda: cleared.release())
         for _ in range(5):
-            memory.give_back_soon(0.02)
+            memory.give_back_soon(0.1)
         assert cleared.acquire(timeout=2.0)
-        assert not cleared.acquire(timeout=0.05)
+        assert not cleared.acquire(timeout=0.15)
         memory.give_back_soon(0.0)
         assert cleared.acquire(timeout=2.0)
