@@ -137,7 +137,7 @@ def read_case(path: str | Path) -> Design:
         raise ValueError(f"design file {str(path)!r} does not exist: give the path of a JSON design file") from None
     except OSError as error:
         raise ValueError(f"design file {str(path)!r} cannot be read ({error}): give a JSON design file") from None
-    return design_of(_record(content, str(path)), paths=True)
+    return _named(_record(content, str(path)), str(path), paths=True)
 
 
 def parse_case(content: bytes, name: str) -> Design:
@@ -145,7 +145,15 @@ def parse_case(content: bytes, name: str) -> Design:
     record = _record(content, name)
     if "table:" in str(record.get("twist", "")):
         raise ValueError(f"design file {name!r} names a twist table of another machine: give its rows as points:…@…")
-    return design_of(record)
+    return _named(record, name)
+
+
+def _named(record: dict[str, Any], name: str, *, paths: bool = False) -> Design:
+    """As `design_of`; what is wrong is said of the file: several may be read at once."""
+    try:
+        return design_of(record, paths=paths)
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from None
 
 
 def _record(content: bytes, name: str) -> dict[str, Any]:

@@ -112,6 +112,9 @@ def test_unreadable_design_file(tmp_path: Path):
     path.write_text("{not json")
     with pytest.raises(ValueError, match="cannot be read"):
         read_case(path)
+    path.write_text('{"mass": 7000}')
+    with pytest.raises(ValueError, match=r"broken\.json: design file has the unknown key 'mass'"):
+        read_case(path)
 
 
 def test_tilt_and_cant_are_radians():

@@ -81,7 +81,7 @@ def caption(history: History) -> str:
 def kept_rows(kept: Sequence[Kept], present: Solution | None, units: Units = SI) -> str:
     """The kept designs: outline of the twist, name, power, and the change of the present design from it."""
     if not kept:
-        return '<div class="rx-dim rx-small">Nothing kept yet: Keep sets the present design aside.</div>'
+        return '<div class="rx-dim rx-small">Nothing kept yet: Keep sets this design aside.</div>'
     rows = []
     for k, item in enumerate(kept):
         change = _blank_change(present, item, units)
