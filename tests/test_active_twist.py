@@ -1,5 +1,6 @@
 """Twist that follows the azimuth: limits, identity, and what it does to power."""
 
+import json
 import math
 from dataclasses import replace
 from pathlib import Path
@@ -8,6 +9,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor.__main__ import main
 from rotor.active_twist import ActiveTwist, Harmonic
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.fitted import fit
@@ -122,6 +124,16 @@ def test_design_file_keeps_it(tmp_path: Path):
     assert again is not None
     assert_allclose([again.harmonics[0].amplitude, again.harmonics[0].phase], [0.015, 1.2], rtol=1e-12)
     assert again.stations == (0.2, 0.9)
+
+
+def test_solve_names_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    """A power that active twist has changed is not printed as that of the bare twist law."""
+    file = str(tmp_path / "case.json")
+    write_case(turning(make_design(advance_ratio=0.3), Harmonic(2, 1.5 * DEGREE, 1.0)), file)
+    assert main(["solve", "--case", file]) == 0
+    assert "active twist 2/rev ±1.50°, phase 57°" in capsys.readouterr().out
+    assert main(["solve", "--case", file, "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["active_twist"]["harmonics"][0]["per_rev"] == 2
 
 
 def test_design_file_with_nonsense_says_so():

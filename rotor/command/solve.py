@@ -5,6 +5,7 @@ import json
 import math
 from typing import Any, cast
 
+from rotor.active_twist import active_twist_record
 from rotor.command.flags import KNOT, add_command, add_design_arguments, design_from, finite
 from rotor.solution import Solution
 from rotor.solve import solve
@@ -69,6 +70,7 @@ def record(solution: Solution) -> dict[str, Any]:
         "preset": design.preset,
         "inflow": design.models.inflow if not design.hovering else design.models.hover_inflow,
         "twist": design.twist.spec(),
+        **({} if design.active_twist is None else {"active_twist": active_twist_record(design.active_twist)}),
         **_switches_record(solution),
         **(values if solution.converged else _emptied(values)),
         "elapsed_ms": 1e3 * solution.elapsed,
@@ -104,6 +106,12 @@ def report(solution: Solution) -> str:
         f"{design.condition.altitude:.0f} m",
         f"{solution.status.value}: {solution.message}",
     ]
+    if design.active_twist is not None:
+        waves = (
+            f"{wave.per_rev}/rev ±{math.degrees(wave.amplitude):.2f}°, phase {math.degrees(wave.phase):.0f}°"
+            for wave in design.active_twist.harmonics
+        )
+        lines.insert(1, f"active twist {'; '.join(waves)}")
     if solution.converged:
         degrees = {
             "collective": controls.collective, "cyclic 1c": controls.cyclic_1c, "cyclic 1s": controls.cyclic_1s,
