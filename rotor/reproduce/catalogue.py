@@ -119,9 +119,10 @@ ENTRIES: tuple[Entry, ...] = (
 
 
 def find_entry(number: str) -> Entry:
-    """The entry of that number; ValueError with the numbers there are."""
+    """The entry of that number, or of the title printed for it; ValueError with the numbers there are."""
+    wanted = number.strip().lower().removeprefix("figure ")
     for entry in ENTRIES:
-        if entry.number.lower() == number.lower():
+        if entry.number.lower() == wanted:
             return entry
     raise ValueError(f"figure {number!r} cannot be rebuilt: choose one of {', '.join(e.number for e in ENTRIES)}")
 

@@ -45,6 +45,7 @@ def test_one_figure(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
 
 
 def test_figures_come_once_and_in_the_documents_order(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    assert find_entry("Figure 3.11") is find_entry("3.11")
     asked = ["--figure", "table 5.1", "--figure", "Table 3.2", "--figure", "table 5.1", "--figure", "table 3.1"]
     assert main(["reproduce", str(tmp_path), *asked]) == 0
     capsys.readouterr()
