@@ -1,5 +1,6 @@
 """Studies: the file, the order of points, what a point leaves as a row, the folder, and what is read from it."""
 
+import errno
 import importlib
 import json
 import math
@@ -24,7 +25,7 @@ from rotor.study.axes import Axis, Places, Sample
 from rotor.study.chunks import Done, Provenance, work, work_chunk
 from rotor.study.memory import Memory
 from rotor.study.results import Results, best_row, effects, read_file, read_results, robust_best
-from rotor.study.store import Store
+from rotor.study.store import NotStored, Store
 from rotor.study.study import good_chunk
 from rotor.study.study_file import StudyFile, parse_study, read_study
 
@@ -278,6 +279,23 @@ def test_a_folder_goes_on_where_it_was(tmp_path: Path, done: Callable[[Store, in
     (tmp_path / "mine" / "letter.txt").write_text("dear")
     with pytest.raises(ValueError, match="holds other things"):
         stored(tmp_path / "mine")
+
+
+def test_a_full_disk_is_one_sentence_and_keeps_what_is_there(
+    tmp_path: Path, done: Callable[[Store, int], Done], monkeypatch: pytest.MonkeyPatch
+):
+    store = stored(tmp_path / "out")
+    store.keep(0, done(store, 0).content)
+    content = done(store, 1).content
+
+    def full(handle: int) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("rotor.study.store.os.fsync", full)
+    with pytest.raises(NotStored, match=r"No space left on device\).*finished chunks are kept"):
+        store.keep(1, content)
+    assert store.missing() == [1]
+    assert not list(store.folder.glob(".*.part"))
 
 
 def test_what_is_done_first_is_spread_over_the_study(tmp_path: Path):

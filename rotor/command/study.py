@@ -17,7 +17,7 @@ from rotor.provenance import commit, package_version
 from rotor.study.chunks import Done, Provenance, work
 from rotor.study.cluster import ClusterLost, connected, need_packages, run_chunks
 from rotor.study.results import read_results
-from rotor.study.store import Store, sha256
+from rotor.study.store import NotStored, Store, sha256
 from rotor.study.study_file import StudyFile, read_study
 
 _SAY_EVERY = 60.0
@@ -99,7 +99,7 @@ def _run(args: argparse.Namespace, store: Store, provenance: Provenance) -> int:
                 with connected(args.scheduler, args.workers) as client:
                     outcome = run_chunks(client, study, missing, provenance, take, stop, _tell_lonely(args.scheduler))
                 stopped, lost = outcome.stopped, outcome.lost
-            except ClusterLost as error:
+            except (ClusterLost, NotStored) as error:
                 message = str(error)
         if effort.points:
             print(effort.sentence())

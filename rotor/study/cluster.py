@@ -102,7 +102,8 @@ def run_chunks(
     """Work chunks off, in any order; `take` has each as soon as it is done.
 
     `stop` is asked several times a second; True leaves what is on its way. `wait_for_workers` is told when there are
-    none. Raises ClusterLost where the scheduler is gone, OtherVersion where a worker has another version.
+    none. Raises ClusterLost where the scheduler is gone, OtherVersion where a worker has another version. What `take`
+    raises must be no OSError, which stands for the cluster's.
     """
     outcome, news = Outcome(), queue.SimpleQueue[Any]()
     waiting, under_way = iter(chunks), dict[Any, int]()
@@ -146,9 +147,7 @@ def run_chunks(
             else:
                 raise ClusterLost(_GONE)
             future.release()
-    except OSError as error:  # Dask's own CommClosedError, and TimeoutError, are among these.
-        if error.errno is not None and not isinstance(error, ConnectionError):
-            raise  # A full disk, for example: no fault of the cluster.
+    except OSError:  # Dask's own CommClosedError, and TimeoutError, are among these.
         raise ClusterLost(_GONE) from None
     finally:
         for future in under_way:

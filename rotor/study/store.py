@@ -27,6 +27,10 @@ def sha256(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
+class NotStored(RuntimeError):
+    """A chunk could not be written; those before it are kept."""
+
+
 class Store:
     """The folder of one study, open for writing."""
 
@@ -73,8 +77,17 @@ class Store:
         return left
 
     def keep(self, chunk: int, content: bytes) -> None:
-        """Store a chunk. OSError, for example of a full disk, leaves the folder as it was."""
-        self._write(f"chunk-{chunk:06d}.parquet", content)
+        """Store a chunk. NotStored, for example where the disk is full, leaves the folder as it was."""
+        name = f"chunk-{chunk:06d}.parquet"
+        try:
+            self._write(name, content)
+        except OSError as error:
+            with suppress(OSError):
+                (self.folder / f".{name}.part").unlink()
+            raise NotStored(
+                f"cannot write to {str(self.folder)!r} ({error.strerror}): make it possible, and run the same command "
+                "again to go on; finished chunks are kept"
+            ) from None
 
     def _check(self, known: dict[str, Any], provenance: Provenance) -> None:
         if known.get("study") != self.study.fingerprint:
