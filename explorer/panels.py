@@ -97,6 +97,7 @@ class Panels:
         rotor = start.aircraft.rotor_for(start.preset)
         self._radius = rotor.radius
         self.frame = Frame(client, rotor, self.controls.display)
+        self._keyboard = Keyboard(client)
         desk = self.desk = Desk(
             inputs=self.controls.inputs,
             set_inputs=self.controls.set_inputs,
@@ -108,7 +109,7 @@ class Panels:
             tell=self._notify,
             moment=works.moment,
             pin=self.top.pin_inputs,
-            bind=Keyboard(client).bind,
+            bind=self._keyboard.bind,
         )
         with tabs.add_tab("Optimise"):
             self.optimise = OptimisePanel(gui, commons.pool, desk, lambda design: self.schedule.legs(design))
@@ -180,9 +181,14 @@ class Panels:
         controls.display.range_buttons.on_click(lambda event: self._colour(event.target.value))
         controls.check_button.on_click(lambda _: self._check())
         self.top.bind(desk)
-        self._presence.begin(desk, Hands(lambda: self.lecture.step, self.lecture.follow, controls.hold))
+        self._presence.begin(desk, Hands(lambda: self.lecture.step, self.lecture.follow, self._hold))
         bind_commands(desk, Actions(self._look, self._colour, self._check, self._reset, self.optimise.toggle))
         self.file.begin()
+
+    def _hold(self, held: bool) -> None:
+        """Leave what moves the page to a presenter, or give it back."""
+        for part in (self.controls, self.top, self.lecture, self._keyboard):
+            part.hold(held)
 
     def _send(self, name: str, content: bytes) -> None:
         self._client.send_file_download(name, content, save_immediately=True)

@@ -29,8 +29,9 @@ class TopBar:
         redo: Callable[[], None],
     ) -> None:
         self._board, self._wake, self._units = Pinboard(), wake, SI
+        self._held = False
         self._steps = {"Undo": undo, "Redo": redo}
-        first = gui.add_button_group("", (*self._steps, *_PIN), hint=hint("pin"))
+        self._first = gui.add_button_group("", (*self._steps, *_PIN), hint=hint("pin"))
         self._line = gui.add_html("", visible=False)
         self._second = gui.add_button_group(
             "",
@@ -44,7 +45,7 @@ class TopBar:
             visible=False,
             hint=hint("along"),
         )
-        first.on_click(self._clicked)
+        self._first.on_click(self._clicked)
         self._second.on_click(self._clicked)
         self._along.on_update(lambda _: wake())
 
@@ -80,6 +81,12 @@ class TopBar:
         desk.bind("swap", lambda: self._ask("swap"))
         desk.bind("back", lambda: self._ask("back"))
 
+    def hold(self, held: bool) -> None:
+        """Take the buttons from the user, or give them back."""
+        self._held = held
+        self._first.visible = not held
+        self.refresh()
+
     def pin_inputs(self, inputs: Inputs | None) -> None:
         """Let these inputs be A, whatever is on the sliders; None: nothing."""
         self._board.put(inputs)
@@ -103,8 +110,9 @@ class TopBar:
         if pinned is not None:
             where = "" if self._along.value else pinned.flight
             self._line.content = ab_readout.pinned_line(pinned.title, self._board.answer, where, self._units)
-        for widget in (self._line, self._second, self._along):
-            widget.visible = pinned is not None
+        self._line.visible = pinned is not None
+        for widget in (self._second, self._along):
+            widget.visible = pinned is not None and not self._held
 
     def _clicked(self, event: viser.GuiEvent[Any]) -> None:
         name = event.target.value

@@ -10,7 +10,7 @@ from viser import _messages
 
 from explorer.keys.in_page import dialog_script, page_script
 from explorer.keys.keyboard import Keyboard
-from explorer.keys.names import CTRL, CTRL_SHIFT, KEYS, SHIFT, keys_help
+from explorer.keys.names import CTRL, CTRL_SHIFT, KEYS, SHIFT, keys_help, leads
 
 TAKEN_BY_THE_CAMERA = set("WASDQE")
 TAKEN_BY_BROWSERS = (
@@ -79,3 +79,9 @@ class TestKeyboard:
             keyboard.bind("jump", lambda: None)
         with pytest.raises(ValueError, match="'keys' has its action already"):
             keyboard.bind("keys", lambda: None)
+
+
+def test_who_follows_a_presenter_keeps_what_is_seen_not_what_is_flown():
+    free = {name for name in KEYS if not leads(name)}
+    assert {"view_top", "units", "dark", "keys", "probe_out"} <= free
+    assert not free & {"hover", "pin", "undo", "reset", "optimise", "lecture", "lecture_next", "field_next"}

@@ -7,7 +7,7 @@ import viser
 
 from explorer import viser_compat
 from explorer.keys.in_page import dialog_script, page_script
-from explorer.keys.names import COARSE, KEYS, keys_help
+from explorer.keys.names import COARSE, KEYS, keys_help, leads
 
 
 class Keyboard:
@@ -16,6 +16,7 @@ class Keyboard:
     def __init__(self, client: viser.ClientHandle) -> None:
         self._client = client
         self._commands: dict[str, viser.CommandHandle] = {}
+        self._held = False
         viser_compat.run_in_page(client, page_script(COARSE))
         self.bind("keys", self.show)
 
@@ -30,8 +31,12 @@ class Keyboard:
         hotkey: Any = key.key or None
         modifier: Any = key.modifier or None
         command = self._client.gui.add_command(key.title, hotkey=hotkey, modifier=modifier)
-        command.on_trigger(lambda _: action())
+        command.on_trigger(lambda _: None if self._held and leads(name) else action())
         self._commands[name] = command
+
+    def hold(self, held: bool) -> None:
+        """Leave to a presenter what is the presenter's, or give it back."""
+        self._held = held
 
     def show(self) -> None:
         """The list of keys, over the page; shown a second time it goes."""

@@ -82,6 +82,12 @@ KEYS: dict[str, Key] = {
 }
 """In the order of the palette and of the list."""
 
+
+def leads(name: str) -> bool:
+    """Whether a command is the presenter's while the page follows one: it moves the design, the disk or the lecture."""
+    return KEYS[name].group in (_DESIGN, _FLIGHT) or name.startswith(("field", "lecture"))
+
+
 _ALWAYS = (
     ("Sliders", "One step", ("←", "→")),
     ("Sliders", "Ten steps", ("Shift", "←", "→")),

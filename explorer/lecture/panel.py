@@ -100,6 +100,11 @@ class LecturePanel:
             self._against = None
             self._stand_at(step)
 
+    def hold(self, held: bool) -> None:
+        """Take what moves the page from the user, or give it back."""
+        self._begin.disabled = self._case.disabled = held
+        self._flights.visible = self._buttons.visible = not held
+
     def end(self) -> None:
         """The caption goes; the page stays as it is."""
         self._stand_at(None)

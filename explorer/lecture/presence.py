@@ -39,7 +39,7 @@ class Presence:
         self._client, self._stage, self._address = client, stage, address
         self._secret = (address[PRESENT] or "")[:_LONGEST]
         self._name = "" if self._secret else (address[FOLLOW] or "")[:_LONGEST]
-        self._lock = threading.Lock()
+        self._lock, self._publishing = threading.Lock(), threading.Lock()
         self._desk: Desk | None = None
         self._hands: Hands | None = None
         self._unfollow: Callable[[], None] | None = None
@@ -118,10 +118,11 @@ class Presence:
         desk, hands = self._desk, self._hands
         if not self._secret or desk is None or hands is None:
             return
-        moment = desk.moment()
-        against = moment.pin.inputs if moment is not None and moment.pin is not None else None
-        shown = Shown(desk.inputs(), desk.view(), against, hands.lecture_step(), self._camera)
-        self._stage.present(self._secret, shown)
+        with self._publishing:  # Camera and worker come on threads of their own: what was read first goes out first.
+            moment = desk.moment()
+            against = moment.pin.inputs if moment is not None and moment.pin is not None else None
+            shown = Shown(desk.inputs(), desk.view(), against, hands.lecture_step(), self._camera)
+            self._stage.present(self._secret, shown)
 
     def _announce(self, count: int) -> None:
         follow = "follows" if count == 1 else "follow"
@@ -151,7 +152,7 @@ class Presence:
         with self._lock:
             self._shown = shown
             view = desk.view()
-            wanted = replace(shown.view, dark=view.dark)
+            wanted = replace(shown.view, dark=view.dark, units=view.units)
             if wanted != view:
                 desk.set_view(wanted)
             moment = desk.moment()

@@ -85,8 +85,9 @@ class Stage:
         with self._lock:
             number, self._next = self._next, self._next + 1
             self._listeners.setdefault(name, {})[number] = listener
-            shown = self._shown.get(name)
-        if shown is not None:
+        told = None
+        while (shown := self._shown.get(name)) is not None and shown is not told:  # It may change meanwhile.
+            told = shown
             listener(shown)
         self._count(name)
 

@@ -134,6 +134,14 @@ def test_others_follow_the_presenter_and_may_leave(browser: "Browser", app: App)
         timeout=WAIT,
     )
     design_in_address(follower, "mu=0.3")
+    other.keyboard.press("Escape")
+    for key in ("h", "t", "p"):  # Nor do its keys move it, nor its buttons.
+        other.keyboard.press(key)
+    assert not other.get_by_role("button", name="Pin as A").is_visible()
+    other.wait_for_timeout(1500)
+    assert other.locator('[data-explorer="lecture"]').count() == 0
+    assert "mu=0.3" in other.url
+    assert "&a=" not in other.url
     other.get_by_role("button", name="Leave, and go on alone").click()
     other.wait_for_function("() => !location.search.includes('follow=')", timeout=WAIT)
     there = shown_kw(follower)
