@@ -140,6 +140,13 @@ def test_what_only_some_points_have_comes_last_and_texts_are_scales(optima: Resu
     )  # fmt: skip
 
 
+def test_a_single_point_can_be_drawn(tmp_path: Path):
+    results = finished(tmp_path, "[axes]\nmu = [0.2]\n" + TRIMS[TRIMS.index("[models]") :])
+    assert study_charts.choices(results)[:2] == ("mu", "power_total_w")
+    assert len(study_charts.scatter(results, "mu", "power_total_w", "mu", None, dark=False).data[0].x) == 1
+    assert study_charts.parallel(results, "mu", dark=False).data[0].dimensions
+
+
 def test_a_range_of_one_chart_is_not_left_to_the_next(trims: tuple[Path, Results]):
     _, results = trims
     front = study_charts.front(results, pairs_at(results, 0.2), 0.2, None, dark=False)

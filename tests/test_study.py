@@ -23,8 +23,9 @@ from rotor.solve import solve
 from rotor.study import cluster
 from rotor.study.axes import Axis, Places, Sample
 from rotor.study.chunks import Done, Provenance, work, work_chunk
+from rotor.study.findings import best_row, effects, robust_best
 from rotor.study.memory import Memory
-from rotor.study.results import Results, best_row, effects, read_file, read_results, robust_best
+from rotor.study.results import Results, read_file, read_results
 from rotor.study.store import NotStored, Store
 from rotor.study.study import good_chunk
 from rotor.study.study_file import StudyFile, parse_study, read_study
@@ -389,19 +390,24 @@ def test_a_short_sample_is_not_taken_for_an_effect():
     assert found["y"] < 0.2
 
 
-def test_a_small_file_that_unpacks_to_much_is_one_sentence():
+def test_a_file_that_is_no_result_or_unpacks_to_much_is_one_sentence():
     parquet: Any = importlib.import_module("pyarrow.parquet")
     arrow: Any = importlib.import_module("pyarrow")
     about = {"format": "rotor-explorer study", "axes": "[]", "given": "{}", "units": "{}", "models": "{}"}
 
-    def packed(rows: int, text: str) -> bytes:
+    def packed(rows: int, text: str, about: dict[str, str] = about) -> bytes:
         coded = arrow.DictionaryArray.from_arrays(np.zeros(rows, dtype=np.int32), [text])
-        table = arrow.table({"status": coded.cast(arrow.string()), "point": np.zeros(rows)})
+        numbers = {"point": np.zeros(rows), "power_total_w": np.zeros(rows)}
+        table = arrow.table({"status": coded.cast(arrow.string()), **numbers})
         out = arrow.BufferOutputStream()
         parquet.write_table(table.replace_schema_metadata(about), out, compression="zstd", write_batch_size=10**6)
         return out.getvalue().to_pybytes()
 
     content = packed(1000, "converged")
+    for wrong in ({"format": "letters"}, {"axes": "none"}, {"axes": '["mu"]'}):
+        odd = packed(1, "converged", about | wrong)
+        with pytest.raises(ValueError, match=r"'odd.parquet' is no result"):
+            read_file(odd, "odd.parquet")
     assert read_file(content, "small.parquet").good.all()
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("rotor.study.results._LARGEST", 8000)

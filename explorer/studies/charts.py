@@ -58,12 +58,12 @@ def shown(results: Results, name: str) -> NDArray[np.float64]:
 
 
 def choices(results: Results) -> tuple[str, ...]:
-    """Columns worth an axis of a chart: numbers that vary; what the study varies first, then power.
+    """Columns worth an axis of a chart: numbers that vary, or all of a single point; what the study varies first.
 
     Last those that some points have no value of, as of a parameter that only one of several concepts has.
     """
     numbers = [name for name in results.columns if results.numeric(name) and name not in _HIDDEN]
-    varying = [name for name in numbers if len(np.unique(results.columns[name][results.good])) > 1]
+    varying = [name for name in numbers if len(np.unique(results.columns[name][results.good])) > 1] or numbers
     whole = [name for name in varying if np.isfinite(results.columns[name][results.good]).all()]
     front = [name for name in (*results.axes, "power_total_w") if name in varying]
     return tuple(dict.fromkeys((*front, *whole, *varying)))

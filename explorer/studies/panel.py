@@ -19,9 +19,10 @@ from explorer.state import inputs_of
 from explorer.studies import charts as study_charts
 from explorer.studies.readout import numbers, point_line, problem_line, summary
 from explorer.studies.results import Found, find_studies, open_study
+from rotor.study.findings import best_row
 from rotor.study.front import cruise_speeds, pairs_at
 from rotor.study.replay import design_of_row
-from rotor.study.results import Results, best_row, read_file
+from rotor.study.results import Results, read_file
 
 _log = logging.getLogger(__name__)
 

@@ -4,7 +4,8 @@ import math
 from collections import Counter
 from typing import Any
 
-from rotor.study.results import Effect, Results, Robust, best_row, effects, robust_best
+from rotor.study.findings import Effect, Robust, best_row, effects, robust_best
+from rotor.study.results import Results
 from rotor.study.study import check_uncertain
 
 _SENTENCES = 3
