@@ -11,7 +11,7 @@ def number(value: float | None, digits: int = 0, sign: bool = False) -> str:
     """A number with thousands set apart and a true minus; a dash for what is not a number."""
     if value is None or not math.isfinite(value):
         return BLANK
-    text = f"{value:{'+' if sign else ''},.{digits}f}".replace(",", "\u202f").replace("-", "−")
+    text = f"{value:{'+' if sign else ''},.{digits}f}".replace(",", "\u2009").replace("-", "−")
     # What rounds to nothing has no direction.
     return text.lstrip("+−") if not any(digit in text for digit in "123456789") else text
 

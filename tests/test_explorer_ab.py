@@ -165,7 +165,7 @@ def cells(html: str, row: str) -> list[str]:
 
 
 def value(text: str) -> float:
-    return float(text.replace("\u202f", "").replace("−", "-"))
+    return float(text.replace("\u2009", "").replace("−", "-"))
 
 
 class TestReadOut:

@@ -204,7 +204,7 @@ def test_the_section_is_drawn_with_its_plies(id: str):
 def test_more_voltage_than_there_is_is_said():
     inputs = ActuatorInputs(per_rev=1, amplitude=100.0)
     fitted = inputs.fitted(DESIGN.rotor)
-    assert "beyond −500…1\u202f500 V" in actuator_readout.over_range(inputs, fitted)
+    assert "beyond −500…1\u2009500 V" in actuator_readout.over_range(inputs, fitted)
     assert actuator_readout.over_range(replace(inputs, amplitude=40.0), fitted) == ""
     assert actuator_readout.over_range(replace(inputs, drives=(100.0 / 3.0,)), fitted) == ""  # 500 V, the middle.
 

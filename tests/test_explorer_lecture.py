@@ -101,7 +101,7 @@ def test_a_step_says_what_is_seen(step: Step):
     pinned = None if step.against is None else solved(step.against)
     said = step.say(Moment(step.inputs, ViewState(), solution, baseline, pinned))
     assert any(character.isdigit() for character in said)
-    assert not any(f" {unit}" in said for unit in ("kW", "%"))  # A number and its unit stay on one line.
+    assert not any(mark in said for mark in (" kW", " %", "\u2009"))  # A number and its unit stay on one line.
     assert "nan" not in said
     html = caption(step, said)
     assert f'data-step="{STEPS.index(step) + 1}"' in html

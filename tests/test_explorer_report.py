@@ -107,7 +107,7 @@ class TestSheet:
         assert ground.tag == f"{SVG}rect"
         assert (ground.get("fill") == "#ffffff") != dark
         said = words(drawn)
-        assert f"{FAST.power.total / 1e3:,.0f} kW".replace(",", "\u202f") in said
+        assert f"{FAST.power.total / 1e3:,.0f} kW".replace(",", "\u2009") in said
         assert "µ 0.410 · 326 km/h · 176 kt · 8.32 t · 0 m" in said
         assert ALPHA.label in said
         assert "quasi-steady sections" in said  # Its caveat, broken into lines or not.
@@ -122,8 +122,8 @@ class TestSheet:
 
     def test_aviation_units_are_those_of_the_page(self):
         said = words(ET.fromstring(disk_sheet(FAST, shown(replace(VIEW, units="Aviation")), Paper(1280, 720))))
-        assert f"{FAST.power.total / 745.699872:,.0f} hp".replace(",", "\u202f") in said
-        assert "µ 0.410 · 176 kt · 326 km/h · 18\u202f342 lb · 0 ft" in said
+        assert f"{FAST.power.total / 745.699872:,.0f} hp".replace(",", "\u2009") in said
+        assert "µ 0.410 · 176 kt · 326 km/h · 18\u2009342 lb · 0 ft" in said
 
     def test_transparent_paper_has_no_ground(self):
         assert ET.fromstring(disk_sheet(NOW, SHOWN, Paper(800, 450, transparent=True)))[0].tag != f"{SVG}rect"
@@ -200,7 +200,7 @@ class TestReport:
 
     def test_says_power_parts_condition_caveats_and_versions(self, page: str):
         for solution in (NOW, FAST, BASELINE):
-            assert f"{solution.power.total / 1e3:,.1f} kW".replace(",", "\u202f") in page
+            assert f"{solution.power.total / 1e3:,.1f} kW".replace(",", "\u2009") in page
         assert f"{100 * (NOW.power.total / BASELINE.power.total - 1):+.1f} %".replace("-", "−") in page
         for caveat in FAST.caveats:
             assert f"<li>{caveat.sentence}</li>" in page
@@ -225,7 +225,7 @@ class TestReport:
     def test_aviation_units_are_those_of_the_page(self, report: Report):
         page = report_html(replace(report, view=replace(VIEW, units="Aviation")), None, Swept())
         first = page.split('data-report="total-power">')[1]
-        assert first.startswith(f"{NOW.power.total / 745.699872:,.0f} hp".replace(",", "\u202f"))
+        assert first.startswith(f"{NOW.power.total / 745.699872:,.0f} hp".replace(",", "\u2009"))
         assert "total power [hp]" in page
 
     def test_without_3d_there_is_none(self, report: Report):
@@ -275,7 +275,7 @@ class TestCommand:
         files = [str(tmp_path / f"{name}.json") for name in ("now", "fast")]
         assert command.main(["report", *files, "--out", str(out), "--field", "Mach number"]) == 0
         page = out.read_text(encoding="utf-8")
-        assert f"{NOW.power.total / 1e3:,.0f} kW".replace(",", "\u202f") in page
+        assert f"{NOW.power.total / 1e3:,.0f} kW".replace(",", "\u2009") in page
         assert "Mach number" in page
         assert '"scenes": ["' in page
         assert capsys.readouterr().out == f"{out}: 2 designs\n"

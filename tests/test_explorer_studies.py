@@ -215,12 +215,12 @@ def test_many_points_are_thinned_but_the_taken_one_stays():
     rows = study_charts.picked(results, 7)
     assert study_charts.MOST_POINTS <= len(rows) <= study_charts.MOST_POINTS + 1
     assert 7 in rows
-    assert "10\u202f000 of 20\u202f000 points" in summary(results)
+    assert "10\u2009000 of 20\u2009000 points" in summary(results)
 
 
 def test_numbers_have_the_digits_that_count():
     values = (8322.4, 0.16172, -11.8512, 0.0, 1e-9, math.nan)
-    assert [study_charts.plain(value) for value in values] == ["8\u202f322.4", "0.16172", "−11.851", "0", "0", "–"]
+    assert [study_charts.plain(value) for value in values] == ["8\u2009322.4", "0.16172", "−11.851", "0", "0", "–"]
 
 
 def test_what_is_said_of_a_point_is_escaped(trims: tuple[Path, Results]):

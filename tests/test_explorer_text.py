@@ -73,7 +73,7 @@ class TestInputs:
 
 class TestReadout:
     def test_numbers(self):
-        assert readout.number(1234.4) == "1\u202f234"
+        assert readout.number(1234.4) == "1\u2009234"
         assert readout.number(-2.345, 2) == "−2.35" or readout.number(-2.345, 2) == "−2.34"
         assert readout.number(3.0, 1, sign=True) == "+3.0"
         assert readout.number(-0.004, 1, sign=True) == "0.0"
@@ -152,7 +152,7 @@ class TestReadout:
     def test_check_with_the_vortex_wake(self, forward: Solution):
         assert "computing" in readout.check_panel(None, forward)
         reference = solve(with_vortex_wake(forward.design)).require()
-        assert f"{reference.power.total / 1e3:,.0f}".replace(",", "\u202f") in readout.check_panel(reference, forward)
+        assert f"{reference.power.total / 1e3:,.0f}".replace(",", "\u2009") in readout.check_panel(reference, forward)
         lost = replace(reference, status=Status.NOT_CONVERGED, message="Not trimmed: no.")
         assert "Not trimmed: no." in readout.check_panel(lost, forward)
         hover = make_design(advance_ratio=0.0)

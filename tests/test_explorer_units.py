@@ -61,8 +61,8 @@ def test_a_and_b_in_horsepower(solution: Solution):
 
 def test_names_say_the_flight_in_the_chosen_units_and_what_is_off():
     inputs = Inputs(mass_t=9.0, altitude_m=1524.0, flapping=False, hub_loss=False)
-    assert flight_name(inputs) == "µ 0.2, 9 t, 1\u202f524 m, no flapping, no hub loss"
-    assert flight_name(Inputs(altitude_m=1524.0), AVIATION) == "µ 0.2, 18\u202f342 lb, 5\u202f000 ft"
+    assert flight_name(inputs) == "µ 0.2, 9 t, 1\u2009524 m, no flapping, no hub loss"
+    assert flight_name(Inputs(altitude_m=1524.0), AVIATION) == "µ 0.2, 18\u2009342 lb, 5\u2009000 ft"
 
 
 def test_searches_and_history_in_horsepower(solution: Solution):

@@ -34,7 +34,7 @@ def found() -> Waterfall:
 def numbers(svg: str) -> list[float]:
     """The column at the right, as written."""
     shown = re.findall(r'class="rx-w rx-w-number[^"]*">([^<]+)<', svg)
-    return [float(text.replace("−", "-").replace("\u202f", "")) for text in shown]
+    return [float(text.replace("−", "-").replace("\u2009", "")) for text in shown]
 
 
 class TestDrawing:

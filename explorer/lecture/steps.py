@@ -53,8 +53,8 @@ _TWIST = {"law"}.union(*(law.inputs for law in LAWS.values()))
 
 
 def _power(moment: Moment, watts: float, sign: bool = False) -> str:
-    """In the units that are chosen; number and unit stay on one line."""
-    return UNITS[moment.view.units].watts(watts, sign=sign).replace(" ", "\u00a0")
+    """In the units that are chosen, on one line."""
+    return UNITS[moment.view.units].watts(watts, sign=sign).replace(" ", "\u00a0").replace("\u2009", "\u00a0")
 
 
 def _percent(share: float, digits: int = 0, sign: bool = False) -> str:

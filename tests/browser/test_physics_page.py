@@ -50,7 +50,7 @@ def test_the_waterfall_adds_up_on_the_page(watched: Watched):
     watched.page.get_by_role("tab", name="Physics").click()
     watched.page.wait_for_selector('[data-explorer="each-alone"] tr:nth-child(7)', timeout=WAIT)
     shown = watched.page.locator('[data-explorer="waterfall"] .rx-w-number').all_text_contents()
-    column = [float(text.replace("−", "-").replace("\u202f", "")) for text in shown]
+    column = [float(text.replace("−", "-").replace("\u2009", "")) for text in shown]
     assert len(column) == 8
     assert sum(column[:-1]) == pytest.approx(column[-1], abs=0.4)
     watched.page.get_by_role("tab", name="Results").click()

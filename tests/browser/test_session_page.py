@@ -64,7 +64,7 @@ def test_undo_redo_and_history(browser: "Browser", app: App):
 def test_the_address_is_the_design(browser: "Browser", app: App):
     watched = opened(browser, app.address, COARSE + "&d=1;linear:-9.5;mu=0.3;mass=9000;inflow=drees")
     design = Inputs(law="linear", linear=-9.5, advance_ratio=0.3, mass_t=9.0, inflow="drees").design()
-    power = f"{solve(design).power.total / 1e3:,.0f}".replace(",", "\u202f")
+    power = f"{solve(design).power.total / 1e3:,.0f}".replace(",", "\u2009")
     assert shown_kw(watched) == power
     watched.press("Rate", "ArrowLeft", 3)
     design_in_address(watched, "linear:-9.8;mu=0.3")
