@@ -27,9 +27,15 @@ def _parser() -> argparse.ArgumentParser:
         description="Send many browsers to a server of its own, each dragging a slider, and report what it did to "
         "them: delays from edit to frame, lost updates, memory.",
     )
-    parser.add_argument("--browsers", type=_count, default=Soak.browsers, help="how many at once (default 20)")
-    parser.add_argument("--minutes", type=_positive, default=Soak.minutes, help="how long they drag (default 10)")
-    parser.add_argument("--rate", type=_positive, default=Soak.rate, help="edits a second while dragging (default 20)")
+    parser.add_argument(
+        "--browsers", type=_count, default=Soak.browsers, metavar="N", help="how many at once (default 20)"
+    )
+    parser.add_argument(
+        "--minutes", type=_positive, default=Soak.minutes, metavar="MIN", help="how long they drag (default 10)"
+    )
+    parser.add_argument(
+        "--rate", type=_positive, default=Soak.rate, metavar="HZ", help="edits a second while dragging (default 20)"
+    )
     parser.add_argument("--real", type=_pages, default=0, metavar="K", help="and K pages of Chromium")
     parser.add_argument("--json", action="store_true", help="print the report as JSON")
     return parser
