@@ -15,7 +15,7 @@ AT_ONCE = 2
 
 def refusal(name: str, size: int, parts: int, under_way: int, accepts: str) -> str | None:
     """Why a file is not taken, in a sentence; None where it is. `accepts`: as in HTML, ".json,.toml" or "*/*"."""
-    most = next((bytes for ending, bytes in _OF_TYPE.items() if name.lower().endswith(ending)), LARGEST)
+    most = next((largest for ending, largest in _OF_TYPE.items() if name.lower().endswith(ending)), LARGEST)
     if size > most:
         return f"{_cut(name)} has {size / 2**20:.1f} MB: {most // 2**20} MB are the most."
     if not _fits(name, accepts):
