@@ -151,6 +151,8 @@ div:has(> .rx-bridge), div:has(> .rx-bridge) + div { display: none !important; }
 BIG = """
 :root { --mantine-scale: 1.2; }
 .rx, .rx-status, .rx-heading, .rx-legend, .rx-scale, .rx-kappa, .rx-speed, .rx-check { font-size: 15.5px; }
+.rx-status { height: 92px; }
+.rx-sentence { min-height: 92px; }
 .rx-small { font-size: 14px; }
 .rx-total { font-size: 38px; }
 .rx-change { font-size: 23px; }
