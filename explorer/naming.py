@@ -1,8 +1,7 @@
 """A design in a few words: what its twist is and where it flies, for strips, lists and notes."""
 
-from explorer.readout import number
 from explorer.state import LAWS, Inputs
-from explorer.units import SI, Units
+from explorer.units import SI, Units, number
 from rotor.assets import SHIPPED_ROTORS
 from rotor.switches import SWITCHES
 

@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import viser
 
@@ -82,8 +82,8 @@ class Panels:
         address = Address(facts.query, partial(viser_compat.set_query, client))
         problems: list[tuple[str, str]] = []
         inputs_from = partial(share.inputs_from, kept=facts.kept.get(share.DESIGN))
-        start = _told(address[share.DESIGN], inputs_from, start, "Not the design of the link", problems)
-        view = _told(address[VIEW], view_from, ViewState(), "Not the view of the link", problems)
+        start = address.read(share.DESIGN, inputs_from, start, "Not the design of the link", problems)
+        view = address.read(VIEW, view_from, ViewState(), "Not the view of the link", problems)
         gui = client.gui
         self._theme()
         gui.set_panel_label("Rotor explorer")
@@ -236,17 +236,3 @@ class Panels:
     def _reset(self) -> None:
         self.actuator.rest()
         self.controls.reset()
-
-
-_Part = TypeVar("_Part", Inputs, ViewState)
-
-
-def _told(
-    code: str | None, read: Callable[[str], _Part], usual: _Part, title: str, problems: list[tuple[str, str]]
-) -> _Part:
-    """What a part of the address means, or the usual, and then under `title` why it is not the address's."""
-    try:
-        return usual if code is None else read(code)
-    except ValueError as error:
-        problems.append((title, str(error)))
-        return usual

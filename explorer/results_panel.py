@@ -10,6 +10,7 @@ from explorer.charts.plots import PowerCurve
 from explorer.compare import readout as ab_readout
 from explorer.desk import Moment
 from explorer.solver import with_vortex_wake
+from explorer.status_readout import status_panel
 from explorer.units import UNITS, Units
 from rotor.aircraft import Aircraft
 from rotor.solution import Solution
@@ -23,7 +24,7 @@ class ResultsPanel:
     """One session's."""
 
     def __init__(self, gui: viser.GuiApi) -> None:
-        self._status = gui.add_html(readout.status_panel(None))
+        self._status = gui.add_html(status_panel(None))
         self._power = gui.add_html(readout.reserved(_POWER))
         self._trim = gui.add_html(readout.reserved(_TRIM))
         self._check = gui.add_html("")
@@ -41,7 +42,7 @@ class ResultsPanel:
         self._moment = moment
         solution, pinned = moment.solution, moment.pinned
         ab = pinned is not None
-        self._status.content = readout.status_panel(solution, pinned=pinned)
+        self._status.content = status_panel(solution, pinned=pinned)
         self._power.content, self._trim.content = _numbers(moment)
         charts = self._charts
         twist = plots.twist_plot(solution.design, moment.reference.design, charts.twist.y_range, ab)

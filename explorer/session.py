@@ -8,12 +8,13 @@ from dataclasses import replace
 
 import viser
 
-from explorer import readout, solver
+from explorer import solver
 from explorer.charts.power_curve import PowerCurves
 from explorer.desk import Moment
 from explorer.panels import Commons, Panels, Works
 from explorer.scene.overlays import ghost_of
 from explorer.state import Inputs, ViewState, baseline_of, with_optimum
+from explorer.status_readout import status_panel
 from explorer.units import UNITS
 from explorer.viser_compat import PageFacts
 from explorer.worker import LatestWins, Sleep
@@ -90,7 +91,7 @@ class Session:
             if self._settle(inputs, None):
                 return
             panels.actuator.lose(str(error))
-            self._lose(view, readout.status_panel(None, str(error)))
+            self._lose(view, status_panel(None, str(error)))
             return
         # What a search shows is a blade at rest: a driven actuator goes first.
         preview = panels.optimise.preview(plain) if design == plain else None
@@ -104,7 +105,7 @@ class Session:
             return
         if not solution.converged:
             panels.actuator.lose(solution.message)
-            self._lose(view, readout.status_panel(solution))
+            self._lose(view, status_panel(solution))
             return
         self._good = solution
         panels.history.solved(inputs, solution.power.total)
@@ -173,4 +174,4 @@ class Session:
         self._shown.set()
         _log.error("an update failed", exc_info=error)
         sentence = f"This update failed ({error}): move any slider to go on."
-        self.panels.results.problem(readout.status_panel(None, sentence))
+        self.panels.results.problem(status_panel(None, sentence))

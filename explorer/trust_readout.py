@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from html import escape
 from itertools import groupby
 
-from explorer.readout import number
+from explorer.units import number
 from rotor.reproduce.report import typographic
 from rotor.trust import KINDS, SensitivityRow, TrustRow, sensitivity_rows, trust_rows
 

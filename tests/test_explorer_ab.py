@@ -9,7 +9,6 @@ import pytest
 from numpy.testing import assert_allclose
 from PIL import Image
 
-from explorer import readout
 from explorer.charts import plots
 from explorer.colours import GHOST, PINNED_GHOST, VOID
 from explorer.compare import readout as ab_readout
@@ -21,6 +20,8 @@ from explorer.disk.polar import polar_grid
 from explorer.scene.overlays import ghost_of
 from explorer.scene.picture import disk_png, field_values
 from explorer.state import Inputs, ViewState
+from explorer.status_readout import cautions, status_panel
+from explorer.units import number
 from rotor.design import Design
 from rotor.presets import make_design
 from rotor.solution import Caveat, Solution, Status
@@ -196,30 +197,30 @@ class TestReadOut:
         assert cells(html, "Total")[3:] == ["–", "–"]
         assert 'data-explorer="change"' not in html
         assert "–" in ab_readout.trim_panel(b, lost)
-        assert "A: Not trimmed: too heavy." in readout.status_panel(b, pinned=lost)
+        assert "A: Not trimmed: too heavy." in status_panel(b, pinned=lost)
         assert "no trim here" in ab_readout.pinned_line("linear", lost, "")
 
     def test_trim_of_both(self, along: Solution, b: Solution):
         html = ab_readout.trim_panel(b, along)
         for solution in (along, b):
-            assert f">{readout.number(np.degrees(solution.controls.collective), 2)}<" in html
+            assert f">{number(np.degrees(solution.controls.collective), 2)}<" in html
         assert "L/De" in html
         hover = replace(b, design=replace(b.design, condition=replace(b.design.condition, advance_ratio=0.0)))
         assert "FM" in ab_readout.trim_panel(hover, along)
 
     def test_cautions_say_whose_they_are_and_what_else_differs(self, a: Solution, along: Solution, b: Solution):
         stall, mach = Caveat("stall", "Stalled."), Caveat("mach", "Fast.")
-        noted = readout.cautions(replace(b, caveats=(stall, mach)), replace(along, caveats=(stall,)))
+        noted = cautions(replace(b, caveats=(stall, mach)), replace(along, caveats=(stall,)))
         assert noted == ["Stalled.", "B: Fast."]
-        assert "do not fly the same" in readout.cautions(b, a)[0]
+        assert "do not fly the same" in cautions(b, a)[0]
         other = replace(along, design=replace(along.design, models=replace(QUICK, inflow="drees")))
-        assert "different models" in readout.cautions(b, other)[0]
-        assert readout.cautions(replace(b, caveats=(stall,)), None) == ["Stalled."]
+        assert "different models" in cautions(b, other)[0]
+        assert cautions(replace(b, caveats=(stall,)), None) == ["Stalled."]
 
     def test_the_line_says_what_a_is_and_escapes(self, a: Solution):
         line = ab_readout.pinned_line("<mine>", a, "µ 0.2, 8.32 t")
         assert "&lt;mine&gt;" in line
-        assert f"{readout.number(a.power.total / 1e3)} kW" in line
+        assert f"{number(a.power.total / 1e3)} kW" in line
         assert "at µ 0.2, 8.32 t" in line
 
 

@@ -15,6 +15,7 @@ from explorer.compare import readout as ab_readout
 from explorer.controls import Controls
 from explorer.glossary import CONTROLS, READOUTS, hint, tip
 from explorer.state import Inputs, ViewState
+from explorer.status_readout import status_panel
 from explorer.units import SI
 from rotor.presets import make_design
 from rotor.solve import solve
@@ -92,7 +93,7 @@ def test_every_line_of_the_results_has_its_sentence(mu: float):
         ab_readout.trim_panel(solution, other),
         readout.check_panel(other, solution),
         readout.speed_line(solution.design.airspeed, SI),
-        readout.status_panel(solution),
+        status_panel(solution),
     ]
     for html in panels:
         for said in re.findall(r'title="([^"]*)"', html):

@@ -15,6 +15,8 @@ from explorer.charts import plots
 from explorer.charts.power_curve import PowerCurves
 from explorer.solver import with_vortex_wake
 from explorer.state import LAWS, Inputs, baseline_of, baseline_title, inputs_of, preset_inflow
+from explorer.status_readout import provenance, status_panel
+from explorer.units import number
 from explorer.worker import LatestWins
 from rotor.design import Design
 from rotor.presets import PRESETS, make_design
@@ -73,20 +75,20 @@ class TestInputs:
 
 class TestReadout:
     def test_numbers(self):
-        assert readout.number(1234.4) == "1\u2009234"
-        assert readout.number(-2.345, 2) == "−2.35" or readout.number(-2.345, 2) == "−2.34"
-        assert readout.number(3.0, 1, sign=True) == "+3.0"
-        assert readout.number(-0.004, 1, sign=True) == "0.0"
+        assert number(1234.4) == "1\u2009234"
+        assert number(-2.345, 2) == "−2.35" or number(-2.345, 2) == "−2.34"
+        assert number(3.0, 1, sign=True) == "+3.0"
+        assert number(-0.004, 1, sign=True) == "0.0"
 
     @pytest.mark.parametrize("value", [None, math.nan, math.inf, -math.inf])
     def test_what_is_no_number_is_a_dash(self, value: float | None):
-        assert readout.number(value) == "–"
+        assert number(value) == "–"
 
     def test_power_and_its_parts(self, forward: Solution):
         html = readout.power_panel(forward, forward)
-        total = readout.number(forward.power.total / 1e3)
+        total = number(forward.power.total / 1e3)
         assert f">{total} kW<" in html
-        assert readout.number(forward.power.total / 745.699872) + " hp" in html
+        assert number(forward.power.total / 745.699872) + " hp" in html
         for title in ("Induced", "Profile", "Parasite", "Tail rotor", "against UH-60A twist"):
             assert title in html
         assert ">0.0 %<" in html
@@ -110,23 +112,23 @@ class TestReadout:
 
     def test_status_says_every_caveat_and_escapes(self, forward: Solution):
         noted = replace(forward, caveats=(Caveat("a", "Read <this> with care."), Caveat("b", "And that.")))
-        html = readout.status_panel(noted)
+        html = status_panel(noted)
         assert "Read &lt;this&gt; with care." in html
         assert "And that." in html
         assert 'data-kind="converged"' in html
 
     def test_not_converged_is_a_red_sentence(self, forward: Solution):
         lost = replace(forward, status=Status.NOT_CONVERGED, message="Not trimmed: too heavy.")
-        html = readout.status_panel(lost)
+        html = status_panel(lost)
         assert 'data-kind="problem"' in html
         assert "Not trimmed: too heavy. In grey" in html
-        assert "choose less. In grey" in readout.status_panel(None, "too much: choose less")
+        assert "choose less. In grey" in status_panel(None, "too much: choose less")
 
     def test_provenance_names_preset_inflow_sections_and_kind(self, forward: Solution):
-        html = readout.provenance(forward)
+        html = provenance(forward)
         for words in ("flight", "SC1095 / SC1094 R8", "40 × 120", "not a measurement"):
             assert words in html
-        assert "annulus balance" in readout.provenance(solve(make_design(advance_ratio=0.0)))
+        assert "annulus balance" in provenance(solve(make_design(advance_ratio=0.0)))
 
     def test_nothing_that_is_no_number_reaches_the_screen(self, forward: Solution):
         broken = replace(
@@ -135,7 +137,7 @@ class TestReadout:
             controls=replace(forward.controls, collective=math.nan),
             ct=math.inf,
         )
-        for html in (readout.power_panel(broken, forward), readout.trim_panel(broken), readout.provenance(broken)):
+        for html in (readout.power_panel(broken, forward), readout.trim_panel(broken), provenance(broken)):
             assert not re.search(r"\b(nan|inf)\b", html, re.IGNORECASE)
 
     def test_kappa_and_the_bound_beside_it(self, forward: Solution):

@@ -37,6 +37,7 @@ KNOW_VISER = {
     "explorer/scene/camera.py",
     "explorer/scene/overlays.py",
     "explorer/scene/scene.py",
+    "explorer/search/chart.py",
     "explorer/search/map_panel.py",
     "explorer/search/optimise_panel.py",
     "explorer/search/schedule_panel.py",

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from explorer.charts.plots import Plot, held_range
 from explorer.colours import colour_map
 from explorer.disk.image import encode_png
-from explorer.readout import number
+from explorer.units import number
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.electrodes import electric_field, field_map, free_strain, thermal_coefficients
 

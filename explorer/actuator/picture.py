@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from explorer import colours
 from explorer.actuator import cut as actuator_cut
 from explorer.actuator.state import ActuatorInputs
-from explorer.readout import number
 from explorer.scene.meshes import Mesh
+from explorer.units import number
 from rotor.actuator.catalogue import PiezoPly, TorqueTube
 from rotor.actuator.fitted import Fitted
 from rotor.design import Design

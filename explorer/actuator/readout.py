@@ -9,7 +9,7 @@ from explorer.actuator.picture import drive_text, share_colour
 from explorer.actuator.state import ActuatorInputs, Question
 from explorer.actuator.study import Findings
 from explorer.colours import css
-from explorer.readout import number
+from explorer.units import number
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly
 from rotor.actuator.fitted import Fitted
 from rotor.actuator.limits import Limit

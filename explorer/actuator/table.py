@@ -5,7 +5,7 @@ from html import escape
 
 from explorer.actuator.state import Question
 from explorer.actuator.study import Findings, Outcome
-from explorer.readout import number
+from explorer.units import number
 from rotor.actuator.catalogue import Actuator, PiezoPly, TorqueTube, actuators, find_actuator
 from rotor.actuator.verdict import Verdict
 from rotor.actuator.wording import verdict_sentence

@@ -14,10 +14,9 @@ from explorer.readout import (
     fineness,
     ideal_induced,
     ideal_line,
-    number,
     total_line,
 )
-from explorer.units import SI, Units
+from explorer.units import SI, Units, number
 from rotor.solution import PowerBudget, Solution
 
 _Entry = tuple[str, str, Callable[[Solution], float | None], int]

@@ -4,9 +4,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from explorer.desk import Moment
-from explorer.readout import PART_TITLES, number
+from explorer.readout import PART_TITLES
 from explorer.state import INPUT_NAMES, LAWS, Inputs, ViewState
-from explorer.units import UNITS
+from explorer.units import UNITS, number
 from rotor.solution import PowerBudget
 
 Say = Callable[[Moment], str]

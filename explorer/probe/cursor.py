@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 from explorer import colours
 from explorer.probe.drawing import outline
 from explorer.probe.element import Probe
-from explorer.readout import number
 from explorer.scene.meshes import circle_segments
 from explorer.scene.picture import LINE_LIFT
 from explorer.scene.poses import about
+from explorer.units import number
 from rotor.blade import Rotor
 
 Array = NDArray[np.float64]

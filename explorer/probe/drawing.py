@@ -14,8 +14,8 @@ from explorer.charts import svg
 from explorer.charts.svg import Point
 from explorer.colours import NOW, THIS
 from explorer.probe.element import Blend, Probe
-from explorer.readout import number
 from explorer.scene.section_outline import blade_axes_outline
+from explorer.units import number
 
 Array = NDArray[np.float64]
 

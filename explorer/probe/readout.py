@@ -11,7 +11,8 @@ from explorer.colours import LIMIT, NOW
 from explorer.glossary import tip
 from explorer.probe.drawing import ALPHA, DRAG, LIFT, Scales, drawing
 from explorer.probe.element import Blend, Probe, Region
-from explorer.readout import number, section_title
+from explorer.status_readout import section_title
+from explorer.units import number
 from rotor.solution import Solution
 
 Array = NDArray[np.float64]

@@ -8,11 +8,11 @@ from explorer.design_words import active_words, flight_words, model_words, title
 from explorer.disk.fields import FIELDS
 from explorer.export.as_code import as_command_line, as_python
 from explorer.provenance import PROGRAM, versions
-from explorer.readout import tiny
 from explorer.report import figures, tables
 from explorer.report.contents import Report, colours_of
 from explorer.report.style import SCRIPT, SHEET
 from explorer.scene.stage import Stage
+from explorer.status_readout import tiny
 from rotor.solution import Solution
 
 

@@ -8,9 +8,10 @@ import numpy as np
 
 from explorer.colours import PARTS
 from explorer.design_words import inflow_words, physics_words, twist_words
-from explorer.readout import ideal_induced, section_title
+from explorer.readout import ideal_induced
 from explorer.report.contents import Entry, Report
 from explorer.state import PRESET_TITLES
+from explorer.status_readout import section_title
 from explorer.units import FOOT, KILOGRAM, METRE, POUND, SI, TONNE, Units, number
 from rotor.design import Design
 from rotor.solution import Solution

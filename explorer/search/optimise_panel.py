@@ -6,17 +6,15 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
-import numpy as np
 import viser
 
-from explorer.charts.panel import Chart, line
-from explorer.colours import BASELINE, THIS, colour_map, css
 from explorer.desk import Desk
 from explorer.glossary import hint
 from explorer.jobs.job import Job, News, Told
 from explorer.jobs.pool import Share
 from explorer.jobs.tasks import SearchTask
 from explorer.search import text
+from explorer.search.chart import search_chart
 from explorer.search.concept_picture import concept_picture
 from explorer.search.plot import TRACES, search_plot
 from explorer.search.run import FRAME, SearchRun
@@ -29,7 +27,6 @@ from rotor.objective import Leg
 
 TIME_LIMIT = 60.0
 """[s] a search may take."""
-_HEIGHT = 118
 
 
 class OptimisePanel:
@@ -74,23 +71,7 @@ class OptimisePanel:
         self._verdict = gui.add_button_group(
             "Result", ("Apply", "Discard", "Replay"), visible=False, hint=hint("search_result")
         )
-        # In steps of seven, so that a few starts already have colours apart.
-        shades = colour_map("sequential", TRACES + 2)[7 * np.arange(TRACES) % TRACES]
-        blank = search_plot(None, None)
-        self._chart = Chart(
-            gui,
-            "Power [kW] per start",
-            (("best", THIS), ("as it is", BASELINE)),
-            "evaluation",
-            (
-                line("as it is", BASELINE, 1.5, (5, 3)),
-                *(line(f"start {k + 1}", css(shades[k]), 1.0) for k in range(TRACES)),
-                line("best", THIS, 2.2),
-            ),
-            blank,
-            blank.x_range or (1.0, 2.0),
-            _HEIGHT,
-        )
+        self._chart = search_chart(gui)
         self._details = gui.add_html("")
         self._begin.on_click(lambda _: self.begin())
         self._halt.on_click(lambda _: self.halt())

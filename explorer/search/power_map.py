@@ -15,8 +15,7 @@ from explorer.disk.colour_bar import tick_text
 from explorer.disk.fields import ticks
 from explorer.disk.image import encode_png
 from explorer.jobs.tasks import MapTask
-from explorer.readout import number
-from explorer.units import SI, Units
+from explorer.units import SI, Units, number
 from rotor.concepts import Parameter
 from rotor.search.metric import BAND as _BAND
 

@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from explorer.charts.plots import Plot, Range, held_range
-from explorer.readout import number
-from explorer.units import SI, Units
+from explorer.units import SI, Units, number
 from rotor.optimise import Optimum
 from rotor.schedule import Cell, Plan, Schedule
 

@@ -2,9 +2,8 @@
 
 from html import escape
 
-from explorer.readout import number
 from explorer.search.run import SearchRun
-from explorer.units import SI, Units
+from explorer.units import SI, Units, number
 from rotor.concepts import Concept
 from rotor.optimise import Optimum
 

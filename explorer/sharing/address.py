@@ -4,10 +4,13 @@ import math
 import threading
 import time
 from collections.abc import Callable
+from typing import TypeVar
 from urllib.parse import parse_qsl, quote
 
 _PLAIN = ":;,@/="
 """Characters that a query may hold as they are, so that a design in it can be read."""
+
+_Part = TypeVar("_Part")
 
 _PAUSE = 0.4
 """[s] between two addresses: browsers take offence at a hundred in half a minute."""
@@ -38,6 +41,17 @@ class Address:
 
     def __getitem__(self, name: str) -> str | None:
         return parameter(self._query, name)
+
+    def read(
+        self, name: str, meaning: Callable[[str], _Part], usual: _Part, title: str, problems: list[tuple[str, str]]
+    ) -> _Part:
+        """What a name's value means; the usual where there is none or a bad one, and then why, under `title`."""
+        value = self[name]
+        try:
+            return usual if value is None else meaning(value)
+        except ValueError as error:
+            problems.append((title, str(error)))
+            return usual
 
     def __setitem__(self, name: str, value: str | None) -> None:
         with self._lock:
