@@ -142,6 +142,8 @@ class Session:
         if self._curves.sweep(design, reference, pause, show_power):
             panels.file.follow(moment)
             panels.waterfall.climb(pause)
+            if not pause():
+                panels.file.keep()
 
     def _settle(self, inputs: Inputs, solution: Solution | None) -> bool:
         """Do what the buttons of A/B asked; whether that moves the sliders, so that another round follows."""

@@ -179,11 +179,15 @@ def page_facts(client: viser.ClientHandle, timeout: float = 2.0) -> PageFacts:
 
 
 def keep_in_page(client: viser.ClientHandle, name: str, text: str) -> None:
-    """Give the page a text to keep until its window is closed, also while it is loaded again."""
+    """Give the page a text to keep until its window is closed, also while it is loaded again.
+
+    One too long for the browser's store (some megabytes) is not kept, nor what stood there before.
+    """
     run_in_page(
         client,
-        f"(()=>{{const all=JSON.parse(sessionStorage.getItem('{_KEPT}')??'{{}}');"
-        f"all[{json.dumps(name)}]={json.dumps(text)};sessionStorage.setItem('{_KEPT}',JSON.stringify(all))}})()",
+        f"(()=>{{const all=JSON.parse(sessionStorage.getItem('{_KEPT}')??'{{}}');all[{json.dumps(name)}]="
+        f"{json.dumps(text)};try{{sessionStorage.setItem('{_KEPT}',JSON.stringify(all))}}"
+        f"catch{{sessionStorage.removeItem('{_KEPT}')}}}})()",
     )
 
 

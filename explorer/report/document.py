@@ -8,6 +8,7 @@ from explorer.design_words import active_words, flight_words, model_words, title
 from explorer.disk.fields import FIELDS
 from explorer.export.as_code import as_command_line, as_python
 from explorer.provenance import PROGRAM, versions
+from explorer.readout import PART_TITLES
 from explorer.report import figures, tables
 from explorer.report.contents import Report, colours_of
 from explorer.report.style import SCRIPT, SHEET
@@ -49,7 +50,7 @@ def _glance(report: Report) -> str:
     colours = colours_of(report)
     cards = "".join(_card(report, k, colour) for k, colour in enumerate(colours))
     parts = "".join(
-        f'<span><i style="background:{colour}"></i>{tables.PART_TITLES[name]}</span>' for name, colour in PARTS.items()
+        f'<span><i style="background:{colour}"></i>{PART_TITLES[name]}</span>' for name, colour in PARTS.items()
     )
     return f'<section class="glance"><div class="cards">{cards}</div><p class="parts">{parts}</p></section>'
 

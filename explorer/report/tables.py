@@ -8,7 +8,7 @@ import numpy as np
 
 from explorer.colours import PARTS
 from explorer.design_words import inflow_words, physics_words, twist_words
-from explorer.readout import ideal_induced
+from explorer.readout import PART_TITLES, ideal_induced
 from explorer.report.contents import Entry, Report
 from explorer.state import PRESET_TITLES
 from explorer.status_readout import section_title
@@ -16,7 +16,6 @@ from explorer.units import FOOT, KILOGRAM, METRE, POUND, SI, TONNE, Units, numbe
 from rotor.design import Design
 from rotor.solution import Solution
 
-PART_TITLES = {"induced": "Induced", "profile": "Profile", "parasite": "Parasite", "tail": "Tail rotor"}
 STATIONS = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0)
 """r/R of the twist table; the root cut-out comes before them."""
 Row = tuple[str, str]

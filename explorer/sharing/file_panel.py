@@ -26,6 +26,8 @@ class FilePanel:
     def __init__(self, client: viser.ClientHandle, desk: Desk, address: Address, kept: Mapping[str, str]) -> None:
         """`kept`: design files that the page kept for what its address cannot hold, by name in the address."""
         self._client, self._desk, self._address, self._kept = client, desk, address, dict(kept)
+        self._records: dict[str, dict[str, Any]] = {}
+        """Designs that the address cannot hold now, by name in it."""
         gui = client.gui
         with gui.add_folder("Link and file"):
             self._link = gui.add_button("Copy link", icon=viser.Icon.LINK, hint=hint("link"))
@@ -48,15 +50,21 @@ class FilePanel:
                 continue  # It cannot be written; the last one stays.
         self._address[VIEW] = view_code(moment.view)
 
-    def _code_of(self, name: str, design: Design) -> str:
-        """What the address says of a design; one that it cannot hold, the page keeps."""
-        try:
-            return share.code_of(design)
-        except ValueError:
-            text = json.dumps(case_of(design), ensure_ascii=False)
+    def keep(self) -> None:
+        """Give the page, now that it rests, what its address cannot hold: designs with their decks are long."""
+        for name, record in self._records.items():
+            text = json.dumps(record, ensure_ascii=False)
             if self._kept.get(name) != text:
                 self._kept[name] = text
                 viser_compat.keep_in_page(self._client, name, text)
+
+    def _code_of(self, name: str, design: Design) -> str:
+        """What the address says of a design; one that it cannot hold, the page is to keep."""
+        self._records.pop(name, None)
+        try:
+            return share.code_of(design)
+        except ValueError:
+            self._records[name] = case_of(design)
             return share.KEPT
 
     def begin(self) -> None:
