@@ -9,8 +9,8 @@ import webbrowser
 from collections.abc import Sequence
 from pathlib import Path
 
-from explorer.server.doors import host_name
-from explorer.server.house import SESSIONS, SLEEP_AFTER
+from explorer.hosting.doors import host_name
+from explorer.hosting.house import SESSIONS, SLEEP_AFTER
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -21,7 +21,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
         return soak(given[1:])
     if given[:1] == ["report"]:
-        from explorer.report.command import main as report
+        from explorer.export.report.command import main as report
 
         return report(given[1:])
     options = _parser().parse_args(given)
@@ -34,10 +34,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(options: argparse.Namespace) -> int:
     from explorer.app import App, PortBusy
-    from explorer.server.doors import is_loopback, warning
-    from explorer.server.house import House
+    from explorer.hosting.doors import is_loopback, warning
+    from explorer.hosting.house import House
     from explorer.state import Inputs, inputs_of
-    from rotor.case import read_case
+    from rotor.files.design_file import read_case
 
     try:
         start = inputs_of(read_case(options.design)) if options.design else Inputs()

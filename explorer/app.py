@@ -7,20 +7,20 @@ from functools import partial
 
 import viser
 
-from explorer import solver, viser_compat
-from explorer.jobs.pool import Pool
-from explorer.lecture.presentation import Stage
-from explorer.panels import Commons
-from explorer.server import memory
-from explorer.server.doors import Doors
-from explorer.server.gate import Gate
-from explorer.server.guest import Guest
-from explorer.server.hall import Hall
-from explorer.server.house import House
-from explorer.server.page import veiled
+from explorer.hosting import memory, viser_compat
+from explorer.hosting.doors import Doors
+from explorer.hosting.gate import Gate
+from explorer.hosting.guest import Guest
+from explorer.hosting.hall import Hall
+from explorer.hosting.house import House
+from explorer.hosting.page import veiled
+from explorer.page import Commons
 from explorer.session import Session
 from explorer.state import Inputs
-from explorer.worker import Sleep
+from explorer.tabs.lecture.presentation import Stage
+from explorer.workers import solver
+from explorer.workers.newest_wins import Sleep
+from explorer.workers.pool import Pool
 
 _log = logging.getLogger(__name__)
 

@@ -8,18 +8,18 @@ from dataclasses import replace
 
 import viser
 
-from explorer import solver
 from explorer.charts.power_curve import PowerCurves
-from explorer.desk import Moment
-from explorer.panels import Commons, Panels, Works
+from explorer.hosting.viser_compat import PageFacts
+from explorer.page import Commons, Panels, Works
 from explorer.scene.overlays import ghost_of
 from explorer.state import Inputs, ViewState, baseline_of, with_optimum
-from explorer.status_readout import status_panel
-from explorer.units import UNITS
-from explorer.viser_compat import PageFacts
-from explorer.worker import LatestWins, Sleep
-from rotor.solution import Solution
-from rotor.solve import solve
+from explorer.tabs.interface import Moment
+from explorer.text.status import status_panel
+from explorer.text.units import UNITS
+from explorer.workers import solver
+from explorer.workers.newest_wins import LatestWins, Sleep
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
 
 _log = logging.getLogger(__name__)
 

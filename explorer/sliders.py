@@ -3,11 +3,11 @@
 import math
 from dataclasses import dataclass
 
-from explorer.rotors.choice import mass_range
-from explorer.units import AVIATION, POUND, SI, Unit, Units
-from rotor.aircraft import Aircraft
+from explorer.rotor_choice import mass_range
+from explorer.text.units import AVIATION, POUND, SI, Unit, Units
 from rotor.assets import SHIPPED_ROTORS
-from rotor.fleet import shipped_aircraft
+from rotor.design.aircraft import Aircraft
+from rotor.files.shipped import shipped_aircraft
 
 
 @dataclass(frozen=True)

@@ -5,16 +5,17 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from itertools import pairwise
 
-from explorer.rotors.choice import OWN, reference_mass_t
-from explorer.units import SI
-from rotor.aircraft import Aircraft
+from explorer.rotor_choice import OWN, reference_mass_t
+from explorer.text.units import SI
+from rotor.aero.switches import SWITCHES
 from rotor.assets import SHIPPED_ROTORS
-from rotor.blade import airfoils_spec
-from rotor.design import Design
-from rotor.fleet import shipped_aircraft
-from rotor.presets import FLIGHT_MODELS, THESIS_MODELS, change_airfoils, make_design
-from rotor.switches import SWITCHES
-from rotor.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, QuadraticTwist, TwistLaw
+from rotor.design.aircraft import Aircraft
+from rotor.design.blade import airfoils_spec
+from rotor.design.design import Design
+from rotor.design.presets import FLIGHT_MODELS, THESIS_MODELS
+from rotor.design.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, QuadraticTwist, TwistLaw
+from rotor.files.make_design import change_airfoils, make_design
+from rotor.files.shipped import shipped_aircraft
 
 KNOT = 1852.0 / 3600.0
 """[m/s]"""
@@ -156,7 +157,7 @@ class ViewState:
     drag_divergence: bool = True
     dark: bool = False
     units: str = SI.title
-    """A title of `explorer.units.UNITS`."""
+    """A title of `explorer.text.units.UNITS`."""
 
 
 def inputs_of(design: Design) -> Inputs:

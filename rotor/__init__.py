@@ -14,12 +14,12 @@ Equation numbers in docstrings are those of M. Lonoce, Helicopter Blade Twist Op
 thesis, Instituto Superior Técnico, 2016 ("the document"), whose misprints are named where they occur.
 """
 
-from rotor.design import Design as Design
-from rotor.design import Models as Models
-from rotor.flight import FlightCondition as FlightCondition
-from rotor.presets import make_design as make_design
-from rotor.solution import Solution as Solution
-from rotor.solution import Status as Status
-from rotor.solve import solve as solve
-from rotor.sweep import sweep as sweep
-from rotor.twist_spec import parse_twist as parse_twist
+from rotor.analysis.sweep import sweep as sweep
+from rotor.design.design import Design as Design
+from rotor.design.design import Models as Models
+from rotor.design.flight import FlightCondition as FlightCondition
+from rotor.design.twist_spec import parse_twist as parse_twist
+from rotor.files.make_design import make_design as make_design
+from rotor.trim.solution import Solution as Solution
+from rotor.trim.solution import Status as Status
+from rotor.trim.solve import solve as solve

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from explorer.charts import marks
 from explorer.charts.plots import Range, held_range
-from explorer.disk.colour_bar import tick_text
-from explorer.disk.fields import ticks
+from explorer.picture.colour_bar import tick_text
+from explorer.picture.fields import ticks
 
 Array = NDArray[np.float64]
 

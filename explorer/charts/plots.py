@@ -7,11 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from explorer.disk.stall import stall_angles
-from explorer.units import KILOWATT, Unit
-from rotor.design import Design
-from rotor.solution import Solution
-from rotor.validity import LOW_SPEED
+from explorer.picture.stall_region import stall_angles
+from explorer.text.units import KILOWATT, Unit
+from rotor.design.design import Design
+from rotor.trim.solution import Solution
+from rotor.trim.validity import LOW_SPEED
 
 Array = NDArray[np.float64]
 Range = tuple[float, float]

@@ -10,12 +10,12 @@ from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from explorer.charts.plots import SWEEP, PowerCurve
-from explorer.readout import ideal_induced
-from explorer.server.turns import TURNS
-from rotor.design import Design
-from rotor.solution import Solution
-from rotor.solve import solve
-from rotor.sweep import at_advance_ratio
+from explorer.hosting.turns import TURNS
+from explorer.text.readout import ideal_induced
+from rotor.analysis.sweep import at_advance_ratio
+from rotor.design.design import Design
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
 
 Array = NDArray[np.float64]
 

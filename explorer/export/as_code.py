@@ -11,15 +11,15 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from explorer.export.code_writer import Writer, exact_spec, same
+from rotor.aero.switches import switched_off
 from rotor.assets import SHIPPED_ROTORS
-from rotor.blade import airfoils_spec
-from rotor.case import case_of
 from rotor.command.flags import design_from
 from rotor.command.parser import build_parser
-from rotor.design import Design
-from rotor.presets import make_design
-from rotor.switches import switched_off
-from rotor.twist import TwistLaw
+from rotor.design.blade import airfoils_spec
+from rotor.design.design import Design
+from rotor.design.twist import TwistLaw
+from rotor.files.design_file import case_of
+from rotor.files.make_design import make_design
 
 CASE_FILE = "design.json"
 """What a design file is called in a command."""
@@ -115,7 +115,7 @@ def _aircraft(design: Design, writer: Writer) -> list[str]:
     files = design.aircraft.files
     if files is None:
         return [] if design.aircraft.key == SHIPPED_ROTORS[0] else [f"aircraft={writer.value(design.aircraft.key)}"]
-    writer.name("rotor.rotor_file", "read_aircraft")
+    writer.name("rotor.files.rotor_file", "read_aircraft")
     texts = ", ".join(f"{writer.value(name)}: {writer.value(text)}" for name, text in files.texts)
     return [f"aircraft=read_aircraft({writer.value(files.main)}, {{{texts}}})"]
 

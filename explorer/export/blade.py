@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 from trimesh.visual.material import PBRMaterial
 from trimesh.visual.texture import TextureVisuals
 
-from explorer import colours
-from explorer.actuator.blades import blade_twists
-from explorer.provenance import PROGRAM
-from explorer.scene import meshes
-from explorer.scene.poses import Pose, blade_pose, rotor_pose
-from rotor.design import Design
-from rotor.solution import Solution
-from rotor.twist import PiecewiseLinearTwist, SumTwist, TableTwist, TwistLaw
+from explorer.export.provenance import PROGRAM
+from explorer.picture import meshes
+from explorer.picture.moving_blades import blade_twists
+from explorer.picture.poses import Pose, blade_pose, rotor_pose
+from explorer.theme import colours
+from rotor.design.design import Design
+from rotor.design.twist import PiecewiseLinearTwist, SumTwist, TableTwist, TwistLaw
+from rotor.trim.solution import Solution
 
 Array = NDArray[np.float64]
 

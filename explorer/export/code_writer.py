@@ -5,7 +5,7 @@ import math
 from dataclasses import MISSING, Field, fields, is_dataclass
 from typing import Any
 
-from rotor.twist import (
+from rotor.design.twist import (
     IdealTwist,
     LinearTwist,
     PiecewiseLinearTwist,

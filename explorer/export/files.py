@@ -7,18 +7,18 @@ from dataclasses import dataclass
 from explorer.charts.paper import Paper
 from explorer.charts.plots import Range
 from explorer.charts.power_curve import PowerCurves
-from explorer.desk import Moment
-from explorer.disk.fields import FIELDS
 from explorer.export.blade import blade_stl, rotor_glb
+from explorer.export.provenance import file_stem
+from explorer.export.report.contents import Entry, Report, report_of
+from explorer.export.report.document import report_html
+from explorer.export.scene_recordings import Stage
 from explorer.export.sheet import Shown
 from explorer.export.tables import blade_csv, disk_csv, power_csv
-from explorer.history.view import Kept
-from explorer.provenance import file_stem
-from explorer.report.contents import Entry, Report, report_of
-from explorer.report.document import report_html
-from explorer.scene.stage import Stage
+from explorer.picture.fields import FIELDS
 from explorer.state import baseline_title
-from rotor.solution import Solution
+from explorer.tabs.history.strip import Kept
+from explorer.tabs.interface import Moment
+from rotor.trim.solution import Solution
 
 
 @dataclass(frozen=True)

@@ -8,14 +8,14 @@ from dataclasses import dataclass
 
 from explorer.charts import marks
 from explorer.charts.paper import Paper
-from explorer.colours import PARTS
-from explorer.design_words import active_words, flight_words, model_words, title_words
-from explorer.disk.drawing import HALF, OUTLINES, bar_drawing, disk_drawing, key_entries
-from explorer.disk.fields import FIELDS, Field
-from explorer.provenance import PROGRAM, versions
+from explorer.export.disk_drawing import HALF, OUTLINES, bar_drawing, disk_drawing, key_entries
+from explorer.export.provenance import PROGRAM, versions
+from explorer.picture.fields import FIELDS, Field
 from explorer.state import ViewState
-from explorer.units import SI, UNITS, Units
-from rotor.solution import Solution
+from explorer.text.design_words import active_words, flight_words, model_words, title_words
+from explorer.text.units import SI, UNITS, Units
+from explorer.theme.colours import PARTS
+from rotor.trim.solution import Solution
 
 _PAPER = {False: "#ffffff", True: "#141416"}
 _INK = {False: "#212529", True: "#e9ecef"}

@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 from explorer.charts import plots
 from explorer.charts.plots import SWEEP, PowerCurve
-from explorer.provenance import condition_line, provenance_lines
+from explorer.export.provenance import condition_line, provenance_lines
 from explorer.state import KNOT
-from rotor.design import Design
-from rotor.solution import DiskFields, Solution
+from rotor.design.design import Design
+from rotor.trim.solution import DiskFields, Solution
 
 Array = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 import viser
 
-from explorer.scene.view import FIELD_OF_VIEW, Camera, View, fit
+from explorer.picture.camera_views import FIELD_OF_VIEW, Camera, View, fit
 
 _SETTLES = 1.5
 """While the page lays itself out [s], camera messages still tell of older positions."""

@@ -6,12 +6,12 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from explorer import colours
-from explorer.compare.pinned import Pinned
-from explorer.scene.meshes import ghost_segments
-from rotor.blade import Rotor
-from rotor.design import Design
-from rotor.twist import TwistLaw
+from explorer.picture.meshes import ghost_segments
+from explorer.pinned import Pinned
+from explorer.theme import colours
+from rotor.design.blade import Rotor
+from rotor.design.design import Design
+from rotor.design.twist import TwistLaw
 
 _BLADE = "/rotor/blade_0"
 

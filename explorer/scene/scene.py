@@ -6,13 +6,14 @@ import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from explorer import colours, viser_compat
-from explorer.disk.image import half_width
-from explorer.scene import meshes
-from explorer.scene.picture import OUTLINE_COLOURS, Blades, Picture
-from explorer.scene.poses import Pose, about
+from explorer.hosting import viser_compat
+from explorer.picture import meshes
+from explorer.picture.disk_image import half_width
+from explorer.picture.picture import OUTLINE_COLOURS, Blades, Picture
+from explorer.picture.poses import Pose, about
 from explorer.state import ViewState
-from rotor.blade import Rotor
+from explorer.theme import colours
+from rotor.design.blade import Rotor
 
 Array = NDArray[np.float64]
 
@@ -38,7 +39,7 @@ class Scene:
         """Of the rotor with most blades so far; those beyond this rotor's are hidden."""
         self._disk = api.add_frame("/rotor/disk", show_axes=False)
         self._image = api.add_image(
-            "/rotor/disk/field",
+            "/rotor/aero/disk/field",
             np.zeros((2, 2, 4), dtype=np.uint8),
             1.0,
             1.0,
@@ -47,16 +48,16 @@ class Scene:
             cast_shadow=False,
             receive_shadow=False,
         )
-        self._rim = self._line(api, "/rotor/disk/rim", np.zeros((1, 2, 3)), colours.RIM, 1.6)
+        self._rim = self._line(api, "/rotor/aero/disk/rim", np.zeros((1, 2, 3)), colours.RIM, 1.6)
         self._outlines: dict[str, tuple[viser.LineSegmentsHandle, ...]] = {}
         for name, (line, casing) in OUTLINE_COLOURS.items():
             self._outlines[name] = (
-                self._line(api, f"/rotor/disk/{name}_casing", _NOTHING, casing, 4.6),
-                self._line(api, f"/rotor/disk/{name}", _NOTHING, line, 2.0),
+                self._line(api, f"/rotor/aero/disk/{name}_casing", _NOTHING, casing, 4.6),
+                self._line(api, f"/rotor/aero/disk/{name}", _NOTHING, line, 2.0),
             )
-        self._turning = self._solid(api, "/rotor/disk/rotation", meshes.rotation_arrow(1.0), colours.RIM)
+        self._turning = self._solid(api, "/rotor/aero/disk/rotation", meshes.rotation_arrow(1.0), colours.RIM)
         self._azimuths = {
-            degrees: api.add_label(f"/rotor/disk/psi_{degrees}", f"ψ = {degrees}°", anchor="center-center")
+            degrees: api.add_label(f"/rotor/aero/disk/psi_{degrees}", f"ψ = {degrees}°", anchor="center-center")
             for degrees in (0, 90, 180, 270)
         }
         self._flight = api.add_frame("/flight", show_axes=False, visible=False)

@@ -2,13 +2,13 @@
 
 from collections.abc import Sequence
 
-from explorer import viser_compat
-from explorer.scene.picture import make_picture
+from explorer.export.scene_recordings import Stage, stage_of
+from explorer.hosting import viser_compat
+from explorer.picture.camera_views import FIELD_OF_VIEW, fit
+from explorer.picture.picture import make_picture
 from explorer.scene.scene import Scene
-from explorer.scene.stage import Stage, stage_of
-from explorer.scene.view import FIELD_OF_VIEW, fit
 from explorer.state import ViewState
-from rotor.solution import Solution
+from rotor.trim.solution import Solution
 
 _ASPECT = 16.0 / 9.0
 """Of the window that the camera is fitted to."""

@@ -9,10 +9,10 @@ from typing import Any
 
 from explorer.sliders import SLIDERS, limits, slider
 from explorer.state import LAWS, Inputs, inputs_of
-from explorer.units import SI
-from rotor.case import case_of, design_of, parse_case
-from rotor.design import Design
-from rotor.presets import make_design
+from explorer.text.units import SI
+from rotor.design.design import Design
+from rotor.files.design_file import case_of, design_of, parse_case
+from rotor.files.make_design import make_design
 
 VERSION = 1
 DESIGN = "d"

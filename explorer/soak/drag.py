@@ -9,11 +9,11 @@ from functools import cache
 
 import numpy as np
 
-from explorer.scene.meshes import blade_shape, blade_vertices
+from explorer.picture.meshes import blade_shape, blade_vertices
 from explorer.soak.figures import Visit
 from explorer.soak.visitor import Visitor
 from explorer.state import Inputs
-from rotor.solve import solve
+from rotor.trim.solve import solve
 
 SLIDER, NAME = "Inner [°/R]", "two_inner"
 """The slider that is dragged, and the field of `Inputs` behind it."""

@@ -7,8 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotor.actuator.reach import Pair, Reached, best_fixed, best_twist
-from rotor.concepts import Concept, restrict
-from rotor.twist import PiecewiseLinearTwist
+from rotor.design.twist import PiecewiseLinearTwist
+from rotor.optimisation.concepts import Concept, restrict
 
 Array = NDArray[np.float64]
 

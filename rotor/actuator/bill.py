@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly
 from rotor.actuator.placement import Placement
-from rotor.actuator.structure import BladeStructure, structure_data
-from rotor.actuator.torsion_beam import Addition
+from rotor.dynamics.structure import BladeStructure, structure_data
+from rotor.dynamics.torsion_beam import Addition
 
 
 @dataclass(frozen=True)

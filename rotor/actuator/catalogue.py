@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any, Literal
 
-from rotor.actuator.laminate import Layer, Material
 from rotor.assets import asset_path
+from rotor.dynamics.laminate import Layer, Material
 
 Electrodes = Literal["interdigitated", "continuous"]
 

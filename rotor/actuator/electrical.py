@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from rotor.actuator.catalogue import PiezoPly, TorqueTube
 from rotor.actuator.fitted import Fitted
-from rotor.actuator.structure import structure_data
+from rotor.dynamics.structure import structure_data
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,8 @@ second flap mode, 2.8/rev), no coupling with twist. Hermite finite elements, ten
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.actuator.structure import BladeStructure
-from rotor.solution import Solution
+from rotor.dynamics.structure import BladeStructure
+from rotor.trim.solution import Solution
 
 Array = NDArray[np.float64]
 

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube
 from rotor.actuator.fitted import Fitted
 from rotor.actuator.loads import fibre_strain
-from rotor.actuator.structure import structure_data, uh60a_structure
-from rotor.solution import Solution
+from rotor.dynamics.structure import structure_data, uh60a_structure
+from rotor.trim.solution import Solution
 
 SECTION_THICKNESS = 0.095
 """Of the SC1095, in chords."""

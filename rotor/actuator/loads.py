@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.fitted import Fitted
 from rotor.actuator.flap_bending import elastic_flap_moment
-from rotor.actuator.structure import uh60a_structure
-from rotor.actuator.torsion_beam import added_pull
-from rotor.solution import Solution
+from rotor.dynamics.structure import uh60a_structure
+from rotor.dynamics.torsion_beam import added_pull
+from rotor.trim.solution import Solution
 
 Array = NDArray[np.float64]
 

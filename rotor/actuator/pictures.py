@@ -12,8 +12,8 @@ from rotor.actuator.catalogue import PiezoPly, TorqueTube
 from rotor.actuator.fitted import Fitted
 from rotor.actuator.placement import Host, Placement
 from rotor.actuator.section import SectionSpec, passive_skin, passive_wall, section_spec, skin, web_line
-from rotor.actuator.structure import structure_data, uh60a_structure
 from rotor.actuator.verdict import Verdict
+from rotor.dynamics.structure import structure_data, uh60a_structure
 
 Array = NDArray[np.float64]
 

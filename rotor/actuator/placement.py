@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from typing import Literal
 
-from rotor.actuator.structure import structure_data
+from rotor.dynamics.structure import structure_data
 
 BladeKind = Literal["retrofit", "new"]
 

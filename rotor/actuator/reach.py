@@ -20,12 +20,12 @@ from scipy.optimize import minimize
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.fitted import Fitted
 from rotor.actuator.flap_bending import interpolate_columns
-from rotor.concepts import Concept, nearest
-from rotor.design import Design
-from rotor.gradient import Adjoint, power_along
-from rotor.solution import Solution
-from rotor.solve import solve
-from rotor.twist import REFERENCE_RADIUS, PiecewiseLinearTwist, SumTwist, TwistLaw
+from rotor.design.design import Design
+from rotor.design.twist import REFERENCE_RADIUS, PiecewiseLinearTwist, SumTwist, TwistLaw
+from rotor.optimisation.concepts import Concept, nearest
+from rotor.trim.adjoint import Adjoint, power_along
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
 
 Array = NDArray[np.float64]
 

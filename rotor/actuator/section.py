@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from rotor.actuator.catalogue import PiezoPly
-from rotor.actuator.laminate import Layer
 from rotor.actuator.placement import Host, Placement
-from rotor.actuator.structure import BladeStructure, glass, structure_data, titanium
-from rotor.actuator.thin_wall import Panel, Section, build_section, torsional_stiffness
 from rotor.airfoil.contour import leading_edge_index, load_contour, resample
+from rotor.dynamics.laminate import Layer
+from rotor.dynamics.structure import BladeStructure, glass, structure_data, titanium
+from rotor.dynamics.thin_wall import Panel, Section, build_section, torsional_stiffness
 
 Array = NDArray[np.float64]
 

@@ -12,7 +12,7 @@ from rotor.actuator.placement import Host, Placement, default_placement
 from rotor.actuator.reach import Pair
 from rotor.actuator.verdict import Verdict, judge
 from rotor.actuator.wording import count
-from rotor.concepts import Concept, find_concept
+from rotor.optimisation.concepts import Concept, find_concept
 
 NONE = "–"
 

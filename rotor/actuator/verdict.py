@@ -12,11 +12,11 @@ from rotor.actuator.fitted import Fitted, fit
 from rotor.actuator.limits import Limit, limits
 from rotor.actuator.placement import Host, Placement
 from rotor.actuator.reach import Pair, Reached, best_reach
-from rotor.concepts import Concept
-from rotor.design import Design
-from rotor.search.limits import ChangeLimit
-from rotor.solve import solve
-from rotor.twist import TwistLaw
+from rotor.design.design import Design
+from rotor.design.twist import TwistLaw
+from rotor.optimisation.concepts import Concept
+from rotor.optimisation.limits import ChangeLimit
+from rotor.trim.solve import solve
 
 Array = NDArray[np.float64]
 

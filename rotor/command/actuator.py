@@ -6,17 +6,17 @@ import math
 from dataclasses import asdict
 from typing import Any
 
-from rotor.active_twist import Harmonic
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.harmonic import PhaseSweep, phase_sweep
 from rotor.actuator.placement import BladeKind, Host, Placement, default_placement
 from rotor.actuator.reach import Pair
-from rotor.actuator.structure import check_blade
 from rotor.actuator.tables import Table, table_5_1, table_5_2
 from rotor.actuator.verdict import Verdict, judge
 from rotor.actuator.wording import verdict_sentence
 from rotor.command.flags import add_command, add_design_arguments, design_from, finite
-from rotor.concepts import find_concept
+from rotor.design.active_twist import Harmonic
+from rotor.dynamics.structure import check_blade
+from rotor.optimisation.concepts import find_concept
 
 
 def add_parser(commands: Any) -> None:

@@ -13,18 +13,18 @@ from typing import Any
 import numpy as np
 from scipy.optimize import root  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
+from rotor.aero.elements import N_STATE, Problem, lay_out, run_pass
 from rotor.command.bench_batch import TARGET_PER_SECOND, measure_batch
 from rotor.command.bench_search import TARGETS_S, measure_searches
 from rotor.command.flags import add_command
-from rotor.design import Design
-from rotor.elements import N_STATE, Problem, lay_out, run_pass
-from rotor.equilibrium import residuals, unknowns_of
-from rotor.gradient import power_gradient
-from rotor.newton import Guess, newton
-from rotor.presets import make_design
-from rotor.solution import Solution
-from rotor.solve import solve
-from rotor.trim import first_guess
+from rotor.design.design import Design
+from rotor.files.make_design import make_design
+from rotor.trim.adjoint import power_gradient
+from rotor.trim.equations import residuals, unknowns_of
+from rotor.trim.forward import first_guess
+from rotor.trim.newton import Guess, newton
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
 
 TARGETS_MS = {
     "evaluation": 0.5,

@@ -4,10 +4,10 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from rotor.solve import solve
 from rotor.study.chunks import work
 from rotor.study.point import trim_of
 from rotor.study.study_file import read_study
+from rotor.trim.solve import solve
 
 TARGET_PER_SECOND = 55.0
 """10⁵ trims with the dynamic wake on two cores in 15 minutes."""

@@ -4,12 +4,12 @@ import os
 import time
 from dataclasses import replace
 
-from rotor.concepts import CONCEPTS, find_concept
-from rotor.objective import Leg
-from rotor.optimise import Search, optimise
-from rotor.presets import make_design
-from rotor.schedule import Plan, run_plan
-from rotor.solve import solve
+from rotor.files.make_design import make_design
+from rotor.optimisation.concepts import CONCEPTS, find_concept
+from rotor.optimisation.objective import Leg
+from rotor.optimisation.schedule import Plan, run_plan
+from rotor.optimisation.search import Search, optimise
+from rotor.trim.solve import solve
 
 TARGETS_S = {
     "optimum, two segments": 1.0,

@@ -8,14 +8,14 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from rotor.aero.inflow import inflow_model
+from rotor.aero.switches import parse_switches
+from rotor.analysis.sweep import at_advance_ratio
 from rotor.assets import SHIPPED_ROTORS
-from rotor.case import read_case
-from rotor.design import Design
-from rotor.fleet import find_aircraft
-from rotor.inflow import inflow_model
-from rotor.presets import change_airfoils, make_design
-from rotor.sweep import at_advance_ratio
-from rotor.switches import parse_switches
+from rotor.design.design import Design
+from rotor.files.design_file import read_case
+from rotor.files.make_design import change_airfoils, make_design
+from rotor.files.shipped import find_aircraft
 
 KNOT = 1852.0 / 3600.0
 """[m/s]"""

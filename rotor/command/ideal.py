@@ -7,12 +7,12 @@ from typing import Any
 
 from tqdm import tqdm
 
+from rotor.analysis.ideal_bound import Bound, find_bound
 from rotor.assets import SHIPPED_ROTORS
-from rotor.bound import Bound, find_bound
 from rotor.command.flags import add_command, add_rotor_argument, write_table
-from rotor.fleet import find_aircraft
-from rotor.presets import make_design
-from rotor.ranges import parse_range
+from rotor.files.make_design import make_design
+from rotor.files.ranges import parse_range
+from rotor.files.shipped import find_aircraft
 
 COLUMNS = (
     "mu", "mass_kg", "ct", "lambda0", "glauert_kw", "any_circulation", "lift_limited", "steady_twist", "linear_twist",

@@ -4,8 +4,7 @@ import argparse
 from functools import partial
 from typing import NoReturn
 
-from rotor.airfoil import command as airfoil
-from rotor.command import actuator, bench, ideal, optimise, reproduce, schedule, solve, study, sweep, waterfall
+from rotor.command import actuator, airfoil, bench, ideal, optimise, reproduce, schedule, solve, study, sweep, waterfall
 
 
 class OneLineParser(argparse.ArgumentParser):

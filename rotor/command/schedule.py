@@ -13,13 +13,13 @@ from rotor.command.flags import add_command, add_design_arguments, design_from
 from rotor.command.optimise import named
 from rotor.command.progress import STOPPED, bar, interruptible
 from rotor.command.search_flags import add_search_arguments, concept_help, limits_from, parse_division
-from rotor.concepts import CONCEPTS, Concept, find_concept, on_top
-from rotor.mission import read_mission
-from rotor.objective import QUANTITIES, Leg
-from rotor.optimise import Optimum
-from rotor.ranges import parse_range
-from rotor.schedule import Cell, Plan, Schedule, run_plan
-from rotor.schedule_file import open_cells, read_cells
+from rotor.files.ranges import parse_range
+from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
+from rotor.optimisation.mission import read_mission
+from rotor.optimisation.objective import QUANTITIES, Leg
+from rotor.optimisation.schedule import Cell, Plan, Schedule, run_plan
+from rotor.optimisation.schedule_file import open_cells, read_cells
+from rotor.optimisation.search import Optimum
 
 DEFAULT_CONCEPTS = ("linear", "two-segment", "three-segment", "free-form")
 DEFAULT_MU = "0:0.35:0.05"

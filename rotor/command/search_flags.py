@@ -8,9 +8,9 @@ from rotor.actuator.fitted import fit
 from rotor.actuator.placement import Host, default_placement
 from rotor.actuator.verdict import change_limit
 from rotor.command.flags import finite
-from rotor.concepts import CONCEPTS, Concept
-from rotor.design import Design
-from rotor.optimise import ChangeLimit, Limits, reach
+from rotor.design.design import Design
+from rotor.optimisation.concepts import CONCEPTS, Concept
+from rotor.optimisation.search import ChangeLimit, Limits, reach
 
 
 def add_search_arguments(parser: argparse.ArgumentParser, starts: int) -> None:

@@ -5,11 +5,11 @@ import json
 import math
 from typing import Any, cast
 
-from rotor.active_twist import active_twist_record
+from rotor.aero.switches import switched_off
 from rotor.command.flags import KNOT, add_command, add_design_arguments, design_from, finite
-from rotor.solution import Solution
-from rotor.solve import solve
-from rotor.switches import switched_off
+from rotor.design.active_twist import active_twist_record
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
 
 
 def add_parser(commands: Any) -> None:

@@ -13,7 +13,7 @@ from typing import Any
 from rotor.command.flags import add_command
 from rotor.command.progress import STOPPED, interruptible
 from rotor.command.study_show import record, report
-from rotor.provenance import commit, package_version
+from rotor.files.provenance import commit, package_version
 from rotor.study.chunks import Done, Provenance, work
 from rotor.study.cluster import ClusterLost, connected, need_packages, run_chunks
 from rotor.study.results import read_results

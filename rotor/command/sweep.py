@@ -3,10 +3,10 @@
 import argparse
 from typing import Any
 
+from rotor.analysis.sweep import sweep
 from rotor.command.flags import KNOT, add_command, add_design_arguments, design_from, write_table
-from rotor.ranges import parse_range
-from rotor.solution import Solution
-from rotor.sweep import sweep
+from rotor.files.ranges import parse_range
+from rotor.trim.solution import Solution
 
 COLUMNS = (
     "twist", "mu", "speed_kt", "status", "total_kw", "main_rotor_kw", "induced_kw", "profile_kw", "parasite_kw",

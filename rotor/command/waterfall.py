@@ -4,8 +4,8 @@ import argparse
 import json
 from typing import Any
 
+from rotor.analysis.waterfall import PARTS, Step, Waterfall, waterfall
 from rotor.command.flags import add_command, add_design_arguments, design_from, finite
-from rotor.waterfall import PARTS, Step, Waterfall, waterfall
 
 
 def add_parser(commands: Any) -> None:

@@ -10,14 +10,14 @@ from rotor.actuator.fitted import Fitted, fit
 from rotor.actuator.pictures import black_box, section_picture, twist_under_voltage
 from rotor.actuator.placement import Host, default_placement
 from rotor.actuator.reach import Pair
-from rotor.concepts import find_concept
-from rotor.presets import uh60a_rotor
+from rotor.design.twist import PiecewiseLinearTwist
+from rotor.files.make_design import uh60a_rotor
+from rotor.optimisation.concepts import find_concept
 from rotor.reproduce.electrodes import sheet
 from rotor.reproduce.optimum_twist import UNKNOWN
 from rotor.reproduce.remember import Remembered
 from rotor.reproduce.report import Curve, Panel, Report, Style, Table, Verdict, curve, table
 from rotor.reproduce.runs import variant
-from rotor.twist import PiecewiseLinearTwist
 
 SPEEDS = (0.0, 0.3)
 """The two flight conditions of Table 5.2."""
@@ -128,7 +128,8 @@ def figure_5_10() -> Report:
         + ".",
         verdict=Verdict.ALONE,
         because="Thin-walled laminate section (Bredt–Batho) on a rotating beam in torsion; finite elements of the "
-        "section agree within 2 % (tests/test_actuator_fem.py). With the low end of the maker's strain and what one "
+        "section agree within 2 % (tests/rotor/actuator/test_actuator_fem.py). "
+        "With the low end of the maker's strain and what one "
         f"tested blade showed of its model, count on {100 * derating(sheet('MFC_P1')):.0f} %.",
         tables=(table("twist", ("blade", "r", f"at_{high:.0f}_v_deg", f"at_{low:.0f}_v_deg"), rows),),
         panels=(Panel("r/R", "twist [°]", tuple(curves)),),

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 
 from rotor.assets import asset_path
-from rotor.presets import make_design, uh60a_data
+from rotor.files.make_design import make_design, uh60a_data
 from rotor.reproduce.report import Panel, Report, Verdict, curve, judged, table
 from rotor.reproduce.runs import solved
-from rotor.solve import solve
+from rotor.trim.solve import solve
 
 KNOT = 1852.0 / 3600.0
 """[m/s]"""

@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from rotor.concepts import find_concept
-from rotor.optimise import Search, optimise
-from rotor.presets import make_design
+from rotor.files.make_design import make_design
+from rotor.optimisation.concepts import find_concept
+from rotor.optimisation.search import Search, optimise
 from rotor.reproduce import every_inflow
 from rotor.reproduce.aircraft import HORSEPOWER_KW, KNOT, public_data
 from rotor.reproduce.optima import FULL, Scope
@@ -13,7 +13,7 @@ from rotor.reproduce.optimum_twist import SHORT, UNKNOWN, Variants
 from rotor.reproduce.remember import Remembered
 from rotor.reproduce.report import Curve, Panel, Report, Verdict, curve, table
 from rotor.reproduce.runs import EVERY_VARIANT, VARIANT_TITLES, VARIANTS, choices, variant
-from rotor.solve import solve
+from rotor.trim.solve import solve
 
 SLOWEST = 0.075
 """µ below which no inflow model is proven."""

@@ -14,10 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotor.airfoil.table import load_section
-from rotor.design import Design
-from rotor.presets import make_design
-from rotor.solution import Solution
-from rotor.solve import solve
+from rotor.design.design import Design
+from rotor.files.make_design import make_design
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
 
 Array = NDArray[np.float64]
 

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable, Sequence
 
-from rotor.inflow.models import INFLOW_MODELS
+from rotor.aero.inflow.models import INFLOW_MODELS
 from rotor.reproduce.optima import Best, Scope
 from rotor.reproduce.report import Cell, Curve, Panel, Table, curve, table
 from rotor.reproduce.runs import PRESETS, choices

@@ -3,7 +3,7 @@
 import numpy as np
 
 from rotor.airfoil.sections import load_installed
-from rotor.presets import uh60a_rotor, uh60a_twist
+from rotor.files.make_design import uh60a_rotor, uh60a_twist
 from rotor.reproduce.optimum_twist import UNKNOWN
 from rotor.reproduce.report import Curve, Panel, Report, Verdict, curve, judged, table
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from rotor.reproduce.report import Curve, Panel, Report, curve, judged, table
 from rotor.reproduce.runs import variant
-from rotor.solve import solve
+from rotor.trim.solve import solve
 
 ELEMENTS = (5, 10, 20, 40, 80, 160, 320)
 AZIMUTHS = (8, 12, 16, 24, 36, 48, 72, 100, 120, 180, 360)

@@ -4,7 +4,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from rotor.presets import make_design
+from rotor.files.make_design import make_design
 from rotor.reproduce.report import Panel, Report, Table, curve, judged, table
 from rotor.reproduce.runs import FIVE_RATES, main_rotor_kw, solved
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from rotor.presets import make_design
+from rotor.files.make_design import make_design
 from rotor.reproduce.report import Panel, Report, Verdict, curve, table
 from rotor.reproduce.runs import THESIS_WAKE, main_rotor_kw
 

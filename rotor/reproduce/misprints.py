@@ -11,14 +11,14 @@ from typing import Any
 import numpy as np
 from numpy.polynomial.chebyshev import chebval
 
+from rotor.aero.losses import prandtl
+from rotor.aero.momentum import glauert_inflow
 from rotor.airfoil.polynomial import polynomial_section, polynomial_table
 from rotor.airfoil.table import load_section
-from rotor.losses import prandtl
-from rotor.momentum import glauert_inflow
-from rotor.presets import make_design
+from rotor.files.make_design import make_design
 from rotor.reproduce.report import typographic
 from rotor.reproduce.runs import variant
-from rotor.solve import solve
+from rotor.trim.solve import solve
 
 ROUNDING = 1e-9
 """Nothing smaller is shown as a number."""

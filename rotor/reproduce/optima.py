@@ -9,13 +9,13 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from rotor.blade import with_airfoils
-from rotor.concepts import Concept, find_concept, nearest
-from rotor.objective import Leg, Objective
-from rotor.optimise import Band, Ended, Optimum, Search, optimise
+from rotor.design.blade import with_airfoils
+from rotor.design.twist_spec import parse_twist
+from rotor.optimisation.concepts import Concept, find_concept, nearest
+from rotor.optimisation.objective import Leg, Objective
+from rotor.optimisation.search import Band, Ended, Optimum, Search, optimise
 from rotor.reproduce.remember import Call, Remembered
 from rotor.reproduce.runs import choices, variant
-from rotor.twist_spec import parse_twist
 
 BASELINE = "linear:-16"
 """The fixed blade of Table 4.1 (thesis §3.2: the UH-60A simplified)."""

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import update_wrapper
 from typing import Any, Generic, ParamSpec, TypeVar
 
-from rotor.search.processes import Workers
+from rotor.optimisation.processes import Workers
 
 P = ParamSpec("P")
 R = TypeVar("R")

@@ -3,11 +3,11 @@
 from dataclasses import replace
 from functools import lru_cache
 
-from rotor.design import Design
-from rotor.inflow.models import INFLOW_MODELS
-from rotor.presets import make_design
-from rotor.solution import Solution
-from rotor.solve import solve
+from rotor.aero.inflow.models import INFLOW_MODELS
+from rotor.design.design import Design
+from rotor.files.make_design import make_design
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
 
 PRESETS = ("thesis", "flight")
 FIVE_RATES = (0, -4, -8, -12, -16)

@@ -2,9 +2,9 @@
 
 import numpy as np
 
+from rotor.airfoil.build.pressure import PRESSURE_CASES, Pressure, PressureCase, read_pressure, run_pressure
+from rotor.airfoil.build.xfoil import XfoilError
 from rotor.airfoil.polars import read_polars
-from rotor.airfoil.pressure import PRESSURE_CASES, Pressure, PressureCase, read_pressure, run_pressure
-from rotor.airfoil.xfoil import XfoilError
 from rotor.assets import asset_path
 from rotor.reproduce.report import Panel, Report, Table, curve, judged, table
 

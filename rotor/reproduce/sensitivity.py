@@ -5,12 +5,12 @@ from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any
 
-from rotor.blade import with_airfoils
-from rotor.concepts import find_concept
-from rotor.design import Design
-from rotor.optimise import Search, optimise
-from rotor.presets import make_design
-from rotor.trust import SensitivityRow
+from rotor.design.blade import with_airfoils
+from rotor.design.design import Design
+from rotor.files.make_design import make_design
+from rotor.optimisation.concepts import find_concept
+from rotor.optimisation.search import Search, optimise
+from rotor.reproduce.trust import SensitivityRow
 
 SPEEDS = (0.0, 0.15, 0.30)
 BASELINE = "linear:-16"

@@ -8,16 +8,18 @@ from pathlib import Path
 from rotor.reproduce.cross_codes import have
 from rotor.reproduce.report import Report, typographic
 from rotor.reproduce.sensitivity import sensitivity
+from rotor.reproduce.trust import KINDS, SensitivityRow, TrustRow, trust_rows
 from rotor.reproduce.validation import indicative, public_codes, statements, validation
 from rotor.reproduce.verification import between_theories, verification
-from rotor.trust import KINDS, SensitivityRow, TrustRow, trust_rows
 
 CODES = {"dynbem": "dynbem", "wisdem": "CCBlade"}
 """Package of each public code, and how its rows name it."""
 FAST: tuple[Callable[[], Iterator[TrustRow]], ...] = (verification, validation, indicative)
 """Makers that need a few seconds."""
 
-_HEADING = "# Made by: python -m rotor reproduce OUT --trust. Read by rotor/trust.py; docs/validation.md shows it.\n"
+_HEADING = (
+    "# Made by: python -m rotor reproduce OUT --trust. Read by rotor/reproduce/trust.py; docs/validation.md shows it.\n"
+)
 _NOT_MODELLED = (
     "blade bending and torsion (rigid blades)",
     "dynamic stall and radial flow (steady sections)",
@@ -54,7 +56,8 @@ def page(rows: Iterable[TrustRow], changes: Iterable[SensitivityRow]) -> str:
     rows, changes = list(rows), list(changes)
     parts = [
         "# How far to trust the numbers",
-        "Made by `python -m rotor reproduce OUT --trust` from actual runs; `tests/reproduce/test_trust.py` makes the "
+        "Made by `python -m rotor reproduce OUT --trust` from actual runs; "
+        "`tests/rotor/reproduce/test_trust.py` makes the "
         "rows again and compares.",
         "Three words, always kept apart: **verification** (against theory, identities, other codes: do we solve our "
         "equations?), **validation** (against measurement: are they the right ones?), **indicative** (against another "

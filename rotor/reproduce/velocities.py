@@ -5,11 +5,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from rotor.presets import make_design
+from rotor.files.make_design import make_design
 from rotor.reproduce.report import Curve, DiskPanel, Panel, Report, curve, floats, judged, table
 from rotor.reproduce.runs import solved
-from rotor.solution import DiskFields
-from rotor.solve import solve
+from rotor.trim.solution import DiskFields
+from rotor.trim.solve import solve
 
 FINE = 200
 """Elements of fig. 2.7: enough to see the load fall within the last per cent of the blade."""

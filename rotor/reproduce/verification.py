@@ -8,20 +8,20 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.integrate import solve_ivp  # pyright: ignore[reportUnknownVariableType]
 
-from rotor import kernel
+from rotor.aero import kernel
+from rotor.aero.elements import CONING, FLAP_1C, FLAP_1S, lay_out, run_pass, skewed
 from rotor.assets import SHIPPED_ROTORS
-from rotor.design import Design
-from rotor.elements import CONING, FLAP_1C, FLAP_1S, lay_out, run_pass, skewed
-from rotor.gradient import power_gradient
-from rotor.hover import closed_form_inflow
-from rotor.newton import newton
-from rotor.power import profile_power_coefficient
-from rotor.presets import make_design
+from rotor.design.design import Design
+from rotor.files.make_design import make_design
 from rotor.reproduce.grids import figure_3_7, figure_3_8, figure_3_9
+from rotor.reproduce.trust import TrustRow
 from rotor.reproduce.velocities import figure_2_8
-from rotor.solve import solve
-from rotor.trim import first_guess
-from rotor.trust import TrustRow
+from rotor.trim.adjoint import power_gradient
+from rotor.trim.forward import first_guess
+from rotor.trim.hover import closed_form_inflow
+from rotor.trim.newton import newton
+from rotor.trim.power import profile_power_coefficient
+from rotor.trim.solve import solve
 
 Array = NDArray[np.float64]
 
@@ -31,33 +31,33 @@ SPEEDS = (0.1, 0.2, 0.3)
 def verification() -> Iterator[TrustRow]:
     """The fast rows."""
     yield _bound("Uniform inflow of the ideal twist in hover, eqs. (1.1), (2.28)", "momentum theory", _ideal_twist(),
-                 1e-12, "test_hover.py::test_ideal_twist_gives_uniform_inflow")  # fmt: skip
+                 1e-12, "rotor/trim/test_hover.py::test_ideal_twist_gives_uniform_inflow")  # fmt: skip
     yield _bound("Closed form (3.3) closes the annulus balance, F included", "4Fλ²r = ½σC_lα(θr² − λr)", _closes(),
-                 1e-12, "test_hover.py::test_closed_form_closes_the_balance")  # fmt: skip
+                 1e-12, "rotor/trim/test_hover.py::test_closed_form_closes_the_balance")  # fmt: skip
     yield _bound("Shaft power = induced + profile + parasite, µ 0.1…0.3, three inflow models", "identity", _energy(),
-                 1e-8, "test_power.py::test_energy_identity")  # fmt: skip
+                 1e-8, "rotor/trim/test_power.py::test_energy_identity")  # fmt: skip
     yield _bound("Gradient of power by linear twist, dynamic wake", "central differences", _gradient(), 1e-5,
-                 "test_inflow_reacting.py::test_adjoint_against_differences")  # fmt: skip
+                 "rotor/aero/test_inflow_reacting.py::test_adjoint_against_differences")  # fmt: skip
     yield _bound("Profile power with reverse flow, (3.15) corrected", "quadrature of |U_T|³", _profile(), 1e-5,
-                 "test_power.py::test_eq_3_15_with_its_first_coefficient_corrected")  # fmt: skip
+                 "rotor/trim/test_power.py::test_eq_3_15_with_its_first_coefficient_corrected")  # fmt: skip
     flapping, second = _flapping()
     yield TrustRow(
         "verification", "First-harmonic flapping, µ 0.15, free flapping", "the equation of motion marched in time",
-        f"{flapping:.2f}°", flapping, 0.02, "test_flapping.py::test_ode_agrees_with_harmonic_balance",
+        f"{flapping:.2f}°", flapping, 0.02, "rotor/dynamics/test_flapping.py::test_ode_agrees_with_harmonic_balance",
         f"What is left is the neglected 2/rev motion ({second:.2f}°).",
     )  # fmt: skip
     hover, forward, azimuths = figure_3_7(), figure_3_8(), figure_3_9()
     for name, report in (("hover", hover), ("µ 0.30", forward)):
         error = max(report.numbers[f"{preset}_error_at_40"] for preset in ("thesis", "flight"))
         yield _percent(f"Power at 40 elements, {name}", "limit of finer grids", error, 2e-4,
-                       "reproduce/test_chapter_3.py::test_figure_3_7")  # fmt: skip
+                       "rotor/reproduce/test_chapter_3.py::test_figure_3_7")  # fmt: skip
     error = max(azimuths.numbers[f"{preset}_error_at_100"] for preset in ("thesis", "flight"))
     yield _bound("Power at 100 azimuths, µ 0.30", "720 azimuths", error, 1e-5,
-                 "reproduce/test_chapter_3.py::test_figure_3_9")  # fmt: skip
+                 "rotor/reproduce/test_chapter_3.py::test_figure_3_9")  # fmt: skip
     area = figure_2_8().numbers
     yield _percent("Reverse-flow area, µ 0.30, counted in cells", "the circle r = −µ sin ψ",
                    area["reverse_area"] / area["circle_area"] - 1.0, 5e-3,
-                   "reproduce/test_chapter_2.py::test_figure_2_8")  # fmt: skip
+                   "rotor/reproduce/test_chapter_2.py::test_figure_2_8")  # fmt: skip
 
 
 def between_theories() -> Iterator[TrustRow]:
@@ -66,11 +66,12 @@ def between_theories() -> Iterator[TrustRow]:
         power = [_total(inflow, mu, -16.0) for inflow in ("dynamic-wake", "vortex-wake")]
         yield _percent(f"Trimmed total power by the dynamic wake, µ {mu:g}, −16°",
                        "the same trim with a vortex lattice wake", power[0] / power[1] - 1.0, 2e-3,
-                       "test_inflow_vortex.py::test_power_agrees")  # fmt: skip
+                       "rotor/aero/test_inflow_vortex.py::test_power_agrees")  # fmt: skip
     best = [_best_rate(inflow) for inflow in ("dynamic-wake", "vortex-wake")]
     yield TrustRow(
         "verification", "Best linear twist by the dynamic wake, µ 0.2", "the same with a vortex lattice wake",
-        f"{best[0] - best[1]:+.1f}°", best[0] - best[1], 0.1, "test_inflow_vortex.py::test_best_linear_twist_agrees",
+        f"{best[0] - best[1]:+.1f}°", best[0] - best[1], 0.1,
+        "rotor/aero/test_inflow_vortex.py::test_best_linear_twist_agrees",
         f"{best[0]:.1f}° and {best[1]:.1f}°.",
     )  # fmt: skip
     for name in SHIPPED_ROTORS[1:]:
@@ -81,7 +82,7 @@ def between_theories() -> Iterator[TrustRow]:
             "the same trim with a vortex lattice wake",
             power[0] / power[1] - 1.0,
             2e-3,
-            "test_rotors.py::test_dynamic_wake_of_two_and_of_five_blades_is_near_the_vortex_wake",
+            "rotor/files/test_rotors.py::test_dynamic_wake_of_two_and_of_five_blades_is_near_the_vortex_wake",
         )
 
 

@@ -12,8 +12,8 @@ from dataclasses import asdict, dataclass
 from functools import cache
 from typing import Any
 
-from rotor.presets import FLIGHT_MODELS, THESIS_MODELS
-from rotor.provenance import package_version
+from rotor.design.presets import FLIGHT_MODELS, THESIS_MODELS
+from rotor.files.provenance import package_version
 from rotor.study.columns import Column, columns_of
 from rotor.study.memory import Memory
 from rotor.study.point import Row, evaluate

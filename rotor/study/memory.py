@@ -10,11 +10,11 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.elements import N_STATE
-from rotor.newton import Guess
-from rotor.solution import Solution
+from rotor.aero.elements import N_STATE
 from rotor.study.quantities import Value
-from rotor.trim import guess_of
+from rotor.trim.forward import guess_of
+from rotor.trim.newton import Guess
+from rotor.trim.solution import Solution
 
 Floats = NDArray[np.float64]
 

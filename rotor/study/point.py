@@ -10,21 +10,22 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any, cast
 
-from rotor.aircraft import Aircraft
+from rotor.aero.inflow import inflow_model
+from rotor.aero.switches import SWITCHES
+from rotor.analysis.sweep import at_advance_ratio
 from rotor.assets import SHIPPED_ROTORS
-from rotor.concepts import Concept, restrict
-from rotor.design import Design
-from rotor.inflow import inflow_model
-from rotor.objective import at_condition, hover_and_cruise
-from rotor.optimise import Ended, Limits, Optimum, Search, optimise
-from rotor.presets import FLIGHT_MODELS, THESIS_MODELS, change_airfoils, check_preset, make_design
-from rotor.solution import Solution
-from rotor.solve import solve
+from rotor.design.aircraft import Aircraft
+from rotor.design.design import Design
+from rotor.design.presets import FLIGHT_MODELS, THESIS_MODELS, check_preset
+from rotor.files.make_design import change_airfoils, make_design
+from rotor.optimisation.concepts import Concept, restrict
+from rotor.optimisation.objective import at_condition, hover_and_cruise
+from rotor.optimisation.search import Ended, Limits, Optimum, Search, optimise
 from rotor.study.memory import Memory
 from rotor.study.quantities import PLAIN, Value, blade_concept
 from rotor.study.study import Searching, Study
-from rotor.sweep import at_advance_ratio
-from rotor.switches import SWITCHES
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
 
 _KNOT = 1852.0 / 3600.0
 """[m/s]"""

@@ -3,9 +3,9 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from rotor.concepts import CONCEPTS, Concept
-from rotor.concepts.catalogue import THREE_SEGMENT_FREE, TWO_AIRFOILS, TWO_SEGMENT_FREE
-from rotor.switches import SWITCHES
+from rotor.aero.switches import SWITCHES
+from rotor.optimisation.concepts import CONCEPTS, Concept
+from rotor.optimisation.concepts.catalogue import THREE_SEGMENT_FREE, TWO_AIRFOILS, TWO_SEGMENT_FREE
 
 Value = float | str | bool
 Kind = Literal["number", "text", "flag"]

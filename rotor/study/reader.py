@@ -7,18 +7,18 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
-from rotor.aircraft import Aircraft
 from rotor.assets import SHIPPED_ROTORS
-from rotor.fleet import find_aircraft
-from rotor.presets import make_design
-from rotor.ranges import parse_range
+from rotor.design.aircraft import Aircraft
+from rotor.design.twist_spec import inline_spec
+from rotor.files.make_design import make_design
+from rotor.files.ranges import parse_range
+from rotor.files.shipped import find_aircraft
 from rotor.study.axes import Axis, Places, Sample
 from rotor.study.columns import columns_of
 from rotor.study.document import Document
 from rotor.study.point import check_point
 from rotor.study.quantities import QUANTITIES, Value
 from rotor.study.study import Aims, Searching, Study, check_uncertain, good_chunk
-from rotor.twist_spec import inline_spec
 
 _MANY = 10**10
 

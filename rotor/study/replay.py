@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from rotor.design import Design
+from rotor.design.design import Design
 from rotor.study.point import design_of
 from rotor.study.quantities import PLAIN, QUANTITIES, Value, blade_concept
 from rotor.study.results import Results

@@ -3,8 +3,8 @@
 import hashlib
 from dataclasses import dataclass
 
-from rotor.aircraft import Aircraft
-from rotor.objective import Quantity as Objective
+from rotor.design.aircraft import Aircraft
+from rotor.optimisation.objective import Quantity as Objective
 from rotor.study.axes import Places
 from rotor.study.quantities import PLAIN, Value
 

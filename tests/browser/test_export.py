@@ -14,7 +14,7 @@ from watched import WAIT, Watched, opened, painted
 
 from explorer.app import App
 from explorer.state import Inputs
-from rotor.solve import solve
+from rotor.trim.solve import solve
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser

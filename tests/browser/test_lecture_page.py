@@ -8,7 +8,7 @@ from test_session_page import design_in_address, shown_kw
 from watched import COARSE, WAIT, opened
 
 from explorer.app import App
-from explorer.lecture.steps import STEPS
+from explorer.tabs.lecture.steps import STEPS
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page

@@ -13,7 +13,7 @@ from watched import WAIT, Watched, opened
 
 from explorer.app import App
 from explorer.session import Session
-from rotor.solve import solve
+from rotor.trim.solve import solve
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser

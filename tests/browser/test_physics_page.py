@@ -9,8 +9,8 @@ from test_page import kilowatts
 from watched import WAIT, Watched, opened
 
 from explorer.app import App
-from explorer.glossary import CONTROLS
 from explorer.state import Inputs
+from explorer.text.glossary import CONTROLS
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -72,7 +72,7 @@ def test_every_widget_of_every_tab_has_an_entry(app: App):
         handles = [handle for handle in client.gui._gui_input_handle_from_uuid.values() if hasattr(handle, "hint")]
         assert len(handles) > 80
         silent = [handle.label for handle in handles if handle.hint not in texts]
-        assert silent == [], "give them a sentence in explorer/glossary.py"
+        assert silent == [], "give them a sentence in explorer/text/glossary.py"
 
 
 def test_units_change_what_is_read_and_not_the_design(watched: Watched):

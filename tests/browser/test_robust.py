@@ -12,7 +12,7 @@ import pytest
 from chromium import DRAW_NOTHING
 
 from explorer.app import App
-from explorer.server.house import House
+from explorer.hosting.house import House
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserContext, Page

@@ -9,9 +9,9 @@ from watched import COARSE, WAIT, Watched, opened
 
 from explorer.app import App
 from explorer.state import Inputs
-from rotor.case import case_of, read_case
-from rotor.presets import make_design
-from rotor.solve import solve
+from rotor.files.design_file import case_of, read_case
+from rotor.files.make_design import make_design
+from rotor.trim.solve import solve
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser

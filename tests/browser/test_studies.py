@@ -9,9 +9,9 @@ import pytest
 from watched import Watched, opened
 
 from explorer.app import App
-from explorer.server.house import House
+from explorer.hosting.house import House
 from explorer.session import Session
-from rotor.provenance import package_version
+from rotor.files.provenance import package_version
 from rotor.study.chunks import Provenance, work_chunk
 from rotor.study.results import read_results
 from rotor.study.store import Store

@@ -1,1 +1,0 @@
-"""A and B: what is pinned, and both side by side."""

@@ -1,0 +1,105 @@
+"""What a report is made of: the designs of a session, what they are compared with, their colours and fields."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from datetime import datetime
+
+import numpy as np
+
+from explorer.charts.plots import Range
+from explorer.picture.fields import FIELDS, Field, fitted_range
+from explorer.picture.picture import field_values
+from explorer.state import ViewState
+from explorer.text.units import UNITS, Units
+from explorer.theme.colours import BASELINE
+from rotor.trim.solution import Solution
+
+COLOURS = ("#1c7ed6", "#e8590c", "#0ca678", "#9c36b5", "#c99700", "#c2255c", "#0b7285", "#5f3dc4")
+"""Of designs in charts and badges, in turn."""
+FIELDS_SHOWN = 4
+_USUAL = ("Angle of attack", "Induced inflow λi", "Thrust dT/dr", "Power dP/dr")
+
+
+@dataclass(frozen=True, eq=False)
+class Entry:
+    """A design of the report."""
+
+    title: str
+    """What the user calls it, for example Now."""
+    solution: Solution
+    """Converged."""
+
+
+@dataclass(frozen=True, eq=False)
+class Report:
+    """What a report is made of."""
+
+    reference: Entry
+    """What changes are counted from: the pinned design, or the baseline twist."""
+    entries: tuple[Entry, ...]
+    """The designs, the present one first; the reference is not among them."""
+    view: ViewState
+    when: datetime
+    ranges: Mapping[str, Range] = field(default_factory=dict)
+    """Colour range by title of a field where it is not the usual one; the same for all designs."""
+    own_section: bool = False
+    """Whether the reference is a design of the user's, to be shown as the others are."""
+
+    @property
+    def units(self) -> Units:
+        """Of powers, speeds and weights."""
+        return UNITS[self.view.units]
+
+    def colour_range(self, shown: Field) -> Range:
+        """Of a field."""
+        return self.ranges.get(shown.title, (shown.low, shown.high))
+
+    def comparable(self, entry: Entry) -> bool:
+        """Whether it flies as the reference does, so that a difference of power is the blade's."""
+        return entry.solution.design.condition == self.reference.solution.design.condition
+
+    @property
+    def all(self) -> tuple[Entry, ...]:
+        """The reference last."""
+        return (*self.entries, self.reference)
+
+    @property
+    def shown(self) -> tuple[Entry, ...]:
+        """Those with a section and a scene of their own: the first of `all`."""
+        return self.all if self.own_section else self.entries
+
+
+def colours_of(report: Report) -> list[str]:
+    """Of each entry, and grey for the reference."""
+    return [*(COLOURS[k % len(COLOURS)] for k in range(len(report.entries))), BASELINE]
+
+
+def fields_of(report: Report) -> list[Field]:
+    """The field on the page, then the usual ones."""
+    names = dict.fromkeys((report.view.field, *_USUAL))
+    return [FIELDS[name] for name in list(names)[:FIELDS_SHOWN]]
+
+
+def report_of(
+    reference: Entry,
+    entries: Sequence[Entry],
+    view: ViewState,
+    ranges: Mapping[str, Range] | None = None,
+    *,
+    own_section: bool = False,
+) -> Report:
+    """A report as of now; ValueError where there is nothing to report on, or where one does not hold."""
+    if not entries:
+        raise ValueError("There is no design to report on: wait for the first answer.")
+    for entry in (*entries, reference):
+        if not entry.solution.converged:
+            raise ValueError(f"{entry.title} is not trimmed, so it cannot be reported: {entry.solution.message}")
+    fitted = {name: _fitted(FIELDS[name], entries) for name in _USUAL if not FIELDS[name].void_in_reverse_flow}
+    return Report(
+        reference, tuple(entries), view, datetime.now().astimezone(), {**fitted, **(ranges or {})}, own_section
+    )
+
+
+def _fitted(shown: Field, entries: Sequence[Entry]) -> Range:
+    """A range that holds what all the designs have, so that their pictures can be compared."""
+    return fitted_range(shown, np.concatenate([field_values(entry.solution, shown).ravel() for entry in entries]))

@@ -1,0 +1,148 @@
+"""The session's designs as one HTML file that needs no server and no network: power, trim, 3D, disks, charts."""
+
+from html import escape
+
+from explorer.charts.power_curve import PowerCurves
+from explorer.export.as_code import as_command_line, as_python
+from explorer.export.provenance import PROGRAM, versions
+from explorer.export.report import figures, tables
+from explorer.export.report.contents import Report, colours_of
+from explorer.export.report.style import SCRIPT, SHEET
+from explorer.export.scene_recordings import Stage
+from explorer.picture.fields import FIELDS
+from explorer.text.design_words import active_words, flight_words, model_words, title_words
+from explorer.text.readout import PART_TITLES
+from explorer.text.status import tiny
+from explorer.theme.colours import PARTS
+from rotor.trim.solution import Solution
+
+
+def report_html(report: Report, stage: Stage | None, curves: PowerCurves | None = None) -> str:
+    """The file's text. `stage`: the 3D scenes of `report.shown`, in their order; `curves`: power already swept."""
+    several = len(report.shown) > 1
+    title = f"{len(report.shown)} designs compared" if several else title_words(report.entries[0].solution.design)
+    overview = [
+        _glance(report),
+        _stage(report, stage),
+        tables.comparison(report),
+        figures.overview(report, curves or PowerCurves()),
+    ]
+    sections = [_section(report, k) for k in range(len(report.shown))]
+    return (
+        '<!doctype html>\n<html lang="en"><head><meta charset="utf-8">'
+        '<meta name="viewport" content="width=device-width,initial-scale=1">'
+        f"<title>{escape(title)} – {PROGRAM}</title><style>{SHEET}</style></head><body><main>"
+        f"{_head(report, title)}{''.join(overview)}{''.join(sections)}{_foot()}</main>"
+        f"<script>{SCRIPT}</script></body></html>\n"
+    )
+
+
+def _head(report: Report, title: str) -> str:
+    when = f"{report.when.day} {report.when:%B %Y, %H:%M}"
+    return (
+        f'<header><div class="brand">{escape(PROGRAM)}</div><button id="theme" type="button">Dark / light</button>'
+        f'<h1>{escape(title)}</h1><p class="dim">{escape(when)} · {escape(versions()[PROGRAM])}</p></header>'
+    )
+
+
+def _glance(report: Report) -> str:
+    """A card for each design: power, its change, its parts."""
+    colours = colours_of(report)
+    cards = "".join(_card(report, k, colour) for k, colour in enumerate(colours))
+    parts = "".join(
+        f'<span><i style="background:{colour}"></i>{PART_TITLES[name]}</span>' for name, colour in PARTS.items()
+    )
+    return f'<section class="glance"><div class="cards">{cards}</div><p class="parts">{parts}</p></section>'
+
+
+def _card(report: Report, k: int, colour: str) -> str:
+    entry = report.all[k]
+    power, design = entry.solution.power, entry.solution.design
+    largest = max(other.solution.power.total for other in report.all)
+    values = {name: max(getattr(power, name), 0.0) for name in PARTS}
+    bar = "".join(
+        f'<i style="width:{100.0 * value / largest:.3f}%;background:{PARTS[name]}"></i>'
+        for name, value in values.items()
+    )
+    change = tables.change_words(report, entry)
+    title = escape(entry.title)
+    if entry in report.shown:
+        title = f'<a href="#design-{k}">{title}</a>'
+    return (
+        f'<article class="card" style="--mark:{colour}"><h3>{title}</h3>'
+        f'<div class="big"><b data-report="total-power">{report.units.watts(power.total)}</b>'
+        f'<span class="dim">{report.units.power[1].text(power.total)}</span>{change}</div>'
+        f'<div class="bar">{bar}</div><div>{escape(title_words(design))}</div>'
+        f'<div class="dim">{escape(flight_words(design, report.units))}</div></article>'
+    )
+
+
+def _stage(report: Report, stage: Stage | None) -> str:
+    if stage is None:
+        return ""
+    tabs = "".join(
+        f'<button type="button" data-scene="{k}">{escape(entry.title)}</button>' for k, entry in enumerate(report.shown)
+    )
+    shown = FIELDS[report.view.field]
+    bar = figures.bar(shown, report.colour_range(shown), "stage-bar")
+    return (
+        f'<section class="stage"><h2>The rotor in trim</h2>'
+        f'<div class="tabs">{tabs if len(report.shown) > 1 else ""}<span class="dim">'
+        "Drag to turn, right button to move, wheel to come closer.</span></div>"
+        '<iframe id="viewer" title="The rotor in three dimensions"></iframe>'
+        f'<div class="scale">{bar}</div><script id="stage" type="application/json">{stage.json}</script></section>'
+    )
+
+
+def _section(report: Report, k: int) -> str:
+    """Everything about one design."""
+    entry, colour = report.shown[k], colours_of(report)[k]
+    solution = entry.solution
+    active = ""
+    if solution.design.active_twist is not None:
+        active = f'<p class="dim">With {escape(active_words(solution.design.active_twist))}.</p>'
+    return (
+        f'<section class="design" id="design-{k}" style="--mark:{colour}"><h2>{escape(entry.title)}</h2>'
+        f'<p class="lead">{escape(title_words(solution.design))}</p>{active}'
+        f'<p class="dim">{escape(flight_words(solution.design, report.units))}<br>'
+        f"{escape(model_words(solution.design))}</p>"
+        f"{_caveats(solution)}"
+        f'<div class="tables">{tables.conditions(solution)}{tables.parts(report, entry)}'
+        f"{tables.trim(solution)}</div>{tables.blade(solution.design)}"
+        f"{figures.disks(report, entry, k)}{figures.along(solution)}{_again(solution)}</section>"
+    )
+
+
+def _again(solution: Solution) -> str:
+    """How to compute it again: command line and script."""
+    texts = {"Python": as_python, "Command line": lambda design: as_command_line(design).text}
+    parts = []
+    for title, write in texts.items():
+        try:
+            text = write(solution.design)
+        except ValueError as error:
+            text = str(error)
+        parts.append(f"<details><summary>{title}</summary><pre>{escape(text)}</pre></details>")
+    return f"<h3>To compute it again</h3>{''.join(parts)}"
+
+
+def _caveats(solution: Solution) -> str:
+    sentences = "".join(f"<li>{escape(caveat.sentence)}</li>" for caveat in solution.caveats)
+    if not sentences:
+        return (
+            '<p class="good">Trimmed: it carries its weight and overcomes its drag, with a residual of '
+            f"less than {tiny(solution.residual)} of the weight.</p>"
+        )
+    return f'<ul class="care">{sentences}</ul>'
+
+
+def _foot() -> str:
+    rows = "".join(f"<tr><td>{escape(name)}</td><td>{escape(text)}</td></tr>" for name, text in versions().items())
+    return (
+        "<footer><h2>How far to trust it</h2><p>Every design here is trimmed: thrust balances weight and drag, and "
+        "power by parts adds up to it. Forward-flight power is <b>indicative</b>: a model against other models, not "
+        "against a measurement. Hover power was set against digitised measurements of incomplete provenance and lies "
+        "2 to 12 % below them. Not modelled: bending and torsion of the blade, dynamic stall, distortion of the wake, "
+        "interference of the fuselage. Optima of twist are flat: compare powers, not angles.</p>"
+        f"<table class='versions'>{rows}</table></footer>"
+    )

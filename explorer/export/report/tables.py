@@ -1,0 +1,220 @@
+"""Tables of the report as HTML: the comparison of designs, and condition, power, trim and twist of each."""
+
+import math
+from collections.abc import Callable
+from html import escape
+
+import numpy as np
+
+from explorer.export.report.contents import Entry, Report
+from explorer.state import PRESET_TITLES
+from explorer.text.design_words import inflow_words, physics_words, twist_words
+from explorer.text.readout import PART_TITLES, ideal_induced
+from explorer.text.status import section_title
+from explorer.text.units import FOOT, KILOGRAM, METRE, POUND, SI, TONNE, Units, number
+from explorer.theme.colours import PARTS
+from rotor.design.design import Design
+from rotor.trim.solution import Solution
+
+STATIONS = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0)
+"""r/R of the twist table; the root cut-out comes before them."""
+Row = tuple[str, str]
+
+
+def change_words(report: Report, entry: Entry) -> str:
+    """Change of total power against the reference, where both fly alike."""
+    reference = report.reference
+    if entry is reference:
+        return '<span class="change dim">reference</span>'
+    if not report.comparable(entry):
+        return '<span class="change dim">other flight condition</span>'
+    change = 100.0 * (entry.solution.power.total / reference.solution.power.total - 1.0)
+    kind = "" if abs(change) < 0.05 else " less" if change < 0.0 else " more"
+    return f'<span class="change{kind}">{number(change, 1, sign=True)} %</span>'
+
+
+def comparison(report: Report) -> str:
+    """Every design in a column, the reference last; differences beside the powers."""
+    reference = report.reference.solution
+    elsewhere = [entry.title for entry in report.entries if not report.comparable(entry)]
+    note = (
+        f"<p class='note'>{escape(', '.join(elsewhere))}: in another flight condition than "
+        f"{escape(report.reference.title)}; a difference of power would not be that of the blade.</p>"
+        if elsewhere
+        else ""
+    )
+
+    def compared(value: Callable[[Solution], float]) -> list[str]:
+        return [
+            _with_change(entry.solution, reference if report.comparable(entry) else entry.solution, value, report.units)
+            for entry in report.all
+        ]
+
+    head = "".join(f"<th>{escape(entry.title)}</th>" for entry in report.all)
+    width = 170 + round(
+        len(report.all) * min(max(890 / len(report.all), 150), 230)
+    )  # [px]; more than fit are scrolled.
+    rows = [
+        _row("Twist", [escape(twist_words(entry.solution.design.twist)) for entry in report.all], "words"),
+        _row("Speed", [_speed(entry.solution.design, report.units) for entry in report.all]),
+        _row("Weight, altitude", [_weight(entry.solution.design, report.units) for entry in report.all]),
+        _row("Model", [_model(entry.solution.design) for entry in report.all], "words"),
+        _row("<b>Total power</b>", compared(_total), "total"),
+        *(
+            _row(
+                f'<i style="background:{PARTS[name]}"></i>{title}',
+                compared(_part(name)),
+            )
+            for name, title in PART_TITLES.items()
+        ),
+        _row("Induced over even load κ", [number(e.solution.induced_power_factor, 3) for e in report.all]),
+        _row("Efficiency", [_efficiency(e.solution) for e in report.all]),
+        _row("Stalled area", [f"{number(100 * e.solution.stalled_area, 1)} %" for e in report.all]),
+    ]
+    return (
+        f'<section class="comparison"><h2>Side by side</h2><div class="wide">'
+        f'<table style="width:{width}px"><thead><tr><th></th>{head}</tr>'
+        f"</thead><tbody>{''.join(rows)}</tbody></table></div>{note}</section>"
+    )
+
+
+def conditions(solution: Solution) -> str:
+    """What was asked."""
+    design = solution.design
+    condition, rotor, models = design.condition, design.rotor, design.models
+    rows = [
+        ("Advance ratio µ", number(condition.advance_ratio, 3)),
+        ("Airspeed", SI.airspeed(design.airspeed)),
+        ("Mass", f"{KILOGRAM.text(condition.mass, 1)} · {POUND.text(condition.mass)}"),
+        ("Pressure altitude", f"{METRE.text(condition.altitude)} · {FOOT.text(condition.altitude)}"),
+        ("Air density", f"{number(condition.density, 4)} kg/m³"),
+        ("Radius, tip speed", f"{number(rotor.radius, 3)} m, {number(rotor.tip_speed, 1)} m/s"),
+        ("Blades, solidity", f"{rotor.blades}, {number(rotor.solidity, 4)}"),
+        ("Preset", PRESET_TITLES.get(design.preset, design.preset)),
+        ("Inflow", inflow_words(design)),
+        ("Physics", physics_words(design)),
+        ("Grid", f"{models.elements} elements × {models.azimuths} azimuths"),
+        ("Twist as written", design.twist.spec()),
+    ]
+    return _table("Condition and model", rows)
+
+
+def parts(report: Report, entry: Entry) -> str:
+    """Power by parts with shares and the change against the reference."""
+    power, units = entry.solution.power, report.units
+    ideal = ideal_induced(entry.solution)
+    rows = [
+        (f'<i style="background:{PARTS[name]}"></i>{title}', _share(getattr(power, name), power.total, units))
+        for name, title in PART_TITLES.items()
+    ]
+    rows += [
+        ("Main rotor", units.watts(power.main_rotor, 1)),
+        ("<b>Total</b>", f"<b>{units.watts(power.total, 1)}</b>"),
+    ]
+    if report.comparable(entry):
+        change = units.watts(power.total - report.reference.solution.power.total, 1, sign=True)
+        rows.append((f"Against {escape(report.reference.title)}", change))
+    rows.append(("Least induced, any circulation", "not settled" if ideal is None else units.watts(ideal, 1)))
+    return _table("Power", rows, raw=True)
+
+
+def trim(solution: Solution) -> str:
+    """The trim and what it amounts to."""
+    c = solution.controls
+    rows = [
+        ("Collective θ0, at 0.75 R", _degrees(c.collective)),
+        ("Cyclic θ1c, θ1s", f"{_degrees(c.cyclic_1c)}, {_degrees(c.cyclic_1s)}"),
+        ("Shaft tilt α, forward", _degrees(c.shaft_tilt)),
+        ("Coning β0", _degrees(c.coning)),
+        ("Flapping β1c, β1s", f"{_degrees(c.flap_1c)}, {_degrees(c.flap_1s)}"),
+        ("Mean induced inflow λ0", number(c.lambda0, 5)),
+        ("CT, CT/σ", f"{number(solution.ct, 5)}, {number(solution.ct_over_sigma, 4)}"),
+        ("CP", number(solution.cp, 6)),
+        ("κ = Pi/(CT·λ0)", number(solution.induced_power_factor, 3)),
+        ("Figure of merit" if solution.design.hovering else "Rotor L/De", _efficiency_number(solution)),
+        ("Reverse flow", f"{number(100 * solution.reverse_flow_area, 1)} % of the disk"),
+        ("Stalled", f"{number(100 * solution.stalled_area, 1)} % of the disk"),
+    ]
+    return _table("Trim", rows)
+
+
+def blade(design: Design) -> str:
+    """Built-in twist, zero at 0.75 R, chord and section at round stations."""
+    shape = design.rotor.blade
+    stations = [shape.root_cutout, *(r for r in STATIONS if r > shape.root_cutout)]
+    angles, chords = np.degrees(design.twist(np.array(stations))), shape.chord(stations)
+    places = [shape.section_at(r) for r in stations]
+    sections = [section_title(inner) if inner == outer else "blended" for inner, outer, _ in places]
+    rows = [
+        _row("Twist [°]", [number(angle, 2, sign=True) for angle in angles]),
+        _row("Chord [m]", [number(chord, 3) for chord in chords]),
+        _row("Section", [escape(name) for name in sections], "words"),
+    ]
+    head = "".join(f"<th>{number(r, 2)}</th>" for r in stations)
+    return (
+        f'<h3>Blade</h3><div class="wide blade"><table><thead><tr><th>r/R</th>{head}</tr></thead>'
+        f"<tbody>{''.join(rows)}</tbody></table></div>"
+    )
+
+
+def _table(title: str, rows: list[Row], raw: bool = False) -> str:
+    """Two columns; `raw`: the cells are HTML already."""
+    body = "".join(
+        f"<tr><td>{name if raw else escape(name)}</td><td>{value if raw else escape(value)}</td></tr>"
+        for name, value in rows
+    )
+    return f"<div><h3>{escape(title)}</h3><table>{body}</table></div>"
+
+
+def _row(name: str, cells: list[str], kind: str = "") -> str:
+    return f'<tr class="{kind}"><td>{name}</td>{"".join(f"<td>{cell}</td>" for cell in cells)}</tr>'
+
+
+def _with_change(solution: Solution, reference: Solution, value: Callable[[Solution], float], units: Units) -> str:
+    """A power, and beneath it the difference, in its unit and in per cent."""
+    here, there = value(solution), value(reference)
+    if solution is reference:
+        return units.watts(here, 1)
+    per_cent = f" · {number(100.0 * (here / there - 1.0), 1, sign=True)} %" if abs(there) > 1.0 else ""
+    return f"{units.watts(here, 1)}<br><small>{units.watts(here - there, 1, sign=True)}{per_cent}</small>"
+
+
+def _total(solution: Solution) -> float:
+    return solution.power.total
+
+
+def _part(name: str) -> Callable[[Solution], float]:
+    return lambda solution: float(getattr(solution.power, name))
+
+
+def _share(part: float, total: float, units: Units) -> str:
+    return f"{units.watts(part, 1)} <small>{number(100.0 * part / total)} %</small>"
+
+
+def _speed(design: Design, units: Units) -> str:
+    if design.hovering:
+        return "hover"
+    return f"µ {number(design.condition.advance_ratio, 3)}<br><small>{units.speed[0].text(design.airspeed)}</small>"
+
+
+def _weight(design: Design, units: Units) -> str:
+    mass = units.mass.text(design.condition.mass, 2 if units.mass is TONNE else 0)
+    return f"{mass}<br><small>{units.altitude.text(design.condition.altitude)}</small>"
+
+
+def _model(design: Design) -> str:
+    return f"{escape(inflow_words(design))}<br><small>{escape(design.preset)}, {escape(physics_words(design))}</small>"
+
+
+def _efficiency(solution: Solution) -> str:
+    return f"{'FM' if solution.design.hovering else 'L/De'} {_efficiency_number(solution)}"
+
+
+def _efficiency_number(solution: Solution) -> str:
+    if solution.design.hovering:
+        return number(solution.figure_of_merit, 3)
+    return number(solution.lift_to_drag, 2)
+
+
+def _degrees(angle: float) -> str:
+    return f"{number(math.degrees(angle), 2)}°"

@@ -1,0 +1,232 @@
+"""Every use of viser's private parts, in one place; each has a test, and viser is pinned for their sake."""
+
+import contextlib
+import io
+import json
+import secrets
+import threading
+import time
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import viser
+import websockets.asyncio.server
+from viser import _messages
+
+from explorer.hosting import uploads
+from explorer.hosting.gate import Gate
+from explorer.hosting.picture_in_page import picture_script
+
+_starting, _silent = threading.Lock(), threading.Lock()
+_SHEET = "rx-sheet"
+"""Identity of our style sheet in the page."""
+_KEPT = "rx-kept"
+"""Where the page keeps what it is given."""
+_ONE_PIECE = 4096
+"""Messages; a page has some five hundred to begin with."""
+
+
+def quiet_server(host: str, port: int, label: str, gate: Gate | None = None) -> viser.ViserServer:
+    """A server that leaves it to us what is printed, `verbose=False` still prints a banner; with `gate` before it."""
+    with _silence(), _behind(gate) if gate else contextlib.nullcontext():
+        return viser.ViserServer(host=host, port=port, label=label, verbose=False)
+
+
+@contextlib.contextmanager
+def _silence() -> Iterator[None]:
+    """Print nothing; one thread at a time, for two that take turns at it would leave the program mute."""
+    with _silent, contextlib.redirect_stdout(io.StringIO()):
+        yield
+
+
+@contextlib.contextmanager
+def _behind(gate: Gate) -> Iterator[None]:
+    """While a server starts, what it asks of `websockets` goes through the gate: viser offers no way to say so.
+
+    RuntimeError where it did not come by: a server that looks guarded must be.
+    """
+    serve, passed = websockets.asyncio.server.serve, []
+
+    def gated(handler: Any, *where: Any, **options: Any) -> Any:
+        passed.append(True)
+        handler, options = gate.around(handler, options)
+        return serve(handler, *where, **options)
+
+    with _starting:
+        websockets.asyncio.server.serve = gated  # pyright: ignore[reportAttributeAccessIssue]
+        try:
+            yield
+        finally:
+            websockets.asyncio.server.serve = serve
+    if not passed:
+        raise RuntimeError("The server started without its gate: this viser starts its server in another way.")
+
+
+def client_html() -> str:
+    """The page of the client, as it was built."""
+    return (Path(viser.__file__).parent / "client" / "build" / "index.html").read_text(encoding="utf-8")
+
+
+def quiet_stop(server: viser.ViserServer) -> None:
+    with _silence():
+        server.stop()
+
+
+def remove_share_tunnel(server: viser.ViserServer) -> None:
+    """Make the server deaf to the request that opens a public tunnel; hiding its button does not."""
+    for message in (_messages.ShareUrlRequest, _messages.ShareUrlDisconnect):
+        server._websock_server.unregister_handler(message)
+
+
+def guard_uploads(client: viser.ClientHandle, tell: Callable[[str], None]) -> None:
+    """Let only such uploads begin, and go on, as `uploads` allows; `tell` hears why one was refused."""
+    gui, connection = client.gui, client._websock_connection
+    begin, more = gui._handle_file_transfer_start, gui._handle_file_transfer_part
+    under_way = gui._current_file_upload_states
+
+    def refuse(component: str | None, transfer: str, sentence: str) -> None:
+        under_way.pop(transfer, None)
+        # The button is free again, and the page's own notice of progress goes.
+        connection.queue_message(_messages.FileTransferPartAck(component, transfer, 1, 1))
+        connection.queue_message(_messages.RemoveNotificationMessage(f"upload-{transfer}"))
+        tell(sentence)
+
+    def started(client_id: Any, message: _messages.FileTransferStartUpload) -> None:
+        button = gui._gui_input_handle_from_uuid.get(message.source_component_uuid)
+        if button is None:
+            return
+        accepts = getattr(button._impl.props, "mime_type", "")
+        sentence = uploads.refusal(message.filename, message.size_bytes, message.part_count, len(under_way), accepts)
+        if sentence is None:
+            begin(client_id, message)
+        else:
+            refuse(message.source_component_uuid, message.transfer_uuid, sentence)
+
+    def continued(client_id: Any, message: _messages.FileTransferPart) -> None:
+        state = under_way.get(message.transfer_uuid)
+        if state is None:
+            return  # Refused, or never begun: dropped.
+        if state["transferred_bytes"] + len(message.content) > state["total_bytes"]:
+            refuse(message.source_component_uuid, message.transfer_uuid, "A file was longer than its sender had said.")
+        else:
+            more(client_id, message)
+
+    connection.unregister_handler(_messages.FileTransferStartUpload, begin)
+    connection.register_handler(_messages.FileTransferStartUpload, started)
+    connection.unregister_handler(_messages.FileTransferPart, more)
+    connection.register_handler(_messages.FileTransferPart, continued)
+
+
+def set_png(handle: viser.ImageHandle, png: bytes) -> None:
+    """Assign an encoded PNG: the public setter would encode again, in true colour, for ten times the time."""
+    handle._data = png
+
+
+def run_in_page(client: viser.ClientHandle, script: str) -> None:
+    """Run a line of JavaScript in the page of one client."""
+    client._websock_connection.queue_message(_messages.RunJavascriptMessage(script))
+
+
+@contextlib.contextmanager
+def at_once(client: viser.ClientHandle) -> Iterator[None]:
+    """Everything queued meanwhile reaches the page in one piece, so that it is laid out once; by itself it comes in
+    pieces of 128 messages, and what is there already jumps at each. Nothing may wait for the page's answer inside."""
+    client._websock_connection.get_message_buffer().max_window_size = _ONE_PIECE
+    with client.atomic():
+        yield
+
+
+def set_style(client: viser.ClientHandle, sheet: str) -> None:
+    """Put a style sheet into the page's head: one inside a panel goes when that panel is folded away."""
+    run_in_page(
+        client,
+        f"(()=>{{const id='{_SHEET}';const sheet=document.getElementById(id)||document.createElement('style');"
+        f"sheet.id=id;sheet.textContent={json.dumps(sheet)};document.head.appendChild(sheet)}})()",
+    )
+
+
+@dataclass(frozen=True)
+class PageFacts:
+    """What only the browser knows when a page opens."""
+
+    dark: bool = False
+    """Whether it asks for dark pages."""
+    query: str = ""
+    """Of its address, from the question mark on."""
+    kept: Mapping[str, str] = field(default_factory=dict[str, str])
+    """Texts that it was given to keep by name: see `keep_in_page`."""
+
+
+def page_facts(client: viser.ClientHandle, timeout: float = 2.0) -> PageFacts:
+    """Ask the browser. Blocks; not to be called on the event loop."""
+    key = f"facts-{client.client_id}-{secrets.token_hex(4)}"  # Other pages share the storage.
+    dark = "matchMedia('(prefers-color-scheme: dark)').matches || new URLSearchParams(location.search).has('darkMode')"
+    # A page that was open before, and whose server has come back, stays as it was.
+    dark = f"document.getElementById('{_SHEET}')?document.documentElement.dataset.mantineColorScheme==='dark':({dark})"
+    kept = f"JSON.parse(sessionStorage.getItem('{_KEPT}')??'{{}}')"
+    facts = f"JSON.stringify({{dark:{dark},query:location.search,kept:{kept}}})"
+    run_in_page(client, f"localStorage.setItem('viser-user:{key}',{facts})")
+    try:
+        text = client.local_storage.get_item(key, timeout=timeout)
+        client.local_storage.remove_item(key)
+        found = json.loads(text or "{}")
+        kept = {str(name): str(value) for name, value in found.get("kept", {}).items()}
+        return PageFacts(bool(found.get("dark")), str(found.get("query", "")), kept)
+    except (TimeoutError, RuntimeError, ValueError, AttributeError):
+        return PageFacts()
+
+
+def keep_in_page(client: viser.ClientHandle, name: str, text: str) -> None:
+    """Give the page a text to keep until its window is closed, also while it is loaded again.
+
+    One too long for the browser's store (some megabytes) is not kept, nor what stood there before.
+    """
+    run_in_page(
+        client,
+        f"(()=>{{const all=JSON.parse(sessionStorage.getItem('{_KEPT}')??'{{}}');all[{json.dumps(name)}]="
+        f"{json.dumps(text)};try{{sessionStorage.setItem('{_KEPT}',JSON.stringify(all))}}"
+        f"catch{{sessionStorage.removeItem('{_KEPT}')}}}})()",
+    )
+
+
+def set_query(client: viser.ClientHandle, query: str) -> None:
+    """Write the query of the page's address, without loading anything and without a step in its history."""
+    run_in_page(client, f"history.replaceState(null,'',location.pathname+{json.dumps(query)})")
+
+
+def copy_text(client: viser.ClientHandle, expression: str) -> None:
+    """Put the value of a JavaScript expression into the clipboard, where the browser allows it."""
+    run_in_page(client, f"navigator.clipboard&&navigator.clipboard.writeText({expression}).catch(()=>0)")
+
+
+def open_tab(client: viser.ClientHandle, name: str) -> None:
+    """Open the tab of that name, as Enter on it would: viser's tabs are dragged, so they do not hear clicks."""
+    tab = f"[...document.querySelectorAll('[role=tab]')].find(t=>t.textContent.trim()==={json.dumps(name)})"
+    run_in_page(client, f"{tab}?.dispatchEvent(new KeyboardEvent('keydown',{{key:'Enter',bubbles:true}}))")
+
+
+def save_picture(client: viser.ClientHandle, drawing: str, size: tuple[int, int], name: str, patience: float) -> int:
+    """Have the page save an SVG as a PNG of `size` pixels; how many bytes it has. Not to be called on the event loop.
+
+    RuntimeError with the browser's reason where it could not, or has left; TimeoutError after `patience` [s].
+    """
+    key = f"picture-{client.client_id}-{secrets.token_hex(4)}"
+    run_in_page(client, picture_script(drawing, *size, name, key))
+    deadline = time.monotonic() + patience
+    while (said := client.local_storage.get_item(key, timeout=patience)) is None:
+        if time.monotonic() > deadline:
+            raise TimeoutError(f"the page has not drawn the picture within {patience:g} s")
+        time.sleep(0.1)
+    client.local_storage.remove_item(key)
+    if not said.isdigit():
+        raise RuntimeError(said.removeprefix("failed: "))
+    return int(said)
+
+
+def reveal(client: viser.ClientHandle, tab: str, selector: str) -> None:
+    """Open a tab by its name and bring an element of it before the eyes."""
+    open_tab(client, tab)
+    seen = f"document.querySelector({json.dumps(selector)})?.scrollIntoView({{block:'center'}})"
+    run_in_page(client, f"setTimeout(()=>{seen},200)")

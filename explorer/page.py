@@ -1,0 +1,240 @@
+"""What stands where on the page of one client, and what its buttons do to one another."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import viser
+
+from explorer.hosting import viser_compat
+from explorer.hosting.viser_compat import PageFacts, set_style
+from explorer.picture.camera_views import View
+from explorer.scene.camera import FittedCamera
+from explorer.scene.controller import Frame
+from explorer.scene.overlays import Strip
+from explorer.sharing import share
+from explorer.sharing.address import Address
+from explorer.sharing.view_code import VIEW, view_from
+from explorer.state import Inputs, ViewState
+from explorer.tabs.actuator.panel import ActuatorPanel
+from explorer.tabs.actuator.view import fit_cut
+from explorer.tabs.controls import VIEW_BUTTONS, Controls
+from explorer.tabs.export_panel import ExportPanel, Sources
+from explorer.tabs.file_panel import FilePanel
+from explorer.tabs.history.panel import HistoryPanel
+from explorer.tabs.interface import Desk, Moment, Tab
+from explorer.tabs.keys.commands import Actions, bind_commands
+from explorer.tabs.keys.keyboard import Keyboard
+from explorer.tabs.lecture.panel import LecturePanel
+from explorer.tabs.lecture.presence import Hands, Presence
+from explorer.tabs.lecture.presentation import Stage
+from explorer.tabs.optimise.map_panel import MapPanel
+from explorer.tabs.optimise.optimise_panel import OptimisePanel
+from explorer.tabs.optimise.schedule_panel import SchedulePanel
+from explorer.tabs.optimise.sensitivity_panel import SensitivityPanel
+from explorer.tabs.physics.waterfall_panel import WaterfallPanel
+from explorer.tabs.probe.panel import ProbePanel
+from explorer.tabs.results import ResultsPanel
+from explorer.tabs.rotors.menu import RotorUpload
+from explorer.tabs.studies.panel import StudiesPanel
+from explorer.tabs.top_bar import TopBar
+from explorer.text import trust as trust_readout
+from explorer.theme import style_sheet as style
+from explorer.workers.pool import Share
+from rotor.design.design import Design
+
+_CHART_WIDTH, _CONTROL_WIDTH = 340, 320
+"""[px]; what they leave at 1280 is still a square."""
+_WIDER = 1.25
+"""Panels with big type, to those without."""
+_BRAND = (28, 126, 214)
+
+
+@dataclass(frozen=True)
+class Commons:
+    """What the pages of one server share."""
+
+    pool: Share
+    stage: Stage
+    studies: Path = Path()
+    """The folder whose results the Studies tab offers."""
+
+
+@dataclass(frozen=True)
+class Works:
+    """What the page asks of the session behind it; from any thread."""
+
+    wake: Callable[[], None]
+    """Something changed."""
+    turned: Callable[[], None]
+    """Only the marked blade's azimuth did."""
+    moment: Callable[[], Moment | None]
+
+
+class Panels:
+    """Built once for a client. The session shows its answers on `frame`, `results`, `actuator` and `tabs`."""
+
+    def __init__(
+        self, client: viser.ClientHandle, start: Inputs, facts: PageFacts, commons: Commons, works: Works
+    ) -> None:
+        """`start`: where the page's address holds no design."""
+        self._client, self._works, self._dark = client, works, facts.dark
+        address = Address(facts.query, partial(viser_compat.set_query, client))
+        problems: list[tuple[str, str]] = []
+        inputs_from = partial(share.inputs_from, kept=facts.kept.get(share.DESIGN))
+        start = address.read(share.DESIGN, inputs_from, start, "Not the design of the link", problems)
+        view = address.read(VIEW, view_from, ViewState(), "Not the view of the link", problems)
+        gui = client.gui
+        self._theme()
+        gui.set_panel_label("Rotor explorer")
+        set_style(client, style.SHEET)  # Before the first widget.
+        gui.main_panel.dock_right()
+        self._presence = Presence(client, commons.stage, address)
+        self.top = TopBar(gui, works.wake, lambda: self.history.undo(), lambda: self.history.redo())
+        tabs = gui.add_tab_group()
+        with tabs.add_tab("Design"):
+            self.controls = Controls(gui, start, works.wake, replace(view, dark=facts.dark), works.turned)
+        rotor = start.aircraft.rotor_for(start.preset)
+        self._radius = rotor.radius
+        self.frame = Frame(client, rotor, self.controls.display)
+        self._keyboard = Keyboard(client)
+        desk = self.desk = Desk(
+            inputs=self.controls.inputs,
+            set_inputs=self.controls.set_inputs,
+            view=self.controls.display.view,
+            set_view=self.controls.display.set_view,
+            turn=self.controls.display.turn,
+            wake=works.wake,
+            send=self._send,
+            tell=self._notify,
+            moment=works.moment,
+            pin=self.top.pin_inputs,
+            bind=self._keyboard.bind,
+        )
+        with tabs.add_tab("Optimise"):
+            self.optimise = OptimisePanel(gui, commons.pool, desk, lambda design: self.schedule.legs(design))
+        with tabs.add_tab("Map"):
+            self.map = MapPanel(gui, commons.pool, desk, self.optimise)
+        with tabs.add_tab("Schedule"):
+            self.schedule = SchedulePanel(gui, commons.pool, desk, self.optimise.wishes)
+        with tabs.add_tab("Session"):
+            self.history = HistoryPanel(gui, desk, start)
+            self.file = FilePanel(client, desk, address, facts.kept)
+            sources = Sources(lambda: self.camera, lambda: self.history.kept, self.frame.held_range)
+            export = ExportPanel(client, desk, sources)
+        with tabs.add_tab("Lecture"):
+            self.lecture = LecturePanel(client, desk, self._presence, self._enlarge)
+        panel = self._panel = gui.add_panel()
+        with panel.add_tab("Results"):
+            self.results = ResultsPanel(gui)
+        with panel.add_tab("Twist"):
+            sensitivity = SensitivityPanel(gui, Strip(client.scene), desk)
+        with panel.add_tab("Probe"):
+            self.probe = ProbePanel(client, desk)
+        with panel.add_tab("Actuator"):
+            self.actuator = ActuatorPanel(client, commons.pool, works.wake, self._fly)
+        with panel.add_tab("Physics"):
+            self.waterfall = WaterfallPanel(gui)
+        with panel.add_tab("Studies"):
+            studies = StudiesPanel(client, desk, commons.studies)
+        with panel.add_tab("Trust"):
+            gui.add_html(trust_readout.trust_page())
+        panel.dock_left()
+        self._enlarge(False)
+        followers: tuple[Tab, ...] = (self.top, self.probe, sensitivity, self.waterfall, studies)
+        self.tabs = (*followers, self.history, self.file, export, self.lecture, self._presence)
+        """Everything that only follows."""
+        self.camera = FittedCamera(client, rotor.radius)
+        RotorUpload(self.controls.rotor.button, desk)
+        self._wire()
+        for title, sentence in problems:
+            self._notify(title, sentence)
+
+    def follow(self, design: Design | None) -> None:
+        """Bring the tabs that start long work into line with the design on the sliders; None: they mean none."""
+        self.optimise.refresh(design)
+        self.map.refresh(design)
+        self.schedule.refresh()
+
+    def stop(self) -> None:
+        """The browser has left."""
+        for tab in (self.optimise, self.map, self.schedule, self.actuator, *self.tabs):
+            tab.stop()
+
+    def fit(self, radius: float) -> None:
+        """The rotor is of this radius [m] now."""
+        self._radius = radius
+        self.camera.resize(radius)
+
+    def set_dark(self, dark: bool) -> None:
+        """A dark page, or a light one."""
+        if dark != self._dark:
+            self._dark = dark
+            self._theme()
+
+    def _wire(self) -> None:
+        """Buttons to what they do, once everything stands."""
+        controls, desk = self.controls, self.desk
+        self.actuator.shown.on_update(self._cut_switched)
+        controls.reset_button.on_click(lambda _: self._reset())
+        controls.view_buttons.on_click(lambda event: self._look(VIEW_BUTTONS[event.target.value]))
+        controls.display.range_buttons.on_click(lambda event: self._colour(event.target.value))
+        controls.check_button.on_click(lambda _: self._check())
+        self.top.bind(desk)
+        self._presence.begin(desk, Hands(lambda: self.lecture.step, self.lecture.follow, self._hold))
+        bind_commands(desk, Actions(self._look, self._colour, self._check, self._reset, self.optimise.toggle))
+        self.file.begin()
+
+    def _hold(self, held: bool) -> None:
+        """Leave what moves the page to a presenter, or give it back."""
+        for part in (self.controls, self.top, self.lecture, self._keyboard):
+            part.hold(held)
+
+    def _send(self, name: str, content: bytes) -> None:
+        self._client.send_file_download(name, content, save_immediately=True)
+
+    def _notify(self, title: str, sentence: str) -> None:
+        self._client.add_notification(title, sentence, auto_close_seconds=6)
+
+    def _enlarge(self, big: bool) -> None:
+        """Big type in wider panels, or panels as wide as the rotor beside them can spare."""
+        set_style(self._client, style.SHEET + (style.BIG if big else ""))
+        factor = _WIDER if big else 1.0
+        self._panel.set_width(factor * _CHART_WIDTH)
+        self._client.gui.main_panel.set_width(factor * _CONTROL_WIDTH)
+
+    def _theme(self) -> None:
+        self._client.gui.configure_theme(
+            dark_mode=self._dark, show_logo=False, show_share_button=False, brand_color=_BRAND
+        )
+
+    def _fly(self, advance_ratio: float) -> None:
+        self.controls.set_inputs(replace(self.controls.inputs(), advance_ratio=advance_ratio))
+
+    def _cut_switched(self, event: viser.GuiEvent[Any]) -> None:
+        """One blade, cut open, in place of the rotor."""
+        cut = bool(event.target.value)
+        self.frame.set_seen(not cut)
+        self.probe.set_seen(not cut)
+        if cut:
+            self.camera.aim_with(partial(fit_cut, self._radius))
+        else:
+            self.camera.aim("3d")
+
+    def _look(self, view: View) -> None:
+        self.actuator.leave_cut()
+        self.camera.aim(view)
+
+    def _check(self) -> None:
+        self.results.check()
+        self._works.wake()
+
+    def _colour(self, order: str) -> None:
+        self.frame.order_range(order)
+        self._works.wake()
+
+    def _reset(self) -> None:
+        self.actuator.rest()
+        self.controls.reset()

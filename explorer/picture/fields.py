@@ -1,0 +1,154 @@
+"""What the disk can show: each field's title, unit, range, and its values on a refined polar grid."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from explorer.picture.polar import PolarGrid
+from explorer.picture.stall_region import angle_of_attack, stall_margin
+from explorer.theme.colours import Scheme
+from rotor.trim.solution import DiskFields, Solution
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Field:
+    """One quantity over the disk."""
+
+    title: str
+    unit: str
+    low: float
+    """Lower end of the fixed colour range, in `unit`."""
+    high: float
+    colours: Scheme
+    sample: Callable[[Solution, PolarGrid], Array]
+    """Values in `unit` on the polar grid, shape (radii, azimuths); finite everywhere."""
+    void_in_reverse_flow: bool = False
+    """Whether the quantity loses its meaning where the flow comes from the trailing edge."""
+    absent: Callable[[Solution, PolarGrid], NDArray[np.bool_]] | None = None
+    """Where else there is none of it, on the polar grid."""
+    note: str = ""
+    """What follows the unit in the label."""
+
+    @property
+    def two_sided(self) -> bool:
+        """Centred on zero, with a symmetric range."""
+        return self.colours != "sequential"
+
+    @property
+    def label(self) -> str:
+        return (f"{self.title} [{self.unit}]" if self.unit else self.title) + self.note
+
+    def void(self, solution: Solution, grid: PolarGrid) -> NDArray[np.bool_] | None:
+        """Where there is no value on the polar grid, shape (radii, azimuths); None: nowhere."""
+        parts = [] if self.absent is None else [self.absent(solution, grid)]
+        if self.void_in_reverse_flow:
+            parts.append(reverse_flow(solution, grid))
+        return np.logical_or.reduce(parts) if parts else None
+
+
+def reverse_flow(solution: Solution, grid: PolarGrid) -> NDArray[np.bool_]:
+    """Where U_T < 0 on the polar grid, shape (radii, azimuths)."""
+    return grid.refine(solution.disk.u_t) < 0.0
+
+
+def filled(disk: DiskFields, values: Array) -> Array:
+    """`values` with the reverse-flow part of each azimuth replaced by its first element outside.
+
+    A quantity that jumps across the reverse-flow circle can then be interpolated up to the circle from outside.
+    """
+    reverse = disk.u_t < 0.0
+    # Reverse flow fills the inner part of an azimuth; beyond the tip of a column that is reversed throughout, the last.
+    first_outside = np.minimum(reverse.sum(axis=0), len(disk.r) - 1)
+    return np.where(reverse, values[first_outside, np.arange(values.shape[1])], values)
+
+
+def _induced(solution: Solution, grid: PolarGrid) -> Array:
+    return grid.refine(solution.disk.induced)
+
+
+def _inflow(solution: Solution, grid: PolarGrid) -> Array:
+    return grid.refine(solution.disk.inflow)
+
+
+def _alpha_deg(solution: Solution, grid: PolarGrid) -> Array:
+    return np.degrees(angle_of_attack(solution, grid))
+
+
+def _mach(solution: Solution, grid: PolarGrid) -> Array:
+    return np.maximum(grid.refine(solution.disk.mach), 0.0)
+
+
+def _cl(solution: Solution, grid: PolarGrid) -> Array:
+    """Weighted by M²: lift per chord is smooth across the reverse-flow circle, its coefficient is not."""
+    disk = solution.disk
+    weight = disk.mach**2
+    return grid.refine(weight * disk.cl) / np.maximum(grid.refine(weight), 1e-4)
+
+
+def _m2cn(solution: Solution, grid: PolarGrid) -> Array:
+    disk = solution.disk
+    return grid.refine(disk.mach**2 * (disk.cl * np.cos(disk.alpha) + disk.cd * np.sin(disk.alpha)))
+
+
+def _thrust(solution: Solution, grid: PolarGrid) -> Array:
+    rotor = solution.design.rotor
+    return grid.refine(solution.disk.dct) * (solution.design.thrust_unit / (rotor.blades * rotor.radius) / 1e3)
+
+
+def _power(solution: Solution, grid: PolarGrid) -> Array:
+    rotor, disk = solution.design.rotor, solution.disk
+    return grid.refine(disk.r[:, None] * disk.dcq) * (solution.design.power_unit / (rotor.blades * rotor.radius) / 1e3)
+
+
+def _stall_margin_deg(solution: Solution, grid: PolarGrid) -> Array:
+    return np.degrees(stall_margin(solution, grid))
+
+
+FIELDS: dict[str, Field] = {
+    field.title: field
+    for field in (
+        Field("Angle of attack", "°", -4.0, 10.0, "sequential", _alpha_deg, void_in_reverse_flow=True),
+        Field("Induced inflow λi", "", -0.08, 0.08, "diverging", _induced),
+        Field("Total inflow λ", "", -0.12, 0.12, "diverging", _inflow),
+        Field("Mach number", "", 0.0, 0.9, "sequential", _mach),
+        Field("Lift coefficient", "", -0.4, 1.4, "sequential", _cl),
+        Field("M²cn", "", -0.25, 0.25, "diverging", _m2cn),
+        Field("Thrust dT/dr", "kN/m per blade", -1.0, 7.0, "sequential", _thrust),
+        Field("Power dP/dr", "kW/m per blade", -20.0, 100.0, "sequential", _power),
+        Field("Stall margin", "°", -12.0, 12.0, "margin", _stall_margin_deg, void_in_reverse_flow=True),
+    )
+}
+"""By title, in the order of the menu."""
+
+
+def fitted_range(field: Field, values: Array, shown: NDArray[np.bool_] | None = None) -> tuple[float, float]:
+    """A round range that holds all but the outer half per cent of `values`; symmetric for a two-sided field."""
+    data = values if shown is None else values[shown]
+    if not data.size:
+        return field.low, field.high
+    low, high = (float(end) for end in np.quantile(data, (0.005, 0.995)))
+    if field.two_sided:
+        high = max(abs(low), abs(high), 1e-3 * field.high)
+        step = round_up(high / 4.0)
+        high = step * math.ceil(high / step - 1e-9)
+        return -high, high
+    step = round_up(max(high - low, 1e-6) / 5.0)
+    return step * math.floor(low / step + 1e-9), step * math.ceil(high / step - 1e-9)
+
+
+def ticks(low: float, high: float, about: int = 5) -> tuple[float, ...]:
+    """Round tick values inside a range."""
+    step = round_up((high - low) / about)
+    first = math.ceil(low / step - 1e-9)
+    return tuple(step * k for k in range(first, math.floor(high / step + 1e-9) + 1))
+
+
+def round_up(step: float) -> float:
+    """The round number 1, 2 or 5 × 10ⁿ nearest above `step`."""
+    power = 10.0 ** math.floor(math.log10(step))
+    return power * next(factor for factor in (1.0, 2.0, 5.0, 10.0) if factor * power >= step * (1.0 - 1e-9))

@@ -1,0 +1,89 @@
+"""Lines on the disk: reverse flow, stall, drag divergence, as segments in the rotor plane."""
+
+import math
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from explorer.picture.fields import filled
+from explorer.picture.polar import PolarGrid, polar_grid
+from explorer.picture.stall_region import stall_margin
+from rotor.trim.solution import Solution
+
+Array = NDArray[np.float64]
+
+DRAG_DIVERGENCE = 0.1
+"""∂C_d/∂M that marks drag divergence."""
+_RADII, _AZIMUTHS = 80, 240
+
+
+def to_plane(r: Array, psi: Array) -> Array:
+    """Points (x aft, y starboard) in radii, shape (..., 2)."""
+    return np.stack((r * np.cos(psi), r * np.sin(psi)), axis=-1)
+
+
+def reverse_flow_segments(solution: Solution) -> Array:
+    """r = −µ sin ψ outside the root cut-out, with µ along the disk; shape (n, 2, 2), in radii."""
+    mu = solution.design.condition.advance_ratio * math.cos(solution.controls.shaft_tilt)
+    if mu <= 0.0:
+        return np.zeros((0, 2, 2))
+    psi = np.linspace(math.pi, 2.0 * math.pi, 181)
+    r = -mu * np.sin(psi)
+    points = to_plane(r, psi)
+    cutout = solution.design.rotor.blade.root_cutout
+    keep = (r[:-1] >= cutout) & (r[1:] >= cutout)
+    return np.stack((points[:-1], points[1:]), axis=1)[keep]
+
+
+def stall_segments(solution: Solution) -> Array:
+    """Where the stall margin is zero, the reverse-flow region left out; shape (n, 2, 2), in radii."""
+    grid = polar_grid(solution.disk, _RADII, _AZIMUTHS)
+    return _outside_reverse_flow(contour(grid, stall_margin(solution, grid), 0.0), solution, 0.0)
+
+
+def drag_divergence_segments(solution: Solution) -> Array:
+    """Where ∂C_d/∂M is 0.1, the reverse-flow region left out; shape (n, 2, 2), in radii."""
+    disk = solution.disk
+    grid = polar_grid(disk, _RADII, _AZIMUTHS)
+    slope = grid.refine(filled(disk, np.clip(disk.cd_mach, -0.5, 0.5)))
+    # An element and a half clear of reverse flow: nearer, the line would only trace the elements' steps.
+    return _outside_reverse_flow(contour(grid, slope, DRAG_DIVERGENCE), solution, 1.5 * disk.dr)
+
+
+def _outside_reverse_flow(segments: Array, solution: Solution, clearance: float) -> Array:
+    middle = segments.mean(axis=1)
+    mu = solution.design.condition.advance_ratio * math.cos(solution.controls.shaft_tilt)
+    r, psi = np.hypot(*middle.T), np.arctan2(middle[:, 1], middle[:, 0])
+    return segments[r + mu * np.sin(psi) > clearance] if mu > 0.0 else segments
+
+
+def contour(grid: PolarGrid, values: Array, level: float) -> Array:
+    """Where polar `values` cross `level`: marching squares round the turn; segments of shape (n, 2, 2), in radii."""
+    above = np.concatenate((values, values[:, :1]), axis=1) - level
+    psi = np.concatenate((grid.psi, [2.0 * math.pi + grid.psi[0]]))
+    corners = (above[:-1, :-1], above[1:, :-1], above[1:, 1:], above[:-1, 1:])
+    crossed = np.zeros(corners[0].shape, dtype=bool)
+    for corner in corners[1:]:
+        crossed |= (corner > 0.0) != (corners[0] > 0.0)
+    row, column = np.nonzero(crossed)
+    value = [corner[row, column] for corner in corners]
+    place = partial(_corner, grid.r, psi, row, column)
+    # The point at which each of a cell's four sides is crossed; a cell has two such sides, a saddle four.
+    sides = [(0, 1), (1, 2), (2, 3), (3, 0)]
+    points = np.full((len(row), 4, 2), np.nan)
+    for side, (a, b) in enumerate(sides):
+        cut = (value[a] > 0.0) != (value[b] > 0.0)
+        t = (value[a][cut] / (value[a][cut] - value[b][cut]))[:, None]
+        points[cut, side] = (1.0 - t) * place(a)[cut] + t * place(b)[cut]
+    is_cut = ~np.isnan(points[:, :, 0])
+    order = np.argsort(~is_cut, axis=1, kind="stable")
+    ordered = np.take_along_axis(points, order[:, :, None], axis=1)
+    saddle = is_cut.sum(axis=1) == 4
+    polar = np.concatenate((ordered[:, :2], ordered[saddle, 2:]))
+    return to_plane(polar[:, :, 0], polar[:, :, 1])
+
+
+def _corner(r: Array, psi: Array, row: NDArray[np.intp], column: NDArray[np.intp], corner: int) -> Array:
+    outer, later = corner in (1, 2), corner in (2, 3)
+    return np.stack((r[row + outer], psi[column + later]), axis=-1)

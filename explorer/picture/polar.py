@@ -1,0 +1,88 @@
+"""From the solver's (elements, azimuths) grid to a finer polar grid: smooth, periodic, one matrix on each side."""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rotor.trim.solution import DiskFields
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class PolarGrid:
+    """A refined polar grid that covers the whole blade, cut-out to tip, and the whole turn."""
+
+    r: Array
+    """y/R, shape (radii,), from the inner edge of the first element to the outer edge of the last."""
+    psi: Array
+    """Azimuth [rad], shape (azimuths,), 2π not repeated: the grid is periodic."""
+    along: Array
+    """Interpolation in radius, shape (radii, elements)."""
+    around: Array
+    """Interpolation in azimuth, shape (solver azimuths, azimuths)."""
+
+    def refine(self, field: Array) -> Array:
+        """`field` of shape (elements, solver azimuths) on this grid, shape (radii, azimuths)."""
+        return self.along @ field @ self.around
+
+
+def polar_grid(disk: DiskFields, radii: int, azimuths: int, ends: tuple[float, float] | None = None) -> PolarGrid:
+    """The grid of `radii` × `azimuths` points over `disk`; kept for the next frame.
+
+    `ends`: first and last y/R, where they are not those of `disk` itself; beyond them values are extrapolated.
+    """
+    first, last = float(disk.r[0]), float(disk.r[0]) + disk.dr * (len(disk.r) - 1)
+    ends = ends or (first - disk.dr / 2.0, last + disk.dr / 2.0)
+    return _build(len(disk.r), first, disk.dr, len(disk.psi), float(disk.psi[0]), radii, azimuths, ends)
+
+
+@lru_cache(maxsize=16)
+def _build(
+    n_r: int,
+    first_r: float,
+    dr: float,
+    n_psi: int,
+    first_psi: float,
+    radii: int,
+    azimuths: int,
+    ends: tuple[float, float],
+) -> PolarGrid:
+    r = np.linspace(*ends, radii)
+    psi = 2.0 * np.pi * np.arange(azimuths) / azimuths
+    return PolarGrid(
+        r=r,
+        psi=psi,
+        along=_along((r - first_r) / dr, n_r),
+        around=_around((psi - first_psi) * n_psi / (2.0 * np.pi), n_psi),
+    )
+
+
+def _weights(fraction: Array) -> Array:
+    """Catmull–Rom weights of the four neighbours, shape (points, 4)."""
+    t = fraction[:, None]
+    return 0.5 * np.hstack((-t + 2 * t**2 - t**3, 2 - 5 * t**2 + 3 * t**3, t + 4 * t**2 - 3 * t**3, -(t**2) + t**3))
+
+
+def _around(position: Array, n: int) -> Array:
+    base = np.floor(position).astype(int)
+    matrix = np.zeros((n, len(position)))
+    for offset, weight in zip(range(-1, 3), _weights(position - base).T, strict=True):
+        np.add.at(matrix, ((base + offset) % n, np.arange(len(position))), weight)
+    return matrix
+
+
+def _along(position: Array, n: int) -> Array:
+    base = np.clip(np.floor(position).astype(int), 0, n - 2)
+    matrix = np.zeros((len(position), n))
+    rows = np.arange(len(position))
+    # Beyond the element centres at both ends, and in the first and last gap, straight lines: a cubic needs a neighbour.
+    inner = (base >= 1) & (base <= n - 3)
+    linear = position - base
+    np.add.at(matrix, (rows[~inner], base[~inner]), 1.0 - linear[~inner])
+    np.add.at(matrix, (rows[~inner], base[~inner] + 1), linear[~inner])
+    for offset, weight in zip(range(-1, 3), _weights(linear[inner]).T, strict=True):
+        np.add.at(matrix, (rows[inner], base[inner] + offset), weight)
+    return matrix

@@ -1,0 +1,70 @@
+"""Where things stand: blade poses from the trim, as quaternions (w, x, y, z) and positions."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rotor.trim.solution import Controls
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Pose:
+    """Of a child in its parent."""
+
+    wxyz: Array
+    """Unit quaternion, shape (4,)."""
+    position: Array
+    """[m], shape (3,)."""
+
+
+def about(axis: int, angle: float) -> Array:
+    """The rotation by `angle` [rad] about axis 0, 1 or 2."""
+    quaternion = np.zeros(4)
+    quaternion[0] = math.cos(angle / 2.0)
+    quaternion[1 + axis] = math.sin(angle / 2.0)
+    return quaternion
+
+
+def compose(*rotations: Array) -> Array:
+    """The product of quaternions; the last is applied first."""
+    product = np.array([1.0, 0.0, 0.0, 0.0])
+    for rotation in rotations:
+        w, v, other_w, other_v = product[0], product[1:], rotation[0], rotation[1:]
+        product = np.array([w * other_w - v @ other_v, *(w * other_v + other_w * v + np.cross(v, other_v))])
+    return product
+
+
+def rotate(wxyz: Array, points: Array) -> Array:
+    """`points`, shape (..., 3), turned by a quaternion."""
+    w, v = wxyz[0], wxyz[1:]
+    turned = 2.0 * np.cross(v, np.cross(v, points) + w * points)
+    return np.asarray(points + turned, dtype=np.float64)
+
+
+def rotor_pose(controls: Controls) -> Pose:
+    """The shaft, tilted forward by α (x is aft, so nose-down is a turn about −y)."""
+    return Pose(about(1, -controls.shaft_tilt), np.zeros(3))
+
+
+def blade_pose(controls: Controls, psi: float, hinge: float) -> Pose:
+    """A blade at azimuth ψ [rad] in the shaft frame: flapped about its hinge at `hinge` [m], then pitched.
+
+    The twist is in the blade's own shape, so the pitch here is θ0 + θ1c cos ψ + θ1s sin ψ.
+    """
+    cos, sin = math.cos(psi), math.sin(psi)
+    flap = controls.coning + controls.flap_1c * cos + controls.flap_1s * sin
+    pitch = controls.collective + controls.cyclic_1c * cos + controls.cyclic_1s * sin
+    return Pose(compose(about(2, psi), about(1, -flap), about(0, pitch)), hinge * np.array([cos, sin, 0.0]))
+
+
+def tip_path_pose(controls: Controls, drop: float) -> Pose:
+    """The plane the blade tips run in, `drop` [m] below the hub so that blades are seen above it.
+
+    z = β1c x + β1s y to first order: turned by −β1c about y and by β1s about x.
+    """
+    tilt = compose(about(1, -controls.flap_1c), about(0, controls.flap_1s))
+    return Pose(tilt, rotate(tilt, np.array([0.0, 0.0, -drop])))

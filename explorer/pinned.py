@@ -1,0 +1,147 @@
+"""A of A/B: the design that was pinned, its answer in the flight that is compared, and what the buttons do."""
+
+from collections import deque
+from dataclasses import dataclass, replace
+from typing import Literal
+
+from explorer.state import Inputs
+from explorer.text.naming import flight_name, twist_name
+from explorer.workers.solver import Baseline
+from rotor.design.design import Design
+from rotor.design.twist import SumTwist
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+Order = Literal["pin", "unpin", "swap", "back"]
+FLIGHT = ("advance_ratio", "mass_t", "altitude_m")
+"""The inputs that say what is flown; the others say what flies, and how it is computed."""
+_NO_TRIM = "The design on the sliders has no trim: move a slider back first. Only a design that flies can be A."
+_DRIVEN = "The actuator's drive belongs to its own tab and stays as it is: set it there."
+
+
+@dataclass(frozen=True, eq=False)
+class Pinned:
+    """A design that others are compared with."""
+
+    inputs: Inputs
+    """What was on the sliders."""
+    solution: Solution
+    """As it was when it was pinned; converged."""
+
+    @property
+    def title(self) -> str:
+        """The blade in a few words."""
+        return twist_name(self.inputs) + (", driven" if self.driven else "")
+
+    @property
+    def driven(self) -> bool:
+        """Whether an actuator twists the blade too, which the sliders do not hold."""
+        design = self.solution.design
+        added = isinstance(design.twist, SumTwist) and design.twist != self.inputs.twist()
+        return added or design.active_twist is not None
+
+    @property
+    def flight(self) -> str:
+        """Where it flew when it was pinned."""
+        return flight_name(self.inputs)
+
+    def design(self, present: Design) -> Design:
+        """A's blade and models in the flight of the present design."""
+        return replace(self.solution.design, condition=present.condition)
+
+    def sliders(self, present: Inputs, along: bool) -> Inputs:
+        """The slider positions that mean A: in the present flight when it flies along, else in its own.
+
+        Another rotor does not fly along: its weight is its own.
+        """
+        if not along or self.inputs.aircraft != present.aircraft:
+            return self.inputs
+        return replace(self.inputs, **{name: getattr(present, name) for name in FLIGHT})
+
+
+def same_but_flight(one: Inputs, other: Inputs) -> bool:
+    """Whether two inputs mean the same blade, computed in the same way."""
+    return replace(one, **{name: getattr(other, name) for name in FLIGHT}) == other
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """What a button leads to."""
+
+    pinned: Pinned | None
+    inputs: Inputs | None = None
+    """To be put on the sliders."""
+    sentence: str = ""
+    """To be told."""
+
+
+def act(order: Order, pinned: Pinned | None, inputs: Inputs, solution: Solution | None, along: bool) -> Outcome:
+    """What a button leads to. `solution`: of `inputs`, None where they have no trim."""
+    present = None if solution is None else Pinned(inputs, solution)
+    match order:
+        case "pin":
+            return Outcome(pinned, sentence=_NO_TRIM) if present is None else Outcome(present)
+        case "unpin":
+            return Outcome(None)
+        case _ if pinned is None:
+            return Outcome(None)
+        case "swap" if present is None:
+            return Outcome(pinned, sentence=_NO_TRIM)
+        case _:
+            after = present if order == "swap" else pinned
+            moved = pinned.driven or (present is not None and present.driven)
+            return Outcome(after, pinned.sliders(inputs, along), _DRIVEN if moved else "")
+
+
+class Pinboard:
+    """A of one session. Buttons ask from any thread; all else happens on the session's worker."""
+
+    def __init__(self) -> None:
+        self.pinned: Pinned | None = None
+        self.answer: Solution | None = None
+        """A's, as last compared; it may not have converged."""
+        self._asked: deque[Order] = deque()
+        self._put: deque[Inputs | None] = deque()
+        self._known = Baseline()
+
+    def ask(self, order: Order) -> None:
+        """A button was pressed; acts in the next round."""
+        self._asked.append(order)
+
+    def put(self, inputs: Inputs | None) -> None:
+        """These inputs shall be A, or nothing; acts in the next round."""
+        self._put.append(inputs)
+
+    def settle(self, inputs: Inputs, solution: Solution | None, along: bool) -> Outcome | None:
+        """Do what was asked, with what is on the sliders and its answer; None when nothing was.
+
+        What was asked after a button that moves the sliders waits for the round in which they have moved.
+        """
+        outcome = None
+        while self._put:
+            given = self._put.popleft()
+            answer = None if given is None else solve(given.design())
+            self.pin(None if given is None or answer is None or not answer.converged else Pinned(given, answer))
+        while self._asked and (outcome is None or outcome.inputs is None):
+            outcome = act(self._asked.popleft(), self.pinned, inputs, solution, along)
+            self.pin(outcome.pinned)
+        return outcome
+
+    def pin(self, pinned: Pinned | None) -> None:
+        """Let this be A; None: nothing."""
+        if pinned is not self.pinned:
+            self.pinned = pinned
+            self.answer = None if pinned is None else pinned.solution
+            self._known = Baseline() if pinned is None else Baseline(pinned.solution.design, pinned.solution)
+
+    def solve(self, present: Design, along: bool, hurried: bool = False) -> Solution | None:
+        """A's answer: in the flight of the present design when it flies along, else as it was.
+
+        A of another rotor stays as it was: its weight is its own. A trim that fails takes half a second to fail:
+        `hurried`, when newer input waits, it is not tried again.
+        """
+        along = along and self.pinned is not None and self.pinned.solution.design.aircraft == present.aircraft
+        if self.pinned is None or (along and hurried and self.answer is not None and not self.answer.converged):
+            return self.answer
+        self.answer = self._known.solve(self.pinned.design(present)) if along else self.pinned.solution
+        return self.answer

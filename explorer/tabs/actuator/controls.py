@@ -1,0 +1,195 @@
+"""The widgets of the Actuator tab, made once: what is set, and the places for what follows."""
+
+from collections.abc import Callable
+from typing import Any
+
+import viser
+
+from explorer.tabs.actuator import plots, readout, table
+from explorer.tabs.actuator.electrodes_panel import ElectrodesPanel
+from explorer.tabs.actuator.state import (
+    BLADES,
+    CONCEPTS,
+    HARMONICS,
+    MOST_SEGMENTS,
+    ActuatorInputs,
+    drive_of,
+)
+from explorer.tabs.chart_panel import Chart, line
+from explorer.text.glossary import hint
+from explorer.theme.colours import BASELINE, NOW, THIS
+from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube, find_actuator
+from rotor.actuator.fitted import Fitted
+from rotor.optimisation.concepts import find_concept
+
+FLY = ("At rest", "At first µ", "At second µ")
+_USED = "#2f9e44"
+
+
+class ActuatorControls:
+    """Widgets and the charts and texts between them, from top to bottom."""
+
+    def __init__(self, gui: viser.GuiApi, moved: Callable[[bool], None]) -> None:
+        """`moved`: something changed, by a hand or not."""
+        self._moved = moved
+        self._titles = table.actuator_titles()
+        self._concepts = {name: find_concept(name).title for name in CONCEPTS}
+        start = ActuatorInputs()
+        watched = self._watched
+        gui.add_html(readout.SHEET)
+        self.shown = watched(gui.add_checkbox("Show blade cut", False, hint=hint("cut")))
+        self._magnified = watched(gui.add_slider("Movement ×", 1.0, 20.0, 1.0, start.magnified, hint=hint("magnified")))
+        self.now = gui.add_html("")
+        self._drives = [
+            watched(gui.add_slider("Voltage [%]", -100.0, 100.0, 1.0, 0.0, hint=hint("voltage")))
+            for _ in range(MOST_SEGMENTS)
+        ]
+        self.bar = gui.add_html("")
+        self.fly_buttons = gui.add_button_group("Set", FLY, hint=hint("fly"))
+        self.verdict = gui.add_html("")
+        self.numbers = gui.add_html("")
+        with gui.add_folder("Actuator and placement"):
+            self._actuator = watched(gui.add_dropdown("Actuator", tuple(self._titles.values()), hint=hint("actuator")))
+            self._plies = watched(gui.add_slider("Plies a side", 1, 8, 1, start.plies, hint=hint("plies")))
+            self._span = watched(
+                gui.add_multi_slider("Span [R]", 0.14, 1.0, 0.01, start.span, min_range=0.05, hint=hint("span"))
+            )
+            self._chord = watched(
+                gui.add_multi_slider(
+                    "Chord [c]", 0.0, 0.95, 0.01, start.chord, min_range=0.05,
+                    hint=hint("chord_range"),
+                )
+            )  # fmt: skip
+            self._blade = watched(gui.add_dropdown("Blade type", tuple(BLADES), hint=hint("blade_type")))
+            self._stiffness = watched(
+                gui.add_slider("GJ of new ×", 0.2, 1.5, 0.05, start.stiffness, hint=hint("stiffness"))
+            )
+            self._crossed = watched(gui.add_checkbox("Fibres crossed", False, hint=hint("crossed")))
+            self._counted = watched(
+                gui.add_slider(
+                    "Derating [%]", 40.0, 100.0, 1.0, start.counted,
+                    hint=hint("derating"),
+                )
+            )  # fmt: skip
+        with gui.add_folder("Question"):
+            self._concept = watched(
+                gui.add_dropdown("Concept", tuple(self._concepts.values()), hint=hint("actuator_concept"))
+            )
+            self._pair = watched(
+                gui.add_multi_slider(
+                    "µ from, to", 0.0, 0.4, 0.01, start.advance_ratios, min_range=0.02, hint=hint("pair")
+                )
+            )
+        key = (("attainable", BASELINE), ("required", NOW), ("used", _USED), ("now", THIS))
+        self.chart = Chart(
+            gui,
+            "Δtwist [°]",
+            key,
+            "radius r/R",
+            (
+                line("attainable", BASELINE, 1.5),
+                line("as counted", BASELINE, 1.5, (5, 3)),
+                line("required", NOW),
+                line("used", _USED, 1.5),
+                line("now", THIS),
+            ),
+            plots.blank(),
+            (0.1, 1.02),
+        )
+        self.segments = gui.add_html("")
+        self.section = gui.add_html("")
+        self.limits = gui.add_html("")
+        with gui.add_folder("All actuators on this blade"):
+            self.table = gui.add_html("")
+        self.electrodes = ElectrodesPanel(gui)
+        with gui.add_folder("Twist that follows the azimuth"):
+            self._per_rev = watched(gui.add_dropdown("Harmonic", tuple(HARMONICS), hint=hint("harmonic")))
+            self._amplitude = watched(
+                gui.add_slider("Amplitude [%]", 0.0, 100.0, 1.0, start.amplitude, hint=hint("amplitude"))
+            )
+            self._phase = watched(gui.add_slider("Phase [°]", 0.0, 360.0, 5.0, start.phase, hint=hint("phase")))
+
+    def inputs(self) -> ActuatorInputs:
+        """What the widgets mean now."""
+        return ActuatorInputs(
+            actuator=_key(self._titles, self._actuator.value),
+            plies=int(self._plies.value),
+            span=_ends(self._span.value),
+            chord=_ends(self._chord.value),
+            blade=BLADES[self._blade.value],
+            stiffness=float(self._stiffness.value),
+            counted=float(self._counted.value),
+            concept=_key(self._concepts, self._concept.value),
+            advance_ratios=_ends(self._pair.value),
+            drives=tuple(float(handle.value) for handle in self._drives),
+            crossed=bool(self._crossed.value),
+            per_rev=HARMONICS[self._per_rev.value],
+            amplitude=float(self._amplitude.value),
+            phase=float(self._phase.value),
+            shown=bool(self.shown.value),
+            magnified=float(self._magnified.value),
+        )
+
+    def arrange(self, inputs: ActuatorInputs, fitted: Fitted) -> None:
+        """Which widgets there are, and what they are called."""
+        count = len(fitted.shapes)
+        word = "Voltage" if isinstance(fitted.actuator, PiezoPly) else "Drive"
+        for k, handle in enumerate(self._drives):
+            handle.visible = k < count
+            handle.label = f"{word} {k + 1} [%]" if count > 1 else f"{word} [%]"
+        self._plies.label = "Tubes" if isinstance(fitted.actuator, TorqueTube) else "Plies a side"
+        passive = isinstance(fitted.actuator, ExtensionTwist)
+        for handle in (self._plies, self._span):
+            handle.visible = not passive
+        self._chord.visible = self._crossed.visible = isinstance(fitted.actuator, PiezoPly)
+        self._magnified.visible = inputs.shown
+        self._span.label = "Span {:.2f}–{:.2f}".format(*inputs.span)
+        self._chord.label = "Chord {:.2f}–{:.2f}".format(*inputs.chord)
+        self._pair.label = "µ {:.2f} – {:.2f}".format(*inputs.advance_ratios)
+        self._stiffness.visible = inputs.blade == "new"
+        self._amplitude.visible = self._phase.visible = inputs.per_rev > 0
+
+    def rest(self) -> None:
+        """Nothing driven."""
+        self._per_rev.value = next(iter(HARMONICS))
+        self.drive((0.0,) * MOST_SEGMENTS)
+
+    def take(
+        self,
+        fitted: Fitted,
+        swings: tuple[tuple[float, ...], ...],
+        voltages: tuple[tuple[float, float], ...],
+        which: int,
+    ) -> None:
+        """Sliders as the verdict has them at one of its conditions."""
+        actuator = find_actuator(fitted.actuator.id)
+        if isinstance(actuator, PiezoPly):
+            unit = actuator.voltage_swing
+            made = [pair[which] / unit for pair in voltages]
+            wanted = [swing[which] for swing in zip(*swings, strict=True)]
+            # Fibres laid the other way where the verdict's voltages oppose its twists.
+            opposed = fitted.host.kind == "retrofit" and sum(a * b for a, b in zip(made, wanted, strict=True)) < 0.0
+            self._crossed.value = opposed
+        else:
+            made = list(swings[which])
+        drives = [drive_of(actuator, swing) for swing in made]
+        self.drive((*drives, *(0.0,) * (MOST_SEGMENTS - len(drives))))
+
+    def drive(self, drives: tuple[float, ...]) -> None:
+        """Move the voltage sliders."""
+        for handle, drive in zip(self._drives, drives, strict=True):
+            handle.value = round(drive)
+        self._moved(False)
+
+    def _watched(self, handle: Any) -> Any:
+        handle.on_update(lambda event: self._moved(event.client is not None))
+        return handle
+
+
+def _ends(values: tuple[float, ...]) -> tuple[float, float]:
+    low, high = sorted(round(float(value), 4) for value in values)
+    return low, high
+
+
+def _key(titles: dict[str, str], title: str) -> str:
+    return next(key for key, value in titles.items() if value == title)

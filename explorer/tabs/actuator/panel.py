@@ -1,0 +1,141 @@
+"""The Actuator tab of one browser: its widgets, and what follows them."""
+
+from collections.abc import Callable
+from typing import Any
+
+import viser
+
+from explorer.tabs.actuator import plots, readout, table
+from explorer.tabs.actuator.controls import FLY, ActuatorControls
+from explorer.tabs.actuator.picture import cut_picture, voltage_shares
+from explorer.tabs.actuator.scene import CutScene
+from explorer.tabs.actuator.section import section_svg
+from explorer.tabs.actuator.state import MOST_SEGMENTS, ActuatorInputs, Question, question_of
+from explorer.tabs.actuator.study import Answers, Study
+from explorer.workers import solver
+from explorer.workers.pool import Share
+from rotor.actuator.fitted import Fitted
+from rotor.design.design import Design
+from rotor.dynamics.structure import KNOWN_BLADE, check_blade
+from rotor.files.make_design import uh60a_rotor
+from rotor.trim.solution import Solution
+
+
+class ActuatorPanel:
+    """Widgets, cut blade and background study; everything but `inputs` happens on the session's worker."""
+
+    def __init__(
+        self, client: viser.ClientHandle, pool: Share, changed: Callable[[], None], fly: Callable[[float], None]
+    ) -> None:
+        """`changed`: something moved. `fly`: set the page's advance ratio."""
+        self._changed = changed
+        self._fly = fly
+        self._client = client
+        self._touched = False
+        self._cut = CutScene(client.scene)
+        self._study = Study(Answers(pool), changed, f"study-{client.client_id}")
+        self._rest = solver.Baseline()
+        self._told: dict[str, str] = {}
+        self._drawn: tuple[object, ...] | None = None
+        self._asked: Question | None = None
+        self._before: tuple[object, ...] = ()
+        self._controls = ActuatorControls(client.gui, self._moved)
+        self._controls.fly_buttons.on_click(self._fly_clicked)
+        self.shown = self._controls.shown
+        self.inputs = self._controls.inputs
+
+    def start(self) -> None:
+        self._study.start()
+
+    def stop(self) -> None:
+        self._study.stop()
+
+    def show(self, inputs: ActuatorInputs, design: Design, solution: Solution, psi: float) -> None:
+        """Everything that follows: `design` is without the actuator's twist, `solution` with it."""
+        try:
+            if design.aircraft.key != KNOWN_BLADE:
+                self._controls.arrange(inputs, inputs.fitted(uh60a_rotor(design.preset)))
+            check_blade(design.aircraft)
+            fitted = inputs.fitted(design.rotor)
+            inputs.turning(fitted)  # Resonance speaks here.
+            question = question_of(inputs, design)
+        except ValueError as error:
+            self._cut.hide()
+            self._drawn = None
+            self.lose(str(error))
+            return
+        self._controls.arrange(inputs, fitted)
+        self._draw(inputs, fitted, design, psi)
+        rest = self._rest.solve(design) if inputs.driven else None
+        change = solution.power.total - rest.power.total if rest is not None and rest.converged else None
+        self._tell("now", self._controls.now, readout.now_panel(inputs, fitted, change))
+        self._tell("section", self._controls.section, section_svg(fitted, voltage_shares(inputs, fitted, psi)))
+        self._controls.electrodes.show(fitted.actuator, inputs.volts(fitted))
+        self._tell("bar", self._controls.bar, readout.voltage_bar(fitted.actuator))
+        self._asked = question
+        now = (inputs, design)
+        self._study.ask(question, wanted=self._touched, stirred=now != self._before)
+        self._before = now
+        self._judge(inputs, fitted, question, design.rotor.blade.root_cutout)
+
+    def lose(self, problem: str) -> None:
+        """There is no such design: the sentence in place of the verdict, all else as it was."""
+        self._tell("verdict", self._controls.verdict, readout.problem_panel(problem))
+
+    def rest(self) -> None:
+        """Let go of the blade."""
+        self._controls.rest()
+
+    def leave_cut(self) -> None:
+        """Back to the rotor."""
+        if self.shown.value:
+            self.shown.value = False
+
+    def _judge(self, inputs: ActuatorInputs, fitted: Fitted, question: Question, root: float) -> None:
+        findings = self._study.findings
+        verdict = findings.verdict if findings.question == question else None
+        tell, places = self._tell, self._controls
+        tell("verdict", places.verdict, readout.verdict_panel(findings, question))
+        tell("numbers", places.numbers, readout.fit_panel(inputs, fitted, verdict))
+        tell("segments", places.segments, readout.segments_panel(fitted, inputs.share, verdict))
+        tell("limits", places.limits, readout.limits_panel(verdict))
+        tell("table", places.table, table.table_panel(findings, question))
+        places.chart.show(plots.reach_plot(inputs, fitted, verdict, root, places.chart.y_range))
+
+    def _draw(self, inputs: ActuatorInputs, fitted: Fitted, design: Design, psi: float) -> None:
+        if not inputs.shown:
+            self._cut.hide()
+            self._drawn = None
+            return
+        frame = (inputs, design.rotor, design.twist, psi if inputs.per_rev else 0.0)
+        if frame == self._drawn:
+            return
+        self._drawn = frame
+        picture = cut_picture(inputs, fitted, design, psi)
+        with self._client.atomic():
+            self._cut.show(picture)
+        self._client.flush()
+
+    def _tell(self, name: str, handle: viser.GuiHtmlHandle, content: str) -> None:
+        if self._told.get(name) != content:
+            self._told[name] = content
+            handle.content = content
+
+    def _fly_clicked(self, event: viser.GuiEvent[Any]) -> None:
+        self._touched = True
+        which = FLY.index(event.target.value) - 1
+        if which < 0:
+            self._controls.drive((0.0,) * MOST_SEGMENTS)
+            return
+        findings = self._study.findings
+        verdict = findings.verdict
+        if verdict is None or findings.question != self._asked:
+            self._changed()
+            self._client.add_notification("No verdict yet", "Its voltages are being computed.", auto_close_seconds=4)
+            return
+        self._controls.take(verdict.fitted, verdict.reached.swings, verdict.voltages, which)
+        self._fly(verdict.baseline.pair.advance_ratios[which])
+
+    def _moved(self, by_hand: bool) -> None:
+        self._touched = self._touched or by_hand
+        self._changed()

@@ -1,0 +1,204 @@
+"""Words and numbers of the Actuator tab, as HTML; degrees, volts and kW begin here."""
+
+import math
+from html import escape
+
+import numpy as np
+
+from explorer.tabs.actuator.picture import drive_text, share_colour
+from explorer.tabs.actuator.state import ActuatorInputs, Question
+from explorer.tabs.actuator.study import Findings
+from explorer.text.units import number
+from explorer.theme.colours import css
+from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly
+from rotor.actuator.fitted import Fitted
+from rotor.actuator.limits import Limit
+from rotor.actuator.verdict import Verdict
+from rotor.actuator.wording import verdict_sentence
+from rotor.reproduce.report import typographic
+
+SHEET = """<style>
+.rxa-now { display: flex; align-items: baseline; gap: 8px; white-space: nowrap; }
+.rxa-now > b { font-size: 20px; font-weight: 650; font-variant-numeric: tabular-nums; }
+.rxa-box { margin: 4px 10px; padding: 5px 8px; border-radius: 4px; font-size: 12px; line-height: 1.34;
+  background: rgba(128,128,128,.10); min-height: 66px; border-left: 3px solid rgba(128,128,128,.5); }
+.rxa-yes { border-left-color: #0ca678; }
+.rxa-no { border-left-color: #e67700; }
+.rxa-wrong { border-left-color: #c92a2a; }
+.rxa-limits { font-size: 12px; line-height: 1.3; }
+.rxa-limits > div { display: flex; gap: 6px; padding: 1px 0; }
+.rxa-limits > div > span:first-child { flex: none; width: 11px; font-weight: 700; }
+.rxa-bad { color: #d9480f; }
+[data-mantine-color-scheme=dark] .rxa-bad { color: #ff922b; }
+.rxa-table { font-size: 11.5px; }
+.rxa-table th { font-weight: 500; text-align: right; opacity: .7; padding: 0 0 2px; }
+.rxa-table th:first-child, .rxa-table td:first-child { text-align: left; }
+.rxa-table th + th, .rxa-table td + td { padding-left: 8px !important; }
+.rxa-table td { border-top: 1px solid rgba(128,128,128,.18); padding: 1.5px 0; }
+.rxa-chosen td { font-weight: 650; }
+.rxa-bars { display: grid; grid-template-columns: auto 1fr auto; gap: 2px 8px; align-items: center; font-size: 11.5px; }
+.rxa-track { position: relative; height: 10px; background: rgba(128,128,128,.14); border-radius: 2px; }
+.rxa-track > i { position: absolute; left: 0; top: 0; bottom: 0; border-radius: 2px; }
+.rxa-track > u { position: absolute; top: -1px; bottom: -1px; width: 1px; background: currentColor; opacity: .5; }
+.rxa-track > b { position: absolute; top: -2px; bottom: -2px; width: 2px; background: #e03131; }
+</style>"""
+
+_NONE = "–"
+_SHIFT = {0.0: ";transform:none", 100.0: ";transform:translateX(-100%)"}
+"""The outer numbers stay within the bar."""
+
+
+def voltage_bar(actuator: Actuator) -> str:
+    """The colours of the plies: both sides of the voltage range, each to its own end."""
+    low, high, unit = -100.0, 100.0, "%"
+    if isinstance(actuator, PiezoPly):
+        low, high, unit = *actuator.voltage_range, "V"
+    stops = ",".join(css(share_colour(k / 8.0)) for k in range(-8, 9))
+    marks = ((0.0, low), (25.0, 0.5 * low), (50.0, 0.0), (75.0, 0.5 * high), (100.0, high))
+    ticks = "".join(
+        f'<i style="left:{at:g}%"></i><span style="left:{at:g}%{_SHIFT.get(at, "")};white-space:nowrap">'
+        f"{number(value)}{' ' + unit if at == 100.0 else ''}</span>"
+        for at, value in marks
+    )
+    return (
+        '<div class="rx rx-scale" data-explorer="voltage-bar">'
+        f'<div class="rx-gradient" style="background:linear-gradient(90deg,{stops})"></div>'
+        f'<div class="rx-ticks">{ticks}</div></div>'
+    )
+
+
+def now_panel(inputs: ActuatorInputs, fitted: Fitted, change_w: float | None) -> str:
+    """What the sliders make of the blade at this moment, and what that does to power."""
+    tip = math.degrees(float(inputs.change(fitted, 1.0)))
+    if not inputs.driven:
+        power = '<span class="rx-dim">at rest: the design is untouched</span>'
+    elif change_w is None:
+        power = '<span class="rx-dim">no trim to compare with</span>'
+    else:
+        kind = "" if abs(change_w) < 50.0 else " rx-less" if change_w < 0.0 else " rx-more"
+        power = f'<span class="rx-push{kind}"><b>{number(1e-3 * change_w, 1, sign=True)} kW</b> of power</span>'
+    drives = " · ".join(drive_text(inputs, fitted, k) for k in range(len(fitted.shapes)))
+    lines = [f'<div class="rx-dim rx-small">tip against root, now: {drives}</div>']
+    made = inputs.turning(fitted)
+    if made is not None:
+        half = math.degrees(made.amplitude)
+        if half:
+            used = number(0.01 * inputs.amplitude * half, 2)
+            text = f"and ±{used}° of {number(half, 2)}° at {inputs.per_rev}/rev, as the blades turn"
+        else:
+            text = f"cannot follow {inputs.per_rev}/rev"
+        lines.append(f'<div class="rx-dim rx-small">{text}</div>')
+    over = over_range(inputs, fitted)
+    if over:
+        lines.append(f'<div class="rxa-bad rx-small">{escape(over)}</div>')
+    return (
+        '<div class="rx" data-explorer="actuator-now"><div class="rxa-now">'
+        f'<b data-explorer="actuator-twist">{number(tip, 2, sign=True)}°</b>{power}</div>{"".join(lines)}</div>'
+    )
+
+
+def over_range(inputs: ActuatorInputs, fitted: Fitted) -> str:
+    """A sentence when steady voltage and harmonic together leave the range; empty otherwise."""
+    actuator = fitted.actuator
+    if not inputs.per_rev or not isinstance(actuator, PiezoPly):
+        return ""
+    wave = 0.01 * inputs.amplitude * 0.5 * actuator.voltage_swing
+    volts = inputs.volts(fitted)
+    least, most = min(volts) - wave, max(volts) + wave
+    low, high = actuator.voltage_range
+    if least >= low - 1e-6 and most <= high + 1e-6:
+        return ""
+    return (
+        f"Voltage runs from {number(least)} to {number(most)} V, beyond {number(low)}…{number(high)} V: "
+        f"lower the amplitude, or rest at {number(0.5 * (low + high))} V."
+    )
+
+
+def fit_panel(inputs: ActuatorInputs, fitted: Fitted, verdict: Verdict | None) -> str:
+    """Numbers in two columns: those of the actuator on the blade are known at once, those of the verdict follow."""
+    bill = fitted.bill
+    nominal, tested = math.degrees(fitted.attainable), math.degrees(fitted.attainable * fitted.derating)
+    entries = [
+        ("Required Δtwist", _NONE if verdict is None else f"{number(math.degrees(verdict.required), 2)}°"),
+        ("Added mass", f"{number(bill.aircraft)} kg"),
+        ("Attainable", f"{number(nominal, 2)}°"),
+        ("on each blade", f"{number(bill.blade, 1)} kg"),
+        ("as tests suggest", f"{number(tested, 2)}°" if fitted.derating < 1.0 else _NONE),
+        ("First torsion", f"{number(fitted.frequency, 2)} /rev"),
+        (f"counted ({number(inputs.counted)} %)", f"{number(nominal * inputs.share, 2)}°"),
+        ("Moment", f"{number(fitted.moment)} N·m" if fitted.moment else _NONE),
+        ("Saving, gross", _kw(None if verdict is None else verdict.gross_saving)),
+        ("Slewing", _NONE if verdict is None else f"{number(verdict.drive.slew_power)} W"),
+        ("<b>Saving, net</b>", f"<b>{_kw(None if verdict is None else verdict.net_saving)}</b>"),
+        ("Free twist", _kw(None if verdict is None else verdict.baseline.ideal_saving)),
+    ]
+    cells = "".join(
+        f'<div class="rx-line"><span class="rx-dim">{name}</span><span class="rx-num">{value}</span></div>'
+        for name, value in entries
+    )
+    return f'<div class="rx rx-grid" data-explorer="actuator-numbers">{cells}</div>'
+
+
+def problem_panel(problem: str) -> str:
+    """Why there is no verdict."""
+    return _box("wrong", "problem", escape(problem))
+
+
+def verdict_panel(findings: Findings, question: Question) -> str:
+    """The verdict's sentence, or that it is on its way."""
+    if findings.question != question or findings.outcome is None:
+        old = findings.verdict
+        before = "" if old is None else f'<div class="rx-faded">{escape(verdict_sentence(old))}</div>'
+        return _box(
+            "wait",
+            "computing",
+            f"Would it pay? Computing… optimum twists at both conditions, then the best reach.{before}",
+        )
+    if isinstance(findings.outcome, str):
+        return problem_panel(findings.outcome)
+    verdict = findings.outcome
+    return _box("yes" if verdict.pays else "no", "ready", escape(verdict_sentence(verdict)))
+
+
+def _box(look: str, kind: str, text: str) -> str:
+    return f'<div class="rxa-box rxa-{look}" data-explorer="verdict" data-kind="{kind}">{text}</div>'
+
+
+def segments_panel(fitted: Fitted, share: float, verdict: Verdict | None) -> str:
+    """Bars: what each segment can make, nominal and as tested, with a mark where the optimum asks for it."""
+    if isinstance(fitted.actuator, ExtensionTwist) and verdict is None:
+        return ""
+    can = np.degrees(fitted.segment_twists)
+    need = None if verdict is None else np.degrees(np.abs(verdict.required_segments))
+    largest = max(float(can.max()), 0.0 if need is None else float(need.max()), 0.1) * 1.05
+    rows: list[str] = []
+    for k, each in enumerate(can):
+        mark = "" if need is None else f'<b style="left:{100 * need[k] / largest:.1f}%"></b>'
+        asked = _NONE if need is None else f"{number(float(need[k]), 1)}°"
+        rows.append(
+            f"<span>{f'Segment {k + 1}' if len(can) > 1 else 'Required / has'}</span>"
+            f'<span class="rxa-track"><i style="width:{100 * each / largest:.1f}%;background:rgba(28,126,214,.35)"></i>'
+            f'<i style="width:{100 * share * each / largest:.1f}%;background:#1c7ed6"></i>{mark}</span>'
+            f'<span class="rx-num">{asked} / {number(float(each), 1)}°</span>'
+        )
+    return f'<div class="rx rxa-bars" data-explorer="segments">{"".join(rows)}</div>'
+
+
+def limits_panel(verdict: Verdict | None) -> str:
+    """Every limit: those broken with their sentence, the others by name, and the data to be wary of."""
+    if verdict is None:
+        return ""
+    broken = "".join(_limit(limit) for limit in verdict.broken)
+    kept = ", ".join(limit.name.replace("-", " ") for limit in verdict.limits if limit.ok)
+    good = f'<div><span class="rx-good">✓</span><span class="rx-dim">kept: {escape(kept)}</span></div>' if kept else ""
+    cares = "".join(f'<div class="rx-care"><span>▲</span><span>{escape(text)}</span></div>' for text in verdict.caveats)
+    return f'<div class="rx rxa-limits" data-explorer="limits">{broken}{good}{cares}</div>'
+
+
+def _limit(limit: Limit) -> str:
+    name = escape(limit.name.replace("-", " "))
+    return f'<div><span class="rxa-bad">✕</span><span><b>{name}</b> {escape(typographic(limit.sentence))}</span></div>'
+
+
+def _kw(power: float | None) -> str:
+    return _NONE if power is None else f"{number(1e-3 * power, 1, sign=True)} kW"

@@ -1,0 +1,179 @@
+"""What is set on the Actuator tab, as a value; per cent, degrees and volts end here."""
+
+import math
+from dataclasses import dataclass, replace
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rotor.actuator.baseline import SMOOTH_DIVISIONS
+from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, find_actuator
+from rotor.actuator.fitted import Fitted, fit
+from rotor.actuator.harmonic import DynamicTwist, dynamic_twist, with_harmonic
+from rotor.actuator.placement import BladeKind, Host, Placement
+from rotor.actuator.reach import STATIONS, Pair, twisted
+from rotor.design.blade import Rotor
+from rotor.design.design import Design
+from rotor.design.twist import PiecewiseLinearTwist
+from rotor.dynamics.structure import KNOWN_BLADE
+from rotor.optimisation.concepts import find_concept
+
+Array = NDArray[np.float64]
+
+CONCEPTS = ("linear", "quadratic", "two-segment", "three-segment")
+"""Those whose divisions an actuator can be laid out for before any optimum is known."""
+MOST_SEGMENTS = len(SMOOTH_DIVISIONS) + 1
+BLADES: dict[str, BladeKind] = {"Flown blade (retrofit)": "retrofit", "New blade, softer": "new"}
+HARMONICS = {"Off": 0, "1/rev": 1, "2/rev": 2}
+
+
+@dataclass(frozen=True)
+class ActuatorInputs:
+    """Everything on the tab."""
+
+    actuator: str = "MFC_P1"
+    plies: int = 2
+    span: tuple[float, float] = (0.24, 0.93)
+    """r/R"""
+    chord: tuple[float, float] = (0.05, 0.80)
+    """x/c"""
+    blade: BladeKind = "retrofit"
+    stiffness: float = 0.5
+    """GJ of a new blade over that of the flown one."""
+    counted: float = 100.0
+    """Per cent of the nominal twist to count on."""
+    concept: str = "linear"
+    advance_ratios: tuple[float, float] = (0.0, 0.3)
+    drives: tuple[float, ...] = (0.0,) * MOST_SEGMENTS
+    """Per cent of the positive or of the negative voltage, segments from the root."""
+    crossed: bool = False
+    """Fibres laid the other way, so that positive voltage turns the tip down."""
+    per_rev: int = 0
+    amplitude: float = 50.0
+    """Per cent of half the voltage range."""
+    phase: float = 0.0
+    """[°]"""
+    shown: bool = False
+    """Whether the blade is shown cut open instead of the rotor."""
+    magnified: float = 5.0
+    """How much the actuator's part of the twist is exaggerated in the cut blade."""
+
+    @property
+    def host(self) -> Host:
+        return Host() if self.blade == "retrofit" else Host("new", self.stiffness)
+
+    @property
+    def placement(self) -> Placement:
+        return Placement(self.span, self.chord, self.plies)
+
+    @property
+    def share(self) -> float:
+        return 0.01 * self.counted
+
+    def fitted(self, rotor: Rotor) -> Fitted:
+        """The actuator on the blade; ValueError with one sentence where that cannot be built."""
+        actuator = find_actuator(self.actuator)
+        divisions = () if isinstance(actuator, ExtensionTwist) else concept_divisions(self.concept)
+        return fit(actuator, replace(self.placement, divisions=divisions), self.host, rotor)
+
+    def swings(self, fitted: Fitted) -> tuple[float, ...]:
+        """Each segment's share of its whole range, positive for tip up."""
+        sign = -1.0 if self.crossed and isinstance(fitted.actuator, PiezoPly) else 1.0
+        return tuple(sign * swing_of(fitted.actuator, drive) for drive in self._segments(fitted))
+
+    def volts(self, fitted: Fitted) -> tuple[float, ...]:
+        """Of each segment [V]; empty when voltage does not drive it."""
+        actuator = fitted.actuator
+        if not isinstance(actuator, PiezoPly):
+            return ()
+        return tuple(swing_of(actuator, drive) * actuator.voltage_swing for drive in self._segments(fitted))
+
+    def drive_shares(self, fitted: Fitted) -> tuple[float, ...]:
+        """Of each segment, −1…1."""
+        return tuple(0.01 * drive for drive in self._segments(fitted))
+
+    def change(self, fitted: Fitted, r: ArrayLike) -> Array:
+        """The steady twist that the actuator adds at r/R, as counted on [rad]."""
+        return self.share * fitted.change(self.swings(fitted), r)
+
+    def turning(self, fitted: Fitted) -> DynamicTwist | None:
+        """What the whole range makes at the chosen harmonic, as counted on."""
+        if not self.per_rev:
+            return None
+        made = dynamic_twist(fitted, self.per_rev)
+        return replace(made, amplitude=self.share * made.amplitude, static=self.share * made.static)
+
+    def harmonic_twist(self, fitted: Fitted, psi: float, r: ArrayLike) -> Array:
+        """The part that follows the azimuth, at one azimuth [rad]."""
+        made = self.turning(fitted)
+        stations = np.asarray(r, dtype=float)
+        if made is None:
+            return np.zeros_like(stations)
+        wave = 0.01 * self.amplitude * made.amplitude * math.cos(self.per_rev * psi - math.radians(self.phase))
+        return wave * np.interp(stations, made.stations, made.shape)
+
+    def apply(self, design: Design) -> Design:
+        """The design as the actuator twists it; the very same one at rest, and on a blade of unknown structure."""
+        if not self.driven or design.aircraft.key != KNOWN_BLADE:
+            return design
+        fitted = self.fitted(design.rotor)
+        if any(self.swings(fitted)):
+            design = replace(design, twist=twisted(design.twist, self.change(fitted, STATIONS)))
+        made = self.turning(fitted)
+        if made is not None and made.amplitude > 0.0 and self.amplitude > 0.0:
+            design = with_harmonic(design, made, 0.01 * self.amplitude, math.radians(self.phase))
+        return design
+
+    @property
+    def driven(self) -> bool:
+        return any(self.drives) or (self.per_rev > 0 and self.amplitude > 0.0)
+
+    def _segments(self, fitted: Fitted) -> tuple[float, ...]:
+        return self.drives[: len(fitted.shapes)]
+
+
+@dataclass(frozen=True)
+class Question:
+    """All that a verdict depends on."""
+
+    pair: Pair
+    concept: str
+    actuator: str
+    placement: Placement
+    host: Host
+    share: float
+
+
+def question_of(inputs: ActuatorInputs, design: Design) -> Question:
+    """What the tab asks about a design; ValueError for a pair of equal conditions."""
+    start = replace(design.condition, advance_ratio=inputs.advance_ratios[0])
+    pair = Pair(replace(design, condition=start, active_twist=None), inputs.advance_ratios)
+    return Question(pair, inputs.concept, inputs.actuator, inputs.placement, inputs.host, inputs.share)
+
+
+def swing_of(actuator: Actuator, drive: float) -> float:
+    """Per cent of the positive or negative voltage → share of the whole range; the two sides are not alike."""
+    if not isinstance(actuator, PiezoPly):
+        return 0.01 * drive
+    low, high = actuator.voltage_range
+    return 0.01 * drive * (high if drive >= 0.0 else -low) / actuator.voltage_swing
+
+
+def drive_of(actuator: Actuator, swing: float) -> float:
+    """The inverse, within −100…100."""
+    if not isinstance(actuator, PiezoPly):
+        return min(max(100.0 * swing, -100.0), 100.0)
+    low, high = actuator.voltage_range
+    side = high if swing >= 0.0 else -low
+    return min(max(100.0 * swing * actuator.voltage_swing / side, -100.0), 100.0) if side else 0.0
+
+
+@lru_cache(maxsize=16)
+def concept_divisions(name: str) -> tuple[float, ...]:
+    """r/R where a concept's segments meet."""
+    concept = find_concept(name)
+    law = concept.twist([0.5 * (p.low + p.high) for p in concept.parameters])
+    if isinstance(law, PiecewiseLinearTwist):
+        return law.breaks
+    return () if len(concept.parameters) == 1 else SMOOTH_DIVISIONS

@@ -1,0 +1,212 @@
+"""The Design tab: widgets ↔ `Inputs`. Callbacks only say that something changed."""
+
+import threading
+import time
+from collections.abc import Callable
+from typing import Any, Protocol
+
+import viser
+
+from explorer.picture.camera_views import View
+from explorer.sliders import SLIDERS, meant, shown, slider
+from explorer.state import INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs, ViewState, preset_inflow, with_rotor
+from explorer.tabs.display import Display
+from explorer.tabs.rotors.menu import RotorMenu
+from explorer.text import readout
+from explorer.text.glossary import hint
+from explorer.text.units import SI, Units
+from explorer.undo import Pauses
+from rotor.aero.inflow import INFLOW_MODELS
+from rotor.aero.switches import SWITCHES
+
+
+class Handle(Protocol):
+    """What a widget must offer."""
+
+    value: Any
+    visible: bool
+    disabled: bool
+
+    def on_update(self, func: Callable[[Any], None]) -> Any: ...
+
+
+FOUR, INFINITE = "dynamic-wake", "dynamic-wake-infinite-blades"
+"""The same theory with the rotor's own blades and with infinitely many."""
+VIEW_BUTTONS: dict[str, View] = {"3D": "3d", "Top": "top", "Blade": "blade", "Side": "side"}
+
+
+class Controls:
+    """The widgets of one client, made once."""
+
+    def __init__(
+        self,
+        gui: viser.GuiApi,
+        start: Inputs,
+        changed: Callable[[], None],
+        view: ViewState,
+        turned: Callable[[], None] | None = None,
+    ) -> None:
+        """`view`: what is shown at first. `changed`: something moved. `turned`: it was only the marked blade."""
+        self._start = start
+        self._changed = changed
+        self._inputs: dict[str, Handle] = {}
+        self._special = start
+        """Holds what the laws mean that are not always there."""
+        self._moving = threading.RLock()
+        self.pauses = Pauses()
+        self._laws = _laws_of(start)
+        self._inflows = {name: model.title for name, model in INFLOW_MODELS.items()}
+        self._units = SI
+        """Of the weight and altitude sliders now."""
+        self.view_buttons = gui.add_button_group("View", tuple(VIEW_BUTTONS), hint=hint("view"))
+        with gui.add_folder("Twist"):
+            self._law = gui.add_dropdown(
+                "Law", tuple(self._laws.values()), initial_value=self._laws[start.law], hint=hint("law")
+            )
+            self._inputs["law"] = self._watched(self._law)
+            self._sliders(gui, tuple(name for law in LAWS.values() for name in law.inputs))
+        with gui.add_folder("Flight"):
+            self._sliders(gui, ("advance_ratio",))
+            self._speed = gui.add_html(readout.speed_line(0.0))
+            self._sliders(gui, ("mass_t", "altitude_m"))
+        with gui.add_folder("Disk and blades"):
+            self.display = Display(gui, view, changed, turned or changed)
+        with gui.add_folder("Model"):
+            self.rotor = RotorMenu(gui, start, self._rotor_chosen)
+            titles = tuple(PRESET_TITLES.values())
+            preset = gui.add_dropdown("Preset", titles, initial_value=PRESET_TITLES[start.preset], hint=hint("preset"))
+            self._inputs["preset"] = self._watched(preset)
+            titles = tuple(self._inflows.values())
+            inflow = gui.add_dropdown("Inflow", titles, initial_value=self._inflows[start.inflow], hint=hint("inflow"))
+            self._inputs["inflow"] = self._watched(inflow)
+            self._explanation = gui.add_html("")
+            self._infinite = gui.add_checkbox("Infinite blades", start.inflow == INFINITE, hint=hint("infinite"))
+            self._infinite.on_update(self._infinite_changed)
+            self.check_button = gui.add_button("Check with the vortex wake", color="gray", hint=hint("vortex_check"))
+            self.display.add_page(gui, view)
+        with gui.add_folder("Physics", expand_by_default=False):
+            for name, switch in SWITCHES.items():
+                box = gui.add_checkbox(switch.title, getattr(start, name), hint=hint(name))
+                self._inputs[name] = self._watched(box)
+        self.reset_button = gui.add_button("Reset design", hint=hint("reset"))
+        self._inputs["preset"].on_update(self._preset_changed)
+
+    def inputs(self) -> Inputs:
+        """What the widgets mean now."""
+        with self._moving:
+            values = {name: self._read(name, handle.value) for name, handle in self._inputs.items()}
+            special = self._special
+        values["law"] = _key(self._laws, values["law"])
+        values["preset"] = _key(PRESET_TITLES, values["preset"])
+        values["inflow"] = _key(self._inflows, values["inflow"])
+        held = {name: getattr(special, name) for name in _HELD}
+        return Inputs(**values, **held)
+
+    def reset(self) -> None:
+        """Back to the design the page began with."""
+        self.set_inputs(self._start)
+
+    def hold(self, held: bool) -> None:
+        """Take the widgets from the user, or give them back."""
+        own = (self._infinite, self.rotor.menu, self.rotor.button, self.reset_button)
+        for handle in (*self._inputs.values(), *own):
+            handle.disabled = held
+        self.display.hold(held)
+
+    def set_inputs(self, inputs: Inputs) -> None:
+        """Move the widgets; the page follows as if they had been dragged."""
+        with self._moving:  # A round that reads meanwhile would see half of them.
+            self._special = inputs
+            self._laws = _laws_of(inputs)
+            if self._law.options != tuple(self._laws.values()):
+                self._law.options = tuple(self._laws.values())
+            self.rotor.show(inputs)
+            self._fit_mass(inputs)
+            titles = {"law": self._laws, "preset": PRESET_TITLES, "inflow": self._inflows}
+            for name in INPUT_NAMES:
+                if name in self._inputs:
+                    value = getattr(inputs, name)
+                    place = titles[name][value] if name in titles else self._shown(name, value)
+                    self._inputs[name].value = place
+        self._changed()
+
+    def refresh(self, inputs: Inputs, units: Units) -> None:
+        """Bring everything that only follows the widgets into line: which sliders show, speed, units, explanations."""
+        self._change_units(units)
+        for key, law in LAWS.items():
+            for name in law.inputs:
+                self._inputs[name].visible = key == inputs.law
+        self._speed.content = readout.speed_line(inputs.advance_ratio * inputs.aircraft.rotor.tip_speed, units)
+        self._explanation.content = readout.explanation(INFLOW_MODELS[inputs.inflow].explanation)
+        self._infinite.visible = inputs.inflow in (FOUR, INFINITE)
+        self._infinite.value = inputs.inflow == INFINITE
+
+    def _change_units(self, units: Units) -> None:
+        """Weight and altitude in other units; the inputs stay what they are."""
+        if units is self._units:
+            return
+        with self._moving:
+            for name in ("mass_t", "altitude_m"):
+                handle: Any = self._inputs[name]
+                value, form = self._read(name, handle.value), slider(name, units, self._special.aircraft)
+                handle.label, handle.step, handle.precision = form.label, form.step, form.digits
+                handle.min, handle.max = form.low, form.high
+                handle.value = shown(name, value, units)
+            self._units = units
+
+    def _read(self, name: str, place: Any) -> Any:
+        """The input that a widget's value means, but for titles."""
+        return meant(name, place, self._units) if name in SLIDERS else place
+
+    def _shown(self, name: str, value: Any) -> Any:
+        return shown(name, value, self._units) if name in SLIDERS else value
+
+    def _sliders(self, gui: viser.GuiApi, names: tuple[str, ...]) -> None:
+        for name in names:
+            s = slider(name, SI, self._start.aircraft)
+            value = min(max(float(getattr(self._start, name)), s.low), s.high)
+            self._inputs[name] = self._watched(gui.add_slider(s.label, s.low, s.high, s.step, value, hint=hint(name)))
+
+    def _watched(self, handle: Any) -> Any:
+        handle.on_update(lambda _: self._moved())
+        return handle
+
+    def _moved(self) -> None:
+        self.pauses.moved(time.monotonic())
+        self._changed()
+
+    def _preset_changed(self, event: viser.GuiEvent[Any]) -> None:
+        if event.client is not None:  # Not when the reset button moved it.
+            self._inputs["inflow"].value = self._inflows[preset_inflow(self.inputs().preset)]
+
+    def _rotor_chosen(self, name: str) -> None:
+        self.pauses.moved(time.monotonic())
+        self.set_inputs(with_rotor(self.inputs(), name))
+
+    def _fit_mass(self, inputs: Inputs) -> None:
+        """The weight slider about the rotor's own reference mass."""
+        handle: Any = self._inputs["mass_t"]
+        form = slider("mass_t", self._units, inputs.aircraft)
+        if (handle.min, handle.max) != (form.low, form.high):
+            # In an order that never leaves the value outside its ends.
+            handle.min, handle.max = min(form.low, handle.min), max(form.high, handle.max)
+            handle.step, handle.precision = form.step, form.digits
+            handle.value = shown("mass_t", inputs.mass_t, self._units)
+            handle.min, handle.max = form.low, form.high
+
+    def _infinite_changed(self, event: viser.GuiEvent[Any]) -> None:
+        if event.client is not None:  # Not when the menu moved it.
+            self._inputs["inflow"].value = self._inflows[INFINITE if event.target.value else FOUR]
+
+
+_HELD = ("rotor", "own_rotor", "given", "found", "airfoils")
+"""Inputs that no slider moves by itself: a menu or a file brings them, with others."""
+
+
+def _laws_of(inputs: Inputs) -> dict[str, str]:
+    """The menu of laws: those that are not always there only where `inputs` hold them."""
+    return {key: law.title for key, law in LAWS.items() if key not in NOT_ALWAYS or getattr(inputs, key) is not None}
+
+
+def _key(titles: dict[str, str], title: str) -> str:
+    return next(key for key, value in titles.items() if value == title)

@@ -1,0 +1,119 @@
+"""The link of the design and its file: copied, saved, loaded."""
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+import viser
+
+from explorer.hosting import viser_compat
+from explorer.sharing import share
+from explorer.sharing.address import Address
+from explorer.sharing.view_code import VIEW, view_code
+from explorer.state import inputs_of
+from explorer.tabs.interface import Desk, Moment
+from explorer.text.glossary import hint
+from rotor.design.design import Design
+from rotor.files.design_file import case_of, parse_case
+
+MOST_BYTES = 1_000_000
+"""A design file may have; written ones have a thousand."""
+
+
+class FilePanel:
+    """One session's. The address of the page follows the design, and what is shown of it, by itself."""
+
+    def __init__(self, client: viser.ClientHandle, desk: Desk, address: Address, kept: Mapping[str, str]) -> None:
+        """`kept`: design files that the page kept for what its address cannot hold, by name in the address."""
+        self._client, self._desk, self._address, self._kept = client, desk, address, dict(kept)
+        self._records: dict[str, dict[str, Any]] = {}
+        """Designs that the address cannot hold now, by name in it."""
+        gui = client.gui
+        with gui.add_folder("Link and file"):
+            self._link = gui.add_button("Copy link", icon=viser.Icon.LINK, hint=hint("link"))
+            self._save = gui.add_button("Save design", icon=viser.Icon.DOWNLOAD, color="gray", hint=hint("save"))
+            self._load = gui.add_upload_button(
+                "Load design", icon=viser.Icon.UPLOAD, color="gray", mime_type=".json", hint=hint("load")
+            )
+        desk.bind("share", self.copy_link)
+        self._link.on_click(lambda _: self.copy_link())
+        self._save.on_click(lambda _: self.save())
+        self._load.on_upload(self._loaded)
+
+    def follow(self, moment: Moment) -> None:
+        """Bring the address into line with the design, with the one that is pinned, and with the view."""
+        pinned = None if moment.pin is None else moment.pin.inputs
+        for name, inputs in ((share.DESIGN, moment.inputs), (share.PINNED, pinned)):
+            try:
+                self._address[name] = None if inputs is None else self._code_of(name, inputs.design())
+            except ValueError:
+                continue  # It cannot be written; the last one stays.
+        self._address[VIEW] = view_code(moment.view)
+
+    def keep(self) -> None:
+        """Give the page, now that it rests, what its address cannot hold: designs with their decks are long."""
+        for name, record in self._records.items():
+            text = json.dumps(record, ensure_ascii=False)
+            if self._kept.get(name) != text:
+                self._kept[name] = text
+                viser_compat.keep_in_page(self._client, name, text)
+
+    def _code_of(self, name: str, design: Design) -> str:
+        """What the address says of a design; one that it cannot hold, the page is to keep."""
+        self._records.pop(name, None)
+        try:
+            return share.code_of(design)
+        except ValueError:
+            self._records[name] = case_of(design)
+            return share.KEPT
+
+    def begin(self) -> None:
+        """Pin what the address says is pinned."""
+        code = self._address[share.PINNED]
+        if code is not None:
+            try:
+                self._desk.pin(share.inputs_from(code, self._kept.get(share.PINNED)))
+            except ValueError as error:
+                self._desk.tell("Not the A of the link", str(error))
+
+    def copy_link(self) -> None:
+        """The page's address into the clipboard."""
+        try:
+            share.code_of(self._desk.inputs().design())
+        except ValueError as error:
+            self._desk.tell("No link", str(error))
+            return
+        viser_compat.copy_text(self._client, "location.href")
+        self._desk.tell("Link copied", "It opens this design; the page's address is the same link.")
+
+    def save(self) -> None:
+        """The design file, as `--case` and `--design` read it."""
+        try:
+            record = case_of(self._desk.inputs().design())
+        except ValueError as error:
+            self._desk.tell("Nothing saved", str(error))
+            return
+        self._desk.send("design.json", (json.dumps(record, indent=2, ensure_ascii=False) + "\n").encode())
+
+    def show(self, moment: Moment) -> None:
+        """The address follows once the page is at rest: see `follow`."""
+
+    def lose(self) -> None:
+        """The address keeps the last design."""
+
+    def stop(self) -> None:
+        self._address.stop()
+
+    def _loaded(self, event: viser.GuiEvent[Any]) -> None:
+        file = event.target.value
+        try:
+            if len(file.content) > MOST_BYTES:
+                raise ValueError(f"{file.name} has {len(file.content)} bytes: a design file has at most {MOST_BYTES}.")
+            design = parse_case(file.content, file.name)
+            inputs = share.within(inputs_of(design))
+        except ValueError as error:
+            self._desk.tell("Not loaded", str(error))
+            return
+        self._desk.set_inputs(inputs)
+        more = " Its active twist is not taken: the Actuator tab drives the blade." if design.active_twist else ""
+        self._desk.tell("Loaded", f"{file.name} is on the sliders.{more}")

@@ -1,0 +1,117 @@
+"""Undo, redo, the strip of steps and the kept designs of one session."""
+
+import threading
+
+import viser
+
+from explorer.state import Inputs
+from explorer.tabs.history import strip as view
+from explorer.tabs.history.strip import FIELD, MOST_KEPT, Kept
+from explorer.tabs.interface import Desk, Moment
+from explorer.text.glossary import hint
+from explorer.text.units import UNITS
+from explorer.undo import History
+from rotor.trim.solution import Solution
+
+
+class HistoryPanel:
+    """One session's. Buttons act at once, on any thread; steps are taken on the session's worker."""
+
+    def __init__(self, gui: viser.GuiApi, desk: Desk, start: Inputs) -> None:
+        self._desk = desk
+        self._lock = threading.RLock()
+        self._history = History(start)
+        self._powers: dict[Inputs, float] = {}
+        self._kept: list[Kept] = []
+        self._drawn: object = None
+        with gui.add_folder("History"):
+            self._strip = gui.add_html("")
+            keep = gui.add_button("Keep this design", color="gray", hint=hint("keep"))
+            self._rows = gui.add_html("")
+            gui.add_html('<div class="rx-bridge"></div>')  # The style sheet hides the row after it.
+            self._field = gui.add_text(FIELD, "", hint=hint("take"))
+        for name, act in (("undo", self.undo), ("redo", self.redo), ("keep", self.keep)):
+            desk.bind(name, act)
+        keep.on_click(lambda _: self.keep())
+        self._field.on_update(lambda event: self._asked() if event.client is not None else None)
+
+    def read(self, pause: float) -> Inputs:
+        """The inputs of a round that begins, taken as a step; `pause`: the longest [s] in moving them."""
+        with self._lock:  # Between undoing a step and moving the widgets, they are no new step.
+            inputs = self._desk.inputs()
+            self._history.note(inputs, pause)
+        return inputs
+
+    def solved(self, inputs: Inputs, power: float) -> None:
+        """They have an answer: total power [W]."""
+        self._powers[inputs] = power
+
+    def undo(self) -> None:
+        with self._lock:
+            self._take(self._history.undo())
+
+    def redo(self) -> None:
+        with self._lock:
+            self._take(self._history.redo())
+
+    def keep(self) -> None:
+        """Set the present design aside; the oldest goes when there are too many."""
+        moment = self._desk.moment()
+        if moment is None:
+            return
+        with self._lock:
+            others = [item for item in self._kept if item.inputs != moment.inputs]
+            self._kept = [*others, Kept(moment.inputs, moment.solution)][-MOST_KEPT:]
+        self._desk.wake()
+
+    @property
+    def kept(self) -> tuple[Kept, ...]:
+        """Oldest first."""
+        with self._lock:
+            return tuple(self._kept)
+
+    def show(self, moment: Moment) -> None:
+        self._draw(moment.solution)
+
+    def lose(self) -> None:
+        self._draw(None)
+
+    def stop(self) -> None:
+        """Nothing runs on."""
+
+    def _draw(self, solution: Solution | None) -> None:
+        with self._lock:
+            steps, present, kept = self._history.steps, len(self._history.past), tuple(self._kept)
+            self._powers = {step: self._powers[step] for step in steps if step in self._powers}
+            units = UNITS[self._desk.view().units]
+            if self._drawn == (steps, present, kept, solution, units):
+                return
+            self._drawn = (steps, present, kept, solution, units)
+            strip = view.strip(self._history, self._powers, units) + view.caption(self._history)
+        self._strip.content = f'<div class="rx">{strip}</div>'
+        self._rows.content = f'<div class="rx">{view.kept_rows(kept, solution, units)}</div>'
+
+    def _take(self, inputs: Inputs | None) -> None:
+        """Move the widgets, under the lock."""
+        if inputs is None:
+            self._desk.wake()
+        else:
+            self._desk.set_inputs(inputs)
+
+    def _asked(self) -> None:
+        asked = view.asked(self._field.value)
+        self._field.value = ""  # The same click again is a change again.
+        if asked is None:
+            return
+        verb, which = asked
+        with self._lock:
+            if verb == "step":
+                taken = self._history.go(which)
+            elif which >= len(self._kept):
+                taken = None
+            elif verb == "drop":
+                taken = None
+                del self._kept[which]
+            else:
+                taken = self._kept[which].inputs
+            self._take(taken)

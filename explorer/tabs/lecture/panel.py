@@ -1,0 +1,185 @@
+"""The Lecture tab of one session, and the caption that stands below the controls while a lecture runs."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import viser
+
+from explorer.hosting import viser_compat
+from explorer.pinned import same_but_flight
+from explorer.state import Inputs
+from explorer.tabs.interface import Desk, Moment
+from explorer.tabs.lecture import cases, view
+from explorer.tabs.lecture import steps as lecture
+from explorer.tabs.lecture.presence import Presence
+from explorer.tabs.lecture.steps import STEPS
+from explorer.text.glossary import hint
+
+_NO_CASE = "–"
+_PRESENTING = (
+    '<div class="rx rx-dim rx-small">Copies a link. Who opens it sees what you set here, as you set it, '
+    "and may leave at any time.</div>"
+)
+
+
+class LecturePanel:
+    """One session's. Buttons act at once; the caption's numbers follow the session."""
+
+    def __init__(
+        self, client: viser.ClientHandle, desk: Desk, presence: Presence, enlarge: Callable[[bool], None]
+    ) -> None:
+        """`enlarge`: big type for the whole page, or as it was."""
+        self._client, self._desk, self._presence = client, desk, presence
+        self._step: int | None = None
+        self._against: Inputs | None = None
+        """A, as the step wants it beside what is on the sliders."""
+        self._told = ""
+        gui = client.gui
+        self._begin = gui.add_button("Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture"))
+        gui.add_html('<div class="rx rx-dim rx-small">Eight steps set the page and say what to watch.</div>')
+        self._big = gui.add_checkbox("Big type", False, hint=hint("big_type"))
+        self._flights = gui.add_button_group("Fly at µ", tuple(cases.FLIGHTS), hint=hint("lecture_flights"))
+        self._case = gui.add_dropdown("Document", (_NO_CASE, *cases.DOCUMENT), hint=hint("document_case"))
+        with gui.add_folder("Present to others"):
+            self._present = gui.add_button("Present", icon=viser.Icon.PRESENTATION, color="gray", hint=hint("present"))
+            gui.add_html(_PRESENTING)
+            self._name_present()  # A presenter who loads the page again presents on.
+        self._caption_panel = gui.add_panel(visible=False)
+        with self._caption_panel.add_tab("What to watch", viser.Icon.SCHOOL):
+            # First, so that they stay where they are however long the text is.
+            self._buttons = gui.add_button_group("", ("Back", "Set again", "Next", "End"), hint=hint("lecture_step"))
+            self._caption = gui.add_html("")
+        # It covers neither the rotor nor the controls, also in a small window.
+        self._caption_panel.dock_below(gui.main_panel)
+        self._begin.on_click(lambda _: self.toggle())
+        self._buttons.on_click(self._clicked)
+        self._big.on_update(lambda event: enlarge(event.target.value))
+        self._present.on_click(lambda _: self._present_or_end())
+        self._flights.on_click(lambda event: self._fly(cases.FLIGHTS[event.target.value]))
+        self._case.on_update(self._take_case)
+        desk.bind("lecture", self.toggle)
+        desk.bind("lecture_next", lambda: self.go(1))
+        desk.bind("lecture_previous", lambda: self.go(-1))
+
+    @property
+    def step(self) -> int | None:
+        """The step that stands; None outside the lecture."""
+        return self._step
+
+    def toggle(self) -> None:
+        """Begin with the first step, or end."""
+        if self._step is None:
+            self.set(0)
+        else:
+            self.end()
+
+    def go(self, by: int) -> None:
+        """To another step; beyond the last the lecture ends."""
+        step = 0 if self._step is None else self._step + by
+        if step >= len(STEPS):
+            self.end()
+        else:
+            self.set(max(step, 0))
+
+    def set(self, step: int) -> None:
+        """Set the page as a step wants it."""
+        self._stand_at(step)
+        wanted, desk = STEPS[step], self._desk
+        inputs = self._kept(wanted.inputs)
+        self._against = lecture.beside(wanted, inputs)
+        desk.pin(self._against)
+        desk.set_view(lecture.view_of(wanted, desk.view()))
+        desk.set_inputs(inputs)
+        for tab in (wanted.tab, "Design"):  # To watch; to try.
+            viser_compat.open_tab(self._client, tab)
+
+    def follow(self, step: int | None) -> None:
+        """Show the step of another page, which sets the rest."""
+        if step != self._step:
+            self._against = None
+            self._stand_at(step)
+
+    def hold(self, held: bool) -> None:
+        """Take what moves the page from the user, or give it back."""
+        self._begin.disabled = self._case.disabled = held
+        self._flights.visible = self._buttons.visible = not held
+
+    def end(self) -> None:
+        """The caption goes; the page stays as it is."""
+        self._stand_at(None)
+
+    def show(self, moment: Moment) -> None:
+        """Say what is seen now."""
+        self._name_case(moment.inputs)
+        step = self._step
+        if step is None:
+            return
+        self._tell(STEPS[step].say(moment))
+        if self._against is None or moment.pin is None or moment.pin.inputs != self._against:
+            return  # The user has made another design A.
+        against = lecture.beside(STEPS[step], moment.inputs)
+        if against is not None and not same_but_flight(against, self._against):
+            self._against = against
+            self._desk.pin(against)
+
+    def lose(self) -> None:
+        if self._step is not None:
+            self._tell("")
+
+    def stop(self) -> None:
+        """Nothing runs on."""
+
+    def _stand_at(self, step: int | None) -> None:
+        self._step = step
+        self._caption_panel.visible = step is not None
+        self._begin.label = "Start the lecture" if step is None else "End the lecture"
+        if step is not None:
+            self._tell("")
+        self._desk.wake()
+
+    def _tell(self, said: str) -> None:
+        step = self._step
+        if step is None:
+            return
+        content = view.caption(STEPS[step], said)
+        if content != self._told:
+            self._told = self._caption.content = content
+
+    def _fly(self, advance_ratio: float) -> None:
+        self._desk.set_inputs(replace(self._desk.inputs(), advance_ratio=advance_ratio))
+
+    def _present_or_end(self) -> None:
+        if self._presence.presenting:
+            self._presence.end()
+        else:
+            self._presence.present()
+        self._name_present()
+
+    def _name_present(self) -> None:
+        self._present.label = "Stop presenting" if self._presence.presenting else "Present"
+
+    def _take_case(self, event: viser.GuiEvent[Any]) -> None:
+        if event.client is not None and event.target.value in cases.DOCUMENT:
+            self._desk.set_inputs(self._kept(cases.DOCUMENT[event.target.value]))
+
+    def _name_case(self, inputs: Inputs) -> None:
+        """The menu names a case for as long as the sliders hold it."""
+        held = (title for title, case in cases.DOCUMENT.items() if self._kept(case) == inputs)
+        if self._case.value != (title := next(held, _NO_CASE)):
+            self._case.value = title
+
+    def _kept(self, inputs: Inputs) -> Inputs:
+        """These inputs, with the rotor that the user brought still in the menu."""
+        return replace(inputs, own_rotor=self._desk.inputs().own_rotor)
+
+    def _clicked(self, event: viser.GuiEvent[Any]) -> None:
+        match event.target.value:
+            case "Back":
+                self.go(-1)
+            case "Next":
+                self.go(1)
+            case "Set again" if self._step is not None:
+                self.set(self._step)
+            case _:
+                self.end()

@@ -1,0 +1,192 @@
+"""One session's part in a presentation: its presenter, a follower, or neither."""
+
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+import viser
+from numpy.typing import NDArray
+
+from explorer.hosting import viser_compat
+from explorer.sharing.address import Address
+from explorer.tabs.interface import Desk, Moment
+from explorer.tabs.lecture.presentation import FOLLOW, PRESENT, Point, Shown, Stage, follow_name, new_secret
+from explorer.text.glossary import hint
+
+_CAMERA_EVERY = 0.1
+"""[s] between two poses of the presenter's camera."""
+_LONGEST = 40
+"""Characters of a name in the address that are looked at."""
+
+
+@dataclass(frozen=True)
+class Hands:
+    """What a presentation moves on a page beside its inputs and view."""
+
+    lecture_step: Callable[[], int | None]
+    stand_at: Callable[[int | None], None]
+    hold: Callable[[bool], None]
+    """Take the controls from the user, or give them back."""
+
+
+class Presence:
+    """Above the tabs: a banner while it presents or follows. Publishing happens on the session's worker."""
+
+    def __init__(self, client: viser.ClientHandle, stage: Stage, address: Address) -> None:
+        """The page's address says whether it follows or presents."""
+        self._client, self._stage, self._address = client, stage, address
+        self._secret = (address[PRESENT] or "")[:_LONGEST]
+        self._name = "" if self._secret else (address[FOLLOW] or "")[:_LONGEST]
+        self._lock, self._publishing = threading.Lock(), threading.Lock()
+        self._desk: Desk | None = None
+        self._hands: Hands | None = None
+        self._unfollow: Callable[[], None] | None = None
+        self._shown: Shown | None = None
+        """What the presenter shows."""
+        self._looked = 0.0
+        self._pending: threading.Timer | None = None
+        self._camera: tuple[Point, Point] | None = None
+        self._banner = client.gui.add_html("", visible=False)
+        self._leave = client.gui.add_button("Leave, and go on alone", color="gray", visible=False, hint=hint("leave"))
+        self._leave.on_click(lambda _: self.leave())
+
+    def begin(self, desk: Desk, hands: Hands) -> None:
+        """The page stands: follow, or present, if the address says so."""
+        self._desk, self._hands = desk, hands
+        self._client.camera.on_update(self._looked_round)
+        if self._name:
+            hands.hold(True)
+            self._say("Following a presentation: this page moves by itself.", leave=True)
+            self._unfollow = self._stage.follow(self._name, self._hear)
+        elif self._secret:
+            self._stage.watch(self._secret, self._announce)
+
+    @property
+    def presenting(self) -> bool:
+        return bool(self._secret)
+
+    def present(self) -> None:
+        """Begin to present; the link of followers goes into the clipboard. The own address remembers it."""
+        if self._name:
+            self.leave()
+        if not self._secret:
+            self._secret = new_secret()
+            self._address[PRESENT] = self._secret
+        self._stage.watch(self._secret, self._announce)
+        self._publish()
+        viser_compat.copy_text(self._client, f"new URL('{self._link}', location.href).href")
+        if self._desk is not None:
+            self._desk.tell("Presenting", "The link for those who follow is in the clipboard, and in the line above.")
+
+    def end(self) -> None:
+        """Stop presenting."""
+        if self._secret:
+            self._stage.end(self._secret)
+            self._secret = ""
+            self._address[PRESENT] = None
+            self._say("")
+
+    def leave(self) -> None:
+        """Stop following: the page stays as it is, and is the user's."""
+        unfollow, self._unfollow, self._name = self._unfollow, None, ""
+        if unfollow is not None:
+            unfollow()
+        if self._hands is not None:
+            self._hands.hold(False)
+        self._address[FOLLOW] = None
+        self._say("")
+
+    def show(self, moment: Moment) -> None:
+        """Publish what the page shows, if it presents."""
+        del moment
+        self._publish()
+        self._hold_still()
+
+    def lose(self) -> None:
+        self._publish()
+        self._hold_still()
+
+    def stop(self) -> None:
+        """The browser has left. A presenter may come back by the same address, so followers wait."""
+        if self._unfollow is not None:
+            self._unfollow()
+
+    def _publish(self) -> None:
+        self._pending = None
+        desk, hands = self._desk, self._hands
+        if not self._secret or desk is None or hands is None:
+            return
+        with self._publishing:  # Camera and worker come on threads of their own: what was read first goes out first.
+            moment = desk.moment()
+            against = moment.pin.inputs if moment is not None and moment.pin is not None else None
+            shown = Shown(desk.inputs(), desk.view(), against, hands.lecture_step(), self._camera)
+            self._stage.present(self._secret, shown)
+
+    def _announce(self, count: int) -> None:
+        follow = "follows" if count == 1 else "follow"
+        link = f'<a href="{self._link}" target="_blank" rel="noopener">the link for others</a>'
+        self._say(f"Presenting: {count} {follow}; {link}.")
+
+    @property
+    def _link(self) -> str:
+        """What followers open, relative to the page."""
+        return f"?{FOLLOW}={follow_name(self._secret)}"
+
+    def _hold_still(self) -> None:
+        """A follower's page shows the presenter's design: viser's number fields can be typed into even if disabled."""
+        shown, desk = self._shown, self._desk
+        if self._name and shown is not None and desk is not None and desk.inputs() != shown.inputs:
+            desk.set_inputs(shown.inputs)
+
+    def _hear(self, shown: Shown | None) -> None:
+        """What the presenter shows; on the presenter's thread."""
+        desk, hands = self._desk, self._hands
+        if not self._name or desk is None or hands is None:
+            return
+        if shown is None:
+            self.leave()
+            desk.tell("The presentation is over", "The page is yours.")
+            return
+        with self._lock:
+            self._shown = shown
+            view = desk.view()
+            wanted = replace(shown.view, dark=view.dark, units=view.units)
+            if wanted != view:
+                desk.set_view(wanted)
+            moment = desk.moment()
+            have = moment.pin.inputs if moment is not None and moment.pin is not None else None
+            if shown.against != have:
+                desk.pin(shown.against)
+            if shown.inputs != desk.inputs():
+                desk.set_inputs(shown.inputs)
+            hands.stand_at(shown.step)
+            if shown.camera is not None and shown.camera != self._camera:
+                self._camera = shown.camera
+                with self._client.atomic():
+                    self._client.camera.position, self._client.camera.look_at = shown.camera
+
+    def _looked_round(self, camera: viser.CameraHandle) -> None:
+        if not self._secret:
+            return
+        self._camera = (_point(camera.position), _point(camera.look_at))
+        now = time.monotonic()
+        if now - self._looked > _CAMERA_EVERY:
+            self._looked = now
+            self._publish()
+        elif self._pending is None:  # The last pose of a movement is shown too.
+            self._pending = threading.Timer(_CAMERA_EVERY, self._publish)
+            self._pending.daemon = True
+            self._pending.start()
+
+    def _say(self, text: str, leave: bool = False) -> None:
+        content = f'<div class="rx rx-presence" data-explorer="presence">{text}</div>' if text else ""
+        if self._banner.content != content:
+            self._banner.content = content
+        self._banner.visible, self._leave.visible = bool(text), leave
+
+
+def _point(at: NDArray[np.float64]) -> Point:
+    x, y, z = (round(float(value), 3) for value in at)
+    return x, y, z

@@ -1,0 +1,234 @@
+"""The Optimise tab: what to search for, its buttons, its course, and what becomes of the optimum."""
+
+import threading
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import viser
+
+from explorer.state import baseline_of, baseline_title, with_optimum
+from explorer.tabs.interface import Desk
+from explorer.tabs.optimise import text
+from explorer.tabs.optimise.chart import search_chart
+from explorer.tabs.optimise.concept_picture import concept_picture
+from explorer.tabs.optimise.plot import TRACES, search_plot
+from explorer.tabs.optimise.run import FRAME, SearchRun
+from explorer.tabs.optimise.wishes import OBJECTIVES, Wishes
+from explorer.text.glossary import hint
+from explorer.text.units import UNITS
+from explorer.workers.job import Job, News, Told
+from explorer.workers.pool import Share
+from explorer.workers.tasks import SearchTask
+from rotor.design.design import Design
+from rotor.optimisation.concepts import CONCEPTS
+from rotor.optimisation.objective import Leg
+
+TIME_LIMIT = 60.0
+"""[s] a search may take."""
+
+
+class OptimisePanel:
+    """One session's search. Buttons act at once; everything that only shows happens in `refresh`."""
+
+    def __init__(self, gui: viser.GuiApi, pool: Share, desk: Desk, legs: Callable[[Design], tuple[Leg, ...]]) -> None:
+        """`legs`: of the mission, for a design."""
+        self._pool, self._desk, self.legs = pool, desk, legs
+        self._beginning = threading.Lock()
+        self._job: Job | None = None
+        self._run: SearchRun | None = None
+        self._offered = False
+        """Whether the run's designs are shown, to be applied or discarded."""
+        self._problem = ""
+        self._woken = 0.0
+        self._drawn: object = None
+        self._titles = {name: concept.title for name, concept in CONCEPTS.items()}
+        titles, first = tuple(self._titles.values()), self._titles["two-segment-free"]
+        self._concept = gui.add_dropdown("Concept", titles, initial_value=first, hint=hint("search_concept"))
+        self._picture = gui.add_html("")
+        self._objective = gui.add_dropdown("Objective", tuple(OBJECTIVES.values()), hint=hint("objective"))
+        defaults, where = Wishes(), hint("search_division")
+        self._numbers: dict[str, viser.GuiSliderHandle[float]] = {
+            "hover_share": gui.add_slider("Hover [%]", 0.0, 100.0, 5.0, 50.0, hint=hint("hover_share")),
+            "division": gui.add_slider("Division [R]", 0.25, 0.92, 0.01, defaults.division, hint=where),
+            "first": gui.add_slider("Division 1 [R]", 0.2, 0.6, 0.01, defaults.first, hint=where),
+            "second": gui.add_slider("Division 2 [R]", 0.65, 0.95, 0.01, defaults.second, hint=where),
+            "starts": gui.add_slider("Starts", 1, TRACES, 1, defaults.starts, hint=hint("starts")),
+        }
+        with gui.add_folder("Limits", expand_by_default=False):
+            self._limit_stall = gui.add_checkbox("Limit stall", False, hint=hint("limit_stall"))
+            self._numbers["stalled"] = gui.add_slider("Stalled [%]", 0.0, 20.0, 0.5, 5.0, hint=hint("stalled_limit"))
+            self._limit_change = gui.add_checkbox("Limit change", False, hint=hint("limit_change"))
+            self._numbers["change"] = gui.add_slider("At tip [°]", 0.5, 15.0, 0.5, 4.0, hint=hint("change_limit"))
+        self._begin = gui.add_button("Optimise", icon=viser.Icon.PLAYER_PLAY, hint=hint("optimise"))
+        self._halt = gui.add_button("Stop", icon=viser.Icon.PLAYER_STOP, color="red", visible=False, hint=hint("stop"))
+        self._bar = gui.add_progress_bar(0.0)
+        self._standing = gui.add_html(text.standing(None))
+        self._found = gui.add_html("")
+        self._scrubber = gui.add_slider("Replay", 0, 1, 1, 0, visible=False, hint=hint("replay"))
+        self._frame = gui.add_html("")
+        self._verdict = gui.add_button_group(
+            "Result", ("Apply", "Discard", "Replay"), visible=False, hint=hint("search_result")
+        )
+        self._chart = search_chart(gui)
+        self._details = gui.add_html("")
+        self._begin.on_click(lambda _: self.begin())
+        self._halt.on_click(lambda _: self.halt())
+        self._verdict.on_click(self._judge)
+        self._scrubber.on_update(self._scrubbed)
+        for widget in (self._concept, self._objective, self._limit_stall, self._limit_change, *self._numbers.values()):
+            widget.on_update(lambda event: desk.wake() if event.client is not None else None)
+
+    def wishes(self) -> Wishes:
+        """What the widgets ask for."""
+        number = {name: float(handle.value) for name, handle in self._numbers.items()}
+        return Wishes(
+            concept=next(name for name, title in self._titles.items() if title == self._concept.value),
+            objective=next(name for name, title in OBJECTIVES.items() if title == self._objective.value),
+            hover_share=number["hover_share"],
+            division=number["division"],
+            first=number["first"],
+            second=number["second"],
+            starts=round(number["starts"]),
+            stalled=number["stalled"] if self._limit_stall.value else None,
+            change=number["change"] if self._limit_change.value else None,
+        )
+
+    def begin(self) -> None:
+        """Start a search for the design on the sliders, unless one is under way."""
+        with self._beginning:  # Two quick presses come on two threads.
+            if self._run is not None and self._run.under_way:
+                return
+            try:
+                design = self._desk.inputs().design()
+                search = self.wishes().search(design, self.legs)
+            except ValueError as error:
+                self._problem = str(error)
+                self._desk.wake()
+                return
+            self._problem, self._offered = "", True
+            reference, title = self._reference(design)
+            run = self._run = SearchRun(search, title)
+        self._job = self._pool.submit(SearchTask(search, reference), lambda news: self._hear(run, news), TIME_LIMIT)
+        self._desk.wake()
+
+    def _reference(self, design: Design) -> tuple[Design, str]:
+        """What a saving is also measured against: A's blade in the same flight and models, else the baseline."""
+        moment = self._desk.moment()
+        if moment is None or moment.pin is None:
+            return baseline_of(design), baseline_title(design)
+        a = moment.pin.solution.design
+        return replace(design, rotor=a.rotor, twist=a.twist, active_twist=a.active_twist), "A's blade"
+
+    def halt(self) -> None:
+        """Stop the search under way; what it found stays."""
+        run, job = self._run, self._job
+        if run is not None and job is not None and run.under_way:
+            run.stopping()
+            self._pool.stop(job)
+            self._desk.wake()
+
+    def toggle(self) -> None:
+        """Start a search, or stop the one under way."""
+        run = self._run
+        if run is not None and run.under_way:
+            self.halt()
+        else:
+            self.begin()
+
+    def stop(self) -> None:
+        """The browser has left."""
+        if self._job is not None:
+            self._pool.stop(self._job, quiet=True)
+
+    def preview(self, design: Design) -> Design | None:
+        """The design to show instead of the sliders': that of the frame whose turn it is."""
+        run = self._run
+        if run is None or not self._offered or not run.matches(design):
+            return None
+        frame = run.shown()
+        if run.playing:
+            timer = threading.Timer(FRAME, self._desk.wake)
+            timer.daemon = True
+            timer.start()
+        return None if frame is None else frame.design
+
+    @property
+    def offered(self) -> bool:
+        """Whether designs of a search are on offer."""
+        return self._offered and self._run is not None
+
+    def optimum_of(self, design: Design, concept: str) -> tuple[float, ...] | None:
+        """Parameters of the optimum of a concept, if a search from this design has found it."""
+        run = self._run
+        if run is None or run.optimum is None or run.optimum.best is None or not run.matches(design):
+            return None
+        return run.optimum.best.parameters if run.concept.name == concept else None
+
+    def refresh(self, design: Design | None) -> None:
+        """Bring everything that only shows into line. `design`: on the sliders; None when they mean none."""
+        run, wishes, units = self._run, self.wishes(), UNITS[self._desk.view().units]
+        for name, handle in self._numbers.items():
+            handle.visible = wishes.asks_for(name)
+        self._picture.content = _boxed(concept_picture(wishes.known_concept()), wishes.known_concept().explanation)
+        under_way = run is not None and run.under_way
+        self._begin.visible, self._halt.visible = not under_way, under_way
+        self._standing.content = text.standing(run, self._problem)
+        self._bar.visible = run is not None
+        self._chart.set_visible(run is not None and any(run.traces))
+        if run is None:
+            return
+        self._bar.value = round(100.0 * run.part_done, 1)
+        self._bar.animated = under_way
+        self._found.content = text.found(run, units)
+        self._details.content = text.details(run, units)
+        on_offer = self._offered and not under_way and len(run.frames) > 1
+        here = design is not None and run.matches(design)
+        if on_offer and here and self._scrubber.max != len(run.frames) - 1:
+            self._scrubber.max = len(run.frames) - 1
+        self._verdict.visible = on_offer
+        self._scrubber.visible = on_offer and here
+        if on_offer and here:
+            if self._scrubber.value != run.cursor:
+                self._scrubber.value = run.cursor
+            self._frame.content = text.frame_line(run, units)
+        elif on_offer:
+            self._frame.content = text.moved_on()
+        else:
+            self._frame.content = ""
+        seen = (id(run), run.progress, run.state, units)
+        if seen != self._drawn:
+            self._drawn, unit = seen, units.power[0]
+            self._chart.show(search_plot(run, self._chart.y_range, unit), title=f"Power [{unit.symbol}] per start")
+
+    def _hear(self, run: SearchRun, news: News) -> None:
+        run.hear(news)
+        now = time.monotonic()
+        if not isinstance(news, Told) or now - self._woken > FRAME:
+            self._woken = now
+            self._desk.wake()
+
+    def _judge(self, event: viser.GuiEvent[Any]) -> None:
+        run = self._run
+        if run is None or run.under_way or not run.frames:
+            return
+        if event.target.value == "Replay":
+            run.replay()
+            self._desk.wake()
+            return
+        self._offered = False
+        if event.target.value == "Apply":
+            here = run.matches(self._desk.inputs().design())
+            frame = run.chosen if here else run.frames[-1]
+            self._desk.set_inputs(with_optimum(self._desk.inputs(), frame.design))
+        self._desk.wake()
+
+    def _scrubbed(self, event: viser.GuiEvent[Any]) -> None:
+        if event.client is not None and self._run is not None:
+            self._run.scrub(round(self._scrubber.value))
+            self._desk.wake()
+
+
+def _boxed(picture: str, words: str) -> str:
+    return f'<div class="rx rx-concept">{picture}<div class="rx-dim rx-small">{words}</div></div>'

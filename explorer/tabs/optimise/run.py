@@ -1,0 +1,190 @@
+"""A search as the page follows it: where it stands, the improving designs to play, the trace of every start."""
+
+import threading
+import time
+from dataclasses import dataclass
+from typing import Literal
+
+from explorer.workers.job import Broken, Ended, News, Started, Told, Waiting
+from explorer.workers.tasks import Beginning, Reference
+from rotor.design.design import Design
+from rotor.optimisation.concepts import Concept
+from rotor.optimisation.search import Optimum, Progress, Search
+
+State = Literal["starting", "waiting", "running", "stopping", "done", "stopped", "late", "broken"]
+FRAME = 0.1
+"""A played design stays at least so long [s]."""
+_CATCH_UP = 8
+"""Never further behind the search than about so many frames."""
+
+
+@dataclass(frozen=True)
+class Frame:
+    """A design that was the best so far."""
+
+    evaluation: int
+    power: float
+    """By the objective of the search [W]."""
+    design: Design
+
+
+class SearchRun:
+    """Written by the pool's threads (`hear`), read by the session's."""
+
+    def __init__(self, search: Search, reference_title: str = "") -> None:
+        """`reference_title`: what the saving is also measured against."""
+        self.search, self.reference_title = search, reference_title
+        self.state: State = "starting"
+        self.ahead = 0
+        self.sentence = ""
+        self.start_power: float | None = None
+        """Of the design it began from [W]."""
+        self.reference_power: float | None = None
+        self.frames: list[Frame] = []
+        self.traces: list[list[float]] = [[] for _ in range(search.starts)]
+        """Power at each evaluation of each start [W]; one that does not trim repeats the one before."""
+        self.progress: Progress | None = None
+        self.optimum: Optimum | None = None
+        self._lock = threading.Lock()
+        self._play = Playback()
+
+    @property
+    def concept(self) -> Concept:
+        return self.search.concept
+
+    @property
+    def under_way(self) -> bool:
+        return self.state in ("starting", "waiting", "running", "stopping")
+
+    @property
+    def best(self) -> Frame | None:
+        """The best so far; None before any design was better than none."""
+        return self.frames[-1] if len(self.frames) > 1 else None
+
+    @property
+    def part_done(self) -> float:
+        """0…1: starts first, then the band."""
+        if self.state in ("done", "stopped", "late", "broken"):
+            return 1.0
+        progress = self.progress
+        if progress is None:
+            return 0.0
+        if progress.phase == "band":
+            return 0.9
+        done = len(self.traces[progress.start]) if progress.start < len(self.traces) else 0
+        return 0.85 * (progress.start + done / (done + 15.0)) / progress.starts
+
+    def stopping(self) -> None:
+        """Somebody pressed Stop."""
+        with self._lock:
+            if self.under_way:
+                self.state = "stopping"
+
+    def hear(self, news: News) -> None:
+        """Take in what the pool tells."""
+        with self._lock:
+            match news:
+                case Waiting(ahead):
+                    self.state, self.ahead = "waiting", ahead
+                case Started():
+                    if self.state != "stopping":
+                        self.state = "running"
+                case Told(item):
+                    self._take(item)
+                case Ended(result, stopped, late):
+                    self.state = "late" if late else "stopped" if stopped else "done"
+                    self._finish(result)
+                case Broken(message):
+                    self.state, self.sentence = "broken", message
+
+    def _take(self, item: object) -> None:
+        match item:
+            case Beginning(power):
+                self.start_power = power
+                self.frames.append(Frame(0, float("inf") if power is None else power, self.search.design))
+            case Reference(power):
+                self.reference_power = power
+            case Progress():
+                self._step(item)
+            case _:
+                pass
+
+    def _step(self, progress: Progress) -> None:
+        self.progress = progress
+        if progress.phase == "search" and progress.start < len(self.traces):
+            trace = self.traces[progress.start]
+            if progress.power is not None:
+                trace.append(progress.power)
+            elif trace:
+                trace.append(trace[-1])
+        best, values = progress.best_power, progress.best_parameters
+        if best is None or values is None:
+            return
+        if len(self.frames) == 1 or best < self.frames[-1].power:
+            self._add(progress.evaluation, best, self.concept.apply(self.search.design, values))
+
+    def _finish(self, optimum: Optimum | None) -> None:
+        self.optimum = optimum
+        if optimum is None:
+            return
+        self.sentence = optimum.message
+        if optimum.best is not None and self.frames and optimum.design != self.frames[-1].design:
+            self._add(optimum.evaluations, optimum.best.power, optimum.design)
+
+    def _add(self, evaluation: int, power: float, design: Design) -> None:
+        """The concept's first may be no better than the blade it began from; it is shown all the same."""
+        self.frames.append(Frame(evaluation, power, design))
+
+    def matches(self, design: Design) -> bool:
+        """Whether this is the design that the search began from."""
+        return design == self.search.design
+
+    def shown(self) -> Frame | None:
+        """The frame whose turn it is."""
+        return self._play.frame(self.frames)
+
+    @property
+    def cursor(self) -> int:
+        return min(self._play.cursor, max(len(self.frames) - 1, 0))
+
+    @property
+    def chosen(self) -> Frame:
+        """What Apply takes: the frame that somebody scrubbed to, or else the best, even while the picture plays."""
+        return self.frames[-1 if self._play.running else self.cursor]
+
+    @property
+    def playing(self) -> bool:
+        """Whether more frames wait to be shown."""
+        return self._play.running and self._play.cursor < len(self.frames) - 1
+
+    def scrub(self, cursor: int) -> None:
+        """Show one frame and stay there."""
+        self._play = Playback(cursor=cursor, running=False)
+
+    def replay(self) -> None:
+        """Play from the start, each frame in its turn."""
+        self._play = Playback(thorough=True)
+
+
+@dataclass
+class Playback:
+    """Which frame is shown: each for `FRAME`, never far behind unless `thorough`."""
+
+    cursor: int = 0
+    running: bool = True
+    thorough: bool = False
+    since: float = 0.0
+
+    def frame(self, frames: list[Frame]) -> Frame | None:
+        """The frame to show now."""
+        if not frames:
+            return None
+        last = len(frames) - 1
+        now = time.monotonic()
+        if self.since == 0.0:
+            self.since = now  # The first has its time as well.
+        if self.running and self.cursor < last and now - self.since >= (2.0 if self.thorough else 1.0) * FRAME:
+            behind = last - self.cursor
+            self.cursor += 1 if self.thorough else max(1, behind - _CATCH_UP)
+            self.since = now
+        return frames[min(self.cursor, last)]

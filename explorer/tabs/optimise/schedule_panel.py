@@ -1,0 +1,183 @@
+"""The Schedule tab: best twist per speed, best fixed blade, what moving is worth; mission mix; CSV."""
+
+from collections.abc import Callable
+from typing import Any
+
+import viser
+
+from explorer.state import with_optimum
+from explorer.tabs.chart_panel import Chart, line
+from explorer.tabs.interface import Desk
+from explorer.tabs.optimise import mission, schedule_view
+from explorer.tabs.optimise.schedule_view import LEGS, Course
+from explorer.tabs.optimise.wishes import Wishes
+from explorer.text.glossary import hint
+from explorer.text.units import UNITS
+from explorer.theme.colours import BASELINE, NOW, THIS, colour_map, css
+from explorer.workers.job import Broken, Ended, Job, News, Started, Told, Waiting
+from explorer.workers.pool import Share
+from explorer.workers.tasks import FixedPowers, ScheduleTask
+from rotor.design.design import Design
+from rotor.optimisation.objective import Leg
+from rotor.optimisation.schedule import Cell, Plan
+
+TIME_LIMIT = 180.0
+"""[s] a schedule may take."""
+_URGENCY = 1
+"""After searches."""
+
+
+class SchedulePanel:
+    """One session's schedule."""
+
+    def __init__(self, gui: viser.GuiApi, pool: Share, desk: Desk, wishes: Callable[[], Wishes]) -> None:
+        self._pool, self._desk, self._wishes = pool, desk, wishes
+        self._job: Job | None = None
+        self._course: Course | None = None
+        self._running = False
+        self._line = "Best twist for each speed, and one blade for all."
+        self._drawn: object = None
+        self._concept = gui.add_html("")
+        with gui.add_folder("Mission: µ and hours"):
+            self._rows = [
+                gui.add_vector2(
+                    f"Leg {k + 1}",
+                    (row.advance_ratio, row.hours),
+                    min=(0.0, 0.0),
+                    max=(0.45, 99.0),
+                    step=0.05,
+                    hint=hint("leg"),
+                )
+                for k, row in enumerate(mission.ROWS)
+            ]
+        self._begin = gui.add_button("Work out", icon=viser.Icon.PLAYER_PLAY, hint=hint("schedule"))
+        self._halt = gui.add_button(
+            "Stop schedule", icon=viser.Icon.PLAYER_STOP, color="red", visible=False, hint=hint("schedule_stop")
+        )
+        self._bar = gui.add_progress_bar(0.0)
+        self._state = gui.add_html("")
+        self._table = gui.add_html("")
+        self._verdict = gui.add_button_group(
+            "Result", ("Apply fixed", "Save CSV"), visible=False, hint=hint("schedule_result")
+        )
+        shades = colour_map("sequential", LEGS + 3)[2:]  # Neither end is seen on every page.
+        twists, savings = schedule_view.twist_plot(None, None), schedule_view.saving_plot(None, None)
+        self._twists = Chart(
+            gui,
+            "Best twist [°] over r/R",
+            (("hover", css(shades[0])), ("fast", css(shades[LEGS - 1])), ("fixed", NOW)),
+            "radius r/R",
+            (*(line(f"leg {k + 1}", css(shades[k]), 1.5) for k in range(LEGS)), line("fixed", NOW, 2.0, (5, 3))),
+            twists,
+            (0.1, 1.02),
+        )
+        self._savings = Chart(
+            gui,
+            "Saving [%] over µ",
+            (("moving", THIS), ("fixed", NOW)),
+            "advance ratio µ",
+            (line("none", BASELINE, 0.7), line("fixed", NOW, 1.8, (5, 3)), line("moving", THIS)),
+            savings,
+            (-0.012, 0.462),
+        )
+        self._begin.on_click(lambda _: self.begin())
+        self._halt.on_click(lambda _: self.halt())
+        self._verdict.on_click(self._judge)
+
+    def legs(self, design: Design) -> tuple[Leg, ...]:
+        """The mission's legs; ValueError with one sentence for a mission that is none."""
+        return mission.legs(design, [mission.Row(*(float(x) for x in row.value)) for row in self._rows])
+
+    def begin(self) -> None:
+        """Work the mission off, unless that is under way."""
+        if self._running:
+            return
+        try:
+            design, wishes = self._desk.inputs().design(), self._wishes()
+            concept = wishes.known_concept()
+            plan = Plan(
+                design,
+                (concept,),
+                self.legs(design),
+                "induced" if wishes.objective == "induced" else "total",
+                wishes.limits(design),
+                wishes.starts,
+            )
+        except ValueError as error:
+            self._line = str(error)
+            self._desk.wake()
+            return
+        course = self._course = Course(plan)
+        self._running, self._line = True, "Starting a worker …"
+        self._job = self._pool.submit(ScheduleTask(plan), lambda news: self._hear(course, news), TIME_LIMIT, _URGENCY)
+        self._desk.wake()
+
+    def halt(self) -> None:
+        """Stop; what was found stays."""
+        if self._job is not None and self._running:
+            self._line = "Stopping …"
+            self._pool.stop(self._job)
+            self._desk.wake()
+
+    def stop(self) -> None:
+        """The browser has left."""
+        if self._job is not None:
+            self._pool.stop(self._job, quiet=True)
+
+    def refresh(self) -> None:
+        """Bring everything that only shows into line."""
+        title = self._wishes().known_concept().title
+        self._concept.content = f'<div class="rx rx-dim rx-small">As in Optimise: {title}</div>'
+        self._begin.visible, self._halt.visible = not self._running, self._running
+        kind = "running" if self._running else "idle" if self._course is None else "done"
+        self._state.content = (
+            f'<div class="rx rx-dim" data-explorer="schedule-state" data-kind="{kind}">{self._line}</div>'
+        )
+        course = self._course
+        self._bar.visible = course is not None
+        self._twists.set_visible(course is not None)
+        self._savings.set_visible(course is not None)
+        if course is None:
+            return
+        self._bar.value = round(100.0 * (course.part_done if self._running else 1.0), 1)
+        self._bar.animated = self._running
+        self._verdict.visible = not self._running and course.at(None) is not None
+        units = UNITS[self._desk.view().units]
+        seen = (id(course), len(course.cells), len(course.fixed_powers), units)
+        if seen != self._drawn:
+            self._drawn = seen
+            self._table.content = schedule_view.table(course, units)
+            self._twists.show(schedule_view.twist_plot(course, self._twists.y_range))
+            self._savings.show(schedule_view.saving_plot(course, self._savings.y_range))
+
+    def _hear(self, course: Course, news: News) -> None:
+        match news:
+            case Waiting(ahead):
+                self._line = "Waiting: next in line" if ahead == 0 else f"Waiting: {ahead} ahead"
+            case Started():
+                self._line = f"0 of {len(course.plan.legs) + 1} optima"
+            case Told(Cell() as cell):
+                course.cells.append(cell)
+                self._line = f"{len(course.cells)} of {len(course.plan.legs) + 1} optima"
+            case Told(FixedPowers(powers)):
+                course.fixed_powers = powers
+            case Ended(_, stopped, late):
+                self._running = False
+                count = f"{len(course.cells)} of {len(course.plan.legs) + 1} optima"
+                self._line = f"Time is up: {count} kept." if late else f"Stopped: {count} kept." if stopped else "Done."
+            case Broken(message):
+                self._running, self._line = False, message
+            case _:
+                pass
+        self._desk.wake()
+
+    def _judge(self, event: viser.GuiEvent[Any]) -> None:
+        course = self._course
+        if course is None:
+            return
+        if event.target.value == "Save CSV":
+            self._desk.send("twist-schedule.csv", schedule_view.csv_of(course))
+            return
+        fixed = course.at(None)
+        if fixed is not None and fixed.best is not None:
+            self._desk.set_inputs(with_optimum(self._desk.inputs(), fixed.design))

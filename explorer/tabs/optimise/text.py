@@ -1,0 +1,150 @@
+"""What a search says on the page, as HTML: where it stands, what it saves, what it found and how flat that is."""
+
+from html import escape
+
+from explorer.tabs.optimise.run import SearchRun
+from explorer.text.units import SI, Units, number
+from rotor.optimisation.concepts import Concept
+from rotor.optimisation.search import Optimum
+
+
+def standing(run: SearchRun | None, problem: str = "") -> str:
+    """One line beneath the bar: where the search stands."""
+    if problem:
+        return f'<div class="rx rx-found" data-explorer="search" data-kind="broken"><b>{escape(problem)}</b></div>'
+    if run is None:
+        return '<div class="rx rx-dim" data-explorer="search" data-kind="idle">Nothing searched yet.</div>'
+    progress = run.progress
+    count = "" if progress is None else f"{number(progress.evaluation)} designs · {number(progress.elapsed, 1)} s"
+    if run.optimum is not None:
+        count = f"{number(run.optimum.evaluations)} designs · {number(run.optimum.elapsed, 1)} s"
+    return (
+        f'<div class="rx rx-line" data-explorer="search" data-kind="{run.state}">'
+        f"<span>{escape(_where(run))}</span><span class='rx-dim rx-num'>{count}</span></div>"
+    )
+
+
+def _where(run: SearchRun) -> str:
+    progress, kept = run.progress, "best so far kept" if run.best else "nothing found yet"
+    match run.state:
+        case "starting":
+            return "Starting a worker …"
+        case "waiting":
+            return "Waiting: next in line" if run.ahead == 0 else f"Waiting: {run.ahead} ahead"
+        case "stopping":
+            return "Stopping …"
+        case "running":
+            if progress is None:
+                return "Trimming the blade as it is …"
+            if progress.phase == "band":
+                return "Measuring the 0.1 % band"
+            return f"Start {progress.start + 1} of {progress.starts}"
+        case "done":
+            return "Done"
+        case "stopped":
+            return f"Stopped, {kept}"
+        case "late":
+            return f"Time is up, {kept}"
+        case "broken":
+            return f"Ended early, {kept}"
+
+
+def found(run: SearchRun, units: Units = SI) -> str:
+    """The best so far, and what it saves."""
+    best = run.best
+    parts = []
+    if run.state == "broken":
+        parts.append(f"<div class='rx-broken'>{escape(run.sentence)}</div>")
+    if best is None:
+        if run.state == "done":
+            parts.append(f"<div>{escape(run.sentence)}</div>")
+        return _block(parts)
+    mean = "mean power" if len(_legs(run)) > 1 else f"{_quantity(run)} power"
+    parts.append(
+        '<div class="rx-line rx-base"><span class="rx-best" data-explorer="best">'
+        f"{units.watts(best.power, 1)}</span><span class='rx-dim'>{mean}, "
+        f"{'best so far' if run.under_way else 'best found'}</span></div>"
+    )
+    rows = [_saving("the start", best.power, run.start_power, units)]
+    if run.reference_power != run.start_power:
+        rows.append(_saving(run.reference_title, best.power, run.reference_power, units))
+    parts.append(f"<table>{''.join(rows)}</table>")
+    return _block(parts)
+
+
+def details(run: SearchRun, units: Units = SI) -> str:
+    """What the optimum is made of, how flat it is, and what else was found."""
+    optimum = run.optimum
+    return "" if optimum is None or optimum.best is None else _block([_optimum(optimum, run.concept, units)], "details")
+
+
+def _block(parts: list[str], name: str = "found") -> str:
+    return f'<div class="rx rx-found" data-explorer="{name}">{"".join(parts)}</div>' if parts else ""
+
+
+def _legs(run: SearchRun) -> tuple[object, ...]:
+    return run.search.objective.legs if run.search.objective is not None else (None,)
+
+
+def _quantity(run: SearchRun) -> str:
+    return run.search.objective.quantity if run.search.objective is not None else "total"
+
+
+def _saving(title: str, power: float, reference: float | None, units: Units) -> str:
+    if reference is None or reference <= 0.0:
+        return f'<tr><td class="rx-dim">{escape(title)}</td><td class="rx-num">does not trim</td><td></td></tr>'
+    less = power <= reference
+    percent = 100.0 * (power / reference - 1.0)
+    kind = "" if abs(percent) < 0.005 else " rx-less" if less else " rx-more"
+    return (
+        f'<tr><td class="rx-dim">{"below" if less else "above"} {escape(title)}</td>'
+        f'<td class="rx-num">{units.watts(abs(power - reference), 1)}</td>'
+        f'<td class="rx-num{kind}" style="width:26%">{number(percent, 2, sign=True)} %</td></tr>'
+    )
+
+
+def _optimum(optimum: Optimum, concept: Concept, units: Units) -> str:
+    best = optimum.best
+    assert best is not None
+    bands = {band.parameter: band for band in optimum.band}
+    rows = []
+    for parameter, value in zip(concept.parameters, best.parameters, strict=True):
+        band, digits = bands.get(parameter.name), 1 if parameter.angular else 2
+        reach = ""
+        if band is not None:
+            reach = f"{number(parameter.shown(band.low), digits)} … {number(parameter.shown(band.high), digits)}"
+        rows.append(
+            f'<tr><td>{escape(parameter.title)}</td><td class="rx-num">{number(parameter.shown(value), digits)}</td>'
+            f'<td class="rx-dim rx-unit">{escape(parameter.shown_unit)}</td>'
+            f'<td class="rx-num rx-dim">{reach}</td></tr>'
+        )
+    heading = '<tr class="rx-dim rx-small"><td></td><td></td><td></td><td class="rx-num">within 0.1 %</td></tr>'
+    lines = [f"<table>{heading if bands else ''}{''.join(rows)}</table>"]
+    notes = [optimum.message]
+    if best.active:
+        notes.append(f"Held by: {', '.join(name.replace('_', ' ') for name in best.active)}.")
+    others = [units.watts(other.power, 1) for other in optimum.minima[1:3]]
+    if others:
+        notes.append(f"Other minima: {', '.join(others)}.")
+    lines.append(f'<div class="rx-dim rx-small">{escape(" ".join(notes))}</div>')
+    return "".join(lines)
+
+
+def frame_line(run: SearchRun, units: Units = SI) -> str:
+    """What the scrubber points at."""
+    if not run.frames:
+        return ""
+    frame = run.frames[run.cursor]
+    power = frame.power if frame.power < 1e12 else None  # A design that did not trim has no power.
+    what = "the blade it began from" if run.cursor == 0 else f"design {frame.evaluation}"
+    return (
+        f'<div class="rx rx-line rx-dim rx-small" data-explorer="frame"><span>{what}</span>'
+        f"<span>{units.watts(power, 1)}</span></div>"
+    )
+
+
+def moved_on() -> str:
+    """The sliders no longer mean the design that the search began from."""
+    return (
+        '<div class="rx rx-dim rx-small" data-explorer="frame">The sliders have moved on. Apply takes the best.</div>'
+    )

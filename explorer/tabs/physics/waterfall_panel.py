@@ -1,0 +1,80 @@
+"""The tab of the physics: what each part costs, computed when the page rests."""
+
+from collections.abc import Callable, Iterator
+
+import viser
+
+from explorer.tabs.interface import Moment
+from explorer.tabs.physics.waterfall_view import alone_table, waterfall_chart
+from explorer.text import readout
+from explorer.text.units import SI, UNITS
+from rotor.aero.switches import SWITCHES, with_switches
+from rotor.analysis.waterfall import Step, climb, each_alone
+from rotor.design.design import Design
+from rotor.trim.solution import Solution
+
+_WORDS = (
+    '<div class="rx rx-dim rx-small rx-found">The same flight, first without flapping, losses, reverse flow, '
+    "compressibility and drag, then with one more at a time: every row is a trim. "
+    "What a part costs depends on what is there already, so beneath stands each left out alone.</div>"
+)
+_CLIMB, _ALL = len(SWITCHES) + 1, 2 * len(SWITCHES) + 1
+"""Steps from everything off to everything on, and with each switch off alone."""
+
+
+class WaterfallPanel:
+    """One session's."""
+
+    def __init__(self, gui: viser.GuiApi) -> None:
+        gui.add_html(_WORDS)
+        self._chart = gui.add_html(waterfall_chart(()))
+        self._table = gui.add_html("")
+        self._design: Design | None = None
+        """With everything on: what the steps are of."""
+        self._units = SI
+        self._coming: Iterator[Step] = iter(())
+        self._steps: list[Step] = []
+        self._drawn = waterfall_chart(()), ""
+
+    def show(self, moment: Moment) -> None:
+        """Say that the steps on the page are no longer this design's; the new ones come when the page rests."""
+        design = with_switches(moment.solution.design, ())
+        if design != self._design:
+            self._design, self._coming, self._steps = design, _all_steps(design), []
+            self._fade()
+        units, self._units = self._units, UNITS[moment.view.units]
+        if units is not self._units and len(self._steps) == _ALL:
+            self._draw()
+
+    def climb(self, superseded: Callable[[], bool]) -> None:
+        """Compute the steps that are missing, until the page has something else to do; show them once all are there."""
+        while self._design is not None and len(self._steps) < _ALL and not superseded():
+            self._steps.append(next(self._coming))
+            if len(self._steps) == _ALL:
+                self._draw()
+
+    def lose(self) -> None:
+        """The inputs have no answer."""
+        self._design = None
+        self._fade()
+
+    def stop(self) -> None:
+        """Nothing runs on."""
+
+    def _draw(self) -> None:
+        climbed, alone = self._steps[:_CLIMB], self._steps[_CLIMB:]
+        self._drawn = waterfall_chart(climbed, self._units), alone_table(alone, self._units)
+        self._chart.content, self._table.content = self._drawn
+
+    def _fade(self) -> None:
+        self._chart.content, self._table.content = map(readout.faded, self._drawn)
+
+
+def _all_steps(design: Design) -> Iterator[Step]:
+    """The climb, then each switch off alone."""
+    full: Solution | None = None
+    for step in climb(design):
+        full = step.solution
+        yield step
+    assert full is not None
+    yield from each_alone(design, full)

@@ -1,0 +1,148 @@
+"""The waterfall of power as a drawing, and each switch off alone as a table: steps in, SVG and words out."""
+
+from collections.abc import Sequence
+from html import escape
+
+from explorer.text.units import SI, Units, number
+from explorer.theme.colours import PARTS
+from rotor.aero.switches import SWITCHES
+from rotor.analysis.waterfall import Step
+
+WIDTH = 312
+"""[px] of the drawing; the panel scales it."""
+_BAR_LEFT, _BAR_RIGHT = 98.0, 258.0
+_ROW, _BAR_HEIGHT = 31.0, 11.0
+_MORE, _LESS = "#d9480f", "#0ca678"
+_THINNEST = 1.6
+"""[px] of a bar that stands for next to nothing."""
+
+
+def waterfall_chart(steps: Sequence[Step], units: Units = SI) -> str:
+    """Rows from everything off to everything on; as far as the steps are known. Empty without steps."""
+    if not steps:
+        return '<div class="rx rx-dim" data-explorer="waterfall" data-steps="0">Computing …</div>'
+    known = [step.power for step in steps if step.power is not None]
+    top = 1.04 * max(known, default=1.0)
+    rows: list[str] = []
+    for k, step in enumerate(steps):
+        y = 2.0 + k * _ROW
+        last = k == len(SWITCHES)
+        rows.append(_row(step, y, top, units))
+        if last and step.power is not None:
+            rows.append(_whole("All switched on", step, y + _ROW, top, units))
+    height = (len(steps) + (len(steps) > len(SWITCHES))) * _ROW - 8.0
+    done = f'data-explorer="waterfall" data-steps="{len(steps)}"'
+    return (
+        f'<div class="rx rx-waterfall" {done}><svg viewBox="0 0 {WIDTH} {height:.0f}" width="100%" role="img" '
+        f'aria-label="Waterfall of power">{"".join(rows)}</svg>{_key(units)}</div>'
+    )
+
+
+def _row(step: Step, y: float, top: float, units: Units) -> str:
+    if step.power is None:
+        sentence = f"<title>{escape(step.solution.message)}</title>"
+        return (
+            f"<g>{sentence}{_words(0, y + 11, step.title)}{_words(_BAR_LEFT, y + 11, 'does not trim', 'rx-w-bad')}</g>"
+        )
+    change, added = step.change, step.added
+    if change is None or added is None or step.against is None:
+        return _whole(step.title, step, y, top, units)
+    unit = units.power[0]
+    before, after = _x(step.against.power.total, top), _x(step.power, top)
+    left, width = min(before, after), abs(after - before)
+    if width < _THINNEST:
+        left, width = 0.5 * (before + after - _THINNEST), _THINNEST
+    colour = _MORE if added > 0.0 else _LESS
+    bar = "" if step.note else _rect(left, y + 2, width, colour)
+    link = f'<line x1="{before:.1f}" x2="{before:.1f}" y1="{y - 12:.1f}" y2="{y + 13:.1f}" class="rx-w-link"/>'
+    title = f"<title>{escape(_spoken(step, units))}</title>"
+    beneath = _words(_BAR_LEFT, y + 24, step.note, "rx-w-note") if step.note else _patches(change, y, units)
+    shown = number(unit.of(added), 1, sign=True)
+    return (
+        f"<g>{title}{link}{_words(0, y + 11, step.title)}{bar}"
+        f"{_words(WIDTH, y + 11, shown, 'rx-w-number')}{beneath}</g>"
+    )
+
+
+def _whole(name: str, step: Step, y: float, top: float, units: Units) -> str:
+    """A bar of all parts from zero."""
+    power, x, rects = step.solution.power, _BAR_LEFT, []
+    for part, colour in PARTS.items():
+        width = max(_x(getattr(power, part), top) - _BAR_LEFT, 0.0)
+        rects.append(_rect(x, y + 2, width, colour))
+        x += width
+    unit = units.power[0]
+    parts = ", ".join(f"{part} {unit.text(getattr(power, part))}" for part in PARTS)
+    total = _words(WIDTH, y + 11, number(unit.of(power.total), 1), "rx-w-number rx-w-strong")
+    return (
+        f"<g><title>{escape(f'{name}: {unit.text(power.total, 1)}; {parts}')}</title>"
+        f"{_words(0, y + 11, name, 'rx-w-strong')}{''.join(rects)}{total}</g>"
+    )
+
+
+def _patches(change: dict[str, float], y: float, units: Units) -> str:
+    """The change by part: a patch of the part's colour and a number, for parts that change."""
+    x, drawn = _BAR_LEFT, []
+    for part, value in change.items():
+        text = number(units.power[0].of(value), 0, sign=True)
+        if text == "0":
+            continue
+        drawn.append(f'<rect x="{x:.1f}" y="{y + 18:.1f}" width="6" height="6" rx="1.5" fill="{PARTS[part]}"/>')
+        drawn.append(_words(x + 9, y + 24, text, "rx-w-note"))
+        x += 17.0 + 5.6 * len(text)
+    return "".join(drawn)
+
+
+def _spoken(step: Step, units: Units) -> str:
+    """The step in words, for those who point at it or have it read out."""
+    change, unit = step.change or {}, units.power[0]
+    parts = ", ".join(f"{part} {unit.text(value, 1, sign=True)}" for part, value in change.items())
+    what = step.switch.on if step.switch else ""
+    return f"{step.title} on: {unit.text(step.added, 1, sign=True)} ({parts}). {what}"
+
+
+def _key(units: Units) -> str:
+    """The parts' colours, and the unit of every number above."""
+    entries = "".join(
+        f'<span><span class="rx-patch" style="background:{colour}"></span>{escape(name)}</span>'
+        for name, colour in PARTS.items()
+    )
+    return f'<div class="rx-dim rx-small rx-line">{entries}<span>[{units.power[0].symbol}]</span></div>'
+
+
+def alone_table(steps: Sequence[Step], units: Units = SI) -> str:
+    """Each switch off alone: the change of the total and of its two large parts."""
+    if not steps:
+        return ""
+    unit = units.power[0]
+    rows: list[str] = []
+    for step in steps:
+        sentence = step.switch.off if step.switch else ""
+        name = f'<tr title="{escape(sentence)}"><td>no {escape(step.title.lower())}</td>'
+        if step.change is None or step.added is None:
+            rows.append(f'{name}<td colspan="3" class="rx-num rx-broken">does not trim</td></tr>')
+        elif step.note:
+            rows.append(f'{name}<td colspan="3" class="rx-num rx-dim rx-small">{escape(step.note)}</td></tr>')
+        else:
+            values = (step.added, step.change["induced"], step.change["profile"])
+            cells = "".join(f'<td class="rx-num">{number(unit.of(value), 1, sign=True)}</td>' for value in values)
+            rows.append(f"{name}{cells}</tr>")
+    head = "".join(
+        f'<td class="rx-num rx-dim">{title}</td>' for title in (f"total [{unit.symbol}]", "induced", "profile")
+    )
+    return (
+        '<div class="rx rx-alone" data-explorer="each-alone"><table>'
+        f'<tr><td class="rx-dim">one off, the rest on</td>{head}</tr>{"".join(rows)}</table></div>'
+    )
+
+
+def _x(power: float, top: float) -> float:
+    return _BAR_LEFT + (_BAR_RIGHT - _BAR_LEFT) * power / top
+
+
+def _rect(x: float, y: float, width: float, colour: str) -> str:
+    return f'<rect x="{x:.1f}" y="{y:.1f}" width="{width:.1f}" height="{_BAR_HEIGHT:g}" fill="{colour}"/>'
+
+
+def _words(x: float, y: float, text: str, look: str = "") -> str:
+    return f'<text x="{x:.1f}" y="{y:.1f}" class="rx-w {look}">{escape(text)}</text>'

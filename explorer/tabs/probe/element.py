@@ -1,0 +1,212 @@
+"""One blade element under the glass: flow, angles and loads at a point (r, ψ) of the disk."""
+
+import math
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+from numpy.typing import NDArray
+
+from explorer.picture.outlines import DRAG_DIVERGENCE
+from rotor.aero.elements import LOW_MACH
+from rotor.airfoil.sections import Section
+from rotor.trim.solution import DiskFields, Solution
+
+Array = NDArray[np.float64]
+
+
+class Region(Enum):
+    """What the section's flow is like."""
+
+    ATTACHED = "attached"
+    STALLED = "stalled"
+    REVERSE = "reverse flow"
+    IDLE = "reverse flow, left out"
+    DIVERGED = "drag divergence"
+
+
+@dataclass(frozen=True)
+class Blend:
+    """The section at a radius: between two spans a mixture."""
+
+    inner: Section
+    outer: Section
+    weight: float
+    """Of the outer one, 0…1."""
+
+    def installed(self) -> tuple[tuple[Section, float], ...]:
+        """The sections that take part, with their shares."""
+        pair = ((self.inner, 1.0 - self.weight), (self.outer, self.weight))
+        return tuple((section, share) for section, share in pair if share > 0.0)
+
+    def stall_angles(self, mach: float) -> tuple[float, float]:
+        """Negative and positive stall angle [rad] about the blade's reference line."""
+        ends = [(s.table.stall_alpha(mach), s.incidence_offset, share) for s, share in self.installed()]
+        low, high = (sum(share * (float(end[k]) + offset) for end, offset, share in ends) for k in (0, 1))
+        return low, high
+
+    def lift_curve(self, alpha: Array, mach: float) -> Array:
+        """C_l at angles of attack [rad] about the blade's reference line."""
+        curve = np.zeros_like(alpha)
+        for section, share in self.installed():
+            curve += share * section.table(alpha - section.incidence_offset, mach).cl
+        return curve
+
+
+@dataclass(frozen=True)
+class Probe:
+    """A blade element as it passes (r, ψ). SI and radians; loads are of one blade and per metre of span."""
+
+    r: float
+    """y/R"""
+    psi: float
+    """0 … 2π, 0 over the tail."""
+    radius: float
+    """y [m]"""
+    chord: float
+    """[m]"""
+    section: Blend
+    theta: float
+    """Pitch with twist."""
+    phi: float
+    """Inflow angle atan2(U_P, U_T): near π where the flow comes from the trailing edge."""
+    alpha: float
+    """θ − φ in (−π, π], about the blade's reference line."""
+    u_t: float
+    """In the plane of the disk and normal to the blade [m/s]."""
+    u_p: float
+    """Down through the blade [m/s]."""
+    induced: float
+    """Induced velocity, down [m/s]."""
+    mach: float
+    table_mach: float
+    """Where the section data are read: the same, unless compressibility is switched off."""
+    cl: float
+    cd: float
+    lift: float
+    """Normal to the flow, tip and root loss taken off [N/m]."""
+    drag: float
+    """Along the flow [N/m]."""
+    thrust: float
+    """Along the shaft [N/m]."""
+    pull: float
+    """In the plane, against the rotation [N/m]."""
+    power: float
+    """Ω y times the pull [W/m]."""
+    stall: tuple[float, float]
+    """Negative and positive stall angle at `table_mach`."""
+    cd_mach: float
+    """∂C_d/∂M"""
+    idle: bool
+    """Whether the models leave its loads out, as they may in reverse flow."""
+
+    @property
+    def u(self) -> float:
+        """Resultant velocity at the section [m/s]."""
+        return math.hypot(self.u_t, self.u_p)
+
+    @property
+    def torque(self) -> float:
+        """About the shaft [N m per m]."""
+        return self.pull * self.radius
+
+    @property
+    def m2cn(self) -> float:
+        """M² c_n, the normal force of one chord's width over γp/2."""
+        return self.mach**2 * (self.cl * math.cos(self.alpha) + self.cd * math.sin(self.alpha))
+
+    @property
+    def stall_margin(self) -> float | None:
+        """Angle of attack left before stall [rad]; None in reverse flow, where it means nothing."""
+        if self.u_t < 0.0:
+            return None
+        return min(self.stall[1] - self.alpha, self.alpha - self.stall[0])
+
+    @property
+    def region(self) -> Region:
+        margin = self.stall_margin
+        if margin is None:
+            return Region.IDLE if self.idle else Region.REVERSE
+        if margin < 0.0:
+            return Region.STALLED
+        return Region.DIVERGED if self.cd_mach > DRAG_DIVERGENCE else Region.ATTACHED
+
+
+def probe(solution: Solution, r: float, psi: float) -> Probe:
+    """What the solution says at r = y/R and ψ [rad]: the disk's own values at its stations, linear between them.
+
+    ψ may be any turn. ValueError for an r that is not on the blade.
+    """
+    design, disk = solution.design, solution.disk
+    rotor = design.rotor
+    if not rotor.blade.root_cutout - 1e-9 <= r <= 1.0 + 1e-9:
+        raise ValueError(f"r/R {r:g} is not on the blade: choose {rotor.blade.root_cutout:g} … 1")
+    psi = psi % (2.0 * math.pi)
+    at = _Place(disk, r, psi)
+    speed = rotor.tip_speed
+    theta, u_t, u_p, mach = (at.reaching(field) for field in (disk.theta, disk.u_t, disk.u_p, disk.mach))
+    phi = math.atan2(u_p, u_t)
+    per_metre = design.thrust_unit / (rotor.blades * rotor.radius)
+    thrust, pull = per_metre * at.held(disk.dct), per_metre * at.held(disk.dcq)
+    inner, outer, weight = rotor.blade.section_at(r)
+    section = Blend(rotor.blade.installed(inner), rotor.blade.installed(outer), weight)
+    mach = max(mach, 0.0)
+    table_mach = mach if design.models.compressibility else LOW_MACH
+    return Probe(
+        r=r,
+        psi=psi,
+        radius=r * rotor.radius,
+        chord=float(rotor.blade.chord(r)) * sum(share * s.chord_ratio for s, share in section.installed()),
+        section=section,
+        theta=theta,
+        phi=phi,
+        alpha=math.pi - (math.pi - theta + phi) % (2.0 * math.pi),
+        u_t=speed * u_t,
+        u_p=speed * u_p,
+        induced=speed * at.reaching(disk.induced),
+        mach=mach,
+        table_mach=table_mach,
+        cl=at.held(disk.cl),
+        cd=at.held(disk.cd),
+        lift=thrust * math.cos(phi) + pull * math.sin(phi),
+        drag=pull * math.cos(phi) - thrust * math.sin(phi),
+        thrust=thrust,
+        pull=pull,
+        power=pull * r * speed,
+        stall=section.stall_angles(table_mach),
+        cd_mach=at.held(disk.cd_mach),
+        idle=u_t < 0.0 and not design.models.reverse_flow,
+    )
+
+
+class _Place:
+    """Where a point lies among the stations: periodic in azimuth, linear along the blade."""
+
+    def __init__(self, disk: DiskFields, r: float, psi: float) -> None:
+        n = len(disk.psi)
+        around = (psi - float(disk.psi[0])) * n / (2.0 * math.pi)
+        along = (r - float(disk.r[0])) / disk.dr
+        # A station met to rounding is that station: what stands there is read, not blended.
+        around, along = (float(round(x)) if abs(x - round(x)) < 1e-9 else x for x in (around, along))
+        before = math.floor(around)
+        self._columns = before % n, (before + 1) % n
+        self._late = around - before
+        self._row = min(max(math.floor(along), 0), len(disk.r) - 2)
+        self._out = along - self._row
+
+    def reaching(self, field: Array) -> float:
+        """A field that runs on straight over the half elements at root and tip, as velocities do."""
+        return self._blend(field, self._out)
+
+    def held(self, field: Array) -> float:
+        """A field that keeps its last value there: a coefficient that jumps must not be drawn out."""
+        return self._blend(field, min(max(self._out, 0.0), 1.0))
+
+    def _blend(self, field: Array, out: float) -> float:
+        first, second = self._columns
+        inner, outer = (
+            float(field[row, first]) + self._late * float(field[row, second] - field[row, first])
+            for row in (self._row, self._row + 1)
+        )
+        # Two products rather than a difference: the outer station comes out as it stands there too.
+        return (1.0 - out) * inner + out * outer

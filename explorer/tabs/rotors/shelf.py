@@ -1,0 +1,85 @@
+"""The files of a rotor as a user brings them, one after another and in any order; no widgets."""
+
+from dataclasses import dataclass, field
+
+from rotor.airfoil.build.xfoil_file import parse_polar_file
+from rotor.airfoil.c81 import parse_c81
+from rotor.airfoil.contour import parse_contour
+from rotor.airfoil.regrid import on_run_time_grid
+from rotor.design.aircraft import Aircraft
+from rotor.files.rotor_file import LARGEST_FILE, named_files, read_aircraft
+from rotor.files.toml_table import read_toml
+
+SUFFIXES = (".toml", ".c81", ".txt", ".csv", ".pol", ".dat")
+"""Rotor file; C81 deck; polars; outline."""
+_MOST_FILES = 40
+
+
+@dataclass(frozen=True)
+class Arrival:
+    """What a file led to."""
+
+    sentence: str
+    aircraft: Aircraft | None = None
+    """Complete: to be flown."""
+
+
+@dataclass
+class Shelf:
+    """One session's files by name."""
+
+    texts: dict[str, str] = field(default_factory=dict[str, str])
+    waiting: str | None = None
+    """A rotor file that names what is not here yet."""
+
+    def take(self, name: str, content: bytes) -> Arrival:
+        """Keep a file; the aircraft as soon as its rotor file and all that names are here.
+
+        Raises ValueError with one sentence for a file that cannot be used; nothing that was kept is lost.
+        """
+        suffix = name[name.rfind(".") :].lower() if "." in name else ""
+        if suffix not in SUFFIXES:
+            known = ", ".join(SUFFIXES)
+            raise ValueError(f"{name} is none of {known}: load a rotor file, a deck, polars or an outline.")
+        if len(content) > LARGEST_FILE:
+            raise ValueError(f"{name} has {len(content) / 1e6:.1f} MB: a rotor's files have 2 MB at most.")
+        if len(self.texts) >= _MOST_FILES and name not in self.texts:
+            raise ValueError(f"{_MOST_FILES} files are kept already: reload the page to begin anew.")
+        try:
+            text = content.decode("utf-8-sig")
+        except UnicodeDecodeError:
+            raise ValueError(f"{name} is no UTF-8 text: save it as a text file.") from None
+        text = text.replace("\r\n", "\n")
+        if suffix == ".toml":
+            return self._rotor(name, text)
+        _check(name, suffix, text)
+        self.texts[name] = text
+        if self.waiting is None:
+            return Arrival(f"{name} is kept: a rotor file that names it under [sections] will use it.")
+        return self._rotor(self.waiting, self.texts[self.waiting])
+
+    def _rotor(self, name: str, text: str) -> Arrival:
+        """A rotor file, when all that it names is here."""
+        missing = [file for file in named_files(read_toml(name, text)) if _is_file(file) and file not in self.texts]
+        if missing:
+            self.texts[name], self.waiting = text, name
+            also = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
+            return Arrival(f"{name} is kept and waits for {missing[0]}{also}: load that next.")
+        aircraft = read_aircraft(name, {**self.texts, name: text})
+        self.texts[name], self.waiting = text, None
+        return Arrival(" ".join((f"{aircraft.name} is on the page.", *aircraft.remarks)), aircraft)
+
+
+def _check(name: str, suffix: str, text: str) -> None:
+    """Read a section file once, so that what is wrong with it is said at once."""
+    if suffix == ".c81":
+        on_run_time_grid(parse_c81(text, name))
+    elif suffix == ".dat":
+        parse_contour(text, name)
+    else:
+        parse_polar_file(name, text)
+
+
+def _is_file(word: str) -> bool:
+    """Whether an `outline` names a file rather than a known section."""
+    return word.lower().endswith(SUFFIXES)

@@ -1,0 +1,246 @@
+"""The Studies tab: open the result of a study, look at it in charts, and take a point of it onto the sliders."""
+
+import logging
+import threading
+from collections.abc import Callable
+from html import escape
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import viser
+
+from explorer.charts.clicks import charts_write_to
+from explorer.hosting import viser_compat
+from explorer.sharing import share
+from explorer.state import inputs_of
+from explorer.tabs.interface import Desk, Moment
+from explorer.tabs.studies import charts as study_charts
+from explorer.tabs.studies.readout import numbers, point_line, problem_line, summary
+from explorer.tabs.studies.results import Found, find_studies, open_study
+from explorer.text.glossary import hint
+from rotor.study.findings import best_row
+from rotor.study.front import cruise_speeds, pairs_at
+from rotor.study.replay import design_of_row
+from rotor.study.results import Results, read_file
+
+_log = logging.getLogger(__name__)
+
+FIELD = "Point no."
+"""The label of the text field that a click writes to."""
+SCATTER, FRONT, PARALLEL = "Scatter", "Hover against cruise", "Parallel coordinates"
+_NONE = "Choose …"
+_MISSING = (
+    "The packages for studies are not installed here. Stop the page, run "
+    "<code>pip install 'rotor-explorer[study]'</code>, start it again."
+)
+_EMPTY = (
+    "No results beneath the folder that the page looks in (python -m explorer --studies DIR). To make one there: "
+    "python -m rotor study hover_cruise.toml"
+)
+_HINT = (
+    "Results of <code>python -m rotor study FILE.toml</code>. A click on a point puts its blade and its flight on the "
+    "sliders."
+)
+_CONFIG = {"displayModeBar": False, "doubleClick": "reset+autosize"}
+
+
+class StudiesPanel:
+    """One session's."""
+
+    def __init__(self, client: viser.ClientHandle, desk: Desk, root: Path) -> None:
+        """`root`: results beneath it are offered."""
+        self._client, self._desk, self._root = client, desk, root
+        self._results: Results | None = None
+        self._chart: viser.GuiPlotlyHandle | None = None
+        self._now: int | None = None
+        self._dark = False
+        self._asked = 0
+        """Counts what was asked to be opened: what comes late is passed over."""
+        self._found: dict[str, Found] = {}
+        self._lock = threading.RLock()
+        self._able = all(find_spec(name) for name in ("pyarrow", "plotly"))
+        gui = client.gui
+        if not self._able:
+            gui.add_html(f'<div class="rx rx-small" data-explorer="studies-missing">{_MISSING}</div>')
+            return
+        gui.add_html(f'<div class="rx rx-dim rx-small">{_HINT}</div>')
+        self._menu = _menu(gui, "Result", "study", visible=True)
+        with gui.add_folder("Not in the list?", expand_by_default=False):
+            self._look = gui.add_button(
+                "Look for new results", icon=viser.Icon.REFRESH, color="gray", hint=hint("study_look")
+            )
+            self._file = gui.add_upload_button(
+                "Open a Parquet file", icon=viser.Icon.UPLOAD, color="gray", mime_type=".parquet",
+                hint=hint("study_file"),
+            )  # fmt: skip
+        self._state = gui.add_html("")
+        self._kind = _menu(gui, "Chart", "study_chart")
+        self._x = _menu(gui, "Across", "study_axis")
+        self._y = _menu(gui, "Up", "study_axis")
+        self._colour = _menu(gui, "Colour", "study_colour")
+        self._cruise = _menu(gui, "Cruise at", "study_cruise")
+        self._place = gui.add_folder(None)
+        """Where the chart goes, once there is one: Plotly is 1.7 MB for the browser."""
+        self._point = gui.add_text(FIELD, "", visible=False, hint=hint("study_point"))
+        self._said = gui.add_html("")
+        self._menu.on_update(self._by_browser(self._chosen))
+        self._look.on_click(lambda _: self.look())
+        self._file.on_upload(lambda event: self._uploaded(event.target.value))
+        self._kind.on_update(self._by_browser(self._draw))
+        for menu in (self._x, self._y, self._colour, self._cruise):
+            menu.on_update(self._by_browser(self._draw))
+        self._point.on_update(self._by_browser(self._take))
+        threading.Thread(target=self.look, name="studies", daemon=True).start()
+
+    def look(self) -> None:
+        """Find the results there are now."""
+        found = {one.label(self._root): one for one in find_studies(self._root)}
+        self._found = found
+        kept = self._menu.value if self._menu.value in found else _NONE
+        self._menu.options = (_NONE, *found)
+        self._menu.value = kept
+        if not found:
+            self._say(_EMPTY)
+
+    def open(self, read: Callable[[], Results], name: str) -> None:
+        """Read a result in the background and show it; what was asked for later wins."""
+        self._asked += 1
+        asked = self._asked
+        self._say(f"Reading {name} …")
+
+        def work() -> None:
+            try:
+                results = read()
+                if not results.good.any():
+                    raise ValueError(f"{name} has no point with an answer: {results.rows} rows, all failed.")
+                with self._lock:
+                    if asked == self._asked:
+                        self._show(results)
+            except ValueError as error:
+                if asked == self._asked:
+                    self._say(str(error), "problem")
+            except Exception as error:  # A file in a state that nobody foresaw must leave the tab alive.
+                _log.exception("a study could not be shown")
+                if asked == self._asked:
+                    self._say(f"{name} cannot be shown ({error}): choose another result.", "problem")
+
+        threading.Thread(target=work, name="studies", daemon=True).start()
+
+    def show(self, moment: Moment) -> None:
+        """Follow the page's theme."""
+        if self._dark != moment.view.dark:
+            self._dark = moment.view.dark
+            if self._results is not None:
+                self._draw()
+
+    def lose(self) -> None:
+        """A result does not depend on the sliders."""
+
+    def stop(self) -> None:
+        """What is being read is no longer wanted."""
+        self._asked += 1
+
+    def _chosen(self) -> None:
+        found = self._found.get(self._menu.value)
+        if found is not None:
+            self.open(lambda: open_study(found.path), found.path.name)
+
+    def _uploaded(self, file: viser.UploadedFile) -> None:
+        self.open(lambda: read_file(file.content, file.name), file.name)
+
+    def _show(self, results: Results) -> None:
+        """A new result: offer what can be drawn of it, and draw."""
+        self._results, self._now = results, None
+        names = study_charts.choices(results)
+        titles = [study_charts.title(results, name) for name in names]
+        self._names = dict(zip(titles, names, strict=True))
+        power = study_charts.title(results, "power_total_w")
+        first = [one for one in titles if one != power] or titles
+        for menu, value in (
+            (self._x, first[0]),
+            (self._y, power if power in titles else titles[-1]),
+            (self._colour, first[min(1, len(first) - 1)]),
+        ):
+            menu.options = tuple(titles)
+            menu.value = value
+        speeds = cruise_speeds(results)
+        self._speeds = {f"µ {speed:g}": speed for speed in speeds}
+        self._cruise.options = tuple(self._speeds) or ("",)
+        self._cruise.value = list(self._speeds)[-1] if self._speeds else ""
+        kinds = (SCATTER, *((FRONT,) if speeds else ()), PARALLEL)
+        self._kind.options = kinds
+        self._kind.value = FRONT if speeds else SCATTER
+        self._kind.visible = self._point.visible = True
+        self._say(summary(results), "done")
+        self._point.value = ""
+        self._said.content = point_line(results, best_row(results, "power_total_w"), "Least power")
+        self._draw()
+
+    def _draw(self) -> None:
+        with self._lock:
+            results = self._results
+            if results is None:
+                return
+            kind = self._kind.value
+            self._x.visible = self._y.visible = kind == SCATTER
+            self._colour.visible = kind != FRONT
+            self._cruise.visible = kind == FRONT
+            colour = self._names[self._colour.value]
+            if kind == FRONT:
+                speed = self._speeds[self._cruise.value]
+                figure = study_charts.front(results, pairs_at(results, speed), speed, self._now, self._dark)
+            elif kind == PARALLEL:
+                figure = study_charts.parallel(results, colour, self._dark)
+            else:
+                x, y = self._names[self._x.value], self._names[self._y.value]
+                figure = study_charts.scatter(results, x, y, colour, self._now, self._dark)
+            self._chart_handle().figure = figure
+
+    def _chart_handle(self) -> viser.GuiPlotlyHandle:
+        """The chart's place on the page; made, and Plotly sent to the browser, when it is first needed."""
+        if self._chart is None:
+            with self._place:
+                self._chart = self._client.gui.add_plotly(
+                    study_charts.empty(self._dark),
+                    aspect=0.92,
+                    config=_CONFIG,
+                )
+            viser_compat.run_in_page(self._client, charts_write_to(FIELD))
+        return self._chart
+
+    def _take(self) -> None:
+        """Put the point in the field onto the sliders."""
+        results, text = self._results, self._point.value.strip()
+        if results is None or not text:
+            return
+        try:
+            row = results.row_of(int(text)) if text.isdecimal() else None
+            if row is None:
+                raise ValueError(f"{text!r} is no point that is there: write a number in {numbers(results)}.")
+            if not results.good[row]:
+                raise ValueError(f"Point {text} did not converge: choose another one.")
+            inputs = share.within(inputs_of(design_of_row(results, row)))
+        except ValueError as error:
+            self._said.content = problem_line(str(error))
+            return
+        self._now = row
+        self._said.content = point_line(results, row, "Taken")
+        self._desk.set_inputs(inputs)
+        self._draw()
+
+    def _say(self, sentence: str, kind: str = "idle") -> None:
+        tone = " rx-broken" if kind == "problem" else ""
+        self._state.content = (
+            f'<div class="rx rx-small{tone}" data-explorer="study-state" data-kind="{kind}">{escape(sentence)}</div>'
+        )
+
+    def _by_browser(self, action: Callable[[], None]) -> Callable[[Any], None]:
+        """Only what a person does in the browser counts, not what this file writes into the widgets."""
+        return lambda event: action() if event.client is not None else None
+
+
+def _menu(gui: viser.GuiApi, label: str, entry: str, *, visible: bool = False) -> viser.GuiDropdownHandle[str]:
+    """A menu without choices yet; `entry`: its sentence in the glossary."""
+    nothing: list[str] = [_NONE]
+    return gui.add_dropdown(label, tuple(nothing), visible=visible, hint=hint(entry))

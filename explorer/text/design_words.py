@@ -1,0 +1,102 @@
+"""A design in a reader's words: its twist, its flight, its models. Degrees, knots and tonnes begin here."""
+
+import math
+
+from explorer.state import PRESET_TITLES
+from explorer.text.units import METRE_PER_SECOND, SI, TONNE, Units, number
+from rotor.aero.inflow import INFLOW_MODELS
+from rotor.aero.switches import switched_off
+from rotor.assets import SHIPPED_ROTORS
+from rotor.design.active_twist import ActiveTwist
+from rotor.design.design import Design
+from rotor.design.twist import (
+    IdealTwist,
+    LinearTwist,
+    PiecewiseLinearTwist,
+    QuadraticTwist,
+    SplineTwist,
+    SumTwist,
+    TableTwist,
+    TwistLaw,
+)
+from rotor.files.shipped import shipped_aircraft
+
+_COUNT = {1: "One segment", 2: "Two segments", 3: "Three segments", 4: "Four segments"}
+
+
+def twist_words(law: TwistLaw) -> str:
+    """A law as one would say it, with its numbers."""
+    match law:
+        case LinearTwist(rate):
+            return f"Linear, {_degrees(rate)}\u00a0°/R"
+        case QuadraticTwist(curvature, difference):
+            return f"Quadratic, tip {_degrees(difference)}° against centre, curve {_degrees(curvature)}\u00a0°/R²"
+        case PiecewiseLinearTwist(rates, breaks):
+            divided = f", divided at {_joined([f'{place:.2f}' for place in breaks])}\u00a0R" if breaks else ""
+            count = _COUNT.get(len(rates), f"{len(rates)} segments")
+            return f"{count}, {_joined([_degrees(rate) for rate in rates])}\u00a0°/R{divided}"
+        case IdealTwist(tip_pitch):
+            return f"Ideal, {_degrees(tip_pitch)}°\u00a0/\u00a0r"
+        case SplineTwist(_, angles):
+            return f"Smooth curve through {len(angles)} angles, {_degrees(angles[-1] - angles[0])}° root to tip"
+        case SumTwist(base, change):
+            later = twist_words(change)
+            return f"{twist_words(base)}, with {later[:1].lower()}{later[1:]} on top"
+        case TableTwist(name=name) if name in SHIPPED_ROTORS:
+            return f"{shipped_aircraft(name).name} built-in twist"
+        case TableTwist(name="builtin"):
+            return "Built-in twist"
+        case TableTwist():
+            return "Twist from a table"
+        case _:
+            return law.spec()
+
+
+def active_words(active: ActiveTwist) -> str:
+    """Harmonics that come on top."""
+    waves = (f"{number(math.degrees(one.amplitude), 2)}° at {one.per_rev}/rev" for one in active.harmonics)
+    return f"active twist of {_joined(list(waves))}"
+
+
+def title_words(design: Design) -> str:
+    """Rotor and twist."""
+    words = twist_words(design.twist)
+    return words if words.startswith(design.rotor.name) else f"{design.rotor.name} · {words}"
+
+
+def flight_words(design: Design, units: Units = SI) -> str:
+    """Speed, weight and height in one line."""
+    condition = design.condition
+    speeds = " · ".join(unit.text(design.airspeed) for unit in units.speed if unit is not METRE_PER_SECOND)
+    where = "Hover" if design.hovering else f"µ {number(condition.advance_ratio, 3)} · {speeds}"
+    mass = units.mass.text(condition.mass, 2 if units.mass is TONNE else 0)
+    return f"{where} · {mass} · {units.altitude.text(condition.altitude)}"
+
+
+def model_words(design: Design) -> str:
+    """Preset, inflow and physics in one line."""
+    preset = PRESET_TITLES.get(design.preset, design.preset)
+    return f"{preset}: {inflow_words(design)}, {physics_words(design)}"
+
+
+def inflow_words(design: Design) -> str:
+    """The inflow that counts: that of hover, or that of forward flight."""
+    if design.hovering:
+        return "annulus balance" if design.models.hover_inflow == "annulus" else "closed form, eq. (3.3)"
+    return INFLOW_MODELS[design.models.inflow].title
+
+
+def physics_words(design: Design) -> str:
+    """What of the physics is switched off, or that the losses count."""
+    off = [f"no {switch.title.lower()}" for switch in switched_off(design.models)]
+    return ", ".join(off) or "tip and hub loss"
+
+
+def _degrees(angle: float) -> str:
+    """With one digit after the point, and none that is a zero."""
+    text = number(math.degrees(angle), 1)
+    return text.removesuffix(".0")
+
+
+def _joined(parts: list[str]) -> str:
+    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}"

@@ -1,0 +1,182 @@
+"""Solution → words and numbers for the panels, as HTML; kW, degrees, knots and per cent begin here."""
+
+import math
+from html import escape
+
+from explorer.state import baseline_title
+from explorer.text.glossary import tip
+from explorer.text.units import BLANK, SI, Units, number
+from explorer.theme.colours import PARTS
+from rotor.analysis.ideal_bound import TABLE_ROTOR, ideal_factor
+from rotor.trim.solution import PowerBudget, Solution
+
+PART_TITLES = {"induced": "Induced", "profile": "Profile", "parasite": "Parasite", "tail": "Tail rotor"}
+
+
+def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI) -> str:
+    """Total power with its change, the bar of parts, and the table of parts."""
+    power = solution.power
+    reference = baseline.power if baseline is not None and baseline.converged else None
+    rows = "".join(_row(name, power, reference, units) for name in PARTS)
+    ideal = ideal_induced(solution)
+    return (
+        f'<div class="rx" data-explorer="power">{total_line(power, reference, units)}'
+        f'<div class="rx-line rx-dim"{tip("change")}><span>total power</span>'
+        f"<span>against {escape(baseline_title(solution.design))}</span></div>"
+        f'<div class="rx-bar">{bar(power, ideal)}</div><table>{rows}</table>{ideal_line(solution, ideal, units)}</div>'
+    )
+
+
+def total_line(power: PowerBudget, reference: PowerBudget | None, units: Units) -> str:
+    """The total in both units of power, and its change."""
+    large, small = units.power
+    return (
+        f'<div class="rx-line rx-base"><span class="rx-total" data-explorer="total-power"{tip("total_power")}>'
+        f'{large.text(power.total, fineness(power))}</span><span class="rx-dim">{small.text(power.total)}</span>'
+        f'<span class="rx-push"{tip("change")}>{change(power, reference)}</span></div>'
+    )
+
+
+def ideal_induced(solution: Solution) -> float | None:
+    """The least induced power [W] that any circulation could have at this lift; None where it has not settled."""
+    design = solution.design
+    factor = ideal_factor(design.condition.advance_ratio, solution.ct, design.aircraft.key)
+    if factor is None or not math.isfinite(solution.ct):
+        return None
+    return factor * solution.ct * solution.controls.lambda0 * design.power_unit
+
+
+def ideal_line(solution: Solution, ideal: float | None, units: Units = SI) -> str:
+    """κ, and the bound beside it."""
+    kappa = f'κ = Pi/(CT·λ0) <b data-explorer="kappa">{number(solution.induced_power_factor, 2)}</b>'
+    known = solution.design.aircraft.key == TABLE_ROTOR
+    bound = "ideal: not settled above µ 0.40" if known else "ideal: not computed for this rotor"
+    if ideal is not None:
+        unit = solution.ct * solution.controls.lambda0 * solution.design.power_unit
+        bound = f'<i class="rx-mark"></i> ideal <b>{units.watts(ideal)}</b>, κ {number(ideal / unit, 2)}'
+    return f'<div class="rx-line rx-dim rx-kappa"{tip("kappa")}><span>{kappa}</span><span>{bound}</span></div>'
+
+
+def check_panel(reference: Solution | None, solution: Solution, units: Units = SI) -> str:
+    """The same design with the vortex wake, beside what is shown."""
+    if reference is None:
+        return '<div class="rx rx-dim rx-check">Vortex wake: computing …</div>'
+    if not reference.converged:
+        return f'<div class="rx rx-dim rx-check">Vortex wake: {escape(reference.message)}</div>'
+    apart = 100.0 * (solution.power.total / reference.power.total - 1.0)
+    return (
+        f'<div class="rx rx-check rx-line" data-explorer="check"{tip("vortex_check")}>'
+        '<span class="rx-dim">Vortex wake</span>'
+        f"<span><b>{units.watts(reference.power.total)}</b>, κ {number(reference.induced_power_factor, 2)}; "
+        f"shown is {number(apart, 1, sign=True)} %</span></div>"
+    )
+
+
+def change(power: PowerBudget, reference: PowerBudget | None) -> str:
+    """Of the total [%], green for less, rust for more; a dash without a reference."""
+    if reference is None or reference.total <= 0.0:
+        return f'<span class="rx-dim">{BLANK}</span>'
+    percent = 100.0 * (power.total / reference.total - 1.0)
+    return (
+        f'<span class="rx-change{direction(percent)}" data-explorer="change">{number(percent, 1, sign=True)} %</span>'
+    )
+
+
+def direction(percent: float) -> str:
+    """Class of a change that is not nothing: less is green, more is rust."""
+    return "" if abs(percent) < 0.05 else " rx-less" if percent < 0.0 else " rx-more"
+
+
+def bar(power: PowerBudget, ideal: float | None) -> str:
+    """The parts side by side, and a mark at the ideal induced power."""
+    values = {name: getattr(power, name) for name in PARTS}
+    parts = {name: value if value > 0.0 and math.isfinite(value) else 0.0 for name, value in values.items()}
+    total = max(sum(parts.values()), 1.0)
+    spans = "".join(
+        f'<span style="flex:{value / total:.5f};background:{PARTS[name]}"></span>' for name, value in parts.items()
+    )
+    if ideal is None:
+        return spans
+    return spans + f'<i class="rx-mark" style="position:absolute;left:{100.0 * ideal / total:.2f}%"></i>'
+
+
+def fineness(power: PowerBudget) -> int:
+    """Decimals of a power: one for a light helicopter, none for a heavy one."""
+    return 1 if power.total < 2e5 else 0
+
+
+def _row(name: str, power: PowerBudget, reference: PowerBudget | None, units: Units) -> str:
+    value = getattr(power, name)
+    share = 100.0 * value / power.total if power.total > 0.0 else None
+    apart = None if reference is None else value - getattr(reference, name)
+    return (
+        f'<tr{tip(name)}><td><span class="rx-patch" style="background:{PARTS[name]}"></span>{PART_TITLES[name]}</td>'
+        f'<td class="rx-num">{units.watts(value, fineness(power))}</td>'
+        f'<td class="rx-num rx-dim" style="width:19%">{number(share)} %</td>'
+        f'<td class="rx-num rx-dim" style="width:25%">{units.watts(apart, fineness(power), sign=True)}</td></tr>'
+    )
+
+
+def trim_panel(solution: Solution) -> str:
+    """Trim angles, loading, efficiency and areas, in two columns."""
+    c = solution.controls
+    efficiency = ("lift_to_drag", "Rotor L/De", number(solution.lift_to_drag, 2))
+    if solution.design.hovering:
+        efficiency = ("figure_of_merit", "Figure of merit", number(solution.figure_of_merit, 3))
+    entries = (
+        ("collective", "Collective θ0", _deg(c.collective)),
+        ("shaft_tilt", "Shaft tilt α", _deg(c.shaft_tilt)),
+        ("cyclic_1c", "Cyclic θ1c", _deg(c.cyclic_1c)),
+        ("coning", "Coning β0", _deg(c.coning)),
+        ("cyclic_1s", "Cyclic θ1s", _deg(c.cyclic_1s)),
+        ("flapping_1", "Flap β1c, β1s", f"{number(math.degrees(c.flap_1c), 1)}, {_deg(c.flap_1s, 1)}"),
+        ("ct_over_sigma", "CT/σ", number(solution.ct_over_sigma, 4)),
+        efficiency,
+        ("reverse_flow_area", "Reverse flow", f"{number(100.0 * solution.reverse_flow_area, 1)} %"),
+        ("stalled_area", "Stalled area", f"{number(100.0 * solution.stalled_area, 1)} %"),
+    )
+    cells = "".join(
+        f'<div class="rx-line"{tip(key)}><span class="rx-dim">{name}</span><span class="rx-num">{value}</span></div>'
+        for key, name, value in entries
+    )
+    return f'<div class="rx rx-grid" data-explorer="trim">{cells}</div>'
+
+
+def _deg(angle: float, digits: int = 2) -> str:
+    return f"{number(math.degrees(angle), digits)}°"
+
+
+def reserved(height: int) -> str:
+    """The place of a read-out before the first answer, so that nothing moves when it comes. `height` in pixels."""
+    return f'<div class="rx"><div class="rx-reserved" style="height:{height}px"></div></div>'
+
+
+def speed_line(speed: float, units: Units = SI) -> str:
+    """Airspeed [m/s] as the engineer, the driver and the pilot read it."""
+    words = units.airspeed(speed)
+    return f'<div class="rx rx-dim rx-speed" data-explorer="speed"{tip("speed")}>{words}</div>'
+
+
+def explanation(text: str) -> str:
+    """The line beneath a menu, in a box of constant height."""
+    return f'<div class="rx rx-dim rx-small rx-explain">{escape(text)}</div>'
+
+
+def heading(title: str, key: tuple[tuple[str, str] | tuple[str, str, bool], ...], entry: str = "") -> str:
+    """A chart's title with the key of its lines: name, colour, and whether the line is dashed. `entry`: its tooltip."""
+    entries = "".join(f"<span>{dash(colour, *dashed)}{escape(name)}</span>" for name, colour, *dashed in key)
+    return (
+        f'<div class="rx rx-line rx-heading"{tip(entry) if entry else ""}><span>{escape(title)}</span>{entries}</div>'
+    )
+
+
+def dash(colour: str, dashed: bool = False) -> str:
+    """The sample of a line."""
+    if dashed:
+        return f'<span class="rx-dash rx-dashed" style="color:{colour}"></span>'
+    return f'<span class="rx-dash" style="background:{colour}"></span>'
+
+
+def faded(html: str) -> str:
+    """The same text, dimmed: no longer the answer."""
+    return f'<div class="rx-faded">{html}</div>'

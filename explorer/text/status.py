@@ -1,0 +1,87 @@
+"""How a solve ended, with every reason to read it with care, and how it was computed; as HTML."""
+
+import math
+from html import escape
+
+from explorer.text.design_words import inflow_words, physics_words
+from explorer.text.glossary import tip
+from explorer.text.units import number
+from rotor.trim.solution import Solution
+
+
+def status_panel(solution: Solution | None, problem: str | None = None, pinned: Solution | None = None) -> str:
+    """A box of constant height: how the solve ended, every reason to read it with care, and how it was computed.
+
+    `pinned`: A, whose reasons count too where two designs are compared.
+    """
+    if problem is None and solution is not None and not solution.converged:
+        problem = solution.message
+    if problem is not None:
+        # Whole, also where it takes a line more than the box: it then lies over numbers that no longer hold.
+        sentence = f"{escape(problem.rstrip('.'))}. In grey: the last good answer."
+        return _status("problem", f'<div class="rx-sentence">{sentence}</div>')
+    if solution is None:
+        return _status("waiting", "Solving the first trim …")
+    caveats = "".join(
+        f'<div class="rx-care"><span>▲</span><span>{escape(sentence)}</span></div>'
+        for sentence in cautions(solution, pinned)
+    )
+    detail = f"Residual below {tiny(solution.residual)} of weight, {solution.passes} passes."
+    text = f'<div><span class="rx-good">●</span> {escape(solution.message)} {detail}</div>'
+    return _status("converged", text + caveats + provenance(solution))
+
+
+def cautions(solution: Solution, pinned: Solution | None) -> list[str]:
+    """Reasons to read the numbers with care; with A beside them, whose each is and what else sets the two apart."""
+    own = [caveat.sentence for caveat in solution.caveats]
+    if pinned is None:
+        return own
+    if not pinned.converged:
+        return [f"A: {pinned.message}", *own]
+    other = [caveat.sentence for caveat in pinned.caveats]
+    a, b = pinned.design, solution.design
+    apart = []
+    if a.condition != b.condition:
+        apart.append("A and B do not fly the same: the difference is not the design's alone.")
+    if (a.preset, a.models) != (b.preset, b.models):
+        apart.append("A and B are computed with different models: the difference is not the blade's alone.")
+    return [
+        *apart,
+        *(sentence for sentence in own if sentence in other),
+        *(f"A: {sentence}" for sentence in other if sentence not in own),
+        *(f"B: {sentence}" for sentence in own if sentence not in other),
+    ]
+
+
+def tiny(value: float) -> str:
+    """The power of ten above a small positive number."""
+    exponent = min(math.floor(-math.log10(value)), 15) if 0.0 < value < 1.0 else 15
+    return "10⁻" + str(exponent).translate(str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹"))
+
+
+def provenance(solution: Solution) -> str:
+    """How it was computed, and what kind of statement it is."""
+    design = solution.design
+    sections = dict.fromkeys(section_title(span.section) for span in design.rotor.blade.spans)
+    return (
+        f'<div class="rx-small rx-dim" data-explorer="provenance">Preset <i>{escape(design.preset)}</i>: '
+        f"{escape(inflow_words(design))}, {escape(' / '.join(sections))}, {physics_words(design)}, "
+        f"{design.models.elements} × {design.models.azimuths} grid, {number(1e3 * solution.elapsed, 1)} ms. "
+        "Indicative: a model, not a measurement.</div>"
+    )
+
+
+def section_title(section: str) -> str:
+    """A section as it is written."""
+    titles = {
+        "sc1095": "SC1095",
+        "sc1094r8": "SC1094 R8",
+        "sc1095-thesis": "SC1095 polynomials",
+        "naca0012": "NACA 0012",
+        "naca63a015": "NACA 63-015A",
+    }
+    return titles.get(section, section)
+
+
+def _status(kind: str, text: str) -> str:
+    return f'<div class="rx-status rx-{kind}" data-explorer="status" data-kind="{kind}"{tip("status")}>{text}</div>'

@@ -1,0 +1,35 @@
+"""The solver as the page uses it: warmed in the background, and a baseline remembered."""
+
+from dataclasses import dataclass, replace
+
+from rotor.design.design import Design
+from rotor.design.presets import PRESETS
+from rotor.files.make_design import make_design
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+
+def warm() -> None:
+    """Compile and load everything that a first answer would otherwise wait for."""
+    for preset in PRESETS:
+        for advance_ratio in (0.0, 0.2):
+            solve(make_design(preset, advance_ratio=advance_ratio))
+
+
+def with_vortex_wake(design: Design) -> Design:
+    """The same design with the reference inflow; itself in hover, which has no wake to skew."""
+    return design if design.hovering else replace(design, models=replace(design.models, inflow="vortex-wake"))
+
+
+@dataclass
+class Baseline:
+    """The baseline's answers of one session, kept while its condition stays."""
+
+    design: Design | None = None
+    solution: Solution | None = None
+
+    def solve(self, design: Design) -> Solution:
+        if self.solution is None or design != self.design:
+            self.solution = solve(design, self.solution if self.solution and self.solution.converged else None)
+            self.design = design
+        return self.solution

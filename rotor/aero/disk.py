@@ -1,0 +1,99 @@
+"""The grid of blade elements and azimuths, and what a rotor is on it."""
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rotor.airfoil.polynomial import THESIS_NAME, polynomial_section
+from rotor.airfoil.table import MACH_STEP, N_MACH
+from rotor.design.blade import Rotor
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Disk:
+    """Element centres, azimuths and the blade's properties there. Radius first, azimuth second."""
+
+    r: Array
+    """Element centres y/R, (elements,)."""
+    dr: float
+    """Element width over R: (1 − R_min/R)/N, eq. (3.14), whose left side is printed Δy."""
+    root: float
+    """r/R where the lifting blade begins."""
+    blades: int
+    psi: Array
+    """Azimuths [rad], (azimuths,), 0 over the tail, evenly spaced, no repeated end."""
+    cos: Array
+    sin: Array
+    half_solidity: Array
+    """½σ(r) = N_b c(r)/(2πR) with the chord there, (elements,)."""
+    section: NDArray[np.int64]
+    """Rows of `tables` blended at each element, (elements, 2)."""
+    weight: Array
+    """Weight of the second of the two, (elements,)."""
+    offset: Array
+    """How far the chord lines of the two point nose-down of the blade's reference line [rad], (elements, 2)."""
+    tables: Array
+    """Section coefficients, (sections, α cells, Mach cells, 2, 4, 4)."""
+    stall: Array
+    """Stall angles about the section's own chord [rad] at the table's Mach nodes, (sections, 2, nodes): negative end,
+    positive end."""
+    mach_limit: float
+    """Mach number where the section data end."""
+    fit_range: tuple[float, float] | None
+    """Angles of attack [rad] beyond which the document's polynomials, of one Mach number, are clamped; None: decks."""
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """(elements, azimuths)"""
+        return len(self.r), len(self.psi)
+
+
+@lru_cache(maxsize=16)
+def build_disk(rotor: Rotor, elements: int, azimuths: int, only_mach: float | None = None) -> Disk:
+    """The rotor on a grid of equally wide elements and evenly spaced azimuths.
+
+    `only_mach`: sections answer as at that Mach number whatever the flow; None: as they do.
+    """
+    blade = rotor.blade
+    dr = (1.0 - blade.root_cutout) / elements
+    r: Array = blade.root_cutout + dr * (np.arange(elements, dtype=np.float64) + 0.5)
+    psi = 2.0 * math.pi * np.arange(azimuths) / azimuths
+
+    names = tuple(dict.fromkeys(span.section for span in blade.spans))
+    installed = [blade.installed(name) for name in names]
+    tables = [one.table if only_mach is None else one.table.held_at(only_mach) for one in installed]
+    section = np.zeros((elements, 2), dtype=np.int64)
+    weight = np.zeros(elements)
+    offset = np.zeros((elements, 2))
+    ratio = np.ones(elements)
+    for i, station in enumerate(r):
+        inner, outer, blend = blade.section_at(float(station))
+        pair = names.index(inner), names.index(outer)
+        section[i] = pair
+        weight[i] = blend
+        offset[i] = [installed[k].incidence_offset for k in pair]
+        ratio[i] = (1.0 - blend) * installed[pair[0]].chord_ratio + blend * installed[pair[1]].chord_ratio
+    half_solidity = rotor.blades * blade.chord(r) * ratio / (2.0 * math.pi * rotor.radius)
+    mach = MACH_STEP * np.arange(N_MACH + 1)
+    return Disk(
+        r=r,
+        dr=dr,
+        root=blade.root_cutout,
+        blades=rotor.blades,
+        psi=psi,
+        cos=np.cos(psi),
+        sin=np.sin(psi),
+        half_solidity=half_solidity,
+        section=section,
+        weight=weight,
+        offset=offset,
+        tables=np.stack([table.coefficients for table in tables]),
+        stall=np.stack([table.stall_alpha(mach) for table in tables]),
+        mach_limit=min(table.mach_limit for table in tables),
+        fit_range=polynomial_section().fit_range if THESIS_NAME in names else None,
+    )

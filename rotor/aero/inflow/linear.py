@@ -1,0 +1,156 @@
+"""Linear inflow in forward flight: λ_i = λ0 (1 + k_x r cos ψ + k_y r sin ψ), eqs. (2.29), (3.4).
+
+Eq. (2.29) prints φ for ψ; (3.4) is right. The models differ in k_x and k_y only. None of them answers to where on the
+disk the lift is, so with them induced power does not depend on twist.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rotor.aero.disk import Disk
+from rotor.aero.inflow.interface import LoadLoop
+from rotor.aero.inflow.wake_state import Wake
+
+Array = NDArray[np.float64]
+
+
+Gradient = tuple[float, float, float]
+"""A gradient k with its slopes by µ_x and by the axial flow µ_z + λ0."""
+
+
+@dataclass(frozen=True)
+class LinearInflow:
+    """A first-harmonic inflow model."""
+
+    name: str
+    title: str
+    explanation: str
+    """One line for the page: what it is, and from whom."""
+    longitudinal: Callable[[Wake], Gradient]
+    """k_x"""
+    lateral: Callable[[Wake], Gradient]
+    """k_y"""
+
+    reacts = False
+
+    def without_tip_loss(self) -> "LinearInflow":
+        """Itself: the factor is on the section lift."""
+        return self
+
+    def laid_out(self, expected: Wake) -> "LinearInflow":
+        """Itself: the wake moves with the trim."""
+        del expected
+        return self
+
+    def respond(self, disk: Disk, wake: Wake, load: Array) -> "PrescribedResponse":
+        """The prescribed field; the load is ignored."""
+        del load
+        return PrescribedResponse(*self.field(disk.r, disk.cos, disk.sin, wake))
+
+    def field(self, r: Array, cos: Array, sin: Array, wake: Wake) -> tuple[Array, Array]:
+        """λ_i, (n, m), at radii (n,) and azimuths given by cos ψ, sin ψ (m,); slopes by (µ_x, µ_z, λ0), (3, n, m)."""
+        kx, kx_mu, kx_axial = self.longitudinal(wake)
+        ky, ky_mu, ky_axial = self.lateral(wake)
+        r = r[:, None]
+        shape = 1.0 + r * (kx * cos + ky * sin)
+        by_mu = (wake.lambda0 * r) * (kx_mu * cos + ky_mu * sin)
+        by_axial = (wake.lambda0 * r) * (kx_axial * cos + ky_axial * sin)
+        return wake.lambda0 * shape, np.stack([by_mu, by_axial, shape + by_axial])
+
+
+@dataclass(frozen=True, eq=False)
+class PrescribedResponse:
+    """A = 0: nothing that the load does comes back."""
+
+    induced: Array
+    by_wake: Array
+
+    def drive(self, fields: Array) -> Array:
+        """No load drives a prescribed inflow."""
+        return np.zeros_like(fields)
+
+    def drive_transposed(self, field: Array) -> Array:
+        """No load drives a prescribed inflow."""
+        return np.zeros_like(field)
+
+    def loop(self, slope: Array) -> LoadLoop:
+        """The open loop."""
+        del slope
+        return _OpenLoop()
+
+
+class _OpenLoop:
+    def solve(self, fields: Array) -> Array:
+        return fields
+
+    def solve_transposed(self, field: Array) -> Array:
+        return field
+
+
+def _zero(wake: Wake) -> Gradient:
+    del wake
+    return 0.0, 0.0, 0.0
+
+
+def _half_skew(wake: Wake) -> Gradient:
+    """tan(χ/2) = µ_x/(V + µ_z + λ0), regular from hover to edgewise flight."""
+    total = wake.speed + wake.axial
+    return wake.mu_x / total, wake.axial / (wake.speed * total), -wake.mu_x / (wake.speed * total)
+
+
+def _scaled_half_skew(gain: float) -> Callable[[Wake], Gradient]:
+    def gradient(wake: Wake) -> Gradient:
+        value, by_mu, by_axial = _half_skew(wake)
+        return gain * value, gain * by_mu, gain * by_axial
+
+    return gradient
+
+
+def _drees_longitudinal(wake: Wake) -> Gradient:
+    """(4/3)(1 − cos χ − 1.8µ²)/sin χ, written with sin χ = µ_x/V so that hover is regular."""
+    value, by_mu, by_axial = _half_skew(wake)
+    scale = 4.0 / 3.0
+    speed = wake.speed
+    return (
+        scale * (value - 1.8 * wake.mu_x * speed),
+        scale * (by_mu - 1.8 * (speed + wake.mu_x**2 / speed)),
+        scale * (by_axial - 1.8 * wake.mu_x * wake.axial / speed),
+    )
+
+
+def _drees_lateral(wake: Wake) -> Gradient:
+    return -2.0 * wake.mu_x, -2.0, 0.0
+
+
+def _white_blake(wake: Wake) -> Gradient:
+    """√2 sin χ."""
+    cube = wake.speed**3
+    root = math.sqrt(2.0)
+    return root * wake.mu_x / wake.speed, root * wake.axial**2 / cube, -root * wake.mu_x * wake.axial / cube
+
+
+LINEAR_MODELS = (
+    LinearInflow("uniform", "Uniform", "Glauert's mean inflow everywhere: no fore-aft gradient.", _zero, _zero),
+    LinearInflow(
+        "coleman", "Coleman", "kx = tan(χ/2), from a uniformly loaded skewed vortex cylinder (1945).",
+        _scaled_half_skew(1.0), _zero,
+    ),
+    LinearInflow(
+        "drees", "Drees", "kx = 4/3 (1 − cos χ − 1.8µ²)/sin χ and a lateral ky = −2µ (1949).",
+        _drees_longitudinal, _drees_lateral,
+    ),
+    LinearInflow("white-blake", "White–Blake", "kx = √2 sin χ, a stronger gradient (1979).", _white_blake, _zero),
+    LinearInflow(
+        "pitt-peters", "Pitt–Peters (15π/32)", "kx = 15π/32 tan(χ/2): the three-state Pitt–Peters theory, steady.",
+        _scaled_half_skew(15.0 * math.pi / 32.0), _zero,
+    ),
+    LinearInflow(
+        "pitt-peters-15pi/23", "Pitt–Peters (15π/23 as printed)",
+        "kx = 15π/23 tan(χ/2), eq. (2.32) as the document prints it; closer to measured gradients.",
+        _scaled_half_skew(15.0 * math.pi / 23.0), _zero,
+    ),
+)  # fmt: skip

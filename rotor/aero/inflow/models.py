@@ -1,0 +1,19 @@
+"""The inflow models by name."""
+
+from rotor.aero.inflow.dynamic_wake import DYNAMIC_WAKES
+from rotor.aero.inflow.interface import InflowModel
+from rotor.aero.inflow.linear import LINEAR_MODELS
+from rotor.aero.inflow.local_momentum import LocalMomentumInflow
+from rotor.aero.inflow.vortex_wake import VortexWakeInflow
+
+_MODELS: tuple[InflowModel, ...] = (*LINEAR_MODELS, LocalMomentumInflow(), *DYNAMIC_WAKES, VortexWakeInflow())
+
+INFLOW_MODELS: dict[str, InflowModel] = {model.name: model for model in _MODELS}
+"""Forward-flight inflow models by name, in the order of what they can see."""
+
+
+def inflow_model(name: str) -> InflowModel:
+    """The model of that name; ValueError with the names there are."""
+    if name not in INFLOW_MODELS:
+        raise ValueError(f"inflow model {name!r} is not known: use one of {', '.join(INFLOW_MODELS)}")
+    return INFLOW_MODELS[name]

@@ -1,0 +1,128 @@
+"""From coordinates and raw XFOIL polars to the C81 deck that ships, and back to check it.
+
+Polars (trip at 5 % chord, the Reynolds number of the section's own chord) at Mach 0.1 to 0.4 -> `assemble`.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rotor.airfoil.build.assemble import assemble_deck
+from rotor.airfoil.c81 import C81Deck
+from rotor.airfoil.build.compressibility import SectionTraits
+from rotor.airfoil.contour import load_contour
+from rotor.airfoil.polars import Polar, PolarSet
+from rotor.airfoil.wrap import BLEND_END_DEG
+from rotor.airfoil.build.xfoil import XfoilCase, run_polar
+
+FloatArray = NDArray[np.float64]
+
+TRIP = 0.05  # Transition at 5 % chord, both sides: free transition gives 16-35 % too little drag.
+NATIVE_MACHS = (0.1, 0.2, 0.3, 0.4)
+POLAR_ALPHA_DEG = np.arange(-36, 37, dtype=np.float64) * 0.5
+THESIS_CASE = XfoilCase(mach=0.3, reynolds=3.68e6, n_crit=9.0, trip=None)
+THESIS_ALPHA_DEG = np.arange(-60, 81, dtype=np.float64) * 0.25  # -15..20 deg
+
+
+@dataclass(frozen=True)
+class Recipe:
+    """How a bundled section is made: title of its deck, Reynolds number per Mach at sea level, and its traits."""
+
+    title: str
+    reynolds_per_mach: float
+    traits: SectionTraits
+
+
+RECIPES = {
+    # t/c measured on the coordinates. negative_ratio: XFOIL's own |cl_min| / cl_max at Mach 0.3. Chord 0.527 m.
+    "sc1095": Recipe("SC1095 XFOIL TRIP5 WRAP", 12.27e6, SectionTraits(thickness=0.095, negative_ratio=0.80)),
+    # No public R8 table exists to check against. XFOIL's cl_max (1.96 at M 0.3, growing with Mach) is not
+    # believed; a neural network trained on XFOIL gives R8 1.09-1.10 times the SC1095 value at M 0.3-0.5.
+    # Its negative_ratio is a rounded guess near XFOIL's 0.42: negative stall moves with the paneling anyway.
+    "sc1094r8": Recipe(
+        "SC1094R8 XFOIL TRIP5 WRAP",
+        12.27e6,
+        SectionTraits(thickness=0.094, cap_ratio=1.10, cap_native=True, negative_ratio=0.45),
+    ),
+    # The S-61's chord, 0.464 m. Cap and Korn's factor read off the public NACA 0012 C81 table (CITATION.md).
+    "naca0012": Recipe("NACA0012 XFOIL TRIP5 WRAP", 10.80e6, SectionTraits(thickness=0.12, cap_ratio=0.90, korn=0.87)),
+    # The R22's chord, 0.189 m. No public table with Mach was found: the cap is that of the NACA 0012, Korn's factor
+    # the textbook's for six-series sections (Mason 1990).
+    "naca63a015": Recipe(
+        "NACA63A015 XFOIL TRIP5 WRAP", 4.40e6, SectionTraits(thickness=0.15, cap_ratio=0.90, korn=0.87)
+    ),
+}
+
+
+@dataclass(frozen=True)
+class Difference:
+    """Largest differences between two decks over |alpha| <= 26 deg: cl [-], cd relative [-], and where."""
+
+    cl: float
+    cl_at: str
+    cd: float
+    cd_at: str
+
+    def within(self, cl_tolerance: float, cd_tolerance: float) -> bool:
+        """True when both are inside their tolerance."""
+        return self.cl <= cl_tolerance and self.cd <= cd_tolerance
+
+
+def check_name(name: str) -> None:
+    """ValueError unless `name` is a section this project can build."""
+    if name not in RECIPES:
+        raise ValueError(f"no section named {name!r}: choose one of {', '.join(RECIPES)}")
+
+
+def run_trip_polars(name: str, report: Callable[[str], None]) -> PolarSet:
+    """Run XFOIL for the deck of `name`; minutes at worst."""
+    check_name(name)
+    contour, per_mach = load_contour(name), RECIPES[name].reynolds_per_mach
+    header = (
+        f"{name}: polars computed with XFOIL 6.99 by this project from the coordinates in {name}.contour",
+        f"transition fixed at {TRIP:g} chord on both sides, Ncrit 9, Re = {per_mach:.4g} * Mach",
+        "angles where no paneling converged are left out",
+    )
+    polars: list[Polar] = []
+    for mach in NATIVE_MACHS:
+        case = XfoilCase(mach, per_mach * mach, 9.0, TRIP)
+        polars.append(run_polar(contour, case, POLAR_ALPHA_DEG, report))
+    return PolarSet(header, tuple(polars))
+
+
+def run_thesis_polar(report: Callable[[str], None]) -> PolarSet:
+    """Run XFOIL for the SC1095 polar of the `thesis` preset: free transition, one Mach, steps of 0.25 deg."""
+    header = (
+        "sc1095: polar computed with XFOIL 6.99 by this project from the coordinates in sc1095.contour",
+        "free transition, Ncrit 9, Re 3.68e6, Mach 0.3: assumed, the document states none of them",
+        "angles where no paneling converged are left out",
+    )
+    return PolarSet(header, (run_polar(load_contour("sc1095"), THESIS_CASE, THESIS_ALPHA_DEG, report),))
+
+
+def make_deck(name: str, polars: PolarSet) -> C81Deck:
+    """The deck of `name` from its raw polars, rounded as the C81 text rounds it."""
+    check_name(name)
+    by_mach = {round(p.mach, 3): p for p in polars.polars}
+    missing = [m for m in NATIVE_MACHS if m not in by_mach]
+    if missing:
+        raise ValueError(f"the polars of {name} lack Mach {missing[0]:g}: run `python -m rotor airfoil build {name}`")
+    return assemble_deck(RECIPES[name].title, [by_mach[m] for m in NATIVE_MACHS], RECIPES[name].traits)
+
+
+def compare_decks(new: C81Deck, old: C81Deck) -> Difference:
+    """Largest differences of `new` from `old`; a ValueError when their knots differ."""
+    for a, b in ((new.cl, old.cl), (new.cd, old.cd)):
+        if a.values.shape != b.values.shape or np.any(a.alpha_deg != b.alpha_deg) or np.any(a.mach != b.mach):
+            raise ValueError("the decks have different angles or Machs: rebuild the shipped one")
+    near = np.flatnonzero(np.abs(old.cl.alpha_deg) <= BLEND_END_DEG)
+    lift = np.abs(new.cl.values - old.cl.values)[near]
+    drag = np.abs(new.cd.values / old.cd.values - 1.0)[near]
+
+    def where(difference: FloatArray) -> str:
+        i, j = np.unravel_index(int(np.argmax(difference)), difference.shape)
+        return f"{old.cl.alpha_deg[near[i]]:g} deg, Mach {old.cl.mach[j]:g}"
+
+    return Difference(float(lift.max()), where(lift), float(drag.max()), where(drag))

@@ -1,0 +1,1 @@
+"""What is computed from many solutions: sweeps, the power waterfall, the ideal bound."""

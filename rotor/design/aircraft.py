@@ -1,0 +1,67 @@
+"""An aircraft as far as its rotor needs it: main rotor, tail rotor, drag area, mass. What a rotor file holds."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from rotor.design.blade import Rotor
+from rotor.design.flight import Fuselage
+from rotor.design.tail_rotor import TailRotor
+from rotor.design.twist import TwistLaw
+
+Hub = Literal["articulated", "teetering", "teetering-with-coning-hinges"]
+HUBS: tuple[Hub, ...] = ("articulated", "teetering", "teetering-with-coning-hinges")
+
+
+@dataclass(frozen=True)
+class Stated:
+    """The rotor as the source document states it, where it differs from the one that flies."""
+
+    rotor: Rotor
+    twist: TwistLaw
+
+
+@dataclass(frozen=True)
+class RotorFiles:
+    """The files a user's rotor was read from, word for word, so that a saved design is complete."""
+
+    main: str
+    """Name of the rotor file itself."""
+    texts: tuple[tuple[str, str], ...]
+    """(name, text) of it and of every file it names."""
+
+
+@dataclass(frozen=True)
+class Aircraft:
+    """One aircraft, without arrays: equality, hashing and travel to other processes come free."""
+
+    name: str
+    """As people write it, for example UH-60A."""
+    rotor: Rotor
+    """As it flies, with its built-in twist."""
+    fuselage: Fuselage
+    mass: float
+    """Reference mass [kg]."""
+    tail_rotor: TailRotor | None = None
+    """None: another way to balance the torque, or an unknown one; the document's five per cent stand for it."""
+    hub: Hub = "articulated"
+    stated: Stated | None = None
+    key: str = ""
+    """Name of a shipped one, as `--rotor` takes it; empty for a user's own."""
+    files: RotorFiles | None = None
+    """Of a user's own; None for a shipped one."""
+    remarks: tuple[str, ...] = ()
+    """What had to be assumed when its files were read, in sentences."""
+
+    def rotor_for(self, preset: str) -> Rotor:
+        """The rotor that a preset computes: as the document states it (`thesis`, where it does), else as it flies."""
+        return self.stated.rotor if preset == "thesis" and self.stated else self.rotor
+
+    def twist_for(self, preset: str) -> TwistLaw:
+        """The twist that changes count from: the document's (`thesis`, where it has one), else the built-in."""
+        return self.stated.twist if preset == "thesis" and self.stated else self.rotor.builtin_twist
+
+    def twist_title(self, preset: str) -> str:
+        """That twist in the user's words."""
+        if preset == "thesis" and self.stated:
+            return self.stated.twist.spec().replace("linear:-", "linear −") + "°"
+        return f"{self.name} twist"

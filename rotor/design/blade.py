@@ -1,0 +1,158 @@
+"""The rotor as built: blade planform, sections along the span, mass, hub."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rotor.airfoil.sections import OwnSection, Section, install_own, load_installed
+from rotor.design.twist import TwistLaw
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Span:
+    """A stretch of blade with one section; the gap to the next span is blended linearly."""
+
+    start: float
+    """r/R of the inner end."""
+    end: float
+    """r/R of the outer end."""
+    section: str
+    """Name of the section data, for example sc1095."""
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.start < self.end <= 1.0:
+            raise ValueError(f"span of {self.section} runs {self.start:g}…{self.end:g}: give 0 ≤ start < end ≤ 1")
+
+
+@dataclass(frozen=True)
+class Blade:
+    """One blade."""
+
+    root_cutout: float
+    """r/R where the lifting blade begins."""
+    chord_stations: tuple[float, ...]
+    """r/R, ascending."""
+    chords: tuple[float, ...]
+    """Reference chord [m] at those stations, linear between; a section's own chord ratio multiplies it."""
+    spans: tuple[Span, ...]
+    """Sections, root to tip."""
+    flap_hinge: float
+    """Hinge offset e/R."""
+    flap_inertia: float
+    """Second mass moment about the flap hinge [kg m²]."""
+    flap_static_moment: float
+    """First mass moment about the flap hinge [kg m]."""
+    mass: float
+    """[kg]"""
+    own_sections: tuple[OwnSection, ...] = ()
+    """Section data a user brought, which spans name beside the bundled ones."""
+
+    def __post_init__(self) -> None:
+        if len(self.chord_stations) != len(self.chords) or not self.chords:
+            raise ValueError(f"{len(self.chord_stations)} chord stations but {len(self.chords)} chords: give one each")
+        if not self.spans:
+            raise ValueError("a blade needs at least one section span: add one with start, end and section")
+        if not 0.0 < self.root_cutout < 0.9:
+            raise ValueError(f"root cut-out {self.root_cutout:g} is outside 0…0.9: give it as a fraction of the radius")
+        if min(self.flap_inertia, self.mass, *self.chords) <= 0.0:
+            raise ValueError("blade chord, mass and flap inertia must be positive: check the rotor file")
+
+    def chord(self, r: ArrayLike) -> Array:
+        """Reference chord [m] at r = y/R."""
+        return np.interp(np.asarray(r, dtype=float), self.chord_stations, self.chords)
+
+    def installed(self, name: str) -> Section:
+        """The section `name` with its table and outline: a user's own, or a bundled one (ValueError for neither)."""
+        own = next((one for one in self.own_sections if one.name == name), None)
+        return install_own(own) if own else load_installed(name)
+
+    def section_at(self, r: float) -> tuple[str, str, float]:
+        """Inner section, outer section and the weight of the outer one (0 within a span) at r = y/R."""
+        for inner, outer in zip(self.spans, self.spans[1:], strict=False):
+            if r <= inner.end:
+                return inner.section, inner.section, 0.0
+            if r < outer.start:
+                return inner.section, outer.section, (r - inner.end) / (outer.start - inner.end)
+        return self.spans[-1].section, self.spans[-1].section, 0.0
+
+
+@dataclass(frozen=True)
+class Rotor:
+    """A main rotor: blades, hub and speed."""
+
+    name: str
+    blade: Blade
+    blades: int
+    radius: float
+    """R [m]"""
+    angular_speed: float
+    """Ω [rad/s]"""
+    reference_chord: float
+    """Chord [m] that the quoted solidity stands for."""
+    builtin_twist: TwistLaw
+
+    def __post_init__(self) -> None:
+        if self.blades < 2 or self.radius <= 0.0 or self.angular_speed <= 0.0:
+            raise ValueError(
+                f"rotor {self.name!r} has {self.blades} blades, radius {self.radius:g} m, "
+                f"{self.angular_speed:g} rad/s: "
+                "give two or more blades and positive values"
+            )
+
+    @property
+    def tip_speed(self) -> float:
+        """ΩR [m/s]"""
+        return self.angular_speed * self.radius
+
+    @property
+    def disk_area(self) -> float:
+        """πR² [m²]"""
+        return math.pi * self.radius**2
+
+    @property
+    def solidity(self) -> float:
+        """σ = N_b c/(πR), eq. (2.19), with the reference chord (0.0821 for the UH-60A with c = 0.5273 m)."""
+        return self.blades * self.reference_chord / (math.pi * self.radius)
+
+    @property
+    def flap_frequency_squared(self) -> float:
+        """ν² = 1 + e S/I, the rotating flap frequency over Ω, squared."""
+        blade = self.blade
+        return 1.0 + blade.flap_hinge * self.radius * blade.flap_static_moment / blade.flap_inertia
+
+
+def with_airfoils(rotor: Rotor, sections: Sequence[str], breaks: Sequence[float]) -> Rotor:
+    """The rotor with other sections, root to tip, that change at `breaks` (r/R) without a blend."""
+    ends = (rotor.blade.root_cutout, *breaks, 1.0)
+    if len(breaks) != len(sections) - 1 or any(low >= high for low, high in pairwise(ends)):
+        raise ValueError(
+            f"{len(sections)} airfoils with changes at {list(breaks)}: give one ascending r/R between each two, "
+            f"beyond the root cut-out {rotor.blade.root_cutout:g}"
+        )
+    spans = tuple(Span(low, high, name) for (low, high), name in zip(pairwise(ends), sections, strict=True))
+    return replace(rotor, blade=replace(rotor.blade, spans=spans))
+
+
+def parse_airfoils(rotor: Rotor, spec: str) -> Rotor:
+    """The rotor with the sections of a SPEC: names root to tip, changes (r/R) after @, as `sc1094r8,sc1095@0.5`."""
+    names, _, places = spec.strip().partition("@")
+    try:
+        breaks = [float(item) for item in places.split(",")] if places else []
+    except ValueError:
+        raise ValueError(f"airfoils {spec!r} hold a place that is no number: write sc1094r8,sc1095@0.5") from None
+    return with_airfoils(rotor, [name.strip() for name in names.split(",")], breaks)
+
+
+def airfoils_spec(rotor: Rotor) -> str | None:
+    """The sections as `parse_airfoils` reads them; None where two are blended into one another."""
+    spans = rotor.blade.spans
+    if any(inner.end != outer.start for inner, outer in pairwise(spans)):
+        return None
+    names = ",".join(span.section for span in spans)
+    return names + (f"@{','.join(f'{span.end:.10g}' for span in spans[:-1])}" if len(spans) > 1 else "")

@@ -1,0 +1,106 @@
+"""A design: everything that decides an answer, as one value without arrays.
+
+Equality, hashing, caching, JSON and undo come from that.
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from rotor.design.active_twist import ActiveTwist
+from rotor.design.aircraft import Aircraft
+from rotor.design.blade import Rotor
+from rotor.design.flight import FlightCondition, Fuselage
+from rotor.design.tail_rotor import TailRotor
+from rotor.design.twist import TwistLaw
+
+HoverInflow = Literal["annulus", "closed-form"]
+Trim = Literal["propulsive", "thrust"]
+
+
+@dataclass(frozen=True)
+class Models:
+    """Which models compute the answer. A preset is a value of this type, never a branch of its own."""
+
+    inflow: str
+    """Forward-flight inflow model by name, one of `rotor.aero.inflow.INFLOW_MODELS`."""
+    hover_inflow: HoverInflow
+    """`annulus`: balance with the real Cl(α); `closed-form`: eq. (3.3)."""
+    trim: Trim
+    """`propulsive`: weight, drag and first-harmonic flapping by collective, cyclic and shaft tilt;
+    `thrust`: the resultant of weight and drag by collective, free flapping, no cyclic."""
+    disk_axial_flow: bool
+    """Whether the tilted shaft sees µ sin α through the disk (absent from eq. 3.6 as printed)."""
+    blade_weight: bool
+    """Whether gravity's static moment lowers the coning."""
+    tail_rotor_solved: bool
+    """True: the tail rotor balances the torque; False: five per cent of the main rotor (thesis §3.2)."""
+    tip_loss: bool = True
+    """Prandtl's tip factor, eq. (3.16). Off: F_tip = 1; a dynamic wake is then that of infinitely many blades."""
+    hub_loss: bool = True
+    """Root factor, eq. (3.17), where the inflow does not answer to the load. Off: F_hub = 1."""
+    reverse_flow: bool = True
+    """Whether blade elements that the air meets from behind carry load. Off: none inside the circle r < −µ sin ψ."""
+    flapping: bool = True
+    """Whether the blades flap. Off: held rigid, β = 0, without cyclic; the hub carries the moments that are left."""
+    compressibility: bool = True
+    """Whether sections answer to the Mach number. Off: their data at Mach 0.3 everywhere."""
+    fuselage: bool = True
+    """Whether the airframe has drag, eq. (3.19). Off: drag area 0."""
+    elements: int = 40
+    """Blade elements, equally wide (eq. 3.14)."""
+    azimuths: int = 120
+    """Azimuth stations."""
+
+    def __post_init__(self) -> None:
+        if not 4 <= self.elements <= 1000:
+            raise ValueError(f"{self.elements} blade elements are outside 4…1000: 40 is enough for plots and power")
+        if not 8 <= self.azimuths <= 2000:
+            raise ValueError(f"{self.azimuths} azimuths are outside 8…2000: 120 is enough for plots and power")
+
+
+@dataclass(frozen=True)
+class Design:
+    """A rotor, its twist, the flight condition and the models that compute it."""
+
+    preset: str
+    aircraft: Aircraft
+    """What the design began as: its baseline, its name, its hub."""
+    rotor: Rotor
+    twist: TwistLaw
+    condition: FlightCondition
+    fuselage: Fuselage
+    tail_rotor: TailRotor | None
+    models: Models
+    active_twist: ActiveTwist | None = None
+    """Twist that follows the azimuth, added to the law in forward flight."""
+
+    @property
+    def airspeed(self) -> float:
+        """V = µΩR [m/s]"""
+        return self.condition.advance_ratio * self.rotor.tip_speed
+
+    @property
+    def drag(self) -> float:
+        """What the airframe asks the rotor to overcome [N], eq. (3.19); 0 where the models leave it out."""
+        if not self.models.fuselage:
+            return 0.0
+        return self.fuselage.drag(self.condition.density, self.airspeed)
+
+    @property
+    def hovering(self) -> bool:
+        return self.condition.advance_ratio == 0.0
+
+    @property
+    def weight_coefficient(self) -> float:
+        """C_W = W/(ρ A (ΩR)²)"""
+        return self.condition.weight / self.thrust_unit
+
+    @property
+    def thrust_unit(self) -> float:
+        """ρ A (ΩR)² [N], eq. (2.11)."""
+        return self.condition.density * self.rotor.disk_area * self.rotor.tip_speed**2
+
+    @property
+    def power_unit(self) -> float:
+        """ρ A (ΩR)³ [W], eq. (2.12)."""
+        return self.thrust_unit * self.rotor.tip_speed

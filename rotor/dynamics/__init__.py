@@ -1,0 +1,1 @@
+"""The blade as a structure: flapping, laminates, thin-walled sections, torsion."""

@@ -1,0 +1,45 @@
+"""Flapping about an offset hinge, by harmonic balance (thesis §2.6).
+
+    β'' + ν² β = Γ Σ (r − e) dC_T/dr dr − g S/(I Ω²),    ν² = 1 + e S/I,    Γ = ρ π R⁵/(N_b I)
+
+which is eqs. (2.37), (2.39) and (3.20) with the hinge at e instead of the centre, the blade load written by the smeared
+dC_T/dr, and the weight moment of the blade. With β = β0 + β1c cos ψ + β1s sin ψ (2.41) the left side is
+ν²β0 + (ν² − 1)(β1c cos ψ + β1s sin ψ): the hinge at the centre leaves no first-harmonic moment at all.
+"""
+
+import math
+from dataclasses import dataclass
+
+from rotor.design.blade import Rotor
+from rotor.design.flight import GRAVITY
+
+
+@dataclass(frozen=True)
+class FlapDynamics:
+    """The flapping equation's constants."""
+
+    hinge: float
+    """e/R"""
+    frequency_squared: float
+    """ν²"""
+    load_gain: float
+    """Γ: turns Σ (r − e) dC_T/dr dr into flapping acceleration."""
+    weight: float
+    """g S/(I Ω²) [rad], the droop by the blade's own weight before the spring of rotation; 0 when neglected."""
+
+
+def flap_dynamics(rotor: Rotor, density: float, *, blade_weight: bool) -> FlapDynamics:
+    """Constants for a rotor in air of a density [kg/m³]."""
+    blade = rotor.blade
+    droop = GRAVITY * blade.flap_static_moment / (blade.flap_inertia * rotor.angular_speed**2)
+    return FlapDynamics(
+        hinge=blade.flap_hinge,
+        frequency_squared=rotor.flap_frequency_squared,
+        load_gain=density * math.pi * rotor.radius**5 / (rotor.blades * blade.flap_inertia),
+        weight=droop if blade_weight else 0.0,
+    )
+
+
+def lock_number(rotor: Rotor, density: float, lift_slope: float) -> float:
+    """γ = ρ a c R⁴/I with the reference chord, for comparison with published values."""
+    return density * lift_slope * rotor.reference_chord * rotor.radius**4 / rotor.blade.flap_inertia

@@ -1,0 +1,115 @@
+"""The UH-60A blade as a structure along its span, as `assets/uh60a_structure.toml` states it."""
+
+import tomllib
+from dataclasses import dataclass
+from functools import cache
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rotor.assets import asset_path
+from rotor.design.aircraft import Aircraft
+from rotor.dynamics.laminate import Material
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class BladeStructure:
+    """Stiffness and mass along one blade; stations in metres, values linear between them and held beyond."""
+
+    radius: float
+    """[m]"""
+    chord: float
+    """[m]"""
+    clamp: float
+    """Where the blade is held in pitch [m]."""
+    stations: tuple[float, ...]
+    torsional_stiffness: tuple[float, ...]
+    """GJ [N m²]"""
+    mass_per_length: tuple[float, ...]
+    """[kg/m]"""
+    torsional_inertia: tuple[float, ...]
+    """I_θ [kg m]"""
+    flap_stiffness: tuple[float, ...]
+    """EI [N m²]"""
+    lag_stiffness: tuple[float, ...]
+    axial_stiffness: float
+    """EA [N]"""
+    tension_gyration: float
+    """k_A² [m²], the square of the polar radius of gyration of what carries the tension."""
+    section_stiffness: float
+    """GJ [N m²] that the section model is calibrated on."""
+    reference_mass: float
+    """[kg] that shares of added mass are of."""
+
+    def at(self, r: ArrayLike, values: tuple[float, ...]) -> Array:
+        """One of the distributions at r [m]."""
+        return np.interp(np.asarray(r, dtype=float), self.stations, values)
+
+    def centrifugal_force(self, r: ArrayLike, angular_speed: float, steps: int = 400) -> Array:
+        """F_c(r) = Ω² ∫_r^R m ρ dρ [N] at r [m]."""
+        grid = np.linspace(0.0, self.radius, steps + 1)
+        pull = self.at(grid, self.mass_per_length) * grid
+        strips = 0.5 * (pull[1:] + pull[:-1]) * np.diff(grid)
+        outward = np.concatenate((np.cumsum(strips[::-1])[::-1], [0.0]))
+        return angular_speed**2 * np.interp(np.asarray(r, dtype=float), grid, outward)
+
+
+@cache
+def structure_data() -> dict[str, Any]:
+    """The parsed `assets/uh60a_structure.toml`."""
+    return tomllib.loads(asset_path("uh60a_structure.toml").read_text(encoding="utf-8"))
+
+
+KNOWN_BLADE = "uh60a"
+"""The rotor whose blade structure we hold."""
+
+
+def check_blade(aircraft: Aircraft) -> None:
+    """Raise ValueError for a rotor whose blade structure nobody has given us."""
+    if aircraft.key != KNOWN_BLADE:
+        raise ValueError(
+            f"The structure of the {aircraft.name} blade is not known: actuators are worked out for the UH-60A only, "
+            "so choose that rotor."
+        )
+
+
+@cache
+def uh60a_structure(radius: float = 8.1788) -> BladeStructure:
+    """The UH-60A blade; `radius` [m] is the rotor's."""
+    data = structure_data()
+    stations, blade = data["stations"], data["blade"]
+    return BladeStructure(
+        radius=radius,
+        chord=blade["chord_m"],
+        clamp=blade["clamp_m"],
+        stations=tuple(stations["r_m"]),
+        torsional_stiffness=tuple(stations["gj_nm2"]),
+        mass_per_length=tuple(stations["mass_kg_m"]),
+        torsional_inertia=tuple(stations["torsional_inertia_kg_m"]),
+        flap_stiffness=tuple(stations["flap_stiffness_nm2"]),
+        lag_stiffness=tuple(stations["lag_stiffness_nm2"]),
+        axial_stiffness=blade["axial_stiffness_n"],
+        tension_gyration=blade["tension_gyration_m2"],
+        section_stiffness=blade["section_gj_nm2"],
+        reference_mass=blade["reference_mass_kg"],
+    )
+
+
+@cache
+def titanium() -> Material:
+    """The spar."""
+    row = structure_data()["titanium"]
+    young, nu = 1e9 * row["e_gpa"], row["nu"]
+    return Material("titanium", young, young, nu, young / (2.0 * (1.0 + nu)), row["density_kg_m3"])
+
+
+@cache
+def glass() -> Material:
+    """E-glass/epoxy, one direction."""
+    row = structure_data()["glass"]
+    return Material(
+        "glass/epoxy", 1e9 * row["e1_gpa"], 1e9 * row["e2_gpa"], row["nu12"], 1e9 * row["g12_gpa"], row["density_kg_m3"]
+    )

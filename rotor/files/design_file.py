@@ -1,0 +1,192 @@
+"""Design files: the choices behind a `Design` as JSON that a person can read and edit.
+
+`rotor` names a shipped rotor, or holds a user's own files word for word, so that nothing is lost with them.
+"""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any, cast
+
+from rotor.aero.inflow import inflow_model
+from rotor.assets import SHIPPED_ROTORS
+from rotor.design.active_twist import active_twist_record, read_active_twist
+from rotor.design.aircraft import Aircraft
+from rotor.design.blade import airfoils_spec
+from rotor.design.design import Design
+from rotor.design.twist_spec import inline_spec
+from rotor.files.make_design import change_airfoils, make_design
+from rotor.files.rotor_file import LARGEST_FILE, read_aircraft
+from rotor.files.shipped import find_aircraft, shipped_aircraft
+
+FORMAT = "rotor-explorer design"
+VERSION = 2
+READS = (1, 2)
+"""Version 1 knew no `rotor`: its designs are the UH-60A's."""
+
+_SWITCHES = ("tip_loss", "hub_loss", "reverse_flow", "flapping", "compressibility", "fuselage")
+"""Of `Models`, true or false."""
+_KEYS = (
+    "format",
+    "version",
+    "rotor",
+    "preset",
+    "twist",
+    "advance_ratio",
+    "mass_kg",
+    "altitude_m",
+    "inflow",
+    *_SWITCHES,
+    "airfoils",
+    "active_twist",
+)
+
+
+def case_of(design: Design) -> dict[str, Any]:
+    """The design as a JSON-ready record."""
+    changed = design.rotor != design.aircraft.rotor_for(design.preset)
+    airfoils = airfoils_spec(design.rotor) if changed else None
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "rotor": rotor_record(design.aircraft),
+        "preset": design.preset,
+        "twist": inline_spec(design.twist),
+        "advance_ratio": design.condition.advance_ratio,
+        "mass_kg": design.condition.mass,
+        "altitude_m": design.condition.altitude,
+        "inflow": design.models.inflow,
+        **{name: getattr(design.models, name) for name in _SWITCHES},
+        **({"airfoils": airfoils} if airfoils else {}),
+        **({"active_twist": active_twist_record(design.active_twist)} if design.active_twist else {}),
+    }
+
+
+def rotor_record(aircraft: Aircraft) -> Any:
+    """A shipped rotor's name; of a user's own all its files, line by line."""
+    if aircraft.files is None:
+        return aircraft.key
+    return {
+        "main": aircraft.files.main,
+        "files": {name: text.splitlines() for name, text in aircraft.files.texts},
+    }
+
+
+def read_rotor_record(record: Any, *, paths: bool = False) -> Aircraft:
+    """The inverse; with `paths`, a text may also be the path of a rotor file on this machine.
+
+    Raises ValueError with one sentence for anything else.
+    """
+    if isinstance(record, str):
+        return find_aircraft(record) if paths else shipped_aircraft(record)
+    try:
+        main, files = record["main"], record["files"]
+        texts = {str(name): "".join(f"{line}\n" for line in lines) for name, lines in files.items()}
+        if main not in texts or sum(map(len, texts.values())) > LARGEST_FILE:
+            raise KeyError(main)
+    except (KeyError, TypeError, AttributeError):
+        raise ValueError(
+            f"design file key 'rotor' is no rotor: write one of {', '.join(SHIPPED_ROTORS)}, "
+            'or {"main": "my.toml", "files": {"my.toml": ["line", …]}}'
+        ) from None
+    return read_aircraft(main, texts)
+
+
+def design_of(case: dict[str, Any], *, paths: bool = False) -> Design:
+    """The design a record describes; what it leaves out is the preset's. `paths` as in `read_rotor_record`.
+
+    Raises ValueError with one sentence for anything it cannot use.
+    """
+    unknown = sorted(set(case) - set(_KEYS))
+    if unknown:
+        raise ValueError(f"design file has the unknown key {unknown[0]!r}: the keys are {', '.join(_KEYS)}")
+    if case.get("format", FORMAT) != FORMAT or case.get("version", VERSION) not in READS:
+        raise ValueError(
+            f"design file is {case.get('format')!r} version {case.get('version')!r}: this program reads "
+            f"{FORMAT!r} version {' and '.join(map(str, READS))}"
+        )
+    preset = _text(case, "preset", "flight")
+    twist = _text(case, "twist", "")
+    design = make_design(
+        preset,
+        aircraft=read_rotor_record(case.get("rotor", SHIPPED_ROTORS[0]), paths=paths),
+        twist=twist or None,
+        advance_ratio=_number(case, "advance_ratio", 0.2),
+        mass=_number(case, "mass_kg", None),
+        altitude=_number(case, "altitude_m", 0.0),
+    )
+    inflow = _text(case, "inflow", design.models.inflow)
+    inflow_model(inflow)
+    models = replace(
+        design.models,
+        inflow=inflow,
+        **{name: _flag(case, name, getattr(design.models, name)) for name in _SWITCHES},
+    )
+    airfoils = _text(case, "airfoils", "")
+    rotor = change_airfoils(design.rotor, airfoils) if airfoils else design.rotor
+    turning = read_active_twist(case["active_twist"]) if "active_twist" in case else None
+    return replace(design, models=models, rotor=rotor, active_twist=turning)
+
+
+def read_case(path: str | Path) -> Design:
+    """Read a design file; ValueError with one sentence when it cannot be used."""
+    path = Path(path)
+    try:
+        content = path.read_bytes()
+    except FileNotFoundError:
+        raise ValueError(f"design file {str(path)!r} does not exist: give the path of a JSON design file") from None
+    except OSError as error:
+        raise ValueError(f"design file {str(path)!r} cannot be read ({error}): give a JSON design file") from None
+    return _named(_record(content, str(path)), str(path), paths=True)
+
+
+def parse_case(content: bytes, name: str) -> Design:
+    """The same for a file from another machine, which must not make this one open files of its own."""
+    record = _record(content, name)
+    if "table:" in str(record.get("twist", "")):
+        raise ValueError(f"design file {name!r} names a twist table of another machine: give its rows as points:…@…")
+    return _named(record, name)
+
+
+def _named(record: dict[str, Any], name: str, *, paths: bool = False) -> Design:
+    """As `design_of`; what is wrong is said of the file: several may be read at once."""
+    try:
+        return design_of(record, paths=paths)
+    except ValueError as error:
+        raise ValueError(f"{name}: {error}") from None
+
+
+def _record(content: bytes, name: str) -> dict[str, Any]:
+    try:
+        record = json.loads(content.decode("utf-8"))
+    except (UnicodeDecodeError, json.JSONDecodeError) as error:
+        raise ValueError(f"design file {name!r} cannot be read ({error}): give a JSON design file") from None
+    if not isinstance(record, dict):
+        raise ValueError(f'design file {name!r} holds no JSON object: write {{"twist": "linear:-8", …}}')
+    return cast(dict[str, Any], record)
+
+
+def write_case(design: Design, path: str | Path) -> None:
+    """Write a design file."""
+    Path(path).write_text(json.dumps(case_of(design), indent=2) + "\n", encoding="utf-8")
+
+
+def _number(case: dict[str, Any], key: str, default: Any) -> Any:
+    value = case.get(key, default)
+    if value is default or (isinstance(value, (int, float)) and not isinstance(value, bool)):
+        return value
+    raise ValueError(f"design file key {key!r} is {value!r}: give a number")
+
+
+def _text(case: dict[str, Any], key: str, default: str) -> str:
+    value = case.get(key, default)
+    if isinstance(value, str):
+        return value
+    raise ValueError(f"design file key {key!r} is {value!r}: give a text")
+
+
+def _flag(case: dict[str, Any], key: str, default: bool) -> bool:
+    value = case.get(key, default)
+    if isinstance(value, bool):
+        return value
+    raise ValueError(f"design file key {key!r} is {value!r}: give true or false")

@@ -1,0 +1,237 @@
+"""Rotor files: an aircraft as TOML with the unit in every key's name. The format: docs/rotor_file.md.
+
+The shipped files in `assets/` are read by the same code. Errors name file, line, value and remedy.
+"""
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import replace
+from itertools import pairwise
+from typing import Any, cast
+
+from rotor.airfoil.sections import OwnSection
+from rotor.airfoil.table import TABLE_NAMES
+from rotor.design.aircraft import HUBS, Aircraft, Hub, RotorFiles, Stated
+from rotor.design.blade import Blade, Rotor, Span
+from rotor.design.flight import Fuselage
+from rotor.design.tail_rotor import TailRotor
+from rotor.design.twist import LinearTwist, TableTwist, TwistLaw
+from rotor.files.section_file import read_section
+from rotor.files.toml_table import Table, read_toml
+
+BAILEY_POLAR = (0.0087, -0.0216, 0.4)
+"""c_d = δ0 + δ1 α + δ2 α² of Bailey, NACA Report 716 (1941): the textbook's section, for tail rotors without one."""
+LIFT_SLOPE = 5.73
+"""[1/rad], the textbook's, for tail rotors without one."""
+
+_NAME = r"[\w .,'()+/-]{1,40}"
+"""It stands in read-outs and menus."""
+LARGEST_FILE = 2_000_000
+"""[bytes] of a rotor file or of a file it names; a deck has some 40 000."""
+
+
+def named_files(top: Table) -> list[str]:
+    """The section files a rotor file names, whatever else is wrong with it."""
+    names: list[str] = []
+    for own in _as_table(top.values.get("sections")).values():
+        for key in ("deck", "polars", "outline"):
+            value: Any = _as_table(own).get(key, [])
+            items: list[Any] = cast(list[Any], value) if isinstance(value, list) else [value]
+            names += [item for item in items if isinstance(item, str)]
+    return list(dict.fromkeys(names))
+
+
+def _as_table(value: Any) -> dict[str, Any]:
+    return cast(dict[str, Any], value) if isinstance(value, dict) else {}
+
+
+def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraft:
+    """The aircraft of the rotor file `main` among texts by file name; `key` for one that ships.
+
+    Raises ValueError with one sentence that names file, line and remedy.
+    """
+    top = read_toml(main, texts[main])
+    name = top.string("name")
+    if not re.fullmatch(_NAME, name):
+        raise top.fail("name", f"name is {name[:60]!r}: use 1 to 40 letters, digits, blanks and . , ' ( ) + / -")
+    remarks: list[str] = []
+    used = {main: texts[main]}
+    own = _own_sections(top, texts, used, remarks)
+    rotor_table = top.table("main_rotor")
+    hub: Hub = rotor_table.string("hub", "articulated", choices=HUBS)
+    flown = rotor_table.table("flown", None)
+    rotor = _rotor(name, rotor_table, flown or rotor_table, own, key or "builtin", hub)
+    stated = _stated(name, rotor_table, rotor, own, hub)
+    tail = top.table("tail_rotor", None)
+    airframe = top.table("airframe")
+    aircraft = Aircraft(
+        name=name,
+        rotor=rotor,
+        fuselage=Fuselage(airframe.number("drag_area_m2", low=0.0, high=50.0, unit="m²")),
+        mass=airframe.number("mass_kg", low=100.0, high=50_000.0, unit="kg"),
+        tail_rotor=_tail_rotor(tail) if tail else None,
+        hub=hub,
+        stated=stated,
+        key=key,
+        files=None if key else RotorFiles(main, tuple(sorted(used.items()))),
+        remarks=tuple(remarks),
+    )
+    if flown:
+        flown.finish()
+    airframe.finish()
+    rotor_table.finish()
+    top.finish()
+    return aircraft
+
+
+def _rotor(name: str, main: Table, given: Table, own: tuple[OwnSection, ...], twist_name: str, hub: Hub) -> Rotor:
+    radius = main.number("radius_m", low=0.1, high=30.0, unit="m")
+    blades = main.count("blades", low=2, high=12)
+    if hub != "articulated" and blades != 2:
+        raise main.fail("hub", f"hub is {hub!r} with {blades} blades: only two blades teeter, write articulated")
+    blade = _blade(main, given, radius, own, hub)
+    chord = float(blade.chord(0.75))
+    return Rotor(
+        name=name,
+        blade=blade,
+        blades=blades,
+        radius=radius,
+        angular_speed=_angular_speed(main, radius),
+        reference_chord=main.number("reference_chord_m", chord, low=0.005, high=3.0, unit="m"),
+        builtin_twist=_twist(given, twist_name),
+    )
+
+
+def _stated(name: str, main: Table, flown: Rotor, own: tuple[OwnSection, ...], hub: Hub) -> Stated | None:
+    document = main.table("document", None)
+    if document is None:
+        return None
+    blade = _blade(main, document, flown.radius, own, hub)
+    twist = _twist(document, "document")
+    document.finish()
+    return Stated(replace(flown, name=name, blade=blade), twist)
+
+
+def _angular_speed(main: Table, radius: float) -> float:
+    given = [key for key in ("angular_speed_rad_s", "speed_rpm", "tip_speed_m_s") if main.has(key)]
+    if len(given) > 1:
+        raise main.fail(given[1], f"{given[0]} and {given[1]} say the same: keep one of them")
+    if main.has("speed_rpm"):
+        return main.number("speed_rpm", low=10.0, high=10_000.0, unit="rpm") * math.pi / 30.0
+    if main.has("tip_speed_m_s"):
+        return main.number("tip_speed_m_s", low=20.0, high=340.0, unit="m/s") / radius
+    return main.number("angular_speed_rad_s", low=1.0, high=1000.0, unit="rad/s")
+
+
+def _blade(main: Table, given: Table, radius: float, own: tuple[OwnSection, ...], hub: Hub) -> Blade:
+    root = main.number("root_cutout_r", low=0.02, high=0.8, unit="r/R")
+    hinge = given.number("flap_hinge_m", 0.0, low=0.0, high=0.3 * radius, unit="m")
+    if hub != "articulated" and hinge:
+        raise given.fail("flap_hinge_m", f"flap_hinge_m is {hinge:g} on a {hub} hub: it teeters at the shaft, write 0")
+    chords = given.numbers("chord_m", low=0.005, high=3.0)
+    stations = given.numbers("chord_r", (root, 1.0) if len(chords) == 1 else (), low=0.0, high=1.0)
+    if len(chords) == 1:
+        chords = chords * len(stations)
+    _ascending(given, "chord_r", stations, "chord_m", chords)
+    mass, inertia, moment = _masses(given, radius - hinge)
+    return Blade(
+        root_cutout=root,
+        chord_stations=stations,
+        chords=chords,
+        spans=_spans(given, root, own),
+        flap_hinge=hinge / radius,
+        flap_inertia=inertia,
+        flap_static_moment=moment,
+        mass=mass,
+        own_sections=own,
+    )
+
+
+def _masses(given: Table, length: float) -> tuple[float, float, float]:
+    """Mass, flap inertia and static moment about the hinge; of a uniform blade where only its mass is given."""
+    if given.has("mass_per_length_kg_m"):
+        mass = given.number("mass_per_length_kg_m", low=0.05, high=200.0, unit="kg/m") * length
+    else:
+        mass = given.number("blade_mass_kg", low=0.1, high=2000.0, unit="kg")
+    # A uniform blade from the hinge outward: eqs. (2.35), (2.37).
+    return (
+        mass,
+        given.number("flap_inertia_kg_m2", mass * length**2 / 3.0, low=1e-3, high=1e6, unit="kg m²"),
+        given.number("flap_static_moment_kg_m", mass * length / 2.0, low=1e-3, high=1e5, unit="kg m"),
+    )
+
+
+def _spans(given: Table, root: float, own: tuple[OwnSection, ...]) -> tuple[Span, ...]:
+    if given.has("section"):
+        return (Span(root, 1.0, _known(given, given.string("section"), own)),)
+    spans: list[Span] = []
+    for table in given.tables("spans", '{ start_r = 0.2, end_r = 1.0, section = "naca0012" }'):
+        section = _known(table, table.string("section"), own)
+        start, end = (table.number(name, low=0.0, high=1.0, unit="r/R") for name in ("start_r", "end_r"))
+        if start >= end or (spans and start < spans[-1].end):
+            raise table.fail(
+                "start_r", f"span of {section} runs {start:g}…{end:g}: let the spans ascend and not overlap"
+            )
+        table.finish()
+        spans.append(Span(start, end, section))
+    return tuple(spans)
+
+
+def _known(table: Table, section: str, own: tuple[OwnSection, ...]) -> str:
+    if section in TABLE_NAMES or any(section == one.name for one in own):
+        return section
+    raise table.fail(
+        "section",
+        f"section {section!r} is not known: use one of {', '.join((*(one.name for one in own), *TABLE_NAMES))}, "
+        f"or add a table [sections.{section}] that names its deck or polars",
+    )
+
+
+def _twist(given: Table, name: str) -> TwistLaw:
+    if given.has("linear_twist_deg"):
+        return LinearTwist(math.radians(given.number("linear_twist_deg", low=-60.0, high=60.0, unit="° per radius")))
+    stations = given.numbers("twist_r", low=0.0, high=1.0)
+    angles = given.numbers("twist_deg", low=-60.0, high=60.0)
+    _ascending(given, "twist_r", stations, "twist_deg", angles)
+    return TableTwist(stations, tuple(math.radians(angle) for angle in angles), name=name)
+
+
+def _ascending(table: Table, place: str, stations: tuple[float, ...], key: str, values: tuple[float, ...]) -> None:
+    if len(stations) != len(values) or len(stations) < 2:
+        raise table.fail(key, f"{place} has {len(stations)} and {key} {len(values)} values: give one each, two or more")
+    for low, high in pairwise(stations):
+        if low >= high:
+            raise table.fail(place, f"{place} goes from {low:g} to {high:g}: let the stations ascend from root to tip")
+
+
+def _tail_rotor(tail: Table) -> TailRotor:
+    radius = tail.number("radius_m", low=0.05, high=10.0, unit="m")
+    chord = tail.number("chord_m", low=0.005, high=2.0, unit="m")
+    polar = tail.numbers("drag_polar", BAILEY_POLAR, low=-10.0, high=10.0)
+    if len(polar) != 3 or polar[0] <= 0.0:
+        raise tail.fail("drag_polar", f"drag_polar is {list(polar)}: give δ0 > 0, δ1 and δ2 of δ0 + δ1 α + δ2 α²")
+    made = TailRotor(
+        radius=radius,
+        angular_speed=_angular_speed(tail, radius),
+        chord=chord,
+        blades=tail.count("blades", low=2, high=20),
+        arm=tail.number("arm_m", low=0.5, high=40.0, unit="m"),
+        cant=math.radians(tail.number("cant_deg", 0.0, low=-60.0, high=60.0, unit="°")),
+        tip_loss=tail.number("tip_loss", 1.0 - 0.5 * chord / radius, low=0.5, high=1.0),
+        drag_polar=(polar[0], polar[1], polar[2]),
+        lift_slope=tail.number("lift_slope_per_rad", LIFT_SLOPE, low=1.0, high=10.0, unit="1/rad"),
+    )
+    tail.finish()
+    return made
+
+
+def _own_sections(
+    top: Table, texts: Mapping[str, str], used: dict[str, str], remarks: list[str]
+) -> tuple[OwnSection, ...]:
+    sections = top.table("sections", None)
+    if sections is None:
+        return ()
+    made = tuple(read_section(sections.table(name), name, texts, used, remarks) for name in sections.values)
+    sections.finish()
+    return made

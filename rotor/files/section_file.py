@@ -1,0 +1,114 @@
+"""A section of a rotor file: a C81 deck as it is, or XFOIL polars made into one, and an outline for pictures."""
+
+import math
+import re
+from collections.abc import Mapping
+from itertools import pairwise
+
+from rotor.airfoil.build.assemble import assemble_deck
+from rotor.airfoil.build.compressibility import NATIVE_MACH_LIMIT, SectionTraits
+from rotor.airfoil.build.xfoil_file import parse_polar_file
+from rotor.airfoil.c81 import format_c81
+from rotor.airfoil.contour import SECTION_NAMES, load_contour, parse_contour, thickness_and_camber
+from rotor.airfoil.naca import is_naca
+from rotor.airfoil.polars import Polar
+from rotor.airfoil.sections import OwnSection, install_own
+from rotor.airfoil.table import TABLE_NAMES
+from rotor.files.toml_table import Table
+
+UNKNOWN_OUTLINE = "naca0012"
+"""What a section without an outline is drawn as."""
+
+
+def read_section(
+    table: Table, name: str, texts: Mapping[str, str], used: dict[str, str], remarks: list[str]
+) -> OwnSection:
+    """The section `[sections.name]`; notes the texts it used and what it had to assume.
+
+    Raises ValueError with one sentence that names file, line and remedy.
+    """
+    if not re.fullmatch(r"[a-z0-9][a-z0-9._-]{0,39}", name) or name in TABLE_NAMES:
+        raise table.fail(
+            None, f"section name {name!r} is taken or not plain: use letters a-z, digits and -, as my-section"
+        )
+    outline, thickness = _outline(table, name, texts, used, remarks)
+    if table.has("deck") == table.has("polars"):
+        raise table.fail(None, f'section {name} needs either deck = "file.c81" or polars = ["file.txt", …]: give one')
+    if table.has("deck"):
+        files = (table.string("deck"),)
+        deck = _file(table, "deck", files[0], texts, used)
+    else:
+        files = table.strings("polars")
+        polars = [one for file in files for one in parse_polar_file(file, _file(table, "polars", file, texts, used))]
+        deck = _deck_of(table, name, polars, thickness, remarks)
+    made = OwnSection(
+        name=name,
+        deck=deck,
+        outline=outline,
+        source=", ".join(files),
+        incidence_offset=math.radians(table.number("incidence_offset_deg", 0.0, low=-15.0, high=15.0, unit="°")),
+        chord_ratio=table.number("chord_ratio", 1.0, low=0.5, high=2.0),
+    )
+    table.finish()
+    try:
+        install_own(made)
+    except ValueError as error:
+        raise ValueError(f"{files[0]}: {error}" if files[0] not in str(error) else str(error)) from None
+    return made
+
+
+def _outline(
+    table: Table, name: str, texts: Mapping[str, str], used: dict[str, str], remarks: list[str]
+) -> tuple[str, float]:
+    """The outline as `OwnSection` keeps it, and t/c, given or measured on it."""
+    given = table.string("outline", None)
+    if given is None:
+        given = name if is_naca(name) else None
+    if given is None:
+        remarks.append(f"The outline of section {name} is not given: it is drawn as a symmetric 12 % section.")
+        outline, contour = UNKNOWN_OUTLINE, load_contour(UNKNOWN_OUTLINE)
+    elif given in SECTION_NAMES or is_naca(given):
+        outline, contour = given, load_contour(given)
+    else:
+        outline = _file(table, "outline", given, texts, used)
+        contour = parse_contour(outline, given)
+    measured = thickness_and_camber(contour)[0]
+    return outline, table.number("thickness", measured, low=0.02, high=0.4, unit="of the chord")
+
+
+def _deck_of(table: Table, name: str, polars: list[Polar], thickness: float, remarks: list[str]) -> str:
+    """A C81 deck of XFOIL polars, one a Mach number."""
+    machs = sorted(polar.mach for polar in polars)
+    twice = [mach for mach, after in pairwise(machs) if after - mach < 0.01]
+    if twice:
+        raise table.fail("polars", f"two polars of {name} have Mach {twice[0]:g}: keep one for each Mach number")
+    narrow = [p for p in polars if p.alpha_deg[0] > -4.0 or p.alpha_deg[-1] < 8.0]
+    if narrow:
+        low, high = narrow[0].alpha_deg[0], narrow[0].alpha_deg[-1]
+        raise table.fail(
+            "polars",
+            f"the polar of {name} at Mach {narrow[0].mach:g} covers {low:g}…{high:g} deg: give at least −4…8 deg",
+        )
+    low = max(polar.alpha_deg[0] for polar in polars)
+    high = min(polar.alpha_deg[-1] for polar in polars)
+    listed = ", ".join(f"{mach:g}" for mach in machs)
+    beyond = "Prandtl–Glauert lift, a lift cap and Korn's wave drag go on from there" if machs[-1] < 0.99 else "none"
+    remarks.append(
+        f"Section {name} is made of polars at Mach {listed} over {low:g}…{high:g}°: {beyond}, "
+        "and a closed form covers the angles beyond stall."
+    )
+    if machs[-1] > NATIVE_MACH_LIMIT + 1e-9:
+        remarks.append(
+            f"The polars of {name} above Mach {NATIVE_MACH_LIMIT:g} are used as given; XFOIL knows no shocks there."
+        )
+    deck = assemble_deck(name.upper()[:30], polars, SectionTraits(thickness=thickness))
+    return format_c81(deck)
+
+
+def _file(table: Table, key: str, name: str, texts: Mapping[str, str], used: dict[str, str]) -> str:
+    if name not in texts:
+        raise table.fail(
+            key, f"{key} names {name!r}, which is not there: put it beside the rotor file, on the page load it too"
+        )
+    used[name] = texts[name]
+    return texts[name]

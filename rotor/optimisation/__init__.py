@@ -1,0 +1,1 @@
+"""The twist of least power: objective, search, band, schedule, mission."""

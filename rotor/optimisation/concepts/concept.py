@@ -1,0 +1,140 @@
+"""What a twist concept is: named parameters, the law they make, and how the law answers to each of them."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+from rotor.design.design import Design
+from rotor.design.twist import TwistLaw
+
+Array = NDArray[np.float64]
+Values = Sequence[float] | Array
+"""Parameters of a concept in its order, SI."""
+
+Unit = Literal["rad/R", "rad/R²", "rad", "R"]
+Motion = Literal["tilt", "bend", "slide", "lift"]
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """One degree of freedom, in SI inside."""
+
+    name: str
+    """Short and stable, for scripts."""
+    title: str
+    """As on the page."""
+    unit: Unit
+    low: float
+    high: float
+    """Default bounds."""
+
+    @property
+    def angular(self) -> bool:
+        """Whether people read it in degrees."""
+        return self.unit != "R"
+
+    @property
+    def label(self) -> str:
+        """Name at the edges, where angles are in degrees."""
+        return f"{self.name}_deg" if self.angular else self.name
+
+    @property
+    def shown_unit(self) -> str:
+        """Unit at the edges."""
+        return self.unit.replace("rad", "°")
+
+    def shown(self, value: float) -> float:
+        """The value as people read it: degrees where it is angular."""
+        return math.degrees(value) if self.angular else value
+
+    def from_shown(self, value: float) -> float:
+        """The inverse of `shown`."""
+        return math.radians(value) if self.angular else value
+
+
+@dataclass(frozen=True)
+class Handle:
+    """What one parameter moves, for a small drawing of the blade."""
+
+    parameter: str
+    motion: Motion
+    """tilt: the line from `inner` to `outer` turns; bend: it curves; slide: a break moves along the blade between them;
+    lift: a point at `inner` moves up and down, and drags the curve out to `outer` on either side."""
+    inner: float
+    """r/R"""
+    outer: float
+    """r/R"""
+
+
+class Concept(Protocol):
+    """A family of twist laws."""
+
+    @property
+    def name(self) -> str:
+        """As on the command line."""
+        ...
+
+    @property
+    def title(self) -> str:
+        """As on the page."""
+        ...
+
+    @property
+    def explanation(self) -> str:
+        """One line for the page."""
+        ...
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """The degrees of freedom, in the order of every vector of values."""
+        ...
+
+    @property
+    def handles(self) -> tuple[Handle, ...]:
+        """A picture of the degrees of freedom, one per parameter."""
+        ...
+
+    @property
+    def rate_rows(self) -> tuple[tuple[float, ...], ...]:
+        """Twist rates [rad/R] are linear in the values: one row per segment (or station of a smooth law)."""
+        ...
+
+    def twist(self, values: Values) -> TwistLaw:
+        """The law of these values."""
+        ...
+
+    def slopes(self, values: Values, r: Array) -> Array:
+        """∂θ_tw(r)/∂value, exact, (parameters, elements)."""
+        ...
+
+    def apply(self, design: Design, values: Values) -> Design:
+        """The design with the law, and with whatever else the concept changes about the blade."""
+        ...
+
+
+def nearest(concept: Concept, law: TwistLaw, root: float = 0.13) -> tuple[float, ...]:
+    """The values within bounds whose law is nearest to another one, in the mean square along the blade.
+
+    A shift of the whole blade is no difference: the collective takes it.
+    """
+    r = np.linspace(root, 1.0, 60)
+    wanted = law(r) - law(r).mean()
+    low = np.array([parameter.low for parameter in concept.parameters])
+    high = np.array([parameter.high for parameter in concept.parameters])
+    span = high - low
+
+    def gap(x: Array) -> Array:
+        made = concept.twist((low + span * x).tolist())(r)
+        return made - made.mean() - wanted
+
+    def slope(x: Array) -> Array:
+        by = concept.slopes((low + span * x).tolist(), r)
+        return ((by - by.mean(axis=1, keepdims=True)) * span[:, None]).T
+
+    found = least_squares(gap, np.full(len(span), 0.5), jac=slope, bounds=(0.0, 1.0), xtol=1e-12)
+    return tuple((low + span * np.clip(found.x, 0.0, 1.0)).tolist())

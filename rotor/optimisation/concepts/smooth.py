@@ -1,0 +1,128 @@
+"""Concepts of one smooth curve: linear, quadratic (thesis §4.1.1, §4.1.2) and a free form."""
+
+import math
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rotor.design.design import Design
+from rotor.design.spline import spline_basis
+from rotor.design.twist import REFERENCE_RADIUS, LinearTwist, QuadraticTwist, SplineTwist, TwistLaw
+from rotor.optimisation.concepts.concept import Handle, Parameter, Values
+
+Array = NDArray[np.float64]
+
+STEEPEST, FLATTEST = math.radians(-30.0), math.radians(10.0)
+"""Default bounds of a twist rate [rad/R]: beyond them blades stall at the root or lift backwards at the tip."""
+
+
+@dataclass(frozen=True)
+class LinearConcept:
+    """One rate from root to tip."""
+
+    name = "linear"
+    title = "Linear"
+    explanation = "One rate from root to tip."
+    parameters = (Parameter("rate", "Rate", "rad/R", STEEPEST, FLATTEST),)
+    handles = (Handle("rate", "tilt", 0.0, 1.0),)
+    rate_rows = ((1.0,),)
+
+    def twist(self, values: Values) -> TwistLaw:
+        return LinearTwist(float(values[0]))
+
+    def slopes(self, values: Values, r: Array) -> Array:
+        del values
+        return (r - REFERENCE_RADIUS)[None]
+
+    def apply(self, design: Design, values: Values) -> Design:
+        return replace(design, twist=self.twist(values))
+
+
+@dataclass(frozen=True)
+class QuadraticConcept:
+    """A parabola: its second-order coefficient a and the difference from root to tip."""
+
+    name = "quadratic"
+    title = "Quadratic"
+    explanation = "A parabola: its curvature, and the twist from root to tip."
+    parameters = (
+        Parameter("curvature", "Curvature a", "rad/R²", math.radians(-40.0), math.radians(40.0)),
+        Parameter("difference", "Root to tip", "rad", STEEPEST, FLATTEST),
+    )
+    handles = (Handle("curvature", "bend", 0.0, 1.0), Handle("difference", "tilt", 0.0, 1.0))
+    rate_rows = ((-1.0, 1.0), (1.0, 1.0))
+    """θ' = 2 a r + (D − a) at the centre and at the tip; linear between."""
+
+    def twist(self, values: Values) -> TwistLaw:
+        return QuadraticTwist(float(values[0]), float(values[1]))
+
+    def slopes(self, values: Values, r: Array) -> Array:
+        del values
+        line = r - REFERENCE_RADIUS
+        return np.stack([r**2 - REFERENCE_RADIUS**2 - line, line])
+
+    def apply(self, design: Design, values: Values) -> Design:
+        return replace(design, twist=self.twist(values))
+
+
+_LOOSE_STEEPEST, _LOOSE_FLATTEST = math.radians(-40.0), math.radians(30.0)
+
+
+@dataclass(frozen=True)
+class FreeFormConcept:
+    """A cubic spline through seven angles, that at 0.75 R being zero: the envelope of the others.
+
+    A kink it can only round off, so a law of straight segments may be better by a trace.
+    """
+
+    name = "free-form"
+    title = "Free form"
+    explanation = "A smooth curve through seven points: what any shape could reach."
+    knots: tuple[float, ...] = (0.13, 0.30, 0.46, 0.61, REFERENCE_RADIUS, 0.88, 1.0)
+    """r/R; one is at 0.75, where every law is zero."""
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        return tuple(
+            Parameter(
+                f"twist_{round(100 * knot):03d}",
+                f"Twist at {knot:.2f} R",
+                "rad",
+                *sorted((_LOOSE_STEEPEST * (knot - REFERENCE_RADIUS), _LOOSE_FLATTEST * (knot - REFERENCE_RADIUS))),
+            )
+            for knot in self.knots
+            if knot != REFERENCE_RADIUS
+        )
+
+    @property
+    def handles(self) -> tuple[Handle, ...]:
+        reach = {k: (self.knots[max(k - 1, 0)], self.knots[min(k + 1, len(self.knots) - 1)]) for k in self._free}
+        return tuple(
+            Handle(parameter.name, "lift", self.knots[k], max(self.knots[k] - reach[k][0], reach[k][1] - self.knots[k]))
+            for parameter, k in zip(self.parameters, self._free, strict=True)
+        )
+
+    @property
+    def rate_rows(self) -> tuple[tuple[float, ...], ...]:
+        between = [0.5 * (a + b) for a, b in zip(self.knots, self.knots[1:], strict=False)]
+        stations = sorted((*self.knots, *between))
+        rates = spline_basis(self.knots, stations, derivative=1)[:, self._free]
+        return tuple(tuple(row) for row in rates.tolist())
+
+    def twist(self, values: Values) -> TwistLaw:
+        angles = [0.0] * len(self.knots)
+        for k, value in zip(self._free, values, strict=True):
+            angles[k] = float(value)
+        return SplineTwist(self.knots, tuple(angles))
+
+    def slopes(self, values: Values, r: Array) -> Array:
+        del values
+        return (spline_basis(self.knots, r) - spline_basis(self.knots, REFERENCE_RADIUS))[:, self._free].T
+
+    def apply(self, design: Design, values: Values) -> Design:
+        return replace(design, twist=self.twist(values))
+
+    @property
+    def _free(self) -> list[int]:
+        return [k for k, knot in enumerate(self.knots) if knot != REFERENCE_RADIUS]

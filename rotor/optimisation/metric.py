@@ -1,0 +1,81 @@
+"""Coordinates in which the power is nearly a round bowl, from the gradients a search has already paid for.
+
+Power is close to quadratic in the twist, but far rounder along some parameters than along others. The exact gradients
+of all evaluations so far determine its second derivatives by least squares; in the coordinates y of their square root a
+step of length one costs BAND of the power in any direction, so that a descent takes few steps and the band is a ball.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rotor.optimisation.record import Record
+
+Array = NDArray[np.float64]
+
+_least_squares = cast(Callable[..., Any], np.linalg.lstsq)
+
+BAND = 1e-3
+"""Flatness that is reported: parameters within this part of the least power."""
+_REACH = 0.25
+"""How far (scaled) evaluations still count in full for the second derivatives at a point."""
+_FLATTEST = 2e-3
+"""Least curvature taken for real, as a part of the largest: flatter directions are left to the descent to find."""
+
+
+@dataclass(frozen=True, eq=False)
+class Metric:
+    """x = centre + stretch · y."""
+
+    centre: Array
+    stretch: Array
+    """(parameters, parameters)"""
+    unit: float
+    """Power [W] by which the objective is scaled: half a |y|² of it."""
+
+    def x(self, y: Array) -> Array:
+        """Scaled parameters of y."""
+        return self.centre + self.stretch @ y
+
+    def y(self, x: Array) -> Array:
+        """The inverse of `x`."""
+        return np.asarray(np.linalg.solve(self.stretch, x - self.centre), dtype=np.float64)
+
+
+def plain_metric(centre: Array, power: float) -> Metric:
+    """Before anything is known: power rises by some per cent over half the range of a parameter."""
+    return Metric(centre, np.sqrt(2.0 * BAND) * np.eye(len(centre)), 2.0 * BAND * power)
+
+
+def fit_metric(records: Sequence[Record], best: Record) -> Metric | None:
+    """The metric at the best point; None while the evaluations do not determine it."""
+    assert best.power is not None
+    known = [one for one in records if one.power is not None and one.power < 1.5 * best.power]
+    n = len(best.x)
+    pairs = [(i, j) for i in range(n) for j in range(i, n)]
+    if len(known) * n < len(pairs) + 2 * n:
+        return None
+    offsets = np.array([one.x - best.x for one in known])
+    gradients = np.array([one.slope for one in known]) / best.power
+    weight = 1.0 / (1.0 + (offsets**2).sum(axis=1) / _REACH**2)
+    # Unknowns: the gradient at the best point, then the upper triangle of the second derivatives.
+    rows = np.zeros((len(known), n, n + len(pairs)))
+    rows[:, np.arange(n), np.arange(n)] = 1.0
+    for column, (i, j) in enumerate(pairs, start=n):
+        rows[:, i, column] += offsets[:, j]
+        if i != j:
+            rows[:, j, column] += offsets[:, i]
+    matrix, wanted = (rows * weight[:, None, None]).reshape(-1, n + len(pairs)), (gradients * weight[:, None]).ravel()
+    found: list[float] = _least_squares(matrix, wanted, rcond=1e-9)[0].tolist()
+    second = np.zeros((n, n))
+    for value, (i, j) in zip(found[n:], pairs, strict=True):
+        second[i, j] = second[j, i] = value
+    size, axes = np.linalg.eigh(second)
+    if not size[-1] > 0.0:
+        return None
+    size = np.maximum(size, _FLATTEST * size[-1])
+    # P/P* − 1 = ½ xᵀ H x = BAND |y|².
+    return Metric(best.x, axes * np.sqrt(2.0 * BAND / size), 2.0 * BAND * best.power)

@@ -1,0 +1,98 @@
+"""What a search tells while it runs, and what it returns. Values without arrays: they pickle, compare and travel."""
+
+from dataclasses import dataclass
+from enum import Enum
+from typing import Literal
+
+from rotor.design.design import Design
+
+Phase = Literal["baseline", "search", "band"]
+
+
+class Ended(Enum):
+    """How a search ended."""
+
+    CONVERGED = "converged"
+    STOPPED = "stopped"
+    NOT_CONVERGED = "not-converged"
+
+
+@dataclass(frozen=True)
+class Progress:
+    """One evaluation of one design, as soon as it is known."""
+
+    phase: Phase
+    start: int
+    """Which start this belongs to, from 0."""
+    starts: int
+    """How many there will be."""
+    evaluation: int
+    """Running number, from 1."""
+    parameters: tuple[float, ...]
+    """SI, in the order of the concept."""
+    twist: str
+    """SPEC"""
+    power: float | None
+    """[W]; None when the design does not trim."""
+    feasible: bool
+    """Whether it trims and keeps all limits."""
+    best_parameters: tuple[float, ...] | None
+    best_power: float | None
+    """Least power of a feasible design so far [W]; None before the first."""
+    elapsed: float
+    """[s]"""
+
+
+@dataclass(frozen=True)
+class Minimum:
+    """A local minimum."""
+
+    parameters: tuple[float, ...]
+    power: float
+    """[W]"""
+    twist: str
+    """SPEC"""
+    starts: tuple[int, ...]
+    """The starts that ended here."""
+    active: tuple[str, ...]
+    """Bounds and limits that hold it, for example `division high` or `stalled area`."""
+
+
+@dataclass(frozen=True)
+class Band:
+    """How far one parameter can go, the others following, before the power is BAND above the least."""
+
+    parameter: str
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Optimum:
+    """What a search found."""
+
+    status: Ended
+    message: str
+    """Why it stopped, in one sentence."""
+    concept: str
+    design: Design
+    """The design with the best twist, ready to solve; the design given where nothing was found."""
+    best: Minimum | None
+    minima: tuple[Minimum, ...]
+    """All local minima found, the best first."""
+    band: tuple[Band, ...]
+    """One per parameter, within 0.1 % of the least power; empty when not asked for, or not reached."""
+    baseline_power: float | None
+    """Of the design given, by the same objective [W]; None when it does not trim."""
+    evaluations: int
+    starts: int
+    seed: int
+    elapsed: float
+    """[s]"""
+
+    @property
+    def saving(self) -> float | None:
+        """Part of the baseline's power that the best twist saves."""
+        if self.best is None or self.baseline_power is None:
+            return None
+        return 1.0 - self.best.power / self.baseline_power

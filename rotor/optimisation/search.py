@@ -1,0 +1,224 @@
+"""The twist of least power: a global search from many starts, with every local minimum and the flatness of the best.
+
+The document pairs fmincon with GlobalSearch (thesis §2.7). Here SLSQP descends from a seeded low-discrepancy set of
+starts (Halton) on the exact gradient; the minima are gathered, and the band says what the optimum is worth in degrees.
+"""
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import qmc
+
+from rotor.design.design import Design
+from rotor.optimisation.band import measure_band
+from rotor.optimisation.concepts import Concept, nearest
+from rotor.optimisation.descent import descend
+from rotor.optimisation.evaluator import Evaluator, Stopped
+from rotor.optimisation.limits import ChangeLimit as ChangeLimit
+from rotor.optimisation.limits import Limits as Limits
+from rotor.optimisation.limits import reach as reach
+from rotor.optimisation.metric import BAND, Metric, fit_metric, plain_metric
+from rotor.optimisation.objective import Objective, at_condition
+from rotor.optimisation.record import FEASIBLE, Record
+from rotor.optimisation.results import Band as Band
+from rotor.optimisation.results import Ended as Ended
+from rotor.optimisation.results import Minimum as Minimum
+from rotor.optimisation.results import Optimum as Optimum
+from rotor.optimisation.results import Progress as Progress
+
+Array = NDArray[np.float64]
+
+STARTS = 6
+"""Starts of a search unless said otherwise; the first is the law nearest to the design's own twist."""
+_SAME_PLACE = 0.05
+"""Ends whose parameters agree to this part of their ranges are one minimum."""
+_RISE = 1e-6
+"""Part of the power that the way between two ends of one valley may rise."""
+
+
+@dataclass(frozen=True)
+class Search:
+    """What to search for. A value: it pickles, so a search can run in another process."""
+
+    design: Design
+    """The blade to improve; its own twist is the baseline."""
+    concept: Concept
+    objective: Objective | None = None
+    """None: total power at the design's own condition."""
+    limits: Limits = field(default_factory=Limits)
+    starts: int = STARTS
+    seed: int = 0
+    guesses: tuple[tuple[float, ...], ...] = ()
+    """Parameters to start from before all others."""
+    band: bool = True
+    """Whether to measure the band."""
+
+    def __post_init__(self) -> None:
+        if not 1 <= self.starts <= 1000:
+            raise ValueError(f"{self.starts} starts are outside 1…1000: 6 are enough for most concepts")
+        if self.seed < 0:
+            raise ValueError(f"seed {self.seed} is negative: give 0 or more")
+        self.limits.bounds_of(self.concept)
+
+
+def optimise(
+    search: Search,
+    watch: Callable[[Progress], None] | None = None,
+    stop: Callable[[], bool] | None = None,
+) -> Optimum:
+    """Run a search. `watch` hears of every evaluation; `stop` is asked before each, and True ends the search.
+
+    Always returns: stopped early it keeps the best so far; where no start trims within the limits it says so.
+    """
+    count = max(search.starts, len(search.guesses))
+    objective = search.objective or at_condition(search.design)
+    evaluate = Evaluator(search.design, search.concept, objective, search.limits, count, watch, stop)
+    run = _Run(search, evaluate)
+    try:
+        run.baseline = evaluate.baseline()
+        evaluate.phase = "search"
+        for k, x in enumerate(_starts(search, evaluate)):
+            evaluate.start = k
+            run.descend_from(k, x)
+        if run.best is not None and search.band:
+            evaluate.phase = "band"
+            metric = run.metric or plain_metric(run.best.x, run.best.watts)  # A start at the optimum leaves no trail.
+            run.band = measure_band(evaluate, metric, run.best)
+    except Stopped:
+        return run.result(stopped=True)
+    return run.result(stopped=False)
+
+
+class _Run:
+    """A search under way."""
+
+    def __init__(self, search: Search, evaluate: Evaluator) -> None:
+        self.search, self.evaluate = search, evaluate
+        self.baseline: float | None = None
+        self.groups: list[tuple[Record, list[int]]] = []
+        """Local minima: the best end of each, and the starts that ended there."""
+        self.lost = 0
+        self.metric: Metric | None = None
+        self.band: tuple[Band, ...] = ()
+
+    @property
+    def best(self) -> Record | None:
+        """The best end of a descent."""
+        return min((end for end, _ in self.groups), key=lambda end: end.watts, default=None)
+
+    def descend_from(self, start: int, x: Array) -> None:
+        """One start; a point that does not trim is drawn towards the middle first."""
+        first = self.evaluate(x)
+        for _ in range(3):
+            if first.power is not None:
+                break
+            x = 0.5 * (x + self._refuge())
+            first = self.evaluate(x)
+        if first.power is None:
+            self.lost += 1
+            return
+        descent = descend(self.evaluate, self.metric or plain_metric(x, first.power), first)
+        if descent.end is not None and descent.settled:
+            self._gather(start, descent.end)
+        if self.evaluate.best is not None:
+            self.metric = fit_metric(self.evaluate.records, self.evaluate.best) or self.metric
+
+    def _gather(self, start: int, end: Record) -> None:
+        """Put an end with the minimum that it belongs to, or begin a new one."""
+        for k, (lead, members) in enumerate(self.groups):
+            if self._same(lead, end):
+                self.groups[k] = (min(lead, end, key=lambda one: one.watts), [*members, start])
+                return
+        self.groups.append((end, [start]))
+
+    def _same(self, a: Record, b: Record) -> bool:
+        """Whether two ends are one minimum: near each other, or in one valley with no rise half-way."""
+        higher = max(a.watts, b.watts)
+        if abs(a.watts - b.watts) > BAND * higher:
+            return False
+        if np.abs(a.x - b.x).max() < _SAME_PLACE:
+            return True
+        half = self.evaluate(0.5 * (a.x + b.x))
+        return half.feasible and half.watts <= higher * (1.0 + _RISE)
+
+    def _refuge(self) -> Array:
+        known = self.evaluate.best
+        return known.x if known is not None else np.full(len(self.evaluate.span), 0.5)
+
+    def result(self, *, stopped: bool) -> Optimum:
+        """What has been found so far."""
+        search, evaluate = self.search, self.evaluate
+        groups = sorted(self.groups, key=lambda group: group[0].watts)
+        minima = tuple(_minimum(evaluate, lead, members) for lead, members in groups)
+        best = minima[0] if minima else None
+        seen = evaluate.best
+        if seen is not None and (best is None or seen.watts < best.power * (1.0 - 1e-7)):
+            best = _minimum(evaluate, seen, ())
+        if stopped:
+            status = Ended.STOPPED
+            message = f"Stopped after {evaluate.count} evaluations; the best so far is kept."
+            if self.groups and evaluate.phase == "band":
+                message = "Stopped while measuring the band; the search itself was complete."
+        elif best is None:
+            status = Ended.NOT_CONVERGED
+            trimmed = any(one.power is not None for one in evaluate.records)
+            message = (
+                "No design found keeps the limits: loosen them."
+                if trimmed
+                else "No start trims: lower the weight, the altitude or the speed."
+            )
+        elif not minima:
+            status, message = Ended.NOT_CONVERGED, "No descent settled at a minimum; the best point seen is given."
+        else:
+            status = Ended.CONVERGED
+            agree = len(minima[0].starts)
+            which = "only local minimum found" if len(minima) == 1 else f"best of {len(minima)} local minima"
+            message = f"{agree} of {evaluate.starts} starts ended in the {which}."
+            if self.lost:
+                message += f" {self.lost} found no trim."
+        return Optimum(
+            status=status,
+            message=message,
+            concept=search.concept.name,
+            design=search.design if best is None else search.concept.apply(search.design, best.parameters),
+            best=best,
+            minima=minima,
+            band=self.band,
+            baseline_power=self.baseline,
+            evaluations=evaluate.count,
+            starts=evaluate.starts,
+            seed=search.seed,
+            elapsed=evaluate.elapsed,
+        )
+
+
+def _starts(search: Search, evaluate: Evaluator) -> Iterable[Array]:
+    """Guesses, the law nearest to the design's own, then Halton points of the seed."""
+    points = [evaluate.scaled(guess) for guess in search.guesses]
+    if len(points) < search.starts:
+        points.append(evaluate.scaled(nearest(search.concept, search.design.twist)))
+    left = search.starts - len(points)
+    if left > 0:
+        points.extend(qmc.Halton(len(evaluate.span), seed=search.seed).random(left))
+    return points
+
+
+def _minimum(evaluate: Evaluator, record: Record, starts: Sequence[int]) -> Minimum:
+    values = evaluate.values(record.x)
+    active: list[str] = []
+    for parameter, x in zip(evaluate.concept.parameters, record.x, strict=True):
+        if x < 1e-4 or x > 1.0 - 1e-4:
+            active.append(f"{parameter.name} {'low' if x < 0.5 else 'high'}")
+    limits = evaluate.limits
+    tight = record.margins < 10.0 * FEASIBLE
+    rates = 2 * len(evaluate.concept.rate_rows) if limits.rate is not None else 0
+    changes = len(record.margins) - rates - (len(evaluate.objective.legs) if limits.stalled is not None else 0)
+    if tight[:rates].any():
+        active.append("rate")
+    if tight[rates : rates + changes].any():
+        active.append("change")
+    if tight[rates + changes :].any():
+        active.append("stalled area")
+    return Minimum(values, record.watts, evaluate.concept.twist(values).spec(), tuple(starts), tuple(active))

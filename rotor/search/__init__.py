@@ -1,1 +1,0 @@
-"""The machinery behind `rotor.optimise`: what is searched, evaluated, descended, and how flat the optimum is."""

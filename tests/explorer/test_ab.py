@@ -1,0 +1,323 @@
+"""A and B without a server: what the buttons do, A's answer, the read-outs, the charts, B − A over the disk."""
+
+import io
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from PIL import Image
+
+from explorer.charts import plots
+from explorer.picture.colour_bar import colour_bar
+from explorer.picture.difference import difference, shown_field
+from explorer.picture.fields import FIELDS, fitted_range
+from explorer.picture.picture import disk_png, field_values
+from explorer.picture.polar import polar_grid
+from explorer.pinned import Pinboard, Pinned, act
+from explorer.scene.overlays import ghost_of
+from explorer.state import Inputs, ViewState
+from explorer.text import comparison as ab_readout
+from explorer.text.status import cautions, status_panel
+from explorer.text.units import number
+from explorer.theme.colours import GHOST, PINNED_GHOST, VOID
+from rotor.design.design import Design
+from rotor.design.twist import LinearTwist, SumTwist
+from rotor.files.make_design import make_design
+from rotor.trim.solution import Caveat, Solution, Status
+from rotor.trim.solve import solve
+
+QUICK = replace(make_design().models, inflow="uniform", elements=20, azimuths=36)
+"""Where the physics does not matter."""
+A_INPUTS = Inputs(law="linear", linear=-8.0, advance_ratio=0.2)
+B_INPUTS = Inputs(law="linear", linear=-16.0, advance_ratio=0.3, mass_t=7.5)
+
+
+def quick(inputs: Inputs) -> Design:
+    return replace(inputs.design(), models=QUICK)
+
+
+@pytest.fixture(scope="module")
+def a() -> Solution:
+    return solve(quick(A_INPUTS)).require()
+
+
+@pytest.fixture(scope="module")
+def b() -> Solution:
+    return solve(quick(B_INPUTS)).require()
+
+
+@pytest.fixture(scope="module")
+def along(a: Solution, b: Solution) -> Solution:
+    """A in B's flight."""
+    return solve(replace(a.design, condition=b.design.condition)).require()
+
+
+@pytest.fixture(scope="module")
+def lost(along: Solution) -> Solution:
+    return replace(along, status=Status.NOT_CONVERGED, message="Not trimmed: too heavy.")
+
+
+class TestButtons:
+    def test_pin_keeps_inputs_answer_and_a_title(self, a: Solution):
+        pinned = act("pin", None, A_INPUTS, a, True).pinned
+        assert pinned is not None
+        assert (pinned.inputs, pinned.solution) == (A_INPUTS, a)
+        assert "−8" in pinned.title
+        assert "µ 0.2" in pinned.flight
+
+    def test_a_design_without_a_trim_is_told_and_a_stays(self, a: Solution):
+        before = Pinned(A_INPUTS, a)
+        for order in ("pin", "swap"):
+            after = act(order, before, B_INPUTS, None, True)
+            assert (after.pinned, after.inputs) == (before, None)
+            assert "no trim" in after.sentence
+        assert act("unpin", before, B_INPUTS, None, True).pinned is None
+
+    def test_swap_exchanges_the_two_in_the_flight_that_is_compared(self, a: Solution, b: Solution):
+        after = act("swap", Pinned(A_INPUTS, a), B_INPUTS, b, True)
+        assert after.pinned is not None
+        assert (after.pinned.inputs, after.pinned.solution) == (B_INPUTS, b)
+        assert after.inputs == replace(A_INPUTS, advance_ratio=0.3, mass_t=7.5)
+        assert act("swap", Pinned(A_INPUTS, a), B_INPUTS, b, False).inputs == A_INPUTS
+
+    def test_back_puts_a_on_the_sliders_and_keeps_it(self, a: Solution, b: Solution):
+        pinned = Pinned(A_INPUTS, a)
+        for trimmed in (b, None):
+            after = act("back", pinned, B_INPUTS, trimmed, False)
+            assert (after.pinned, after.inputs, after.sentence) == (pinned, A_INPUTS, "")
+
+    def test_buttons_of_a_pinned_design_do_nothing_without_one(self, b: Solution):
+        for order in ("swap", "back", "unpin"):
+            after = act(order, None, B_INPUTS, b, True)
+            assert (after.pinned, after.inputs, after.sentence) == (None, None, "")
+
+    def test_a_driven_blade_is_named_and_said_to_stay_driven(self, a: Solution, b: Solution):
+        driven = replace(a, design=replace(a.design, twist=SumTwist(a.design.twist, LinearTwist(0.02))))
+        pinned = Pinned(A_INPUTS, driven)
+        assert pinned.title.endswith(", driven")
+        assert "actuator" in act("back", pinned, B_INPUTS, b, True).sentence
+
+    def test_the_ghost_is_that_of_a_search_before_that_of_a(self, a: Solution, b: Solution):
+        pinned = Pinned(A_INPUTS, a)
+        of_a, of_search = ghost_of(None, pinned), ghost_of(b.design, pinned)
+        assert of_a is not None
+        assert (of_a.twist, of_a.colour) == (a.design.twist, PINNED_GHOST)
+        assert of_search is not None
+        assert (of_search.twist, of_search.colour) == (b.design.twist, GHOST)
+        assert ghost_of(None, None) is None
+
+
+class TestPinboard:
+    def pinned(self, a: Solution) -> Pinboard:
+        board = Pinboard()
+        board.ask("pin")
+        assert board.settle(A_INPUTS, a, True) is not None
+        return board
+
+    def test_nothing_asked_nothing_done(self, a: Solution):
+        assert Pinboard().settle(A_INPUTS, a, True) is None
+        assert Pinboard().solve(a.design, True) is None
+
+    def test_a_flies_along_and_is_solved_once(self, a: Solution, b: Solution, along: Solution):
+        board = self.pinned(a)
+        answer = board.solve(b.design, True)
+        assert answer is not None
+        assert answer.design.condition == b.design.condition
+        assert answer.design.twist == a.design.twist
+        assert_allclose(answer.power.total, along.power.total, rtol=1e-7)
+        assert board.solve(b.design, True) is answer
+
+    def test_a_as_it_was(self, a: Solution, b: Solution):
+        assert self.pinned(a).solve(b.design, False) is a
+
+    def test_at_its_own_flight_a_is_not_solved_again(self, a: Solution):
+        assert self.pinned(a).solve(a.design, True) is a
+
+    def test_no_trim_there_is_an_answer_too_and_is_survived(self, a: Solution):
+        board = self.pinned(a)
+        heavy = quick(replace(A_INPUTS, mass_t=11.0, altitude_m=4000.0, advance_ratio=0.44))
+        answer = board.solve(heavy, True)
+        assert answer is not None
+        assert not answer.converged
+        assert board.solve(a.design, True, hurried=True) is answer
+        back = board.solve(a.design, True)
+        assert back is not None
+        assert back.converged
+
+    def test_what_follows_a_swap_waits_until_the_sliders_have_moved(self, a: Solution, b: Solution):
+        board = self.pinned(a)
+        board.ask("swap")
+        board.ask("unpin")
+        outcome = board.settle(B_INPUTS, b, True)
+        assert outcome is not None
+        assert outcome.inputs is not None
+        assert board.pinned is not None
+        assert board.settle(outcome.inputs, a, True) is not None
+        assert board.pinned is None
+
+
+def cells(html: str, row: str) -> list[str]:
+    """The texts of a table row that begins with `row`."""
+    plain = re.sub(r"<(?!/?t[rd])[^>]*>", "", html)
+    rows = (re.findall(r"<td[^>]*>(.*?)</td>", line) for line in re.findall(r"<tr.*?</tr>", plain))
+    return next(line for line in rows if line and line[0] == row)
+
+
+def value(text: str) -> float:
+    return float(text.replace("\u2009", "").replace("−", "-"))
+
+
+class TestReadOut:
+    def test_every_part_has_a_b_and_the_difference(self, along: Solution, b: Solution):
+        html = ab_readout.power_panel(b, along)
+        assert cells(html, "kW")[1:] == ["A", "B", "Δ kW", "Δ %"]
+        apart = 0.0
+        for title, name in (("Induced", "induced"), ("Profile", "profile"), ("Tail rotor", "tail")):
+            one, other = getattr(along.power, name) / 1e3, getattr(b.power, name) / 1e3
+            shown = [value(text) for text in cells(html, title)[1:]]
+            assert_allclose(shown[:2], [one, other], atol=0.51)
+            assert_allclose(shown[2:], [other - one, 100.0 * (other / one - 1.0)], atol=0.051)
+            apart += shown[2]
+        assert_allclose(value(cells(html, "Total")[3]), apart + value(cells(html, "Parasite")[3]), atol=0.21)
+        assert cells(html, "Parasite")[3:] == ["0.0", "0.0"]  # The same airframe at the same speed.
+
+    def test_signs_are_true_and_no_row_says_nan(self, along: Solution, b: Solution):
+        for one, other in ((b, along), (along, b)):
+            html = ab_readout.power_panel(one, other) + ab_readout.trim_panel(one, other)
+            text = re.sub(r"<[^>]*>", " ", html)
+            assert not re.search(r"\s-\d", text)
+            assert not re.search(r"nan|inf\b", text, re.IGNORECASE)
+
+    def test_where_a_has_no_trim_there_are_dashes_and_a_sentence(self, lost: Solution, b: Solution):
+        html = ab_readout.power_panel(b, lost)
+        assert "no trim here" in html
+        assert cells(html, "Total")[1] == "–"
+        assert cells(html, "Total")[3:] == ["–", "–"]
+        assert 'data-explorer="change"' not in html
+        assert "–" in ab_readout.trim_panel(b, lost)
+        assert "A: Not trimmed: too heavy." in status_panel(b, pinned=lost)
+        assert "no trim here" in ab_readout.pinned_line("linear", lost, "")
+
+    def test_trim_of_both(self, along: Solution, b: Solution):
+        html = ab_readout.trim_panel(b, along)
+        for solution in (along, b):
+            assert f">{number(np.degrees(solution.controls.collective), 2)}<" in html
+        assert "L/De" in html
+        hover = replace(b, design=replace(b.design, condition=replace(b.design.condition, advance_ratio=0.0)))
+        assert "FM" in ab_readout.trim_panel(hover, along)
+
+    def test_cautions_say_whose_they_are_and_what_else_differs(self, a: Solution, along: Solution, b: Solution):
+        stall, mach = Caveat("stall", "Stalled."), Caveat("mach", "Fast.")
+        noted = cautions(replace(b, caveats=(stall, mach)), replace(along, caveats=(stall,)))
+        assert noted == ["Stalled.", "B: Fast."]
+        assert "do not fly the same" in cautions(b, a)[0]
+        other = replace(along, design=replace(along.design, models=replace(QUICK, inflow="drees")))
+        assert "different models" in cautions(b, other)[0]
+        assert cautions(replace(b, caveats=(stall,)), None) == ["Stalled."]
+
+    def test_the_line_says_what_a_is_and_escapes(self, a: Solution):
+        line = ab_readout.pinned_line("<mine>", a, "µ 0.2, 8.32 t")
+        assert "&lt;mine&gt;" in line
+        assert f"{number(a.power.total / 1e3)} kW" in line
+        assert "at µ 0.2, 8.32 t" in line
+
+
+class TestCharts:
+    def curve(self) -> plots.PowerCurve:
+        values = np.linspace(900.0, 2000.0, len(plots.SWEEP))
+        return plots.PowerCurve(values, values + 10.0, values - 50.0)
+
+    def test_a_takes_the_place_of_the_baseline(self, a: Solution, b: Solution):
+        for pinned, (empty, filled) in ((False, (3, 2)), (True, (2, 3))):
+            data = plots.power_plot(self.curve(), 0.2, 1000.0, None, pinned).data
+            assert np.isnan(data[empty]).all()
+            assert np.nanmax(data[filled]) > 1900.0
+            data = plots.twist_plot(b.design, a.design, None, pinned).data
+            assert np.isnan(data[empty - 1]).all()
+            assert_allclose(data[filled - 1], -8.0 * (data[0] - 0.75), atol=1e-9)
+
+    def test_difference_over_the_advance_ratio(self):
+        x, zero, apart, hover, now = plots.apart_plot(self.curve(), 0.21, -12.0, None).data
+        assert_allclose(apart[x >= 0.075], -10.0)
+        assert np.isnan(apart[x < 0.075]).all()
+        assert hover[x == 0.0] == -10.0
+        assert now[x == 0.21] == -12.0
+        assert not zero.any()
+        blank = replace(self.curve(), reference=np.full(len(plots.SWEEP), np.nan))
+        assert np.isfinite(plots.apart_plot(blank, 0.2, None, None).y_range).all()
+
+    def test_marked_blade_alone_or_a_and_b(self, along: Solution, b: Solution, lost: Solution):
+        for plot in (plots.alpha_plot, plots.lift_plot):
+            alone, _, none = plot(b, 60.0).data[-3:]
+            empty, of_a, of_b = plot(b, 60.0, along).data[-3:]
+            assert np.isnan(none).all()
+            assert np.isnan(empty).all()
+            assert_allclose(of_b, alone)
+            assert_allclose(of_a, plot(along, 60.0).data[-3])
+            assert np.isnan(plot(b, 60.0, lost).data[-2]).all()
+
+    def test_a_of_other_elements_is_drawn_where_it_is(self, along: Solution, b: Solution):
+        fine = solve(replace(along.design, models=replace(QUICK, elements=40, azimuths=72)))
+        of_a = plots.lift_plot(b, 90.0, fine).data[-2]
+        assert_allclose(of_a, plots.lift_plot(along, 90.0).data[-3], atol=0.02)
+
+
+class TestDisk:
+    def test_minus_itself_is_nothing(self, b: Solution):
+        for field in FIELDS.values():
+            apart = difference(field, b)
+            assert (apart.low, apart.two_sided) == (-apart.high, True)
+            assert_allclose(field_values(b, apart), 0.0, atol=1e-9)
+            low, high = fitted_range(apart, field_values(b, apart))
+            assert low == -high < 0.0
+
+    def test_is_b_minus_a(self, along: Solution, b: Solution):
+        field = FIELDS["Induced inflow λi"]
+        grid = polar_grid(b.disk, 60, 90)
+        expected = field.sample(b, grid) - field.sample(along, grid)
+        assert_allclose(difference(field, along).sample(b, grid), expected, atol=1e-12)
+
+    def test_other_elements_and_azimuths_meet_on_one_grid(self, along: Solution, b: Solution):
+        fine = solve(replace(along.design, models=replace(QUICK, elements=40, azimuths=72)))
+        field, grid = FIELDS["Mach number"], polar_grid(b.disk, 60, 90)
+        outboard = grid.r > 0.4  # Further in, Mach has a kink round the reverse flow, which no two grids see alike.
+        coarse_apart, fine_apart = (difference(field, one).sample(b, grid)[outboard] for one in (along, fine))
+        assert_allclose(fine_apart, coarse_apart, atol=1e-3)
+
+    def test_void_beyond_the_shorter_blade_and_in_either_reverse_flow(self, along: Solution, b: Solution):
+        rotor = along.design.rotor
+        blade = replace(rotor.blade, root_cutout=0.3)
+        short = solve(replace(along.design, rotor=replace(rotor, blade=blade)))
+        grid = polar_grid(b.disk, 60, 90)
+        void = difference(FIELDS["Mach number"], short).void(b, grid)
+        assert void is not None
+        assert void[grid.r < 0.299].all()
+        assert not void[grid.r > 0.301].any()
+        slow = solve(replace(along.design, condition=replace(along.design.condition, advance_ratio=0.1)))
+        alpha = difference(FIELDS["Angle of attack"], slow).void(b, grid)
+        other_way = difference(FIELDS["Angle of attack"], b).void(slow, grid)
+        assert alpha is not None
+        assert other_way is not None
+        assert alpha.any()
+        assert (alpha == other_way).all()
+
+    def test_without_a_trim_of_a_all_is_void(self, lost: Solution, b: Solution):
+        field = difference(FIELDS["Thrust dT/dr"], lost)
+        image = np.array(Image.open(io.BytesIO(disk_png(b, field, (field.low, field.high)))).convert("RGBA"))
+        assert tuple(image[len(image) // 4, len(image) // 2, :3]) == VOID
+        assert fitted_range(field, field_values(b, field)) == (field.low, field.high)
+
+    def test_shown_only_when_wanted_and_pinned(self, b: Solution):
+        plain, wanted = ViewState(), ViewState(difference=True)
+        assert shown_field(plain, b) is FIELDS[plain.field]
+        assert shown_field(wanted, None) is FIELDS[plain.field]
+        html = colour_bar(shown_field(wanted, b), -2.0, 2.0)
+        assert "Δ angle of attack [°], B − A" in html
+        assert "−2<" in html
+        assert difference(FIELDS["Mach number"], b).label == "Δ Mach number, B − A"
+
+    def test_a_used_up_margin_stays_rust(self, b: Solution):
+        assert difference(FIELDS["Stall margin"], b).colours == "margin"
+        assert difference(FIELDS["Mach number"], b).colours == "diverging"

@@ -1,0 +1,342 @@
+"""The Actuator tab without a browser: settings, shapes, pictures and words."""
+
+import math
+import pickle
+import re
+import time
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from explorer.charts.plots import Plot
+from explorer.picture.camera_views import FIELD_OF_VIEW
+from explorer.picture.picture import make_picture
+from explorer.state import ViewState, baseline_of
+from explorer.tabs.actuator import cut as actuator_cut
+from explorer.tabs.actuator import plots as actuator_plots
+from explorer.tabs.actuator import readout as actuator_readout
+from explorer.tabs.actuator import study as actuator_study
+from explorer.tabs.actuator import table as actuator_table
+from explorer.tabs.actuator import view as actuator_view
+from explorer.tabs.actuator.picture import cut_picture, share_colour, voltage_shares
+from explorer.tabs.actuator.section import section_svg
+from explorer.tabs.actuator.state import (
+    CONCEPTS,
+    MOST_SEGMENTS,
+    ActuatorInputs,
+    concept_divisions,
+    drive_of,
+    question_of,
+    swing_of,
+)
+from explorer.tabs.actuator.study import Findings, Study, VerdictTask, answer, lean
+from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
+from rotor.actuator.verdict import Verdict
+from rotor.actuator.wording import verdict_sentence
+from rotor.files.make_design import make_design
+from rotor.trim.solve import solve
+
+DESIGN = make_design("flight", advance_ratio=0.2)
+FULL = (100.0,) * MOST_SEGMENTS
+ALL = tuple(actuators())
+
+
+def test_at_rest_the_design_is_the_very_same():
+    assert ActuatorInputs().apply(DESIGN) is DESIGN
+
+
+def test_full_voltage_makes_the_twist_that_the_range_gives():
+    """+1500 V of a 2000 V range: three quarters of what is attainable, derating included."""
+    inputs = ActuatorInputs(drives=FULL, counted=60.0)
+    made = inputs.apply(DESIGN).twist
+    gained = float(made(1.0) - made(0.0)) - float(DESIGN.twist(1.0) - DESIGN.twist(0.0))
+    # The table begins at 0.05 R, a hair outboard of the pitch bearing, and holds its end.
+    assert_allclose(gained, 0.6 * 0.75 * inputs.fitted(DESIGN.rotor).attainable, rtol=5e-3)
+
+
+def test_crossed_fibres_turn_the_other_way():
+    fitted = ActuatorInputs().fitted(DESIGN.rotor)
+    there = ActuatorInputs(drives=FULL).change(fitted, 1.0)
+    assert_allclose(ActuatorInputs(drives=FULL, crossed=True).change(fitted, 1.0), -there)
+    tube = ActuatorInputs(actuator="SMA_tube", drives=FULL)
+    fitted = tube.fitted(DESIGN.rotor)  # Has no fibres to cross.
+    assert_allclose(replace(tube, crossed=True).change(fitted, 1.0), tube.change(fitted, 1.0))
+
+
+@pytest.mark.parametrize("id", ALL)
+def test_drive_and_swing_are_inverse(id: str):
+    actuator = find_actuator(id)
+    for drive in (-100.0, -37.0, 0.0, 41.0, 100.0):
+        if isinstance(actuator, PiezoPly) and drive < 0.0 and actuator.voltage_range[0] == 0.0:
+            continue
+        assert_allclose(drive_of(actuator, swing_of(actuator, drive)), drive, atol=1e-9)
+
+
+def test_a_new_twist_changes_power_and_a_harmonic_too():
+    still = solve(DESIGN).power.total
+    steady = solve(ActuatorInputs(drives=FULL).apply(DESIGN)).power.total
+    turning = ActuatorInputs(per_rev=2, amplitude=100.0).apply(DESIGN)
+    assert abs(steady - still) > 500.0
+    assert turning.active_twist is not None
+    assert abs(solve(turning).power.total - still) > 500.0
+
+
+def test_each_blade_is_drawn_with_the_twist_of_its_azimuth():
+    still, turning = (solve(i.apply(DESIGN)) for i in (ActuatorInputs(), ActuatorInputs(per_rev=1, amplitude=100.0)))
+    assert make_picture(still, ViewState(), (0.0, 10.0)).blades.shapes == ()
+    shapes = make_picture(turning, ViewState(), (0.0, 10.0)).blades.shapes
+    assert len(shapes) == DESIGN.rotor.blades
+    middle = 0.5 * (shapes[0] + shapes[2])  # Opposite blades at 1/rev move against each other.
+    assert_allclose(middle, make_picture(still, ViewState(), (0.0, 10.0)).blade_vertices, atol=1e-3)
+    assert np.abs(shapes[0] - shapes[2]).max() > 1e-3
+
+
+def test_the_baseline_has_no_actuator():
+    turning = ActuatorInputs(per_rev=2, drives=FULL).apply(DESIGN)
+    assert baseline_of(turning) == baseline_of(DESIGN)
+
+
+@pytest.mark.parametrize("concept", CONCEPTS)
+def test_segments_fit_the_sliders(concept: str):
+    assert len(concept_divisions(concept)) + 1 <= MOST_SEGMENTS
+
+
+def test_the_question_does_not_hang_on_speed_voltage_or_view():
+    inputs = ActuatorInputs()
+    fast = make_design("flight", advance_ratio=0.3)
+    moved = replace(inputs, drives=FULL, shown=True, per_rev=1, crossed=True)
+    assert question_of(inputs, DESIGN) == question_of(moved, fast)
+    assert question_of(inputs, DESIGN) != question_of(replace(inputs, plies=3), DESIGN)
+
+
+@pytest.mark.parametrize("blade", ["retrofit", "new"])
+@pytest.mark.parametrize("id", ALL)
+def test_the_cut_blade_is_whole_finite_and_small(id: str, blade):
+    inputs = ActuatorInputs(actuator=id, blade=blade, concept="three-segment", drives=FULL)
+    fitted = inputs.fitted(DESIGN.rotor)
+    picture = cut_picture(inputs, fitted, DESIGN, 0.0)
+    for mesh, colour in picture.solids:
+        assert np.isfinite(mesh.vertices).all()
+        assert mesh.faces.max() < len(mesh.vertices)
+        assert np.abs(mesh.vertices[:, 1]).max() < 0.5
+        assert all(0 <= channel <= 255 for channel in colour)
+    assert sum(len(mesh.vertices) for mesh, _ in picture.solids) < 25_000
+    assert np.isfinite(picture.ghost).all()
+    assert np.isfinite(picture.leads).all()
+
+
+def test_walls_stand_on_the_true_contour_and_plies_outside():
+    fitted = ActuatorInputs().fitted(DESIGN.rotor)
+    cut = actuator_cut.cut_blade(fitted, DESIGN.rotor)
+    plies = [part for part in cut.parts if part.role == "ply"]
+    assert plies
+    for part in plies:
+        upper = part.outer[:, 5, 1] > 0.0
+        away = part.inner[:, 5, 1] - part.outer[:, 5, 1]
+        assert (np.where(upper, away, -away) > 0.0).all()
+    spar = next(part for part in cut.parts if part.role == "spar")
+    assert_allclose(spar.outer[:, 0, 0], 0.25 * float(DESIGN.rotor.blade.chord(0.5)), rtol=1e-6)
+    assert (spar.inner[:, 10, 1] > spar.outer[:, 10, 1]).all()  # The lower wall grows inwards.
+
+
+def test_voltage_turns_the_tip_of_the_cut_blade_nose_up():
+    inputs = ActuatorInputs(drives=FULL, magnified=10.0)
+    fitted = inputs.fitted(DESIGN.rotor)
+    cut = actuator_cut.cut_blade(fitted, DESIGN.rotor)
+    tail = [
+        cut_picture(each, fitted, DESIGN, 0.0).solids[-4][0].vertices[:, 2].min() for each in (ActuatorInputs(), inputs)
+    ]
+    assert len(cut.parts) >= 8
+    assert tail[1] < tail[0]  # Nose up is tail down.
+
+
+def test_leads_run_from_the_box_to_every_segment():
+    inputs = ActuatorInputs(concept="three-segment")
+    cut = actuator_cut.cut_blade(inputs.fitted(DESIGN.rotor), DESIGN.rotor)
+    leads = actuator_cut.lead_segments(cut, DESIGN.rotor, np.zeros(len(cut.edge_r)))
+    ends = {round(float(x), 6) for x in leads[:, 1, 0]}
+    for low, _ in actuator_cut.spans_of(cut):
+        assert round(float(cut.outward(low)), 6) in ends
+
+
+@pytest.mark.parametrize("aspect", [0.6, 0.9, 1.6])
+def test_the_close_up_holds_the_whole_blade(aspect: float):
+    camera = actuator_view.fit_cut(DESIGN.rotor.radius, aspect)
+    inputs = ActuatorInputs(drives=FULL)
+    picture = cut_picture(inputs, inputs.fitted(DESIGN.rotor), DESIGN, 0.0)
+    points = np.concatenate([mesh.vertices for mesh, _ in picture.solids]) - camera.position
+    forward = camera.look_at - camera.position
+    forward /= np.linalg.norm(forward)
+    right = np.cross(forward, [0.0, 0.0, 1.0])
+    right /= np.linalg.norm(right)
+    depth = points @ forward
+    tangent = math.tan(FIELD_OF_VIEW / 2.0)
+    assert depth.min() > 1.0  # The near plane.
+    assert np.abs(points @ np.cross(right, forward) / depth).max() < tangent
+    assert np.abs(points @ right / depth).max() < tangent * aspect
+
+
+def test_colours_of_voltage_are_two_sided():
+    red, _, blue = share_colour(1.0)
+    assert red > blue
+    red, _, blue = share_colour(-1.0)
+    assert blue > red
+    assert len(set(share_colour(0.0))) == 1
+
+
+def test_the_harmonic_moves_the_colour_with_azimuth():
+    inputs = ActuatorInputs(per_rev=1, amplitude=50.0)
+    fitted = inputs.fitted(DESIGN.rotor)
+    assert voltage_shares(inputs, fitted, 0.0)[0] > 0.0 > voltage_shares(inputs, fitted, math.pi)[0]
+
+
+@pytest.mark.parametrize("id", ALL)
+def test_the_section_is_drawn_with_its_plies(id: str):
+    fitted = ActuatorInputs(actuator=id).fitted(DESIGN.rotor)
+    svg = section_svg(fitted, (0.5,))
+    assert svg.count('class="rx-ply"') == (2 if isinstance(fitted.actuator, PiezoPly) else 0)
+    assert "nan" not in svg.lower()
+
+
+def test_more_voltage_than_there_is_is_said():
+    inputs = ActuatorInputs(per_rev=1, amplitude=100.0)
+    fitted = inputs.fitted(DESIGN.rotor)
+    assert "beyond −500…1\u2009500 V" in actuator_readout.over_range(inputs, fitted)
+    assert actuator_readout.over_range(replace(inputs, amplitude=40.0), fitted) == ""
+    assert actuator_readout.over_range(replace(inputs, drives=(100.0 / 3.0,)), fitted) == ""  # 500 V, the middle.
+
+
+@pytest.fixture(scope="module")
+def verdict() -> Verdict:
+    found = answer(question_of(ActuatorInputs(), DESIGN))
+    assert isinstance(found, Verdict)
+    return found
+
+
+def test_the_verdict_is_told_whole(verdict: Verdict):
+    inputs = ActuatorInputs()
+    question = question_of(inputs, DESIGN)
+    findings = Findings(question, verdict, (("MFC_P1", verdict),))
+    panel = actuator_readout.verdict_panel(findings, question)
+    assert 'data-kind="ready"' in panel
+    assert verdict_sentence(verdict)[:40] in panel
+    numbers = actuator_readout.fit_panel(inputs, verdict.fitted, verdict)
+    assert re.search(r"Required Δtwist</span><span class=\"rx-num\">\d", numbers)
+    limits = actuator_readout.limits_panel(verdict)
+    assert all(limit.name.replace("-", " ") in limits for limit in verdict.limits)
+    table = actuator_table.table_panel(findings, question)
+    assert table.count("computing…") == len(ALL) - 1
+    assert "▲" in table  # Recalled data are marked.
+
+
+def test_an_old_verdict_is_not_shown_as_the_new_one(verdict: Verdict):
+    question = question_of(ActuatorInputs(), DESIGN)
+    other = replace(question, share=0.6)
+    findings = Findings(question, verdict, (("MFC_P1", verdict),))
+    panel = actuator_readout.verdict_panel(findings, other)
+    assert 'data-kind="computing"' in panel
+    assert "rx-faded" in panel
+    assert actuator_table.table_panel(findings, other).count("computing…") == len(ALL)
+
+
+@pytest.mark.slow
+def test_derating_of_ones_own_counts(verdict: Verdict):
+    half = answer(replace(question_of(ActuatorInputs(), DESIGN), share=0.5))
+    assert isinstance(half, Verdict)
+    assert_allclose(half.ratio, 2.0 * verdict.ratio, rtol=1e-9)
+    assert half.gross_saving < verdict.gross_saving
+
+
+def test_what_cannot_be_built_is_a_sentence():
+    question = question_of(ActuatorInputs(), DESIGN)
+    assert "use one of" in str(answer(replace(question, actuator="unobtainium")))
+
+
+def test_the_chart_shows_need_and_reach(verdict: Verdict):
+    plot = actuator_plots.reach_plot(ActuatorInputs(drives=FULL), verdict.fitted, verdict, 0.13, None)
+    r, limit, counted, required, used, now = plot.data
+    assert len({len(values) for values in plot.data}) == 1
+    assert_allclose(abs(required[-1]), math.degrees(verdict.required), rtol=1e-6)
+    assert_allclose(counted, limit)
+    assert (np.abs(used) <= np.abs(limit) + 0.01).all()
+    assert now[-1] > 0.0
+    assert plot.y_range[0] <= min(map(np.min, plot.data[1:]))
+    assert r[0] == pytest.approx(0.13)
+
+
+class Here:
+    """For the processes of the page: answers at once, and remembers what it was asked."""
+
+    def __init__(self) -> None:
+        self.asked: list[str] = []
+
+    def find(self, task: VerdictTask, superseded: Callable[[], bool]) -> Verdict | str | None:
+        self.asked.append(task.question.actuator)
+        return None if superseded() else "no verdict"
+
+
+def until(true: Callable[[], bool]) -> None:
+    """Fails after ten seconds."""
+    end = time.monotonic() + 10.0
+    while not true():
+        assert time.monotonic() < end
+        time.sleep(0.01)
+
+
+def test_the_study_answers_the_newest_question():
+    inputs = ActuatorInputs(actuator="extension_twist")
+    first, last = question_of(inputs, DESIGN), question_of(replace(inputs, plies=3), DESIGN)
+    here = Here()
+    study = Study(here, lambda: None, "study-test")
+    study.start()
+    study.ask(first)
+    study.ask(last)
+    until(lambda: study.findings.complete)
+    assert study.current(last)
+    assert here.asked[0] == "extension_twist"  # The chosen one first.
+    assert sorted(here.asked) == sorted(ALL)
+    study.stop()
+
+
+@pytest.mark.slow
+def test_what_nobody_asked_for_waits_until_the_page_is_still(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(actuator_study, "IDLE", 0.15)
+    here = Here()
+    study = Study(here, lambda: None, "study-idle")
+    question = question_of(ActuatorInputs(), DESIGN)
+    study.start()
+    for _ in range(10):  # Somebody drags: far longer than the wait, but never still.
+        study.ask(question, wanted=False)
+        time.sleep(0.03)
+    assert here.asked == []
+    until(lambda: study.findings.complete)
+    study.ask(question, wanted=False, stirred=False)  # A round that the findings themselves woke.
+    assert study.current(question)
+    study.stop()
+
+
+def test_a_lean_verdict_tells_the_same(verdict: Verdict):
+    """What comes through the pipe has everything that the tab shows, at a hundredth of the size."""
+    small = lean(verdict)
+    assert len(pickle.dumps(small)) < 0.03 * len(pickle.dumps(verdict))
+    question = question_of(ActuatorInputs(), DESIGN)
+    panels = [
+        (
+            actuator_readout.verdict_panel(Findings(question, one), question),
+            actuator_readout.fit_panel(ActuatorInputs(), one.fitted, one),
+            actuator_readout.segments_panel(one.fitted, 1.0, one),
+            actuator_readout.limits_panel(one),
+            actuator_table.table_panel(Findings(question, one, (("MFC_P1", one),)), question),
+        )
+        for one in (verdict, small)
+    ]
+    assert panels[0] == panels[1]
+    for full, left in zip(*(reach(one).data for one in (verdict, small)), strict=True):
+        assert_allclose(left, full)
+
+
+def reach(verdict: Verdict) -> Plot:
+    return actuator_plots.reach_plot(ActuatorInputs(), verdict.fitted, verdict, 0.13, None)

@@ -1,0 +1,157 @@
+"""The exported blade: closed, to scale, twisted by any law, and the same rotor as on the page."""
+
+import io
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+from numpy.testing import assert_allclose
+
+from explorer.export.blade import blade_mesh, blade_stl, kinks, rotor_glb
+from explorer.export.provenance import file_stem
+from explorer.state import Inputs
+from rotor.airfoil.sections import load_installed
+from rotor.design.active_twist import ActiveTwist, Harmonic
+from rotor.design.design import Design
+from rotor.design.twist import (
+    IdealTwist,
+    LinearTwist,
+    PiecewiseLinearTwist,
+    QuadraticTwist,
+    SplineTwist,
+    SumTwist,
+    TwistLaw,
+)
+from rotor.files.make_design import change_airfoils, make_design
+from rotor.trim.solve import solve
+
+DESIGN = make_design("flight", advance_ratio=0.2)
+PLAIN = LinearTwist(0.0)
+LAWS: tuple[TwistLaw, ...] = (
+    DESIGN.twist,
+    QuadraticTwist(math.radians(40.0), math.radians(-30.0)),
+    PiecewiseLinearTwist((-0.5, 0.3, -0.6), (0.37, 0.81)),
+    IdealTwist(0.12),
+    SplineTwist((0.13, 0.4, 0.75, 1.0), (0.2, 0.05, -0.01, -0.12)),
+    SumTwist(DESIGN.twist, PiecewiseLinearTwist((-0.2, 0.4), (0.6,))),
+)
+
+
+def cut(mesh: trimesh.Trimesh, r: float) -> np.ndarray:
+    """Outline points (y, z) [m] where the mesh crosses r = x/R."""
+    lines = trimesh.intersections.mesh_plane(mesh, [1.0, 0.0, 0.0], [r * DESIGN.rotor.radius, 0.0, 0.0])
+    return np.asarray(lines).reshape(-1, 3)[:, 1:]
+
+
+def reach(points: np.ndarray, angle: float = 0.0) -> np.ndarray:
+    """How far an outline turned by `angle` [rad] reaches in each of 24 directions [m]."""
+    directions = 2.0 * math.pi * np.arange(24) / 24 - angle
+    return (points @ np.array([np.cos(directions), np.sin(directions)])).max(axis=0)
+
+
+def chord_of(points: np.ndarray) -> float:
+    """[m]"""
+    apart = points[:, None] - points[None]
+    return float(np.sqrt((apart**2).sum(axis=2)).max())
+
+
+@pytest.mark.parametrize("law", LAWS, ids=lambda law: law.spec()[:24])
+def test_any_twist_is_watertight_to_scale_and_turned_as_the_law_says(law: TwistLaw):
+    design = replace(DESIGN, twist=law)
+    mesh, flat = blade_mesh(design), blade_mesh(replace(DESIGN, twist=PLAIN))
+    assert mesh.is_watertight
+    assert mesh.is_winding_consistent
+    assert mesh.volume == pytest.approx(flat.volume, rel=0.01)  # Turning sections moves no material.
+    hinge = design.rotor.blade.flap_hinge * design.rotor.radius
+    assert_allclose(mesh.bounds[:, 0], (hinge, design.rotor.radius), rtol=1e-12)
+    for r in (0.2, 0.3701, 0.55, 0.75, 0.8099, 0.93, 0.9999):  # Beside and between the lofted sections.
+        turned, straight = (cut(one, r) for one in (mesh, flat))
+        assert_allclose(reach(turned), reach(straight, float(law(r))), atol=2e-4)
+
+
+@pytest.mark.parametrize("preset", ["flight", "thesis"])
+def test_chord_and_thickness_are_those_of_the_rotor(preset: str):
+    design = replace(make_design(preset), twist=PLAIN)
+    mesh, blade = blade_mesh(design), design.rotor.blade
+    for r in (0.25, 0.6, 0.95):
+        inner, outer, weight = blade.section_at(r)
+        assert weight in (0.0, 1.0)
+        section = load_installed(inner if weight == 0.0 else outer)
+        points, chord = cut(mesh, r), float(blade.chord(r)) * section.chord_ratio
+        assert_allclose(chord_of(points), chord, rtol=1e-3)
+        assert 0.09 * chord < np.ptp(points[:, 1]) < 0.12 * chord  # 9.4 and 9.5 % thick, a little nose-down.
+
+
+def test_the_file_is_what_the_mesh_is_and_says_its_unit():
+    content = blade_stl(DESIGN)
+    assert content[:80].rstrip().endswith(b"unit metre")
+    assert not content.startswith(b"solid")  # That would make readers take it for text.
+    read = trimesh.load_mesh(io.BytesIO(content), file_type="stl")
+    assert isinstance(read, trimesh.Trimesh)
+    assert read.is_watertight
+    assert read.volume == pytest.approx(blade_mesh(DESIGN).volume, rel=1e-5)
+    assert len(content) < 2_000_000
+
+
+def test_an_active_twist_is_taken_at_the_azimuth_asked_for():
+    design = replace(DESIGN, active_twist=ActiveTwist((Harmonic(1, math.radians(3.0)),)))
+    tail, nose = (blade_mesh(design, psi) for psi in (0.0, math.pi))
+    assert tail.is_watertight
+    assert nose.is_watertight
+    for r in (0.5, 0.999):
+        swing = math.radians(6.0) * (r - 0.13) / 0.87
+        assert_allclose(reach(cut(tail, r)), reach(cut(nose, r), swing), atol=2e-4)
+    assert_allclose(blade_mesh(design).vertices, blade_mesh(DESIGN).vertices)  # Asked for none: the law alone.
+
+
+def scene_of(design: Design) -> trimesh.Scene:
+    scene = trimesh.load_scene(io.BytesIO(rotor_glb(solve(design), 60.0)), file_type="glb")
+    assert isinstance(scene, trimesh.Scene)
+    return scene
+
+
+def test_the_rotor_has_its_blades_hub_and_mast_in_metres_with_y_up():
+    scene = scene_of(Inputs().design())
+    rotor = DESIGN.rotor
+    nodes = set(scene.graph.nodes_geometry)
+    assert nodes == {"hub", "mast", *(f"blade_{k + 1}" for k in range(rotor.blades))}
+    assert set(scene.geometry) == {"hub", "mast", "blade", "marked_blade"}  # Three blades are one mesh, placed thrice.
+    # Marked blade at ψ 60°: its tip lies a radius away, aft (+x) and to starboard (−z where y is up).
+    matrix, name = scene.graph["blade_1"]
+    blade = scene.geometry[name]
+    assert isinstance(blade, trimesh.Trimesh)
+    tip = blade.vertices[blade.vertices[:, 0] > blade.vertices[:, 0].max() - 1e-6].mean(axis=0)
+    x, y, z = trimesh.transformations.transform_points([tip], matrix)[0]
+    assert math.sqrt(x * x + y * y + z * z) == pytest.approx(rotor.radius, rel=2e-3)
+    assert math.degrees(math.atan2(-z, x)) == pytest.approx(60.0, abs=2.0)
+    assert 0.0 < y < 0.2 * rotor.radius  # Coned up.
+    for geometry in scene.geometry.values():
+        assert isinstance(geometry, trimesh.Trimesh)
+        geometry.merge_vertices(merge_norm=True, merge_tex=True)
+        assert geometry.is_watertight
+
+
+def test_blades_of_an_active_twist_each_have_their_own_mesh():
+    scene = scene_of(replace(Inputs().design(), active_twist=ActiveTwist((Harmonic(1, 0.03),))))
+    assert len(scene.geometry) == 2 + DESIGN.rotor.blades
+
+
+def test_kinks_are_those_of_every_part_of_a_law():
+    assert kinks(SumTwist(PiecewiseLinearTwist((-0.2, 0.1), (0.5,)), PiecewiseLinearTwist((0.1, 0.2), (0.7,)))) == (
+        0.5,
+        0.7,
+    )
+    assert kinks(PLAIN) == ()
+
+
+def test_sections_that_change_at_once_stay_closed():
+    design = replace(DESIGN, rotor=change_airfoils(DESIGN.rotor, "sc1094r8,sc1095@0.62"))
+    assert blade_mesh(design).is_watertight
+
+
+def test_file_names_hold_nothing_that_a_system_refuses():
+    stem = file_stem(make_design(twist="segments:-14,-8@0.5"), "disk", "Angle of attack")
+    assert stem == "uh-60a-segments_-14_-8_0.5-mu0.200-disk-angle_of_attack"
+    assert len(file_stem(replace(DESIGN, twist=LAWS[4]))) < 120

@@ -1,0 +1,116 @@
+"""Everything on the page explains itself, and every equation it names is in docs/theory.md."""
+
+import ast
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from html import escape
+from pathlib import Path
+
+import pytest
+import viser
+
+from explorer.state import Inputs, ViewState
+from explorer.tabs.controls import Controls
+from explorer.text import comparison as ab_readout
+from explorer.text import readout
+from explorer.text.glossary import CONTROLS, READOUTS, hint, tip
+from explorer.text.status import status_panel
+from explorer.text.units import SI
+from rotor.aero.switches import SWITCHES
+from rotor.files.make_design import make_design
+from rotor.trim.solve import solve
+
+ROOT = Path(__file__).parent.parent.parent
+THEORY = (ROOT / "docs" / "theory.md").read_text(encoding="utf-8")
+WIDGETS = {
+    f"add_{kind}"
+    for kind in ("slider", "multi_slider", "number", "vector2", "text", "checkbox", "dropdown", "button",
+                 "button_group", "upload_button")
+}  # fmt: skip
+ENTRIES = {**{f"control {k}": v for k, v in CONTROLS.items()}, **{f"read-out {k}": v for k, v in READOUTS.items()}}
+
+
+@pytest.fixture
+def server() -> Iterator[viser.ViserServer]:
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    yield server
+    server.stop()
+
+
+def test_every_equation_and_section_named_is_there():
+    for name, entry in ENTRIES.items():
+        for number in entry.equations:
+            assert f"({number})" in THEORY, f"{name}: eq. ({number}) is not in docs/theory.md"
+        if entry.section:
+            assert f"\n## {entry.section} " in THEORY, f"{name}: docs/theory.md has no section {entry.section}"
+
+
+def test_every_entry_is_a_short_sentence():
+    for name, entry in ENTRIES.items():
+        assert entry.sentence.endswith("."), name
+        assert len(entry.text) < 260, name
+        assert entry.sentence[0].isupper() or entry.sentence[0] in "βθακΣk", name
+
+
+def test_switches_say_what_is_on_and_what_is_off():
+    for name, switch in SWITCHES.items():
+        assert switch.on in hint(name)
+        assert switch.off in hint(name)
+
+
+def test_every_widget_of_the_design_tab_has_its_sentence(server: viser.ViserServer):
+    Controls(server.gui, Inputs(), lambda: None, view=ViewState())
+    texts = {entry.text for entry in CONTROLS.values()}
+    handles = list(server.gui._gui_input_handle_from_uuid.values())
+    assert len(handles) > 30
+    for handle in handles:
+        assert handle.hint in texts, f"{handle.label!r} explains nothing"
+
+
+def test_every_widget_that_is_made_anywhere_asks_the_glossary():
+    """Of all tabs, by reading the code: `hint=hint("name")`, or a variable that holds it."""
+    for path in sorted((ROOT / "explorer").rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in WIDGETS):
+                continue
+            label = node.args[0].value if node.args and isinstance(node.args[0], ast.Constant) else ""
+            given = [keyword.value for keyword in node.keywords if keyword.arg == "hint"]
+            where = f"{path.relative_to(ROOT)}:{node.lineno}, {label!r}"
+            assert given or label == "Close", (
+                f"{where}: give it hint=hint(…) and a sentence in explorer/text/glossary.py"
+            )
+            assert not any(isinstance(value, ast.Constant) for value in given), f"{where}: put it into the glossary"
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.25])
+def test_every_line_of_the_results_has_its_sentence(mu: float):
+    solution = solve(make_design(advance_ratio=mu)).require()
+    texts = {escape(entry.text, quote=True) for entry in READOUTS.values()}
+    other = solve(make_design(advance_ratio=mu, twist="linear:-8")).require()
+    panels = [
+        readout.power_panel(solution, other),
+        readout.trim_panel(solution),
+        ab_readout.power_panel(solution, other),
+        ab_readout.trim_panel(solution, other),
+        readout.check_panel(other, solution),
+        readout.speed_line(solution.design.airspeed, SI),
+        status_panel(solution),
+    ]
+    for html in panels:
+        for said in re.findall(r'title="([^"]*)"', html):
+            assert said in texts
+        for line in re.findall(r'<(?:tr|div class="rx-(?:line|four))[^>]*>(?:<span[^>]*>)?', html):
+            head = "rx-dim rx-small" in line  # Column heads name what the rows explain.
+            assert head or "title=" in line, f"{line} explains nothing"
+
+
+def test_an_unknown_name_is_refused():
+    for ask in (hint, tip):
+        with pytest.raises(KeyError):
+            ask("phlogiston")
+
+
+def test_tooltips_are_safe_in_html():
+    assert '"' not in tip("reverse_flow_area").removeprefix(' title="').removesuffix('"')
+    assert replace(READOUTS["kappa"], sentence='a "b" <c>.').text.startswith("a")

@@ -1,0 +1,173 @@
+"""Undo and redo, and designs in the page's address."""
+
+from dataclasses import replace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from explorer.sharing.address import parameter, with_parameter
+from explorer.sharing.share import LONGEST, code_of, design_from, inputs_from
+from explorer.state import Inputs
+from explorer.undo import PAUSE, STEPS, History, Pauses
+from rotor.design.twist import TableTwist
+from rotor.files.make_design import make_design
+
+START = Inputs()
+
+
+LONG = 5.0
+
+
+def drag(history: History, name: str, values: list[float], pause: float) -> None:
+    """The first movement after a pause, the others close behind."""
+    for k, value in enumerate(values):
+        history.note(replace(history.present, **{name: value}), pause if k == 0 else 0.05)
+
+
+class TestHistory:
+    def test_a_drag_is_one_step(self):
+        history = History(START)
+        drag(history, "two_inner", [-14.5, -15.0, -15.5, -16.0], LONG)
+        drag(history, "two_outer", [-7.0, -6.0], 0.3)
+        assert len(history.past) == 2
+        assert history.undo() == replace(START, two_inner=-16.0)
+        assert history.undo() == START
+        assert history.undo() is None
+
+    def test_the_same_slider_after_a_pause_is_another_step(self):
+        history = History(START)
+        drag(history, "two_inner", [-15.0], LONG)
+        drag(history, "two_inner", [-16.0], LONG)
+        assert history.undo() == replace(START, two_inner=-15.0)
+
+    def test_slow_answers_do_not_split_a_drag(self):
+        pauses = Pauses()
+        for time in (10.0, 10.1, 10.2):
+            pauses.moved(time)
+        assert pauses.longest() > PAUSE  # Nothing had moved before.
+        for time in (10.3, 10.4):  # The answer to the last took long: it is asked for at 14.
+            pauses.moved(time)
+        assert pauses.longest() == pytest.approx(0.1)
+        pauses.moved(16.0)
+        assert pauses.longest() > PAUSE
+
+    def test_redo_until_something_else_is_moved(self):
+        history = History(START)
+        drag(history, "two_inner", [-15.0], LONG)
+        drag(history, "advance_ratio", [0.3], LONG)
+        history.undo()
+        history.undo()
+        assert history.redo() == replace(START, two_inner=-15.0)
+        assert not history.note(history.present, 0.1)  # The page's own echo is no step and forgets nothing.
+        assert history.redo() == replace(START, two_inner=-15.0, advance_ratio=0.3)
+        history.undo()
+        drag(history, "mass_t", [9.0], LONG)
+        assert history.redo() is None
+
+    def test_a_drag_after_undo_begins_a_step(self):
+        history = History(START)
+        drag(history, "two_inner", [-15.0], LONG)
+        history.undo()
+        drag(history, "two_inner", [-17.0], 0.1)
+        assert history.undo() == START
+
+    def test_a_hundred_steps(self):
+        history = History(START)
+        for k in range(150):
+            history.note(replace(START, mass_t=5.0 + 0.04 * k), LONG)
+        assert STEPS == 100
+        undone = 0
+        while history.undo() is not None:
+            undone += 1
+        assert undone == STEPS
+        while history.redo() is not None:
+            undone -= 1
+        assert undone == 0
+        assert history.present.mass_t == pytest.approx(5.0 + 0.04 * 149)
+
+    def test_going_to_a_step_and_back(self):
+        history = History(START)
+        for value in (6.0, 7.0, 8.0):
+            history.note(replace(START, mass_t=value), LONG)
+        before = history.steps
+        went = history.go(1)
+        assert went is not None
+        assert went.mass_t == 6.0
+        assert history.steps == before
+        assert history.go(1) is None
+        assert history.go(9) is None
+        went = history.go(3)
+        assert went is not None
+        assert went.mass_t == 8.0
+
+
+@st.composite
+def positions(draw: st.DrawFn) -> Inputs:
+    rate = st.integers(-300, 100).map(lambda n: n / 10.0)
+    return Inputs(
+        preset=draw(st.sampled_from(("flight", "thesis"))),
+        law=draw(st.sampled_from(("builtin", "linear", "quadratic", "two", "three", "ideal"))),
+        linear=draw(rate),
+        two_inner=draw(rate),
+        two_division=draw(st.integers(20, 95)) / 100.0,
+        three_outer=draw(rate),
+        quadratic_difference=draw(rate),
+        advance_ratio=draw(st.integers(0, 90)) / 200.0,
+        mass_t=draw(st.integers(100, 220)) / 20.0,
+        altitude_m=draw(st.integers(0, 80)) * 50.0,
+        inflow=draw(st.sampled_from(("uniform", "drees", "pitt-peters-15pi/23", "dynamic-wake"))),
+    )
+
+
+class TestShare:
+    @given(positions())
+    def test_address_and_back(self, inputs: Inputs):
+        design = inputs.design()
+        code = parameter(with_parameter("?fixedDpr=0.5", "d", code_of(design)), "d")
+        assert code is not None
+        assert code_of(design_from(code)) == code
+        again = inputs_from(code).design()
+        assert (again.twist.spec(), again.models, again.preset) == (design.twist.spec(), design.models, design.preset)
+        assert again.condition.mass == pytest.approx(design.condition.mass, rel=1e-9)
+
+    def test_short_and_readable(self):
+        assert code_of(Inputs(advance_ratio=0.25).design()) == "1;segments:-14,-8@0.5;mu=0.25;mass=8320"
+
+    def test_a_table_travels_with_its_numbers(self):
+        table = TableTwist((0.2, 0.6, 1.0), (0.1, 0.02, -0.05), "table:/home/me/mine.txt")
+        code = code_of(replace(make_design(), twist=table))
+        assert "mine" not in code
+        r = (0.2, 0.33, 0.75, 1.0)
+        assert design_from(code).twist(r) == pytest.approx(table(r), abs=1e-8)
+
+    @pytest.mark.parametrize("twist", ["linear:-35", "segments:-40,-2@0.5", "segments:-8,-2@0.1"])
+    def test_a_twist_beyond_the_sliders_is_kept_as_it_is(self, twist: str):
+        inputs = inputs_from(f"1;{twist};mu=0.3")
+        assert inputs.law == "given"
+        assert inputs.design().twist.spec() == twist
+        assert code_of(inputs.design()) == f"1;{twist};mu=0.3"
+
+    @pytest.mark.parametrize(
+        ("code", "sentence"),
+        [
+            ("", "not of version 1"),
+            ("2;linear:-8", "not of version 1"),
+            ("1;table:/etc/passwd", "a file on the machine"),
+            ("1;uh60a+table:/etc/passwd", "a file on the machine"),
+            ("1;linear:-8;mu", "no key=value"),
+            ("1;linear:-8;mu=fast", "give a number"),
+            ("1;linear:-8;mu=NaN", "advance ratio nan"),
+            ("1;linear:-8;wings=2", "unknown key 'wings'"),
+            ("1;linear:-8;inflow=magic", "magic"),
+            ("1;bent:3", "is not known"),
+            ("1;linear:-8;mu=0.47", "Adv. ratio µ is 0.47, outside this page's 0…0.45"),
+            ("1;linear:-8;mass=1e9", "mass"),
+            ("1;linear:-8" + ";mu=0.2" * 400, f"{LONGEST} are the most"),
+        ],
+    )
+    def test_a_bad_one_is_one_sentence(self, code: str, sentence: str):
+        with pytest.raises(ValueError, match=r"\w") as caught:
+            inputs_from(code)
+        assert sentence in str(caught.value)
+        assert "\n" not in str(caught.value)

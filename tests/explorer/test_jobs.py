@@ -1,0 +1,268 @@
+"""Long work in worker processes: results in order, a stop that answers, a queue, and recovery from what goes wrong."""
+
+import itertools
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from explorer.workers.job import Broken, Ended, Job, News, Started, Told, Waiting
+from explorer.workers.pool import Pool
+from explorer.workers.queue import MOST_WAITING, Queue
+
+ROOT = Path(__file__).parent.parent.parent
+SOON = 60.0
+"""[s]; a process starts in two or three on a quiet machine."""
+
+
+@dataclass(frozen=True)
+class Count:
+    """Tells 1, 2, … with pauses, and returns how far it came."""
+
+    to: int
+    pause: float = 0.0
+
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> int:
+        for k in range(self.to):
+            if stop():
+                return k
+            time.sleep(self.pause)
+            tell(k + 1)
+        return self.to
+
+
+@dataclass(frozen=True)
+class Deaf:
+    """Never asks whether to stop."""
+
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> None:
+        tell("here")
+        time.sleep(3600.0)
+
+
+@dataclass(frozen=True)
+class Failing:
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> None:
+        raise ValueError("a value that nobody wants")
+
+
+@dataclass(frozen=True)
+class Killed:
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> None:
+        os.kill(os.getpid(), signal.SIGKILL)
+
+
+class Heard(list[News]):
+    """News of one job."""
+
+    def until(self, kind: type, seconds: float = SOON) -> Any:
+        """The first news of that kind."""
+        deadline = time.monotonic() + seconds
+        while time.monotonic() < deadline:
+            for news in list(self):
+                if isinstance(news, kind):
+                    return news
+            time.sleep(0.002)
+        raise AssertionError(f"no {kind.__name__} in {seconds:g} s: {list(self)}")
+
+    @property
+    def items(self) -> list[Any]:
+        return [news.item for news in self if isinstance(news, Told)]
+
+
+def submit(pool: Pool, task: Any, **how: Any) -> tuple[Job, Heard]:
+    heard = Heard()
+    return pool.submit(task, heard.append, **how), heard
+
+
+@pytest.fixture(scope="module")
+def pool() -> Iterator[Pool]:
+    pool = Pool(1)
+    pool.warm()
+    yield pool
+    pool.close()
+
+
+def test_tells_in_order_and_returns(pool: Pool):
+    _, heard = submit(pool, Count(5))
+    assert heard.until(Ended) == Ended(5)
+    assert heard.items == [1, 2, 3, 4, 5]
+
+
+def test_a_stop_answers_at_once_and_keeps_what_there_is(pool: Pool):
+    job, heard = submit(pool, Count(10_000, 0.01))
+    heard.until(Told)
+    pressed = time.monotonic()
+    pool.stop(job)
+    ended = heard.until(Ended)
+    assert time.monotonic() - pressed < 0.3
+    assert ended.stopped
+    assert ended.result == len(heard.items)
+
+
+def test_positions_in_the_queue_are_honest(pool: Pool):
+    first, running = submit(pool, Count(10_000, 0.01))
+    running.until(Told)
+    second, next_in_line = submit(pool, Count(1))
+    third, last = submit(pool, Count(1))
+    _, urgent = submit(pool, Count(1), urgency=-1)
+    assert next_in_line.until(Waiting) == Waiting(0)
+    assert last.until(Waiting) == Waiting(1)
+    assert urgent.until(Waiting) == Waiting(0)
+    assert next_in_line[-1] == Waiting(1)
+    pool.stop(second)
+    assert next_in_line.until(Ended).stopped
+    assert last[-1] == Waiting(1)
+    pool.stop(first)
+    last.until(Ended)
+    assert [type(news) for news in urgent][-3:] == [Started, Told, Ended]
+    assert third.over
+
+
+class TestQueue:
+    def order(self, queue: Queue) -> list[int]:
+        """Numbers of the jobs as they are taken, each done before the next."""
+        taken = []
+        while (job := queue.take()) is not None:
+            taken.append(job.number)
+            queue.done(job)
+        return taken
+
+    def filled(self, queue: Queue, *owners: str, urgency: int = 0) -> Queue:
+        for owner in owners:
+            queue.add(Job(next(self.numbers), Count(1), lambda news: None, 1.0, urgency, owner))
+        return queue
+
+    @pytest.fixture(autouse=True)
+    def fresh(self) -> None:
+        self.numbers = itertools.count(1)
+
+    def test_pages_take_turns(self):
+        queue = self.filled(Queue(2), "a", "a", "a", "b", "c", "b")
+        assert self.order(queue) == [1, 4, 5, 2, 6, 3]
+
+    def test_what_is_urgent_comes_first_among_equals(self):
+        queue = self.filled(Queue(2), "a", "a", urgency=1)
+        self.filled(queue, "b")
+        assert self.order(queue) == [3, 1, 2]
+
+    def test_no_page_has_all_processes_while_there_are_others(self):
+        queue = self.filled(Queue(2), "a", "a")
+        queue.pages = 2
+        first = queue.take()
+        assert first is not None
+        assert queue.take() is None  # One process is kept for who comes.
+        self.filled(queue, "b")
+        assert [job.owner for job in queue.stays(1)] == ["a"]
+        other = queue.take()
+        assert other is not None
+        assert other.owner == "b"
+        queue.done(first)
+        assert (second := queue.take()) is not None
+        assert second.owner == "a"
+
+    def test_alone_a_page_has_all(self):
+        queue = self.filled(Queue(2), "a", "a")
+        queue.pages = 1
+        assert queue.take()
+        assert queue.take()
+
+    def test_a_page_cannot_fill_the_queue(self):
+        queue = self.filled(Queue(2), *"a" * MOST_WAITING)
+        assert queue.full("a")
+        assert not queue.full("b")
+        assert not queue.full(None)
+
+
+def test_time_is_limited(pool: Pool):
+    _, heard = submit(pool, Count(10_000, 0.01), limit=0.1)
+    ended = heard.until(Ended)
+    assert ended.late
+    assert ended.result == len(heard.items)
+
+
+def test_a_task_that_fails_says_so_and_the_process_goes_on(pool: Pool):
+    before = pool.pids
+    _, heard = submit(pool, Failing())
+    assert "a value that nobody wants" in heard.until(Broken).message
+    assert pool.pids == before
+
+
+def test_a_task_that_cannot_travel_says_so(pool: Pool):
+    task: Any = Count(1)
+    object.__setattr__(task, "to", lambda: 1)
+    _, heard = submit(pool, task)
+    assert heard.until(Broken).message
+    _, heard = submit(pool, Count(1))
+    assert heard.until(Ended) == Ended(1)
+
+
+@pytest.mark.slow
+def test_a_killed_process_is_reported_and_replaced(pool: Pool):
+    _, heard = submit(pool, Killed())
+    assert "ended unexpectedly" in heard.until(Broken).message
+    _, heard = submit(pool, Count(3))
+    assert heard.until(Ended) == Ended(3)
+
+
+@pytest.mark.slow
+def test_a_process_lost_while_idle_is_replaced_before_it_is_needed(pool: Pool):
+    submit(pool, Count(1))[1].until(Ended)
+    (before,) = pool.pids
+    os.kill(before, signal.SIGKILL)
+    deadline = time.monotonic() + SOON
+    while pool.pids in ((), (before,)) and time.monotonic() < deadline:
+        time.sleep(0.02)
+    assert pool.pids not in ((), (before,))
+    _, heard = submit(pool, Count(2))
+    assert heard.until(Ended) == Ended(2)
+    assert not any(isinstance(news, Broken) for news in heard)
+
+
+@pytest.mark.slow
+def test_a_process_that_will_not_stop_is_not_waited_for(pool: Pool):
+    job, heard = submit(pool, Deaf())
+    heard.until(Told)
+    pressed = time.monotonic()
+    pool.stop(job)
+    assert heard.until(Ended) == Ended(None, stopped=True)
+    assert time.monotonic() - pressed < 0.35
+    _, heard = submit(pool, Count(2))
+    assert heard.until(Ended) == Ended(2)
+
+
+def test_nobody_hears_of_a_job_whose_browser_left(pool: Pool):
+    job, heard = submit(pool, Count(10_000, 0.01))
+    heard.until(Told)
+    pool.stop(job, quiet=True)
+    known = len(heard)
+    _, other = submit(pool, Count(1))
+    other.until(Ended)
+    assert len(heard) == known
+
+
+@pytest.mark.slow
+def test_closing_ends_every_process():
+    pool = Pool(1)
+    _, heard = submit(pool, Count(10_000, 0.01))
+    heard.until(Told)
+    pids = pool.pids
+    pool.close()
+    assert pids
+    assert pool.pids == ()
+    _, after = submit(pool, Count(1))
+    assert after.until(Broken)
+
+
+@pytest.mark.slow
+def test_worker_processes_load_no_page():
+    code = "import sys, explorer.workers.process, explorer.workers.tasks; print('viser' in sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "False"

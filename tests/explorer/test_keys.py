@@ -1,0 +1,87 @@
+"""Commands and keys: none twice, none that camera, palette or browser need, all of them listed."""
+
+import typing
+from collections import Counter
+from typing import Any
+
+import pytest
+import viser
+from viser import _messages
+
+from explorer.tabs.keys.in_page import dialog_script, page_script
+from explorer.tabs.keys.keyboard import Keyboard
+from explorer.tabs.keys.names import CTRL, CTRL_SHIFT, KEYS, SHIFT, keys_help, leads
+
+TAKEN_BY_THE_CAMERA = set("WASDQE")
+TAKEN_BY_BROWSERS = (
+    {(key, CTRL) for key in "CVXANTWRLDFPSQ"} | {(key, CTRL_SHIFT) for key in "NTWPIJCR"} | {("K", CTRL)}
+)
+
+
+def test_no_key_does_two_things():
+    keys = Counter((key.key, key.modifier) for key in KEYS.values() if key.key)
+    assert keys.most_common(1)[0][1] == 1
+    assert not [key for key in keys if key[0] in TAKEN_BY_THE_CAMERA and key[1] in ("", SHIFT)]
+    assert not set(keys) & TAKEN_BY_BROWSERS
+
+
+def test_titles_are_distinct_and_short_enough_for_a_line():
+    titles = [key.title for key in KEYS.values()]
+    assert len(set(titles)) == len(titles)
+    assert max(map(len, titles)) <= 40
+
+
+def test_the_page_knows_every_key():
+    known = {*typing.get_args(_messages.HotkeyKey), "?"}
+    assert {key.key for key in KEYS.values()} - {""} <= known
+    assert {key.modifier for key in KEYS.values()} - {""} <= set(typing.get_args(_messages.KeyModifier))
+
+
+def test_the_list_shows_what_is_bound_and_nothing_else():
+    text = keys_help(["undo", "play", "keys"])
+    assert "<kbd>Ctrl</kbd><kbd>Z</kbd>" in text
+    assert "<kbd>Space</kbd>" in text
+    assert "<kbd>?</kbd>" in text
+    assert "Redo" not in text
+    assert "Find a command" in text
+
+
+def test_scripts_hold_what_they_are_given():
+    assert "step < 10;" in page_script(10)
+    assert '"<b>\\"x\\"</b>"' in dialog_script('<b>"x"</b>')
+
+
+class TestKeyboard:
+    @pytest.fixture
+    def client(self) -> Any:
+        """As much of a client as the keyboard touches."""
+        server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+
+        class Client:
+            gui = server.gui
+            _websock_connection = server._websock_server
+
+        yield Client()
+        server.stop()
+
+    def test_a_command_calls_its_action(self, client: Any):
+        keyboard, done = Keyboard(client), []
+        keyboard.bind("undo", lambda: done.append("undo"))
+        (command,) = [c for c in client.gui._command_handle_from_uuid.values() if c.label == "Undo"]
+        assert (command.hotkey, command.modifier) == ("Z", CTRL)
+        for callback in command._impl.trigger_cb:
+            callback(None)
+        assert done == ["undo"]
+
+    def test_an_unknown_name_or_a_second_action_is_refused(self, client: Any):
+        keyboard = Keyboard(client)
+        with pytest.raises(KeyError, match="jump"):
+            keyboard.bind("jump", lambda: None)
+        with pytest.raises(ValueError, match="'keys' has its action already"):
+            keyboard.bind("keys", lambda: None)
+
+
+def test_who_follows_a_presenter_keeps_what_is_seen_not_what_is_flown():
+    free = {name for name in KEYS if not leads(name)}
+    assert {"view_top", "units", "dark", "keys", "probe_out"} <= free
+    assert not free & {"hover", "pin", "undo", "reset", "optimise", "lecture", "lecture_next", "field_next"}

@@ -1,0 +1,225 @@
+"""What the lecture claims, claim by claim, against the solver; presentations; the page's address."""
+
+import re
+import time
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from explorer.picture.fields import FIELDS
+from explorer.sharing.address import Address, parameter, with_parameter
+from explorer.state import Inputs, ViewState, baseline_of
+from explorer.tabs.interface import Moment
+from explorer.tabs.keys.names import KEYS
+from explorer.tabs.lecture.cases import DOCUMENT
+from explorer.tabs.lecture.presentation import Shown, Stage, follow_name, new_secret
+from explorer.tabs.lecture.steps import STEPS, Step, beside, view_of
+from explorer.tabs.lecture.view import caption
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+BY_TITLE = {step.title: step for step in STEPS}
+
+
+def solved(inputs: Inputs) -> Solution:
+    return solve(inputs.design()).require()
+
+
+def both(title: str, **changed: object) -> tuple[Solution, Solution]:
+    """A and B of a step, with something changed in both."""
+    step = BY_TITLE[title]
+    assert step.against is not None
+    return solved(replace(step.against, **changed)), solved(replace(step.inputs, **changed))
+
+
+class TestClaims:
+    def test_power_has_a_valley_and_parasite_grows_with_the_cube(self):
+        inputs = BY_TITLE["A rotor in trim"].inputs
+        at = {mu: solved(replace(inputs, advance_ratio=mu)).power for mu in (0.0, 0.15, 0.3)}
+        assert 0.25 < at[0.3].induced / at[0.0].induced < 0.4
+        assert at[0.3].parasite == pytest.approx(8.0 * at[0.15].parasite, rel=1e-9)
+        assert at[0.15].total < min(at[0.0].total, at[0.3].total)
+
+    def test_twist_evens_the_inflow_of_hover(self):
+        flat, twisted = both("Why more twist helps hover")
+        assert twisted.power.induced < 0.95 * flat.power.induced
+
+        def rise(solution: Solution) -> float:
+            inner, outer = np.interp((0.4, 0.85), solution.disk.r, solution.disk.induced[:, 0])
+            return float(outer / inner)
+
+        assert rise(flat) > 1.3  # Without twist inflow grows towards the tip,
+        assert abs(rise(twisted) - 1.0) < 0.5 * (rise(flat) - 1.0)  # with it, far less.
+        more = solved(replace(BY_TITLE["Why more twist helps hover"].inputs, linear=-24.0))
+        assert more.power.total > twisted.power.total
+
+    def test_linear_inflow_does_not_see_it(self):
+        flat, twisted = both("Why linear inflow cannot see it")
+        assert abs(twisted.power.induced - flat.power.induced) < 1e3
+        assert flat.power.profile - twisted.power.profile > 10e3
+        parts = twisted.power
+        assert parts.induced > max(parts.profile, parts.parasite)
+
+    def test_a_wake_sees_it(self):
+        flat, twisted = both("A wake that answers")
+        induced = flat.power.induced - twisted.power.induced
+        assert induced > 30e3
+        assert induced > 0.5 * (flat.power.total - twisted.power.total)
+
+    def test_infinitely_many_blades_want_less_twist_and_four_do_not(self):
+        title = "Four blades are not infinitely many"
+        less, more = both(title)
+        assert more.power.induced > 1.1 * less.power.induced
+        less, more = both(title, inflow="dynamic-wake")
+        assert more.power.induced < 1.01 * less.power.induced
+        assert more.power.total < less.power.total
+
+    def test_reverse_flow_drives_the_blade_drags_and_pushes_down(self):
+        without, rotor = both("Where the reverse flow eats power")
+        assert rotor.power.total - without.power.total > 10e3
+        disk = rotor.disk
+        reverse = disk.u_t < 0.0
+        assert (disk.r[:, None] * disk.dcq)[reverse].sum() < 0.0
+        assert disk.dct[reverse].sum() < 0.0
+        # The outline at ψ = 270° reaches to r = µ.
+        column = np.argmin(np.abs(disk.psi - 1.5 * np.pi))
+        assert disk.r[reverse[:, column]].max() == pytest.approx(0.37, abs=disk.dr)
+
+    def test_two_segments_save_tenths_of_a_per_cent(self):
+        straight, two = both("What two segments add")
+        assert 0.001 < 1.0 - two.power.total / straight.power.total < 0.01
+        for rate in (-11.0, -15.0):  # A is the best straight blade, and degrees matter little.
+            other = solved(Inputs(law="linear", linear=rate, advance_ratio=0.3)).power.total
+            assert straight.power.total < other < 1.003 * straight.power.total
+
+
+@pytest.mark.parametrize("step", STEPS, ids=lambda step: step.title)
+def test_a_step_says_what_is_seen(step: Step):
+    solution = solved(step.inputs)
+    baseline = solve(baseline_of(solution.design))
+    pinned = None if step.against is None else solved(step.against)
+    said = step.say(Moment(step.inputs, ViewState(), solution, baseline, pinned))
+    assert any(character.isdigit() for character in said)
+    assert not any(mark in said for mark in (" kW", " %", "\u2009"))  # A number and its unit stay on one line.
+    assert "nan" not in said
+    html = caption(step, said)
+    assert f'data-step="{STEPS.index(step) + 1}"' in html
+    assert view_of(step, ViewState(dark=True)).dark
+    assert step.field in FIELDS
+
+
+def test_what_is_said_of_power_adds_up():
+    step = BY_TITLE["A rotor in trim"]
+    solution = solved(step.inputs)
+    said = step.say(Moment(step.inputs, ViewState(), solution, solution, None))
+    shares = re.findall(r"([\d.]+)\u00a0%", said)
+    assert sum(map(float, shares)) == pytest.approx(100.0, abs=1.0)
+
+
+class TestBeside:
+    """A differs from B by what the step is about, whatever else the user changes."""
+
+    @pytest.mark.parametrize("step", STEPS, ids=lambda step: step.title)
+    def test_at_first_it_is_the_steps_own(self, step: Step):
+        against = beside(step, step.inputs)
+        if step.against is None or against is None:
+            assert step.against is against is None
+        else:
+            assert against.design() == step.against.design()
+
+    def test_the_other_wake_is_compared_with_itself(self):
+        step = BY_TITLE["Four blades are not infinitely many"]
+        against = beside(step, replace(step.inputs, inflow="dynamic-wake", linear=-17.0))
+        assert against is not None
+        assert against.design() == replace(step.against or Inputs(), inflow="dynamic-wake").design()
+
+    def test_the_twist_and_the_flight_are_the_users(self):
+        step = BY_TITLE["Where the reverse flow eats power"]
+        against = beside(step, replace(step.inputs, advance_ratio=0.3, tip_loss=False))
+        assert against == replace(step.inputs, advance_ratio=0.3, tip_loss=False, reverse_flow=False)
+
+
+def test_eight_steps_and_their_keys():
+    assert 6 <= len(STEPS) <= 8
+    assert {"lecture", "lecture_next", "lecture_previous"} <= set(KEYS)
+
+
+@pytest.mark.parametrize("inputs", DOCUMENT.values(), ids=DOCUMENT)
+def test_the_documents_cases_trim(inputs: Inputs):
+    assert inputs.preset == "thesis"
+    assert solve(inputs.design()).converged
+
+
+class TestStage:
+    def test_followers_hear_until_they_leave(self):
+        stage, secret = Stage(), new_secret()
+        heard: list[Shown | None] = []
+        leave = stage.follow(follow_name(secret), heard.append)
+        counted: list[int] = []
+        stage.watch(secret, counted.append)
+        first = Shown(Inputs(), ViewState())
+        stage.present(secret, first)
+        stage.present(secret, first)
+        late: list[Shown | None] = []
+        stage.follow(follow_name(secret), late.append)
+        assert heard == late == [first]
+        leave()
+        stage.present(secret, Shown(Inputs(mass_t=9.0), ViewState()))
+        stage.end(secret)
+        assert heard == [first]
+        assert late[-1] is None
+        assert counted == [1, 2, 1]
+
+    def test_one_that_fails_does_not_keep_it_from_the_others(self, caplog: pytest.LogCaptureFixture):
+        stage, secret = Stage(), new_secret()
+        heard: list[Shown | None] = []
+
+        def fails(_: Shown | None) -> None:
+            raise RuntimeError("its browser has just left")
+
+        stage.follow(follow_name(secret), fails)
+        stage.follow(follow_name(secret), heard.append)
+        stage.present(secret, Shown(Inputs(), ViewState()))
+        assert len(heard) == 1
+        assert "did not hear" in caplog.text
+
+    def test_the_name_does_not_tell_the_secret(self):
+        stage, secret = Stage(), new_secret()
+        heard: list[Shown | None] = []
+        stage.follow(follow_name(secret), heard.append)
+        stage.present(follow_name(secret), Shown(Inputs(), ViewState()))
+        stage.end(follow_name(secret))
+        assert heard == []
+
+
+class TestAddress:
+    def test_names_stand_beside_each_other(self):
+        query = with_parameter("?fixedDpr=0.5&darkMode&d=1;old", "d", "1;segments:-14,-8@0.5")
+        assert query == "?fixedDpr=0.5&darkMode=&d=1;segments:-14,-8@0.5"
+        assert parameter(query, "d") == "1;segments:-14,-8@0.5"
+        assert parameter(with_parameter(query, "d", None), "d") is None
+
+    def test_what_a_query_must_not_hold_is_written_otherwise(self):
+        text = '1;uh60a+linear:-2;name="a&b=c d"'
+        query = with_parameter("", "d", text)
+        assert "+" not in query
+        assert parameter(query, "d") == text
+
+    def test_written_when_it_changes(self):
+        written: list[str] = []
+        address = Address("?a=1", written.append, pause=0.0)
+        address["b"] = "2"
+        address["b"] = "2"
+        address["a"] = None
+        assert written == ["?a=1&b=2", "?b=2"]
+
+    def test_a_flood_ends_with_the_newest(self):
+        written: list[str] = []
+        address = Address("", written.append, pause=0.05)
+        for k in range(50):
+            address["d"] = str(k)
+        deadline = time.monotonic() + 5.0
+        while written[-1] != "?d=49" and time.monotonic() < deadline:
+            time.sleep(0.01)
+        assert written == ["?d=0", "?d=49"]

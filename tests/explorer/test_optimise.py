@@ -1,0 +1,336 @@
+"""What the optimiser's tabs show, without a browser: runs, charts, maps, schedules, drawings and words."""
+
+import csv
+import io
+import math
+import xml.etree.ElementTree as ET
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from explorer.charts.plots import Plot
+from explorer.picture.meshes import blade_shape, blade_vertices, ghost_segments
+from explorer.state import baseline_of
+from explorer.tabs.optimise import mission, power_map, schedule_view, sensitivity
+from explorer.tabs.optimise import text as search_text
+from explorer.tabs.optimise.concept_picture import concept_picture
+from explorer.tabs.optimise.map_panel import default_axes
+from explorer.tabs.optimise.plot import TRACES, search_plot
+from explorer.tabs.optimise.run import SearchRun
+from explorer.tabs.optimise.wishes import OBJECTIVES, Wishes
+from explorer.workers.job import Broken, Ended, Started, Told, Waiting
+from explorer.workers.tasks import FixedPowers, MapLevel, MapTask, ScheduleTask, SearchTask
+from rotor.files.make_design import make_design
+from rotor.optimisation.concepts import CONCEPTS
+from rotor.optimisation.objective import at_condition
+from rotor.optimisation.schedule import Cell, Plan
+from rotor.optimisation.search import Ended as Status
+from rotor.trim.solve import solve
+
+UNIFORM = replace(make_design().models, inflow="uniform", elements=20, azimuths=36)
+"""Quick, where the physics does not matter."""
+
+
+def quick(twist: str = "linear:-16", mu: float = 0.3) -> Any:
+    return make_design(twist=twist, advance_ratio=mu, models=UNIFORM)
+
+
+def no_stop() -> bool:
+    return False
+
+
+def run_of(wishes: Wishes, design: Any) -> SearchRun:
+    """A search run here, its news heard as from a process."""
+    run = SearchRun(wishes.search(design, mission.legs), "UH-60A twist")
+    run.hear(Started())
+    task = SearchTask(run.search, baseline_of(design))
+    run.hear(Ended(task.run(lambda item: run.hear(Told(item)), no_stop)))
+    return run
+
+
+@pytest.fixture(scope="module")
+def run() -> SearchRun:
+    return run_of(Wishes(concept="two-segment", starts=3), quick())
+
+
+def finite(plot: Plot) -> bool:
+    return all(np.isfinite(values).all() and len(values) == len(plot.data[0]) for values in plot.data)
+
+
+class TestSearchRun:
+    def test_frames_lead_from_the_start_to_the_optimum(self, run: SearchRun):
+        assert run.state == "done"
+        assert run.frames[0].design == run.search.design
+        powers = [frame.power for frame in run.frames[1:-1]]
+        assert powers == sorted(powers, reverse=True)
+        assert run.optimum is not None
+        assert run.optimum.status is Status.CONVERGED
+        assert run.frames[-1].design == run.optimum.design
+
+    def test_every_frame_has_the_power_that_is_said(self, run: SearchRun):
+        for frame in (run.frames[0], run.frames[len(run.frames) // 2], run.frames[-1]):
+            assert solve(frame.design).power.total == pytest.approx(frame.power, rel=1e-7)
+
+    def test_baseline_and_start_are_measured(self, run: SearchRun):
+        assert run.start_power == pytest.approx(solve(run.search.design).power.total, rel=1e-9)
+        assert run.reference_power == pytest.approx(solve(baseline_of(run.search.design)).power.total, rel=1e-9)
+
+    def test_playing_shows_each_frame_and_ends_with_the_last(self, run: SearchRun, monkeypatch: pytest.MonkeyPatch):
+        now = 100.0
+        monkeypatch.setattr("explorer.tabs.optimise.run.time.monotonic", lambda: now)
+        run.replay()
+        seen = []
+        for _ in range(10 * len(run.frames)):
+            frame = run.shown()
+            if not seen or seen[-1] is not frame:
+                seen.append(frame)
+            now += 0.05
+        assert [frame for frame in run.frames if frame in seen] == run.frames
+        assert not run.playing
+        run.scrub(0)
+        assert run.shown() is run.frames[0]
+        run.scrub(10_000)
+        assert run.shown() is run.frames[-1]
+
+    def test_while_it_runs_the_picture_does_not_fall_far_behind(self, monkeypatch: pytest.MonkeyPatch):
+        now = 100.0
+        monkeypatch.setattr("explorer.tabs.optimise.run.time.monotonic", lambda: now)
+        run = SearchRun(Wishes().search(quick(), mission.legs))
+        for k in range(100):
+            run._add(k, 1000.0 - k, quick())
+        run.shown()
+        now += 0.11
+        run.shown()
+        assert run.cursor >= 90
+
+    def test_states_follow_the_news(self):
+        run = SearchRun(Wishes().search(quick(), mission.legs))
+        assert run.state == "starting"
+        run.hear(Waiting(2))
+        assert (run.state, run.ahead) == ("waiting", 2)
+        assert "2 ahead" in search_text.standing(run)
+        run.hear(Started())
+        assert run.state == "running"
+        run.stopping()
+        run.hear(Started())
+        assert run.state == "stopping"
+        run.hear(Ended(None, stopped=True))
+        assert run.state == "stopped"
+        assert not run.under_way
+        assert "Stopped, nothing found yet" in search_text.standing(run)
+        assert search_text.found(run) == ""
+
+    def test_a_broken_process_keeps_the_best(self, run: SearchRun):
+        broken = SearchRun(run.search)
+        broken.frames = run.frames[:3]
+        broken.hear(Broken("The worker process ended unexpectedly."))
+        assert broken.best is run.frames[2]
+        assert "ended unexpectedly" in search_text.found(broken)
+        assert "best so far kept" in search_text.standing(broken)
+
+
+class TestCharts:
+    def test_every_start_is_a_trace_of_finite_numbers(self, run: SearchRun):
+        plot = search_plot(run, None)
+        assert finite(plot)
+        assert len(plot.data) == 1 + 1 + TRACES + 1
+        low, high = plot.y_range
+        inside = [bool((values[-1] >= low) and (values[-1] <= high)) for values in plot.data[2:-1]]
+        assert inside[:3] == [True] * 3
+        assert not any(inside[3:])
+        assert run.best is not None
+        assert plot.data[-1][-1] == pytest.approx(run.best.power / 1e3, rel=1e-4)
+
+    def test_an_empty_chart_has_the_same_series(self):
+        plot = search_plot(None, None)
+        assert finite(plot)
+        assert len(plot.data) == 3 + TRACES
+
+    def test_sensitivity_knows_that_turning_the_whole_blade_changes_nothing(self):
+        solution = solve(make_design(advance_ratio=0.2))
+        plot = sensitivity.sensitivity_plot(solution, None)
+        assert np.isnan(plot.data[3]).all()  # No A.
+        assert finite(sensitivity.sensitivity_plot(solution, None, solution))
+        r, total = plot.data[0], plot.data[-1]
+        assert abs(total.mean()) < 1e-6 * np.abs(total).max()
+        assert r[np.argmin(total)] != r[np.argmax(total)]
+
+    def test_strip_lies_on_the_blade_and_is_blue_where_pitch_saves(self):
+        solution = solve(make_design(advance_ratio=0.2))
+        plot = sensitivity.sensitivity_plot(solution, None)
+        shape = blade_shape(solution.design.rotor)
+        points, colours = sensitivity.strip(shape, solution.design.twist, 1.0, plot)
+        assert points.shape == colours.shape
+        vertices = blade_vertices(shape, solution.design.twist)
+        assert np.all(points[:, 0] <= vertices[:, 0].max() + 1e-6)
+        outward = points[:, 0] / solution.design.rotor.radius
+        saves = np.interp(outward, plot.data[0] - shape.r[0], plot.data[-1]) < -5.0
+        red, blue = colours[:, 0].astype(int), colours[:, 2].astype(int)
+        assert np.all(blue[saves] > red[saves])
+
+    def test_ghost_is_the_blade_as_lines(self):
+        design = make_design()
+        segments = ghost_segments(design.rotor, design.twist)
+        assert segments.shape[1:] == (2, 3)
+        vertices = blade_vertices(blade_shape(design.rotor), design.twist)
+        np.testing.assert_allclose(segments.reshape(-1, 3).max(axis=0)[0], vertices.max(axis=0)[0])
+
+
+class TestWords:
+    def test_the_optimum_is_told_with_its_band(self, run: SearchRun):
+        words = search_text.found(run) + search_text.details(run) + search_text.standing(run)
+        for part in ("Inboard rate", "Outboard rate", "within 0.1 %", "below the start", "Done"):
+            assert part in words
+        assert "nan" not in words.lower()
+
+    def test_nothing_searched_yet(self):
+        assert "Nothing searched" in search_text.standing(None)
+
+    @pytest.mark.parametrize("name", CONCEPTS)
+    def test_every_concept_has_a_drawing_with_an_arrow_for_each_parameter(self, name: str):
+        drawn = ET.fromstring(concept_picture(CONCEPTS[name]))
+        assert len(drawn.findall("path")) == len(CONCEPTS[name].parameters)
+
+
+class TestWishes:
+    @pytest.mark.parametrize("objective", OBJECTIVES)
+    @pytest.mark.parametrize("concept", CONCEPTS)
+    def test_mean_a_search(self, concept: str, objective: str):
+        search = Wishes(concept=concept, objective=objective, stalled=3.0, change=4.0).search(quick(), mission.legs)
+        assert search.concept.name == concept
+        assert search.limits.stalled == pytest.approx(0.03)
+        assert search.objective is not None
+
+    def test_the_division_reaches_the_concept(self):
+        concept = Wishes(concept="two-segment", division=0.62).known_concept()
+        twist: Any = concept.twist([-0.1, -0.2])
+        assert twist.breaks == (0.62,)
+        assert Wishes(concept="three-segment").known_concept() is CONCEPTS["three-segment"]
+
+    def test_hover_and_cruise_needs_a_cruise(self):
+        with pytest.raises(ValueError, match="advance ratio of the cruise"):
+            Wishes(objective="hover-cruise").search(quick(mu=0.0), mission.legs)
+
+    def test_a_mission_needs_hours(self):
+        with pytest.raises(ValueError, match="no hours"):
+            mission.legs(quick(), [mission.Row(0.2, 0.0)])
+
+
+@pytest.fixture(scope="module")
+def levels() -> tuple[MapTask, list[MapLevel]]:
+    design, concept = quick(), CONCEPTS["two-segment-free"]
+    task = MapTask(design, concept, at_condition(design), default_axes(concept), (-0.2, -0.15, 0.5), (2, 4))
+    told: list[Any] = []
+    assert task.run(told.append, no_stop)
+    return task, told
+
+
+class TestMap:
+    def test_default_axes_are_division_and_outer_rate(self):
+        names = [parameter.name for parameter in CONCEPTS["two-segment-free"].parameters]
+        assert [names[k] for k in default_axes(CONCEPTS["two-segment-free"])] == ["division", "outboard_rate"]
+        assert default_axes(CONCEPTS["quadratic"]) == (0, 1)
+
+    def test_coarse_then_fine_and_the_fine_holds_the_coarse(self, levels: tuple[MapTask, list[MapLevel]]):
+        task, (coarse, fine) = levels
+        assert [len(level.powers) for level in (coarse, fine)] == [3, 5]
+        assert np.array(fine.powers, dtype=float)[::2, ::2] == pytest.approx(np.array(coarse.powers, dtype=float))
+        assert fine.powers[1][2] == pytest.approx(solve(task.at(0.5, 0.25)).power.total, rel=1e-7)
+
+    def test_stops_between_points(self, levels: tuple[MapTask, list[MapLevel]]):
+        assert not levels[0].run(lambda item: None, lambda: True)
+
+    def test_picture_and_drawing(self, levels: tuple[MapTask, list[MapLevel]]):
+        task, told = levels
+        drawn = power_map.Map(task, np.array(told[-1].powers, dtype=float))
+        x, y, power = drawn.least
+        assert solve(task.at(x, y)).power.total == pytest.approx(power, rel=1e-7)
+        picture = Image.open(io.BytesIO(power_map.picture(drawn.powers))).convert("RGBA")
+        assert picture.getpixel((3, 3))[3] > 0  # pyright: ignore[reportIndexIssue, reportOptionalSubscript]
+        svg = ET.fromstring(power_map.drawing(drawn, (0.5, 0.5), exact=True).replace("&nbsp;", " "))
+        assert svg.find("image") is not None
+        assert "Held: Inboard rate" in power_map.legend(drawn)
+
+    def test_designs_that_do_not_trim_are_left_blank(self):
+        powers = np.full((5, 5), 1e6) + np.arange(5.0)
+        powers[4, 4] = math.nan
+        values = power_map.refined(powers, 40, 30)
+        assert np.isnan(values[-1, -1])
+        assert np.isfinite(values[:20, :20]).all()
+        picture = np.array(Image.open(io.BytesIO(power_map.picture(powers))).convert("RGBA"))
+        assert picture[2, -3, 3] == 0
+
+    def test_a_point_is_read_within_the_map_only(self, levels: tuple[MapTask, list[MapLevel]]):
+        drawn = power_map.Map(levels[0], np.ones((3, 3)))
+        values = power_map.point_of("0.6, −12.5", drawn)
+        assert values == pytest.approx((-0.2, math.radians(-12.5), 0.6))
+        with pytest.raises(ValueError, match="outside the map"):
+            power_map.point_of("0.1 -12", drawn)
+        with pytest.raises(ValueError, match="two numbers"):
+            power_map.point_of("here", drawn)
+
+
+@pytest.fixture(scope="module")
+def course() -> schedule_view.Course:
+    design = quick()
+    rows = [mission.Row(0.0, 1.0), mission.Row(0.3, 2.0)]
+    plan = Plan(design, (CONCEPTS["linear"],), mission.legs(design, rows), starts=2)
+    course = schedule_view.Course(plan)
+
+    def hear(item: object) -> None:
+        match item:
+            case Cell():
+                course.cells.append(item)
+            case FixedPowers(powers):
+                course.fixed_powers = powers
+            case _:
+                raise AssertionError(item)
+
+    assert ScheduleTask(plan).run(hear, no_stop).complete
+    return course
+
+
+class TestSchedule:
+    def test_no_fixed_blade_beats_the_moving_one(self, course: schedule_view.Course):
+        for k in range(2):
+            best, fixed = course.at(k), course.fixed_power(k)
+            assert best is not None
+            assert best.best is not None
+            assert fixed is not None
+            assert best.best.power <= fixed * (1.0 + 1e-6)
+        worth = course.schedule.worth("linear")
+        assert worth is not None
+        assert worth.gain >= 0.0
+        assert course.part_done == 1.0
+
+    def test_charts_and_table(self, course: schedule_view.Course):
+        for some in (course, None, schedule_view.Course(course.plan)):
+            assert finite(schedule_view.twist_plot(some, None))
+            assert finite(schedule_view.saving_plot(some, None))
+        table = schedule_view.table(course)
+        assert "Moving saves beyond it" in table
+        assert "nan" not in table.lower()
+        assert "Moving" not in schedule_view.table(schedule_view.Course(course.plan))
+
+    def test_legs_to_come_are_not_drawn(self, course: schedule_view.Course):
+        half = schedule_view.Course(course.plan, [cell for cell in course.cells if cell.leg == 1])
+        mu, _, fixed, moving = schedule_view.saving_plot(half, None).data
+        np.testing.assert_allclose(mu, [0.3])
+        np.testing.assert_allclose(moving, schedule_view.saving_plot(course, None).data[3][1:])
+        assert fixed[0] > 10.0  # Beyond the axis: not known yet.
+
+    def test_csv_reads_back(self, course: schedule_view.Course):
+        rows = list(csv.DictReader(io.StringIO(schedule_view.csv_of(course).decode())))
+        assert [row["mu"] for row in rows] == ["0", "0.3", "mean"]
+        for k, row in enumerate(rows[:2]):
+            condition = course.plan.legs[k].condition
+            twisted = replace(make_design(twist=row["twist"], models=UNIFORM), condition=condition)
+            assert float(row["best_kw"]) == pytest.approx(solve(twisted).power.total / 1e3, abs=2e-3)
+
+    def test_stopped_keeps_what_there_is(self, course: schedule_view.Course):
+        told: list[Any] = []
+        schedule = ScheduleTask(course.plan).run(told.append, lambda: len(told) > 0)
+        assert len(schedule.cells) == 1

@@ -1,0 +1,363 @@
+"""The page's pictures as arrays, without a server: disk image, colours, outlines, camera."""
+
+import io
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from PIL import Image
+
+from explorer.picture import disk_image
+from explorer.picture.camera_views import FIELD_OF_VIEW, Camera, View, fit
+from explorer.picture.colour_bar import colour_bar, tick_text
+from explorer.picture.fields import FIELDS, filled, fitted_range, reverse_flow, ticks
+from explorer.picture.outlines import contour, reverse_flow_segments, stall_segments
+from explorer.picture.picture import DISK_DROP, disk_png, field_values, make_picture
+from explorer.picture.polar import PolarGrid, polar_grid
+from explorer.picture.poses import about, blade_pose, compose, rotate, tip_path_pose
+from explorer.picture.stall_region import stall_margin
+from explorer.state import ViewState
+from explorer.theme.colours import VOID, colour_map, greyed
+from rotor.files.make_design import make_design
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+
+@pytest.fixture(scope="module")
+def forward() -> Solution:
+    return solve(make_design(advance_ratio=0.3)).require()
+
+
+@pytest.fixture(scope="module")
+def hover() -> Solution:
+    return solve(make_design(advance_ratio=0.0)).require()
+
+
+def grid_of(solution: Solution) -> PolarGrid:
+    return polar_grid(solution.disk, disk_image.RADII, disk_image.AZIMUTHS)
+
+
+def opened(png: bytes) -> np.ndarray:
+    """RGBA, shape (rows, columns, 4), as any reader of PNG sees it."""
+    return np.asarray(Image.open(io.BytesIO(png)).convert("RGBA"))
+
+
+def at(image: np.ndarray, r: float, psi_deg: float) -> np.ndarray:
+    """The pixel at radius r and azimuth ψ, with ψ = 0 at the bottom and 90° at the right."""
+    half = disk_image.SIZE / 2
+    psi = math.radians(psi_deg)
+    return image[int(half * (1.0 + r * math.cos(psi))), int(half * (1.0 + r * math.sin(psi)))]
+
+
+class TestRefinement:
+    def test_reproduces_a_harmonic_and_is_periodic(self, forward: Solution):
+        disk, grid = forward.disk, grid_of(forward)
+        fine = grid.refine(disk.r[:, None] * np.cos(disk.psi)[None, :])
+        assert_allclose(fine, grid.r[:, None] * np.cos(grid.psi)[None, :], atol=3e-4)  # Catmull–Rom on 3° steps.
+
+    def test_rows_are_affine_combinations(self, forward: Solution):
+        grid = grid_of(forward)
+        assert_allclose(grid.along.sum(axis=1), 1.0, rtol=1e-12)
+        assert_allclose(grid.around.sum(axis=0), 1.0, rtol=1e-12)
+
+    def test_spans_cut_out_to_tip(self, forward: Solution):
+        grid = grid_of(forward)
+        assert_allclose(grid.r[[0, -1]], [forward.design.rotor.blade.root_cutout, 1.0], rtol=1e-12)
+
+
+class TestDiskPicture:
+    def test_advancing_side_is_at_the_right_and_nose_up(self, forward: Solution):
+        """Mach is largest at ψ = 90° and smallest at 270°."""
+        field = FIELDS["Mach number"]
+        image = opened(disk_png(forward, field, (field.low, field.high))).astype(int)
+        luminance = image[..., :3] @ [0.2126, 0.7152, 0.0722]
+        right, left, top, bottom = (at(luminance[..., None], 0.8, psi)[0] for psi in (90, 270, 180, 0))
+        assert right > top > left
+        assert abs(top - bottom) < 6.0
+
+    def test_nose_is_up(self, forward: Solution):
+        """Pitt–Peters puts the stronger inflow aft, ψ = 0, at the bottom."""
+        field = FIELDS["Induced inflow λi"]
+        image = opened(disk_png(forward, field, (field.low, field.high))).astype(int)
+        redness = image[..., 0] - image[..., 2]
+        assert at(redness[..., None], 0.9, 0)[0] > at(redness[..., None], 0.9, 180)[0] + 20
+
+    def test_cut_out_and_corners_are_clear_and_the_disk_is_not(self, forward: Solution):
+        image = opened(disk_png(forward, FIELDS["Mach number"], (0.0, 0.9)))
+        assert image[0, 0, 3] == 0
+        assert at(image, 0.0, 0.0)[3] == 0
+        assert all(at(image, r, psi)[3] == 255 for r in (0.16, 0.5, 0.98) for psi in range(0, 360, 15))
+
+    def test_edges_are_softened(self, forward: Solution):
+        alpha = opened(disk_png(forward, FIELDS["Mach number"], (0.0, 0.9)))[..., 3]
+        assert 800 < np.count_nonzero((alpha > 0) & (alpha < 255)) < 4000
+
+    def test_no_wedge_where_the_turn_closes(self, hover: Solution):
+        """In hover a ring has one colour all round; edge pixels excepted."""
+        field = FIELDS["Thrust dT/dr"]
+        image = opened(disk_png(hover, field, (field.low, field.high))).astype(int)
+        ring = np.array([at(image, 0.7, psi) for psi in np.arange(-8.0, 8.0, 0.25)])
+        assert np.ptp(ring, axis=0).max() <= 4
+
+    def test_reverse_flow_is_blanked_for_the_angle_of_attack(self, forward: Solution):
+        field = FIELDS["Angle of attack"]
+        image = opened(disk_png(forward, field, (field.low, field.high)))
+        assert tuple(at(image, 0.2, 270)[:3]) == VOID
+        assert tuple(at(image, 0.4, 270)[:3]) != VOID
+
+    def test_a_lost_answer_is_grey_and_translucent(self, forward: Solution):
+        field = FIELDS["Angle of attack"]
+        image = opened(disk_png(forward, field, (field.low, field.high), faded=True)).astype(int)
+        pixel = at(image, 0.6, 40)
+        assert np.ptp(pixel[:3]) <= 6
+        assert 100 < pixel[3] < 200
+
+    def test_the_png_of_any_field_is_small(self, forward: Solution):
+        for field in FIELDS.values():
+            assert len(disk_png(forward, field, (field.low, field.high))) < 120_000
+
+
+class TestFields:
+    @pytest.mark.parametrize("title", FIELDS)
+    @pytest.mark.parametrize("mu", [0.0, 0.05, 0.3])
+    def test_every_field_is_finite(self, title: str, mu: float):
+        solution = solve(make_design(advance_ratio=mu))
+        assert np.isfinite(FIELDS[title].sample(solution, grid_of(solution))).all()
+
+    def test_two_sided_ranges_are_centred(self):
+        for field in FIELDS.values():
+            assert field.low < field.high
+            if field.two_sided:
+                assert field.low == -field.high
+
+    def test_thrust_per_blade_sums_to_the_weight(self, hover: Solution):
+        """∫ dT/dr dr over R, four blades, is the thrust that holds 8322.4 kg up."""
+        grid = grid_of(hover)
+        per_blade = 1e3 * FIELDS["Thrust dT/dr"].sample(hover, grid).mean(axis=1)  # [N/m]
+        lift = 4.0 * np.trapezoid(per_blade, grid.r) * hover.design.rotor.radius
+        assert_allclose(lift, hover.design.condition.weight, rtol=0.02)
+
+    def test_power_per_blade_sums_to_the_shaft_power(self, forward: Solution):
+        grid = grid_of(forward)
+        per_blade = 1e3 * FIELDS["Power dP/dr"].sample(forward, grid).mean(axis=1)  # [W/m]
+        power = 4.0 * np.trapezoid(per_blade, grid.r) * forward.design.rotor.radius
+        assert_allclose(power, forward.power.shaft, rtol=0.02)
+
+    def test_angle_of_attack_runs_smoothly_up_to_the_reverse_flow_circle(self, forward: Solution):
+        """Outside the circle neighbouring values stay near each other: no ring of wrapped angles."""
+        grid = grid_of(forward)
+        alpha = FIELDS["Angle of attack"].sample(forward, grid)
+        column = round(grid_of(forward).psi.searchsorted(math.radians(300)))
+        outside = alpha[~reverse_flow(forward, grid)[:, column], column]
+        assert np.abs(np.diff(outside))[3:].max() < 25.0
+
+    @pytest.mark.parametrize("preset", ["flight", "thesis"])
+    def test_stall_margin_is_that_of_the_solver(self, preset: str):
+        """On the solver's own points, outside reverse flow, to rounding."""
+        solution = solve(make_design(preset, advance_ratio=0.3))
+        disk = solution.disk
+        same = stall_margin(solution, PolarGrid(disk.r, disk.psi, np.eye(len(disk.r)), np.eye(len(disk.psi))))
+        ahead = disk.u_t > 0.0
+        assert_allclose(same[ahead], disk.stall_margin[ahead], atol=1e-12)
+
+    def test_filling_takes_the_first_value_outside(self, forward: Solution):
+        disk = forward.disk
+        values = np.broadcast_to(disk.r[:, None], disk.u_t.shape)
+        reverse = disk.u_t < 0.0
+        column = int(reverse.sum(axis=0).argmax())
+        depth = int(reverse[:, column].sum())
+        assert depth > 3
+        assert_allclose(filled(disk, values)[:depth, column], disk.r[depth])
+        assert_allclose(filled(disk, values)[~reverse], values[~reverse])
+
+    def test_rescaling_holds_the_data(self, forward: Solution):
+        for field in FIELDS.values():
+            values = field_values(forward, field)
+            low, high = fitted_range(field, values)
+            assert np.mean((values < low) | (values > high)) <= 0.011
+            assert not field.two_sided or low == -high
+
+    def test_ticks_are_round_and_inside(self):
+        assert ticks(-0.08, 0.08) == pytest.approx((-0.05, 0.0, 0.05))
+        assert ticks(-4.0, 10.0) == pytest.approx((0.0, 5.0, 10.0))
+
+
+class TestColours:
+    @pytest.mark.parametrize("scheme", ["sequential", "diverging", "margin"])
+    def test_lightness_is_monotone(self, scheme):
+        """Lightness L* from CIE luminance; half a unit for bytes."""
+        srgb = colour_map(scheme, 61) / 255.0
+        linear = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+        lightness = 116.0 * np.cbrt(linear @ np.array([0.2126, 0.7152, 0.0722])) - 16.0
+        if scheme == "sequential":
+            assert (np.diff(lightness) > -0.5).all()
+            assert np.ptp(lightness) > 60.0
+        else:
+            assert (np.diff(lightness[:31]) > -0.5).all()
+            assert_allclose(lightness, lightness[::-1], atol=8.0)
+
+    def test_equal_steps_of_data_look_equal(self):
+        """Steps in CIE Lab between neighbouring colours of the sequential map differ by less than half."""
+        srgb = colour_map("sequential", 41) / 255.0
+        linear = np.where(srgb <= 0.04045, srgb / 12.92, ((srgb + 0.055) / 1.055) ** 2.4)
+        xyz = linear @ np.array([[0.4339, 0.2126, 0.0178], [0.3762, 0.7152, 0.1095], [0.1899, 0.0722, 0.8727]])
+        x, y, z = np.cbrt(xyz).T
+        steps = np.linalg.norm(np.diff(np.stack((116.0 * y, 500.0 * (x - y), 200.0 * (y - z))), axis=1), axis=0)
+        assert steps.max() < 2.0 * steps.min()
+
+    def test_greyed_has_no_hue(self):
+        assert np.ptp(greyed(colour_map("diverging", 40)), axis=1).max() == 0
+
+    def test_bar_shows_unit_and_true_minus(self):
+        html = colour_bar(FIELDS["Angle of attack"], -10.0, 10.0)
+        assert "Angle of attack [°]" in html
+        assert "−10<" in html
+        assert tick_text(-0.0) == "0"
+
+
+class TestOutlines:
+    def test_reverse_flow_is_the_analytic_circle(self, forward: Solution):
+        """r = −µ sin ψ is a circle through the hub with its centre µ/2 to port."""
+        mu = 0.3 * math.cos(forward.controls.shaft_tilt)
+        points = reverse_flow_segments(forward).reshape(-1, 2)
+        assert_allclose(np.hypot(points[:, 0], points[:, 1] + mu / 2), mu / 2, rtol=1e-9)
+        assert np.hypot(*points.T).min() >= forward.design.rotor.blade.root_cutout - 1e-12
+        assert points[:, 1].max() < 0.0
+
+    def test_reverse_flow_is_where_the_solver_has_it(self, forward: Solution):
+        disk = forward.disk
+        mu = 0.3 * math.cos(forward.controls.shaft_tilt)
+        inside = disk.r[:, None] < -mu * np.sin(disk.psi)[None, :]
+        assert np.mean(inside != (disk.u_t < 0.0)) < 0.002
+
+    def test_no_outline_in_hover(self, hover: Solution):
+        assert len(reverse_flow_segments(hover)) == 0
+
+    def test_contour_of_a_known_field(self, forward: Solution):
+        """x = r cos ψ crosses 0.4 on a straight line across the disk."""
+        grid = polar_grid(forward.disk, 80, 240)
+        segments = contour(grid, grid.r[:, None] * np.cos(grid.psi)[None, :], 0.4)
+        assert_allclose(segments[..., 0], 0.4, atol=1e-3)
+        assert_allclose(np.abs(segments[..., 1]).max(), math.sqrt(1.0 - 0.16), atol=0.01)
+        length = np.hypot(*np.diff(segments, axis=1)[:, 0].T).sum()
+        assert_allclose(length, 2.0 * math.sqrt(1.0 - 0.16), rtol=0.01)
+
+    def test_contour_closes_over_psi_zero(self, forward: Solution):
+        grid = polar_grid(forward.disk, 80, 240)
+        segments = contour(grid, np.broadcast_to(grid.r[:, None], (80, 240)), 0.6)
+        assert len(segments) == 240
+        assert_allclose(np.hypot(segments[..., 0], segments[..., 1]), 0.6, rtol=1e-9)
+
+    def test_a_uniform_field_has_no_contour(self, forward: Solution):
+        grid = polar_grid(forward.disk, 80, 240)
+        assert len(contour(grid, np.ones((80, 240)), 0.0)) == 0
+
+    def test_stall_line_bounds_the_stalled_part(self):
+        solution = solve(make_design(advance_ratio=0.38)).require()
+        assert solution.stalled_area > 0.02
+        segments = stall_segments(solution)
+        assert len(segments) > 50
+        assert np.isfinite(segments).all()
+
+
+class TestPoses:
+    def test_quaternions_turn_and_compose(self):
+        quarter = about(2, math.pi / 2)
+        assert_allclose(rotate(quarter, np.array([1.0, 0.0, 0.0])), [0.0, 1.0, 0.0], atol=1e-15)
+        both = compose(quarter, about(0, math.pi / 2))
+        assert_allclose(rotate(both, np.array([0.0, 1.0, 0.0])), [0.0, 0.0, 1.0], atol=1e-15)
+
+    def test_blade_points_to_its_azimuth_with_nose_up_leading_edge(self, hover: Solution):
+        controls = replace(hover.controls, coning=0.0, flap_1c=0.0, flap_1s=0.0, collective=0.2)
+        pose = blade_pose(controls, math.pi / 2, 0.4)
+        assert_allclose(rotate(pose.wxyz, np.array([1.0, 0.0, 0.0])), [0.0, 1.0, 0.0], atol=1e-12)
+        leading_edge = rotate(pose.wxyz, np.array([0.0, 1.0, 0.0]))
+        # The advancing blade moves forward (−x) and its nose points up.
+        assert_allclose(leading_edge, [-math.cos(0.2), 0.0, math.sin(0.2)], atol=1e-12)
+        assert_allclose(pose.position, [0.0, 0.4, 0.0], atol=1e-12)
+
+    def test_flapping_follows_each_blade(self, hover: Solution):
+        controls = replace(hover.controls, coning=0.05, flap_1c=-0.03, flap_1s=0.01)
+        for psi, beta in ((0.0, 0.02), (math.pi, 0.08), (math.pi / 2, 0.06)):
+            outward = rotate(blade_pose(controls, psi, 0.0).wxyz, np.array([1.0, 0.0, 0.0]))
+            assert_allclose(math.asin(outward[2]), beta, atol=1e-12)
+
+    def test_coloured_disk_lies_under_the_tips_all_round(self, hover: Solution):
+        controls = replace(hover.controls, coning=0.05, flap_1c=-0.08, flap_1s=0.03)
+        disk = tip_path_pose(controls, DISK_DROP)
+        normal = rotate(disk.wxyz, np.array([0.0, 0.0, 1.0]))
+        for psi in np.linspace(0.0, 2.0 * math.pi, 24):
+            tip = 8.0 * rotate(blade_pose(controls, psi, 0.0).wxyz, np.array([1.0, 0.0, 0.0]))
+            assert_allclose((tip - disk.position) @ normal, 8.0 * 0.05 + DISK_DROP, atol=0.03)
+
+
+class TestPicture:
+    def test_marked_blade_is_first_and_blades_are_evenly_spaced(self, forward: Solution):
+        view = ViewState(azimuth_deg=30.0)
+        picture = make_picture(forward, view, (-4.0, 10.0))
+        azimuths = [math.degrees(math.atan2(p.position[1], p.position[0])) % 360 for p in picture.blades.poses]
+        assert_allclose(azimuths, [30.0, 120.0, 210.0, 300.0], atol=1e-9)
+        assert picture.flight_label == "238 km/h"
+
+    def test_outlines_can_be_switched_off(self, forward: Solution):
+        picture = make_picture(forward, ViewState(reverse_flow=False, stall=False), (-4.0, 10.0))
+        assert len(picture.outlines["reverse_flow"]) == 0
+        assert len(picture.outlines["stall"]) == 0
+        assert len(picture.outlines["drag_divergence"]) > 0
+
+    def test_no_flight_arrow_in_hover(self, hover: Solution):
+        assert make_picture(hover, ViewState(), (-4.0, 10.0)).flight_label == ""
+
+
+def on_canvas(camera: Camera, aspect: float, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Where points are seen: across and up in −1…1 of the canvas, and the camera's right in the world."""
+    forward = camera.look_at - camera.position
+    forward /= np.linalg.norm(forward)
+    right = np.cross(forward, [0.0, 0.0, 1.0])
+    right /= np.linalg.norm(right)
+    seen = points - camera.position
+    tan = math.tan(FIELD_OF_VIEW / 2.0)
+    depth = seen @ forward
+    assert depth.min() > 1.0  # The near plane.
+    return seen @ right / depth / (tan * aspect), seen @ np.cross(right, forward) / depth / tan, right
+
+
+class TestCamera:
+    ASPECTS = (0.6, 0.85, 1.3, 2.2)
+    PSI = np.linspace(0.0, 2.0 * math.pi, 60)
+    RIM = 8.18 * np.stack((np.cos(PSI), np.sin(PSI), np.zeros_like(PSI)), axis=1)
+
+    @pytest.mark.parametrize("aspect", ASPECTS)
+    @pytest.mark.parametrize("view", ["3d", "top"])
+    def test_disk_fills_the_canvas_and_stays_inside(self, view: View, aspect: float):
+        x, y, right = on_canvas(fit(view, 8.18, aspect), aspect, self.RIM)
+        assert_allclose(right, [0.0, 1.0, 0.0], atol=1e-9)  # ψ = 90° at the right.
+        assert 0.7 < max(np.abs(x).max(), np.abs(y).max()) < 1.0
+        assert y[0] < y[30]  # The tail is below the nose.
+
+    @pytest.mark.parametrize("aspect", ASPECTS)
+    def test_from_the_advancing_side_the_nose_is_right_and_the_disk_a_line(self, aspect: float):
+        x, y, right = on_canvas(fit("side", 8.18, aspect), aspect, self.RIM)
+        assert_allclose(right, [-1.0, 0.0, 0.0], atol=1e-9)
+        assert 0.7 < np.abs(x).max() < 1.0
+        assert np.ptp(y) < 0.25 * np.ptp(x) * aspect
+
+    @pytest.mark.parametrize("aspect", ASPECTS)
+    @pytest.mark.parametrize("psi", [0.0, 1.0, 3.0, 5.5])
+    def test_the_marked_blade_fills_the_canvas_wherever_it_is(self, psi: float, aspect: float):
+        r = np.linspace(0.05, 1.0, 12)[:, None] * 8.18
+        ahead = np.array([-math.sin(psi), math.cos(psi), 0.0])
+        blade = r * np.array([math.cos(psi), math.sin(psi), 0.06])  # Coned by 3.4°.
+        points = np.concatenate((blade + 0.15 * ahead, blade - 0.4 * ahead))
+        x, y, _ = on_canvas(fit("blade", 8.18, aspect, psi), aspect, points)
+        assert 0.7 < max(np.abs(x).max(), np.abs(y).max()) < 1.0
+        before, _, _ = on_canvas(fit("blade", 8.18, aspect, 0.0), aspect, points @ _about_z(psi))
+        assert_allclose(x, before, atol=1e-9)  # It rides with the blade.
+
+
+def _about_z(angle: float) -> np.ndarray:
+    """Right-hand factor that turns points back by `angle`."""
+    cos, sin = math.cos(angle), math.sin(angle)
+    return np.array([[cos, -sin, 0.0], [sin, cos, 0.0], [0.0, 0.0, 1.0]])

@@ -1,0 +1,52 @@
+"""The clock: it beats while it plays, tells how long it was, and ends at once, however often it is pressed."""
+
+import threading
+import time
+
+import pytest
+
+from explorer.workers.clock import BEAT, Player
+
+
+def playing(name: str) -> int:
+    return sum(thread.name == name for thread in threading.enumerate())
+
+
+def test_it_tells_the_time_that_has_gone_and_ends_with_pause():
+    steps: list[float] = []
+    enough = threading.Event()
+
+    def step(seconds: float) -> None:
+        steps.append(seconds)
+        if len(steps) == 4:
+            enough.set()
+
+    player, begin = Player(step, "walk"), time.monotonic()
+    assert not player.playing
+    player.play()
+    player.play()  # A second press starts no second clock.
+    assert playing("walk") == 1
+    assert enough.wait(5.0)
+    player.pause()
+    gone = time.monotonic() - begin
+    assert not player.playing
+    assert min(steps) >= 0.9 * BEAT
+    assert sum(steps) <= gone + BEAT
+    count = len(steps)
+    time.sleep(2.5 * BEAT)
+    assert len(steps) <= count + 1  # One may have been under way.
+    assert playing("walk") == 0
+    player.pause()  # Nothing plays: nothing happens.
+
+
+def test_it_ends_when_there_is_nobody_to_walk(caplog: pytest.LogCaptureFixture):
+    def step(seconds: float) -> None:
+        raise RuntimeError(f"gone after {seconds:g} s")
+
+    player = Player(step, "lost")
+    player.play()
+    deadline = time.monotonic() + 5.0
+    while player.playing and time.monotonic() < deadline:
+        time.sleep(0.01)
+    assert not player.playing
+    assert "gone after" in caplog.text

@@ -1,0 +1,261 @@
+"""The probe: the disk's own values, the velocity triangle, the sums of the trim, and the click that sets it."""
+
+import math
+import re
+from dataclasses import replace
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+
+from explorer.charts import svg
+from explorer.picture.pick import pick
+from explorer.picture.picture import DISK_DROP
+from explorer.picture.poses import compose, rotate, rotor_pose, tip_path_pose
+from explorer.tabs.probe.drawing import drawing
+from explorer.tabs.probe.element import Region, probe
+from explorer.tabs.probe.readout import probe_panel
+from rotor.design.presets import FLIGHT_MODELS
+from rotor.files.make_design import make_design
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+SIMPLE = replace(FLIGHT_MODELS, reverse_flow=False, compressibility=False, tip_loss=False)
+CASES = {
+    "hover": make_design("flight", advance_ratio=0.0),
+    "cruise": make_design("flight", advance_ratio=0.2),
+    "fast": make_design("flight", advance_ratio=0.37),
+    "thesis": make_design("thesis", advance_ratio=0.3),
+    "switched off": make_design("flight", advance_ratio=0.3, models=SIMPLE),
+}
+
+
+@pytest.fixture(scope="module", params=CASES)
+def solution(request: pytest.FixtureRequest) -> Solution:
+    return solve(CASES[request.param]).require()
+
+
+@pytest.fixture(scope="module")
+def fast() -> Solution:
+    return solve(CASES["fast"]).require()
+
+
+def stations(solution: Solution) -> list[tuple[int, int]]:
+    rows, columns = solution.disk.u_t.shape
+    return [(i, j) for i in range(0, rows, 3) for j in range(0, columns, 7)] + [(rows - 1, columns - 1)]
+
+
+def test_at_a_station_it_is_what_the_disk_holds(solution: Solution):
+    disk, speed = solution.disk, solution.design.rotor.tip_speed
+    for i, j in stations(solution):
+        p = probe(solution, float(disk.r[i]), float(disk.psi[j]))
+        seen = (p.theta, p.u_t / speed, p.u_p / speed, p.induced / speed, p.mach, p.cl, p.cd, p.cd_mach)
+        fields = (disk.theta, disk.u_t, disk.u_p, disk.induced, disk.mach, disk.cl, disk.cd, disk.cd_mach)
+        assert_allclose(seen, [field[i, j] for field in fields], rtol=1e-14, atol=1e-15)
+        assert_allclose(math.remainder(p.alpha - disk.alpha[i, j], math.tau), 0.0, atol=1e-13)
+        if disk.u_t[i, j] < 0.0:
+            assert p.region is (Region.REVERSE if solution.design.models.reverse_flow else Region.IDLE)
+        else:
+            assert p.stall_margin == pytest.approx(disk.stall_margin[i, j], abs=1e-12)
+            assert (p.region is Region.STALLED) == (disk.stall_margin[i, j] < 0.0)
+
+
+@pytest.mark.parametrize("solution", ["fast", "thesis"], indirect=True)
+def test_its_loads_add_up_to_the_trim(solution: Solution):
+    """Σ over stations of N_b dT = C_T ρA(ΩR)², and of the power likewise, whatever the loss factor took."""
+    design, disk = solution.design, solution.disk
+    rotor = design.rotor
+    cell = rotor.blades * disk.dr * rotor.radius / len(disk.psi)
+    all_of_them = [probe(solution, float(r), float(psi)) for r in disk.r for psi in disk.psi]
+    assert_allclose(cell * sum(p.thrust for p in all_of_them), solution.ct * design.thrust_unit, rtol=1e-12)
+    shaft = (disk.r[:, None] * disk.dcq).sum() * disk.dr / len(disk.psi) * design.power_unit
+    assert_allclose(cell * sum(p.power for p in all_of_them), shaft, rtol=1e-12)
+    torque = cell * sum(p.torque for p in all_of_them)
+    assert_allclose(torque * rotor.angular_speed, shaft, rtol=1e-12)
+
+
+def test_thrust_of_the_annuli_is_the_weight_of_hover():
+    """Outside the code: in hover the shaft stands upright, so the thrust is m g."""
+    solution = solve(CASES["hover"]).require()
+    disk, rotor = solution.disk, solution.design.rotor
+    mean = np.array([probe(solution, float(r), 1.0).thrust for r in disk.r])
+    lifted = rotor.blades * mean.sum() * disk.dr * rotor.radius
+    assert_allclose(lifted, solution.design.condition.weight, rtol=1e-6)
+
+
+@given(r=st.floats(0.14, 1.0), psi=st.floats(-7.0, 14.0))
+def test_the_triangle_closes_anywhere(r: float, psi: float, fast: Solution):
+    root = fast.design.rotor.blade.root_cutout
+    p = probe(fast, max(r, root), psi)
+    assert_allclose(p.u**2, p.u_t**2 + p.u_p**2, rtol=1e-12)
+    assert -math.pi < p.alpha <= math.pi
+    assert_allclose(math.remainder(p.theta - p.phi - p.alpha, math.tau), 0.0, atol=1e-12)
+    # Forces turned from flow to disk and back: one vector.
+    assert_allclose(math.hypot(p.lift, p.drag), math.hypot(p.thrust, p.pull), rtol=1e-12)
+    assert_allclose(p.thrust, p.lift * math.cos(p.phi) - p.drag * math.sin(p.phi), atol=1e-9 * abs(p.lift) + 1e-9)
+    assert p.cd > 0.0
+    assert all(math.isfinite(value) for value in (p.cl, p.lift, p.power, p.m2cn, *p.stall))
+
+
+def test_lift_and_drag_are_the_coefficients_times_the_pressure(fast: Solution):
+    """q c C_l and q c C_d by hand; the dynamic wake takes no loss factor off."""
+    disk, density = fast.disk, fast.design.condition.density
+    for i, j in stations(fast):
+        p = probe(fast, float(disk.r[i]), float(disk.psi[j]))
+        pressure = 0.5 * density * p.u**2 * p.chord
+        assert_allclose((p.lift, p.drag), (pressure * p.cl, pressure * p.cd), rtol=1e-9, atol=1e-9)
+
+
+def test_it_is_periodic_and_smooth_across_the_tail(fast: Solution):
+    before, after = probe(fast, 0.7, math.tau - 1e-6), probe(fast, 0.7, 1e-6)
+    assert_allclose(before.alpha, after.alpha, atol=1e-5)
+    assert probe(fast, 0.7, 0.3 + math.tau).alpha == pytest.approx(probe(fast, 0.7, 0.3).alpha, abs=1e-12)
+
+
+def test_alpha_turns_with_the_flow_not_through_zero(fast: Solution):
+    """Between two stations on both sides of ±180° the mean of the angles is 0°, where the flow never was."""
+    disk = fast.disk
+    sign = np.where(np.arange(len(disk.psi)) % 2 == 0, 1.0, -1.0)
+    behind = np.full(disk.u_t.shape, -0.2)
+    wind = replace(disk, u_t=behind, u_p=0.02 * sign * np.ones_like(behind), theta=np.zeros_like(behind))
+    p = probe(replace(fast, disk=wind), 0.5, float(0.5 * disk.psi[1]))
+    assert_allclose(abs(p.alpha), math.pi)
+    assert p.region is Region.REVERSE
+
+
+def test_an_r_off_the_blade_is_refused(fast: Solution):
+    with pytest.raises(ValueError, match=r"r/R 0\.05 is not on the blade: choose 0\.\d+ … 1"):
+        probe(fast, 0.05, 0.0)
+
+
+class TestPick:
+    @staticmethod
+    def on_disk(solution: Solution, r: float, psi: float) -> np.ndarray:
+        """A point of the drawn disk in the world."""
+        shaft, disk = rotor_pose(solution.controls), tip_path_pose(solution.controls, DISK_DROP)
+        place = r * solution.design.rotor.radius * np.array([math.cos(psi), math.sin(psi), 0.0])
+        inside = disk.position + rotate(disk.wxyz, place)
+        assert_allclose(rotate(compose(shaft.wxyz, disk.wxyz), place) + rotate(shaft.wxyz, disk.position),
+                        rotate(shaft.wxyz, inside), atol=1e-12)  # fmt: skip
+        return rotate(shaft.wxyz, inside)
+
+    @given(
+        r=st.floats(0.15, 0.999),
+        psi=st.floats(0.0, 6.28),
+        eye=st.tuples(st.floats(-30, 30), st.floats(-30, 30), st.floats(6, 60)),
+        stretch=st.floats(0.01, 100.0),
+    )
+    def test_a_ray_through_a_point_finds_it(self, r, psi, eye, stretch, fast: Solution):
+        r = max(r, fast.design.rotor.blade.root_cutout)
+        point = self.on_disk(fast, r, psi)
+        found = pick(fast, eye, stretch * (point - np.array(eye)))
+        assert found is not None
+        assert_allclose(found[0], r, atol=1e-9)
+        assert_allclose(math.remainder(found[1] - psi, math.tau), 0.0, atol=1e-9)
+
+    def test_beside_the_disk_behind_and_edge_on_there_is_nothing(self, fast: Solution):
+        above = np.array([0.0, 0.0, 30.0])
+        for r in (0.02, 1.1):
+            assert pick(fast, above, self.on_disk(fast, r, 1.0) - above) is None
+        assert pick(fast, above, (0.0, 0.0, 1.0)) is None
+        normal = rotate(compose(rotor_pose(fast.controls).wxyz, tip_path_pose(fast.controls, 0.0).wxyz), np.eye(3)[0])
+        assert pick(fast, above, normal) is None
+
+    def test_the_rim_is_not_missed_by_a_pixel(self, fast: Solution):
+        above = np.array([0.0, 0.0, 30.0])
+        found = pick(fast, above, self.on_disk(fast, 1.01, 2.0) - above)
+        assert found is not None
+        assert found[0] == 1.0
+
+
+def numbers_of(text: str) -> list[float]:
+    return [float(number) for number in re.findall(r"-?\d+(?:\.\d+)?", text)]
+
+
+class TestDrawing:
+    PLACES = tuple((r, math.radians(psi)) for r in (0.14, 0.25, 0.4, 0.7, 0.98) for psi in range(0, 360, 36))
+
+    @staticmethod
+    def check_inside(drawn: str) -> None:
+        """Nothing leaves the drawing, words included (taken as 6 px a letter, more than they are)."""
+        root = ElementTree.fromstring(drawn)
+        low_x, low_y, width, height = numbers_of(root.attrib["viewBox"])
+        assert (low_x, low_y, width) == (0.0, 0.0, 312.0)
+        for node in root.iter():
+            if node.tag == "text":
+                reach = 6.0 * len("".join(node.itertext()))
+                share = {"start": 0.0, "middle": 0.5, "end": 1.0}[node.attrib["text-anchor"]]
+                left = float(node.attrib["x"]) - share * reach
+                assert left >= -2.0, ElementTree.tostring(node)
+                assert left + reach <= width + 2.0, ElementTree.tostring(node)
+                assert 7.0 <= float(node.attrib["y"]) <= height + 1.0, ElementTree.tostring(node)
+            elif node.tag == "polygon":
+                points = np.array(numbers_of(node.attrib["points"])).reshape(-1, 2)
+                assert points.min() >= -1.0
+                assert (points.max(axis=0) <= (width + 1.0, height + 1.0)).all(), ElementTree.tostring(node)
+
+    @pytest.mark.parametrize("opened", [False, True])
+    def test_nothing_leaves_the_panel_anywhere_on_the_disk(self, solution: Solution, opened: bool):
+        for r, psi in self.PLACES:
+            panel = probe_panel(probe(solution, max(r, solution.design.rotor.blade.root_cutout), psi), solution, opened)
+            assert "nan" not in panel
+            for drawn in re.findall(r"<svg.*?</svg>", panel):
+                self.check_inside(drawn)
+
+    def test_the_section_stands_at_its_pitch_and_the_wind_at_its_angle(self, fast: Solution):
+        p = probe(fast, 0.75, math.radians(270.0))
+        drawn, scales = drawing(p, 300.0, 8e3)
+        assert scales.angles == 1
+        shape = np.array(numbers_of(re.findall(r'points="([^"]*)"', drawn)[0])).reshape(-1, 2)
+        assert len(shape) == 61  # The outline is the first polygon.
+        nose, tail = shape[30], 0.5 * (shape[0] + shape[-1])
+        pitch = math.atan2(tail[1] - nose[1], tail[0] - nose[0])
+        assert pitch == pytest.approx(p.theta - p.section.installed()[0][0].incidence_offset, abs=math.radians(0.5))
+        reach = math.dist(nose, tail)
+        assert reach == pytest.approx(100.0, rel=0.02)
+
+    def test_in_reverse_flow_the_wind_comes_from_the_trailing_edge(self, fast: Solution):
+        p = probe(fast, 0.25, math.radians(270.0))
+        assert p.region is Region.REVERSE
+        drawn, scales = drawing(p, 300.0, 8e3, opened=True)
+        assert scales.angles == 1  # Large angles stay as they are.
+        wind = next(line for line in re.findall(r"<line[^>]*>", drawn) if 'stroke-width="2.6"' in line)
+        start, end = (float(wind.split(f'{name}="')[1].split('"')[0]) for name in ("x1", "x2"))
+        assert start > end > 180.0  # From the right, ending behind the trailing edge.
+        panel = probe_panel(p, fast)
+        assert "reverse flow" in panel
+        assert "retreating side" in panel
+
+    def test_opened_angles_say_so(self, fast: Solution):
+        p = probe(fast, 0.75, math.radians(90.0))
+        _, scales = drawing(p, 300.0, 8e3, opened=True)
+        assert scales.angles == 3
+        assert "angles ×3" in probe_panel(p, fast, opened=True)
+        assert "angles" not in probe_panel(p, fast)
+
+    def test_the_table_says_what_the_probe_holds(self, fast: Solution):
+        p = probe(fast, 0.75, math.radians(90.0))
+        text = re.sub(r"<[^>]*>", " ", probe_panel(p, fast)).replace("−", "-")
+        for value in (f"{p.u_t:.1f} m/s", f"{p.mach:.3f}", f"{p.cl:.3f}", f"{p.cd:.4f}", f"{p.power / 1e3:.1f} kW/m"):
+            assert value in text
+
+    def test_every_line_explains_itself(self, fast: Solution):
+        panel = probe_panel(probe(fast, 0.75, 1.0), fast)
+        grid = panel.split('<div class="rx-grid">')[1].split("</div></div>")[0]
+        assert grid.count('<div class="rx-line"') == grid.count("title=") == 16
+
+    def test_the_point_lies_on_the_lift_curve(self, fast: Solution):
+        """At a station exactly; between two as near as the stations are."""
+        disk = fast.disk
+        p = probe(fast, float(disk.r[25]), float(disk.psi[17]))
+        assert p.section.lift_curve(np.array([p.alpha]), p.mach)[0] == pytest.approx(p.cl, abs=1e-9)
+        q = probe(fast, float(disk.r[25] + 0.4 * disk.dr), float(disk.psi[17] + 0.01))
+        assert q.section.lift_curve(np.array([q.alpha]), q.mach)[0] == pytest.approx(q.cl, abs=2e-3)
+
+    def test_words_keep_their_distance_and_their_order(self):
+        placed = svg.spread([10.0, 11.0, 40.0, 9.0], 12.0)
+        assert placed[3] < placed[0] < placed[1] < placed[2] == 40.0
+        assert min(np.diff(sorted(placed))) > 11.5

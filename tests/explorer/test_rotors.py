@@ -1,0 +1,161 @@
+"""The page with any rotor: menu, weights, files brought one after another, pictures with its own blades."""
+
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from test_rotor_file import GOOD, polar_file
+
+from explorer.picture.picture import turned_blades
+from explorer.pinned import Pinboard, Pinned
+from explorer.rotor_choice import OWN, mass_range, menu_titles, reference_mass_t
+from explorer.sharing import share
+from explorer.state import Inputs, ViewState, baseline_of, inputs_of, with_optimum, with_rotor
+from explorer.tabs.rotors.shelf import SUFFIXES, Shelf
+from explorer.text.naming import twist_name
+from explorer.text.readout import ideal_line, power_panel
+from rotor.airfoil.polars import read_polars
+from rotor.assets import SHIPPED_ROTORS, asset_path
+from rotor.dynamics.structure import check_blade
+from rotor.files.design_file import case_of, parse_case
+from rotor.files.shipped import shipped_aircraft
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+R22 = with_rotor(Inputs(), "r22")
+DECK = asset_path("airfoils/naca0012.c81").read_bytes()
+NAMES_DECK = (GOOD.replace('"naca0012"', '"mine"') + '\n[sections.mine]\ndeck = "mine.c81"\n').encode()
+
+
+@pytest.fixture(scope="module")
+def r22() -> Solution:
+    return solve(R22.design()).require()
+
+
+def test_the_weight_slider_is_about_the_reference_mass():
+    assert mass_range(shipped_aircraft("uh60a")) == (5.0, 11.0, 0.05)
+    for name in SHIPPED_ROTORS:
+        craft = shipped_aircraft(name)
+        low, high, step = mass_range(craft)
+        assert low < reference_mass_t(craft) < high
+        assert_allclose(reference_mass_t(craft), craft.mass / 1e3, atol=step)
+        assert_allclose([low / step, high / step], np.round([low / step, high / step]), atol=1e-6)
+
+
+def test_another_rotor_comes_as_it_is_built():
+    inputs = with_rotor(Inputs(advance_ratio=0.3, altitude_m=1000.0, law="found", airfoils="sc1095"), "s61")
+    assert (inputs.law, inputs.airfoils, inputs.advance_ratio, inputs.altitude_m) == ("builtin", "", 0.3, 1000.0)
+    design = inputs.design()
+    assert design.aircraft is shipped_aircraft("s61")
+    assert_allclose(design.condition.mass, 8620.0)
+    assert baseline_of(design) == design
+    assert inputs_of(design) == with_rotor(Inputs(advance_ratio=0.3, altitude_m=1000.0), "s61")
+    assert twist_name(inputs) == "Sikorsky S-61, Built-in"
+    assert twist_name(Inputs(law="builtin")) == "Built-in"
+
+
+def test_ones_own_rotor_stays_in_the_menu():
+    craft = Shelf().take("my.toml", GOOD.encode()).aircraft
+    inputs = with_rotor(Inputs(), OWN, craft)
+    assert inputs.aircraft is craft
+    assert list(menu_titles(craft).values()) == ["UH-60A", "Robinson R22", "Sikorsky S-61", "Test rotor (own)"]
+    back = with_rotor(inputs, "uh60a")
+    assert back.own_rotor is craft
+    assert back.aircraft is shipped_aircraft("uh60a")
+    assert with_rotor(back, OWN).design() == inputs.design()
+    assert with_optimum(inputs, replace(inputs.design(), twist=inputs.design().twist)).rotor == OWN
+
+
+def test_designs_of_other_rotors_in_addresses_and_files():
+    code = share.code_of(R22.design())
+    assert code == "1;linear:-8;rotor=r22;mass=621"
+    assert share.inputs_from(code) == R22
+    with pytest.raises(ValueError, match=r"Weight \[t\] is 8\.32, outside this page's 0\.37"):
+        share.within(replace(R22, mass_t=8.32))
+    own = with_rotor(Inputs(), OWN, Shelf().take("my.toml", GOOD.encode()).aircraft)
+    with pytest.raises(ValueError, match="A rotor of your own fits in no address: save it as a design file"):
+        share.code_of(own.design())
+    read = parse_case(json.dumps(case_of(own.design())).encode(), "mine.json")
+    assert inputs_of(read) == own
+    assert share.inputs_from(share.KEPT, json.dumps(case_of(own.design()))) == own
+    for kept in (None, "{", '{"rotor": 1}'):
+        with pytest.raises(ValueError, match=r"sender's own|cannot be read|rotor"):
+            share.inputs_from(share.KEPT, kept)
+
+
+class TestShelf:
+    def test_files_come_in_any_order(self):
+        first = Shelf()
+        assert first.take("mine.c81", DECK).aircraft is None
+        craft = first.take("my.toml", NAMES_DECK).aircraft
+        assert craft is not None
+        later = Shelf()
+        arrival = later.take("my.toml", NAMES_DECK)
+        assert arrival.aircraft is None
+        assert arrival.sentence == "my.toml is kept and waits for mine.c81: load that next."
+        assert later.take("mine.c81", DECK).aircraft == craft
+
+    def test_polars_and_windows_line_ends(self):
+        polar = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars[2]
+        toml = GOOD.replace('"naca0012"', '"mine"') + '\n[sections.mine]\npolars = "p.txt"\noutline = "naca0012"\n'
+        shelf = Shelf()
+        shelf.take("p.txt", polar_file(polar).replace("\n", "\r\n").encode())
+        craft = shelf.take("my.toml", toml.encode("utf-8-sig")).aircraft
+        assert craft is not None
+        assert len(craft.remarks) == 1
+
+    @pytest.mark.parametrize(
+        ("name", "content", "says"),
+        [
+            ("photo.png", b"\x89PNG", "photo.png is none of .toml, .c81"),
+            ("my.toml", b"\xff\xfe\x00", "my.toml is no UTF-8 text"),
+            ("my.toml", b"x" * 2_000_001, "my.toml has 2.0 MB: a rotor's files have 2 MB at most"),
+            ("my.toml", GOOD.replace("radius_m = 5.0", "radius_m = -5.0").encode(), "my.toml, line 5: radius_m is -5"),
+            ("my.toml", b"name = \n", "my.toml, line 1: this is no TOML"),
+            ("mine.c81", DECK[:5000], "mine.c81, line 79"),
+            ("p.txt", b"hello", "p.txt is no XFOIL polar file"),
+            ("shape.dat", b"1 0\n0 0\n", "shape.dat has 2 points"),
+        ],
+    )
+    def test_bad_files_leave_the_shelf_as_it_was(self, name: str, content: bytes, says: str):
+        shelf = Shelf({"kept.c81": "text"})
+        with pytest.raises(ValueError, match=r"\.") as caught:
+            shelf.take(name, content)
+        assert says in str(caught.value)
+        assert (shelf.texts, shelf.waiting) == ({"kept.c81": "text"}, None)
+        assert all(suffix.startswith(".") for suffix in SUFFIXES)
+
+
+def test_the_picture_has_the_rotors_own_blades(r22: Solution):
+    blades = turned_blades(r22, ViewState(azimuth_deg=60.0))
+    assert len(blades.poses) == 2
+    one, other = (pose.position for pose in blades.poses)
+    assert_allclose(one, -other, atol=1e-12)
+
+
+def test_read_outs_name_the_rotor_and_leave_out_a_bound_that_is_anothers(r22: Solution):
+    html = power_panel(r22, solve(baseline_of(r22.design)))
+    assert "against Robinson R22 twist" in html
+    assert "ideal: not computed for this rotor" in ideal_line(r22, None)
+    assert f"{r22.power.total / 1e3:.1f} kW" in html  # A light one is told to a tenth.
+
+
+def test_a_pinned_design_of_another_rotor_keeps_its_own_flight(r22: Solution):
+    board = Pinboard()
+    other = Inputs(law="builtin")
+    board.pin(Pinned(other, solve(other.design()).require()))
+    answer = board.solve(r22.design, along=True)
+    assert answer is not None
+    assert answer.design.condition.mass == pytest.approx(8320.0)
+    assert board.pinned is not None
+    assert board.pinned.sliders(R22, along=True) == other
+
+
+def test_actuators_are_for_the_blade_whose_structure_is_known():
+    check_blade(shipped_aircraft("uh60a"))
+    with pytest.raises(ValueError, match="structure of the Robinson R22 blade is not known: actuators are worked out"):
+        check_blade(shipped_aircraft("r22"))
+    assert math.isfinite(R22.speed_kt)

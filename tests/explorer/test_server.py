@@ -1,0 +1,241 @@
+"""The server without a browser: start, addresses, errors in one sentence, private names of viser."""
+
+import io
+import signal
+import socket
+import subprocess
+import sys
+import urllib.request
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+import viser
+from PIL import Image
+from viser import _messages
+
+from explorer import __main__ as command
+from explorer.app import App, PortBusy
+from explorer.hosting import viser_compat
+from explorer.picture import disk_image
+from explorer.picture.picture import make_picture
+from explorer.scene.scene import Scene
+from explorer.sliders import SLIDERS
+from explorer.state import LAWS, NOT_ALWAYS, Inputs, ViewState, with_optimum
+from explorer.tabs.controls import Controls
+from explorer.text.units import SI
+from rotor.files.make_design import make_design, uh60a_rotor
+from rotor.optimisation.concepts import CONCEPTS
+from rotor.trim.solve import solve
+
+ROOT = Path(__file__).parent.parent.parent
+
+
+@pytest.fixture
+def server() -> Iterator[viser.ViserServer]:
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    yield server
+    server.stop()
+
+
+@pytest.fixture
+def controls(server: viser.ViserServer) -> Controls:
+    return Controls(server.gui, Inputs(), lambda: None, view=ViewState())
+
+
+def free_port() -> int:
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+class TestApp:
+    def test_serves_the_page_on_this_machine_only(self):
+        app = App("127.0.0.1", 0)
+        try:
+            assert app.address.startswith("http://127.0.0.1:")
+            with urllib.request.urlopen(app.address, timeout=10) as answer:
+                assert b"<html" in answer.read().lower()
+        finally:
+            app.stop()
+
+    def test_prints_nothing_of_its_own(self, capsys: pytest.CaptureFixture[str]):
+        app = App("127.0.0.1", 0)
+        app.stop()
+        assert capsys.readouterr().out == ""
+
+    def test_a_busy_port_is_one_sentence(self):
+        with socket.socket() as taken:
+            taken.bind(("127.0.0.1", 0))
+            taken.listen()
+            port = taken.getsockname()[1]
+            with pytest.raises(PortBusy, match=rf"127\.0\.0\.1:{port} cannot be used .*: choose another with --port"):
+                App("127.0.0.1", port)
+
+    def test_nobody_can_ask_for_a_public_tunnel(self):
+        app = App("127.0.0.1", 0)
+        try:
+            handlers = app.server._websock_server._incoming_handlers
+            assert not handlers.get(_messages.ShareUrlRequest)
+            assert not handlers.get(_messages.ShareUrlDisconnect)
+        finally:
+            app.stop()
+
+
+class TestCommand:
+    def test_busy_port_exits_2_with_one_line(self, capsys: pytest.CaptureFixture[str]):
+        with socket.socket() as taken:
+            taken.bind(("127.0.0.1", 0))
+            taken.listen()
+            assert command.main(["--port", str(taken.getsockname()[1]), "--no-browser"]) == 2
+        assert capsys.readouterr().err.count("\n") == 1
+
+    def test_missing_design_exits_2_with_one_line(self, capsys: pytest.CaptureFixture[str], tmp_path: Path):
+        assert command.main(["--design", str(tmp_path / "none.json"), "--no-browser"]) == 2
+        error = capsys.readouterr().err
+        assert error.count("\n") == 1
+        assert "none.json" in error
+
+    @pytest.mark.parametrize("port", ["x", "-1", "70000"])
+    def test_a_port_that_is_none_is_refused(self, port: str, capsys: pytest.CaptureFixture[str]):
+        with pytest.raises(SystemExit) as caught:
+            command.main(["--port", port])
+        assert caught.value.code == 2
+        assert "is not a port" in capsys.readouterr().err
+
+    @pytest.mark.parametrize(("host", "lines"), [("127.0.0.1", 0), ("0.0.0.0", 2)])
+    def test_who_opens_the_server_to_others_is_warned(
+        self, host: str, lines: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    ):
+        class Started:
+            address = "http://somewhere"
+
+            def __init__(self, *_: object) -> None: ...
+
+            def settle(self) -> None:
+                raise KeyboardInterrupt
+
+            def stop(self) -> None: ...
+
+        monkeypatch.setattr("explorer.app.App", Started)
+        monkeypatch.setattr(signal, "signal", lambda *_: None)
+        assert command.main(["--host", host, "--no-browser"]) == 0
+        said = capsys.readouterr()
+        assert said.err.count("\n") == lines
+        assert ("reverse proxy" in said.err) == (lines > 0)
+
+    @pytest.mark.slow
+    def test_prints_its_address_and_ends_cleanly_on_interrupt(self):
+        process = subprocess.Popen(
+            [sys.executable, "-m", "explorer", "--port", str(free_port()), "--no-browser"],
+            cwd=ROOT,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            # Tests that run in the background ignore the interrupt, and would hand that on.
+            preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
+        )
+        try:
+            assert process.stdout is not None
+            printed = ""
+            while "http://127.0.0.1:" not in printed.partition("Rotor explorer")[2]:
+                line = process.stdout.readline()
+                assert line, "ended without printing its address"
+                printed += line
+            process.send_signal(signal.SIGINT)
+            _, error = process.communicate(timeout=60)
+        finally:
+            process.kill()
+        assert process.returncode == 0
+        assert "Traceback" not in error
+
+
+class TestControls:
+    def test_widgets_start_as_the_inputs(self, controls: Controls):
+        assert controls.inputs() == Inputs()
+        assert controls.display.view() == ViewState()
+
+    @pytest.mark.parametrize("law", [law for law in LAWS if law not in NOT_ALWAYS])
+    def test_inputs_go_through_the_widgets_unchanged(self, controls: Controls, law: str):
+        wanted = Inputs(law=law, advance_ratio=0.31, mass_t=9.1, altitude_m=1500.0, linear=-7.5, flapping=False)
+        controls.set_inputs(wanted)
+        assert controls.inputs() == wanted
+
+    def test_an_optimum_that_no_law_holds_joins_the_menu(self, controls: Controls):
+        design = CONCEPTS["free-form"].apply(make_design(), [0.2, 0.1, 0.05, 0.03, -0.03, -0.06])
+        wanted = with_optimum(Inputs(mass_t=9.0), design)
+        controls.set_inputs(wanted)
+        assert controls.inputs() == wanted
+        assert controls.inputs().design().twist == design.twist
+        controls.set_inputs(Inputs())
+        assert controls.inputs().design() == Inputs().design()
+
+    @pytest.mark.parametrize("name", CONCEPTS)
+    def test_an_optimum_on_the_sliders_means_the_same_blade(self, name: str):
+        concept = CONCEPTS[name]
+        middle = [0.6 * p.low + 0.4 * p.high for p in concept.parameters]
+        design = concept.apply(make_design(), middle)
+        applied = with_optimum(Inputs(), design).design()
+        assert applied.rotor == design.rotor
+        r = np.linspace(0.13, 1.0, 50)
+        np.testing.assert_allclose(applied.twist(r), design.twist(r), atol=2e-6)
+
+    def test_only_the_sliders_of_the_law_show(self, controls: Controls):
+        controls.refresh(Inputs(law="two"), SI)
+        shown = {name for name in SLIDERS if controls._inputs[name].visible}
+        assert shown == {"two_inner", "two_outer", "two_division", "advance_ratio", "mass_t", "altitude_m"}
+
+    def test_every_slider_holds_its_default(self):
+        for name, slider in SLIDERS.items():
+            assert slider.low <= getattr(Inputs(), name) <= slider.high
+
+
+class TestScene:
+    def test_a_frame_is_assigned_not_made_anew(self, server: viser.ViserServer):
+        scene = Scene(server.scene, uh60a_rotor("flight"))
+        handles = dict(server.scene._handle_from_node_name)
+        for preset, mu in (("flight", 0.0), ("flight", 0.3), ("thesis", 0.2)):
+            solution = solve(make_design(preset, advance_ratio=mu))
+            scene.show(make_picture(solution, ViewState(), (-4.0, 10.0)))
+        assert dict(server.scene._handle_from_node_name) == handles
+
+    def test_twist_and_field_reach_the_handles(self, server: viser.ViserServer):
+        scene = Scene(server.scene, uh60a_rotor("flight"))
+        seen = []
+        for twist in ("linear:-4", "linear:-14"):
+            solution = solve(make_design(twist=twist))
+            scene.show(make_picture(solution, ViewState(), (-4.0, 10.0)))
+            seen.append((scene._blades[0].vertices.copy(), scene._image._data))
+        assert not np.array_equal(seen[0][0], seen[1][0])
+        assert seen[0][1] != seen[1][1]
+
+    def test_a_lost_answer_hides_the_outlines(self, server: viser.ViserServer):
+        scene = Scene(server.scene, uh60a_rotor("flight"))
+        solution = solve(make_design(advance_ratio=0.3))
+        scene.show(make_picture(solution, ViewState(), (-4.0, 10.0)))
+        assert scene._outlines["reverse_flow"][0].visible
+        scene.fade(b"")
+        assert not scene._outlines["reverse_flow"][0].visible
+
+
+class TestViserCompat:
+    """Each private name leaned on; when viser changes one, the pin may not move."""
+
+    def test_an_encoded_png_is_assigned_as_it_is(self, server: viser.ViserServer):
+        handle = server.scene.add_image("/x", np.zeros((2, 2, 4), dtype=np.uint8), 1.0, 1.0, format="png")
+        png = disk_image.encode_png(np.zeros((4, 4), dtype=np.uint8), disk_image.palette("diverging", False))
+        viser_compat.set_png(handle, png)
+        assert handle._data == png
+        assert Image.open(io.BytesIO(png)).size == (4, 4)
+
+    def test_share_handlers_are_there_to_be_removed(self, server: viser.ViserServer):
+        assert server._websock_server._incoming_handlers[_messages.ShareUrlRequest]
+        viser_compat.remove_share_tunnel(server)
+        assert not server._websock_server._incoming_handlers.get(_messages.ShareUrlRequest)
+
+    def test_javascript_message_exists(self):
+        assert _messages.RunJavascriptMessage("1").source == "1"
+
+    def test_version_is_the_pinned_one(self):
+        assert viser.__version__ == "1.1.1"

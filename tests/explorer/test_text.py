@@ -1,0 +1,352 @@
+"""The page's numbers, words and charts, without a server: inputs, read-outs, plots, worker."""
+
+import math
+import re
+import threading
+import time
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from explorer.charts import plots
+from explorer.charts.power_curve import PowerCurves
+from explorer.state import LAWS, Inputs, baseline_of, baseline_title, inputs_of, preset_inflow
+from explorer.text import readout
+from explorer.text.status import provenance, status_panel
+from explorer.text.units import number
+from explorer.workers.newest_wins import LatestWins
+from explorer.workers.solver import with_vortex_wake
+from rotor.aero.switches import SWITCHES, switched_off
+from rotor.analysis.sweep import at_advance_ratio
+from rotor.design.design import Design
+from rotor.design.presets import PRESETS
+from rotor.design.twist import TableTwist
+from rotor.files.make_design import make_design
+from rotor.trim.solution import Caveat, Solution, Status
+from rotor.trim.solve import solve
+
+
+@pytest.fixture(scope="module")
+def forward() -> Solution:
+    return solve(make_design(advance_ratio=0.2)).require()
+
+
+class TestInputs:
+    @pytest.mark.parametrize("law", [law for law in LAWS if law != "given"])
+    @pytest.mark.parametrize("preset", PRESETS)
+    def test_every_law_makes_a_design_and_comes_back(self, law: str, preset: str):
+        inputs = Inputs(preset=preset, law=law, inflow=preset_inflow(preset))
+        design = inputs.design()
+        again = inputs_of(design).design()
+        assert again.twist.spec() == design.twist.spec()
+        assert again.condition == design.condition
+        assert again.models == design.models
+
+    def test_degrees_and_tonnes_end_here(self):
+        design = Inputs(law="linear", linear=-9.0, mass_t=7.5, altitude_m=1200.0, advance_ratio=0.25).design()
+        r = np.array([0.25, 0.75])
+        assert_allclose(np.degrees(design.twist(r)), [4.5, 0.0], atol=1e-12)
+        assert design.condition.mass == 7500.0
+        assert design.condition.altitude == 1200.0
+
+    def test_every_switch_of_the_physics_reaches_the_models(self):
+        for name in SWITCHES:
+            inputs = replace(Inputs(), **{name: False})
+            assert [switch.name for switch in switched_off(inputs.design().models)] == [name]
+            assert inputs_of(inputs.design()) == inputs
+
+    def test_crossed_divisions_are_one_sentence(self):
+        with pytest.raises(ValueError, match=r"divisions at 0\.8 and 0\.4 R are out of order") as caught:
+            Inputs(law="three", three_first=0.8, three_second=0.4).design()
+        assert "\n" not in str(caught.value)
+
+    def test_a_twist_from_a_file_stays_what_it_is(self):
+        table = TableTwist((0.2, 1.0), (0.1, -0.05), "table:mine.txt")
+        inputs = inputs_of(replace(make_design(), twist=table))
+        assert inputs.law == "given"
+        assert inputs.design().twist == table
+
+    def test_baselines(self):
+        assert baseline_of(Inputs(law="linear").design()).twist.spec() == "uh60a"
+        assert baseline_of(Inputs(preset="thesis").design()).twist.spec() == "linear:-16"
+        assert baseline_title(make_design("thesis")) == "linear −16°"
+
+
+class TestReadout:
+    def test_numbers(self):
+        assert number(1234.4) == "1\u2009234"
+        assert number(-2.345, 2) == "−2.35" or number(-2.345, 2) == "−2.34"
+        assert number(3.0, 1, sign=True) == "+3.0"
+        assert number(-0.004, 1, sign=True) == "0.0"
+
+    @pytest.mark.parametrize("value", [None, math.nan, math.inf, -math.inf])
+    def test_what_is_no_number_is_a_dash(self, value: float | None):
+        assert number(value) == "–"
+
+    def test_power_and_its_parts(self, forward: Solution):
+        html = readout.power_panel(forward, forward)
+        total = number(forward.power.total / 1e3)
+        assert f">{total} kW<" in html
+        assert number(forward.power.total / 745.699872) + " hp" in html
+        for title in ("Induced", "Profile", "Parasite", "Tail rotor", "against UH-60A twist"):
+            assert title in html
+        assert ">0.0 %<" in html
+
+    def test_change_against_the_baseline(self, forward: Solution):
+        dearer = replace(
+            forward, power=replace(forward.power, profile=forward.power.profile + 0.1 * forward.power.total)
+        )
+        assert "+10.0 %" in readout.power_panel(dearer, forward)
+        assert re.search(r"−9\.1 %", readout.power_panel(forward, dearer))
+
+    def test_no_change_against_a_baseline_that_did_not_trim(self, forward: Solution):
+        lost = replace(forward, status=Status.NOT_CONVERGED)
+        assert 'data-explorer="change"' not in readout.power_panel(forward, lost)
+
+    def test_hover_has_a_figure_of_merit_and_flight_a_lift_to_drag(self, forward: Solution):
+        hover = solve(make_design(advance_ratio=0.0))
+        assert "Figure of merit" in readout.trim_panel(hover)
+        assert "Rotor L/De" in readout.trim_panel(forward)
+        assert "0.77" in readout.trim_panel(hover)
+
+    def test_status_says_every_caveat_and_escapes(self, forward: Solution):
+        noted = replace(forward, caveats=(Caveat("a", "Read <this> with care."), Caveat("b", "And that.")))
+        html = status_panel(noted)
+        assert "Read &lt;this&gt; with care." in html
+        assert "And that." in html
+        assert 'data-kind="converged"' in html
+
+    def test_not_converged_is_a_red_sentence(self, forward: Solution):
+        lost = replace(forward, status=Status.NOT_CONVERGED, message="Not trimmed: too heavy.")
+        html = status_panel(lost)
+        assert 'data-kind="problem"' in html
+        assert "Not trimmed: too heavy. In grey" in html
+        assert "choose less. In grey" in status_panel(None, "too much: choose less")
+
+    def test_provenance_names_preset_inflow_sections_and_kind(self, forward: Solution):
+        html = provenance(forward)
+        for words in ("flight", "SC1095 / SC1094 R8", "40 × 120", "not a measurement"):
+            assert words in html
+        assert "annulus balance" in provenance(solve(make_design(advance_ratio=0.0)))
+
+    def test_nothing_that_is_no_number_reaches_the_screen(self, forward: Solution):
+        broken = replace(
+            forward,
+            power=replace(forward.power, induced=math.nan),
+            controls=replace(forward.controls, collective=math.nan),
+            ct=math.inf,
+        )
+        for html in (readout.power_panel(broken, forward), readout.trim_panel(broken), provenance(broken)):
+            assert not re.search(r"\b(nan|inf)\b", html, re.IGNORECASE)
+
+    def test_kappa_and_the_bound_beside_it(self, forward: Solution):
+        html = readout.power_panel(forward, None)
+        assert f'data-explorer="kappa">{forward.induced_power_factor:.2f}' in html
+        assert "ideal <b>" in html
+        ideal = readout.ideal_induced(forward)
+        assert ideal is not None
+        assert 0.5 * forward.power.induced < ideal < forward.power.induced
+        fast = solve(make_design(advance_ratio=0.43, mass=6000.0)).require()
+        assert readout.ideal_induced(fast) is None
+        assert "not settled" in readout.power_panel(fast, None)
+
+    def test_check_with_the_vortex_wake(self, forward: Solution):
+        assert "computing" in readout.check_panel(None, forward)
+        reference = solve(with_vortex_wake(forward.design)).require()
+        assert f"{reference.power.total / 1e3:,.0f}".replace(",", "\u2009") in readout.check_panel(reference, forward)
+        lost = replace(reference, status=Status.NOT_CONVERGED, message="Not trimmed: no.")
+        assert "Not trimmed: no." in readout.check_panel(lost, forward)
+        hover = make_design(advance_ratio=0.0)
+        assert with_vortex_wake(hover) == hover
+
+    def test_speed_in_knots(self):
+        assert "180 km/h · 50.0 m/s · 97 kt" in readout.speed_line(50.0)
+        assert "hover" in readout.speed_line(0.0)
+
+
+class TestPlots:
+    def curve(self) -> plots.PowerCurve:
+        values = np.linspace(900.0, 2000.0, len(plots.SWEEP))
+        return plots.PowerCurve(values, values + 10.0, values - 50.0)
+
+    def test_hover_stands_alone(self):
+        """No line between µ 0 and 0.075: two models, and neither is trusted between."""
+        plot = plots.power_plot(self.curve(), 0.05, 1000.0, None)
+        x, ideal, _, _, line, _, _, hover, now = plot.data
+        assert np.isnan(line[x < 0.075]).all()
+        assert np.isfinite(line[x >= 0.075]).all()
+        assert (ideal[x >= 0.075] < line[x >= 0.075]).all()
+        assert np.isfinite(hover).tolist() == (x == 0.0).tolist()
+        assert now[x == 0.05] == 1000.0
+
+    def test_the_present_point_is_an_abscissa(self):
+        x, *_, now = plots.power_plot(self.curve(), 0.2137, 1234.0, None).data
+        assert (np.diff(x) > 0).all()
+        assert now[np.isfinite(now)].tolist() == [1234.0]
+        assert x[np.isfinite(now)].tolist() == [0.2137]
+
+    def test_ranges_are_held(self):
+        first = plots.held_range(None, 0.0, 2300.0)
+        assert first[0] == 0.0
+        assert first[1] >= 2300.0
+        assert plots.held_range(first, 0.0, 2000.0) == first
+        assert plots.held_range(first, 0.0, 1.02 * first[1]) != first
+        assert plots.held_range(first, 0.0, 500.0)[1] < first[1]
+        assert plots.held_range(first, math.nan, math.nan) == first
+
+    def test_angle_of_attack_has_a_gap_in_reverse_flow(self):
+        solution = solve(make_design(advance_ratio=0.35)).require()
+        r, lower, upper, alpha = plots.alpha_plot(solution, 270.0).data[:4]
+        assert np.isnan(alpha[r < 0.3]).all()
+        assert np.isfinite(alpha[r > 0.4]).all()
+        assert np.isnan(lower[r < 0.3]).all()
+        assert np.isnan(upper[r < 0.3]).all()
+        assert np.isfinite(plots.alpha_plot(solution, 90.0).data[3]).all()
+
+    def test_azimuth_closes(self, forward: Solution):
+        first, last = (plots.alpha_plot(forward, psi).data[3] for psi in (0.0, 360.0))
+        assert_allclose(first, last, rtol=1e-12)
+
+    def test_stall_limit_lies_above_an_unstalled_blade(self, forward: Solution):
+        r, lower, upper, alpha = plots.alpha_plot(forward, 60.0).data[:4]
+        assert (upper > alpha).all()
+        assert (lower < alpha).all()
+        assert 10.0 < upper[r.searchsorted(0.4)] < 16.0
+
+    def test_twist_in_degrees(self):
+        design = Inputs(law="linear", linear=-10.0).design()
+        r, baseline, _, twist = plots.twist_plot(design, baseline_of(design), None).data
+        assert_allclose(twist, -10.0 * (r - 0.75), atol=1e-12)
+        assert baseline.max() == pytest.approx(9.6, abs=0.2)
+
+
+class TestPowerCurves:
+    def test_sweep_matches_single_solves(self):
+        design = Inputs(law="linear", linear=-8.0).design()
+        curves = PowerCurves()
+        assert np.isnan(curves.known(design, baseline_of(design)).design).all()
+        assert curves.sweep(design, baseline_of(design), lambda: False)
+        k = plots.SWEEP.index(0.2)
+        known = curves.known(design, baseline_of(design))
+        assert_allclose(known.design[k], solve(design).power.total / 1e3, rtol=1e-6)
+        assert_allclose(known.reference[k], solve(baseline_of(design)).power.total / 1e3, rtol=1e-6)
+
+    @pytest.mark.slow
+    def test_speed_does_not_make_a_new_curve(self):
+        design = Inputs(advance_ratio=0.2).design()
+        curves = PowerCurves()
+        curves.sweep(design, baseline_of(design), lambda: False)
+        faster = Inputs(advance_ratio=0.3).design()
+        assert np.isfinite(curves.known(faster, baseline_of(faster)).design[1:10]).all()
+
+    def test_beyond_the_rotor_the_sweep_ends(self, monkeypatch: pytest.MonkeyPatch):
+        """A trim that fails is slow to fail: two in a row are enough, one in haste."""
+        asked: list[float] = []
+
+        def failing(design: Design, start: Solution | None) -> Solution:
+            asked.append(design.condition.advance_ratio)
+            answer = solve(design, start)
+            return replace(answer, status=Status.NOT_CONVERGED) if asked[-1] > 0.26 else answer
+
+        monkeypatch.setattr("explorer.charts.power_curve.solve", failing)
+        design = Inputs(law="linear", linear=-8.0).design()
+        curves = PowerCurves(haste=math.inf)
+        curves.sweep(design, design, lambda: True)
+        assert asked[-2:] == [0.225, 0.3]
+        curves.sweep(design, design, lambda: False)
+        assert asked[-3:] == [0.25, 0.275, 0.3]
+        assert np.isfinite(curves.known(design, design).design[1:9]).all()
+        assert np.isnan(curves.known(design, design).design[9:]).all()
+
+    def test_a_drag_never_starves_the_curve_but_gives_way_to_input(self):
+        curves = PowerCurves(haste=math.inf)
+        design = Inputs(law="linear", linear=-8.0).design()
+        assert curves.sweep(design, baseline_of(design), lambda: True)  # Old enough: swept coarsely.
+        following = Inputs(law="linear", linear=-9.0).design()
+        assert not curves.sweep(following, baseline_of(following), lambda: True)  # Fresh enough: given up.
+        assert np.isfinite(curves.known(following, baseline_of(following)).design[1:10]).all()  # The one before stays.
+
+    @pytest.mark.slow
+    def test_a_coarse_curve_is_swept_again_when_there_is_time(self):
+        curves = PowerCurves(haste=math.inf)
+        design = Inputs(law="linear", linear=-8.0).design()
+        curves.sweep(design, baseline_of(design), lambda: True)
+        coarse = curves.known(design, baseline_of(design)).design
+        curves.sweep(design, baseline_of(design), lambda: False)
+        fine = curves.known(design, baseline_of(design)).design
+        k = plots.SWEEP.index(0.15)
+        assert_allclose(coarse[1:14], fine[1:14], rtol=0.03)
+        assert coarse[k] != fine[k]
+        assert_allclose(fine[k], solve(at_advance_ratio(design, 0.15)).power.total / 1e3, rtol=1e-6)
+
+    def test_on_a_busy_machine_frames_come_first(self):
+        curves = PowerCurves(haste=0.0)
+        design = Inputs(law="linear", linear=-8.0).design()
+        assert not curves.sweep(design, baseline_of(design), lambda: True)
+
+
+class TestLatestWins:
+    def test_works_on_the_newest_and_never_queues(self):
+        state, seen, gate, begun = [0], [], threading.Event(), threading.Event()
+
+        def job(superseded) -> None:
+            seen.append(state[0])
+            begun.set()
+            gate.wait(5.0)
+
+        worker = LatestWins(job, lambda error: None, "test")
+        worker.start()
+        worker.wake()
+        assert begun.wait(5.0)
+        for value in range(1, 50):
+            state[0] = value
+            worker.wake()
+        gate.set()
+        deadline = time.monotonic() + 5.0
+        while len(seen) < 2 and time.monotonic() < deadline:
+            time.sleep(0.005)
+        time.sleep(0.05)
+        worker.stop()
+        assert seen == [0, 49]
+
+    def test_a_job_learns_that_it_is_superseded(self):
+        answers: list[bool] = []
+        running, finish = threading.Event(), threading.Event()
+
+        def job(superseded) -> None:
+            if not answers:
+                answers.append(superseded())
+                running.set()
+                finish.wait(5.0)
+                answers.append(superseded())
+
+        worker = LatestWins(job, lambda error: None, "test")
+        worker.start()
+        worker.wake()
+        assert running.wait(5.0)
+        worker.wake()
+        finish.set()
+        worker.stop()
+        assert answers[:2] == [False, True]
+
+    def test_an_error_is_reported_and_survived(self):
+        errors: list[Exception] = []
+        done = threading.Event()
+
+        def job(superseded) -> None:
+            if not errors:
+                raise RuntimeError("broken")
+            done.set()
+
+        def report(error: Exception) -> None:
+            errors.append(error)
+            worker.wake()
+
+        worker = LatestWins(job, report, "test")
+        worker.start()
+        worker.wake()
+        assert done.wait(5.0)
+        worker.stop()
+        assert [str(error) for error in errors] == ["broken"]

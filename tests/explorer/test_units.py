@@ -1,0 +1,117 @@
+"""Units: factors by hand, and sliders that read in pounds and feet without moving the design."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import viser
+
+from explorer.charts import plots
+from explorer.sliders import SLIDERS, limits, meant, shown, slider
+from explorer.state import Inputs, ViewState
+from explorer.tabs.controls import Controls
+from explorer.tabs.history import strip as history_view
+from explorer.text import comparison as ab_readout
+from explorer.text import readout
+from explorer.text.naming import flight_name
+from explorer.text.units import AVIATION, FOOT, HORSEPOWER, KNOT, POUND, SI, UNITS
+from explorer.undo import History
+from rotor.files.make_design import make_design
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+
+@pytest.fixture(scope="module")
+def solution() -> Solution:
+    return solve(make_design(advance_ratio=0.2)).require()
+
+
+@pytest.fixture
+def controls() -> Iterator[Controls]:
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    yield Controls(server.gui, Inputs(), lambda: None, view=ViewState())
+    server.stop()
+
+
+def test_factors_by_definition():
+    """550 ft·lbf/s, 1852 m/h, the international pound and foot."""
+    assert HORSEPOWER.size == pytest.approx(550.0 * 0.3048 * 0.45359237 * 9.80665, rel=1e-9)
+    assert KNOT.size * 3600.0 == pytest.approx(1852.0)
+    assert (POUND.size, FOOT.size) == (0.45359237, 0.3048)
+
+
+def test_the_chosen_unit_comes_first(solution: Solution):
+    for units, first, second in ((SI, "kW", "hp"), (AVIATION, "hp", "kW")):
+        html = readout.power_panel(solution, None, units)
+        assert html.index(f"{units.watts(solution.power.total)}</span>") < html.index(f" {second}</span>")
+        assert f" {first}</td>" in html
+        assert f" {second}</td>" not in html
+    assert AVIATION.airspeed(50.0) == "97 kt · 180 km/h · 50.0 m/s"
+    assert SI.airspeed(50.0) == "180 km/h · 50.0 m/s · 97 kt"
+    assert SI.airspeed(0.0) == "hover"
+
+
+def test_a_and_b_in_horsepower(solution: Solution):
+    html = ab_readout.power_panel(solution, solution, AVIATION)
+    assert "Δ hp" in html
+    assert "Δ kW" not in html
+    assert AVIATION.watts(solution.power.total) in html
+
+
+def test_names_say_the_flight_in_the_chosen_units_and_what_is_off():
+    inputs = Inputs(mass_t=9.0, altitude_m=1524.0, flapping=False, hub_loss=False)
+    assert flight_name(inputs) == "µ 0.2, 9 t, 1\u2009524 m, no flapping, no hub loss"
+    assert flight_name(Inputs(altitude_m=1524.0), AVIATION) == "µ 0.2, 18\u2009342 lb, 5\u2009000 ft"
+
+
+def test_searches_and_history_in_horsepower(solution: Solution):
+    history = History(Inputs())
+    for units in (SI, AVIATION):
+        shown = units.watts(solution.power.total)
+        assert shown in history_view.strip(history, {Inputs(): solution.power.total}, units)
+        assert shown in history_view.kept_rows((history_view.Kept(Inputs(), solution),), None, units)
+    kept = history_view.Kept(Inputs(), solution)
+    assert "now 0 hp" in history_view.kept_rows((kept,), solution, AVIATION)
+
+
+def test_curves_change_with_the_unit():
+    curve = plots.PowerCurve(*(np.linspace(500.0, 900.0, len(plots.SWEEP)) for _ in range(3)))
+    assert curve.in_unit(HORSEPOWER).design[0] == pytest.approx(500.0 / 0.745699872)
+
+
+@pytest.mark.parametrize("name", ["mass_t", "altitude_m"])
+def test_an_input_is_itself_after_other_units(name: str):
+    for value in np.linspace(*limits(name), 173):
+        kept = round(float(value), 6)
+        assert meant(name, shown(name, kept, AVIATION), AVIATION) == kept
+    low, high = limits(name)
+    for units in UNITS.values():
+        form = slider(name, units)
+        assert low <= meant(name, form.low, units) <= meant(name, form.high, units) <= high
+    assert slider("linear", AVIATION) is SLIDERS["linear"]
+
+
+class TestControls:
+    def test_units_move_the_sliders_and_not_the_design(self, controls: Controls):
+        wanted = Inputs(mass_t=9.05, altitude_m=1550.0)
+        controls.set_inputs(wanted)
+        controls.refresh(wanted, UNITS["Aviation"])
+        assert controls.inputs() == wanted
+        handle = controls._inputs["mass_t"]
+        assert handle.value == pytest.approx(9050.0 / 0.45359237)
+        assert handle.label == "Weight [lb]"  # pyright: ignore[reportAttributeAccessIssue]
+        controls.set_inputs(replace(wanted, altitude_m=3048.0))
+        assert controls._inputs["altitude_m"].value == pytest.approx(10_000.0)
+        controls.refresh(wanted, SI)
+        assert controls.inputs() == replace(wanted, altitude_m=3048.0)
+        assert handle.value == 9.05
+
+    def test_a_pound_that_is_typed_as_a_whole_number(self, controls: Controls):
+        controls.refresh(Inputs(), UNITS["Aviation"])
+        controls._inputs["mass_t"].value = 20000
+        assert controls.inputs().mass_t == pytest.approx(9.0718474)
+
+    def test_the_view_holds_the_choice(self, controls: Controls):
+        controls.display.set_view(replace(ViewState(), units="Aviation"))
+        assert controls.display.view().units == "Aviation"

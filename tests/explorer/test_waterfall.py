@@ -1,0 +1,128 @@
+"""The waterfall on the page: the drawing adds up, and it is computed only when the page rests."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import pytest
+import viser
+
+from explorer.state import Inputs, ViewState
+from explorer.tabs.interface import Moment
+from explorer.tabs.physics.waterfall_panel import WaterfallPanel
+from explorer.tabs.physics.waterfall_view import alone_table, waterfall_chart
+from explorer.text.units import AVIATION, HORSEPOWER, KILOWATT, SI
+from rotor.aero.switches import SWITCHES
+from rotor.analysis.waterfall import Step, Waterfall, waterfall
+from rotor.design.design import Design
+from rotor.files.make_design import make_design
+from rotor.trim.solution import Solution, Status
+from rotor.trim.solve import solve
+
+
+def coarse(mu: float) -> Design:
+    design = make_design(advance_ratio=mu)
+    return replace(design, models=replace(design.models, elements=12, azimuths=24, inflow="pitt-peters"))
+
+
+@pytest.fixture(scope="module")
+def found() -> Waterfall:
+    return waterfall(coarse(0.3))
+
+
+def numbers(svg: str) -> list[float]:
+    """The column at the right, as written."""
+    shown = re.findall(r'class="rx-w rx-w-number[^"]*">([^<]+)<', svg)
+    return [float(text.replace("−", "-").replace("\u2009", "")) for text in shown]
+
+
+class TestDrawing:
+    @pytest.mark.parametrize("units", [SI, AVIATION])
+    def test_rows_add_up(self, found: Waterfall, units: Any):
+        column = numbers(waterfall_chart(found.steps, units))
+        assert len(column) == len(SWITCHES) + 2
+        assert sum(column[:-1]) == pytest.approx(column[-1], abs=0.05 * len(column))
+        unit = KILOWATT if units is SI else HORSEPOWER
+        assert column[-1] == pytest.approx(unit.of(found.full.power.total), abs=0.05)
+
+    def test_bars_follow_on_each_other(self, found: Waterfall):
+        svg = waterfall_chart(found.steps)
+        ends: list[float] = []
+        for step, group in zip(found.steps[1:], svg.split("<g>")[2:], strict=False):
+            bar = re.search(r'<rect x="([\d.]+)" y="[\d.]+" width="([\d.]+)" height="11"', group)
+            if bar is None or abs(step.added or 0.0) < 20e3:
+                continue
+            left, width = map(float, bar.groups())
+            ends += [left, left + width]
+        assert len(ends) >= 4
+        scale = (258.0 - 98.0) / (1.04 * max(step.power or 0.0 for step in found.steps))
+        drag = next(step for step in found.steps if step.switch and step.switch.name == "fuselage")
+        assert ends[-1] - ends[-2] == pytest.approx((drag.added or 0.0) * scale, abs=0.15)
+
+    def test_half_known_is_drawn_as_far_as_it_goes(self, found: Waterfall):
+        assert 'data-steps="3"' in waterfall_chart(found.steps[:3])
+        assert "All switched on" not in waterfall_chart(found.steps[:3])
+        assert "Computing" in waterfall_chart(())
+        assert alone_table(()) == ""
+
+    def test_what_cannot_matter_says_why(self):
+        steps = waterfall(coarse(0.0))
+        assert "no drag in hover" in waterfall_chart(steps.steps)
+        assert "hover is the same all the way round" in alone_table(steps.alone)
+
+    def test_a_step_that_does_not_trim_is_named(self, found: Waterfall):
+        lost = replace(found.steps[1].solution, status=Status.NOT_CONVERGED, message="Too <heavy>.")
+        steps = (found.steps[0], replace(found.steps[1], solution=lost))
+        svg = waterfall_chart(steps)
+        assert "does not trim" in svg
+        assert "Too &lt;heavy&gt;." in svg
+        assert "does not trim" in alone_table((steps[1],))
+
+    def test_every_row_speaks(self, found: Waterfall):
+        svg = waterfall_chart(found.steps)
+        for switch in SWITCHES.values():
+            assert f"<title>{switch.title} on: " in svg
+
+
+class TestPanel:
+    @pytest.fixture
+    def panel(self) -> Iterator[WaterfallPanel]:
+        server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+        yield WaterfallPanel(server.gui)
+        server.stop()
+
+    def test_it_comes_by_itself_and_never_while_superseded(self, panel: WaterfallPanel):
+        solution = solve(coarse(0.2))
+        moment = Moment(Inputs(), ViewState(), solution, solution, None, None)
+        panel.climb(lambda: False)  # Before there is an answer.
+        panel.show(moment)
+        assert "Computing" in panel._chart.content
+        panel.climb(lambda: True)
+        assert panel._steps == []
+        asked = iter([False, False, True])
+        panel.climb(lambda: next(asked))
+        assert len(panel._steps) == 2
+        assert "Computing" in panel._chart.content  # Whole, or not at all: it would grow under the eyes.
+        panel.climb(lambda: False)  # Goes on where it was interrupted.
+        assert len(panel._steps) == 2 * len(SWITCHES) + 1
+        assert "All switched on" in panel._chart.content
+        assert "no compressibility" in panel._table.content
+
+    def test_a_new_design_fades_the_old_answer_once(self, panel: WaterfallPanel):
+        for mu in (0.1, 0.2, 0.3):
+            solution = solve(coarse(mu))
+            panel.show(Moment(Inputs(), ViewState(), solution, solution, None, None))
+            if mu == 0.1:
+                panel.climb(lambda: False)
+        assert panel._chart.content.count("rx-faded") == 1
+        assert panel._steps == []
+
+    def test_the_azimuth_does_not_start_it_again(self, panel: WaterfallPanel):
+        solution: Solution = solve(coarse(0.2))
+        panel.show(Moment(Inputs(), ViewState(), solution, solution, None, None))
+        panel.climb(lambda: False)
+        steps: list[Step] = panel._steps
+        panel.show(Moment(Inputs(), ViewState(azimuth_deg=90.0), solution, solution, None, None))
+        assert panel._steps is steps
+        assert "rx-faded" not in panel._chart.content

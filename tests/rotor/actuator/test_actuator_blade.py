@@ -1,0 +1,281 @@
+"""The rotating blade: torsion and flap bending against closed forms, mass, drive, placement."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor.actuator.bill import addition, balance_mass
+from rotor.actuator.catalogue import find_actuator
+from rotor.actuator.electrical import capacitance, drive, harmonic_drive
+from rotor.actuator.fitted import Fitted, fit
+from rotor.actuator.flap_bending import ELEMENTS, bend
+from rotor.actuator.harmonic import dynamic_twist
+from rotor.actuator.limits import limits
+from rotor.actuator.loads import fibre_strain
+from rotor.actuator.placement import Host, Placement, default_placement
+from rotor.dynamics.structure import BladeStructure, uh60a_structure
+from rotor.dynamics.torsion_beam import torsion_beam, torsion_frequency, twist_under_moment
+from rotor.files.make_design import make_design, uh60a_rotor
+from rotor.trim.solve import solve
+
+SPEED = 27.0
+
+
+def uniform(gj: float = 7e4, inertia: float = 0.15, length: float = 6.0, gyration: float = 0.0) -> BladeStructure:
+    two = (0.0, length)
+    return BladeStructure(
+        radius=length, chord=0.5, clamp=0.0, stations=two, torsional_stiffness=(gj, gj), mass_per_length=(10.0, 10.0),
+        torsional_inertia=(inertia, inertia), flap_stiffness=(9e4, 9e4), lag_stiffness=(2e6, 2e6),
+        axial_stiffness=1.3e8, tension_gyration=gyration, section_stiffness=gj, reference_mass=60.0,
+    )  # fmt: skip
+
+
+def mfc(plies: int = 2, host: Host | None = None, placement: Placement | None = None) -> Fitted:
+    rotor = uh60a_rotor("flight")
+    return fit(find_actuator("MFC_P1"), placement or default_placement(plies), host or Host(), rotor)
+
+
+# Torsion
+
+
+@pytest.mark.parametrize("gj", [7e4, 1.7e4, 3e3])
+def test_rotating_twist_closed_form(gj: float):
+    """φ_tip = (M_a/GJ) tanh(λL)/λ, λ² = Ω²I_θ/GJ."""
+    beam = torsion_beam(uniform(gj), SPEED)
+    rate = math.sqrt(SPEED**2 * 0.15 / gj)
+    expected = 400.0 / gj * math.tanh(rate * 6.0) / rate
+    assert_allclose(twist_under_moment(beam, np.full(240, 400.0))[-1], expected, rtol=1e-4)
+
+
+@pytest.mark.parametrize(("host", "taken"), [(Host(), 0.07), (Host("new", 0.5), 0.13)])
+def test_what_rotation_takes_off_the_twist(host: Host, taken: float):
+    """The shares that docs/theory.md §17 states, by trapeze effect and propeller moment, with two plies."""
+    fitted = mfc(2, host)
+    low, high = (fitted.beam.r[-1] * end for end in fitted.placement.span)
+    moment = fitted.moment * np.diff(np.clip(fitted.beam.r, low, high)) / np.diff(fitted.beam.r)
+    still = torsion_beam(uh60a_structure(), 0.0, scale=host.stiffness, addition=fitted.added)
+    share = 1.0 - fitted.attainable / twist_under_moment(still, moment)[-1]
+    assert_allclose(share, taken, atol=0.006)
+
+
+def test_still_twist_is_moment_over_stiffness():
+    beam = torsion_beam(uniform(), 0.0)
+    assert_allclose(twist_under_moment(beam, np.full(240, 400.0))[-1], 400.0 / 7e4 * 6.0, rtol=1e-10)
+
+
+def test_torsion_frequency_closed_form():
+    """ω² = (π/2L)² GJ/I_θ + Ω², clamped and uniform."""
+    omega = math.sqrt((math.pi / 12.0) ** 2 * 7e4 / 0.15 + SPEED**2)
+    assert_allclose(torsion_frequency(torsion_beam(uniform(), SPEED)), omega / SPEED, rtol=1e-4)
+
+
+def test_forced_twist_grows_as_a_single_mode():
+    """Near its first mode the blade answers as 1/(1 − (n/ν)²), of which that mode holds 8/π² (modal series)."""
+    beam = torsion_beam(uniform(2e4), SPEED)
+    nu = torsion_frequency(beam)
+    moment = np.full(240, 100.0)
+    still, moving = (twist_under_moment(beam, moment, per_rev=n)[-1] for n in (0.0, 0.9 * nu))
+    assert_allclose(moving / still, 8.0 / math.pi**2 / (1.0 - 0.81) + 1.0 - 8.0 / math.pi**2, rtol=0.03)
+
+
+def test_trapeze_stiffens():
+    """GJ_e = GJ + F_c k_A²: with k_A² a constant share of a nearly constant pull the twist falls by that share."""
+    still, stiff = (
+        twist_under_moment(torsion_beam(uniform(gyration=k), SPEED), np.full(240, 400.0))[-1] for k in (0.0, 0.01)
+    )
+    pull = uniform().centrifugal_force(np.linspace(0, 6, 601), SPEED)
+    assert_allclose(still / stiff - 1.0, 0.01 * pull.mean() / 7e4, rtol=0.15)
+
+
+def test_blade_frequencies_against_the_published():
+    """Indicative: 22.4 Hz (5.2/rev) digitised from a fan plot; 5.29/rev of a clamped beam with Davis' numbers."""
+    structure = uh60a_structure()
+    assert_allclose(torsion_frequency(torsion_beam(structure, SPEED)), 5.29, rtol=0.03)
+    still = torsion_frequency(torsion_beam(structure, 0.1)) * 0.1 / (2.0 * math.pi)
+    assert_allclose(still, 20.6, rtol=0.10)  # Fan plot at standstill; clamped here, elastic control system there.
+
+
+def test_centrifugal_force_of_the_blade():
+    """285 kN at 2 m, an independent integration of the same table; uniform: ½mΩ²(R² − r²)."""
+    assert_allclose(uh60a_structure().centrifugal_force(2.0, SPEED), 285e3, rtol=0.05)
+    assert_allclose(uniform().centrifugal_force(2.0, SPEED), 0.5 * 10.0 * SPEED**2 * (36.0 - 4.0), rtol=1e-4)
+
+
+# Kind, share, plies: tip twist [deg] rotating, actuator mass [kg], first torsion [per rev].
+WORKED = [
+    ("retrofit", 1.0, 1, 0.92, 7.30, 5.14),
+    ("retrofit", 1.0, 2, 1.66, 14.60, 5.01),
+    ("retrofit", 1.0, 4, 2.84, 29.21, 4.78),
+    ("retrofit", 1.0, 6, 3.78, 43.81, 4.58),
+    ("new", 1.0, 4, 4.31, 29.12, 4.58),
+    ("new", 0.5, 1, 2.16, 7.28, 3.71),
+    ("new", 0.5, 2, 4.16, 14.56, 3.58),
+    ("new", 0.25, 1, 3.88, 7.28, 2.78),
+]
+
+
+@pytest.mark.parametrize(("kind", "share", "plies", "tip", "mass", "frequency"), WORKED)
+def test_worked_example(kind: str, share: float, plies: int, tip: float, mass: float, frequency: float):
+    """Indicative: an independent beam held at 2 m, without leads and nose weights; ours is held at the hinge.
+
+    So ours untwists more (8 % on the softest blade), and the added inertia counts about the quarter chord (6 %).
+    """
+    fitted = mfc(plies, Host("retrofit" if kind == "retrofit" else "new", share))
+    assert_allclose(fitted.bill.actuator, mass, rtol=0.01)
+    bare = addition(
+        fitted.bill, fitted.placement, uh60a_structure(), fitted.section_stiffness - share * 69760.0, balance=False
+    )
+    beam = torsion_beam(uh60a_structure(), SPEED, scale=share, addition=bare)
+    moment = np.where((beam.centres > bare.span[0]) & (beam.centres < bare.span[1]), fitted.moment, 0.0)
+    assert_allclose(math.degrees(twist_under_moment(beam, moment)[-1]), tip, rtol=0.05 if share >= 0.9 else 0.08)
+    assert_allclose(torsion_frequency(beam), frequency, rtol=0.06)
+    assert fitted.attainable < math.radians(tip) * 1.01
+
+
+def test_four_degrees_take_870_newton_metres():
+    """GJ θ' over the active span: 4° over 5.61 m is 868 N·m, 30 J."""
+    fitted = mfc(2)
+    length = (0.9292 - 0.2433) * 8.1788
+    moment = 69760.0 * math.radians(4.0) / length
+    assert_allclose(moment, 868.0, rtol=0.01)
+    assert_allclose(0.5 * moment * math.radians(4.0), 30.0, rtol=0.02)
+    assert_allclose(fitted.attainable, fitted.moment / fitted.section_stiffness * length, rtol=0.10)
+
+
+def test_one_tube_of_shape_memory():
+    """395 N·m on the flown blade: 4° take about 2.2 tubes."""
+    fitted = fit(find_actuator("SMA_tube"), default_placement(1), Host("new", 1.0), uh60a_rotor("flight"))
+    assert_allclose(math.radians(4.0) / fitted.attainable, 2.2, rtol=0.10)
+
+
+def test_segments_add_up():
+    """Segments with the same voltage are one actuator."""
+    whole, parts = mfc(2), mfc(2, placement=default_placement(2, (0.4, 0.7)))
+    assert parts.shapes.shape[0] == 3
+    r = np.linspace(0.1, 1.0, 7)
+    assert_allclose(parts.change((0.5, 0.5, 0.5), r), whole.change((0.5,), r), rtol=0.01, atol=1e-6)
+    assert_allclose(sum(parts.segment_areas), whole.skin_area, rtol=1e-12)
+    assert_allclose(parts.limit(1.0), whole.attainable, rtol=0.01)
+
+
+def test_stiffness_comes_at_the_price_of_twist():
+    """Fixed ply: tip twist ∝ plies at first, then less; half the GJ doubles it."""
+    one, two, four = (mfc(n).attainable for n in (1, 2, 4))
+    assert 1.0 < two / one < 2.0
+    assert 1.0 < four / two < two / one
+    ratio = mfc(1, Host("new", 0.5)).attainable / mfc(1, Host("new", 1.0)).attainable
+    assert 1.75 < ratio < 2.0
+
+
+def test_dynamic_answer():
+    """2/rev of a blade at 4.6/rev: half the range, times about 1/(1 − (2/4.6)²); heat cannot follow."""
+    fitted = mfc(2)
+    made = dynamic_twist(fitted, 2)
+    assert_allclose(made.static, 0.5 * fitted.attainable, rtol=1e-9)
+    assert_allclose(made.amplitude / made.static, 1.0 / (1.0 - (2.0 / fitted.frequency) ** 2), rtol=0.05)
+    tube = fit(find_actuator("SMA_tube"), default_placement(1), Host(), uh60a_rotor("flight"))
+    assert dynamic_twist(tube, 1).amplitude == 0.0
+
+
+def test_resonance_is_one_sentence():
+    """An undamped blade driven at its own frequency twists without end: no number is given."""
+    soft = mfc(5, Host("new", 0.2))
+    assert_allclose(soft.frequency, 2.0, atol=0.1)
+    with pytest.raises(ValueError, match=r"2/rev is too near .* choose another harmonic"):
+        dynamic_twist(soft, 2)
+    assert dynamic_twist(soft, 1).amplitude > 0.0
+
+
+# Flap bending
+
+
+def test_flap_bending_of_a_string_is_small():
+    """A hinged chain under its own pull takes load without bending."""
+    load = np.full(ELEMENTS + 1, 100.0)
+    r = np.array([3.0])
+    stiff = replace(uniform(), flap_stiffness=(1e9, 1e9))
+    limp = replace(uniform(), flap_stiffness=(1e3, 1e3))
+    assert abs(bend(limp, SPEED, load, r, 0.0)[0]) < 0.05 * abs(bend(stiff, SPEED, load, r, 0.0)[0])
+
+
+def test_flap_bending_without_pull_to_relieve_it():
+    """Very stiff and hinged: rigid rotation Ω²Iβ takes the moment; what is left bends it, M(r) by statics."""
+    stiff = replace(uniform(), flap_stiffness=(1e10, 1e10))
+    load = np.full(ELEMENTS + 1, 100.0)
+    x = np.linspace(0.0, 6.0, 2001)
+    # Pull acts as −Ω²mxβ for small β: balance about the hinge, then bend.
+    beta = 100.0 * 6.0**2 / 2.0 / (10.0 * SPEED**2 * 6.0**3 / 3.0)
+    net = 100.0 - 10.0 * SPEED**2 * x * beta
+    at = 2.0
+    expected = np.trapezoid(np.where(x > at, (x - at) * net, 0.0), x)
+    assert_allclose(bend(stiff, SPEED, load, np.array([at]), 0.0)[0], expected, rtol=0.01)
+
+
+def test_fibre_strain_from_pull():
+    """½ F_c/EA (1 − ν) at 45°: 750 µε at 2 m with the axial stiffness of the section, before plies weigh on it."""
+    fitted = mfc(1)
+    strain = fibre_strain(fitted)
+    assert_allclose(strain.centrifugal[0], 0.5 * 285e3 / 1.33e8 * (1.0 - 0.31), rtol=0.25)
+    assert_allclose(strain.flap, 0.0, atol=0.0)
+    flown = fibre_strain(fitted, solve(make_design(advance_ratio=0.3)).require())
+    assert 50e-6 < flown.flap.max() < 400e-6
+
+
+# Mass and drive
+
+
+def test_nose_weight():
+    """(x − 0.25)/0.23 of what lies behind the quarter chord: about 11 kg for 14.6 kg at 0.425 c."""
+    assert_allclose(balance_mass(14.6, 0.425), 11.1, rtol=0.01)
+    assert balance_mass(14.6, 0.25) == 0.0
+
+
+def test_capacitance_and_power():
+    """One ply: 4.47 m², 13.4 µF; 2000 V in 10 s takes 27 J a blade; 2/rev at full swing 362 VA, 72 W (by hand)."""
+    fitted = mfc(1)
+    assert_allclose(fitted.skin_area, 4.47, rtol=0.01)
+    assert_allclose(capacitance(fitted), 13.4e-6, rtol=0.01)
+    moved = drive(fitted, (1.0,))
+    assert_allclose(moved.slew_power * 0.8 / 4.0, 2.7, rtol=0.01)
+    turned = harmonic_drive(fitted, 2.0, 1.0, SPEED)
+    assert_allclose([turned.reactive, turned.loss], [362.0, 72.0], rtol=0.01)
+
+
+# Limits
+
+
+def broken(fitted: Fitted, swing: float = 1.0) -> set[str]:
+    return {limit.name for limit in limits(fitted, (swing,)) if not limit.ok}
+
+
+def test_limits_speak():
+    assert "voltage" in broken(mfc(1), 1.2)
+    assert "voltage" not in broken(mfc(1), 1.0)
+    assert "temperature" in broken(mfc(1))
+    assert "temperature" not in broken(mfc(1, placement=Placement(chord=(0.15, 0.8), plies=1)))
+    assert "mass" in broken(mfc(4))
+    assert "mass" not in broken(mfc(1))
+    assert "space" in broken(mfc(4))
+    assert "torsion-least" in broken(mfc(2, Host("new", 0.25)))
+    rotor = uh60a_rotor("flight")
+    assert "space" in broken(fit(find_actuator("SMA_tube"), default_placement(2), Host(), rotor))
+    heat = fit(find_actuator("MFC_P1_HT"), default_placement(1), Host(), rotor)
+    assert "temperature" not in broken(heat)
+
+
+@pytest.mark.parametrize(
+    ("make", "words"),
+    [
+        (lambda: Placement(span=(0.9, 0.3)), "active span 0.9…0.3"),
+        (lambda: Placement(chord=(0.5, 0.2)), "active chord"),
+        (lambda: Placement(plies=0), "0 plies"),
+        (lambda: Host("new", 5.0), "stiffness 5"),
+        (lambda: Host("retrofit", 0.5), "retrofit keeps the blade"),
+    ],
+)
+def test_bad_input_is_named(make: object, words: str):
+    with pytest.raises(ValueError, match=words):
+        make()  # type: ignore[operator]

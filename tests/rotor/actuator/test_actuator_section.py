@@ -1,0 +1,227 @@
+"""Laminates and thin-walled sections: closed forms, limits, an independent worked example."""
+
+import math
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor.actuator.catalogue import PiezoPly, find_actuator
+from rotor.actuator.placement import Host, Placement, default_placement
+from rotor.actuator.section import (
+    SectionSpec,
+    active_section,
+    passive_section,
+    section_spec,
+)
+from rotor.dynamics.laminate import (
+    Layer,
+    Material,
+    blocked_shear_flow,
+    free_strain_in_wall_axes,
+    reduced_stiffness,
+    rotated_stiffness,
+    wall_of,
+)
+from rotor.dynamics.structure import uh60a_structure
+from rotor.dynamics.thin_wall import (
+    Panel,
+    Section,
+    actuation_moment,
+    axial_stiffness,
+    build_section,
+    induced_twist_rate,
+    respond,
+    torsional_stiffness,
+)
+
+METAL = Material("metal", 70e9, 70e9, 0.3, 70e9 / 2.6, 2700.0)
+DIAGONAL = math.pi / 4.0
+
+
+def ply(id: str) -> PiezoPly:
+    found = find_actuator(id)
+    assert isinstance(found, PiezoPly)
+    return found
+
+
+# Laminate
+
+
+def test_rotation_by_the_textbook():
+    """Q̄16, Q̄26, Q̄66 written out (Jones, eq. 2.85), at an angle of no symmetry."""
+    q, angle = reduced_stiffness(ply("MFC_P1").material), 0.4
+    (q11, q12, _), (_, q22, _), (_, _, q66) = q
+    c, s = math.cos(angle), math.sin(angle)
+    bar = rotated_stiffness(ply("MFC_P1").material, angle)
+    assert_allclose(bar[0, 2], (q11 - q12 - 2 * q66) * s * c**3 + (q12 - q22 + 2 * q66) * s**3 * c, rtol=1e-12)
+    assert_allclose(bar[1, 2], (q11 - q12 - 2 * q66) * s**3 * c + (q12 - q22 + 2 * q66) * s * c**3, rtol=1e-12)
+    assert_allclose(bar[2, 2], (q11 + q22 - 2 * q12 - 2 * q66) * s**2 * c**2 + q66 * (s**4 + c**4), rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("id", "expected"), [("MFC_P1", 8.5e3), ("MFC_P2", -1.3e3), ("AFC", 1.2e3), ("PZT5H_strips", -1.3e3)]
+)
+def test_blocked_shear_flow_of_one_ply(id: str, expected: float):
+    """½t[(Q11 − Q12)Λ1 − (Q22 − Q12)Λ2] at 45°, and the independently tabulated values [N/m]."""
+    sheet = ply(id)
+    q = reduced_stiffness(sheet.material)
+    along, across = sheet.swing
+    by_hand = 0.5 * sheet.thickness * ((q[0, 0] - q[0, 1]) * along - (q[1, 1] - q[0, 1]) * across)
+    flow = blocked_shear_flow(sheet.layer(1, DIAGONAL))
+    assert_allclose(flow, by_hand, rtol=1e-12)
+    assert_allclose(flow, expected, rtol=0.05)
+    assert_allclose(blocked_shear_flow(sheet.layer(1, -DIAGONAL)), -flow, rtol=1e-12)
+
+
+def test_an_isotropic_patch_makes_no_shear():
+    """Why a plain PZT sheet cannot twist a blade, at any angle."""
+    for angle in (0.3, DIAGONAL, 1.2):
+        assert_allclose(blocked_shear_flow(ply("PZT5H").layer(1, angle)), 0.0, atol=1e-9)
+
+
+def test_free_wall_takes_its_free_strain():
+    """A wall of one layer, not held, strains by the layer's own free strain: stiffness · strain = actuation."""
+    layer = ply("MFC_P1").layer(2, 0.6)
+    wall = wall_of((layer,))
+    free = free_strain_in_wall_axes(layer)
+    assert_allclose(wall.stiffness @ free[[0, 2]], wall.actuation, rtol=1e-12)
+
+
+# Thin-walled sections
+
+
+def ring(panel_points: np.ndarray, layers: tuple[Layer, ...]) -> Section:
+    return build_section((Panel(np.concatenate([panel_points, panel_points[:1]]), layers, (1,)),))
+
+
+def rectangle(width: float, height: float) -> np.ndarray:
+    corners = np.array([[width, height], [0.0, height], [0.0, 0.0], [width, 0.0]])
+    return np.concatenate(
+        [a + np.linspace(0, 1, 41)[:-1, None] * (b - a) for a, b in zip(corners, np.roll(corners, -1, 0), strict=True)]
+    )
+
+
+def test_bredt_one_cell():
+    """GJ = 4A²/∮ds/(Gt), EA = E t s, θ'_a = ∮γ0 ds/2A for pure shear γ0 in the wall (worked by hand)."""
+    width, height, t, strain = 0.3, 0.05, 0.002, 5e-4
+    section = ring(rectangle(width, height), (Layer(METAL, t, DIAGONAL, (strain, -strain)),))
+    area, perimeter = width * height, 2.0 * (width + height)
+    assert_allclose(torsional_stiffness(section), 4 * area**2 * METAL.g12 * t / perimeter, rtol=1e-9)
+    assert_allclose(axial_stiffness(section), METAL.e1 * t * perimeter, rtol=1e-9)
+    assert_allclose(induced_twist_rate(section), 2 * strain * perimeter / (2 * area), rtol=1e-9)
+
+
+def two_cells(web: float, first: float = 0.2, second: float = 0.1, height: float = 0.05, t: float = 0.002) -> Section:
+    layer, thin = (Layer(METAL, t, 0.0),), (Layer(METAL, web, 0.0),)
+
+    def line(*points: tuple[float, float]) -> np.ndarray:
+        return np.array(points)
+
+    whole = first + second
+    return build_section((
+        Panel(line((first, height), (0.0, height), (0.0, 0.0), (first, 0.0)), layer, (1,)),
+        Panel(line((first, 0.0), (whole, 0.0), (whole, height), (first, height)), layer, (2,)),
+        Panel(line((first, 0.0), (first, height)), thin, (1, -2)),
+    ))  # fmt: skip
+
+
+def test_batho_two_cells_by_hand():
+    """0.2 and 0.1 m by 0.05 m, 2 mm walls: δ1 = 250, δ2 = 150, δ12 = 25; 2A1 = 0.02 m², 2A2 = 0.01 m²."""
+    t, first, second, height = 0.002, 0.2, 0.1, 0.05
+    d1, d2, d12 = 2 * (first + height) / t, 2 * (second + height) / t, height / t
+    a1, a2 = 2 * first * height, 2 * second * height
+    q = np.linalg.solve([[d1, -d12], [-d12, d2]], [a1, a2])
+    assert_allclose(torsional_stiffness(two_cells(t)), METAL.g12 * (a1 * q[0] + a2 * q[1]), rtol=1e-9)
+
+
+def test_web_between_equal_cells_carries_nothing():
+    """Equal cells: the web's two flows cancel, so GJ is the outer tube's, whatever the web."""
+    outer = ring(rectangle(0.3, 0.05), (Layer(METAL, 0.002, 0.0),))
+    for web in (1e-4, 5e-3):
+        section = two_cells(web, first=0.15, second=0.15)
+        assert_allclose(torsional_stiffness(section), torsional_stiffness(outer), rtol=1e-6)
+
+
+def test_reciprocity():
+    """Maxwell: the extension that a torque makes equals the twist that a force makes."""
+    section = active_section(section_spec(uh60a_structure(), Host()), ply("MFC_P1"), default_placement(4))
+    by_torque, by_force = respond(section, torque=1.0), respond(section, force=1.0)
+    assert_allclose(by_torque.extension, by_force.twist_rate, rtol=1e-6)
+    assert_allclose(by_torque.curvature_y, respond(section, moments=(1.0, 0.0)).twist_rate, rtol=1e-6)
+
+
+# Blade sections
+
+
+def blade(kind: str, share: float) -> SectionSpec:
+    return section_spec(uh60a_structure(), Host("retrofit" if kind == "retrofit" else "new", share))
+
+
+def test_contour_and_calibration():
+    """Enclosed area and perimeter from the ordinates (0.01841 m², 1.076 m); GJ 69.76 kN·m²; a titanium wall of 2 mm."""
+    section = passive_section(blade("retrofit", 1.0))
+    assert_allclose(section.areas.sum(), 0.01841, rtol=0.005)
+    assert_allclose(section.areas[0], 0.00939, rtol=0.005)
+    assert_allclose(torsional_stiffness(section), 69760.0, rtol=1e-5)
+    assert_allclose(axial_stiffness(section), 1.33e8, rtol=0.15)
+
+
+# Kind, GJ share, plies, then GJ [N m²], M_a [N m], rate [deg/m] of an independent laminate model of the same blade.
+WORKED = [
+    ("retrofit", 1.0, 1, 72357.0, 214.05, 0.1695),
+    ("retrofit", 1.0, 2, 74683.1, 399.85, 0.3068),
+    ("retrofit", 1.0, 3, 76824.0, 567.42, 0.4232),
+    ("retrofit", 1.0, 4, 78827.4, 721.97, 0.5248),
+    ("retrofit", 1.0, 6, 82531.8, 1003.31, 0.6965),
+    ("new", 1.0, 1, 69760.0, 257.42, 0.2114),
+    ("new", 1.0, 4, 69760.0, 973.11, 0.7992),
+    ("new", 0.5, 1, 34880.0, 252.86, 0.4154),
+    ("new", 0.5, 2, 34880.0, 487.54, 0.8009),
+    ("new", 0.5, 4, 34880.0, 904.96, 1.4865),
+    ("new", 0.25, 1, 17440.0, 244.21, 0.8023),
+    ("new", 0.25, 2, 17440.0, 454.01, 1.4916),
+]
+
+
+@pytest.mark.parametrize(("kind", "share", "plies", "stiffness", "moment", "rate"), WORKED)
+def test_worked_example(kind: str, share: float, plies: int, stiffness: float, moment: float, rate: float):
+    """Indicative, 5 %: another person's code with its own guesses of the passive walls."""
+    section = active_section(blade(kind, share), ply("MFC_P1"), default_placement(plies))
+    assert_allclose(torsional_stiffness(section), stiffness, rtol=0.01)
+    assert_allclose(actuation_moment(section), moment, rtol=0.05)
+    assert_allclose(math.degrees(induced_twist_rate(section)), rate, rtol=0.05)
+
+
+@pytest.mark.parametrize(
+    ("id", "stiffness", "moment"),
+    [("MFC_P2", 72357.0, -31.49), ("PZT5H_strips", 74883.9, -32.34), ("AFC", 70847.6, 32.76), ("PZT5H", 74883.9, 0.0)],
+)
+def test_worked_example_of_the_weak(id: str, stiffness: float, moment: float):
+    section = active_section(blade("retrofit", 1.0), ply(id), default_placement(1))
+    assert_allclose(torsional_stiffness(section), stiffness, rtol=0.01)
+    assert_allclose(actuation_moment(section), moment, rtol=0.05, atol=1e-6)
+
+
+@pytest.mark.parametrize(("chord", "moment"), [((0.05, 0.60), 339.51), ((0.05, 0.45), 239.34), ((0.40, 0.80), 240.83)])
+def test_worked_example_of_placement(chord: tuple[float, float], moment: float):
+    placement = Placement((0.2433, 0.9292), chord, 2)
+    section = active_section(blade("new", 0.5), ply("MFC_P1"), placement)
+    assert_allclose(actuation_moment(section), moment, rtol=0.05)
+
+
+def test_twist_goes_with_sin_2phi_nearly():
+    """45° twists most; 20° and 70° clearly less; mirrored angles twist the other way."""
+
+    def moment(angle: float) -> float:
+        return actuation_moment(active_section(blade("retrofit", 1.0), ply("MFC_P1"), Placement(angle=angle)))
+
+    best = moment(DIAGONAL)
+    assert 0.4 * best < moment(math.radians(20.0)) < 0.9 * best
+    assert 0.4 * best < moment(math.radians(70.0)) < 0.9 * best
+    assert_allclose(moment(-DIAGONAL), -best, rtol=1e-9)
+
+
+def test_plies_alone_stiffer_than_the_blade_is_refused():
+    with pytest.raises(ValueError, match="plies alone are stiffer"):
+        active_section(blade("new", 0.1), ply("MFC_P1"), Placement(chord=(0.0, 0.8), plies=12))

@@ -1,0 +1,293 @@
+"""Would it pay: required, reached, carried, said; and the command."""
+
+import json
+import math
+from dataclasses import replace
+from functools import cache
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor.__main__ import main
+from rotor.actuator.baseline import baseline
+from rotor.actuator.catalogue import find_actuator
+from rotor.actuator.fitted import fit
+from rotor.actuator.limits import limits
+from rotor.actuator.pictures import need_and_reach, section_picture, twist_under_voltage
+from rotor.actuator.placement import Host, default_placement
+from rotor.actuator.reach import STATIONS, Pair, best_reach, twisted
+from rotor.actuator.tables import table_5_1, verdict_table
+from rotor.actuator.verdict import Verdict, change_limit, judge
+from rotor.actuator.wording import verdict_sentence
+from rotor.files.make_design import make_design
+from rotor.optimisation.concepts import find_concept
+from rotor.optimisation.limits import Limits
+from rotor.optimisation.search import Search, optimise
+from rotor.trim.solve import solve
+
+KEYS = [
+    "status", "message", "actuator", "plies", "concept", "required_twist_deg", "attainable_twist_deg",
+    "attainable_twist_derated_deg", "feasible", "voltages_v", "added_mass_kg", "torsion_frequency_per_rev",
+    "gross_saving_w", "net_saving_w", "limits", "caveats",
+]  # fmt: skip
+
+CONCEPTS = ["linear", pytest.param("two-segment", marks=pytest.mark.slow)]
+
+
+@cache
+def pair(preset: str = "flight") -> Pair:
+    design = make_design(preset)
+    coarse = replace(design.models, elements=16, azimuths=36)
+    return Pair(replace(design, models=coarse), (0.0, 0.3))
+
+
+@cache
+def verdict(id: str = "MFC_P1", concept: str = "linear", kind: str = "new", share: float = 0.5) -> Verdict:
+    host = Host() if kind == "retrofit" else Host("new", share)
+    return judge(find_actuator(id), pair(), find_concept(concept), default_placement(2), host)
+
+
+@pytest.mark.slow
+def test_baseline_against_the_optimiser():
+    """Two codes for one optimum: the search of `optimise` finds no better linear twist at either condition."""
+    base = baseline(pair(), find_concept("linear"))
+    for design, best in zip(pair().designs(), base.best, strict=True):
+        found = optimise(Search(design, find_concept("linear"), starts=2, band=False))
+        assert found.best is not None
+        assert_allclose(best.power, found.best.power, rtol=1e-5)
+
+
+@pytest.mark.slow
+def test_reached_against_brute_force():
+    """Linear jig and one swing on a grid: nothing on it is better, and the neighbours are barely worse."""
+    judged = verdict()
+    shapes = np.interp(STATIONS, judged.fitted.r, judged.fitted.shapes[0])
+    jig = judged.reached.values[0]
+    swing = judged.reached.swings[1][0]
+    least = math.inf
+    for rate in jig + np.radians([-1.0, 0.0, 1.0]):
+        law = find_concept("linear").twist([rate])
+        for v in (0.0, swing - 0.1, swing, swing + 0.1):
+            first, second = pair().designs()
+            power = [
+                solve(replace(first, twist=law)).power.total,
+                solve(replace(second, twist=twisted(law, v * shapes))).power.total,
+            ]
+            least = min(least, float(np.mean(power)))
+    assert_allclose(judged.reached.power, least, rtol=2e-5)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("concept", CONCEPTS)
+def test_moving_beats_fixed_before_it_is_carried(concept: str):
+    judged = verdict(concept=concept)
+    assert judged.gross_saving > 0.0
+    assert judged.baseline.ideal_saving > 0.0
+    assert judged.net_saving < judged.gross_saving
+
+
+@pytest.mark.slow
+def test_more_reach_saves_more():
+    linear = find_concept("linear")
+    fitted = verdict().fitted
+    powers = [best_reach(pair(), linear, fitted, derating=share).power for share in (0.0, 0.1, 0.3, 1.0)]
+    assert all(a >= b - 0.5 for a, b in pairwise(powers))
+    assert_allclose(powers[0], verdict().baseline.fixed.power, rtol=1e-6)
+
+
+@pytest.mark.parametrize("kind", ["retrofit", "new"])
+@pytest.mark.parametrize("concept", CONCEPTS)
+def test_voltages_stay_in_range_and_make_the_change(kind: str, concept: str):
+    judged = verdict(concept=concept, kind=kind)
+    assert len(judged.voltages) == (1 if concept == "linear" else 2)
+    for (a, b), change, twist in zip(
+        judged.voltages, judged.attained_segments, judged.fitted.segment_twists, strict=True
+    ):
+        assert min(a, b) >= -500.0 - 1e-6
+        assert max(a, b) <= 1500.0 + 1e-6
+        assert_allclose(abs(b - a) / 2000.0 * twist, abs(change), rtol=1e-6, atol=1e-9)
+
+
+def test_mass_costs_induced_power():
+    """ΔP/P ≈ 1.5 (P_i/P) Δm/m, mean of both conditions, plus a little for profile and tail."""
+    judged = verdict()
+    share = judged.fitted.bill.aircraft / pair().design.condition.mass
+    induced = np.mean([solution.power.induced for solution in judged.reached.solutions])
+    cost = judged.carried_power - judged.reached.power
+    assert 1.0 < cost / (1.5 * induced * share) < 1.6
+
+
+def test_retrofit_is_held_against_the_flown_twist():
+    judged = verdict(kind="retrofit")
+    flown = np.mean([solve(design).power.total for design in pair().designs()])
+    assert_allclose(judged.reference_power, flown, rtol=1e-9)
+
+
+def test_required_twist_by_hand():
+    """Linear optima of two rates: their difference over the blade from the cut-out to the tip."""
+    judged = verdict()
+    (first,), (second,) = (best.values for best in judged.baseline.best)
+    root = pair().design.rotor.blade.root_cutout
+    assert_allclose(judged.required, abs(second - first) * (1.0 - root), rtol=1e-9)
+    assert judged.feasible == (judged.required <= judged.attainable)
+
+
+def test_sentence_says_what_the_numbers_say():
+    judged = verdict(kind="retrofit")
+    assert "cannot make" in verdict_sentence(judged)
+    assert "does not pay" in verdict_sentence(judged)
+    assert "temperature" in verdict_sentence(judged)
+    assert "can make" in verdict_sentence(verdict())
+    passive = verdict("extension_twist")
+    assert not passive.pays
+    assert "rotor-speed" in verdict_sentence(passive)
+
+
+def test_limits_say_what_they_found():
+    """Kept or broken, one sentence holds; a sheet that cannot shear is not asked for millions of volts."""
+    rotor = pair().design.rotor
+    thick = fit(find_actuator("MFC_P1"), default_placement(1), Host(), rotor)
+    said = {limit.name: limit for limit in limits(thick, (0.5,))}
+    assert said["fibre-strain"].ok
+    assert "follows linearly up to 1000" in said["fibre-strain"].sentence
+    assert "Plies a side: 1;" in said["space"].sentence
+    assert "a swing of 1000 V" in said["voltage"].sentence
+    patch = fit(find_actuator("PZT5A"), default_placement(1), Host(), rotor)
+    said = {limit.name: limit for limit in limits(patch, (5e4,))}
+    assert "beyond any voltage" in said["voltage"].sentence
+    assert not said["voltage"].ok
+
+
+@pytest.mark.slow
+def test_thesis_preset_asks_for_more():
+    """The document's optima lie farther apart (−13.5° in hover, −4…−8° fast): no ply reaches that on this blade."""
+    base = baseline(pair("thesis"), find_concept("linear"))
+    (hover,), (fast,) = (best.values for best in base.best)
+    assert -17.0 < math.degrees(hover) < -12.0
+    assert math.degrees(fast - hover) > 5.5
+    judged = judge(find_actuator("MFC_P1"), pair("thesis"), find_concept("linear"), default_placement(6))
+    assert not judged.feasible
+
+
+def test_limit_for_the_optimiser():
+    """The optimiser's change limit from the actuator: from a blade twisted too much it goes back all the way it can."""
+    judged = verdict()
+    design = pair().designs()[1]
+    reference = find_concept("linear").twist([math.radians(-20.0)])
+    limit = change_limit(judged.fitted, reference, derated=True)
+    found = optimise(Search(design, find_concept("linear"), limits=Limits(change=limit), starts=1, band=False))
+    assert found.best is not None
+    root = design.rotor.blade.root_cutout
+    law = find_concept("linear").twist(found.best.parameters)
+    change = float(np.diff(law([root, 1.0]) - reference([root, 1.0]))[0])
+    assert_allclose(change, judged.attainable_derated, rtol=1e-4)
+
+
+# Pictures and tables
+
+
+def test_pictures():
+    judged = verdict()
+    picture = section_picture(judged.fitted)
+    assert {part.role for part in picture.parts} == {"outline", "skin", "web", "ply"}
+    assert all(np.isfinite(part.points).all() and part.points.shape[1] == 2 for part in picture.parts)
+    ply = next(part for part in picture.parts if part.role == "ply").points
+    x, y = ply.T
+    area = 0.5 * abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
+    assert_allclose(area, 0.4 * 0.6e-3, rtol=0.02)  # 0.75 c of one skin, two plies.
+    curve = twist_under_voltage(judged.fitted, (1500.0,))
+    assert_allclose(curve.twist[-1], 0.75 * judged.fitted.shapes[0, -1], rtol=1e-6)
+    assert np.all(np.abs(curve.twist) <= curve.limit + 1e-12)
+    with pytest.raises(ValueError, match="voltage 1600"):
+        twist_under_voltage(judged.fitted, (1600.0,))
+    chart = need_and_reach(judged)
+    assert_allclose(chart.required[-1], judged.required_segments.sum(), rtol=1e-6)
+    assert chart.attained.shape == chart.r.shape
+
+
+def test_tables():
+    assert len(table_5_1().rows) == 9
+    assert "MFC_P1" in table_5_1().text()
+    table = verdict_table([verdict(), verdict(kind="retrofit")])
+    assert all(len(row) == len(table.columns) for row in table.rows)
+
+
+# Command
+
+
+def test_command_json(capsys: pytest.CaptureFixture[str]):
+    assert main(["actuator", "--actuator", "AFC", "--plies", "1", "--json", "--to-mu", "0.25"]) == 0
+    out, err = capsys.readouterr()
+    answer = json.loads(out, parse_constant=lambda name: pytest.fail(f"{name} in JSON"))
+    assert err == ""
+    assert list(answer) == KEYS
+    assert answer["actuator"] == "AFC"
+    assert any("recalled" in caveat for caveat in answer["caveats"])
+    assert answer["net_saving_w"] < answer["gross_saving_w"]
+
+
+@pytest.mark.slow
+def test_command_text(capsys: pytest.CaptureFixture[str]):
+    assert main(["actuator", "--preset", "thesis", "--blade", "new", "--harmonic", "2"]) == 0
+    out, _ = capsys.readouterr()
+    assert "twist attainable" in out
+    assert "2/rev at µ 0.3" in out
+    assert main(["actuator", "--table", "5.1"]) == 0
+
+
+def test_a_table_as_json(capsys: pytest.CaptureFixture[str]):
+    assert main(["actuator", "--table", "5.1", "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert list(answer) == ["title", "columns", "rows", "notes"]
+    assert answer["rows"][0][0] == "MFC_P1"
+
+
+@pytest.mark.slow
+def test_tubes_are_counted_by_segment():
+    """Two tubes in one segment, two in each of two."""
+    linear, two = (verdict("SMA_tube", concept) for concept in ("linear", "two-segment"))
+    assert "(2 tubes, new blade" in verdict_sentence(linear)
+    assert "(2 tubes a segment, new blade" in verdict_sentence(two)
+
+
+def test_nothing_trims_is_exit_1(capsys: pytest.CaptureFixture[str]):
+    assert main(["actuator", "--json", "--mass-kg", "20000", "--altitude-m", "4000"]) == 1
+    answer = json.loads(capsys.readouterr().out)
+    assert list(answer) == KEYS
+    assert answer["status"] == "not-converged"
+    assert answer["net_saving_w"] is None
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--actuator", "glue"], "actuator 'glue' is not known"),
+        (["--concept", "wavy"], "concept 'wavy' is not known"),
+        (["--concept", "two-segment", "--division", "1.5"], "division 1.5 of concept two-segment is outside"),
+        (["--plies", "0"], "0 plies"),
+        (["--from-mu", "0.3"], "both conditions have advance ratio 0.3"),
+        (["--to-mu", "2"], "advance ratio 2 is outside"),
+        (["--span", "0.2"], "active span '0.2' is not understood"),
+        (["--chord", "0.5:0.1"], "active chord 0.5…0.1"),
+        (["--blade", "retrofit", "--stiffness", "0.5"], "retrofit keeps the blade"),
+        (["--angle-deg", "0"], "fibre angle 0"),
+        (["--share", "1"], "time share 1"),
+        (["--harmonic", "0"], "0/rev"),
+    ],
+)
+def test_bad_input_is_exit_2(arguments: list[str], words: str, capsys: pytest.CaptureFixture[str]):
+    assert main(["actuator", *arguments]) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.count("\n") == 1
+    assert words in err
+
+
+def test_reached_twist_can_be_flown_again():
+    """The SPEC of a reached twist is read by every other command, and takes the same power."""
+    solution = verdict().reached.solutions[1]
+    spec = solution.design.twist.spec()
+    again = make_design(twist=spec, advance_ratio=0.3, models=solution.design.models)
+    assert_allclose(solve(again).power.total, solution.power.total, rtol=1e-7)

@@ -1,0 +1,377 @@
+"""Physics switches: limits, hand values, the energy identity and exact derivatives for every combination."""
+
+import itertools
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+from scipy.integrate import dblquad
+
+from rotor.__main__ import main
+from rotor.aero import kernel
+from rotor.aero.elements import LAMBDA0, LOW_MACH, N_STATE, lay_out, run_pass
+from rotor.aero.inflow import INFLOW_MODELS
+from rotor.aero.inflow.tip_factor import tip_factor
+from rotor.aero.inflow.wake_state import Wake
+from rotor.aero.sums import slopes
+from rotor.aero.switches import SWITCHES, no_effect, parse_switches, switched_off, with_switches
+from rotor.airfoil.sections import load_installed
+from rotor.analysis.waterfall import PARTS, climb, waterfall
+from rotor.assets import asset_path
+from rotor.design.design import Design
+from rotor.design.twist import TableTwist
+from rotor.files.design_file import case_of, design_of
+from rotor.files.make_design import make_design
+from rotor.files.rotor_file import read_aircraft
+from rotor.trim import newton
+from rotor.trim.adjoint import power_gradient
+from rotor.trim.equations import jacobian, residuals, unknowns_of
+from rotor.trim.hub_loads import hub_moment
+from rotor.trim.power import power_budget
+from rotor.trim.solve import solve
+
+EVERY = [
+    tuple(n for n, on in zip(SWITCHES, c, strict=True) if not on) for c in itertools.product((True, False), repeat=6)
+]
+
+
+def small(mu: float, preset: str = "flight", inflow: str | None = None, **models: object) -> Design:
+    """A coarse grid: identities and exactness do not depend on it."""
+    design = make_design(preset, advance_ratio=mu, twist="segments:-14,-6@0.6")
+    inflow = inflow or design.models.inflow
+    return replace(design, models=replace(design.models, elements=16, azimuths=36, inflow=inflow, **models))
+
+
+def name(off: tuple[str, ...]) -> str:
+    return "+".join(off) or "all on"
+
+
+@pytest.mark.parametrize("inflow", ["dynamic-wake", "pitt-peters"])
+def test_energy_identity_for_every_combination(inflow: str):
+    """P_shaft = Σ(λ_i dF_z + U dD) + D·V, all 64: torque, dissipation and trim are computed apart and must meet."""
+    for off in EVERY:
+        solution = solve(with_switches(small(0.3, inflow=inflow), off)).require()
+        assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=2e-9, err_msg=name(off))
+
+
+@pytest.mark.parametrize(
+    "inflow",
+    ["local-momentum", "dynamic-wake-infinite-blades", pytest.param("vortex-wake", marks=pytest.mark.slow)],
+)
+def test_energy_identity_for_every_inflow_that_answers(inflow: str):
+    for off in ((), tuple(SWITCHES)):
+        solution = solve(with_switches(small(0.2, inflow=inflow), off)).require()
+        assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=2e-9)
+
+
+@pytest.mark.parametrize("preset", ["flight", "thesis"])
+@pytest.mark.parametrize(
+    ("mu", "every"), [(0.0, 13), (0.38, 7), *(pytest.param(mu, 1, marks=pytest.mark.slow) for mu in (0.05, 0.2, 0.38))]
+)
+def test_combinations_trim_in_both_presets(preset: str, mu: float, every: int):
+    for off in EVERY[::every]:
+        assert solve(with_switches(small(mu, preset), off)).converged, name(off)
+
+
+@pytest.mark.parametrize("off", [*((n,) for n in SWITCHES), ("flapping", "reverse_flow"), tuple(SWITCHES)], ids=name)
+@pytest.mark.parametrize("trim", ["propulsive", "thrust"])
+def test_jacobian_against_differences(off: tuple[str, ...], trim: str):
+    problem = lay_out(with_switches(small(0.35, inflow="pitt-peters", trim=trim), off))
+    unknowns = unknowns_of(problem.design.models)
+    state = np.array([0.17, 0.03, -0.09, 0.08, 0.06, -0.02, 0.01, 0.012])
+    if "flapping" in off:
+        state[[1, 2, 4, 5, 6]] = 0.0
+        assert len(unknowns) == (3 if trim == "propulsive" else 2)
+    one = run_pass(problem, state)
+    exact = jacobian(problem, one, slopes(problem, one, unknowns, None))
+    assert exact.shape == (len(unknowns), len(unknowns))
+    for k, unknown in enumerate(unknowns):
+        step = np.zeros(N_STATE)
+        step[unknown] = 1e-6 * (0.1 if unknown == LAMBDA0 else 1.0)
+        ahead, behind = (residuals(problem, run_pass(problem, state + sign * step)) for sign in (1.0, -1.0))
+        assert_allclose(exact[:, k], (ahead - behind) / (2.0 * step[unknown]), rtol=2e-5, atol=2e-7)
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.3])
+@pytest.mark.parametrize("off", [*((n,) for n in SWITCHES), tuple(SWITCHES)], ids=name)
+def test_gradient_along_the_blade_against_differences(off: tuple[str, ...], mu: float, monkeypatch: pytest.MonkeyPatch):
+    """dP/dθ(r) with the dynamic wake, along one change of pitch that no twist law knows."""
+    monkeypatch.setattr(newton, "TOLERANCE", 1e-12)
+    monkeypatch.setattr(newton, "INFLOW_TOLERANCE", 1e-11)
+    design = with_switches(small(mu), off)
+    r = lay_out(design).disk.r
+    base, way = design.twist(r), np.random.default_rng(3).standard_normal(len(r))
+    ends = (0.0, *r, 1.0)
+
+    def power(amount: float) -> float:
+        angles = base + amount * way
+        table = TableTwist(ends, (angles[0], *angles, angles[-1]))
+        # A table is moved to be zero at 0.75 R: the collective takes that, and the power does not change.
+        return solve(replace(design, twist=table), centre).require().power.total
+
+    centre = solve(design).require()
+    step = 2e-6
+    measured = (power(step) - power(-step)) / (2.0 * step)
+    exact = power_gradient(centre).by_element
+    assert_allclose(exact @ way, measured, rtol=0.0, atol=2e-6 * float(np.linalg.norm(exact) * np.linalg.norm(way)))
+
+
+class TestReverseFlow:
+    @pytest.mark.parametrize("mu", [0.0, 0.05, 0.13])
+    def test_changes_nothing_while_the_circle_is_inside_the_cut_out(self, mu: float):
+        design = small(mu)
+        on, off = solve(design).require(), solve(with_switches(design, ("reverse_flow",))).require()
+        assert on.power == off.power
+        assert_array_equal(on.disk.dct, off.disk.dct)
+        assert no_effect(design, "reverse_flow")
+
+    def test_no_load_and_no_drag_inside_it(self):
+        solution = solve(with_switches(make_design(advance_ratio=0.38), ("reverse_flow",))).require()
+        inside = solution.disk.r[:, None] + 0.38 * np.sin(solution.disk.psi) < 0.0
+        assert inside.sum() > 100
+        assert (solution.disk.u_t[~inside] >= 0.0).all()
+        for field in (solution.disk.dct, solution.disk.dcq, solution.disk.cl, solution.disk.cd):
+            assert not field[inside].any()
+            assert field[~inside].any()
+
+    def test_profile_power_of_a_constant_drag_without_the_circle(self):
+        """C_P0 = σC_d/4π ∬ (r + µ sin ψ)³ over the rest of the blade, by quadrature."""
+        mu, drag = 0.4, 0.01
+        design = make_design("thesis", advance_ratio=mu)
+        problem = lay_out(with_switches(design, ("reverse_flow",)))
+        assert problem.idle is not None
+        one = run_pass(problem, np.array([0, 0, 0, 0, 0, 0, 0, 1e-9]))
+        loads = one.loads.copy()
+        loads[kernel.CD] = np.where(problem.idle, loads[kernel.CD], drag)
+        got = power_budget(problem, replace(one, loads=loads)).profile / design.power_unit
+        root = design.rotor.blade.root_cutout
+        whole, _ = dblquad(
+            lambda r, psi: (r + mu * math.sin(psi)) ** 3,
+            0.0,
+            2.0 * math.pi,
+            lambda psi: max(root, -mu * math.sin(psi)),
+            1.0,
+        )
+        assert_allclose(got, design.rotor.solidity * drag * whole / (4.0 * math.pi), rtol=5e-4)
+
+
+class TestCompressibility:
+    def test_sections_are_those_of_one_mach_number(self):
+        solution = solve(with_switches(make_design(advance_ratio=0.35), ("compressibility",))).require()
+        disk = solution.disk
+        for i, section in ((2, "sc1095"), (22, "sc1094r8"), (38, "sc1095")):
+            installed = load_installed(section)
+            at = installed.table(disk.alpha[i] - installed.incidence_offset, LOW_MACH)
+            assert_allclose(disk.cl[i], at.cl, rtol=1e-9, atol=1e-11)
+            assert_allclose(disk.cd[i], at.cd, rtol=1e-9)
+        assert not disk.cd_mach.any()
+        assert disk.mach.max() > 0.85  # The Mach number itself stays what it is.
+
+    def test_lift_slope_grows_by_prandtl_and_glauert(self):
+        """What the switch takes away at Mach 0.6: √(1 − 0.3²)/√(1 − 0.6²) = 1.192 of lift slope."""
+        table = load_installed("sc1095").table
+        ratio = table.lift_slope(0.6) / table.held_at(LOW_MACH).lift_slope(0.6)
+        assert_allclose(ratio, math.sqrt(1.0 - 0.09) / math.sqrt(1.0 - 0.36), rtol=0.02)
+
+    def test_held_table_is_flat_and_smooth(self):
+        table = load_installed("sc1094r8").table
+        alpha = np.linspace(-math.pi, math.pi, 101)
+        for mach in (0.0, 0.3, 0.33, 0.95):
+            held = table.held_at(mach)
+            for other in (0.0, 0.47, 0.99):
+                got, want = held(alpha, other), table(alpha, mach)
+                assert_allclose(got.cl, want.cl, atol=1e-12)
+                assert_allclose(got.cd_alpha, want.cd_alpha, atol=1e-10)
+                assert not got.cl_mach.any()
+                assert_allclose(held.stall_alpha(other), table.stall_alpha(mach), atol=1e-12)
+
+    def test_a_section_of_ones_own_is_asked_too(self):
+        deck = asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8")
+        text = asset_path("r22.toml").read_text(encoding="utf-8").replace('"naca63a015"', '"mine"')
+        text += '\n[sections.mine]\ndeck = "mine.c81"\n'
+        craft = read_aircraft("my.toml", {"my.toml": text, "mine.c81": deck})
+        assert no_effect(make_design(aircraft=craft, advance_ratio=0.2), "compressibility") == ""
+
+    def test_the_document_knows_one_mach_number(self):
+        design = make_design("thesis", advance_ratio=0.3)
+        off = solve(with_switches(design, ("compressibility",))).require()
+        assert_allclose(off.power.total, solve(design).require().power.total, rtol=1e-12)
+        assert "one Mach number" in no_effect(design, "compressibility")
+
+
+class TestFlapping:
+    def test_rigid_blades_have_neither_flapping_nor_cyclic(self):
+        for preset in ("flight", "thesis"):
+            for mu in (0.0, 0.25):
+                c = solve(with_switches(small(mu, preset), ("flapping",))).require().controls
+                assert (c.coning, c.flap_1c, c.flap_1s, c.cyclic_1c, c.cyclic_1s) == (0.0,) * 5
+
+    def test_thrust_and_drag_are_still_carried(self):
+        design = with_switches(make_design(advance_ratio=0.25), ("flapping",))
+        solution = solve(design).require()
+        disk, tilt = solution.disk, solution.controls.shaft_tilt
+        mean = disk.dr / len(disk.psi)
+        thrust = disk.dct.sum() * mean
+        drag = (disk.dcq * np.sin(disk.psi)).sum() * mean
+        unit = design.thrust_unit
+        assert_allclose(thrust * math.cos(tilt) + drag * math.sin(tilt), design.condition.weight / unit, rtol=1e-9)
+        assert_allclose(thrust * math.sin(tilt) - drag * math.cos(tilt), design.drag / unit, rtol=1e-8)
+
+    def test_hub_moment_of_a_rigid_blade_by_hand(self):
+        """C_l = aα, untwisted, uniform inflow: rolling moment ½σa·µ(θ/3 − λ/4) to the retreating side."""
+        sigma, slope, mu, theta, inflow = 0.08, 5.73, 0.2, 0.12, 0.02
+        design = make_design(advance_ratio=mu)
+        fine = replace(design.models, elements=400, inflow="uniform")
+        problem = lay_out(with_switches(replace(design, models=fine), ("flapping",)))
+        one = run_pass(problem, np.array([theta, 0, 0, 0, 0, 0, 0, inflow]))
+        loads = one.loads.copy()
+        loads[kernel.FZ] = 0.5 * sigma * slope * (theta * one.u_t**2 - inflow * one.u_t)
+        moment = hub_moment(problem, replace(one, loads=loads))
+        root = design.rotor.blade.root_cutout
+        by_hand = 0.5 * sigma * slope * mu * (theta * (1 - root**3) / 3.0 - inflow * (1 - root**2) / 4.0)
+        unit = design.thrust_unit * design.rotor.radius
+        assert_allclose(moment.roll / unit, by_hand, rtol=1e-4)
+        assert_allclose(moment.pitch / unit, 0.0, atol=1e-12)
+        assert moment.roll > 0.0
+
+    def test_blades_hinged_at_the_centre_hand_over_nothing(self):
+        solution = solve(make_design("thesis", advance_ratio=0.3)).require()
+        assert solution.hub_moment.size < 1.0  # [N m] of 670 kN m of weight × radius
+
+    def test_hinge_moment_is_the_shear_at_the_hinge(self):
+        """e (F1 + S Ω² β1), the same from the other side: shear of lift and of the flapping blade's inertia."""
+        design = make_design(advance_ratio=0.25)
+        design = replace(design, condition=replace(design.condition, flap_1c=0.04, flap_1s=-0.03))
+        solution = solve(design).require()
+        disk, rotor, c = solution.disk, design.rotor, solution.controls
+        lift = disk.dct.sum(axis=0) * disk.dr * design.thrust_unit / len(disk.psi)
+        offset = rotor.blade.flap_hinge * rotor.radius
+        inertia = 0.5 * rotor.blades * rotor.blade.flap_static_moment * rotor.angular_speed**2
+        assert_allclose(solution.hub_moment.roll, offset * (lift @ np.sin(disk.psi) + inertia * c.flap_1s), rtol=1e-6)
+        assert_allclose(solution.hub_moment.pitch, -offset * (lift @ np.cos(disk.psi) + inertia * c.flap_1c), rtol=1e-6)
+
+    def test_the_page_reads_what_the_hub_carries(self):
+        solution = solve(with_switches(small(0.25), ("flapping",))).require()
+        sentences = {caveat.name: caveat.sentence for caveat in solution.caveats}
+        assert sentences["switched-off"] == "Switched off: flapping: a lesson, not the aircraft."
+        assert f"{solution.hub_moment.roll / 1e3:.0f} kN m rolling to the retreating side" in sentences["rigid-blades"]
+        assert solution.hub_moment.roll > 50e3
+
+
+class TestLossesAndFuselage:
+    @pytest.mark.parametrize(("off", "end"), [("tip_loss", -1), ("hub_loss", 0)])
+    def test_each_loss_has_its_own_end_of_the_blade(self, off: str, end: int):
+        state = np.array([0.17, 0, 0, 0.08, 0, 0, 0, 0.012])
+        on, without = (
+            run_pass(lay_out(with_switches(small(0.2, inflow="drees"), names)), state).loss for names in ((), (off,))
+        )
+        assert on[end] < 0.95
+        assert without[end] == pytest.approx(1.0, abs=1e-4)
+        assert without[-1 - end] == pytest.approx(on[-1 - end], abs=1e-4)
+
+    @pytest.mark.parametrize("inflow", ["local-momentum", "dynamic-wake-infinite-blades"])
+    def test_inflow_that_answers_leaves_its_own_factor_out(self, inflow: str):
+        """At one load λ_i with tip loss is λ_i without it over F (2.28): F of the mean inflow by Prandtl."""
+        disk = lay_out(small(0.2)).disk
+        wake = Wake(0.2, 0.01, 0.013)
+        load = 0.02 * disk.r[:, None] * np.ones(disk.shape[1])
+        model = INFLOW_MODELS[inflow]
+        on, off = (m.respond(disk, wake, load).induced for m in (model, model.without_tip_loss()))
+        uneven = 0.0 if inflow != "local-momentum" else on - (on.mean(axis=1, keepdims=True))
+        factor, _ = tip_factor(disk.r, wake, 4)
+        assert_allclose((on - uneven) * factor[:, None], off - uneven, rtol=1e-9)
+
+    def test_four_blades_without_tip_loss_are_infinitely_many(self):
+        wake = INFLOW_MODELS["dynamic-wake"].without_tip_loss()
+        infinite = INFLOW_MODELS["dynamic-wake-infinite-blades"].without_tip_loss()
+        disk = lay_out(small(0.2)).disk
+        load = np.random.default_rng(1).random(disk.shape)
+        a, b = (m.respond(disk, Wake(0.2, 0.0, 0.013), load).induced for m in (wake, infinite))
+        assert_allclose(a, b, rtol=1e-12)
+        assert no_effect(small(0.2, inflow="vortex-wake"), "tip_loss")
+
+    def test_losses_only_cost(self):
+        full = solve(make_design(advance_ratio=0.0)).require().power.total
+        for off in ("tip_loss", "hub_loss"):
+            assert solve(with_switches(make_design(advance_ratio=0.0), (off,))).require().power.total < full
+
+    def test_no_fuselage_no_parasite_power_and_hardly_a_tilt(self):
+        on = solve(make_design(advance_ratio=0.3)).require()
+        off = solve(with_switches(make_design(advance_ratio=0.3), ("fuselage",))).require()
+        assert off.power.parasite == 0.0
+        assert abs(off.controls.shaft_tilt) < math.radians(1.5) < on.controls.shaft_tilt
+        thesis = with_switches(make_design("thesis", advance_ratio=0.3), ("fuselage",))
+        assert solve(thesis).require().controls.shaft_tilt == 0.0
+
+
+class TestWaterfall:
+    def test_steps_add_up_to_the_whole(self):
+        design = small(0.3)
+        found = waterfall(design)
+        assert found.converged
+        assert [step.switch.name for step in found.steps if step.switch] == list(SWITCHES)
+        bare = solve(with_switches(design, tuple(SWITCHES))).require().power.total
+        full = solve(design).require().power.total
+        assert_allclose(sum(step.added or 0.0 for step in found.steps), full - bare, rtol=1e-8)
+        assert found.full.design == design
+        for part in PARTS:
+            total = sum(step.change[part] for step in found.steps if step.change)
+            ends = [getattr(found.steps[k].solution.power, part) for k in (0, -1)]
+            assert_allclose(total, ends[1] - ends[0], rtol=1e-12, atol=1e-6)
+
+    def test_each_alone_is_the_full_model_less_one(self):
+        design = small(0.3)
+        found = waterfall(with_switches(design, ("fuselage",)))  # The design's own switches do not matter.
+        for step in found.alone:
+            assert step.switch is not None
+            assert [off.name for off in switched_off(step.solution.design.models)] == [step.switch.name]
+            assert step.against is found.full
+        by_drag = next(step for step in found.alone if step.switch and step.switch.name == "fuselage")
+        assert by_drag.change is not None
+        assert_allclose(by_drag.change["parasite"], -found.full.power.parasite, rtol=1e-12)
+
+    def test_a_step_that_does_not_trim_is_passed_over(self):
+        """The hovering rotor lifts 21.5 t with the lift and the stall of Mach 0.3, and not with the real ones."""
+        design = replace(small(0.0), condition=replace(small(0.0).condition, mass=21_500.0))
+        steps = list(climb(design))
+        assert [step.power is not None for step in steps] == [True] * 5 + [False] * 2
+        assert steps[5].change is None
+        assert steps[6].against is steps[4].solution
+
+    def test_command(self, capsys: pytest.CaptureFixture[str]):
+        assert main(["waterfall", "--mu", "0.3", "--json"]) == 0
+        answer = json.loads(capsys.readouterr().out)
+        assert answer["steps"][0]["switch"] is None
+        assert [step["switch"] for step in answer["steps"][1:]] == [s.flag for s in SWITCHES.values()]
+        ends = answer["steps"][0]["total_w"], answer["steps"][-1]["total_w"]
+        added = sum(sum(step["change_w"].values()) for step in answer["steps"][1:])
+        assert_allclose(added, ends[1] - ends[0], rtol=1e-12)
+        assert main(["waterfall", "--mu", "0", "--preset", "thesis"]) == 0
+        assert "-0.0" not in capsys.readouterr().out
+
+
+class TestCommandAndFiles:
+    def test_off_reaches_the_physics(self, capsys: pytest.CaptureFixture[str]):
+        assert main(["solve", "--mu", "0.2", "--off", "tip-loss, reverse_flow", "--json"]) == 0
+        answer = json.loads(capsys.readouterr().out)
+        assert answer["switched_off"] == ["tip-loss", "reverse-flow"]
+        assert set(answer["hub_moment_n_m"]) == {"roll", "pitch"}
+
+    def test_unknown_switch_is_one_sentence(self, capsys: pytest.CaptureFixture[str]):
+        assert main(["sweep", "--mu", "0.2", "--off", "gravity"]) == 2
+        error = capsys.readouterr().err
+        assert error.count("\n") == 1
+        assert "'gravity' is not known: use flapping, tip-loss, hub-loss" in error
+        assert parse_switches("") == ()
+
+    def test_files_keep_every_switch_and_old_files_are_read(self, tmp_path: Path):
+        for off in EVERY[::7]:
+            design = with_switches(make_design(advance_ratio=0.2), off)
+            assert design_of(case_of(design)).models == design.models
+        assert switched_off(design_of({"tip_loss": False, "hub_loss": True}).models)[0].name == "tip_loss"
+        with pytest.raises(ValueError, match="'flapping' is 0: give true or false"):
+            design_of({"flapping": 0})

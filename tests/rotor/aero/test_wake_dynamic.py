@@ -1,0 +1,226 @@
+"""The dynamic wake on the disk: fast operators against brute force, its limits, and time marching."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from inflow_tables import table
+from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
+
+from rotor.aero.inflow.peters_he import families, flow_parameters
+from rotor.aero.inflow.tip_factor import tip_factor
+from rotor.aero.inflow.wake_modes import radial_functions
+from rotor.aero.inflow.wake_response import DynamicWake, WakeResponse
+from rotor.aero.inflow.wake_state import Wake
+from rotor.aero.momentum import glauert_inflow
+
+ROOT, ELEMENTS, AZIMUTHS = 0.13, 12, 42
+R = DynamicWake().on(ROOT, ELEMENTS, AZIMUTHS).r
+FORWARD = Wake(0.199, 0.012, 0.0163)
+MODELS = [DynamicWake(), DynamicWake(harmonics=0), DynamicWake(order=4, harmonics=1), DynamicWake.of(5)]
+
+
+def respond(model: DynamicWake, wake: Wake = FORWARD) -> WakeResponse:
+    return model.response(model.on(ROOT, ELEMENTS, AZIMUTHS), wake)
+
+
+def noise(seed: int) -> np.ndarray:
+    return np.random.default_rng(seed).normal(size=(ELEMENTS, AZIMUTHS))
+
+
+@pytest.fixture(params=MODELS, ids=str)
+def model(request: pytest.FixtureRequest) -> DynamicWake:
+    return request.param
+
+
+def test_size_of_the_default():
+    assert respond(DynamicWake()).projection.states == 225  # (25 + 20)(1 + 2·2)
+
+
+def test_projection_against_brute_force():
+    """Every shape written out: φ(r) × trig mψ × rotor harmonic, summed over the grid one by one."""
+    projection = DynamicWake(order=4, harmonics=1).on(ROOT, ELEMENTS, AZIMUTHS)
+    psi = 2.0 * np.pi * np.arange(AZIMUTHS) / AZIMUTHS
+    d = noise(1)
+    expected_loads, shapes = [], []
+    for family, trig in zip(families(4), (np.cos, np.sin), strict=True):
+        for kind, rotor in enumerate((np.ones_like(psi), np.cos(4.0 * psi), np.sin(4.0 * psi))):
+            for (m, _), phi in zip(family.modes, radial_functions(family.modes, R), strict=True):
+                shape = np.outer(phi, trig(m * psi) * rotor)
+                expected_loads.append((0.5 if m == 0 else 1.0) * (shape * d).sum(axis=0).mean() * (1 - ROOT) / ELEMENTS)
+                shapes.append(shape * (1.0 if kind == 0 else 2.0))
+    assert_allclose(projection.loads(d), expected_loads, rtol=0, atol=1e-14)
+    x = np.random.default_rng(2).normal(size=projection.states)
+    assert_allclose(projection.field(x), np.tensordot(x, np.array(shapes), axes=1), rtol=0, atol=1e-11)
+
+
+def test_reduced_matrix_against_brute_force(model: DynamicWake):
+    projection = model.on(ROOT, ELEMENTS, AZIMUTHS)
+    slope = noise(3)
+    columns = [projection.loads(slope * projection.field(x)) for x in np.eye(projection.states)]
+    assert_allclose(projection.reduced(slope), np.stack(columns, axis=1), rtol=0, atol=1e-13)
+
+
+def test_transposes(model: DynamicWake):
+    response = respond(model)
+    projection = response.projection
+    d, g = noise(4), noise(5)
+    x = np.random.default_rng(6).normal(size=projection.states)
+    # Dot products of some hundred terms of order 10.
+    assert_allclose(np.vdot(g, projection.field(x)), projection.field_transposed(g) @ x, rtol=0, atol=1e-11)
+    assert_allclose(projection.loads(d) @ x, np.vdot(d, projection.loads_transposed(x)), rtol=0, atol=1e-12)
+    assert_allclose(np.vdot(g, response.induced(d)), np.vdot(response.induced_transposed(g), d), rtol=0, atol=1e-10)
+
+
+def test_loop_is_solved_exactly(model: DynamicWake):
+    response = respond(model)
+    slope, f, g = -0.3 * np.abs(noise(7)), noise(8), noise(9)
+    loop = response.loop(slope)
+    inflow = loop.solve(f)
+    assert_allclose(inflow - response.induced(slope * inflow), f, rtol=0, atol=1e-12)
+    v = loop.solve_transposed(g)
+    assert_allclose(v - slope * response.induced_transposed(v), g, rtol=0, atol=1e-11)
+    assert_allclose(np.vdot(g, inflow), np.vdot(v, f), rtol=0, atol=1e-10)
+    # Inflow that the states can hold: the same loop without leaving them.
+    x = np.random.default_rng(10).normal(size=response.projection.states)
+    assert_allclose(loop.solve(response.field(x)), response.field(loop.solve_states(x)), rtol=0, atol=1e-10)
+
+
+@pytest.mark.parametrize("wake", [FORWARD, Wake(0.35, 0.04, 0.011), Wake(0.02, 0.0, 0.055), Wake(0.0, 0.0, 0.057)])
+def test_slopes_by_wake(model: DynamicWake, wake: Wake):
+    d = noise(11)
+    exact = respond(model, wake).induced_by_wake(d)
+    given_wake = np.array([wake.mu_x, wake.mu_z, wake.lambda0])
+    for k in range(3):
+        step = np.zeros(3)
+        step[k] = 1e-6
+        ahead, behind = (respond(model, Wake(*(given_wake + s * step))).induced(d) for s in (1, -1))
+        # Central differences: 1e-12 × third derivative (λ/V³ ~ 1e4) and rounding 1e-14/1e-6.
+        assert_allclose(exact[k], (ahead - behind) / 2e-6, rtol=0, atol=1e-6 * np.abs(exact).max())
+
+
+@given(mu=st.floats(0.0, 0.45), axial=st.floats(0.005, 0.1), lambda0=st.floats(0.002, 0.08))
+def test_slopes_exist_everywhere(mu: float, axial: float, lambda0: float):
+    """Near-edgewise flow included, where [L] itself cannot be inverted."""
+    response = respond(DynamicWake(), Wake(mu, axial - lambda0, lambda0))
+    flow = response.flow
+    if flow.mass_flow <= 0.0:
+        return  # Fast descent: the theory has no answer there.
+    assert np.isfinite(response.induced(noise(12))).all()
+    assert np.isfinite(response.induced_by_wake(noise(12))).all()
+
+
+def test_steady_answer_to_the_hub_zero_load():
+    """Induced power of the actuator disk's type III load over Glauert's at µ 0.2, without tip factor: 1.169."""
+    model = DynamicWake(harmonics=0)
+    elements, azimuths = 200, 36
+    projection = model.on(ROOT, elements, azimuths)
+    r, dr = projection.r, (1.0 - ROOT) / elements
+    load = r**3 * np.sqrt(1.0 - r**2)
+    ct = 0.006511
+    d = np.repeat((ct * load / (load.sum() * dr))[:, None], azimuths, axis=1)
+    lambda0, _ = glauert_inflow(ct, 0.2, 0.0)
+    response = model.response(projection, Wake(0.2, 0.0, lambda0))
+    inflow = projection.field(response.states(d))
+    kappa = (inflow * d).mean(axis=1).sum() * dr / (ct * lambda0)
+    assert 1.169 <= kappa <= 1.173  # The span of the reference's own values.
+
+
+def test_sideways_symmetry():
+    """A load mirrored about the fore-aft line makes the mirrored inflow of the mirrored rotor.
+
+    With rotation reversed sin qψ changes sign as well, so the apparent mass must be reversed: only its steady part is
+    mirror-symmetric for one sense of rotation.
+    """
+    response = respond(DynamicWake(harmonics=0))
+    d = noise(13)
+    mirror = -np.arange(AZIMUTHS) % AZIMUTHS
+    assert_allclose(response.induced(d[:, mirror]), response.induced(d)[:, mirror], rtol=0, atol=1e-11)
+
+
+def test_blade_harmonics_against_time_marching():
+    """Four blades with equal steady loads: march the wake's own equations until they repeat, and look from the blade.
+
+    An axisymmetric load has only the wave numbers 4 and 8 for the modes kept, so nothing is lost to truncation.
+    """
+    model, wake = DynamicWake(order=4, harmonics=1), Wake(0.15, 0.01, 0.03)
+    elements, azimuths = 20, 24
+    projection = model.on(ROOT, elements, azimuths)
+    r, dr = projection.r, (1.0 - ROOT) / elements
+    load = 0.01 * np.square(r)
+    response = model.response(projection, wake)
+    balanced = response.induced(np.repeat(load[:, None], azimuths, axis=1))
+
+    flow = flow_parameters(wake)
+    marched = np.zeros((elements, azimuths))
+    blades = 0.5 * math.pi * np.arange(4)
+    times = 2.0 * math.pi * (np.arange(azimuths) / azimuths + 12)
+    for family, trig in zip(families(4), (np.cos, np.sin), strict=True):
+        influence, _ = family.influence(flow.half_skew)
+        diagonal = np.where(family.uniform > 0.0, flow.speed, flow.mass_flow)
+        stiffness = diagonal[:, None] * np.linalg.inv(influence)
+        radial = radial_functions(family.modes, r)
+        m = np.array([mode[0] for mode in family.modes])
+        strength = np.where(m == 0, 0.5, 1.0) * (radial @ load) * dr
+
+        def rate(psi: float, alpha: np.ndarray) -> np.ndarray:
+            tau = strength * trig(m[:, None] * (psi + blades)).mean(axis=1)  # noqa: B023
+            return (0.5 * tau - stiffness @ alpha) / family.mass  # noqa: B023
+
+        end = solve_ivp(rate, (0.0, times[-1]), np.zeros(len(m)), method="LSODA", t_eval=times, rtol=1e-9, atol=1e-13)
+        marched += np.einsum("jr,jt,jt->rt", radial, end.y, trig(np.outer(m, times)))
+    assert_allclose(balanced, marched, rtol=0, atol=1e-7 * np.abs(balanced).max())  # Tolerance of the integrator.
+
+
+@pytest.mark.parametrize(("order", "harmonics"), [(4, 1), (8, 2)])
+def test_axial_optimum_matches_an_independent_program(order: int, harmonics: int):
+    """Least induced power in axial flow over loads r √(1 − r²) × polynomial: blade harmonics to four digits."""
+    model = DynamicWake(order=order, harmonics=harmonics)
+    elements, azimuths = 400, 36
+    projection = model.on(ROOT, elements, azimuths)
+    r, dr = projection.r, (1.0 - ROOT) / elements
+    across = (2.0 * r - 1.0 - ROOT) / (1.0 - ROOT)
+    loads = (r * np.sqrt(1.0 - np.square(r)))[:, None] * np.polynomial.chebyshev.chebvander(across, 5)
+    spread = np.repeat(loads.T[:, :, None], azimuths, axis=2)
+    for row in table("axial_kappa"):
+        axial = float(row["lam"])
+        response = model.response(projection, Wake(0.0, axial, 0.0))
+        inflow = np.stack([response.induced(load)[:, 0] for load in spread], axis=1)
+        form, thrust = loads.T @ inflow * dr, loads.sum(axis=0) * dr
+        # Some combinations of loads drive no state at all; the least-squares solution leaves them out.
+        best = np.linalg.lstsq(0.5 * (form + form.T), thrust, rcond=1e-10)[0]
+        # The table has four decimals.
+        assert_allclose(2.0 * axial / (thrust @ best), float(row[f"GDW_S{order}k{harmonics}"]), atol=2e-4)
+
+
+def test_infinite_blades_see_the_tip_factor():
+    model = DynamicWake.of(4, infinite_blades=True)
+    response = respond(model)
+    d = noise(14)
+    factor, _ = tip_factor(R, FORWARD, 4)
+    plain = response.projection.field(response.states(d))
+    assert_allclose(response.induced(d), plain / factor[:, None], rtol=1e-14)
+    assert np.all(respond(DynamicWake()).factor == 1.0)  # Blade harmonics hold the tip themselves.
+
+
+def test_tip_factor():
+    factor, _ = tip_factor([0.2, 0.95, 1.0], Wake(0.2, 0.01, 0.02), 4)
+    by_hand = 2.0 / math.pi * math.acos(math.exp(-4.0 * 0.05 / (2.0 * 0.03)))
+    assert_allclose(factor, [1.0, by_hand, 0.1], rtol=1e-9)  # 1 − F at 0.2 R is 1e-23.
+    r = np.linspace(0.5, 0.999, 9)
+    _, slope = tip_factor(r, Wake(0.2, 0.01, 0.02), 4)
+    above, below = (tip_factor(r, Wake(0.2, 0.01, 0.02 + h), 4)[0] for h in (1e-6, -1e-6))
+    assert_allclose(slope, (above - below) / 2e-6, rtol=1e-6, atol=1e-8)
+
+
+def test_truncation_rule():
+    assert DynamicWake.of(4) == DynamicWake(4, 8, 2)
+    assert DynamicWake.of(5) == DynamicWake(5, 10, 2)
+    assert DynamicWake.of(4, 4) == DynamicWake(4, 4, 1)
+    with pytest.raises(ValueError, match="do not match"):
+        DynamicWake(4, 8, 1)
+    with pytest.raises(ValueError, match="use more than 32"):
+        DynamicWake().on(ROOT, ELEMENTS, 32)

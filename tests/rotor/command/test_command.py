@@ -1,0 +1,148 @@
+"""The command line as scripts see it (DESIGN §8): flags, JSON keys, exit codes, one line for bad input."""
+
+import csv
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor.__main__ import main
+from rotor.command.sweep import COLUMNS
+from rotor.files.ranges import parse_range
+
+KEYS = [
+    "status", "message", "caveats", "mu", "speed_m_s", "preset", "inflow", "twist", "power_w", "ct", "cp",
+    "ct_over_sigma", "collective_deg", "cyclic_1c_deg", "cyclic_1s_deg", "coning_deg", "flap_1c_deg", "flap_1s_deg",
+    "shaft_tilt_deg", "lambda0", "reverse_flow_area_percent", "stalled_area_percent", "elapsed_ms",
+]  # fmt: skip
+
+
+def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
+    code = main(list(arguments))
+    out, err = capsys.readouterr()
+    return code, out, err
+
+
+def solved(capsys: pytest.CaptureFixture[str], *arguments: str) -> dict:
+    code, out, err = run(capsys, "solve", "--json", *arguments)
+    assert (code, err) == (0, "")
+    return json.loads(out)
+
+
+def test_json_keys_and_power(capsys: pytest.CaptureFixture[str]):
+    answer = solved(capsys, "--mu", "0.2", "--twist", "linear:-8")
+    assert list(answer) == KEYS
+    power = answer["power_w"]
+    assert list(power) == ["total", "main_rotor", "induced", "profile", "parasite", "tail"]
+    assert_allclose(power["main_rotor"], power["induced"] + power["profile"] + power["parasite"], rtol=1e-12)
+    assert_allclose(power["total"], power["main_rotor"] + power["tail"], rtol=1e-12)
+    assert answer["status"] == "converged"
+    assert answer["twist"] == "linear:-8"
+    assert_allclose(answer["speed_m_s"], 0.2 * 27.0 * 8.1788, rtol=1e-12)
+
+
+def test_hover_and_speed(capsys: pytest.CaptureFixture[str]):
+    hover = solved(capsys, "--hover")
+    assert hover["mu"] == 0.0
+    assert hover["power_w"]["parasite"] == 0.0
+    assert solved(capsys, "--mu", "0")["power_w"] == hover["power_w"]
+    knots = solved(capsys, "--speed-kt", "90")
+    assert_allclose(knots["speed_m_s"], 90 * 1852 / 3600, rtol=1e-12)
+
+
+def test_flags_reach_the_physics(capsys: pytest.CaptureFixture[str]):
+    base = solved(capsys, "--mu", "0.2")
+    for flags in (["--preset", "thesis"], ["--inflow", "uniform"], ["--mass-kg", "7000"], ["--altitude-m", "2000"]):
+        assert solved(capsys, "--mu", "0.2", *flags)["power_w"]["total"] != base["power_w"]["total"]
+
+
+def test_case_file_and_override(capsys: pytest.CaptureFixture[str], tmp_path: Path):
+    path = tmp_path / "case.json"
+    path.write_text(json.dumps({"preset": "thesis", "twist": "linear:-10", "advance_ratio": 0.15, "mass_kg": 7000}))
+    answer = solved(capsys, "--case", str(path))
+    assert (answer["preset"], answer["twist"], answer["mu"]) == ("thesis", "linear:-10", 0.15)
+    assert solved(capsys, "--case", str(path), "--mu", "0.25", "--twist", "linear:-4")["twist"] == "linear:-4"
+
+
+def test_not_converged_is_exit_1_with_nulls(capsys: pytest.CaptureFixture[str]):
+    code, out, err = run(capsys, "solve", "--json", "--hover", "--mass-kg", "20000", "--altitude-m", "4000")
+    answer = json.loads(out, parse_constant=lambda name: pytest.fail(f"{name} in JSON"))
+    assert (code, err) == (1, "")
+    assert list(answer) == KEYS
+    assert answer["status"] == "not-converged"
+    assert answer["power_w"]["total"] is None
+    assert "lower the weight" in answer["message"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["solve", "--mu", "fast"], "fast"),
+        (["solve", "--mu", "0.9"], "0.9"),
+        (["solve", "--mu", "nan"], "nan"),
+        (["solve", "--twist", "wavy:1"], "wavy:1"),
+        (["solve", "--preset", "mine"], "mine"),
+        (["solve", "--inflow", "free"], "free"),
+        (["solve", "--mass-kg", "-5"], "-5"),
+        (["solve", "--case", "nowhere.json"], "nowhere.json"),
+        (["solve", "--mu", "0.2", "--hover"], "--hover"),
+        (["sweep"], "--mu"),
+        (["sweep", "--mu", "0.4:0.1:0.1"], "0.4:0.1:0.1"),
+        (["sweep", "--mu", "0.1:0.2:0.1", "--csv", "/nowhere/at/all.csv"], "/nowhere/at/all.csv"),
+        (["fly"], "fly"),
+        ([], "COMMAND"),
+    ],
+)
+def test_bad_input_is_exit_2_and_one_line(capsys: pytest.CaptureFixture[str], arguments: list[str], words: str):
+    code, _, err = run(capsys, *arguments)
+    assert code == 2
+    assert err.count("\n") == 1
+    assert words in err
+
+
+@pytest.mark.parametrize("command", [[], ["solve"], ["sweep"], ["airfoil"], ["bench"], ["study"]])
+def test_help_says_what_the_command_is_for(command: list[str], capsys: pytest.CaptureFixture[str]):
+    with pytest.raises(SystemExit):
+        main([*command, "--help"])
+    usage, words, *_ = capsys.readouterr().out.split("\n\n")
+    assert usage.startswith("usage: ")
+    assert words.rstrip().endswith(".")
+
+
+def test_sweep_table_and_csv(capsys: pytest.CaptureFixture[str], tmp_path: Path):
+    path = tmp_path / "sweep.csv"
+    code, out, _ = run(capsys, "sweep", "--mu", "0.1:0.3:0.1", "--twist", "linear:-8", "linear:-16", "--csv", str(path))
+    rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines()))
+    assert code == 0
+    assert [row["mu"] for row in rows] == ["0.1", "0.2", "0.3"] * 2
+    assert {row["twist"] for row in rows} == {"linear:-8", "linear:-16"}
+    assert out.count("\n") == 7
+    assert out.splitlines()[0].split() == list(COLUMNS[:-1])  # Headings stand apart.
+    single = solved(capsys, "--mu", "0.2", "--twist", "linear:-8")
+    assert_allclose(float(rows[1]["total_kw"]), single["power_w"]["total"] / 1e3, atol=0.006)
+
+
+def test_readable_report(capsys: pytest.CaptureFixture[str]):
+    code, out, _ = run(capsys, "solve", "--mu", "0.3")
+    assert code == 0
+    for words in ("converged: Trimmed.", "induced", "kW", "collective", "L/D_e", "σ 0.0821"):
+        assert words in out
+
+
+def test_as_a_program():
+    """`python -m rotor` from a shell: exit code and clean stderr."""
+    done = subprocess.run(
+        [sys.executable, "-W", "error", "-m", "rotor", "solve", "--mu", "0.2", "--json"], capture_output=True, text=True
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert json.loads(done.stdout)["status"] == "converged"
+
+
+def test_ranges():
+    assert parse_range("0.05:0.40:0.05") == [0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35, 0.4]
+    assert parse_range("0:0.1:0.03") == [0.0, 0.03, 0.06, 0.09]
+    assert parse_range("0.2") == [0.2]
+    assert parse_range("0.1,0.3") == [0.1, 0.3]

@@ -1,0 +1,211 @@
+"""`optimise` and `schedule` as scripts see them (DESIGN §8)."""
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from numpy.testing import assert_allclose
+
+import rotor.command.optimise as command
+from rotor.__main__ import main
+from rotor.optimisation.search import Progress
+
+CONTRACT = [
+    "status", "concept", "parameters", "twist", "power_w", "baseline_power_w", "saving_percent", "band",
+    "local_minima", "evaluations", "elapsed_s",
+]  # fmt: skip
+
+
+def run(capsys: pytest.CaptureFixture[str], *arguments: str) -> tuple[int, str, str]:
+    code = main(list(arguments))
+    out, err = capsys.readouterr()
+    return code, out, err
+
+
+def no_constant(name: str) -> None:
+    pytest.fail(f"{name} in JSON")
+
+
+def test_optimise_json(capsys: pytest.CaptureFixture[str]):
+    code, out, err = run(capsys, "optimise", "--concept", "two-segment", "--mu", "0.25", "--starts", "2", "--json")
+    assert (code, err) == (0, "")
+    answer = json.loads(out, parse_constant=no_constant)
+    assert list(answer)[: len(CONTRACT)] == CONTRACT
+    assert answer["status"] == "converged"
+    assert list(answer["parameters"]) == list(answer["band"]) == ["inboard_rate_deg", "outboard_rate_deg"]
+    for name, value in answer["parameters"].items():
+        assert answer["band"][name][0] <= value <= answer["band"][name][1]
+    assert answer["local_minima"][0]["power_w"] == answer["power_w"]
+    assert_allclose(answer["saving_percent"], 100 * (1 - answer["power_w"] / answer["baseline_power_w"]), rtol=1e-12)
+    # The SPEC is the answer: `solve` takes it and finds the same power.
+    code, out, _ = run(capsys, "solve", "--mu", "0.25", "--twist", answer["twist"], "--json")
+    assert code == 0
+    assert_allclose(json.loads(out)["power_w"]["total"], answer["power_w"], rtol=1e-7)
+
+
+def test_optimum_of_two_airfoils_can_be_solved(capsys: pytest.CaptureFixture[str]):
+    flags = ("--mu", "0.2", "--mass-kg", "7800")
+    code, out, _ = run(
+        capsys, "optimise", "--concept", "two-segment-two-airfoils", "--division", "0.6", *flags, "--starts", "1",
+        "--no-band", "--json",
+    )  # fmt: skip
+    assert code == 0
+    answer = json.loads(out)
+    assert answer["airfoils"] == "sc1094r8,sc1095@0.6"
+    assert answer["band"] == {}
+    code, out, _ = run(capsys, "solve", *flags, "--twist", answer["twist"], "--airfoils", answer["airfoils"], "--json")
+    assert_allclose(json.loads(out)["power_w"]["total"], answer["power_w"], rtol=1e-7)
+
+
+def test_optimise_for_a_reader(capsys: pytest.CaptureFixture[str]):
+    code, out, err = run(capsys, "optimise", "--mu", "0.2", "--starts", "1")
+    assert (code, err) == (0, "")
+    assert "°/R" in out
+    assert "within 0.1 %" in out
+    assert "% saved" in out
+
+
+def test_flags_reach_the_search(capsys: pytest.CaptureFixture[str], tmp_path: Path):
+    mission = tmp_path / "mission.csv"
+    mission.write_text("mu,hours\n0,1\n0.3,1\n")
+    base = ("optimise", "--mu", "0.2", "--starts", "1", "--no-band", "--json")
+    answers = []
+    for flags in (
+        [], ["--objective", "induced"], ["--objective", "hover-cruise", "--hover-share", "0.3"],
+        ["--mission", str(mission)], ["--rate-deg=-8,0"], ["--bound", "rate=-6,-2"],
+        ["--change-deg", "1", "--on-top"],
+        ["--actuator", "MFC_P1", "--plies", "1", "--derated", "--on-top"],
+        ["--preset", "thesis"], ["--inflow", "uniform"],
+    ):  # fmt: skip
+        code, out, _ = run(capsys, *base, *flags)
+        assert code == 0, flags
+        answers.append(json.loads(out))
+    assert len({answer["power_w"] for answer in answers}) == len(answers)
+    assert_allclose(answers[4]["parameters"]["rate_deg"], -8.0, atol=0.01)
+    assert answers[5]["active"] == ["rate low"]
+    assert answers[6]["active"] == answers[7]["active"] == ["change"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["optimise", "--concept", "cubic"], "'cubic' is not known"),
+        (["optimise", "--concept", "linear", "--division", "0.5"], "cannot take 1 division"),
+        (["optimise", "--concept", "two-segment", "--division", "half"], "'half' is not understood"),
+        (["optimise", "--objective", "noise"], "'noise' is not known"),
+        (["optimise", "--hover-share", "0.5"], "add --objective hover-cruise"),
+        (["optimise", "--starts", "0"], "0 starts"),
+        (["optimise", "--starts", "few"], "few"),
+        (["optimise", "--seed", "-3"], "seed -3"),
+        (["optimise", "--bound", "angle=1,2"], "names no parameter"),
+        (["optimise", "--bound", "rate=1"], "write two numbers"),
+        (["optimise", "--rate-deg", "steep"], "'steep' is not understood"),
+        (["optimise", "--change-deg", "-1"], "negative"),
+        (["optimise", "--change-deg", "1", "--actuator", "MFC_P1"], "give one of them"),
+        (["optimise", "--actuator", "MFC"], "'MFC' is not known"),
+        (["schedule", "--plies", "3"], "add --actuator"),
+        (["optimise", "--stalled-percent", "200"], "200 %"),
+        (["optimise", "--mission", "nowhere.csv"], "does not exist"),
+        (["optimise", "--mu", "0.9"], "0.9"),
+        (["schedule", "--concept", "cubic"], "'cubic' is not known"),
+        (["schedule", "--mu", "0.3:0.1:0.1"], "not understood"),
+        (["schedule", "--mission", "nowhere.csv"], "does not exist"),
+        (["schedule", "--processes", "0"], "0 processes"),
+        (["solve", "--airfoils", "sc1095,nothing@0.5"], "'nothing'"),
+        (["solve", "--airfoils", "sc1095@0.5"], "1 airfoils"),
+    ],
+)
+def test_bad_input_is_exit_2_and_one_line(capsys: pytest.CaptureFixture[str], arguments: list[str], words: str):
+    code, out, err = run(capsys, *arguments)
+    assert (code, out) == (2, "")
+    assert err.startswith("rotor: ")
+    assert err.count("\n") == 1
+    assert words in err
+
+
+def test_not_converged_is_exit_1_with_nulls(capsys: pytest.CaptureFixture[str]):
+    code, out, err = run(
+        capsys, "optimise", "--hover", "--mass-kg", "20000", "--altitude-m", "4000", "--starts", "1", "--json"
+    )
+    answer = json.loads(out, parse_constant=no_constant)
+    assert (code, err) == (1, "")
+    assert (answer["status"], answer["twist"], answer["power_w"]) == ("not-converged", None, None)
+
+
+def test_schedule_json_and_csv(capsys: pytest.CaptureFixture[str], tmp_path: Path):
+    table, found = tmp_path / "schedule.csv", tmp_path / "found.jsonl"
+    arguments = (
+        "schedule", "--concept", "two-segment", "linear", "--mu", "0,0.2", "--starts", "1", "--processes", "1", "--csv",
+        str(table), "--resume", str(found), "--json",
+    )  # fmt: skip
+    code, out, err = run(capsys, *arguments)
+    assert (code, err) == (0, "")
+    answer = json.loads(out, parse_constant=no_constant)
+    assert list(answer) == ["status", "concepts", "objective", "conditions", "fixed", "worth"]
+    assert answer["concepts"] == ["linear", "two-segment"]  # Simple ones first, whatever the order of the flags.
+    assert [condition["mu"] for condition in answer["conditions"]] == [0.0, 0.2]
+    for name in answer["concepts"]:
+        worth = answer["worth"][name]
+        moving = [condition["optima"][name]["power_w"] for condition in answer["conditions"]]
+        assert_allclose(worth["moving_w"], sum(moving) / 2, rtol=1e-12)
+        assert_allclose(worth["gain_w"], worth["fixed_w"] - worth["moving_w"], rtol=1e-12)
+        assert 0.0 <= worth["gain_percent"] < 1.0
+    with table.open(newline="") as file:
+        assert len(list(csv.DictReader(file))) == 6
+    begin = time.perf_counter()
+    code, again, _ = run(capsys, *arguments)  # All of it is in the file.
+    assert time.perf_counter() - begin < 1.0
+    assert (code, json.loads(again)) == (0, answer)
+
+
+def test_ctrl_c_prints_the_best_so_far(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch):
+    heard: list[float | None] = []
+
+    def interrupting(progress: Progress) -> str:
+        heard.append(progress.best_power)
+        if len(heard) == 15:
+            signal.raise_signal(signal.SIGINT)
+        return ""
+
+    monkeypatch.setattr(command, "_words", interrupting)
+    before = signal.getsignal(signal.SIGINT)
+    code, out, err = run(capsys, "optimise", "--concept", "three-segment-free", "--starts", "100", "--json")
+    assert (code, err, len(heard)) == (130, "", 15)
+    assert signal.getsignal(signal.SIGINT) is before
+    answer = json.loads(out, parse_constant=no_constant)
+    assert (answer["status"], answer["power_w"]) == ("stopped", heard[-1])
+    assert answer["twist"].startswith("segments:")
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
+@pytest.mark.parametrize("processes", ["1", "2"])
+def test_ctrl_c_on_a_schedule_keeps_what_is_found(processes: str, tmp_path: Path):
+    found = tmp_path / "found.jsonl"
+    started = subprocess.Popen(
+        [
+            sys.executable, "-m", "rotor", "schedule", "--concept", "linear", "free-form", "--mu", "0:0.38:0.01",
+            "--resume", str(found), "--processes", processes, "--json",
+        ],
+        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=Path(__file__).parent.parent.parent.parent,
+        env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
+    )  # fmt: skip
+    try:
+        until = time.monotonic() + 60.0
+        while time.monotonic() < until and not (found.exists() and found.read_text().count("\n") > 2):
+            time.sleep(0.05)
+        started.send_signal(signal.SIGINT)
+        out, err = started.communicate(timeout=30)
+    finally:
+        started.kill()
+    assert (started.returncode, err) == (130, "")
+    answer = json.loads(out, parse_constant=no_constant)
+    assert answer["status"] == "stopped"
+    optima = [one["optima"][name] for one in answer["conditions"] for name in ("linear", "free-form")]
+    assert sum(one is not None for one in optima) == found.read_text().count("\n") - 1

@@ -1,0 +1,141 @@
+"""Twist that follows the azimuth: limits, identity, and what it does to power."""
+
+import json
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor.__main__ import main
+from rotor.actuator.catalogue import find_actuator
+from rotor.actuator.fitted import fit
+from rotor.actuator.harmonic import phase_sweep
+from rotor.actuator.placement import Host, default_placement
+from rotor.aero.elements import lay_out, run_pass
+from rotor.aero.sums import slopes
+from rotor.design.active_twist import ActiveTwist, Harmonic
+from rotor.design.design import Design
+from rotor.files.design_file import design_of, read_case, write_case
+from rotor.files.make_design import make_design
+from rotor.trim.equations import UNKNOWNS, jacobian
+from rotor.trim.forward import first_guess
+from rotor.trim.newton import newton
+from rotor.trim.solve import solve
+
+DEGREE = math.radians(1.0)
+
+
+def turning(design: Design, *harmonics: Harmonic, **shape: tuple[float, ...]) -> Design:
+    return replace(design, active_twist=ActiveTwist(harmonics, **shape))
+
+
+@pytest.mark.parametrize("inflow", ["dynamic-wake", "pitt-peters", "local-momentum"])
+@pytest.mark.parametrize("per_rev", [1, 2, 3])
+def test_energy_identity(inflow: str, per_rev: int):
+    """Torque × Ω is the sum of the parts, whatever the pitch does around the disk."""
+    design = make_design(advance_ratio=0.25)
+    design = replace(design, models=replace(design.models, inflow=inflow))
+    solution = solve(turning(design, Harmonic(per_rev, 1.5 * DEGREE, 0.7))).require()
+    assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-8)
+
+
+def test_even_once_per_revolution_is_cyclic():
+    """1/rev of the whole blade is what the swashplate does: the trim takes it back, and nothing else changes."""
+    design = make_design(advance_ratio=0.25)
+    plain = solve(design).require()
+    turned = turning(design, Harmonic(1, 2.0 * DEGREE, 0.5), stations=(0.0, 1.0), shape=(1.0, 1.0))
+    solution = solve(turned).require()
+    assert_allclose(solution.power.total, plain.power.total, rtol=1e-9)
+    shift = 2.0 * DEGREE * np.array([math.cos(0.5), math.sin(0.5)])
+    cyclic = [solution.controls.cyclic_1c, solution.controls.cyclic_1s]
+    assert_allclose(np.array(cyclic) + shift, [plain.controls.cyclic_1c, plain.controls.cyclic_1s], atol=1e-9)
+
+
+def test_nothing_added_changes_nothing():
+    design = make_design(advance_ratio=0.2)
+    assert solve(turning(design, Harmonic(2, 0.0))).power.total == solve(design).power.total
+
+
+def test_field_by_hand():
+    """shape(r) A cos(nψ − φ): half-way out at half the tip's, nose-up most at ψ = φ/n."""
+    act = ActiveTwist((Harmonic(2, 0.02, math.pi / 2.0),), stations=(0.2, 1.0), shape=(0.0, 1.0))
+    field = act(np.array([0.1, 0.6, 1.0]), np.array([0.0, math.pi / 4.0, 3.0 * math.pi / 4.0]))
+    assert_allclose(field, [[0.0, 0.0, 0.0], [0.0, 0.01, -0.01], [0.0, 0.02, -0.02]], atol=1e-15)
+
+
+def test_exact_jacobian_is_not_disturbed():
+    """Newton needs no more passes, and the Jacobian agrees with differences of the residuals."""
+    design = turning(make_design(advance_ratio=0.25), Harmonic(2, DEGREE))
+    problem = lay_out(replace(design, models=replace(design.models, inflow="pitt-peters")))
+    done = newton(problem, first_guess(problem))
+    assert done.converged
+    assert done.passes <= 6
+    one = run_pass(problem, done.last.state)
+    matrix = jacobian(problem, one, slopes(problem, one, UNKNOWNS["propulsive"], None))
+    assert np.linalg.cond(matrix) < 1e6
+
+
+def test_it_rests_in_hover():
+    design = turning(make_design(advance_ratio=0.0), Harmonic(2, DEGREE))
+    solution = solve(design).require()
+    assert solution.power.total == solve(replace(design, active_twist=None)).power.total
+    assert "active-twist-rests" in [caveat.name for caveat in solution.caveats]
+
+
+def test_twice_per_revolution_pays_at_high_speed():
+    """Published: 1–2 % (wind tunnel) to 3.3 % (computed, ±4°); a degree of 2/rev should give about a per cent."""
+    design = make_design(advance_ratio=0.35)
+    fitted = fit(find_actuator("MFC_P1"), default_placement(2), Host(), design.rotor)
+    swept = phase_sweep(design, fitted, 2)
+    share = swept.gross_saving / swept.still.power.total
+    assert 0.005 < share < 0.03
+    assert swept.best.design.active_twist is not None
+    assert swept.best.design.active_twist.harmonics[0].amplitude <= swept.dynamic.amplitude * (1.0 + 1e-12)
+    assert swept.power.max() > 0.0  # The wrong phase costs.
+
+
+@pytest.mark.slow
+def test_it_begins_to_pay_with_speed():
+    """Net of its mass 2/rev loses at low speed and gains at high speed, as the literature has it."""
+    fitted = fit(find_actuator("MFC_P1_HT"), default_placement(1), Host(), make_design().rotor)
+    slow, fast = (phase_sweep(make_design(advance_ratio=mu), fitted, 2) for mu in (0.15, 0.35))
+    assert slow.net_saving is not None
+    assert fast.net_saving is not None
+    assert slow.net_saving < 0.0 < fast.net_saving
+    assert slow.gross_saving > slow.net_saving
+    assert fast.gross_saving > fast.net_saving
+
+
+@pytest.mark.parametrize(
+    "make", [lambda: Harmonic(0, 0.01), lambda: Harmonic(2, -0.1), lambda: ActiveTwist((), (0.5,), (1.0,))]
+)
+def test_bad_input(make: object):
+    with pytest.raises(ValueError, match=r"give|choose|move"):
+        make()  # type: ignore[operator]
+
+
+def test_design_file_keeps_it(tmp_path: Path):
+    design = turning(make_design(advance_ratio=0.3), Harmonic(2, 0.015, 1.2), stations=(0.2, 0.9), shape=(0.0, 1.0))
+    write_case(design, tmp_path / "case.json")
+    again = read_case(tmp_path / "case.json").active_twist
+    assert again is not None
+    assert_allclose([again.harmonics[0].amplitude, again.harmonics[0].phase], [0.015, 1.2], rtol=1e-12)
+    assert again.stations == (0.2, 0.9)
+
+
+def test_solve_names_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    """A power that active twist has changed is not printed as that of the bare twist law."""
+    file = str(tmp_path / "case.json")
+    write_case(turning(make_design(advance_ratio=0.3), Harmonic(2, 1.5 * DEGREE, 1.0)), file)
+    assert main(["solve", "--case", file]) == 0
+    assert "active twist 2/rev ±1.50°, phase 57°" in capsys.readouterr().out
+    assert main(["solve", "--case", file, "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["active_twist"]["harmonics"][0]["per_rev"] == 2
+
+
+def test_design_file_with_nonsense_says_so():
+    with pytest.raises(ValueError, match="'active_twist' is 3"):
+        design_of({"active_twist": 3})

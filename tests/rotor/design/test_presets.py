@@ -1,0 +1,123 @@
+"""The UH-60A data as loaded, beside the document's tables and published values; design files."""
+
+import json
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor.aero.momentum import thrust_coefficient
+from rotor.assets import asset_path
+from rotor.files.design_file import case_of, design_of, read_case, write_case
+from rotor.files.make_design import make_design, uh60a_data, uh60a_rotor
+
+
+def test_tables_3_1_and_3_2():
+    """Thesis tables 3.1 (tail rotor) and 3.2 (main rotor)."""
+    rotor, tail = uh60a_rotor("thesis"), make_design().tail_rotor
+    assert tail is not None
+    assert (rotor.radius, rotor.angular_speed, rotor.reference_chord, rotor.blades) == (8.1788, 27.0, 0.5273, 4)
+    assert_allclose(rotor.blade.mass / rotor.radius, 13.92, rtol=1e-12)
+    assert (tail.radius, tail.angular_speed, tail.chord, tail.blades, tail.arm) == (1.6764, 124.62, 0.2469, 4, 9.926)
+    assert make_design("thesis").condition.mass == 8322.4
+
+
+def test_solidity_says_which():
+    assert_allclose(uh60a_rotor("flight").solidity, 0.0821, atol=5e-5)
+
+
+def test_document_weight_is_cw_0_0065_at_sea_level():
+    design = make_design()
+    ct = thrust_coefficient(design.condition.weight, 1.225, design.rotor.disk_area, design.rotor.tip_speed)
+    assert_allclose(ct, 0.0065, atol=1e-5)
+    assert_allclose(design.weight_coefficient, ct, rtol=1e-12)
+
+
+def test_sections_along_the_flown_blade():
+    blade = uh60a_rotor("flight").blade
+    assert blade.section_at(0.3) == ("sc1095", "sc1095", 0.0)
+    assert blade.section_at(0.65) == ("sc1094r8", "sc1094r8", 0.0)
+    assert blade.section_at(0.9) == ("sc1095", "sc1095", 0.0)
+    inner, outer, weight = blade.section_at(0.5 * (0.4658 + 0.4969))
+    assert (inner, outer) == ("sc1095", "sc1094r8")
+    assert_allclose(weight, 0.5, rtol=1e-12)
+    assert {span.section for span in uh60a_rotor("thesis").blade.spans} == {"sc1095-thesis"}
+
+
+def test_every_number_has_a_source():
+    """Each `key = value` of the data file carries a comment with a grade."""
+    text = asset_path("uh60a.toml").read_text(encoding="utf-8")
+    for line in text.splitlines():
+        if re.match(r"^\w+ = (?!\[$)", line) and not line.startswith(("name", "chord_r", "spans")):
+            assert re.search(r"#\s+[PSDX]\s", line), line
+    assert uh60a_data()["airframe"]["drag_area_m2"] == 3.2646
+
+
+def test_standard_atmosphere():
+    """ISO 2533, geopotential altitude: 2000 m 1.00649 kg/m³, 332.53 m/s; 4000 m 0.81913 kg/m³, 324.58 m/s."""
+    for altitude, density, sound in ((0.0, 1.225, 340.294), (2000.0, 1.00649, 332.53), (4000.0, 0.81913, 324.58)):
+        condition = make_design(altitude=altitude).condition
+        assert_allclose(condition.density, density, rtol=1e-5)
+        assert_allclose(condition.sound_speed, sound, rtol=1e-4)
+
+
+def test_fuselage_drag_3_19():
+    """½·1.225·100²·3.2646 = 19 996 N."""
+    assert_allclose(make_design().fuselage.drag(1.225, 100.0), 19_995.7, rtol=1e-5)
+
+
+def test_designs_are_values():
+    a, b = make_design(twist="linear:-8"), make_design(twist="linear:-8")
+    assert a == b
+    assert hash(a) == hash(b)
+    assert a != make_design(twist="linear:-9")
+
+
+@pytest.mark.parametrize("preset", ["flight", "thesis"])
+@pytest.mark.parametrize("twist", [None, "segments:-12,-4@0.5", "ideal"])
+def test_design_files_round_trip(tmp_path: Path, preset: str, twist: str | None):
+    design = make_design(preset, twist=twist, advance_ratio=0.23, mass=7654.0, altitude=1200.0)
+    path = tmp_path / "design.json"
+    write_case(design, path)
+    back = read_case(path)
+    r = np.linspace(0.13, 1.0, 20)
+    assert_allclose(back.twist(r), design.twist(r), atol=1e-8)  # Angles are kept to 1e-6 of a degree.
+    assert case_of(back) == case_of(design)
+    assert json.loads(path.read_text())["version"] == 2
+
+
+@pytest.mark.parametrize(
+    ("case", "words"),
+    [
+        ({"mass": 7000}, "unknown key 'mass'"),
+        ({"mass_kg": "heavy"}, "'heavy'"),
+        ({"version": 7}, "version 7"),
+        ({"tip_loss": 1}, "give true or false"),
+        ({"twist": 3}, "give a text"),
+        ({"inflow": "magic"}, "'magic'"),
+    ],
+)
+def test_bad_design_files_are_one_sentence(case: dict[str, object], words: str):
+    with pytest.raises(ValueError, match=r"(?s).*") as caught:
+        design_of(case)
+    assert words in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_unreadable_design_file(tmp_path: Path):
+    path = tmp_path / "broken.json"
+    path.write_text("{not json")
+    with pytest.raises(ValueError, match="cannot be read"):
+        read_case(path)
+    path.write_text('{"mass": 7000}')
+    with pytest.raises(ValueError, match=r"broken\.json: design file has the unknown key 'mass'"):
+        read_case(path)
+
+
+def test_tilt_and_cant_are_radians():
+    tail = make_design().tail_rotor
+    assert tail is not None
+    assert_allclose(tail.cant, math.radians(20.0), rtol=1e-15)

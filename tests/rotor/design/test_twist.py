@@ -1,0 +1,151 @@
+"""Twist laws and their SPEC."""
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_allclose
+
+from rotor.design.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, QuadraticTwist, TwistLaw
+from rotor.design.twist_spec import parse_twist
+from rotor.files.make_design import make_design, uh60a_twist
+
+R = np.linspace(0.13, 1.0, 88)
+BUILTIN = uh60a_twist()
+
+
+def parse(spec: str) -> TwistLaw:
+    return parse_twist(spec, builtin=BUILTIN, ideal_tip_pitch=math.radians(6.4))
+
+
+SPECS = ["linear:-8", "quadratic:6,-14", "segments:-12,-4@0.5", "segments:-4,-12,-20@0.4,0.75", "ideal:6.4", "uh60a"]
+
+
+@pytest.mark.parametrize("spec", SPECS)
+def test_zero_at_three_quarter_radius_and_round_trip(spec: str):
+    law = parse(spec)
+    assert_allclose(law(0.75), 0.0, atol=1e-15)
+    assert law.spec() == spec
+    assert parse(law.spec()) == law
+    assert hash(parse(spec)) == hash(law)
+
+
+def test_linear_is_degrees_per_radius():
+    """−8° per radius: root at 0.25 is 4° up, tip 2° down."""
+    assert_allclose(np.degrees(parse("linear:-8")(np.array([0.25, 1.0]))), [4.0, -2.0], rtol=1e-13)
+
+
+def test_quadratic_without_curvature_is_linear():
+    assert_allclose(parse("quadratic:0,-8")(R), parse("linear:-8")(R), atol=1e-15)
+
+
+def test_quadratic_root_tip_difference_and_curvature():
+    law = parse("quadratic:6,-14")
+    assert_allclose(np.degrees(law(1.0) - law(0.0)), -14.0, rtol=1e-13)
+    second = law(0.2) - 2.0 * law(0.5) + law(0.8)
+    assert_allclose(np.degrees(second) / 0.3**2 / 2.0, 6.0, rtol=1e-10)
+
+
+@given(rate=st.floats(-24, 5), division=st.floats(0.2, 0.9), second=st.floats(0.01, 0.09))
+def test_equal_rates_are_linear(rate: float, division: float, second: float):
+    law = PiecewiseLinearTwist((rate, rate, rate), (division, division + second))
+    assert_allclose(law(R), LinearTwist(rate)(R), atol=1e-12)
+
+
+def test_segments_have_their_rates_and_no_step():
+    law = parse("segments:-12,-4@0.5")
+    assert_allclose(np.degrees(law(0.4) - law(0.3)) / 0.1, -12.0, rtol=1e-10)
+    assert_allclose(np.degrees(law(0.9) - law(0.8)) / 0.1, -4.0, rtol=1e-10)
+    assert_allclose(law(0.5 - 1e-9), law(0.5 + 1e-9), atol=1e-8)
+
+
+def test_ideal_is_hyperbolic():
+    """θ + θ_tip/0.75 = θ_tip/r, eq. (1.1)."""
+    law = IdealTwist(0.11)
+    assert_allclose((law(R) + 0.11 / 0.75) * R, 0.11, rtol=1e-13)
+
+
+def test_ideal_without_number_is_for_hover_at_this_weight():
+    light, heavy = (make_design(twist="ideal", mass=mass).twist for mass in (5000.0, 11000.0))
+    assert isinstance(light, IdealTwist)
+    assert isinstance(heavy, IdealTwist)
+    assert 0.05 < light.tip_pitch < heavy.tip_pitch < 0.25
+
+
+def test_uh60a_table_agrees_with_genhel():
+    """GenHel TWSTMR (NASA CR-166309) relative to 0.75 R, from two transcriptions; the deck is within 0.12°."""
+    genhel = {
+        0.25: 8.70,
+        0.30: 7.85,
+        0.40: 6.10,
+        0.50: 4.35,
+        0.60: 2.55,
+        0.70: 0.85,
+        0.80: -0.65,
+        0.90: -2.65,
+        0.95: -3.45,
+    }
+    stations = np.array(list(genhel))
+    assert_allclose(np.degrees(BUILTIN(stations)), list(genhel.values()), atol=0.13)
+
+
+def test_uh60a_equivalent_linear_twist():
+    """r²-weighted least squares over 0.2…1: −15.9°, which supports the document's −16°."""
+    r = np.linspace(0.2, 1.0, 801)
+    slope, _ = np.polyfit(r, np.degrees(BUILTIN(r)), 1, w=r)
+    assert_allclose(slope, -15.9, atol=0.15)
+
+
+def test_table_file(tmp_path: Path):
+    path = tmp_path / "own.txt"
+    path.write_text("r/R, deg  # heading\n0.2, 8\n0.75 1\n1.0,-3 # tip\n", encoding="utf-8")
+    law = parse(f"table:{path}")
+    assert_allclose(np.degrees(law(np.array([0.2, 0.75, 1.0]))), [7.0, 0.0, -4.0], atol=1e-12)
+    assert law.spec() == f"table:{path}"
+
+
+@pytest.mark.parametrize(
+    ("spec", "words"),
+    [
+        ("linear:x", "'x'"),
+        ("linear:nan", "'nan'"),
+        ("linear:", "linear:-8"),
+        ("quadratic:3", "quadratic:6,-14"),
+        ("segments:-3,-4", "1 break"),
+        ("segments:-3,-4,-5@0.7,0.4", "ascend"),
+        ("segments:-3,-4@1.2", "between 0 and 1"),
+        ("wavy:3", "'wavy:3' is not known"),
+        ("table:nowhere.txt", "does not exist"),
+        ("", "is not known"),
+    ],
+)
+def test_bad_specs_are_one_sentence(spec: str, words: str):
+    with pytest.raises(ValueError, match=r"(?s).*") as caught:
+        parse(spec)
+    assert words in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        ("0.2 3\n0.1 4\n", "ascend"),
+        ("0.2 3\n0.3 x\n", "line 2"),
+        ("0.5 1\n", "two or more"),
+        ("0.2 3\n7 4\n", "line 2"),
+    ],
+)
+def test_bad_tables_are_one_sentence(tmp_path: Path, text: str, words: str):
+    path = tmp_path / "bad.txt"
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(ValueError, match=r"(?s).*") as caught:
+        parse(f"table:{path}")
+    assert words in str(caught.value)
+
+
+def test_own_classes_equal_their_specs():
+    assert parse("linear:-8") == LinearTwist(math.radians(-8.0))
+    assert parse("quadratic:6,-14") == QuadraticTwist(math.radians(6.0), math.radians(-14.0))

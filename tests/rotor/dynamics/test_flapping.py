@@ -1,0 +1,115 @@
+"""Flapping by harmonic balance against the equation of motion marched in time (the document's ode45)."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
+
+from rotor.aero import kernel
+from rotor.aero.elements import CONING, FLAP_1C, FLAP_1S, Problem, lay_out, run_pass, skewed
+from rotor.dynamics.flapping import flap_dynamics, lock_number
+from rotor.files.make_design import make_design, uh60a_rotor
+from rotor.trim.forward import first_guess
+from rotor.trim.newton import newton
+
+
+def trimmed(preset: str, mu: float) -> tuple[Problem, np.ndarray]:
+    design = make_design(preset, advance_ratio=mu, twist="linear:-10")
+    problem = lay_out(replace(design, models=replace(design.models, inflow="pitt-peters")))
+    result = newton(problem, first_guess(problem))
+    assert result.converged
+    return problem, result.last.state
+
+
+def march(problem: Problem, state: np.ndarray, revolutions: int) -> np.ndarray:
+    """β(ψ) over the last revolution of β'' + ν²β = Γ Σ(r − e) dC_T/dr(ψ, β, β') dr − w, by Runge–Kutta.
+
+    The load is evaluated at the instant's own β and β' with controls and inflow as trimmed; nothing here knows of
+    harmonics.
+    """
+    disk, flap = problem.disk, problem.flap
+    one = run_pass(problem, state)
+    k = one.flow
+    r = disk.r
+
+    def acceleration(psi: float, beta: float, rate: float) -> float:
+        cos, sin = np.array([math.cos(psi)]), np.array([math.sin(psi)])
+        here = replace(disk, psi=np.array([psi]), cos=cos, sin=sin)
+        induced = problem.inflow.respond(here, skewed(problem, state), np.zeros((0, 0))).induced
+        theta = (problem.twist + state[0] + state[1] * cos + state[2] * sin)[:, None]
+        u_t = (r + k.mu_x * sin)[:, None]
+        u_p = induced + ((r - flap.hinge) * rate + k.mu_z + k.mu_x * beta * cos)[:, None]
+        loads = kernel.element_loads(
+            theta, u_t, u_p, one.loss, problem.tip_mach,
+            disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables,
+        )  # fmt: skip
+        moment = float((r - flap.hinge) @ loads[kernel.FZ, :, 0]) * disk.dr
+        return flap.load_gain * moment - flap.weight - flap.frequency_squared * beta
+
+    end = 2.0 * math.pi * revolutions
+    psi = end - 2.0 * math.pi + np.linspace(0.0, 2.0 * math.pi, 73)[:-1]
+    answer = solve_ivp(
+        lambda t, y: [y[1], acceleration(t, y[0], y[1])], (0.0, end), [0.05, 0.0], t_eval=psi, rtol=1e-7, atol=1e-9
+    )
+    assert answer.success
+    return answer.y[0]
+
+
+@pytest.mark.parametrize(("preset", "mu"), [("flight", 0.15), ("thesis", 0.15), ("thesis", 0.3)])
+def test_ode_agrees_with_harmonic_balance(preset: str, mu: float):
+    """First harmonics of the marched motion against the balance: what differs is the neglected 2/rev and up."""
+    problem, state = trimmed(preset, mu)
+    beta = march(problem, state, revolutions=12)
+    psi = np.linspace(0.0, 2.0 * math.pi, 73)[:-1]
+    marched = [beta.mean(), 2.0 * (beta * np.cos(psi)).mean(), 2.0 * (beta * np.sin(psi)).mean()]
+    balanced = [state[CONING], state[FLAP_1C], state[FLAP_1S]]
+    second = math.hypot(2.0 * (beta * np.cos(2 * psi)).mean(), 2.0 * (beta * np.sin(2 * psi)).mean())
+    # A 2/rev motion of amplitude b reaches 1/rev only through µ: its velocity 2br meets µ sin ψ (4/3 µb against the
+    # damping ∫r³), its slope meets µ cos ψ (2/3 µb). So 2µb bounds what the balance neglects.
+    assert_allclose(marched, balanced, atol=2.0 * mu * second + 2e-5)
+    assert second < math.radians(0.6)
+
+
+def test_no_hinge_offset_leaves_no_first_harmonic_moment():
+    problem, state = trimmed("thesis", 0.25)
+    one = run_pass(problem, state)
+    moment = problem.disk.r @ one.loads[kernel.FZ] * problem.disk.dr
+    assert_allclose((moment @ problem.disk.cos, moment @ problem.disk.sin), 0.0, atol=1e-11)
+
+
+def test_published_flap_frequency_and_lock_number():
+    """ν = 1.035/rev and γ = 8.07 for c = 1.73 ft (8.19 published, TM-85890) at a = 5.73, sea level."""
+    rotor = uh60a_rotor("flight")
+    assert_allclose(math.sqrt(rotor.flap_frequency_squared), 1.035, atol=1e-3)
+    assert_allclose(lock_number(rotor, 1.225, 5.73), 8.07, atol=0.05)
+
+
+def test_document_inertia():
+    """13.92 kg/m about a hinge at the centre: m R³/3 = 2539 kg m², Lock number 6.5."""
+    rotor = uh60a_rotor("thesis")
+    assert_allclose(rotor.blade.flap_inertia, 2539.0, atol=1.0)
+    assert_allclose(lock_number(rotor, 1.225, 5.73), 6.5, atol=0.05)
+    assert rotor.flap_frequency_squared == 1.0
+
+
+def test_blade_weight_droops():
+    """g S/(I Ω²) = 9.807·385.66/(2050.8·729) = 0.00253 rad."""
+    rotor = uh60a_rotor("flight")
+    assert_allclose(flap_dynamics(rotor, 1.225, blade_weight=True).weight, 0.00253, atol=1e-5)
+    assert flap_dynamics(rotor, 1.225, blade_weight=False).weight == 0.0
+
+
+def test_wanted_flapping_is_flown():
+    """β1c given: the trim keeps it, and the hinge offset carries a hub moment."""
+    from rotor.trim.solve import solve
+
+    design = make_design(advance_ratio=0.2)
+    tilted = replace(design, condition=replace(design.condition, flap_1c=math.radians(-2.0)))
+    solution = solve(tilted).require()
+    assert_allclose(math.degrees(solution.controls.flap_1c), -2.0, rtol=1e-12)
+    # A disk tilted back 2° needs about 2° more shaft tilt for the same force.
+    change = solution.controls.shaft_tilt - solve(design).controls.shaft_tilt
+    assert_allclose(math.degrees(change), 2.0, atol=0.25)

@@ -1,0 +1,239 @@
+"""Rotor files: what they hold, their units, and one clear sentence with the line for whatever is wrong in one."""
+
+import math
+import pickle
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor import make_design
+from rotor.airfoil.build.decks import make_deck
+from rotor.airfoil.build.xfoil_file import parse_polar_file
+from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81
+from rotor.airfoil.polars import Polar, read_polars
+from rotor.airfoil.regrid import on_run_time_grid
+from rotor.airfoil.sections import load_installed
+from rotor.assets import asset_path
+from rotor.design.aircraft import Aircraft
+from rotor.files.rotor_file import read_aircraft
+from rotor.files.shipped import read_rotor_file
+from rotor.trim.solve import solve
+
+GOOD = """\
+name = "Test rotor"
+
+[main_rotor]
+blades = 3
+radius_m = 5.0
+speed_rpm = 400.0
+root_cutout_r = 0.2
+chord_r = [0.2, 1.0]
+chord_m = [0.30, 0.20]
+section = "naca0012"
+twist_r = [0.2, 0.75, 1.0]
+twist_deg = [6.0, 0.0, -3.0]
+flap_hinge_m = 0.2
+blade_mass_kg = 40.0
+
+[airframe]
+drag_area_m2 = 1.0
+mass_kg = 1500.0
+"""
+
+
+def read(text: str, **files: str) -> Aircraft:
+    return read_aircraft("my.toml", {"my.toml": text, **files})
+
+
+def polar_file(polar: Polar) -> str:
+    """As XFOIL 6.99 writes one."""
+    rows = "\n".join(
+        f"{a:8.3f}{cl:9.4f}{cd:10.5f}{0.0:10.5f}{cm:9.4f}   0.0500   0.0500"
+        for a, cl, cd, cm in zip(polar.alpha_deg, polar.cl, polar.cd, polar.cm, strict=True)
+    )
+    return (
+        "\n       XFOIL         Version 6.99\n\n Calculated polar for: NACA 0012\n\n"
+        " 1 1 Reynolds number fixed          Mach number fixed\n\n xtrf =   0.050 (top)        0.050 (bottom)\n"
+        f" Mach = {polar.mach:7.3f}     Re = {polar.reynolds / 1e6:9.3f} e 6     Ncrit =   9.000\n\n"
+        "   alpha    CL        CD       CDp       CM     Top_Xtr  Bot_Xtr\n"
+        "  ------ -------- --------- --------- -------- -------- --------\n"
+        f"{rows}\n"
+    )
+
+
+def test_a_small_file_is_enough():
+    craft = read(GOOD)
+    rotor, blade = craft.rotor, craft.rotor.blade
+    assert (craft.name, rotor.blades, craft.mass, craft.tail_rotor, craft.key) == ("Test rotor", 3, 1500.0, None, "")
+    assert_allclose(rotor.angular_speed, 400.0 * 2.0 * math.pi / 60.0, rtol=1e-12)
+    assert_allclose(rotor.reference_chord, 0.20 + 0.10 * (0.25 / 0.8), rtol=1e-12)  # at 0.75 R
+    assert_allclose(np.rad2deg(rotor.builtin_twist([0.2, 1.0])), [6.0, -3.0], rtol=1e-12)
+    assert rotor.builtin_twist.spec() == "builtin"
+    # Uniform from the hinge outward: eqs. (2.35), (2.37) with 4.8 m.
+    assert_allclose(blade.flap_inertia, 40.0 * 4.8**2 / 3.0, rtol=1e-12)
+    assert_allclose(blade.flap_static_moment, 40.0 * 2.4, rtol=1e-12)
+    assert pickle.loads(pickle.dumps(craft)) == craft
+    assert hash(pickle.loads(pickle.dumps(craft))) == hash(craft)
+
+
+BAD = [
+    ("name = \n", "", "my.toml, line 1: this is no TOML"),
+    ('name = "Test rotor"', 'name = "Test', "my.toml, line 1: this is no TOML"),
+    ('name = "Test rotor"', 'name = "<b>"', "my.toml, line 1: name is '<b>': use 1 to 40 letters"),
+    ("radius_m = 5.0", 'radius_m = "five"', "my.toml, line 5: radius_m is 'five', not a number"),
+    ("radius_m = 5.0", "radius_m = 5000.0", "my.toml, line 5: radius_m is 5000, outside 0.1…30 m: check"),
+    ("radius_m = 5.0", "radius_m = nan", "my.toml, line 5: radius_m is nan, outside"),
+    ("radius_m = 5.0", "radius = 5.0", "my.toml, line 3: [main_rotor] has no radius_m: add radius_m = …"),
+    ("blades = 3", "blades = 1", "my.toml, line 4: blades is 1, outside 2…12"),
+    ("blades = 3", "blades = 3.5", "my.toml, line 4: blades is 3.5, not a whole number"),
+    ("blades = 3", 'blades = 3\nhub = "teetering"', "my.toml, line 5: hub is 'teetering' with 3 blades"),
+    ("blades = 3", 'blades = 3\nhub = "teetring"', "my.toml, line 5: hub is 'teetring': use articulated or"),
+    ("speed_rpm = 400.0", "speed_rpm = 400.0\ntip_speed_m_s = 200.0", "my.toml, line 7: speed_rpm and"),
+    ("chord_m = [0.30, 0.20]", "chord_m = [0.3, 0.2, 0.2]", "my.toml, line 9: chord_r has 2 and chord_m 3 values"),
+    ("chord_r = [0.2, 1.0]", "chord_r = [1.0, 0.2]", "my.toml, line 8: chord_r goes from 1 to 0.2"),
+    ('section = "naca0012"', 'section = "naca9999x"', "my.toml, line 10: section 'naca9999x' is not known"),
+    ("twist_deg = [6.0, 0.0, -3.0]", "twist_deg = [6.0, true, -3.0]", "my.toml, line 12: twist_deg holds True, not a"),
+    ("flap_hinge_m = 0.2", "flap_hinge_mm = 200.0", "line 13: unknown key 'flap_hinge_mm': did you mean flap_hinge_m?"),
+    ("[airframe]", "[air_frame]", "my.toml: the file has no airframe: add the table [airframe]"),
+    ("mass_kg = 1500.0", "mass_kg = 1500.0\ncolour = 3", "my.toml, line 19: unknown key 'colour': the keys are"),
+    ("mass_kg = 1500.0", "mass_kg = 1500.0\n[tail]\na = 1", "my.toml, line 19: unknown key 'tail'"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("good", "bad", "says"), BAD)
+def test_bad_files_get_one_sentence_with_line_and_remedy(good: str, bad: str, says: str):
+    text = GOOD.replace(good, bad, 1) if good in GOOD else good + GOOD
+    with pytest.raises(ValueError, match=r"my\.toml") as caught:
+        read(text)
+    sentence = str(caught.value)
+    assert says in sentence
+    assert "\n" not in sentence
+    assert ": " in sentence
+
+
+def test_spans_are_named_by_their_own_line():
+    spans = """spans = [
+  { start_r = 0.2, end_r = 0.6, section = "naca0012" },
+  { start_r = 0.5, end_r = 1.0, section = "sc1095" },
+]"""
+    with pytest.raises(ValueError, match=r"my\.toml, line 12: span of sc1095 runs 0\.5…1: let the spans ascend"):
+        read(GOOD.replace('section = "naca0012"', spans))
+    craft = read(GOOD.replace('section = "naca0012"', spans.replace("start_r = 0.5", "start_r = 0.7")))
+    assert craft.rotor.blade.section_at(0.65)[:2] == ("naca0012", "sc1095")
+
+
+def test_a_deck_of_ones_own_flies_and_travels_as_a_value():
+    deck = asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8")
+    text = GOOD.replace('"naca0012"', '"mine"') + '\n[sections.mine]\ndeck = "mine.c81"\noutline = "naca0012"\n'
+    craft = read(text, **{"mine.c81": deck})
+    assert craft.remarks == ()
+    section = pickle.loads(pickle.dumps(craft)).rotor.blade.installed("mine")
+    alpha, mach = np.deg2rad(np.linspace(-180.0, 180.0, 73)), 0.37
+    assert_allclose(section.table(alpha, mach).cl, load_installed("naca0012").table(alpha, mach).cl, atol=1e-12)
+    assert craft.files is not None
+    assert dict(craft.files.texts) == {"my.toml": text, "mine.c81": deck}
+
+
+SECTION = '\n[sections.mine]\npolars = ["a.txt", "b.txt"]\noutline = "naca0012"\n'
+
+
+def test_xfoil_polars_become_the_deck_that_ours_became():
+    polars = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars
+    files = {"a.txt": polar_file(polars[2]), "b.txt": polar_file(polars[3])}
+    craft = read(GOOD.replace('"naca0012"', '"mine"', 1) + SECTION, **files)
+    assert len(craft.remarks) == 1
+    assert "Mach 0.3, 0.4" in craft.remarks[0]
+    ours, mine = load_installed("naca0012").table, craft.rotor.blade.installed("mine").table
+    alpha = np.deg2rad(np.arange(-8.0, 8.5, 0.5))
+    for mach in (0.3, 0.4):
+        assert_allclose(mine(alpha, mach).cl, ours(alpha, mach).cl, atol=1e-3)  # decks hold four decimals
+        assert_allclose(mine(alpha, mach).cd, ours(alpha, mach).cd, atol=2e-5)
+    # Beyond the fastest polar both go on by the same formulas, with other caps on lift.
+    small = np.deg2rad(np.arange(-4.0, 4.5, 0.5))
+    assert_allclose(mine(small, 0.6).cl, ours(small, 0.6).cl, atol=0.02)
+
+
+def test_polars_in_our_own_csv_are_read_too():
+    text = asset_path("airfoils/naca0012_trip5.polars.csv").read_text(encoding="utf-8")
+    assert [p.mach for p in parse_polar_file("all.csv", text)] == [0.1, 0.2, 0.3, 0.4]
+
+
+def test_bad_section_files_get_one_sentence():
+    polar = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars[2]
+    fine, deck = polar_file(polar), asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8")
+    toml = GOOD.replace('"naca0012"', '"mine"', 1)
+    one = '\n[sections.mine]\npolars = "a.txt"\n'
+    of_deck = '\n[sections.mine]\ndeck = "a.c81"\n'
+    cut = Polar(0.3, 3e6, polar.alpha_deg[30:45], polar.cl[30:45], polar.cd[30:45], polar.cm[30:45])
+    cases: list[tuple[str, dict[str, str], str]] = [
+        (SECTION, {"a.txt": fine}, "my.toml, line 21: polars names 'b.txt', which is not there"),
+        (SECTION, {"a.txt": fine, "b.txt": fine}, "line 21: two polars of mine have Mach 0.3"),
+        (one, {"a.txt": fine.replace("Mach =", "Mach of")}, "a.txt does not say 'Mach ='"),
+        (one, {"a.txt": "hello\n"}, "a.txt is no XFOIL polar file: save it with PACC"),
+        (one, {"a.txt": fine.replace("   0.0500   0.0500", "", 1).replace("0.0", "oops", 9)}, "is no row of numbers"),
+        (one, {"a.txt": polar_file(cut)}, "line 21: the polar of mine at Mach 0.3 covers"),
+        (of_deck, {"a.c81": deck.replace("NACA", "NACA 0012 is too long a title", 1)}, "a.c81"),
+        (of_deck, {"a.c81": deck[:9000]}, "a card is missing, compare the counts in line 1"),
+        ("\n[sections.mine]\n", {}, 'section mine needs either deck = "file.c81" or polars'),
+        (of_deck.replace("mine", '"My Section"'), {"a.c81": deck}, "section name 'My Section' is taken or not plain"),
+    ]  # fmt: skip
+    for section, files, says in cases:
+        with pytest.raises(ValueError, match=r"a\.|my\.toml") as caught:
+            read(toml + section, **files)
+        assert says in str(caught.value)
+        assert "\n" not in str(caught.value)
+
+
+def test_a_missing_outline_is_drawn_as_a_plain_section_and_says_so():
+    deck = asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8")
+    craft = read(GOOD.replace('"naca0012"', '"mine"') + '\n[sections.mine]\ndeck = "a.c81"\n', **{"a.c81": deck})
+    assert craft.remarks == ("The outline of section mine is not given: it is drawn as a symmetric 12 % section.",)
+    assert craft.rotor.blade.installed("mine").outline.name == "naca0012"
+
+
+def test_foreign_decks_come_to_the_run_time_grid():
+    """A deck with odd angles and Machs that ends at stall: its own values inside, the closed form far out."""
+    ours = make_deck("naca0012", read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")))
+    alpha, mach = np.array([-14.0, -9.3, -4.7, 0.0, 4.7, 9.3, 14.0]), np.array([0.3, 0.42, 0.61])
+    lift = C81Block(mach, alpha, np.outer(alpha, [0.11, 0.115, 0.13]))
+    drag = C81Block(mach, alpha, np.tile(0.008 + 1e-4 * alpha[:, None] ** 2, (1, 3)))
+    deck = on_run_time_grid(parse_c81(format_c81(C81Deck("ODD", lift, drag, drag))))
+    at = {angle: k for k, angle in enumerate(deck.cl.alpha_deg)}
+    assert_allclose(deck.cl.mach[[0, -1]], [0.3, 0.6], rtol=1e-12)
+    assert_allclose(deck.cl.values[at[4.5], 0], 0.495, rtol=1e-3)
+    assert_allclose(deck.cl.values[at[90.0]], np.interp(90.0, ours.cl.alpha_deg, ours.cl.values[:, 3]), atol=0.01)
+    assert deck.cd.values.min() > 0.0
+    with pytest.raises(ValueError, match=r"ODD: cl covers -4\.7…4\.7 deg: give at least −8…8 deg"):
+        on_run_time_grid(C81Deck("ODD", C81Block(mach, alpha[2:5], lift.values[2:5]), drag, drag))
+
+
+def test_what_was_assumed_of_the_files_is_said_with_the_answer():
+    polar = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars[2]
+    one = '\n[sections.mine]\npolars = "a.txt"\noutline = "naca0012"\n'
+    craft = read(GOOD.replace('"naca0012"', '"mine"', 1) + one, **{"a.txt": polar_file(polar)})
+    caveats = solve(make_design(aircraft=craft, advance_ratio=0.2)).require().caveats
+    assert [caveat.name for caveat in caveats] == ["rotor-file", "no-tail-rotor"]
+
+
+@pytest.mark.parametrize("page", ["README.md", "docs/rotor_file.md"])
+def test_the_examples_in_the_docs_are_rotor_files(page: str):
+    text = (Path(__file__).parent.parent.parent.parent / page).read_text(encoding="utf-8")
+    found = re.search(r"```toml\n(.*?)```", text, re.DOTALL)
+    assert found is not None
+    polars = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars
+    files = {f"n23012_m0{k + 1}.txt": polar_file(polars[k]) for k in (1, 2, 3)}
+    assert solve(make_design(aircraft=read(found[1], **files), advance_ratio=0.2)).converged
+
+
+def test_files_beside_the_rotor_file_are_found(tmp_path: Path):
+    text = GOOD.replace('"naca0012"', '"mine"') + '\n[sections.mine]\ndeck = "mine.c81"\n'
+    (tmp_path / "my.toml").write_text(text, encoding="utf-8")
+    with pytest.raises(ValueError, match=r"my\.toml, line 21: deck names 'mine\.c81', which is not there"):
+        read_rotor_file(tmp_path / "my.toml")
+    (tmp_path / "mine.c81").write_bytes(asset_path("airfoils/naca0012.c81").read_bytes())
+    assert read_rotor_file(tmp_path / "my.toml").rotor.blade.own_sections[0].name == "mine"
+    with pytest.raises(ValueError, match="does not exist"):
+        read_rotor_file(tmp_path / "other.toml")

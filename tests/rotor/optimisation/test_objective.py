@@ -1,0 +1,125 @@
+"""Objectives, missions and the smooth stalled area."""
+
+import math
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor.design.design import Design
+from rotor.design.flight import FlightCondition
+from rotor.files.make_design import make_design
+from rotor.optimisation.concepts import CONCEPTS
+from rotor.optimisation.mission import read_mission
+from rotor.optimisation.objective import Leg, Objective, at_condition, hover_and_cruise, measure
+from rotor.optimisation.stall_limit import stalled_share
+from rotor.trim import newton
+from rotor.trim.adjoint import Adjoint
+from rotor.trim.solve import solve
+
+
+def small(mu: float, **choices: float) -> Design:
+    design = make_design(advance_ratio=mu, **choices)  # pyright: ignore[reportArgumentType]
+    return replace(design, models=replace(design.models, elements=20, azimuths=48))
+
+
+def test_mission_is_the_mean_by_hours():
+    """Hand calculation: (1·P1 + 3·P2)/4."""
+    design = small(0.2)
+    conditions = (FlightCondition(0.0, 8000.0), FlightCondition(0.25, 7500.0, 1000.0))
+    powers = [solve(replace(design, condition=condition)).power.total for condition in conditions]
+    made = measure(Objective("total", (Leg(conditions[0], 1.0), Leg(conditions[1], 3.0))), design)
+    assert made.power is not None
+    assert_allclose(made.power, (powers[0] + 3.0 * powers[1]) / 4.0, rtol=1e-9)
+
+
+def test_hover_and_cruise():
+    design = small(0.2)
+    mixed = hover_and_cruise(design, 0.25, 0.3)
+    assert [leg.condition.advance_ratio for leg in mixed.legs] == [0.0, 0.3]
+    assert_allclose(mixed.shares, (0.25, 0.75))
+    assert len(hover_and_cruise(design, 0.0, 0.3).legs) == 1
+    with pytest.raises(ValueError, match=r"hover share 1\.5"):
+        hover_and_cruise(design, 1.5, 0.3)
+
+
+def test_what_does_not_trim_has_no_power():
+    """No zero, no NaN: None, and the sentence of the leg that failed."""
+    design = small(0.2)
+    legs = (Leg(design.condition), Leg(FlightCondition(0.0, 20000.0, 4000.0)))
+    made = measure(Objective("total", legs), design)
+    assert made.power is None
+    assert made.by_pitch is None
+    assert "lower the weight" in made.message
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.25, 0.35])
+@pytest.mark.parametrize("preset", ["flight", "thesis"])
+def test_stalled_share_has_exact_slopes(preset: str, mu: float, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(newton, "TOLERANCE", 1e-12)
+    monkeypatch.setattr(newton, "INFLOW_TOLERANCE", 1e-11)
+    design = make_design(preset, advance_ratio=mu, mass=10500.0 if mu == 0.0 else 8800.0)
+    design = replace(design, models=replace(design.models, elements=20, azimuths=48))
+    concept, values, step = CONCEPTS["quadratic"], np.array([0.05, -0.3]), 1e-6
+    centre = solve(concept.apply(design, values))
+    _, slope = stalled_share(Adjoint(centre))
+    exact = concept.slopes(values, centre.disk.r) @ slope
+
+    def area(at: np.ndarray) -> float:
+        return stalled_share(Adjoint(solve(concept.apply(design, at), centre).require()))[0]
+
+    measured = [(area(values + step * e) - area(values - step * e)) / (2 * step) for e in np.eye(2)]
+    assert_allclose(exact, measured, atol=2e-5 * max(np.abs(exact).max(), 1e-3), rtol=0.0)
+
+
+def test_stalled_share_is_near_the_counted_area():
+    """Both see the same cells; the smooth one differs by what is within half a degree of stall."""
+    for mu in (0.3, 0.35, 0.38):
+        solution = solve(make_design(advance_ratio=mu, twist="linear:-4"))
+        share, _ = stalled_share(Adjoint(solution))
+        assert_allclose(share, solution.stalled_area, atol=0.004)
+
+
+MISSION = "# a day\nmu,mass_kg,altitude_m,hours\n0,9000,0,0.5   # hover\n\n0.2,,1500,2\n0.3\n"
+
+
+def test_mission_file(tmp_path: Path):
+    path = tmp_path / "mission.csv"
+    path.write_text(MISSION)
+    first, second, third = read_mission(path, make_design(mass=8000.0, altitude=200.0))
+    assert (first.condition.advance_ratio, first.condition.mass, first.hours) == (0.0, 9000.0, 0.5)
+    assert (second.condition.mass, second.condition.altitude, second.hours) == (8000.0, 1500.0, 2.0)
+    assert (third.condition.advance_ratio, third.condition.altitude, third.hours) == (0.3, 200.0, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (None, "does not exist"),
+        ("", "is empty"),
+        ("mu,hours\n", "no legs"),
+        ("speed,hours\n0.2,1\n", "line 1 reads 'speed,hours'"),
+        ("mass_kg\n8000\n", "of which mu is needed"),
+        ("mu,hours\n0.2,1\nfast,1\n", "line 3: mu is 'fast'"),
+        ("mu,hours\n0.9,1\n", "line 2: advance ratio 0.9"),
+        ("mu,hours\n0.2,0\n", "line 2: 0 hours"),
+        ("mu,mass_kg\n0.2,nan\n", "line 2: mass_kg is 'nan'"),
+    ],
+)
+def test_mission_file_errors(tmp_path: Path, text: str | None, words: str):
+    path = tmp_path / "mission.csv"
+    if text is not None:
+        path.write_text(text)
+    with pytest.raises(ValueError, match=words) as caught:
+        read_mission(path, make_design())
+    assert "\n" not in str(caught.value)
+
+
+def test_objective_errors():
+    with pytest.raises(ValueError, match="'shaft' is not known"):
+        Objective("shaft", (Leg(FlightCondition(0.2, 8000.0)),))  # pyright: ignore[reportArgumentType]
+    with pytest.raises(ValueError, match="at least one leg"):
+        Objective("total", ())
+    assert math.isclose(sum(at_condition(make_design()).shares), 1.0)

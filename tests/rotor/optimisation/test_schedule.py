@@ -1,0 +1,196 @@
+"""Schedules: what must hold whatever the numbers, processes, and files to go on from."""
+
+import math
+import multiprocessing
+import os
+import signal
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor.design.design import Design
+from rotor.files.make_design import make_design
+from rotor.optimisation.concepts import CONCEPTS
+from rotor.optimisation.objective import Leg
+from rotor.optimisation.schedule import Cell, Plan, Schedule, run_plan
+from rotor.optimisation.schedule_file import open_cells, read_cells
+from rotor.optimisation.search import Ended, Limits
+from rotor.trim.solve import solve
+
+NAMES = ("linear", "quadratic", "two-segment", "free-form")
+
+
+def small() -> Design:
+    design = make_design()
+    return replace(design, models=replace(design.models, elements=20, azimuths=48))
+
+
+def plan(*names: str, ratios: tuple[float, ...] = (0.0, 0.15, 0.3), hours: tuple[float, ...] = (1.0, 2.0, 1.0)) -> Plan:
+    design = small()
+    legs = tuple(Leg(replace(design.condition, advance_ratio=mu), hour) for mu, hour in zip(ratios, hours, strict=True))
+    return Plan(design, tuple(CONCEPTS[name] for name in names), legs)
+
+
+@pytest.fixture(scope="module")
+def made() -> Schedule:
+    return run_plan(plan(*NAMES))
+
+
+def power(schedule: Schedule, leg: int | None, name: str) -> float:
+    found = schedule.at(leg, name)
+    assert found is not None
+    assert found.best is not None
+    return found.best.power
+
+
+def test_it_is_complete(made: Schedule):
+    assert made.complete
+    assert made.converged
+    assert [cell.leg for cell in made.cells[:4]] == [0] * 4
+    assert made.cells[-1].leg is None
+
+
+def test_moving_is_never_worse_than_the_best_fixed_blade(made: Schedule):
+    for name in NAMES:
+        worth = made.worth(name)
+        assert worth is not None
+        assert worth.moving <= worth.fixed * (1 + 1e-7) <= worth.baseline * (1 + 1e-7)
+        assert_allclose(worth.gain, worth.fixed - worth.moving)
+        fixed = made.at(None, name)
+        assert fixed is not None
+        for leg in range(3):  # In every condition by itself, too.
+            design = replace(fixed.design, condition=made.plan.legs[leg].condition)
+            assert power(made, leg, name) <= solve(design).power.total * (1 + 1e-6)
+
+
+def test_richer_concepts_are_never_worse(made: Schedule):
+    for leg in (0, 1, 2, None):
+        for poor, rich in (
+            ("linear", "quadratic"),
+            ("linear", "two-segment"),
+            ("quadratic", "free-form"),
+        ):
+            assert power(made, leg, rich) <= power(made, leg, poor) * (1 + 2e-6)
+        # The envelope of all, but for the kink that a smooth curve rounds off.
+        assert power(made, leg, "free-form") <= min(power(made, leg, name) for name in NAMES) * (1 + 3e-4)
+
+
+def test_worth_is_the_mean_by_hours(made: Schedule):
+    """Hand calculation with the hours 1, 2, 1."""
+    worth = made.worth("linear")
+    assert worth is not None
+    powers = [power(made, leg, "linear") for leg in range(3)]
+    assert_allclose(worth.moving, (powers[0] + 2 * powers[1] + powers[2]) / 4, rtol=1e-12)
+
+
+def test_one_condition_makes_moving_worthless():
+    alone = run_plan(plan("linear", ratios=(0.2,), hours=(1.0,)))
+    worth = alone.worth("linear")
+    assert worth is not None
+    assert_allclose(worth.gain / worth.fixed, 0.0, atol=2e-6)
+
+
+@pytest.mark.slow
+def test_two_processes_find_the_same():
+    twin = plan("linear", ratios=(0.1, 0.15, 0.2, 0.25, 0.3), hours=(1.0,) * 5)
+    heard: list[Cell] = []
+    here, there = run_plan(twin), run_plan(twin, keep=heard.append, processes=2)
+    assert there.converged
+    assert len(heard) == len(there.cells) == len(here.cells)
+    for a, b in zip(here.cells, there.cells, strict=True):
+        assert (a.leg, a.concept) == (b.leg, b.concept)
+        assert a.optimum.best == b.optimum.best
+
+
+@pytest.mark.slow
+def test_what_is_found_survives_a_stop_and_is_not_sought_again(tmp_path: Path):
+    path, whole = tmp_path / "found.jsonl", plan("linear", "two-segment")
+    heard: list[Cell] = []
+    keep = open_cells(path, whole)
+
+    def take(cell: Cell) -> None:
+        heard.append(cell)
+        keep(cell)
+
+    part = run_plan(whole, keep=take, stop=lambda: len(heard) >= 3)
+    assert not part.complete
+    assert len(part.cells) == len(heard) >= 3
+    assert part.worth("linear") is None
+    with path.open("a") as file:
+        file.write('{"leg": 2, "conc')  # Cut short by a crash.
+    found = read_cells(path, whole)
+    assert [(cell.leg, cell.concept) for cell in found] == [(cell.leg, cell.concept) for cell in heard]
+    for cell, kept in zip(found, heard, strict=True):
+        assert cell.optimum.best == kept.optimum.best
+        assert cell.optimum.design == kept.optimum.design
+    again: list[Cell] = []
+    keep = open_cells(path, whole)
+    finished = run_plan(whole, found, lambda cell: (again.append(cell), keep(cell))[0])
+    assert finished.converged
+    assert len(again) == len(finished.cells) - len(found)
+    assert len(read_cells(path, whole)) == len(finished.cells)
+    for one, other in zip(finished.cells, run_plan(whole).cells, strict=True):
+        assert one.optimum.best == other.optimum.best
+
+
+@pytest.mark.slow
+def test_a_lost_worker_is_said_and_what_it_found_is_kept():
+    killed: list[int] = []
+
+    def kill(cell: Cell) -> None:
+        for child in multiprocessing.active_children():
+            if child.pid is not None and not killed:
+                killed.append(child.pid)
+                os.kill(child.pid, signal.SIGKILL)
+
+    schedule = run_plan(plan("linear", ratios=tuple(0.1 + 0.01 * k for k in range(20)), hours=(1.0,) * 20),
+                        keep=kill, processes=2)  # fmt: skip
+    assert "worker process was lost" in schedule.message
+    assert not schedule.complete
+    assert schedule.cells
+
+
+def test_a_file_of_another_plan_is_refused(tmp_path: Path):
+    path = tmp_path / "found.jsonl"
+    open_cells(path, plan("linear"))
+    with pytest.raises(ValueError, match="belongs to other flags"):
+        read_cells(path, replace(plan("linear"), limits=Limits(stalled=0.01)))
+    path.write_text("mu,hours\n")
+    with pytest.raises(ValueError, match="cannot be read"):
+        read_cells(path, plan("linear"))
+    assert read_cells(tmp_path / "none.jsonl", plan("linear")) == []
+
+
+def test_a_leg_that_cannot_be_flown_is_not_hidden():
+    design = small()
+    legs = (Leg(design.condition), Leg(replace(design.condition, advance_ratio=0.0, mass=20000.0, altitude=4000.0)))
+    schedule = run_plan(Plan(design, (CONCEPTS["linear"],), legs, starts=1))
+    assert schedule.complete
+    assert not schedule.converged
+    assert schedule.worth("linear") is None
+    bad = schedule.at(1, "linear")
+    assert bad is not None
+    assert bad.status is Ended.NOT_CONVERGED
+
+
+@pytest.mark.slow
+def test_fifteen_conditions_all_concepts_two_processes():
+    """The whole of it on the full grid; what moving is worth stays within what a moving blade could at most gain."""
+    design = make_design()
+    ratios = (0.0, *(0.05 + 0.025 * k for k in range(1, 15)))
+    legs = tuple(Leg(replace(design.condition, advance_ratio=mu)) for mu in ratios)
+    schedule = run_plan(Plan(design, tuple(CONCEPTS.values()), legs), processes=2)
+    assert schedule.converged
+    for name in CONCEPTS:
+        worth = schedule.worth(name)
+        assert worth is not None
+        assert 0.0 <= worth.gain < 0.01 * worth.fixed
+        assert math.isfinite(worth.share)
+    nested = (("linear", "quadratic"), ("linear", "two-segment"), ("linear", "three-segment"),
+              ("two-segment", "two-segment-free"), ("three-segment", "three-segment-free"),
+              ("two-segment-free", "three-segment-free"))  # fmt: skip
+    for leg in range(len(legs)):
+        for poor, rich in nested:
+            assert power(schedule, leg, rich) <= power(schedule, leg, poor) * (1 + 5e-5), (leg, poor, rich)

@@ -1,0 +1,431 @@
+"""Studies: the file, the order of points, what a point leaves as a row, the folder, and what is read from it."""
+
+import errno
+import importlib
+import json
+import math
+import signal
+from collections.abc import Callable
+from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+from rotor.__main__ import main
+from rotor.assets import asset_path
+from rotor.command.progress import interruptible
+from rotor.files.make_design import make_design
+from rotor.study import cluster
+from rotor.study.axes import Axis, Places, Sample
+from rotor.study.chunks import Done, Provenance, work, work_chunk
+from rotor.study.findings import best_row, effects, robust_best
+from rotor.study.memory import Memory
+from rotor.study.results import Results, read_file, read_results
+from rotor.study.store import NotStored, Store
+from rotor.study.study import good_chunk
+from rotor.study.study_file import StudyFile, parse_study, read_study
+from rotor.trim.solve import solve
+
+WHENCE = Provenance("0.0", None, "0")
+COARSE = '[models]\ninflow = "pitt-peters"\nelements = 12\nazimuths = 24\n'
+SMALL = 'chunk = 4\n[axes]\nmu = [0.1, 0.2, 0.3]\nrate_deg = [-16, -8]\n[fixed]\nconcept = "linear"\n' + COARSE
+
+
+def test_neighbours_differ_by_one_step_and_every_point_comes_once():
+    axes = (Axis("mu", (0.0, 0.1, 0.2, 0.3)), Axis("mass_kg", (1.0, 2.0)), Axis("inflow", ("a", "b", "c")))
+    places = Places(axes, Sample("sobol", 5, 0, (("altitude_m", 0.0, 100.0),)))
+    points = places.at(0, places.count)
+    assert len(points) == 4 * 2 * 3 * 5 == len({tuple(sorted(point.items())) for point in points})
+    for before, after in pairwise(points):
+        changed = [name for name in before if before[name] != after[name]]
+        assert len(changed) == 1
+        for axis in axes:
+            if axis.name in changed:
+                at = [axis.values.index(point[axis.name]) for point in (before, after)]  # type: ignore[arg-type]
+                assert abs(at[0] - at[1]) == 1
+    assert places.at(37, 41) == points[37:41]
+    assert sum(a["inflow"] != b["inflow"] for a, b in pairwise(points)) == 2  # Texts are slowest.
+
+
+def test_a_study_of_a_billion_points_costs_no_memory():
+    axis = tuple(float(k) for k in range(1000))
+    places = Places((Axis("mu", axis), Axis("mass_kg", axis), Axis("altitude_m", axis)), None)
+    assert places.count == 10**9
+    assert places.at(10**9 - 1, 10**9)[0]["mu"] == 999.0
+
+
+@pytest.mark.parametrize("method", ["sobol", "latin-hypercube"])
+def test_samples_fill_their_ranges_and_walk_in_small_steps(method: Any):
+    places = Places((), Sample(method, 500, 3, (("mu", 0.1, 0.3), ("mass_kg", 6000.0, 9000.0))))
+    points = np.array([[point["mu"], point["mass_kg"]] for point in places.at(0, 500)])
+    unit = (points - [0.1, 6000.0]) / [0.2, 3000.0]
+    assert ((unit >= 0.0) & (unit <= 1.0)).all()
+    assert_allclose(unit.mean(axis=0), 0.5, atol=0.01)
+    step = np.sqrt((np.diff(unit, axis=0) ** 2).sum(axis=1)).mean()
+    assert step < 3.0 / math.sqrt(500)  # At random it would be 0.52.
+    again = Places((), Sample(method, 500, 3, (("mu", 0.1, 0.3), ("mass_kg", 6000.0, 9000.0))))
+    assert again.at(0, 500) == places.at(0, 500)
+
+
+def test_chunks_hold_all_points_in_order():
+    study = parse_study(SMALL)
+    assert (study.count, study.chunks) == (6, 2)
+    assert [study.span(k) for k in range(2)] == [(0, 4), (4, 6)]
+    assert good_chunk(100_000, search=False) == 500
+    assert good_chunk(10**9, search=False) * 20_000 >= 10**9
+    assert good_chunk(20, search=True) == 4
+
+
+BAD = {
+    "axes": ("[axes\n", "line 1", "mend"),
+    "none": ("title = 'x'\n", "no axes", "add"),
+    "unknown section": ("[axis]\nmu = [0.1]\n", "line 1", "[axes]"),
+    "unknown key": ("chunks = 3\n[axes]\nmu = [0.1]\n", "line 1", "chunk"),
+    "unknown quantity": ("[axes]\nspeed = [0.1]\n", "line 2", "mu"),
+    "text": ("[axes]\nmu = ['fast']\n", "line 2", "give a list"),
+    "range": ("[axes]\nmu = '0.3:0.1:0.1'\n", "line 2", "0.3:0.1:0.1"),
+    "empty": ("[axes]\nmu = []\n", "line 2", "one at least"),
+    "twice": ("[axes]\nmu = [0.1, 0.1]\n", "line 2", "leave one out"),
+    "outside": ("[axes]\nmu = [0.1, 0.9]\n", "line 2", "0.9"),
+    "fixed outside": ("[axes]\nmu = [0.1]\n[fixed]\nmass_kg = -5\n", "line 4", "-5"),
+    "both": ("[axes]\nmu = [0.1]\n[fixed]\nmu = 0.2\n", "line 4", "leave one out"),
+    "place": ("[axes]\nmu = [0.1]\n[fixed]\ninflow = 'drees'\n", "line 4", "[models]"),
+    "inflow": ("[axes]\nmu = [0.1]\n[models]\ninflow = 'free'\n", "line 4", "'free'"),
+    "flag": ("[axes]\nmu = [0.1]\n[models]\ntip_loss = 'no'\n", "line 4", "true or false"),
+    "sample missing": ("[axes]\nmu = { low = 0.1, high = 0.3 }\n", "line 2", "[sample]"),
+    "sample useless": ("[axes]\nmu = [0.1]\n[sample]\ncount = 8\n", "line 3", "no range"),
+    "sample method": ("[axes]\nmu = { low = 0.1, high = 0.3 }\n[sample]\nmethod = 'dice'\n", "line 4", "sobol"),
+    "sample count": ("[axes]\nmu = { low = 0.1, high = 0.3 }\n[sample]\ncount = 0.5\n", "line 4", "whole number"),
+    "range order": ("[axes]\nmu = { low = 0.3, high = 0.1 }\n[sample]\ncount = 8\n", "line 2", "lower one first"),
+    "parameter": ("[axes]\nrate_deg = [-8]\n", "line 2", "concept"),
+    "missing parameter": ("[axes]\ninboard_rate_deg = [-8]\n[fixed]\nconcept = 'two-segment'\n", "outboard", "add"),
+    "no concept": ("[axes]\nmu = [0.1]\n[optimum]\n", "concept", "add"),
+    "nothing left": ("[axes]\nrate_deg = [-8]\n[fixed]\nconcept = 'linear'\n[optimum]\n", "nothing left", "leave"),
+    "starts": ("[axes]\nmu = [0.1]\n[fixed]\nconcept = 'linear'\n[optimum]\nstarts = 0\n", "line 6", "1…1000"),
+    "rate": ("[axes]\nmu = [0.1]\n[fixed]\nconcept = 'linear'\n[optimum]\nrate_deg = [0, -20]\n", "line 6", "[-20, 0]"),
+    "least": ("[axes]\nmu = [0.1]\n[show]\nleast = 'noise'\n", "line 4", "power_total_w"),
+    "uncertain": ("[axes]\nmu = [0.1]\n[show]\nuncertain = ['wind']\n", "line 4", "mu"),
+    "chunk": ("chunk = 0\n[axes]\nmu = [0.1]\n", "line 1", "whole number"),
+    "rotor": ("[axes]\nrotor = ['uh60a', 'mine.toml']\n", "line 2", "mine.toml"),
+    "table": ("[axes]\nmu = [0.1]\n[fixed]\ntwist = 'table:mine.csv'\n", "line 4", "mine.csv"),
+    "no section": ("axes = 3\n", "line 1", "write [axes]"),
+    "dotted key": ("title = 'x'\naxes.mu = [0.1, 0.9]\n", "line 2", "0.9"),
+    "section in braces": ("axes = { mu = [0.1, 0.9] }\n", "line 1", "0.9"),
+    "heading of a key": ("[axes.mu]\nlow = 0.1\nhigh = 0.9\n[sample]\ncount = 8\n", "line 1", "0.9"),
+    "long range": ("[axes]\nmu = '0.1:0.3:0.00001'\n", "line 2", "larger step"),
+    "one value outside": ("title = 'x'\n[axes]\nspeed_kt = [-5]\n", "line 3", "advance ratio"),
+    "section data": ("[axes]\nmu = [0.1]\n[fixed]\nairfoils = 'flat'\n", "line 4", "'flat'"),
+    "half an element": ("[axes]\nmu = [0.1]\n[models]\nelements = 40.5\n", "line 4", "whole number"),
+    "half an element of an axis": ("[axes]\nazimuths = [36, 40.5]\n", "line 2", "whole number"),
+    "elements sampled": ("[axes]\nelements = { low = 20, high = 40 }\n[sample]\ncount = 8\n", "line 2", "list"),
+    "share without optimum": ("[axes]\nmu = [0.1]\n[fixed]\nhover_share = 0.5\n", "line 4", "[optimum]"),
+    "twist and optimum": ("[axes]\nmu = [0.1]\n[fixed]\ntwist = 'ideal'\n[optimum]\n", "line 4", "leave"),
+    "all uncertain": ("[axes]\nmu = [0.1]\n[show]\nuncertain = ['mu']\n", "line 4", "leave one out"),
+    "partly sampled": (
+        "[axes]\nmu = { low = 0.1, high = 0.3 }\nmass_kg = { low = 7000, high = 8000 }\n[sample]\ncount = 8\n"
+        "[show]\nuncertain = ['mu']\n", "line 7", "list of values"),
+    "speeds": ("[axes]\nspeed_kt = [90]\nmu = [0.1]\n", "line 2", "leave one out"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_a_bad_study_file_is_one_sentence(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    text, *words = BAD[name]
+    path = tmp_path / "bad.toml"
+    path.write_text(text, encoding="utf-8")
+    assert main(["study", str(path), "--out", str(tmp_path / "out")]) == 2
+    err = capsys.readouterr().err
+    assert err.count("\n") == 1
+    for word in ("bad.toml", *words):
+        assert word in err
+    assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["nowhere.toml"], "two_segment.toml"),
+        (["a/nowhere.toml"], "a/nowhere.toml"),
+        (["two_segment.toml", "DIR"], "study show DIR"),
+        (["two_segment.toml", "--workers", "0"], "1…1024"),
+        (["two_segment.toml", "--json"], "study show DIR"),
+        (["show", "nowhere", "--dry-run"], "--dry-run"),
+        (["show"], "study show DIR"),
+        (["show", "nowhere"], "nowhere"),
+    ],
+)
+def test_bad_flags_are_one_line(arguments: list[str], words: str, capsys: pytest.CaptureFixture[str]):
+    assert main(["study", *arguments]) == 2
+    err = capsys.readouterr().err
+    assert err.count("\n") == 1
+    assert words in err
+
+
+@pytest.mark.parametrize("path", sorted(asset_path("studies").glob("*.toml")), ids=lambda path: path.name)
+def test_packaged_studies_are_good(path: Path):
+    assert read_study(path.name).study == read_study(path).study
+
+
+def test_rows_are_what_single_trims_answer():
+    study = parse_study(SMALL)
+    for row in work(study, 0, study.count):
+        design = make_design(twist=f"linear:{row['rate_deg']:g}", advance_ratio=row["mu"])
+        models = replace(design.models, inflow="pitt-peters", elements=12, azimuths=24)
+        alone = solve(replace(design, models=models))
+        assert (row["status"], row["twist"]) == ("converged", design.twist.spec())
+        assert_allclose(row["power_total_w"], alone.power.total, rtol=1e-8)
+        assert_allclose(row["collective_deg"], math.degrees(alone.controls.collective), rtol=1e-7)
+
+
+def test_a_rotor_and_a_table_of_the_users_own_travel_with_the_study(tmp_path: Path):
+    """A worker has none of the user's files, so that all they say is in the study."""
+    (tmp_path / "mine.toml").write_text(asset_path("r22.toml").read_text(encoding="utf-8"), encoding="utf-8")
+    (tmp_path / "twist.csv").write_text("0.1, 5\n1, -5\n")
+    text = f'[axes]\nrotor = ["mine.toml", "s61"]\n[fixed]\ntwist = "table:{tmp_path}/twist.csv"\n' + COARSE
+    (tmp_path / "study.toml").write_text(text, encoding="utf-8")
+    study = read_study(tmp_path / "study.toml").study
+    for name in ("mine.toml", "twist.csv"):
+        (tmp_path / name).unlink()
+    rows = work(study, 0, 2)
+    assert [row["status"] for row in rows] == ["converged", "converged"]
+    assert [row["rotor"] for row in rows] == ["mine.toml", "s61"]
+    assert rows[0]["mass_kg"] < 700.0 < rows[1]["mass_kg"]
+    assert rows[0]["twist"] == "points:5,-5@0.1,1"
+
+
+def test_an_optimum_says_what_it_found():
+    text = '[axes]\nmu = [0.2]\n[fixed]\nconcept = "two-segment"\ndivision = 0.6\n[optimum]\nstarts = 1\n' + COARSE
+    (row,) = work(parse_study(text), 0, 1)
+    assert row["status"] == "converged"
+    assert row["division"] == 0.6
+    assert row["twist"].endswith("@0.6")
+    assert f"{row['inboard_rate_deg']:.4f}" in row["twist"]
+    assert_allclose(row["mean_power_w"], row["power_total_w"], rtol=1e-8)
+    assert row["saving_percent"] > 0.0
+
+
+def test_a_failed_point_is_a_row_with_its_sentence(monkeypatch: pytest.MonkeyPatch):
+    heavy = parse_study("[axes]\nmass_kg = [8000, 30000]\n[fixed]\nmu = 0\naltitude_m = 4000\n" + COARSE)
+    rows = work(heavy, 0, 2)
+    assert [row["status"] for row in rows] == ["converged", "not-converged"]
+    assert "lower" in rows[1]["message"]
+    assert "power_total_w" not in rows[1]
+    crossed = '[axes]\ninner_break = [0.3, 0.9]\n[fixed]\nconcept = "three-segment"\nouter_break = 0.8\n'
+    rates = "inboard_rate_deg = -8\nmiddle_rate_deg = -8\noutboard_rate_deg = -8\n"
+    with pytest.raises(ValueError, match="ascend"):
+        parse_study(crossed + rates)  # Where one value alone is at fault, the file says so …
+    both = crossed.replace("[0.3, 0.9]", "[0.3, 0.7]").replace("outer_break = 0.8\n", "") + rates
+    both = both.replace("[fixed]", "outer_break = [0.8, 0.5]\n[fixed]")
+    statuses = [row["status"] for row in work(parse_study(both + COARSE), 0, 4)]
+    assert sorted(statuses) == ["bad-input", "converged", "converged", "converged"]  # … where a pair is, the row does.
+    monkeypatch.setattr("rotor.study.point.solve", lambda *_: 1 / 0)
+    (row,) = work(parse_study("[axes]\nmu = [0.1]\n"), 0, 1)
+    assert (row["status"], row["message"]) == ("error", "ZeroDivisionError: division by zero")
+
+
+def test_a_guess_follows_what_is_linear():
+    """Trims on a plane: the model made of four of them meets the fifth, where the nearest alone misses."""
+    solution = solve(replace(make_design(), models=replace(make_design().models, inflow="uniform")))
+    memory = Memory({"mu": (0.0, 1.0), "mass_kg": (0.0, 2000.0)})
+
+    def at(mu: float, mass: float) -> dict[str, Any]:
+        return {"mu": mu, "mass_kg": mass, "inflow": "uniform"}
+
+    def trimmed(mu: float, mass: float) -> Any:
+        controls = replace(solution.controls, collective=0.1 + 0.2 * mu + 1e-5 * mass)
+        return replace(solution, controls=controls)
+
+    for mu, mass in ((0.1, 100.0), (0.2, 120.0), (0.15, 300.0), (0.12, 180.0)):
+        memory.keep(at(mu, mass), trimmed(mu, mass))
+    guess = memory.guess(at(0.17, 200.0), hovering=False)
+    assert guess is not None
+    assert_allclose(guess.state[0], 0.1 + 0.2 * 0.17 + 1e-5 * 200.0, rtol=1e-3)
+    assert memory.guess(at(0.17, 200.0) | {"inflow": "drees"}, hovering=False) is None
+    assert memory.guess(at(0.17, 200.0), hovering=True) is None
+
+
+def stored(folder: Path, text: str = SMALL, whence: Provenance = WHENCE) -> Store:
+    return Store(folder, StudyFile(parse_study(text), text, "study.toml"), whence)
+
+
+@pytest.fixture
+def done(monkeypatch: pytest.MonkeyPatch) -> Callable[[Store, int], Done]:
+    monkeypatch.setattr("rotor.study.chunks.package_version", lambda: WHENCE.version)
+    return lambda store, chunk: work_chunk(store.study, chunk, WHENCE)
+
+
+def test_a_folder_goes_on_where_it_was(tmp_path: Path, done: Callable[[Store, int], Done]):
+    store = stored(tmp_path / "out")
+    with pytest.raises(ValueError, match="another run writes"):
+        stored(tmp_path / "out")
+    made = done(store, 1)
+    store.keep(1, made.content)
+    assert (made.rows, made.failures) == (2, 0)
+    store.close()
+    (store.folder / ".chunk-000000.parquet.part").write_bytes(b"half")
+    (store.folder / "chunk-000000.parquet").write_bytes(b"PAR1 and no more")
+    again = stored(tmp_path / "out", SMALL.replace("chunk = 4", "title = 'other words'\nchunk = 4"))
+    assert again.missing() == [0]
+    assert not list(store.folder.glob(".*.part"))
+    again.close()
+    with pytest.raises(ValueError, match="holds another study"):
+        stored(tmp_path / "out", SMALL.replace("0.3]", "0.31]"))
+    with pytest.raises(ValueError, match=r"computed by rotor-explorer 0\.0"):
+        stored(tmp_path / "out", whence=replace(WHENCE, version="0.1"))
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "letter.txt").write_text("dear")
+    with pytest.raises(ValueError, match="holds other things"):
+        stored(tmp_path / "mine")
+
+
+def test_a_full_disk_is_one_sentence_and_keeps_what_is_there(
+    tmp_path: Path, done: Callable[[Store, int], Done], monkeypatch: pytest.MonkeyPatch
+):
+    store = stored(tmp_path / "out")
+    store.keep(0, done(store, 0).content)
+    content = done(store, 1).content
+
+    def full(handle: int) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr("rotor.study.store.os.fsync", full)
+    with pytest.raises(NotStored, match=r"No space left on device\).*finished chunks are kept"):
+        store.keep(1, content)
+    assert store.missing() == [1]
+    assert not list(store.folder.glob(".*.part"))
+
+
+def test_what_is_done_first_is_spread_over_the_study(tmp_path: Path):
+    store = stored(tmp_path / "out", SMALL.replace("[0.1, 0.2, 0.3]", '"0.1:0.299:0.001"'))
+    left = store.missing()
+    assert sorted(left) == list(range(100))
+    assert 35 < np.mean(left[:20]) < 65
+    assert left == store.missing()
+
+
+def test_files_say_units_and_whence_they_came(tmp_path: Path, done: Callable[[Store, int], Done]):
+    parquet: Any = importlib.import_module("pyarrow.parquet")
+    store = stored(tmp_path / "out")
+    for chunk in range(2):
+        store.keep(chunk, done(store, chunk).content)
+    schema = parquet.read_schema(tmp_path / "out" / "chunk-000000.parquet")
+    assert schema.field("power_total_w").metadata == {b"unit": b"W"}
+    about = {key.decode(): value.decode() for key, value in schema.metadata.items()}
+    assert about["study"] == store.study.fingerprint
+    assert about["package_version"] == "0.0"
+    assert json.loads(about["units"])["mass_kg"] == "kg"
+    models = json.loads(about["models"])
+    assert (models["inflow"], models["elements"], models["trim"], models["tip_loss"]) == (
+        "pitt-peters", 12, "propulsive", True
+    )  # fmt: skip
+    results = read_results(tmp_path / "out")
+    assert_array_equal(results.columns["point"], np.arange(6))
+    assert parquet.read_table(tmp_path / "out").num_rows == 6  # As pandas reads a folder.
+
+
+def test_show_is_text_and_json(tmp_path: Path, done: Callable[[Store, int], Done], capsys: pytest.CaptureFixture[str]):
+    store = stored(tmp_path / "out")
+    store.keep(0, done(store, 0).content)
+    store.close()
+    assert main(["study", "show", str(tmp_path / "out"), "--json", "--uncertain", "mu"]) == 0
+    shown = json.loads(capsys.readouterr().out)
+    assert (shown["points"], shown["done"], shown["failed"]) == (6, 4, 0)
+    assert shown["best"]["status"] == "converged"
+    assert main(["study", "show", str(tmp_path / "out"), "--least", "stalled_area_percent"]) == 0
+    out = capsys.readouterr().out
+    assert "least stalled_area_percent" in out
+    assert "depends on, as far as it is known" in out
+    assert main(["study", "show", str(tmp_path / "out"), "--least", "noise"]) == 2
+    assert "noise" in capsys.readouterr().err
+
+
+def results_of(**columns: Any) -> Results:
+    axes = tuple(name for name in columns if name not in ("power_total_w", "status"))
+    rows = len(columns["power_total_w"])
+    made = {name: np.array(values, dtype=object if name == "kind" else float) for name, values in columns.items()}
+    made |= {"point": np.arange(rows, dtype=float), "status": np.array(["converged"] * rows, dtype=object)}
+    return Results({"points": rows}, axes, made)
+
+
+def test_best_and_robust_best_by_hand():
+    """Design b has the least of all, c the least worst case, a the least mean; d failed in one case."""
+    powers = {"a": (1.0, 9.0), "b": (0.5, 12.0), "c": (5.5, 6.0), "d": (0.1, math.nan)}
+    results = results_of(
+        kind=[name for name in powers for _ in range(2)],
+        mu=[0.1, 0.3] * 4,
+        power_total_w=[power for pair in powers.values() for power in pair],
+    )
+    results.columns["status"][7] = "not-converged"
+    assert best_row(results, "power_total_w") == 6
+    robust = robust_best(results, "power_total_w", ("mu",))
+    assert robust is not None
+    assert (robust.least_worst.design, robust.least_worst.worst) == ({"kind": "c"}, 6.0)
+    assert (robust.least_mean.design, robust.least_mean.mean) == ({"kind": "a"}, 5.0)
+    assert (robust.designs, robust.dropped, robust.least_mean.cases) == (3, 1, 2)
+
+
+def test_effects_share_the_variance_as_the_formula_says():
+    """f = 3x + y on a full grid: Var x-part : Var y-part = 9 : 1, nothing left for z."""
+    grid = np.array(np.meshgrid([0.0, 1.0], [0.0, 1.0], [0.0, 1.0], indexing="ij")).reshape(3, -1)
+    results = results_of(x=grid[0], y=grid[1], z=grid[2], power_total_w=3.0 * grid[0] + grid[1])
+    found = {one.axis: one for one in effects(results, "power_total_w")}
+    assert_allclose([found[name].share for name in "xyz"], [0.9, 0.1, 0.0], atol=1e-12)
+    assert (found["x"].least_at, found["x"].most_at, found["x"].most) == (0.0, 1.0, 3.5)
+    many = np.linspace(0.0, 1.0, 1000)
+    fine = effects(results_of(x=many, power_total_w=many), "power_total_w")[0]
+    assert_allclose(fine.share, 0.99, atol=1e-3)  # Tenths see all but 1/100 of a straight line's variance.
+
+
+def test_a_short_sample_is_not_taken_for_an_effect():
+    """Power depends on x alone; with a level for each of sixteen points y would have all of the variance as well."""
+    x, y = np.random.default_rng(0).random((2, 16))
+    results = results_of(x=x, y=y, power_total_w=x)
+    results.about["axes"] = {name: {"low": 0.0, "high": 1.0} for name in "xy"}
+    found = {one.axis: one.share for one in effects(results, "power_total_w")}
+    assert found["x"] > 0.5
+    assert found["y"] < 0.2
+
+
+def test_a_file_that_is_no_result_or_unpacks_to_much_is_one_sentence():
+    parquet: Any = importlib.import_module("pyarrow.parquet")
+    arrow: Any = importlib.import_module("pyarrow")
+    about = {"format": "rotor-explorer study", "axes": "[]", "given": "{}", "units": "{}", "models": "{}"}
+
+    def packed(rows: int, text: str, about: dict[str, str] = about) -> bytes:
+        coded = arrow.DictionaryArray.from_arrays(np.zeros(rows, dtype=np.int32), [text])
+        numbers = {"point": np.zeros(rows), "power_total_w": np.zeros(rows)}
+        table = arrow.table({"status": coded.cast(arrow.string()), **numbers})
+        out = arrow.BufferOutputStream()
+        parquet.write_table(table.replace_schema_metadata(about), out, compression="zstd", write_batch_size=10**6)
+        return out.getvalue().to_pybytes()
+
+    content = packed(1000, "converged")
+    for wrong in ({"format": "letters"}, {"axes": "none"}, {"axes": '["mu"]'}):
+        odd = packed(1, "converged", about | wrong)
+        with pytest.raises(ValueError, match=r"'odd.parquet' is no result"):
+            read_file(odd, "odd.parquet")
+    assert read_file(content, "small.parquet").good.all()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("rotor.study.results._LARGEST", 8000)
+        with pytest.raises(ValueError, match=r"'small.parquet' unpacks to 0 MB"):
+            read_file(content, "small.parquet")
+
+
+def test_without_the_packages_it_says_how_to_get_them(monkeypatch: pytest.MonkeyPatch):
+    def missing(name: str) -> Any:
+        raise ImportError(name)
+
+    monkeypatch.setattr(cluster.importlib, "import_module", missing)
+    with pytest.raises(ValueError, match=r"pip install 'rotor-explorer\[study\]'"):
+        cluster.need_packages()
+
+
+def test_one_ctrl_c_handed_on_twice_is_one():
+    with interruptible() as stop:
+        signal.raise_signal(signal.SIGINT)
+        signal.raise_signal(signal.SIGINT)
+        assert stop()

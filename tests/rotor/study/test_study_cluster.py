@@ -1,0 +1,236 @@
+"""Studies on real Dask processes, started as a user starts them: on loopback, killed without warning, gone on with."""
+
+import importlib
+import json
+import os
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+from rotor.study.chunks import work
+from rotor.study.results import Results, read_results
+from rotor.study.study_file import read_study
+
+pytestmark = pytest.mark.slow
+
+ROOT = Path(__file__).parent.parent.parent.parent
+DASK = Path(sys.executable).with_name("dask")
+PATIENCE = 240.0
+"""[s] for anything, on a machine busy with other things."""
+
+STUDY = """
+title = "Small trims"
+chunk = 25
+[axes]
+mu = "0.05:0.34:0.01"
+mass_kg = "6000:9000:100"
+rate_deg = [-16, -8]
+[fixed]
+concept = "linear"
+[models]
+inflow = "pitt-peters"
+elements = 16
+azimuths = 48
+"""
+"""1 860 trims of some 3 ms in 75 chunks."""
+
+
+@dataclass
+class Cluster:
+    """A scheduler and its workers."""
+
+    address: str
+    scheduler: "subprocess.Popen[bytes]"
+    workers: list["subprocess.Popen[bytes]"] = field(default_factory=list)
+
+
+@pytest.fixture
+def start() -> "Iterator[Callable[..., subprocess.Popen[bytes]]]":
+    """Start a program that ends with the test, however that ends."""
+    running: list[subprocess.Popen[Any]] = []
+
+    def begin(*command: str | Path, **more: Any) -> "subprocess.Popen[Any]":
+        # A `dask worker` does not look into its own folder for packages; the installed one may be another checkout.
+        env = {**os.environ, "PYTHONPATH": str(ROOT)}
+        running.append(subprocess.Popen(list(command), cwd=ROOT, env=env, start_new_session=True, **more))
+        return running[-1]
+
+    yield begin
+    for process in running:
+        with suppress(ProcessLookupError):
+            os.killpg(process.pid, signal.SIGKILL)
+        process.communicate()  # Closes its pipes as well.
+
+
+@pytest.fixture
+def cluster(start: Callable[..., Any], tmp_path: Path) -> Cluster:
+    """`dask scheduler` and two `dask worker` commands, as docs/scale.md says."""
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    told = tmp_path / "scheduler.json"
+    local = ("--host", "127.0.0.1", "--port", "0", "--no-dashboard")
+    scheduler = start(DASK, "scheduler", *local, "--scheduler-file", told, **quiet)
+    until(lambda: told.exists() and told.stat().st_size > 0)
+    cluster = Cluster(json.loads(told.read_text())["address"], scheduler)
+    for _ in range(2):
+        one = ("--nthreads", "1", "--no-nanny", "--no-dashboard", "--local-directory", tmp_path / "scratch")
+        cluster.workers.append(start(DASK, "worker", cluster.address, *one, **quiet))
+    return cluster
+
+
+def until(true: Callable[[], bool], run: "subprocess.Popen[bytes] | None" = None) -> None:
+    """Wait, but not for a run that has ended."""
+    begin = time.monotonic()
+    while not true():
+        assert time.monotonic() - begin < PATIENCE, "waited too long"
+        assert run is None or run.poll() is None, f"the run ended with {run.returncode}"
+        time.sleep(0.05)
+
+
+def files(folder: Path) -> dict[str, int]:
+    """Finished chunks, and when they were written [ns]."""
+    return {path.name: path.stat().st_mtime_ns for path in folder.glob("chunk-*.parquet")}
+
+
+def study_file(tmp_path: Path) -> Path:
+    path = tmp_path / "small.toml"
+    path.write_text(STUDY, encoding="utf-8")
+    return path
+
+
+def command(file: Path, out: Path, *more: str) -> list[str]:
+    return [sys.executable, "-W", "error", "-m", "rotor", "study", str(file), "--out", str(out), *more]
+
+
+def same_as_serial(file: Path, results: Results) -> None:
+    """All rows, and the numbers of one process that works the chunks off one after the other."""
+    study = read_study(file).study
+    assert_array_equal(results.columns["point"], np.arange(study.count))
+    assert results.good.all()
+    for chunk in (0, 17, study.chunks - 1):
+        first, last = study.span(chunk)
+        for row in work(study, first, last):
+            for name in ("power_total_w", "power_induced_w", "collective_deg", "lambda0", "mu", "mass_kg"):
+                assert_allclose(results.columns[name][row["point"]], row[name], rtol=1e-10)
+
+
+def workers_of(folder: Path) -> set[str]:
+    parquet: Any = importlib.import_module("pyarrow.parquet")
+    return {parquet.read_metadata(path).metadata[b"worker"].decode() for path in folder.glob("chunk-*.parquet")}
+
+
+def test_two_workers_answer_as_one_process_does(cluster: Cluster, tmp_path: Path):
+    file, out = study_file(tmp_path), tmp_path / "out"
+    done = subprocess.run(
+        command(file, out, "--scheduler", cluster.address), cwd=ROOT, capture_output=True, text=True, timeout=PATIENCE
+    )
+    assert (done.returncode, done.stderr) == (0, "")
+    assert "1,860 of 1,860 points, 0 failed" in done.stdout
+    same_as_serial(file, read_results(out))
+    assert len(workers_of(out)) == 2
+
+
+def test_a_worker_killed_midway_loses_nothing(cluster: Cluster, tmp_path: Path, start: Callable[..., Any]):
+    file, out = study_file(tmp_path), tmp_path / "out"
+    run = start(*command(file, out, "--scheduler", cluster.address), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    until(lambda: len(workers_of(out)) == 2, run)
+    before = len(files(out))
+    assert before < 75
+    cluster.workers[0].kill()
+    assert run.wait(PATIENCE) == 0, run.stderr.read()
+    same_as_serial(file, read_results(out))
+
+
+def test_the_whole_run_killed_goes_on_where_it_was(tmp_path: Path, start: Callable[..., Any]):
+    """SIGKILL, then the same command on the cluster that it makes itself: no finished chunk is done again."""
+    file, out = study_file(tmp_path), tmp_path / "out"
+    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    run = start(*command(file, out), **quiet)
+    until(lambda: len(files(out)) >= 10, run)
+    os.kill(run.pid, signal.SIGKILL)
+    run.wait()
+    before = files(out)
+    assert 10 <= len(before) < 75
+    again = start(*command(file, out), **quiet)
+    assert again.wait(PATIENCE) == 0
+    after = files(out)
+    assert len(after) == 75
+    assert {name: after[name] for name in before} == before
+    same_as_serial(file, read_results(out))
+
+
+def test_ctrl_c_leaves_a_usable_result(tmp_path: Path, start: Callable[..., Any]):
+    """The whole process group has it, as from a terminal; what is there is shown, and nothing is left running."""
+    file, out = study_file(tmp_path), tmp_path / "out"
+    run = start(*command(file, out), stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+    until(lambda: len(files(out)) >= 5, run)
+    os.killpg(run.pid, signal.SIGINT)
+    printed, complained = run.communicate(timeout=PATIENCE)
+    assert run.returncode == 130
+    assert complained.decode().startswith("rotor: stopped with ")
+    assert complained.count(b"\n") == 1
+    assert "least power_total_w" in printed.decode()
+    assert read_results(out).rows >= 125
+    until(lambda: not group_lives(run.pid))
+    assert start(*command(file, out), stdout=subprocess.DEVNULL).wait(PATIENCE) == 0
+    same_as_serial(file, read_results(out))
+
+
+def group_lives(group: int) -> bool:
+    try:
+        os.killpg(group, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def test_a_cluster_beside_it_is_not_in_its_way(tmp_path: Path):
+    """Whoever else has Dask's usual port: nothing is said of it."""
+    file = tmp_path / "two.toml"
+    file.write_text(STUDY.replace('"6000:9000:100"', "[7000]").replace('"0.05:0.34:0.01"', "[0.2]"), encoding="utf-8")
+    with socket.socket() as taken:
+        with suppress(OSError):  # Somebody else has it, which does as well.
+            taken.bind(("127.0.0.1", 8787))
+            taken.listen()
+        done = subprocess.run(
+            command(file, tmp_path / "out", "--workers", "1"),
+            cwd=ROOT,
+            capture_output=True,
+            text=True,
+            timeout=PATIENCE,
+        )
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+def test_nobody_at_the_address_is_one_sentence(tmp_path: Path):
+    address = "tcp://127.0.0.1:9"
+    done = subprocess.run(
+        command(study_file(tmp_path), tmp_path / "out", "--scheduler", address),
+        cwd=ROOT, capture_output=True, text=True, timeout=PATIENCE,
+    )  # fmt: skip
+    assert done.returncode == 2
+    assert done.stderr.count("\n") == 1
+    assert address in done.stderr
+    assert "dask scheduler" in done.stderr
+
+
+def test_a_scheduler_that_goes_away_is_one_sentence(cluster: Cluster, tmp_path: Path, start: Callable[..., Any]):
+    """The scheduler dies under way: what is finished stays, and the command says so."""
+    file, out = study_file(tmp_path), tmp_path / "out"
+    run = start(*command(file, out, "--scheduler", cluster.address), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    until(lambda: len(files(out)) >= 5, run)
+    cluster.scheduler.kill()
+    _, complained = run.communicate(timeout=PATIENCE)
+    assert run.returncode == 1
+    assert "the Dask scheduler is gone" in complained.decode()
+    assert read_results(out).rows >= 125

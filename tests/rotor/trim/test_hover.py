@@ -1,0 +1,150 @@
+"""Hover: blade element momentum theory against its closed forms."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.optimize import brentq
+
+from rotor.aero.elements import lay_out
+from rotor.aero.losses import loss_factor
+from rotor.airfoil.sections import load_installed
+from rotor.files.make_design import make_design
+from rotor.trim.hover import closed_form_inflow, lift_curve
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+R = np.linspace(0.13, 0.99, 44)
+SIGMA, SLOPE = 0.0821, 5.9
+
+
+def hover(preset: str = "flight", twist: str = "linear:-12", mass: float = 8322.4, **models: object) -> Solution:
+    design = make_design(preset, twist=twist, advance_ratio=0.0, mass=mass)
+    return solve(replace(design, models=replace(design.models, **models))).require()
+
+
+@pytest.mark.parametrize("factor", [1.0, 0.6])
+def test_closed_form_closes_the_balance(factor: float):
+    """(3.3) is the root of 4Fλ²r = ½σC_lα(θr² − λr)."""
+    pitch = np.radians(14.0 - 10.0 * R)
+    lam = closed_form_inflow(R, pitch, SIGMA, SLOPE, factor=factor)
+    assert_allclose(4.0 * factor * lam**2 * R, 0.5 * SIGMA * SLOPE * (pitch * R**2 - lam * R), rtol=1e-12)
+
+
+def test_eq_3_3_as_printed():
+    """λ = σC_lα/(16F) (√(1 + 32F θr/(σC_lα)) − 1)."""
+    pitch, factor = np.radians(12.0 - 8.0 * R), 0.8
+    printed = SIGMA * SLOPE / (16 * factor) * (np.sqrt(1.0 + 32 * factor / (SIGMA * SLOPE) * pitch * R) - 1.0)
+    assert_allclose(closed_form_inflow(R, pitch, SIGMA, SLOPE, factor=factor), printed, rtol=1e-13)
+
+
+def test_eq_2_28_climb():
+    """(2.28) with λ_c closes 4λ(λ − λ_c) r = ½σC_lα(θr² − λr)."""
+    pitch, climb = np.radians(16.0 - 8.0 * R), 0.02
+    lam = closed_form_inflow(R, pitch, SIGMA, SLOPE, climb=climb)
+    assert_allclose(4.0 * lam * (lam - climb) * R, 0.5 * SIGMA * SLOPE * (pitch * R**2 - lam * R), rtol=1e-11)
+
+
+def test_negative_pitch_mirrors():
+    assert_allclose(closed_form_inflow(R, -0.05, SIGMA, SLOPE), -closed_form_inflow(R, 0.05, SIGMA, SLOPE), rtol=1e-13)
+
+
+def test_ideal_twist_gives_uniform_inflow():
+    """θ = θ_tip/r, no losses, linear lift: λ is the same at every radius (eq. 1.1)."""
+    lam = closed_form_inflow(R, 0.11 / R, SIGMA, SLOPE)
+    assert_allclose(lam, lam[0], rtol=1e-12)
+
+
+def test_thesis_hover_is_the_closed_form_with_its_factor():
+    """The solver's inflow is eq. (3.3) with the F that belongs to that inflow, and 0.75 R pitch the collective."""
+    solution = hover("thesis")
+    rotor = solution.design.rotor
+    r, lam = solution.disk.r, solution.disk.induced[:, 0]
+    factor, _ = loss_factor(r, lam, rotor.blades, rotor.blade.root_cutout)
+    table = load_installed(rotor.blade.spans[0].section).table
+    pitch = solution.disk.theta[:, 0] - table.zero_lift_alpha(0.3)
+    expected = closed_form_inflow(r, pitch, rotor.solidity, float(table.lift_slope(0.3)), factor=factor)
+    assert_allclose(lam, expected, rtol=1e-10)
+    assert_allclose(np.interp(0.75, r, solution.disk.theta[:, 0]), solution.controls.collective, atol=1e-12)
+
+
+@pytest.mark.parametrize("twist", ["linear:0", "linear:-16", "uh60a", "ideal", "linear:-24"])
+def test_annulus_balance_closes_with_the_real_polar(twist: str):
+    """4Fλ|λ|r = dC_T/dr at every element."""
+    solution = hover(twist=twist)
+    disk, rotor = solution.disk, solution.design.rotor
+    factor, _ = loss_factor(disk.r, disk.induced[:, 0], rotor.blades, rotor.blade.root_cutout)
+    lam = disk.induced[:, 0]
+    assert_allclose(4.0 * factor * lam * np.abs(lam) * disk.r, disk.dct[:, 0], rtol=1e-8, atol=1e-12)
+
+
+@pytest.mark.parametrize("preset", ["flight", "thesis"])
+def test_thrust_is_weight_and_nothing_turns_with_azimuth(preset: str):
+    solution = hover(preset)
+    assert_allclose(solution.ct, solution.design.weight_coefficient, rtol=1e-10)
+    assert np.ptp(solution.disk.dct, axis=1).max() == 0.0
+    assert solution.controls.cyclic_1s == solution.controls.shaft_tilt == solution.power.parasite == 0.0
+
+
+def test_without_losses_power_is_above_momentum_theory():
+    """Induced power of any radial loading is at least T v_h; without losses a good twist is within 6 % of it."""
+    ideal = 8322.4 * 9.80665 * math.sqrt(8322.4 * 9.80665 / (2 * 1.225 * math.pi * 8.1788**2))
+    for twist, largest in (("linear:-12", 1.06), ("linear:0", 1.15)):
+        induced = hover(twist=twist, tip_loss=False, hub_loss=False).power.induced
+        assert 1.0 < induced / ideal < largest
+
+
+@pytest.mark.parametrize("preset", ["flight", "thesis"])
+@pytest.mark.parametrize("mass", [5000.0, 7000.0, 9000.0])
+@pytest.mark.parametrize("twist", ["linear:0", "linear:-12", "ideal"])
+def test_figure_of_merit_is_below_one(preset: str, mass: float, twist: str):
+    merit = hover(preset, twist, mass).figure_of_merit
+    assert merit is not None
+    assert 0.5 < merit < 0.9
+
+
+@pytest.mark.parametrize("preset", ["flight", "thesis"])
+def test_coning_by_the_moment_integral(preset: str):
+    """Eq. (2.35) with the hinge offset: ν²β0 I Ω² = ∫(y − e) dF_z − g S."""
+    solution = hover(preset)
+    design, disk = solution.design, solution.disk
+    rotor, blade = design.rotor, design.rotor.blade
+    force = disk.dct[:, 0] * disk.dr * design.thrust_unit / rotor.blades  # [N] per element and blade
+    arm = (disk.r - blade.flap_hinge) * rotor.radius
+    weight = 9.80665 * blade.flap_static_moment if preset == "flight" else 0.0
+    spring = blade.flap_inertia + blade.flap_hinge * rotor.radius * blade.flap_static_moment
+    expected = ((force * arm).sum() - weight) / (spring * rotor.angular_speed**2)
+    assert_allclose(solution.controls.coning, expected, rtol=1e-10)
+    assert 0.04 < expected < 0.09
+
+
+def test_collective_agrees_with_a_root_finder():
+    """The collective that Newton finds is the one scipy's bracketing finds on thrust against collective."""
+    from rotor.trim.hover import Annuli
+
+    solution = hover()
+    annuli = Annuli(lay_out(solution.design))
+    root = brentq(lambda t: annuli.thrust(t)[0] - solution.design.weight_coefficient, 0.0, 0.3, xtol=1e-13)
+    assert_allclose(solution.controls.collective, root, atol=1e-10)
+
+
+def test_too_heavy_says_so_in_one_sentence():
+    solution = solve(make_design(advance_ratio=0.0, mass=20_000.0, altitude=4000.0))
+    assert not solution.converged
+    assert "lower the weight or the altitude" in solution.message
+    with pytest.raises(RuntimeError, match="Not trimmed"):
+        solution.require()
+
+
+def test_closed_form_uses_each_sections_own_lift_curve():
+    """Eq. (3.3) on the flown blade: slope and zero-lift pitch are those of the section there, R8 drooped by 1°."""
+    problem = lay_out(make_design("flight", advance_ratio=0.0))
+    slope, zero = lift_curve(problem)
+    for radius, name in ((0.3, "sc1095"), (0.65, "sc1094r8"), (0.95, "sc1095")):
+        element = int(np.argmin(np.abs(problem.disk.r - radius)))
+        section = load_installed(name)
+        assert_allclose(slope[element], section.table.lift_slope(0.3), rtol=1e-12)
+        assert_allclose(zero[element], section.table.zero_lift_alpha(0.3) + section.incidence_offset, rtol=1e-12)
+    assert_allclose(np.degrees(zero[len(zero) // 2] - zero[0]), -1.6 + 1.0 + 0.72, atol=0.1)  # XFOIL's own α0.

@@ -1,0 +1,125 @@
+"""Over the whole input space: converged, or one sentence. Never NaN, a traceback or a warning."""
+
+import math
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+
+from rotor.aero.inflow import INFLOW_MODELS
+from rotor.design.presets import PRESETS
+from rotor.files.make_design import make_design
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+
+def check(solution: Solution) -> None:
+    """What every answer promises."""
+    assert solution.message.endswith(".")
+    assert "\n" not in solution.message
+    assert "nan" not in solution.message.lower()
+    for caveat in solution.caveats:
+        assert caveat.sentence.endswith(".")
+        assert "\n" not in caveat.sentence
+    if solution.converged:
+        assert solution.message == "Trimmed."
+        assert solution.residual <= 1e-7
+        for field in fields(solution.disk):
+            assert np.isfinite(getattr(solution.disk, field.name)).all(), field.name
+        for field in fields(solution.controls):
+            assert math.isfinite(getattr(solution.controls, field.name))
+        assert 0.0 < solution.power.main_rotor < 50e6
+        assert solution.power.profile > 0.0
+        assert 0.0 <= solution.reverse_flow_area < 0.1
+        assert 0.0 <= solution.stalled_area <= 1.0
+        assert solution.figure_of_merit is None or 0.0 < solution.figure_of_merit < 1.0
+    else:
+        assert solution.message.startswith(("Not trimmed:", "The trim found"))
+
+
+@given(
+    preset=st.sampled_from(PRESETS),
+    inflow=st.sampled_from(sorted(INFLOW_MODELS)),
+    mu=st.one_of(st.just(0.0), st.floats(0.0005, 0.45)),
+    rate=st.floats(-24.0, 5.0),
+    mass=st.floats(5000.0, 11000.0),
+    altitude=st.floats(0.0, 4000.0),
+    losses=st.booleans(),
+)
+@example(preset="flight", inflow="pitt-peters", mu=0.45, rate=5.0, mass=11000.0, altitude=4000.0, losses=True)
+@example(preset="flight", inflow="pitt-peters", mu=0.45, rate=-24.0, mass=5000.0, altitude=0.0, losses=True)
+@example(preset="thesis", inflow="drees", mu=0.45, rate=5.0, mass=11000.0, altitude=4000.0, losses=True)
+@example(preset="flight", inflow="drees", mu=0.0005, rate=-24.0, mass=11000.0, altitude=4000.0, losses=False)
+def test_converged_or_a_sentence(
+    preset: str, inflow: str, mu: float, rate: float, mass: float, altitude: float, losses: bool
+):
+    design = make_design(preset, twist=f"linear:{rate:.6f}", advance_ratio=mu, mass=mass, altitude=altitude)
+    models = replace(design.models, inflow=inflow, tip_loss=losses, hub_loss=losses)
+    check(solve(replace(design, models=models)))
+
+
+@given(
+    rates=st.lists(st.floats(-24.0, 5.0), min_size=2, max_size=3),
+    first=st.floats(0.25, 0.6),
+    gap=st.floats(0.05, 0.3),
+    mu=st.floats(0.0, 0.4),
+)
+def test_segments_converge_or_say_so(rates: list[float], first: float, gap: float, mu: float):
+    breaks = ",".join(f"{b:.6f}" for b in (first, first + gap)[: len(rates) - 1])
+    check(solve(make_design(twist=f"segments:{','.join(f'{r:.6f}' for r in rates)}@{breaks}", advance_ratio=mu)))
+
+
+@pytest.mark.parametrize("preset", PRESETS)
+@pytest.mark.parametrize("rate", [-24, -16, -8, 0, 5])
+def test_normal_flight_always_trims(preset: str, rate: int):
+    """Reference weight at sea level up to µ 0.35: no excuse."""
+    for mu in (0.0, 0.05, 0.1, 0.2, 0.3, 0.35):
+        solution = solve(make_design(preset, twist=f"linear:{rate}", advance_ratio=mu))
+        check(solution)
+        assert solution.converged, solution.message
+
+
+def test_caveats_are_named():
+    slow = make_design(advance_ratio=0.06)
+    linear = replace(slow, models=replace(slow.models, inflow="pitt-peters"))
+    assert "low-speed-inflow" in {c.name for c in solve(linear).caveats}
+    assert "low-speed-inflow" not in {c.name for c in solve(slow).caveats}
+    assert "low-speed-inflow" in {c.name for c in solve(make_design(advance_ratio=0.03)).caveats}
+    thesis = {c.name for c in solve(make_design("thesis", advance_ratio=0.35)).caveats}
+    assert {"no-compressibility", "polynomial-clamped"} <= thesis
+    assert not solve(make_design(advance_ratio=0.15, mass=6000.0)).caveats
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        ({"preset": "best"}, "'best'"),
+        ({"mass": float("nan")}, "mass nan"),
+        ({"advance_ratio": -0.1}, "-0.1"),
+        ({"altitude": 20_000.0}, "20000 m"),
+        ({"twist": "linear:east"}, "'east'"),
+    ],
+)
+def test_impossible_input_is_one_sentence(arguments: dict[str, object], words: str):
+    with pytest.raises(ValueError, match=r"(?s).*") as caught:
+        make_design(**arguments)  # pyright: ignore[reportArgumentType]
+    assert words in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.slow
+def test_two_hundred_random_blades_trim_with_the_dynamic_wake():
+    """Three random slopes −25…+8 °/R, random breaks, µ 0.03…0.4 at the reference weight: at most 1 % do not trim."""
+    random = np.random.default_rng(2)
+    lost = 0
+    for _ in range(200):
+        rates = ",".join(f"{rate:.4f}" for rate in random.uniform(-25.0, 8.0, 3))
+        first = random.uniform(0.25, 0.6)
+        second = first + random.uniform(0.05, 0.35)
+        twist = f"segments:{rates}@{first:.4f},{second:.4f}"
+        solution = solve(make_design(twist=twist, advance_ratio=random.uniform(0.03, 0.4)))
+        check(solution)
+        lost += not solution.converged
+    assert lost <= 2

@@ -1,0 +1,117 @@
+"""Gradients by twist parameters against central differences: every concept, inflow model and objective."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor.aero.inflow import INFLOW_MODELS
+from rotor.design.design import Design
+from rotor.design.flight import FlightCondition
+from rotor.files.make_design import make_design
+from rotor.optimisation.concepts import CONCEPTS
+from rotor.optimisation.objective import QUANTITIES, Leg, Objective, at_condition, measure
+from rotor.trim import newton
+
+RELATIVE = 1e-6
+"""Accepted error, as a part of what the whole range of a parameter does to the power at the steepest slope."""
+# Breaks half-way between element centres: power has a kink (a jump of slope) where a break crosses one.
+VALUES = {
+    "linear": [-0.21],
+    "quadratic": [-0.12, -0.18],
+    "two-segment": [-0.12, -0.24],
+    "two-segment-free": [-0.12, -0.26, 0.7],
+    "two-segment-two-airfoils": [-0.14, -0.22],
+    "three-segment": [-0.2, -0.15, -0.3],
+    "three-segment-free": [-0.2, -0.12, -0.28, 0.4, 0.8],
+    "free-form": [0.16, 0.09, 0.05, 0.025, -0.035, -0.07],
+}
+
+
+@pytest.fixture(autouse=True)
+def _tight(monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(newton, "TOLERANCE", 1e-12)
+    monkeypatch.setattr(newton, "INFLOW_TOLERANCE", 1e-11)
+
+
+def small(preset: str, inflow: str | None, mu: float) -> Design:
+    """A coarse grid: exactness of a gradient does not depend on it."""
+    design = make_design(preset, advance_ratio=mu)
+    models = replace(design.models, elements=16, azimuths=36, inflow=inflow or design.models.inflow)
+    return replace(design, models=models)
+
+
+def check(design: Design, name: str, objective: Objective, *, every: bool = True) -> None:
+    """Every parameter by itself, or (with half the trims or fewer) one direction in which all of them move."""
+    concept = CONCEPTS[name]
+    values = np.array(VALUES[name])
+    span = np.array([parameter.high - parameter.low for parameter in concept.parameters])
+    centre = measure(objective, concept.apply(design, values))
+    assert centre.by_pitch is not None
+    exact = concept.slopes(values, centre.solutions[0].disk.r) @ centre.by_pitch * span
+    step = 8e-6
+
+    def power(direction: np.ndarray) -> float:
+        made = measure(objective, concept.apply(design, values + direction), centre.solutions, gradient=False)
+        assert made.power is not None
+        return made.power
+
+    ways = np.eye(len(span)) if every else np.random.default_rng(5).choice([-1.0, 1.0], (1, len(span)))
+    measured = [(power(step * span * way) - power(-step * span * way)) / (2 * step) for way in ways]
+    # Induced power of a prescribed inflow does not answer to twist: its scale is then the power itself.
+    scale = max(np.abs(exact).max(), 1e-3 * abs(centre.power or 0.0))
+    assert_allclose(ways @ exact, measured, atol=RELATIVE * scale, rtol=0.0)
+
+
+@pytest.mark.parametrize("quantity", QUANTITIES)
+@pytest.mark.parametrize("inflow", INFLOW_MODELS)
+@pytest.mark.parametrize("name", CONCEPTS)
+def test_forward_flight(name: str, inflow: str, quantity):
+    design = small("flight", inflow, 0.25)
+    check(design, name, at_condition(design, quantity), every=False)
+
+
+@pytest.mark.parametrize("quantity", QUANTITIES)
+@pytest.mark.parametrize("preset", ["flight", "thesis"])
+@pytest.mark.parametrize("name", CONCEPTS)
+def test_hover(name: str, preset: str, quantity):
+    design = small(preset, None, 0.0)
+    check(design, name, at_condition(design, quantity))
+
+
+@pytest.mark.parametrize("name", CONCEPTS)
+def test_thesis_preset(name: str):
+    design = small("thesis", None, 0.2)
+    check(design, name, at_condition(design))
+
+
+@pytest.mark.parametrize("name", CONCEPTS)
+def test_mission(name: str):
+    design = small("flight", None, 0.2)
+    legs = (
+        Leg(FlightCondition(0.0, 8000.0, 500.0), 0.5),
+        Leg(FlightCondition(0.15, 8300.0), 1.0),
+        Leg(FlightCondition(0.28, 7600.0, 1500.0), 2.0),
+    )
+    check(design, name, Objective("total", legs), every=False)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("quantity", QUANTITIES)
+@pytest.mark.parametrize("mu", [0.1, 0.2, 0.35])
+@pytest.mark.parametrize("name", CONCEPTS)
+def test_full_grid(name: str, mu: float, quantity):
+    design = make_design(advance_ratio=mu)
+    check(design, name, at_condition(design, quantity))
+
+
+def test_step_is_a_fraction_of_an_element():
+    """The differences above stay on one side of every kink."""
+    r = measure(at_condition(small("flight", None, 0.0)), small("flight", None, 0.0)).solutions[0].disk.r
+    for name, values in VALUES.items():
+        for parameter, value in zip(CONCEPTS[name].parameters, values, strict=True):
+            if not parameter.angular:
+                assert np.abs(r - value).min() > 8e-6 * (parameter.high - parameter.low)
+    assert math.isclose(float(r[1] - r[0]), (1.0 - 0.1304) / 16.0, rel_tol=1e-9)
