@@ -1,0 +1,233 @@
+"""One sentence that says why power changed between two solutions: what moved, which part of power, where on the disk.
+
+The cause is read from what differs: the lift over the disk where the twist changed, else the flight condition, the
+model or the rotor. Then come the parts of power that changed most, and stall or drag divergence that came or went.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from explorer.text.units import SI, Units, number
+from rotor.aero.inflow import INFLOW_MODELS
+from rotor.aero.switches import SWITCHES, no_effect
+from rotor.design.design import Design
+from rotor.trim.solution import Solution
+
+Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
+
+_PARTS = {"induced": "induced", "profile": "profile", "parasite": "parasite", "tail": "tail rotor"}
+_SMALL_PART = 0.08
+"""A part that changed less than this share of the largest change is left out."""
+_MOVED = 3e-4
+"""Smallest movement of the lift that is mentioned, as a fraction of R; 0.1° of linear twist in hover gives 5e-4."""
+_DIVERGENCE = 0.1
+"""∂C_d/∂M at drag divergence."""
+
+
+@dataclass(frozen=True)
+class LiftCentroid:
+    """Where the rotor's lift is: centroids of dC_T/dr over the disk, all dimensionless."""
+
+    radial: float
+    """Mean r/R."""
+    lateral: float
+    """Mean sin ψ, positive towards the advancing side."""
+    longitudinal: float
+    """Mean cos ψ, positive towards the tail."""
+
+
+def lift_centroid(solution: Solution) -> LiftCentroid:
+    """Centroid of the lift over the disk; ValueError where the rotor does not lift."""
+    disk = solution.disk
+    total = float(disk.dct.sum())
+    if not total > 0.0:
+        raise ValueError("the rotor carries no lift: its centroid is not defined")
+    return LiftCentroid(
+        radial=float((disk.dct * disk.r[:, None]).sum()) / total,
+        lateral=float((disk.dct * np.sin(disk.psi)).sum()) / total,
+        longitudinal=float((disk.dct * np.cos(disk.psi)).sum()) / total,
+    )
+
+
+def why(before: Solution, after: Solution, units: Units = SI) -> str:
+    """Why `after` needs another power than `before`, as one sentence; also for solutions that did not converge."""
+    if not after.converged:
+        return after.message.partition(". ")[0].rstrip(".") + "."
+    if not before.converged:
+        return "The design before had no trim, so there is nothing to compare with."
+    if before.design == after.design:
+        return "Nothing has changed."
+    cause = _cause(before, after)
+    parts = _changed_parts(before, after, units)
+    regions = [text for text in (_stall(before, after), _divergence(before, after)) if text]
+    sentence = f"{cause}: {', '.join(parts)}" if parts else f"{cause}: no change in power{_reason(before, after)}"
+    return "; ".join([sentence, *regions]) + "."
+
+
+def lift_movement(before: Solution, after: Solution) -> str:
+    """Where the lift moved, for example `Lift moved inboard`; `Lift hardly moved` below 0.0003 R."""
+    a, b = lift_centroid(before), lift_centroid(after)
+    outboard, across = b.radial - a.radial, b.lateral - a.lateral
+    places: list[str] = []
+    if abs(outboard) >= max(_MOVED, 0.5 * abs(across)):
+        places.append("outboard" if outboard > 0.0 else "inboard")
+    if abs(across) >= max(_MOVED, 0.5 * abs(outboard)):
+        places.append(f"towards the {'advancing' if across > 0.0 else 'retreating'} side")
+    return f"Lift moved {' and '.join(places)}" if places else "Lift hardly moved"
+
+
+def _cause(before: Solution, after: Solution) -> str:
+    a, b = before.design, after.design
+    if a.aircraft.name != b.aircraft.name:
+        return f"{b.aircraft.name} instead of {a.aircraft.name}"
+    if a.preset != b.preset:
+        return f"Preset {b.preset} instead of {a.preset}"
+    causes = [*_rotor_causes(a, b), *_model_causes(a, b), *_flight_causes(a, b)]
+    if (a.twist, a.active_twist) != (b.twist, b.active_twist):
+        # With another rotor or flight the lift moves for their sake too, so it is named only on its own.
+        causes = [*causes, "a new twist"] if causes else [lift_movement(before, after)]
+    if len(causes) > 2:
+        return "Several changes at once"
+    text = " and ".join(causes)
+    return text[:1].upper() + text[1:]
+
+
+def _rotor_causes(a: Design, b: Design) -> list[str]:
+    if a.rotor != b.rotor:
+        return ["other blade sections" if a.rotor.blade.spans != b.rotor.blade.spans else "another rotor"]
+    return []
+
+
+def _model_causes(a: Design, b: Design) -> list[str]:
+    causes = [
+        f"{'with' if getattr(b.models, name) else 'without'} {switch.title.lower()}"
+        for name, switch in SWITCHES.items()
+        if getattr(a.models, name) != getattr(b.models, name)
+    ]
+    if a.models.inflow != b.models.inflow:
+        causes.append(f"{INFLOW_MODELS[b.models.inflow].title} instead of {INFLOW_MODELS[a.models.inflow].title}")
+    return causes
+
+
+def _flight_causes(a: Design, b: Design) -> list[str]:
+    old, new = a.condition, b.condition
+    causes: list[str] = []
+    if old.advance_ratio != new.advance_ratio:
+        way = "faster" if new.advance_ratio > old.advance_ratio else "slower"
+        causes.append("hover" if b.hovering else f"{way} (µ {new.advance_ratio:g})")
+    if old.mass != new.mass:
+        percent = 100.0 * (new.mass / old.mass - 1.0)
+        causes.append(f"{number(abs(percent), _digits(percent))} % {'more' if percent > 0.0 else 'less'} weight")
+    if old.density != new.density:
+        percent = 100.0 * (new.density / old.density - 1.0)
+        causes.append(f"{'denser' if percent > 0.0 else 'thinner'} air ({number(percent, _digits(percent), True)} %)")
+    return causes
+
+
+def _changed_parts(before: Solution, after: Solution, units: Units) -> list[str]:
+    """At most three parts of power that changed, the largest change first, the unit behind the first."""
+    unit = units.power[0]
+    changes = {name: unit.of(getattr(after.power, name) - getattr(before.power, name)) for name in _PARTS}
+    largest = max(abs(change) for change in changes.values())
+    digits = _digits(largest)
+    shown = max(_SMALL_PART * largest, 0.5 * 10.0**-digits)
+    order = sorted((name for name in changes if abs(changes[name]) >= shown), key=lambda name: -abs(changes[name]))
+    texts = [f"{_PARTS[name]} {number(changes[name], digits, sign=True)}" for name in order[:3]]
+    return [f"{texts[0]} {unit.symbol}", *texts[1:]] if texts else []
+
+
+def _reason(before: Solution, after: Solution) -> str:
+    """Why a single switch has no effect here, in brackets; empty where that is not known."""
+    a, b = before.design, after.design
+    moved = [name for name in SWITCHES if getattr(a.models, name) != getattr(b.models, name)]
+    reason = no_effect(b, moved[0]) if len(moved) == 1 else ""
+    return f" ({reason})" if reason else ""
+
+
+def _stall(before: Solution, after: Solution) -> str:
+    a, b = (_stalled(one) for one in (before, after))
+    place = _place(after, a, b)
+    area = _area_change(100.0 * before.stalled_area, 100.0 * after.stalled_area, 0.5)
+    if not area:
+        return ""
+    verb, amount = area
+    fresh = _fresh(a, b)
+    negative = fresh.any() and float((after.disk.alpha[fresh] < 0.0).mean()) > 0.5
+    kind = "negative stall" if negative and verb in ("appeared", "grew") else "stall"
+    return _region(kind, verb, place, amount)
+
+
+def _divergence(before: Solution, after: Solution) -> str:
+    a, b = (_divergent(one) for one in (before, after))
+    area = _area_change(_percent_of_disk(before, a), _percent_of_disk(after, b), 1.0)
+    return _region("drag divergence", area[0], _place(after, a, b), area[1]) if area else ""
+
+
+def _region(kind: str, verb: str, place: str, amount: str) -> str:
+    if verb == "disappeared":
+        return f"{kind} disappeared"
+    if verb == "shrank":
+        return f"{kind} shrank to {amount} of the disk"
+    return f"{kind} {verb} {place} ({amount} of the disk)"
+
+
+def _area_change(a: float, b: float, least: float) -> tuple[str, str] | None:
+    """What a region of the disk did, and its size now; None where it hardly changed. `a`, `b`, `least`: % of πR²."""
+    amount = f"{number(b, 1)} %"
+    if a < 0.05 and b >= 0.5 * least:
+        return "appeared", amount
+    if b < 0.05 and a >= 0.5 * least:
+        return "disappeared", amount
+    if abs(b - a) < max(least, 0.2 * max(a, b)):
+        return None
+    return "grew" if b > a else "shrank", amount
+
+
+def _stalled(solution: Solution) -> Mask:
+    return (solution.disk.stall_margin < 0.0) & (solution.disk.u_t >= 0.0)
+
+
+def _divergent(solution: Solution) -> Mask:
+    """Beyond drag divergence, stalled elements left out: their drag has another cause."""
+    disk = solution.disk
+    return (disk.cd_mach > _DIVERGENCE) & (disk.u_t >= 0.0) & (disk.stall_margin >= 0.0)
+
+
+def _ring(solution: Solution) -> Array:
+    """Area of each element at each azimuth as a part of πR², (elements, azimuths)."""
+    disk = solution.disk
+    return np.broadcast_to(2.0 * disk.r[:, None] * disk.dr / len(disk.psi), disk.dct.shape)
+
+
+def _percent_of_disk(solution: Solution, mask: Mask) -> float:
+    return 100.0 * float(_ring(solution)[mask].sum())
+
+
+def _fresh(before: Mask, after: Mask) -> Mask:
+    """Elements that are in a region and were not; all of the region where the two grids differ."""
+    return after & ~before if before.shape == after.shape else after
+
+
+def _place(solution: Solution, before: Mask, after: Mask) -> str:
+    """Where a region came or grew, by its area-weighted mean radius and azimuth."""
+    disk, area = solution.disk, np.where(_fresh(before, after), _ring(solution), 0.0)
+    total = float(area.sum())
+    if total == 0.0:
+        return "on the disk"
+    r = float((area * disk.r[:, None]).sum()) / total
+    sine, cosine = (float((area * wave(disk.psi)).sum()) / total for wave in (np.sin, np.cos))
+    radial = "inboard " if r < 0.5 else "near the tip " if r > 0.85 else ""
+    if math.hypot(sine, cosine) < 0.35:
+        return f"{radial}all round the disk"
+    if abs(sine) >= abs(cosine):
+        return f"{radial}on the {'advancing' if sine > 0.0 else 'retreating'} side"
+    return f"{radial}at the {'rear' if cosine > 0.0 else 'front'} of the disk"
+
+
+def _digits(value: float) -> int:
+    """One decimal for a change below ten, none above."""
+    return 1 if abs(value) < 9.95 else 0
