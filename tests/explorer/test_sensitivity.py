@@ -1,0 +1,122 @@
+"""What a step of each slider is worth, against differences of whole trims."""
+
+import time
+from dataclasses import replace
+
+import pytest
+from numpy.testing import assert_allclose
+
+from explorer.pinned import FLIGHT
+from explorer.sensitivity import (
+    STEPS,
+    SliderSensitivity,
+    flight_sensitivities,
+    natural_step,
+    strongest,
+    twist_sensitivities,
+)
+from explorer.sliders import SLIDERS
+from explorer.state import LAWS, Inputs
+from explorer.text.units import AVIATION
+from rotor.trim.adjoint import power_gradient
+from rotor.trim.solve import solve
+
+DIVISION_STEP = 1e-4
+"""Small enough that no element centre is passed, where the slope by a division jumps."""
+
+
+def total(inputs: Inputs) -> float:
+    return solve(inputs.design()).require().power.total
+
+
+def difference(inputs: Inputs, name: str, step: float) -> float:
+    """[W per unit of the input], central."""
+    value = getattr(inputs, name)
+    low, high = (replace(inputs, **{name: value + sign * step}) for sign in (-1.0, 1.0))
+    return (total(high) - total(low)) / (2.0 * step)
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.2])
+@pytest.mark.parametrize("law", [law for law, entry in LAWS.items() if entry.inputs])
+def test_twist_sliders_agree_with_differences_of_trims(law: str, mu: float):
+    inputs = replace(Inputs(law=law, advance_ratio=mu), two_division=0.52, three_first=0.41, three_second=0.76)
+    found = twist_sensitivities(inputs, power_gradient(solve(inputs.design()).require()))
+    assert tuple(found) == LAWS[law].inputs
+    for name, one in found.items():
+        step = DIVISION_STEP if STEPS[name].unit.endswith("R") else 0.01
+        assert_allclose(one.slope, difference(inputs, name, step), rtol=2e-3, atol=2.0)
+
+
+@pytest.mark.parametrize("mass", [8.0, 9.5])
+def test_flight_sliders_agree_with_differences_of_another_step(mass: float):
+    inputs = Inputs(advance_ratio=0.25, mass_t=mass, altitude_m=500.0)
+    found = flight_sensitivities(solve(inputs.design()).require())
+    assert tuple(found) == FLIGHT
+    for name, step in (("advance_ratio", 3e-4), ("mass_t", 2e-3), ("altitude_m", 3.0)):
+        assert_allclose(found[name].slope, difference(inputs, name, step), rtol=5e-3)
+
+
+def test_weight_in_hover_costs_what_momentum_theory_says():
+    """Ideal induced power goes with W^1.5: a per cent of weight costs 1.5 per cent of it, and profile power adds."""
+    inputs = Inputs(advance_ratio=0.0)
+    solution = solve(inputs.design()).require()
+    found = flight_sensitivities(solution)
+    per_cent_of_mass = found["mass_t"].slope * 0.01 * inputs.mass_t
+    assert 1.3 < per_cent_of_mass / (0.01 * solution.power.total) < 1.8
+    assert "advance_ratio" not in found
+
+
+def test_a_law_without_sliders_has_no_sensitivities():
+    inputs = Inputs(law="builtin")
+    assert twist_sensitivities(inputs, power_gradient(solve(inputs.design()).require())) == {}
+
+
+def test_every_slider_has_a_natural_step_that_it_can_make():
+    assert set(STEPS) == set(SLIDERS)
+    for name, step in STEPS.items():
+        assert step.size >= SLIDERS[name].step
+
+
+def test_one_sided_at_the_edge_of_the_permitted_altitude():
+    inputs = Inputs(altitude_m=8000.0, mass_t=5.0)
+    found = flight_sensitivities(solve(inputs.design()).require())
+    lower = total(replace(inputs, altitude_m=7990.0))
+    assert_allclose(found["altitude_m"].slope, (total(inputs) - lower) / 10.0, rtol=1e-3)
+
+
+def test_newer_input_ends_the_work():
+    solution = solve(Inputs().design()).require()
+    assert flight_sensitivities(solution, lambda: True) == {}
+
+
+def test_the_arrow_points_to_less_power():
+    assert SliderSensitivity("two_inner", 300.0).saving_direction == -1
+    assert SliderSensitivity("two_inner", -300.0).saving_direction == 1
+    assert SliderSensitivity("two_inner", 30.0).saving_direction == 0
+
+
+def test_texts():
+    assert SliderSensitivity("two_division", -26_000.0).text() == "−2.6 kW/0.1 R"
+    assert SliderSensitivity("two_inner", 300.0).text() == "+0.3 kW/°"
+    assert SliderSensitivity("two_inner", 3.0).text() == "flat"
+    heavy = SliderSensitivity("mass_t", 90e3)
+    assert heavy.unit_text(AVIATION) == "hp/200 lb"
+    assert_allclose(heavy.watts(AVIATION), 90e3 * natural_step("mass_t", AVIATION).size)
+    assert_allclose(natural_step("mass_t", AVIATION).size, 0.0907, atol=1e-4)
+
+
+def test_the_strongest_slider():
+    found = {name: SliderSensitivity(name, slope) for name, slope in (("two_inner", 80.0), ("two_outer", -900.0))}
+    assert strongest(found) == "two_outer"
+    assert strongest({"two_inner": SliderSensitivity("two_inner", 1.0)}) is None
+
+
+def test_twist_sliders_take_little_beside_a_solve():
+    inputs = Inputs()
+    gradient = power_gradient(solve(inputs.design()).require())
+    best = 1.0
+    for _ in range(20):
+        begin = time.perf_counter()
+        twist_sensitivities(inputs, gradient)
+        best = min(best, time.perf_counter() - begin)
+    assert best < 1e-3
