@@ -1,0 +1,222 @@
+"""The four charts of the results strip as plain values: power change over µ, α, lift, and where to twist.
+
+Each chart compares this design with its reference. Gaps are NaN in the arrays and None in `as_dict`.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from explorer.charts.plots import SWEEP, PowerCurve, Range, angles_along, held_range
+from explorer.text.units import KILOWATT, SI, Units, number
+from rotor.trim.adjoint import PitchGradient
+from rotor.trim.solution import Solution
+from rotor.trim.validity import LOW_SPEED
+
+Array = NDArray[np.float64]
+Role = Literal["this", "reference", "limit", "saving"]
+"""What a line stands for; the page chooses its colour."""
+
+_SHOWN_QUANTILE = 0.93
+"""Share of the stations whose sensitivity fits the axis: the tip's spike would flatten all others."""
+
+
+@dataclass(frozen=True, eq=False)
+class StripLine:
+    """One line of a chart."""
+
+    x: Array
+    y: Array
+    role: Role
+    filled: bool = False
+    """Whether the area down to zero is tinted."""
+
+
+@dataclass(frozen=True)
+class StripDot:
+    """One marked point of a chart."""
+
+    x: float
+    y: float
+    label: str
+    """`hover`, or empty for the present condition."""
+
+
+@dataclass(frozen=True, eq=False)
+class StripChart:
+    """One chart, ready to draw."""
+
+    title: str
+    unit: str
+    """Unit and what is compared, beside the title."""
+    x_range: Range
+    y_range: Range
+    lines: tuple[StripLine, ...]
+    dots: tuple[StripDot, ...] = ()
+    value: str = ""
+    """The number to remember, in the corner."""
+    note: str = ""
+    """One sentence: what the chart says, or what lies outside it."""
+
+    @property
+    def x_ticks(self) -> list[float]:
+        return round_ticks(*self.x_range, 5)
+
+    @property
+    def y_ticks(self) -> list[float]:
+        return round_ticks(*self.y_range, 4)
+
+    def as_dict(self) -> dict[str, Any]:
+        """The chart as JSON can hold it, rounded to what a pixel shows."""
+        span = self.y_range[1] - self.y_range[0]
+        digits = max(0, 4 - math.floor(math.log10(span)))
+        return {
+            "title": self.title,
+            "unit": self.unit,
+            "x_range": list(self.x_range),
+            "y_range": list(self.y_range),
+            "x_ticks": self.x_ticks,
+            "y_ticks": self.y_ticks,
+            "lines": [
+                {"x": _plain(line.x, 4), "y": _plain(line.y, digits), "role": line.role, "filled": line.filled}
+                for line in self.lines
+            ],
+            "dots": [
+                {"x": dot.x, "y": round(dot.y, digits), "label": dot.label} for dot in self.dots if math.isfinite(dot.y)
+            ],
+            "value": self.value,
+            "note": self.note,
+        }
+
+
+def round_ticks(low: float, high: float, count: int) -> list[float]:
+    """At most `count` + 1 round numbers within an axis, zero among them where it is inside."""
+    span = high - low
+    step = 10.0 ** math.floor(math.log10(span / count))
+    step = next(factor * step for factor in (1.0, 2.0, 2.5, 5.0, 10.0) if factor * step * count >= span * (1.0 - 1e-9))
+    first = math.ceil(low / step - 1e-9)
+    return [round(k * step, 12) for k in range(first, math.floor(high / step + 1e-9) + 1)]
+
+
+def power_change_chart(
+    curve: PowerCurve, mu: float, change: float | None, reference: str, units: Units = SI, previous: Range | None = None
+) -> StripChart:
+    """Change of total power against the reference over µ; hover and the present condition are dots.
+
+    `curve`: in kW over `SWEEP`. `change`: at the present condition [W], None without trim. `reference`: its name.
+    """
+    unit = units.power[0]
+    apart = (curve.design - curve.reference) * (KILOWATT.size / unit.size)
+    mus = np.array(SWEEP)
+    flying = mus >= LOW_SPEED
+    now = math.nan if change is None else unit.of(change)
+    seen = [value for value in (*apart[mus <= max(0.4, mu)], now, 0.0) if math.isfinite(value)]
+    return StripChart(
+        title="Power over µ",
+        unit=f"{unit.symbol} vs. {reference}",
+        x_range=(0.0, SWEEP[-1]),
+        y_range=held_range(previous, min(-2.0, *seen), max(2.0, *seen)),
+        lines=(StripLine(mus[flying], apart[flying], "saving", filled=True),),
+        dots=(StripDot(0.0, float(apart[0]), "hover"), StripDot(mu, now, "")),
+        value="" if change is None else f"{number(now, 1 if abs(now) < 9.95 else 0, sign=True)} {unit.symbol}",
+    )
+
+
+def alpha_chart(
+    solution: Solution, reference: Solution | None, azimuth_deg: float, previous: Range | None = None
+) -> StripChart:
+    """α along the reference blade with the stall limits, and the least margin before stall; gaps in reverse flow."""
+    lower, upper, alpha = angles_along(solution, azimuth_deg)
+    r = solution.disk.r
+    lines = [StripLine(r, lower, "limit"), StripLine(r, upper, "limit")]
+    seen = [alpha]
+    if reference is not None and reference.converged:
+        other = angles_along(reference, azimuth_deg)[2]
+        lines.append(StripLine(reference.disk.r, other, "reference"))
+        seen.append(other)
+    lines.append(StripLine(r, alpha, "this"))
+    finite = np.concatenate(seen)
+    finite = np.clip(finite[np.isfinite(finite)], -15.0, 20.0)
+    low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 0.0)
+    value, note = _margin(r, np.minimum(upper - alpha, alpha - lower))
+    return StripChart(
+        title="Angle of attack",
+        unit=f"° along the blade, ψ {azimuth_deg:.0f}°",
+        x_range=(0.1, 1.0),
+        y_range=held_range(previous, min(low, -2.0), max(high, 14.0)),
+        lines=tuple(lines),
+        value=value,
+        note=note,
+    )
+
+
+def lift_chart(solution: Solution, reference: Solution | None, previous: Range | None = None) -> StripChart:
+    """Lift of one blade per metre of span, mean of a revolution [kN/m]."""
+    lift = lift_per_metre(solution) / 1e3
+    lines = [StripLine(solution.disk.r, lift, "this")]
+    low, high = float(lift.min()), float(lift.max())
+    if reference is not None and reference.converged:
+        other = lift_per_metre(reference) / 1e3
+        lines.insert(0, StripLine(reference.disk.r, other, "reference"))
+        low, high = min(low, float(other.min())), max(high, float(other.max()))
+    peak = float(solution.disk.r[np.argmax(lift)])
+    return StripChart(
+        title="Lift",
+        unit="kN/m per blade, mean of a revolution",
+        x_range=(0.1, 1.0),
+        y_range=held_range(previous, min(0.0, low), high),
+        lines=tuple(lines),
+        value=f"peak at {peak:.2f} R",
+    )
+
+
+def lift_per_metre(solution: Solution) -> Array:
+    """Thrust of one blade per metre of span, mean of a revolution [N/m], (elements,)."""
+    design = solution.design
+    per_blade = design.thrust_unit / (design.rotor.blades * design.rotor.radius)
+    return solution.disk.dct.mean(axis=1) * per_blade
+
+
+def where_to_twist_chart(gradient: PitchGradient, units: Units = SI, previous: Range | None = None) -> StripChart:
+    """Power for a degree more pitch per unit of r/R along the blade, trim kept.
+
+    The axis fits most of the blade; `note` says how high the clipped spike, as a rule at the tip, really is.
+    """
+    unit = units.power[0]
+    density = gradient.density * math.radians(1.0) / unit.size
+    reach = max(1.0, 1.25 * float(np.quantile(np.abs(density), _SHOWN_QUANTILE)))
+    y_range = held_range(previous, -reach, reach)
+    outside = int(np.argmax(np.maximum(density - y_range[1], y_range[0] - density)))
+    note = ""
+    if not y_range[0] <= density[outside] <= y_range[1]:
+        height = number(float(density[outside]), 0, sign=True)
+        note = f"Off the chart: {height} at {gradient.r[outside]:.2f} R."
+    return StripChart(
+        title="Where to twist",
+        unit=f"{unit.symbol}/° per R",
+        x_range=(0.1, 1.0),
+        y_range=y_range,
+        lines=(StripLine(gradient.r, density, "saving", filled=True),),
+        note=note,
+    )
+
+
+def _margin(r: Array, margin: Array) -> tuple[str, str]:
+    """The least margin before stall, or the stretch that is stalled, as value and note of a chart."""
+    known = np.isfinite(margin)
+    if not known.any():
+        return "", ""
+    stalled = known & (margin < 0.0)
+    if stalled.any():
+        inner, outer = float(r[stalled].min()), float(r[stalled].max())
+        return "stalled", f"Stalled between {inner:.2f} and {outer:.2f} R."
+    at = int(np.nanargmin(margin))
+    return f"{number(float(margin[at]), 1)}° to stall", f"Least margin at {r[at]:.2f} R."
+
+
+def _plain(values: Sequence[float] | Array, digits: int) -> list[float | None]:
+    return [round(float(value), digits) if math.isfinite(value) else None for value in values]

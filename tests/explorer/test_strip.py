@@ -1,0 +1,171 @@
+"""The charts of the results strip as values: differences, stall limits, lift, sensitivity with its clipped spike."""
+
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from explorer.charts.plots import SWEEP, PowerCurve
+from explorer.charts.strip import (
+    StripChart,
+    alpha_chart,
+    lift_chart,
+    lift_per_metre,
+    power_change_chart,
+    round_ticks,
+    where_to_twist_chart,
+)
+from explorer.text.units import AVIATION
+from rotor.files.make_design import make_design
+from rotor.trim.adjoint import PitchGradient, power_gradient
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+
+@pytest.fixture(scope="module")
+def built() -> Solution:
+    return solve(make_design(advance_ratio=0.2)).require()
+
+
+@pytest.fixture(scope="module")
+def linear() -> Solution:
+    return solve(make_design(advance_ratio=0.2, twist="linear:-8")).require()
+
+
+def line(chart: StripChart, role: str) -> np.ndarray:
+    (found,) = [one.y for one in chart.lines if one.role == role]
+    return found
+
+
+class TestPowerChange:
+    def curve(self, slope: float) -> PowerCurve:
+        mu = np.array(SWEEP)
+        reference = 900.0 + 2000.0 * mu
+        return PowerCurve(reference + slope * mu, reference, np.full(len(mu), math.nan))
+
+    def test_the_line_is_the_difference_and_hover_stands_alone(self):
+        chart = power_change_chart(self.curve(-50.0), 0.2, -10e3, "UH-60A as built")
+        assert chart.unit == "kW vs. UH-60A as built"
+        assert chart.lines[0].x[0] > 0.0
+        assert_allclose(chart.lines[0].y, -50.0 * chart.lines[0].x, atol=1e-9)
+        assert [(dot.x, dot.label) for dot in chart.dots] == [(0.0, "hover"), (0.2, "")]
+        assert chart.value == "−10 kW"
+
+    def test_one_per_cent_of_power_fills_the_axis(self):
+        low, high = power_change_chart(self.curve(-20.0), 0.2, -4e3, "A").y_range
+        assert high - low < 20.0
+        assert low <= -8.0 < 0.0 < high
+
+    def test_the_same_design_is_a_line_at_zero(self):
+        chart = power_change_chart(self.curve(0.0), 0.2, 0.0, "A")
+        assert chart.y_range[0] < 0.0 < chart.y_range[1]
+        assert chart.value == "0.0 kW"
+
+    def test_points_without_trim_are_gaps(self):
+        curve = self.curve(-50.0)
+        curve.design[-1] = math.nan
+        chart = power_change_chart(curve, 0.2, None, "A")
+        assert chart.as_dict()["lines"][0]["y"][-1] is None
+        assert len(chart.as_dict()["dots"]) == 1
+        assert chart.value == ""
+
+    def test_aviation_units(self):
+        chart = power_change_chart(self.curve(-50.0), 0.2, -10e3, "A", AVIATION)
+        assert chart.unit == "hp vs. A"
+        assert chart.value == "−13 hp"
+
+
+class TestAlpha:
+    def test_lines_and_least_margin(self, built: Solution, linear: Solution):
+        chart = alpha_chart(built, linear, 65.0)
+        assert [one.role for one in chart.lines] == ["limit", "limit", "reference", "this"]
+        lower, upper = (one.y for one in chart.lines[:2])
+        alpha = line(chart, "this")
+        margin = float(np.nanmin(np.minimum(upper - alpha, alpha - lower)))
+        assert chart.value == f"{margin:.1f}° to stall"
+
+    def test_reverse_flow_is_a_gap(self, built: Solution):
+        alpha = line(alpha_chart(built, None, 270.0), "this")
+        assert np.isnan(alpha[built.disk.r < 0.19]).any()
+        assert np.isfinite(alpha[built.disk.r > 0.3]).all()
+
+    def test_a_stalled_blade_says_where(self):
+        heavy = solve(make_design(advance_ratio=0.3, mass=9800.0)).require()
+        psi = np.degrees(heavy.disk.psi)
+        stalled = ((heavy.disk.stall_margin < 0.0) & (heavy.disk.u_t > 0.0)).sum(axis=0)
+        chart = alpha_chart(heavy, None, float(psi[np.argmax(stalled)]))
+        assert chart.value == "stalled"
+        assert chart.note.startswith("Stalled between 0.")
+
+
+class TestLift:
+    def test_the_blades_carry_the_thrust(self, built: Solution):
+        design = built.design
+        per_blade = float(lift_per_metre(built).sum()) * built.disk.dr * design.rotor.radius
+        assert_allclose(per_blade * design.rotor.blades, built.ct * design.thrust_unit, rtol=1e-9)
+        assert_allclose(per_blade * design.rotor.blades, design.condition.weight, rtol=0.05)
+
+    def test_less_twist_moves_the_peak_outboard(self, built: Solution):
+        untwisted = solve(make_design(advance_ratio=0.2, twist="linear:0")).require()
+        chart = lift_chart(untwisted, built)
+        assert [one.role for one in chart.lines] == ["reference", "this"]
+        r = untwisted.disk.r
+        assert r[np.argmax(line(chart, "this"))] >= r[np.argmax(line(chart, "reference"))]
+        assert chart.y_range[0] <= 0.0
+
+
+class TestWhereToTwist:
+    def test_kilowatt_per_degree(self, built: Solution):
+        gradient = power_gradient(built)
+        chart = where_to_twist_chart(gradient)
+        assert_allclose(chart.lines[0].y, gradient.density * math.pi / 180.0 / 1e3)
+
+    def test_the_spike_at_the_tip_is_clipped_and_said(self, built: Solution):
+        gradient = power_gradient(built)
+        chart = where_to_twist_chart(gradient)
+        values = chart.lines[0].y
+        outside = (values > chart.y_range[1]) | (values < chart.y_range[0])
+        assert outside.any()
+        assert outside.mean() < 0.15
+        worst = int(np.argmax(np.abs(values)))
+        assert f"{gradient.r[worst]:.2f} R" in chart.note
+
+    def test_a_flat_gradient_has_no_note(self):
+        flat = PitchGradient(np.linspace(0.13, 1.0, 40), 0.02, np.full(40, 1.0))
+        assert where_to_twist_chart(flat).note == ""
+
+
+def test_axes_stay_while_the_data_fit(built: Solution, linear: Solution):
+    first = lift_chart(built, None)
+    assert lift_chart(linear, None, first.y_range).y_range == first.y_range
+
+
+@pytest.mark.parametrize(("low", "high"), [(-10.0, 10.0), (0.075, 0.45), (-3.0, 17.0), (0.0, 5.5)])
+def test_ticks_are_few_round_and_inside(low: float, high: float):
+    ticks = round_ticks(low, high, 5)
+    assert 2 <= len(ticks) <= 6
+    assert all(low - 1e-9 <= tick <= high + 1e-9 for tick in ticks)
+    assert low > 0.0 or 0.0 in ticks
+
+
+def test_every_chart_is_plain_json_without_nan(built: Solution, linear: Solution):
+    curve = PowerCurve(*(np.full(len(SWEEP), value) for value in (850.0, 860.0, math.nan)))
+    charts = (
+        power_change_chart(curve, 0.2, -10e3, "A"),
+        alpha_chart(built, linear, 270.0),
+        lift_chart(built, linear),
+        where_to_twist_chart(power_gradient(built)),
+    )
+    for chart in charts:
+        text = json.dumps(chart.as_dict(), allow_nan=False)
+        assert len(text) < 4000
+
+
+def test_an_unconverged_reference_is_left_out(built: Solution):
+    lost = replace(built, status=type(built.status).NOT_CONVERGED)
+    assert all(
+        one.role != "reference" for one in (*alpha_chart(built, lost, 0.0).lines, *lift_chart(built, lost).lines)
+    )
