@@ -16,9 +16,7 @@ from rotor.design.presets import FLIGHT_MODELS, THESIS_MODELS
 from rotor.design.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, QuadraticTwist, TwistLaw
 from rotor.files.make_design import change_airfoils, make_design
 from rotor.files.shipped import shipped_aircraft
-
-KNOT = 1852.0 / 3600.0
-"""[m/s]"""
+from rotor.units import KNOT
 
 PRESET_TITLES = {"flight": "Flight (our best)", "thesis": "Thesis (as stated)"}
 

@@ -8,19 +8,17 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.electrical import harmonic_drive
 from rotor.actuator.fitted import Fitted
 from rotor.actuator.verdict import carried
+from rotor.arrays import Array
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
 from rotor.dynamics.torsion_beam import twist_under_moment
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-
-Array = NDArray[np.float64]
 
 SHAPE_STATIONS = 41
 PHASES = 12

@@ -9,17 +9,15 @@ from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.placement import Host, Placement
 from rotor.airfoil.contour import leading_edge_index, load_contour, resample
+from rotor.arrays import Array
 from rotor.dynamics.laminate import Layer
 from rotor.dynamics.structure import BladeStructure, glass, structure_data, titanium
 from rotor.dynamics.thin_wall import Panel, Section, build_section, torsional_stiffness
-
-Array = NDArray[np.float64]
 
 POINTS = 60
 """Per stretch of skin; 200 move GJ by less than 1e-3 (tested)."""

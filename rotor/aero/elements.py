@@ -16,10 +16,9 @@ from rotor.aero.inflow import InflowModel, Wake, inflow_model
 from rotor.aero.inflow.interface import Response
 from rotor.aero.losses import loss_factor
 from rotor.aero.momentum import glauert_inflow
+from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.dynamics.flapping import FlapDynamics, flap_dynamics
-
-Array = NDArray[np.float64]
 
 COLLECTIVE, CYCLIC_1C, CYCLIC_1S, SHAFT_TILT, CONING, FLAP_1C, FLAP_1S, LAMBDA0 = range(8)
 """Places of the trim unknowns in a state vector; angles in radians, λ0 over ΩR."""

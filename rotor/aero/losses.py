@@ -1,9 +1,9 @@
 """Prandtl's loss factors at the tip and at the root, eqs. (3.16)–(3.18)."""
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 HUB_FACTOR = 0.95
 """B of eq. (3.17) as printed: "around 0.95 for the hub relation" (thesis p. 24)."""

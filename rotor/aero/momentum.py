@@ -6,9 +6,9 @@ Coefficients are of ρA(ΩR)² and ρA(ΩR)³ (eqs. 2.11, 2.12); inflow ratios a
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 WAKE_CONTRACTION = 0.5
 """A∞/A of the hovering ideal rotor, eq. (2.8)."""

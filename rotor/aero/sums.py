@@ -8,7 +8,6 @@ answer to the changed load comes on top where the model gives one.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.aero import kernel
 from rotor.aero.elements import (
@@ -26,8 +25,7 @@ from rotor.aero.elements import (
     skewed,
 )
 from rotor.aero.inflow.interface import LoadLoop
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 
 @dataclass(frozen=True)

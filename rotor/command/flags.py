@@ -17,9 +17,6 @@ from rotor.files.design_file import read_case
 from rotor.files.make_design import change_airfoils, make_design
 from rotor.files.shipped import find_aircraft
 
-KNOT = 1852.0 / 3600.0
-"""[m/s]"""
-
 
 def add_command(commands: Any, name: str, words: str, description: str = "") -> argparse.ArgumentParser:
     """A command's parser; its words stand in the list of commands, and above its own flags unless there are others."""

@@ -6,12 +6,11 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from rotor.airfoil.sections import OwnSection, Section, install_own, load_installed
+from rotor.arrays import Array
 from rotor.design.twist import TwistLaw
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -3,8 +3,8 @@
 import math
 from dataclasses import dataclass
 
-GRAVITY = 9.80665
-"""Standard gravity [m/s²] (ISO 2533)."""
+from rotor.units import GRAVITY
+
 SEA_LEVEL_TEMPERATURE = 288.15
 """[K] (ISO 2533)."""
 SEA_LEVEL_DENSITY = 1.225

@@ -3,10 +3,10 @@
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.interpolate import CubicSpline
 
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 
 def spline_basis(knots: tuple[float, ...], x: ArrayLike, *, derivative: int = 0) -> Array:

@@ -10,11 +10,10 @@ from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from rotor.arrays import Array
 from rotor.design.spline import spline_basis
-
-Array = NDArray[np.float64]
 
 REFERENCE_RADIUS = 0.75
 """r/R where every twist law is zero."""

@@ -12,11 +12,9 @@ Range: thin walls, long beams, uniform section, no restrained warping.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from rotor.arrays import Array
 from rotor.dynamics.laminate import Layer, Wall, wall_of
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from rotor.aero.inflow import inflow_model
+from rotor.aero.switches import SWITCHES
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.active_twist import active_twist_record, read_active_twist
 from rotor.design.aircraft import Aircraft
@@ -24,8 +25,6 @@ VERSION = 2
 READS = (1, 2)
 """Version 1 knew no `rotor`: its designs are the UH-60A's."""
 
-_SWITCHES = ("tip_loss", "hub_loss", "reverse_flow", "flapping", "compressibility", "fuselage")
-"""Of `Models`, true or false."""
 _KEYS = (
     "format",
     "version",
@@ -36,7 +35,7 @@ _KEYS = (
     "mass_kg",
     "altitude_m",
     "inflow",
-    *_SWITCHES,
+    *SWITCHES,
     "airfoils",
     "active_twist",
 )
@@ -56,7 +55,7 @@ def case_of(design: Design) -> dict[str, Any]:
         "mass_kg": design.condition.mass,
         "altitude_m": design.condition.altitude,
         "inflow": design.models.inflow,
-        **{name: getattr(design.models, name) for name in _SWITCHES},
+        **{name: getattr(design.models, name) for name in SWITCHES},
         **({"airfoils": airfoils} if airfoils else {}),
         **({"active_twist": active_twist_record(design.active_twist)} if design.active_twist else {}),
     }
@@ -120,7 +119,7 @@ def design_of(case: dict[str, Any], *, paths: bool = False) -> Design:
     models = replace(
         design.models,
         inflow=inflow,
-        **{name: _flag(case, name, getattr(design.models, name)) for name in _SWITCHES},
+        **{name: _flag(case, name, getattr(design.models, name)) for name in SWITCHES},
     )
     airfoils = _text(case, "airfoils", "")
     rotor = change_airfoils(design.rotor, airfoils) if airfoils else design.rotor

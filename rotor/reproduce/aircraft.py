@@ -12,9 +12,8 @@ from rotor.files.make_design import make_design, uh60a_data
 from rotor.reproduce.report import Panel, Report, Verdict, curve, judged, table
 from rotor.reproduce.runs import solved
 from rotor.trim.solve import solve
+from rotor.units import KNOT
 
-KNOT = 1852.0 / 3600.0
-"""[m/s]"""
 HORSEPOWER_KW = 0.745700
 """[kW], mechanical"""
 SPEEDS = (0.0, 0.075, 0.1, 0.125, 0.15, 0.175, 0.2, 0.225, 0.25, 0.275, 0.3, 0.325, 0.35)

@@ -11,15 +11,12 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.airfoil.table import load_section
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-
-Array = NDArray[np.float64]
 
 DYNBEM_SPEEDS = (0.10, 0.20, 0.30)
 CCBLADE_MASSES = (5000.0, 8322.4)

@@ -5,11 +5,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp  # pyright: ignore[reportUnknownVariableType]
 
 from rotor.aero import kernel
 from rotor.aero.elements import CONING, FLAP_1C, FLAP_1S, lay_out, run_pass, skewed
+from rotor.arrays import Array
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
@@ -22,8 +22,6 @@ from rotor.trim.hover import closed_form_inflow
 from rotor.trim.newton import newton
 from rotor.trim.power import profile_power_coefficient
 from rotor.trim.solve import solve
-
-Array = NDArray[np.float64]
 
 SPEEDS = (0.1, 0.2, 0.3)
 

@@ -26,9 +26,8 @@ from rotor.study.quantities import PLAIN, Value, blade_concept
 from rotor.study.study import Searching, Study
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
+from rotor.units import KNOT
 
-_KNOT = 1852.0 / 3600.0
-"""[m/s]"""
 _CRUISE = 0.2
 """Advance ratio where a study says none."""
 
@@ -63,7 +62,7 @@ def design_of(values: Values, aircraft: Mapping[str, Aircraft]) -> Design:
     if "speed_kt" in values:
         if "mu" in values:
             raise ValueError("mu and speed_kt are both given: leave one out")
-        design = at_advance_ratio(design, float(values["speed_kt"]) * _KNOT / design.rotor.tip_speed)
+        design = at_advance_ratio(design, float(values["speed_kt"]) * KNOT / design.rotor.tip_speed)
     if "airfoils" in values:
         design = replace(design, rotor=change_airfoils(design.rotor, str(values["airfoils"])))
     return design

@@ -14,19 +14,17 @@ from functools import cached_property
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.aero import kernel
 from rotor.aero.elements import COLLECTIVE, CYCLIC_1C, CYCLIC_1S, Pass, Problem, lay_out, run_pass
 from rotor.aero.inflow.interface import LoadLoop
 from rotor.aero.sums import Slopes, slopes, unweigh, velocity_columns
+from rotor.arrays import Array
 from rotor.trim.equations import combine_sums, jacobian, unknowns_of
 from rotor.trim.forward import guess_of
 from rotor.trim.hover import Annuli
 from rotor.trim.power import tail_power
 from rotor.trim.solution import Solution
-
-Array = NDArray[np.float64]
 
 Objective = Literal["total", "induced"]
 

@@ -6,16 +6,14 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.aero import kernel
 from rotor.aero.elements import Pass, Problem, run_pass, skewed
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.interface import LoadLoop
 from rotor.aero.sums import Slopes, slopes, weigh
+from rotor.arrays import Array
 from rotor.trim.equations import combine_sums, jacobian, residuals, unknowns_of, with_givens
-
-Array = NDArray[np.float64]
 
 TOLERANCE = 1e-10
 """Largest accepted residual as a fraction of C_W; keeps the energy identity to 1e-9."""

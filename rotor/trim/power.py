@@ -11,16 +11,14 @@ the power.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.aero import kernel
 from rotor.aero.elements import Pass, Problem
 from rotor.aero.tail_rotor import tail_rotor_power
+from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.tail_rotor import FIXED_SHARE
 from rotor.trim.solution import PowerBudget
-
-Array = NDArray[np.float64]
 
 
 def power_budget(problem: Problem, one: Pass) -> PowerBudget:

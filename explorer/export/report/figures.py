@@ -5,7 +5,6 @@ from dataclasses import replace
 from html import escape
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from explorer.charts import plots
@@ -16,9 +15,8 @@ from explorer.export.disk_drawing import HALF, bar_drawing, disk_drawing, key_en
 from explorer.export.report.contents import Entry, Report, colours_of, fields_of
 from explorer.picture.fields import Field
 from explorer.theme.colours import BASELINE, IDEAL
+from rotor.arrays import Array
 from rotor.trim.solution import Solution
-
-Array = NDArray[np.float64]
 
 PIXELS = 400
 """Of a disk's field along each edge: twice what a page shows of it would be finer than the solver's grid."""

@@ -6,14 +6,11 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from explorer.charts.plots import Plot, Range, held_range
 from explorer.text.units import SI, Units, number
 from rotor.optimisation.schedule import Cell, Plan, Schedule
 from rotor.optimisation.search import Optimum
-
-Array = NDArray[np.float64]
 
 LEGS = 6
 """Rows of the mission table, so traces of the twist chart."""

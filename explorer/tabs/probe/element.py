@@ -5,14 +5,12 @@ from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
-from numpy.typing import NDArray
 
 from explorer.picture.outlines import DRAG_DIVERGENCE
 from rotor.aero.elements import LOW_MACH
 from rotor.airfoil.sections import Section
+from rotor.arrays import Array
 from rotor.trim.solution import DiskFields, Solution
-
-Array = NDArray[np.float64]
 
 
 class Region(Enum):

@@ -8,9 +8,8 @@ from typing import Any
 
 import numba  # pyright: ignore[reportMissingTypeStubs]
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 YOUNG = 0.8
 """Age [rad] below which a blade's own trailers have no core outboard of `bare_from`: control points lie midway between

@@ -9,13 +9,9 @@ Fields are (elements, azimuths); d = dC_T/dr of the whole rotor as if smeared; s
 
 from typing import Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
 from rotor.aero.disk import Disk
 from rotor.aero.inflow.wake_state import Wake
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 
 class LoadLoop(Protocol):

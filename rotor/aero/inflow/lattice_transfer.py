@@ -7,11 +7,9 @@ lines between stations. With these λ_i = B A Γ(d) is one linear map on the gri
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.aero.inflow.vortex_lattice import Lattice
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 
 @dataclass(frozen=True, eq=False)

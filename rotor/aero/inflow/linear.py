@@ -9,14 +9,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import LoadLoop
 from rotor.aero.inflow.wake_state import Wake
-
-Array = NDArray[np.float64]
-
+from rotor.arrays import Array
 
 Gradient = tuple[float, float, float]
 """A gradient k with its slopes by µ_x and by the axial flow µ_z + λ0."""

@@ -2,15 +2,11 @@
 
 from dataclasses import dataclass, replace
 
-import numpy as np
-from numpy.typing import NDArray
-
 from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import LoadLoop
 from rotor.aero.inflow.sector_momentum import SectorResponse, sector_response
 from rotor.aero.inflow.wake_state import Wake
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 
 @dataclass(frozen=True)

@@ -17,8 +17,7 @@ from numpy.typing import NDArray
 
 from rotor.aero.inflow.wake_modes import Mode, mode_set, norm
 from rotor.aero.inflow.wake_state import Wake
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 
 def gain(r: int, j: int, m: int, n: int) -> float:

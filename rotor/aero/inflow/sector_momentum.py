@@ -11,13 +11,11 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.aero.inflow.peters_he import flow_parameters
 from rotor.aero.inflow.tip_factor import tip_factor
 from rotor.aero.inflow.wake_state import Wake
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 GRADIENT = 15.0 * math.pi / 32.0
 """k_x over tan(χ/2): what the exact actuator disk gives for a load that vanishes at the hub (three-state theory)."""

@@ -1,12 +1,11 @@
 """Prandtl's tip factor for models that smear the blades over the disk, from the disk's mean inflow."""
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from rotor.aero.inflow.wake_state import Wake
 from rotor.aero.losses import prandtl
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 SMALLEST = 0.1
 """Floor of F: at the very tip λ/F would have no bound."""

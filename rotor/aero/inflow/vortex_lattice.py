@@ -8,12 +8,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.aero.inflow.biot_savart import downwash_matrix
 from rotor.aero.inflow.wake_state import Wake
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 LEAST_REVOLUTIONS = 3.0
 SLOWEST = 0.1

@@ -17,8 +17,7 @@ from rotor.aero.inflow.interface import LoadLoop
 from rotor.aero.inflow.lattice_transfer import LatticeTransfer, transfer
 from rotor.aero.inflow.vortex_lattice import Lattice, shared_azimuths
 from rotor.aero.inflow.wake_state import Wake
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 PANELS, AZIMUTHS = 16, 36
 """Lattice on which power is within 0.4 % of 24 × 60 with 80 elements (tested); azimuths at the least."""

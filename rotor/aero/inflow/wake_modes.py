@@ -8,10 +8,11 @@ import math
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.special import eval_jacobi
 
-Array = NDArray[np.float64]
+from rotor.arrays import Array
+
 Mode = tuple[int, int]
 """Harmonic m and degree n = m + 1, m + 3, …"""
 

@@ -14,8 +14,7 @@ from rotor.aero.inflow.peters_he import FlowParameters, families, flow_parameter
 from rotor.aero.inflow.tip_factor import tip_factor
 from rotor.aero.inflow.wake_projection import Projection, build_projection
 from rotor.aero.inflow.wake_state import Wake
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 
 @dataclass(frozen=True)
