@@ -22,7 +22,7 @@ def with_vortex_wake(design: Design) -> Design:
 
 
 @dataclass
-class Baseline:
+class BaselineCache:
     """The baseline's answers of one session, kept while its condition stays."""
 
     design: Design | None = None

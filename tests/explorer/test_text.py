@@ -16,7 +16,7 @@ from explorer.state import LAWS, Inputs, baseline_of, baseline_title, inputs_of,
 from explorer.text import readout
 from explorer.text.status import provenance, status_panel
 from explorer.text.units import number
-from explorer.workers.newest_wins import LatestWins
+from explorer.workers.newest_wins import NewestWins
 from explorer.workers.solver import with_vortex_wake
 from rotor.aero.switches import SWITCHES, switched_off
 from rotor.analysis.sweep import at_advance_ratio
@@ -296,7 +296,7 @@ class TestLatestWins:
             begun.set()
             gate.wait(5.0)
 
-        worker = LatestWins(job, lambda error: None, "test")
+        worker = NewestWins(job, lambda error: None, "test")
         worker.start()
         worker.wake()
         assert begun.wait(5.0)
@@ -322,7 +322,7 @@ class TestLatestWins:
                 finish.wait(5.0)
                 answers.append(superseded())
 
-        worker = LatestWins(job, lambda error: None, "test")
+        worker = NewestWins(job, lambda error: None, "test")
         worker.start()
         worker.wake()
         assert running.wait(5.0)
@@ -344,7 +344,7 @@ class TestLatestWins:
             errors.append(error)
             worker.wake()
 
-        worker = LatestWins(job, report, "test")
+        worker = NewestWins(job, report, "test")
         worker.start()
         worker.wake()
         assert done.wait(5.0)
