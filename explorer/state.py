@@ -72,12 +72,12 @@ class Inputs:
         """The design these inputs mean; ValueError with one sentence for inputs that mean none."""
         models = FLIGHT_MODELS if self.preset == "flight" else THESIS_MODELS
         design = make_design(
-            self.preset,
-            aircraft=self.aircraft,
+            preset=self.preset,
+            rotor=self.aircraft,
             twist=self.twist(),
-            advance_ratio=self.advance_ratio,
-            mass=1e3 * self.mass_t,
-            altitude=self.altitude_m,
+            mu=self.advance_ratio,
+            mass_kg=1e3 * self.mass_t,
+            altitude_m=self.altitude_m,
             models=replace(models, inflow=self.inflow, **{name: getattr(self, name) for name in SWITCHES}),
         )
         if self.law in NOT_ALWAYS and self.airfoils:

@@ -13,7 +13,7 @@ def warm() -> None:
     """Compile and load everything that a first answer would otherwise wait for."""
     for preset in PRESETS:
         for advance_ratio in (0.0, 0.2):
-            solve(make_design(preset, advance_ratio=advance_ratio))
+            solve(make_design(preset=preset, mu=advance_ratio))
 
 
 def with_vortex_wake(design: Design) -> Design:

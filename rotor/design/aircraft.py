@@ -30,7 +30,7 @@ class RotorFiles:
     """(name, text) of it and of every file it names."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Aircraft:
     """One aircraft, without arrays: equality, hashing and travel to other processes come free."""
 
@@ -51,6 +51,9 @@ class Aircraft:
     """Of a user's own; None for a shipped one."""
     remarks: tuple[str, ...] = ()
     """What had to be assumed when its files were read, in sentences."""
+
+    def __repr__(self) -> str:
+        return f"Aircraft({self.name}, {self.mass:.0f} kg, drag area {self.fuselage.drag_area:.3g} m², {self.rotor})"
 
     def rotor_for(self, preset: str) -> Rotor:
         """The rotor that a preset computes: as the document states it (`thesis`, where it does), else as it flies."""

@@ -81,7 +81,7 @@ class Blade:
         return self.spans[-1].section, self.spans[-1].section, 0.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Rotor:
     """A main rotor: blades, hub and speed."""
 
@@ -103,6 +103,10 @@ class Rotor:
                 f"{self.angular_speed:g} rad/s: "
                 "give two or more blades and positive values"
             )
+
+    def __repr__(self) -> str:
+        size = f"{self.blades} blades, R {self.radius:.4g} m, tip speed {self.tip_speed:.4g} m/s"
+        return f"Rotor({self.name}, {size}, twist {self.builtin_twist.spec()})"
 
     @property
     def tip_speed(self) -> float:

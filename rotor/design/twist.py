@@ -187,3 +187,11 @@ class TableTwist:
 
 def _degrees(angle: float) -> str:
     return f"{round(math.degrees(angle), 6):.10g}"
+
+
+def ideal_tip_pitch(ct: float, solidity: float, lift_slope: float) -> float:
+    """θ_tip [rad] of the ideal twist θ_tip/r, eq. (1.1), that carries C_T in hover with uniform inflow.
+
+    From ½σa(θ_tip − λ) r = 4λ² r with λ = √(C_T/2): θ_tip = 4C_T/(σa) + √(C_T/2).
+    """
+    return 4.0 * ct / (solidity * lift_slope) + math.sqrt(ct / 2.0)

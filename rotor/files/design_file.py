@@ -107,12 +107,12 @@ def design_of(case: dict[str, Any], *, paths: bool = False) -> Design:
     preset = _text(case, "preset", "flight")
     twist = _text(case, "twist", "")
     design = make_design(
-        preset,
-        aircraft=read_rotor_record(case.get("rotor", SHIPPED_ROTORS[0]), paths=paths),
+        preset=preset,
+        rotor=read_rotor_record(case.get("rotor", SHIPPED_ROTORS[0]), paths=paths),
         twist=twist or None,
-        advance_ratio=_number(case, "advance_ratio", 0.2),
-        mass=_number(case, "mass_kg", None),
-        altitude=_number(case, "altitude_m", 0.0),
+        mu=_number(case, "advance_ratio", 0.2),
+        mass_kg=_number(case, "mass_kg", None),
+        altitude_m=_number(case, "altitude_m", 0.0),
     )
     inflow = _text(case, "inflow", design.models.inflow)
     inflow_model(inflow)

@@ -196,7 +196,7 @@ def _beside_model_curve() -> tuple[list[float], list[float], dict[str, list[floa
     ours: dict[str, list[float]] = {}
     for name in _NAMES:
         designs = [
-            make_design(name, advance_ratio=mu, mass=forward["mass_kg"], altitude=forward["altitude_m"])
+            make_design(preset=name, mu=mu, mass_kg=forward["mass_kg"], altitude_m=forward["altitude_m"])
             for mu in speeds
         ]
         ours[name] = [solve(design).require().power.main_rotor / 1e3 for design in designs]
@@ -207,7 +207,7 @@ def _beside_hover_points() -> tuple[list[float], list[float], list[float]]:
     """C_T/σ, digitised C_P/σ and ours."""
     hover = public_data()["hover"]
     solidity = hover["solidity"]
-    base = make_design(advance_ratio=0.0)
+    base = make_design(mu=0.0)
     ours: list[float] = []
     for ct in hover["ct_over_sigma"]:
         mass = base.condition.mass * ct * solidity / base.weight_coefficient

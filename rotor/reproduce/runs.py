@@ -61,7 +61,7 @@ EVERY_VARIANT = tuple(with_inflow(preset, inflow) for preset in PRESETS for infl
 def variant(name: str, *, twist: str | None = None, mu: float = 0.2, mass: float | None = None) -> Design:
     """A preset, or a preset with its inflow exchanged."""
     preset, inflow = choices(name)
-    design = make_design(preset, twist=twist, advance_ratio=mu, mass=mass)
+    design = make_design(preset=preset, twist=twist, mu=mu, mass_kg=mass)
     models = replace(design.models, inflow=inflow)
     if name == THESIS_TRIMMED:
         models = replace(models, trim="propulsive", disk_axial_flow=True)

@@ -39,7 +39,7 @@ from rotor.actuator.wording import verdict_sentence
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
 
-DESIGN = make_design("flight", advance_ratio=0.2)
+DESIGN = make_design(preset="flight", mu=0.2)
 FULL = (100.0,) * MOST_SEGMENTS
 ALL = tuple(actuators())
 
@@ -106,7 +106,7 @@ def test_segments_fit_the_sliders(concept: str):
 
 def test_the_question_does_not_hang_on_speed_voltage_or_view():
     inputs = ActuatorInputs()
-    fast = make_design("flight", advance_ratio=0.3)
+    fast = make_design(preset="flight", mu=0.3)
     moved = replace(inputs, drives=FULL, shown=True, per_rev=1, crossed=True)
     assert question_of(inputs, DESIGN) == question_of(moved, fast)
     assert question_of(inputs, DESIGN) != question_of(replace(inputs, plies=3), DESIGN)

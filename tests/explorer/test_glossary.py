@@ -85,9 +85,9 @@ def test_every_widget_that_is_made_anywhere_asks_the_glossary():
 
 @pytest.mark.parametrize("mu", [0.0, 0.25])
 def test_every_line_of_the_results_has_its_sentence(mu: float):
-    solution = solve(make_design(advance_ratio=mu)).require()
+    solution = solve(make_design(mu=mu)).require()
     texts = {escape(entry.text, quote=True) for entry in READOUTS.values()}
-    other = solve(make_design(advance_ratio=mu, twist="linear:-8")).require()
+    other = solve(make_design(mu=mu, twist="linear:-8")).require()
     page = [
         readout.power_panel(solution, other),
         readout.trim_panel(solution),

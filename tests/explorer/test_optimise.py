@@ -35,7 +35,7 @@ UNIFORM = replace(make_design().models, inflow="uniform", elements=20, azimuths=
 
 
 def quick(twist: str = "linear:-16", mu: float = 0.3) -> Any:
-    return make_design(twist=twist, advance_ratio=mu, models=UNIFORM)
+    return make_design(twist=twist, mu=mu, models=UNIFORM)
 
 
 def no_stop() -> bool:
@@ -150,7 +150,7 @@ class TestCharts:
         assert len(plot.data) == 3 + TRACES
 
     def test_sensitivity_knows_that_turning_the_whole_blade_changes_nothing(self):
-        solution = solve(make_design(advance_ratio=0.2))
+        solution = solve(make_design(mu=0.2))
         plot = sensitivity.sensitivity_plot(solution, None)
         assert np.isnan(plot.data[3]).all()  # No A.
         assert finite(sensitivity.sensitivity_plot(solution, None, solution))
@@ -159,7 +159,7 @@ class TestCharts:
         assert r[np.argmin(total)] != r[np.argmax(total)]
 
     def test_strip_lies_on_the_blade_and_is_blue_where_pitch_saves(self):
-        solution = solve(make_design(advance_ratio=0.2))
+        solution = solve(make_design(mu=0.2))
         plot = sensitivity.sensitivity_plot(solution, None)
         shape = blade_shape(solution.design.rotor)
         points, colours = sensitivity.strip(shape, solution.design.twist, 1.0, plot)

@@ -25,11 +25,11 @@ from rotor.trim.solve import solve
 
 SIMPLE = replace(FLIGHT_MODELS, reverse_flow=False, compressibility=False, tip_loss=False)
 CASES = {
-    "hover": make_design("flight", advance_ratio=0.0),
-    "cruise": make_design("flight", advance_ratio=0.2),
-    "fast": make_design("flight", advance_ratio=0.37),
-    "thesis": make_design("thesis", advance_ratio=0.3),
-    "switched off": make_design("flight", advance_ratio=0.3, models=SIMPLE),
+    "hover": make_design(preset="flight", mu=0.0),
+    "cruise": make_design(preset="flight", mu=0.2),
+    "fast": make_design(preset="flight", mu=0.37),
+    "thesis": make_design(preset="thesis", mu=0.3),
+    "switched off": make_design(preset="flight", mu=0.3, models=SIMPLE),
 }
 
 

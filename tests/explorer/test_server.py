@@ -196,7 +196,7 @@ class TestScene:
         scene = Scene(server.scene, uh60a_rotor("flight"))
         handles = dict(server.scene._handle_from_node_name)
         for preset, mu in (("flight", 0.0), ("flight", 0.3), ("thesis", 0.2)):
-            solution = solve(make_design(preset, advance_ratio=mu))
+            solution = solve(make_design(preset=preset, mu=mu))
             scene.show(make_picture(solution, ViewState(), (-4.0, 10.0)))
         assert dict(server.scene._handle_from_node_name) == handles
 
@@ -212,7 +212,7 @@ class TestScene:
 
     def test_a_lost_answer_hides_the_outlines(self, server: viser.ViserServer):
         scene = Scene(server.scene, uh60a_rotor("flight"))
-        solution = solve(make_design(advance_ratio=0.3))
+        solution = solve(make_design(mu=0.3))
         scene.show(make_picture(solution, ViewState(), (-4.0, 10.0)))
         assert scene._outlines["reverse_flow"][0].visible
         scene.fade(b"")

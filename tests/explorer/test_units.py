@@ -24,7 +24,7 @@ from rotor.trim.solve import solve
 
 @pytest.fixture(scope="module")
 def solution() -> Solution:
-    return solve(make_design(advance_ratio=0.2)).require()
+    return solve(make_design(mu=0.2)).require()
 
 
 @pytest.fixture

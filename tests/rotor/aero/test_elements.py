@@ -22,7 +22,7 @@ STATE = np.array([0.17, 0.03, -0.09, 0.08, 0.06, -0.02, 0.01, 0.012])
 
 def problem(preset: str = "flight", mu: float = 0.3, **models: object) -> Problem:
     """A problem with prescribed inflow, so that a pass needs no induced field."""
-    design = make_design(preset, advance_ratio=mu, twist="segments:-14,-6@0.6")
+    design = make_design(preset=preset, mu=mu, twist="segments:-14,-6@0.6")
     prescribed = replace(design.models, inflow="pitt-peters" if preset == "flight" else design.models.inflow)
     return lay_out(replace(design, models=replace(prescribed, **models)))
 
