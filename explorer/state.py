@@ -11,11 +11,10 @@ from rotor.aero.switches import SWITCHES
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.aircraft import Aircraft
 from rotor.design.blade import airfoils_spec
-from rotor.design.design import Design
-from rotor.design.presets import FLIGHT_MODELS, THESIS_MODELS
+from rotor.design.design import FLIGHT_MODELS, THESIS_MODELS, Design
 from rotor.design.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, QuadraticTwist, TwistLaw
 from rotor.files.make_design import change_airfoils, make_design
-from rotor.files.shipped import shipped_aircraft
+from rotor.files.rotor_file import shipped_aircraft
 from rotor.units import KNOT
 
 PRESET_TITLES = {"flight": "Flight (our best)", "thesis": "Thesis (as stated)"}

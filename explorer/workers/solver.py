@@ -2,8 +2,7 @@
 
 from dataclasses import dataclass, replace
 
-from rotor.design.design import Design
-from rotor.design.presets import PRESETS
+from rotor.design.design import PRESETS, Design
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve

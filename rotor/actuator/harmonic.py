@@ -1,7 +1,7 @@
 """Active twist at 1/rev and 2/rev: what the actuator can make of it while it turns, and what that does to power.
 
 Half the voltage range is the amplitude; the blade in torsion answers dynamically, 1/(1 − (n/ν)²) near its first mode.
-The inflow has to answer to where the lift is, so use an inflow that reacts (dynamic wake).
+The inflow has to answer to where the lift is, so use a load-dependent inflow model (dynamic wake).
 """
 
 import math

@@ -15,9 +15,8 @@ from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.placement import Host, Placement
 from rotor.airfoil.contour import leading_edge_index, load_contour, resample
 from rotor.arrays import Array
-from rotor.dynamics.laminate import Layer
 from rotor.dynamics.structure import BladeStructure, glass, structure_data, titanium
-from rotor.dynamics.thin_wall import Panel, Section, build_section, torsional_stiffness
+from rotor.dynamics.thin_wall import Layer, Panel, WallSection, build_section, torsional_stiffness
 
 POINTS = 60
 """Per stretch of skin; 200 move GJ by less than 1e-3 (tested)."""
@@ -35,7 +34,7 @@ class SectionSpec:
     contour: str = "sc1095"
 
 
-def active_section(spec: SectionSpec, ply: PiezoPly, placement: Placement) -> Section:
+def active_section(spec: SectionSpec, ply: PiezoPly, placement: Placement) -> WallSection:
     """The section with its plies.
 
     Retrofit: the passive section is calibrated, then plies are bonded outside, so GJ grows. New blade: the plies are
@@ -48,7 +47,7 @@ def active_section(spec: SectionSpec, ply: PiezoPly, placement: Placement) -> Se
     return build_section(_panels(spec, passive_skin(spec, ply, placement), placement, active))
 
 
-def passive_section(spec: SectionSpec) -> Section:
+def passive_section(spec: SectionSpec) -> WallSection:
     """The section before anything is bonded to it."""
     return build_section(_panels(spec, passive_wall(spec), None, None))
 

@@ -15,8 +15,8 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebvander
 from scipy.optimize import nnls
 
+from rotor.aero.inflow.interface import Wake
 from rotor.aero.inflow.vortex_lattice import Lattice, shared_azimuths
-from rotor.aero.inflow.wake_state import Wake
 from rotor.arrays import Array
 
 RADIAL_SHAPES = 7

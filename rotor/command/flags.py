@@ -14,7 +14,7 @@ from rotor.assets import SHIPPED_ROTORS
 from rotor.design.design import Design
 from rotor.files.design_file import read_case
 from rotor.files.make_design import change_airfoils, make_design
-from rotor.files.shipped import find_aircraft
+from rotor.files.rotor_file import find_aircraft
 
 
 def add_command(commands: Any, name: str, words: str, description: str = "") -> argparse.ArgumentParser:

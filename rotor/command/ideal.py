@@ -12,7 +12,7 @@ from rotor.assets import SHIPPED_ROTORS
 from rotor.command.flags import add_command, add_rotor_argument, write_table
 from rotor.files.make_design import make_design
 from rotor.files.ranges import parse_range
-from rotor.files.shipped import find_aircraft
+from rotor.files.rotor_file import find_aircraft
 
 COLUMNS = (
     "mu", "mass_kg", "ct", "lambda0", "glauert_kw", "any_circulation", "lift_limited", "steady_twist", "linear_twist",

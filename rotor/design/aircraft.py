@@ -1,12 +1,38 @@
-"""An aircraft as far as its rotor needs it: main rotor, tail rotor, drag area, mass. What a rotor file holds."""
+"""An aircraft as far as its rotor needs it: main rotor, tail rotor, drag area, mass. The contents of a rotor file."""
 
 from dataclasses import dataclass
 from typing import Literal
 
 from rotor.design.blade import Rotor
 from rotor.design.flight import Fuselage
-from rotor.design.tail_rotor import TailRotor
 from rotor.design.twist import TwistLaw
+
+FIXED_SHARE = 0.05
+"""Tail rotor over main rotor power as the document has it in every flight state (thesis §3.2, p. 25)."""
+
+
+@dataclass(frozen=True)
+class TailRotor:
+    """A tail rotor in edgewise flow."""
+
+    radius: float
+    """[m]"""
+    angular_speed: float
+    """[rad/s]"""
+    chord: float
+    """[m]"""
+    blades: int
+    arm: float
+    """Distance from the main-rotor shaft [m]."""
+    cant: float
+    """Tilt of the thrust out of the horizontal [rad]; only the horizontal part balances torque."""
+    tip_loss: float
+    """Effective radius factor B."""
+    drag_polar: tuple[float, float, float]
+    """c_d = δ0 + δ1 α + δ2 α² with α [rad]."""
+    lift_slope: float
+    """[1/rad]"""
+
 
 Hub = Literal["articulated", "teetering", "teetering-with-coning-hinges"]
 HUBS: tuple[Hub, ...] = ("articulated", "teetering", "teetering-with-coning-hinges")

@@ -1,16 +1,16 @@
-"""A design: everything that decides an answer, as one value without arrays.
+"""A design: everything that determines a result, as one value without arrays; and the models of the two presets.
 
-Equality, hashing, caching, JSON and undo come from that.
+Equality, hashing, caching, JSON and undo come from that. A preset is a value of `Models`: `flight`, the best available
+models, and `thesis`, those that the document states.
 """
 
 from dataclasses import dataclass, replace
 from typing import Literal
 
 from rotor.design.active_twist import ActiveTwist
-from rotor.design.aircraft import Aircraft
+from rotor.design.aircraft import Aircraft, TailRotor
 from rotor.design.blade import Rotor
 from rotor.design.flight import FlightCondition, Fuselage, advance_ratio, number
-from rotor.design.tail_rotor import TailRotor
 from rotor.design.twist import TwistLaw, ideal_tip_pitch
 from rotor.design.twist_spec import parse_twist
 
@@ -150,3 +150,29 @@ class Design:
     def power_unit(self) -> float:
         """ρ A (ΩR)³ [W], eq. (2.12)."""
         return self.thrust_unit * self.rotor.tip_speed
+
+
+PRESETS = ("flight", "thesis")
+
+FLIGHT_MODELS = Models(
+    inflow="dynamic-wake",
+    hover_inflow="annulus",
+    trim="propulsive",
+    disk_axial_flow=True,
+    blade_weight=True,
+    tail_rotor_solved=True,
+)
+THESIS_MODELS = Models(
+    inflow="pitt-peters-15pi/23",
+    hover_inflow="closed-form",
+    trim="thrust",
+    disk_axial_flow=False,
+    blade_weight=False,
+    tail_rotor_solved=False,
+)
+
+
+def check_preset(preset: str) -> None:
+    """Raise ValueError for a preset that does not exist."""
+    if preset not in PRESETS:
+        raise ValueError(f"preset {preset!r} is not known: use {' or '.join(PRESETS)}")

@@ -6,14 +6,15 @@ pitch at 0.75 R whatever the law. Rates are radians per radius.
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import ArrayLike
+from scipy.interpolate import CubicSpline
 
 from rotor.arrays import Array
-from rotor.design.spline import spline_basis
 
 REFERENCE_RADIUS = 0.75
 """r/R where every twist law is zero."""
@@ -195,3 +196,13 @@ def ideal_tip_pitch(ct: float, solidity: float, lift_slope: float) -> float:
     From ½σa(θ_tip − λ) r = 4λ² r with λ = √(C_T/2): θ_tip = 4C_T/(σa) + √(C_T/2).
     """
     return 4.0 * ct / (solidity * lift_slope) + math.sqrt(ct / 2.0)
+
+
+def spline_basis(knots: tuple[float, ...], x: ArrayLike, *, derivative: int = 0) -> Array:
+    """B with spline(x) = B · values at the knots, (…, knots); end condition not-a-knot."""
+    return np.asarray(_spline(knots)(np.asarray(x, dtype=float), derivative))
+
+
+@lru_cache(maxsize=32)
+def _spline(knots: tuple[float, ...]) -> CubicSpline:
+    return CubicSpline(knots, np.eye(len(knots)))

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from rotor.arrays import Array
 from rotor.assets import asset_path
 from rotor.design.aircraft import Aircraft
-from rotor.dynamics.laminate import Material
+from rotor.dynamics.thin_wall import Material
 
 
 @dataclass(frozen=True)

@@ -17,8 +17,7 @@ from rotor.design.blade import airfoils_spec
 from rotor.design.design import Design
 from rotor.design.twist_spec import inline_spec
 from rotor.files.make_design import change_airfoils, make_design
-from rotor.files.rotor_file import LARGEST_FILE, read_aircraft
-from rotor.files.shipped import find_aircraft, shipped_aircraft
+from rotor.files.rotor_file import LARGEST_FILE, find_aircraft, read_aircraft, shipped_aircraft
 
 FORMAT = "rotor-explorer design"
 VERSION = 2

@@ -9,11 +9,10 @@ from rotor.aero.inflow import inflow_model
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.aircraft import Aircraft
 from rotor.design.blade import Rotor, parse_airfoils
-from rotor.design.design import Design, Models
+from rotor.design.design import FLIGHT_MODELS, THESIS_MODELS, Design, Models, check_preset
 from rotor.design.flight import FlightCondition, advance_ratio, number
-from rotor.design.presets import FLIGHT_MODELS, THESIS_MODELS, check_preset
 from rotor.design.twist import TwistLaw
-from rotor.files.shipped import shipped_aircraft
+from rotor.files.rotor_file import shipped_aircraft
 
 ADVANCE_RATIO = 0.2
 """Of a design whose speed is not given."""

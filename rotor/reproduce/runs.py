@@ -3,7 +3,7 @@
 from dataclasses import replace
 from functools import lru_cache
 
-from rotor.aero.inflow.models import INFLOW_MODELS
+from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution

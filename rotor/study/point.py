@@ -14,8 +14,7 @@ from rotor.aero.inflow import inflow_model
 from rotor.aero.switches import SWITCHES
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.aircraft import Aircraft
-from rotor.design.design import Design
-from rotor.design.presets import FLIGHT_MODELS, THESIS_MODELS, check_preset
+from rotor.design.design import FLIGHT_MODELS, THESIS_MODELS, Design, check_preset
 from rotor.files.make_design import change_airfoils, make_design
 from rotor.optimisation.concepts import Concept, restrict
 from rotor.optimisation.objective import at_condition, hover_and_cruise

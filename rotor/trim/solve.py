@@ -23,9 +23,8 @@ from rotor.aero.sums import sums
 from rotor.design.design import Design
 from rotor.trim.forward import guess_of, trim
 from rotor.trim.hover import HoverResult, hover
-from rotor.trim.hub_loads import hub_moment
 from rotor.trim.newton import Guess, TrimResult
-from rotor.trim.power import power_budget
+from rotor.trim.power import hub_moment, power_budget
 from rotor.trim.solution import Controls, DiskFields, Solution, Status
 from rotor.trim.validity import caveats, failure_sentence
 

@@ -18,7 +18,7 @@ from explorer.picture.poses import compose, rotate, rotor_pose, tip_path_pose
 from explorer.tabs.probe.drawing import drawing
 from explorer.tabs.probe.element import Region, probe
 from explorer.tabs.probe.readout import probe_panel
-from rotor.design.presets import FLIGHT_MODELS
+from rotor.design.design import FLIGHT_MODELS
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve

@@ -21,7 +21,7 @@ from rotor.airfoil.polars import read_polars
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.dynamics.structure import check_blade
 from rotor.files.design_file import case_of, parse_case
-from rotor.files.shipped import shipped_aircraft
+from rotor.files.rotor_file import shipped_aircraft
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 

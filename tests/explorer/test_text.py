@@ -19,8 +19,7 @@ from explorer.text.units import number
 from explorer.workers.newest_wins import NewestWins
 from explorer.workers.solver import with_vortex_wake
 from rotor.aero.switches import SWITCHES, switched_off
-from rotor.design.design import Design
-from rotor.design.presets import PRESETS
+from rotor.design.design import PRESETS, Design
 from rotor.design.twist import TableTwist
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Caveat, Solution, Status

@@ -12,7 +12,7 @@ from typing import Any
 import numba  # pyright: ignore[reportMissingTypeStubs]
 import numpy as np
 
-from rotor.aero.inflow.wake_modes import mode_set, radial_functions
+from rotor.aero.inflow.peters_he import mode_set, radial_functions
 from rotor.arrays import Array, Integers
 
 

@@ -7,8 +7,7 @@ import numpy as np
 
 from rotor.arrays import Array
 from rotor.design.design import Design
-from rotor.design.spline import spline_basis
-from rotor.design.twist import REFERENCE_RADIUS, LinearTwist, QuadraticTwist, SplineTwist, TwistLaw
+from rotor.design.twist import REFERENCE_RADIUS, LinearTwist, QuadraticTwist, SplineTwist, TwistLaw, spline_basis
 from rotor.optimisation.concepts.concept import Handle, Parameter, Values
 
 STEEPEST, FLATTEST = math.radians(-30.0), math.radians(10.0)

@@ -11,7 +11,7 @@ from rotor.aero import kernel
 from rotor.aero.elements import LAMBDA0, N_STATE, SHAFT_TILT, Problem, lay_out, run_pass
 from rotor.aero.sums import slopes, sums
 from rotor.airfoil.sections import load_installed
-from rotor.design.presets import FLIGHT_MODELS
+from rotor.design.design import FLIGHT_MODELS
 from rotor.files.make_design import make_design
 from rotor.trim.equations import UNKNOWNS, jacobian, residuals
 from rotor.trim.forward import first_guess

@@ -17,7 +17,7 @@ from rotor.trim.forward import guess_of
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
-REACTING = [name for name, model in INFLOW_MODELS.items() if model.reacts]
+REACTING = [name for name, model in INFLOW_MODELS.items() if model.load_dependent]
 
 
 def design_of(inflow: str, mu: float, twist: str = "linear:-10", preset: str = "flight") -> Design:
@@ -54,14 +54,14 @@ def test_loop_and_transposes(inflow: str, mu: float):
     one = run_pass(problem, guess.state, guess.induced)
     assert one.response is not None
     slope = one.loads[6]  # FZ_UP
-    loop = one.response.loop(slope)
+    loop = one.response.feedback(slope)
     random = np.random.default_rng(3)
     f, g = random.normal(size=(2, *problem.disk.shape))
     z = loop.solve(f[None])[0]
-    assert_allclose(z - one.response.drive((slope * z)[None])[0], f, atol=1e-9 * np.abs(z).max())
+    assert_allclose(z - one.response.apply((slope * z)[None])[0], f, atol=1e-9 * np.abs(z).max())
     v = loop.solve_transposed(g)
-    assert_allclose(v - slope * one.response.drive_transposed(v), g, atol=1e-9 * np.abs(v).max())
-    assert_allclose(np.vdot(g, one.response.drive(f[None])[0]), np.vdot(one.response.drive_transposed(g), f), rtol=1e-9)
+    assert_allclose(v - slope * one.response.apply_transposed(v), g, atol=1e-9 * np.abs(v).max())
+    assert_allclose(np.vdot(g, one.response.apply(f[None])[0]), np.vdot(one.response.apply_transposed(g), f), rtol=1e-9)
 
 
 @pytest.mark.parametrize("inflow", [*REACTING, "pitt-peters", "drees"])

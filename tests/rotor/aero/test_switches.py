@@ -15,8 +15,8 @@ from rotor.__main__ import main
 from rotor.aero import kernel
 from rotor.aero.elements import LAMBDA0, LOW_MACH, N_STATE, lay_out, run_pass
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.inflow.tip_factor import tip_factor
-from rotor.aero.inflow.wake_state import Wake
+from rotor.aero.inflow.interface import Wake
+from rotor.aero.losses import tip_factor
 from rotor.aero.sums import slopes
 from rotor.aero.switches import SWITCHES, no_effect, parse_switches, switched_off, with_switches
 from rotor.airfoil.sections import load_installed
@@ -30,8 +30,7 @@ from rotor.files.rotor_file import read_aircraft
 from rotor.trim import newton
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.equations import jacobian, residuals, unknowns_of
-from rotor.trim.hub_loads import hub_moment
-from rotor.trim.power import power_budget
+from rotor.trim.power import hub_moment, power_budget
 from rotor.trim.solve import solve
 
 EVERY = [
@@ -282,7 +281,7 @@ class TestLossesAndFuselage:
         model = INFLOW_MODELS[inflow]
         on, off = (m.respond(disk, wake, load).induced for m in (model, model.without_tip_loss()))
         uneven = 0.0 if inflow != "local-momentum" else on - (on.mean(axis=1, keepdims=True))
-        factor, _ = tip_factor(disk.r, wake, 4)
+        factor, _ = tip_factor(disk.r, wake.axial, 4)
         assert_allclose((on - uneven) * factor[:, None], off - uneven, rtol=1e-9)
 
     def test_four_blades_without_tip_loss_are_infinitely_many(self):

@@ -5,8 +5,8 @@ import math
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.aero.tail_rotor import tail_rotor_power
 from rotor.files.make_design import make_design
+from rotor.trim.power import tail_rotor_power
 from rotor.trim.solve import solve
 
 TAIL = make_design().tail_rotor or pytest.fail("The UH-60A has a tail rotor.")

@@ -18,8 +18,7 @@ from rotor.airfoil.regrid import on_run_time_grid
 from rotor.airfoil.sections import load_installed
 from rotor.assets import asset_path
 from rotor.design.aircraft import Aircraft
-from rotor.files.rotor_file import read_aircraft
-from rotor.files.shipped import read_rotor_file
+from rotor.files.rotor_file import read_aircraft, read_rotor_file
 from rotor.trim.solve import solve
 
 GOOD = """\

@@ -15,8 +15,7 @@ from rotor.aero.inflow.vortex_lattice import shared_azimuths
 from rotor.analysis.ideal_bound import find_bound, ideal_factor
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.files.design_file import case_of, design_of
-from rotor.files.rotor_file import read_aircraft
-from rotor.files.shipped import find_aircraft, shipped_aircraft
+from rotor.files.rotor_file import find_aircraft, read_aircraft, shipped_aircraft
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.objective import at_condition
 from rotor.optimisation.search import Search, optimise

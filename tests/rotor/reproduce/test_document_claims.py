@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from rotor.design.presets import PRESETS
+from rotor.design.design import PRESETS
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
 

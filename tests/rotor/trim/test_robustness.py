@@ -9,7 +9,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.design.presets import PRESETS
+from rotor.design.design import PRESETS
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
