@@ -35,13 +35,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(options: argparse.Namespace) -> int:
     from explorer.app import App, PortBusy
     from explorer.hosting.doors import is_loopback, warning
-    from explorer.hosting.house import House
+    from explorer.hosting.house import ServerLimits
     from explorer.state import Inputs, inputs_of
     from rotor.files.design_file import read_case
 
     try:
         start = inputs_of(read_case(options.design)) if options.design else Inputs()
-        house = House(
+        house = ServerLimits(
             options.max_sessions, 60.0 * options.sleep_after, tuple(options.allow_host), Path(options.studies)
         )
         app = App(options.host, options.port, start, house)

@@ -8,18 +8,18 @@ from functools import partial
 import viser
 
 from explorer.hosting import memory, viser_compat
-from explorer.hosting.doors import Doors
-from explorer.hosting.gate import Gate
-from explorer.hosting.guest import Guest
-from explorer.hosting.hall import Hall
-from explorer.hosting.house import House
+from explorer.hosting.doors import AllowedHosts
+from explorer.hosting.gate import RequestFilter
+from explorer.hosting.guest import ClientConnection
+from explorer.hosting.hall import SeatQueue
+from explorer.hosting.house import ServerLimits
 from explorer.hosting.page import veiled
-from explorer.page import Commons
+from explorer.interface import SharedServices
 from explorer.session import Session
+from explorer.sharing.presentation import Presentations
 from explorer.state import Inputs
-from explorer.tabs.lecture.presentation import Stage
 from explorer.workers import solver
-from explorer.workers.newest_wins import Sleep
+from explorer.workers.newest_wins import IdleTimeout
 from explorer.workers.pool import Pool
 
 _log = logging.getLogger(__name__)
@@ -32,17 +32,17 @@ class PortBusy(RuntimeError):
 class App:
     """A running server and its guests."""
 
-    def __init__(self, host: str, port: int, start: Inputs | None = None, house: House | None = None) -> None:
+    def __init__(self, host: str, port: int, start: Inputs | None = None, house: ServerLimits | None = None) -> None:
         _check_free(host, port)
         self._start = start or Inputs()
-        self._house = house or House()
-        self._guests: dict[int, Guest] = {}
-        self._hall: Hall[Guest] = Hall(self._house.sessions)
+        self._house = house or ServerLimits()
+        self._guests: dict[int, ClientConnection] = {}
+        self._hall: SeatQueue[ClientConnection] = SeatQueue(self._house.sessions)
         self.pool = Pool()
         self._warmed = threading.Event()
-        self.stage = Stage()
-        doors, page = Doors(host, self._house.allow_hosts), veiled(viser_compat.client_html())
-        gate = Gate(doors, self._house.connections, page)
+        self.presentations = Presentations()
+        doors, page = AllowedHosts(host, self._house.allow_hosts), veiled(viser_compat.client_html())
+        gate = RequestFilter(doors, self._house.connections, page)
         self.server = viser_compat.quiet_server(host, port, "Rotor explorer", gate)
         viser_compat.remove_share_tunnel(self.server)
         self.server.on_client_connect(self._connected)
@@ -74,7 +74,7 @@ class App:
         viser_compat.quiet_stop(self.server)
 
     def _connected(self, client: viser.ClientHandle) -> None:
-        guest = self._guests[client.client_id] = Guest(client)
+        guest = self._guests[client.client_id] = ClientConnection(client)
         # On a thread of its own: viser's are shared by all pages, and a slow browser would hold one.
         _aside(f"welcome-{client.client_id}", partial(self._welcome, guest))
 
@@ -83,7 +83,7 @@ class App:
         if guest is not None:
             _aside(f"goodbye-{client.client_id}", partial(self._goodbye, guest))
 
-    def _welcome(self, guest: Guest) -> None:
+    def _welcome(self, guest: ClientConnection) -> None:
         guest.ask()
         if self._hall.arrive(guest):
             guest.sit(partial(self._session, guest))
@@ -92,25 +92,25 @@ class App:
         if guest.client.client_id not in self._guests:  # It left before it was known.
             self._goodbye(guest)
 
-    def _goodbye(self, guest: Guest) -> None:
+    def _goodbye(self, guest: ClientConnection) -> None:
         guest.leave()
         self._seat(self._hall.leave(guest))
         memory.give_back_soon()
 
-    def _session(self, guest: Guest, client: viser.ClientHandle, facts: viser_compat.PageFacts) -> Session:
-        sleep = Sleep(
+    def _session(self, guest: ClientConnection, client: viser.ClientHandle, facts: viser_compat.PageFacts) -> Session:
+        sleep = IdleTimeout(
             self._house.sleep_after,
             lambda: self._rest(guest),
             lambda: self._hall.wake(guest),
         )
-        commons = Commons(self.pool.share(), self.stage, self._house.studies)
-        return Session(client, self._start, facts, commons, sleep)
+        shared = SharedServices(self.pool.share(), self.presentations, self._house.studies)
+        return Session(client, self._start, facts, shared, sleep)
 
-    def _rest(self, guest: Guest) -> None:
-        self._seat(self._hall.doze(guest))
+    def _rest(self, guest: ClientConnection) -> None:
+        self._seat(self._hall.sleep(guest))
         memory.give_back_soon()
 
-    def _seat(self, coming: list[Guest]) -> None:
+    def _seat(self, coming: list[ClientConnection]) -> None:
         """Those in line whose turn it is."""
         for guest in coming:
             _aside(f"seat-{guest.client.client_id}", partial(guest.sit, partial(self._session, guest)))

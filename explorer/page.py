@@ -1,18 +1,17 @@
 """What stands where on the page of one client, and what its buttons do to one another."""
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
-from pathlib import Path
 from typing import Any
 
 import viser
 
 from explorer.hosting import viser_compat
 from explorer.hosting.viser_compat import PageFacts, set_style
+from explorer.interface import SessionCallbacks, SharedServices, Tab, TabContext
 from explorer.picture.camera_views import View
 from explorer.scene.camera import FittedCamera
-from explorer.scene.controller import Frame
+from explorer.scene.controller import SceneController
 from explorer.scene.overlays import Strip
 from explorer.sharing import share
 from explorer.sharing.address import Address
@@ -20,16 +19,14 @@ from explorer.sharing.view_code import VIEW, view_from
 from explorer.state import Inputs, ViewState
 from explorer.tabs.actuator.panel import ActuatorPanel
 from explorer.tabs.actuator.view import fit_cut
-from explorer.tabs.controls import VIEW_BUTTONS, Controls
-from explorer.tabs.export_panel import ExportPanel, Sources
+from explorer.tabs.controls import VIEW_BUTTONS, DesignControls
+from explorer.tabs.export_panel import ExportPanel, ExportSources
 from explorer.tabs.file_panel import FilePanel
 from explorer.tabs.history.panel import HistoryPanel
-from explorer.tabs.interface import Desk, Moment, Tab
 from explorer.tabs.keys.commands import Actions, bind_commands
 from explorer.tabs.keys.keyboard import Keyboard
 from explorer.tabs.lecture.panel import LecturePanel
-from explorer.tabs.lecture.presence import Hands, Presence
-from explorer.tabs.lecture.presentation import Stage
+from explorer.tabs.lecture.presence import Presence, PresentationHooks
 from explorer.tabs.optimise.map_panel import MapPanel
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.tabs.optimise.schedule_panel import SchedulePanel
@@ -42,7 +39,6 @@ from explorer.tabs.studies.panel import StudiesPanel
 from explorer.tabs.top_bar import TopBar
 from explorer.text import trust as trust_readout
 from explorer.theme import style_sheet as style
-from explorer.workers.pool import Share
 from rotor.design.design import Design
 
 _CHART_WIDTH, _CONTROL_WIDTH = 340, 320
@@ -52,35 +48,19 @@ _WIDER = 1.25
 _BRAND = (28, 126, 214)
 
 
-@dataclass(frozen=True)
-class Commons:
-    """What the pages of one server share."""
-
-    pool: Share
-    stage: Stage
-    studies: Path = Path()
-    """The folder whose results the Studies tab offers."""
-
-
-@dataclass(frozen=True)
-class Works:
-    """What the page asks of the session behind it; from any thread."""
-
-    wake: Callable[[], None]
-    """Something changed."""
-    turned: Callable[[], None]
-    """Only the marked blade's azimuth did."""
-    moment: Callable[[], Moment | None]
-
-
-class Panels:
+class Page:
     """Built once for a client. The session shows its answers on `frame`, `results`, `actuator` and `tabs`."""
 
     def __init__(
-        self, client: viser.ClientHandle, start: Inputs, facts: PageFacts, commons: Commons, works: Works
+        self,
+        client: viser.ClientHandle,
+        start: Inputs,
+        facts: PageFacts,
+        shared: SharedServices,
+        callbacks: SessionCallbacks,
     ) -> None:
         """`start`: where the page's address holds no design."""
-        self._client, self._works, self._dark = client, works, facts.dark
+        self._client, self._callbacks, self._dark = client, callbacks, facts.dark
         address = Address(facts.query, partial(viser_compat.set_query, client))
         problems: list[tuple[str, str]] = []
         inputs_from = partial(share.inputs_from, kept=facts.kept.get(share.DESIGN))
@@ -91,54 +71,56 @@ class Panels:
         gui.set_panel_label("Rotor explorer")
         set_style(client, style.SHEET)  # Before the first widget.
         gui.main_panel.dock_right()
-        self._presence = Presence(client, commons.stage, address)
-        self.top = TopBar(gui, works.wake, lambda: self.history.undo(), lambda: self.history.redo())
+        self._presence = Presence(client, shared.presentations, address)
+        self.top = TopBar(gui, callbacks.wake, lambda: self.history.undo(), lambda: self.history.redo())
         tabs = gui.add_tab_group()
         with tabs.add_tab("Design"):
-            self.controls = Controls(gui, start, works.wake, replace(view, dark=facts.dark), works.turned)
+            self.controls = DesignControls(
+                gui, start, callbacks.wake, replace(view, dark=facts.dark), callbacks.azimuth_changed
+            )
         rotor = start.aircraft.rotor_for(start.preset)
         self._radius = rotor.radius
-        self.frame = Frame(client, rotor, self.controls.display)
+        self.scene = SceneController(client, rotor, self.controls.display)
         self._keyboard = Keyboard(client)
-        desk = self.desk = Desk(
+        context = self.context = TabContext(
             inputs=self.controls.inputs,
             set_inputs=self.controls.set_inputs,
             view=self.controls.display.view,
             set_view=self.controls.display.set_view,
-            turn=self.controls.display.turn,
-            wake=works.wake,
-            send=self._send,
-            tell=self._notify,
-            moment=works.moment,
+            set_azimuth=self.controls.display.turn,
+            wake=callbacks.wake,
+            download=self._download,
+            notify=self._notify,
+            state=callbacks.state,
             pin=self.top.pin_inputs,
-            bind=self._keyboard.bind,
+            bind_command=self._keyboard.bind,
         )
         with tabs.add_tab("Optimise"):
-            self.optimise = OptimisePanel(gui, commons.pool, desk, lambda design: self.schedule.legs(design))
+            self.optimise = OptimisePanel(gui, shared.pool, context, lambda design: self.schedule.legs(design))
         with tabs.add_tab("Map"):
-            self.map = MapPanel(gui, commons.pool, desk, self.optimise)
+            self.map = MapPanel(gui, shared.pool, context, self.optimise)
         with tabs.add_tab("Schedule"):
-            self.schedule = SchedulePanel(gui, commons.pool, desk, self.optimise.wishes)
+            self.schedule = SchedulePanel(gui, shared.pool, context, self.optimise.request)
         with tabs.add_tab("Session"):
-            self.history = HistoryPanel(gui, desk, start)
-            self.file = FilePanel(client, desk, address, facts.kept)
-            sources = Sources(lambda: self.camera, lambda: self.history.kept, self.frame.held_range)
-            export = ExportPanel(client, desk, sources)
+            self.history = HistoryPanel(gui, context, start)
+            self.file = FilePanel(client, context, address, facts.kept)
+            sources = ExportSources(lambda: self.camera, lambda: self.history.kept, self.scene.held_range)
+            export = ExportPanel(client, context, sources)
         with tabs.add_tab("Lecture"):
-            self.lecture = LecturePanel(client, desk, self._presence, self._enlarge)
+            self.lecture = LecturePanel(client, context, self._presence, self._enlarge)
         panel = self._panel = gui.add_panel()
         with panel.add_tab("Results"):
             self.results = ResultsPanel(gui)
         with panel.add_tab("Twist"):
-            sensitivity = SensitivityPanel(gui, Strip(client.scene), desk)
+            sensitivity = SensitivityPanel(gui, Strip(client.scene), context)
         with panel.add_tab("Probe"):
-            self.probe = ProbePanel(client, desk)
+            self.probe = ProbePanel(client, context)
         with panel.add_tab("Actuator"):
-            self.actuator = ActuatorPanel(client, commons.pool, works.wake, self._fly)
+            self.actuator = ActuatorPanel(client, shared.pool, callbacks.wake, self._fly)
         with panel.add_tab("Physics"):
             self.waterfall = WaterfallPanel(gui)
         with panel.add_tab("Studies"):
-            studies = StudiesPanel(client, desk, commons.studies)
+            studies = StudiesPanel(client, context, shared.studies)
         with panel.add_tab("Trust"):
             gui.add_html(trust_readout.trust_page())
         panel.dock_left()
@@ -147,7 +129,7 @@ class Panels:
         self.tabs = (*followers, self.history, self.file, export, self.lecture, self._presence)
         """Everything that only follows."""
         self.camera = FittedCamera(client, rotor.radius)
-        RotorUpload(self.controls.rotor.button, desk)
+        RotorUpload(self.controls.rotor.button, context)
         self._wire()
         for title, sentence in problems:
             self._notify(title, sentence)
@@ -176,15 +158,15 @@ class Panels:
 
     def _wire(self) -> None:
         """Buttons to what they do, once everything stands."""
-        controls, desk = self.controls, self.desk
+        controls, context = self.controls, self.context
         self.actuator.shown.on_update(self._cut_switched)
         controls.reset_button.on_click(lambda _: self._reset())
         controls.view_buttons.on_click(lambda event: self._look(VIEW_BUTTONS[event.target.value]))
         controls.display.range_buttons.on_click(lambda event: self._colour(event.target.value))
         controls.check_button.on_click(lambda _: self._check())
-        self.top.bind(desk)
-        self._presence.begin(desk, Hands(lambda: self.lecture.step, self.lecture.follow, self._hold))
-        bind_commands(desk, Actions(self._look, self._colour, self._check, self._reset, self.optimise.toggle))
+        self.top.bind(context)
+        self._presence.begin(context, PresentationHooks(lambda: self.lecture.step, self.lecture.follow, self._hold))
+        bind_commands(context, Actions(self._look, self._colour, self._check, self._reset, self.optimise.toggle))
         self.file.begin()
 
     def _hold(self, held: bool) -> None:
@@ -192,7 +174,7 @@ class Panels:
         for part in (self.controls, self.top, self.lecture, self._keyboard):
             part.hold(held)
 
-    def _send(self, name: str, content: bytes) -> None:
+    def _download(self, name: str, content: bytes) -> None:
         self._client.send_file_download(name, content, save_immediately=True)
 
     def _notify(self, title: str, sentence: str) -> None:
@@ -216,7 +198,7 @@ class Panels:
     def _cut_switched(self, event: viser.GuiEvent[Any]) -> None:
         """One blade, cut open, in place of the rotor."""
         cut = bool(event.target.value)
-        self.frame.set_seen(not cut)
+        self.scene.set_seen(not cut)
         self.probe.set_seen(not cut)
         if cut:
             self.camera.aim_with(partial(fit_cut, self._radius))
@@ -229,11 +211,11 @@ class Panels:
 
     def _check(self) -> None:
         self.results.check()
-        self._works.wake()
+        self._callbacks.wake()
 
     def _colour(self, order: str) -> None:
-        self.frame.order_range(order)
-        self._works.wake()
+        self.scene.order_range(order)
+        self._callbacks.wake()
 
     def _reset(self) -> None:
         self.actuator.rest()

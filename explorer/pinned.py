@@ -6,7 +6,7 @@ from typing import Literal
 
 from explorer.state import Inputs
 from explorer.text.naming import flight_name, twist_name
-from explorer.workers.solver import Baseline
+from explorer.workers.solver import BaselineCache
 from rotor.design.design import Design
 from rotor.design.twist import SumTwist
 from rotor.trim.solution import Solution
@@ -65,7 +65,7 @@ def same_but_flight(one: Inputs, other: Inputs) -> bool:
 
 
 @dataclass(frozen=True, eq=False)
-class Outcome:
+class PinResult:
     """What a button leads to."""
 
     pinned: Pinned | None
@@ -75,22 +75,22 @@ class Outcome:
     """To be told."""
 
 
-def act(order: Order, pinned: Pinned | None, inputs: Inputs, solution: Solution | None, along: bool) -> Outcome:
+def act(order: Order, pinned: Pinned | None, inputs: Inputs, solution: Solution | None, along: bool) -> PinResult:
     """What a button leads to. `solution`: of `inputs`, None where they have no trim."""
     present = None if solution is None else Pinned(inputs, solution)
     match order:
         case "pin":
-            return Outcome(pinned, sentence=_NO_TRIM) if present is None else Outcome(present)
+            return PinResult(pinned, sentence=_NO_TRIM) if present is None else PinResult(present)
         case "unpin":
-            return Outcome(None)
+            return PinResult(None)
         case _ if pinned is None:
-            return Outcome(None)
+            return PinResult(None)
         case "swap" if present is None:
-            return Outcome(pinned, sentence=_NO_TRIM)
+            return PinResult(pinned, sentence=_NO_TRIM)
         case _:
             after = present if order == "swap" else pinned
             moved = pinned.driven or (present is not None and present.driven)
-            return Outcome(after, pinned.sliders(inputs, along), _DRIVEN if moved else "")
+            return PinResult(after, pinned.sliders(inputs, along), _DRIVEN if moved else "")
 
 
 class Pinboard:
@@ -102,7 +102,7 @@ class Pinboard:
         """A's, as last compared; it may not have converged."""
         self._asked: deque[Order] = deque()
         self._put: deque[Inputs | None] = deque()
-        self._known = Baseline()
+        self._known = BaselineCache()
 
     def ask(self, order: Order) -> None:
         """A button was pressed; acts in the next round."""
@@ -112,7 +112,7 @@ class Pinboard:
         """These inputs shall be A, or nothing; acts in the next round."""
         self._put.append(inputs)
 
-    def settle(self, inputs: Inputs, solution: Solution | None, along: bool) -> Outcome | None:
+    def settle(self, inputs: Inputs, solution: Solution | None, along: bool) -> PinResult | None:
         """Do what was asked, with what is on the sliders and its answer; None when nothing was.
 
         What was asked after a button that moves the sliders waits for the round in which they have moved.
@@ -132,7 +132,7 @@ class Pinboard:
         if pinned is not self.pinned:
             self.pinned = pinned
             self.answer = None if pinned is None else pinned.solution
-            self._known = Baseline() if pinned is None else Baseline(pinned.solution.design, pinned.solution)
+            self._known = BaselineCache() if pinned is None else BaselineCache(pinned.solution.design, pinned.solution)
 
     def solve(self, present: Design, along: bool, hurried: bool = False) -> Solution | None:
         """A's answer: in the flight of the present design when it flies along, else as it was.

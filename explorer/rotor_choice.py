@@ -4,7 +4,7 @@ from functools import cache
 
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.aircraft import Aircraft
-from rotor.files.shipped import shipped_aircraft
+from rotor.files.rotor_file import shipped_aircraft
 
 OWN = "own"
 """Name in `Inputs` of a rotor that the user brought."""

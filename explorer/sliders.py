@@ -7,7 +7,7 @@ from explorer.rotor_choice import mass_range
 from explorer.text.units import AVIATION, POUND, SI, Unit, Units
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.aircraft import Aircraft
-from rotor.files.shipped import shipped_aircraft
+from rotor.files.rotor_file import shipped_aircraft
 
 
 @dataclass(frozen=True)

@@ -11,14 +11,11 @@ from rotor.aero.switches import SWITCHES
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.aircraft import Aircraft
 from rotor.design.blade import airfoils_spec
-from rotor.design.design import Design
-from rotor.design.presets import FLIGHT_MODELS, THESIS_MODELS
+from rotor.design.design import FLIGHT_MODELS, THESIS_MODELS, Design
 from rotor.design.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, QuadraticTwist, TwistLaw
 from rotor.files.make_design import change_airfoils, make_design
-from rotor.files.shipped import shipped_aircraft
-
-KNOT = 1852.0 / 3600.0
-"""[m/s]"""
+from rotor.files.rotor_file import shipped_aircraft
+from rotor.units import KNOT
 
 PRESET_TITLES = {"flight": "Flight (our best)", "thesis": "Thesis (as stated)"}
 
@@ -74,12 +71,12 @@ class Inputs:
         """The design these inputs mean; ValueError with one sentence for inputs that mean none."""
         models = FLIGHT_MODELS if self.preset == "flight" else THESIS_MODELS
         design = make_design(
-            self.preset,
-            aircraft=self.aircraft,
+            preset=self.preset,
+            rotor=self.aircraft,
             twist=self.twist(),
-            advance_ratio=self.advance_ratio,
-            mass=1e3 * self.mass_t,
-            altitude=self.altitude_m,
+            mu=self.advance_ratio,
+            mass_kg=1e3 * self.mass_t,
+            altitude_m=self.altitude_m,
             models=replace(models, inflow=self.inflow, **{name: getattr(self, name) for name in SWITCHES}),
         )
         if self.law in NOT_ALWAYS and self.airfoils:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from skfem import Basis, BilinearForm, ElementQuad2, ElementVector, LinearForm, MeshQuad, condense, solve
 
-from rotor.dynamics.laminate import Layer
+from rotor.dynamics.thin_wall import Layer
 
 # Strain order: xx, yy, zz, yz, xz, xy; the section's plane is (y, z).
 PAIRS = ((0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1))

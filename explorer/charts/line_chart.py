@@ -7,14 +7,12 @@ from dataclasses import dataclass
 from html import escape
 
 import numpy as np
-from numpy.typing import NDArray
 
 from explorer.charts import marks
 from explorer.charts.plots import Range, held_range
 from explorer.picture.colour_bar import tick_text
 from explorer.picture.fields import ticks
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 WIDE, HIGH = 520.0, 270.0
 _LEFT, _RIGHT, _TOP, _BOTTOM = 52.0, 14.0, 12.0, 40.0

@@ -5,15 +5,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from explorer.picture.stall_region import stall_angles
 from explorer.text.units import KILOWATT, Unit
+from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.trim.solution import Solution
 from rotor.trim.validity import LOW_SPEED
 
-Array = NDArray[np.float64]
 Range = tuple[float, float]
 
 SWEEP = (0.0, *(round(LOW_SPEED + 0.025 * k, 3) for k in range(16)))

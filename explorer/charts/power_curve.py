@@ -6,18 +6,15 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from explorer.charts.plots import SWEEP, PowerCurve
 from explorer.hosting.turns import TURNS
 from explorer.text.readout import ideal_induced
-from rotor.analysis.sweep import at_advance_ratio
+from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-
-Array = NDArray[np.float64]
 
 PATIENCE = 0.6
 """A curve older than this [s] is swept, coarsely, even while a slider moves, so that a drag never starves it."""
@@ -85,7 +82,7 @@ class PowerCurves:
                 break  # Beyond this rotor: faster there is no trim either, and to find that out takes long.
             if coarse and k > 0 and (k - 1) % 3:
                 continue
-            point = solve(at_advance_ratio(family, mu), start)
+            point = solve(family.at(mu=mu), start)
             lost = 0 if point.converged else lost + 1
             if point.converged:
                 start, values[:, k] = point, _powers(point)

@@ -65,7 +65,7 @@ def as_command_line(design: Design) -> CommandLine:
 
 def _flags(design: Design) -> list[str]:
     """Flag and value in one string each."""
-    condition, plain = design.condition, make_design(design.preset, aircraft=design.aircraft)
+    condition, plain = design.condition, make_design(preset=design.preset, rotor=design.aircraft)
     words = [f"--rotor {design.aircraft.key}"] if design.aircraft.key not in ("", SHIPPED_ROTORS[0]) else []
     words += [f"--preset {design.preset}"] if design.preset != "flight" else []
     words.append("--hover" if design.hovering else f"--mu {_plain(condition.advance_ratio)}")
@@ -107,17 +107,17 @@ def _on_lines(words: list[str]) -> str:
 
 def _twist_of(design: Design, spec: str) -> TwistLaw:
     """What a SPEC means on this design's rotor at its weight."""
-    return make_design(design.preset, aircraft=design.aircraft, twist=spec, mass=design.condition.mass).twist
+    return make_design(preset=design.preset, rotor=design.aircraft, twist=spec, mass_kg=design.condition.mass).twist
 
 
 def _aircraft(design: Design, writer: Writer) -> list[str]:
     """The argument that names the aircraft, nothing for the default; a user's own is written out with all its files."""
     files = design.aircraft.files
     if files is None:
-        return [] if design.aircraft.key == SHIPPED_ROTORS[0] else [f"aircraft={writer.value(design.aircraft.key)}"]
+        return [] if design.aircraft.key == SHIPPED_ROTORS[0] else [f"rotor={writer.value(design.aircraft.key)}"]
     writer.name("rotor.files.rotor_file", "read_aircraft")
     texts = ", ".join(f"{writer.value(name)}: {writer.value(text)}" for name, text in files.texts)
-    return [f"aircraft=read_aircraft({writer.value(files.main)}, {{{texts}}})"]
+    return [f"rotor=read_aircraft({writer.value(files.main)}, {{{texts}}})"]
 
 
 def as_python(design: Design) -> str:
@@ -129,22 +129,22 @@ def as_python(design: Design) -> str:
     writer.name("rotor", "make_design")
     writer.name("rotor", "solve")
     start = make_design(
-        design.preset,
-        aircraft=design.aircraft,
-        advance_ratio=condition.advance_ratio,
-        mass=condition.mass,
-        altitude=condition.altitude,
+        preset=design.preset,
+        rotor=design.aircraft,
+        mu=condition.advance_ratio,
+        mass_kg=condition.mass,
+        altitude_m=condition.altitude,
     )
     spec = exact_spec(design.twist)
     # A SPEC is what people write; it serves where it says the law to the last digit and needs no file.
     spoken = "table:" not in spec and _twist_of(design, spec) == design.twist
     arguments = [
-        writer.value(design.preset),
+        f"preset={writer.value(design.preset)}",
         *_aircraft(design, writer),
         f"twist={writer.value(spec if spoken else design.twist)}",
-        f"advance_ratio={float(condition.advance_ratio)!r}",
-        f"mass={float(condition.mass)!r}",
-        f"altitude={float(condition.altitude)!r}",
+        f"mu={float(condition.advance_ratio)!r}",
+        f"mass_kg={float(condition.mass)!r}",
+        f"altitude_m={float(condition.altitude)!r}",
     ]
     made = writer.call("make_design", arguments)
     changed = writer.changes("design", replace(start, twist=design.twist), design)

@@ -8,7 +8,6 @@ from typing import cast
 
 import numpy as np
 import trimesh
-from numpy.typing import NDArray
 from trimesh.visual.material import PBRMaterial
 from trimesh.visual.texture import TextureVisuals
 
@@ -17,11 +16,10 @@ from explorer.picture import meshes
 from explorer.picture.moving_blades import blade_twists
 from explorer.picture.poses import Pose, blade_pose, rotor_pose
 from explorer.theme import colours
+from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import PiecewiseLinearTwist, SumTwist, TableTwist, TwistLaw
 from rotor.trim.solution import Solution
-
-Array = NDArray[np.float64]
 
 POINTS, STATIONS = 97, 121
 """Round a section, and from root cut-out to tip: a chord is met to 0.1 mm, the file has 1.3 MB."""

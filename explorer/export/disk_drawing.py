@@ -3,9 +3,6 @@
 import math
 from html import escape
 
-import numpy as np
-from numpy.typing import NDArray
-
 from explorer.charts import marks
 from explorer.picture import disk_image as image
 from explorer.picture.colour_bar import tick_text
@@ -14,9 +11,9 @@ from explorer.picture.outlines import drag_divergence_segments, reverse_flow_seg
 from explorer.picture.picture import OUTLINE_COLOURS, disk_png
 from explorer.text.units import SI, Units
 from explorer.theme.colours import RIM, VOID, colour_map, css
+from rotor.arrays import Array
 from rotor.trim.solution import Solution
 
-Array = NDArray[np.float64]
 Range = tuple[float, float]
 
 HALF = 134.0

@@ -9,15 +9,15 @@ from explorer.charts.plots import Range
 from explorer.charts.power_curve import PowerCurves
 from explorer.export.blade import blade_stl, rotor_glb
 from explorer.export.provenance import file_stem
-from explorer.export.report.contents import Entry, Report, report_of
+from explorer.export.report.contents import DesignReport, ReportEntry, report_of
 from explorer.export.report.document import report_html
-from explorer.export.scene_recordings import Stage
-from explorer.export.sheet import Shown
+from explorer.export.scene_recordings import EmbeddedViewer
+from explorer.export.sheet import DiskContent
 from explorer.export.tables import blade_csv, disk_csv, power_csv
+from explorer.interface import SessionState
 from explorer.picture.fields import FIELDS
 from explorer.state import baseline_title
 from explorer.tabs.history.strip import Kept
-from explorer.tabs.interface import Moment
 from rotor.trim.solution import Solution
 
 
@@ -35,63 +35,66 @@ class File:
         return f"{count / 1e6:.1f} MB" if count >= 1e6 else f"{max(count / 1e3, 1.0):.0f} kB"
 
 
-def blade_file(moment: Moment) -> File:
+def blade_file(state: SessionState) -> File:
     """One blade as STL; where the twist follows the azimuth, the marked one as it is drawn."""
-    design, azimuth = moment.solution.design, moment.view.azimuth_deg
+    design, azimuth = state.solution.design, state.view.azimuth_deg
     active = design.active_twist is not None and not design.hovering
     parts = ("blade", f"psi{azimuth:.0f}") if active else ("blade",)
     return File(f"{file_stem(design, *parts)}.stl", blade_stl(design, math.radians(azimuth) if active else None))
 
 
-def rotor_file(moment: Moment) -> File:
+def rotor_file(state: SessionState) -> File:
     """The rotor in trim as GLB."""
-    solution = moment.solution
-    return File(f"{file_stem(solution.design, 'rotor')}.glb", rotor_glb(solution, moment.view.azimuth_deg))
+    solution = state.solution
+    return File(f"{file_stem(solution.design, 'rotor')}.glb", rotor_glb(solution, state.view.azimuth_deg))
 
 
-def disk_file(moment: Moment) -> File:
+def disk_file(state: SessionState) -> File:
     """Every field over the disk as CSV."""
-    return File(f"{file_stem(moment.solution.design, 'disk')}.csv", disk_csv(moment.solution))
+    return File(f"{file_stem(state.solution.design, 'disk')}.csv", disk_csv(state.solution))
 
 
-def along_file(moment: Moment) -> File:
+def along_file(state: SessionState) -> File:
     """The blade at the marked azimuth as CSV."""
-    azimuth = moment.view.azimuth_deg
-    content = blade_csv(moment.solution, moment.reference.design, azimuth)
-    return File(f"{file_stem(moment.solution.design, 'blade', f'psi{azimuth:.0f}')}.csv", content)
+    azimuth = state.view.azimuth_deg
+    content = blade_csv(state.solution, state.reference.design, azimuth)
+    return File(f"{file_stem(state.solution.design, 'blade', f'psi{azimuth:.0f}')}.csv", content)
 
 
-def power_file(moment: Moment, curves: PowerCurves) -> File:
+def power_file(state: SessionState, curves: PowerCurves) -> File:
     """Power over advance ratio as CSV; sweeps what is not known yet."""
-    design, reference = moment.solution.design, moment.reference.design
+    design, reference = state.solution.design, state.reference.design
     curves.sweep(design, reference, lambda: False)
-    content = power_csv(moment.solution, reference, curves.known(design, reference))
+    content = power_csv(state.solution, reference, curves.known(design, reference))
     return File(f"{file_stem(design, 'power')}.csv", content)
 
 
-def session_report(moment: Moment, kept: Sequence[Kept], colour_range: Range) -> Report:
+def session_report(state: SessionState, kept: Sequence[Kept], colour_range: Range) -> DesignReport:
     """The present design, the kept ones, and A or the baseline that they are compared with."""
-    pinned, solution = moment.pinned, moment.solution
-    if moment.pin is None:
-        reference = Entry(baseline_title(solution.design), moment.baseline)
+    pinned, solution = state.pinned, state.solution
+    if state.pin is None:
+        reference = ReportEntry(baseline_title(solution.design), state.baseline)
     else:
         # A may have no trim in the present flight; then as it was when it was pinned.
         flies = pinned is not None and pinned.converged
-        reference = Entry("A, pinned", pinned if pinned is not None and flies else moment.pin.solution)
+        reference = ReportEntry("A, pinned", pinned if pinned is not None and flies else state.pin.solution)
     others = [item for item in kept if item.solution.design not in (solution.design, reference.solution.design)]
-    entries = [Entry("Now", solution), *(Entry(f"Kept {k + 1}", item.solution) for k, item in enumerate(others))]
+    entries = [
+        ReportEntry("Now", solution),
+        *(ReportEntry(f"Kept {k + 1}", item.solution) for k, item in enumerate(others)),
+    ]
     return report_of(
-        reference, entries, moment.view, {moment.view.field: colour_range}, own_section=moment.pin is not None
+        reference, entries, state.view, {state.view.field: colour_range}, own_section=state.pin is not None
     )
 
 
-def report_file(report: Report, stage: Stage | None, curves: PowerCurves) -> File:
+def report_file(report: DesignReport, stage: EmbeddedViewer | None, curves: PowerCurves) -> File:
     """The report as one HTML file."""
     name = file_stem(report.entries[0].solution.design, "report")
     return File(f"{name}.html", report_html(report, stage, curves).encode("utf-8"))
 
 
-def picture_name(solution: Solution, shown: Shown, what: str, paper: Paper, ending: str) -> str:
+def picture_name(solution: Solution, shown: DiskContent, what: str, paper: Paper, ending: str) -> str:
     """Of a picture; what is on the disk and its size are in it."""
     field = next((title for title in FIELDS if title == shown.field.title), "difference")
     return f"{file_stem(solution.design, what, field, f'{paper.width}x{paper.height}')}.{ending}"

@@ -14,7 +14,7 @@ _SEAMS = re.compile(
 
 
 @dataclass(frozen=True)
-class Stage:
+class EmbeddedViewer:
     """The viewer in parts, and what goes between them: before + scene + between + true or false + after."""
 
     before: str
@@ -30,11 +30,11 @@ class Stage:
         return json.dumps(parts).replace("<", "\\u003c")
 
 
-def stage_of(pages: Sequence[str]) -> Stage:
+def embedded_viewer(pages: Sequence[str]) -> EmbeddedViewer:
     """What viser's stand-alone pages share, once, and what each has of its own."""
     parts = [_parts(page) for page in pages]
     first = parts[0]
-    return Stage(first["before"], first["between"], first["after"], tuple(part["scene"] for part in parts))
+    return EmbeddedViewer(first["before"], first["between"], first["after"], tuple(part["scene"] for part in parts))
 
 
 def _parts(page: str) -> dict[str, str]:

@@ -26,7 +26,7 @@ _TITLES = {"induced": "Induced", "profile": "Profile", "parasite": "Parasite", "
 
 
 @dataclass(frozen=True, eq=False)
-class Shown:
+class DiskContent:
     """What is on the disk."""
 
     field: Field
@@ -40,10 +40,10 @@ class Shown:
 
 def shown(
     view: ViewState, field: Field | None = None, colour_range: tuple[float, float] | None = None, note: str = ""
-) -> Shown:
+) -> DiskContent:
     """What the page shows; `field` where it is not just that of the view, and its colour range where it was moved."""
     field = field or FIELDS[view.field]
-    return Shown(
+    return DiskContent(
         field,
         colour_range or (field.low, field.high),
         tuple(n for n in OUTLINES if getattr(view, n)),
@@ -66,7 +66,7 @@ def _below(solution: Solution, paper: Paper) -> float:
     return 18.0 + 2.5 * lines
 
 
-def disk_sheet(solution: Solution, shown: Shown, paper: Paper) -> str:
+def disk_sheet(solution: Solution, shown: DiskContent, paper: Paper) -> str:
     """The disk from above."""
     u = paper.unit
     edge = 96 * u if paper.beside else min(96 * u, paper.height - (13 + _below(solution, paper)) * u)
@@ -81,7 +81,7 @@ def disk_sheet(solution: Solution, shown: Shown, paper: Paper) -> str:
     return _page(paper, disk + _column(solution, shown, paper, left, paper.width - left - 4 * u))
 
 
-def view_sheet(solution: Solution, shown: Shown, paper: Paper, render: bytes) -> str:
+def view_sheet(solution: Solution, shown: DiskContent, paper: Paper, render: bytes) -> str:
     """The rotor as it was seen; `render`: PNG of the size of its `window`."""
     x, y, wide, high = window(solution, paper)
     seen = marks.image(x, y, wide, high, render)
@@ -110,7 +110,7 @@ def _page(paper: Paper, inside: str) -> str:
     )
 
 
-def _column(solution: Solution, shown: Shown, paper: Paper, x: float, wide: float) -> str:
+def _column(solution: Solution, shown: DiskContent, paper: Paper, x: float, wide: float) -> str:
     """Everything that is said, beside the disk."""
     u = paper.unit
     return (
@@ -122,7 +122,7 @@ def _column(solution: Solution, shown: Shown, paper: Paper, x: float, wide: floa
     )
 
 
-def _above_and_below(solution: Solution, shown: Shown, paper: Paper) -> str:
+def _above_and_below(solution: Solution, shown: DiskContent, paper: Paper) -> str:
     u, wide = paper.unit, paper.width
     top = paper.height - (_below(solution, paper) - 1) * u
     return (
@@ -134,7 +134,7 @@ def _above_and_below(solution: Solution, shown: Shown, paper: Paper) -> str:
     )
 
 
-def _heading(solution: Solution, shown: Shown, x: float, y: float, wide: float, u: float) -> str:
+def _heading(solution: Solution, shown: DiskContent, x: float, y: float, wide: float, u: float) -> str:
     """Twist, flight and models."""
     design = solution.design
     title = _wrapped(title_words(design), wide, 3.0 * u, bold=True)
@@ -173,7 +173,7 @@ def _power(solution: Solution, units: Units, x: float, y: float, wide: float, u:
     )
 
 
-def _scale(solution: Solution, shown: Shown, x: float, y: float, wide: float, u: float) -> str:
+def _scale(solution: Solution, shown: DiskContent, x: float, y: float, wide: float, u: float) -> str:
     """Colour bar and key, its label's baseline at `y`."""
     field, size = shown.field, 2.2 * u
     drawn = bar_drawing(field, shown.colour_range, wide, "scale", size)

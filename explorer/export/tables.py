@@ -10,16 +10,14 @@ from collections.abc import Sequence
 from dataclasses import fields
 
 import numpy as np
-from numpy.typing import NDArray
 
 from explorer.charts import plots
 from explorer.charts.plots import SWEEP, PowerCurve
 from explorer.export.provenance import condition_line, provenance_lines
-from explorer.state import KNOT
+from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.trim.solution import DiskFields, Solution
-
-Array = NDArray[np.float64]
+from rotor.units import KNOT
 
 _ANGLES = {"theta", "alpha", "stall_margin"}
 """Fields in radians, written in degrees."""

@@ -19,7 +19,7 @@ _SHOWN = 80
 
 
 @dataclass(frozen=True)
-class Doors:
+class AllowedHosts:
     """The rule for one server."""
 
     host: str

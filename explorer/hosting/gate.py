@@ -15,9 +15,9 @@ from websockets.exceptions import ConnectionClosed
 from websockets.frames import CloseCode
 from websockets.http11 import Request, Response
 
-from explorer.hosting.doors import Doors
-from explorer.hosting.meter import LARGEST, Meter
-from explorer.hosting.page import Page
+from explorer.hosting.doors import AllowedHosts
+from explorer.hosting.meter import LARGEST, RateLimiter
+from explorer.hosting.page import ServedPage
 
 _log = logging.getLogger(__name__)
 _visitors = logging.getLogger(f"{__name__}.visitors")
@@ -37,18 +37,18 @@ _HEADERS = {
 
 
 @dataclass(frozen=True)
-class Gate:
+class RequestFilter:
     """The rules, and the arguments for `websockets.serve` that enforce them."""
 
-    doors: Doors
+    doors: AllowedHosts
     connections: int
     """WebSockets at once; more than sessions, for some wait, sleep, or have not said who they are."""
-    page: Page | None = None
+    page: ServedPage | None = None
     """What is served in place of the server's own page."""
 
     def around(self, handler: Handler, options: dict[str, Any]) -> tuple[Handler, dict[str, Any]]:
         """A server's handler and options with the gate before them."""
-        gated = {**options, "max_size": LARGEST, "create_connection": Metered, "logger": _visitors}
+        gated = {**options, "max_size": LARGEST, "create_connection": RateLimitedConnection, "logger": _visitors}
         gated["process_request"] = self._asked(options["process_request"])
         return _contained(handler), gated
 
@@ -75,12 +75,12 @@ class Gate:
         return process_request
 
 
-class Metered(ServerConnection):
+class RateLimitedConnection(ServerConnection):
     """A connection that is cut off when it sends more than it may."""
 
     def __init__(self, *positional: Any, **named: Any) -> None:
         super().__init__(*positional, **named)
-        self._meter = Meter(time.monotonic())
+        self._meter = RateLimiter(time.monotonic())
 
     async def recv(self, decode: bool | None = None) -> Any:
         """The next message, counted."""
@@ -113,7 +113,7 @@ async def _part(connection: ServerConnection, code: CloseCode, reason: str) -> N
     connection.transport.abort()
 
 
-def _served(page: Page, request: Request) -> Response:
+def _served(page: ServedPage, request: Request) -> Response:
     """The page, or the word that the browser's own copy still holds."""
     headers = Headers({"ETag": page.tag, "Cache-Control": "no-cache", "Vary": "Accept-Encoding", **_HEADERS})
     if page.tag in ",".join(request.headers.get_all("If-None-Match")):

@@ -6,7 +6,7 @@ from collections.abc import Callable
 import viser
 
 from explorer.hosting import viser_compat
-from explorer.hosting.lobby import LobbyPanel
+from explorer.hosting.lobby import WaitingPage
 from explorer.session import Session
 
 FIRST = 0.6
@@ -14,14 +14,14 @@ FIRST = 0.6
 Seat = Callable[[viser.ClientHandle, viser_compat.PageFacts], Session]
 
 
-class Guest:
+class ClientConnection:
     """Lives as long as its connection. Every step may come on another thread; one is taken at a time."""
 
     def __init__(self, client: viser.ClientHandle) -> None:
         self.client = client
         self._lock = threading.Lock()
         self._facts = viser_compat.PageFacts()
-        self._lobby: LobbyPanel | None = None
+        self._lobby: WaitingPage | None = None
         self._session: Session | None = None
         self._gone = False
 
@@ -35,7 +35,7 @@ class Guest:
             if self._gone or self._session is not None:
                 return
             if self._lobby is None:
-                self._lobby = LobbyPanel(self.client, places, ahead, self._facts.dark)
+                self._lobby = WaitingPage(self.client, places, ahead, self._facts.dark)
             else:
                 self._lobby.show(ahead)
 

@@ -10,7 +10,7 @@ from typing import Generic, TypeVar
 V = TypeVar("V")
 
 
-class Hall(Generic[V]):
+class SeatQueue(Generic[V]):
     """So many places, and a line in order of arrival; safe from any thread."""
 
     def __init__(self, places: int) -> None:
@@ -38,7 +38,7 @@ class Hall(Generic[V]):
                 self._line.remove(visitor)
             return self._seat()
 
-    def doze(self, visitor: V) -> list[V]:
+    def sleep(self, visitor: V) -> list[V]:
         """The visitor falls asleep; returns those whose turn it now is, already seated."""
         with self._lock:
             if visitor not in self._seated:

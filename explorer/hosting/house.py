@@ -12,7 +12,7 @@ _SPARE = 40
 
 
 @dataclass(frozen=True)
-class House:
+class ServerLimits:
     """What whoever starts the server decides."""
 
     sessions: int = SESSIONS

@@ -6,7 +6,7 @@ from explorer.hosting import viser_compat
 from explorer.theme import style_sheet as style
 
 
-class LobbyPanel:
+class WaitingPage:
     """One visitor's: a dialogue in the middle of an empty page. No rotor, no worker."""
 
     def __init__(self, client: viser.ClientHandle, places: int, ahead: int, dark: bool) -> None:

@@ -4,25 +4,25 @@ from dataclasses import dataclass
 
 
 @dataclass(frozen=True)
-class Allowance:
+class RateLimit:
     """A bucket that holds `burst` and fills by `rate` a second."""
 
     rate: float
     burst: float
 
 
-MESSAGES = Allowance(rate=200.0, burst=2000.0)
+MESSAGES = RateLimit(rate=200.0, burst=2000.0)
 """A dragged slider sends 20 a second, a turned camera 50; a tab that slept may send more at once."""
-BYTES = Allowance(rate=2e6, burst=48e6)
+BYTES = RateLimit(rate=2e6, burst=48e6)
 """A file too large by mistake is refused with a sentence (see `uploads`) before this cuts its sender off."""
 LARGEST = 16 * 2**20
 """One message [bytes]: a picture of the scene, drawn by the browser, is the largest honest one."""
 
 
-class Meter:
+class RateLimiter:
     """What one connection has left."""
 
-    def __init__(self, now: float, messages: Allowance = MESSAGES, size: Allowance = BYTES) -> None:
+    def __init__(self, now: float, messages: RateLimit = MESSAGES, size: RateLimit = BYTES) -> None:
         self._buckets = [[messages, messages.burst], [size, size.burst]]
         self._then = now
 

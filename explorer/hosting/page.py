@@ -15,7 +15,7 @@ _SCRIPT_BEGINS, _HEAD_ENDS, _BODY_BEGINS = "<script", "</head>", "<body>"
 
 
 @dataclass(frozen=True)
-class Page:
+class ServedPage:
     """The served page."""
 
     html: bytes
@@ -31,7 +31,7 @@ class Page:
         return f'"{hashlib.sha256(self.html).hexdigest()[:16]}"'
 
 
-def veiled(client: str) -> Page:
+def veiled(client: str) -> ServedPage:
     """The client's page with title and veil; ValueError for a page that is not built as expected.
 
     Its script stands in the head; it moves behind the veil, so that the veil is painted while the script arrives.
@@ -43,7 +43,7 @@ def veiled(client: str) -> Page:
         raise ValueError("The client's page is not built as expected: a head that ends in its script, then a body.")
     title, _, after = head.partition("<title>")
     head = f"{title}<title>{TITLE}{after[after.index('</title>') :]}"
-    return Page(f"{head}<style>{_STYLE}</style>{ends}{body}{_VEIL}{begins}{script}{content}".encode())
+    return ServedPage(f"{head}<style>{_STYLE}</style>{ends}{body}{_VEIL}{begins}{script}{content}".encode())
 
 
 _STYLE = """

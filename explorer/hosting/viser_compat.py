@@ -16,7 +16,7 @@ import websockets.asyncio.server
 from viser import _messages
 
 from explorer.hosting import uploads
-from explorer.hosting.gate import Gate
+from explorer.hosting.gate import RequestFilter
 from explorer.hosting.picture_in_page import picture_script
 
 _starting, _silent = threading.Lock(), threading.Lock()
@@ -28,7 +28,7 @@ _ONE_PIECE = 4096
 """Messages; a page has some five hundred to begin with."""
 
 
-def quiet_server(host: str, port: int, label: str, gate: Gate | None = None) -> viser.ViserServer:
+def quiet_server(host: str, port: int, label: str, gate: RequestFilter | None = None) -> viser.ViserServer:
     """A server that leaves it to us what is printed, `verbose=False` still prints a banner; with `gate` before it."""
     with _silence(), _behind(gate) if gate else contextlib.nullcontext():
         return viser.ViserServer(host=host, port=port, label=label, verbose=False)
@@ -42,7 +42,7 @@ def _silence() -> Iterator[None]:
 
 
 @contextlib.contextmanager
-def _behind(gate: Gate) -> Iterator[None]:
+def _behind(gate: RequestFilter) -> Iterator[None]:
     """While a server starts, what it asks of `websockets` goes through the gate: viser offers no way to say so.
 
     RuntimeError where it did not come by: a server that looks guarded must be.

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from rotor.arrays import Array
+
 View = Literal["3d", "top", "blade", "side"]
 """From behind and above; the plan; along the marked blade; level, from the advancing side."""
 

@@ -5,9 +5,10 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from explorer.picture.fields import FIELDS, Array, Field, round_up
+from explorer.picture.fields import FIELDS, Field, round_up
 from explorer.picture.polar import PolarGrid, polar_grid
 from explorer.state import ViewState
+from rotor.arrays import Array
 from rotor.trim.solution import Solution
 
 _PART = 0.1

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from explorer.picture.polar import PolarGrid
 from explorer.theme.colours import VOID, Scheme, colour_map, greyed
+from rotor.arrays import Array
 
-Array = NDArray[np.float64]
 Bytes = NDArray[np.uint8]
 
 SIZE = 512

@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 from explorer.picture.polar import PolarGrid
 from explorer.picture.stall_region import angle_of_attack, stall_margin
 from explorer.theme.colours import Scheme
+from rotor.arrays import Array
 from rotor.trim.solution import DiskFields, Solution
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

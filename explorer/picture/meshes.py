@@ -8,10 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from explorer.picture.section_outline import blade_axes_outline
+from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.design.twist import TwistLaw
 
-Array = NDArray[np.float64]
 Faces = NDArray[np.uint32]
 
 _RING = 45

@@ -3,13 +3,12 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from rotor.arrays import Array
 from rotor.design.active_twist import ActiveTwist
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

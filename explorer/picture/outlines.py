@@ -9,9 +9,8 @@ from numpy.typing import NDArray
 from explorer.picture.fields import filled
 from explorer.picture.polar import PolarGrid, polar_grid
 from explorer.picture.stall_region import stall_margin
+from rotor.arrays import Array
 from rotor.trim.solution import Solution
-
-Array = NDArray[np.float64]
 
 DRAG_DIVERGENCE = 0.1
 """∂C_d/∂M that marks drag divergence."""

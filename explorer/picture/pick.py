@@ -3,13 +3,11 @@
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from explorer.picture.picture import disk_drop
 from explorer.picture.poses import compose, rotate, rotor_pose, tip_path_pose
 from rotor.trim.solution import Solution
-
-Array = NDArray[np.float64]
 
 _BESIDE = 0.02
 """A click this far [R] beside the blade's reach still means its end."""

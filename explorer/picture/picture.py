@@ -16,10 +16,9 @@ from explorer.picture.poses import Pose, blade_pose, rotor_pose, tip_path_pose
 from explorer.state import ViewState
 from explorer.text.units import UNITS
 from explorer.theme import colours
+from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.trim.solution import Solution
-
-Array = NDArray[np.float64]
 
 DISK_DROP = 0.35
 """How far the coloured disk lies below the hub [m], so that blades are seen on it; of the UH-60A's size."""

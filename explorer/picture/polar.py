@@ -4,11 +4,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from rotor.arrays import Array
 from rotor.trim.solution import DiskFields
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,11 +4,9 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from rotor.arrays import Array
 from rotor.trim.solution import Controls
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,12 +3,10 @@
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.airfoil.contour import resample
 from rotor.airfoil.sections import Section
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 
 @lru_cache(maxsize=32)

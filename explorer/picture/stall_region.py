@@ -3,13 +3,11 @@
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from explorer.picture.polar import PolarGrid
 from rotor.aero.elements import LOW_MACH
+from rotor.arrays import Array
 from rotor.trim.solution import Solution
-
-Array = NDArray[np.float64]
 
 
 @lru_cache(maxsize=8)  # A blade that turns asks again and again for the same answer's.

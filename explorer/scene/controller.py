@@ -33,7 +33,7 @@ class _Drawn:
         return replace(self, view=replace(self.view, azimuth_deg=azimuth_deg))
 
 
-class Frame:
+class SceneController:
     """One session's; everything but the buttons happens on its worker."""
 
     def __init__(self, client: viser.ClientHandle, rotor: Rotor, display: Display) -> None:

@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import viser
-from numpy.typing import NDArray
 
 from explorer.hosting import viser_compat
 from explorer.picture import meshes
@@ -13,9 +12,8 @@ from explorer.picture.picture import OUTLINE_COLOURS, Blades, Picture
 from explorer.picture.poses import Pose, about
 from explorer.state import ViewState
 from explorer.theme import colours
+from rotor.arrays import Array
 from rotor.design.blade import Rotor
-
-Array = NDArray[np.float64]
 
 _DISK_TURN = (0.0, np.sqrt(0.5), np.sqrt(0.5), 0.0)
 """Half a turn about the bisector of x and y: the picture's columns run to starboard, its rows aft."""

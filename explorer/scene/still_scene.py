@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from explorer.export.scene_recordings import Stage, stage_of
+from explorer.export.scene_recordings import EmbeddedViewer, embedded_viewer
 from explorer.hosting import viser_compat
 from explorer.picture.camera_views import FIELD_OF_VIEW, fit
 from explorer.picture.picture import make_picture
@@ -14,9 +14,9 @@ _ASPECT = 16.0 / 9.0
 """Of the window that the camera is fitted to."""
 
 
-def make_stage(solutions: Sequence[Solution], view: ViewState, colour_range: tuple[float, float]) -> Stage:
+def make_stage(solutions: Sequence[Solution], view: ViewState, colour_range: tuple[float, float]) -> EmbeddedViewer:
     """The rotors of converged solutions as the page shows them, their cameras fitted."""
-    return stage_of([_still(solution, view, colour_range) for solution in solutions])
+    return embedded_viewer([_still(solution, view, colour_range) for solution in solutions])
 
 
 def _still(solution: Solution, view: ViewState, colour_range: tuple[float, float]) -> str:

@@ -38,7 +38,7 @@ def code_of(design: Design) -> str:
         raise ValueError("A rotor of your own fits in no address: save it as a design file and send that.")
     record = case_of(design)
     plain = make_design()
-    usual = case_of(make_design(record["preset"], aircraft=design.aircraft))
+    usual = case_of(make_design(preset=record["preset"], rotor=design.aircraft))
     usual |= {"preset": plain.preset, "rotor": plain.aircraft.key}
     changed = {key: value for key, value in record.items() if key not in _NEVER and value != usual.get(key)}
     words = [str(VERSION), record["twist"], *(f"{_SHORT.get(key, key)}={_word(v)}" for key, v in changed.items())]

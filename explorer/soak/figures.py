@@ -16,7 +16,7 @@ _FEWEST = 12
 
 
 @dataclass(frozen=True)
-class Memory:
+class MemoryUse:
     """Resident memory of the server over the run."""
 
     start_mb: float
@@ -63,7 +63,7 @@ class Visit:
 
 
 @dataclass(frozen=True)
-class Report:
+class SoakReport:
     """One soak."""
 
     browsers: int
@@ -85,7 +85,7 @@ class Report:
     """Of one core, by the server."""
     cpu_ms_per_frame: float
     """The same for each frame: what does not depend on how busy the machine is."""
-    memory: Memory | None
+    memory: MemoryUse | None
     """None where there were too few samples."""
     real: Delays | None = None
     """From a key to the frame, in real browsers among the others; None where there were none."""
@@ -107,7 +107,7 @@ def delays(values: Sequence[float]) -> Delays:
     return Delays(len(values), float(p50), float(p95), max(values))
 
 
-def memory(samples: Sequence[tuple[float, float]]) -> Memory | None:
+def memory(samples: Sequence[tuple[float, float]]) -> MemoryUse | None:
     """From (time [s], resident memory [MB]) samples; None for too few of them."""
     if not samples:
         return None
@@ -119,7 +119,7 @@ def memory(samples: Sequence[tuple[float, float]]) -> Memory | None:
     values = np.array([value for _, value in settled])
     slope, _, low, _ = theilslopes(values, times)
     tenth = math.ceil(len(settled) / 10)
-    return Memory(
+    return MemoryUse(
         start_mb=float(np.median(values[:tenth])),
         end_mb=float(np.median(values[-tenth:])),
         slope_mb_per_minute=float(slope),
@@ -135,13 +135,13 @@ def judge(
     cpu_seconds: float,
     samples: Sequence[tuple[float, float]],
     real: Sequence[Visit] = (),
-) -> Report:
+) -> SoakReport:
     """The report of a run of `seconds`, with the server's processor time and memory samples."""
     everybody = (*visits, *real)
     late = [delays(visit.delays_ms).p95 for visit in visits if visit.delays_ms]
     frames = sum(visit.frames for visit in visits)
     span = max(seconds, 1e-9)
-    return Report(
+    return SoakReport(
         browsers=len(visits),
         minutes=seconds / 60.0,
         rate_hz=rate_hz,
@@ -162,7 +162,7 @@ def judge(
     )
 
 
-def words(report: Report) -> str:
+def words(report: SoakReport) -> str:
     """The report for people."""
     d, m = report.delays, report.memory
     lines = [

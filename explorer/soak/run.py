@@ -10,7 +10,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 from explorer.soak.drag import Dragger
-from explorer.soak.figures import Report, judge
+from explorer.soak.figures import SoakReport, judge
 from explorer.soak.process import processor_seconds, resident_mb
 from explorer.soak.real import visit
 
@@ -54,7 +54,7 @@ def server(*options: str) -> Iterator[tuple[str, int]]:
                 process.kill()
 
 
-def soak(plan: Soak, tell: Callable[[str], None] = lambda line: None) -> Report:
+def soak(plan: Soak, tell: Callable[[str], None] = lambda line: None) -> SoakReport:
     """Run it; `tell` hears a line now and then. RuntimeError where there is no server, or no browser to be had."""
     with server("--max-sessions", str(plan.browsers + plan.real)) as (address, pid):
         try:
@@ -63,7 +63,7 @@ def soak(plan: Soak, tell: Callable[[str], None] = lambda line: None) -> Report:
             raise group.exceptions[0] from None
 
 
-async def _soak(plan: Soak, address: str, pid: int, tell: Callable[[str], None]) -> Report:
+async def _soak(plan: Soak, address: str, pid: int, tell: Callable[[str], None]) -> SoakReport:
     begin = time.monotonic() + 2.0 + 0.3 * plan.browsers + 5.0 * plan.real
     end = begin + 60.0 * plan.minutes
     tell(f"{address}: {plan.browsers} browsers for {plan.minutes:g} min")

@@ -20,7 +20,7 @@ from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES
 
 
-class Handle(Protocol):
+class InputHandle(Protocol):
     """What a widget must offer."""
 
     value: Any
@@ -35,7 +35,7 @@ FOUR, INFINITE = "dynamic-wake", "dynamic-wake-infinite-blades"
 VIEW_BUTTONS: dict[str, View] = {"3D": "3d", "Top": "top", "Blade": "blade", "Side": "side"}
 
 
-class Controls:
+class DesignControls:
     """The widgets of one client, made once."""
 
     def __init__(
@@ -49,7 +49,7 @@ class Controls:
         """`view`: what is shown at first. `changed`: something moved. `turned`: it was only the marked blade."""
         self._start = start
         self._changed = changed
-        self._inputs: dict[str, Handle] = {}
+        self._inputs: dict[str, InputHandle] = {}
         self._special = start
         """Holds what the laws mean that are not always there."""
         self._moving = threading.RLock()

@@ -17,15 +17,15 @@ from explorer.charts.power_curve import PowerCurves
 from explorer.export import files
 from explorer.export.as_code import as_command_line, as_python
 from explorer.export.files import File
-from explorer.export.sheet import Shown, disk_sheet, shown, view_sheet, window
+from explorer.export.sheet import DiskContent, disk_sheet, shown, view_sheet, window
 from explorer.hosting import viser_compat
+from explorer.interface import SessionState, TabContext
 from explorer.picture.difference import shown_field
 from explorer.picture.disk_image import encode_rgba
 from explorer.picture.fields import FIELDS, Field
 from explorer.scene.camera import FittedCamera
 from explorer.scene.still_scene import make_stage
 from explorer.tabs.history.strip import Kept
-from explorer.tabs.interface import Desk, Moment
 from explorer.text.glossary import hint
 
 _log = logging.getLogger(__name__)
@@ -37,8 +37,8 @@ _SHAPES = {"Blade STL": files.blade_file, "Rotor GLB": files.rotor_file}
 
 
 @dataclass(frozen=True)
-class Sources:
-    """What the folder needs beyond the desk."""
+class ExportSources:
+    """What the folder needs beyond its context."""
 
     camera: Callable[[], FittedCamera]
     kept: Callable[[], tuple[Kept, ...]]
@@ -50,8 +50,8 @@ class Sources:
 class ExportPanel:
     """One session's. Each file is made on a thread of its own, one at a time; what fails is a sentence."""
 
-    def __init__(self, client: viser.ClientHandle, desk: Desk, sources: Sources) -> None:
-        self._client, self._desk, self._sources = client, desk, sources
+    def __init__(self, client: viser.ClientHandle, context: TabContext, sources: ExportSources) -> None:
+        self._client, self._context, self._sources = client, context, sources
         self._busy = threading.Lock()
         self._curves = PowerCurves()
         self._stale = False
@@ -81,13 +81,13 @@ class ExportPanel:
         pictures.on_click(lambda event: self._picture(event.target.value))
         report.on_click(lambda _: self._do("the report", self._report))
         texts.on_click(self._text_clicked)
-        desk.bind("export", self.reveal)
+        context.bind_command("export", self.reveal)
 
-    def show(self, moment: Moment) -> None:
-        """Files are made of the desk's moment when they are asked for."""
+    def show(self, state: SessionState) -> None:
+        """Files are made from the state of the session when they are asked for."""
         self._stale = False
 
-    def lose(self) -> None:
+    def show_failure(self) -> None:
         """The last good answer is still exported, and the line says so."""
         self._stale = True
 
@@ -98,83 +98,83 @@ class ExportPanel:
         """Bring the folder before the eyes."""
         viser_compat.reveal(self._client, "Session", '[data-explorer="export"]')
 
-    def _save(self, make: Callable[[Moment], File]) -> None:
-        def work(moment: Moment) -> str:
-            file = make(moment)
-            self._desk.send(file.name, file.content)
+    def _save(self, make: Callable[[SessionState], File]) -> None:
+        def work(state: SessionState) -> str:
+            file = make(state)
+            self._context.download(file.name, file.content)
             return f"{file.name}, {file.size}"
 
         self._do("the file", work)
 
     def _table_clicked(self, event: viser.GuiEvent[Any]) -> None:
-        makers: dict[str, Callable[[Moment], File]] = {
+        makers: dict[str, Callable[[SessionState], File]] = {
             "Disk": files.disk_file,
             "Blade": files.along_file,
-            "Power": lambda moment: files.power_file(moment, self._curves),
+            "Power": lambda state: files.power_file(state, self._curves),
         }
         self._save(makers[event.target.value])
 
     def _size_changed(self) -> None:
         self._own.visible = self._size.value == _OWN
 
-    def _paper(self, moment: Moment) -> Paper:
+    def _paper(self, state: SessionState) -> Paper:
         """ValueError with one sentence for a size that cannot be."""
         width, height = SIZES.get(self._size.value) or (round(edge) for edge in self._own.value)
-        return Paper(width, height, moment.view.dark, self._clear.value)
+        return Paper(width, height, state.view.dark, self._clear.value)
 
     def _picture(self, kind: str) -> None:
         flat = self._what.value == _DISK
         if not flat and kind == "SVG":
             self._say("problem", "The 3D view is made of pixels: save it as PNG, or choose the disk.")
             return
-        self._do("the picture", lambda moment: self._disk_picture(moment, kind) if flat else self._view_picture(moment))
+        self._do("the picture", lambda state: self._disk_picture(state, kind) if flat else self._view_picture(state))
 
-    def _shown(self, moment: Moment) -> Shown:
-        field = shown_field(moment.view, moment.pinned)
-        note = f"A: {moment.pin.title}" if moment.pin is not None and field.title not in FIELDS else ""
-        return shown(moment.view, field, self._sources.colour_range(field), note)
+    def _shown(self, state: SessionState) -> DiskContent:
+        field = shown_field(state.view, state.pinned)
+        note = f"A: {state.pin.title}" if state.pin is not None and field.title not in FIELDS else ""
+        return shown(state.view, field, self._sources.colour_range(field), note)
 
-    def _disk_picture(self, moment: Moment, kind: str) -> str:
-        paper, on_disk = self._paper(moment), self._shown(moment)
-        drawing = disk_sheet(moment.solution, on_disk, paper)
-        name = files.picture_name(moment.solution, on_disk, "disk", paper, kind.lower())
+    def _disk_picture(self, state: SessionState, kind: str) -> str:
+        paper, on_disk = self._paper(state), self._shown(state)
+        drawing = disk_sheet(state.solution, on_disk, paper)
+        name = files.picture_name(state.solution, on_disk, "disk", paper, kind.lower())
         if kind == "SVG":
             file = File(name, drawing.encode("utf-8"))
-            self._desk.send(file.name, file.content)
+            self._context.download(file.name, file.content)
             return f"{file.name}, {file.size}"
         return self._draw(drawing, paper, name)
 
-    def _view_picture(self, moment: Moment) -> str:
-        paper, on_disk = self._paper(moment), self._shown(moment)
-        if moment.view.exaggeration != 1.0:
-            times = f"Blades drawn with {moment.view.exaggeration:g} times their twist"
+    def _view_picture(self, state: SessionState) -> str:
+        paper, on_disk = self._paper(state), self._shown(state)
+        if state.view.exaggeration != 1.0:
+            times = f"Blades drawn with {state.view.exaggeration:g} times their twist"
             on_disk = replace(on_disk, note=f"{on_disk.note}. {times}" if on_disk.note else times)
-        *_, wide, high = window(moment.solution, paper)
+        *_, wide, high = window(state.solution, paper)
         wxyz, position, fov = self._sources.camera().pictured(wide / high)
         pixels = self._client.get_render(
             high, wide, wxyz=wxyz, position=position, fov=fov, transport_format="png", timeout=_PATIENCE
         )
-        drawing = view_sheet(moment.solution, on_disk, paper, encode_rgba(pixels))
-        return self._draw(drawing, paper, files.picture_name(moment.solution, on_disk, "view", paper, "png"))
+        drawing = view_sheet(state.solution, on_disk, paper, encode_rgba(pixels))
+        return self._draw(drawing, paper, files.picture_name(state.solution, on_disk, "view", paper, "png"))
 
     def _draw(self, drawing: str, paper: Paper, name: str) -> str:
         made = viser_compat.save_picture(self._client, drawing, (paper.width, paper.height), name, _PATIENCE)
         return f"{name}, {made / 1e3:.0f} kB"
 
-    def _report(self, moment: Moment) -> str:
-        view = replace(moment.view, difference=False)
+    def _report(self, state: SessionState) -> str:
+        view = replace(state.view, difference=False)
         field = FIELDS[view.field]
-        report = files.session_report(moment, self._sources.kept(), self._sources.colour_range(field))
+        report = files.session_report(state, self._sources.kept(), self._sources.colour_range(field))
         stage = make_stage([entry.solution for entry in report.shown], view, report.colour_range(field))
         file = files.report_file(report, stage, self._curves)
-        self._desk.send(file.name, file.content)
+        self._context.download(file.name, file.content)
         return f"{file.name}, {file.size}, {len(report.shown)} design{'s' if len(report.shown) > 1 else ''}"
 
     def _text_clicked(self, event: viser.GuiEvent[Any]) -> None:
         python = event.target.value == "Python"
 
-        def work(moment: Moment) -> str:
-            text = as_python(moment.solution.design) if python else as_command_line(moment.solution.design).text
+        def work(state: SessionState) -> str:
+            text = as_python(state.solution.design) if python else as_command_line(state.solution.design).text
             viser_compat.copy_text(self._client, json.dumps(text))
             self._show_text("As Python" if python else "As a command line", text)
             return "In the clipboard, where the browser allows it."
@@ -191,21 +191,21 @@ class ExportPanel:
             )
             gui.add_button("Close", hint=hint("close")).on_click(lambda _: modal.close())
 
-    def _do(self, what: str, work: Callable[[Moment], str]) -> None:
+    def _do(self, what: str, work: Callable[[SessionState], str]) -> None:
         """Start `work`, unless other work is under way; it returns what was made."""
-        moment = self._desk.moment()
-        if moment is None:
+        state = self._context.state()
+        if state is None:
             self._say("problem", "There is no answer yet: wait for the first.")
         elif not self._busy.acquire(blocking=False):
             self._say("busy", f"Still at work: {what} can be made after that.")
         else:
             self._say("busy", f"Making {what} …")
-            threading.Thread(target=self._work, args=(what, work, moment), name="export", daemon=True).start()
+            threading.Thread(target=self._work, args=(what, work, state), name="export", daemon=True).start()
 
-    def _work(self, what: str, work: Callable[[Moment], str], moment: Moment) -> None:
+    def _work(self, what: str, work: Callable[[SessionState], str], state: SessionState) -> None:
         begin = time.perf_counter()
         try:
-            made = work(moment)
+            made = work(state)
             stale = " Of the last good answer: the sliders have none." if self._stale else ""
             self._say("done", f"{made} ({time.perf_counter() - begin:.1f} s).{stale}")
         except (ValueError, TimeoutError) as error:

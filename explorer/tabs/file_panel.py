@@ -7,11 +7,11 @@ from typing import Any
 import viser
 
 from explorer.hosting import viser_compat
+from explorer.interface import SessionState, TabContext
 from explorer.sharing import share
 from explorer.sharing.address import Address
 from explorer.sharing.view_code import VIEW, view_code
 from explorer.state import inputs_of
-from explorer.tabs.interface import Desk, Moment
 from explorer.text.glossary import hint
 from rotor.design.design import Design
 from rotor.files.design_file import case_of, parse_case
@@ -23,9 +23,11 @@ MOST_BYTES = 1_000_000
 class FilePanel:
     """One session's. The address of the page follows the design, and what is shown of it, by itself."""
 
-    def __init__(self, client: viser.ClientHandle, desk: Desk, address: Address, kept: Mapping[str, str]) -> None:
+    def __init__(
+        self, client: viser.ClientHandle, context: TabContext, address: Address, kept: Mapping[str, str]
+    ) -> None:
         """`kept`: design files that the page kept for what its address cannot hold, by name in the address."""
-        self._client, self._desk, self._address, self._kept = client, desk, address, dict(kept)
+        self._client, self._context, self._address, self._kept = client, context, address, dict(kept)
         self._records: dict[str, dict[str, Any]] = {}
         """Designs that the address cannot hold now, by name in it."""
         gui = client.gui
@@ -35,20 +37,20 @@ class FilePanel:
             self._load = gui.add_upload_button(
                 "Load design", icon=viser.Icon.UPLOAD, color="gray", mime_type=".json", hint=hint("load")
             )
-        desk.bind("share", self.copy_link)
+        context.bind_command("share", self.copy_link)
         self._link.on_click(lambda _: self.copy_link())
         self._save.on_click(lambda _: self.save())
         self._load.on_upload(self._loaded)
 
-    def follow(self, moment: Moment) -> None:
+    def follow(self, state: SessionState) -> None:
         """Bring the address into line with the design, with the one that is pinned, and with the view."""
-        pinned = None if moment.pin is None else moment.pin.inputs
-        for name, inputs in ((share.DESIGN, moment.inputs), (share.PINNED, pinned)):
+        pinned = None if state.pin is None else state.pin.inputs
+        for name, inputs in ((share.DESIGN, state.inputs), (share.PINNED, pinned)):
             try:
                 self._address[name] = None if inputs is None else self._code_of(name, inputs.design())
             except ValueError:
                 continue  # It cannot be written; the last one stays.
-        self._address[VIEW] = view_code(moment.view)
+        self._address[VIEW] = view_code(state.view)
 
     def keep(self) -> None:
         """Give the page, now that it rests, what its address cannot hold: designs with their decks are long."""
@@ -72,33 +74,33 @@ class FilePanel:
         code = self._address[share.PINNED]
         if code is not None:
             try:
-                self._desk.pin(share.inputs_from(code, self._kept.get(share.PINNED)))
+                self._context.pin(share.inputs_from(code, self._kept.get(share.PINNED)))
             except ValueError as error:
-                self._desk.tell("Not the A of the link", str(error))
+                self._context.notify("Not the A of the link", str(error))
 
     def copy_link(self) -> None:
         """The page's address into the clipboard."""
         try:
-            share.code_of(self._desk.inputs().design())
+            share.code_of(self._context.inputs().design())
         except ValueError as error:
-            self._desk.tell("No link", str(error))
+            self._context.notify("No link", str(error))
             return
         viser_compat.copy_text(self._client, "location.href")
-        self._desk.tell("Link copied", "It opens this design; the page's address is the same link.")
+        self._context.notify("Link copied", "It opens this design; the page's address is the same link.")
 
     def save(self) -> None:
         """The design file, as `--case` and `--design` read it."""
         try:
-            record = case_of(self._desk.inputs().design())
+            record = case_of(self._context.inputs().design())
         except ValueError as error:
-            self._desk.tell("Nothing saved", str(error))
+            self._context.notify("Nothing saved", str(error))
             return
-        self._desk.send("design.json", (json.dumps(record, indent=2, ensure_ascii=False) + "\n").encode())
+        self._context.download("design.json", (json.dumps(record, indent=2, ensure_ascii=False) + "\n").encode())
 
-    def show(self, moment: Moment) -> None:
+    def show(self, state: SessionState) -> None:
         """The address follows once the page is at rest: see `follow`."""
 
-    def lose(self) -> None:
+    def show_failure(self) -> None:
         """The address keeps the last design."""
 
     def stop(self) -> None:
@@ -112,8 +114,8 @@ class FilePanel:
             design = parse_case(file.content, file.name)
             inputs = share.within(inputs_of(design))
         except ValueError as error:
-            self._desk.tell("Not loaded", str(error))
+            self._context.notify("Not loaded", str(error))
             return
-        self._desk.set_inputs(inputs)
+        self._context.set_inputs(inputs)
         more = " Its active twist is not taken: the Actuator tab drives the blade." if design.active_twist else ""
-        self._desk.tell("Loaded", f"{file.name} is on the sliders.{more}")
+        self._context.notify("Loaded", f"{file.name} is on the sliders.{more}")

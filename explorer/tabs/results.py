@@ -5,8 +5,8 @@ import viser
 
 from explorer.charts import plots
 from explorer.charts.plots import PowerCurve
+from explorer.interface import SessionState
 from explorer.tabs.chart_panel import AB_KEY, ALPHA_KEY, IDEAL_KEY, LIFT_KEY, POWER_KEY, STALL_KEY, TWIST_KEY, Charts
-from explorer.tabs.interface import Moment
 from explorer.text import comparison as ab_readout
 from explorer.text import readout
 from explorer.text.status import status_panel
@@ -29,7 +29,7 @@ class ResultsPanel:
         self._trim = gui.add_html(readout.reserved(_TRIM))
         self._check = gui.add_html("")
         self._charts = Charts(gui, *plots.blank())
-        self._moment: Moment | None = None
+        self._state: SessionState | None = None
         """The last good one."""
         self._charted: Aircraft | None = None
         """Whose power the chart shows."""
@@ -37,39 +37,39 @@ class ResultsPanel:
         """The last check with the vortex wake."""
         self._check_wanted = False
 
-    def show(self, moment: Moment) -> None:
+    def show(self, state: SessionState) -> None:
         """Follow a converged answer."""
-        self._moment = moment
-        solution, pinned = moment.solution, moment.pinned
+        self._state = state
+        solution, pinned = state.solution, state.pinned
         ab = pinned is not None
         self._status.content = status_panel(solution, pinned=pinned)
-        self._power.content, self._trim.content = _numbers(moment)
+        self._power.content, self._trim.content = _numbers(state)
         charts = self._charts
-        twist = plots.twist_plot(solution.design, moment.reference.design, charts.twist.y_range, ab)
+        twist = plots.twist_plot(solution.design, state.reference.design, charts.twist.y_range, ab)
         charts.twist.show(twist, AB_KEY if ab else TWIST_KEY)
-        self.turn(moment)
+        self.turn(state)
         charts.apart.set_visible(ab)
-        self._compare(solution, UNITS[moment.view.units])
+        self._compare(solution, UNITS[state.view.units])
 
-    def turn(self, moment: Moment) -> None:
+    def turn(self, state: SessionState) -> None:
         """The marked blade is elsewhere: what is drawn along it follows."""
-        solution, pinned, azimuth, charts = moment.solution, moment.pinned, moment.view.azimuth_deg, self._charts
+        solution, pinned, azimuth, charts = state.solution, state.pinned, state.view.azimuth_deg, self._charts
         ab = pinned is not None
         charts.alpha.show(plots.alpha_plot(solution, azimuth, pinned), (*AB_KEY, *STALL_KEY) if ab else ALPHA_KEY)
         charts.lift.show(plots.lift_plot(solution, azimuth, pinned), AB_KEY if ab else LIFT_KEY)
 
-    def show_power(self, moment: Moment, curve: PowerCurve, lost: bool = False) -> None:
+    def show_power(self, state: SessionState, curve: PowerCurve, lost: bool = False) -> None:
         """Power over µ, once the first sweep has arrived; without the present point where there is none.
 
         A curve of another rotor does not wait for that: it is taken away.
         """
-        solution, pinned, charts = moment.solution, moment.pinned, self._charts
+        solution, pinned, charts = state.solution, state.pinned, self._charts
         stale = self._charted not in (None, solution.design.aircraft)
         if not np.isfinite(curve.design).any() and not stale:
             return
         self._charted = solution.design.aircraft
         mu, ab = solution.design.condition.advance_ratio, pinned is not None
-        unit = UNITS[moment.view.units].power[0]
+        unit = UNITS[state.view.units].power[0]
         curve = curve.in_unit(unit)
         now = None if lost else unit.of(solution.power.total)
         power = plots.power_plot(curve, mu, now, charts.power.y_range, ab)
@@ -87,8 +87,8 @@ class ResultsPanel:
     def problem(self, status: str) -> None:
         """Keep the last good answer, but grey, with the sentence in red."""
         self._status.content = status
-        if self._moment is not None:
-            self._power.content, self._trim.content = map(readout.faded, _numbers(self._moment))
+        if self._state is not None:
+            self._power.content, self._trim.content = map(readout.faded, _numbers(self._state))
 
     def check(self) -> None:
         """Compute the vortex wake beside the answer in the next round."""
@@ -107,9 +107,9 @@ class ResultsPanel:
             self._check.content = readout.check_panel(self._checked, solution, units)
 
 
-def _numbers(moment: Moment) -> tuple[str, str]:
+def _numbers(state: SessionState) -> tuple[str, str]:
     """Power and trim: of this design, or of A and B."""
-    solution, pinned, units = moment.solution, moment.pinned, UNITS[moment.view.units]
+    solution, pinned, units = state.solution, state.pinned, UNITS[state.view.units]
     if pinned is None:
-        return readout.power_panel(solution, moment.baseline, units), readout.trim_panel(solution)
+        return readout.power_panel(solution, state.baseline, units), readout.trim_panel(solution)
     return ab_readout.power_panel(solution, pinned, units), ab_readout.trim_panel(solution, pinned)

@@ -5,9 +5,9 @@ from typing import Any
 
 import viser
 
+from explorer.interface import SessionState, TabContext
 from explorer.pinned import Order, Pinboard, Pinned
 from explorer.state import Inputs
-from explorer.tabs.interface import Desk, Moment
 from explorer.text import comparison as ab_readout
 from explorer.text.glossary import hint
 from explorer.text.units import SI, UNITS
@@ -63,23 +63,23 @@ class TopBar:
         """A's answer beside the present design; None when nothing is pinned. `hurried`: newer input waits."""
         return self._board.solve(present, self._along.value, hurried)
 
-    def settle(self, inputs: Inputs, solution: Solution | None, desk: Desk) -> bool:
+    def settle(self, inputs: Inputs, solution: Solution | None, context: TabContext) -> bool:
         """Do what was asked, with what is on the sliders and its answer; whether that moves the sliders."""
         able = solution if solution is not None and solution.converged else None
         outcome = self._board.settle(inputs, able, self._along.value)
         if outcome is None:
             return False
         if outcome.sentence:
-            desk.tell("A and B", outcome.sentence)
+            context.notify("A and B", outcome.sentence)
         if outcome.inputs is not None:
-            desk.set_inputs(outcome.inputs)
+            context.set_inputs(outcome.inputs)
         return outcome.inputs is not None
 
-    def bind(self, desk: Desk) -> None:
+    def bind(self, context: TabContext) -> None:
         """Its commands; undo and redo have theirs."""
-        desk.bind("pin", lambda: self._ask("pin" if self.pinned is None else "unpin"))
-        desk.bind("swap", lambda: self._ask("swap"))
-        desk.bind("back", lambda: self._ask("back"))
+        context.bind_command("pin", lambda: self._ask("pin" if self.pinned is None else "unpin"))
+        context.bind_command("swap", lambda: self._ask("swap"))
+        context.bind_command("back", lambda: self._ask("back"))
 
     def hold(self, held: bool) -> None:
         """Take the buttons from the user, or give them back."""
@@ -92,12 +92,12 @@ class TopBar:
         self._board.put(inputs)
         self._wake()
 
-    def show(self, moment: Moment) -> None:
+    def show(self, state: SessionState) -> None:
         """Follow a converged answer."""
-        self._units = UNITS[moment.view.units]
+        self._units = UNITS[state.view.units]
         self.refresh()
 
-    def lose(self) -> None:
+    def show_failure(self) -> None:
         """A holds all the same."""
         self.refresh()
 

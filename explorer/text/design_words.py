@@ -19,7 +19,7 @@ from rotor.design.twist import (
     TableTwist,
     TwistLaw,
 )
-from rotor.files.shipped import shipped_aircraft
+from rotor.files.rotor_file import shipped_aircraft
 
 _COUNT = {1: "One segment", 2: "Two segments", 3: "Three segments", 4: "Four segments"}
 

@@ -3,6 +3,8 @@
 import math
 from dataclasses import dataclass
 
+from rotor import units
+
 BLANK = "–"
 """What is not a number."""
 
@@ -35,7 +37,7 @@ class Unit:
 
 KILOWATT, HORSEPOWER = Unit("kW", 1e3), Unit("hp", 745.699872)
 """[W]; the mechanical horsepower, 550 ft·lbf/s."""
-METRE_PER_SECOND, KILOMETRE_PER_HOUR, KNOT = Unit("m/s", 1.0), Unit("km/h", 1.0 / 3.6), Unit("kt", 1852.0 / 3600.0)
+METRE_PER_SECOND, KILOMETRE_PER_HOUR, KNOT = Unit("m/s", 1.0), Unit("km/h", 1.0 / 3.6), Unit("kt", units.KNOT)
 KILOGRAM, TONNE, POUND = Unit("kg", 1.0), Unit("t", 1e3), Unit("lb", 0.45359237)
 METRE, FOOT = Unit("m", 1.0), Unit("ft", 0.3048)
 

@@ -7,7 +7,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from rotor.arrays import Array
+
 Rgb = tuple[int, int, int]
 Scheme = Literal["sequential", "diverging", "margin"]
 """One-sided; two-sided with rust for positive; two-sided with rust for negative, where a margin is used up."""

@@ -7,8 +7,8 @@ from multiprocessing import get_context
 from multiprocessing.connection import Connection, wait
 from typing import Any, Protocol
 
-from explorer.workers.job import Broken, Ended, Job, Started, Told
-from explorer.workers.process import Begin, Halt, Said, serve
+from explorer.workers.job import Job, JobEnded, JobFailed, JobProgress, JobStarted
+from explorer.workers.process import RunRequest, StopRequest, WorkerReply, serve
 
 PATIENCE = 0.12
 """A process that has not answered a stop by then [s] is no longer waited for: the job ends with what was told."""
@@ -33,7 +33,7 @@ class Work(Protocol):
     def spare(self) -> None: ...
 
 
-class Hand(threading.Thread):
+class WorkerThread(threading.Thread):
     """A thread and the process that it feeds."""
 
     def __init__(self, pool: Work, name: str) -> None:
@@ -61,9 +61,9 @@ class Hand(threading.Thread):
                 self._do(job)
             except (OSError, EOFError):
                 self._drop()
-                job.tell(Broken("The worker process ended unexpectedly; a new one is on its way. Press again."))
+                job.tell(JobFailed("The worker process ended unexpectedly; a new one is on its way. Press again."))
             except Exception as error:  # A task that does not pickle, for example: the hand must live on.
-                job.tell(Broken(f"The work could not be done: {error}"))
+                job.tell(JobFailed(f"The work could not be done: {error}"))
             self.idle = True
             self._pool.done(job)
             self._pool.spare()
@@ -93,11 +93,11 @@ class Hand(threading.Thread):
     def _do(self, job: Job) -> None:
         pipe = self._ready()
         if job.stopping.is_set():
-            job.tell(Ended(None, stopped=True))
+            job.tell(JobEnded(None, stopped=True))
             return
-        job.tell(Started())
+        job.tell(JobStarted())
         begun, asked, late = time.monotonic(), None, False
-        pipe.send(Begin(job.number, job.task))
+        pipe.send(RunRequest(job.number, job.task))
         while True:
             now = time.monotonic()
             if now - begun > job.limit and asked is None:
@@ -105,24 +105,24 @@ class Hand(threading.Thread):
                 job.stopping.set()
             if job.stopping.is_set() and asked is None:
                 asked = now
-                pipe.send(Halt(job.number))
+                pipe.send(StopRequest(job.number))
             if asked is not None and now - asked > PATIENCE:
-                job.tell(Ended(None, stopped=True, late=late))
+                job.tell(JobEnded(None, stopped=True, late=late))
             if asked is not None and now - asked > GRACE:
                 self._drop()
                 return
             if not wait([pipe], 0.01):
                 continue
-            said: Said = pipe.recv()
+            said: WorkerReply = pipe.recv()
             if said.number != job.number:
                 continue
             if said.kind == "told":
-                job.tell(Told(said.item))
+                job.tell(JobProgress(said.item))
             elif said.kind == "done":
-                job.tell(Ended(said.item, stopped=asked is not None, late=late))
+                job.tell(JobEnded(said.item, stopped=asked is not None, late=late))
                 return
             else:
-                job.tell(Broken(f"The work failed ({said.item})."))
+                job.tell(JobFailed(f"The work failed ({said.item})."))
                 return
 
     def _drop(self) -> None:

@@ -9,26 +9,26 @@ from explorer.workers.process import Task
 
 
 @dataclass(frozen=True)
-class Waiting:
+class JobQueued:
     """In the queue, behind so many others that wait."""
 
     ahead: int
 
 
 @dataclass(frozen=True)
-class Started:
+class JobStarted:
     """A process has it."""
 
 
 @dataclass(frozen=True)
-class Told:
+class JobProgress:
     """Something found on the way."""
 
     item: Any
 
 
 @dataclass(frozen=True)
-class Ended:
+class JobEnded:
     """The end: the task's result, or None where it was stopped before it had one."""
 
     result: Any
@@ -38,13 +38,13 @@ class Ended:
 
 
 @dataclass(frozen=True)
-class Broken:
+class JobFailed:
     """The end without a result, with a sentence for the page."""
 
     message: str
 
 
-News = Waiting | Started | Told | Ended | Broken
+JobEvent = JobQueued | JobStarted | JobProgress | JobEnded | JobFailed
 
 
 class Job:
@@ -54,14 +54,14 @@ class Job:
         self,
         number: int,
         task: Task,
-        hear: Callable[[News], None],
+        on_event: Callable[[JobEvent], None],
         limit: float,
         urgency: int,
         owner: object = None,
     ) -> None:
         self.number, self.task, self.limit, self.urgency, self.owner = number, task, limit, urgency, owner
         self.stopping = threading.Event()
-        self._hear = hear
+        self._on_event = on_event
         self._lock = threading.Lock()
         self._over = False
 
@@ -69,13 +69,13 @@ class Job:
     def over(self) -> bool:
         return self._over
 
-    def tell(self, news: News) -> None:
+    def tell(self, news: JobEvent) -> None:
         """Pass news on; nothing follows the end."""
         with self._lock:
             if self._over:
                 return
-            self._over = isinstance(news, (Ended, Broken))
-            self._hear(news)
+            self._over = isinstance(news, (JobEnded, JobFailed))
+            self._on_event(news)
 
     def silence(self) -> None:
         """Nobody listens any more."""

@@ -13,17 +13,17 @@ already wanted, and returns early if so. Asking is where it waits, in a crowd, w
 
 
 @dataclass(frozen=True)
-class Sleep:
+class IdleTimeout:
     """What happens when nothing is wanted for long; on the worker's thread."""
 
     after: float
     """[s]"""
-    falls: Callable[[], None]
-    wakes: Callable[[], None]
+    on_sleep: Callable[[], None]
+    on_wake: Callable[[], None]
     """Before the round that ends it."""
 
 
-class LatestWins:
+class NewestWins:
     """Runs `job` once after every `wake`; wakes that come while it runs are answered by a single further run."""
 
     def __init__(
@@ -31,7 +31,7 @@ class LatestWins:
         job: Job,
         on_error: Callable[[Exception], None],
         name: str,
-        sleep: Sleep | None = None,
+        sleep: IdleTimeout | None = None,
         turns: Turns = TURNS,
     ) -> None:
         self._job = job
@@ -70,9 +70,9 @@ class LatestWins:
         if self._wanted.wait(None if sleep is None else sleep.after):
             return
         assert sleep is not None
-        sleep.falls()
+        sleep.on_sleep()
         self._wanted.wait()
-        sleep.wakes()
+        sleep.on_wake()
 
     def _loop(self) -> None:
         while True:

@@ -8,8 +8,8 @@ import itertools
 import threading
 from collections.abc import Callable
 
-from explorer.workers.hand import Hand
-from explorer.workers.job import Broken, Ended, Job, News, Waiting
+from explorer.workers.hand import WorkerThread
+from explorer.workers.job import Job, JobEnded, JobEvent, JobFailed, JobQueued
 from explorer.workers.process import Task
 from explorer.workers.queue import MOST_WAITING, Queue
 
@@ -21,7 +21,7 @@ class Pool:
         self._numbers = itertools.count(1)
         self._queue = Queue(processes)
         self._change = threading.Condition()
-        self._hands: list[Hand] = []
+        self._hands: list[WorkerThread] = []
         self._processes = processes
         self._closed = False
 
@@ -46,19 +46,19 @@ class Pool:
     def submit(
         self,
         task: Task,
-        hear: Callable[[News], None],
+        on_event: Callable[[JobEvent], None],
         limit: float = 60.0,
         urgency: int = 0,
         owner: "Share | None" = None,
     ) -> Job:
         """Queue a task; `hear` is called from threads of the pool and must be quick. Less `urgency` goes first."""
         with self._change:
-            job = Job(next(self._numbers), task, hear, limit, urgency, owner)
+            job = Job(next(self._numbers), task, on_event, limit, urgency, owner)
             if self._closed:
-                job.tell(Broken("The page is closing."))
+                job.tell(JobFailed("The page is closing."))
                 return job
             if self._queue.full(owner):
-                job.tell(Broken(f"{MOST_WAITING} jobs of this page wait already: stop one of them first."))
+                job.tell(JobFailed(f"{MOST_WAITING} jobs of this page wait already: stop one of them first."))
                 return job
             self._queue.add(job)
             idle = sum(hand.idle for hand in self._hands)
@@ -78,7 +78,7 @@ class Pool:
             if waiting:
                 self._queue.remove(job)
         if waiting:
-            job.tell(Ended(None, stopped=True))
+            job.tell(JobEnded(None, stopped=True))
             self._tell_positions()
 
     def abandon(self, job: Job) -> None:
@@ -138,7 +138,7 @@ class Pool:
                 self._add_hand()
 
     def _add_hand(self) -> None:
-        hand = Hand(self, f"jobs-{len(self._hands)}")
+        hand = WorkerThread(self, f"jobs-{len(self._hands)}")
         self._hands.append(hand)
         hand.start()
 
@@ -146,7 +146,7 @@ class Pool:
         with self._change:
             stays = self._queue.stays(sum(hand.idle for hand in self._hands))
         for ahead, job in enumerate(stays):
-            job.tell(Waiting(ahead))
+            job.tell(JobQueued(ahead))
 
 
 class Share:
@@ -155,9 +155,9 @@ class Share:
     def __init__(self, pool: Pool) -> None:
         self._pool = pool
 
-    def submit(self, task: Task, hear: Callable[[News], None], limit: float = 60.0, urgency: int = 0) -> Job:
+    def submit(self, task: Task, on_event: Callable[[JobEvent], None], limit: float = 60.0, urgency: int = 0) -> Job:
         """As `Pool.submit`, in this page's name."""
-        return self._pool.submit(task, hear, limit, urgency, self)
+        return self._pool.submit(task, on_event, limit, urgency, self)
 
     def stop(self, job: Job, quiet: bool = False) -> None:
         self._pool.stop(job, quiet)

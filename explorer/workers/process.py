@@ -27,18 +27,18 @@ class Task(Protocol):
 
 
 @dataclass(frozen=True)
-class Begin:
+class RunRequest:
     number: int
     task: Task
 
 
 @dataclass(frozen=True)
-class Halt:
+class StopRequest:
     number: int
 
 
 @dataclass(frozen=True)
-class Said:
+class WorkerReply:
     """An answer of the process: `kind` is ready, told, done or failed."""
 
     number: int
@@ -55,32 +55,32 @@ def serve(pipe: "Connection[Any, Any]") -> None:
 
     solver.warm()
     with suppress(EOFError, OSError):
-        pipe.send(Said(0, "ready"))
+        pipe.send(WorkerReply(0, "ready"))
         while True:
             order = pipe.recv()
-            if isinstance(order, Begin):
+            if isinstance(order, RunRequest):
                 _work(pipe, order)
 
 
-def _work(pipe: "Connection[Any, Any]", order: Begin) -> None:
+def _work(pipe: "Connection[Any, Any]", order: RunRequest) -> None:
     halted = False
 
     def stop() -> bool:
         nonlocal halted
         try:
             while not halted and pipe.poll():
-                halted = pipe.recv() == Halt(order.number)
+                halted = pipe.recv() == StopRequest(order.number)
         except (EOFError, OSError):
             halted = True
         return halted
 
     def tell(item: Any) -> None:
-        pipe.send(Said(order.number, "told", item))
+        pipe.send(WorkerReply(order.number, "told", item))
 
     try:
-        answer = Said(order.number, "done", order.task.run(tell, stop))
+        answer = WorkerReply(order.number, "done", order.task.run(tell, stop))
     except (EOFError, BrokenPipeError):
         raise
     except Exception as error:  # The process must survive whatever one task does.
-        answer = Said(order.number, "failed", str(error) or type(error).__name__)
+        answer = WorkerReply(order.number, "failed", str(error) or type(error).__name__)
     pipe.send(answer)

@@ -2,8 +2,7 @@
 
 from dataclasses import dataclass, replace
 
-from rotor.design.design import Design
-from rotor.design.presets import PRESETS
+from rotor.design.design import PRESETS, Design
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -13,7 +12,7 @@ def warm() -> None:
     """Compile and load everything that a first answer would otherwise wait for."""
     for preset in PRESETS:
         for advance_ratio in (0.0, 0.2):
-            solve(make_design(preset, advance_ratio=advance_ratio))
+            solve(make_design(preset=preset, mu=advance_ratio))
 
 
 def with_vortex_wake(design: Design) -> Design:
@@ -22,7 +21,7 @@ def with_vortex_wake(design: Design) -> Design:
 
 
 @dataclass
-class Baseline:
+class BaselineCache:
     """The baseline's answers of one session, kept while its condition stays."""
 
     design: Design | None = None

@@ -13,14 +13,14 @@ from rotor.trim.solution import Solution
 
 
 @dataclass(frozen=True)
-class Reference:
+class ReferencePower:
     """Power of what the saving is also measured against, by the objective of a search [W]; None: does not trim."""
 
     power: float | None
 
 
 @dataclass(frozen=True)
-class Beginning:
+class StartPower:
     """Power of the design a search starts from [W]."""
 
     power: float | None
@@ -35,15 +35,15 @@ class SearchTask:
     """What the saving is also measured against."""
 
     def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Optimum:
-        """Tells `Beginning`, `Reference`, then every `Progress`."""
+        """Tells `StartPower`, `ReferencePower`, then every `Progress`."""
         search = self.search
         objective = search.objective or at_condition(search.design)
         begin = measure(objective, search.design, gradient=False)
-        tell(Beginning(begin.power))
+        tell(StartPower(begin.power))
         if self.reference == search.design:
-            tell(Reference(begin.power))
+            tell(ReferencePower(begin.power))
         elif not stop():
-            tell(Reference(measure(objective, self.reference, gradient=False).power))
+            tell(ReferencePower(measure(objective, self.reference, gradient=False).power))
         return optimise(search, tell, stop)
 
 

@@ -4,13 +4,11 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.actuator.reach import Pair, Reached, best_fixed, best_twist
+from rotor.arrays import Array
 from rotor.design.twist import PiecewiseLinearTwist
 from rotor.optimisation.concepts import Concept, restrict
-
-Array = NDArray[np.float64]
 
 SMOOTH_DIVISIONS = (0.4, 0.55, 0.7, 0.82)
 """r/R of the electrical segments that follow a curved twist law."""

@@ -8,7 +8,7 @@ from functools import cache
 from typing import Any, Literal
 
 from rotor.assets import asset_path
-from rotor.dynamics.laminate import Layer, Material
+from rotor.dynamics.thin_wall import Layer, Material
 
 Electrodes = Literal["interdigitated", "continuous"]
 

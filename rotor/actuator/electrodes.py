@@ -9,11 +9,10 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from rotor.actuator.catalogue import PiezoPly
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 
 def electric_field(ply: PiezoPly, voltage: ArrayLike) -> Array:

@@ -4,18 +4,17 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from rotor.actuator.bill import MassBill, addition, mass_bill
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, derating
 from rotor.actuator.placement import Host, Placement
 from rotor.actuator.section import SectionSpec, active_section, section_spec, skin
+from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.dynamics.structure import BladeStructure, uh60a_structure
 from rotor.dynamics.thin_wall import induced_twist_rate, torsional_stiffness
 from rotor.dynamics.torsion_beam import Addition, TorsionBeam, torsion_beam, torsion_frequency, twist_under_moment
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

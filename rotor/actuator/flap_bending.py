@@ -8,12 +8,10 @@ second flap mode, 2.8/rev), no coupling with twist. Hermite finite elements, ten
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from rotor.arrays import Array
 from rotor.dynamics.structure import BladeStructure
 from rotor.trim.solution import Solution
-
-Array = NDArray[np.float64]
 
 ELEMENTS = 60
 

@@ -1,26 +1,24 @@
 """Active twist at 1/rev and 2/rev: what the actuator can make of it while it turns, and what that does to power.
 
 Half the voltage range is the amplitude; the blade in torsion answers dynamically, 1/(1 − (n/ν)²) near its first mode.
-The inflow has to answer to where the lift is, so use an inflow that reacts (dynamic wake).
+The inflow has to answer to where the lift is, so use a load-dependent inflow model (dynamic wake).
 """
 
 import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.electrical import harmonic_drive
 from rotor.actuator.fitted import Fitted
 from rotor.actuator.verdict import carried
+from rotor.arrays import Array
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
 from rotor.dynamics.torsion_beam import twist_under_moment
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-
-Array = NDArray[np.float64]
 
 SHAPE_STATIONS = 41
 PHASES = 12

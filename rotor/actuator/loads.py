@@ -3,16 +3,14 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.fitted import Fitted
 from rotor.actuator.flap_bending import elastic_flap_moment
+from rotor.arrays import Array
 from rotor.dynamics.structure import uh60a_structure
 from rotor.dynamics.torsion_beam import added_pull
 from rotor.trim.solution import Solution
-
-Array = NDArray[np.float64]
 
 HALF_THICKNESS = 0.0475
 """Of the SC1095, in chords: how far a skin is from the middle."""

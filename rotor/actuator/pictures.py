@@ -6,16 +6,14 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.actuator.catalogue import PiezoPly, TorqueTube
 from rotor.actuator.fitted import Fitted
 from rotor.actuator.placement import Host, Placement
 from rotor.actuator.section import SectionSpec, passive_skin, passive_wall, section_spec, skin, web_line
 from rotor.actuator.verdict import Verdict
+from rotor.arrays import Array
 from rotor.dynamics.structure import structure_data, uh60a_structure
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

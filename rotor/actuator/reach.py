@@ -14,20 +14,18 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.fitted import Fitted
 from rotor.actuator.flap_bending import interpolate_columns
+from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import REFERENCE_RADIUS, PiecewiseLinearTwist, SumTwist, TwistLaw
 from rotor.optimisation.concepts import Concept, nearest
 from rotor.trim.adjoint import Adjoint, power_along
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-
-Array = NDArray[np.float64]
 
 STATIONS = np.linspace(0.0, 1.0, 41)
 """r/R between which the actuator's shapes are straight."""

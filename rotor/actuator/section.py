@@ -9,17 +9,14 @@ from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.placement import Host, Placement
 from rotor.airfoil.contour import leading_edge_index, load_contour, resample
-from rotor.dynamics.laminate import Layer
+from rotor.arrays import Array
 from rotor.dynamics.structure import BladeStructure, glass, structure_data, titanium
-from rotor.dynamics.thin_wall import Panel, Section, build_section, torsional_stiffness
-
-Array = NDArray[np.float64]
+from rotor.dynamics.thin_wall import Layer, Panel, WallSection, build_section, torsional_stiffness
 
 POINTS = 60
 """Per stretch of skin; 200 move GJ by less than 1e-3 (tested)."""
@@ -37,7 +34,7 @@ class SectionSpec:
     contour: str = "sc1095"
 
 
-def active_section(spec: SectionSpec, ply: PiezoPly, placement: Placement) -> Section:
+def active_section(spec: SectionSpec, ply: PiezoPly, placement: Placement) -> WallSection:
     """The section with its plies.
 
     Retrofit: the passive section is calibrated, then plies are bonded outside, so GJ grows. New blade: the plies are
@@ -50,7 +47,7 @@ def active_section(spec: SectionSpec, ply: PiezoPly, placement: Placement) -> Se
     return build_section(_panels(spec, passive_skin(spec, ply, placement), placement, active))
 
 
-def passive_section(spec: SectionSpec) -> Section:
+def passive_section(spec: SectionSpec) -> WallSection:
     """The section before anything is bonded to it."""
     return build_section(_panels(spec, passive_wall(spec), None, None))
 

@@ -3,7 +3,6 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.actuator.baseline import Baseline, baseline
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly
@@ -12,13 +11,12 @@ from rotor.actuator.fitted import Fitted, fit
 from rotor.actuator.limits import Limit, limits
 from rotor.actuator.placement import Host, Placement
 from rotor.actuator.reach import Pair, Reached, best_reach
+from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
 from rotor.optimisation.concepts import Concept
 from rotor.optimisation.limits import ChangeLimit
 from rotor.trim.solve import solve
-
-Array = NDArray[np.float64]
 
 NOTHING = 1e-6
 """A twist too small to divide by [rad]."""

@@ -9,9 +9,8 @@ from numpy.typing import NDArray
 
 from rotor.airfoil.polynomial import THESIS_NAME, polynomial_section
 from rotor.airfoil.table import MACH_STEP, N_MACH
+from rotor.arrays import Array
 from rotor.design.blade import Rotor
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,13 +13,12 @@ from numpy.typing import NDArray
 from rotor.aero import kernel
 from rotor.aero.disk import Disk, build_disk
 from rotor.aero.inflow import InflowModel, Wake, inflow_model
-from rotor.aero.inflow.interface import Response
+from rotor.aero.inflow.interface import InflowResponse
 from rotor.aero.losses import loss_factor
 from rotor.aero.momentum import glauert_inflow
+from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.dynamics.flapping import FlapDynamics, flap_dynamics
-
-Array = NDArray[np.float64]
 
 COLLECTIVE, CYCLIC_1C, CYCLIC_1S, SHAFT_TILT, CONING, FLAP_1C, FLAP_1S, LAMBDA0 = range(8)
 """Places of the trim unknowns in a state vector; angles in radians, λ0 over ΩR."""
@@ -79,7 +78,7 @@ def lay_out(design: Design) -> Problem:
         tip_mach=rotor.tip_speed / condition.sound_speed,
         weight=design.weight_coefficient,
         drag=drag,
-        inflow=inflow.laid_out(expected_wake(design, drag)),
+        inflow=inflow.with_wake_geometry(expected_wake(design, drag)),
         idle=None if models.reverse_flow else disk.r[:, None] + condition.advance_ratio * disk.sin < 0.0,
     )
 
@@ -104,7 +103,7 @@ class Pass:
     u_p: Array
     induced: Array
     """λ_i"""
-    response: Response | None
+    response: InflowResponse | None
     """What the inflow model answers to the loads; None in hover, whose annuli balance themselves."""
     loss: Array
     """F on lift, (elements,)."""
@@ -126,14 +125,14 @@ def run_pass(problem: Problem, state: Array, induced: Array | None = None) -> Pa
     """Velocities of eqs. (3.5), (3.6) and the loads they make.
 
     U_T = r + µ_x sin ψ; U_P = µ_z + λ_i + (r − e) β' + µ_x β cos ψ. µ_z is absent where the models leave out the axial
-    flow of the tilted disk, as (3.6) prints it; λ_i is then still skewed by the tilt, eq. (2.31). A model that reacts
-    needs the induced field to try; its response says what it should have been.
+    flow of the tilted disk, as (3.6) prints it; λ_i is then still skewed by the tilt, eq. (2.31). A model that responds
+    to the load needs the induced field to try; its response says what it should have been.
     """
     disk, models = problem.disk, problem.design.models
     cos, sin = disk.cos, disk.sin
     skew = skewed(problem, state)
     flow = skew if models.disk_axial_flow else Wake(problem.design.condition.advance_ratio, 0.0, skew.lambda0)
-    if problem.inflow.reacts:
+    if problem.inflow.load_dependent:
         assert induced is not None
         response = None
         loss, loss_slopes = np.ones_like(disk.r), np.zeros((2, len(disk.r)))

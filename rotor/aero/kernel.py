@@ -15,11 +15,9 @@ from typing import Any
 
 import numba  # pyright: ignore[reportMissingTypeStubs]
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.airfoil.table import ALPHA_STEP, MACH_STEP, N_ALPHA, N_MACH
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 FZ, FX, FZ_THETA, FX_THETA, FZ_UT, FX_UT, FZ_UP, FX_UP, LIFT, ALPHA, MACH, CL, CD, CD_MACH = range(14)
 """Rows of the result. FZ, FX: dC_T/dr and dC_Q/dr; then their derivatives by pitch, U_T and U_P;

@@ -1,15 +1,18 @@
-"""Prandtl's loss factors at the tip and at the root, eqs. (3.16)–(3.18)."""
+"""Prandtl's loss factors at the tip and at the root, eqs. (3.16)–(3.18): of blade elements, and of a smeared disk."""
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 HUB_FACTOR = 0.95
 """B of eq. (3.17) as printed: "around 0.95 for the hub relation" (thesis p. 24)."""
 
 _SMALLEST_INFLOW = 1e-9
 """Keeps f finite where the inflow passes through zero; F is 1 there to rounding."""
+
+SMALLEST_TIP_FACTOR = 0.1
+"""Floor of `tip_factor`: at the very tip λ/F would have no bound."""
 
 
 def prandtl(f: ArrayLike) -> tuple[Array, Array]:
@@ -39,3 +42,16 @@ def loss_factor(
         slope = slope * end + factor * end_slope * (-f / signed)
         factor = factor * end
     return factor, slope
+
+
+def tip_factor(r: ArrayLike, inflow: float, blades: int) -> tuple[Array, Array]:
+    """F of inflow models that smear the blades over the disk, and ∂F/∂λ; shapes of r.
+
+    F = (2/π) arccos exp(−N_b (1 − r)/(2|λ|)) with the mean total inflow λ = µ_z + λ0 of the disk; at least 0.1, with
+    slope 0 at that floor. The inflow at the blade is λ_i/F, above the mean around the azimuth. No root factor.
+    """
+    size = max(abs(inflow), 1e-9)
+    f = np.minimum(0.5 * blades * (1.0 - np.asarray(r, dtype=float)) / size, 700.0)
+    factor, slope = prandtl(np.maximum(f, 1e-12))
+    free = factor > SMALLEST_TIP_FACTOR
+    return np.where(free, factor, SMALLEST_TIP_FACTOR), np.where(free, slope * (-f / size) * np.sign(inflow), 0.0)

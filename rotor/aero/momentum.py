@@ -6,9 +6,9 @@ Coefficients are of ρA(ΩR)² and ρA(ΩR)³ (eqs. 2.11, 2.12); inflow ratios a
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 WAKE_CONTRACTION = 0.5
 """A∞/A of the hovering ideal rotor, eq. (2.8)."""
@@ -77,11 +77,3 @@ def glauert_inflow(ct: float, mu_x: float, mu_z: float) -> tuple[float, float]:
 def skew_angle(mu_x: float, mu_z: float, lambda0: float) -> float:
     """χ = arctan(µ_x/(µ_z + λ0)) [rad], eq. (2.31): 0 in hover, towards π/2 at speed."""
     return math.atan2(mu_x, mu_z + lambda0)
-
-
-def ideal_tip_pitch(ct: float, solidity: float, lift_slope: float) -> float:
-    """θ_tip [rad] of the ideal twist θ_tip/r, eq. (1.1), that carries C_T in hover with uniform inflow.
-
-    From ½σa(θ_tip − λ) r = 4λ² r with λ = √(C_T/2): θ_tip = 4C_T/(σa) + √(C_T/2).
-    """
-    return 4.0 * ct / (solidity * lift_slope) + math.sqrt(ct / 2.0)

@@ -8,7 +8,6 @@ answer to the changed load comes on top where the model gives one.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.aero import kernel
 from rotor.aero.elements import (
@@ -25,9 +24,8 @@ from rotor.aero.elements import (
     by_tilt,
     skewed,
 )
-from rotor.aero.inflow.interface import LoadLoop
-
-Array = NDArray[np.float64]
+from rotor.aero.inflow.interface import InflowFeedback
+from rotor.arrays import Array
 
 
 @dataclass(frozen=True)
@@ -86,8 +84,8 @@ class Slopes:
     """∂(C_T, C_H, M0, M1c, M1s), (5, unknowns)."""
 
 
-def slopes(problem: Problem, one: Pass, unknowns: tuple[int, ...], loop: LoadLoop | None) -> Slopes:
-    """Exact derivatives of loads and sums by the unknowns. `loop` is the response's, for a model that reacts."""
+def slopes(problem: Problem, one: Pass, unknowns: tuple[int, ...], loop: InflowFeedback | None) -> Slopes:
+    """Exact derivatives of loads and sums by the unknowns. `loop` is the response's, for a load-dependent model."""
     disk, loads = problem.disk, one.loads
     shape = (len(unknowns), *one.theta.shape)
     lift, push = np.empty(shape), np.empty(shape)
@@ -103,7 +101,7 @@ def slopes(problem: Problem, one: Pass, unknowns: tuple[int, ...], loop: LoadLoo
         _direct(problem, one, unknown, lift[k], push[k])
     if inflow is not None:
         if loop is not None and one.response is not None:
-            inflow = loop.solve(one.response.drive(lift) + inflow)
+            inflow = loop.solve(one.response.apply(lift) + inflow)
             answering = range(len(unknowns))
         else:
             answering = [k for k, unknown in enumerate(unknowns) if unknown in (SHAFT_TILT, LAMBDA0)]

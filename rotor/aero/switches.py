@@ -96,9 +96,9 @@ def no_effect(design: Design, name: str) -> str:
     match name:
         case "flapping" | "fuselage" if hovering:
             return "hover is the same all the way round" if name == "flapping" else "no drag in hover"
-        case "tip_loss" if not hovering and inflow.reacts and inflow.without_tip_loss() == inflow:
+        case "tip_loss" if not hovering and inflow.load_dependent and inflow.without_tip_loss() == inflow:
             return "the blades of this wake end where they end"
-        case "hub_loss" if not hovering and inflow.reacts:
+        case "hub_loss" if not hovering and inflow.load_dependent:
             return "this wake answers at the root itself"
         case "reverse_flow" if design.condition.advance_ratio <= design.rotor.blade.root_cutout:
             return "no blade is in reverse flow at this speed"

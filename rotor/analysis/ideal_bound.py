@@ -6,7 +6,6 @@ from functools import cache
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebvander
-from numpy.typing import NDArray
 
 from rotor.aero.elements import expected_wake
 from rotor.analysis.ideal_circulation import (
@@ -16,10 +15,9 @@ from rotor.analysis.ideal_circulation import (
     least_induced_power,
     least_twisted_power,
 )
+from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
 from rotor.design.design import Design
-
-Array = NDArray[np.float64]
 
 LIFT_LIMIT = (-0.6, 1.2)
 """Section lift coefficients a blade can have, for the bound that knows stall."""

@@ -13,13 +13,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebvander
-from numpy.typing import NDArray
 from scipy.optimize import nnls
 
+from rotor.aero.inflow.interface import Wake
 from rotor.aero.inflow.vortex_lattice import Lattice, shared_azimuths
-from rotor.aero.inflow.wake_state import Wake
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 RADIAL_SHAPES = 7
 """Chebyshev polynomials over the span."""

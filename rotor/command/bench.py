@@ -87,7 +87,7 @@ def measure() -> tuple[dict[str, float], list[str]]:
         "evaluation": _mean(lambda k: run_pass(problems[k], passes[k].state), 50),
         "trim, cold": _mean(lambda k: solve(linear.designs[k]), 15),
         "trim, warm": _mean(lambda k: solve(linear.nearby[k], linear.solutions[k]), 15),
-        "hover, cold": _time(lambda: solve(make_design("flight", advance_ratio=0.0)), 15),
+        "hover, cold": _time(lambda: solve(make_design(preset="flight", mu=0.0)), 15),
         "dynamic wake, cold": _mean(lambda k: solve(wake.designs[k]), 15),
         "dynamic wake, warm": _mean(lambda k: solve(wake.nearby[k], wake.solutions[k]), 15),
         "gradient by twist, dynamic wake": _mean(lambda k: power_gradient(wake.solutions[k]), 15),
@@ -112,7 +112,7 @@ class _Cases:
 
 def _cases(inflow: str) -> _Cases:
     def at(mu: float, twist: str) -> Design:
-        design = make_design("flight", twist=twist, advance_ratio=mu)
+        design = make_design(preset="flight", twist=twist, mu=mu)
         return replace(design, models=replace(design.models, inflow=inflow))
 
     designs = [at(mu, "linear:-16") for mu in _ADVANCE_RATIOS]

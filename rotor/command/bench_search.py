@@ -30,12 +30,12 @@ def measure_searches(*, long: bool) -> dict[str, float]:
     ):
         elapsed = 0.0
         for mu in _ADVANCE_RATIOS:
-            design = make_design("flight", advance_ratio=mu)
+            design = make_design(preset="flight", mu=mu)
             solve(design)  # Lays out the grid and the wake once, as a page has long done.
             elapsed += optimise(Search(design, find_concept(concept), starts=starts)).elapsed
         figures[name] = elapsed / len(_ADVANCE_RATIOS)
     if long:
-        design = make_design("flight")
+        design = make_design(preset="flight")
         ratios = [0.0, *(0.05 + 0.025 * k for k in range(1, 15))]
         legs = tuple(Leg(replace(design.condition, advance_ratio=mu)) for mu in ratios)
         begin = time.perf_counter()

@@ -10,15 +10,11 @@ from typing import Any
 
 from rotor.aero.inflow import inflow_model
 from rotor.aero.switches import parse_switches
-from rotor.analysis.sweep import at_advance_ratio
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.design import Design
 from rotor.files.design_file import read_case
 from rotor.files.make_design import change_airfoils, make_design
-from rotor.files.shipped import find_aircraft
-
-KNOT = 1852.0 / 3600.0
-"""[m/s]"""
+from rotor.files.rotor_file import find_aircraft
 
 
 def add_command(commands: Any, name: str, words: str, description: str = "") -> argparse.ArgumentParser:
@@ -59,11 +55,13 @@ def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: floa
     base = read_case(args.case) if args.case else None
     blade = base if base and not (args.preset or args.rotor) else None  # Another rotor, or preset, has its own blade.
     design = make_design(
-        args.preset or (base.preset if base else "flight"),
-        aircraft=find_aircraft(args.rotor) if args.rotor else base.aircraft if base else None,
+        preset=args.preset or (base.preset if base else "flight"),
+        rotor=find_aircraft(args.rotor) if args.rotor else base.aircraft if base else SHIPPED_ROTORS[0],
         twist=twist or (blade.twist if blade else None),
-        mass=args.mass_kg if args.mass_kg is not None else (base.condition.mass if base and not args.rotor else None),
-        altitude=args.altitude_m if args.altitude_m is not None else (base.condition.altitude if base else 0.0),
+        mass_kg=args.mass_kg
+        if args.mass_kg is not None
+        else (base.condition.mass if base and not args.rotor else None),
+        altitude_m=args.altitude_m if args.altitude_m is not None else (base.condition.altitude if base else 0.0),
         models=base.models if base and not args.preset else None,
     )
     if advance_ratio is None:
@@ -78,7 +76,7 @@ def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: floa
         design = replace(design, rotor=blade.rotor, active_twist=blade.active_twist)
     if args.airfoils:
         design = replace(design, rotor=change_airfoils(design.rotor, args.airfoils))
-    return at_advance_ratio(design, advance_ratio)
+    return design.at(mu=advance_ratio)
 
 
 def write_table(path: str, rows: Iterable[Iterable[str]], heading: str = "") -> None:

@@ -12,7 +12,7 @@ from rotor.assets import SHIPPED_ROTORS
 from rotor.command.flags import add_command, add_rotor_argument, write_table
 from rotor.files.make_design import make_design
 from rotor.files.ranges import parse_range
-from rotor.files.shipped import find_aircraft
+from rotor.files.rotor_file import find_aircraft
 
 COLUMNS = (
     "mu", "mass_kg", "ct", "lambda0", "glauert_kw", "any_circulation", "lift_limited", "steady_twist", "linear_twist",
@@ -48,7 +48,7 @@ def run(args: argparse.Namespace) -> int:
     masses = parse_range(args.mass_kg) if args.mass_kg else [craft.mass]
     if min(speeds) < 0.02:
         raise ValueError(f"advance ratio {min(speeds):g} is too slow for a skewed wake: start at 0.02 or more")
-    designs = [make_design(aircraft=craft, advance_ratio=mu, mass=mass) for mu in speeds for mass in masses]
+    designs = [make_design(rotor=craft, mu=mu, mass_kg=mass) for mu in speeds for mass in masses]
     rows: list[tuple[str, ...]] = []
     print("".join(f"{name:>16}" for name in COLUMNS))
     for design in tqdm(designs, disable=not sys.stderr.isatty(), leave=False):

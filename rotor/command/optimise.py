@@ -5,7 +5,7 @@ import json
 from dataclasses import replace
 from typing import Any
 
-from rotor.command.flags import KNOT, add_command, add_design_arguments, design_from, finite
+from rotor.command.flags import add_command, add_design_arguments, design_from, finite
 from rotor.command.progress import STOPPED, bar, interruptible
 from rotor.command.search_flags import add_search_arguments, concept_help, limits_from, parse_division
 from rotor.design.blade import airfoils_spec
@@ -14,6 +14,7 @@ from rotor.optimisation.concepts import Concept, find_concept, on_top
 from rotor.optimisation.mission import read_mission
 from rotor.optimisation.objective import Objective, at_condition, hover_and_cruise
 from rotor.optimisation.search import STARTS, Ended, Minimum, Optimum, Progress, Search, optimise
+from rotor.units import KNOT
 
 
 def add_parser(commands: Any) -> None:

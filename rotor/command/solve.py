@@ -6,10 +6,11 @@ import math
 from typing import Any, cast
 
 from rotor.aero.switches import switched_off
-from rotor.command.flags import KNOT, add_command, add_design_arguments, design_from, finite
+from rotor.command.flags import add_command, add_design_arguments, design_from, finite
 from rotor.design.active_twist import active_twist_record
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
+from rotor.units import KNOT
 
 
 def add_parser(commands: Any) -> None:

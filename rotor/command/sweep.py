@@ -4,9 +4,10 @@ import argparse
 from typing import Any
 
 from rotor.analysis.sweep import sweep
-from rotor.command.flags import KNOT, add_command, add_design_arguments, design_from, write_table
+from rotor.command.flags import add_command, add_design_arguments, design_from, write_table
 from rotor.files.ranges import parse_range
 from rotor.trim.solution import Solution
+from rotor.units import KNOT
 
 COLUMNS = (
     "twist", "mu", "speed_kt", "status", "total_kw", "main_rotor_kw", "induced_kw", "profile_kw", "parasite_kw",

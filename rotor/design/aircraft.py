@@ -1,12 +1,38 @@
-"""An aircraft as far as its rotor needs it: main rotor, tail rotor, drag area, mass. What a rotor file holds."""
+"""An aircraft as far as its rotor needs it: main rotor, tail rotor, drag area, mass. The contents of a rotor file."""
 
 from dataclasses import dataclass
 from typing import Literal
 
 from rotor.design.blade import Rotor
 from rotor.design.flight import Fuselage
-from rotor.design.tail_rotor import TailRotor
 from rotor.design.twist import TwistLaw
+
+FIXED_SHARE = 0.05
+"""Tail rotor over main rotor power as the document has it in every flight state (thesis §3.2, p. 25)."""
+
+
+@dataclass(frozen=True)
+class TailRotor:
+    """A tail rotor in edgewise flow."""
+
+    radius: float
+    """[m]"""
+    angular_speed: float
+    """[rad/s]"""
+    chord: float
+    """[m]"""
+    blades: int
+    arm: float
+    """Distance from the main-rotor shaft [m]."""
+    cant: float
+    """Tilt of the thrust out of the horizontal [rad]; only the horizontal part balances torque."""
+    tip_loss: float
+    """Effective radius factor B."""
+    drag_polar: tuple[float, float, float]
+    """c_d = δ0 + δ1 α + δ2 α² with α [rad]."""
+    lift_slope: float
+    """[1/rad]"""
+
 
 Hub = Literal["articulated", "teetering", "teetering-with-coning-hinges"]
 HUBS: tuple[Hub, ...] = ("articulated", "teetering", "teetering-with-coning-hinges")
@@ -30,7 +56,7 @@ class RotorFiles:
     """(name, text) of it and of every file it names."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Aircraft:
     """One aircraft, without arrays: equality, hashing and travel to other processes come free."""
 
@@ -51,6 +77,9 @@ class Aircraft:
     """Of a user's own; None for a shipped one."""
     remarks: tuple[str, ...] = ()
     """What had to be assumed when its files were read, in sentences."""
+
+    def __repr__(self) -> str:
+        return f"Aircraft({self.name}, {self.mass:.0f} kg, drag area {self.fuselage.drag_area:.3g} m², {self.rotor})"
 
     def rotor_for(self, preset: str) -> Rotor:
         """The rotor that a preset computes: as the document states it (`thesis`, where it does), else as it flies."""

@@ -6,12 +6,11 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from rotor.airfoil.sections import OwnSection, Section, install_own, load_installed
+from rotor.arrays import Array
 from rotor.design.twist import TwistLaw
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -82,7 +81,7 @@ class Blade:
         return self.spans[-1].section, self.spans[-1].section, 0.0
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Rotor:
     """A main rotor: blades, hub and speed."""
 
@@ -104,6 +103,10 @@ class Rotor:
                 f"{self.angular_speed:g} rad/s: "
                 "give two or more blades and positive values"
             )
+
+    def __repr__(self) -> str:
+        size = f"{self.blades} blades, R {self.radius:.4g} m, tip speed {self.tip_speed:.4g} m/s"
+        return f"Rotor({self.name}, {size}, twist {self.builtin_twist.spec()})"
 
     @property
     def tip_speed(self) -> float:

@@ -1,17 +1,18 @@
-"""A design: everything that decides an answer, as one value without arrays.
+"""A design: everything that determines a result, as one value without arrays; and the models of the two presets.
 
-Equality, hashing, caching, JSON and undo come from that.
+Equality, hashing, caching, JSON and undo come from that. A preset is a value of `Models`: `flight`, the best available
+models, and `thesis`, those that the document states.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 from rotor.design.active_twist import ActiveTwist
-from rotor.design.aircraft import Aircraft
+from rotor.design.aircraft import Aircraft, TailRotor
 from rotor.design.blade import Rotor
-from rotor.design.flight import FlightCondition, Fuselage
-from rotor.design.tail_rotor import TailRotor
-from rotor.design.twist import TwistLaw
+from rotor.design.flight import FlightCondition, Fuselage, advance_ratio, number
+from rotor.design.twist import TwistLaw, ideal_tip_pitch
+from rotor.design.twist_spec import parse_twist
 
 HoverInflow = Literal["annulus", "closed-form"]
 Trim = Literal["propulsive", "thrust"]
@@ -58,7 +59,7 @@ class Models:
             raise ValueError(f"{self.azimuths} azimuths are outside 8…2000: 120 is enough for plots and power")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Design:
     """A rotor, its twist, the flight condition and the models that compute it."""
 
@@ -73,6 +74,51 @@ class Design:
     models: Models
     active_twist: ActiveTwist | None = None
     """Twist that follows the azimuth, added to the law in forward flight."""
+
+    def __repr__(self) -> str:
+        condition = self.condition
+        speed = "hover" if self.hovering else f"mu={condition.advance_ratio:.4g}"
+        inflow = self.models.hover_inflow if self.hovering else self.models.inflow
+        return (
+            f"Design({self.aircraft.name}, twist {self.twist.spec()}, {speed}, {condition.mass:.0f} kg, "
+            f"{condition.altitude:.0f} m, preset {self.preset}, inflow {inflow})"
+        )
+
+    def at(
+        self,
+        *,
+        mu: float | None = None,
+        speed_kt: float | None = None,
+        hover: bool = False,
+        mass_kg: float | None = None,
+        altitude_m: float | None = None,
+    ) -> "Design":
+        """The same design at another flight condition; what is left out stays as it is.
+
+        `mu` (advance ratio), `speed_kt` (airspeed in knots) and `hover` exclude one another.
+        Raises TypeError or ValueError with one sentence that names the value and the remedy.
+        """
+        old = self.condition
+        mu = advance_ratio(self.rotor.tip_speed, mu, speed_kt, hover)
+        condition = replace(
+            old,
+            advance_ratio=old.advance_ratio if mu is None else mu,
+            mass=old.mass if mass_kg is None else number("mass_kg", mass_kg, "8000"),
+            altitude=old.altitude if altitude_m is None else number("altitude_m", altitude_m, "1500"),
+        )
+        return replace(self, condition=condition)
+
+    def with_twist(self, twist: TwistLaw | str) -> "Design":
+        """The same design with another twist: a law, or a SPEC as `parse_twist` reads it.
+
+        In a SPEC `builtin` is this rotor's own twist, and `ideal` the twist that carries this weight in hover.
+        """
+        if callable(twist):
+            return replace(self, twist=twist)
+        rotor = self.rotor
+        slope = float(rotor.blade.installed(rotor.blade.spans[0].section).table.lift_slope(0.3))
+        tip_pitch = ideal_tip_pitch(self.weight_coefficient, rotor.solidity, slope)
+        return replace(self, twist=parse_twist(twist, builtin=rotor.builtin_twist, ideal_tip_pitch=tip_pitch))
 
     @property
     def airspeed(self) -> float:
@@ -104,3 +150,29 @@ class Design:
     def power_unit(self) -> float:
         """ρ A (ΩR)³ [W], eq. (2.12)."""
         return self.thrust_unit * self.rotor.tip_speed
+
+
+PRESETS = ("flight", "thesis")
+
+FLIGHT_MODELS = Models(
+    inflow="dynamic-wake",
+    hover_inflow="annulus",
+    trim="propulsive",
+    disk_axial_flow=True,
+    blade_weight=True,
+    tail_rotor_solved=True,
+)
+THESIS_MODELS = Models(
+    inflow="pitt-peters-15pi/23",
+    hover_inflow="closed-form",
+    trim="thrust",
+    disk_axial_flow=False,
+    blade_weight=False,
+    tail_rotor_solved=False,
+)
+
+
+def check_preset(preset: str) -> None:
+    """Raise ValueError for a preset that does not exist."""
+    if preset not in PRESETS:
+        raise ValueError(f"preset {preset!r} is not known: use {' or '.join(PRESETS)}")

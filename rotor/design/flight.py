@@ -2,9 +2,10 @@
 
 import math
 from dataclasses import dataclass
+from numbers import Real
 
-GRAVITY = 9.80665
-"""Standard gravity [m/s²] (ISO 2533)."""
+from rotor.units import GRAVITY, KNOT
+
 SEA_LEVEL_TEMPERATURE = 288.15
 """[K] (ISO 2533)."""
 SEA_LEVEL_DENSITY = 1.225
@@ -69,6 +70,33 @@ class Fuselage:
     def drag(self, density: float, speed: float) -> float:
         """[N] at air density [kg/m³] and airspeed [m/s]."""
         return 0.5 * density * speed**2 * self.drag_area
+
+
+def number(name: str, value: object, example: str) -> float:
+    """The value as a float; TypeError with one sentence when it is not a real number."""
+    if isinstance(value, bool) or not isinstance(value, Real):
+        raise TypeError(f"{name} is {value!r}, not a number: write for example {name}={example}")
+    return float(value)
+
+
+def advance_ratio(
+    tip_speed: float, mu: float | None, speed_kt: float | None, hover: bool, default: float | None = None
+) -> float | None:
+    """µ from whichever of the three arguments is given; `default` when none is. `tip_speed` is ΩR [m/s].
+
+    Raises TypeError or ValueError with one sentence when more than one is given, or a value is not a number.
+    """
+    if hover not in (True, False):
+        raise TypeError(f"hover is {hover!r}: write hover=True or leave it out")
+    given = {"mu": mu, "speed_kt": speed_kt, "hover": hover or None}
+    chosen = [f"{name}={value!r}" for name, value in given.items() if value is not None]
+    if len(chosen) > 1:
+        raise ValueError(f"{' and '.join(chosen)} each set the speed: give only one of mu, speed_kt and hover")
+    if hover:
+        return 0.0
+    if speed_kt is not None:
+        return number("speed_kt", speed_kt, "120") * KNOT / tip_speed
+    return default if mu is None else number("mu", mu, "0.2")
 
 
 def _check(name: str, value: float, low: float, high: float, unit: str) -> None:

@@ -6,15 +6,15 @@ pitch at 0.75 R whatever the law. Rates are radians per radius.
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
+from scipy.interpolate import CubicSpline
 
-from rotor.design.spline import spline_basis
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 REFERENCE_RADIUS = 0.75
 """r/R where every twist law is zero."""
@@ -188,3 +188,21 @@ class TableTwist:
 
 def _degrees(angle: float) -> str:
     return f"{round(math.degrees(angle), 6):.10g}"
+
+
+def ideal_tip_pitch(ct: float, solidity: float, lift_slope: float) -> float:
+    """θ_tip [rad] of the ideal twist θ_tip/r, eq. (1.1), that carries C_T in hover with uniform inflow.
+
+    From ½σa(θ_tip − λ) r = 4λ² r with λ = √(C_T/2): θ_tip = 4C_T/(σa) + √(C_T/2).
+    """
+    return 4.0 * ct / (solidity * lift_slope) + math.sqrt(ct / 2.0)
+
+
+def spline_basis(knots: tuple[float, ...], x: ArrayLike, *, derivative: int = 0) -> Array:
+    """B with spline(x) = B · values at the knots, (…, knots); end condition not-a-knot."""
+    return np.asarray(_spline(knots)(np.asarray(x, dtype=float), derivative))
+
+
+@lru_cache(maxsize=32)
+def _spline(knots: tuple[float, ...]) -> CubicSpline:
+    return CubicSpline(knots, np.eye(len(knots)))

@@ -1,11 +1,13 @@
-"""Twist laws as people write them: SPECs such as `segments:-12,-4@0.5` (DESIGN §8), and two-column tables."""
+"""Twist laws as people write them: SPECs such as `segments:-12,-4@0.5` and two-column tables."""
 
 import math
 import re
-from collections.abc import Callable
+import tomllib
+from functools import cache
 from pathlib import Path
+from typing import Any
 
-from rotor.assets import SHIPPED_ROTORS
+from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.twist import (
     IdealTwist,
     LinearTwist,
@@ -19,44 +21,42 @@ from rotor.design.twist import (
 
 _LAWS = ("linear", "quadratic", "segments", "spline", "points", "ideal", "builtin", "table", *SHIPPED_ROTORS)
 _PLUS = re.compile(rf"\+(?=(?:{'|'.join(_LAWS)})\b)")
-"""Between the laws of a sum; a plus sign in a number or in a file's name is none."""
+"""Between the laws of a sum, not the plus sign of a number or of a file's name."""
+_NUMBER = re.compile(r"([-+−]?\d*\.?\d+)\s*°?")
 
 
-def _no_name(name: str) -> TwistLaw | None:
-    del name
-    return None
-
-
-def parse_twist(
-    spec: str,
-    *,
-    builtin: TwistLaw,
-    ideal_tip_pitch: float,
-    named: Callable[[str], TwistLaw | None] = _no_name,
-) -> TwistLaw:
-    """Read a twist SPEC (DESIGN §8), degrees at this edge only.
+def parse_twist(spec: str, *, builtin: TwistLaw | None = None, ideal_tip_pitch: float | None = None) -> TwistLaw:
+    """The twist law of a SPEC. Angles in the SPEC are degrees, stations are r/R; the law returns radians.
 
     `linear:-8` · `quadratic:A,D` · `segments:-12,-4@0.5` · `spline:9,6,0,-5@0.13,0.4,0.75,1` ·
-    `points:9,6,0,-5@0.13,0.4,0.75,1` (straight lines between) · `ideal` or `ideal:6.4` · `builtin`, the rotor's own ·
-    `uh60a` and the like, a shipped rotor's · `table:FILE`; `builtin+linear:-2` adds one to another. `named` knows the
-    shipped rotors' twists; `ideal_tip_pitch` [rad] serves `ideal` without a number.
-    Raises ValueError with one sentence that names the value and the remedy.
+    `points:9,6,0,-5@0.13,0.4,0.75,1` (straight lines between the points) · `ideal:6.4` · `uh60a`, `r22` or `s61`, the
+    built-in twist of a shipped rotor · `table:FILE`. A plus sign adds laws: `uh60a+linear:-2`.
+    `builtin` is the law that the SPEC `builtin` stands for, `ideal_tip_pitch` [rad] the angle of `ideal` without a
+    number; `make_design` and `Design.with_twist` supply both.
+    Raises TypeError or ValueError with one sentence that names the value and the remedy.
     """
+    if not isinstance(spec, str):  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass numbers
+        remedy = f'write "linear:{spec}"' if isinstance(spec, int | float) else 'write a text such as "linear:-12"'
+        raise TypeError(f"twist {spec!r} is not a twist: {remedy} (degrees per radius), or pass a twist law")
     first, *others = _PLUS.split(spec.strip())
     if others:
-        law = parse_twist(first, builtin=builtin, ideal_tip_pitch=ideal_tip_pitch, named=named)
+        law = parse_twist(first, builtin=builtin, ideal_tip_pitch=ideal_tip_pitch)
         for other in others:
-            added = parse_twist(other, builtin=builtin, ideal_tip_pitch=ideal_tip_pitch, named=named)
-            law = SumTwist(law, added)
+            law = SumTwist(law, parse_twist(other, builtin=builtin, ideal_tip_pitch=ideal_tip_pitch))
         return law
     kind, _, rest = spec.strip().partition(":")
-    if not rest and kind in ("builtin", builtin.spec()):
+    if not rest and builtin is not None and kind in ("builtin", builtin.spec()):
         return builtin
-    known = named(kind) if not rest else None
-    if known is not None:
-        return known
+    if not rest and kind in SHIPPED_ROTORS:
+        return shipped_twist(kind)
+    if kind == "builtin":
+        raise ValueError(
+            f"twist {spec!r} needs a rotor: pass it to make_design, or name one of {', '.join(SHIPPED_ROTORS)}"
+        )
     if kind == "ideal":
-        return IdealTwist(math.radians(_number(rest, spec)) if rest else ideal_tip_pitch)
+        if not rest and ideal_tip_pitch is None:
+            raise ValueError(f"twist {spec!r} needs a rotor and a weight: pass it to make_design, or write ideal:6.4")
+        return IdealTwist(math.radians(_number(rest, spec)) if rest or ideal_tip_pitch is None else ideal_tip_pitch)
     if kind == "linear":
         return LinearTwist(math.radians(_number(rest, spec)))
     if kind == "quadratic":
@@ -85,11 +85,23 @@ def parse_twist(
         )
     if kind == "table" and rest:
         return read_twist_table(Path(rest))
+    number = _NUMBER.fullmatch(spec.strip())
+    bare = f"write linear:{number[1].replace('−', '-')} for a linear twist, or " if number else ""
     raise ValueError(
-        f"twist {spec!r} is not known: "
+        f"twist {spec!r} is not known: {bare}"
         "use linear:RATE, quadratic:A,D, segments:RATES@BREAKS, spline:ANGLES@STATIONS, "
         "points:ANGLES@STATIONS, ideal, builtin, uh60a or table:FILE"
     )
+
+
+@cache
+def shipped_twist(name: str) -> TwistLaw:
+    """The built-in twist of a shipped rotor as it flies, from its file in `assets/`."""
+    main: dict[str, Any] = tomllib.loads(asset_path(f"{name}.toml").read_text(encoding="utf-8"))["main_rotor"]
+    given = main.get("flown", main)
+    if "linear_twist_deg" in given:
+        return LinearTwist(math.radians(given["linear_twist_deg"]))
+    return TableTwist(tuple(given["twist_r"]), tuple(math.radians(angle) for angle in given["twist_deg"]), name=name)
 
 
 def inline_spec(law: TwistLaw) -> str:

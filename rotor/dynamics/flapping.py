@@ -11,7 +11,7 @@ import math
 from dataclasses import dataclass
 
 from rotor.design.blade import Rotor
-from rotor.design.flight import GRAVITY
+from rotor.units import GRAVITY
 
 
 @dataclass(frozen=True)

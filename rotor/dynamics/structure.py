@@ -6,13 +6,12 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from rotor.arrays import Array
 from rotor.assets import asset_path
 from rotor.design.aircraft import Aircraft
-from rotor.dynamics.laminate import Material
-
-Array = NDArray[np.float64]
+from rotor.dynamics.thin_wall import Material
 
 
 @dataclass(frozen=True)

@@ -1,22 +1,113 @@
-"""Thin-walled beams of several cells: Bredt–Batho with laminated walls that may be active.
+"""Thin-walled beams of several cells: laminated walls, sections by Bredt–Batho, active plies included.
 
-Every wall element carries N_x and q; extension, both bendings and twist are free to follow. With q = Σ ± q_j of the
-cells it borders and γ = (q + q_a − S₂₁ ε_x)/S₂₂,
+Axes of a wall: x along the span, s around the section. Resultants are thickness times stress [N/m]. The laminate is
+under plane stress with free strain, without hoop force. Every wall element carries N_x and q; extension, both bendings
+and twist are free. With q = Σ ± q_j of the cells it borders and γ = (q + q_a − S₂₁ ε_x)/S₂₂,
 
     ∫N_x ds = F,   ∫N_x y ds = M_y,   ∫N_x z ds = M_z,   ∮_j γ ds = 2A_j θ',   Σ 2A_j q_j = T.
 
-Source: Bredt 1896 and Batho 1916 for isotropic walls (Megson, Aircraft Structures); active ply as a blocked shear flow.
+Source: Jones, Mechanics of Composite Materials, for the laminate; Bredt 1896 and Batho 1916 for isotropic walls
+(Megson, Aircraft Structures); an active ply enters as a blocked shear flow.
 Range: thin walls, long beams, uniform section, no restrained warping.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from rotor.dynamics.laminate import Layer, Wall, wall_of
+from rotor.arrays import Array
 
-Array = NDArray[np.float64]
+
+@dataclass(frozen=True)
+class Material:
+    """An orthotropic sheet, axis 1 along the fibres [Pa]."""
+
+    name: str
+    e1: float
+    e2: float
+    nu12: float
+    g12: float
+    density: float
+    """[kg/m³]"""
+
+    def __post_init__(self) -> None:
+        if min(self.e1, self.e2, self.g12, self.density) <= 0.0 or self.nu12**2 >= self.e1 / self.e2:
+            raise ValueError(f"material {self.name!r} is not elastic: give positive moduli and nu12² < E1/E2")
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A sheet in a wall."""
+
+    material: Material
+    thickness: float
+    """[m]"""
+    angle: float
+    """Of the fibres from the span axis [rad]."""
+    free_strain: tuple[float, float] = (0.0, 0.0)
+    """Λ1, Λ2 along and across the fibres: what voltage (or heat) does to the sheet when nothing holds it [-]."""
+
+
+def reduced_stiffness(material: Material) -> Array:
+    """Plane-stress Q of the sheet in its own axes (1, 2, 12) [Pa], (3, 3). Jones, Mechanics of Composite Materials."""
+    nu21 = material.nu12 * material.e2 / material.e1
+    k = 1.0 / (1.0 - material.nu12 * nu21)
+    off = material.nu12 * material.e2 * k
+    return np.array([[material.e1 * k, off, 0.0], [off, material.e2 * k, 0.0], [0.0, 0.0, material.g12]])
+
+
+def strain_rotation(angle: float) -> Array:
+    """Strains (ε_x, ε_s, γ_xs) to fibre axes (ε_1, ε_2, γ_12), (3, 3). Its transpose turns stresses back."""
+    c, s = math.cos(angle), math.sin(angle)
+    return np.array([[c * c, s * s, c * s], [s * s, c * c, -c * s], [-2 * c * s, 2 * c * s, c * c - s * s]])
+
+
+def rotated_stiffness(material: Material, angle: float) -> Array:
+    """Q̄ of the sheet in wall axes (x, s, xs) [Pa], (3, 3)."""
+    turn = strain_rotation(angle)
+    return turn.T @ reduced_stiffness(material) @ turn
+
+
+def free_strain_in_wall_axes(layer: Layer) -> Array:
+    """(ε_x, ε_s, γ_xs) of the unheld sheet: ε_x = Λ1c² + Λ2s², ε_s = Λ1s² + Λ2c², γ = 2sc(Λ1 − Λ2) [-]."""
+    c, s = math.cos(layer.angle), math.sin(layer.angle)
+    along, across = layer.free_strain
+    return np.array([along * c * c + across * s * s, along * s * s + across * c * c, 2.0 * s * c * (along - across)])
+
+
+def blocked_shear_flow(layer: Layer) -> float:
+    """Shear flow of a sheet held still [N/m]; at 45° ½t[(Q11 − Q12)Λ1 − (Q22 − Q12)Λ2], zero for an isotropic one."""
+    blocked = rotated_stiffness(layer.material, layer.angle) @ free_strain_in_wall_axes(layer)
+    return layer.thickness * float(blocked[2])
+
+
+@dataclass(frozen=True, eq=False)
+class Wall:
+    """A laminate as a beam's wall, free of hoop force: N_x, q = stiffness · (ε_x, γ) − actuation."""
+
+    stiffness: Array
+    """[N/m], (2, 2)."""
+    actuation: Array
+    """Blocked (N_x, q) [N/m], (2,)."""
+    mass: float
+    """[kg/m²]"""
+
+
+def wall_of(layers: tuple[Layer, ...]) -> Wall:
+    """The laminate with its hoop force set to zero, as a thin wall between stations that are far apart may do."""
+    a, n = np.zeros((3, 3)), np.zeros(3)
+    for layer in layers:
+        q = rotated_stiffness(layer.material, layer.angle)
+        a += layer.thickness * q
+        n += layer.thickness * (q @ free_strain_in_wall_axes(layer))
+    keep = np.array([0, 2])
+    across = a[keep, 1] / a[1, 1]
+    return Wall(
+        stiffness=a[np.ix_(keep, keep)] - np.outer(across, a[1, keep]),
+        actuation=n[keep] - across * n[1],
+        mass=sum(layer.thickness * layer.material.density for layer in layers),
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,7 +122,7 @@ class Panel:
 
 
 @dataclass(frozen=True, eq=False)
-class Section:
+class WallSection:
     """Wall elements of a closed section, each straight."""
 
     y: Array
@@ -52,7 +143,7 @@ class Section:
 
 
 @dataclass(frozen=True)
-class Response:
+class SectionResponse:
     """What a section does under loads, or when its active plies are switched on."""
 
     twist_rate: float
@@ -67,7 +158,7 @@ class Response:
     """q of each cell [N/m]."""
 
 
-def build_section(panels: tuple[Panel, ...]) -> Section:
+def build_section(panels: tuple[Panel, ...]) -> WallSection:
     """Cut panels into straight elements and measure the cells."""
     walls: list[Wall] = [wall_of(panel.layers) for panel in panels]
     cells = max(abs(cell) for panel in panels for cell in panel.cells)
@@ -83,7 +174,7 @@ def build_section(panels: tuple[Panel, ...]) -> Section:
     middles = np.concatenate([part[0] for part in parts])
     membership = np.concatenate([part[2] for part in parts])
     swept = np.concatenate([part[3] for part in parts])
-    return Section(
+    return WallSection(
         y=middles[:, 0],
         z=middles[:, 1],
         length=np.concatenate([part[1] for part in parts]),
@@ -96,13 +187,13 @@ def build_section(panels: tuple[Panel, ...]) -> Section:
 
 
 def respond(
-    section: Section,
+    section: WallSection,
     *,
     torque: float = 0.0,
     force: float = 0.0,
     moments: tuple[float, float] = (0.0, 0.0),
     voltage: float = 0.0,
-) -> Response:
+) -> SectionResponse:
     """The section under T [N m], F [N], (∫N_x y, ∫N_x z) [N m], and voltage as a fraction of the plies' full range."""
     s11, s12, s22 = section.stiffness[:, 0, 0], section.stiffness[:, 0, 1], section.stiffness[:, 1, 1]
     axial = (s11 - s12**2 / s22) * section.length
@@ -126,7 +217,7 @@ def respond(
     scale = np.sqrt(np.abs(np.diagonal(matrix)))
     scale[3] = np.abs(2.0 * section.areas).max() / scale[4:].max()
     answer = np.linalg.solve(matrix / np.outer(scale, scale), right / scale) / scale
-    return Response(
+    return SectionResponse(
         twist_rate=float(answer[3]),
         extension=float(answer[0]),
         curvature_y=float(answer[1]),
@@ -135,17 +226,17 @@ def respond(
     )
 
 
-def torsional_stiffness(section: Section) -> float:
+def torsional_stiffness(section: WallSection) -> float:
     """GJ [N m²]; for one isotropic cell Bredt's 4A²/∮ds/(Gt)."""
     return 1.0 / respond(section, torque=1.0).twist_rate
 
 
-def axial_stiffness(section: Section) -> float:
+def axial_stiffness(section: WallSection) -> float:
     """EA [N], bendings and twist free."""
     return float(1.0 / _extension_at_centre(section))
 
 
-def _extension_at_centre(section: Section) -> float:
+def _extension_at_centre(section: WallSection) -> float:
     """ε_x per newton applied at the tension centre, where it bends nothing: the least over all points."""
     base = respond(section, force=1.0)
     by_y, by_z = respond(section, moments=(1.0, 0.0)), respond(section, moments=(0.0, 1.0))
@@ -159,16 +250,16 @@ def _extension_at_centre(section: Section) -> float:
     return float(compliance[0, 0] - compliance[0, 1:] @ np.linalg.solve(compliance[1:, 1:], compliance[1:, 0]))
 
 
-def induced_twist_rate(section: Section) -> float:
+def induced_twist_rate(section: WallSection) -> float:
     """θ'_a of the free section when its plies see their whole voltage range [rad/m]."""
     return respond(section, voltage=1.0).twist_rate
 
 
-def actuation_moment(section: Section) -> float:
+def actuation_moment(section: WallSection) -> float:
     """M_a = GJ θ'_a: the end moment that would twist the passive section as much [N m]."""
     return torsional_stiffness(section) * induced_twist_rate(section)
 
 
-def mass_per_length(section: Section) -> float:
+def mass_per_length(section: WallSection) -> float:
     """[kg/m]"""
     return float(section.mass @ section.length)

@@ -11,12 +11,11 @@ Range: no coupling with bending, stiff control system. Linear finite elements, e
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from scipy.linalg import eigh, solveh_banded
 
+from rotor.arrays import Array
 from rotor.dynamics.structure import BladeStructure
-
-Array = NDArray[np.float64]
 
 ELEMENTS = 240
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from rotor.aero.inflow import inflow_model
+from rotor.aero.switches import SWITCHES
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.active_twist import active_twist_record, read_active_twist
 from rotor.design.aircraft import Aircraft
@@ -16,16 +17,13 @@ from rotor.design.blade import airfoils_spec
 from rotor.design.design import Design
 from rotor.design.twist_spec import inline_spec
 from rotor.files.make_design import change_airfoils, make_design
-from rotor.files.rotor_file import LARGEST_FILE, read_aircraft
-from rotor.files.shipped import find_aircraft, shipped_aircraft
+from rotor.files.rotor_file import LARGEST_FILE, find_aircraft, read_aircraft, shipped_aircraft
 
 FORMAT = "rotor-explorer design"
 VERSION = 2
 READS = (1, 2)
 """Version 1 knew no `rotor`: its designs are the UH-60A's."""
 
-_SWITCHES = ("tip_loss", "hub_loss", "reverse_flow", "flapping", "compressibility", "fuselage")
-"""Of `Models`, true or false."""
 _KEYS = (
     "format",
     "version",
@@ -36,7 +34,7 @@ _KEYS = (
     "mass_kg",
     "altitude_m",
     "inflow",
-    *_SWITCHES,
+    *SWITCHES,
     "airfoils",
     "active_twist",
 )
@@ -56,7 +54,7 @@ def case_of(design: Design) -> dict[str, Any]:
         "mass_kg": design.condition.mass,
         "altitude_m": design.condition.altitude,
         "inflow": design.models.inflow,
-        **{name: getattr(design.models, name) for name in _SWITCHES},
+        **{name: getattr(design.models, name) for name in SWITCHES},
         **({"airfoils": airfoils} if airfoils else {}),
         **({"active_twist": active_twist_record(design.active_twist)} if design.active_twist else {}),
     }
@@ -108,19 +106,19 @@ def design_of(case: dict[str, Any], *, paths: bool = False) -> Design:
     preset = _text(case, "preset", "flight")
     twist = _text(case, "twist", "")
     design = make_design(
-        preset,
-        aircraft=read_rotor_record(case.get("rotor", SHIPPED_ROTORS[0]), paths=paths),
+        preset=preset,
+        rotor=read_rotor_record(case.get("rotor", SHIPPED_ROTORS[0]), paths=paths),
         twist=twist or None,
-        advance_ratio=_number(case, "advance_ratio", 0.2),
-        mass=_number(case, "mass_kg", None),
-        altitude=_number(case, "altitude_m", 0.0),
+        mu=_number(case, "advance_ratio", 0.2),
+        mass_kg=_number(case, "mass_kg", None),
+        altitude_m=_number(case, "altitude_m", 0.0),
     )
     inflow = _text(case, "inflow", design.models.inflow)
     inflow_model(inflow)
     models = replace(
         design.models,
         inflow=inflow,
-        **{name: _flag(case, name, getattr(design.models, name)) for name in _SWITCHES},
+        **{name: _flag(case, name, getattr(design.models, name)) for name in SWITCHES},
     )
     airfoils = _text(case, "airfoils", "")
     rotor = change_airfoils(design.rotor, airfoils) if airfoils else design.rotor

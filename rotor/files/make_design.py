@@ -5,16 +5,17 @@ from dataclasses import replace
 from functools import cache
 from typing import Any
 
-from rotor.aero.momentum import ideal_tip_pitch
+from rotor.aero.inflow import inflow_model
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.aircraft import Aircraft
 from rotor.design.blade import Rotor, parse_airfoils
-from rotor.design.design import Design, Models
-from rotor.design.flight import FlightCondition
-from rotor.design.presets import FLIGHT_MODELS, THESIS_MODELS, check_preset
+from rotor.design.design import FLIGHT_MODELS, THESIS_MODELS, Design, Models, check_preset
+from rotor.design.flight import FlightCondition, advance_ratio, number
 from rotor.design.twist import TwistLaw
-from rotor.design.twist_spec import parse_twist
-from rotor.files.shipped import shipped_aircraft
+from rotor.files.rotor_file import shipped_aircraft
+
+ADVANCE_RATIO = 0.2
+"""Of a design whose speed is not given."""
 
 
 @cache
@@ -41,47 +42,62 @@ def baseline_twist(preset: str, aircraft: Aircraft | None = None) -> TwistLaw:
 
 
 def make_design(
-    preset: str = "flight",
     *,
-    aircraft: Aircraft | str | None = None,
+    rotor: Aircraft | str = SHIPPED_ROTORS[0],
     twist: TwistLaw | str | None = None,
-    advance_ratio: float = 0.2,
-    mass: float | None = None,
-    altitude: float = 0.0,
+    mu: float | None = None,
+    speed_kt: float | None = None,
+    hover: bool = False,
+    mass_kg: float | None = None,
+    altitude_m: float = 0.0,
+    preset: str = "flight",
+    inflow: str | None = None,
     models: Models | None = None,
 ) -> Design:
-    """A design: preset, aircraft (UH-60A by default, or a shipped name), twist law or SPEC (default: the baseline).
+    """A design from names and numbers; left out, it is the UH-60A with its built-in twist at µ = 0.2.
 
-    On another rotor than the UH-60A `thesis` means the document's models on that rotor as it is: its own sections over
-    Mach, planform and hinge, its built-in twist as the baseline.
-    `mass` [kg] defaults to the reference mass; `altitude` [m]; `models` replaces the preset's own choices.
-    Raises ValueError with one sentence for a value it cannot use.
+    rotor: `uh60a`, `r22`, `s61`, or what `load_rotor` returns.
+    twist: a law, or a SPEC as `parse_twist` reads it, for example `linear:-12` (degrees per radius); by default the
+        twist that the preset compares with.
+    mu, speed_kt, hover: advance ratio V/(ΩR), airspeed in knots, or `hover=True`; one of them at most.
+    mass_kg: aircraft mass; by default the rotor's reference mass. altitude_m: pressure altitude.
+    preset: `flight`, the best models available, or `thesis`, those of the source document. On a rotor other than the
+        UH-60A `thesis` means the document's models with that rotor's own sections, planform, hinge and twist.
+    inflow: forward-flight inflow model by name, in place of the preset's. models: all model choices at once.
+
+    Raises TypeError or ValueError with one sentence that names the value and the remedy.
     """
     check_preset(preset)
-    craft = aircraft if isinstance(aircraft, Aircraft) else shipped_aircraft(aircraft or SHIPPED_ROTORS[0])
-    rotor = craft.rotor_for(preset)
-    draft = Design(
-        preset=preset,
-        aircraft=craft,
-        rotor=rotor,
-        twist=craft.twist_for(preset),
-        condition=FlightCondition(advance_ratio, craft.mass if mass is None else mass, altitude),
-        fuselage=craft.fuselage,
-        tail_rotor=craft.tail_rotor,
-        models=models or (FLIGHT_MODELS if preset == "flight" else THESIS_MODELS),
+    if isinstance(rotor, str):
+        if rotor not in SHIPPED_ROTORS:
+            names = ", ".join(SHIPPED_ROTORS)
+            raise ValueError(f'rotor {rotor!r} is not known: use {names}, or rotor.load_rotor("mine.toml")')
+        rotor = shipped_aircraft(rotor)
+    elif not isinstance(rotor, Aircraft):  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass anything
+        raise TypeError(f'rotor {rotor!r} is not a rotor: use a name such as "uh60a", or rotor.load_rotor("mine.toml")')
+    blades = rotor.rotor_for(preset)
+    if models is None:
+        models = FLIGHT_MODELS if preset == "flight" else THESIS_MODELS
+    if inflow is not None:
+        inflow_model(inflow)
+        models = replace(models, inflow=inflow)
+    speed = advance_ratio(blades.tip_speed, mu, speed_kt, hover)
+    condition = FlightCondition(
+        ADVANCE_RATIO if speed is None else speed,
+        rotor.mass if mass_kg is None else number("mass_kg", mass_kg, "8000"),
+        number("altitude_m", altitude_m, "1500"),
     )
-    if twist is None:
-        return draft
-    if isinstance(twist, str):
-        slope = float(rotor.blade.installed(rotor.blade.spans[0].section).table.lift_slope(0.3))
-        tip_pitch = ideal_tip_pitch(draft.weight_coefficient, rotor.solidity, slope)
-        twist = parse_twist(twist, builtin=rotor.builtin_twist, ideal_tip_pitch=tip_pitch, named=_named_twist)
-    return replace(draft, twist=twist)
-
-
-def _named_twist(name: str) -> TwistLaw | None:
-    """The built-in twist of a shipped rotor, which a SPEC may put on another one too."""
-    return shipped_aircraft(name).rotor.builtin_twist if name in SHIPPED_ROTORS else None
+    design = Design(
+        preset=preset,
+        aircraft=rotor,
+        rotor=blades,
+        twist=rotor.twist_for(preset),
+        condition=condition,
+        fuselage=rotor.fuselage,
+        tail_rotor=rotor.tail_rotor,
+        models=models,
+    )
+    return design if twist is None else design.with_twist(twist)
 
 
 def change_airfoils(rotor: Rotor, spec: str) -> Rotor:

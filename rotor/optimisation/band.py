@@ -6,16 +6,14 @@ inside the band widens it.
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
+from rotor.arrays import Array
 from rotor.optimisation.descent import Asked
 from rotor.optimisation.evaluator import Evaluator
 from rotor.optimisation.metric import BAND, Metric
 from rotor.optimisation.record import Record
 from rotor.optimisation.results import Band
 from rotor.optimisation.slsqp import Inequality, slsqp, walls
-
-Array = NDArray[np.float64]
 
 _TOLERANCE = 1e-3
 """Of the reach, at which a side is done."""

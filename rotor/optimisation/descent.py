@@ -3,14 +3,12 @@
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from rotor.arrays import Array
 from rotor.optimisation.evaluator import Evaluator
 from rotor.optimisation.metric import Metric
 from rotor.optimisation.record import Record
 from rotor.optimisation.slsqp import Inequality, slsqp, walls
-
-Array = NDArray[np.float64]
 
 TOLERANCE = 2e-4
 """Change of the objective at which a descent ends, in units of the metric: 4e-7 of the power."""

@@ -4,8 +4,8 @@ import time
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept
 from rotor.optimisation.limits import Limits, cheap_margins, stall_margins
@@ -13,8 +13,6 @@ from rotor.optimisation.objective import Measured, Objective, measure
 from rotor.optimisation.record import Record
 from rotor.optimisation.results import Phase, Progress
 from rotor.trim.solution import Solution
-
-Array = NDArray[np.float64]
 
 _REMEMBERED = 64
 """Solutions kept to start trims from."""

@@ -10,11 +10,9 @@ from dataclasses import dataclass
 from typing import Any, cast
 
 import numpy as np
-from numpy.typing import NDArray
 
+from rotor.arrays import Array
 from rotor.optimisation.record import Record
-
-Array = NDArray[np.float64]
 
 _least_squares = cast(Callable[..., Any], np.linalg.lstsq)
 

@@ -6,16 +6,14 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.flight import FlightCondition
 from rotor.optimisation.stall_limit import stalled_share
 from rotor.trim.adjoint import Adjoint, power_along
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-
-Array = NDArray[np.float64]
 
 Quantity = Literal["total", "induced"]
 QUANTITIES: tuple[Quantity, ...] = ("total", "induced")

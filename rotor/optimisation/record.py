@@ -3,10 +3,7 @@
 import math
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 FEASIBLE = 1e-3
 """Accepted violation of a limit: a thousandth of a degree, or of a per cent of the disk."""

@@ -1,20 +1,15 @@
 """What a schedule has found so far, on disk: one line of JSON a cell, so that a run broken off goes on where it was."""
 
-import hashlib
 import json
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any, cast
 
+from rotor.design.fingerprint import fingerprint
 from rotor.optimisation.schedule import Cell, Plan
 from rotor.optimisation.search import Ended, Minimum, Optimum
 
 FORMAT = "rotor-explorer schedule"
-
-
-def fingerprint(plan: Plan) -> str:
-    """The same for the same plan: all of a plan is values, so its text says everything."""
-    return hashlib.sha256(repr(plan).encode()).hexdigest()[:16]
 
 
 def read_cells(path: str | Path, plan: Plan) -> list[Cell]:

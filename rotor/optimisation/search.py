@@ -8,9 +8,9 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.stats import qmc
 
+from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.optimisation.band import measure_band
 from rotor.optimisation.concepts import Concept, nearest
@@ -27,8 +27,6 @@ from rotor.optimisation.results import Ended as Ended
 from rotor.optimisation.results import Minimum as Minimum
 from rotor.optimisation.results import Optimum as Optimum
 from rotor.optimisation.results import Progress as Progress
-
-Array = NDArray[np.float64]
 
 STARTS = 6
 """Starts of a search unless said otherwise; the first is the law nearest to the design's own twist."""

@@ -6,12 +6,10 @@ from dataclasses import dataclass
 from typing import Any, cast
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import optimize
 
+from rotor.arrays import Array
 from rotor.optimisation.metric import Metric
-
-Array = NDArray[np.float64]
 
 _minimize = cast(Callable[..., Any], optimize.minimize)
 

@@ -8,14 +8,12 @@ becomes that count.
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.aero import kernel
 from rotor.aero.elements import Pass, Problem
 from rotor.airfoil.table import MACH_STEP
+from rotor.arrays import Array
 from rotor.trim.adjoint import Adjoint, Weights
-
-Array = NDArray[np.float64]
 
 WIDTH = math.radians(0.5)
 """Margin [rad] over which a cell changes from attached to stalled (logistic scale)."""

@@ -12,9 +12,8 @@ from rotor.files.make_design import make_design, uh60a_data
 from rotor.reproduce.report import Panel, Report, Verdict, curve, judged, table
 from rotor.reproduce.runs import solved
 from rotor.trim.solve import solve
+from rotor.units import KNOT
 
-KNOT = 1852.0 / 3600.0
-"""[m/s]"""
 HORSEPOWER_KW = 0.745700
 """[kW], mechanical"""
 SPEEDS = (0.0, 0.075, 0.1, 0.125, 0.15, 0.175, 0.2, 0.225, 0.25, 0.275, 0.3, 0.325, 0.35)
@@ -197,7 +196,7 @@ def _beside_model_curve() -> tuple[list[float], list[float], dict[str, list[floa
     ours: dict[str, list[float]] = {}
     for name in _NAMES:
         designs = [
-            make_design(name, advance_ratio=mu, mass=forward["mass_kg"], altitude=forward["altitude_m"])
+            make_design(preset=name, mu=mu, mass_kg=forward["mass_kg"], altitude_m=forward["altitude_m"])
             for mu in speeds
         ]
         ours[name] = [solve(design).require().power.main_rotor / 1e3 for design in designs]
@@ -208,7 +207,7 @@ def _beside_hover_points() -> tuple[list[float], list[float], list[float]]:
     """C_T/σ, digitised C_P/σ and ours."""
     hover = public_data()["hover"]
     solidity = hover["solidity"]
-    base = make_design(advance_ratio=0.0)
+    base = make_design(mu=0.0)
     ours: list[float] = []
     for ct in hover["ct_over_sigma"]:
         mass = base.condition.mass * ct * solidity / base.weight_coefficient

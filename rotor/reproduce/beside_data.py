@@ -7,13 +7,14 @@ from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.search import Search, optimise
 from rotor.reproduce import every_inflow
-from rotor.reproduce.aircraft import HORSEPOWER_KW, KNOT, public_data
+from rotor.reproduce.aircraft import HORSEPOWER_KW, public_data
 from rotor.reproduce.optima import FULL, Scope
 from rotor.reproduce.optimum_twist import SHORT, UNKNOWN, Variants
 from rotor.reproduce.remember import Remembered
 from rotor.reproduce.report import Curve, Panel, Report, Verdict, curve, table
 from rotor.reproduce.runs import EVERY_VARIANT, VARIANT_TITLES, VARIANTS, choices, variant
 from rotor.trim.solve import solve
+from rotor.units import KNOT
 
 SLOWEST = 0.075
 """µ below which no inflow model is proven."""

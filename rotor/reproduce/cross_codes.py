@@ -11,15 +11,12 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.airfoil.table import load_section
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-
-Array = NDArray[np.float64]
 
 DYNBEM_SPEEDS = (0.10, 0.20, 0.30)
 CCBLADE_MASSES = (5000.0, 8322.4)
@@ -77,7 +74,7 @@ def _blade_without_coning(design: Design) -> Design:
 
 def moment_trimmed(mu: float) -> Solution:
     """The document's rotor in propulsive trim with three-state gains and no loss factors."""
-    design = make_design("thesis", twist=f"linear:{RATE_DEG}", advance_ratio=mu)
+    design = make_design(preset="thesis", twist=f"linear:{RATE_DEG}", mu=mu)
     models = replace(
         design.models, trim="propulsive", disk_axial_flow=True, inflow="pitt-peters", tip_loss=False, hub_loss=False
     )
@@ -169,7 +166,7 @@ class _MirroredSection:
 
 def _one_ccblade(mass: float, swirl: bool) -> Beside:
     ccblade: Any = importlib.import_module("wisdem.ccblade.ccblade")
-    design = make_design("thesis", twist=f"linear:{RATE_DEG}", advance_ratio=0.0, mass=mass)
+    design = make_design(preset="thesis", twist=f"linear:{RATE_DEG}", mu=0.0, mass_kg=mass)
     models = replace(design.models, hover_inflow="annulus", hub_loss=False)
     ours = solve(replace(design, models=models)).require()
     rotor = design.rotor

@@ -3,14 +3,12 @@
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.actuator.catalogue import PiezoPly, find_actuator
 from rotor.actuator.electrodes import FieldMap, deformed_sheet, field_map
+from rotor.arrays import Array
 from rotor.reproduce.optimum_twist import UNKNOWN
 from rotor.reproduce.report import Curve, FieldPanel, Panel, Report, Verdict, curve, floats, table
-
-Array = NDArray[np.float64]
 
 PAIR = ("MFC_P1", "MFC_P2")
 """The same fibres with interdigitated and with continuous electrodes."""

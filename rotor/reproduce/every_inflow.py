@@ -3,14 +3,14 @@
 import math
 from collections.abc import Callable, Sequence
 
-from rotor.aero.inflow.models import INFLOW_MODELS
+from rotor.aero.inflow import INFLOW_MODELS
 from rotor.reproduce.optima import Best, Scope
 from rotor.reproduce.report import Cell, Curve, Panel, Table, curve, table
 from rotor.reproduce.runs import PRESETS, choices
 
-LINEAR = tuple(name for name, model in INFLOW_MODELS.items() if not model.reacts)
+LINEAR = tuple(name for name, model in INFLOW_MODELS.items() if not model.load_dependent)
 """Models whose inflow does not answer to where the lift is; they lie on one another."""
-REACTING = tuple(name for name, model in INFLOW_MODELS.items() if model.reacts)
+REACTING = tuple(name for name, model in INFLOW_MODELS.items() if model.load_dependent)
 NOTE = "In hover every model gives the same: there the annuli balance themselves."
 
 Value = Callable[[str, int], float]
@@ -28,16 +28,16 @@ def model_panels(y_label: str, value: Value, variants: Sequence[str], scope: Sco
             if choices(name)[0] != preset:
                 continue
             inflow = choices(name)[1]
-            reacts = inflow in REACTING
-            label = INFLOW_MODELS[inflow].title if reacts else f"linear models ({len(LINEAR)})"
-            first = reacts or all(one.label != label for one in curves)
+            load_dependent = inflow in REACTING
+            label = INFLOW_MODELS[inflow].title if load_dependent else f"linear models ({len(LINEAR)})"
+            first = load_dependent or all(one.label != label for one in curves)
             curves.append(
                 curve(
                     label if key and first and preset == PRESETS[0] else "",
                     speeds,
                     [value(name, k) for k in flying],
-                    "both" if reacts else "thin",
-                    colour=REACTING.index(inflow) if reacts else 7,
+                    "both" if load_dependent else "thin",
+                    colour=REACTING.index(inflow) if load_dependent else 7,
                 )
             )
         panels.append(Panel("advance ratio µ", y_label, tuple(curves), title=f"{preset} preset, every inflow model"))

@@ -35,7 +35,7 @@ def figure_3_11() -> Report:
     numbers: dict[str, float] = {}
     words: list[str] = []
     for name in ("thesis", "flight"):
-        sigma = make_design(name).rotor.solidity
+        sigma = make_design(preset=name).rotor.solidity
         powers = {rate: [solved(name, f"linear:{rate}", 0.0, mass).require() for mass in MASSES] for rate in FIVE_RATES}
         loading = [one.ct / sigma for one in powers[0]]
         curves = [curve(f"{rate}°", loading, [one.cp for one in powers[rate]]) for rate in FIVE_RATES]

@@ -79,7 +79,7 @@ MISPRINTS: tuple[Misprint, ...] = (
         "3.3", "18", "omission", "one lift-curve slope for hover",
         "Closed form only for a straight lift curve; the flight preset balances each annulus with the real one. "
         "Shown: hover power, linear −16°, flight preset with either.",
-        "design = make_design('flight', twist='linear:-16', advance_ratio=0.0)",
+        "design = make_design(twist='linear:-16', mu=0.0)",
         "hover_kw(design, 'closed-form'), hover_kw(design, 'annulus')", "kW",
     ),
     Misprint(
@@ -98,7 +98,7 @@ MISPRINTS: tuple[Misprint, ...] = (
         "3.6", "21", "omission", "U_P without µ sin α ΩR",
         "The tilted disk sees the stream. Without it torque × Ω misses the parasite power, and what the disk, flapped "
         "back, draws from the stream: shown at µ 0.30, beside the sum of parts that the thesis preset takes as power.",
-        "power = solve(make_design('thesis', advance_ratio=0.30)).require().power",
+        "power = solve(make_design(preset='thesis', mu=0.30)).require().power",
         "power.shaft / 1e3, power.main_rotor / 1e3", "kW",
     ),
     Misprint(
@@ -130,14 +130,14 @@ MISPRINTS: tuple[Misprint, ...] = (
     Misprint(
         "3.19", "24", "omission", "f_drag and A_eq without numbers",
         "Whole aircraft f = 3.265 m² (35.14 ft²). Shown: fuselage drag × speed at µ 0.3 without (0) and with it.",
-        "design = make_design('thesis', advance_ratio=0.30)",
+        "design = make_design(preset='thesis', mu=0.30)",
         "0.0, design.fuselage.drag(design.condition.density, design.airspeed) * design.airspeed / 1e3", "kW",
     ),
     Misprint(
         "§3.2", "25", "misprint", "weight W = 8322.4 kg",
         "A mass. Shown: C_W taken literally in newton, and with g; the second is the round 0.0065 of flight-test "
         "reports.",
-        "design = make_design('thesis')",
+        "design = make_design(preset='thesis')",
         "design.condition.mass / design.thrust_unit, design.condition.weight / design.thrust_unit",
     ),
     Misprint(

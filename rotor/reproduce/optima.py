@@ -105,7 +105,7 @@ def best(name: str, concept: str, mu: float, scope: Scope) -> Best:
     if concept != "linear":
         near.append(best(name, "linear", mu, scope).twist)
     for spec in near:
-        guesses.append(nearest(family, parse_twist(spec, builtin=design.twist, ideal_tip_pitch=0.0)))
+        guesses.append(nearest(family, parse_twist(spec, builtin=design.twist)))
     # One start more than the guesses: begun right at the optimum, a search sees too little to measure its band.
     starts = max(scope.starts if not neighbour else 1, len(guesses) + 1)
     found = optimise(Search(design, family, starts=starts, guesses=tuple(guesses)))

@@ -3,7 +3,7 @@
 from dataclasses import replace
 from functools import lru_cache
 
-from rotor.aero.inflow.models import INFLOW_MODELS
+from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
@@ -61,7 +61,7 @@ EVERY_VARIANT = tuple(with_inflow(preset, inflow) for preset in PRESETS for infl
 def variant(name: str, *, twist: str | None = None, mu: float = 0.2, mass: float | None = None) -> Design:
     """A preset, or a preset with its inflow exchanged."""
     preset, inflow = choices(name)
-    design = make_design(preset, twist=twist, advance_ratio=mu, mass=mass)
+    design = make_design(preset=preset, twist=twist, mu=mu, mass_kg=mass)
     models = replace(design.models, inflow=inflow)
     if name == THESIS_TRIMMED:
         models = replace(models, trim="propulsive", disk_axial_flow=True)

@@ -90,7 +90,7 @@ def sensitivity() -> Iterator[SensitivityRow]:
     concept = find_concept("linear")
     for name, change in CHANGES:
         for mu in SPEEDS:
-            design = change(make_design(twist=BASELINE, advance_ratio=mu))
+            design = change(make_design(twist=BASELINE, mu=mu))
             found = optimise(Search(design, concept, starts=2))
             assert found.best is not None, f"{name}, µ {mu:g}: {found.message}"
             assert found.saving is not None, f"{name}, µ {mu:g}: the baseline does not trim"

@@ -43,7 +43,7 @@ def figure_2_7() -> Report:
     thrust: list[Curve] = []
     numbers: dict[str, float] = {}
     for k, (preset, twist) in enumerate((("thesis", "linear:-16"), ("flight", "uh60a"))):
-        design = make_design(preset, twist=twist, advance_ratio=0.0)
+        design = make_design(preset=preset, twist=twist, mu=0.0)
         disk = solve(replace(design, models=replace(design.models, elements=FINE, azimuths=8))).require().disk
         lift = disk.dct[:, 0]
         inner, outer = _share(disk.r, disk.dr, lift, 0.5, 0.9), _share(disk.r, disk.dr, lift, 0.9, 1.0)

@@ -5,11 +5,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.integrate import solve_ivp  # pyright: ignore[reportUnknownVariableType]
 
 from rotor.aero import kernel
 from rotor.aero.elements import CONING, FLAP_1C, FLAP_1S, lay_out, run_pass, skewed
+from rotor.arrays import Array
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
@@ -22,8 +22,6 @@ from rotor.trim.hover import closed_form_inflow
 from rotor.trim.newton import newton
 from rotor.trim.power import profile_power_coefficient
 from rotor.trim.solve import solve
-
-Array = NDArray[np.float64]
 
 SPEEDS = (0.1, 0.2, 0.3)
 
@@ -75,7 +73,7 @@ def between_theories() -> Iterator[TrustRow]:
         f"{best[0]:.1f}° and {best[1]:.1f}°.",
     )  # fmt: skip
     for name in SHIPPED_ROTORS[1:]:
-        design = make_design(aircraft=name)
+        design = make_design(rotor=name)
         power = [_main_rotor(design, inflow) for inflow in ("dynamic-wake", "vortex-wake")]
         yield _percent(
             f"{design.rotor.blades} blades ({design.aircraft.name}): main-rotor power, µ 0.2",
@@ -119,7 +117,7 @@ def _energy() -> float:
     errors: list[float] = []
     for inflow in ("dynamic-wake", "local-momentum", "pitt-peters"):
         for mu in SPEEDS:
-            power = solve(_with_inflow(make_design(advance_ratio=mu), inflow)).require().power
+            power = solve(_with_inflow(make_design(mu=mu), inflow)).require().power
             errors.append(abs(power.shaft / power.main_rotor - 1.0))
     return max(errors)
 
@@ -128,7 +126,7 @@ def _gradient() -> float:
     """Of ∂P/∂rate at µ 0.25, by differences of 0.05°."""
 
     def at(rate: float) -> Design:
-        return make_design(twist=f"linear:{rate:.9g}", advance_ratio=0.25)
+        return make_design(twist=f"linear:{rate:.9g}", mu=0.25)
 
     solution = solve(at(-8.0))
     exact = float(power_gradient(solution).along((solution.disk.r - 0.75)[None])[0])
@@ -147,7 +145,7 @@ def _profile() -> float:
 
 def _flapping() -> tuple[float, float]:
     """Largest difference of β0, β1c, β1s [°] between balance and marched motion; the marched 2/rev amplitude [°]."""
-    design = _with_inflow(make_design("thesis", twist="linear:-10", advance_ratio=0.15), "pitt-peters")
+    design = _with_inflow(make_design(preset="thesis", twist="linear:-10", mu=0.15), "pitt-peters")
     problem = lay_out(design)
     state = newton(problem, first_guess(problem)).last.state
     disk, flap, one = problem.disk, problem.flap, run_pass(problem, state)
@@ -184,7 +182,7 @@ def _with_inflow(design: Design, inflow: str) -> Design:
 
 
 def _total(inflow: str, mu: float, rate: float) -> float:
-    design = make_design(twist=f"linear:{rate:g}", advance_ratio=mu)
+    design = make_design(twist=f"linear:{rate:g}", mu=mu)
     return solve(_with_inflow(design, inflow)).require().power.total
 
 

@@ -12,7 +12,7 @@ from dataclasses import asdict, dataclass
 from functools import cache
 from typing import Any
 
-from rotor.design.presets import FLIGHT_MODELS, THESIS_MODELS
+from rotor.design.design import FLIGHT_MODELS, THESIS_MODELS
 from rotor.files.provenance import package_version
 from rotor.study.columns import Column, columns_of
 from rotor.study.memory import Memory

@@ -12,11 +12,9 @@ from typing import Any, cast
 
 from rotor.aero.inflow import inflow_model
 from rotor.aero.switches import SWITCHES
-from rotor.analysis.sweep import at_advance_ratio
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.aircraft import Aircraft
-from rotor.design.design import Design
-from rotor.design.presets import FLIGHT_MODELS, THESIS_MODELS, check_preset
+from rotor.design.design import FLIGHT_MODELS, THESIS_MODELS, Design, check_preset
 from rotor.files.make_design import change_airfoils, make_design
 from rotor.optimisation.concepts import Concept, restrict
 from rotor.optimisation.objective import at_condition, hover_and_cruise
@@ -27,8 +25,6 @@ from rotor.study.study import Searching, Study
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
-_KNOT = 1852.0 / 3600.0
-"""[m/s]"""
 _CRUISE = 0.2
 """Advance ratio where a study says none."""
 
@@ -52,18 +48,18 @@ def design_of(values: Values, aircraft: Mapping[str, Aircraft]) -> Design:
             changed[name] = int(cast(float, values[name]))
     rotor = str(values.get("rotor", SHIPPED_ROTORS[0]))
     design = make_design(
-        preset,
-        aircraft=aircraft.get(rotor, rotor),
+        preset=preset,
+        rotor=aircraft.get(rotor, rotor),
         twist=str(values["twist"]) if "twist" in values else None,
-        advance_ratio=float(values.get("mu", _CRUISE)),
-        mass=float(values["mass_kg"]) if "mass_kg" in values else None,
-        altitude=float(values.get("altitude_m", 0.0)),
+        mu=float(values.get("mu", _CRUISE)),
+        mass_kg=float(values["mass_kg"]) if "mass_kg" in values else None,
+        altitude_m=float(values.get("altitude_m", 0.0)),
         models=replace(models, **changed) if changed else models,
     )
     if "speed_kt" in values:
         if "mu" in values:
             raise ValueError("mu and speed_kt are both given: leave one out")
-        design = at_advance_ratio(design, float(values["speed_kt"]) * _KNOT / design.rotor.tip_speed)
+        design = design.at(speed_kt=float(values["speed_kt"]))
     if "airfoils" in values:
         design = replace(design, rotor=change_airfoils(design.rotor, str(values["airfoils"])))
     return design
@@ -198,7 +194,7 @@ def _found(optimum: Optimum, search: Search) -> Row:
     row |= {"mean_power_w": best.power, "active": ", ".join(best.active)}
     assert search.objective is not None
     if any(leg.condition.advance_ratio == 0.0 for leg in search.objective.legs) and len(search.objective.legs) > 1:
-        hover = solve(at_advance_ratio(optimum.design, 0.0))
+        hover = solve(optimum.design.at(mu=0.0))
         row["hover_power_w"] = hover.power.total if hover.converged else None
     return row
 

@@ -12,7 +12,7 @@ from rotor.design.aircraft import Aircraft
 from rotor.design.twist_spec import inline_spec
 from rotor.files.make_design import make_design
 from rotor.files.ranges import parse_range
-from rotor.files.shipped import find_aircraft
+from rotor.files.rotor_file import find_aircraft
 from rotor.study.axes import Axis, Places, Sample
 from rotor.study.columns import columns_of
 from rotor.study.document import Document

@@ -1,9 +1,9 @@
 """What a study is: a value, that pickles, compares and has a fingerprint."""
 
-import hashlib
 from dataclasses import dataclass
 
 from rotor.design.aircraft import Aircraft
+from rotor.design.fingerprint import fingerprint
 from rotor.optimisation.objective import Quantity as Objective
 from rotor.study.axes import Places
 from rotor.study.quantities import PLAIN, Value
@@ -94,9 +94,8 @@ class Study:
 
     @property
     def fingerprint(self) -> str:
-        """The same for studies whose points have the same answers: all of it is values, so its text says everything."""
-        decisive = (self.places, sorted(self.given), self.searching, self.chunk, self.aircraft)
-        return hashlib.sha256(repr(decisive).encode()).hexdigest()[:16]
+        """The same for studies whose points have the same answers."""
+        return fingerprint((self.places, sorted(self.given), self.searching, self.chunk, self.aircraft))
 
 
 def check_uncertain(uncertain: tuple[str, ...], axes: tuple[str, ...], sampled: tuple[str, ...]) -> None:

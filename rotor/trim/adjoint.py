@@ -14,19 +14,17 @@ from functools import cached_property
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.aero import kernel
 from rotor.aero.elements import COLLECTIVE, CYCLIC_1C, CYCLIC_1S, Pass, Problem, lay_out, run_pass
-from rotor.aero.inflow.interface import LoadLoop
+from rotor.aero.inflow.interface import InflowFeedback
 from rotor.aero.sums import Slopes, slopes, unweigh, velocity_columns
+from rotor.arrays import Array
 from rotor.trim.equations import combine_sums, jacobian, unknowns_of
 from rotor.trim.forward import guess_of
 from rotor.trim.hover import Annuli
 from rotor.trim.power import tail_power
 from rotor.trim.solution import Solution
-
-Array = NDArray[np.float64]
 
 Objective = Literal["total", "induced"]
 
@@ -90,10 +88,12 @@ class Adjoint:
         return self._forward(weights) if self._annuli is None else self._in_hover(weights, self._annuli)
 
     @cached_property
-    def _linear(self) -> tuple[Slopes, LoadLoop | None, Array]:
+    def _linear(self) -> tuple[Slopes, InflowFeedback | None, Array]:
         """What the unknowns do to the pass, the inflow's loop, and the Jacobian of the trim."""
         problem, one = self.problem, self.one
-        loop = one.response.loop(one.loads[kernel.FZ_UP]) if problem.inflow.reacts and one.response else None
+        loop = (
+            one.response.feedback(one.loads[kernel.FZ_UP]) if problem.inflow.load_dependent and one.response else None
+        )
         made = slopes(problem, one, unknowns_of(problem.design.models), loop)
         return made, loop, jacobian(problem, one, made)
 
@@ -118,7 +118,7 @@ class Adjoint:
         lift, push = weights.lift - on_lift, weights.push - on_push
         if loop is not None and one.response is not None:
             back = loads[kernel.FZ_UP] * lift + loads[kernel.FX_UP] * push + answer
-            lift = lift + one.response.drive_transposed(loop.solve_transposed(back))
+            lift = lift + one.response.apply_transposed(loop.solve_transposed(back))
         return (lift * loads[kernel.FZ_THETA] + push * loads[kernel.FX_THETA] + weights.pitch).sum(axis=1)
 
     def _in_hover(self, weights: Weights, annuli: Array) -> Array:

@@ -10,7 +10,6 @@ collective, λ0 and, where drag is balanced, the shaft tilt; the hub carries wha
 import math
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.aero.elements import (
     COLLECTIVE,
@@ -25,9 +24,8 @@ from rotor.aero.elements import (
     Problem,
 )
 from rotor.aero.sums import Slopes, sums
+from rotor.arrays import Array
 from rotor.design.design import Models
-
-Array = NDArray[np.float64]
 
 UNKNOWNS: dict[str, tuple[int, ...]] = {
     "propulsive": (COLLECTIVE, SHAFT_TILT, CONING, CYCLIC_1C, CYCLIC_1S, LAMBDA0),

@@ -12,15 +12,14 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from rotor.aero import kernel
 from rotor.aero.elements import COLLECTIVE, CONING, LAMBDA0, N_STATE, Pass, Problem
 from rotor.aero.inflow import Wake
 from rotor.aero.losses import loss_factor
 from rotor.airfoil.sections import Section
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 LIFT_CURVE_MACH = 0.3
 """Mach number at which the linear lift curve of (3.3) is read off; the document's polar knows no other."""

@@ -6,16 +6,14 @@ from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.aero import kernel
 from rotor.aero.elements import Pass, Problem, run_pass, skewed
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.inflow.interface import LoadLoop
+from rotor.aero.inflow.interface import InflowFeedback
 from rotor.aero.sums import Slopes, slopes, weigh
+from rotor.arrays import Array
 from rotor.trim.equations import combine_sums, jacobian, residuals, unknowns_of, with_givens
-
-Array = NDArray[np.float64]
 
 TOLERANCE = 1e-10
 """Largest accepted residual as a fraction of C_W; keeps the energy identity to 1e-9."""
@@ -34,7 +32,7 @@ _STEP_LIMIT = np.array([0.08, 0.08, 0.08, 0.08, 0.08, 0.08, 0.08, 0.02])
 
 @dataclass(frozen=True, eq=False)
 class Guess:
-    """Where to start: trim unknowns, and the induced field for a model that reacts."""
+    """Where to start: trim unknowns, and the induced field for a load-dependent model."""
 
     state: Array
     induced: Array | None = None
@@ -71,19 +69,19 @@ class _Linearised:
 
     slopes: Slopes
     jacobian: Array
-    loop: LoadLoop | None
+    loop: InflowFeedback | None
 
 
 def newton(problem: Problem, start: Guess, max_passes: int = MAX_PASSES) -> TrimResult:
     """Newton's method on trim unknowns and inflow together, with a step limit and backtracking.
 
-    Eliminating the inflow by the model's own loop leaves a system of the trim unknowns only. For a model that reacts
+    Eliminating the inflow by the model's own loop leaves a system of the trim unknowns only. For a load-dependent model
     the derivatives are kept over several steps, because they cost more than a pass.
     """
     unknowns = list(unknowns_of(problem.design.models))
     state = with_givens(problem, start.state)
     induced = start.induced
-    if problem.inflow.reacts and (induced is None or induced.shape != problem.disk.shape):
+    if problem.inflow.load_dependent and (induced is None or induced.shape != problem.disk.shape):
         induced = _prescribed_start(problem, state)
     point = _evaluate(problem, state, induced)
     passes, poor = 1, 0
@@ -106,7 +104,7 @@ def newton(problem: Problem, start: Guess, max_passes: int = MAX_PASSES) -> Trim
             if trial.size < point.size or not fresh or fraction < 0.2 or passes >= max_passes:
                 break
             fraction *= 0.5
-        if trial.size > _REFRESH * point.size or not problem.inflow.reacts:
+        if trial.size > _REFRESH * point.size or not problem.inflow.load_dependent:
             kept = None
         if trial.size >= point.size and not fresh:
             continue  # Old derivatives led astray: try again from here with new ones.
@@ -124,7 +122,7 @@ def _evaluate(problem: Problem, state: Array, induced: Array | None) -> _Point:
     error = residuals(problem, one)
     size = float(np.abs(error).max()) / (problem.weight * TOLERANCE)
     gap = None
-    if problem.inflow.reacts and one.response is not None:
+    if problem.inflow.load_dependent and one.response is not None:
         gap = one.response.induced - one.induced
         size = max(size, float(np.abs(gap).max()) / (abs(one.flow.lambda0) * INFLOW_TOLERANCE))
     return _Point(one, error, gap, size if math.isfinite(size) else math.inf)
@@ -132,8 +130,8 @@ def _evaluate(problem: Problem, state: Array, induced: Array | None) -> _Point:
 
 def _linearise(problem: Problem, one: Pass, unknowns: tuple[int, ...]) -> _Linearised:
     loop = None
-    if problem.inflow.reacts and one.response is not None:
-        loop = one.response.loop(one.loads[kernel.FZ_UP])
+    if problem.inflow.load_dependent and one.response is not None:
+        loop = one.response.feedback(one.loads[kernel.FZ_UP])
     made = slopes(problem, one, unknowns, loop)
     return _Linearised(made, jacobian(problem, one, made), loop)
 
@@ -159,6 +157,6 @@ def _step(problem: Problem, point: _Point, kept: _Linearised) -> tuple[Array | N
 
 
 def _prescribed_start(problem: Problem, state: Array) -> Array:
-    """A first field for a model that reacts: Pitt–Peters at the same wake."""
+    """A first field for a load-dependent model: Pitt–Peters at the same wake."""
     nothing = np.zeros((0, 0))
     return INFLOW_MODELS["pitt-peters"].respond(problem.disk, skewed(problem, state), nothing).induced

@@ -1,4 +1,4 @@
-"""Main-rotor power by parts, and the textbook closed form of profile power.
+"""Main-rotor power by parts, tail-rotor power, hub moment, and the textbook closed form of profile power.
 
 Induced Σ λ_i dF_z, profile Σ U dD (dissipation), parasite D·V. With periodic flapping and forces in balance their sum
 is the shaft power Σ Ωy dF_x (3.10), (3.13) as an identity of the discretised equations: from U_T dF_x = U_P dF_z + U dD
@@ -10,17 +10,17 @@ Without the axial flow of the tilted disk (3.6 as printed) the torque lacks D·V
 the power.
 """
 
+import math
+
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.aero import kernel
 from rotor.aero.elements import Pass, Problem
-from rotor.aero.tail_rotor import tail_rotor_power
+from rotor.aero.momentum import glauert_inflow
+from rotor.arrays import Array
+from rotor.design.aircraft import FIXED_SHARE, TailRotor
 from rotor.design.design import Design
-from rotor.design.tail_rotor import FIXED_SHARE
-from rotor.trim.solution import PowerBudget
-
-Array = NDArray[np.float64]
+from rotor.trim.solution import HubMoment, PowerBudget
 
 
 def power_budget(problem: Problem, one: Pass) -> PowerBudget:
@@ -58,3 +58,41 @@ def profile_power_coefficient(solidity: float, drag_coefficient: float, advance_
     """
     mu = advance_ratio
     return solidity * drag_coefficient / 8.0 * (1.0 + 3.0 * mu**2 + 0.375 * mu**4)
+
+
+def hub_moment(problem: Problem, one: Pass) -> HubMoment:
+    """Steady moments about the hub, first harmonics of Σ r dF_z.
+
+    Hinged or not: a blade that flaps once a revolution feels as much from its inertia one way as from its centrifugal
+    force the other, about the hub. Blades free to flap at the centre hand over nothing, because flapping evens it out.
+    """
+    design, disk = problem.design, problem.disk
+    moment = disk.r @ one.loads[kernel.FZ] * (design.thrust_unit * design.rotor.radius * disk.dr / len(disk.psi))
+    return HubMoment(roll=float(moment @ disk.sin), pitch=-float(moment @ disk.cos))
+
+
+def tail_rotor_power(tail: TailRotor, torque: float, airspeed: float, density: float) -> tuple[float, float]:
+    """Power [W] that balances a main-rotor torque [N m] at an airspeed [m/s], and its slope dP/dQ [W/(N m)].
+
+    Energy method: induced power T v_i of the effective disk (radius B R), profile power σ c_d/8 (1 + 3µ²) of the
+    dissipation form with the polar taken at the mean angle of attack 6 C_T/(σ a).
+    """
+    tip_speed = tail.angular_speed * tail.radius
+    area = math.pi * tail.radius**2
+    unit = density * area * tip_speed**2
+    solidity = tail.blades * tail.chord / (math.pi * tail.radius)
+    mu = airspeed / tip_speed
+    ct_slope = 1.0 / (tail.arm * math.cos(tail.cant) * unit)
+    ct = max(torque, 0.0) * ct_slope
+
+    effective = ct / tail.tip_loss**2
+    inflow, inflow_slope = glauert_inflow(effective, mu, 0.0)
+    alpha_slope = 6.0 / (solidity * tail.lift_slope)
+    alpha = alpha_slope * ct
+    d0, d1, d2 = tail.drag_polar
+    profile = solidity / 8.0 * (1.0 + 3.0 * mu**2)
+    cp = ct * inflow + profile * (d0 + d1 * alpha + d2 * alpha**2)
+    cp_slope = (
+        inflow + ct * inflow_slope / tail.tip_loss**2 + profile * (d1 + 2.0 * d2 * alpha) * alpha_slope
+    ) * ct_slope
+    return cp * unit * tip_speed, cp_slope * unit * tip_speed

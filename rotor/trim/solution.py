@@ -5,11 +5,9 @@ from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
-from numpy.typing import NDArray
 
+from rotor.arrays import Array
 from rotor.design.design import Design
-
-Array = NDArray[np.float64]
 
 
 class Status(Enum):

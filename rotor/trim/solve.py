@@ -3,8 +3,6 @@
 import math
 import time
 
-import numpy as np
-from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits  # pyright: ignore[reportMissingTypeStubs]
 
 from rotor.aero import kernel
@@ -25,13 +23,10 @@ from rotor.aero.sums import sums
 from rotor.design.design import Design
 from rotor.trim.forward import guess_of, trim
 from rotor.trim.hover import HoverResult, hover
-from rotor.trim.hub_loads import hub_moment
 from rotor.trim.newton import Guess, TrimResult
-from rotor.trim.power import power_budget
+from rotor.trim.power import hub_moment, power_budget
 from rotor.trim.solution import Controls, DiskFields, Solution, Status
 from rotor.trim.validity import caveats, failure_sentence
-
-Array = NDArray[np.float64]
 
 # Systems of six unknowns: BLAS threads cost ten times what they save.
 threadpool_limits(limits=1, user_api="blas")

@@ -3,8 +3,8 @@
 from rotor.aero import kernel
 from rotor.aero.elements import Pass, Problem
 from rotor.aero.switches import switched_off
+from rotor.design.aircraft import FIXED_SHARE
 from rotor.design.design import Design
-from rotor.design.tail_rotor import FIXED_SHARE
 from rotor.trim.solution import Caveat, HubMoment
 
 LOW_SPEED = 0.075
@@ -49,7 +49,7 @@ def caveats(problem: Problem, one: Pass, stalled: float, moment: HubMoment) -> t
         add("switched-off", f"Switched off: {names}: a lesson, not the aircraft.")
     if not design.models.flapping and mu > 0.0:
         add("rigid-blades", _rigid(moment))
-        if not problem.inflow.reacts:
+        if not problem.inflow.load_dependent:
             add(
                 "rigid-blades-linear-inflow",
                 "Linear inflow does not answer to lopsided lift: the induced power of rigid blades comes out too low.",
@@ -58,7 +58,7 @@ def caveats(problem: Problem, one: Pass, stalled: float, moment: HubMoment) -> t
         add(
             "active-twist-rests", "Active twist follows the azimuth and rests in hover; only the twist law counts here."
         )
-    if 0.0 < mu < LOW_SPEED and not problem.inflow.reacts:
+    if 0.0 < mu < LOW_SPEED and not problem.inflow.load_dependent:
         add("low-speed-inflow", f"Linear inflow is not trusted below advance ratio {LOW_SPEED:g}; this is {mu:.3f}.")
     elif 0.0 < mu < LOWEST_SPEED:
         add(

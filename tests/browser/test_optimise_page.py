@@ -58,7 +58,7 @@ def press(watched: Watched, name: str) -> None:
 
 
 def run_of(session: Session) -> Any:
-    run = session.panels.optimise._run
+    run = session.page.optimise._run
     assert run is not None
     return run
 
@@ -74,20 +74,20 @@ def until_better(session: Session) -> None:
 def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tuple[Watched, Session]):
     watched, session = page
     before, blade = watched.text("total-power"), watched.node("/rotor/blade_0")
-    law = session.panels.controls.inputs().law
+    law = session.page.controls.inputs().law
     watched.choose("Concept", "Two segments")
     press(watched, "Optimise")
     until(watched, "done")
     # The picture follows the search; the sliders have not moved.
     watched.until_changed(lambda: watched.text("total-power"), before)
     watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)
-    assert session.panels.controls.inputs().law == law
+    assert session.page.controls.inputs().law == law
     run = run_of(session)
     watched.page.wait_for_function(f"() => document.body.innerText.includes('design {run.frames[-1].evaluation}')")
     press(watched, "Apply")
     watched.page.wait_for_timeout(600)
-    design = session.panels.controls.inputs().design()
-    assert session.panels.controls.inputs().law == "two"
+    design = session.page.controls.inputs().design()
+    assert session.page.controls.inputs().law == "two"
     power = solve(design).power.total
     assert power == pytest.approx(run.optimum.best.power, rel=1e-6)
     assert power < run.start_power
@@ -97,7 +97,7 @@ def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tu
 
 def test_a_replay_goes_back_to_the_start_and_discard_leaves_the_sliders(page: tuple[Watched, Session]):
     watched, session = page
-    inputs = session.panels.controls.inputs()
+    inputs = session.page.controls.inputs()
     before = watched.text("total-power")
     watched.choose("Concept", "Linear")
     press(watched, "Optimise")
@@ -115,13 +115,13 @@ def test_a_replay_goes_back_to_the_start_and_discard_leaves_the_sliders(page: tu
     )
     press(watched, "Discard")
     watched.page.wait_for_timeout(400)
-    assert session.panels.controls.inputs() == inputs
+    assert session.page.controls.inputs() == inputs
     assert watched.page.get_by_role("button", name="Apply", exact=True).count() == 0
 
 
 def test_stop_answers_within_three_tenths_of_a_second_and_keeps_the_best(page: tuple[Watched, Session]):
     watched, session = page
-    panel = session.panels.optimise
+    panel = session.page.optimise
     watched.choose("Concept", SLOW)
     watched.row("Starts").get_by_role("slider").focus()
     watched.page.keyboard.press("End")
@@ -149,7 +149,7 @@ def test_stop_answers_within_three_tenths_of_a_second_and_keeps_the_best(page: t
     assert solve(run.best.design).power.total == pytest.approx(run.best.power, rel=1e-6)
     press(watched, "Apply")
     watched.page.wait_for_timeout(400)
-    assert solve(session.panels.controls.inputs().design()).power.total == pytest.approx(run.frames[-1].power, rel=1e-6)
+    assert solve(session.page.controls.inputs().design()).power.total == pytest.approx(run.frames[-1].power, rel=1e-6)
 
 
 def test_the_page_goes_on_when_its_worker_is_killed(page: tuple[Watched, Session], app: App):
@@ -184,7 +184,7 @@ def test_two_browsers_at_once_do_not_disturb_each_other(page: tuple[Watched, Ses
     press(watched, "Optimise")
     until(watched, "running")
     other.page.get_by_role("tab", name="Optimise").click()
-    assert 'data-kind="idle"' in others.panels.optimise._standing.content
+    assert 'data-kind="idle"' in others.page.optimise._standing.content
     assert other.text("total-power") == before
     other.choose("Concept", "Linear")
     press(other, "Optimise")
@@ -196,12 +196,10 @@ def test_two_browsers_at_once_do_not_disturb_each_other(page: tuple[Watched, Ses
     press(other, "Optimise")
     other.close()  # It leaves with a search under way: the search ends with it.
     deadline = time.monotonic() + 10.0
-    while (
-        others.panels.optimise._job is not None and not others.panels.optimise._job.over and time.monotonic() < deadline
-    ):
+    while others.page.optimise._job is not None and not others.page.optimise._job.over and time.monotonic() < deadline:
         time.sleep(0.05)
-    assert others.panels.optimise._job is not None
-    assert others.panels.optimise._job.over
+    assert others.page.optimise._job is not None
+    assert others.page.optimise._job.over
     if run_of(session).under_way:
         press(watched, "Stop")
     until(watched, "stopped", "done")
@@ -219,11 +217,11 @@ def test_a_click_on_the_map_takes_the_point(page: tuple[Watched, Session]):
     assert box is not None
     watched.page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
     watched.page.wait_for_timeout(700)
-    inputs = session.panels.controls.inputs()
+    inputs = session.page.controls.inputs()
     assert inputs.law == "two"
     assert inputs.two_division == pytest.approx(0.585, abs=0.01)
     assert inputs.two_outer == pytest.approx(-10.0, abs=0.4)
-    session.panels.map.stop()
+    session.page.map.stop()
     assert watched.complaints == []
 
 
@@ -241,5 +239,5 @@ def test_a_schedule_can_be_saved(page: tuple[Watched, Session], tmp_path: Path):
         press(watched, "Save CSV")
     download.value.save_as(tmp_path / "schedule.csv")
     lines = (tmp_path / "schedule.csv").read_text().splitlines()
-    assert len(lines) == 1 + len(session.panels.schedule._rows) + 1
+    assert len(lines) == 1 + len(session.page.schedule._rows) + 1
     assert watched.complaints == []

@@ -12,7 +12,7 @@ import pytest
 from chromium import DRAW_NOTHING
 
 from explorer.app import App
-from explorer.hosting.house import House
+from explorer.hosting.house import ServerLimits
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserContext, Page
@@ -81,7 +81,7 @@ def test_opens_whole_and_then_nothing_jumps(context: "BrowserContext", artefacts
 
 
 def test_a_full_house_lets_in_who_waits(context: "BrowserContext", artefacts: Path):
-    app = App("127.0.0.1", 0, house=House(sessions=1))
+    app = App("127.0.0.1", 0, house=ServerLimits(sessions=1))
     try:
         first, second = context.new_page(), context.new_page()
         first.goto(app.address)

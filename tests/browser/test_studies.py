@@ -9,7 +9,7 @@ import pytest
 from watched import Watched, opened
 
 from explorer.app import App
-from explorer.hosting.house import House
+from explorer.hosting.house import ServerLimits
 from explorer.session import Session
 from rotor.files.provenance import package_version
 from rotor.study.chunks import Provenance, work_chunk
@@ -54,7 +54,7 @@ def studies(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def page(browser: "Browser", studies: Path) -> Iterator[tuple[Watched, Session]]:
-    app = App("127.0.0.1", 0, house=House(studies=studies))
+    app = App("127.0.0.1", 0, house=ServerLimits(studies=studies))
     watched = opened(browser, app.address, size=(1280, 900))
     watched.page.get_by_role("tab", name="Studies").click()
     yield watched, app.sessions[-1]
@@ -77,7 +77,7 @@ def test_a_click_on_a_point_puts_it_on_the_sliders(page: tuple[Watched, Session]
     tab.wait_for_function("() => document.querySelector('[data-explorer=study-point]')?.innerText.startsWith('Taken')")
     row = int(watched.text("study-point").split("point ")[1].split()[0])
     results = read_results(studies / "blades")
-    inputs = session.panels.controls.inputs()
+    inputs = session.page.controls.inputs()
     assert (inputs.law, inputs.inflow) == ("two", "pitt-peters")
     assert inputs.advance_ratio == results.columns["mu"][row] == 0.3
     assert inputs.two_inner == pytest.approx(results.columns["inboard_rate_deg"][row])
@@ -102,7 +102,7 @@ def test_other_charts_and_a_point_by_its_number(page: tuple[Watched, Session], a
     tab.screenshot(path=artefacts / "studies.png")
     watched.type("Point no.", 0)
     tab.wait_for_function("() => document.querySelector('[data-explorer=study-point]')?.innerText.includes('point 0')")
-    assert session.panels.controls.inputs().advance_ratio == 0.0
+    assert session.page.controls.inputs().advance_ratio == 0.0
     watched.type("Point no.", 99)
     tab.wait_for_function("() => document.querySelector('[data-explorer=study-point]')?.innerText.includes('0…35')")
     assert watched.complaints == []

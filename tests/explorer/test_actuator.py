@@ -32,14 +32,14 @@ from explorer.tabs.actuator.state import (
     question_of,
     swing_of,
 )
-from explorer.tabs.actuator.study import Findings, Study, VerdictTask, answer, lean
+from explorer.tabs.actuator.study import Findings, VerdictTask, VerdictWorker, answer, lean
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.verdict import Verdict
 from rotor.actuator.wording import verdict_sentence
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
 
-DESIGN = make_design("flight", advance_ratio=0.2)
+DESIGN = make_design(preset="flight", mu=0.2)
 FULL = (100.0,) * MOST_SEGMENTS
 ALL = tuple(actuators())
 
@@ -106,7 +106,7 @@ def test_segments_fit_the_sliders(concept: str):
 
 def test_the_question_does_not_hang_on_speed_voltage_or_view():
     inputs = ActuatorInputs()
-    fast = make_design("flight", advance_ratio=0.3)
+    fast = make_design(preset="flight", mu=0.3)
     moved = replace(inputs, drives=FULL, shown=True, per_rev=1, crossed=True)
     assert question_of(inputs, DESIGN) == question_of(moved, fast)
     assert question_of(inputs, DESIGN) != question_of(replace(inputs, plies=3), DESIGN)
@@ -290,7 +290,7 @@ def test_the_study_answers_the_newest_question():
     inputs = ActuatorInputs(actuator="extension_twist")
     first, last = question_of(inputs, DESIGN), question_of(replace(inputs, plies=3), DESIGN)
     here = Here()
-    study = Study(here, lambda: None, "study-test")
+    study = VerdictWorker(here, lambda: None, "study-test")
     study.start()
     study.ask(first)
     study.ask(last)
@@ -305,7 +305,7 @@ def test_the_study_answers_the_newest_question():
 def test_what_nobody_asked_for_waits_until_the_page_is_still(monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(actuator_study, "IDLE", 0.15)
     here = Here()
-    study = Study(here, lambda: None, "study-idle")
+    study = VerdictWorker(here, lambda: None, "study-idle")
     question = question_of(ActuatorInputs(), DESIGN)
     study.start()
     for _ in range(10):  # Somebody drags: far longer than the wait, but never still.
@@ -323,7 +323,7 @@ def test_a_lean_verdict_tells_the_same(verdict: Verdict):
     small = lean(verdict)
     assert len(pickle.dumps(small)) < 0.03 * len(pickle.dumps(verdict))
     question = question_of(ActuatorInputs(), DESIGN)
-    panels = [
+    page = [
         (
             actuator_readout.verdict_panel(Findings(question, one), question),
             actuator_readout.fit_panel(ActuatorInputs(), one.fitted, one),
@@ -333,7 +333,7 @@ def test_a_lean_verdict_tells_the_same(verdict: Verdict):
         )
         for one in (verdict, small)
     ]
-    assert panels[0] == panels[1]
+    assert page[0] == page[1]
     for full, left in zip(*(reach(one).data for one in (verdict, small)), strict=True):
         assert_allclose(left, full)
 

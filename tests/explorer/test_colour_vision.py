@@ -8,14 +8,12 @@ import itertools
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from explorer.picture.picture import OUTLINE_COLOURS
 from explorer.tabs.probe.drawing import ALPHA, DRAG, LIFT
 from explorer.theme import colours
 from explorer.theme.colours import BASELINE, IDEAL, LIMIT, NOW, PARTS, PINNED, THIS, Scheme, colour_map
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 EYES = {
     "ordinary": np.eye(3),

@@ -6,50 +6,50 @@ import time
 import pytest
 
 from explorer.hosting import memory
-from explorer.hosting.doors import Doors, host_name, is_loopback, warning
-from explorer.hosting.hall import Hall
-from explorer.hosting.meter import Allowance, Meter
+from explorer.hosting.doors import AllowedHosts, host_name, is_loopback, warning
+from explorer.hosting.hall import SeatQueue
+from explorer.hosting.meter import RateLimit, RateLimiter
 from explorer.hosting.turns import Turns
 from explorer.hosting.uploads import LARGEST, refusal
-from explorer.workers.newest_wins import LatestWins, Sleep
+from explorer.workers.newest_wins import IdleTimeout, NewestWins
 
 
-class TestDoors:
+class TestAllowedHosts:
     @pytest.mark.parametrize("host", ["127.0.0.1:8080", "localhost:8080", "LOCALHOST", "[::1]:8080", "localhost."])
     def test_this_machine_is_reached_by_its_own_names(self, host: str):
-        assert Doors("127.0.0.1").refusal(host, None) is None
+        assert AllowedHosts("127.0.0.1").refusal(host, None) is None
 
     @pytest.mark.parametrize(
         "host", ["evil.example", "evil.example:8080", "127.0.0.1.evil.example", "192.168.1.5", "", None]
     )
     def test_a_foreign_name_for_this_machine_is_refused(self, host: str | None):
         """DNS rebinding: the attacker's own name, with our address."""
-        assert "does not answer" in (Doors("127.0.0.1").refusal(host, None) or "")
+        assert "does not answer" in (AllowedHosts("127.0.0.1").refusal(host, None) or "")
 
     @pytest.mark.parametrize("host", ["evil.example/@127.0.0.1", "a@127.0.0.1", "127.0.0.1:x", "[::1", "127.0.0.1?x"])
     def test_a_host_that_is_none_is_refused(self, host: str):
-        assert Doors("127.0.0.1").refusal(host, None)
+        assert AllowedHosts("127.0.0.1").refusal(host, None)
 
     def test_a_name_may_be_allowed(self):
-        doors = Doors("127.0.0.1", ("rotor.example",))
+        doors = AllowedHosts("127.0.0.1", ("rotor.example",))
         assert doors.refusal("rotor.example", "https://rotor.example") is None
         assert doors.refusal("rotor.example:443", "https://rotor.example") is None
         assert doors.refusal("rotor.example.evil.example", None)
 
     def test_a_proxy_may_put_its_own_host(self):
-        doors = Doors("127.0.0.1", ("rotor.example",))
+        doors = AllowedHosts("127.0.0.1", ("rotor.example",))
         assert doors.refusal("127.0.0.1:8080", "https://rotor.example") is None
         assert doors.refusal("127.0.0.1:8080", "https://evil.example")
 
     def test_other_machines_come_by_number_or_by_this_machines_name(self):
-        doors = Doors("0.0.0.0")
+        doors = AllowedHosts("0.0.0.0")
         assert doors.refusal("192.168.1.5:8080", "http://192.168.1.5:8080") is None
         assert doors.refusal("[fe80::1]:8080", None) is None
         assert doors.refusal("evil.example:8080", None)
 
     @pytest.mark.parametrize("origin", ["http://127.0.0.1:8080", "HTTP://127.0.0.1:8080".lower()])
     def test_own_pages_may_talk(self, origin: str):
-        assert Doors("127.0.0.1").refusal("127.0.0.1:8080", origin) is None
+        assert AllowedHosts("127.0.0.1").refusal("127.0.0.1:8080", origin) is None
 
     @pytest.mark.parametrize(
         "origin",
@@ -66,10 +66,10 @@ class TestDoors:
         ],
     )
     def test_foreign_pages_may_not(self, origin: str):
-        assert "may not use" in (Doors("127.0.0.1").refusal("127.0.0.1:8080", origin) or "")
+        assert "may not use" in (AllowedHosts("127.0.0.1").refusal("127.0.0.1:8080", origin) or "")
 
     def test_what_is_no_browser_says_no_origin_and_may(self):
-        assert Doors("127.0.0.1").refusal("127.0.0.1:8080", None) is None
+        assert AllowedHosts("127.0.0.1").refusal("127.0.0.1:8080", None) is None
 
     def test_a_name_to_allow_is_a_name(self):
         assert host_name("Rotor.example:8080") == "rotor.example"
@@ -89,19 +89,19 @@ class TestDoors:
 
 class TestMeter:
     def test_a_burst_and_then_a_rate(self):
-        meter = Meter(0.0, Allowance(10.0, 20.0), Allowance(1e6, 1e6))
+        meter = RateLimiter(0.0, RateLimit(10.0, 20.0), RateLimit(1e6, 1e6))
         assert all(meter.take(1, 0.0) for _ in range(20))
         assert not meter.take(1, 0.0)
-        meter = Meter(0.0, Allowance(10.0, 20.0), Allowance(1e6, 1e6))
+        meter = RateLimiter(0.0, RateLimit(10.0, 20.0), RateLimit(1e6, 1e6))
         assert all(meter.take(1, 0.1 * k) for k in range(1000))
 
     def test_bytes_count_too(self):
-        meter = Meter(0.0, Allowance(100.0, 100.0), Allowance(1e3, 1e4))
+        meter = RateLimiter(0.0, RateLimit(100.0, 100.0), RateLimit(1e3, 1e4))
         assert meter.take(10_000, 0.0)
         assert not meter.take(1_000, 0.5)
 
     def test_a_hand_on_a_slider_and_on_the_camera_never_meets_it(self):
-        meter = Meter(0.0)
+        meter = RateLimiter(0.0)
         assert all(meter.take(300, k / 70.0) for k in range(70 * 600))
 
 
@@ -129,9 +129,9 @@ class TestUploads:
         assert sentence in (refusal(*sent) or "")
 
 
-class TestHall:
+class TestSeatQueue:
     def test_places_then_a_line_in_order(self):
-        hall: Hall[str] = Hall(2)
+        hall: SeatQueue[str] = SeatQueue(2)
         assert [hall.arrive(name) for name in "abcd"] == [True, True, False, False]
         assert hall.line == ("c", "d")
         assert hall.leave("a") == ["c"]
@@ -140,24 +140,24 @@ class TestHall:
         assert hall.arrive("e")
 
     def test_nobody_passes_those_who_wait(self):
-        hall: Hall[str] = Hall(1)
+        hall: SeatQueue[str] = SeatQueue(1)
         assert hall.arrive("a")
         assert not hall.arrive("b")
         assert hall.leave("a") == ["b"]
         assert not hall.arrive("c")
 
     def test_a_sleeper_holds_no_place_and_gets_one_back(self):
-        hall: Hall[str] = Hall(1)
+        hall: SeatQueue[str] = SeatQueue(1)
         hall.arrive("a")
         hall.arrive("b")
-        assert hall.doze("a") == ["b"]
+        assert hall.sleep("a") == ["b"]
         hall.wake("a")  # Above the number: it had one.
         assert not hall.arrive("c")
         assert hall.leave("a") == []
         assert hall.leave("b") == ["c"]
 
     def test_leaving_twice_frees_one_place(self):
-        hall: Hall[str] = Hall(1)
+        hall: SeatQueue[str] = SeatQueue(1)
         hall.arrive("a")
         hall.leave("a")
         hall.leave("a")
@@ -290,7 +290,7 @@ class TestWorker:
             rounds[k] += 1
             time.sleep(0.001)
 
-        workers = [LatestWins(lambda _, k=k: job(k), print, f"w{k}", turns=turns) for k in range(20)]
+        workers = [NewestWins(lambda _, k=k: job(k), print, f"w{k}", turns=turns) for k in range(20)]
         for worker in workers:
             worker.start()
         while time.monotonic() < until:
@@ -308,7 +308,7 @@ class TestWorker:
         def job(_: object) -> None:
             seen[0] = state[0]
 
-        worker = LatestWins(job, print, "w", turns=turns)
+        worker = NewestWins(job, print, "w", turns=turns)
         worker.start()
         for k in range(200):
             state[0] = k
@@ -321,8 +321,8 @@ class TestWorker:
 
     def test_sleeps_once_and_wakes_before_the_next_round(self):
         events: list[str] = []
-        sleep = Sleep(0.03, lambda: events.append("falls"), lambda: events.append("wakes"))
-        worker = LatestWins(lambda _: events.append("round"), print, "w", sleep)
+        sleep = IdleTimeout(0.03, lambda: events.append("falls"), lambda: events.append("wakes"))
+        worker = NewestWins(lambda _: events.append("round"), print, "w", sleep)
         worker.start()
         time.sleep(0.15)
         worker.wake()

@@ -27,7 +27,7 @@ from rotor.design.twist import (
 from rotor.files.make_design import change_airfoils, make_design
 from rotor.trim.solve import solve
 
-DESIGN = make_design("flight", advance_ratio=0.2)
+DESIGN = make_design(preset="flight", mu=0.2)
 PLAIN = LinearTwist(0.0)
 LAWS: tuple[TwistLaw, ...] = (
     DESIGN.twist,
@@ -73,7 +73,7 @@ def test_any_twist_is_watertight_to_scale_and_turned_as_the_law_says(law: TwistL
 
 @pytest.mark.parametrize("preset", ["flight", "thesis"])
 def test_chord_and_thickness_are_those_of_the_rotor(preset: str):
-    design = replace(make_design(preset), twist=PLAIN)
+    design = replace(make_design(preset=preset), twist=PLAIN)
     mesh, blade = blade_mesh(design), design.rotor.blade
     for r in (0.25, 0.6, 0.95):
         inner, outer, weight = blade.section_at(r)

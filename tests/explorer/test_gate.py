@@ -20,9 +20,9 @@ from websockets.typing import Subprotocol
 
 from explorer.app import App, PortBusy
 from explorer.hosting import gate, meter, uploads, viser_compat
-from explorer.hosting.doors import Doors
-from explorer.hosting.gate import Gate
-from explorer.hosting.house import House
+from explorer.hosting.doors import AllowedHosts
+from explorer.hosting.gate import RequestFilter
+from explorer.hosting.house import ServerLimits
 from explorer.soak import wire
 from explorer.soak.visitor import Visitor
 
@@ -32,7 +32,7 @@ INNER, OUTER = "Inner [°/R]", "Outer [°/R]"
 
 @pytest.fixture(scope="module")
 def app() -> Iterator[App]:
-    app = App("127.0.0.1", 0, house=House(sessions=2))
+    app = App("127.0.0.1", 0, house=ServerLimits(sessions=2))
     yield app
     app.stop()
 
@@ -82,7 +82,7 @@ def page(app: App, host: str) -> tuple[int, str, dict[str, str]]:
         return error.code, error.read().decode(), dict(error.headers)
 
 
-class TestDoors:
+class TestAllowedHosts:
     def test_a_foreign_page_gets_403(self, app: App):
         assert ran(lambda: handshake(app, Origin="http://evil.example")) == 403
         assert ran(lambda: handshake(app, Origin="null")) == 403
@@ -119,7 +119,7 @@ class TestDoors:
 
         monkeypatch.setattr(viser, "ViserServer", Elsewhere)
         with pytest.raises(RuntimeError, match="without its gate"):
-            viser_compat.quiet_server("127.0.0.1", 0, "x", Gate(Doors("127.0.0.1"), 1))
+            viser_compat.quiet_server("127.0.0.1", 0, "x", RequestFilter(AllowedHosts("127.0.0.1"), 1))
 
     def test_the_gate_is_taken_down_behind_the_server_that_passed_it(self, app: App):
         assert websockets.asyncio.server.serve.__module__ == "websockets.asyncio.server"
@@ -152,7 +152,7 @@ class TestStrangers:
     ):
         async def work() -> None:
             other = await arrive(app)
-            monkeypatch.setattr(gate, "Meter", lambda now: meter.Meter(now, meter.Allowance(10.0, 50.0)))
+            monkeypatch.setattr(gate, "RateLimiter", lambda now: meter.RateLimiter(now, meter.RateLimit(10.0, 50.0)))
             flooder = Visitor()
             await flooder.open(app.address)
             for _ in range(60):
@@ -252,7 +252,7 @@ class TestPlaces:
         settle(app)
 
     def test_more_connections_than_can_wait_are_told_to_come_later(self):
-        server = viser_compat.quiet_server("127.0.0.1", 0, "x", Gate(Doors("127.0.0.1"), 1))
+        server = viser_compat.quiet_server("127.0.0.1", 0, "x", RequestFilter(AllowedHosts("127.0.0.1"), 1))
         try:
 
             async def work() -> None:
@@ -269,7 +269,7 @@ class TestPlaces:
 
     @pytest.mark.slow
     def test_a_sleeper_makes_room_and_wakes_at_a_touch(self):
-        app = App("127.0.0.1", 0, house=House(sessions=1, sleep_after=0.3))
+        app = App("127.0.0.1", 0, house=ServerLimits(sessions=1, sleep_after=0.3))
         try:
 
             async def work() -> None:

@@ -11,7 +11,7 @@ import pytest
 import viser
 
 from explorer.state import Inputs, ViewState
-from explorer.tabs.controls import Controls
+from explorer.tabs.controls import DesignControls
 from explorer.text import comparison as ab_readout
 from explorer.text import readout
 from explorer.text.glossary import CONTROLS, READOUTS, hint, tip
@@ -60,7 +60,7 @@ def test_switches_say_what_is_on_and_what_is_off():
 
 
 def test_every_widget_of_the_design_tab_has_its_sentence(server: viser.ViserServer):
-    Controls(server.gui, Inputs(), lambda: None, view=ViewState())
+    DesignControls(server.gui, Inputs(), lambda: None, view=ViewState())
     texts = {entry.text for entry in CONTROLS.values()}
     handles = list(server.gui._gui_input_handle_from_uuid.values())
     assert len(handles) > 30
@@ -85,10 +85,10 @@ def test_every_widget_that_is_made_anywhere_asks_the_glossary():
 
 @pytest.mark.parametrize("mu", [0.0, 0.25])
 def test_every_line_of_the_results_has_its_sentence(mu: float):
-    solution = solve(make_design(advance_ratio=mu)).require()
+    solution = solve(make_design(mu=mu)).require()
     texts = {escape(entry.text, quote=True) for entry in READOUTS.values()}
-    other = solve(make_design(advance_ratio=mu, twist="linear:-8")).require()
-    panels = [
+    other = solve(make_design(mu=mu, twist="linear:-8")).require()
+    page = [
         readout.power_panel(solution, other),
         readout.trim_panel(solution),
         ab_readout.power_panel(solution, other),
@@ -97,7 +97,7 @@ def test_every_line_of_the_results_has_its_sentence(mu: float):
         readout.speed_line(solution.design.airspeed, SI),
         status_panel(solution),
     ]
-    for html in panels:
+    for html in page:
         for said in re.findall(r'title="([^"]*)"', html):
             assert said in texts
         for line in re.findall(r'<(?:tr|div class="rx-(?:line|four))[^>]*>(?:<span[^>]*>)?', html):

@@ -13,7 +13,7 @@ from typing import Any
 
 import pytest
 
-from explorer.workers.job import Broken, Ended, Job, News, Started, Told, Waiting
+from explorer.workers.job import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.pool import Pool
 from explorer.workers.queue import MOST_WAITING, Queue
 
@@ -59,7 +59,7 @@ class Killed:
         os.kill(os.getpid(), signal.SIGKILL)
 
 
-class Heard(list[News]):
+class Heard(list[JobEvent]):
     """News of one job."""
 
     def until(self, kind: type, seconds: float = SOON) -> Any:
@@ -74,7 +74,7 @@ class Heard(list[News]):
 
     @property
     def items(self) -> list[Any]:
-        return [news.item for news in self if isinstance(news, Told)]
+        return [news.item for news in self if isinstance(news, JobProgress)]
 
 
 def submit(pool: Pool, task: Any, **how: Any) -> tuple[Job, Heard]:
@@ -92,16 +92,16 @@ def pool() -> Iterator[Pool]:
 
 def test_tells_in_order_and_returns(pool: Pool):
     _, heard = submit(pool, Count(5))
-    assert heard.until(Ended) == Ended(5)
+    assert heard.until(JobEnded) == JobEnded(5)
     assert heard.items == [1, 2, 3, 4, 5]
 
 
 def test_a_stop_answers_at_once_and_keeps_what_there_is(pool: Pool):
     job, heard = submit(pool, Count(10_000, 0.01))
-    heard.until(Told)
+    heard.until(JobProgress)
     pressed = time.monotonic()
     pool.stop(job)
-    ended = heard.until(Ended)
+    ended = heard.until(JobEnded)
     assert time.monotonic() - pressed < 0.3
     assert ended.stopped
     assert ended.result == len(heard.items)
@@ -109,20 +109,20 @@ def test_a_stop_answers_at_once_and_keeps_what_there_is(pool: Pool):
 
 def test_positions_in_the_queue_are_honest(pool: Pool):
     first, running = submit(pool, Count(10_000, 0.01))
-    running.until(Told)
+    running.until(JobProgress)
     second, next_in_line = submit(pool, Count(1))
     third, last = submit(pool, Count(1))
     _, urgent = submit(pool, Count(1), urgency=-1)
-    assert next_in_line.until(Waiting) == Waiting(0)
-    assert last.until(Waiting) == Waiting(1)
-    assert urgent.until(Waiting) == Waiting(0)
-    assert next_in_line[-1] == Waiting(1)
+    assert next_in_line.until(JobQueued) == JobQueued(0)
+    assert last.until(JobQueued) == JobQueued(1)
+    assert urgent.until(JobQueued) == JobQueued(0)
+    assert next_in_line[-1] == JobQueued(1)
     pool.stop(second)
-    assert next_in_line.until(Ended).stopped
-    assert last[-1] == Waiting(1)
+    assert next_in_line.until(JobEnded).stopped
+    assert last[-1] == JobQueued(1)
     pool.stop(first)
-    last.until(Ended)
-    assert [type(news) for news in urgent][-3:] == [Started, Told, Ended]
+    last.until(JobEnded)
+    assert [type(news) for news in urgent][-3:] == [JobStarted, JobProgress, JobEnded]
     assert third.over
 
 
@@ -183,7 +183,7 @@ class TestQueue:
 
 def test_time_is_limited(pool: Pool):
     _, heard = submit(pool, Count(10_000, 0.01), limit=0.1)
-    ended = heard.until(Ended)
+    ended = heard.until(JobEnded)
     assert ended.late
     assert ended.result == len(heard.items)
 
@@ -191,7 +191,7 @@ def test_time_is_limited(pool: Pool):
 def test_a_task_that_fails_says_so_and_the_process_goes_on(pool: Pool):
     before = pool.pids
     _, heard = submit(pool, Failing())
-    assert "a value that nobody wants" in heard.until(Broken).message
+    assert "a value that nobody wants" in heard.until(JobFailed).message
     assert pool.pids == before
 
 
@@ -199,22 +199,22 @@ def test_a_task_that_cannot_travel_says_so(pool: Pool):
     task: Any = Count(1)
     object.__setattr__(task, "to", lambda: 1)
     _, heard = submit(pool, task)
-    assert heard.until(Broken).message
+    assert heard.until(JobFailed).message
     _, heard = submit(pool, Count(1))
-    assert heard.until(Ended) == Ended(1)
+    assert heard.until(JobEnded) == JobEnded(1)
 
 
 @pytest.mark.slow
 def test_a_killed_process_is_reported_and_replaced(pool: Pool):
     _, heard = submit(pool, Killed())
-    assert "ended unexpectedly" in heard.until(Broken).message
+    assert "ended unexpectedly" in heard.until(JobFailed).message
     _, heard = submit(pool, Count(3))
-    assert heard.until(Ended) == Ended(3)
+    assert heard.until(JobEnded) == JobEnded(3)
 
 
 @pytest.mark.slow
 def test_a_process_lost_while_idle_is_replaced_before_it_is_needed(pool: Pool):
-    submit(pool, Count(1))[1].until(Ended)
+    submit(pool, Count(1))[1].until(JobEnded)
     (before,) = pool.pids
     os.kill(before, signal.SIGKILL)
     deadline = time.monotonic() + SOON
@@ -222,29 +222,29 @@ def test_a_process_lost_while_idle_is_replaced_before_it_is_needed(pool: Pool):
         time.sleep(0.02)
     assert pool.pids not in ((), (before,))
     _, heard = submit(pool, Count(2))
-    assert heard.until(Ended) == Ended(2)
-    assert not any(isinstance(news, Broken) for news in heard)
+    assert heard.until(JobEnded) == JobEnded(2)
+    assert not any(isinstance(news, JobFailed) for news in heard)
 
 
 @pytest.mark.slow
 def test_a_process_that_will_not_stop_is_not_waited_for(pool: Pool):
     job, heard = submit(pool, Deaf())
-    heard.until(Told)
+    heard.until(JobProgress)
     pressed = time.monotonic()
     pool.stop(job)
-    assert heard.until(Ended) == Ended(None, stopped=True)
+    assert heard.until(JobEnded) == JobEnded(None, stopped=True)
     assert time.monotonic() - pressed < 0.35
     _, heard = submit(pool, Count(2))
-    assert heard.until(Ended) == Ended(2)
+    assert heard.until(JobEnded) == JobEnded(2)
 
 
 def test_nobody_hears_of_a_job_whose_browser_left(pool: Pool):
     job, heard = submit(pool, Count(10_000, 0.01))
-    heard.until(Told)
+    heard.until(JobProgress)
     pool.stop(job, quiet=True)
     known = len(heard)
     _, other = submit(pool, Count(1))
-    other.until(Ended)
+    other.until(JobEnded)
     assert len(heard) == known
 
 
@@ -252,13 +252,13 @@ def test_nobody_hears_of_a_job_whose_browser_left(pool: Pool):
 def test_closing_ends_every_process():
     pool = Pool(1)
     _, heard = submit(pool, Count(10_000, 0.01))
-    heard.until(Told)
+    heard.until(JobProgress)
     pids = pool.pids
     pool.close()
     assert pids
     assert pool.pids == ()
     _, after = submit(pool, Count(1))
-    assert after.until(Broken)
+    assert after.until(JobFailed)
 
 
 @pytest.mark.slow

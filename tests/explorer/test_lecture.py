@@ -7,14 +7,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from explorer.interface import SessionState
 from explorer.picture.fields import FIELDS
 from explorer.sharing.address import Address, parameter, with_parameter
+from explorer.sharing.presentation import Presentations, PresentedView, follow_name, new_secret
 from explorer.state import Inputs, ViewState, baseline_of
-from explorer.tabs.interface import Moment
 from explorer.tabs.keys.names import KEYS
 from explorer.tabs.lecture.cases import DOCUMENT
-from explorer.tabs.lecture.presentation import Shown, Stage, follow_name, new_secret
-from explorer.tabs.lecture.steps import STEPS, Step, beside, view_of
+from explorer.tabs.lecture.steps import STEPS, LectureStep, beside, view_of
 from explorer.tabs.lecture.view import caption
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -95,11 +95,11 @@ class TestClaims:
 
 
 @pytest.mark.parametrize("step", STEPS, ids=lambda step: step.title)
-def test_a_step_says_what_is_seen(step: Step):
+def test_a_step_says_what_is_seen(step: LectureStep):
     solution = solved(step.inputs)
     baseline = solve(baseline_of(solution.design))
     pinned = None if step.against is None else solved(step.against)
-    said = step.say(Moment(step.inputs, ViewState(), solution, baseline, pinned))
+    said = step.say(SessionState(step.inputs, ViewState(), solution, baseline, pinned))
     assert any(character.isdigit() for character in said)
     assert not any(mark in said for mark in (" kW", " %", "\u2009"))  # A number and its unit stay on one line.
     assert "nan" not in said
@@ -112,7 +112,7 @@ def test_a_step_says_what_is_seen(step: Step):
 def test_what_is_said_of_power_adds_up():
     step = BY_TITLE["A rotor in trim"]
     solution = solved(step.inputs)
-    said = step.say(Moment(step.inputs, ViewState(), solution, solution, None))
+    said = step.say(SessionState(step.inputs, ViewState(), solution, solution, None))
     shares = re.findall(r"([\d.]+)\u00a0%", said)
     assert sum(map(float, shares)) == pytest.approx(100.0, abs=1.0)
 
@@ -121,7 +121,7 @@ class TestBeside:
     """A differs from B by what the step is about, whatever else the user changes."""
 
     @pytest.mark.parametrize("step", STEPS, ids=lambda step: step.title)
-    def test_at_first_it_is_the_steps_own(self, step: Step):
+    def test_at_first_it_is_the_steps_own(self, step: LectureStep):
         against = beside(step, step.inputs)
         if step.against is None or against is None:
             assert step.against is against is None
@@ -153,43 +153,43 @@ def test_the_documents_cases_trim(inputs: Inputs):
 
 class TestStage:
     def test_followers_hear_until_they_leave(self):
-        stage, secret = Stage(), new_secret()
-        heard: list[Shown | None] = []
-        leave = stage.follow(follow_name(secret), heard.append)
+        presentations, secret = Presentations(), new_secret()
+        heard: list[PresentedView | None] = []
+        leave = presentations.follow(follow_name(secret), heard.append)
         counted: list[int] = []
-        stage.watch(secret, counted.append)
-        first = Shown(Inputs(), ViewState())
-        stage.present(secret, first)
-        stage.present(secret, first)
-        late: list[Shown | None] = []
-        stage.follow(follow_name(secret), late.append)
+        presentations.watch(secret, counted.append)
+        first = PresentedView(Inputs(), ViewState())
+        presentations.present(secret, first)
+        presentations.present(secret, first)
+        late: list[PresentedView | None] = []
+        presentations.follow(follow_name(secret), late.append)
         assert heard == late == [first]
         leave()
-        stage.present(secret, Shown(Inputs(mass_t=9.0), ViewState()))
-        stage.end(secret)
+        presentations.present(secret, PresentedView(Inputs(mass_t=9.0), ViewState()))
+        presentations.end(secret)
         assert heard == [first]
         assert late[-1] is None
         assert counted == [1, 2, 1]
 
     def test_one_that_fails_does_not_keep_it_from_the_others(self, caplog: pytest.LogCaptureFixture):
-        stage, secret = Stage(), new_secret()
-        heard: list[Shown | None] = []
+        presentations, secret = Presentations(), new_secret()
+        heard: list[PresentedView | None] = []
 
-        def fails(_: Shown | None) -> None:
+        def fails(_: PresentedView | None) -> None:
             raise RuntimeError("its browser has just left")
 
-        stage.follow(follow_name(secret), fails)
-        stage.follow(follow_name(secret), heard.append)
-        stage.present(secret, Shown(Inputs(), ViewState()))
+        presentations.follow(follow_name(secret), fails)
+        presentations.follow(follow_name(secret), heard.append)
+        presentations.present(secret, PresentedView(Inputs(), ViewState()))
         assert len(heard) == 1
         assert "did not hear" in caplog.text
 
     def test_the_name_does_not_tell_the_secret(self):
-        stage, secret = Stage(), new_secret()
-        heard: list[Shown | None] = []
-        stage.follow(follow_name(secret), heard.append)
-        stage.present(follow_name(secret), Shown(Inputs(), ViewState()))
-        stage.end(follow_name(secret))
+        presentations, secret = Presentations(), new_secret()
+        heard: list[PresentedView | None] = []
+        presentations.follow(follow_name(secret), heard.append)
+        presentations.present(follow_name(secret), PresentedView(Inputs(), ViewState()))
+        presentations.end(follow_name(secret))
         assert heard == []
 
 

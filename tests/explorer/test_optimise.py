@@ -20,8 +20,8 @@ from explorer.tabs.optimise.concept_picture import concept_picture
 from explorer.tabs.optimise.map_panel import default_axes
 from explorer.tabs.optimise.plot import TRACES, search_plot
 from explorer.tabs.optimise.run import SearchRun
-from explorer.tabs.optimise.wishes import OBJECTIVES, Wishes
-from explorer.workers.job import Broken, Ended, Started, Told, Waiting
+from explorer.tabs.optimise.search_request import OBJECTIVES, SearchRequest
+from explorer.workers.job import JobEnded, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.tasks import FixedPowers, MapLevel, MapTask, ScheduleTask, SearchTask
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
@@ -35,25 +35,25 @@ UNIFORM = replace(make_design().models, inflow="uniform", elements=20, azimuths=
 
 
 def quick(twist: str = "linear:-16", mu: float = 0.3) -> Any:
-    return make_design(twist=twist, advance_ratio=mu, models=UNIFORM)
+    return make_design(twist=twist, mu=mu, models=UNIFORM)
 
 
 def no_stop() -> bool:
     return False
 
 
-def run_of(wishes: Wishes, design: Any) -> SearchRun:
+def run_of(request: SearchRequest, design: Any) -> SearchRun:
     """A search run here, its news heard as from a process."""
-    run = SearchRun(wishes.search(design, mission.legs), "UH-60A twist")
-    run.hear(Started())
+    run = SearchRun(request.search(design, mission.legs), "UH-60A twist")
+    run.on_event(JobStarted())
     task = SearchTask(run.search, baseline_of(design))
-    run.hear(Ended(task.run(lambda item: run.hear(Told(item)), no_stop)))
+    run.on_event(JobEnded(task.run(lambda item: run.on_event(JobProgress(item)), no_stop)))
     return run
 
 
 @pytest.fixture(scope="module")
 def run() -> SearchRun:
-    return run_of(Wishes(concept="two-segment", starts=3), quick())
+    return run_of(SearchRequest(concept="two-segment", starts=3), quick())
 
 
 def finite(plot: Plot) -> bool:
@@ -98,7 +98,7 @@ class TestSearchRun:
     def test_while_it_runs_the_picture_does_not_fall_far_behind(self, monkeypatch: pytest.MonkeyPatch):
         now = 100.0
         monkeypatch.setattr("explorer.tabs.optimise.run.time.monotonic", lambda: now)
-        run = SearchRun(Wishes().search(quick(), mission.legs))
+        run = SearchRun(SearchRequest().search(quick(), mission.legs))
         for k in range(100):
             run._add(k, 1000.0 - k, quick())
         run.shown()
@@ -107,17 +107,17 @@ class TestSearchRun:
         assert run.cursor >= 90
 
     def test_states_follow_the_news(self):
-        run = SearchRun(Wishes().search(quick(), mission.legs))
+        run = SearchRun(SearchRequest().search(quick(), mission.legs))
         assert run.state == "starting"
-        run.hear(Waiting(2))
+        run.on_event(JobQueued(2))
         assert (run.state, run.ahead) == ("waiting", 2)
         assert "2 ahead" in search_text.standing(run)
-        run.hear(Started())
+        run.on_event(JobStarted())
         assert run.state == "running"
         run.stopping()
-        run.hear(Started())
+        run.on_event(JobStarted())
         assert run.state == "stopping"
-        run.hear(Ended(None, stopped=True))
+        run.on_event(JobEnded(None, stopped=True))
         assert run.state == "stopped"
         assert not run.under_way
         assert "Stopped, nothing found yet" in search_text.standing(run)
@@ -126,7 +126,7 @@ class TestSearchRun:
     def test_a_broken_process_keeps_the_best(self, run: SearchRun):
         broken = SearchRun(run.search)
         broken.frames = run.frames[:3]
-        broken.hear(Broken("The worker process ended unexpectedly."))
+        broken.on_event(JobFailed("The worker process ended unexpectedly."))
         assert broken.best is run.frames[2]
         assert "ended unexpectedly" in search_text.found(broken)
         assert "best so far kept" in search_text.standing(broken)
@@ -150,7 +150,7 @@ class TestCharts:
         assert len(plot.data) == 3 + TRACES
 
     def test_sensitivity_knows_that_turning_the_whole_blade_changes_nothing(self):
-        solution = solve(make_design(advance_ratio=0.2))
+        solution = solve(make_design(mu=0.2))
         plot = sensitivity.sensitivity_plot(solution, None)
         assert np.isnan(plot.data[3]).all()  # No A.
         assert finite(sensitivity.sensitivity_plot(solution, None, solution))
@@ -159,7 +159,7 @@ class TestCharts:
         assert r[np.argmin(total)] != r[np.argmax(total)]
 
     def test_strip_lies_on_the_blade_and_is_blue_where_pitch_saves(self):
-        solution = solve(make_design(advance_ratio=0.2))
+        solution = solve(make_design(mu=0.2))
         plot = sensitivity.sensitivity_plot(solution, None)
         shape = blade_shape(solution.design.rotor)
         points, colours = sensitivity.strip(shape, solution.design.twist, 1.0, plot)
@@ -195,28 +195,30 @@ class TestWords:
         assert len(drawn.findall("path")) == len(CONCEPTS[name].parameters)
 
 
-class TestWishes:
+class TestSearchRequest:
     @pytest.mark.parametrize("objective", OBJECTIVES)
     @pytest.mark.parametrize("concept", CONCEPTS)
     def test_mean_a_search(self, concept: str, objective: str):
-        search = Wishes(concept=concept, objective=objective, stalled=3.0, change=4.0).search(quick(), mission.legs)
+        search = SearchRequest(concept=concept, objective=objective, stalled=3.0, change=4.0).search(
+            quick(), mission.legs
+        )
         assert search.concept.name == concept
         assert search.limits.stalled == pytest.approx(0.03)
         assert search.objective is not None
 
     def test_the_division_reaches_the_concept(self):
-        concept = Wishes(concept="two-segment", division=0.62).known_concept()
+        concept = SearchRequest(concept="two-segment", division=0.62).known_concept()
         twist: Any = concept.twist([-0.1, -0.2])
         assert twist.breaks == (0.62,)
-        assert Wishes(concept="three-segment").known_concept() is CONCEPTS["three-segment"]
+        assert SearchRequest(concept="three-segment").known_concept() is CONCEPTS["three-segment"]
 
     def test_hover_and_cruise_needs_a_cruise(self):
         with pytest.raises(ValueError, match="advance ratio of the cruise"):
-            Wishes(objective="hover-cruise").search(quick(mu=0.0), mission.legs)
+            SearchRequest(objective="hover-cruise").search(quick(mu=0.0), mission.legs)
 
     def test_a_mission_needs_hours(self):
         with pytest.raises(ValueError, match="no hours"):
-            mission.legs(quick(), [mission.Row(0.2, 0.0)])
+            mission.legs(quick(), [mission.MissionRow(0.2, 0.0)])
 
 
 @pytest.fixture(scope="module")
@@ -274,63 +276,63 @@ class TestMap:
 
 
 @pytest.fixture(scope="module")
-def course() -> schedule_view.Course:
+def progress() -> schedule_view.PlanProgress:
     design = quick()
-    rows = [mission.Row(0.0, 1.0), mission.Row(0.3, 2.0)]
+    rows = [mission.MissionRow(0.0, 1.0), mission.MissionRow(0.3, 2.0)]
     plan = Plan(design, (CONCEPTS["linear"],), mission.legs(design, rows), starts=2)
-    course = schedule_view.Course(plan)
+    progress = schedule_view.PlanProgress(plan)
 
-    def hear(item: object) -> None:
+    def on_event(item: object) -> None:
         match item:
             case Cell():
-                course.cells.append(item)
+                progress.cells.append(item)
             case FixedPowers(powers):
-                course.fixed_powers = powers
+                progress.fixed_powers = powers
             case _:
                 raise AssertionError(item)
 
-    assert ScheduleTask(plan).run(hear, no_stop).complete
-    return course
+    assert ScheduleTask(plan).run(on_event, no_stop).complete
+    return progress
 
 
 class TestSchedule:
-    def test_no_fixed_blade_beats_the_moving_one(self, course: schedule_view.Course):
+    def test_no_fixed_blade_beats_the_moving_one(self, progress: schedule_view.PlanProgress):
         for k in range(2):
-            best, fixed = course.at(k), course.fixed_power(k)
+            best, fixed = progress.at(k), progress.fixed_power(k)
             assert best is not None
             assert best.best is not None
             assert fixed is not None
             assert best.best.power <= fixed * (1.0 + 1e-6)
-        worth = course.schedule.worth("linear")
+        worth = progress.schedule.worth("linear")
         assert worth is not None
         assert worth.gain >= 0.0
-        assert course.part_done == 1.0
+        assert progress.part_done == 1.0
 
-    def test_charts_and_table(self, course: schedule_view.Course):
-        for some in (course, None, schedule_view.Course(course.plan)):
+    def test_charts_and_table(self, progress: schedule_view.PlanProgress):
+        for some in (progress, None, schedule_view.PlanProgress(progress.plan)):
             assert finite(schedule_view.twist_plot(some, None))
             assert finite(schedule_view.saving_plot(some, None))
-        table = schedule_view.table(course)
+        table = schedule_view.table(progress)
         assert "Moving saves beyond it" in table
         assert "nan" not in table.lower()
-        assert "Moving" not in schedule_view.table(schedule_view.Course(course.plan))
+        assert "Moving" not in schedule_view.table(schedule_view.PlanProgress(progress.plan))
 
-    def test_legs_to_come_are_not_drawn(self, course: schedule_view.Course):
-        half = schedule_view.Course(course.plan, [cell for cell in course.cells if cell.leg == 1])
+    def test_legs_to_come_are_not_drawn(self, progress: schedule_view.PlanProgress):
+        half = schedule_view.PlanProgress(progress.plan, [cell for cell in progress.cells if cell.leg == 1])
         mu, _, fixed, moving = schedule_view.saving_plot(half, None).data
         np.testing.assert_allclose(mu, [0.3])
-        np.testing.assert_allclose(moving, schedule_view.saving_plot(course, None).data[3][1:])
+        np.testing.assert_allclose(moving, schedule_view.saving_plot(progress, None).data[3][1:])
         assert fixed[0] > 10.0  # Beyond the axis: not known yet.
 
-    def test_csv_reads_back(self, course: schedule_view.Course):
-        rows = list(csv.DictReader(io.StringIO(schedule_view.csv_of(course).decode())))
+    def test_csv_reads_back(self, progress: schedule_view.PlanProgress):
+        rows = list(csv.DictReader(io.StringIO(schedule_view.csv_of(progress).decode())))
         assert [row["mu"] for row in rows] == ["0", "0.3", "mean"]
         for k, row in enumerate(rows[:2]):
-            condition = course.plan.legs[k].condition
+            condition = progress.plan.legs[k].condition
             twisted = replace(make_design(twist=row["twist"], models=UNIFORM), condition=condition)
             assert float(row["best_kw"]) == pytest.approx(solve(twisted).power.total / 1e3, abs=2e-3)
 
-    def test_stopped_keeps_what_there_is(self, course: schedule_view.Course):
+    def test_stopped_keeps_what_there_is(self, progress: schedule_view.PlanProgress):
         told: list[Any] = []
-        schedule = ScheduleTask(course.plan).run(told.append, lambda: len(told) > 0)
+        schedule = ScheduleTask(progress.plan).run(told.append, lambda: len(told) > 0)
         assert len(schedule.cells) == 1

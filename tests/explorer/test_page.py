@@ -8,8 +8,8 @@ import pytest
 import viser
 
 from explorer.hosting import viser_compat
-from explorer.hosting.doors import Doors
-from explorer.hosting.gate import Gate
+from explorer.hosting.doors import AllowedHosts
+from explorer.hosting.gate import RequestFilter
 from explorer.hosting.page import veiled
 
 CLIENT = (
@@ -41,7 +41,7 @@ def test_another_page_is_refused(client: str):
 
 @pytest.fixture(scope="module")
 def address() -> Iterator[str]:
-    gate = Gate(Doors("127.0.0.1"), 4, veiled(CLIENT))
+    gate = RequestFilter(AllowedHosts("127.0.0.1"), 4, veiled(CLIENT))
     server: viser.ViserServer = viser_compat.quiet_server("127.0.0.1", 0, "x", gate)
     yield f"http://127.0.0.1:{server.get_port()}"
     viser_compat.quiet_stop(server)

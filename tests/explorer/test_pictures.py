@@ -27,12 +27,12 @@ from rotor.trim.solve import solve
 
 @pytest.fixture(scope="module")
 def forward() -> Solution:
-    return solve(make_design(advance_ratio=0.3)).require()
+    return solve(make_design(mu=0.3)).require()
 
 
 @pytest.fixture(scope="module")
 def hover() -> Solution:
-    return solve(make_design(advance_ratio=0.0)).require()
+    return solve(make_design(mu=0.0)).require()
 
 
 def grid_of(solution: Solution) -> PolarGrid:
@@ -123,7 +123,7 @@ class TestFields:
     @pytest.mark.parametrize("title", FIELDS)
     @pytest.mark.parametrize("mu", [0.0, 0.05, 0.3])
     def test_every_field_is_finite(self, title: str, mu: float):
-        solution = solve(make_design(advance_ratio=mu))
+        solution = solve(make_design(mu=mu))
         assert np.isfinite(FIELDS[title].sample(solution, grid_of(solution))).all()
 
     def test_two_sided_ranges_are_centred(self):
@@ -156,7 +156,7 @@ class TestFields:
     @pytest.mark.parametrize("preset", ["flight", "thesis"])
     def test_stall_margin_is_that_of_the_solver(self, preset: str):
         """On the solver's own points, outside reverse flow, to rounding."""
-        solution = solve(make_design(preset, advance_ratio=0.3))
+        solution = solve(make_design(preset=preset, mu=0.3))
         disk = solution.disk
         same = stall_margin(solution, PolarGrid(disk.r, disk.psi, np.eye(len(disk.r)), np.eye(len(disk.psi))))
         ahead = disk.u_t > 0.0
@@ -255,7 +255,7 @@ class TestOutlines:
         assert len(contour(grid, np.ones((80, 240)), 0.0)) == 0
 
     def test_stall_line_bounds_the_stalled_part(self):
-        solution = solve(make_design(advance_ratio=0.38)).require()
+        solution = solve(make_design(mu=0.38)).require()
         assert solution.stalled_area > 0.02
         segments = stall_segments(solution)
         assert len(segments) > 50

@@ -18,18 +18,18 @@ from explorer.picture.poses import compose, rotate, rotor_pose, tip_path_pose
 from explorer.tabs.probe.drawing import drawing
 from explorer.tabs.probe.element import Region, probe
 from explorer.tabs.probe.readout import probe_panel
-from rotor.design.presets import FLIGHT_MODELS
+from rotor.design.design import FLIGHT_MODELS
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
 SIMPLE = replace(FLIGHT_MODELS, reverse_flow=False, compressibility=False, tip_loss=False)
 CASES = {
-    "hover": make_design("flight", advance_ratio=0.0),
-    "cruise": make_design("flight", advance_ratio=0.2),
-    "fast": make_design("flight", advance_ratio=0.37),
-    "thesis": make_design("thesis", advance_ratio=0.3),
-    "switched off": make_design("flight", advance_ratio=0.3, models=SIMPLE),
+    "hover": make_design(preset="flight", mu=0.0),
+    "cruise": make_design(preset="flight", mu=0.2),
+    "fast": make_design(preset="flight", mu=0.37),
+    "thesis": make_design(preset="thesis", mu=0.3),
+    "switched off": make_design(preset="flight", mu=0.3, models=SIMPLE),
 }
 
 

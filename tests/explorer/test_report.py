@@ -23,9 +23,9 @@ from explorer.charts.plots import SWEEP, PowerCurve
 from explorer.charts.power_curve import PowerCurves
 from explorer.export.provenance import versions
 from explorer.export.report import command as report_command
-from explorer.export.report.contents import Entry, Report, report_of
+from explorer.export.report.contents import DesignReport, ReportEntry, report_of
 from explorer.export.report.document import report_html
-from explorer.export.scene_recordings import Stage, stage_of
+from explorer.export.scene_recordings import EmbeddedViewer, embedded_viewer
 from explorer.export.sheet import disk_sheet, shown, view_sheet, window
 from explorer.picture import disk_image
 from explorer.picture.disk_image import SIZE
@@ -180,13 +180,15 @@ class Checked(HTMLParser):
 
 
 @pytest.fixture(scope="module")
-def report() -> Report:
-    return report_of(Entry("UH-60A twist", BASELINE), [Entry("Now", NOW), Entry("Kept <1>", FAST)], VIEW)
+def report() -> DesignReport:
+    return report_of(
+        ReportEntry("UH-60A twist", BASELINE), [ReportEntry("Now", NOW), ReportEntry("Kept <1>", FAST)], VIEW
+    )
 
 
 @pytest.fixture(scope="module")
-def page(report: Report) -> str:
-    return report_html(report, Stage("a", "b", "c", ("d", "e")), Swept())
+def page(report: DesignReport) -> str:
+    return report_html(report, EmbeddedViewer("a", "b", "c", ("d", "e")), Swept())
 
 
 class TestReport:
@@ -222,21 +224,21 @@ class TestReport:
     def test_stays_small(self, page: str):
         assert len(page) < 900_000  # Without the viewer, which has as much again.
 
-    def test_aviation_units_are_those_of_the_page(self, report: Report):
+    def test_aviation_units_are_those_of_the_page(self, report: DesignReport):
         page = report_html(replace(report, view=replace(VIEW, units="Aviation")), None, Swept())
         first = page.split('data-report="total-power">')[1]
         assert first.startswith(f"{NOW.power.total / 745.699872:,.0f} hp".replace(",", "\u2009"))
         assert "total power [hp]" in page
 
-    def test_without_3d_there_is_none(self, report: Report):
+    def test_without_3d_there_is_none(self, report: DesignReport):
         assert "<iframe" not in report_html(report, None, Swept())
 
     def test_a_design_that_is_not_trimmed_is_refused_in_a_sentence(self):
         heavy = replace(NOW, status=Status.NOT_CONVERGED, message="Too heavy.")
         with pytest.raises(ValueError, match="Now is not trimmed, so it cannot be reported: Too heavy"):
-            report_of(Entry("A", BASELINE), [Entry("Now", heavy)], VIEW)
+            report_of(ReportEntry("A", BASELINE), [ReportEntry("Now", heavy)], VIEW)
         with pytest.raises(ValueError, match="no design to report on"):
-            report_of(Entry("A", BASELINE), [], VIEW)
+            report_of(ReportEntry("A", BASELINE), [], VIEW)
 
 
 class TestStage:
@@ -261,7 +263,7 @@ class TestStage:
 
     def test_another_viewer_is_one_sentence(self):
         with pytest.raises(ValueError, match="not laid out as it was"):
-            stage_of(["<html></html>"])
+            embedded_viewer(["<html></html>"])
 
 
 class TestCommand:

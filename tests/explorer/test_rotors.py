@@ -14,14 +14,14 @@ from explorer.pinned import Pinboard, Pinned
 from explorer.rotor_choice import OWN, mass_range, menu_titles, reference_mass_t
 from explorer.sharing import share
 from explorer.state import Inputs, ViewState, baseline_of, inputs_of, with_optimum, with_rotor
-from explorer.tabs.rotors.shelf import SUFFIXES, Shelf
+from explorer.tabs.rotors.uploaded_files import SUFFIXES, UploadedFiles
 from explorer.text.naming import twist_name
 from explorer.text.readout import ideal_line, power_panel
 from rotor.airfoil.polars import read_polars
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.dynamics.structure import check_blade
 from rotor.files.design_file import case_of, parse_case
-from rotor.files.shipped import shipped_aircraft
+from rotor.files.rotor_file import shipped_aircraft
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -58,7 +58,7 @@ def test_another_rotor_comes_as_it_is_built():
 
 
 def test_ones_own_rotor_stays_in_the_menu():
-    craft = Shelf().take("my.toml", GOOD.encode()).aircraft
+    craft = UploadedFiles().take("my.toml", GOOD.encode()).aircraft
     inputs = with_rotor(Inputs(), OWN, craft)
     assert inputs.aircraft is craft
     assert list(menu_titles(craft).values()) == ["UH-60A", "Robinson R22", "Sikorsky S-61", "Test rotor (own)"]
@@ -75,7 +75,7 @@ def test_designs_of_other_rotors_in_addresses_and_files():
     assert share.inputs_from(code) == R22
     with pytest.raises(ValueError, match=r"Weight \[t\] is 8\.32, outside this page's 0\.37"):
         share.within(replace(R22, mass_t=8.32))
-    own = with_rotor(Inputs(), OWN, Shelf().take("my.toml", GOOD.encode()).aircraft)
+    own = with_rotor(Inputs(), OWN, UploadedFiles().take("my.toml", GOOD.encode()).aircraft)
     with pytest.raises(ValueError, match="A rotor of your own fits in no address: save it as a design file"):
         share.code_of(own.design())
     read = parse_case(json.dumps(case_of(own.design())).encode(), "mine.json")
@@ -88,11 +88,11 @@ def test_designs_of_other_rotors_in_addresses_and_files():
 
 class TestShelf:
     def test_files_come_in_any_order(self):
-        first = Shelf()
+        first = UploadedFiles()
         assert first.take("mine.c81", DECK).aircraft is None
         craft = first.take("my.toml", NAMES_DECK).aircraft
         assert craft is not None
-        later = Shelf()
+        later = UploadedFiles()
         arrival = later.take("my.toml", NAMES_DECK)
         assert arrival.aircraft is None
         assert arrival.sentence == "my.toml is kept and waits for mine.c81: load that next."
@@ -101,7 +101,7 @@ class TestShelf:
     def test_polars_and_windows_line_ends(self):
         polar = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars[2]
         toml = GOOD.replace('"naca0012"', '"mine"') + '\n[sections.mine]\npolars = "p.txt"\noutline = "naca0012"\n'
-        shelf = Shelf()
+        shelf = UploadedFiles()
         shelf.take("p.txt", polar_file(polar).replace("\n", "\r\n").encode())
         craft = shelf.take("my.toml", toml.encode("utf-8-sig")).aircraft
         assert craft is not None
@@ -121,7 +121,7 @@ class TestShelf:
         ],
     )
     def test_bad_files_leave_the_shelf_as_it_was(self, name: str, content: bytes, says: str):
-        shelf = Shelf({"kept.c81": "text"})
+        shelf = UploadedFiles({"kept.c81": "text"})
         with pytest.raises(ValueError, match=r"\.") as caught:
             shelf.take(name, content)
         assert says in str(caught.value)

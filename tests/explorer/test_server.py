@@ -23,7 +23,7 @@ from explorer.picture.picture import make_picture
 from explorer.scene.scene import Scene
 from explorer.sliders import SLIDERS
 from explorer.state import LAWS, NOT_ALWAYS, Inputs, ViewState, with_optimum
-from explorer.tabs.controls import Controls
+from explorer.tabs.controls import DesignControls
 from explorer.text.units import SI
 from rotor.files.make_design import make_design, uh60a_rotor
 from rotor.optimisation.concepts import CONCEPTS
@@ -40,8 +40,8 @@ def server() -> Iterator[viser.ViserServer]:
 
 
 @pytest.fixture
-def controls(server: viser.ViserServer) -> Controls:
-    return Controls(server.gui, Inputs(), lambda: None, view=ViewState())
+def controls(server: viser.ViserServer) -> DesignControls:
+    return DesignControls(server.gui, Inputs(), lambda: None, view=ViewState())
 
 
 def free_port() -> int:
@@ -152,17 +152,17 @@ class TestCommand:
 
 
 class TestControls:
-    def test_widgets_start_as_the_inputs(self, controls: Controls):
+    def test_widgets_start_as_the_inputs(self, controls: DesignControls):
         assert controls.inputs() == Inputs()
         assert controls.display.view() == ViewState()
 
     @pytest.mark.parametrize("law", [law for law in LAWS if law not in NOT_ALWAYS])
-    def test_inputs_go_through_the_widgets_unchanged(self, controls: Controls, law: str):
+    def test_inputs_go_through_the_widgets_unchanged(self, controls: DesignControls, law: str):
         wanted = Inputs(law=law, advance_ratio=0.31, mass_t=9.1, altitude_m=1500.0, linear=-7.5, flapping=False)
         controls.set_inputs(wanted)
         assert controls.inputs() == wanted
 
-    def test_an_optimum_that_no_law_holds_joins_the_menu(self, controls: Controls):
+    def test_an_optimum_that_no_law_holds_joins_the_menu(self, controls: DesignControls):
         design = CONCEPTS["free-form"].apply(make_design(), [0.2, 0.1, 0.05, 0.03, -0.03, -0.06])
         wanted = with_optimum(Inputs(mass_t=9.0), design)
         controls.set_inputs(wanted)
@@ -181,7 +181,7 @@ class TestControls:
         r = np.linspace(0.13, 1.0, 50)
         np.testing.assert_allclose(applied.twist(r), design.twist(r), atol=2e-6)
 
-    def test_only_the_sliders_of_the_law_show(self, controls: Controls):
+    def test_only_the_sliders_of_the_law_show(self, controls: DesignControls):
         controls.refresh(Inputs(law="two"), SI)
         shown = {name for name in SLIDERS if controls._inputs[name].visible}
         assert shown == {"two_inner", "two_outer", "two_division", "advance_ratio", "mass_t", "altitude_m"}
@@ -196,7 +196,7 @@ class TestScene:
         scene = Scene(server.scene, uh60a_rotor("flight"))
         handles = dict(server.scene._handle_from_node_name)
         for preset, mu in (("flight", 0.0), ("flight", 0.3), ("thesis", 0.2)):
-            solution = solve(make_design(preset, advance_ratio=mu))
+            solution = solve(make_design(preset=preset, mu=mu))
             scene.show(make_picture(solution, ViewState(), (-4.0, 10.0)))
         assert dict(server.scene._handle_from_node_name) == handles
 
@@ -212,7 +212,7 @@ class TestScene:
 
     def test_a_lost_answer_hides_the_outlines(self, server: viser.ViserServer):
         scene = Scene(server.scene, uh60a_rotor("flight"))
-        solution = solve(make_design(advance_ratio=0.3))
+        solution = solve(make_design(mu=0.3))
         scene.show(make_picture(solution, ViewState(), (-4.0, 10.0)))
         assert scene._outlines["reverse_flow"][0].visible
         scene.fade(b"")

@@ -12,7 +12,7 @@ import pytest
 import zstandard
 
 from explorer.soak import command, wire
-from explorer.soak.figures import Memory, Visit, delays, judge, memory, words
+from explorer.soak.figures import MemoryUse, Visit, delays, judge, memory, words
 from explorer.soak.process import processor_seconds, resident_mb
 from explorer.soak.visitor import Visitor
 
@@ -121,7 +121,7 @@ class TestFigures:
 
     def test_growing_memory_fails(self):
         assert not judge([self.visit()], 20.0, 600.0, 6.0, self.samples(3.0)).passed
-        assert Memory(300.0, 330.0, 3.0, 2.0, 7.5).grows
+        assert MemoryUse(300.0, 330.0, 3.0, 2.0, 7.5).grows
 
 
 class TestProcess:

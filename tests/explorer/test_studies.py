@@ -159,13 +159,13 @@ def test_without_the_packages_the_tab_says_how_to_get_them(monkeypatch: pytest.M
     said: list[str] = []
     monkeypatch.setattr("explorer.tabs.studies.panel.find_spec", lambda name: None)
     client: Any = SimpleNamespace(gui=SimpleNamespace(add_html=said.append))
-    moment: Any = SimpleNamespace(view=SimpleNamespace(dark=True))
-    desk: Any = None
-    panel = StudiesPanel(client, desk, Path())
+    state: Any = SimpleNamespace(view=SimpleNamespace(dark=True))
+    context: Any = None
+    panel = StudiesPanel(client, context, Path())
     assert len(said) == 1
     assert "pip install 'rotor-explorer[study]'" in said[0]
-    panel.show(moment)
-    panel.lose()
+    panel.show(state)
+    panel.show_failure()
     panel.stop()
 
 

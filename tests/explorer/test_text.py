@@ -16,12 +16,10 @@ from explorer.state import LAWS, Inputs, baseline_of, baseline_title, inputs_of,
 from explorer.text import readout
 from explorer.text.status import provenance, status_panel
 from explorer.text.units import number
-from explorer.workers.newest_wins import LatestWins
+from explorer.workers.newest_wins import NewestWins
 from explorer.workers.solver import with_vortex_wake
 from rotor.aero.switches import SWITCHES, switched_off
-from rotor.analysis.sweep import at_advance_ratio
-from rotor.design.design import Design
-from rotor.design.presets import PRESETS
+from rotor.design.design import PRESETS, Design
 from rotor.design.twist import TableTwist
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Caveat, Solution, Status
@@ -30,7 +28,7 @@ from rotor.trim.solve import solve
 
 @pytest.fixture(scope="module")
 def forward() -> Solution:
-    return solve(make_design(advance_ratio=0.2)).require()
+    return solve(make_design(mu=0.2)).require()
 
 
 class TestInputs:
@@ -71,7 +69,7 @@ class TestInputs:
     def test_baselines(self):
         assert baseline_of(Inputs(law="linear").design()).twist.spec() == "uh60a"
         assert baseline_of(Inputs(preset="thesis").design()).twist.spec() == "linear:-16"
-        assert baseline_title(make_design("thesis")) == "linear −16°"
+        assert baseline_title(make_design(preset="thesis")) == "linear −16°"
 
 
 class TestReadout:
@@ -106,7 +104,7 @@ class TestReadout:
         assert 'data-explorer="change"' not in readout.power_panel(forward, lost)
 
     def test_hover_has_a_figure_of_merit_and_flight_a_lift_to_drag(self, forward: Solution):
-        hover = solve(make_design(advance_ratio=0.0))
+        hover = solve(make_design(mu=0.0))
         assert "Figure of merit" in readout.trim_panel(hover)
         assert "Rotor L/De" in readout.trim_panel(forward)
         assert "0.77" in readout.trim_panel(hover)
@@ -129,7 +127,7 @@ class TestReadout:
         html = provenance(forward)
         for words in ("flight", "SC1095 / SC1094 R8", "40 × 120", "not a measurement"):
             assert words in html
-        assert "annulus balance" in provenance(solve(make_design(advance_ratio=0.0)))
+        assert "annulus balance" in provenance(solve(make_design(mu=0.0)))
 
     def test_nothing_that_is_no_number_reaches_the_screen(self, forward: Solution):
         broken = replace(
@@ -148,7 +146,7 @@ class TestReadout:
         ideal = readout.ideal_induced(forward)
         assert ideal is not None
         assert 0.5 * forward.power.induced < ideal < forward.power.induced
-        fast = solve(make_design(advance_ratio=0.43, mass=6000.0)).require()
+        fast = solve(make_design(mu=0.43, mass_kg=6000.0)).require()
         assert readout.ideal_induced(fast) is None
         assert "not settled" in readout.power_panel(fast, None)
 
@@ -158,7 +156,7 @@ class TestReadout:
         assert f"{reference.power.total / 1e3:,.0f}".replace(",", "\u2009") in readout.check_panel(reference, forward)
         lost = replace(reference, status=Status.NOT_CONVERGED, message="Not trimmed: no.")
         assert "Not trimmed: no." in readout.check_panel(lost, forward)
-        hover = make_design(advance_ratio=0.0)
+        hover = make_design(mu=0.0)
         assert with_vortex_wake(hover) == hover
 
     def test_speed_in_knots(self):
@@ -197,7 +195,7 @@ class TestPlots:
         assert plots.held_range(first, math.nan, math.nan) == first
 
     def test_angle_of_attack_has_a_gap_in_reverse_flow(self):
-        solution = solve(make_design(advance_ratio=0.35)).require()
+        solution = solve(make_design(mu=0.35)).require()
         r, lower, upper, alpha = plots.alpha_plot(solution, 270.0).data[:4]
         assert np.isnan(alpha[r < 0.3]).all()
         assert np.isfinite(alpha[r > 0.4]).all()
@@ -279,7 +277,7 @@ class TestPowerCurves:
         k = plots.SWEEP.index(0.15)
         assert_allclose(coarse[1:14], fine[1:14], rtol=0.03)
         assert coarse[k] != fine[k]
-        assert_allclose(fine[k], solve(at_advance_ratio(design, 0.15)).power.total / 1e3, rtol=1e-6)
+        assert_allclose(fine[k], solve(design.at(mu=0.15)).power.total / 1e3, rtol=1e-6)
 
     def test_on_a_busy_machine_frames_come_first(self):
         curves = PowerCurves(haste=0.0)
@@ -296,7 +294,7 @@ class TestLatestWins:
             begun.set()
             gate.wait(5.0)
 
-        worker = LatestWins(job, lambda error: None, "test")
+        worker = NewestWins(job, lambda error: None, "test")
         worker.start()
         worker.wake()
         assert begun.wait(5.0)
@@ -322,7 +320,7 @@ class TestLatestWins:
                 finish.wait(5.0)
                 answers.append(superseded())
 
-        worker = LatestWins(job, lambda error: None, "test")
+        worker = NewestWins(job, lambda error: None, "test")
         worker.start()
         worker.wake()
         assert running.wait(5.0)
@@ -344,7 +342,7 @@ class TestLatestWins:
             errors.append(error)
             worker.wake()
 
-        worker = LatestWins(job, report, "test")
+        worker = NewestWins(job, report, "test")
         worker.start()
         worker.wake()
         assert done.wait(5.0)

@@ -10,7 +10,7 @@ import viser
 from explorer.charts import plots
 from explorer.sliders import SLIDERS, limits, meant, shown, slider
 from explorer.state import Inputs, ViewState
-from explorer.tabs.controls import Controls
+from explorer.tabs.controls import DesignControls
 from explorer.tabs.history import strip as history_view
 from explorer.text import comparison as ab_readout
 from explorer.text import readout
@@ -24,13 +24,13 @@ from rotor.trim.solve import solve
 
 @pytest.fixture(scope="module")
 def solution() -> Solution:
-    return solve(make_design(advance_ratio=0.2)).require()
+    return solve(make_design(mu=0.2)).require()
 
 
 @pytest.fixture
-def controls() -> Iterator[Controls]:
+def controls() -> Iterator[DesignControls]:
     server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    yield Controls(server.gui, Inputs(), lambda: None, view=ViewState())
+    yield DesignControls(server.gui, Inputs(), lambda: None, view=ViewState())
     server.stop()
 
 
@@ -93,7 +93,7 @@ def test_an_input_is_itself_after_other_units(name: str):
 
 
 class TestControls:
-    def test_units_move_the_sliders_and_not_the_design(self, controls: Controls):
+    def test_units_move_the_sliders_and_not_the_design(self, controls: DesignControls):
         wanted = Inputs(mass_t=9.05, altitude_m=1550.0)
         controls.set_inputs(wanted)
         controls.refresh(wanted, UNITS["Aviation"])
@@ -107,11 +107,11 @@ class TestControls:
         assert controls.inputs() == replace(wanted, altitude_m=3048.0)
         assert handle.value == 9.05
 
-    def test_a_pound_that_is_typed_as_a_whole_number(self, controls: Controls):
+    def test_a_pound_that_is_typed_as_a_whole_number(self, controls: DesignControls):
         controls.refresh(Inputs(), UNITS["Aviation"])
         controls._inputs["mass_t"].value = 20000
         assert controls.inputs().mass_t == pytest.approx(9.0718474)
 
-    def test_the_view_holds_the_choice(self, controls: Controls):
+    def test_the_view_holds_the_choice(self, controls: DesignControls):
         controls.display.set_view(replace(ViewState(), units="Aviation"))
         assert controls.display.view().units == "Aviation"

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 import viser
 
+from explorer.interface import SessionState
 from explorer.state import Inputs, ViewState
-from explorer.tabs.interface import Moment
 from explorer.tabs.physics.waterfall_panel import WaterfallPanel
 from explorer.tabs.physics.waterfall_view import alone_table, waterfall_chart
 from explorer.text.units import AVIATION, HORSEPOWER, KILOWATT, SI
@@ -22,7 +22,7 @@ from rotor.trim.solve import solve
 
 
 def coarse(mu: float) -> Design:
-    design = make_design(advance_ratio=mu)
+    design = make_design(mu=mu)
     return replace(design, models=replace(design.models, elements=12, azimuths=24, inflow="pitt-peters"))
 
 
@@ -94,9 +94,9 @@ class TestPanel:
 
     def test_it_comes_by_itself_and_never_while_superseded(self, panel: WaterfallPanel):
         solution = solve(coarse(0.2))
-        moment = Moment(Inputs(), ViewState(), solution, solution, None, None)
+        state = SessionState(Inputs(), ViewState(), solution, solution, None, None)
         panel.climb(lambda: False)  # Before there is an answer.
-        panel.show(moment)
+        panel.show(state)
         assert "Computing" in panel._chart.content
         panel.climb(lambda: True)
         assert panel._steps == []
@@ -112,7 +112,7 @@ class TestPanel:
     def test_a_new_design_fades_the_old_answer_once(self, panel: WaterfallPanel):
         for mu in (0.1, 0.2, 0.3):
             solution = solve(coarse(mu))
-            panel.show(Moment(Inputs(), ViewState(), solution, solution, None, None))
+            panel.show(SessionState(Inputs(), ViewState(), solution, solution, None, None))
             if mu == 0.1:
                 panel.climb(lambda: False)
         assert panel._chart.content.count("rx-faded") == 1
@@ -120,9 +120,9 @@ class TestPanel:
 
     def test_the_azimuth_does_not_start_it_again(self, panel: WaterfallPanel):
         solution: Solution = solve(coarse(0.2))
-        panel.show(Moment(Inputs(), ViewState(), solution, solution, None, None))
+        panel.show(SessionState(Inputs(), ViewState(), solution, solution, None, None))
         panel.climb(lambda: False)
         steps: list[Step] = panel._steps
-        panel.show(Moment(Inputs(), ViewState(azimuth_deg=90.0), solution, solution, None, None))
+        panel.show(SessionState(Inputs(), ViewState(azimuth_deg=90.0), solution, solution, None, None))
         assert panel._steps is steps
         assert "rx-faded" not in panel._chart.content

@@ -5,7 +5,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from explorer.export.report.contents import Entry, report_of
+from explorer.export.report.contents import ReportEntry, report_of
 from explorer.export.report.document import report_html
 from explorer.picture.fields import FIELDS
 from explorer.scene.still_scene import make_stage
@@ -18,14 +18,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """0 when the report is written, 1 when a design does not trim, 2 for bad input."""
     options = _parser().parse_args(arguments)
     try:
-        entries = [Entry(Path(file).stem, solve(read_case(file))) for file in options.designs]
+        entries = [ReportEntry(Path(file).stem, solve(read_case(file))) for file in options.designs]
         view = ViewState(field=options.field)
     except (ValueError, FileNotFoundError) as error:
         print(f"explorer report: {error}", file=sys.stderr)
         return 2
     first = entries[0].solution.design
     try:
-        report = report_of(Entry(baseline_title(first), solve(baseline_of(first))), entries, view)
+        report = report_of(ReportEntry(baseline_title(first), solve(baseline_of(first))), entries, view)
     except ValueError as error:
         print(f"explorer report: {error}", file=sys.stderr)
         return 1

@@ -21,7 +21,7 @@ _USUAL = ("Angle of attack", "Induced inflow λi", "Thrust dT/dr", "Power dP/dr"
 
 
 @dataclass(frozen=True, eq=False)
-class Entry:
+class ReportEntry:
     """A design of the report."""
 
     title: str
@@ -31,12 +31,12 @@ class Entry:
 
 
 @dataclass(frozen=True, eq=False)
-class Report:
+class DesignReport:
     """What a report is made of."""
 
-    reference: Entry
+    reference: ReportEntry
     """What changes are counted from: the pinned design, or the baseline twist."""
-    entries: tuple[Entry, ...]
+    entries: tuple[ReportEntry, ...]
     """The designs, the present one first; the reference is not among them."""
     view: ViewState
     when: datetime
@@ -54,40 +54,40 @@ class Report:
         """Of a field."""
         return self.ranges.get(shown.title, (shown.low, shown.high))
 
-    def comparable(self, entry: Entry) -> bool:
+    def comparable(self, entry: ReportEntry) -> bool:
         """Whether it flies as the reference does, so that a difference of power is the blade's."""
         return entry.solution.design.condition == self.reference.solution.design.condition
 
     @property
-    def all(self) -> tuple[Entry, ...]:
+    def all(self) -> tuple[ReportEntry, ...]:
         """The reference last."""
         return (*self.entries, self.reference)
 
     @property
-    def shown(self) -> tuple[Entry, ...]:
+    def shown(self) -> tuple[ReportEntry, ...]:
         """Those with a section and a scene of their own: the first of `all`."""
         return self.all if self.own_section else self.entries
 
 
-def colours_of(report: Report) -> list[str]:
+def colours_of(report: DesignReport) -> list[str]:
     """Of each entry, and grey for the reference."""
     return [*(COLOURS[k % len(COLOURS)] for k in range(len(report.entries))), BASELINE]
 
 
-def fields_of(report: Report) -> list[Field]:
+def fields_of(report: DesignReport) -> list[Field]:
     """The field on the page, then the usual ones."""
     names = dict.fromkeys((report.view.field, *_USUAL))
     return [FIELDS[name] for name in list(names)[:FIELDS_SHOWN]]
 
 
 def report_of(
-    reference: Entry,
-    entries: Sequence[Entry],
+    reference: ReportEntry,
+    entries: Sequence[ReportEntry],
     view: ViewState,
     ranges: Mapping[str, Range] | None = None,
     *,
     own_section: bool = False,
-) -> Report:
+) -> DesignReport:
     """A report as of now; ValueError where there is nothing to report on, or where one does not hold."""
     if not entries:
         raise ValueError("There is no design to report on: wait for the first answer.")
@@ -95,11 +95,11 @@ def report_of(
         if not entry.solution.converged:
             raise ValueError(f"{entry.title} is not trimmed, so it cannot be reported: {entry.solution.message}")
     fitted = {name: _fitted(FIELDS[name], entries) for name in _USUAL if not FIELDS[name].void_in_reverse_flow}
-    return Report(
+    return DesignReport(
         reference, tuple(entries), view, datetime.now().astimezone(), {**fitted, **(ranges or {})}, own_section
     )
 
 
-def _fitted(shown: Field, entries: Sequence[Entry]) -> Range:
+def _fitted(shown: Field, entries: Sequence[ReportEntry]) -> Range:
     """A range that holds what all the designs have, so that their pictures can be compared."""
     return fitted_range(shown, np.concatenate([field_values(entry.solution, shown).ravel() for entry in entries]))

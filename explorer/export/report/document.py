@@ -6,9 +6,9 @@ from explorer.charts.power_curve import PowerCurves
 from explorer.export.as_code import as_command_line, as_python
 from explorer.export.provenance import PROGRAM, versions
 from explorer.export.report import figures, tables
-from explorer.export.report.contents import Report, colours_of
+from explorer.export.report.contents import DesignReport, colours_of
 from explorer.export.report.style import SCRIPT, SHEET
-from explorer.export.scene_recordings import Stage
+from explorer.export.scene_recordings import EmbeddedViewer
 from explorer.picture.fields import FIELDS
 from explorer.text.design_words import active_words, flight_words, model_words, title_words
 from explorer.text.readout import PART_TITLES
@@ -17,7 +17,7 @@ from explorer.theme.colours import PARTS
 from rotor.trim.solution import Solution
 
 
-def report_html(report: Report, stage: Stage | None, curves: PowerCurves | None = None) -> str:
+def report_html(report: DesignReport, stage: EmbeddedViewer | None, curves: PowerCurves | None = None) -> str:
     """The file's text. `stage`: the 3D scenes of `report.shown`, in their order; `curves`: power already swept."""
     several = len(report.shown) > 1
     title = f"{len(report.shown)} designs compared" if several else title_words(report.entries[0].solution.design)
@@ -37,7 +37,7 @@ def report_html(report: Report, stage: Stage | None, curves: PowerCurves | None 
     )
 
 
-def _head(report: Report, title: str) -> str:
+def _head(report: DesignReport, title: str) -> str:
     when = f"{report.when.day} {report.when:%B %Y, %H:%M}"
     return (
         f'<header><div class="brand">{escape(PROGRAM)}</div><button id="theme" type="button">Dark / light</button>'
@@ -45,7 +45,7 @@ def _head(report: Report, title: str) -> str:
     )
 
 
-def _glance(report: Report) -> str:
+def _glance(report: DesignReport) -> str:
     """A card for each design: power, its change, its parts."""
     colours = colours_of(report)
     cards = "".join(_card(report, k, colour) for k, colour in enumerate(colours))
@@ -55,7 +55,7 @@ def _glance(report: Report) -> str:
     return f'<section class="glance"><div class="cards">{cards}</div><p class="parts">{parts}</p></section>'
 
 
-def _card(report: Report, k: int, colour: str) -> str:
+def _card(report: DesignReport, k: int, colour: str) -> str:
     entry = report.all[k]
     power, design = entry.solution.power, entry.solution.design
     largest = max(other.solution.power.total for other in report.all)
@@ -77,7 +77,7 @@ def _card(report: Report, k: int, colour: str) -> str:
     )
 
 
-def _stage(report: Report, stage: Stage | None) -> str:
+def _stage(report: DesignReport, stage: EmbeddedViewer | None) -> str:
     if stage is None:
         return ""
     tabs = "".join(
@@ -94,7 +94,7 @@ def _stage(report: Report, stage: Stage | None) -> str:
     )
 
 
-def _section(report: Report, k: int) -> str:
+def _section(report: DesignReport, k: int) -> str:
     """Everything about one design."""
     entry, colour = report.shown[k], colours_of(report)[k]
     solution = entry.solution

@@ -5,7 +5,6 @@ from dataclasses import replace
 from html import escape
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from explorer.charts import plots
@@ -13,12 +12,11 @@ from explorer.charts.line_chart import Trace, line_chart
 from explorer.charts.plots import SWEEP
 from explorer.charts.power_curve import PowerCurves
 from explorer.export.disk_drawing import HALF, bar_drawing, disk_drawing, key_entries
-from explorer.export.report.contents import Entry, Report, colours_of, fields_of
+from explorer.export.report.contents import DesignReport, ReportEntry, colours_of, fields_of
 from explorer.picture.fields import Field
 from explorer.theme.colours import BASELINE, IDEAL
+from rotor.arrays import Array
 from rotor.trim.solution import Solution
-
-Array = NDArray[np.float64]
 
 PIXELS = 400
 """Of a disk's field along each edge: twice what a page shows of it would be finer than the solver's grid."""
@@ -28,7 +26,7 @@ _BAR = 200.0
 _LETTERS = 10.0
 
 
-def overview(report: Report, curves: PowerCurves) -> str:
+def overview(report: DesignReport, curves: PowerCurves) -> str:
     """Power over advance ratio and twist along the blade, all designs together."""
     colours = colours_of(report)
     pairs = list(zip(report.all, colours, strict=True))
@@ -69,7 +67,7 @@ def overview(report: Report, curves: PowerCurves) -> str:
     return f'<section><h2>Over speed and along the blade</h2><div class="charts">{"".join(charts)}</div></section>'
 
 
-def _power(report: Report, entry: Entry, colour: str, curves: PowerCurves) -> list[Trace]:
+def _power(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerCurves) -> list[Trace]:
     """Curve from where forward inflow is trusted, hover as a point, the present condition as a point."""
     design = entry.solution.design
     curves.sweep(design, report.reference.solution.design, lambda: False)
@@ -93,7 +91,7 @@ def _mean_load(solution: Solution) -> Array:
     return solution.disk.dct.mean(axis=1) * design.thrust_unit / (design.rotor.blades * design.rotor.radius) / 1e3
 
 
-def _change(report: Report, entry: Entry, colour: str, curves: PowerCurves) -> list[Trace]:
+def _change(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerCurves) -> list[Trace]:
     """Against the reference over speed, for blades that carry the same weight at the same height."""
     design, reference = entry.solution.design, report.reference.solution.design
     alike = replace(design.condition, advance_ratio=0.0) == replace(reference.condition, advance_ratio=0.0)
@@ -117,7 +115,7 @@ def _smooth(values: Array) -> tuple[Array, Array]:
     return line, PchipInterpolator(mu[known], values[known])(line)
 
 
-def disks(report: Report, entry: Entry, k: int) -> str:
+def disks(report: DesignReport, entry: ReportEntry, k: int) -> str:
     """The fields over the disk, each with its scale; what the lines mean stands below."""
     solution, figures = entry.solution, []
     for n, field in enumerate(fields_of(report)):

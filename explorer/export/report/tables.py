@@ -6,7 +6,7 @@ from html import escape
 
 import numpy as np
 
-from explorer.export.report.contents import Entry, Report
+from explorer.export.report.contents import DesignReport, ReportEntry
 from explorer.state import PRESET_TITLES
 from explorer.text.design_words import inflow_words, physics_words, twist_words
 from explorer.text.readout import PART_TITLES, ideal_induced
@@ -21,7 +21,7 @@ STATIONS = (0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0)
 Row = tuple[str, str]
 
 
-def change_words(report: Report, entry: Entry) -> str:
+def change_words(report: DesignReport, entry: ReportEntry) -> str:
     """Change of total power against the reference, where both fly alike."""
     reference = report.reference
     if entry is reference:
@@ -33,7 +33,7 @@ def change_words(report: Report, entry: Entry) -> str:
     return f'<span class="change{kind}">{number(change, 1, sign=True)} %</span>'
 
 
-def comparison(report: Report) -> str:
+def comparison(report: DesignReport) -> str:
     """Every design in a column, the reference last; differences beside the powers."""
     reference = report.reference.solution
     elsewhere = [entry.title for entry in report.entries if not report.comparable(entry)]
@@ -99,7 +99,7 @@ def conditions(solution: Solution) -> str:
     return _table("Condition and model", rows)
 
 
-def parts(report: Report, entry: Entry) -> str:
+def parts(report: DesignReport, entry: ReportEntry) -> str:
     """Power by parts with shares and the change against the reference."""
     power, units = entry.solution.power, report.units
     ideal = ideal_induced(entry.solution)

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import NDArray
 
 from explorer.picture.meshes import Mesh
 from explorer.tabs.actuator.walls import SIDES, CutPart, outline, skin_part, stations, tube_part, web_part, without
@@ -15,10 +14,9 @@ from rotor.actuator.catalogue import PiezoPly, TorqueTube
 from rotor.actuator.fitted import Fitted
 from rotor.actuator.pictures import black_box
 from rotor.actuator.section import passive_skin, passive_wall, section_spec
+from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.dynamics.structure import structure_data, uh60a_structure
-
-Array = NDArray[np.float64]
 
 SPAN_SCALE = 0.22
 """The blade is sixteen times as long as it is wide: drawn so, it would be a thread."""

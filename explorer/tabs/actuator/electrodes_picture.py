@@ -5,7 +5,6 @@ from functools import lru_cache
 from html import escape
 
 import numpy as np
-from numpy.typing import NDArray
 
 from explorer.charts.plots import Plot, held_range
 from explorer.picture.disk_image import encode_png
@@ -13,8 +12,7 @@ from explorer.text.units import number
 from explorer.theme.colours import colour_map
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.electrodes import electric_field, field_map, free_strain, thermal_coefficients
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 PAIR = {"interdigitated": "MFC_P1", "continuous": "MFC_P2"}
 """The same fibres under either kind of electrodes: what a sheet is shown against."""

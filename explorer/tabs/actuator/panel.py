@@ -11,7 +11,7 @@ from explorer.tabs.actuator.picture import cut_picture, voltage_shares
 from explorer.tabs.actuator.scene import CutScene
 from explorer.tabs.actuator.section import section_svg
 from explorer.tabs.actuator.state import MOST_SEGMENTS, ActuatorInputs, Question, question_of
-from explorer.tabs.actuator.study import Answers, Study
+from explorer.tabs.actuator.study import CachedVerdicts, VerdictWorker
 from explorer.workers import solver
 from explorer.workers.pool import Share
 from rotor.actuator.fitted import Fitted
@@ -33,8 +33,8 @@ class ActuatorPanel:
         self._client = client
         self._touched = False
         self._cut = CutScene(client.scene)
-        self._study = Study(Answers(pool), changed, f"study-{client.client_id}")
-        self._rest = solver.Baseline()
+        self._study = VerdictWorker(CachedVerdicts(pool), changed, f"study-{client.client_id}")
+        self._rest = solver.BaselineCache()
         self._told: dict[str, str] = {}
         self._drawn: tuple[object, ...] | None = None
         self._asked: Question | None = None
@@ -62,7 +62,7 @@ class ActuatorPanel:
         except ValueError as error:
             self._cut.hide()
             self._drawn = None
-            self.lose(str(error))
+            self.show_failure(str(error))
             return
         self._controls.arrange(inputs, fitted)
         self._draw(inputs, fitted, design, psi)
@@ -78,7 +78,7 @@ class ActuatorPanel:
         self._before = now
         self._judge(inputs, fitted, question, design.rotor.blade.root_cutout)
 
-    def lose(self, problem: str) -> None:
+    def show_failure(self, problem: str) -> None:
         """There is no such design: the sentence in place of the verdict, all else as it was."""
         self._tell("verdict", self._controls.verdict, readout.problem_panel(problem))
 

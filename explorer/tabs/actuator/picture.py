@@ -5,7 +5,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from explorer.picture.meshes import Mesh
 from explorer.tabs.actuator import cut as actuator_cut
@@ -14,9 +13,8 @@ from explorer.text.units import number
 from explorer.theme import colours
 from rotor.actuator.catalogue import PiezoPly, TorqueTube
 from rotor.actuator.fitted import Fitted
+from rotor.arrays import Array
 from rotor.design.design import Design
-
-Array = NDArray[np.float64]
 
 WALLS: dict[str, colours.Rgb] = {"spar": (70, 76, 86), "skin": (104, 106, 104), "web": (58, 64, 74)}
 """Dark albedos, for the page's lights bleach."""

@@ -3,16 +3,11 @@
 from functools import lru_cache
 from html import escape
 
-import numpy as np
-from numpy.typing import NDArray
-
 from explorer.tabs.actuator.picture import share_colour
 from explorer.theme.colours import css
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.fitted import Fitted
 from rotor.actuator.pictures import Part, section_picture
-
-Array = NDArray[np.float64]
 
 _WIDTH, _HEIGHT = 312.0, 92.0
 _MIDDLE = 46.0

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from rotor.actuator.baseline import SMOOTH_DIVISIONS
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, find_actuator
@@ -13,13 +13,12 @@ from rotor.actuator.fitted import Fitted, fit
 from rotor.actuator.harmonic import DynamicTwist, dynamic_twist, with_harmonic
 from rotor.actuator.placement import BladeKind, Host, Placement
 from rotor.actuator.reach import STATIONS, Pair, twisted
+from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.design.design import Design
 from rotor.design.twist import PiecewiseLinearTwist
 from rotor.dynamics.structure import KNOWN_BLADE
 from rotor.optimisation.concepts import find_concept
-
-Array = NDArray[np.float64]
 
 CONCEPTS = ("linear", "quadratic", "two-segment", "three-segment")
 """Those whose divisions an actuator can be laid out for before any optimum is known."""

@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 from explorer.tabs.actuator.state import Question
-from explorer.workers.job import Broken, Ended, News
-from explorer.workers.newest_wins import LatestWins
+from explorer.workers.job import JobEnded, JobEvent, JobFailed
+from explorer.workers.newest_wins import NewestWins
 from explorer.workers.pool import Share
 from rotor.actuator.catalogue import actuators, find_actuator
 from rotor.actuator.verdict import Verdict, judge
@@ -89,7 +89,7 @@ def lean(verdict: Verdict) -> Verdict:
     return replace(verdict, baseline=base, reached=replace(verdict.reached, solutions=()))
 
 
-class Source(Protocol):
+class VerdictSource(Protocol):
     """Where verdicts come from."""
 
     def find(self, task: VerdictTask, superseded: Superseded) -> Outcome | None:
@@ -97,7 +97,7 @@ class Source(Protocol):
         ...
 
 
-class Answers:
+class CachedVerdicts:
     """What is known already, else a process of the pool."""
 
     def __init__(self, pool: Share) -> None:
@@ -110,20 +110,20 @@ class Answers:
             return known
         over, heard = threading.Event(), [""]
 
-        def hear(news: News) -> None:
+        def on_event(news: JobEvent) -> None:
             match news:
-                case Ended(result) if result is not None:
+                case JobEnded(result) if result is not None:
                     _remember(task, result)
                     over.set()
-                case Ended():
+                case JobEnded():
                     over.set()
-                case Broken(message):
+                case JobFailed(message):
                     heard[0] = message
                     over.set()
                 case _:
                     pass
 
-        job = self._pool.submit(task, hear, urgency=URGENCY)
+        job = self._pool.submit(task, on_event, urgency=URGENCY)
         while not over.wait(_LOOK):
             if superseded():
                 self._pool.abandon(job)
@@ -147,16 +147,16 @@ def _remember(task: VerdictTask, outcome: Outcome) -> None:
             _known.popitem(last=False)
 
 
-class Study:
+class VerdictWorker:
     """One thread that answers the newest question, first for the chosen actuator, then for all others."""
 
-    def __init__(self, answers: Source, found: Callable[[], None], name: str) -> None:
+    def __init__(self, answers: VerdictSource, found: Callable[[], None], name: str) -> None:
         self._answers = answers
         self._found = found
         self._question: Question | None = None
         self._wanted = False
         self._last = time.monotonic()
-        self._worker = LatestWins(self._round, self._failed, name)
+        self._worker = NewestWins(self._round, self._failed, name)
         self.findings = Findings()
 
     def start(self) -> None:

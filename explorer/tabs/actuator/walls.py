@@ -6,12 +6,10 @@ Axes as of a blade: y to the leading edge, z up, the quarter chord at the origin
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.actuator.section import SectionSpec, skin
+from rotor.arrays import Array
 from rotor.design.blade import Rotor
-
-Array = NDArray[np.float64]
 
 THICKER = 3.5
 """Walls and plies are drawn this much thicker, or they would be lines."""

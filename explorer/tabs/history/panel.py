@@ -4,10 +4,10 @@ import threading
 
 import viser
 
+from explorer.interface import SessionState, TabContext
 from explorer.state import Inputs
 from explorer.tabs.history import strip as view
 from explorer.tabs.history.strip import FIELD, MOST_KEPT, Kept
-from explorer.tabs.interface import Desk, Moment
 from explorer.text.glossary import hint
 from explorer.text.units import UNITS
 from explorer.undo import History
@@ -17,8 +17,8 @@ from rotor.trim.solution import Solution
 class HistoryPanel:
     """One session's. Buttons act at once, on any thread; steps are taken on the session's worker."""
 
-    def __init__(self, gui: viser.GuiApi, desk: Desk, start: Inputs) -> None:
-        self._desk = desk
+    def __init__(self, gui: viser.GuiApi, context: TabContext, start: Inputs) -> None:
+        self._context = context
         self._lock = threading.RLock()
         self._history = History(start)
         self._powers: dict[Inputs, float] = {}
@@ -31,14 +31,14 @@ class HistoryPanel:
             gui.add_html('<div class="rx-bridge"></div>')  # The style sheet hides the row after it.
             self._field = gui.add_text(FIELD, "", hint=hint("take"))
         for name, act in (("undo", self.undo), ("redo", self.redo), ("keep", self.keep)):
-            desk.bind(name, act)
+            context.bind_command(name, act)
         keep.on_click(lambda _: self.keep())
         self._field.on_update(lambda event: self._asked() if event.client is not None else None)
 
     def read(self, pause: float) -> Inputs:
         """The inputs of a round that begins, taken as a step; `pause`: the longest [s] in moving them."""
         with self._lock:  # Between undoing a step and moving the widgets, they are no new step.
-            inputs = self._desk.inputs()
+            inputs = self._context.inputs()
             self._history.note(inputs, pause)
         return inputs
 
@@ -56,13 +56,13 @@ class HistoryPanel:
 
     def keep(self) -> None:
         """Set the present design aside; the oldest goes when there are too many."""
-        moment = self._desk.moment()
-        if moment is None:
+        state = self._context.state()
+        if state is None:
             return
         with self._lock:
-            others = [item for item in self._kept if item.inputs != moment.inputs]
-            self._kept = [*others, Kept(moment.inputs, moment.solution)][-MOST_KEPT:]
-        self._desk.wake()
+            others = [item for item in self._kept if item.inputs != state.inputs]
+            self._kept = [*others, Kept(state.inputs, state.solution)][-MOST_KEPT:]
+        self._context.wake()
 
     @property
     def kept(self) -> tuple[Kept, ...]:
@@ -70,10 +70,10 @@ class HistoryPanel:
         with self._lock:
             return tuple(self._kept)
 
-    def show(self, moment: Moment) -> None:
-        self._draw(moment.solution)
+    def show(self, state: SessionState) -> None:
+        self._draw(state.solution)
 
-    def lose(self) -> None:
+    def show_failure(self) -> None:
         self._draw(None)
 
     def stop(self) -> None:
@@ -83,7 +83,7 @@ class HistoryPanel:
         with self._lock:
             steps, present, kept = self._history.steps, len(self._history.past), tuple(self._kept)
             self._powers = {step: self._powers[step] for step in steps if step in self._powers}
-            units = UNITS[self._desk.view().units]
+            units = UNITS[self._context.view().units]
             if self._drawn == (steps, present, kept, solution, units):
                 return
             self._drawn = (steps, present, kept, solution, units)
@@ -94,9 +94,9 @@ class HistoryPanel:
     def _take(self, inputs: Inputs | None) -> None:
         """Move the widgets, under the lock."""
         if inputs is None:
-            self._desk.wake()
+            self._context.wake()
         else:
-            self._desk.set_inputs(inputs)
+            self._context.set_inputs(inputs)
 
     def _asked(self) -> None:
         asked = view.asked(self._field.value)

@@ -4,9 +4,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
+from explorer.interface import TabContext
 from explorer.picture.camera_views import View
 from explorer.picture.fields import FIELDS
-from explorer.tabs.interface import Desk
 from explorer.tabs.lecture.cases import FLIGHTS
 from explorer.text.units import UNITS
 
@@ -28,32 +28,32 @@ class Actions:
     """Start the optimiser, or stop it."""
 
 
-def bind_commands(desk: Desk, actions: Actions) -> None:
+def bind_commands(context: TabContext, actions: Actions) -> None:
     """Give the commands of the page their actions."""
     for name, mu in SPEEDS.items():
-        desk.bind(name, partial(_fly, desk, mu))
+        context.bind_command(name, partial(_fly, context, mu))
     for name, view in VIEWS.items():
-        desk.bind(name, partial(actions.look, view))
-    desk.bind("field_next", partial(_show_field, desk, 1))
-    desk.bind("field_previous", partial(_show_field, desk, -1))
-    desk.bind("rescale", partial(actions.colours, "Rescale"))
-    desk.bind("rescale_default", partial(actions.colours, "Default"))
-    desk.bind("dark", lambda: desk.set_view(replace(desk.view(), dark=not desk.view().dark)))
-    desk.bind("units", partial(_change_units, desk))
-    desk.bind("check", actions.check)
-    desk.bind("reset", actions.reset)
-    desk.bind("optimise", actions.search)
+        context.bind_command(name, partial(actions.look, view))
+    context.bind_command("field_next", partial(_show_field, context, 1))
+    context.bind_command("field_previous", partial(_show_field, context, -1))
+    context.bind_command("rescale", partial(actions.colours, "Rescale"))
+    context.bind_command("rescale_default", partial(actions.colours, "Default"))
+    context.bind_command("dark", lambda: context.set_view(replace(context.view(), dark=not context.view().dark)))
+    context.bind_command("units", partial(_change_units, context))
+    context.bind_command("check", actions.check)
+    context.bind_command("reset", actions.reset)
+    context.bind_command("optimise", actions.search)
 
 
-def _fly(desk: Desk, mu: float) -> None:
-    desk.set_inputs(replace(desk.inputs(), advance_ratio=mu))
+def _fly(context: TabContext, mu: float) -> None:
+    context.set_inputs(replace(context.inputs(), advance_ratio=mu))
 
 
-def _change_units(desk: Desk) -> None:
-    view, titles = desk.view(), tuple(UNITS)
-    desk.set_view(replace(view, units=titles[(titles.index(view.units) + 1) % len(titles)]))
+def _change_units(context: TabContext) -> None:
+    view, titles = context.view(), tuple(UNITS)
+    context.set_view(replace(view, units=titles[(titles.index(view.units) + 1) % len(titles)]))
 
 
-def _show_field(desk: Desk, step: int) -> None:
-    titles, view = tuple(FIELDS), desk.view()
-    desk.set_view(replace(view, field=titles[(titles.index(view.field) + step) % len(titles)]))
+def _show_field(context: TabContext, step: int) -> None:
+    titles, view = tuple(FIELDS), context.view()
+    context.set_view(replace(view, field=titles[(titles.index(view.field) + step) % len(titles)]))

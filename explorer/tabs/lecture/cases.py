@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from explorer.state import Inputs
-from rotor.design.presets import THESIS_MODELS
+from rotor.design.design import THESIS_MODELS
 
 FLIGHTS = {"Hover": 0.0, "0.15": 0.15, "0.24": 0.24, "0.37": 0.37}
 """Advance ratios: hover, the bottom of the power curve, cruise, fast."""

@@ -7,9 +7,9 @@ from typing import Any
 import viser
 
 from explorer.hosting import viser_compat
+from explorer.interface import SessionState, TabContext
 from explorer.pinned import same_but_flight
 from explorer.state import Inputs
-from explorer.tabs.interface import Desk, Moment
 from explorer.tabs.lecture import cases, view
 from explorer.tabs.lecture import steps as lecture
 from explorer.tabs.lecture.presence import Presence
@@ -27,10 +27,10 @@ class LecturePanel:
     """One session's. Buttons act at once; the caption's numbers follow the session."""
 
     def __init__(
-        self, client: viser.ClientHandle, desk: Desk, presence: Presence, enlarge: Callable[[bool], None]
+        self, client: viser.ClientHandle, context: TabContext, presence: Presence, enlarge: Callable[[bool], None]
     ) -> None:
         """`enlarge`: big type for the whole page, or as it was."""
-        self._client, self._desk, self._presence = client, desk, presence
+        self._client, self._context, self._presence = client, context, presence
         self._step: int | None = None
         self._against: Inputs | None = None
         """A, as the step wants it beside what is on the sliders."""
@@ -58,9 +58,9 @@ class LecturePanel:
         self._present.on_click(lambda _: self._present_or_end())
         self._flights.on_click(lambda event: self._fly(cases.FLIGHTS[event.target.value]))
         self._case.on_update(self._take_case)
-        desk.bind("lecture", self.toggle)
-        desk.bind("lecture_next", lambda: self.go(1))
-        desk.bind("lecture_previous", lambda: self.go(-1))
+        context.bind_command("lecture", self.toggle)
+        context.bind_command("lecture_next", lambda: self.go(1))
+        context.bind_command("lecture_previous", lambda: self.go(-1))
 
     @property
     def step(self) -> int | None:
@@ -85,12 +85,12 @@ class LecturePanel:
     def set(self, step: int) -> None:
         """Set the page as a step wants it."""
         self._stand_at(step)
-        wanted, desk = STEPS[step], self._desk
+        wanted, context = STEPS[step], self._context
         inputs = self._kept(wanted.inputs)
         self._against = lecture.beside(wanted, inputs)
-        desk.pin(self._against)
-        desk.set_view(lecture.view_of(wanted, desk.view()))
-        desk.set_inputs(inputs)
+        context.pin(self._against)
+        context.set_view(lecture.view_of(wanted, context.view()))
+        context.set_inputs(inputs)
         for tab in (wanted.tab, "Design"):  # To watch; to try.
             viser_compat.open_tab(self._client, tab)
 
@@ -109,21 +109,21 @@ class LecturePanel:
         """The caption goes; the page stays as it is."""
         self._stand_at(None)
 
-    def show(self, moment: Moment) -> None:
+    def show(self, state: SessionState) -> None:
         """Say what is seen now."""
-        self._name_case(moment.inputs)
+        self._name_case(state.inputs)
         step = self._step
         if step is None:
             return
-        self._tell(STEPS[step].say(moment))
-        if self._against is None or moment.pin is None or moment.pin.inputs != self._against:
+        self._tell(STEPS[step].say(state))
+        if self._against is None or state.pin is None or state.pin.inputs != self._against:
             return  # The user has made another design A.
-        against = lecture.beside(STEPS[step], moment.inputs)
+        against = lecture.beside(STEPS[step], state.inputs)
         if against is not None and not same_but_flight(against, self._against):
             self._against = against
-            self._desk.pin(against)
+            self._context.pin(against)
 
-    def lose(self) -> None:
+    def show_failure(self) -> None:
         if self._step is not None:
             self._tell("")
 
@@ -136,7 +136,7 @@ class LecturePanel:
         self._begin.label = "Start the lecture" if step is None else "End the lecture"
         if step is not None:
             self._tell("")
-        self._desk.wake()
+        self._context.wake()
 
     def _tell(self, said: str) -> None:
         step = self._step
@@ -147,7 +147,7 @@ class LecturePanel:
             self._told = self._caption.content = content
 
     def _fly(self, advance_ratio: float) -> None:
-        self._desk.set_inputs(replace(self._desk.inputs(), advance_ratio=advance_ratio))
+        self._context.set_inputs(replace(self._context.inputs(), advance_ratio=advance_ratio))
 
     def _present_or_end(self) -> None:
         if self._presence.presenting:
@@ -161,7 +161,7 @@ class LecturePanel:
 
     def _take_case(self, event: viser.GuiEvent[Any]) -> None:
         if event.client is not None and event.target.value in cases.DOCUMENT:
-            self._desk.set_inputs(self._kept(cases.DOCUMENT[event.target.value]))
+            self._context.set_inputs(self._kept(cases.DOCUMENT[event.target.value]))
 
     def _name_case(self, inputs: Inputs) -> None:
         """The menu names a case for as long as the sliders hold it."""
@@ -171,7 +171,7 @@ class LecturePanel:
 
     def _kept(self, inputs: Inputs) -> Inputs:
         """These inputs, with the rotor that the user brought still in the menu."""
-        return replace(inputs, own_rotor=self._desk.inputs().own_rotor)
+        return replace(inputs, own_rotor=self._context.inputs().own_rotor)
 
     def _clicked(self, event: viser.GuiEvent[Any]) -> None:
         match event.target.value:

@@ -10,9 +10,17 @@ import viser
 from numpy.typing import NDArray
 
 from explorer.hosting import viser_compat
+from explorer.interface import SessionState, TabContext
 from explorer.sharing.address import Address
-from explorer.tabs.interface import Desk, Moment
-from explorer.tabs.lecture.presentation import FOLLOW, PRESENT, Point, Shown, Stage, follow_name, new_secret
+from explorer.sharing.presentation import (
+    FOLLOW,
+    PRESENT,
+    Point,
+    Presentations,
+    PresentedView,
+    follow_name,
+    new_secret,
+)
 from explorer.text.glossary import hint
 
 _CAMERA_EVERY = 0.1
@@ -22,11 +30,11 @@ _LONGEST = 40
 
 
 @dataclass(frozen=True)
-class Hands:
+class PresentationHooks:
     """What a presentation moves on a page beside its inputs and view."""
 
     lecture_step: Callable[[], int | None]
-    stand_at: Callable[[int | None], None]
+    show_step: Callable[[int | None], None]
     hold: Callable[[bool], None]
     """Take the controls from the user, or give them back."""
 
@@ -34,16 +42,16 @@ class Hands:
 class Presence:
     """Above the tabs: a banner while it presents or follows. Publishing happens on the session's worker."""
 
-    def __init__(self, client: viser.ClientHandle, stage: Stage, address: Address) -> None:
+    def __init__(self, client: viser.ClientHandle, presentations: Presentations, address: Address) -> None:
         """The page's address says whether it follows or presents."""
-        self._client, self._stage, self._address = client, stage, address
+        self._client, self._presentations, self._address = client, presentations, address
         self._secret = (address[PRESENT] or "")[:_LONGEST]
         self._name = "" if self._secret else (address[FOLLOW] or "")[:_LONGEST]
         self._lock, self._publishing = threading.Lock(), threading.Lock()
-        self._desk: Desk | None = None
-        self._hands: Hands | None = None
+        self._context: TabContext | None = None
+        self._hooks: PresentationHooks | None = None
         self._unfollow: Callable[[], None] | None = None
-        self._shown: Shown | None = None
+        self._shown: PresentedView | None = None
         """What the presenter shows."""
         self._looked = 0.0
         self._pending: threading.Timer | None = None
@@ -52,16 +60,16 @@ class Presence:
         self._leave = client.gui.add_button("Leave, and go on alone", color="gray", visible=False, hint=hint("leave"))
         self._leave.on_click(lambda _: self.leave())
 
-    def begin(self, desk: Desk, hands: Hands) -> None:
+    def begin(self, context: TabContext, hooks: PresentationHooks) -> None:
         """The page stands: follow, or present, if the address says so."""
-        self._desk, self._hands = desk, hands
+        self._context, self._hooks = context, hooks
         self._client.camera.on_update(self._looked_round)
         if self._name:
-            hands.hold(True)
+            hooks.hold(True)
             self._say("Following a presentation: this page moves by itself.", leave=True)
-            self._unfollow = self._stage.follow(self._name, self._hear)
+            self._unfollow = self._presentations.follow(self._name, self._on_presented)
         elif self._secret:
-            self._stage.watch(self._secret, self._announce)
+            self._presentations.watch(self._secret, self._announce)
 
     @property
     def presenting(self) -> bool:
@@ -74,16 +82,18 @@ class Presence:
         if not self._secret:
             self._secret = new_secret()
             self._address[PRESENT] = self._secret
-        self._stage.watch(self._secret, self._announce)
+        self._presentations.watch(self._secret, self._announce)
         self._publish()
         viser_compat.copy_text(self._client, f"new URL('{self._link}', location.href).href")
-        if self._desk is not None:
-            self._desk.tell("Presenting", "The link for those who follow is in the clipboard, and in the line above.")
+        if self._context is not None:
+            self._context.notify(
+                "Presenting", "The link for those who follow is in the clipboard, and in the line above."
+            )
 
     def end(self) -> None:
         """Stop presenting."""
         if self._secret:
-            self._stage.end(self._secret)
+            self._presentations.end(self._secret)
             self._secret = ""
             self._address[PRESENT] = None
             self._say("")
@@ -93,18 +103,18 @@ class Presence:
         unfollow, self._unfollow, self._name = self._unfollow, None, ""
         if unfollow is not None:
             unfollow()
-        if self._hands is not None:
-            self._hands.hold(False)
+        if self._hooks is not None:
+            self._hooks.hold(False)
         self._address[FOLLOW] = None
         self._say("")
 
-    def show(self, moment: Moment) -> None:
+    def show(self, state: SessionState) -> None:
         """Publish what the page shows, if it presents."""
-        del moment
+        del state
         self._publish()
         self._hold_still()
 
-    def lose(self) -> None:
+    def show_failure(self) -> None:
         self._publish()
         self._hold_still()
 
@@ -115,14 +125,14 @@ class Presence:
 
     def _publish(self) -> None:
         self._pending = None
-        desk, hands = self._desk, self._hands
-        if not self._secret or desk is None or hands is None:
+        context, hooks = self._context, self._hooks
+        if not self._secret or context is None or hooks is None:
             return
         with self._publishing:  # Camera and worker come on threads of their own: what was read first goes out first.
-            moment = desk.moment()
-            against = moment.pin.inputs if moment is not None and moment.pin is not None else None
-            shown = Shown(desk.inputs(), desk.view(), against, hands.lecture_step(), self._camera)
-            self._stage.present(self._secret, shown)
+            state = context.state()
+            against = state.pin.inputs if state is not None and state.pin is not None else None
+            shown = PresentedView(context.inputs(), context.view(), against, hooks.lecture_step(), self._camera)
+            self._presentations.present(self._secret, shown)
 
     def _announce(self, count: int) -> None:
         follow = "follows" if count == 1 else "follow"
@@ -136,32 +146,32 @@ class Presence:
 
     def _hold_still(self) -> None:
         """A follower's page shows the presenter's design: viser's number fields can be typed into even if disabled."""
-        shown, desk = self._shown, self._desk
-        if self._name and shown is not None and desk is not None and desk.inputs() != shown.inputs:
-            desk.set_inputs(shown.inputs)
+        shown, context = self._shown, self._context
+        if self._name and shown is not None and context is not None and context.inputs() != shown.inputs:
+            context.set_inputs(shown.inputs)
 
-    def _hear(self, shown: Shown | None) -> None:
+    def _on_presented(self, shown: PresentedView | None) -> None:
         """What the presenter shows; on the presenter's thread."""
-        desk, hands = self._desk, self._hands
-        if not self._name or desk is None or hands is None:
+        context, hooks = self._context, self._hooks
+        if not self._name or context is None or hooks is None:
             return
         if shown is None:
             self.leave()
-            desk.tell("The presentation is over", "The page is yours.")
+            context.notify("The presentation is over", "The page is yours.")
             return
         with self._lock:
             self._shown = shown
-            view = desk.view()
+            view = context.view()
             wanted = replace(shown.view, dark=view.dark, units=view.units)
             if wanted != view:
-                desk.set_view(wanted)
-            moment = desk.moment()
-            have = moment.pin.inputs if moment is not None and moment.pin is not None else None
+                context.set_view(wanted)
+            state = context.state()
+            have = state.pin.inputs if state is not None and state.pin is not None else None
             if shown.against != have:
-                desk.pin(shown.against)
-            if shown.inputs != desk.inputs():
-                desk.set_inputs(shown.inputs)
-            hands.stand_at(shown.step)
+                context.pin(shown.against)
+            if shown.inputs != context.inputs():
+                context.set_inputs(shown.inputs)
+            hooks.show_step(shown.step)
             if shown.camera is not None and shown.camera != self._camera:
                 self._camera = shown.camera
                 with self._client.atomic():

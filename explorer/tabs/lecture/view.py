@@ -2,12 +2,12 @@
 
 from html import escape
 
-from explorer.tabs.lecture.steps import STEPS, Step
+from explorer.tabs.lecture.steps import STEPS, LectureStep
 
 _DIFFERENCE = "The disk begins with B − A: blue is less, rust is more."
 
 
-def caption(step: Step, said: str) -> str:
+def caption(step: LectureStep, said: str) -> str:
     """Where the lecture stands, what to watch, what is seen now, what to try."""
     place = STEPS.index(step) + 1
     watch = f"{step.watch} {_DIFFERENCE}" if step.difference else step.watch

@@ -3,13 +3,13 @@
 import numpy as np
 import viser
 
+from explorer.interface import TabContext
 from explorer.state import with_optimum
-from explorer.tabs.interface import Desk
 from explorer.tabs.optimise import power_map
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.text.glossary import hint
 from explorer.text.units import UNITS
-from explorer.workers.job import Broken, Ended, Job, News, Told
+from explorer.workers.job import Job, JobEnded, JobEvent, JobFailed, JobProgress
 from explorer.workers.pool import Share
 from explorer.workers.tasks import MapLevel, MapTask
 from rotor.design.design import Design
@@ -27,9 +27,9 @@ _NEAR = 1e-3
 class MapPanel:
     """One session's map."""
 
-    def __init__(self, gui: viser.GuiApi, pool: Share, desk: Desk, search: OptimisePanel) -> None:
+    def __init__(self, gui: viser.GuiApi, pool: Share, context: TabContext, search: OptimisePanel) -> None:
         """The map is of what the Optimise tab asks for."""
-        self._pool, self._desk, self._search, self._wishes = pool, desk, search, search.wishes
+        self._pool, self._context, self._search, self._request = pool, context, search, search.request
         self._job: Job | None = None
         self._task: MapTask | None = None
         self._map: power_map.Map | None = None
@@ -38,7 +38,7 @@ class MapPanel:
         self._drawn: object = None
         self._here: tuple[object, tuple[float, ...], bool] | None = None
         self._title = gui.add_html("")
-        titles = tuple([parameter.title for parameter in self._wishes().known_concept().parameters])
+        titles = tuple([parameter.title for parameter in self._request().known_concept().parameters])
         self._x = gui.add_dropdown("Across", titles, hint=hint("map_across"))
         self._y = gui.add_dropdown("Up", titles, hint=hint("map_up"))
         self._draw = gui.add_button("Draw map", icon=viser.Icon.MAP_2, hint=hint("map_draw"))
@@ -52,24 +52,24 @@ class MapPanel:
     def begin(self) -> None:
         """Draw the map of the concept chosen for the search, about the design on the sliders."""
         try:
-            design, wishes = self._desk.inputs().design(), self._wishes()
-            concept = wishes.known_concept()
+            design, request = self._context.inputs().design(), self._request()
+            concept = request.known_concept()
             titles = [parameter.title for parameter in concept.parameters]
             if len(titles) < 2:
                 raise ValueError(f"{concept.title} has one parameter: choose a concept with more to draw a map.")
             axes = self._axes(titles)
-            objective = wishes.wanted(design, self._search.legs)
+            objective = request.wanted(design, self._search.legs)
         except ValueError as error:
             self._line = str(error)
-            self._desk.wake()
+            self._context.wake()
             return
         values = self._search.optimum_of(design, concept.name) or nearest(concept, design.twist)
         task = self._task = MapTask(design, concept, objective, axes, values)
         if self._job is not None:
             self._pool.stop(self._job, quiet=True)
         self._line = "Drawing …"
-        self._job = self._pool.submit(task, lambda news: self._hear(task, news), TIME_LIMIT, _URGENCY)
-        self._desk.wake()
+        self._job = self._pool.submit(task, lambda news: self._on_event(task, news), TIME_LIMIT, _URGENCY)
+        self._context.wake()
 
     def stop(self) -> None:
         """The browser has left."""
@@ -78,7 +78,7 @@ class MapPanel:
 
     def refresh(self, design: Design | None) -> None:
         """Bring the tab into line with the concept and with the design on the sliders."""
-        concept = self._wishes().known_concept()
+        concept = self._request().known_concept()
         titles = tuple(parameter.title for parameter in concept.parameters)
         if titles != self._offered:
             self._offered = titles
@@ -92,7 +92,7 @@ class MapPanel:
         if drawn is None:
             return
         here, exact = self._place(drawn, design)
-        units = UNITS[self._desk.view().units]
+        units = UNITS[self._context.view().units]
         seen = (id(drawn), here, exact, units)
         if seen != self._drawn:
             self._drawn = seen
@@ -104,17 +104,17 @@ class MapPanel:
 
     def _axes(self, titles: list[str]) -> tuple[int, int]:
         if self._x.value not in titles or self._y.value not in titles:
-            return default_axes(self._wishes().known_concept())
+            return default_axes(self._request().known_concept())
         x, y = titles.index(self._x.value), titles.index(self._y.value)
         if x == y:
             raise ValueError("Both axes are the same parameter: choose two.")
         return x, y
 
-    def _hear(self, task: MapTask, news: News) -> None:
+    def _on_event(self, task: MapTask, news: JobEvent) -> None:
         if task is not self._task:
             return
         match news:
-            case Told(MapLevel(powers)):
+            case JobProgress(MapLevel(powers)):
                 grid = np.array([[np.nan if power is None else power for power in row] for row in powers])
                 if np.isfinite(grid).any():
                     self._map = power_map.Map(task, grid)
@@ -123,13 +123,13 @@ class MapPanel:
                     self._line = f"{len(powers)} × {len(powers)} points, {where}"
                 else:
                     self._line = "No design on this map trims."
-            case Broken(message):
+            case JobFailed(message):
                 self._line = message
-            case Ended(late=True):
+            case JobEnded(late=True):
                 self._line += "; time is up."
             case _:
                 pass
-        self._desk.wake()
+        self._context.wake()
 
     def _place(self, drawn: power_map.Map, design: Design | None) -> tuple[tuple[float, float] | None, bool]:
         """Where the design on the sliders lies on the map, and whether it lies in its plane."""
@@ -146,13 +146,13 @@ class MapPanel:
         if drawn is None or not self._point.value.strip():
             return
         try:
-            inputs = self._desk.inputs()
+            inputs = self._context.inputs()
             design = drawn.task.concept.apply(inputs.design(), power_map.point_of(self._point.value, drawn))
         except ValueError as error:
             self._line = str(error)
-            self._desk.wake()
+            self._context.wake()
             return
-        self._desk.set_inputs(with_optimum(inputs, design))
+        self._context.set_inputs(with_optimum(inputs, design))
 
 
 def default_axes(concept: Concept) -> tuple[int, int]:

@@ -8,17 +8,24 @@ from rotor.optimisation.objective import Leg
 
 
 @dataclass(frozen=True)
-class Row:
+class MissionRow:
     """So many hours at one advance ratio; 0 hours: left out."""
 
     advance_ratio: float
     hours: float
 
 
-ROWS = (Row(0.0, 0.5), Row(0.1, 0.5), Row(0.15, 0.5), Row(0.2, 1.0), Row(0.25, 1.0), Row(0.3, 0.5))
+ROWS = (
+    MissionRow(0.0, 0.5),
+    MissionRow(0.1, 0.5),
+    MissionRow(0.15, 0.5),
+    MissionRow(0.2, 1.0),
+    MissionRow(0.25, 1.0),
+    MissionRow(0.3, 0.5),
+)
 
 
-def legs(design: Design, rows: Sequence[Row] = ROWS) -> tuple[Leg, ...]:
+def legs(design: Design, rows: Sequence[MissionRow] = ROWS) -> tuple[Leg, ...]:
     """The legs at the design's weight and altitude; ValueError with one sentence when no hours are flown."""
     flown = sorted((row for row in rows if row.hours > 0.0), key=lambda row: row.advance_ratio)
     if not flown:

@@ -8,17 +8,17 @@ from typing import Any
 
 import viser
 
+from explorer.interface import TabContext
 from explorer.state import baseline_of, baseline_title, with_optimum
-from explorer.tabs.interface import Desk
 from explorer.tabs.optimise import text
 from explorer.tabs.optimise.chart import search_chart
 from explorer.tabs.optimise.concept_picture import concept_picture
 from explorer.tabs.optimise.plot import TRACES, search_plot
 from explorer.tabs.optimise.run import FRAME, SearchRun
-from explorer.tabs.optimise.wishes import OBJECTIVES, Wishes
+from explorer.tabs.optimise.search_request import OBJECTIVES, SearchRequest
 from explorer.text.glossary import hint
 from explorer.text.units import UNITS
-from explorer.workers.job import Job, News, Told
+from explorer.workers.job import Job, JobEvent, JobProgress
 from explorer.workers.pool import Share
 from explorer.workers.tasks import SearchTask
 from rotor.design.design import Design
@@ -32,9 +32,11 @@ TIME_LIMIT = 60.0
 class OptimisePanel:
     """One session's search. Buttons act at once; everything that only shows happens in `refresh`."""
 
-    def __init__(self, gui: viser.GuiApi, pool: Share, desk: Desk, legs: Callable[[Design], tuple[Leg, ...]]) -> None:
+    def __init__(
+        self, gui: viser.GuiApi, pool: Share, context: TabContext, legs: Callable[[Design], tuple[Leg, ...]]
+    ) -> None:
         """`legs`: of the mission, for a design."""
-        self._pool, self._desk, self.legs = pool, desk, legs
+        self._pool, self._context, self.legs = pool, context, legs
         self._beginning = threading.Lock()
         self._job: Job | None = None
         self._run: SearchRun | None = None
@@ -48,7 +50,7 @@ class OptimisePanel:
         self._concept = gui.add_dropdown("Concept", titles, initial_value=first, hint=hint("search_concept"))
         self._picture = gui.add_html("")
         self._objective = gui.add_dropdown("Objective", tuple(OBJECTIVES.values()), hint=hint("objective"))
-        defaults, where = Wishes(), hint("search_division")
+        defaults, where = SearchRequest(), hint("search_division")
         self._numbers: dict[str, viser.GuiSliderHandle[float]] = {
             "hover_share": gui.add_slider("Hover [%]", 0.0, 100.0, 5.0, 50.0, hint=hint("hover_share")),
             "division": gui.add_slider("Division [R]", 0.25, 0.92, 0.01, defaults.division, hint=where),
@@ -78,12 +80,12 @@ class OptimisePanel:
         self._verdict.on_click(self._judge)
         self._scrubber.on_update(self._scrubbed)
         for widget in (self._concept, self._objective, self._limit_stall, self._limit_change, *self._numbers.values()):
-            widget.on_update(lambda event: desk.wake() if event.client is not None else None)
+            widget.on_update(lambda event: context.wake() if event.client is not None else None)
 
-    def wishes(self) -> Wishes:
+    def request(self) -> SearchRequest:
         """What the widgets ask for."""
         number = {name: float(handle.value) for name, handle in self._numbers.items()}
-        return Wishes(
+        return SearchRequest(
             concept=next(name for name, title in self._titles.items() if title == self._concept.value),
             objective=next(name for name, title in OBJECTIVES.items() if title == self._objective.value),
             hover_share=number["hover_share"],
@@ -101,24 +103,24 @@ class OptimisePanel:
             if self._run is not None and self._run.under_way:
                 return
             try:
-                design = self._desk.inputs().design()
-                search = self.wishes().search(design, self.legs)
+                design = self._context.inputs().design()
+                search = self.request().search(design, self.legs)
             except ValueError as error:
                 self._problem = str(error)
-                self._desk.wake()
+                self._context.wake()
                 return
             self._problem, self._offered = "", True
             reference, title = self._reference(design)
             run = self._run = SearchRun(search, title)
-        self._job = self._pool.submit(SearchTask(search, reference), lambda news: self._hear(run, news), TIME_LIMIT)
-        self._desk.wake()
+        self._job = self._pool.submit(SearchTask(search, reference), lambda news: self._on_event(run, news), TIME_LIMIT)
+        self._context.wake()
 
     def _reference(self, design: Design) -> tuple[Design, str]:
         """What a saving is also measured against: A's blade in the same flight and models, else the baseline."""
-        moment = self._desk.moment()
-        if moment is None or moment.pin is None:
+        state = self._context.state()
+        if state is None or state.pin is None:
             return baseline_of(design), baseline_title(design)
-        a = moment.pin.solution.design
+        a = state.pin.solution.design
         return replace(design, rotor=a.rotor, twist=a.twist, active_twist=a.active_twist), "A's blade"
 
     def halt(self) -> None:
@@ -127,7 +129,7 @@ class OptimisePanel:
         if run is not None and job is not None and run.under_way:
             run.stopping()
             self._pool.stop(job)
-            self._desk.wake()
+            self._context.wake()
 
     def toggle(self) -> None:
         """Start a search, or stop the one under way."""
@@ -149,7 +151,7 @@ class OptimisePanel:
             return None
         frame = run.shown()
         if run.playing:
-            timer = threading.Timer(FRAME, self._desk.wake)
+            timer = threading.Timer(FRAME, self._context.wake)
             timer.daemon = True
             timer.start()
         return None if frame is None else frame.design
@@ -168,10 +170,10 @@ class OptimisePanel:
 
     def refresh(self, design: Design | None) -> None:
         """Bring everything that only shows into line. `design`: on the sliders; None when they mean none."""
-        run, wishes, units = self._run, self.wishes(), UNITS[self._desk.view().units]
+        run, request, units = self._run, self.request(), UNITS[self._context.view().units]
         for name, handle in self._numbers.items():
-            handle.visible = wishes.asks_for(name)
-        self._picture.content = _boxed(concept_picture(wishes.known_concept()), wishes.known_concept().explanation)
+            handle.visible = request.asks_for(name)
+        self._picture.content = _boxed(concept_picture(request.known_concept()), request.known_concept().explanation)
         under_way = run is not None and run.under_way
         self._begin.visible, self._halt.visible = not under_way, under_way
         self._standing.content = text.standing(run, self._problem)
@@ -202,12 +204,12 @@ class OptimisePanel:
             self._drawn, unit = seen, units.power[0]
             self._chart.show(search_plot(run, self._chart.y_range, unit), title=f"Power [{unit.symbol}] per start")
 
-    def _hear(self, run: SearchRun, news: News) -> None:
-        run.hear(news)
+    def _on_event(self, run: SearchRun, news: JobEvent) -> None:
+        run.on_event(news)
         now = time.monotonic()
-        if not isinstance(news, Told) or now - self._woken > FRAME:
+        if not isinstance(news, JobProgress) or now - self._woken > FRAME:
             self._woken = now
-            self._desk.wake()
+            self._context.wake()
 
     def _judge(self, event: viser.GuiEvent[Any]) -> None:
         run = self._run
@@ -215,19 +217,19 @@ class OptimisePanel:
             return
         if event.target.value == "Replay":
             run.replay()
-            self._desk.wake()
+            self._context.wake()
             return
         self._offered = False
         if event.target.value == "Apply":
-            here = run.matches(self._desk.inputs().design())
+            here = run.matches(self._context.inputs().design())
             frame = run.chosen if here else run.frames[-1]
-            self._desk.set_inputs(with_optimum(self._desk.inputs(), frame.design))
-        self._desk.wake()
+            self._context.set_inputs(with_optimum(self._context.inputs(), frame.design))
+        self._context.wake()
 
     def _scrubbed(self, event: viser.GuiEvent[Any]) -> None:
         if event.client is not None and self._run is not None:
             self._run.scrub(round(self._scrubber.value))
-            self._desk.wake()
+            self._context.wake()
 
 
 def _boxed(picture: str, words: str) -> str:

@@ -5,8 +5,8 @@ import time
 from dataclasses import dataclass
 from typing import Literal
 
-from explorer.workers.job import Broken, Ended, News, Started, Told, Waiting
-from explorer.workers.tasks import Beginning, Reference
+from explorer.workers.job import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
+from explorer.workers.tasks import ReferencePower, StartPower
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept
 from rotor.optimisation.search import Optimum, Progress, Search
@@ -19,7 +19,7 @@ _CATCH_UP = 8
 
 
 @dataclass(frozen=True)
-class Frame:
+class SearchFrame:
     """A design that was the best so far."""
 
     evaluation: int
@@ -40,7 +40,7 @@ class SearchRun:
         self.start_power: float | None = None
         """Of the design it began from [W]."""
         self.reference_power: float | None = None
-        self.frames: list[Frame] = []
+        self.frames: list[SearchFrame] = []
         self.traces: list[list[float]] = [[] for _ in range(search.starts)]
         """Power at each evaluation of each start [W]; one that does not trim repeats the one before."""
         self.progress: Progress | None = None
@@ -57,7 +57,7 @@ class SearchRun:
         return self.state in ("starting", "waiting", "running", "stopping")
 
     @property
-    def best(self) -> Frame | None:
+    def best(self) -> SearchFrame | None:
         """The best so far; None before any design was better than none."""
         return self.frames[-1] if len(self.frames) > 1 else None
 
@@ -80,29 +80,29 @@ class SearchRun:
             if self.under_way:
                 self.state = "stopping"
 
-    def hear(self, news: News) -> None:
+    def on_event(self, news: JobEvent) -> None:
         """Take in what the pool tells."""
         with self._lock:
             match news:
-                case Waiting(ahead):
+                case JobQueued(ahead):
                     self.state, self.ahead = "waiting", ahead
-                case Started():
+                case JobStarted():
                     if self.state != "stopping":
                         self.state = "running"
-                case Told(item):
+                case JobProgress(item):
                     self._take(item)
-                case Ended(result, stopped, late):
+                case JobEnded(result, stopped, late):
                     self.state = "late" if late else "stopped" if stopped else "done"
                     self._finish(result)
-                case Broken(message):
+                case JobFailed(message):
                     self.state, self.sentence = "broken", message
 
     def _take(self, item: object) -> None:
         match item:
-            case Beginning(power):
+            case StartPower(power):
                 self.start_power = power
-                self.frames.append(Frame(0, float("inf") if power is None else power, self.search.design))
-            case Reference(power):
+                self.frames.append(SearchFrame(0, float("inf") if power is None else power, self.search.design))
+            case ReferencePower(power):
                 self.reference_power = power
             case Progress():
                 self._step(item)
@@ -133,13 +133,13 @@ class SearchRun:
 
     def _add(self, evaluation: int, power: float, design: Design) -> None:
         """The concept's first may be no better than the blade it began from; it is shown all the same."""
-        self.frames.append(Frame(evaluation, power, design))
+        self.frames.append(SearchFrame(evaluation, power, design))
 
     def matches(self, design: Design) -> bool:
         """Whether this is the design that the search began from."""
         return design == self.search.design
 
-    def shown(self) -> Frame | None:
+    def shown(self) -> SearchFrame | None:
         """The frame whose turn it is."""
         return self._play.frame(self.frames)
 
@@ -148,7 +148,7 @@ class SearchRun:
         return min(self._play.cursor, max(len(self.frames) - 1, 0))
 
     @property
-    def chosen(self) -> Frame:
+    def chosen(self) -> SearchFrame:
         """What Apply takes: the frame that somebody scrubbed to, or else the best, even while the picture plays."""
         return self.frames[-1 if self._play.running else self.cursor]
 
@@ -175,7 +175,7 @@ class Playback:
     thorough: bool = False
     since: float = 0.0
 
-    def frame(self, frames: list[Frame]) -> Frame | None:
+    def frame(self, frames: list[SearchFrame]) -> SearchFrame | None:
         """The frame to show now."""
         if not frames:
             return None

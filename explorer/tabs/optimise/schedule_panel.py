@@ -5,16 +5,16 @@ from typing import Any
 
 import viser
 
+from explorer.interface import TabContext
 from explorer.state import with_optimum
 from explorer.tabs.chart_panel import Chart, line
-from explorer.tabs.interface import Desk
 from explorer.tabs.optimise import mission, schedule_view
-from explorer.tabs.optimise.schedule_view import LEGS, Course
-from explorer.tabs.optimise.wishes import Wishes
+from explorer.tabs.optimise.schedule_view import LEGS, PlanProgress
+from explorer.tabs.optimise.search_request import SearchRequest
 from explorer.text.glossary import hint
 from explorer.text.units import UNITS
 from explorer.theme.colours import BASELINE, NOW, THIS, colour_map, css
-from explorer.workers.job import Broken, Ended, Job, News, Started, Told, Waiting
+from explorer.workers.job import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.pool import Share
 from explorer.workers.tasks import FixedPowers, ScheduleTask
 from rotor.design.design import Design
@@ -30,10 +30,12 @@ _URGENCY = 1
 class SchedulePanel:
     """One session's schedule."""
 
-    def __init__(self, gui: viser.GuiApi, pool: Share, desk: Desk, wishes: Callable[[], Wishes]) -> None:
-        self._pool, self._desk, self._wishes = pool, desk, wishes
+    def __init__(
+        self, gui: viser.GuiApi, pool: Share, context: TabContext, request: Callable[[], SearchRequest]
+    ) -> None:
+        self._pool, self._context, self._request = pool, context, request
         self._job: Job | None = None
-        self._course: Course | None = None
+        self._progress: PlanProgress | None = None
         self._running = False
         self._line = "Best twist for each speed, and one blade for all."
         self._drawn: object = None
@@ -86,38 +88,40 @@ class SchedulePanel:
 
     def legs(self, design: Design) -> tuple[Leg, ...]:
         """The mission's legs; ValueError with one sentence for a mission that is none."""
-        return mission.legs(design, [mission.Row(*(float(x) for x in row.value)) for row in self._rows])
+        return mission.legs(design, [mission.MissionRow(*(float(x) for x in row.value)) for row in self._rows])
 
     def begin(self) -> None:
         """Work the mission off, unless that is under way."""
         if self._running:
             return
         try:
-            design, wishes = self._desk.inputs().design(), self._wishes()
-            concept = wishes.known_concept()
+            design, request = self._context.inputs().design(), self._request()
+            concept = request.known_concept()
             plan = Plan(
                 design,
                 (concept,),
                 self.legs(design),
-                "induced" if wishes.objective == "induced" else "total",
-                wishes.limits(design),
-                wishes.starts,
+                "induced" if request.objective == "induced" else "total",
+                request.limits(design),
+                request.starts,
             )
         except ValueError as error:
             self._line = str(error)
-            self._desk.wake()
+            self._context.wake()
             return
-        course = self._course = Course(plan)
+        progress = self._progress = PlanProgress(plan)
         self._running, self._line = True, "Starting a worker …"
-        self._job = self._pool.submit(ScheduleTask(plan), lambda news: self._hear(course, news), TIME_LIMIT, _URGENCY)
-        self._desk.wake()
+        self._job = self._pool.submit(
+            ScheduleTask(plan), lambda news: self._on_event(progress, news), TIME_LIMIT, _URGENCY
+        )
+        self._context.wake()
 
     def halt(self) -> None:
         """Stop; what was found stays."""
         if self._job is not None and self._running:
             self._line = "Stopping …"
             self._pool.stop(self._job)
-            self._desk.wake()
+            self._context.wake()
 
     def stop(self) -> None:
         """The browser has left."""
@@ -126,58 +130,58 @@ class SchedulePanel:
 
     def refresh(self) -> None:
         """Bring everything that only shows into line."""
-        title = self._wishes().known_concept().title
+        title = self._request().known_concept().title
         self._concept.content = f'<div class="rx rx-dim rx-small">As in Optimise: {title}</div>'
         self._begin.visible, self._halt.visible = not self._running, self._running
-        kind = "running" if self._running else "idle" if self._course is None else "done"
+        kind = "running" if self._running else "idle" if self._progress is None else "done"
         self._state.content = (
             f'<div class="rx rx-dim" data-explorer="schedule-state" data-kind="{kind}">{self._line}</div>'
         )
-        course = self._course
-        self._bar.visible = course is not None
-        self._twists.set_visible(course is not None)
-        self._savings.set_visible(course is not None)
-        if course is None:
+        progress = self._progress
+        self._bar.visible = progress is not None
+        self._twists.set_visible(progress is not None)
+        self._savings.set_visible(progress is not None)
+        if progress is None:
             return
-        self._bar.value = round(100.0 * (course.part_done if self._running else 1.0), 1)
+        self._bar.value = round(100.0 * (progress.part_done if self._running else 1.0), 1)
         self._bar.animated = self._running
-        self._verdict.visible = not self._running and course.at(None) is not None
-        units = UNITS[self._desk.view().units]
-        seen = (id(course), len(course.cells), len(course.fixed_powers), units)
+        self._verdict.visible = not self._running and progress.at(None) is not None
+        units = UNITS[self._context.view().units]
+        seen = (id(progress), len(progress.cells), len(progress.fixed_powers), units)
         if seen != self._drawn:
             self._drawn = seen
-            self._table.content = schedule_view.table(course, units)
-            self._twists.show(schedule_view.twist_plot(course, self._twists.y_range))
-            self._savings.show(schedule_view.saving_plot(course, self._savings.y_range))
+            self._table.content = schedule_view.table(progress, units)
+            self._twists.show(schedule_view.twist_plot(progress, self._twists.y_range))
+            self._savings.show(schedule_view.saving_plot(progress, self._savings.y_range))
 
-    def _hear(self, course: Course, news: News) -> None:
+    def _on_event(self, progress: PlanProgress, news: JobEvent) -> None:
         match news:
-            case Waiting(ahead):
+            case JobQueued(ahead):
                 self._line = "Waiting: next in line" if ahead == 0 else f"Waiting: {ahead} ahead"
-            case Started():
-                self._line = f"0 of {len(course.plan.legs) + 1} optima"
-            case Told(Cell() as cell):
-                course.cells.append(cell)
-                self._line = f"{len(course.cells)} of {len(course.plan.legs) + 1} optima"
-            case Told(FixedPowers(powers)):
-                course.fixed_powers = powers
-            case Ended(_, stopped, late):
+            case JobStarted():
+                self._line = f"0 of {len(progress.plan.legs) + 1} optima"
+            case JobProgress(Cell() as cell):
+                progress.cells.append(cell)
+                self._line = f"{len(progress.cells)} of {len(progress.plan.legs) + 1} optima"
+            case JobProgress(FixedPowers(powers)):
+                progress.fixed_powers = powers
+            case JobEnded(_, stopped, late):
                 self._running = False
-                count = f"{len(course.cells)} of {len(course.plan.legs) + 1} optima"
+                count = f"{len(progress.cells)} of {len(progress.plan.legs) + 1} optima"
                 self._line = f"Time is up: {count} kept." if late else f"Stopped: {count} kept." if stopped else "Done."
-            case Broken(message):
+            case JobFailed(message):
                 self._running, self._line = False, message
             case _:
                 pass
-        self._desk.wake()
+        self._context.wake()
 
     def _judge(self, event: viser.GuiEvent[Any]) -> None:
-        course = self._course
-        if course is None:
+        progress = self._progress
+        if progress is None:
             return
         if event.target.value == "Save CSV":
-            self._desk.send("twist-schedule.csv", schedule_view.csv_of(course))
+            self._context.download("twist-schedule.csv", schedule_view.csv_of(progress))
             return
-        fixed = course.at(None)
+        fixed = progress.at(None)
         if fixed is not None and fixed.best is not None:
-            self._desk.set_inputs(with_optimum(self._desk.inputs(), fixed.design))
+            self._context.set_inputs(with_optimum(self._context.inputs(), fixed.design))

@@ -6,14 +6,11 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
 from explorer.charts.plots import Plot, Range, held_range
 from explorer.text.units import SI, Units, number
 from rotor.optimisation.schedule import Cell, Plan, Schedule
 from rotor.optimisation.search import Optimum
-
-Array = NDArray[np.float64]
 
 LEGS = 6
 """Rows of the mission table, so traces of the twist chart."""
@@ -21,7 +18,7 @@ _COLUMNS = ("mu", "mass_kg", "altitude_m", "hours", "as_it_is_kw", "best_kw", "s
 
 
 @dataclass
-class Course:
+class PlanProgress:
     """What is known of a plan with one concept."""
 
     plan: Plan
@@ -45,10 +42,10 @@ class Course:
         return len(self.cells) / (len(self.plan.legs) + 1)
 
 
-def twist_plot(course: Course | None, previous: Range | None) -> Plot:
+def twist_plot(progress: PlanProgress | None, previous: Range | None) -> Plot:
     """Series: LEGS best twists and the best fixed one [°]; one that is not known lies outside the axis."""
     r = np.linspace(0.13, 1.0, 80)
-    optima = [] if course is None else [*(course.at(k) for k in range(len(course.plan.legs))), course.at(None)]
+    optima = [] if progress is None else [*(progress.at(k) for k in range(len(progress.plan.legs))), progress.at(None)]
     known = [np.degrees(one.design.twist(r)) for one in optima if one is not None and one.best is not None]
     y_range = (
         held_range(previous, min(map(np.min, known)), max(map(np.max, known))) if known else previous or (-1.0, 1.0)
@@ -60,9 +57,9 @@ def twist_plot(course: Course | None, previous: Range | None) -> Plot:
     return Plot((r, *lines), y_range)
 
 
-def saving_plot(course: Course | None, previous: Range | None) -> Plot:
+def saving_plot(progress: PlanProgress | None, previous: Range | None) -> Plot:
     """Series: no saving, best fixed blade, best twist per leg [% of the blade as it is] over µ; legs that are known."""
-    legs = [] if course is None else [(leg, *_saving(course, k)) for k, leg in enumerate(course.plan.legs)]
+    legs = [] if progress is None else [(leg, *_saving(progress, k)) for k, leg in enumerate(progress.plan.legs)]
     points = sorted((leg.condition.advance_ratio, *saved) for leg, *saved in legs if math.isfinite(saved[0]))
     mu, moving, fixed = np.array(points or [(0.0, math.nan, math.nan), (0.4, math.nan, math.nan)]).T
     known = np.concatenate((fixed, moving))
@@ -75,20 +72,20 @@ def saving_plot(course: Course | None, previous: Range | None) -> Plot:
     return Plot((mu, np.zeros(len(mu)), *lines), y_range)
 
 
-def _saving(course: Course, leg: int) -> tuple[float, float]:
+def _saving(progress: PlanProgress, leg: int) -> tuple[float, float]:
     """Of the best twist of a leg and of the best fixed blade there [%]; NaN when not known."""
-    one, fixed = course.at(leg), course.fixed_power(leg)
+    one, fixed = progress.at(leg), progress.fixed_power(leg)
     if one is None or one.saving is None or one.baseline_power is None:
         return math.nan, math.nan
     return 100.0 * one.saving, math.nan if fixed is None else 100.0 * (1.0 - fixed / one.baseline_power)
 
 
-def table(course: Course, units: Units = SI) -> str:
+def table(progress: PlanProgress, units: Units = SI) -> str:
     """HTML: one row a leg, then what moving is worth."""
     rows = []
-    for k, leg in enumerate(course.plan.legs):
-        one = course.at(k)
-        moving, fixed = _saving(course, k)
+    for k, leg in enumerate(progress.plan.legs):
+        one = progress.at(k)
+        moving, fixed = _saving(progress, k)
         baseline = None if one is None or one.baseline_power is None else units.power[0].of(one.baseline_power)
         rows.append(
             f"<tr><td>{number(leg.condition.advance_ratio, 2) if leg.condition.advance_ratio else 'hover'}</td>"
@@ -99,13 +96,13 @@ def table(course: Course, units: Units = SI) -> str:
         f'<tr class="rx-dim rx-small"><td>µ</td><td class="rx-num">as it is [{units.power[0].symbol}]</td>'
         '<td class="rx-num">fixed [%]</td><td class="rx-num">moving [%]</td></tr>'
     )
-    body = f"{verdict(course, units)}<table>{heading}{''.join(rows)}</table>"
+    body = f"{verdict(progress, units)}<table>{heading}{''.join(rows)}</table>"
     return f'<div class="rx rx-found" data-explorer="schedule">{body}</div>'
 
 
-def verdict(course: Course, units: Units = SI) -> str:
+def verdict(progress: PlanProgress, units: Units = SI) -> str:
     """What the best fixed blade saves, and what moving is worth beyond it."""
-    worth = course.schedule.worth(course.plan.concepts[0].name)
+    worth = progress.schedule.worth(progress.plan.concepts[0].name)
     if worth is None:
         return ""
     saved = worth.baseline - worth.fixed
@@ -117,13 +114,13 @@ def verdict(course: Course, units: Units = SI) -> str:
     )
 
 
-def csv_of(course: Course) -> bytes:
+def csv_of(progress: PlanProgress) -> bytes:
     """The schedule as a CSV file; what is not known is blank."""
     text = io.StringIO()
     writer = csv.writer(text)
     writer.writerow(_COLUMNS)
-    for k, leg in enumerate(course.plan.legs):
-        one, c = course.at(k), leg.condition
+    for k, leg in enumerate(progress.plan.legs):
+        one, c = progress.at(k), leg.condition
         best = None if one is None else one.best
         writer.writerow(
             (
@@ -134,13 +131,13 @@ def csv_of(course: Course) -> bytes:
                 _kilowatt(None if one is None else one.baseline_power),
                 _kilowatt(None if best is None else best.power),
                 "" if one is None or one.saving is None else f"{100.0 * one.saving:.3f}",
-                _kilowatt(course.fixed_power(k)),
+                _kilowatt(progress.fixed_power(k)),
                 "" if best is None else best.twist,
             )
         )
-    fixed = course.at(None)
+    fixed = progress.at(None)
     if fixed is not None and fixed.best is not None:
-        hours = sum(leg.hours for leg in course.plan.legs)
+        hours = sum(leg.hours for leg in progress.plan.legs)
         mean = (_kilowatt(fixed.baseline_power), "", "", _kilowatt(fixed.best.power))
         writer.writerow(("mean", "", "", f"{hours:g}", *mean, fixed.best.twist))
     return text.getvalue().encode()

@@ -13,8 +13,6 @@ from rotor.design.twist import TwistLaw
 from rotor.trim.adjoint import Adjoint, PitchGradient, power_along
 from rotor.trim.solution import Solution
 
-Array = NDArray[np.float64]
-
 _KILOWATT_PER_DEGREE = math.radians(1.0) / 1e3
 _ALONG, _ACROSS = 150, 9
 _COLOURS = 127

@@ -2,10 +2,10 @@
 
 import viser
 
+from explorer.interface import SessionState, TabContext
 from explorer.picture.meshes import blade_shape
 from explorer.scene.overlays import Strip
 from explorer.tabs.chart_panel import AB_KEY, Chart, Key, line, pinned_line
-from explorer.tabs.interface import Desk, Moment
 from explorer.tabs.optimise import sensitivity
 from explorer.text.glossary import hint
 from explorer.theme.colours import BASELINE, THIS
@@ -23,7 +23,7 @@ _KEY: Key = (("total", THIS), _INDUCED)
 class SensitivityPanel:
     """One session's."""
 
-    def __init__(self, gui: viser.GuiApi, strip: Strip, desk: Desk) -> None:
+    def __init__(self, gui: viser.GuiApi, strip: Strip, context: TabContext) -> None:
         self._strip = strip
         self._shown: tuple[Solution, Solution | None, bool, float] | None = None
         gui.add_html(_WORDS)
@@ -40,16 +40,16 @@ class SensitivityPanel:
         )
         self._words = gui.add_html("")
         self._paint = gui.add_checkbox("Paint blade", False, hint=hint("paint"))
-        self._paint.on_update(lambda _: desk.wake())
+        self._paint.on_update(lambda _: context.wake())
 
-    def show(self, moment: Moment) -> None:
+    def show(self, state: SessionState) -> None:
         """Follow a converged solution."""
-        solution, exaggeration, paint = moment.solution, moment.view.exaggeration, self._paint.value
-        wanted = (solution, moment.pinned, paint, exaggeration)
+        solution, exaggeration, paint = state.solution, state.view.exaggeration, self._paint.value
+        wanted = (solution, state.pinned, paint, exaggeration)
         if self._shown == wanted:
             return
-        plot = sensitivity.sensitivity_plot(solution, self._chart.y_range, moment.pinned)
-        self._chart.show(plot, _KEY if moment.pinned is None else (*AB_KEY, _INDUCED))
+        plot = sensitivity.sensitivity_plot(solution, self._chart.y_range, state.pinned)
+        self._chart.show(plot, _KEY if state.pinned is None else (*AB_KEY, _INDUCED))
         self._words.content = sensitivity.explanation(plot)
         if paint:
             shape = blade_shape(solution.design.rotor)
@@ -58,7 +58,7 @@ class SensitivityPanel:
             self._strip.hide()
         self._shown = wanted
 
-    def lose(self) -> None:
+    def show_failure(self) -> None:
         """The answer no longer holds."""
         self._shown = None
         self._strip.hide()

@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 
 import viser
 
-from explorer.tabs.interface import Moment
+from explorer.interface import SessionState
 from explorer.tabs.physics.waterfall_view import alone_table, waterfall_chart
 from explorer.text import readout
 from explorer.text.units import SI, UNITS
@@ -36,13 +36,13 @@ class WaterfallPanel:
         self._steps: list[Step] = []
         self._drawn = waterfall_chart(()), ""
 
-    def show(self, moment: Moment) -> None:
+    def show(self, state: SessionState) -> None:
         """Say that the steps on the page are no longer this design's; the new ones come when the page rests."""
-        design = with_switches(moment.solution.design, ())
+        design = with_switches(state.solution.design, ())
         if design != self._design:
             self._design, self._coming, self._steps = design, _all_steps(design), []
             self._fade()
-        units, self._units = self._units, UNITS[moment.view.units]
+        units, self._units = self._units, UNITS[state.view.units]
         if units is not self._units and len(self._steps) == _ALL:
             self._draw()
 
@@ -53,7 +53,7 @@ class WaterfallPanel:
             if len(self._steps) == _ALL:
                 self._draw()
 
-    def lose(self) -> None:
+    def show_failure(self) -> None:
         """The inputs have no answer."""
         self._design = None
         self._fade()

@@ -4,7 +4,6 @@ import math
 
 import numpy as np
 import viser
-from numpy.typing import NDArray
 
 from explorer.picture.meshes import circle_segments
 from explorer.picture.picture import LINE_LIFT
@@ -13,9 +12,8 @@ from explorer.tabs.probe.drawing import outline
 from explorer.tabs.probe.element import Probe
 from explorer.text.units import number
 from explorer.theme import colours
+from rotor.arrays import Array
 from rotor.design.blade import Rotor
-
-Array = NDArray[np.float64]
 
 Cased = tuple[viser.LineSegmentsHandle, viser.LineSegmentsHandle]
 """Casing and line."""

@@ -8,7 +8,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from explorer.charts import svg
 from explorer.charts.svg import Point
@@ -16,8 +15,7 @@ from explorer.picture.section_outline import blade_axes_outline
 from explorer.tabs.probe.element import Blend, Probe
 from explorer.text.units import number
 from explorer.theme.colours import NOW, THIS
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 WIDTH, HEIGHT = 312.0, 166.0
 LIFT, DRAG, ALPHA = THIS, NOW, "#099268"

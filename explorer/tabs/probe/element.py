@@ -5,14 +5,12 @@ from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
-from numpy.typing import NDArray
 
 from explorer.picture.outlines import DRAG_DIVERGENCE
 from rotor.aero.elements import LOW_MACH
 from rotor.airfoil.sections import Section
+from rotor.arrays import Array
 from rotor.trim.solution import DiskFields, Solution
-
-Array = NDArray[np.float64]
 
 
 class Region(Enum):
@@ -142,7 +140,7 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
     if not rotor.blade.root_cutout - 1e-9 <= r <= 1.0 + 1e-9:
         raise ValueError(f"r/R {r:g} is not on the blade: choose {rotor.blade.root_cutout:g} … 1")
     psi = psi % (2.0 * math.pi)
-    at = _Place(disk, r, psi)
+    at = _GridPoint(disk, r, psi)
     speed = rotor.tip_speed
     theta, u_t, u_p, mach = (at.reaching(field) for field in (disk.theta, disk.u_t, disk.u_p, disk.mach))
     phi = math.atan2(u_p, u_t)
@@ -179,7 +177,7 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
     )
 
 
-class _Place:
+class _GridPoint:
     """Where a point lies among the stations: periodic in azimuth, linear along the blade."""
 
     def __init__(self, disk: DiskFields, r: float, psi: float) -> None:

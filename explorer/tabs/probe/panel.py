@@ -7,9 +7,9 @@ from functools import partial
 
 import viser
 
+from explorer.interface import SessionState, TabContext
 from explorer.picture.moving_blades import blade_twists
 from explorer.picture.pick import pick
-from explorer.tabs.interface import Desk, Moment
 from explorer.tabs.keys.names import COARSE
 from explorer.tabs.probe.cursor import Cursor
 from explorer.tabs.probe.element import Probe, probe
@@ -27,7 +27,7 @@ _STEPS = {"out": (_R_STEP, 0.0), "in": (-_R_STEP, 0.0), "on": (0.0, _PSI_STEP), 
 
 
 @dataclass(frozen=True)
-class _Place:
+class _ProbePoint:
     """What the widgets say."""
 
     r: float
@@ -39,10 +39,10 @@ class _Place:
 class ProbePanel:
     """Widgets, cursor and clock. Clicks and keys only move widgets; everything is drawn on the session's worker."""
 
-    def __init__(self, client: viser.ClientHandle, desk: Desk) -> None:
-        self._client, self._desk = client, desk
+    def __init__(self, client: viser.ClientHandle, context: TabContext) -> None:
+        self._client, self._context = client, context
         self._seen = True
-        self._drawn: tuple[Solution, _Place, float | None] | None = None
+        self._drawn: tuple[Solution, _ProbePoint, float | None] | None = None
         self._html = ""
         self._cursor = Cursor(client.scene)
         self._player = Player(self._walk, f"play-{client.client_id}")
@@ -65,23 +65,23 @@ class ProbePanel:
         self._psi.on_update(lambda event: self._psi_moved(event.target.value) if event.client is not None else None)
         self._r.on_update(lambda event: self._moved() if event.client is not None else None)
         for box in (self._follow, self._shown, self._opened):
-            box.on_update(lambda event: desk.wake() if event.client is not None else None)
+            box.on_update(lambda event: context.wake() if event.client is not None else None)
         client.scene.on_click()(self._clicked)
         self._bind()
 
-    def show(self, moment: Moment) -> None:
+    def show(self, state: SessionState) -> None:
         """Follow a converged answer, or the marked blade."""
         if self._follow.value:
             # Where the blade is by now: an older place would pull a slider that is dragged back.
-            self._psi.value = self._desk.view().azimuth_deg
-        solution = moment.solution
+            self._psi.value = self._context.view().azimuth_deg
+        solution = state.solution
         self._r.min = _innermost(solution.design.rotor)
         place = self._place()
         here = self._probe(solution, place)
         tied = (
-            self._follow.value or abs(math.remainder(place.psi_deg - moment.view.azimuth_deg, 360.0)) < 0.5 * _PSI_STEP
+            self._follow.value or abs(math.remainder(place.psi_deg - state.view.azimuth_deg, 360.0)) < 0.5 * _PSI_STEP
         )
-        pitch = _drawn_pitch(moment, here) if tied else None
+        pitch = _drawn_pitch(state, here) if tied else None
         if self._drawn == (solution, place, pitch):
             return
         self._drawn = solution, place, pitch
@@ -93,7 +93,7 @@ class ProbePanel:
             else:
                 self._cursor.hide()
 
-    def lose(self) -> None:
+    def show_failure(self) -> None:
         """The inputs have no answer: what stands here is of the last one."""
         self._pause()
         self._drawn = None
@@ -110,7 +110,7 @@ class ProbePanel:
 
     def toggle(self) -> None:
         """Play, or pause."""
-        if self._player.playing or self._desk.moment() is None:
+        if self._player.playing or self._context.state() is None:
             self._pause()
             return
         self._walked, self._left = None, LONGEST
@@ -120,7 +120,7 @@ class ProbePanel:
     def _pause(self) -> None:
         if self._player.playing:
             self._player.pause()
-            self._desk.wake()  # What does not follow every turn of the blade follows now.
+            self._context.wake()  # What does not follow every turn of the blade follows now.
         self._button.label, self._button.icon = "Play", viser.Icon.PLAYER_PLAY
 
     def _walk(self, seconds: float) -> None:
@@ -130,18 +130,18 @@ class ProbePanel:
                 self._walk_on(seconds)
 
     def _walk_on(self, seconds: float) -> None:
-        now = self._desk.view().azimuth_deg
+        now = self._context.view().azimuth_deg
         self._left -= seconds
         if (self._walked is not None and now != self._walked) or self._left <= 0.0:
             self._pause()  # The user has taken the blade, or gone.
             return
         self._walked = (now + self._speed.value * seconds) % 360.0
-        self._desk.turn(self._walked)
+        self._context.set_azimuth(self._walked)
 
-    def _place(self) -> _Place:
-        return _Place(self._r.value, self._psi.value, self._shown.value and self._seen, self._opened.value)
+    def _place(self) -> _ProbePoint:
+        return _ProbePoint(self._r.value, self._psi.value, self._shown.value and self._seen, self._opened.value)
 
-    def _probe(self, solution: Solution, place: _Place) -> Probe:
+    def _probe(self, solution: Solution, place: _ProbePoint) -> Probe:
         r = min(max(place.r, _innermost(solution.design.rotor)), 1.0)
         return probe(solution, r, math.radians(place.psi_deg))
 
@@ -157,31 +157,31 @@ class ProbePanel:
         if self._follow.value:
             with self._hand:  # No step of the clock comes between.
                 self._pause()
-                self._desk.turn(psi_deg)
+                self._context.set_azimuth(psi_deg)
         self._psi.value = psi_deg
         self._moved()
 
     def _moved(self) -> None:
         self._shown.value = True
-        self._desk.wake()
+        self._context.wake()
 
     def _step(self, r: float, psi_deg: float) -> None:
         self._set(self._r.value + r, round(self._psi.value) + psi_deg if psi_deg else None)
 
     def _hide(self) -> None:
         self._shown.value = not self._shown.value
-        self._desk.wake()
+        self._context.wake()
 
     def _clicked(self, event: viser.SceneClickEvent) -> None:
-        moment = self._desk.moment()
-        if moment is None or not self._seen:
+        state = self._context.state()
+        if state is None or not self._seen:
             return
-        found = pick(moment.solution, event.ray_origin, event.ray_direction)
+        found = pick(state.solution, event.ray_origin, event.ray_direction)
         if found is not None:
             self._set(found[0], round(math.degrees(found[1])) % 360)
 
     def _bind(self) -> None:
-        bind = self._desk.bind
+        bind = self._context.bind_command
         bind("play", self.toggle)
         for name, (r, psi) in _STEPS.items():
             bind(f"probe_{name}", partial(self._step, r, psi))
@@ -194,8 +194,8 @@ def _innermost(rotor: Rotor) -> float:
     return round(_R_STEP * math.ceil(rotor.blade.root_cutout / _R_STEP - 1e-9), 2)
 
 
-def _drawn_pitch(moment: Moment, here: Probe) -> float:
+def _drawn_pitch(state: SessionState, here: Probe) -> float:
     """Twist of the marked blade at the probe as it is drawn [rad]: in the blade's own axes, exaggerated."""
-    design = moment.solution.design
-    twist = (*blade_twists(design, (math.radians(moment.view.azimuth_deg),)), design.twist)[0]
-    return moment.view.exaggeration * float(twist([here.r])[0])
+    design = state.solution.design
+    twist = (*blade_twists(design, (math.radians(state.view.azimuth_deg),)), design.twist)[0]
+    return state.view.exaggeration * float(twist([here.r])[0])

@@ -4,7 +4,6 @@ import math
 from html import escape
 
 import numpy as np
-from numpy.typing import NDArray
 
 from explorer.charts import svg
 from explorer.tabs.probe.drawing import ALPHA, DRAG, LIFT, Scales, drawing
@@ -14,8 +13,6 @@ from explorer.text.status import section_title
 from explorer.text.units import number
 from explorer.theme.colours import LIMIT, NOW
 from rotor.trim.solution import Solution
-
-Array = NDArray[np.float64]
 
 _CHIPS = {
     Region.IDLE: "back",

@@ -5,10 +5,10 @@ from typing import Any
 
 import viser
 
+from explorer.interface import TabContext
 from explorer.rotor_choice import OWN, menu_titles
 from explorer.state import Inputs, with_rotor
-from explorer.tabs.interface import Desk
-from explorer.tabs.rotors.shelf import SUFFIXES, Shelf
+from explorer.tabs.rotors.uploaded_files import SUFFIXES, UploadedFiles
 from explorer.text.glossary import hint
 
 
@@ -43,8 +43,8 @@ class RotorMenu:
 class RotorUpload:
     """The files of one session, and what they lead to."""
 
-    def __init__(self, button: viser.GuiUploadButtonHandle, desk: Desk) -> None:
-        self._desk, self._shelf = desk, Shelf()
+    def __init__(self, button: viser.GuiUploadButtonHandle, context: TabContext) -> None:
+        self._context, self._shelf = context, UploadedFiles()
         button.on_upload(self._taken)
 
     def _taken(self, event: viser.GuiEvent[Any]) -> None:
@@ -52,8 +52,8 @@ class RotorUpload:
         try:
             arrival = self._shelf.take(file.name, file.content)
             if arrival.aircraft is not None:
-                self._desk.set_inputs(with_rotor(self._desk.inputs(), OWN, arrival.aircraft))
+                self._context.set_inputs(with_rotor(self._context.inputs(), OWN, arrival.aircraft))
         except ValueError as error:
-            self._desk.tell("Not loaded", str(error))
+            self._context.notify("Not loaded", str(error))
             return
-        self._desk.tell("Rotor" if arrival.aircraft else "Kept", arrival.sentence)
+        self._context.notify("Rotor" if arrival.aircraft else "Kept", arrival.sentence)

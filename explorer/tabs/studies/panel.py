@@ -12,12 +12,12 @@ import viser
 
 from explorer.charts.clicks import charts_write_to
 from explorer.hosting import viser_compat
+from explorer.interface import SessionState, TabContext
 from explorer.sharing import share
 from explorer.state import inputs_of
-from explorer.tabs.interface import Desk, Moment
 from explorer.tabs.studies import charts as study_charts
 from explorer.tabs.studies.readout import numbers, point_line, problem_line, summary
-from explorer.tabs.studies.results import Found, find_studies, open_study
+from explorer.tabs.studies.results import FoundStudy, find_studies, open_study
 from explorer.text.glossary import hint
 from rotor.study.findings import best_row
 from rotor.study.front import cruise_speeds, pairs_at
@@ -48,16 +48,16 @@ _CONFIG = {"displayModeBar": False, "doubleClick": "reset+autosize"}
 class StudiesPanel:
     """One session's."""
 
-    def __init__(self, client: viser.ClientHandle, desk: Desk, root: Path) -> None:
+    def __init__(self, client: viser.ClientHandle, context: TabContext, root: Path) -> None:
         """`root`: results beneath it are offered."""
-        self._client, self._desk, self._root = client, desk, root
+        self._client, self._context, self._root = client, context, root
         self._results: Results | None = None
         self._chart: viser.GuiPlotlyHandle | None = None
         self._now: int | None = None
         self._dark = False
         self._asked = 0
         """Counts what was asked to be opened: what comes late is passed over."""
-        self._found: dict[str, Found] = {}
+        self._found: dict[str, FoundStudy] = {}
         self._lock = threading.RLock()
         self._able = all(find_spec(name) for name in ("pyarrow", "plotly"))
         gui = client.gui
@@ -127,14 +127,14 @@ class StudiesPanel:
 
         threading.Thread(target=work, name="studies", daemon=True).start()
 
-    def show(self, moment: Moment) -> None:
+    def show(self, state: SessionState) -> None:
         """Follow the page's theme."""
-        if self._dark != moment.view.dark:
-            self._dark = moment.view.dark
+        if self._dark != state.view.dark:
+            self._dark = state.view.dark
             if self._results is not None:
                 self._draw()
 
-    def lose(self) -> None:
+    def show_failure(self) -> None:
         """A result does not depend on the sliders."""
 
     def stop(self) -> None:
@@ -226,7 +226,7 @@ class StudiesPanel:
             return
         self._now = row
         self._said.content = point_line(results, row, "Taken")
-        self._desk.set_inputs(inputs)
+        self._context.set_inputs(inputs)
         self._draw()
 
     def _say(self, sentence: str, kind: str = "idle") -> None:

@@ -16,7 +16,7 @@ _MOST_FOLDERS = 3000
 
 
 @dataclass(frozen=True)
-class Found:
+class FoundStudy:
     """One result."""
 
     path: Path
@@ -27,9 +27,9 @@ class Found:
         return os.path.relpath(self.path, root)
 
 
-def find_studies(root: Path) -> tuple[Found, ...]:
+def find_studies(root: Path) -> tuple[FoundStudy, ...]:
     """Folders that hold a study, at most so deep beneath `root`, which itself may be one; in order of their names."""
-    found: list[Found] = []
+    found: list[FoundStudy] = []
     looked, level = 0, [root]
     for _ in range(_DEPTH + 1):
         below: list[Path] = []
@@ -38,7 +38,7 @@ def find_studies(root: Path) -> tuple[Found, ...]:
             if looked > _MOST_FOLDERS:
                 break
             if (folder / ABOUT).is_file():
-                found.append(Found(folder, _title(folder)))
+                found.append(FoundStudy(folder, _title(folder)))
                 continue  # A study has nothing beneath it.
             with suppress(OSError):
                 below += [one for one in sorted(folder.iterdir()) if one.is_dir() and one.name[0] not in "._"]

@@ -1,6 +1,20 @@
-"""Inflow in forward flight: one model a file behind one interface, and the mathematics of the wakes."""
+"""Inflow models of forward flight behind one interface, by name."""
 
+from rotor.aero.inflow.dynamic_wake import DYNAMIC_WAKES
 from rotor.aero.inflow.interface import InflowModel as InflowModel
-from rotor.aero.inflow.models import INFLOW_MODELS as INFLOW_MODELS
-from rotor.aero.inflow.models import inflow_model as inflow_model
-from rotor.aero.inflow.wake_state import Wake as Wake
+from rotor.aero.inflow.interface import Wake as Wake
+from rotor.aero.inflow.linear import LINEAR_MODELS
+from rotor.aero.inflow.local_momentum import LocalMomentumInflow
+from rotor.aero.inflow.vortex_wake import VortexWakeInflow
+
+_MODELS: tuple[InflowModel, ...] = (*LINEAR_MODELS, LocalMomentumInflow(), *DYNAMIC_WAKES, VortexWakeInflow())
+
+INFLOW_MODELS: dict[str, InflowModel] = {model.name: model for model in _MODELS}
+"""Forward-flight inflow models by name, from the simplest to the most detailed."""
+
+
+def inflow_model(name: str) -> InflowModel:
+    """The model of that name; ValueError lists the names for any other."""
+    if name not in INFLOW_MODELS:
+        raise ValueError(f"inflow model {name!r} is not known: use one of {', '.join(INFLOW_MODELS)}")
+    return INFLOW_MODELS[name]

@@ -1,24 +1,41 @@
-"""The seam behind which every forward-flight inflow model stands.
+"""The interface of every forward-flight inflow model, and the wake that its answer depends on.
 
-A model answers a load on the disk with an induced inflow. At a given wake (µ_x, µ_z, λ0) all of them are linear in the
-load, λ_i = A d + b, with A = 0 for the models that prescribe their inflow. What the trim and its adjoint need of A is
-how it acts on fields, and the solution of the loop load → inflow → load; no model ever writes A down.
+A model gives the inflow induced by a load on the disk. At a given wake (µ_x, µ_z, λ0) every model is linear in the
+load, λ_i = A d + b, with A = 0 for the models that prescribe their inflow. The trim and its adjoint need the action of
+A on fields and the solution of the feedback load → inflow → load; no model forms A.
 
 Fields are (elements, azimuths); d = dC_T/dr of the whole rotor as if smeared; stacks of fields lead with their number.
 """
 
+import math
+from dataclasses import dataclass
 from typing import Protocol
 
-import numpy as np
-from numpy.typing import NDArray
-
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.wake_state import Wake
-
-Array = NDArray[np.float64]
+from rotor.arrays import Array
 
 
-class LoadLoop(Protocol):
+@dataclass(frozen=True)
+class Wake:
+    """Flow through the disk as momentum theory sees it; all over ΩR."""
+
+    mu_x: float
+    """Advance ratio in the disk plane, µ cos α."""
+    mu_z: float
+    """Advance ratio through the disk, µ sin α, positive down."""
+    lambda0: float
+    """Mean induced inflow of momentum theory."""
+
+    @property
+    def axial(self) -> float:
+        return self.mu_z + self.lambda0
+
+    @property
+    def speed(self) -> float:
+        return math.hypot(self.mu_x, self.axial)
+
+
+class InflowFeedback(Protocol):
     """The loop inflow → load → inflow for a pointwise load slope K = ∂d/∂λ_i."""
 
     def solve(self, fields: Array) -> Array:
@@ -30,7 +47,7 @@ class LoadLoop(Protocol):
         ...
 
 
-class Response(Protocol):
+class InflowResponse(Protocol):
     """A model's answer at one wake and load."""
 
     @property
@@ -43,15 +60,15 @@ class Response(Protocol):
         """∂λ_i by (µ_x, µ_z, λ0) at fixed load, (3, elements, azimuths)."""
         ...
 
-    def drive(self, fields: Array) -> Array:
+    def apply(self, fields: Array) -> Array:
         """A f: the inflow that a change of load drives, for a stack of fields."""
         ...
 
-    def drive_transposed(self, field: Array) -> Array:
+    def apply_transposed(self, field: Array) -> Array:
         """Aᵀ f."""
         ...
 
-    def loop(self, slope: Array) -> LoadLoop:
+    def feedback(self, slope: Array) -> InflowFeedback:
         """The loop for K, (elements, azimuths)."""
         ...
 
@@ -75,7 +92,7 @@ class InflowModel(Protocol):
         ...
 
     @property
-    def reacts(self) -> bool:
+    def load_dependent(self) -> bool:
         """Whether the inflow answers to where the load is (A ≠ 0).
 
         A model that does not react takes Prandtl's factor on the section lift; one that does has its blade tips in its
@@ -87,10 +104,10 @@ class InflowModel(Protocol):
         """The model of a rotor that loses nothing at its tips; itself, where that is not the model's to say."""
         ...
 
-    def laid_out(self, expected: Wake) -> "InflowModel":
+    def with_wake_geometry(self, expected: Wake) -> "InflowModel":
         """The model for a problem whose wake momentum theory expects so; itself, where the trim moves the wake."""
         ...
 
-    def respond(self, disk: Disk, wake: Wake, load: Array) -> Response:
+    def respond(self, disk: Disk, wake: Wake, load: Array) -> InflowResponse:
         """The answer at a wake to a load d(r, ψ); a model that does not react ignores the load."""
         ...

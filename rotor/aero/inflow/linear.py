@@ -9,14 +9,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import LoadLoop
-from rotor.aero.inflow.wake_state import Wake
-
-Array = NDArray[np.float64]
-
+from rotor.aero.inflow.interface import InflowFeedback, Wake
+from rotor.arrays import Array
 
 Gradient = tuple[float, float, float]
 """A gradient k with its slopes by µ_x and by the axial flow µ_z + λ0."""
@@ -35,13 +31,13 @@ class LinearInflow:
     lateral: Callable[[Wake], Gradient]
     """k_y"""
 
-    reacts = False
+    load_dependent = False
 
     def without_tip_loss(self) -> "LinearInflow":
         """Itself: the factor is on the section lift."""
         return self
 
-    def laid_out(self, expected: Wake) -> "LinearInflow":
+    def with_wake_geometry(self, expected: Wake) -> "LinearInflow":
         """Itself: the wake moves with the trim."""
         del expected
         return self
@@ -69,21 +65,21 @@ class PrescribedResponse:
     induced: Array
     by_wake: Array
 
-    def drive(self, fields: Array) -> Array:
+    def apply(self, fields: Array) -> Array:
         """No load drives a prescribed inflow."""
         return np.zeros_like(fields)
 
-    def drive_transposed(self, field: Array) -> Array:
+    def apply_transposed(self, field: Array) -> Array:
         """No load drives a prescribed inflow."""
         return np.zeros_like(field)
 
-    def loop(self, slope: Array) -> LoadLoop:
+    def feedback(self, slope: Array) -> InflowFeedback:
         """The open loop."""
         del slope
-        return _OpenLoop()
+        return _NoFeedback()
 
 
-class _OpenLoop:
+class _NoFeedback:
     def solve(self, fields: Array) -> Array:
         return fields
 

@@ -11,12 +11,9 @@ from typing import Any
 
 import numba  # pyright: ignore[reportMissingTypeStubs]
 import numpy as np
-from numpy.typing import NDArray
 
-from rotor.aero.inflow.wake_modes import mode_set, radial_functions
-
-Array = NDArray[np.float64]
-Integers = NDArray[np.int64]
+from rotor.aero.inflow.peters_he import mode_set, radial_functions
+from rotor.arrays import Array, Integers
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,13 +6,12 @@ from dataclasses import dataclass
 from typing import Literal, Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
+from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
 
-Array = NDArray[np.float64]
 Values = Sequence[float] | Array
 """Parameters of a concept in its order, SI."""
 

@@ -3,15 +3,13 @@
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from rotor.arrays import Array
 from rotor.design.blade import with_airfoils
 from rotor.design.design import Design
 from rotor.design.twist import REFERENCE_RADIUS, PiecewiseLinearTwist, TwistLaw
 from rotor.optimisation.concepts.concept import Handle, Parameter, Values
 from rotor.optimisation.concepts.smooth import FLATTEST, STEEPEST
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -4,14 +4,11 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from rotor.arrays import Array
 from rotor.design.design import Design
-from rotor.design.spline import spline_basis
-from rotor.design.twist import REFERENCE_RADIUS, LinearTwist, QuadraticTwist, SplineTwist, TwistLaw
+from rotor.design.twist import REFERENCE_RADIUS, LinearTwist, QuadraticTwist, SplineTwist, TwistLaw, spline_basis
 from rotor.optimisation.concepts.concept import Handle, Parameter, Values
-
-Array = NDArray[np.float64]
 
 STEEPEST, FLATTEST = math.radians(-30.0), math.radians(10.0)
 """Default bounds of a twist rate [rad/R]: beyond them blades stall at the root or lift backwards at the tip."""

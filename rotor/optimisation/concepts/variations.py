@@ -3,14 +3,10 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-import numpy as np
-from numpy.typing import NDArray
-
+from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import SumTwist, TwistLaw
 from rotor.optimisation.concepts.concept import Concept, Handle, Parameter, Values
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

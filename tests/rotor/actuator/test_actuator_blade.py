@@ -220,7 +220,7 @@ def test_fibre_strain_from_pull():
     strain = fibre_strain(fitted)
     assert_allclose(strain.centrifugal[0], 0.5 * 285e3 / 1.33e8 * (1.0 - 0.31), rtol=0.25)
     assert_allclose(strain.flap, 0.0, atol=0.0)
-    flown = fibre_strain(fitted, solve(make_design(advance_ratio=0.3)).require())
+    flown = fibre_strain(fitted, solve(make_design(mu=0.3)).require())
     assert 50e-6 < flown.flap.max() < 400e-6
 
 

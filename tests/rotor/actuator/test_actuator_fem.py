@@ -9,9 +9,8 @@ from test_actuator_section import DIAGONAL, METAL, blade, ply
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.placement import Placement, default_placement
 from rotor.actuator.section import SectionSpec, active_section, passive_skin, skin, web_line
-from rotor.dynamics.laminate import Layer, Material
 from rotor.dynamics.structure import glass
-from rotor.dynamics.thin_wall import Panel, build_section, induced_twist_rate, torsional_stiffness
+from rotor.dynamics.thin_wall import Layer, Material, Panel, build_section, induced_twist_rate, torsional_stiffness
 
 NOTHING = Material("nothing", 1e5, 1e5, 0.3, 1e5 / 2.6, 1.0)
 

@@ -14,25 +14,23 @@ from rotor.actuator.section import (
     passive_section,
     section_spec,
 )
-from rotor.dynamics.laminate import (
-    Layer,
-    Material,
-    blocked_shear_flow,
-    free_strain_in_wall_axes,
-    reduced_stiffness,
-    rotated_stiffness,
-    wall_of,
-)
 from rotor.dynamics.structure import uh60a_structure
 from rotor.dynamics.thin_wall import (
+    Layer,
+    Material,
     Panel,
-    Section,
+    WallSection,
     actuation_moment,
     axial_stiffness,
+    blocked_shear_flow,
     build_section,
+    free_strain_in_wall_axes,
     induced_twist_rate,
+    reduced_stiffness,
     respond,
+    rotated_stiffness,
     torsional_stiffness,
+    wall_of,
 )
 
 METAL = Material("metal", 70e9, 70e9, 0.3, 70e9 / 2.6, 2700.0)
@@ -91,7 +89,7 @@ def test_free_wall_takes_its_free_strain():
 # Thin-walled sections
 
 
-def ring(panel_points: np.ndarray, layers: tuple[Layer, ...]) -> Section:
+def ring(panel_points: np.ndarray, layers: tuple[Layer, ...]) -> WallSection:
     return build_section((Panel(np.concatenate([panel_points, panel_points[:1]]), layers, (1,)),))
 
 
@@ -112,7 +110,9 @@ def test_bredt_one_cell():
     assert_allclose(induced_twist_rate(section), 2 * strain * perimeter / (2 * area), rtol=1e-9)
 
 
-def two_cells(web: float, first: float = 0.2, second: float = 0.1, height: float = 0.05, t: float = 0.002) -> Section:
+def two_cells(
+    web: float, first: float = 0.2, second: float = 0.1, height: float = 0.05, t: float = 0.002
+) -> WallSection:
     layer, thin = (Layer(METAL, t, 0.0),), (Layer(METAL, web, 0.0),)
 
     def line(*points: tuple[float, float]) -> np.ndarray:

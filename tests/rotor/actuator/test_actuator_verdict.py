@@ -38,7 +38,7 @@ CONCEPTS = ["linear", pytest.param("two-segment", marks=pytest.mark.slow)]
 
 @cache
 def pair(preset: str = "flight") -> Pair:
-    design = make_design(preset)
+    design = make_design(preset=preset)
     coarse = replace(design.models, elements=16, azimuths=36)
     return Pair(replace(design, models=coarse), (0.0, 0.3))
 
@@ -289,5 +289,5 @@ def test_reached_twist_can_be_flown_again():
     """The SPEC of a reached twist is read by every other command, and takes the same power."""
     solution = verdict().reached.solutions[1]
     spec = solution.design.twist.spec()
-    again = make_design(twist=spec, advance_ratio=0.3, models=solution.design.models)
+    again = make_design(twist=spec, mu=0.3, models=solution.design.models)
     assert_allclose(solve(again).power.total, solution.power.total, rtol=1e-7)

@@ -11,7 +11,7 @@ from rotor.aero import kernel
 from rotor.aero.elements import LAMBDA0, N_STATE, SHAFT_TILT, Problem, lay_out, run_pass
 from rotor.aero.sums import slopes, sums
 from rotor.airfoil.sections import load_installed
-from rotor.design.presets import FLIGHT_MODELS
+from rotor.design.design import FLIGHT_MODELS
 from rotor.files.make_design import make_design
 from rotor.trim.equations import UNKNOWNS, jacobian, residuals
 from rotor.trim.forward import first_guess
@@ -22,7 +22,7 @@ STATE = np.array([0.17, 0.03, -0.09, 0.08, 0.06, -0.02, 0.01, 0.012])
 
 def problem(preset: str = "flight", mu: float = 0.3, **models: object) -> Problem:
     """A problem with prescribed inflow, so that a pass needs no induced field."""
-    design = make_design(preset, advance_ratio=mu, twist="segments:-14,-6@0.6")
+    design = make_design(preset=preset, mu=mu, twist="segments:-14,-6@0.6")
     prescribed = replace(design.models, inflow="pitt-peters" if preset == "flight" else design.models.inflow)
     return lay_out(replace(design, models=replace(prescribed, **models)))
 

@@ -17,11 +17,11 @@ from rotor.trim.forward import guess_of
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
-REACTING = [name for name, model in INFLOW_MODELS.items() if model.reacts]
+REACTING = [name for name, model in INFLOW_MODELS.items() if model.load_dependent]
 
 
 def design_of(inflow: str, mu: float, twist: str = "linear:-10", preset: str = "flight") -> Design:
-    design = make_design(preset, twist=twist, advance_ratio=mu)
+    design = make_design(preset=preset, twist=twist, mu=mu)
     return replace(design, models=replace(design.models, inflow=inflow))
 
 
@@ -54,14 +54,14 @@ def test_loop_and_transposes(inflow: str, mu: float):
     one = run_pass(problem, guess.state, guess.induced)
     assert one.response is not None
     slope = one.loads[6]  # FZ_UP
-    loop = one.response.loop(slope)
+    loop = one.response.feedback(slope)
     random = np.random.default_rng(3)
     f, g = random.normal(size=(2, *problem.disk.shape))
     z = loop.solve(f[None])[0]
-    assert_allclose(z - one.response.drive((slope * z)[None])[0], f, atol=1e-9 * np.abs(z).max())
+    assert_allclose(z - one.response.apply((slope * z)[None])[0], f, atol=1e-9 * np.abs(z).max())
     v = loop.solve_transposed(g)
-    assert_allclose(v - slope * one.response.drive_transposed(v), g, atol=1e-9 * np.abs(v).max())
-    assert_allclose(np.vdot(g, one.response.drive(f[None])[0]), np.vdot(one.response.drive_transposed(g), f), rtol=1e-9)
+    assert_allclose(v - slope * one.response.apply_transposed(v), g, atol=1e-9 * np.abs(v).max())
+    assert_allclose(np.vdot(g, one.response.apply(f[None])[0]), np.vdot(one.response.apply_transposed(g), f), rtol=1e-9)
 
 
 @pytest.mark.parametrize("inflow", [*REACTING, "pitt-peters", "drees"])
@@ -94,7 +94,7 @@ def test_adjoint_at_every_element(monkeypatch: pytest.MonkeyPatch, preset: str):
     monkeypatch.setattr(rotor.trim.newton, "TOLERANCE", 1e-13)
     monkeypatch.setattr(rotor.trim.newton, "INFLOW_TOLERANCE", 1e-12)
     for mu in (0.0, 0.25):
-        design = make_design(preset, twist="linear:-10", advance_ratio=mu)
+        design = make_design(preset=preset, twist="linear:-10", mu=mu)
         middle = solve(design).require()
         gradient = power_gradient(middle)
         for element in (3, 20, 36):
@@ -135,7 +135,7 @@ def test_slow_flight_agrees_with_hover(rate: int):
     With four blades the theory, which leaves swirl out, stays above it: by 0.8 S λ² ≈ 2 % of induced power, and by what
     four blades cost beyond Prandtl's factor. Hence hover itself is the annulus balance, and the step between is ≤ 5 %.
     """
-    hover = solve(make_design(twist=f"linear:{rate}", advance_ratio=0.0)).require()
+    hover = solve(make_design(twist=f"linear:{rate}", mu=0.0)).require()
     slow = solve(design_of("dynamic-wake-infinite-blades", 0.002, f"linear:{rate}")).require()
     assert_allclose(slow.power.main_rotor, hover.power.main_rotor, rtol=0.02)
     four = solve(design_of("dynamic-wake", 0.002, f"linear:{rate}")).require()

@@ -16,7 +16,7 @@ RATES = (0, -4, -8, -12, -16, -20)
 
 @cache
 def solved(inflow: str, mu: float, rate: int) -> Solution:
-    design = make_design(twist=f"linear:{rate}", advance_ratio=mu)
+    design = make_design(twist=f"linear:{rate}", mu=mu)
     return solve(replace(design, models=replace(design.models, inflow=inflow))).require()
 
 
@@ -64,7 +64,7 @@ def test_the_lattice_is_fine_enough(monkeypatch: pytest.MonkeyPatch):
     """Power on 16 × 36 panels and 40 elements against 24 × 60 and 80: 0.4 %."""
     import rotor.aero.inflow.vortex_wake as module
 
-    design = make_design(twist="linear:-12", advance_ratio=0.3)
+    design = make_design(twist="linear:-12", mu=0.3)
     coarse = solve(replace(design, models=replace(design.models, inflow="vortex-wake"))).require()
     monkeypatch.setattr(module, "PANELS", 24)
     monkeypatch.setattr(module, "AZIMUTHS", 60)

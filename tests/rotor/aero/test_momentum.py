@@ -13,7 +13,6 @@ from rotor.aero.momentum import (
     glauert_inflow,
     hover_induced_velocity,
     ideal_power,
-    ideal_tip_pitch,
     power_coefficient,
     skew_angle,
     thrust_coefficient,
@@ -100,10 +99,3 @@ def test_glauert_odd_in_thrust():
 def test_skew_angle_limits():
     assert skew_angle(0.0, 0.0, 0.05) == 0.0
     assert_allclose(skew_angle(0.3, 0.0, 0.0), math.pi / 2.0, rtol=1e-15)
-
-
-def test_ideal_tip_pitch_carries_the_thrust():
-    """½σa(θ_tip − λ) r integrated over 0…1 is ¼σa(θ_tip − λ) = C_T with λ = √(C_T/2)."""
-    ct, solidity, slope = 0.0065, 0.0821, 5.9
-    pitch = ideal_tip_pitch(ct, solidity, slope)
-    assert_allclose(0.25 * solidity * slope * (pitch - math.sqrt(ct / 2.0)), ct, rtol=1e-14)

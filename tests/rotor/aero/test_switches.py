@@ -15,8 +15,8 @@ from rotor.__main__ import main
 from rotor.aero import kernel
 from rotor.aero.elements import LAMBDA0, LOW_MACH, N_STATE, lay_out, run_pass
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.inflow.tip_factor import tip_factor
-from rotor.aero.inflow.wake_state import Wake
+from rotor.aero.inflow.interface import Wake
+from rotor.aero.losses import tip_factor
 from rotor.aero.sums import slopes
 from rotor.aero.switches import SWITCHES, no_effect, parse_switches, switched_off, with_switches
 from rotor.airfoil.sections import load_installed
@@ -30,8 +30,7 @@ from rotor.files.rotor_file import read_aircraft
 from rotor.trim import newton
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.equations import jacobian, residuals, unknowns_of
-from rotor.trim.hub_loads import hub_moment
-from rotor.trim.power import power_budget
+from rotor.trim.power import hub_moment, power_budget
 from rotor.trim.solve import solve
 
 EVERY = [
@@ -41,7 +40,7 @@ EVERY = [
 
 def small(mu: float, preset: str = "flight", inflow: str | None = None, **models: object) -> Design:
     """A coarse grid: identities and exactness do not depend on it."""
-    design = make_design(preset, advance_ratio=mu, twist="segments:-14,-6@0.6")
+    design = make_design(preset=preset, mu=mu, twist="segments:-14,-6@0.6")
     inflow = inflow or design.models.inflow
     return replace(design, models=replace(design.models, elements=16, azimuths=36, inflow=inflow, **models))
 
@@ -130,7 +129,7 @@ class TestReverseFlow:
         assert no_effect(design, "reverse_flow")
 
     def test_no_load_and_no_drag_inside_it(self):
-        solution = solve(with_switches(make_design(advance_ratio=0.38), ("reverse_flow",))).require()
+        solution = solve(with_switches(make_design(mu=0.38), ("reverse_flow",))).require()
         inside = solution.disk.r[:, None] + 0.38 * np.sin(solution.disk.psi) < 0.0
         assert inside.sum() > 100
         assert (solution.disk.u_t[~inside] >= 0.0).all()
@@ -141,7 +140,7 @@ class TestReverseFlow:
     def test_profile_power_of_a_constant_drag_without_the_circle(self):
         """C_P0 = σC_d/4π ∬ (r + µ sin ψ)³ over the rest of the blade, by quadrature."""
         mu, drag = 0.4, 0.01
-        design = make_design("thesis", advance_ratio=mu)
+        design = make_design(preset="thesis", mu=mu)
         problem = lay_out(with_switches(design, ("reverse_flow",)))
         assert problem.idle is not None
         one = run_pass(problem, np.array([0, 0, 0, 0, 0, 0, 0, 1e-9]))
@@ -161,7 +160,7 @@ class TestReverseFlow:
 
 class TestCompressibility:
     def test_sections_are_those_of_one_mach_number(self):
-        solution = solve(with_switches(make_design(advance_ratio=0.35), ("compressibility",))).require()
+        solution = solve(with_switches(make_design(mu=0.35), ("compressibility",))).require()
         disk = solution.disk
         for i, section in ((2, "sc1095"), (22, "sc1094r8"), (38, "sc1095")):
             installed = load_installed(section)
@@ -194,10 +193,10 @@ class TestCompressibility:
         text = asset_path("r22.toml").read_text(encoding="utf-8").replace('"naca63a015"', '"mine"')
         text += '\n[sections.mine]\ndeck = "mine.c81"\n'
         craft = read_aircraft("my.toml", {"my.toml": text, "mine.c81": deck})
-        assert no_effect(make_design(aircraft=craft, advance_ratio=0.2), "compressibility") == ""
+        assert no_effect(make_design(rotor=craft, mu=0.2), "compressibility") == ""
 
     def test_the_document_knows_one_mach_number(self):
-        design = make_design("thesis", advance_ratio=0.3)
+        design = make_design(preset="thesis", mu=0.3)
         off = solve(with_switches(design, ("compressibility",))).require()
         assert_allclose(off.power.total, solve(design).require().power.total, rtol=1e-12)
         assert "one Mach number" in no_effect(design, "compressibility")
@@ -211,7 +210,7 @@ class TestFlapping:
                 assert (c.coning, c.flap_1c, c.flap_1s, c.cyclic_1c, c.cyclic_1s) == (0.0,) * 5
 
     def test_thrust_and_drag_are_still_carried(self):
-        design = with_switches(make_design(advance_ratio=0.25), ("flapping",))
+        design = with_switches(make_design(mu=0.25), ("flapping",))
         solution = solve(design).require()
         disk, tilt = solution.disk, solution.controls.shaft_tilt
         mean = disk.dr / len(disk.psi)
@@ -224,7 +223,7 @@ class TestFlapping:
     def test_hub_moment_of_a_rigid_blade_by_hand(self):
         """C_l = aα, untwisted, uniform inflow: rolling moment ½σa·µ(θ/3 − λ/4) to the retreating side."""
         sigma, slope, mu, theta, inflow = 0.08, 5.73, 0.2, 0.12, 0.02
-        design = make_design(advance_ratio=mu)
+        design = make_design(mu=mu)
         fine = replace(design.models, elements=400, inflow="uniform")
         problem = lay_out(with_switches(replace(design, models=fine), ("flapping",)))
         one = run_pass(problem, np.array([theta, 0, 0, 0, 0, 0, 0, inflow]))
@@ -239,12 +238,12 @@ class TestFlapping:
         assert moment.roll > 0.0
 
     def test_blades_hinged_at_the_centre_hand_over_nothing(self):
-        solution = solve(make_design("thesis", advance_ratio=0.3)).require()
+        solution = solve(make_design(preset="thesis", mu=0.3)).require()
         assert solution.hub_moment.size < 1.0  # [N m] of 670 kN m of weight × radius
 
     def test_hinge_moment_is_the_shear_at_the_hinge(self):
         """e (F1 + S Ω² β1), the same from the other side: shear of lift and of the flapping blade's inertia."""
-        design = make_design(advance_ratio=0.25)
+        design = make_design(mu=0.25)
         design = replace(design, condition=replace(design.condition, flap_1c=0.04, flap_1s=-0.03))
         solution = solve(design).require()
         disk, rotor, c = solution.disk, design.rotor, solution.controls
@@ -282,7 +281,7 @@ class TestLossesAndFuselage:
         model = INFLOW_MODELS[inflow]
         on, off = (m.respond(disk, wake, load).induced for m in (model, model.without_tip_loss()))
         uneven = 0.0 if inflow != "local-momentum" else on - (on.mean(axis=1, keepdims=True))
-        factor, _ = tip_factor(disk.r, wake, 4)
+        factor, _ = tip_factor(disk.r, wake.axial, 4)
         assert_allclose((on - uneven) * factor[:, None], off - uneven, rtol=1e-9)
 
     def test_four_blades_without_tip_loss_are_infinitely_many(self):
@@ -295,16 +294,16 @@ class TestLossesAndFuselage:
         assert no_effect(small(0.2, inflow="vortex-wake"), "tip_loss")
 
     def test_losses_only_cost(self):
-        full = solve(make_design(advance_ratio=0.0)).require().power.total
+        full = solve(make_design(mu=0.0)).require().power.total
         for off in ("tip_loss", "hub_loss"):
-            assert solve(with_switches(make_design(advance_ratio=0.0), (off,))).require().power.total < full
+            assert solve(with_switches(make_design(mu=0.0), (off,))).require().power.total < full
 
     def test_no_fuselage_no_parasite_power_and_hardly_a_tilt(self):
-        on = solve(make_design(advance_ratio=0.3)).require()
-        off = solve(with_switches(make_design(advance_ratio=0.3), ("fuselage",))).require()
+        on = solve(make_design(mu=0.3)).require()
+        off = solve(with_switches(make_design(mu=0.3), ("fuselage",))).require()
         assert off.power.parasite == 0.0
         assert abs(off.controls.shaft_tilt) < math.radians(1.5) < on.controls.shaft_tilt
-        thesis = with_switches(make_design("thesis", advance_ratio=0.3), ("fuselage",))
+        thesis = with_switches(make_design(preset="thesis", mu=0.3), ("fuselage",))
         assert solve(thesis).require().controls.shaft_tilt == 0.0
 
 
@@ -370,7 +369,7 @@ class TestCommandAndFiles:
 
     def test_files_keep_every_switch_and_old_files_are_read(self, tmp_path: Path):
         for off in EVERY[::7]:
-            design = with_switches(make_design(advance_ratio=0.2), off)
+            design = with_switches(make_design(mu=0.2), off)
             assert design_of(case_of(design)).models == design.models
         assert switched_off(design_of({"tip_loss": False, "hub_loss": True}).models)[0].name == "tip_loss"
         with pytest.raises(ValueError, match="'flapping' is 0: give true or false"):

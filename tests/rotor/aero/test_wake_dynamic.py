@@ -10,11 +10,10 @@ from inflow_tables import table
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from rotor.aero.inflow.peters_he import families, flow_parameters
-from rotor.aero.inflow.tip_factor import tip_factor
-from rotor.aero.inflow.wake_modes import radial_functions
-from rotor.aero.inflow.wake_response import DynamicWake, WakeResponse
-from rotor.aero.inflow.wake_state import Wake
+from rotor.aero.inflow.dynamic_wake import DynamicWake, WakeOperator
+from rotor.aero.inflow.interface import Wake
+from rotor.aero.inflow.peters_he import families, flow_parameters, radial_functions
+from rotor.aero.losses import tip_factor
 from rotor.aero.momentum import glauert_inflow
 
 ROOT, ELEMENTS, AZIMUTHS = 0.13, 12, 42
@@ -23,7 +22,7 @@ FORWARD = Wake(0.199, 0.012, 0.0163)
 MODELS = [DynamicWake(), DynamicWake(harmonics=0), DynamicWake(order=4, harmonics=1), DynamicWake.of(5)]
 
 
-def respond(model: DynamicWake, wake: Wake = FORWARD) -> WakeResponse:
+def respond(model: DynamicWake, wake: Wake = FORWARD) -> WakeOperator:
     return model.response(model.on(ROOT, ELEMENTS, AZIMUTHS), wake)
 
 
@@ -78,7 +77,7 @@ def test_transposes(model: DynamicWake):
 def test_loop_is_solved_exactly(model: DynamicWake):
     response = respond(model)
     slope, f, g = -0.3 * np.abs(noise(7)), noise(8), noise(9)
-    loop = response.loop(slope)
+    loop = response.feedback(slope)
     inflow = loop.solve(f)
     assert_allclose(inflow - response.induced(slope * inflow), f, rtol=0, atol=1e-12)
     v = loop.solve_transposed(g)
@@ -200,19 +199,19 @@ def test_infinite_blades_see_the_tip_factor():
     model = DynamicWake.of(4, infinite_blades=True)
     response = respond(model)
     d = noise(14)
-    factor, _ = tip_factor(R, FORWARD, 4)
+    factor, _ = tip_factor(R, FORWARD.axial, 4)
     plain = response.projection.field(response.states(d))
     assert_allclose(response.induced(d), plain / factor[:, None], rtol=1e-14)
     assert np.all(respond(DynamicWake()).factor == 1.0)  # Blade harmonics hold the tip themselves.
 
 
 def test_tip_factor():
-    factor, _ = tip_factor([0.2, 0.95, 1.0], Wake(0.2, 0.01, 0.02), 4)
+    factor, _ = tip_factor([0.2, 0.95, 1.0], 0.03, 4)
     by_hand = 2.0 / math.pi * math.acos(math.exp(-4.0 * 0.05 / (2.0 * 0.03)))
     assert_allclose(factor, [1.0, by_hand, 0.1], rtol=1e-9)  # 1 − F at 0.2 R is 1e-23.
     r = np.linspace(0.5, 0.999, 9)
-    _, slope = tip_factor(r, Wake(0.2, 0.01, 0.02), 4)
-    above, below = (tip_factor(r, Wake(0.2, 0.01, 0.02 + h), 4)[0] for h in (1e-6, -1e-6))
+    _, slope = tip_factor(r, 0.03, 4)
+    above, below = (tip_factor(r, 0.03 + h, 4)[0] for h in (1e-6, -1e-6))
     assert_allclose(slope, (above - below) / 2e-6, rtol=1e-6, atol=1e-8)
 
 

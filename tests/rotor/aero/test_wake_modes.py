@@ -6,7 +6,7 @@ import numpy as np
 from inflow_tables import table
 from numpy.testing import assert_allclose
 
-from rotor.aero.inflow.wake_modes import double_factorial, mode_set, norm, radial_function, radial_functions
+from rotor.aero.inflow.peters_he import double_factorial, mode_set, norm, radial_function, radial_functions
 
 
 def series(m: int, n: int, r: np.ndarray) -> np.ndarray:

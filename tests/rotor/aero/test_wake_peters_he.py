@@ -7,10 +7,17 @@ import pytest
 from inflow_tables import table
 from numpy.testing import assert_allclose
 
-from rotor.aero.inflow.peters_he import Family, families, flow_parameters, gain
-from rotor.aero.inflow.wake_modes import mode_set, radial_function, radial_functions
-from rotor.aero.inflow.wake_response import DynamicWake
-from rotor.aero.inflow.wake_state import Wake
+from rotor.aero.inflow.dynamic_wake import DynamicWake
+from rotor.aero.inflow.interface import Wake
+from rotor.aero.inflow.peters_he import (
+    Family,
+    families,
+    flow_parameters,
+    gain,
+    mode_set,
+    radial_function,
+    radial_functions,
+)
 
 
 def entry(matrix: np.ndarray, family: Family, r: int, j: int, m: int, n: int) -> float:

@@ -7,10 +7,10 @@ import pytest
 from inflow_tables import table
 from numpy.testing import assert_allclose
 
-from rotor.aero.inflow.lattice_transfer import transfer
+from rotor.aero.inflow.dynamic_wake import DynamicWake
+from rotor.aero.inflow.interface import Wake
 from rotor.aero.inflow.vortex_lattice import Lattice
-from rotor.aero.inflow.wake_response import DynamicWake
-from rotor.aero.inflow.wake_state import Wake
+from rotor.aero.inflow.vortex_wake import transfer
 from rotor.aero.momentum import glauert_inflow
 from rotor.analysis.ideal_circulation import least_induced_power
 

@@ -23,7 +23,7 @@ def test_hover_points():
     hover = DATA["hover"]
     ratios = []
     for ct, cp in zip(hover["ct_over_sigma"], hover["cp_over_sigma"], strict=True):
-        base = make_design(advance_ratio=0.0)
+        base = make_design(mu=0.0)
         mass = base.condition.mass * ct * hover["solidity"] / base.weight_coefficient
         solution = solve(replace(base, condition=replace(base.condition, mass=mass))).require()
         ratios.append(solution.cp / (cp * hover["solidity"]))
@@ -43,7 +43,7 @@ def test_forward_curve_is_indicative():
         mu = knots * 1852 / 3600 / make_design().rotor.tip_speed
         row = []
         for preset in ("flight", "thesis"):
-            design = make_design(preset, advance_ratio=mu, mass=forward["mass_kg"], altitude=forward["altitude_m"])
+            design = make_design(preset=preset, mu=mu, mass_kg=forward["mass_kg"], altitude_m=forward["altitude_m"])
             row.append(solve(design).require().power.main_rotor / 1e3)
         ours.append(row)
         print(f"  {knots:4d} kt  theirs {0.7457 * horsepower:7.0f}   flight {row[0]:7.0f}   thesis {row[1]:7.0f}")

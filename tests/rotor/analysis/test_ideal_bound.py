@@ -36,14 +36,14 @@ def test_too_slow_is_one_sentence(capsys: pytest.CaptureFixture[str]):
 
 
 def test_more_freedom_never_costs():
-    bound = find_bound(make_design(advance_ratio=0.2))
+    bound = find_bound(make_design(mu=0.2))
     assert 1.0 < bound.any_circulation < bound.lift_limited < bound.steady_twist < bound.linear_twist
 
 
 @pytest.mark.parametrize("inflow", ["dynamic-wake", pytest.param("vortex-wake", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("mu", [0.1, 0.2, 0.3])
 def test_no_blade_of_ours_is_below_the_bound(inflow: str, mu: float):
-    design = make_design(advance_ratio=mu, twist="linear:-14")
+    design = make_design(mu=mu, twist="linear:-14")
     solution = solve(replace(design, models=replace(design.models, inflow=inflow))).require()
     factor = ideal_factor(mu, solution.ct)
     assert factor is not None

@@ -8,8 +8,8 @@ from inflow_tables import table
 from numpy.polynomial.chebyshev import chebvander
 from numpy.testing import assert_allclose
 
+from rotor.aero.inflow.interface import Wake
 from rotor.aero.inflow.vortex_lattice import Lattice
-from rotor.aero.inflow.wake_state import Wake
 from rotor.analysis.ideal_circulation import (
     BOUND_LATTICE,
     InducedPower,

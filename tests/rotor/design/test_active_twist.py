@@ -36,7 +36,7 @@ def turning(design: Design, *harmonics: Harmonic, **shape: tuple[float, ...]) ->
 @pytest.mark.parametrize("per_rev", [1, 2, 3])
 def test_energy_identity(inflow: str, per_rev: int):
     """Torque × Ω is the sum of the parts, whatever the pitch does around the disk."""
-    design = make_design(advance_ratio=0.25)
+    design = make_design(mu=0.25)
     design = replace(design, models=replace(design.models, inflow=inflow))
     solution = solve(turning(design, Harmonic(per_rev, 1.5 * DEGREE, 0.7))).require()
     assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-8)
@@ -44,7 +44,7 @@ def test_energy_identity(inflow: str, per_rev: int):
 
 def test_even_once_per_revolution_is_cyclic():
     """1/rev of the whole blade is what the swashplate does: the trim takes it back, and nothing else changes."""
-    design = make_design(advance_ratio=0.25)
+    design = make_design(mu=0.25)
     plain = solve(design).require()
     turned = turning(design, Harmonic(1, 2.0 * DEGREE, 0.5), stations=(0.0, 1.0), shape=(1.0, 1.0))
     solution = solve(turned).require()
@@ -55,7 +55,7 @@ def test_even_once_per_revolution_is_cyclic():
 
 
 def test_nothing_added_changes_nothing():
-    design = make_design(advance_ratio=0.2)
+    design = make_design(mu=0.2)
     assert solve(turning(design, Harmonic(2, 0.0))).power.total == solve(design).power.total
 
 
@@ -68,7 +68,7 @@ def test_field_by_hand():
 
 def test_exact_jacobian_is_not_disturbed():
     """Newton needs no more passes, and the Jacobian agrees with differences of the residuals."""
-    design = turning(make_design(advance_ratio=0.25), Harmonic(2, DEGREE))
+    design = turning(make_design(mu=0.25), Harmonic(2, DEGREE))
     problem = lay_out(replace(design, models=replace(design.models, inflow="pitt-peters")))
     done = newton(problem, first_guess(problem))
     assert done.converged
@@ -79,7 +79,7 @@ def test_exact_jacobian_is_not_disturbed():
 
 
 def test_it_rests_in_hover():
-    design = turning(make_design(advance_ratio=0.0), Harmonic(2, DEGREE))
+    design = turning(make_design(mu=0.0), Harmonic(2, DEGREE))
     solution = solve(design).require()
     assert solution.power.total == solve(replace(design, active_twist=None)).power.total
     assert "active-twist-rests" in [caveat.name for caveat in solution.caveats]
@@ -87,7 +87,7 @@ def test_it_rests_in_hover():
 
 def test_twice_per_revolution_pays_at_high_speed():
     """Published: 1–2 % (wind tunnel) to 3.3 % (computed, ±4°); a degree of 2/rev should give about a per cent."""
-    design = make_design(advance_ratio=0.35)
+    design = make_design(mu=0.35)
     fitted = fit(find_actuator("MFC_P1"), default_placement(2), Host(), design.rotor)
     swept = phase_sweep(design, fitted, 2)
     share = swept.gross_saving / swept.still.power.total
@@ -101,7 +101,7 @@ def test_twice_per_revolution_pays_at_high_speed():
 def test_it_begins_to_pay_with_speed():
     """Net of its mass 2/rev loses at low speed and gains at high speed, as the literature has it."""
     fitted = fit(find_actuator("MFC_P1_HT"), default_placement(1), Host(), make_design().rotor)
-    slow, fast = (phase_sweep(make_design(advance_ratio=mu), fitted, 2) for mu in (0.15, 0.35))
+    slow, fast = (phase_sweep(make_design(mu=mu), fitted, 2) for mu in (0.15, 0.35))
     assert slow.net_saving is not None
     assert fast.net_saving is not None
     assert slow.net_saving < 0.0 < fast.net_saving
@@ -118,7 +118,7 @@ def test_bad_input(make: object):
 
 
 def test_design_file_keeps_it(tmp_path: Path):
-    design = turning(make_design(advance_ratio=0.3), Harmonic(2, 0.015, 1.2), stations=(0.2, 0.9), shape=(0.0, 1.0))
+    design = turning(make_design(mu=0.3), Harmonic(2, 0.015, 1.2), stations=(0.2, 0.9), shape=(0.0, 1.0))
     write_case(design, tmp_path / "case.json")
     again = read_case(tmp_path / "case.json").active_twist
     assert again is not None
@@ -129,7 +129,7 @@ def test_design_file_keeps_it(tmp_path: Path):
 def test_solve_names_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     """A power that active twist has changed is not printed as that of the bare twist law."""
     file = str(tmp_path / "case.json")
-    write_case(turning(make_design(advance_ratio=0.3), Harmonic(2, 1.5 * DEGREE, 1.0)), file)
+    write_case(turning(make_design(mu=0.3), Harmonic(2, 1.5 * DEGREE, 1.0)), file)
     assert main(["solve", "--case", file]) == 0
     assert "active twist 2/rev ±1.50°, phase 57°" in capsys.readouterr().out
     assert main(["solve", "--case", file, "--json"]) == 0

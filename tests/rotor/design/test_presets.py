@@ -22,7 +22,7 @@ def test_tables_3_1_and_3_2():
     assert (rotor.radius, rotor.angular_speed, rotor.reference_chord, rotor.blades) == (8.1788, 27.0, 0.5273, 4)
     assert_allclose(rotor.blade.mass / rotor.radius, 13.92, rtol=1e-12)
     assert (tail.radius, tail.angular_speed, tail.chord, tail.blades, tail.arm) == (1.6764, 124.62, 0.2469, 4, 9.926)
-    assert make_design("thesis").condition.mass == 8322.4
+    assert make_design(preset="thesis").condition.mass == 8322.4
 
 
 def test_solidity_says_which():
@@ -59,7 +59,7 @@ def test_every_number_has_a_source():
 def test_standard_atmosphere():
     """ISO 2533, geopotential altitude: 2000 m 1.00649 kg/m³, 332.53 m/s; 4000 m 0.81913 kg/m³, 324.58 m/s."""
     for altitude, density, sound in ((0.0, 1.225, 340.294), (2000.0, 1.00649, 332.53), (4000.0, 0.81913, 324.58)):
-        condition = make_design(altitude=altitude).condition
+        condition = make_design(altitude_m=altitude).condition
         assert_allclose(condition.density, density, rtol=1e-5)
         assert_allclose(condition.sound_speed, sound, rtol=1e-4)
 
@@ -79,7 +79,7 @@ def test_designs_are_values():
 @pytest.mark.parametrize("preset", ["flight", "thesis"])
 @pytest.mark.parametrize("twist", [None, "segments:-12,-4@0.5", "ideal"])
 def test_design_files_round_trip(tmp_path: Path, preset: str, twist: str | None):
-    design = make_design(preset, twist=twist, advance_ratio=0.23, mass=7654.0, altitude=1200.0)
+    design = make_design(preset=preset, twist=twist, mu=0.23, mass_kg=7654.0, altitude_m=1200.0)
     path = tmp_path / "design.json"
     write_case(design, path)
     back = read_case(path)

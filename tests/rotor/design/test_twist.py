@@ -9,7 +9,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from rotor.design.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, QuadraticTwist, TwistLaw
+from rotor.design.twist import (
+    IdealTwist,
+    LinearTwist,
+    PiecewiseLinearTwist,
+    QuadraticTwist,
+    TwistLaw,
+    ideal_tip_pitch,
+)
 from rotor.design.twist_spec import parse_twist
 from rotor.files.make_design import make_design, uh60a_twist
 
@@ -69,7 +76,7 @@ def test_ideal_is_hyperbolic():
 
 
 def test_ideal_without_number_is_for_hover_at_this_weight():
-    light, heavy = (make_design(twist="ideal", mass=mass).twist for mass in (5000.0, 11000.0))
+    light, heavy = (make_design(twist="ideal", mass_kg=mass).twist for mass in (5000.0, 11000.0))
     assert isinstance(light, IdealTwist)
     assert isinstance(heavy, IdealTwist)
     assert 0.05 < light.tip_pitch < heavy.tip_pitch < 0.25
@@ -149,3 +156,10 @@ def test_bad_tables_are_one_sentence(tmp_path: Path, text: str, words: str):
 def test_own_classes_equal_their_specs():
     assert parse("linear:-8") == LinearTwist(math.radians(-8.0))
     assert parse("quadratic:6,-14") == QuadraticTwist(math.radians(6.0), math.radians(-14.0))
+
+
+def test_ideal_tip_pitch_carries_the_thrust():
+    """½σa(θ_tip − λ) r integrated over 0…1 is ¼σa(θ_tip − λ) = C_T with λ = √(C_T/2)."""
+    ct, solidity, slope = 0.0065, 0.0821, 5.9
+    pitch = ideal_tip_pitch(ct, solidity, slope)
+    assert_allclose(0.25 * solidity * slope * (pitch - math.sqrt(ct / 2.0)), ct, rtol=1e-14)

@@ -17,7 +17,7 @@ from rotor.trim.newton import newton
 
 
 def trimmed(preset: str, mu: float) -> tuple[Problem, np.ndarray]:
-    design = make_design(preset, advance_ratio=mu, twist="linear:-10")
+    design = make_design(preset=preset, mu=mu, twist="linear:-10")
     problem = lay_out(replace(design, models=replace(design.models, inflow="pitt-peters")))
     result = newton(problem, first_guess(problem))
     assert result.converged
@@ -106,7 +106,7 @@ def test_wanted_flapping_is_flown():
     """β1c given: the trim keeps it, and the hinge offset carries a hub moment."""
     from rotor.trim.solve import solve
 
-    design = make_design(advance_ratio=0.2)
+    design = make_design(mu=0.2)
     tilted = replace(design, condition=replace(design.condition, flap_1c=math.radians(-2.0)))
     solution = solve(tilted).require()
     assert_allclose(math.degrees(solution.controls.flap_1c), -2.0, rtol=1e-12)

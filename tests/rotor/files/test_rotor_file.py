@@ -18,8 +18,7 @@ from rotor.airfoil.regrid import on_run_time_grid
 from rotor.airfoil.sections import load_installed
 from rotor.assets import asset_path
 from rotor.design.aircraft import Aircraft
-from rotor.files.rotor_file import read_aircraft
-from rotor.files.shipped import read_rotor_file
+from rotor.files.rotor_file import read_aircraft, read_rotor_file
 from rotor.trim.solve import solve
 
 GOOD = """\
@@ -214,7 +213,7 @@ def test_what_was_assumed_of_the_files_is_said_with_the_answer():
     polar = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars[2]
     one = '\n[sections.mine]\npolars = "a.txt"\noutline = "naca0012"\n'
     craft = read(GOOD.replace('"naca0012"', '"mine"', 1) + one, **{"a.txt": polar_file(polar)})
-    caveats = solve(make_design(aircraft=craft, advance_ratio=0.2)).require().caveats
+    caveats = solve(make_design(rotor=craft, mu=0.2)).require().caveats
     assert [caveat.name for caveat in caveats] == ["rotor-file", "no-tail-rotor"]
 
 
@@ -225,7 +224,7 @@ def test_the_examples_in_the_docs_are_rotor_files(page: str):
     assert found is not None
     polars = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars
     files = {f"n23012_m0{k + 1}.txt": polar_file(polars[k]) for k in (1, 2, 3)}
-    assert solve(make_design(aircraft=read(found[1], **files), advance_ratio=0.2)).converged
+    assert solve(make_design(rotor=read(found[1], **files), mu=0.2)).converged
 
 
 def test_files_beside_the_rotor_file_are_found(tmp_path: Path):

@@ -15,8 +15,7 @@ from rotor.aero.inflow.vortex_lattice import shared_azimuths
 from rotor.analysis.ideal_bound import find_bound, ideal_factor
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.files.design_file import case_of, design_of
-from rotor.files.rotor_file import read_aircraft
-from rotor.files.shipped import find_aircraft, shipped_aircraft
+from rotor.files.rotor_file import find_aircraft, read_aircraft, shipped_aircraft
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.objective import at_condition
 from rotor.optimisation.search import Search, optimise
@@ -53,7 +52,7 @@ def test_every_number_has_a_source(key: str):
 @pytest.mark.parametrize("key", OTHERS)
 def test_hover_between_the_bounds_of_momentum_theory(key: str):
     """Figures of merit of full-scale rotors at design thrust lie between 0.6 and 0.8; none beats momentum theory."""
-    solution = solve(at(make_design(aircraft=key), 0.0)).require()
+    solution = solve(at(make_design(rotor=key), 0.0)).require()
     assert solution.figure_of_merit is not None
     assert 0.60 < solution.figure_of_merit < 0.80
     assert 1.0 < solution.induced_power_factor < 1.15
@@ -64,7 +63,7 @@ def test_the_r22_hovers_and_cruises_on_its_engine():
 
     Out of ground effect at full weight it hovers on less; its fastest cruise, 96 kt, takes about the continuous power.
     """
-    design, knot, horsepower = make_design(aircraft="r22"), 1852.0 / 3600.0, 745.7
+    design, knot, horsepower = make_design(rotor="r22"), 1852.0 / 3600.0, 745.7
     hover = solve(at(design, 0.0)).require().power.total / horsepower
     cruise = solve(at(design, 96.0 * knot / design.rotor.tip_speed)).require().power.total / horsepower
     assert 90.0 < hover * 1.05 < 131.0
@@ -73,7 +72,7 @@ def test_the_r22_hovers_and_cruises_on_its_engine():
 
 @pytest.mark.parametrize("key", OTHERS)
 def test_shaft_power_is_the_sum_of_its_parts(key: str):
-    solution = solve(at(make_design(aircraft=key), 0.2)).require()
+    solution = solve(at(make_design(rotor=key), 0.2)).require()
     assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-8)
 
 
@@ -81,7 +80,7 @@ def test_shaft_power_is_the_sum_of_its_parts(key: str):
 @pytest.mark.parametrize(("key", "low", "high"), [("r22", -0.010, 0.010), ("s61", 0.0, 0.025)])
 def test_dynamic_wake_of_two_and_of_five_blades_is_near_the_vortex_wake(key: str, low: float, high: float):
     """Main-rotor power; on the UH-60A's four blades the two models differ by −0.9…+2.4 % (DESIGN §5)."""
-    design = make_design(aircraft=key)
+    design = make_design(rotor=key)
     for mu in (0.1, 0.25):
         ours, oracle = (
             solve(at(design, mu, inflow)).require().power.main_rotor for inflow in ("dynamic-wake", "vortex-wake")
@@ -93,7 +92,7 @@ def test_dynamic_wake_of_two_and_of_five_blades_is_near_the_vortex_wake(key: str
 @pytest.mark.parametrize("key", OTHERS)
 @pytest.mark.parametrize("preset", ["flight", "thesis"])
 def test_trims_over_the_flight_envelope(key: str, preset: str):
-    design = make_design(preset, aircraft=key)
+    design = make_design(preset=preset, rotor=key)
     for mass in (0.6, 0.8, 1.0):
         for altitude in (0.0, 2000.0):
             for mu in (0.0, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3):
@@ -105,7 +104,7 @@ def test_trims_over_the_flight_envelope(key: str, preset: str):
 
 
 def test_the_thesis_preset_on_another_rotor_says_what_it_is():
-    solution = solve(make_design("thesis", aircraft="r22", advance_ratio=0.2)).require()
+    solution = solve(make_design(preset="thesis", rotor="r22", mu=0.2)).require()
     assert solution.design.twist == shipped_aircraft("r22").rotor.builtin_twist
     assert [one.name for one in solution.caveats] == ["thesis-models"]
     assert "Robinson R22" in solution.caveats[0].sentence
@@ -115,22 +114,22 @@ def test_the_thesis_preset_on_another_rotor_says_what_it_is():
 def test_an_aircraft_without_tail_rotor_pays_the_documents_share():
     text = own("r22")["my.toml"]
     craft = read_aircraft("my.toml", {"my.toml": re.sub(r"(?s)\[tail_rotor\].*\[airframe\]", "[airframe]", text)})
-    solution = solve(make_design(aircraft=craft, advance_ratio=0.2)).require()
+    solution = solve(make_design(rotor=craft, mu=0.2)).require()
     assert_allclose(solution.power.tail, 0.05 * solution.power.main_rotor, rtol=1e-12)
     assert "no-tail-rotor" in [one.name for one in solution.caveats]
 
 
 def test_a_plain_teetering_hub_says_what_coning_means():
     text = own("r22")["my.toml"].replace("teetering-with-coning-hinges", "teetering")
-    solution = solve(make_design(aircraft=read_aircraft("my.toml", {"my.toml": text})))
+    solution = solve(make_design(rotor=read_aircraft("my.toml", {"my.toml": text})))
     assert [one.name for one in solution.caveats] == ["teetering"]
-    assert solve(make_design(aircraft="r22")).caveats == ()
+    assert solve(make_design(rotor="r22")).caveats == ()
 
 
 @pytest.mark.parametrize("key", OTHERS)
 def test_a_linear_optimum_of_another_rotor(key: str):
     """No worse than the blade as built, and not a miracle either."""
-    design = make_design(aircraft=key, advance_ratio=0.15)
+    design = make_design(rotor=key, mu=0.15)
     search = Search(
         design=design, concept=find_concept("linear"), objective=at_condition(design, "total"), starts=1, band=False
     )
@@ -142,10 +141,10 @@ def test_a_linear_optimum_of_another_rotor(key: str):
 
 @pytest.mark.parametrize("key", SHIPPED_ROTORS)
 def test_design_files_name_a_shipped_rotor_and_hold_ones_own(key: str):
-    design = make_design(aircraft=key, twist="builtin", advance_ratio=0.23)
+    design = make_design(rotor=key, twist="builtin", mu=0.23)
     assert case_of(design)["rotor"] == key
     assert design_of(json.loads(json.dumps(case_of(design)))) == design
-    mine = make_design(aircraft=read_aircraft("my.toml", own(key)), twist="builtin", advance_ratio=0.23)
+    mine = make_design(rotor=read_aircraft("my.toml", own(key)), twist="builtin", mu=0.23)
     back = design_of(json.loads(json.dumps(case_of(mine))))
     assert back == mine
     assert pickle.loads(pickle.dumps(mine)) == mine
@@ -162,7 +161,7 @@ def test_design_files_of_version_1_are_the_uh60a():
 
 
 def test_a_shipped_twist_goes_on_any_rotor():
-    design = make_design(aircraft="r22", twist="uh60a+linear:2")
+    design = make_design(rotor="r22", twist="uh60a+linear:2")
     assert design.twist.spec() == "uh60a+linear:2"
     assert make_design(twist="s61").twist == shipped_aircraft("s61").rotor.builtin_twist
 
@@ -176,7 +175,7 @@ def test_the_bound_is_of_the_rotor_it_was_computed_for():
 @pytest.mark.slow
 def test_fewer_blades_have_a_greater_bound():
     """Two blades lose more by their number than five: the least induced power is above momentum theory's by more."""
-    bounds = {key: find_bound(make_design(aircraft=key, advance_ratio=0.2)) for key in SHIPPED_ROTORS}
+    bounds = {key: find_bound(make_design(rotor=key, mu=0.2)) for key in SHIPPED_ROTORS}
     assert bounds["r22"].any_circulation > bounds["uh60a"].any_circulation > bounds["s61"].any_circulation > 1.0
 
 

@@ -40,7 +40,7 @@ def test_slopes_are_those_of_the_law(concept: Concept):
 def test_law_is_zero_at_three_quarters_and_survives_its_spec(concept: Concept):
     law = concept.twist(somewhere(concept))
     assert_allclose(law(0.75), 0.0, atol=1e-15)
-    back = parse_twist(law.spec(), builtin=law, ideal_tip_pitch=0.0)
+    back = parse_twist(law.spec(), builtin=law)
     assert_allclose(back(R), law(R), atol=1e-7)
     assert back.spec() == law.spec()
 
@@ -90,13 +90,13 @@ def test_slope_by_a_break_is_the_jump_of_rate_beyond_it():
 
 def test_two_airfoils_change_the_blade_and_survive_a_design_file(tmp_path: Path):
     concept = find_concept("two-segment-two-airfoils", [0.6])
-    design = concept.apply(make_design(advance_ratio=0.25), [math.radians(-8.0), math.radians(-14.0)])
+    design = concept.apply(make_design(mu=0.25), [math.radians(-8.0), math.radians(-14.0)])
     assert airfoils_spec(design.rotor) == "sc1094r8,sc1095@0.6"
     write_case(design, tmp_path / "design.json")
     back = read_case(tmp_path / "design.json")
     assert back.rotor == design.rotor
     assert_allclose(solve(back).power.total, solve(design).power.total, rtol=1e-8)
-    thesis = concept.apply(make_design("thesis"), [0.0, 0.0])
+    thesis = concept.apply(make_design(preset="thesis"), [0.0, 0.0])
     assert airfoils_spec(thesis.rotor) == "sc1094r8,sc1095-thesis@0.6"
 
 
@@ -124,7 +124,7 @@ def test_a_change_on_top_of_a_law_that_stays():
     assert airfoils_spec(changed.rotor) == "sc1094r8,sc1095@0.5"
     assert_allclose(changed.twist(R) - design.twist(R), concept.base.twist(values)(R))  # pyright: ignore[reportAttributeAccessIssue]
     assert_allclose(nearest(on_top(CONCEPTS["linear"], design.twist), design.twist), [0.0], atol=1e-9)
-    law = parse_twist("linear:+3+uh60a", builtin=design.twist, ideal_tip_pitch=0.0)
+    law = parse_twist("linear:+3+uh60a", builtin=design.twist)
     assert_allclose(law(R), math.radians(3.0) * (R - 0.75) + design.twist(R))
 
 
@@ -137,8 +137,8 @@ def test_a_change_on_top_of_a_law_that_stays():
         (lambda: find_concept("three-segment", [0.8, 0.4]), "must ascend"),
         (lambda: restrict(CONCEPTS["quadratic"], {"rate": 0.0}), "no parameter 'rate'"),
         (lambda: restrict(CONCEPTS["linear"], {"rate": 0.0}), "nothing left to vary"),
-        (lambda: parse_twist("spline:1,2@0.2,0.8", builtin=LinearTwist(0.0), ideal_tip_pitch=0.0), "four or more"),
-        (lambda: parse_twist("spline:1,2,3,4@0.2,0.1,0.8,1", builtin=LinearTwist(0.0), ideal_tip_pitch=0.0), "ascend"),
+        (lambda: parse_twist("spline:1,2@0.2,0.8"), "four or more"),
+        (lambda: parse_twist("spline:1,2,3,4@0.2,0.1,0.8,1"), "ascend"),
     ],
 )
 def test_bad_input_is_one_sentence(call, words: str):

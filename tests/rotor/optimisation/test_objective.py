@@ -21,7 +21,7 @@ from rotor.trim.solve import solve
 
 
 def small(mu: float, **choices: float) -> Design:
-    design = make_design(advance_ratio=mu, **choices)  # pyright: ignore[reportArgumentType]
+    design = make_design(mu=mu, **choices)  # pyright: ignore[reportArgumentType]
     return replace(design, models=replace(design.models, elements=20, azimuths=48))
 
 
@@ -60,7 +60,7 @@ def test_what_does_not_trim_has_no_power():
 def test_stalled_share_has_exact_slopes(preset: str, mu: float, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr(newton, "TOLERANCE", 1e-12)
     monkeypatch.setattr(newton, "INFLOW_TOLERANCE", 1e-11)
-    design = make_design(preset, advance_ratio=mu, mass=10500.0 if mu == 0.0 else 8800.0)
+    design = make_design(preset=preset, mu=mu, mass_kg=10500.0 if mu == 0.0 else 8800.0)
     design = replace(design, models=replace(design.models, elements=20, azimuths=48))
     concept, values, step = CONCEPTS["quadratic"], np.array([0.05, -0.3]), 1e-6
     centre = solve(concept.apply(design, values))
@@ -77,7 +77,7 @@ def test_stalled_share_has_exact_slopes(preset: str, mu: float, monkeypatch: pyt
 def test_stalled_share_is_near_the_counted_area():
     """Both see the same cells; the smooth one differs by what is within half a degree of stall."""
     for mu in (0.3, 0.35, 0.38):
-        solution = solve(make_design(advance_ratio=mu, twist="linear:-4"))
+        solution = solve(make_design(mu=mu, twist="linear:-4"))
         share, _ = stalled_share(Adjoint(solution))
         assert_allclose(share, solution.stalled_area, atol=0.004)
 
@@ -88,7 +88,7 @@ MISSION = "# a day\nmu,mass_kg,altitude_m,hours\n0,9000,0,0.5   # hover\n\n0.2,,
 def test_mission_file(tmp_path: Path):
     path = tmp_path / "mission.csv"
     path.write_text(MISSION)
-    first, second, third = read_mission(path, make_design(mass=8000.0, altitude=200.0))
+    first, second, third = read_mission(path, make_design(mass_kg=8000.0, altitude_m=200.0))
     assert (first.condition.advance_ratio, first.condition.mass, first.hours) == (0.0, 9000.0, 0.5)
     assert (second.condition.mass, second.condition.altitude, second.hours) == (8000.0, 1500.0, 2.0)
     assert (third.condition.advance_ratio, third.condition.altitude, third.hours) == (0.3, 200.0, 1.0)

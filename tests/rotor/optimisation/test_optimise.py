@@ -23,7 +23,7 @@ DEGREE = math.radians(1.0)
 
 
 def small(mu: float, twist: str | None = None) -> Design:
-    design = make_design(advance_ratio=mu, twist=twist)
+    design = make_design(mu=mu, twist=twist)
     return replace(design, models=replace(design.models, elements=20, azimuths=48))
 
 
@@ -70,7 +70,7 @@ def test_grid_finds_nothing_better_in_two_variables():
 @pytest.mark.slow
 @pytest.mark.parametrize("mu", [0.0, 0.1, 0.2, 0.3, 0.35])
 def test_fine_grid_finds_nothing_better(mu: float):
-    design = make_design(advance_ratio=mu)
+    design = make_design(mu=mu)
     rates = np.radians(np.arange(-30.0, 10.01, 0.1))
     powers = grid_powers(design, "linear", rates)
     linear = optimise(Search(design, CONCEPTS["linear"]))

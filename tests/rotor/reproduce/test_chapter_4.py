@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import pytest
 
-from rotor.aero.inflow.models import INFLOW_MODELS
+from rotor.aero.inflow import INFLOW_MODELS
 from rotor.reproduce import Report, Verdict, beside_data
 from rotor.reproduce import comparison as side_by_side
 from rotor.reproduce import optimum_twist as figures

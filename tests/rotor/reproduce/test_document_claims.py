@@ -9,7 +9,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from rotor.design.presets import PRESETS
+from rotor.design.design import PRESETS
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
 
@@ -19,7 +19,7 @@ RATES = (0, -4, -8, -12, -16)
 @cache
 def power_kw(preset: str, rate: float, mu: float) -> float:
     """Main-rotor power of a linear twist [kW]."""
-    return solve(make_design(preset, twist=f"linear:{rate}", advance_ratio=mu)).require().power.main_rotor / 1e3
+    return solve(make_design(preset=preset, twist=f"linear:{rate}", mu=mu)).require().power.main_rotor / 1e3
 
 
 def best(preset: str, mu: float) -> int:

@@ -173,7 +173,7 @@ def test_packaged_studies_are_good(path: Path):
 def test_rows_are_what_single_trims_answer():
     study = parse_study(SMALL)
     for row in work(study, 0, study.count):
-        design = make_design(twist=f"linear:{row['rate_deg']:g}", advance_ratio=row["mu"])
+        design = make_design(twist=f"linear:{row['rate_deg']:g}", mu=row["mu"])
         models = replace(design.models, inflow="pitt-peters", elements=12, azimuths=24)
         alone = solve(replace(design, models=models))
         assert (row["status"], row["twist"]) == ("converged", design.twist.spec())

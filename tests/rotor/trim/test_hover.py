@@ -21,7 +21,7 @@ SIGMA, SLOPE = 0.0821, 5.9
 
 
 def hover(preset: str = "flight", twist: str = "linear:-12", mass: float = 8322.4, **models: object) -> Solution:
-    design = make_design(preset, twist=twist, advance_ratio=0.0, mass=mass)
+    design = make_design(preset=preset, twist=twist, mu=0.0, mass_kg=mass)
     return solve(replace(design, models=replace(design.models, **models))).require()
 
 
@@ -131,7 +131,7 @@ def test_collective_agrees_with_a_root_finder():
 
 
 def test_too_heavy_says_so_in_one_sentence():
-    solution = solve(make_design(advance_ratio=0.0, mass=20_000.0, altitude=4000.0))
+    solution = solve(make_design(mu=0.0, mass_kg=20_000.0, altitude_m=4000.0))
     assert not solution.converged
     assert "lower the weight or the altitude" in solution.message
     with pytest.raises(RuntimeError, match="Not trimmed"):
@@ -140,7 +140,7 @@ def test_too_heavy_says_so_in_one_sentence():
 
 def test_closed_form_uses_each_sections_own_lift_curve():
     """Eq. (3.3) on the flown blade: slope and zero-lift pitch are those of the section there, R8 drooped by 1°."""
-    problem = lay_out(make_design("flight", advance_ratio=0.0))
+    problem = lay_out(make_design(preset="flight", mu=0.0))
     slope, zero = lift_curve(problem)
     for radius, name in ((0.3, "sc1095"), (0.65, "sc1094r8"), (0.95, "sc1095")):
         element = int(np.argmin(np.abs(problem.disk.r - radius)))

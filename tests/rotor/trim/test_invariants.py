@@ -14,7 +14,7 @@ from rotor.trim.solve import solve
 
 def test_scaling_at_fixed_mach_leaves_coefficients():
     """Twice the radius at half the speed of rotation, masses to match: all coefficients and angles stay."""
-    design = make_design(advance_ratio=0.25)
+    design = make_design(mu=0.25)
     rotor, blade = design.rotor, design.rotor.blade
     big = replace(
         rotor,
@@ -46,7 +46,7 @@ def test_scaling_at_fixed_mach_leaves_coefficients():
 
 def test_start_of_azimuth_does_not_matter():
     """Uniform grids of a multiple share stations: 60 azimuths are every second of 120."""
-    design = make_design(advance_ratio=0.2)
+    design = make_design(mu=0.2)
     coarse = solve(replace(design, models=replace(design.models, azimuths=60))).require()
     fine = solve(design).require()
     assert_allclose(coarse.power.total, fine.power.total, rtol=1e-4)
@@ -54,8 +54,8 @@ def test_start_of_azimuth_does_not_matter():
 
 
 def test_warm_start_changes_nothing():
-    design = make_design(advance_ratio=0.22, twist="linear:-9")
-    other = solve(make_design(advance_ratio=0.222, twist="linear:-9.5"))
+    design = make_design(mu=0.22, twist="linear:-9")
+    other = solve(make_design(mu=0.222, twist="linear:-9.5"))
     cold, warm = solve(design).require(), solve(design, other).require()
     assert_allclose(warm.power.total, cold.power.total, rtol=1e-9)
     assert warm.passes <= cold.passes
@@ -65,16 +65,16 @@ def test_twist_offset_is_absorbed_by_collective():
     """A constant added to the twist is collective: the same rotor."""
     from rotor.design.twist import TableTwist
 
-    a = solve(make_design(advance_ratio=0.2, twist=LinearTwist(-0.2))).require()
+    a = solve(make_design(mu=0.2, twist=LinearTwist(-0.2))).require()
     table = TableTwist((0.0, 1.0), (0.3, 0.1))
-    b = solve(make_design(advance_ratio=0.2, twist=table)).require()
+    b = solve(make_design(mu=0.2, twist=table)).require()
     assert_allclose(b.power.total, a.power.total, rtol=1e-10)
 
 
 @pytest.mark.parametrize("preset", ["flight", "thesis"])
 def test_low_speed_tends_to_symmetry(preset: str):
     """With no losses and uniform inflow, µ → 0 leaves no azimuthal dependence: hover's limit of the trim."""
-    design = make_design(preset, advance_ratio=1e-4, twist="linear:-8")
+    design = make_design(preset=preset, mu=1e-4, twist="linear:-8")
     models = replace(design.models, inflow="uniform", tip_loss=False, hub_loss=False)
     solution = solve(replace(design, models=models)).require()
     assert np.ptp(solution.disk.dct, axis=1).max() < 2e-3 * solution.disk.dct.max()
@@ -83,7 +83,7 @@ def test_low_speed_tends_to_symmetry(preset: str):
 
 def test_uniform_inflow_hover_limit_is_momentum_theory():
     """µ → 0, uniform inflow: induced power T v_h, within the 10⁻⁴ of µ²."""
-    design = make_design(advance_ratio=1e-4)
+    design = make_design(mu=1e-4)
     models = replace(design.models, inflow="uniform", tip_loss=False, hub_loss=False)
     solution = solve(replace(design, models=models)).require()
     assert_allclose(solution.power.induced / design.power_unit, solution.ct**1.5 / math.sqrt(2.0), rtol=1e-4)
@@ -92,7 +92,7 @@ def test_uniform_inflow_hover_limit_is_momentum_theory():
 @pytest.mark.parametrize(("preset", "mu"), [("flight", 0.0), ("thesis", 0.0), ("flight", 0.3), ("thesis", 0.3)])
 def test_elements_converge(preset: str, mu: float):
     """Figs. 3.7, 3.8: power settles with the number of elements; 40 are within 0.6 % of 320, and 80 nearer."""
-    design = make_design(preset, twist="linear:-16", advance_ratio=mu)
+    design = make_design(preset=preset, twist="linear:-16", mu=mu)
 
     def power(elements: int) -> float:
         return solve(replace(design, models=replace(design.models, elements=elements))).require().power.main_rotor
@@ -105,7 +105,7 @@ def test_elements_converge(preset: str, mu: float):
 
 def test_azimuths_converge():
     """Fig. 3.9: the document wants at least 100 azimuths; here 120 are within 0.02 % of 720."""
-    design = make_design("thesis", twist="linear:-16", advance_ratio=0.3)
+    design = make_design(preset="thesis", twist="linear:-16", mu=0.3)
 
     def power(azimuths: int) -> float:
         return solve(replace(design, models=replace(design.models, azimuths=azimuths))).require().power.main_rotor
@@ -117,7 +117,7 @@ def test_azimuths_converge():
 
 def test_reverse_flow_area_is_the_circle():
     """The region r < −µ sin ψ is a circle of diameter µ, area µ²/4 of the disk; the cut-out's part is not blade."""
-    design = make_design(advance_ratio=0.4)
+    design = make_design(mu=0.4)
     fine = solve(replace(design, models=replace(design.models, inflow="uniform", elements=400, azimuths=720))).require()
     mu_x = 0.4 * math.cos(fine.controls.shaft_tilt)
     r0 = design.rotor.blade.root_cutout

@@ -24,7 +24,7 @@ TWISTS = ["uh60a", "linear:0", "linear:-16", "segments:-20,-4@0.5", "quadratic:8
 @pytest.mark.parametrize("twist", TWISTS)
 def test_energy_identity(inflow: str, mu: float, twist: str):
     """P_shaft = Σ(λ_i dF_z + U dD) + D·V: torque, dissipation and trim are computed apart and must meet."""
-    design = make_design(twist=twist, advance_ratio=mu)
+    design = make_design(twist=twist, mu=mu)
     solution = solve(replace(design, models=replace(design.models, inflow=inflow))).require()
     assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-9)
 
@@ -34,7 +34,7 @@ def test_energy_identity(inflow: str, mu: float, twist: str):
 @pytest.mark.parametrize("mu", [0.0, 0.12, 0.3])
 @pytest.mark.parametrize("losses", [True, False])
 def test_energy_identity_over_conditions(mass: float, altitude: float, mu: float, losses: bool):
-    design = make_design(advance_ratio=mu, mass=mass, altitude=altitude)
+    design = make_design(mu=mu, mass_kg=mass, altitude_m=altitude)
     design = replace(design, models=replace(design.models, tip_loss=losses, hub_loss=losses))
     solution = solve(design).require()
     assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-9)
@@ -42,7 +42,7 @@ def test_energy_identity_over_conditions(mass: float, altitude: float, mu: float
 
 def test_energy_identity_with_wanted_flapping():
     """Flapping moves air, but over a revolution its work on a periodic blade is nothing."""
-    design = make_design(advance_ratio=0.25)
+    design = make_design(mu=0.25)
     design = replace(design, condition=replace(design.condition, flap_1c=0.04, flap_1s=-0.03))
     solution = solve(design).require()
     assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-9)
@@ -50,7 +50,7 @@ def test_energy_identity_with_wanted_flapping():
 
 def test_section_identity():
     """U_T dF_x = U_P dF_z + U dD at every element: lift does no work on its own stream."""
-    design = make_design(advance_ratio=0.35)
+    design = make_design(mu=0.35)
     problem = lay_out(replace(design, models=replace(design.models, inflow="pitt-peters")))
     one = run_pass(problem, np.array([0.2, 0.02, -0.1, 0.1, 0.06, 0.0, 0.0, 0.01]))
     speed = np.hypot(one.u_t, one.u_p)
@@ -61,7 +61,7 @@ def test_section_identity():
 
 def test_thesis_torque_is_not_power():
     """As printed (3.6) the shaft sees no axial flow and draws power from the stream: why the parts are summed there."""
-    solution = solve(make_design("thesis", advance_ratio=0.3)).require()
+    solution = solve(make_design(preset="thesis", mu=0.3)).require()
     assert solution.power.shaft < 0.5 * solution.power.main_rotor
 
 
@@ -71,7 +71,7 @@ def test_linear_inflow_cannot_see_twist(name: str):
     for mu in (0.15, 0.3):
         induced = []
         for twist in ("linear:0", "linear:-8", "linear:-16"):
-            design = make_design(twist=twist, advance_ratio=mu)
+            design = make_design(twist=twist, mu=mu)
             design = replace(design, models=replace(design.models, inflow=name))
             induced.append(solve(design).require().power.induced)
         assert np.ptp(induced) < 0.01 * np.mean(induced)
@@ -93,7 +93,7 @@ def test_eq_3_15_with_its_first_coefficient_corrected(mu: float):
 
 def test_numerical_profile_power_of_a_constant_drag():
     """Σ U dD on the grid for C_d = 0.01, U_P = 0 against the closed form less the cut-out's share."""
-    problem = lay_out(make_design("thesis", advance_ratio=0.3))
+    problem = lay_out(make_design(preset="thesis", mu=0.3))
     one = run_pass(problem, np.zeros(8) + np.array([0, 0, 0, 0, 0, 0, 0, 1e-9]))
     loads = one.loads.copy()
     loads[kernel.CD] = 0.01
@@ -111,7 +111,7 @@ def test_numerical_profile_power_of_a_constant_drag():
 
 def test_parts_and_parasite_by_hand():
     """µ 0.3: D = ½·1.225·(66.25)²·3.2646 = 8776 N, times V = 581 kW."""
-    power = solve(make_design(advance_ratio=0.3)).require().power
+    power = solve(make_design(mu=0.3)).require().power
     assert_allclose(power.parasite, 581.4e3, rtol=1e-3)
     assert_allclose(power.main_rotor, power.induced + power.profile + power.parasite, rtol=1e-15)
     assert_allclose(power.total, power.main_rotor + power.tail, rtol=1e-15)
@@ -119,6 +119,6 @@ def test_parts_and_parasite_by_hand():
 
 def test_induced_power_is_momentum_theory_with_uniform_inflow():
     """Uniform inflow: Σ λ0 dF_z = λ0 C_T."""
-    design = make_design(advance_ratio=0.25)
+    design = make_design(mu=0.25)
     solution = solve(replace(design, models=replace(design.models, inflow="uniform"))).require()
     assert_allclose(solution.power.induced, solution.controls.lambda0 * solution.ct * design.power_unit, rtol=1e-9)

@@ -9,7 +9,7 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.design.presets import PRESETS
+from rotor.design.design import PRESETS
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -55,7 +55,7 @@ def check(solution: Solution) -> None:
 def test_converged_or_a_sentence(
     preset: str, inflow: str, mu: float, rate: float, mass: float, altitude: float, losses: bool
 ):
-    design = make_design(preset, twist=f"linear:{rate:.6f}", advance_ratio=mu, mass=mass, altitude=altitude)
+    design = make_design(preset=preset, twist=f"linear:{rate:.6f}", mu=mu, mass_kg=mass, altitude_m=altitude)
     models = replace(design.models, inflow=inflow, tip_loss=losses, hub_loss=losses)
     check(solve(replace(design, models=models)))
 
@@ -68,7 +68,7 @@ def test_converged_or_a_sentence(
 )
 def test_segments_converge_or_say_so(rates: list[float], first: float, gap: float, mu: float):
     breaks = ",".join(f"{b:.6f}" for b in (first, first + gap)[: len(rates) - 1])
-    check(solve(make_design(twist=f"segments:{','.join(f'{r:.6f}' for r in rates)}@{breaks}", advance_ratio=mu)))
+    check(solve(make_design(twist=f"segments:{','.join(f'{r:.6f}' for r in rates)}@{breaks}", mu=mu)))
 
 
 @pytest.mark.parametrize("preset", PRESETS)
@@ -76,29 +76,29 @@ def test_segments_converge_or_say_so(rates: list[float], first: float, gap: floa
 def test_normal_flight_always_trims(preset: str, rate: int):
     """Reference weight at sea level up to µ 0.35: no excuse."""
     for mu in (0.0, 0.05, 0.1, 0.2, 0.3, 0.35):
-        solution = solve(make_design(preset, twist=f"linear:{rate}", advance_ratio=mu))
+        solution = solve(make_design(preset=preset, twist=f"linear:{rate}", mu=mu))
         check(solution)
         assert solution.converged, solution.message
 
 
 def test_caveats_are_named():
-    slow = make_design(advance_ratio=0.06)
+    slow = make_design(mu=0.06)
     linear = replace(slow, models=replace(slow.models, inflow="pitt-peters"))
     assert "low-speed-inflow" in {c.name for c in solve(linear).caveats}
     assert "low-speed-inflow" not in {c.name for c in solve(slow).caveats}
-    assert "low-speed-inflow" in {c.name for c in solve(make_design(advance_ratio=0.03)).caveats}
-    thesis = {c.name for c in solve(make_design("thesis", advance_ratio=0.35)).caveats}
+    assert "low-speed-inflow" in {c.name for c in solve(make_design(mu=0.03)).caveats}
+    thesis = {c.name for c in solve(make_design(preset="thesis", mu=0.35)).caveats}
     assert {"no-compressibility", "polynomial-clamped"} <= thesis
-    assert not solve(make_design(advance_ratio=0.15, mass=6000.0)).caveats
+    assert not solve(make_design(mu=0.15, mass_kg=6000.0)).caveats
 
 
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
         ({"preset": "best"}, "'best'"),
-        ({"mass": float("nan")}, "mass nan"),
-        ({"advance_ratio": -0.1}, "-0.1"),
-        ({"altitude": 20_000.0}, "20000 m"),
+        ({"mass_kg": float("nan")}, "mass nan"),
+        ({"mu": -0.1}, "-0.1"),
+        ({"altitude_m": 20_000.0}, "20000 m"),
         ({"twist": "linear:east"}, "'east'"),
     ],
 )
@@ -119,7 +119,7 @@ def test_two_hundred_random_blades_trim_with_the_dynamic_wake():
         first = random.uniform(0.25, 0.6)
         second = first + random.uniform(0.05, 0.35)
         twist = f"segments:{rates}@{first:.4f},{second:.4f}"
-        solution = solve(make_design(twist=twist, advance_ratio=random.uniform(0.03, 0.4)))
+        solution = solve(make_design(twist=twist, mu=random.uniform(0.03, 0.4)))
         check(solution)
         lost += not solution.converged
     assert lost <= 2

@@ -38,7 +38,7 @@ def _tight(monkeypatch: pytest.MonkeyPatch):
 
 def small(preset: str, inflow: str | None, mu: float) -> Design:
     """A coarse grid: exactness of a gradient does not depend on it."""
-    design = make_design(preset, advance_ratio=mu)
+    design = make_design(preset=preset, mu=mu)
     models = replace(design.models, elements=16, azimuths=36, inflow=inflow or design.models.inflow)
     return replace(design, models=models)
 
@@ -103,7 +103,7 @@ def test_mission(name: str):
 @pytest.mark.parametrize("mu", [0.1, 0.2, 0.35])
 @pytest.mark.parametrize("name", CONCEPTS)
 def test_full_grid(name: str, mu: float, quantity):
-    design = make_design(advance_ratio=mu)
+    design = make_design(mu=mu)
     check(design, name, at_condition(design, quantity))
 
 

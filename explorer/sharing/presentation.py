@@ -19,7 +19,7 @@ Point = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
-class Shown:
+class PresentedView:
     """What a presenter shows."""
 
     inputs: Inputs
@@ -32,7 +32,7 @@ class Shown:
     """Position and the point looked at [m]."""
 
 
-Listener = Callable[[Shown | None], None]
+Listener = Callable[[PresentedView | None], None]
 """Hears what is shown; None: the presenter has gone."""
 
 
@@ -45,12 +45,12 @@ def follow_name(secret: str) -> str:
     return hashlib.sha256(secret.encode()).hexdigest()[:12]
 
 
-class Stage:
+class Presentations:
     """The presentations of one server."""
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._shown: dict[str, Shown] = {}
+        self._shown: dict[str, PresentedView] = {}
         self._listeners: dict[str, dict[int, Listener]] = {}
         self._watchers: dict[str, Callable[[int], None]] = {}
         self._next = 0
@@ -61,7 +61,7 @@ class Stage:
             self._watchers[follow_name(secret)] = watcher
         self._count(follow_name(secret))
 
-    def present(self, secret: str, shown: Shown) -> None:
+    def present(self, secret: str, shown: PresentedView) -> None:
         """Show this to everyone who follows."""
         name = follow_name(secret)
         with self._lock:
@@ -108,7 +108,7 @@ class Stage:
             watcher(count)
 
 
-def _tell(listeners: Iterable[Listener], shown: Shown | None) -> None:
+def _tell(listeners: Iterable[Listener], shown: PresentedView | None) -> None:
     """One page that cannot follow, because its browser is just leaving, must not keep it from the others."""
     for listener in listeners:
         try:

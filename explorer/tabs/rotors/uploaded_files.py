@@ -16,7 +16,7 @@ _MOST_FILES = 40
 
 
 @dataclass(frozen=True)
-class Arrival:
+class UploadResult:
     """What a file led to."""
 
     sentence: str
@@ -25,14 +25,14 @@ class Arrival:
 
 
 @dataclass
-class Shelf:
+class UploadedFiles:
     """One session's files by name."""
 
     texts: dict[str, str] = field(default_factory=dict[str, str])
     waiting: str | None = None
     """A rotor file that names what is not here yet."""
 
-    def take(self, name: str, content: bytes) -> Arrival:
+    def take(self, name: str, content: bytes) -> UploadResult:
         """Keep a file; the aircraft as soon as its rotor file and all that names are here.
 
         Raises ValueError with one sentence for a file that cannot be used; nothing that was kept is lost.
@@ -55,19 +55,19 @@ class Shelf:
         _check(name, suffix, text)
         self.texts[name] = text
         if self.waiting is None:
-            return Arrival(f"{name} is kept: a rotor file that names it under [sections] will use it.")
+            return UploadResult(f"{name} is kept: a rotor file that names it under [sections] will use it.")
         return self._rotor(self.waiting, self.texts[self.waiting])
 
-    def _rotor(self, name: str, text: str) -> Arrival:
+    def _rotor(self, name: str, text: str) -> UploadResult:
         """A rotor file, when all that it names is here."""
         missing = [file for file in named_files(read_toml(name, text)) if _is_file(file) and file not in self.texts]
         if missing:
             self.texts[name], self.waiting = text, name
             also = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
-            return Arrival(f"{name} is kept and waits for {missing[0]}{also}: load that next.")
+            return UploadResult(f"{name} is kept and waits for {missing[0]}{also}: load that next.")
         aircraft = read_aircraft(name, {**self.texts, name: text})
         self.texts[name], self.waiting = text, None
-        return Arrival(" ".join((f"{aircraft.name} is on the page.", *aircraft.remarks)), aircraft)
+        return UploadResult(" ".join((f"{aircraft.name} is on the page.", *aircraft.remarks)), aircraft)
 
 
 def _check(name: str, suffix: str, text: str) -> None:

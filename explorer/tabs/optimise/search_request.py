@@ -20,7 +20,7 @@ _DIVIDED = ("two-segment", "two-segment-two-airfoils")
 
 
 @dataclass(frozen=True)
-class Wishes:
+class SearchRequest:
     """The Optimise tab's widgets."""
 
     concept: str = "two-segment-free"

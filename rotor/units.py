@@ -1,0 +1,6 @@
+"""Units and constants of nature that stand once for all folders; inside `rotor` everything else is SI."""
+
+KNOT = 1852.0 / 3600.0
+"""One knot [m/s], exact."""
+GRAVITY = 9.80665
+"""Standard gravity [m/s²] (ISO 2533)."""
