@@ -42,7 +42,7 @@ class SearchRun:
         self.reference_power: float | None = None
         self.frames: list[SearchFrame] = []
         self.traces: list[list[float]] = [[] for _ in range(search.starts)]
-        """Power at each evaluation of each start [W]; one that does not trim repeats the one before."""
+        """Power at each evaluation of each start [W]; one without trim or beyond a limit repeats the one before."""
         self.progress: Progress | None = None
         self.optimum: Optimum | None = None
         self._lock = threading.Lock()
@@ -113,7 +113,7 @@ class SearchRun:
         self.progress = progress
         if progress.phase == "search" and progress.start < len(self.traces):
             trace = self.traces[progress.start]
-            if progress.power is not None:
+            if progress.power is not None and progress.feasible:
                 trace.append(progress.power)
             elif trace:
                 trace.append(trace[-1])

@@ -1,0 +1,165 @@
+"""The race of a search's starts, and sliders and numbers that follow its previews."""
+
+import math
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from explorer.race import (
+    Race,
+    RaceStart,
+    blend,
+    counting,
+    eased,
+    falling_power,
+    inputs_at,
+    inputs_between,
+    race_of,
+)
+from explorer.state import Inputs
+from explorer.tabs.optimise import mission
+from explorer.tabs.optimise.run import SearchRun
+from explorer.tabs.optimise.wishes import Wishes
+from rotor.files.make_design import make_design
+from rotor.optimisation.search import Progress, optimise
+from rotor.trim.solve import solve
+
+UNIFORM = replace(make_design().models, inflow="uniform", elements=20, azimuths=36)
+"""Quick, where the physics does not matter."""
+
+
+def quick() -> Any:
+    return make_design(twist="linear:-16", advance_ratio=0.3, models=UNIFORM)
+
+
+@pytest.fixture(scope="module")
+def raced() -> tuple[SearchRun, Race]:
+    """A finished search, and its race when the second start had just begun."""
+    run = SearchRun(Wishes(concept="two-segment", starts=3).search(quick(), mission.legs))
+    run.state = "running"
+    run.start_power = solve(quick()).power.total
+    run._add(0, run.start_power, quick())
+    halfway: list[Race] = []
+
+    def take(progress: Any) -> None:
+        run._step(progress)
+        if progress.phase == "search" and progress.start == 1 and not halfway:
+            halfway.append(race_of(run))
+
+    run.optimum = optimise(run.search, take)
+    run.state = "done"
+    return run, halfway[0]
+
+
+@pytest.fixture(scope="module")
+def run(raced: tuple[SearchRun, Race]) -> SearchRun:
+    return raced[0]
+
+
+class TestRace:
+    def test_each_start_has_its_trace_and_running_best(self, run: SearchRun):
+        race = race_of(run)
+        assert len(race.starts) == 3
+        for one in race.starts:
+            assert len(one.best) == len(one.powers)
+            assert list(one.best) == sorted(one.best, reverse=True)
+            assert one.best[-1] == min(one.powers)
+            assert one.state == "finished"
+
+    def test_the_leader_has_the_power_of_the_optimum(self, run: SearchRun):
+        race = race_of(run)
+        assert run.optimum is not None
+        assert run.optimum.best is not None
+        assert race.best_power == pytest.approx(run.optimum.best.power, rel=1e-6)
+        assert race.leader is not None
+        assert race.leader.best[-1] == race.best_power
+        assert race.change == pytest.approx(run.optimum.best.power - solve(quick()).power.total, rel=1e-3)
+        assert race.change is not None
+        assert race.change < 0.0
+        assert race.evaluations == run.optimum.evaluations
+
+    def test_half_way_the_second_start_runs_and_the_third_waits(self, raced: tuple[SearchRun, Race]):
+        race = raced[1]
+        assert [one.state for one in race.starts] == ["finished", "running", "waiting"]
+        assert race.starts[2].gap is None
+        assert race.starts[2].legend() == "Start 3: waiting"
+
+    def test_the_legend_names_the_leader_and_the_gaps(self):
+        starts = (
+            RaceStart(1, (850e3, 845e3), (850e3, 845e3), "finished", 400.0),
+            RaceStart(2, (848e3, 844.6e3), (848e3, 844.6e3), "running", 0.0),
+            RaceStart(3, (), (), "finished", None),
+        )
+        assert [one.legend() for one in starts] == ["Start 1: +0.4 kW", "Start 2: leads", "Start 3: no trim"]
+        race = Race(starts, 853.7e3, 844.6e3, 4)
+        assert race.headline() == "844.6 kW, −9.1 kW vs. starting design"
+        assert race.leader is starts[1]
+
+    def test_the_axis_shows_the_ends_and_counts_what_it_clips(self):
+        spike = RaceStart(1, (850e3, 2e6, 845e3), (850e3, 850e3, 845e3), "finished", 0.0)
+        race = Race((spike,), 853e3, 845e3, 3)
+        low, high = race.axis()
+        assert low < 845e3
+        assert 853e3 < high < 1e6
+        assert race.above_axis() == 1
+
+    def test_a_design_beyond_a_limit_leads_nobody(self):
+        run = SearchRun(Wishes(starts=1).search(quick(), mission.legs))
+        step = Progress("search", 0, 1, 1, (0.0, 0.0, 0.5), "linear:0", 850e3, True, (0.0, 0.0, 0.5), 850e3, 0.1)
+        run._add(0, 860e3, quick())
+        run._step(step)
+        run._step(replace(step, evaluation=2, power=800e3, feasible=False))
+        assert race_of(run).best_power == 850e3
+        assert race_of(run).starts[0].powers == (850e3, 850e3)
+
+    def test_before_the_first_design(self):
+        run = SearchRun(Wishes(starts=2).search(quick(), mission.legs))
+        race = race_of(run)
+        assert race.headline() == "Trimming the starting design …"
+        assert [one.state for one in race.starts] == ["waiting", "waiting"]
+        assert race.leader is None
+        assert race.change is None
+        assert race.axis() == (0.0, 1.0)
+
+
+class TestPreview:
+    def test_sliders_mean_the_previewed_blade(self):
+        inputs = Inputs(law="linear", advance_ratio=0.3, mass_t=9.0)
+        preview = make_design(twist="segments:-9.5,-18.2@0.82", advance_ratio=0.3, mass=9000.0)
+        followed = inputs_at(inputs, preview)
+        assert followed.design().twist.spec() == preview.twist.spec()
+        assert (followed.advance_ratio, followed.mass_t) == (0.3, 9.0)
+
+    def test_sliders_run_smoothly_from_one_preview_to_the_next(self):
+        before = Inputs(law="two", two_inner=-14.0, two_outer=-8.0, two_division=0.5)
+        after = replace(before, two_inner=-10.0, two_outer=-18.0, two_division=0.8)
+        assert inputs_between(before, after, 0.0) == before
+        assert inputs_between(before, after, 1.0) == after
+        half = inputs_between(before, after, 0.5)
+        assert (half.two_inner, half.two_outer) == pytest.approx((-12.0, -13.0))
+        rates = [inputs_between(before, after, part / 20.0).two_outer for part in range(21)]
+        assert rates == sorted(rates, reverse=True)
+
+    def test_another_law_stands_at_once(self):
+        before, after = Inputs(law="linear"), Inputs(law="two")
+        assert inputs_between(before, after, 0.1) == after
+
+
+class TestNumbers:
+    def test_easing_rests_at_both_ends_and_is_clamped(self):
+        assert (eased(-1.0), eased(0.0), eased(0.5), eased(1.0), eased(2.0)) == (0.0, 0.0, 0.5, 1.0, 1.0)
+        assert eased(0.01) < 0.001
+        assert blend(0.1, 0.3, 1.0) == 0.3
+
+    def test_the_count_ends_on_the_power(self):
+        assert counting(853.7, 844.6, 0.0) == "853.7"
+        assert counting(853.7, 844.6, 1.0) == "844.6"
+
+    def test_a_replay_falls_between_its_frames_and_passes_over_a_start_without_trim(self):
+        powers = [math.inf, 850.0, 840.0]
+        assert falling_power(powers, 0.0) == 850.0
+        assert falling_power(powers, 1.5) == 845.0
+        assert falling_power(powers, 9.0) == 840.0
+        with pytest.raises(ValueError, match="at least one design"):
+            falling_power([math.inf], 0.0)
