@@ -9,15 +9,14 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
 from explorer.charts.plots import SWEEP, PowerCurve, Range, angles_along, held_range
 from explorer.text.units import KILOWATT, SI, Units, number
+from rotor.arrays import Array
 from rotor.trim.adjoint import PitchGradient
 from rotor.trim.solution import Solution
 from rotor.trim.validity import LOW_SPEED
 
-Array = NDArray[np.float64]
 Role = Literal["this", "reference", "limit", "saving"]
 """What a line stands for; the page chooses its colour."""
 

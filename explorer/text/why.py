@@ -8,16 +8,13 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from explorer.text.units import SI, Units, number
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, no_effect
+from rotor.arrays import Array, Booleans
 from rotor.design.design import Design
 from rotor.trim.solution import Solution
-
-Array = NDArray[np.float64]
-Mask = NDArray[np.bool_]
 
 _PARTS = {"induced": "induced", "profile": "profile", "parasite": "parasite", "tail": "tail rotor"}
 _SMALL_PART = 0.08
@@ -187,11 +184,11 @@ def _area_change(a: float, b: float, least: float) -> tuple[str, str] | None:
     return "grew" if b > a else "shrank", amount
 
 
-def _stalled(solution: Solution) -> Mask:
+def _stalled(solution: Solution) -> Booleans:
     return (solution.disk.stall_margin < 0.0) & (solution.disk.u_t >= 0.0)
 
 
-def _divergent(solution: Solution) -> Mask:
+def _divergent(solution: Solution) -> Booleans:
     """Beyond drag divergence, stalled elements left out: their drag has another cause."""
     disk = solution.disk
     return (disk.cd_mach > _DIVERGENCE) & (disk.u_t >= 0.0) & (disk.stall_margin >= 0.0)
@@ -203,16 +200,16 @@ def _ring(solution: Solution) -> Array:
     return np.broadcast_to(2.0 * disk.r[:, None] * disk.dr / len(disk.psi), disk.dct.shape)
 
 
-def _percent_of_disk(solution: Solution, mask: Mask) -> float:
+def _percent_of_disk(solution: Solution, mask: Booleans) -> float:
     return 100.0 * float(_ring(solution)[mask].sum())
 
 
-def _fresh(before: Mask, after: Mask) -> Mask:
+def _fresh(before: Booleans, after: Booleans) -> Booleans:
     """Elements that are in a region and were not; all of the region where the two grids differ."""
     return after & ~before if before.shape == after.shape else after
 
 
-def _place(solution: Solution, before: Mask, after: Mask) -> str:
+def _place(solution: Solution, before: Booleans, after: Booleans) -> str:
     """Where a region came or grew, by its area-weighted mean radius and azimuth."""
     disk, area = solution.disk, np.where(_fresh(before, after), _ring(solution), 0.0)
     total = float(area.sum())

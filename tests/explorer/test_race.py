@@ -20,7 +20,7 @@ from explorer.race import (
 from explorer.state import Inputs
 from explorer.tabs.optimise import mission
 from explorer.tabs.optimise.run import SearchRun
-from explorer.tabs.optimise.wishes import Wishes
+from explorer.tabs.optimise.search_request import SearchRequest
 from rotor.files.make_design import make_design
 from rotor.optimisation.search import Progress, optimise
 from rotor.trim.solve import solve
@@ -30,13 +30,13 @@ UNIFORM = replace(make_design().models, inflow="uniform", elements=20, azimuths=
 
 
 def quick() -> Any:
-    return make_design(twist="linear:-16", advance_ratio=0.3, models=UNIFORM)
+    return make_design(twist="linear:-16", mu=0.3, models=UNIFORM)
 
 
 @pytest.fixture(scope="module")
 def raced() -> tuple[SearchRun, Race]:
     """A finished search, and its race when the second start had just begun."""
-    run = SearchRun(Wishes(concept="two-segment", starts=3).search(quick(), mission.legs))
+    run = SearchRun(SearchRequest(concept="two-segment", starts=3).search(quick(), mission.legs))
     run.state = "running"
     run.start_power = solve(quick()).power.total
     run._add(0, run.start_power, quick())
@@ -105,7 +105,7 @@ class TestRace:
         assert race.above_axis() == 1
 
     def test_a_design_beyond_a_limit_leads_nobody(self):
-        run = SearchRun(Wishes(starts=1).search(quick(), mission.legs))
+        run = SearchRun(SearchRequest(starts=1).search(quick(), mission.legs))
         step = Progress("search", 0, 1, 1, (0.0, 0.0, 0.5), "linear:0", 850e3, True, (0.0, 0.0, 0.5), 850e3, 0.1)
         run._add(0, 860e3, quick())
         run._step(step)
@@ -114,7 +114,7 @@ class TestRace:
         assert race_of(run).starts[0].powers == (850e3, 850e3)
 
     def test_before_the_first_design(self):
-        run = SearchRun(Wishes(starts=2).search(quick(), mission.legs))
+        run = SearchRun(SearchRequest(starts=2).search(quick(), mission.legs))
         race = race_of(run)
         assert race.headline() == "Trimming the starting design …"
         assert [one.state for one in race.starts] == ["waiting", "waiting"]
@@ -126,7 +126,7 @@ class TestRace:
 class TestPreview:
     def test_sliders_mean_the_previewed_blade(self):
         inputs = Inputs(law="linear", advance_ratio=0.3, mass_t=9.0)
-        preview = make_design(twist="segments:-9.5,-18.2@0.82", advance_ratio=0.3, mass=9000.0)
+        preview = make_design(twist="segments:-9.5,-18.2@0.82", mu=0.3, mass_kg=9000.0)
         followed = inputs_at(inputs, preview)
         assert followed.design().twist.spec() == preview.twist.spec()
         assert (followed.advance_ratio, followed.mass_t) == (0.3, 9.0)

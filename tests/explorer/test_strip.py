@@ -27,12 +27,12 @@ from rotor.trim.solve import solve
 
 @pytest.fixture(scope="module")
 def built() -> Solution:
-    return solve(make_design(advance_ratio=0.2)).require()
+    return solve(make_design(mu=0.2)).require()
 
 
 @pytest.fixture(scope="module")
 def linear() -> Solution:
-    return solve(make_design(advance_ratio=0.2, twist="linear:-8")).require()
+    return solve(make_design(mu=0.2, twist="linear:-8")).require()
 
 
 def line(chart: StripChart, role: str) -> np.ndarray:
@@ -93,7 +93,7 @@ class TestAlpha:
         assert np.isfinite(alpha[built.disk.r > 0.3]).all()
 
     def test_a_stalled_blade_says_where(self):
-        heavy = solve(make_design(advance_ratio=0.3, mass=9800.0)).require()
+        heavy = solve(make_design(mu=0.3, mass_kg=9800.0)).require()
         psi = np.degrees(heavy.disk.psi)
         stalled = ((heavy.disk.stall_margin < 0.0) & (heavy.disk.u_t > 0.0)).sum(axis=0)
         chart = alpha_chart(heavy, None, float(psi[np.argmax(stalled)]))
@@ -109,7 +109,7 @@ class TestLift:
         assert_allclose(per_blade * design.rotor.blades, design.condition.weight, rtol=0.05)
 
     def test_less_twist_moves_the_peak_outboard(self, built: Solution):
-        untwisted = solve(make_design(advance_ratio=0.2, twist="linear:0")).require()
+        untwisted = solve(make_design(mu=0.2, twist="linear:0")).require()
         chart = lift_chart(untwisted, built)
         assert [one.role for one in chart.lines] == ["reference", "this"]
         r = untwisted.disk.r

@@ -23,7 +23,7 @@ def solved(design: Design) -> Solution:
 
 
 def flown(mu: float = 0.2, twist: str | None = None, mass: float | None = None, altitude: float = 0.0) -> Solution:
-    return solved(make_design(advance_ratio=mu, twist=twist, mass=mass, altitude=altitude))
+    return solved(make_design(mu=mu, twist=twist, mass_kg=mass, altitude_m=altitude))
 
 
 def without(solution: Solution, switch: str) -> Solution:
@@ -113,7 +113,7 @@ class TestKnownCauses:
         uniform = solved(replace(flight.design, models=replace(flight.design.models, inflow="uniform")))
         assert why(flight, uniform).startswith("Uniform")
         assert " instead of Dynamic wake" in why(flight, uniform)
-        other = solved(make_design(aircraft="s61"))
+        other = solved(make_design(rotor="s61"))
         assert why(flight, other).startswith(f"{other.design.aircraft.name} instead of UH-60A: ")
 
     def test_several_changes_are_not_put_down_to_one(self):
