@@ -84,6 +84,14 @@ class Verdict:
         return self.reference_power - self.reached.power
 
     @property
+    def ideal_saving(self) -> float:
+        """Of unlimited variable twist, over the same blade as the other savings [W].
+
+        `baseline.ideal_saving` is its part beyond the best fixed blade.
+        """
+        return self.reference_power - self.baseline.ideal_power
+
+    @property
     def net_saving(self) -> float:
         """After."""
         return self.reference_power - self.carried_power

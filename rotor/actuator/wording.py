@@ -1,4 +1,4 @@
-"""The verdict as a sentence."""
+"""The verdict in words: a headline, and the sentences behind it."""
 
 import math
 
@@ -9,33 +9,55 @@ SMALL = 1.0
 """Powers nearer to zero are called nothing [W]."""
 
 
+def headline(verdict: Verdict) -> str:
+    """The outcome in one short sentence: net power against the one blade that the whole verdict is compared with."""
+    net, against = verdict.net_saving, reference(verdict)
+    if abs(net) < SMALL:
+        return f"No net benefit: saves as much as it costs vs. {against}."
+    if net < 0.0:
+        return f"No net benefit: costs {kw(-net)} vs. {against}."
+    if verdict.buildable:
+        return f"Net benefit: saves {kw(net)} vs. {against}."
+    return f"Cannot be built: it would save {kw(net)} vs. {against}."
+
+
 def verdict_sentence(verdict: Verdict) -> str:
-    """What an engineer takes home, in two or three short sentences."""
-    fitted, pair = verdict.fitted, verdict.baseline.pair
+    """The headline, then reach, savings and limits; all powers count from the blade that the headline names."""
+    sentences = [headline(verdict), _reach(verdict), _savings(verdict)]
+    if verdict.broken:
+        sentences.append(f"Limits exceeded: {', '.join(limit.name for limit in verdict.broken)}.")
+    return " ".join(sentences)
+
+
+def reference(verdict: Verdict) -> str:
+    """The blade that all savings of a verdict count from."""
+    return "the twist as built" if verdict.fitted.host.kind == "retrofit" else "the best fixed twist"
+
+
+def _reach(verdict: Verdict) -> str:
+    """Twist supplied against twist needed."""
+    fitted = verdict.fitted
     what = f"{fitted.actuator.name} ({count(verdict)}, {fitted.host.label})"
-    first, second = (flight(mu) for mu in pair.advance_ratios)
-    need, have = math.degrees(verdict.required), math.degrees(verdict.attainable)
-    tested = math.degrees(verdict.attainable_derated)
-    if verdict.feasible:
-        reach = f"{what} can make the {need:.1f}° that going from {first} to {second} asks for ({have:.1f}° nominal"
-    else:
-        reach = f"{what} cannot make the {need:.1f}° that going from {first} to {second} asks for ({have:.1f}° nominal"
-    reach += f", {tested:.1f}° as tests suggest)." if fitted.derating < 1.0 else ")."
-    gross, net = verdict.gross_saving, verdict.net_saving
-    mass = fitted.bill.aircraft
-    against = "flown twist" if fitted.host.kind == "retrofit" else "best fixed blade"
-    saves = f"within its reach it saves {kw(gross)} over the {against}"
-    if verdict.pays:
-        pay = f"It pays: {saves}, {kw(net)} after its {mass:.0f} kg are carried."
-    elif net > 0.0:
-        pay = f"It would save {kw(net)} over the {against}, if it could be built and driven."
-    else:
-        pay = f"It does not pay: {saves}, and carrying its {mass:.0f} kg costs {kw(gross - net)}."
-    concept, ideal = verdict.baseline.concept.name, verdict.baseline.ideal_saving
-    pay += f" The {concept} concept, free to move, would save {kw(ideal)} over its best fixed blade."
-    broken = verdict.broken
-    stops = f" Limits broken: {', '.join(limit.name for limit in broken)}." if broken else ""
-    return f"{reach} {pay}{stops}"
+    first, second = (flight(mu) for mu in verdict.baseline.pair.advance_ratios)
+    need, nominal = math.degrees(verdict.required), math.degrees(verdict.attainable)
+    available = f"{nominal:.1f}° nominal"
+    if fitted.derating < 1.0:
+        available += f", {math.degrees(verdict.attainable_derated):.1f}° derated by test"
+    can = "can supply" if verdict.feasible else "cannot supply"
+    return f"{what} {can} the {need:.1f}° needed from {first} to {second} ({available})."
+
+
+def _savings(verdict: Verdict) -> str:
+    """Before mass and drive, after them, and what unlimited variable twist would save from the same blade."""
+    gross, cost = verdict.gross_saving, verdict.gross_saving - verdict.net_saving
+    concept, mass = verdict.baseline.concept.name, verdict.fitted.bill.aircraft
+    change = "saves nothing" if abs(gross) < SMALL else f"saves {kw(gross)}" if gross > 0.0 else f"costs {kw(-gross)}"
+    text = (
+        f"Within its reach the change of twist {change}; carrying {mass:.0f} kg and its drive cost {kw(cost)}. "
+        f"Unlimited variable twist ({concept}) would save {kw(verdict.ideal_saving)}"
+    )
+    fixed = verdict.ideal_saving - verdict.baseline.ideal_saving
+    return f"{text}, {kw(fixed)} of it with the best fixed twist." if abs(fixed) >= SMALL else f"{text}."
 
 
 def count(verdict: Verdict) -> str:

@@ -78,7 +78,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def record(verdict: Verdict, turned: PhaseSweep | None = None) -> dict[str, Any]:
-    """The JSON of `actuator --json` (DESIGN §8). Savings are means over both conditions."""
+    """The JSON of `actuator --json`. Savings are means over both conditions."""
     values: dict[str, Any] = {
         "status": "converged",
         "message": verdict_sentence(verdict),
@@ -138,15 +138,15 @@ def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
     bill = fitted.bill
     first, second = (best.power / 1e3 for best in base.best)
     twists = [base.concept.twist(best.values).spec() for best in (*base.best, base.fixed)]
-    tested = f"  ({math.degrees(verdict.attainable_derated):.2f}° as tests suggest)" if fitted.derating < 1.0 else ""
+    tested = f"  ({math.degrees(verdict.attainable_derated):.2f}° derated by test)" if fitted.derating < 1.0 else ""
     lines = [
         verdict_sentence(verdict),
         "",
         f"best twist at each condition  {twists[0]} ({first:.1f} kW), {twists[1]} ({second:.1f} kW)",
         f"best fixed blade              {twists[2]} (mean {base.fixed.power / 1e3:.1f} kW)",
-        f"free movement would save      {_kw(base.ideal_saving)}",
+        f"unlimited twist would save    {_kw(verdict.ideal_saving)}",
         f"this actuator saves, gross    {_kw(verdict.gross_saving)}",
-        f"after its mass is carried     {_kw(verdict.net_saving)}",
+        f"after mass and drive          {_kw(verdict.net_saving)}",
         "",
         f"twist needed      {math.degrees(verdict.required):8.2f} °  (segments added)",
         f"twist attainable  {math.degrees(verdict.attainable):8.2f} °{tested}",

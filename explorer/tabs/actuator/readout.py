@@ -14,7 +14,7 @@ from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly
 from rotor.actuator.fitted import Fitted
 from rotor.actuator.limits import Limit
 from rotor.actuator.verdict import Verdict
-from rotor.actuator.wording import verdict_sentence
+from rotor.actuator.wording import headline, verdict_sentence
 from rotor.reproduce.report import typographic
 
 SHEET = """<style>
@@ -123,14 +123,14 @@ def fit_panel(inputs: ActuatorInputs, fitted: Fitted, verdict: Verdict | None) -
         ("Added mass", f"{number(bill.aircraft)} kg"),
         ("Attainable", f"{number(nominal, 2)}°"),
         ("on each blade", f"{number(bill.blade, 1)} kg"),
-        ("as tests suggest", f"{number(tested, 2)}°" if fitted.derating < 1.0 else _NONE),
+        ("derated by test", f"{number(tested, 2)}°" if fitted.derating < 1.0 else _NONE),
         ("First torsion", f"{number(fitted.frequency, 2)} /rev"),
         (f"counted ({number(inputs.counted)} %)", f"{number(nominal * inputs.share, 2)}°"),
         ("Moment", f"{number(fitted.moment)} N·m" if fitted.moment else _NONE),
         ("Saving, gross", _kw(None if verdict is None else verdict.gross_saving)),
         ("Slewing", _NONE if verdict is None else f"{number(verdict.drive.slew_power)} W"),
         ("<b>Saving, net</b>", f"<b>{_kw(None if verdict is None else verdict.net_saving)}</b>"),
-        ("Free twist", _kw(None if verdict is None else verdict.baseline.ideal_saving)),
+        ("Unlimited twist", _kw(None if verdict is None else verdict.ideal_saving)),
     ]
     cells = "".join(
         f'<div class="rx-line"><span class="rx-dim">{name}</span><span class="rx-num">{value}</span></div>'
@@ -152,12 +152,14 @@ def verdict_panel(findings: Findings, question: Question) -> str:
         return _box(
             "wait",
             "computing",
-            f"Would it pay? Computing… optimum twists at both conditions, then the best reach.{before}",
+            f"Net benefit? Computing the optimum twist at both conditions, then the best within reach.{before}",
         )
     if isinstance(findings.outcome, str):
         return problem_panel(findings.outcome)
     verdict = findings.outcome
-    return _box("yes" if verdict.pays else "no", "ready", escape(verdict_sentence(verdict)))
+    lead, sentence = headline(verdict), verdict_sentence(verdict)
+    text = f"<b>{escape(lead)}</b>{escape(sentence.removeprefix(lead))}"
+    return _box("yes" if verdict.pays else "no", "ready", text)
 
 
 def _box(look: str, kind: str, text: str) -> str:
@@ -176,7 +178,7 @@ def segments_panel(fitted: Fitted, share: float, verdict: Verdict | None) -> str
         mark = "" if need is None else f'<b style="left:{100 * need[k] / largest:.1f}%"></b>'
         asked = _NONE if need is None else f"{number(float(need[k]), 1)}°"
         rows.append(
-            f"<span>{f'Segment {k + 1}' if len(can) > 1 else 'Required / has'}</span>"
+            f"<span>{f'Segment {k + 1}' if len(can) > 1 else 'Required / available'}</span>"
             f'<span class="rxa-track"><i style="width:{100 * each / largest:.1f}%;background:rgba(28,126,214,.35)"></i>'
             f'<i style="width:{100 * share * each / largest:.1f}%;background:#1c7ed6"></i>{mark}</span>'
             f'<span class="rx-num">{asked} / {number(float(each), 1)}°</span>'
@@ -190,7 +192,7 @@ def limits_panel(verdict: Verdict | None) -> str:
         return ""
     broken = "".join(_limit(limit) for limit in verdict.broken)
     kept = ", ".join(limit.name.replace("-", " ") for limit in verdict.limits if limit.ok)
-    good = f'<div><span class="rx-good">✓</span><span class="rx-dim">kept: {escape(kept)}</span></div>' if kept else ""
+    good = f'<div><span class="rx-good">✓</span><span class="rx-dim">met: {escape(kept)}</span></div>' if kept else ""
     cares = "".join(f'<div class="rx-care"><span>▲</span><span>{escape(text)}</span></div>' for text in verdict.caveats)
     return f'<div class="rx rxa-limits" data-explorer="limits">{broken}{good}{cares}</div>'
 

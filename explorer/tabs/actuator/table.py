@@ -21,12 +21,12 @@ def table_panel(findings: Findings, question: Question) -> str:
     ):  # fmt: skip
         known = {}
     rows = "".join(_row(id, known.get(id), id == question.actuator) for id in actuators())
-    head = "<tr><th>Actuator</th><th>has °</th><th>tested °</th><th>kg</th><th>net kW</th><th>verdict</th></tr>"
+    head = "<tr><th>Actuator</th><th>available °</th><th>derated °</th><th>kg</th><th>net kW</th><th>verdict</th></tr>"
     first, second = question.pair.advance_ratios
     return (
         f'<div class="rx" data-explorer="actuator-table"><table class="rxa-table">{head}{rows}</table>'
         f'<div class="rx-dim rx-small">µ {first:g} ↔ {second:g}, {escape(question.host.label)}, half the time each. '
-        "▲: some numbers recalled, not looked up. Point at a verdict for its sentence.</div></div>"
+        "▲: some numbers recalled, not looked up. Hover over a verdict for the full text.</div></div>"
     )
 
 
@@ -53,14 +53,14 @@ def _row(id: str, outcome: Outcome | None, chosen: bool) -> str:
 
 
 def short_verdict(verdict: Verdict) -> tuple[str, str]:
-    """Two words, and the class that colours them."""
+    """A few words, and the class that colours them."""
     if verdict.pays:
-        return "pays", "rx-less"
+        return "net benefit", "rx-less"
     if not verdict.feasible:
         return "too weak", "rxa-bad"
     if verdict.net_saving <= 0.0:
-        return "costs more", "rxa-bad"
-    return "unbuildable", "rxa-bad"
+        return "net cost", "rxa-bad"
+    return "cannot be built", "rxa-bad"
 
 
 def short_name(id: str) -> str:

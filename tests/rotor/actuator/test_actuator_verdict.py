@@ -20,7 +20,7 @@ from rotor.actuator.placement import Host, default_placement
 from rotor.actuator.reach import STATIONS, Pair, best_reach, twisted
 from rotor.actuator.tables import table_5_1, verdict_table
 from rotor.actuator.verdict import Verdict, change_limit, judge
-from rotor.actuator.wording import verdict_sentence
+from rotor.actuator.wording import headline, verdict_sentence
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.limits import Limits
@@ -136,13 +136,44 @@ def test_required_twist_by_hand():
 
 def test_sentence_says_what_the_numbers_say():
     judged = verdict(kind="retrofit")
-    assert "cannot make" in verdict_sentence(judged)
-    assert "does not pay" in verdict_sentence(judged)
+    assert "cannot supply" in verdict_sentence(judged)
+    assert verdict_sentence(judged).startswith("No net benefit: costs ")
     assert "temperature" in verdict_sentence(judged)
-    assert "can make" in verdict_sentence(verdict())
+    assert "can supply" in verdict_sentence(verdict())
     passive = verdict("extension_twist")
     assert not passive.pays
     assert "rotor-speed" in verdict_sentence(passive)
+
+
+@pytest.mark.parametrize("kind", ["retrofit", "new"])
+def test_headline_and_sentence_count_from_one_blade(kind: str):
+    """The retrofit's saving and that of unlimited variable twist are both measured from the twist as built."""
+    judged = verdict(kind=kind)
+    fixed = np.mean([solve(design).power.total for design in pair().designs()])
+    if kind == "new":
+        fixed = judged.baseline.fixed.power
+    assert_allclose(judged.gross_saving, fixed - judged.reached.power, atol=1e-6)
+    assert_allclose(judged.ideal_saving, fixed - judged.baseline.ideal_power, atol=1e-6)
+    blade = "the twist as built" if kind == "retrofit" else "the best fixed twist"
+    sentence = verdict_sentence(judged)
+    assert sentence.startswith(headline(judged))
+    assert headline(judged).endswith(f"{abs(judged.net_saving) / 1e3:.1f} kW vs. {blade}.")
+    assert f"would save {judged.ideal_saving / 1e3:.1f} kW" in sentence
+    assert ("of it with the best fixed twist" in sentence) == (kind == "retrofit")
+
+
+def test_headlines():
+    judged = verdict()
+    buildable = tuple(replace(limit, ok=True) for limit in judged.limits)
+    reference_power = judged.carried_power + 2500.0
+    good = replace(judged, reference_power=reference_power, limits=buildable)
+    assert headline(good) == "Net benefit: saves 2.5 kW vs. the best fixed twist."
+    stopped = tuple(replace(limit, ok=limit.name != "temperature") for limit in judged.limits)
+    assert headline(replace(good, limits=stopped)).startswith("Cannot be built: it would save 2.5 kW")
+    assert headline(replace(good, reference_power=judged.carried_power)).startswith("No net benefit: saves as much as")
+    assert headline(replace(good, reference_power=judged.carried_power - 2500.0)).startswith(
+        "No net benefit: costs 2.5 kW vs. "
+    )
 
 
 def test_limits_say_what_they_found():
