@@ -8,7 +8,7 @@ from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept
 from rotor.optimisation.objective import Objective, at_condition, measure
 from rotor.optimisation.schedule import Cell, Plan, Schedule
-from rotor.optimisation.search import Ended, Optimum, Search, optimise
+from rotor.optimisation.search import Ended, Optimum, Search, run_search
 from rotor.trim.solution import Solution
 
 
@@ -44,7 +44,7 @@ class SearchTask:
             tell(ReferencePower(begin.power))
         elif not stop():
             tell(ReferencePower(measure(objective, self.reference, gradient=False).power))
-        return optimise(search, tell, stop)
+        return run_search(search, tell, stop)
 
 
 @dataclass(frozen=True)
@@ -123,7 +123,7 @@ class ScheduleTask:
                 guesses=guesses,
                 band=False,
             )
-            optimum = optimise(search, stop=stop)
+            optimum = run_search(search, stop=stop)
             if optimum.status is Ended.STOPPED:
                 return Schedule(plan, tuple(cells))
             guesses = () if optimum.best is None else (optimum.best.parameters,)

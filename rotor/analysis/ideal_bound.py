@@ -17,6 +17,7 @@ from rotor.analysis.ideal_circulation import (
 )
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
+from rotor.blas_threads import one_blas_thread
 from rotor.design.design import Design
 
 LIFT_LIMIT = (-0.6, 1.2)
@@ -44,6 +45,7 @@ class Bound:
     """That twist [rad per radius]."""
 
 
+@one_blas_thread()
 def find_bound(design: Design) -> Bound:
     """The bound for a design's rotor, thrust and speed (not for its twist or sections). Takes seconds."""
     rotor = design.rotor

@@ -8,7 +8,7 @@ from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS, find_concept
 from rotor.optimisation.objective import Leg
 from rotor.optimisation.schedule import Plan, run_plan
-from rotor.optimisation.search import Search, optimise
+from rotor.optimisation.search import Search, run_search
 from rotor.trim.solve import solve
 
 TARGETS_S = {
@@ -32,7 +32,7 @@ def measure_searches(*, long: bool) -> dict[str, float]:
         for mu in _ADVANCE_RATIOS:
             design = make_design(preset="flight", mu=mu)
             solve(design)  # Lays out the grid and the wake once, as a page has long done.
-            elapsed += optimise(Search(design, find_concept(concept), starts=starts)).elapsed
+            elapsed += run_search(Search(design, find_concept(concept), starts=starts)).elapsed
         figures[name] = elapsed / len(_ADVANCE_RATIOS)
     if long:
         design = make_design(preset="flight")

@@ -13,7 +13,7 @@ from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, find_concept, on_top
 from rotor.optimisation.mission import read_mission
 from rotor.optimisation.objective import Objective, at_condition, hover_and_cruise
-from rotor.optimisation.search import STARTS, Ended, Minimum, Optimum, Progress, Search, optimise
+from rotor.optimisation.search import STARTS, Ended, Minimum, Optimum, Progress, Search, run_search
 from rotor.units import KNOT
 
 
@@ -54,7 +54,7 @@ def run(args: argparse.Namespace) -> int:
         band=args.band,
     )
     with interruptible() as stop, bar(None, " designs") as advance:
-        optimum = optimise(search, lambda progress: advance(_words(progress)), stop)
+        optimum = run_search(search, lambda progress: advance(_words(progress)), stop)
     print(json.dumps(record(optimum, concept), indent=2, allow_nan=False) if args.json else report(optimum, concept))
     return {Ended.CONVERGED: 0, Ended.NOT_CONVERGED: 1, Ended.STOPPED: STOPPED}[optimum.status]
 

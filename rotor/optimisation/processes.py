@@ -13,6 +13,8 @@ from multiprocessing.queues import Queue
 from queue import Empty
 from typing import Any, Protocol
 
+from rotor.blas_threads import keep_one_blas_thread
+
 Stop = Callable[[], bool]
 Work = Callable[..., Iterator[Any]]
 """work(*arguments, stop) yields items; each is handed on once, and again at the end of the task from processes."""
@@ -96,6 +98,7 @@ def _join(halt: _Flag, news: "Queue[Any]") -> None:
     global _halt, _news
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     _halt, _news = halt, news
+    keep_one_blas_thread()
 
 
 def _all(work: Work, arguments: tuple[Any, ...]) -> list[Any]:

@@ -12,7 +12,7 @@ from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, nearest
 from rotor.optimisation.objective import Leg, Objective, Quantity
 from rotor.optimisation.processes import WorkerLost, Workers
-from rotor.optimisation.search import Ended, Limits, Optimum, Search, optimise
+from rotor.optimisation.search import Ended, Limits, Optimum, Search, run_search
 
 CHUNK = 4
 """Neighbouring conditions worked off together."""
@@ -169,7 +169,7 @@ def _work_chunk(plan: Plan, legs: tuple[int, ...], known: _Known, stop: Callable
                 guesses=guesses,
                 band=False,
             )
-            optimum = optimise(search, stop=stop)
+            optimum = run_search(search, stop=stop)
             if optimum.status is Ended.STOPPED:
                 return
             cell = Cell(leg, concept.name, optimum)
@@ -197,7 +197,7 @@ def _work_fixed(plan: Plan, concept: Concept, known: _Known, stop: Callable[[], 
         guesses=(middle,) if middle else (),
         band=False,
     )
-    optimum = optimise(search, stop=stop)
+    optimum = run_search(search, stop=stop)
     if optimum.status is not Ended.STOPPED:
         yield Cell(None, concept.name, optimum)
 

@@ -11,6 +11,7 @@ import numpy as np
 from scipy.stats import qmc
 
 from rotor.arrays import Array
+from rotor.blas_threads import one_blas_thread
 from rotor.design.design import Design
 from rotor.optimisation.band import measure_band
 from rotor.optimisation.concepts import Concept, nearest
@@ -61,7 +62,8 @@ class Search:
         self.limits.bounds_of(self.concept)
 
 
-def optimise(
+@one_blas_thread()
+def run_search(
     search: Search,
     watch: Callable[[Progress], None] | None = None,
     stop: Callable[[], bool] | None = None,

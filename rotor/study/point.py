@@ -18,7 +18,7 @@ from rotor.design.design import FLIGHT_MODELS, THESIS_MODELS, Design, check_pres
 from rotor.files.make_design import change_airfoils, make_design
 from rotor.optimisation.concepts import Concept, restrict
 from rotor.optimisation.objective import at_condition, hover_and_cruise
-from rotor.optimisation.search import Ended, Limits, Optimum, Search, optimise
+from rotor.optimisation.search import Ended, Limits, Optimum, Search, run_search
 from rotor.study.memory import Memory
 from rotor.study.quantities import PLAIN, Value, blade_concept
 from rotor.study.study import Searching, Study
@@ -92,7 +92,7 @@ def evaluate(values: Values, study: Study, memory: Memory) -> Row:
             row |= {"status": solution.status.value, "message": solution.message}
         else:
             search = _search(design, values, study.searching, memory)
-            optimum = optimise(search)
+            optimum = run_search(search)
             solution = solve(optimum.design, memory.guess(values, hovering=design.hovering))
             row |= _found(optimum, search) | {"status": optimum.status.value, "message": optimum.message}
             if optimum.status is Ended.CONVERGED and not solution.converged:

@@ -24,7 +24,7 @@ from rotor.actuator.wording import verdict_sentence
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.limits import Limits
-from rotor.optimisation.search import Search, optimise
+from rotor.optimisation.search import Search, run_search
 from rotor.trim.solve import solve
 
 KEYS = [
@@ -54,7 +54,7 @@ def test_baseline_against_the_optimiser():
     """Two codes for one optimum: the search of `optimise` finds no better linear twist at either condition."""
     base = baseline(pair(), find_concept("linear"))
     for design, best in zip(pair().designs(), base.best, strict=True):
-        found = optimise(Search(design, find_concept("linear"), starts=2, band=False))
+        found = run_search(Search(design, find_concept("linear"), starts=2, band=False))
         assert found.best is not None
         assert_allclose(best.power, found.best.power, rtol=1e-5)
 
@@ -177,7 +177,7 @@ def test_limit_for_the_optimiser():
     design = pair().designs()[1]
     reference = find_concept("linear").twist([math.radians(-20.0)])
     limit = change_limit(judged.fitted, reference, derated=True)
-    found = optimise(Search(design, find_concept("linear"), limits=Limits(change=limit), starts=1, band=False))
+    found = run_search(Search(design, find_concept("linear"), limits=Limits(change=limit), starts=1, band=False))
     assert found.best is not None
     root = design.rotor.blade.root_cutout
     law = find_concept("linear").twist(found.best.parameters)
