@@ -10,7 +10,7 @@ from rotor.design.twist import TwistLaw
 Phase = Literal["baseline", "search", "band"]
 
 
-class Ended(Enum):
+class SearchStatus(Enum):
     """How a search ended."""
 
     CONVERGED = "converged"
@@ -72,7 +72,7 @@ class Band:
 class Optimum:
     """What a search found."""
 
-    status: Ended
+    status: SearchStatus
     message: str
     """Why it stopped, in one sentence."""
     concept: str

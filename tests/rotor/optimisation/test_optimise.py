@@ -15,8 +15,17 @@ from rotor.design.flight import FlightCondition
 from rotor.design.twist import LinearTwist
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS, find_concept
-from rotor.optimisation.objective import Leg, Objective, at_condition, measure
-from rotor.optimisation.search import ChangeLimit, Ended, Limits, Optimum, Progress, Search, reach, run_search
+from rotor.optimisation.objective import Objective, WeightedCondition, at_condition, measure
+from rotor.optimisation.search import (
+    ChangeLimit,
+    Limits,
+    Optimum,
+    Progress,
+    Search,
+    SearchStatus,
+    even_change_limit,
+    run_search,
+)
 from rotor.trim.solve import solve
 
 DEGREE = math.radians(1.0)
@@ -46,7 +55,7 @@ def test_grid_finds_nothing_better_in_one_variable(mu: float):
     rates = np.radians(np.arange(-30.0, 10.1, 2.0))
     powers = grid_powers(design, "linear", rates)
     found = run_search(Search(design, CONCEPTS["linear"], band=False))
-    assert found.status is Ended.CONVERGED
+    assert found.status is SearchStatus.CONVERGED
     assert found.best is not None
     assert found.best.power <= powers.min() * (1.0 + 1e-6)
     assert abs(found.best.parameters[0] - rates[powers.argmin()]) < 2.0 * DEGREE
@@ -154,10 +163,10 @@ def test_bounds_rate_and_change_limits_hold():
     for limits, active in (
         (Limits(bounds=(("rate", -6 * DEGREE, 2 * DEGREE),)), "rate low"),
         (Limits(rate=(-5 * DEGREE, 0.0)), "rate"),
-        (Limits(change=reach(design.twist, 2.0 * DEGREE)), "change"),
+        (Limits(change=even_change_limit(design.twist, 2.0 * DEGREE)), "change"),
     ):
         found = run_search(Search(design, CONCEPTS["linear"], limits=limits, starts=2))
-        assert found.status is Ended.CONVERGED
+        assert found.status is SearchStatus.CONVERGED
         assert found.best is not None
         assert active in found.best.active
     # The optimum lies beyond −11°/R; two degrees from the cut-out (0.1304 R) to the tip are 2/0.8696 = 2.3 °/R.
@@ -222,7 +231,7 @@ def test_progress_tells_every_evaluation_and_the_best_never_rises():
 def test_stopping_keeps_the_best_so_far(after: int):
     heard: list[Progress] = []
     found = run_search(Search(small(0.2), CONCEPTS["free-form"]), heard.append, lambda: len(heard) >= after)
-    assert found.status is Ended.STOPPED
+    assert found.status is SearchStatus.STOPPED
     assert len(heard) == after
     assert found.best is not None
     assert_allclose(found.best.power, min(progress.power or math.inf for progress in heard), rtol=1e-9)
@@ -231,7 +240,7 @@ def test_stopping_keeps_the_best_so_far(after: int):
 
 def test_stopping_before_anything_is_known():
     found = run_search(Search(small(0.2), CONCEPTS["linear"]), None, lambda: True)
-    assert (found.status, found.best, found.minima, found.saving) == (Ended.STOPPED, None, (), None)
+    assert (found.status, found.best, found.minima, found.saving) == (SearchStatus.STOPPED, None, (), None)
 
 
 def test_the_optimum_has_the_power_that_solve_gives():
@@ -247,14 +256,14 @@ def test_the_optimum_has_the_power_that_solve_gives():
 def test_what_cannot_fly_is_said_and_not_invented():
     design = replace(small(0.2), condition=FlightCondition(0.0, 20000.0, 4000.0))
     found = run_search(Search(design, CONCEPTS["linear"], starts=2))
-    assert found.status is Ended.NOT_CONVERGED
+    assert found.status is SearchStatus.NOT_CONVERGED
     assert (found.best, found.baseline_power, found.band) == (None, None, ())
     assert "No start trims" in found.message
 
 
 def test_limits_that_nothing_keeps_are_said():
     found = run_search(Search(small(0.36), CONCEPTS["linear"], limits=Limits(stalled=1e-4), starts=1))
-    assert found.status is Ended.NOT_CONVERGED
+    assert found.status is SearchStatus.NOT_CONVERGED
     assert "limits" in found.message
 
 
@@ -271,10 +280,13 @@ def test_near_the_edge_of_flight_starts_that_do_not_trim_are_survived():
 
 def test_mission_optimum_lies_between_those_of_its_legs():
     design = small(0.2)
-    legs = tuple(Leg(replace(design.condition, advance_ratio=mu)) for mu in (0.1, 0.3))
+    conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in (0.1, 0.3))
     concept = CONCEPTS["linear"]
-    alone = [run_search(Search(design, concept, Objective("total", (leg,)), starts=2, band=False)) for leg in legs]
-    both = run_search(Search(design, concept, Objective("total", legs), starts=2, band=False))
+    alone = [
+        run_search(Search(design, concept, Objective("total", (condition,)), starts=2, band=False))
+        for condition in conditions
+    ]
+    both = run_search(Search(design, concept, Objective("total", conditions), starts=2, band=False))
     rates = [one.best.parameters[0] for one in alone if one.best is not None]
     assert both.best is not None
     assert min(rates) <= both.best.parameters[0] <= max(rates)
