@@ -14,12 +14,8 @@ from explorer.hosting.house import SESSIONS, SLEEP_AFTER
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Exit code 0 after Ctrl-C, 2 for bad input; those of their own commands for `soak` and `report`."""
+    """Exit code 0 after Ctrl-C, 2 for bad input; that of its own command for `report`."""
     given = list(sys.argv[1:] if arguments is None else arguments)
-    if given[:1] == ["soak"]:
-        from explorer.soak.command import main as soak
-
-        return soak(given[1:])
     if given[:1] == ["report"]:
         from explorer.export.report.command import main as report
 
@@ -37,7 +33,10 @@ def _run(options: argparse.Namespace) -> int:
     from explorer.hosting.doors import is_loopback, warning
     from explorer.hosting.house import ServerLimits
     from explorer.state import Inputs, inputs_of
+    from rotor.blas_threads import keep_one_blas_thread
     from rotor.files.design_file import read_case
+
+    keep_one_blas_thread()
 
     try:
         start = inputs_of(read_case(options.design)) if options.design else Inputs()
@@ -68,8 +67,7 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="python -m explorer",
         description="Explore helicopter blade twist in a browser.",
-        epilog="python -m explorer report: designs side by side as an HTML file. "
-        "python -m explorer soak: many browsers at once, and what they find. Each has its --help.",
+        epilog="python -m explorer report: designs side by side as an HTML file; it has its own --help.",
     )
     parser.add_argument("--host", default="127.0.0.1", help="address to listen on (default: this machine only)")
     parser.add_argument("--port", type=_port, default=8080, help="port to listen on (default 8080)")

@@ -1,18 +1,22 @@
 """What stands where on the page of one client, and what its buttons do to one another."""
 
+import math
+from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
 from typing import Any
 
 import viser
 
+from explorer.charts.plots import PowerCurve
 from explorer.hosting import viser_compat
 from explorer.hosting.viser_compat import PageFacts, set_style
-from explorer.interface import SessionCallbacks, SharedServices, Tab, TabContext
+from explorer.interface import Failure, Frame, Reading, SessionCallbacks, SessionState, SharedServices, Tab, TabContext
 from explorer.picture.camera_views import View
+from explorer.pinned import Pinned
 from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
-from explorer.scene.overlays import Strip
+from explorer.scene.overlays import Strip, ghost_of
 from explorer.sharing import share
 from explorer.sharing.address import Address
 from explorer.sharing.view_code import VIEW, view_from
@@ -38,8 +42,11 @@ from explorer.tabs.rotors.menu import RotorUpload
 from explorer.tabs.studies.panel import StudiesPanel
 from explorer.tabs.top_bar import TopBar
 from explorer.text import trust as trust_readout
+from explorer.text.status import status_panel
+from explorer.text.units import UNITS
 from explorer.theme import style_sheet as style
 from rotor.design.design import Design
+from rotor.trim.solution import Solution
 
 _CHART_WIDTH, _CONTROL_WIDTH = 340, 320
 """[px]; what they leave at 1280 is still a square."""
@@ -49,7 +56,7 @@ _BRAND = (28, 126, 214)
 
 
 class Page:
-    """Built once for a client. The session shows its answers on `frame`, `results`, `actuator` and `tabs`."""
+    """Built once for a client. It is the session's `SessionPage`."""
 
     def __init__(
         self,
@@ -117,6 +124,7 @@ class Page:
             self.probe = ProbePanel(client, context)
         with panel.add_tab("Actuator"):
             self.actuator = ActuatorPanel(client, shared.pool, callbacks.wake, self._fly)
+            self._actuator_inputs = self.actuator.inputs()
         with panel.add_tab("Physics"):
             self.waterfall = WaterfallPanel(gui)
         with panel.add_tab("Studies"):
@@ -134,27 +142,117 @@ class Page:
         for title, sentence in problems:
             self._notify(title, sentence)
 
-    def follow(self, design: Design | None) -> None:
-        """Bring the tabs that start long work into line with the design on the sliders; None: they mean none."""
-        self.optimise.refresh(design)
-        self.map.refresh(design)
-        self.schedule.refresh()
+    def start(self) -> None:
+        """The session begins: widgets as they will be, also where the first solution takes long."""
+        self.actuator.start()
+        self._refresh(Reading(self.controls.inputs(), self.controls.display.view()))
 
     def stop(self) -> None:
         """The browser has left."""
         for tab in (self.optimise, self.map, self.schedule, self.actuator, *self.tabs):
             tab.stop()
 
-    def fit(self, radius: float) -> None:
-        """The rotor is of this radius [m] now."""
-        self._radius = radius
-        self.camera.resize(radius)
+    def read(self) -> tuple[Inputs, ViewState]:
+        """What the widgets mean now."""
+        return self.history.read(self.controls.pauses.longest()), self.controls.display.view()
 
-    def set_dark(self, dark: bool) -> None:
-        """A dark page, or a light one."""
-        if dark != self._dark:
-            self._dark = dark
+    def driven(self, design: Design) -> Design:
+        """The design with the actuator's twist; ValueError where it cannot drive this blade."""
+        self._actuator_inputs = self.actuator.inputs()
+        return self._actuator_inputs.apply(design)
+
+    def preview(self, design: Design) -> Design | None:
+        """The design of a search to show in place of the one on the sliders."""
+        return self.optimise.preview(design)
+
+    @property
+    def pin(self) -> Pinned | None:
+        """A of A/B."""
+        return self.top.pinned
+
+    def pin_or_swap(self, inputs: Inputs, solution: Solution | None) -> bool:
+        """Do what the A/B buttons asked for; whether that moves the sliders."""
+        moved = self.top.settle(inputs, solution, self.context)
+        self.controls.display.allow_difference(self.top.pinned is not None)
+        return moved
+
+    def solve_pinned(self, present: Design, hurried: bool) -> Solution | None:
+        """A beside the present design; None when nothing is pinned."""
+        return self.top.solve(present, hurried)
+
+    def show_frame(self, frame: Frame) -> None:
+        """Rotor, disk and camera; the cut blade of the actuator where it is looked at or driven."""
+        reading, solution = frame.reading, frame.solution
+        ghost = ghost_of(reading.sliders if reading.previewed else None, self.top.pinned)
+        self._radius = solution.design.rotor.radius
+        self.camera.resize(self._radius)
+        self.scene.draw(solution, reading.view, ghost, frame.pinned)
+        self.camera.ride(math.radians(reading.view.azimuth_deg))
+        # Only at harmonics does the cut blade turn with the marked one.
+        if self._actuator_in_frame and (not frame.only_azimuth or self._actuator_inputs.per_rev):
+            self._show_actuator(reading, solution)
+
+    def show_azimuth(self, state: SessionState) -> None:
+        """Only the azimuth of the marked blade changed."""
+        self.results.turn(state)
+        self.probe.show(state)
+
+    def show_results(self, reading: Reading, state: SessionState) -> None:
+        """Numbers, charts, and the tabs that start long work."""
+        self._refresh(reading)
+        self.history.solved(reading.inputs, state.solution.power.total)
+        self.results.show(state)
+
+    def show_power(self, state: SessionState, curve: PowerCurve, failed: bool = False) -> None:
+        """Power over advance ratio."""
+        self.results.show_power(state, curve, failed)
+
+    def follow(self, reading: Reading, state: SessionState) -> None:
+        """All other tabs, and the address."""
+        if not self._actuator_in_frame:
+            self._show_actuator(reading, state.solution)
+        for tab in self.tabs:
+            tab.show(state)
+        self.file.follow(state)
+
+    def rest(self, state: SessionState, stop: Callable[[], bool]) -> None:
+        """What can wait: the address once more, the waterfall, what the page keeps of an own rotor."""
+        self.file.follow(state)
+        self.waterfall.climb(stop)
+        if not stop():
+            self.file.keep()
+
+    def show_failure(self, failure: Failure) -> None:
+        """The last converged picture stays, grey, beneath the sentence."""
+        reading, solution = failure.reading, failure.solution
+        self._refresh(reading)
+        self.actuator.show_failure(failure.message)
+        self.results.problem(status_panel(None, failure.message) if solution is None else status_panel(solution))
+        for tab in self.tabs:
+            tab.show_failure()
+        self.scene.fade(failure.good, reading.view, self.top.answer if reading.view.difference else None)
+
+    def show_error(self, sentence: str) -> None:
+        """An update failed with an exception."""
+        self.results.problem(status_panel(None, sentence))
+
+    @property
+    def _actuator_in_frame(self) -> bool:
+        return self._actuator_inputs.shown or self._actuator_inputs.driven
+
+    def _show_actuator(self, reading: Reading, solution: Solution) -> None:
+        design, azimuth = reading.sliders or solution.design, math.radians(reading.view.azimuth_deg)
+        self.actuator.show(self._actuator_inputs, design, solution, azimuth)
+
+    def _refresh(self, reading: Reading) -> None:
+        """What follows the widgets themselves: visible sliders, units, dark page, and the tabs of long work."""
+        self.controls.refresh(reading.inputs, UNITS[reading.view.units])
+        if reading.view.dark != self._dark:
+            self._dark = reading.view.dark
             self._theme()
+        self.optimise.refresh(reading.sliders)
+        self.map.refresh(reading.sliders)
+        self.schedule.refresh()
 
     def _wire(self) -> None:
         """Buttons to what they do, once everything stands."""

@@ -1,7 +1,22 @@
-"""One browser's explorer: its widgets, scene, charts and worker, wired along the straight path."""
+"""One browser's session: its page, its worker thread, and the path from a slider to the picture.
+
+A slider step takes these steps; `_update` is the path, the page implements `explorer.interface.SessionPage`:
+
+1. A widget's callback calls `wake`, on a thread of viser's. Nothing else happens there.
+2. `NewestWins` runs `_update` on the session's thread when its turn comes; wakes in between need only one more run.
+3. read: `page.read` turns the widgets into `Inputs` and `ViewState`.
+4. read: `Inputs.design`, the actuator and the search that is shown turn them into a `Design`.
+5. solve: `rotor.trim.solve` trims the design, starting from the last converged solution.
+6. solve: the A/B buttons act. If that moves the sliders, a further update follows and this one ends.
+7. draw: `picture.make_picture` makes arrays of the solution: blades, disk image, outlines.
+8. draw: `scene` assigns them to viser's handles and flushes. The frame is on its way.
+9. follow: the baseline and A are solved and complete the `SessionState`.
+10. follow: `page.show_results` updates status, numbers, charts and the panels of long work.
+11. follow: `page.follow` updates all other tabs.
+12. follow: the power curve is swept. `page.rest` then updates what can wait until nothing moves.
+"""
 
 import logging
-import math
 import threading
 from collections.abc import Callable
 from dataclasses import replace
@@ -10,12 +25,9 @@ import viser
 
 from explorer.charts.power_curve import PowerCurves
 from explorer.hosting.viser_compat import PageFacts
-from explorer.interface import SessionCallbacks, SessionState, SharedServices
+from explorer.interface import Failure, Frame, Reading, SessionCallbacks, SessionPage, SessionState, SharedServices
 from explorer.page import Page
-from explorer.scene.overlays import ghost_of
-from explorer.state import Inputs, ViewState, baseline_of, with_optimum
-from explorer.text.status import status_panel
-from explorer.text.units import UNITS
+from explorer.state import Inputs, baseline_of, with_optimum
 from explorer.workers import solver
 from explorer.workers.newest_wins import IdleTimeout, NewestWins
 from rotor.trim.solution import Solution
@@ -33,154 +45,137 @@ class Session:
         start: Inputs,
         facts: PageFacts,
         shared: SharedServices,
-        sleep: IdleTimeout | None = None,
+        idle: IdleTimeout | None = None,
     ) -> None:
-        """`start`: where the page's address holds no design; `sleep`: what the house does about rest."""
+        """`start`: used where the page's address holds no design; `idle`: what the server does when a page rests."""
         self._latest: Solution | None = None
         self._good: Solution | None = None
-        """The last converged answer: what the picture shows."""
+        """The last converged solution: what the picture shows."""
         self._state: SessionState | None = None
         self._shown = threading.Event()
-        """Set once the page has its first answer, or the sentence why there is none."""
-        self._whole_round = True
-        """Whether more may have changed since the last round than where the marked blade is."""
+        """Set once the page has its first solution, or the sentence why there is none."""
+        self._all_changed = True
+        """Whether more than the azimuth of the marked blade may have changed since the last update."""
         self._baseline = solver.BaselineCache()
         self._curves = PowerCurves()
         self._pool = shared.pool
-        self._worker = NewestWins(self._round, self._report, f"session-{client.client_id}", self._resting(sleep))
-        self.page = Page(
-            client, start, facts, shared, SessionCallbacks(self._wake, self._worker.wake, lambda: self._state)
-        )
+        self._worker = NewestWins(self._update, self._failed, f"session-{client.client_id}", self._freeing(idle))
+        callbacks = SessionCallbacks(self._wake, self._worker.wake, lambda: self._state)
+        self.page = Page(client, start, facts, shared, callbacks)
+        self._page: SessionPage = self.page
 
     def start(self) -> None:
-        self.page.actuator.start()
+        self._page.start()
         self._worker.start()
         self._wake()
 
     def stop(self) -> None:
-        self._whole_round = True
-        self.page.stop()
+        self._all_changed = True
+        self._page.stop()
         self._pool.leave()
         self._worker.stop()
 
-    def _wake(self) -> None:
-        """Something changed."""
-        self._whole_round = True
-        self._worker.wake()
-
     def until_shown(self, patience: float) -> None:
-        """Wait for the first answer to be on its way, at most so long [s]."""
+        """Wait until the first solution is shown, at most `patience` [s]."""
         self._shown.wait(patience)
 
-    def _round(self, superseded: Callable[[], bool]) -> None:
-        """Widgets → Design → Solution → pictures; the frame first, then what it is compared with."""
-        whole, self._whole_round = self._whole_round, False
-        page = self.page
+    def _update(self, superseded: Callable[[], bool]) -> None:
+        """One slider step; `superseded` gives way to the frames of other pages, then says whether to stop."""
+        everything, self._all_changed = self._all_changed, False
+        reading = self._read()
+        solution = self._solve(reading)
+        if solution is not None:
+            self._draw(reading, solution, everything)
+            self._follow(reading, solution, everything, superseded)
 
-        def overtaken() -> bool:
-            """Whether something waits that makes the rest of this round needless: not a blade that only turned."""
-            return self._whole_round and self._worker.superseded
-
-        def pause() -> bool:
-            """The same between two steps of what can wait, where the frames of other pages go first."""
-            return superseded() and self._whole_round
-
-        inputs, view = page.history.read(page.controls.pauses.longest()), page.controls.display.view()
-        page.controls.refresh(inputs, UNITS[view.units])
-        page.set_dark(view.dark)
+    def _read(self) -> Reading:
+        """Widgets → design."""
+        page = self._page
+        inputs, view = page.read()
         try:
-            plain = inputs.design()
-            actuator = page.actuator.inputs()
-            design = actuator.apply(plain)
+            sliders = inputs.design()
+            design = page.driven(sliders)
         except ValueError as error:
-            page.follow(None)
+            return Reading(inputs, view, problem=str(error))
+        # The designs of a search are shown without actuator, so a driven actuator takes precedence.
+        preview = page.preview(sliders) if design == sliders else None
+        return Reading(inputs, view, sliders, preview or design, preview is not None)
+
+    def _solve(self, reading: Reading) -> Solution | None:
+        """Design → converged solution; None if there is none, or if the sliders were moved meanwhile."""
+        design = reading.design
+        if design is None:
             self._latest = None
-            if self._settle(inputs, None):
-                return
-            page.actuator.show_failure(str(error))
-            self._show_failure(view, status_panel(None, str(error)))
-            return
-        # What a search shows is a blade at rest: a driven actuator goes first.
-        preview = page.optimise.preview(plain) if design == plain else None
-        if whole:
-            page.follow(plain)
-        design = preview or design
-        if self._latest is None or self._latest.design != design:
+        elif self._latest is None or self._latest.design != design:
             self._latest = solve(design, self._good)
         solution = self._latest
-        if self._settle(inputs if preview is None else with_optimum(inputs, preview), solution):
-            return
-        if not solution.converged:
-            page.actuator.show_failure(solution.message)
-            self._show_failure(view, status_panel(solution))
-            return
+        inputs = with_optimum(reading.inputs, design) if design and reading.previewed else reading.inputs
+        if self._page.pin_or_swap(inputs, solution):
+            return None
+        if solution is None or not solution.converged:
+            self._show_failure(Failure(reading, solution, self._good))
+            return None
         self._good = solution
-        page.history.solved(inputs, solution.power.total)
-        top = page.top
-        # A before the frame only where the frame shows it: nothing else may hold the frame up.
-        on_disk = top.solve(design, overtaken()) if view.difference else None
-        page.fit(solution.design.rotor.radius)
-        page.scene.draw(solution, view, ghost_of(None if preview is None else plain, top.pinned), on_disk)
-        page.camera.ride(math.radians(view.azimuth_deg))
-        pictured = actuator.shown or actuator.driven  # Then it is part of the frame; else its tab can wait.
-        if pictured and (whole or actuator.per_rev):  # Only at harmonics does its picture turn with the blade.
-            page.actuator.show(actuator, plain, solution, math.radians(view.azimuth_deg))
+        return solution
+
+    def _draw(self, reading: Reading, solution: Solution, everything: bool) -> None:
+        """Solution → the frame. A is solved before the frame only where the disk shows the difference to it."""
+        pinned = self._page.solve_pinned(solution.design, self._overtaken()) if reading.view.difference else None
+        self._page.show_frame(Frame(reading, solution, pinned, only_azimuth=not everything))
+
+    def _follow(self, reading: Reading, solution: Solution, everything: bool, superseded: Callable[[], bool]) -> None:
+        """Everything else, in order of how soon it is needed; stops early when the sliders move on."""
+        page, design = self._page, solution.design
         baseline = self._baseline.solve(baseline_of(design))
-        state = SessionState(inputs, view, solution, baseline, top.solve(design, overtaken()), top.pinned)
+        pinned = page.solve_pinned(design, self._overtaken())
+        state = SessionState(reading.inputs, reading.view, solution, baseline, pinned, page.pin)
         before, self._state = self._state, state
-        if not whole and state.only_turned(before):
-            page.results.turn(state)
-            page.probe.show(state)
+        if not everything and state.only_turned(before):
+            page.show_azimuth(state)
             return
-        reference = state.reference.design
+        page.show_results(reading, state)
 
         def show_power() -> None:
-            page.results.show_power(state, self._curves.known(design, reference))
+            page.show_power(state, self._curves.known(design, state.reference.design))
 
-        page.results.show(state)
+        def stop() -> bool:
+            return superseded() and self._all_changed
+
         show_power()
-        if not overtaken():
-            if not pictured:
-                page.actuator.show(actuator, plain, solution, math.radians(view.azimuth_deg))
-            for tab in page.tabs:
-                tab.show(state)
-            page.file.follow(state)
+        if not self._overtaken():
+            page.follow(reading, state)
         self._shown.set()
-        if self._curves.sweep(design, reference, pause, show_power):
-            page.file.follow(state)
-            page.waterfall.climb(pause)
-            if not pause():
-                page.file.keep()
+        if self._curves.sweep(design, state.reference.design, stop, show_power):
+            page.rest(state, stop)
 
-    def _settle(self, inputs: Inputs, solution: Solution | None) -> bool:
-        """Do what the buttons of A/B asked; whether that moves the sliders, so that another round follows."""
-        moved = self.page.top.settle(inputs, solution, self.page.context)
-        self.page.controls.display.allow_difference(self.page.top.pinned is not None)
-        return moved
-
-    def _show_failure(self, view: ViewState, status: str) -> None:
-        """The inputs have no answer: the last good one stays, grey, beneath the sentence."""
-        self.page.results.problem(status)
+    def _show_failure(self, failure: Failure) -> None:
+        """The last converged picture stays, grey, with the sentence."""
+        self._page.show_failure(failure)
         self._shown.set()
-        for tab in self.page.tabs:
-            tab.show_failure()
-        self.page.scene.fade(self._good, view, self.page.top.answer if view.difference else None)
         if (last := self._state) is not None:
             curve = self._curves.known(last.solution.design, last.reference.design)
-            self.page.results.show_power(last, curve, lost=True)
+            self._page.show_power(last, curve, failed=True)
 
-    def _resting(self, sleep: IdleTimeout | None) -> IdleTimeout | None:
-        """What is only kept to be quick goes when the page falls asleep; the first touch computes it anew."""
+    def _wake(self) -> None:
+        """Something changed."""
+        self._all_changed = True
+        self._worker.wake()
+
+    def _overtaken(self) -> bool:
+        """Whether a newer update waits that changes more than the azimuth of the marked blade."""
+        return self._all_changed and self._worker.superseded
+
+    def _freeing(self, idle: IdleTimeout | None) -> IdleTimeout | None:
+        """The same with the caches freed when the page falls asleep; the next touch fills them again."""
 
         def on_sleep() -> None:
             self._latest, self._baseline, self._curves = None, solver.BaselineCache(), PowerCurves()
-            if sleep is not None:
-                sleep.on_sleep()
+            if idle is not None:
+                idle.on_sleep()
 
-        return sleep and replace(sleep, on_sleep=on_sleep)
+        return idle and replace(idle, on_sleep=on_sleep)
 
-    def _report(self, error: Exception) -> None:
+    def _failed(self, error: Exception) -> None:
         self._shown.set()
         _log.error("an update failed", exc_info=error)
-        sentence = f"This update failed ({error}): move any slider to go on."
-        self.page.results.problem(status_panel(None, sentence))
+        self._page.show_error(f"This update failed ({error}): move any slider to go on.")

@@ -14,12 +14,51 @@ Equation numbers in docstrings are those of M. Lonoce, Helicopter Blade Twist Op
 thesis, Instituto Superior Técnico, 2016 ("the document"), whose misprints are named where they occur.
 """
 
-from rotor.analysis.sweep import sweep as sweep
-from rotor.design.design import Design as Design
-from rotor.design.design import Models as Models
-from rotor.design.flight import FlightCondition as FlightCondition
-from rotor.design.twist_spec import parse_twist as parse_twist
-from rotor.files.make_design import make_design as make_design
-from rotor.trim.solution import Solution as Solution
-from rotor.trim.solution import Status as Status
-from rotor.trim.solve import solve as solve
+from importlib.metadata import PackageNotFoundError, version
+
+from rotor.analysis.sweep import SweepTable, plot_power, sweep
+from rotor.design.aircraft import Aircraft
+from rotor.design.blade import Rotor
+from rotor.design.design import Design, Models
+from rotor.design.flight import FlightCondition
+from rotor.design.twist_spec import parse_twist
+from rotor.files.design_file import read_case as load_design
+from rotor.files.make_design import make_design
+from rotor.files.rotor_file import read_rotor_file as load_rotor
+from rotor.optimisation.optimise import optimise
+from rotor.optimisation.results import Optimum
+from rotor.trim.solution import Caveat, Controls, PowerBudget, Solution, Status
+from rotor.trim.solve import solve
+
+try:
+    __version__ = version("rotor-explorer")
+except PackageNotFoundError:  # A checkout that was never installed.
+    __version__ = "unknown"
+
+__all__ = (
+    "Aircraft",
+    "Caveat",
+    "Controls",
+    "Design",
+    "FlightCondition",
+    "Models",
+    "Optimum",
+    "PowerBudget",
+    "Rotor",
+    "Solution",
+    "Status",
+    "SweepTable",
+    "__version__",
+    "load_design",
+    "load_rotor",
+    "make_design",
+    "optimise",
+    "parse_twist",
+    "plot_power",
+    "solve",
+    "sweep",
+)
+
+
+def __dir__() -> list[str]:
+    return list(__all__)

@@ -2,11 +2,13 @@
 
 import sys
 
+from rotor.blas_threads import keep_one_blas_thread
 from rotor.command.parser import build_parser
 
 
 def main(argv: list[str] | None = None) -> int:
     """Run one command; bad input gives one line on stderr."""
+    keep_one_blas_thread()
     try:
         args = build_parser().parse_args(argv)
         return args.run(args)

@@ -12,11 +12,11 @@ import pytest
 
 ROOT = Path(__file__).parent.parent
 PHYSICS = {"numpy", "scipy", "numba", "threadpoolctl", "tqdm"}
-KNOW_VISER = ("explorer/tabs/", "explorer/scene/", "explorer/hosting/", "explorer/soak/")
+KNOW_VISER = ("explorer/tabs/", "explorer/scene/", "explorer/hosting/")
 """Folders that may import viser; files directly in `explorer/` may too."""
 ORDER = (
-    "arrays", "units", "assets", "airfoil", "design", "dynamics", "aero", "files", "trim", "optimisation", "analysis",
-    "actuator", "study", "reproduce", "command",
+    "arrays", "units", "blas_threads", "plots", "assets", "airfoil", "design", "dynamics", "aero", "files", "trim",
+    "optimisation", "analysis", "actuator", "study", "reproduce", "command",
 )  # fmt: skip
 """The folders of `rotor` from the ground up: each imports only from those before it."""
 

@@ -52,7 +52,9 @@ def serve(pipe: "Connection[Any, Any]") -> None:
     if hasattr(os, "nice"):
         os.nice(_NICE)
     from explorer.workers import solver
+    from rotor.blas_threads import keep_one_blas_thread
 
+    keep_one_blas_thread()
     solver.warm()
     with suppress(EOFError, OSError):
         pipe.send(WorkerReply(0, "ready"))

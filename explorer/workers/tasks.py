@@ -8,7 +8,7 @@ from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept
 from rotor.optimisation.objective import Objective, at_condition, measure
 from rotor.optimisation.schedule import Cell, Plan, Schedule
-from rotor.optimisation.search import Ended, Optimum, Search, optimise
+from rotor.optimisation.search import Optimum, Search, SearchStatus, run_search
 from rotor.trim.solution import Solution
 
 
@@ -44,7 +44,7 @@ class SearchTask:
             tell(ReferencePower(begin.power))
         elif not stop():
             tell(ReferencePower(measure(objective, self.reference, gradient=False).power))
-        return optimise(search, tell, stop)
+        return run_search(search, tell, stop)
 
 
 @dataclass(frozen=True)
@@ -110,34 +110,34 @@ class ScheduleTask:
         plan, concept = self.plan, self.plan.concepts[0]
         cells: list[Cell] = []
         guesses: tuple[tuple[float, ...], ...] = ()
-        for k, leg in enumerate((*plan.legs, None)):
+        for k, leg in enumerate((*plan.conditions, None)):
             if leg is None:
                 guesses = _middle(cells, plan)
             search = Search(
                 design=plan.design_at(None if leg is None else k),
                 concept=concept,
-                objective=Objective(plan.quantity, plan.legs if leg is None else (leg,)),
+                objective=Objective(plan.quantity, plan.conditions if leg is None else (leg,)),
                 limits=plan.limits,
                 starts=plan.starts if leg is not None else min(plan.starts, 3),
                 seed=plan.seed,
                 guesses=guesses,
                 band=False,
             )
-            optimum = optimise(search, stop=stop)
-            if optimum.status is Ended.STOPPED:
+            optimum = run_search(search, stop=stop)
+            if optimum.status is SearchStatus.STOPPED:
                 return Schedule(plan, tuple(cells))
             guesses = () if optimum.best is None else (optimum.best.parameters,)
             cells.append(Cell(None if leg is None else k, concept.name, optimum))
             tell(cells[-1])
         powers = [measure(Objective(plan.quantity, (leg,)), cells[-1].optimum.design, gradient=False).power
-                  for leg in plan.legs]  # fmt: skip
+                  for leg in plan.conditions]  # fmt: skip
         tell(FixedPowers(tuple(powers)))
         return Schedule(plan, tuple(cells))
 
 
 def _middle(cells: list[Cell], plan: Plan) -> tuple[tuple[float, ...], ...]:
     """The mean of the best moving blades, by their hours: where the search for a fixed one begins."""
-    shares = Objective(plan.quantity, plan.legs).shares
+    shares = Objective(plan.quantity, plan.conditions).shares
     found = [(share, cell.optimum.best) for share, cell in zip(shares, cells, strict=True) if cell.optimum.best]
     total = sum(share for share, _ in found)
     if not found:

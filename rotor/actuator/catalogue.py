@@ -16,7 +16,7 @@ _UNITS = re.compile(r"_(gpa|kg_m3|mm|pm_v|v|ppm|nf_cm2|c|nm|kg|w|s|deg)$")
 
 
 @dataclass(frozen=True)
-class Provenance:
+class DataProvenance:
     """Where an actuator's numbers come from, and which of them not to lean on."""
 
     source: str
@@ -66,7 +66,7 @@ class PiezoPly:
     """[°C]"""
     hysteresis: float
     """Width of the strain loop over its height."""
-    provenance: Provenance
+    provenance: DataProvenance
 
     @property
     def voltage_swing(self) -> float:
@@ -97,7 +97,7 @@ class TorqueTube:
     """[m]"""
     temperature_range: tuple[float, float]
     """[°C]"""
-    provenance: Provenance
+    provenance: DataProvenance
 
 
 @dataclass(frozen=True)
@@ -110,7 +110,7 @@ class ExtensionTwist:
     """Tip twist between standstill and full speed [rad]."""
     speed_change: float
     """Share by which the rotor may be slowed in flight."""
-    provenance: Provenance
+    provenance: DataProvenance
 
     @property
     def attainable(self) -> float:
@@ -209,8 +209,8 @@ def _extension_twist(row: dict[str, Any]) -> ExtensionTwist:
     )
 
 
-def _provenance(row: dict[str, Any]) -> Provenance:
-    return Provenance(row["source"], tuple(row["recalled"]), tuple(row["assumed"]))
+def _provenance(row: dict[str, Any]) -> DataProvenance:
+    return DataProvenance(row["source"], tuple(row["recalled"]), tuple(row["assumed"]))
 
 
 def _listed(keys: tuple[str, ...]) -> str:

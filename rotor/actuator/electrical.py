@@ -1,11 +1,120 @@
-"""Capacitance, energy and power of the plies, quasi-steady and at harmonics of rotor speed."""
+"""Electric field, free strain, capacitance and drive power of piezoelectric plies.
+
+Strain along the fibres is d·E with E = V/gap. Interdigitated electrodes lay the field along the fibres (d33, gap =
+electrode pitch), continuous electrodes through the thickness (d31, gap = thickness). Figures 5.2–5.7 of the thesis.
+"""
 
 import math
 from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike
 
 from rotor.actuator.catalogue import PiezoPly, TorqueTube
-from rotor.actuator.fitted import Fitted
+from rotor.actuator.installation import InstalledActuator
+from rotor.arrays import Array
 from rotor.dynamics.structure import structure_data
+
+
+def electric_field(ply: PiezoPly, voltage: ArrayLike) -> Array:
+    """E = V/gap [V/m]."""
+    return np.asarray(voltage, dtype=float) / ply.electrode_gap
+
+
+def thermal_coefficients(ply: PiezoPly) -> tuple[float, float]:
+    """α = d/ΔES along and across the fibres [1/V]: a volt does what a kelvin would do to a sheet of this expansion.
+
+    Source: thermal analogy of piezoelectric strain (Cote et al. 2004; the document's ΔES is the electrode gap).
+    MFC P1: 460 pm/V over 0.5 mm = 9.2e-7 per V; measured 7.5e-7…9.0e-7. Range: strain linear in the field.
+    """
+    return ply.d_along / ply.electrode_gap, ply.d_across / ply.electrode_gap
+
+
+def free_strain(ply: PiezoPly, voltage: ArrayLike) -> Array:
+    """Free strain along and across the fibres [-], (2, …), linear between the ends of the range, zero at 0 V.
+
+    Measured swing over the voltage swing, not the coefficient d: the two differ by the material's non-linearity.
+    """
+    per_volt = np.array(ply.swing) / ply.voltage_swing
+    return np.multiply.outer(per_volt, np.asarray(voltage, dtype=float))
+
+
+@dataclass(frozen=True, eq=False)
+class StrainCurve:
+    """Strain of one sheet over its voltage range, for a chart."""
+
+    label: str
+    voltage: Array
+    """[V]"""
+    field: Array
+    """[V/m]"""
+    along: Array
+    """Free strain along the fibres [-]."""
+    across: Array
+    by_coefficient: Array
+    """α V of the thermal analogy along the fibres [-]."""
+
+
+def strain_curve(ply: PiezoPly, points: int = 41) -> StrainCurve:
+    """Free strain against voltage and field."""
+    voltage = np.linspace(*ply.voltage_range, points)
+    along, across = free_strain(ply, voltage)
+    return StrainCurve(
+        label=f"{ply.name} ({'d33' if ply.electrodes == 'interdigitated' else 'd31'})",
+        voltage=voltage,
+        field=electric_field(ply, voltage),
+        along=along,
+        across=across,
+        by_coefficient=thermal_coefficients(ply)[0] * voltage,
+    )
+
+
+def deformed_sheet(ply: PiezoPly, voltage: float, *, exaggerate: float = 1.0) -> Array:
+    """Corners of a unit square of the free sheet, fibres along x, at a voltage, (4, 2): what figure 5.2 is about."""
+    along, across = exaggerate * free_strain(ply, voltage)
+    half = 0.5 * np.array([1.0 + along, 1.0 + across])
+    return half * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+
+
+@dataclass(frozen=True, eq=False)
+class FieldMap:
+    """The field between electrodes in a cut along the fibres, over the mean field of the gap."""
+
+    x: Array
+    """Along the fibre, one gap, in gaps (columns,)."""
+    z: Array
+    """Through the sheet, in gaps (rows,)."""
+    potential: Array
+    """0…1 from one electrode to the other, (rows, columns)."""
+    strength: Array
+    """|E| over V/gap, (rows, columns)."""
+
+
+@lru_cache(maxsize=16)
+def field_map(ply: PiezoPly, finger: float = 0.2, points: int = 61, sweeps: int = 4000) -> FieldMap:
+    """Potential between two interdigitated fingers (or two plates), by relaxation of Laplace's equation.
+
+    One gap along the fibre between finger centres, fingers on both faces, each covering `finger` of the gap.
+    Continuous electrodes need no solution: the field is V over the thickness. Range: one dielectric, static.
+    """
+    if ply.electrodes == "continuous":
+        z = np.linspace(0.0, 1.0, points)
+        potential = np.repeat(z[:, None], points, axis=1)
+        return FieldMap(np.linspace(0.0, 1.0, points), z, potential, np.ones((points, points)))
+    x = np.linspace(0.0, 1.0, points)
+    rows = max(7, round(ply.thickness / ply.electrode_gap * (points - 1)) + 1)
+    step = x[1]
+    value = np.repeat(x[None, :], rows, axis=0)
+    low, high = x <= 0.5 * finger + 1e-12, x >= 1.0 - 0.5 * finger - 1e-12
+    for _ in range(sweeps):
+        # Insulated faces and symmetry planes: mirror; over-relaxation is not worth its words here.
+        wide = np.pad(value, 1, mode="reflect")
+        value = 0.25 * (wide[:-2, 1:-1] + wide[2:, 1:-1] + wide[1:-1, :-2] + wide[1:-1, 2:])
+        for face in (0, -1):
+            value[face, low], value[face, high] = 0.0, 1.0
+    value_x, value_z = np.gradient(value, step, axis=1), np.gradient(value, step, axis=0)
+    return FieldMap(x, step * np.arange(rows), value, np.hypot(value_x, value_z))
 
 
 @dataclass(frozen=True)
@@ -22,36 +131,36 @@ class Drive:
     """[s]"""
 
 
-def capacitance(fitted: Fitted) -> float:
+def capacitance(installed: InstalledActuator) -> float:
     """C = c_A A n of one blade [F]."""
-    actuator = fitted.actuator
+    actuator = installed.actuator
     if not isinstance(actuator, PiezoPly):
         return 0.0
-    return actuator.capacitance_per_area * fitted.skin_area * fitted.placement.plies
+    return actuator.capacitance_per_area * installed.skin_area * installed.placement.plies
 
 
-def drive(fitted: Fitted, swings: tuple[float, ...]) -> Drive:
+def drive(installed: InstalledActuator, swings: tuple[float, ...]) -> Drive:
     """Holding, and slewing by each segment's share of the whole range: ½C ΔV² over the time, per segment."""
     data = structure_data()["electrical"]
-    blades = fitted.bill.blades
-    actuator = fitted.actuator
+    blades = installed.masses.blades
+    actuator = installed.actuator
     if isinstance(actuator, TorqueTube):
-        tubes = blades * fitted.placement.plies * len(fitted.placement.segments)
+        tubes = blades * installed.placement.plies * len(installed.placement.segments)
         return Drive(0.0, tubes * actuator.hold_power, tubes * actuator.move_power, actuator.move_time)
     if not isinstance(actuator, PiezoPly):
         return Drive(0.0, 0.0, 0.0, 0.0)
-    per_area = actuator.capacitance_per_area * fitted.placement.plies
+    per_area = actuator.capacitance_per_area * installed.placement.plies
     energy = sum(
         0.5 * per_area * area * (swing * actuator.voltage_swing) ** 2
-        for area, swing in zip(fitted.segment_areas, swings, strict=True)
+        for area, swing in zip(installed.segment_areas, swings, strict=True)
     )
     time = float(data["slew_s"])
     slew = blades * energy / time / float(data["amplifier_efficiency"])
-    return Drive(capacitance(fitted), 0.0, slew, time)
+    return Drive(capacitance(installed), 0.0, slew, time)
 
 
 @dataclass(frozen=True)
-class Harmonic:
+class HarmonicDrive:
     """Driving the plies at a harmonic of rotor speed, one blade."""
 
     reactive: float
@@ -60,12 +169,14 @@ class Harmonic:
     """[W], heat in the plies."""
 
 
-def harmonic_drive(fitted: Fitted, per_rev: float, amplitude: float, angular_speed: float) -> Harmonic:
+def harmonic_drive(
+    installed: InstalledActuator, per_rev: float, amplitude: float, angular_speed: float
+) -> HarmonicDrive:
     """Reactive π f C V_a² and loss π f C V_a² tan δ, at `amplitude` as a share of half the range (V_a)."""
-    actuator = fitted.actuator
+    actuator = installed.actuator
     if not isinstance(actuator, PiezoPly):
-        return Harmonic(0.0, 0.0)
+        return HarmonicDrive(0.0, 0.0)
     frequency = per_rev * angular_speed / (2.0 * math.pi)
     voltage = 0.5 * amplitude * actuator.voltage_swing
-    reactive = math.pi * frequency * capacitance(fitted) * voltage**2
-    return Harmonic(reactive, reactive * float(structure_data()["electrical"]["loss_tangent"]))
+    reactive = math.pi * frequency * capacitance(installed) * voltage**2
+    return HarmonicDrive(reactive, reactive * float(structure_data()["electrical"]["loss_tangent"]))

@@ -11,8 +11,8 @@ import numpy as np
 
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.electrical import harmonic_drive
-from rotor.actuator.fitted import Fitted
-from rotor.actuator.verdict import carried
+from rotor.actuator.installation import InstalledActuator
+from rotor.actuator.verdict import with_actuator_mass
 from rotor.arrays import Array
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
@@ -22,7 +22,7 @@ from rotor.trim.solve import solve
 
 SHAPE_STATIONS = 41
 PHASES = 12
-TOO_NEAR = 0.25
+RESONANCE_MARGIN = 0.25
 """From the first torsion frequency [per rev]. There only damping limits the twist, and none is modelled. Our choice: at
 4.6/rev what is told is then below ten times the static twist, 1/(1 − (ω/ω_θ)²)."""
 
@@ -41,26 +41,26 @@ class DynamicTwist:
     """Over the tip's."""
 
 
-def dynamic_twist(fitted: Fitted, per_rev: int, *, derated: bool = False) -> DynamicTwist:
+def dynamic_twist(installed: InstalledActuator, per_rev: int, *, derated: bool = False) -> DynamicTwist:
     """Amplitude and shape at a harmonic; zero for actuators that cannot follow (heat, rotor speed).
 
     Undamped: ValueError with one sentence at resonance.
     """
-    if not isinstance(fitted.actuator, PiezoPly):
+    if not isinstance(installed.actuator, PiezoPly):
         return DynamicTwist(per_rev, 0.0, 0.0, (0.0, 1.0), (0.0, 1.0))
-    if abs(per_rev - fitted.frequency) < TOO_NEAR:
+    if abs(per_rev - installed.frequency) < RESONANCE_MARGIN:
         raise ValueError(
-            f"{per_rev}/rev is too near to the first torsion frequency of {fitted.frequency:.2f}/rev, where only "
+            f"{per_rev}/rev is too near to the first torsion frequency of {installed.frequency:.2f}/rev, where only "
             "damping limits the twist and none is modelled: choose another harmonic, stiffness or number of plies"
         )
-    low, high = (fitted.beam.r[-1] * end for end in fitted.placement.span)
-    share = np.diff(np.clip(fitted.beam.r, low, high)) / np.diff(fitted.beam.r)
-    moment = 0.5 * fitted.moment * share * (fitted.derating if derated else 1.0)
-    static = twist_under_moment(fitted.beam, moment)
-    moving = twist_under_moment(fitted.beam, moment, per_rev=float(per_rev))
+    low, high = (installed.beam.r[-1] * end for end in installed.placement.span)
+    share = np.diff(np.clip(installed.beam.r, low, high)) / np.diff(installed.beam.r)
+    moment = 0.5 * installed.moment * share * (installed.derating if derated else 1.0)
+    static = twist_under_moment(installed.beam, moment)
+    moving = twist_under_moment(installed.beam, moment, per_rev=float(per_rev))
     stations = np.linspace(0.0, 1.0, SHAPE_STATIONS)
     relative: Array = moving / moving[-1]
-    shape = np.interp(stations, fitted.r, relative)
+    shape = np.interp(stations, installed.r, relative)
     return DynamicTwist(
         per_rev, abs(float(moving[-1])), abs(float(static[-1])), tuple(stations.tolist()), tuple(shape.tolist())
     )
@@ -80,10 +80,10 @@ class PhaseSweep:
     still: Solution
     """Without active twist."""
     best: Solution
-    """The least power found, amplitude and phase by the fitted bowl."""
+    """The least power found, amplitude and phase by the installed bowl."""
     drive_loss: float
     """Of all blades [W]."""
-    carried_power: float | None
+    net_power: float | None
     """Of `best` with the actuator's mass on board and its losses fed [W]; None where that does not trim."""
 
     @property
@@ -94,16 +94,16 @@ class PhaseSweep:
     @property
     def net_saving(self) -> float | None:
         """The same after mass and losses [W]."""
-        return None if self.carried_power is None else self.still.power.total - self.carried_power
+        return None if self.net_power is None else self.still.power.total - self.net_power
 
 
-def phase_sweep(design: Design, fitted: Fitted, per_rev: int, *, derated: bool = False) -> PhaseSweep:
+def phase_sweep(design: Design, installed: InstalledActuator, per_rev: int, *, derated: bool = False) -> PhaseSweep:
     """Sweep the phase at full amplitude, then try the best point of the bowl that amplitude and phase span.
 
     The voltage swings about the middle of its range, so none is left for a steady change; the twist law is taken to be
     that of the middle. Raises RuntimeError when the design does not trim without active twist.
     """
-    made = dynamic_twist(fitted, per_rev, derated=derated)
+    made = dynamic_twist(installed, per_rev, derated=derated)
     still = solve(replace(design, active_twist=None)).require()
     phases: list[float] = []
     changes: list[float] = []
@@ -122,8 +122,8 @@ def phase_sweep(design: Design, fitted: Fitted, per_rev: int, *, derated: bool =
         turned = solve(with_harmonic(design, made, amplitude, phase), still)
         if turned.converged and turned.power.total - still.power.total < least:
             best, least, share = turned, turned.power.total - still.power.total, amplitude
-    loss = fitted.bill.blades * harmonic_drive(fitted, per_rev, share, fitted.beam.angular_speed).loss
-    heavy = solve(carried(best.design, fitted))
+    loss = installed.masses.blades * harmonic_drive(installed, per_rev, share, installed.beam.angular_speed).loss
+    heavy = solve(with_actuator_mass(best.design, installed))
     return PhaseSweep(
         dynamic=made,
         share=share,
@@ -132,7 +132,7 @@ def phase_sweep(design: Design, fitted: Fitted, per_rev: int, *, derated: bool =
         still=still,
         best=best,
         drive_loss=loss,
-        carried_power=heavy.power.total + loss if heavy.converged else None,
+        net_power=heavy.power.total + loss if heavy.converged else None,
     )
 
 

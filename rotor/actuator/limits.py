@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube
-from rotor.actuator.fitted import Fitted
+from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.loads import fibre_strain
 from rotor.dynamics.structure import structure_data, uh60a_structure
 from rotor.trim.solution import Solution
@@ -12,7 +12,7 @@ SECTION_THICKNESS = 0.095
 """Of the SC1095, in chords."""
 WEB_HEIGHT = 0.0907
 """Of the spar's web at 0.40 c, in chords."""
-HOPELESS = 100.0
+UNREACHABLE = 100.0
 """Times the range from which a number of volts says nothing any more: a sheet that hardly shears."""
 
 
@@ -29,24 +29,26 @@ class Limit:
     sentence: str
 
 
-def limits(fitted: Fitted, swings: tuple[float, ...], solution: Solution | None = None) -> tuple[Limit, ...]:
+def limits(
+    installed: InstalledActuator, swings: tuple[float, ...], solution: Solution | None = None
+) -> tuple[Limit, ...]:
     """All constraints of §5.2 that can be put in numbers.
 
     `swings`: what each segment is asked for, as a share of its range, may exceed 1. `solution`: the flight condition
     whose flap bending counts.
     """
     found: list[Limit] = []
-    if isinstance(fitted.actuator, PiezoPly):
-        found += _electrical(fitted.actuator, swings)
-        found.append(_strain(fitted, fitted.actuator, solution))
-        found.append(_surface(fitted, fitted.actuator))
-    elif isinstance(fitted.actuator, TorqueTube):
-        found += _tube(fitted, fitted.actuator, swings)
+    if isinstance(installed.actuator, PiezoPly):
+        found += _electrical(installed.actuator, swings)
+        found.append(_strain(installed, installed.actuator, solution))
+        found.append(_surface(installed, installed.actuator))
+    elif isinstance(installed.actuator, TorqueTube):
+        found += _tube(installed, installed.actuator, swings)
     else:
-        found.append(_rotor_speed(fitted.actuator))
-    if not isinstance(fitted.actuator, ExtensionTwist):
-        found += [_temperature(fitted), _mass(fitted)]
-    return (*found, *_torsion(fitted))
+        found.append(_rotor_speed(installed.actuator))
+    if not isinstance(installed.actuator, ExtensionTwist):
+        found += [_temperature(installed), _mass(installed)]
+    return (*found, *_torsion(installed))
 
 
 def _electrical(ply: PiezoPly, swings: tuple[float, ...]) -> list[Limit]:
@@ -56,8 +58,10 @@ def _electrical(ply: PiezoPly, swings: tuple[float, ...]) -> list[Limit]:
     field = most / ply.electrode_gap * 1e-6
     allowed = ply.voltage_swing / ply.electrode_gap * 1e-6
     span = f"{low:g}…{high:g} V ({low / ply.electrode_gap * 1e-6:.2g}…{high / ply.electrode_gap * 1e-6:.2g} kV/mm)"
-    needs = f"needs a swing of {most:.0f} V" if most < HOPELESS * ply.voltage_swing else "is beyond any voltage"
-    swings_by = f"swings by {field:.2f} kV/mm" if field < HOPELESS * allowed else "would have to be hundreds of kV/mm"
+    needs = f"needs a swing of {most:.0f} V" if most < UNREACHABLE * ply.voltage_swing else "is beyond any voltage"
+    swings_by = (
+        f"swings by {field:.2f} kV/mm" if field < UNREACHABLE * allowed else "would have to be hundreds of kV/mm"
+    )
     return [
         Limit(
             "voltage", ok, most, ply.voltage_swing, "V",
@@ -70,8 +74,8 @@ def _electrical(ply: PiezoPly, swings: tuple[float, ...]) -> list[Limit]:
     ]  # fmt: skip
 
 
-def _strain(fitted: Fitted, ply: PiezoPly, solution: Solution | None) -> Limit:
-    strain = fibre_strain(fitted, solution)
+def _strain(installed: InstalledActuator, ply: PiezoPly, solution: Solution | None) -> Limit:
+    strain = fibre_strain(installed, solution)
     worst = float(strain.total.max())
     where = float(strain.r[strain.total.argmax()])
     flap = "with flap bending of the trimmed rotor" if solution else "flap bending not counted"
@@ -82,20 +86,20 @@ def _strain(fitted: Fitted, ply: PiezoPly, solution: Solution | None) -> Limit:
     )  # fmt: skip
 
 
-def _surface(fitted: Fitted, ply: PiezoPly) -> Limit:
-    share = 2.0 * fitted.placement.plies * ply.thickness / (SECTION_THICKNESS * uh60a_structure().chord)
+def _surface(installed: InstalledActuator, ply: PiezoPly) -> Limit:
+    share = 2.0 * installed.placement.plies * ply.thickness / (SECTION_THICKNESS * uh60a_structure().chord)
     bound = float(structure_data()["limits"]["surface_share"])
-    outside = fitted.host.kind == "retrofit"
+    outside = installed.host.kind == "retrofit"
     where = "outside the skins, so they change the contour" if outside else "inside the torsion skin"
     return Limit(
         "space", not outside or share <= bound, 100.0 * share, 100.0 * bound, "% of thickness",
-        f"Plies a side: {fitted.placement.plies}; they lie {where}: {100.0 * share:.1f} % of the section's thickness.",
+        f"Plies per side: {installed.placement.plies}, {where}: {100.0 * share:.1f} % of the section's thickness.",
     )  # fmt: skip
 
 
-def _tube(fitted: Fitted, tube: TorqueTube, swings: tuple[float, ...]) -> list[Limit]:
+def _tube(installed: InstalledActuator, tube: TorqueTube, swings: tuple[float, ...]) -> list[Limit]:
     worst = max((abs(swing) for swing in swings), default=0.0)
-    retrofit = fitted.host.kind == "retrofit"
+    retrofit = installed.host.kind == "retrofit"
     height = WEB_HEIGHT * uh60a_structure().chord
     where = (
         "the flown spar is pressurised with nitrogen for its crack indicator and may not be opened"
@@ -104,9 +108,9 @@ def _tube(fitted: Fitted, tube: TorqueTube, swings: tuple[float, ...]) -> list[L
     )
     return [
         Limit(
-            "torque", worst <= 1.0 + 1e-9, worst * fitted.moment, fitted.moment, "N·m",
-            f"The twist asked for needs {worst * fitted.moment:.0f} N·m; tubes a segment: {fitted.placement.plies}, "
-            f"which give {fitted.moment:.0f} N·m before they lose any of it by twisting themselves.",
+            "torque", worst <= 1.0 + 1e-9, worst * installed.moment, installed.moment, "N·m",
+            f"The required twist needs {worst * installed.moment:.0f} N·m; {installed.placement.plies} tube(s) per "
+            f"segment give {installed.moment:.0f} N·m, the stiffness of the tubes themselves not counted.",
         ),
         Limit(
             "space", not retrofit and tube.diameter <= height, 1e3 * tube.diameter, 1e3 * height, "mm",
@@ -123,14 +127,14 @@ def _rotor_speed(laminate: ExtensionTwist) -> Limit:
     )  # fmt: skip
 
 
-def _temperature(fitted: Fitted) -> Limit:
+def _temperature(installed: InstalledActuator) -> Limit:
     data = structure_data()["limits"]
-    actuator = fitted.actuator
+    actuator = installed.actuator
     assert not isinstance(actuator, ExtensionTwist)
     top = actuator.temperature_range[1]
     if top <= 85.0:  # Makers' storage limit; in use they ask for less.
         top = min(top, float(data["running_temperature_c"]))
-    on_heater = fitted.placement.chord[0] < float(data["de_ice_end_c"]) and isinstance(actuator, PiezoPly)
+    on_heater = installed.placement.chord[0] < float(data["de_ice_end_c"]) and isinstance(actuator, PiezoPly)
     hottest = float(data["de_ice_temperature_c"] if on_heater else data["hot_day_c"])
     heater = "over the de-ice heater mat" if on_heater else "off the heater mat, on a hot day"
     remedy = "" if hottest <= top else f"; begin at {data['de_ice_end_c']:g} c or use a high-temperature type"
@@ -140,22 +144,22 @@ def _temperature(fitted: Fitted) -> Limit:
     )  # fmt: skip
 
 
-def _mass(fitted: Fitted) -> Limit:
+def _mass(installed: InstalledActuator) -> Limit:
     bound = float(structure_data()["limits"]["added_mass_share"])
     reference = float(structure_data()["blade"]["reference_mass_kg"])
-    bill = fitted.bill
-    share = bill.blade / reference
+    masses = installed.masses
+    share = masses.blade / reference
     return Limit(
         "mass", share <= bound, 100.0 * share, 100.0 * bound, "% of blade",
-        f"Each blade gains {bill.blade:.1f} kg ({bill.actuator:.1f} actuator, {bill.wiring:.1f} leads, "
-        f"{bill.balance:.1f} nose weight): {100.0 * share:.0f} % of {reference:.0f} kg.",
+        f"Each blade gains {masses.blade:.1f} kg ({masses.actuator:.1f} actuator, {masses.wiring:.1f} leads, "
+        f"{masses.balance:.1f} nose weight): {100.0 * share:.0f} % of {reference:.0f} kg.",
     )  # fmt: skip
 
 
-def _torsion(fitted: Fitted) -> list[Limit]:
+def _torsion(installed: InstalledActuator) -> list[Limit]:
     data = structure_data()["limits"]
     margin, least = float(data["torsion_margin_per_rev"]), float(data["torsion_least_per_rev"])
-    frequency = fitted.frequency
+    frequency = installed.frequency
     near = min((3.0, 4.0), key=lambda harmonic: abs(frequency - harmonic))
     gap = abs(frequency - near)
     return [

@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 
 from rotor.actuator.catalogue import PiezoPly, TorqueTube
-from rotor.actuator.fitted import Fitted
+from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.placement import Host, Placement
 from rotor.actuator.section import SectionSpec, passive_skin, passive_wall, section_spec, skin, web_line
 from rotor.actuator.verdict import Verdict
@@ -36,16 +36,16 @@ class SectionPicture:
     """[m]"""
 
 
-def section_picture(fitted: Fitted, *, exaggerate: float = 1.0) -> SectionPicture:
+def section_picture(installed: InstalledActuator, *, exaggerate: float = 1.0) -> SectionPicture:
     """Outline, walls and plies; wall and ply thickness times `exaggerate`, so that 0.3 mm can be seen."""
-    structure = uh60a_structure(float(fitted.beam.r[-1]))
-    spec, placement, actuator = section_spec(structure, fitted.host), fitted.placement, fitted.actuator
+    structure = uh60a_structure(float(installed.beam.r[-1]))
+    spec, placement, actuator = section_spec(structure, installed.host), installed.placement, installed.actuator
     data = structure_data()["section"]
-    retrofit = fitted.host.kind == "retrofit"
+    retrofit = installed.host.kind == "retrofit"
     outline = np.concatenate([skin(spec, "upper", 0.0, 1.0)[::-1], skin(spec, "lower", 0.0, 1.0)[1:]])
     parts = [Part("outline", outline, "SC1095")]
     rear = float(data["spar_web_c"] if retrofit else data["box_end_c"])
-    wall = _wall(spec, fitted) * exaggerate
+    wall = _wall(spec, installed) * exaggerate
     name = "titanium spar" if retrofit else "glass torsion box"
     role = "spar" if retrofit else "skin"
     for side in ("upper", "lower"):
@@ -94,32 +94,32 @@ class TwistCurve:
     """The same as tests suggest."""
 
 
-def twist_under_voltage(fitted: Fitted, voltages: Sequence[float], stations: int = 61) -> TwistCurve:
+def twist_under_voltage(installed: InstalledActuator, voltages: Sequence[float], stations: int = 61) -> TwistCurve:
     """The blade's twist with each segment at its voltage [V], zero volts being the jig twist.
 
     Voltages beyond the range raise ValueError. For a tube, "voltage" is the share of its torque, −1…1.
     """
-    if len(voltages) != len(fitted.shapes):
-        raise ValueError(f"{len(voltages)} voltages for {len(fitted.shapes)} segments: give one for each")
-    if isinstance(fitted.actuator, PiezoPly):
-        low, high = fitted.actuator.voltage_range
-        unit = fitted.actuator.voltage_swing
+    if len(voltages) != len(installed.shapes):
+        raise ValueError(f"{len(voltages)} voltages for {len(installed.shapes)} segments: give one for each")
+    if isinstance(installed.actuator, PiezoPly):
+        low, high = installed.actuator.voltage_range
+        unit = installed.actuator.voltage_swing
     else:
         low, high, unit = -1.0, 1.0, 1.0
     for voltage in voltages:
         if not low - 1e-9 <= voltage <= high + 1e-9:
             raise ValueError(f"voltage {voltage:g} is outside {low:g}…{high:g}: choose a value inside")
-    r = np.linspace(float(fitted.r[0]), 1.0, stations)
+    r = np.linspace(float(installed.r[0]), 1.0, stations)
     return TwistCurve(
         r=r,
-        twist=fitted.change(np.asarray(voltages, dtype=float) / unit, r),
-        limit=fitted.limit(r),
-        derated=fitted.limit(r, derated=True),
+        twist=installed.change(np.asarray(voltages, dtype=float) / unit, r),
+        limit=installed.limit(r),
+        derated=installed.limit(r, derated=True),
     )
 
 
 @dataclass(frozen=True, eq=False)
-class NeedAndReach:
+class TwistComparison:
     """Required against attainable change for one verdict, curves and bars."""
 
     label: str
@@ -137,30 +137,30 @@ class NeedAndReach:
     available_segments: Array
 
 
-def need_and_reach(verdict: Verdict, stations: int = 61) -> NeedAndReach:
+def twist_comparison(verdict: Verdict, stations: int = 61) -> TwistComparison:
     """Chart data of one verdict."""
-    fitted, base = verdict.fitted, verdict.baseline
+    installed, base = verdict.installed, verdict.baseline
     root = base.pair.design.rotor.blade.root_cutout
     r = np.linspace(root, 1.0, stations)
-    first, second = (np.array(swings) for swings in verdict.reached.swings)
-    made = verdict.derating * fitted.change(second - first, r)
-    edges = (root, *fitted.placement.divisions, 1.0)
-    return NeedAndReach(
-        label=f"{fitted.actuator.name}, {fitted.host.label}, {base.concept.title.lower()}",
+    first, second = (np.array(swings) for swings in verdict.optimum.swings)
+    made = verdict.derating * installed.change(second - first, r)
+    edges = (root, *installed.placement.divisions, 1.0)
+    return TwistComparison(
+        label=f"{installed.actuator.name}, {installed.host.label}, {base.concept.title.lower()}",
         r=r,
         required=base.change(r),
         attained=made - made[0],
-        limit=fitted.limit(r),
-        derated=fitted.limit(r, derated=True),
+        limit=installed.limit(r),
+        derated=installed.limit(r, derated=True),
         segments=tuple(f"{low:.2f}…{high:.2f} R" for low, high in pairwise(edges)),
         required_segments=verdict.required_segments,
-        available_segments=fitted.segment_twists,
+        available_segments=installed.segment_twists,
     )
 
 
-def black_box(fitted: Fitted) -> tuple[float, float]:
+def electronics_station(installed: InstalledActuator) -> tuple[float, float]:
     """Where electronics would sit at the root, r/R (figure 5.8): inboard of the active span, outboard of the hinge."""
-    return float(fitted.r[0]) + 0.02, fitted.placement.span[0] - 0.02
+    return float(installed.r[0]) + 0.02, installed.placement.span[0] - 0.02
 
 
 def default_host(kind: str) -> Host:
@@ -168,8 +168,8 @@ def default_host(kind: str) -> Host:
     return Host() if kind == "retrofit" else Host("new", 0.5)
 
 
-def _wall(spec: SectionSpec, fitted: Fitted) -> float:
-    placement: Placement = fitted.placement
-    if fitted.host.kind == "retrofit" or not isinstance(fitted.actuator, PiezoPly):
+def _wall(spec: SectionSpec, installed: InstalledActuator) -> float:
+    placement: Placement = installed.placement
+    if installed.host.kind == "retrofit" or not isinstance(installed.actuator, PiezoPly):
         return passive_wall(spec)
-    return passive_skin(spec, fitted.actuator, placement)
+    return passive_skin(spec, installed.actuator, placement)

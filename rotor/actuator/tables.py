@@ -8,10 +8,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube, actuators
+from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.placement import Host, Placement, default_placement
-from rotor.actuator.reach import Pair
-from rotor.actuator.verdict import Verdict, judge
-from rotor.actuator.wording import count
+from rotor.actuator.verdict import Verdict, count, judge
 from rotor.optimisation.concepts import Concept, find_concept
 
 NONE = "–"
@@ -21,7 +20,7 @@ COMPARED_CONCEPTS = ("linear", "quadratic", "two-segment", "three-segment")
 
 
 @dataclass(frozen=True)
-class Table:
+class ActuatorTable:
     """Text, ready to print."""
 
     title: str
@@ -40,7 +39,7 @@ class Table:
         return "\n".join([*lines, *(("", *self.notes) if self.notes else ())])
 
 
-def table_5_1() -> Table:
+def table_5_1() -> ActuatorTable:
     """Actuator properties."""
     columns = (
         "actuator", "mode", "E1 GPa", "E2 GPa", "G12 GPa", "d pm/V", "ΔES mm", "α 1e-6/V", "voltage V",
@@ -76,7 +75,7 @@ def table_5_1() -> Table:
         "Free strain is along the fibres over the whole voltage range, peak to peak; α = d/ΔES is the thermal analogy.",
         "Numbers and sources: assets/actuators.toml.",
     )
-    return Table("Table 5.1  Actuator properties", columns, tuple(rows), notes)
+    return ActuatorTable("ActuatorTable 5.1  Actuator properties", columns, tuple(rows), notes)
 
 
 def _mode(actuator: TorqueTube | ExtensionTwist) -> str:
@@ -86,14 +85,14 @@ def _mode(actuator: TorqueTube | ExtensionTwist) -> str:
 
 
 def table_5_2(
-    pair: Pair,
+    pair: ConditionPair,
     *,
     actuator_ids: Sequence[str] = COMPARED_ACTUATORS,
     concept_names: Sequence[str] = COMPARED_CONCEPTS,
     placement: Placement | None = None,
     host: Host | None = None,
     derated: bool = False,
-) -> Table:
+) -> ActuatorTable:
     """Actuators and concepts compared for one pair of flight conditions."""
     verdicts = compare(
         pair,
@@ -107,7 +106,7 @@ def table_5_2(
 
 
 def compare(
-    pair: Pair,
+    pair: ConditionPair,
     concepts: Sequence[Concept],
     *,
     actuator_ids: Sequence[str] = COMPARED_ACTUATORS,
@@ -125,7 +124,7 @@ def compare(
     return sorted(verdicts, key=lambda verdict: -verdict.net_saving)
 
 
-def verdict_table(verdicts: Sequence[Verdict]) -> Table:
+def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
     """Rows of verdicts."""
     columns = (
         "actuator", "concept", "blade", "needed °", "nominal °", "tested °", "needed/nominal", "voltages V",
@@ -133,12 +132,12 @@ def verdict_table(verdicts: Sequence[Verdict]) -> Table:
     )  # fmt: skip
     rows = [
         (
-            f"{verdict.fitted.actuator.id}, {count(verdict)}", verdict.baseline.concept.name,
-            verdict.fitted.host.label, f"{math.degrees(verdict.required):.2f}",
+            f"{verdict.installed.actuator.id}, {count(verdict)}", verdict.baseline.concept.name,
+            verdict.installed.host.label, f"{math.degrees(verdict.required):.2f}",
             f"{math.degrees(verdict.attainable):.2f}", f"{math.degrees(verdict.attainable_derated):.2f}",
             f"{verdict.ratio:.2f}" if verdict.ratio < 100.0 else "> 100",
             "; ".join(f"{round(a) + 0}→{round(b) + 0}" for a, b in verdict.voltages) or NONE,
-            f"{verdict.fitted.bill.aircraft:.0f}", f"{verdict.fitted.frequency:.2f}",
+            f"{verdict.installed.masses.aircraft:.0f}", f"{verdict.installed.frequency:.2f}",
             kilowatts(verdict.baseline.ideal_saving), kilowatts(verdict.gross_saving),
             kilowatts(verdict.net_saving), ", ".join(limit.name for limit in verdict.broken) or "none",
         )
@@ -152,7 +151,9 @@ def verdict_table(verdicts: Sequence[Verdict]) -> Table:
         "Ideal: saving of the concept free to move, over its best fixed blade; gross and net: of the best this "
         "actuator can reach, before and after its mass is carried.",
     )
-    return Table(f"Table 5.2  Actuators and concepts compared, advance ratios {mu}", columns, tuple(rows), notes)
+    return ActuatorTable(
+        f"ActuatorTable 5.2  Actuators and concepts compared, advance ratios {mu}", columns, tuple(rows), notes
+    )
 
 
 def kilowatts(power: float) -> str:

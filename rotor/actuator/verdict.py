@@ -1,16 +1,16 @@
-"""Would it pay? Required against attainable twist, voltages, mass, power, and the saving that is left."""
+"""Net benefit of an actuator: required and attainable twist, voltages, mass, power saving, and the sentence."""
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rotor.actuator.baseline import Baseline, baseline
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly
 from rotor.actuator.electrical import Drive, drive
-from rotor.actuator.fitted import Fitted, fit
+from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.limits import Limit, limits
+from rotor.actuator.optimum import Baseline, ConditionPair, TwistOptimum, baseline, best_actuated
 from rotor.actuator.placement import Host, Placement
-from rotor.actuator.reach import Pair, Reached, best_reach
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
@@ -26,17 +26,17 @@ NOTHING = 1e-6
 class Verdict:
     """One actuator, one concept, one pair of flight conditions. Angles [rad], powers [W], means over the pair."""
 
-    fitted: Fitted
+    installed: InstalledActuator
     baseline: Baseline
     derating: float
     """Share of the nominal twist that the saving was computed with."""
     required_segments: Array
     """Change that the concept's optima ask of each segment, (segments,)."""
-    reached: Reached
+    optimum: TwistOptimum
     """The best twist this actuator can reach, at both conditions."""
     reference_power: float
     """Of the blade it is compared with: the flown twist for a retrofit, else the concept's best fixed blade."""
-    carried_power: float
+    net_power: float
     """With the actuator's mass on board and its drive fed, at the reached twists."""
     drive: Drive
     limits: tuple[Limit, ...]
@@ -50,16 +50,16 @@ class Verdict:
     @property
     def attainable(self) -> float:
         """Root to tip over the whole voltage range, nominal."""
-        return self.fitted.attainable
+        return self.installed.attainable
 
     @property
     def attainable_derated(self) -> float:
-        return self.fitted.attainable * self.fitted.derating
+        return self.installed.attainable * self.installed.derating
 
     @property
     def ratio(self) -> float:
         """Required over attainable in the worst segment."""
-        available = np.maximum(self.fitted.segment_twists * self.derating, NOTHING)
+        available = np.maximum(self.installed.segment_twists * self.derating, NOTHING)
         return float(np.max(np.abs(self.required_segments) / available))
 
     @property
@@ -70,8 +70,8 @@ class Verdict:
     @property
     def attained_segments(self) -> Array:
         """Change between the two conditions at the reached optimum, by segment."""
-        first, second = (np.array(swings) for swings in self.reached.swings)
-        return (second - first) * self.fitted.shapes[:, -1] * self.derating
+        first, second = (np.array(swings) for swings in self.optimum.swings)
+        return (second - first) * self.installed.shapes[:, -1] * self.derating
 
     @property
     def attained(self) -> float:
@@ -80,8 +80,8 @@ class Verdict:
 
     @property
     def gross_saving(self) -> float:
-        """Before the actuator is carried."""
-        return self.reference_power - self.reached.power
+        """Saving before the actuator's mass is counted [W]."""
+        return self.reference_power - self.optimum.power
 
     @property
     def ideal_saving(self) -> float:
@@ -94,7 +94,7 @@ class Verdict:
     @property
     def net_saving(self) -> float:
         """After."""
-        return self.reference_power - self.carried_power
+        return self.reference_power - self.net_power
 
     @property
     def broken(self) -> tuple[Limit, ...]:
@@ -112,19 +112,19 @@ class Verdict:
     @property
     def voltages(self) -> tuple[tuple[float, float], ...]:
         """Of each segment at the first and at the second condition [V]; empty when voltage does not drive it."""
-        return segment_voltages(self.fitted, self.reached.swings)
+        return segment_voltages(self.installed, self.optimum.swings)
 
     @property
-    def resting(self) -> Design:
+    def actuator_off(self) -> Design:
         """The second condition with the actuator at rest: the blade that harmonics of twist start from."""
         base = self.baseline
         design = base.pair.designs()[1]
-        return design if self.fitted.host.kind == "retrofit" else base.concept.apply(design, base.fixed.values)
+        return design if self.installed.host.kind == "retrofit" else base.concept.apply(design, base.fixed.values)
 
 
 def judge(
     actuator: Actuator,
-    pair: Pair,
+    pair: ConditionPair,
     concept: Concept,
     placement: Placement,
     host: Host | None = None,
@@ -142,32 +142,32 @@ def judge(
     base = baseline(pair, concept)
     rotor = pair.design.rotor
     divisions = () if isinstance(actuator, ExtensionTwist) else base.divisions
-    fitted = fit(actuator, replace(placement, divisions=divisions), host, rotor)
-    share = counted if counted is not None else fitted.derating if derated else 1.0
-    reached = best_reach(pair, base.concept, fitted, derating=share, starts=[base.fixed.values])
+    installed = install(actuator, replace(placement, divisions=divisions), host, rotor)
+    share = counted if counted is not None else installed.derating if derated else 1.0
+    reached = best_actuated(pair, base.concept, installed, derating=share, starts=[base.fixed.values])
     required = base.segment_changes(divisions)
     reference = base.fixed.power
     if host.kind == "retrofit":
         reference = _mean_power(pair, pair.designs())
     swing = tuple(float(b - a) for a, b in zip(*reached.swings, strict=True))
-    driven = drive(fitted, swing)
-    heavy = tuple(carried(solution.design, fitted) for solution in reached.solutions)
-    asked = tuple(float(x) for x in required / np.maximum(fitted.segment_twists * share, NOTHING))
+    driven = drive(installed, swing)
+    heavy = tuple(with_actuator_mass(solution.design, installed) for solution in reached.solutions)
+    asked = tuple(float(x) for x in required / np.maximum(installed.segment_twists * share, NOTHING))
     return Verdict(
-        fitted=fitted,
+        installed=installed,
         baseline=base,
         derating=share,
         required_segments=required,
-        reached=reached,
+        optimum=reached,
         reference_power=reference,
-        carried_power=_mean_power(pair, heavy) + driven.hold_power,
+        net_power=_mean_power(pair, heavy) + driven.hold_power,
         drive=driven,
-        limits=limits(fitted, asked, reached.solutions[-1]),
-        caveats=(*actuator.provenance.warnings(actuator.id), *holding(actuator)),
+        limits=limits(installed, asked, reached.solutions[-1]),
+        caveats=(*actuator.provenance.warnings(actuator.id), *holding_caveats(actuator)),
     )
 
 
-def holding(actuator: Actuator) -> tuple[str, ...]:
+def holding_caveats(actuator: Actuator) -> tuple[str, ...]:
     """What a twist held for minutes needs."""
     if not isinstance(actuator, PiezoPly):
         return ()
@@ -177,47 +177,51 @@ def holding(actuator: Actuator) -> tuple[str, ...]:
     )
 
 
-def carried(design: Design, fitted: Fitted) -> Design:
+def with_actuator_mass(design: Design, installed: InstalledActuator) -> Design:
     """The design with the actuator's mass in the aircraft, and on the flapping blades."""
-    blade, rotor, added = design.rotor.blade, design.rotor, fitted.added
+    blade, rotor, added = design.rotor.blade, design.rotor, installed.added
     hinge = blade.flap_hinge * rotor.radius
     inner, outer = (end - hinge for end in added.span)
     heavier = replace(
         blade,
-        mass=blade.mass + fitted.bill.blade,
+        mass=blade.mass + installed.masses.blade,
         flap_static_moment=blade.flap_static_moment + added.mass_per_length * (outer**2 - inner**2) / 2.0,
         flap_inertia=blade.flap_inertia + added.mass_per_length * (outer**3 - inner**3) / 3.0,
     )
-    condition = replace(design.condition, mass=design.condition.mass + fitted.bill.aircraft)
+    condition = replace(design.condition, mass=design.condition.mass + installed.masses.aircraft)
     return replace(design, rotor=replace(rotor, blade=heavier), condition=condition)
 
 
-def change_limit(fitted: Fitted, reference: TwistLaw, *, root: float = 0.1304, derated: bool = False) -> ChangeLimit:
+def change_limit(
+    installed: InstalledActuator, reference: TwistLaw, *, root: float = 0.1304, derated: bool = False
+) -> ChangeLimit:
     """What the actuator can do as the optimiser's limit on the change from a reference twist.
 
     Each segment's twist is spread over the whole segment, cut-out and tip included, as the concepts' laws are; what the
-    true shape along the active span does to power, `best_reach` knows.
+    true shape along the active span does to power, `best_actuated` knows.
     """
-    share = fitted.derating if derated else 1.0
-    ends = share * np.cumsum(fitted.segment_twists)
-    stations = (root, *fitted.placement.divisions, 1.0)
+    share = installed.derating if derated else 1.0
+    ends = share * np.cumsum(installed.segment_twists)
+    stations = (root, *installed.placement.divisions, 1.0)
     return ChangeLimit(reference, stations, (0.0, *ends.tolist()))
 
 
-def segment_voltages(fitted: Fitted, swings: tuple[tuple[float, ...], ...]) -> tuple[tuple[float, float], ...]:
+def segment_voltages(
+    installed: InstalledActuator, swings: tuple[tuple[float, ...], ...]
+) -> tuple[tuple[float, float], ...]:
     """Volts at both conditions.
 
     A retrofit's count from zero volts. A new blade's jig twist is set so that a segment's two voltages lie around zero
     as far as the negative side reaches, so that a blade without voltage flies between its two twists.
     """
-    actuator = fitted.actuator
+    actuator = installed.actuator
     if not isinstance(actuator, PiezoPly):
         return ()
     low = actuator.voltage_range[0]
     found: list[tuple[float, float]] = []
     for first, second in zip(*swings, strict=True):
         a, b = first * actuator.voltage_swing, second * actuator.voltage_swing
-        if fitted.host.kind == "new":
+        if installed.host.kind == "new":
             offset = max(low, -0.5 * abs(b - a)) - min(a, b)
             a, b = a + offset, b + offset
         elif min(a, b) < low - 1e-6 or max(a, b) > actuator.voltage_range[1] + 1e-6:
@@ -226,6 +230,81 @@ def segment_voltages(fitted: Fitted, swings: tuple[tuple[float, ...], ...]) -> t
     return tuple(found)
 
 
-def _mean_power(pair: Pair, designs: tuple[Design, ...]) -> float:
+def _mean_power(pair: ConditionPair, designs: tuple[Design, ...]) -> float:
     solutions = [solve(design).require() for design in designs]
     return sum(share * solution.power.total for share, solution in zip(pair.shares, solutions, strict=True))
+
+
+SMALL = 1.0
+"""Powers nearer to zero are called nothing [W]."""
+
+
+def headline(verdict: Verdict) -> str:
+    """The outcome in one short sentence: net power against the one blade that the whole verdict is compared with."""
+    net, against = verdict.net_saving, reference(verdict)
+    if abs(net) < SMALL:
+        return f"No net benefit: saves as much as it costs vs. {against}."
+    if net < 0.0:
+        return f"No net benefit: costs {kw(-net)} vs. {against}."
+    if verdict.buildable:
+        return f"Net benefit: saves {kw(net)} vs. {against}."
+    return f"Cannot be built: it would save {kw(net)} vs. {against}."
+
+
+def verdict_sentence(verdict: Verdict) -> str:
+    """The headline, then reach, savings and limits; all powers count from the blade that the headline names."""
+    sentences = [headline(verdict), _reach(verdict), _savings(verdict)]
+    if verdict.broken:
+        sentences.append(f"Limits exceeded: {', '.join(limit.name for limit in verdict.broken)}.")
+    return " ".join(sentences)
+
+
+def reference(verdict: Verdict) -> str:
+    """The blade that all savings of a verdict count from."""
+    return "the twist as built" if verdict.installed.host.kind == "retrofit" else "the best fixed twist"
+
+
+def _reach(verdict: Verdict) -> str:
+    """Twist supplied against twist needed."""
+    installed = verdict.installed
+    what = f"{installed.actuator.name} ({count(verdict)}, {installed.host.label})"
+    first, second = (flight(mu) for mu in verdict.baseline.pair.advance_ratios)
+    need, nominal = math.degrees(verdict.required), math.degrees(verdict.attainable)
+    available = f"{nominal:.1f}° nominal"
+    if installed.derating < 1.0:
+        available += f", {math.degrees(verdict.attainable_derated):.1f}° derated by test"
+    can = "can supply" if verdict.feasible else "cannot supply"
+    return f"{what} {can} the {need:.1f}° needed from {first} to {second} ({available})."
+
+
+def _savings(verdict: Verdict) -> str:
+    """Before mass and drive, after them, and what unlimited variable twist would save from the same blade."""
+    gross, cost = verdict.gross_saving, verdict.gross_saving - verdict.net_saving
+    concept, mass = verdict.baseline.concept.name, verdict.installed.masses.aircraft
+    change = "saves nothing" if abs(gross) < SMALL else f"saves {kw(gross)}" if gross > 0.0 else f"costs {kw(-gross)}"
+    text = (
+        f"Within its reach the change of twist {change}; carrying {mass:.0f} kg and its drive cost {kw(cost)}. "
+        f"Unlimited variable twist ({concept}) would save {kw(verdict.ideal_saving)}"
+    )
+    fixed = verdict.ideal_saving - verdict.baseline.ideal_saving
+    return f"{text}, {kw(fixed)} of it with the best fixed twist." if abs(fixed) >= SMALL else f"{text}."
+
+
+def count(verdict: Verdict) -> str:
+    """Plies, tubes or nothing to count."""
+    actuator, placement = verdict.installed.actuator, verdict.installed.placement
+    if isinstance(actuator, ExtensionTwist):
+        return "passive"
+    if isinstance(actuator, PiezoPly):
+        return f"{placement.plies} {'ply' if placement.plies == 1 else 'plies'}"
+    each = " a segment" if placement.divisions else ""
+    return f"{placement.plies} {'tube' if placement.plies == 1 else 'tubes'}{each}"
+
+
+def flight(advance_ratio: float) -> str:
+    return "hover" if advance_ratio == 0.0 else f"µ {advance_ratio:.2f}"
+
+
+def kw(power: float) -> str:
+    """Signed kilowatts, one decimal; nothing where it is nothing."""
+    return "nothing" if abs(power) < SMALL else f"{power / 1e3:.1f} kW"

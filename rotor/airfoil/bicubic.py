@@ -8,12 +8,10 @@ everywhere, periodic in alpha, without overshoot, and reproduces every deck valu
 from collections.abc import Callable
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 
 from rotor.airfoil.c81 import C81Block
-
-FloatArray = NDArray[np.float64]
+from rotor.arrays import Array
 
 N_ALPHA = 720
 N_MACH = 20
@@ -24,12 +22,12 @@ MACH_STEP = 0.05
 _HERMITE = np.array([[1, 0, 0, 0], [0, 0, 1, 0], [-3, 3, -2, -1], [2, -2, 1, 1]], dtype=np.float64)
 
 
-def mach_nodes() -> FloatArray:
+def mach_nodes() -> Array:
     """The grid's Mach numbers, shape (N_MACH + 1,)."""
     return np.arange(N_MACH + 1) / N_MACH
 
 
-def _nodes_along_alpha(block: C81Block) -> tuple[FloatArray, FloatArray]:
+def _nodes_along_alpha(block: C81Block) -> tuple[Array, Array]:
     """Values and alpha-slopes (per cell) at the uniform alpha nodes, shape (N_ALPHA + 1, Machs)."""
     knots, values = block.alpha_deg, block.values
     if abs(knots[0] + 180.0) > 1e-9 or abs(knots[-1] - 180.0) > 1e-9 or np.any(np.abs(values[0] - values[-1]) > 1e-9):
@@ -40,11 +38,11 @@ def _nodes_along_alpha(block: C81Block) -> tuple[FloatArray, FloatArray]:
     longer = np.concatenate((knots[-3:-1] - 360.0, knots, knots[1:3] + 360.0))
     curve = PchipInterpolator(longer, np.concatenate((values[-3:-1], values, values[1:3])), axis=0)
     nodes = np.arange(N_ALPHA + 1) * 0.5 - 180.0
-    slope: Callable[[FloatArray], FloatArray] = curve.derivative()
+    slope: Callable[[Array], Array] = curve.derivative()
     return np.asarray(curve(nodes)), np.asarray(slope(nodes)) * 0.5
 
 
-def _along_mach(mach: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _along_mach(mach: Array, values: Array) -> tuple[Array, Array]:
     """Values and Mach-slopes (per cell) at the uniform Mach nodes, shape (rows, N_MACH + 1), held outside."""
     nodes = mach_nodes()
     inside = np.clip(nodes, mach[0], mach[-1])
@@ -52,12 +50,12 @@ def _along_mach(mach: FloatArray, values: FloatArray) -> tuple[FloatArray, Float
     own[:, -1] = 0.0  # Held beyond the data, so flat at its end: C1 across the limit.
     own[:, 0] = 0.0
     curve = CubicHermiteSpline(mach, values, own, axis=1)
-    slope: Callable[[FloatArray], FloatArray] = curve.derivative()
+    slope: Callable[[Array], Array] = curve.derivative()
     flat = (nodes > mach[0]) & (nodes < mach[-1])
     return np.asarray(curve(inside)), np.asarray(slope(inside)) * MACH_STEP * flat
 
 
-def bicubic_coefficients(block: C81Block) -> FloatArray:
+def bicubic_coefficients(block: C81Block) -> Array:
     """Cell polynomials (N_ALPHA, N_MACH, 4, 4) of the C1 surface through the deck values of `block`.
 
     A ValueError says when the knots do not lie on the uniform grid or do not close the circle.
@@ -77,6 +75,6 @@ def bicubic_coefficients(block: C81Block) -> FloatArray:
     return np.matmul(np.matmul(_HERMITE, corners), _HERMITE.T)
 
 
-def stack_coefficients(cl: FloatArray, cd: FloatArray) -> FloatArray:
+def stack_coefficients(cl: Array, cd: Array) -> Array:
     """Lift and drag cell polynomials side by side, C-contiguous, in the layout of `SectionTable`."""
     return np.ascontiguousarray(np.stack((cl, cd), axis=2))

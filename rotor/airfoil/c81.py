@@ -10,9 +10,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from rotor.arrays import Array
 
 _FIELD = 7
 _PER_CARD = 9
@@ -23,9 +22,9 @@ _NAMES = ("cl", "cd", "cm")
 class C81Block:
     """One coefficient: `values` of shape (angles, Machs) over `alpha_deg` [deg] and `mach`, both increasing."""
 
-    mach: FloatArray
-    alpha_deg: FloatArray
-    values: FloatArray
+    mach: Array
+    alpha_deg: Array
+    values: Array
 
     def __post_init__(self) -> None:
         assert self.values.shape == (self.alpha_deg.size, self.mach.size)
@@ -67,7 +66,7 @@ class _Cards:
             raise self.fail(f"{text!r} is not finite: give a number")
         return value
 
-    def row(self, count: int, with_angle: bool) -> tuple[float, FloatArray]:
+    def row(self, count: int, with_angle: bool) -> tuple[float, Array]:
         """`count` values on as many cards as they need, and the angle before them."""
         values: list[float] = []
         angle = 0.0
@@ -91,7 +90,7 @@ def _block(cards: _Cards, name: str, machs: int, angles: int) -> C81Block:
     _, mach = cards.row(machs, with_angle=False)
     if np.any(np.diff(mach) <= 0.0):
         raise cards.fail(f"the Mach numbers of {name} do not increase: sort them")
-    rows: list[FloatArray] = []
+    rows: list[Array] = []
     alpha: list[float] = []
     for _ in range(angles):
         angle, values = cards.row(machs, with_angle=True)
@@ -136,7 +135,7 @@ def _field(value: float, decimals: int) -> str:
     raise ValueError(f"{value:g} does not fit into a field of seven characters: C81 holds -99999 to 999999")
 
 
-def _cards_of(head: str, values: FloatArray, decimals: int) -> list[str]:
+def _cards_of(head: str, values: Array, decimals: int) -> list[str]:
     texts = [_field(round(float(v), decimals) + 0.0, decimals) for v in values]  # + 0.0 turns -0.0 into 0.0.
     starts = range(0, len(texts), _PER_CARD)
     return [(head if s == 0 else " " * _FIELD) + "".join(texts[s : s + _PER_CARD]) for s in starts]

@@ -9,13 +9,11 @@ from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from rotor.airfoil.naca import is_naca, naca_points
+from rotor.arrays import Array
 from rotor.assets import asset_path
-
-FloatArray = NDArray[np.float64]
 
 SECTION_NAMES = ("sc1095", "sc1094r8", "naca0012", "naca63a015")
 
@@ -28,7 +26,7 @@ class Contour:
     """
 
     name: str
-    points: FloatArray
+    points: Array
 
 
 def read_contour(path: Path, name: str | None = None) -> Contour:
@@ -78,7 +76,7 @@ def load_contour(name: str) -> Contour:
     return read_contour(asset_path(f"airfoils/{name}.contour"), name)
 
 
-def trailing_edge(contour: Contour) -> FloatArray:
+def trailing_edge(contour: Contour) -> Array:
     """Middle of the trailing-edge gap, shape (2,) [chord]."""
     return 0.5 * (contour.points[0] + contour.points[-1])
 
@@ -88,7 +86,7 @@ def leading_edge_index(contour: Contour) -> int:
     return int(np.argmax(np.hypot(*(contour.points - trailing_edge(contour)).T)))
 
 
-def chord_line(contour: Contour) -> tuple[FloatArray, FloatArray]:
+def chord_line(contour: Contour) -> tuple[Array, Array]:
     """Nose and trailing-edge points, each of shape (2,) [chord]; the chord line joins them."""
     return contour.points[leading_edge_index(contour)], trailing_edge(contour)
 

@@ -8,9 +8,8 @@ trailing edge of the formula (0.252 % of chord for 12 %) is kept.
 import re
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from rotor.arrays import Array
 
 POINTS = 161
 _THICKNESS = (0.2969, -0.1260, -0.3516, 0.2843, -0.1015)
@@ -29,7 +28,7 @@ def is_naca(name: str) -> bool:
     return found is not None and (len(found[1]) == 4 or found[1][1:3] in _FIVE_DIGIT) and int(found[1][-2:]) > 0
 
 
-def naca_points(name: str) -> FloatArray:
+def naca_points(name: str) -> Array:
     """The outline of `naca0012`, `naca23012` and the like [chord], (POINTS, 2), from the upper trailing edge forward.
 
     Raises ValueError for a name outside the two families.
@@ -47,7 +46,7 @@ def naca_points(name: str) -> FloatArray:
     return np.concatenate((upper[::-1], lower[1:]))
 
 
-def _four_digit(digits: str, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _four_digit(digits: str, x: Array) -> tuple[Array, Array]:
     """Camber line and its slope: two parabolas that meet at the largest camber."""
     most, place = int(digits[0]) / 100.0, int(digits[1]) / 10.0
     if most == 0.0 or place == 0.0:
@@ -57,7 +56,7 @@ def _four_digit(digits: str, x: FloatArray) -> tuple[FloatArray, FloatArray]:
     return share * (rest + 2.0 * place * x - x**2), 2.0 * share * (place - x)
 
 
-def _five_digit(digits: str, x: FloatArray) -> tuple[FloatArray, FloatArray]:
+def _five_digit(digits: str, x: Array) -> tuple[Array, Array]:
     """Camber line and its slope: a cubic to x = m, straight behind; scales with the design lift, 0.15 times a digit."""
     m, k1 = _FIVE_DIGIT[digits[1:3]]
     k1 *= int(digits[0]) * 0.15 / 0.3

@@ -4,9 +4,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from rotor.arrays import Array
 
 COLUMNS = "mach,reynolds,alpha_deg,cl,cd,cm"
 """Heading of the CSV."""
@@ -22,10 +21,10 @@ class Polar:
 
     mach: float
     reynolds: float
-    alpha_deg: FloatArray
-    cl: FloatArray
-    cd: FloatArray
-    cm: FloatArray
+    alpha_deg: Array
+    cl: Array
+    cd: Array
+    cm: Array
 
 
 @dataclass(frozen=True, eq=False)

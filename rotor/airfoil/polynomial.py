@@ -17,9 +17,8 @@ from numpy.typing import ArrayLike, NDArray
 from rotor.airfoil.bicubic import ALPHA_STEP, N_ALPHA, N_MACH, stack_coefficients
 from rotor.airfoil.polars import Polar, read_polars
 from rotor.airfoil.section_table import SectionTable, make_table
+from rotor.arrays import Array
 from rotor.assets import asset_path
-
-FloatArray = NDArray[np.float64]
 
 THESIS_NAME = "sc1095-thesis"
 LIFT_ORDER = 10  # document, fig. 3.3
@@ -27,7 +26,7 @@ DRAG_ORDER = 12  # document, fig. 3.4
 FIT_RANGE_DEG = (-10.0, 15.0)  # our choice: within 0.5 % of the interpolated polar in rotor power
 
 
-def _series_at(t: FloatArray, series: FloatArray) -> FloatArray:
+def _series_at(t: Array, series: Array) -> Array:
     return np.asarray(chebyshev.chebval(t, series), dtype=np.float64)
 
 
@@ -39,10 +38,10 @@ class PolynomialSection:
     """
 
     fit_range: tuple[float, float]
-    cl_series: FloatArray
-    cd_series: FloatArray
+    cl_series: Array
+    cd_series: Array
 
-    def _scaled(self, alpha: FloatArray) -> FloatArray:
+    def _scaled(self, alpha: Array) -> Array:
         a, b = self.fit_range
         return (2.0 * np.clip(alpha, a, b) - a - b) / (b - a)
 
@@ -51,12 +50,12 @@ class PolynomialSection:
         a = np.asarray(alpha, dtype=np.float64)
         return (a < self.fit_range[0]) | (a > self.fit_range[1])
 
-    def __call__(self, alpha: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    def __call__(self, alpha: ArrayLike) -> tuple[Array, Array]:
         """(cl, cd) at `alpha` [rad] without any treatment of reverse flow."""
         t = self._scaled(np.asarray(alpha, dtype=np.float64))
         return _series_at(t, self.cl_series), _series_at(t, self.cd_series)
 
-    def slopes(self, alpha: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    def slopes(self, alpha: ArrayLike) -> tuple[Array, Array]:
         """(dcl, dcd)/dalpha [1/rad], zero where the value is held; at the ends of the fit, from inside."""
         a = np.asarray(alpha, dtype=np.float64)
         t, scale = self._scaled(a), np.where(self.outside(a), 0.0, 2.0 / (self.fit_range[1] - self.fit_range[0]))
@@ -69,12 +68,12 @@ def thesis_polar() -> Polar:
     return read_polars(asset_path("airfoils/sc1095_ncrit9.polars.csv")).polars[0]
 
 
-def _within(polar: Polar, range_deg: tuple[float, float]) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _within(polar: Polar, range_deg: tuple[float, float]) -> tuple[Array, Array, Array]:
     keep = (polar.alpha_deg >= range_deg[0]) & (polar.alpha_deg <= range_deg[1])
     return np.deg2rad(polar.alpha_deg[keep]), polar.cl[keep], polar.cd[keep]
 
 
-def _least_squares(t: FloatArray, values: FloatArray, order: int) -> FloatArray:
+def _least_squares(t: Array, values: Array, order: int) -> Array:
     return np.asarray(np.linalg.lstsq(chebyshev.chebvander(t, order), values)[0], dtype=np.float64)
 
 
@@ -124,7 +123,7 @@ def polynomial_section() -> PolynomialSection:
     return fit_polynomials(thesis_polar())
 
 
-def document_angle(alpha: FloatArray) -> tuple[FloatArray, FloatArray]:
+def document_angle(alpha: Array) -> tuple[Array, Array]:
     """(angle the document would use [rad], sign of its lift) for an atan2 angle `alpha` [rad] in -pi..pi.
 
     The document takes phi = arctan(U_P / U_T) and changes the sign of the drag where U_T <= 0. There
@@ -138,7 +137,7 @@ def document_angle(alpha: FloatArray) -> tuple[FloatArray, FloatArray]:
     return np.where(reverse, alpha - np.copysign(np.pi, alpha), alpha), np.where(reverse, -1.0, 1.0)
 
 
-def _cubic_cells(value: FloatArray, slope: FloatArray) -> FloatArray:
+def _cubic_cells(value: Array, slope: Array) -> Array:
     """Monomial coefficients (N_ALPHA, 4) from end values and per-cell slopes of each cell, both (N_ALPHA, 2)."""
     rise = value[:, 1] - value[:, 0]
     return np.stack(

@@ -5,14 +5,12 @@ curves, as `bicubic` does between its own; angles that are missing are filled by
 """
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from rotor.airfoil.bicubic import MACH_STEP, N_MACH
 from rotor.airfoil.c81 import C81Block, C81Deck
 from rotor.airfoil.wrap import BLEND_END_DEG, BLEND_START_DEG, wrap_coefficients
-
-FloatArray = NDArray[np.float64]
+from rotor.arrays import Array
 
 _LEAST_RANGE_DEG = 8.0
 """A deck must at least cover −8…8°: what lies inside no formula can guess."""
@@ -56,15 +54,15 @@ def _block(title: str, block: C81Block, kind: int) -> C81Block:
     return C81Block(mach, alpha, values)
 
 
-def _whole_circle(alpha: FloatArray, values: FloatArray, kind: int) -> tuple[FloatArray, FloatArray]:
+def _whole_circle(alpha: Array, values: Array, kind: int) -> tuple[Array, Array]:
     """Values at every half degree: the deck within its angles, faded into the closed form beyond them."""
     nodes = np.linspace(-180.0, 180.0, 721)
     curve = PchipInterpolator(alpha, values, axis=0)
     own = np.asarray(curve(np.clip(nodes, alpha[0], alpha[-1])), dtype=np.float64)
     edge = np.where(nodes < 0.0, float(-alpha[0]), float(alpha[-1])).astype(np.float64)
     fade = np.maximum(edge + BLEND_END_DEG - BLEND_START_DEG, BLEND_END_DEG) - edge
-    t: FloatArray = np.clip((np.abs(nodes) - edge) / fade, 0.0, 1.0)
-    weight: FloatArray = (t * t * (3.0 - 2.0 * t))[:, None]
+    t: Array = np.clip((np.abs(nodes) - edge) / fade, 0.0, 1.0)
+    weight: Array = (t * t * (3.0 - 2.0 * t))[:, None]
     far = wrap_coefficients(np.deg2rad(nodes).astype(np.float64))[kind][:, None]
     if kind == 0:
         return nodes, (1.0 - weight) * own + weight * far

@@ -6,7 +6,7 @@ C1 everywhere, periodic in alpha, with exact derivatives for Newton and adjoint.
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from rotor.airfoil.bicubic import (
     ALPHA_STEP,
@@ -19,20 +19,19 @@ from rotor.airfoil.bicubic import (
 )
 from rotor.airfoil.c81 import C81Deck
 from rotor.airfoil.stall import SEARCH_OUTWARD, first_quarter_slope
-
-FloatArray = NDArray[np.float64]
+from rotor.arrays import Array
 
 
 @dataclass(frozen=True, eq=False)
 class SectionCoefficients:
     """Lift and drag coefficient and their derivatives [-, 1/rad], each of the shape of the query."""
 
-    cl: FloatArray
-    cd: FloatArray
-    cl_alpha: FloatArray
-    cd_alpha: FloatArray
-    cl_mach: FloatArray
-    cd_mach: FloatArray
+    cl: Array
+    cd: Array
+    cl_alpha: Array
+    cd_alpha: Array
+    cl_mach: Array
+    cd_mach: Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,9 +49,9 @@ class SectionTable:
     name: str
     source: str
     mach_limit: float
-    coefficients: FloatArray
-    alpha_stall_positive: FloatArray
-    alpha_stall_negative: FloatArray
+    coefficients: Array
+    alpha_stall_positive: Array
+    alpha_stall_negative: Array
     fit_range: tuple[float, float] | None = None
 
     def __post_init__(self) -> None:
@@ -94,13 +93,13 @@ class SectionTable:
             self, coefficients=flat, mach_limit=np.inf, alpha_stall_negative=negative, alpha_stall_positive=positive
         )
 
-    def stall_alpha(self, mach: ArrayLike) -> tuple[FloatArray, FloatArray]:
+    def stall_alpha(self, mach: ArrayLike) -> tuple[Array, Array]:
         """Stall angles (negative, positive) [rad] at `mach`, linear between the grid's Machs, held outside."""
         m = np.asarray(mach, dtype=np.float64)
         negative = np.interp(m, mach_nodes(), self.alpha_stall_negative)
         return np.asarray(negative), np.asarray(np.interp(m, mach_nodes(), self.alpha_stall_positive))
 
-    def zero_lift_alpha(self, mach: ArrayLike) -> FloatArray:
+    def zero_lift_alpha(self, mach: ArrayLike) -> Array:
         """Angle of attack of no lift [rad], of those within -6..6 deg, at `mach`: Newton from the sampled crossing."""
         m = np.asarray(mach, dtype=np.float64)
         sample = np.deg2rad(np.linspace(-6.0, 6.0, 25))
@@ -110,13 +109,13 @@ class SectionTable:
             alpha = alpha - here.cl / here.cl_alpha
         return np.asarray(alpha)
 
-    def lift_slope(self, mach: ArrayLike) -> FloatArray:
+    def lift_slope(self, mach: ArrayLike) -> Array:
         """Mean lift slope [1/rad] within 2 deg of the zero-lift angle, at `mach`."""
         m = np.asarray(mach, dtype=np.float64)
         zero, span = self.zero_lift_alpha(m), np.deg2rad(2.0)
         return np.asarray((self(zero + span, m).cl - self(zero - span, m).cl) / (2.0 * span))
 
-    def drag_divergence_mach(self, alpha: ArrayLike) -> FloatArray:
+    def drag_divergence_mach(self, alpha: ArrayLike) -> Array:
         """Lowest Mach with dcd/dM = 0.1 at `alpha` [rad]; NaN-free: mach_limit where it is not reached."""
         a = np.asarray(alpha, dtype=np.float64)
         mach = np.arange(0.3, self.mach_limit + 1e-9, 0.002)
@@ -127,7 +126,7 @@ class SectionTable:
 
 
 def make_table(
-    name: str, source: str, coefficients: FloatArray, mach_limit: float, fit_range: tuple[float, float] | None = None
+    name: str, source: str, coefficients: Array, mach_limit: float, fit_range: tuple[float, float] | None = None
 ) -> SectionTable:
     """A `SectionTable` with the stall angles found on its own curves at the grid's Machs."""
     unknown = np.zeros(N_MACH + 1)

@@ -6,15 +6,14 @@ fallen to a quarter of its attached value. On curves with a peak that is 0.3 to 
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from rotor.arrays import Array
 
 SLOPE_FRACTION = 0.25
 SEARCH_OUTWARD = np.deg2rad(np.arange(20, 301) / 10.0)  # From zero lift: 2 deg, attached for certain, to 30 deg.
 
 
-def first_quarter_slope(slope: FloatArray, attached: FloatArray) -> FloatArray:
+def first_quarter_slope(slope: Array, attached: Array) -> Array:
     """Distance from zero lift [rad] at which `slope` first is SLOPE_FRACTION of `attached`, both [1/rad].
 
     `slope`, shape (curves, SEARCH_OUTWARD.size), is dcl/dalpha of each curve outward from its zero lift, and

@@ -7,9 +7,8 @@ The fit is within 0.039 (cl) and 0.014 (cd) rms of the measurements; it is not i
 """
 
 import numpy as np
-from numpy.typing import NDArray
 
-FloatArray = NDArray[np.float64]
+from rotor.arrays import Array
 
 BLEND_START_DEG = 16.0  # |alpha| below which the polar stands alone.
 BLEND_END_DEG = 26.0  # |alpha| above which the closed form stands alone.
@@ -22,7 +21,7 @@ _CD_COS = (1.1279, -0.0264, -1.03951, -0.02516, -0.0966)  # cd = sum c_k cos(k a
 _CM_SIN = (-0.58524, 0.14099, -0.03031, 0.04132)  # cm = sum m_k sin(k a), k from 1, about the quarter chord.
 
 
-def wrap_coefficients(alpha: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+def wrap_coefficients(alpha: Array) -> tuple[Array, Array, Array]:
     """(cl, cd, cm) [-] of the closed form at `alpha` [rad], within -pi..pi; for 20..180 deg either way.
 
     cl and cm are odd, cd is even; cd lies between 0.043 (backwards) and 2.1 (broadside).
@@ -36,15 +35,13 @@ def wrap_coefficients(alpha: FloatArray) -> tuple[FloatArray, FloatArray, FloatA
     return cl, cd, cm
 
 
-def blend_weight(alpha: FloatArray) -> FloatArray:
+def blend_weight(alpha: Array) -> Array:
     """Share of the closed form at `alpha` [rad]: 0 below 16 deg, 1 above 26 deg, a smoothstep between."""
     t = np.clip((np.rad2deg(np.abs(alpha)) - BLEND_START_DEG) / (BLEND_END_DEG - BLEND_START_DEG), 0.0, 1.0)
     return t * t * (3.0 - 2.0 * t)
 
 
-def blend(
-    alpha: FloatArray, cl: FloatArray, cd: FloatArray, cm: FloatArray
-) -> tuple[FloatArray, FloatArray, FloatArray]:
+def blend(alpha: Array, cl: Array, cd: Array, cm: Array) -> tuple[Array, Array, Array]:
     """Polar values blended into the closed form: cl and cm linearly, cd in its logarithm so that it stays positive."""
     weight = blend_weight(alpha)
     far_cl, far_cd, far_cm = wrap_coefficients(alpha)

@@ -1,18 +1,120 @@
-"""Speed sweeps: one design over many advance ratios, each trim started from its neighbour."""
+"""Speed sweeps: one design over many advance ratios, each trim started from its neighbour, as a table."""
 
-from collections.abc import Iterable
+import importlib
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any
 
-from rotor.design.design import Design
+from rotor.design.design import Design, require_design
+from rotor.plots import plot_lines
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
+from rotor.units import KNOT
+
+COLUMNS = (
+    "twist", "mu", "speed_kt", "status", "total_kw", "main_rotor_kw", "induced_kw", "profile_kw", "parasite_kw",
+    "tail_kw", "message",
+)  # fmt: skip
+"""The unit is the end of the name; without one a column is a text or a ratio."""
+POWERS = ("total", "main_rotor", "induced", "profile", "parasite", "tail")
 
 
-def sweep(design: Design, advance_ratios: Iterable[float], start: Solution | None = None) -> list[Solution]:
-    """Solutions in the order of the advance ratios, warm-started along the way."""
+@dataclass(frozen=True, eq=False, repr=False)
+class SweepTable:
+    """The solutions of a sweep in order. It iterates over them, and shows them as rows of `columns`."""
+
+    solutions: tuple[Solution, ...]
+
+    def __len__(self) -> int:
+        return len(self.solutions)
+
+    def __iter__(self) -> Iterator[Solution]:
+        return iter(self.solutions)
+
+    def __getitem__(self, index: int) -> Solution:
+        return self.solutions[index]
+
+    def __repr__(self) -> str:
+        if not self.solutions:
+            return "SweepTable(empty)"
+        good = sum(solution.converged for solution in self.solutions)
+        speeds = [solution.design.condition.advance_ratio for solution in self.solutions]
+        twist = self.solutions[0].design.twist.spec()
+        return f"SweepTable({len(self)} rows, twist {twist}, mu {min(speeds):g} to {max(speeds):g}, {good} converged)"
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of the columns, with the unit at the end of the name."""
+        return COLUMNS
+
+    @property
+    def rows(self) -> tuple[tuple[float | str | None, ...], ...]:
+        """One row per solution; None where a solution that did not converge has no power."""
+        return tuple(_row(solution) for solution in self.solutions)
+
+    def to_dataframe(self) -> Any:
+        """The table as a pandas DataFrame; ImportError with the remedy where pandas is missing."""
+        try:
+            pandas: Any = importlib.import_module("pandas")
+        except ModuleNotFoundError:
+            raise ImportError("pandas is not installed: pip install pandas, or use .columns and .rows") from None
+        return pandas.DataFrame(list(self.rows), columns=list(COLUMNS))
+
+
+def sweep(design: Design, mu: Iterable[float], start: Solution | None = None) -> SweepTable:
+    """Solve the design at each advance ratio in order, each started from the last that converged.
+
+    `start`: an earlier solution to begin from. Raises TypeError or ValueError with one sentence before anything is
+    solved when an advance ratio cannot be used.
+    """
+    if isinstance(mu, int | float | str):
+        raise TypeError(f"mu is {mu!r}: give a list of advance ratios, for example mu=[0.1, 0.2, 0.3]")
+    require_design(design)
     solutions: list[Solution] = []
-    for advance_ratio in advance_ratios:
-        solution = solve(design.at(mu=advance_ratio), start)
+    for point in [design.at(mu=one) for one in mu]:
+        solution = solve(point, start)
         if solution.converged:
             start = solution
         solutions.append(solution)
-    return solutions
+    return SweepTable(tuple(solutions))
+
+
+def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
+    """Draw power over advance ratio: the parts of one sweep, or the totals of several. Returns the matplotlib axes.
+
+    Raises TypeError for anything but sweeps, and ImportError with the remedy where matplotlib is missing.
+    """
+    if not tables or not all(isinstance(table, SweepTable) for table in tables):
+        raise TypeError(
+            f"plot_power got {', '.join(type(table).__name__ for table in tables) or 'nothing'}: "
+            "give what rotor.sweep returns, one table or several"
+        )
+    labels = "Advance ratio µ", "Power [kW]"
+    if len(tables) == 1:
+        return plot_lines(_speeds(tables[0]), {part: _kilowatts(tables[0], part) for part in POWERS}, labels, ax)
+    for table in tables:
+        name = table[0].design.twist.spec() if len(table) else "empty"
+        ax = plot_lines(_speeds(table), {name: _kilowatts(table, "total")}, labels, ax)
+    return ax
+
+
+def _speeds(table: SweepTable) -> list[float]:
+    return [solution.design.condition.advance_ratio for solution in table]
+
+
+def _kilowatts(table: SweepTable, part: str) -> list[float]:
+    return [getattr(solution.power, part) / 1e3 if solution.converged else math.nan for solution in table]
+
+
+def _row(solution: Solution) -> tuple[float | str | None, ...]:
+    design = solution.design
+    powers = [getattr(solution.power, part) / 1e3 if solution.converged else None for part in POWERS]
+    return (
+        design.twist.spec(),
+        design.condition.advance_ratio,
+        design.airspeed / KNOT,
+        solution.status.value,
+        *powers,
+        solution.message,
+    )

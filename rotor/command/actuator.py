@@ -8,11 +8,10 @@ from typing import Any
 
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.harmonic import PhaseSweep, phase_sweep
+from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.placement import BladeKind, Host, Placement, default_placement
-from rotor.actuator.reach import Pair
-from rotor.actuator.tables import Table, table_5_1, table_5_2
-from rotor.actuator.verdict import Verdict, judge
-from rotor.actuator.wording import verdict_sentence
+from rotor.actuator.tables import ActuatorTable, table_5_1, table_5_2
+from rotor.actuator.verdict import Verdict, judge, verdict_sentence
 from rotor.command.flags import add_command, add_design_arguments, design_from, finite
 from rotor.design.active_twist import Harmonic
 from rotor.dynamics.structure import check_blade
@@ -56,7 +55,7 @@ def run(args: argparse.Namespace) -> int:
         _show(table_5_1(), args.json)
         return 0
     actuator, concept = find_actuator(args.actuator), find_concept(args.concept, _divisions(args.division))
-    pair = Pair(design_from(args, args.twist, args.from_mu), (args.from_mu, args.to_mu), args.share)
+    pair = ConditionPair(design_from(args, args.twist, args.from_mu), (args.from_mu, args.to_mu), args.share)
     check_blade(pair.design.aircraft)
     pair.designs()  # Bad input speaks before anything is computed.
     if args.harmonic is not None:
@@ -69,7 +68,7 @@ def run(args: argparse.Namespace) -> int:
         verdict = judge(actuator, pair, concept, placement, host, derated=args.derated)
         turned = None
         if args.harmonic is not None:
-            turned = phase_sweep(verdict.resting, verdict.fitted, args.harmonic, derated=args.derated)
+            turned = phase_sweep(verdict.actuator_off, verdict.installed, args.harmonic, derated=args.derated)
     except RuntimeError as error:
         print(json.dumps(failure(args, str(error)), indent=2) if args.json else f"not converged: {error}")
         return 1
@@ -82,16 +81,16 @@ def record(verdict: Verdict, turned: PhaseSweep | None = None) -> dict[str, Any]
     values: dict[str, Any] = {
         "status": "converged",
         "message": verdict_sentence(verdict),
-        "actuator": verdict.fitted.actuator.id,
-        "plies": verdict.fitted.placement.plies,
+        "actuator": verdict.installed.actuator.id,
+        "plies": verdict.installed.placement.plies,
         "concept": verdict.baseline.concept.name,
         "required_twist_deg": math.degrees(verdict.required),
         "attainable_twist_deg": math.degrees(verdict.attainable),
         "attainable_twist_derated_deg": math.degrees(verdict.attainable_derated),
         "feasible": verdict.feasible,
         "voltages_v": [list(pair) for pair in verdict.voltages],
-        "added_mass_kg": verdict.fitted.bill.aircraft,
-        "torsion_frequency_per_rev": verdict.fitted.frequency,
+        "added_mass_kg": verdict.installed.masses.aircraft,
+        "torsion_frequency_per_rev": verdict.installed.frequency,
         "gross_saving_w": verdict.gross_saving,
         "net_saving_w": verdict.net_saving,
         "limits": [
@@ -134,11 +133,11 @@ def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
 
 def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
     """The same for a reader."""
-    fitted, base = verdict.fitted, verdict.baseline
-    bill = fitted.bill
+    installed, base = verdict.installed, verdict.baseline
+    masses = installed.masses
     first, second = (best.power / 1e3 for best in base.best)
     twists = [base.concept.twist(best.values).spec() for best in (*base.best, base.fixed)]
-    tested = f"  ({math.degrees(verdict.attainable_derated):.2f}° derated by test)" if fitted.derating < 1.0 else ""
+    tested = f"  ({math.degrees(verdict.attainable_derated):.2f}° derated by test)" if installed.derating < 1.0 else ""
     lines = [
         verdict_sentence(verdict),
         "",
@@ -151,13 +150,14 @@ def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
         f"twist needed      {math.degrees(verdict.required):8.2f} °  (segments added)",
         f"twist attainable  {math.degrees(verdict.attainable):8.2f} °{tested}",
         f"used              {math.degrees(verdict.attained):8.2f} °",
-        f"moment            {fitted.moment:8.0f} N·m on GJ {fitted.section_stiffness:.0f} N·m²",
-        f"torsion           {fitted.frequency:8.2f} /rev",
-        f"added mass        {bill.aircraft:8.1f} kg  ({bill.blade:.1f} a blade, of it {bill.balance:.1f} nose weight)",
+        f"moment            {installed.moment:8.0f} N·m on GJ {installed.section_stiffness:.0f} N·m²",
+        f"torsion           {installed.frequency:8.2f} /rev",
+        f"added mass        {masses.aircraft:8.1f} kg  ({masses.blade:.1f} per blade, "
+        f"{masses.balance:.1f} of it nose weight)",
         f"drive             {verdict.drive.slew_power:8.1f} W while moving for {verdict.drive.slew_time:.0f} s, "
         f"{verdict.drive.hold_power:.0f} W to hold",
     ]
-    edges = (base.pair.design.rotor.blade.root_cutout, *fitted.placement.divisions, 1.0)
+    edges = (base.pair.design.rotor.blade.root_cutout, *installed.placement.divisions, 1.0)
     for k, (a, b) in enumerate(verdict.voltages):
         lines.append(f"segment {k + 1}         {edges[k]:.2f}…{edges[k + 1]:.2f} R: {a:.0f} V, then {b:.0f} V")
     if turned is not None and not turned.dynamic.amplitude:
@@ -174,7 +174,7 @@ def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
     return "\n".join([*lines, *(f"caveat: {caveat}" for caveat in verdict.caveats)])
 
 
-def _show(table: Table, as_json: bool) -> None:
+def _show(table: ActuatorTable, as_json: bool) -> None:
     print(json.dumps(asdict(table), indent=2) if as_json else table.text())
 
 

@@ -4,7 +4,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-from rotor.study.chunks import work
+from rotor.study.chunks import evaluate_points
 from rotor.study.point import trim_of
 from rotor.study.study_file import read_study
 from rotor.trim.solve import solve
@@ -21,7 +21,7 @@ def measure_batch() -> dict[str, float]:
     designs = [trim_of(values, study) for values in study.values(first, first + _POINTS)]
     return {
         "each by itself": _rate(lambda: [solve(design) for design in designs]),
-        "as a study works them off": _rate(lambda: work(study, first, first + _POINTS)),
+        "as a study works them off": _rate(lambda: evaluate_points(study, first, first + _POINTS)),
     }
 
 

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS, find_concept
-from rotor.optimisation.objective import Leg
+from rotor.optimisation.objective import WeightedCondition
 from rotor.optimisation.schedule import Plan, run_plan
-from rotor.optimisation.search import Search, optimise
+from rotor.optimisation.search import Search, run_search
 from rotor.trim.solve import solve
 
 TARGETS_S = {
@@ -32,13 +32,13 @@ def measure_searches(*, long: bool) -> dict[str, float]:
         for mu in _ADVANCE_RATIOS:
             design = make_design(preset="flight", mu=mu)
             solve(design)  # Lays out the grid and the wake once, as a page has long done.
-            elapsed += optimise(Search(design, find_concept(concept), starts=starts)).elapsed
+            elapsed += run_search(Search(design, find_concept(concept), starts=starts)).elapsed
         figures[name] = elapsed / len(_ADVANCE_RATIOS)
     if long:
         design = make_design(preset="flight")
         ratios = [0.0, *(0.05 + 0.025 * k for k in range(1, 15))]
-        legs = tuple(Leg(replace(design.condition, advance_ratio=mu)) for mu in ratios)
+        conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in ratios)
         begin = time.perf_counter()
-        run_plan(Plan(design, tuple(CONCEPTS.values()), legs), processes=min(2, os.cpu_count() or 1))
+        run_plan(Plan(design, tuple(CONCEPTS.values()), conditions), processes=min(2, os.cpu_count() or 1))
         figures["schedule, 15 conditions, 8 concepts"] = time.perf_counter() - begin
     return figures

@@ -11,9 +11,8 @@ from rotor.command.search_flags import add_search_arguments, concept_help, limit
 from rotor.design.blade import airfoils_spec
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, find_concept, on_top
-from rotor.optimisation.mission import read_mission
-from rotor.optimisation.objective import Objective, at_condition, hover_and_cruise
-from rotor.optimisation.search import STARTS, Ended, Minimum, Optimum, Progress, Search, optimise
+from rotor.optimisation.objective import Objective, at_condition, hover_and_cruise, read_mission
+from rotor.optimisation.search import STARTS, Minimum, Optimum, Progress, Search, SearchStatus, run_search
 from rotor.units import KNOT
 
 
@@ -54,9 +53,9 @@ def run(args: argparse.Namespace) -> int:
         band=args.band,
     )
     with interruptible() as stop, bar(None, " designs") as advance:
-        optimum = optimise(search, lambda progress: advance(_words(progress)), stop)
+        optimum = run_search(search, lambda progress: advance(_words(progress)), stop)
     print(json.dumps(record(optimum, concept), indent=2, allow_nan=False) if args.json else report(optimum, concept))
-    return {Ended.CONVERGED: 0, Ended.NOT_CONVERGED: 1, Ended.STOPPED: STOPPED}[optimum.status]
+    return {SearchStatus.CONVERGED: 0, SearchStatus.NOT_CONVERGED: 1, SearchStatus.STOPPED: STOPPED}[optimum.status]
 
 
 def _objective(args: argparse.Namespace, design: Design) -> Objective:
@@ -71,7 +70,7 @@ def _objective(args: argparse.Namespace, design: Design) -> Objective:
     if args.objective not in ("total", "induced"):
         raise ValueError(f"objective {args.objective!r} is not known: use total, induced or hover-cruise")
     objective = at_condition(design, args.objective)
-    return replace(objective, legs=read_mission(args.mission, design)) if args.mission else objective
+    return replace(objective, conditions=read_mission(args.mission, design)) if args.mission else objective
 
 
 def _words(progress: Progress) -> str:

@@ -15,10 +15,8 @@ from rotor.command.progress import STOPPED, bar, interruptible
 from rotor.command.search_flags import add_search_arguments, concept_help, limits_from, parse_division
 from rotor.files.ranges import parse_range
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
-from rotor.optimisation.mission import read_mission
-from rotor.optimisation.objective import QUANTITIES, Leg
-from rotor.optimisation.schedule import Cell, Plan, Schedule, run_plan
-from rotor.optimisation.schedule_file import open_cells, read_cells
+from rotor.optimisation.objective import QUANTITIES, WeightedCondition, read_mission
+from rotor.optimisation.schedule import Cell, Plan, Schedule, open_cells, read_cells, run_plan
 from rotor.optimisation.search import Optimum
 
 DEFAULT_CONCEPTS = ("linear", "two-segment", "three-segment", "free-form")
@@ -55,13 +53,13 @@ def run(args: argparse.Namespace) -> int:
         raise ValueError(f"{processes} processes are outside 1…64: give one a core")
     found = read_cells(args.resume, plan) if args.resume else []
     keep = open_cells(args.resume, plan) if args.resume else None
-    total = len(plan.concepts) * (len(plan.legs) + 1)
+    total = len(plan.concepts) * (len(plan.conditions) + 1)
     with interruptible() as stop, bar(total - len(found), " optima") as advance:
 
         def take(cell: Cell) -> None:
             if keep is not None:
                 keep(cell)
-            advance(f"{cell.concept} {'fixed' if cell.leg is None else f'leg {cell.leg + 1}'}")
+            advance(f"{cell.concept} {'fixed' if cell.condition is None else f'condition {cell.condition + 1}'}")
 
         schedule = run_plan(plan, found, take, stop, processes if total - len(found) > 2 else 1)
         stopped = stop()
@@ -82,15 +80,17 @@ def plan_from(args: argparse.Namespace) -> Plan:
     if args.on_top:
         concepts = tuple(on_top(concept, design.twist) for concept in concepts)
     if args.mission:
-        legs = read_mission(args.mission, design)
+        conditions = read_mission(args.mission, design)
     else:
         ratios = sorted(set(parse_range(args.mu or DEFAULT_MU)))
-        legs = tuple(Leg(replace(design.condition, advance_ratio=mu)) for mu in ratios)
-    legs = tuple(sorted(legs, key=lambda leg: (leg.condition.advance_ratio, leg.condition.mass)))
+        conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in ratios)
+    conditions = tuple(
+        sorted(conditions, key=lambda condition: (condition.flight.advance_ratio, condition.flight.mass))
+    )
     limits = limits_from(args, design, concepts)
     for concept in concepts:
         limits.bounds_of(concept)
-    return Plan(design, concepts, legs, args.objective, limits, args.starts, args.seed)
+    return Plan(design, concepts, conditions, args.objective, limits, args.starts, args.seed)
 
 
 def _rank(name: str) -> int:
@@ -114,14 +114,14 @@ def record(schedule: Schedule) -> dict[str, Any]:
         "objective": plan.quantity,
         "conditions": [
             {
-                "mu": leg.condition.advance_ratio,
-                "mass_kg": leg.condition.mass,
-                "altitude_m": leg.condition.altitude,
-                "hours": leg.hours,
+                "mu": condition.flight.advance_ratio,
+                "mass_kg": condition.flight.mass,
+                "altitude_m": condition.flight.altitude,
+                "hours": condition.hours,
                 "baseline_power_w": _baseline(schedule, k),
                 "optima": {one.name: _entry(schedule.at(k, one.name), one) for one in plan.concepts},
             }
-            for k, leg in enumerate(plan.legs)
+            for k, condition in enumerate(plan.conditions)
         ],
         "fixed": {one.name: _entry(schedule.at(None, one.name), one) for one in plan.concepts},
         "worth": {
@@ -139,8 +139,8 @@ def record(schedule: Schedule) -> dict[str, Any]:
     }
 
 
-def _baseline(schedule: Schedule, leg: int) -> float | None:
-    return next((cell.optimum.baseline_power for cell in schedule.cells if cell.leg == leg), None)
+def _baseline(schedule: Schedule, condition: int) -> float | None:
+    return next((cell.optimum.baseline_power for cell in schedule.cells if cell.condition == condition), None)
 
 
 def _entry(optimum: Optimum | None, concept: Concept) -> dict[str, Any] | None:
@@ -178,10 +178,10 @@ def report(schedule: Schedule) -> str:
 def _rows(schedule: Schedule) -> list[tuple[str, ...]]:
     rows: list[tuple[str, ...]] = []
     for cell in schedule.cells:
-        leg, one = None if cell.leg is None else schedule.plan.legs[cell.leg], cell.optimum
-        where = ("all", "", "", "") if leg is None else (
-            f"{leg.condition.advance_ratio:.4g}", f"{leg.condition.mass:.6g}", f"{leg.condition.altitude:.4g}",
-            f"{leg.hours:.4g}",
+        condition, one = None if cell.condition is None else schedule.plan.conditions[cell.condition], cell.optimum
+        where = ("all", "", "", "") if condition is None else (
+            f"{condition.flight.advance_ratio:.4g}", f"{condition.flight.mass:.6g}", f"{condition.flight.altitude:.4g}",
+            f"{condition.hours:.4g}",
         )  # fmt: skip
         rows.append((
             *where, cell.concept, one.status.value,

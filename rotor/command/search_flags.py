@@ -4,13 +4,13 @@ import argparse
 import math
 
 from rotor.actuator.catalogue import find_actuator
-from rotor.actuator.fitted import fit
+from rotor.actuator.installation import install
 from rotor.actuator.placement import Host, default_placement
 from rotor.actuator.verdict import change_limit
 from rotor.command.flags import finite
 from rotor.design.design import Design
 from rotor.optimisation.concepts import CONCEPTS, Concept
-from rotor.optimisation.search import ChangeLimit, Limits, reach
+from rotor.optimisation.search import ChangeLimit, Limits, even_change_limit
 
 
 def add_search_arguments(parser: argparse.ArgumentParser, starts: int) -> None:
@@ -72,12 +72,12 @@ def _change(args: argparse.Namespace, design: Design) -> ChangeLimit | None:
         if args.plies is not None or args.derated:
             raise ValueError("--plies and --derated are of an actuator: add --actuator, for example MFC_P1")
         root = design.rotor.blade.root_cutout
-        return None if args.change_deg is None else reach(design.twist, math.radians(args.change_deg), root)
+        return None if args.change_deg is None else even_change_limit(design.twist, math.radians(args.change_deg), root)
     if args.change_deg is not None:
         raise ValueError("--change-deg and --actuator both limit the change of twist: give one of them")
     placement = default_placement(2 if args.plies is None else args.plies)
-    fitted = fit(find_actuator(args.actuator), placement, Host(), design.rotor)
-    return change_limit(fitted, design.twist, root=design.rotor.blade.root_cutout, derated=args.derated)
+    installed = install(find_actuator(args.actuator), placement, Host(), design.rotor)
+    return change_limit(installed, design.twist, root=design.rotor.blade.root_cutout, derated=args.derated)
 
 
 def concept_help() -> str:

@@ -14,10 +14,10 @@ from rotor.command.flags import add_command
 from rotor.command.progress import STOPPED, interruptible
 from rotor.command.study_show import record, report
 from rotor.files.provenance import commit, package_version
-from rotor.study.chunks import Done, Provenance, work
+from rotor.study.chunks import FinishedChunk, StudyProvenance, evaluate_points
 from rotor.study.cluster import ClusterLost, connected, need_packages, run_chunks
 from rotor.study.results import read_results
-from rotor.study.store import NotStored, Store, sha256
+from rotor.study.store import Store, StoreError, sha256
 from rotor.study.study_file import StudyFile, read_study
 
 _SAY_EVERY = 60.0
@@ -70,7 +70,7 @@ def run(args: argparse.Namespace) -> int:
     if args.dry_run:
         return _dry_run(file)
     need_packages()
-    provenance = Provenance(package_version(), commit(), sha256(file.text))
+    provenance = StudyProvenance(package_version(), commit(), sha256(file.text))
     store = Store(args.out or Path(file.path).stem, file, provenance)
     try:
         return _run(args, store, provenance)
@@ -78,7 +78,7 @@ def run(args: argparse.Namespace) -> int:
         store.close()
 
 
-def _run(args: argparse.Namespace, store: Store, provenance: Provenance) -> int:
+def _run(args: argparse.Namespace, store: Store, provenance: StudyProvenance) -> int:
     study = store.study
     missing = store.missing()
     spans = {chunk: study.span(chunk) for chunk in missing}
@@ -87,19 +87,19 @@ def _run(args: argparse.Namespace, store: Store, provenance: Provenance) -> int:
     message, stopped, lost, effort = "", False, list[int](), _Effort()
     if missing:
         if args.scheduler is None:
-            work(study, 0, 1)  # Before all processes do: the kernels are compiled once, not in each of them.
+            evaluate_points(study, 0, 1)  # Before all processes do: the kernels are compiled once, not in each of them.
         with interruptible() as stop, _progress(study.count, study.count - left) as advance:
 
-            def take(done: Done) -> None:
+            def take(done: FinishedChunk) -> None:
                 store.keep(done.chunk, done.content)
                 effort.add(done)
                 advance(done.rows, done.failures)
 
             try:
                 with connected(args.scheduler, args.workers) as client:
-                    outcome = run_chunks(client, study, missing, provenance, take, stop, _tell_lonely(args.scheduler))
-                stopped, lost = outcome.stopped, outcome.lost
-            except (ClusterLost, NotStored) as error:
+                    ended = run_chunks(client, study, missing, provenance, take, stop, _tell_lonely(args.scheduler))
+                stopped, lost = ended.stopped, ended.lost
+            except (ClusterLost, StoreError) as error:
                 message = str(error)
         if effort.points:
             print(effort.sentence())
@@ -116,7 +116,7 @@ class _Effort:
     """Processor time of the workers."""
     workers: set[str] = field(default_factory=set[str])
 
-    def add(self, done: Done) -> None:
+    def add(self, done: FinishedChunk) -> None:
         self.points += done.rows
         self.seconds += done.seconds
         self.workers.add(done.worker)
@@ -165,10 +165,10 @@ def _show(args: argparse.Namespace) -> int:
 def _dry_run(file: StudyFile) -> int:
     """What a study would cost, from a few of its points worked off here."""
     study = file.study
-    few = min(study.chunk, 4 if study.searching is not None else 40)
-    work(study, 0, few)  # Compiles, lays out grids.
+    few = min(study.chunk, 4 if study.optimum is not None else 40)
+    evaluate_points(study, 0, few)  # Compiles, lays out grids.
     begin = time.process_time()
-    work(study, 0, few)
+    evaluate_points(study, 0, few)
     each = (time.process_time() - begin) / few
     print(f"{study.title}: {study.count:,} points in {study.chunks:,} chunks of {study.chunk:,}")
     print(

@@ -4,7 +4,7 @@ import math
 from collections import Counter
 from typing import Any
 
-from rotor.study.findings import Effect, Robust, best_row, effects, robust_best
+from rotor.study.findings import Effect, RobustDesign, best_row, effects, robust_best
 from rotor.study.results import Results
 from rotor.study.study import check_uncertain
 
@@ -103,7 +103,7 @@ def _row(results: Results, row: int) -> dict[str, Any]:
     return {name: _plain(value) for name, value in values.items()}
 
 
-def _robust(one: Robust) -> dict[str, Any]:
+def _robust(one: RobustDesign) -> dict[str, Any]:
     design = {name: _plain(value) for name, value in one.design.items()}
     return {"design": design, "worst": one.worst, "mean": one.mean, "cases": one.cases}
 

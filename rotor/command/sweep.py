@@ -3,16 +3,9 @@
 import argparse
 from typing import Any
 
-from rotor.analysis.sweep import sweep
+from rotor.analysis.sweep import COLUMNS, sweep
 from rotor.command.flags import add_command, add_design_arguments, design_from, write_table
 from rotor.files.ranges import parse_range
-from rotor.trim.solution import Solution
-from rotor.units import KNOT
-
-COLUMNS = (
-    "twist", "mu", "speed_kt", "status", "total_kw", "main_rotor_kw", "induced_kw", "profile_kw", "parasite_kw",
-    "tail_kw", "message",
-)  # fmt: skip
 
 
 def add_parser(commands: Any) -> None:
@@ -35,9 +28,10 @@ def run(args: argparse.Namespace) -> int:
     widths = (max(22, longest + 2), 7, 10, 14, 10, 15, 12, 12, 13, 8)
     print("".join(f"{name:<{width}}" for name, width in zip(COLUMNS, widths, strict=False)))
     for design in designs[:: len(advance_ratios)]:
-        for solution in sweep(design, advance_ratios):
-            converged = converged and solution.converged
-            row = _row(solution)
+        table = sweep(design, advance_ratios)
+        converged = converged and all(solution.converged for solution in table)
+        for cells in table.rows:
+            row = tuple(_text(name, cell) for name, cell in zip(COLUMNS, cells, strict=True))
             rows.append(row)
             print("".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=False)).rstrip())
     if args.csv:
@@ -45,14 +39,8 @@ def run(args: argparse.Namespace) -> int:
     return 0 if converged else 1
 
 
-def _row(solution: Solution) -> tuple[str, ...]:
-    design, power = solution.design, solution.power
-    parts = (power.total, power.main_rotor, power.induced, power.profile, power.parasite, power.tail)
-    return (
-        design.twist.spec(),
-        f"{design.condition.advance_ratio:.4g}",
-        f"{design.airspeed / KNOT:.1f}",
-        solution.status.value,
-        *(f"{part / 1e3:.2f}" if solution.converged else "" for part in parts),
-        solution.message,
-    )
+def _text(name: str, cell: float | str | None) -> str:
+    """A cell as printed: powers and speeds with fixed digits, nothing where there is no value."""
+    if cell is None or isinstance(cell, str):
+        return cell or ""
+    return f"{cell:.4g}" if name == "mu" else f"{cell:.1f}" if name == "speed_kt" else f"{cell:.2f}"

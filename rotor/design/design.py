@@ -113,7 +113,7 @@ class Design:
 
         In a SPEC `builtin` is this rotor's own twist, and `ideal` the twist that carries this weight in hover.
         """
-        if callable(twist):
+        if isinstance(twist, TwistLaw):
             return replace(self, twist=twist)
         rotor = self.rotor
         slope = float(rotor.blade.installed(rotor.blade.spans[0].section).table.lift_slope(0.3))
@@ -176,3 +176,10 @@ def check_preset(preset: str) -> None:
     """Raise ValueError for a preset that does not exist."""
     if preset not in PRESETS:
         raise ValueError(f"preset {preset!r} is not known: use {' or '.join(PRESETS)}")
+
+
+def require_design(design: Design) -> Design:
+    """The design; TypeError with one sentence for anything else, which a notebook may pass."""
+    if not isinstance(design, Design):  # pyright: ignore[reportUnnecessaryIsInstance]
+        raise TypeError(f"design is {design!r:.80}: give what rotor.make_design or rotor.load_design returns")
+    return design

@@ -8,7 +8,7 @@ import math
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -20,6 +20,7 @@ REFERENCE_RADIUS = 0.75
 """r/R where every twist law is zero."""
 
 
+@runtime_checkable
 class TwistLaw(Protocol):
     """Anything that gives the built-in pitch along the blade."""
 

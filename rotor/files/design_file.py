@@ -37,7 +37,9 @@ _KEYS = (
     *SWITCHES,
     "airfoils",
     "active_twist",
+    "solution",
 )
+"""`solution` holds the results that `Solution.save` adds; they are not read back."""
 
 
 def case_of(design: Design) -> dict[str, Any]:

@@ -1,7 +1,9 @@
-"""Evaluates designs for a search: trims warm from the nearest neighbour, reports, remembers, stops when told."""
+"""Evaluates designs for a search: trims from the nearest earlier solution, reports progress, stops on request."""
 
+import math
 import time
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -10,16 +12,44 @@ from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept
 from rotor.optimisation.limits import Limits, cheap_margins, stall_margins
 from rotor.optimisation.objective import Measured, Objective, measure
-from rotor.optimisation.record import Record
 from rotor.optimisation.results import Phase, Progress
 from rotor.trim.solution import Solution
 
-_REMEMBERED = 64
+FEASIBLE = 1e-3
+"""Accepted violation of a limit: a thousandth of a degree, or of a per cent of the disk."""
+
+
+@dataclass(frozen=True, eq=False)
+class Evaluation:
+    """A design evaluated. x: parameters scaled to 0…1 over their bounds."""
+
+    x: Array
+    power: float | None
+    """[W]; None when it does not trim."""
+    slope: Array
+    """∂power/∂x [W]"""
+    margins: Array
+    """What is left of each limit, scaled, (limits,)."""
+    margin_slopes: Array
+    """(limits, parameters)"""
+
+    @property
+    def feasible(self) -> bool:
+        """Whether it trims and keeps all limits."""
+        return self.power is not None and bool((self.margins >= -FEASIBLE).all())
+
+    @property
+    def watts(self) -> float:
+        """Power, infinite where it does not trim, for comparing."""
+        return math.inf if self.power is None else self.power
+
+
+_KEPT_SOLUTIONS = 64
 """Solutions kept to start trims from."""
 
 
-class Stopped(Exception):
-    """Somebody asked the search to stop."""
+class SearchStopped(Exception):
+    """The caller stopped the search."""
 
 
 class Evaluator:
@@ -42,8 +72,8 @@ class Evaluator:
         self.start, self.starts = 0, starts
         self.count = 0
         self.begin = time.perf_counter()
-        self.records: list[Record] = []
-        self.best: Record | None = None
+        self.records: list[Evaluation] = []
+        self.best: Evaluation | None = None
         self._watch, self._stop = watch, stop
         self._solved: list[tuple[Array, tuple[Solution, ...]]] = []
 
@@ -68,8 +98,8 @@ class Evaluator:
         self._solved.append((np.full(len(self.span), 0.5), made.solutions))
         return made.power
 
-    def __call__(self, x: Array) -> Record:
-        """Evaluate a scaled point; raises Stopped when asked to stop."""
+    def __call__(self, x: Array) -> Evaluation:
+        """Evaluate a scaled point; SearchStopped when the caller stops the search."""
         self._check()
         x = np.clip(x, 0.0, 1.0)
         values = self.values(x)
@@ -84,21 +114,21 @@ class Evaluator:
         self.records.append(record)
         if made.power is not None:
             self._solved.append((x, made.solutions))
-            del self._solved[:-_REMEMBERED]
+            del self._solved[:-_KEPT_SOLUTIONS]
         if record.feasible and (self.best is None or record.watts < self.best.watts):
             self.best = record
         self._report(record, values)
         return record
 
-    def _record(self, x: Array, values: tuple[float, ...], made: Measured) -> Record:
+    def _record(self, x: Array, values: tuple[float, ...], made: Measured) -> Evaluation:
         margins, slopes = cheap_margins(self.limits, self.concept, values, self.design.rotor.blade.root_cutout)
         if made.power is None or made.by_pitch is None:
-            return Record(x, None, np.zeros_like(x), margins, slopes * self.span)
+            return Evaluation(x, None, np.zeros_like(x), margins, slopes * self.span)
         by_value = self.concept.slopes(values, made.solutions[0].disk.r)
         if made.stalled_by_pitch is not None:
             more, more_slopes = stall_margins(self.limits, made.stalled, made.stalled_by_pitch @ by_value.T)
             margins, slopes = np.concatenate([margins, more]), np.concatenate([slopes, more_slopes])
-        return Record(x, made.power, (by_value @ made.by_pitch) * self.span, margins, slopes * self.span)
+        return Evaluation(x, made.power, (by_value @ made.by_pitch) * self.span, margins, slopes * self.span)
 
     def _nearest(self, x: Array) -> tuple[Solution, ...]:
         if not self._solved:
@@ -107,9 +137,9 @@ class Evaluator:
 
     def _check(self) -> None:
         if self._stop is not None and self._stop():
-            raise Stopped
+            raise SearchStopped
 
-    def _report(self, record: Record, values: tuple[float, ...]) -> None:
+    def _report(self, record: Evaluation, values: tuple[float, ...]) -> None:
         if self._watch is None:
             return
         self._watch(

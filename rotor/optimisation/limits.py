@@ -1,4 +1,9 @@
-"""What an optimised twist may not do, as smooth functions that stay positive, with exact slopes."""
+"""Limits of a search as smooth functions that are positive inside, with exact gradients.
+
+The stalled area of a `Solution` counts cells, so it changes in steps. Here each cell counts by a logistic function of
+its stall margin, half where the margin is zero, and fades out towards reverse flow. As both widths go to zero the
+measure becomes that count.
+"""
 
 import math
 from collections.abc import Sequence
@@ -6,13 +11,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rotor.aero import kernel
+from rotor.aero.elements import Pass, Problem
+from rotor.airfoil.table import MACH_STEP
 from rotor.arrays import Array
 from rotor.design.twist import TwistLaw
 from rotor.optimisation.concepts import Concept, Parameter, Values
+from rotor.trim.adjoint import Adjoint, Weights
 
 _DEGREE = math.radians(1.0)
 _PERCENT = 0.01
-WATCHED = 33
+CHANGE_STATIONS = 33
 """Radii at which the change of twist is held to its limit, root cut-out to tip."""
 
 
@@ -34,7 +43,7 @@ class ChangeLimit:
             )
 
 
-def reach(reference: TwistLaw, tip: float, root: float = 0.0) -> ChangeLimit:
+def even_change_limit(reference: TwistLaw, tip: float, root: float = 0.0) -> ChangeLimit:
     """The limit of an actuator that twists evenly along the blade: zero at `root` (r/R), `tip` [rad] at the tip."""
     return ChangeLimit(reference, (root, 1.0), (0.0, tip))
 
@@ -48,7 +57,7 @@ class Limits:
     rate: tuple[float, float] | None = None
     """Steepest and flattest twist rate of every segment [rad/R]."""
     stalled: float | None = None
-    """Largest stalled share of the disk on every leg (0…1), as `rotor.optimisation.stall_limit` measures it."""
+    """Largest stalled share of the disk on every condition (0…1), as `rotor.optimisation.limits` measures it."""
     change: ChangeLimit | None = None
 
     def __post_init__(self) -> None:
@@ -86,7 +95,7 @@ def cheap_margins(limits: Limits, concept: Concept, values: Values, root: float)
         margins += [rates - limits.rate[0], limits.rate[1] - rates]
         slopes += [rows, -rows]
     if limits.change is not None:
-        r = np.linspace(root, 1.0, WATCHED)
+        r = np.linspace(root, 1.0, CHANGE_STATIONS)
         change = concept.twist(values)(r) - limits.change.reference(r)
         change -= change[0]
         by = concept.slopes(values, r)
@@ -98,7 +107,66 @@ def cheap_margins(limits: Limits, concept: Concept, values: Values, root: float)
 
 
 def stall_margins(limits: Limits, stalled: Sequence[float], by_value: Array | None) -> tuple[Array, Array]:
-    """What is left of the stalled-area limit on every leg [per cent], and slopes by the values."""
+    """What is left of the stalled-area limit on every condition [per cent], and slopes by the values."""
     if limits.stalled is None or by_value is None:
         return np.zeros(0), np.zeros((0, 0))
     return (limits.stalled - np.asarray(stalled)) / _PERCENT, -by_value / _PERCENT
+
+
+WIDTH = math.radians(0.5)
+"""Margin [rad] over which a cell changes from attached to stalled (logistic scale)."""
+REVERSE_WIDTH = 0.02
+"""U_T over which cells fade out next to the reverse-flow region."""
+
+
+def stalled_share(adjoint: Adjoint) -> tuple[float, Array]:
+    """Stalled part of πR² (0…1), reverse flow not counted, and its gradient by each element's pitch [1/rad]."""
+    problem, one = adjoint.problem, adjoint.one
+    disk = problem.disk
+    ring = 2.0 * disk.r[:, None] * disk.dr / len(disk.psi)
+    margin, by_alpha, by_mach = _margin(problem, one)
+    counted = 0.5 * (1.0 - np.tanh(0.5 * margin / WIDTH))
+    by_margin = -counted * (1.0 - counted) / WIDTH
+    x = np.clip(one.u_t / REVERSE_WIDTH, 0.0, 1.0)
+    window, window_slope = x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x) / REVERSE_WIDTH
+
+    # α = θ − atan2(U_P, U_T), M = U·M_tip.
+    square = one.u_t**2 + one.u_p**2 + 1e-30
+    over_t, over_p = one.u_t / square, one.u_p / square
+    mach = one.loads[kernel.MACH]
+    slope = ring * window * by_margin
+    weights = Weights(
+        pitch=slope * by_alpha,
+        across=slope * (by_alpha * over_p + by_mach * mach * over_t) + ring * window_slope * counted,
+        down=slope * (-by_alpha * over_t + by_mach * mach * over_p),
+    )
+    return float((ring * window * counted).sum()), adjoint.by_pitch(weights)
+
+
+def _margin(problem: Problem, one: Pass) -> tuple[Array, Array, Array]:
+    """Angle of attack left before stall [rad], and its slopes by α and Mach: `kernel.stall_margins` differentiated."""
+    disk = problem.disk
+    alpha, mach = one.loads[kernel.ALPHA], one.loads[kernel.MACH]
+    top = disk.stall.shape[2] - 1
+    x = np.minimum(mach / MACH_STEP, top - 1e-9)
+    k = x.astype(np.int64)
+    v = x - k
+    inside = (mach / MACH_STEP < top) / MACH_STEP
+    ends: list[Array] = []
+    slopes: list[Array] = []
+    for end in (0, 1):
+        angle, slope = np.zeros_like(alpha), np.zeros_like(alpha)
+        for which in (0, 1):
+            share = (disk.weight if which else 1.0 - disk.weight)[:, None]
+            row = disk.stall[disk.section[:, which], end]
+            here, ahead = np.take_along_axis(row, k, axis=1), np.take_along_axis(row, k + 1, axis=1)
+            angle += share * (here + v * (ahead - here) + disk.offset[:, which][:, None])
+            slope += share * (ahead - here) * inside
+        ends.append(angle)
+        slopes.append(slope)
+    above, below = ends[1] - alpha, alpha - ends[0]
+    upper = above < below
+    margin: Array = np.minimum(above, below)
+    by_alpha: Array = np.where(upper, -1.0, 1.0)
+    by_mach: Array = np.where(upper, slopes[1], -slopes[0])
+    return margin, by_alpha, by_mach

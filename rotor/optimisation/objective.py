@@ -1,8 +1,10 @@
-"""What an optimiser makes small: power at one flight condition or its mean over several, with its slopes by pitch."""
+"""The objective of a search: power at one flight condition or its mean over several, and its gradient by pitch."""
 
+import csv
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Literal
 
 import numpy as np
@@ -10,7 +12,7 @@ import numpy as np
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.flight import FlightCondition
-from rotor.optimisation.stall_limit import stalled_share
+from rotor.optimisation.limits import stalled_share
 from rotor.trim.adjoint import Adjoint, power_along
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -20,42 +22,40 @@ QUANTITIES: tuple[Quantity, ...] = ("total", "induced")
 
 
 @dataclass(frozen=True)
-class Leg:
+class WeightedCondition:
     """A flight condition and how long it is flown."""
 
-    condition: FlightCondition
+    flight: FlightCondition
     hours: float = 1.0
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.hours) and self.hours > 0.0):
-            raise ValueError(
-                f"{self.hours:g} hours at advance ratio {self.condition.advance_ratio:g}: give more than 0"
-            )
+            raise ValueError(f"{self.hours:g} hours at advance ratio {self.flight.advance_ratio:g}: give more than 0")
 
 
 @dataclass(frozen=True)
 class Objective:
-    """Mean power over the legs, by their hours [W]."""
+    """Mean power over the conditions, by their hours [W]."""
 
     quantity: Quantity
-    legs: tuple[Leg, ...]
+    conditions: tuple[WeightedCondition, ...]
 
     def __post_init__(self) -> None:
         if self.quantity not in QUANTITIES:
             raise ValueError(f"objective {self.quantity!r} is not known: use {' or '.join(QUANTITIES)}")
-        if not self.legs:
-            raise ValueError("an objective without a flight condition: give at least one leg")
+        if not self.conditions:
+            raise ValueError("an objective without a flight condition: give at least one condition")
 
     @property
     def shares(self) -> tuple[float, ...]:
-        """Part of the hours of each leg."""
-        hours = math.fsum(leg.hours for leg in self.legs)
-        return tuple(leg.hours / hours for leg in self.legs)
+        """Part of the hours of each condition."""
+        hours = math.fsum(condition.hours for condition in self.conditions)
+        return tuple(condition.hours / hours for condition in self.conditions)
 
 
 def at_condition(design: Design, quantity: Quantity = "total") -> Objective:
     """Power at the design's own flight condition."""
-    return Objective(quantity, (Leg(design.condition),))
+    return Objective(quantity, (WeightedCondition(design.condition),))
 
 
 def hover_and_cruise(
@@ -65,8 +65,10 @@ def hover_and_cruise(
     if not 0.0 <= hover_share <= 1.0:
         raise ValueError(f"hover share {hover_share:g} is outside 0…1: give the part of the time spent hovering")
     pairs = ((0.0, hover_share), (cruise_advance_ratio, 1.0 - hover_share))
-    legs = tuple(Leg(replace(design.condition, advance_ratio=mu), share) for mu, share in pairs if share > 0.0)
-    return Objective(quantity, legs)
+    conditions = tuple(
+        WeightedCondition(replace(design.condition, advance_ratio=mu), share) for mu, share in pairs if share > 0.0
+    )
+    return Objective(quantity, conditions)
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,19 +76,19 @@ class Measured:
     """A design measured by an objective."""
 
     power: float | None
-    """Mean power [W]; None when a leg did not trim."""
+    """Mean power [W]; None when a condition did not trim."""
     by_pitch: Array | None
     """∂power/∂θ of each element's pitch [W/rad], (elements,)."""
     stalled: tuple[float, ...]
-    """Smooth stalled share of the disk (0…1), one per leg; empty unless asked for."""
+    """Smooth stalled share of the disk (0…1), one per condition; empty unless asked for."""
     stalled_by_pitch: Array | None
-    """[1/rad], (legs, elements)"""
+    """[1/rad], (conditions, elements)"""
     solutions: tuple[Solution, ...]
-    """One per leg, as far as they were solved."""
+    """One per condition, as far as they were solved."""
 
     @property
     def message(self) -> str:
-        """The sentence of the leg that did not trim, or of the last one."""
+        """The sentence of the condition that did not trim, or of the last one."""
         return self.solutions[-1].message
 
 
@@ -103,18 +105,18 @@ def measure(
     gradient: bool = True,
     stall: bool = False,
 ) -> Measured:
-    """Trim the design on every leg; power, and its exact gradient by pitch along the blade.
+    """Trim the design on every condition; power, and its exact gradient by pitch along the blade.
 
-    `starts`: earlier solutions of the same legs to begin from. Stops at the first leg that does not trim.
+    `starts`: earlier solutions of the same conditions to begin from. Stops at the first condition that does not trim.
     """
     solutions: list[Solution] = []
     power = 0.0
     by_pitch: Array | None = None
     stalled: list[float] = []
     stalled_by_pitch: list[Array] = []
-    for k, (leg, share) in enumerate(zip(objective.legs, objective.shares, strict=True)):
+    for k, (condition, share) in enumerate(zip(objective.conditions, objective.shares, strict=True)):
         start = starts[k] if k < len(starts) else None
-        solution = solve(replace(design, condition=leg.condition), start)
+        solution = solve(replace(design, condition=condition.flight), start)
         solutions.append(solution)
         if not solution.converged:
             return Measured(None, None, (), None, tuple(solutions))
@@ -128,3 +130,64 @@ def measure(
                 stalled.append(area)
                 stalled_by_pitch.append(slope)
     return Measured(power, by_pitch, tuple(stalled), np.array(stalled_by_pitch) if stall else None, tuple(solutions))
+
+
+COLUMNS = ("mu", "mass_kg", "altitude_m", "hours")
+
+
+def read_mission(path: str | Path, design: Design) -> tuple[WeightedCondition, ...]:
+    """Legs of a CSV table with the columns mu, mass_kg, altitude_m, hours; `#` starts a comment.
+
+    Only mu is needed: mass and altitude left out or blank are the design's own, hours are 1. Raises ValueError with one
+    sentence that names file, line and remedy.
+    """
+    path = Path(path)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise ValueError(f"mission {str(path)!r} does not exist: give a CSV file with {', '.join(COLUMNS)}") from None
+    except (OSError, UnicodeDecodeError) as error:
+        raise ValueError(f"mission {str(path)!r} cannot be read ({error}): give a CSV text file") from None
+    numbered = [(number, line.partition("#")[0].strip()) for number, line in enumerate(text.splitlines(), start=1)]
+    rows = [(number, next(csv.reader([line]))) for number, line in numbered if line]
+    if not rows:
+        raise ValueError(f"mission {str(path)!r} is empty: begin it with the line {','.join(COLUMNS)}")
+    heading = [cell.strip() for cell in rows[0][1]]
+    unknown = [name for name in heading if name not in COLUMNS]
+    if unknown or "mu" not in heading:
+        raise ValueError(
+            f"mission {str(path)!r} line {rows[0][0]} reads {','.join(heading)!r}: "
+            f"write the heading {','.join(COLUMNS)}, of which mu is needed"
+        )
+    if len(rows) < 2:
+        raise ValueError(f"mission {str(path)!r} has no conditions: add a line such as 0.2,8322,0,1.5")
+    return tuple(
+        _condition(path, number, dict(zip(heading, cells, strict=False)), design) for number, cells in rows[1:]
+    )
+
+
+def _condition(path: Path, line: int, cells: dict[str, str], design: Design) -> WeightedCondition:
+    condition = design.condition
+    try:
+        condition = replace(
+            condition,
+            advance_ratio=_number(cells, "mu", None),
+            mass=_number(cells, "mass_kg", condition.mass),
+            altitude=_number(cells, "altitude_m", condition.altitude),
+        )
+        return WeightedCondition(condition, _number(cells, "hours", 1.0))
+    except ValueError as error:
+        raise ValueError(f"mission {str(path)!r} line {line}: {error}") from None
+
+
+def _number(cells: dict[str, str], name: str, default: float | None) -> float:
+    text = cells.get(name, "").strip()
+    if not text and default is not None:
+        return default
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value):
+        raise ValueError(f"{name} is {text!r}: write a number")
+    return value

@@ -13,13 +13,15 @@ from multiprocessing.queues import Queue
 from queue import Empty
 from typing import Any, Protocol
 
+from rotor.blas_threads import keep_one_blas_thread
+
 Stop = Callable[[], bool]
 Work = Callable[..., Iterator[Any]]
 """work(*arguments, stop) yields items; each is handed on once, and again at the end of the task from processes."""
 
 
 class WorkerLost(RuntimeError):
-    """A process ended without being asked to; what it had handed on is kept."""
+    """A process ended unexpectedly; what it had handed on is kept."""
 
 
 class Workers:
@@ -28,9 +30,9 @@ class Workers:
     def __init__(self, processes: int, take: Callable[[Any], None], stop: Stop | None) -> None:
         self._take, self._stop = take, stop
         context = get_context("spawn")
-        self._halt, self._news = context.Event(), context.Queue()
+        self._stop_event, self._items = context.Event(), context.Queue()
         self._pool = (
-            ProcessPoolExecutor(processes, context, initializer=_join, initargs=(self._halt, self._news))
+            ProcessPoolExecutor(processes, context, initializer=_join, initargs=(self._stop_event, self._items))
             if processes > 1
             else None
         )
@@ -39,7 +41,7 @@ class Workers:
         return self
 
     def __exit__(self, *error: object) -> None:
-        self._halt.set()
+        self._stop_event.set()
         if self._pool is not None:
             self._pool.shutdown(cancel_futures=True)
 
@@ -55,7 +57,7 @@ class Workers:
         try:
             return self._wait({self._pool.submit(_all, work, arguments) for work, arguments in tasks})
         except BrokenProcessPool:
-            self._hand_on()
+            self._deliver()
             raise WorkerLost(
                 "A worker process was lost, perhaps for lack of memory; what was found is kept: use fewer processes."
             ) from None
@@ -64,20 +66,20 @@ class Workers:
         stopped = False
         while waiting:
             done, waiting = wait(waiting, timeout=0.1, return_when=FIRST_COMPLETED)
-            self._hand_on()
+            self._deliver()
             for future in done:  # Whatever the queue still holds comes with the result as well.
                 for item in future.result():
                     self._take(item)
             if not stopped and self._asked():
                 stopped = True
-                self._halt.set()
+                self._stop_event.set()
                 waiting = {future for future in waiting if not future.cancel()}
         return stopped
 
-    def _hand_on(self) -> None:
+    def _deliver(self) -> None:
         with suppress(Empty):
             while True:
-                self._take(self._news.get_nowait())
+                self._take(self._items.get_nowait())
 
     def _asked(self) -> bool:
         return self._stop is not None and self._stop()
@@ -87,22 +89,23 @@ class _Flag(Protocol):
     def is_set(self) -> bool: ...
 
 
-_halt: _Flag | None = None
-_news: "Queue[Any] | None" = None
+_stop_event: _Flag | None = None
+_items: "Queue[Any] | None" = None
 
 
-def _join(halt: _Flag, news: "Queue[Any]") -> None:
+def _join(stop_event: _Flag, items: "Queue[Any]") -> None:
     """What a new process is told: when to stop, where to send items. Ctrl-C is for the parent to understand."""
-    global _halt, _news
+    global _stop_event, _items
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    _halt, _news = halt, news
+    _stop_event, _items = stop_event, items
+    keep_one_blas_thread()
 
 
 def _all(work: Work, arguments: tuple[Any, ...]) -> list[Any]:
-    assert _halt is not None
-    assert _news is not None
+    assert _stop_event is not None
+    assert _items is not None
     made: list[Any] = []
-    for item in work(*arguments, _halt.is_set):
-        _news.put(item)
+    for item in work(*arguments, _stop_event.is_set):
+        _items.put(item)
         made.append(item)
     return made

@@ -5,11 +5,12 @@ from enum import Enum
 from typing import Literal
 
 from rotor.design.design import Design
+from rotor.design.twist import TwistLaw
 
 Phase = Literal["baseline", "search", "band"]
 
 
-class Ended(Enum):
+class SearchStatus(Enum):
     """How a search ended."""
 
     CONVERGED = "converged"
@@ -67,11 +68,11 @@ class Band:
     high: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Optimum:
     """What a search found."""
 
-    status: Ended
+    status: SearchStatus
     message: str
     """Why it stopped, in one sentence."""
     concept: str
@@ -89,6 +90,23 @@ class Optimum:
     seed: int
     elapsed: float
     """[s]"""
+
+    def __repr__(self) -> str:
+        head = f"Optimum({self.concept}, {self.status.value}"
+        if self.best is None:
+            return f"{head}: {self.message})"
+        saving = "" if self.saving_percent is None else f", saves {self.saving_percent:.2f} %"
+        return f"{head}, twist {self.best.twist}, {self.best.power / 1e3:.1f} kW{saving})"
+
+    @property
+    def twist(self) -> TwistLaw:
+        """The best twist; that of the design given where nothing was found."""
+        return self.design.twist
+
+    @property
+    def saving_percent(self) -> float | None:
+        """`saving` in per cent."""
+        return None if self.saving is None else 100.0 * self.saving
 
     @property
     def saving(self) -> float | None:

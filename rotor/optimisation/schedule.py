@@ -1,18 +1,23 @@
-"""Best twist for each flight condition, the best fixed blade for all of them, and what moving is worth beyond it.
+"""Optimum twist at each flight condition, the best fixed blade, and the gain of in-flight twist change.
 
-Conditions are worked off in chunks of neighbours, each in a process of its own: within a chunk a search starts from the
-optimum of the condition before, and a richer concept from the optima of the simpler ones it holds. The chunks do not
-depend on how many processes there are, so neither does the answer.
+Conditions are processed in chunks of neighbours, each in its own process. Within a chunk a search starts from the
+optimum of the previous condition, and a concept with more parameters from the optima of the simpler ones. The chunks
+do not depend on the number of processes, so the result does not either. Results can be kept in a file, one line of
+JSON per optimum, to resume an interrupted run.
 """
 
+import json
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any, cast
 
 from rotor.design.design import Design
+from rotor.design.fingerprint import fingerprint
 from rotor.optimisation.concepts import Concept, nearest
-from rotor.optimisation.objective import Leg, Objective, Quantity
+from rotor.optimisation.objective import Objective, Quantity, WeightedCondition
 from rotor.optimisation.processes import WorkerLost, Workers
-from rotor.optimisation.search import Ended, Limits, Optimum, Search, optimise
+from rotor.optimisation.search import Limits, Minimum, Optimum, Search, SearchStatus, run_search
 
 CHUNK = 4
 """Neighbouring conditions worked off together."""
@@ -26,7 +31,7 @@ class Plan:
     """The blade as it is; its own twist is the baseline."""
     concepts: tuple[Concept, ...]
     """Simple ones first: the richer start from their optima."""
-    legs: tuple[Leg, ...]
+    conditions: tuple[WeightedCondition, ...]
     """In the order of the table, neighbours next to each other."""
     quantity: Quantity = "total"
     limits: Limits = field(default_factory=Limits)
@@ -35,25 +40,25 @@ class Plan:
     seed: int = 0
 
     def __post_init__(self) -> None:
-        if not self.legs or not self.concepts:
+        if not self.conditions or not self.concepts:
             raise ValueError("a schedule needs a flight condition and a concept: give at least one of each")
 
-    def design_at(self, leg: int | None) -> Design:
-        """The design as it is at a leg; None: at its own condition."""
-        return self.design if leg is None else replace(self.design, condition=self.legs[leg].condition)
+    def design_at(self, condition: int | None) -> Design:
+        """The design as it is at a condition; None: at its own condition."""
+        return self.design if condition is None else replace(self.design, condition=self.conditions[condition].flight)
 
 
 @dataclass(frozen=True)
 class Cell:
-    """One answer: a concept at one condition, or fixed over all (leg None)."""
+    """One answer: a concept at one condition, or fixed over all (condition None)."""
 
-    leg: int | None
+    condition: int | None
     concept: str
     optimum: Optimum
 
 
 @dataclass(frozen=True)
-class Worth:
+class InFlightGain:
     """What a concept gains by moving, over the mission."""
 
     concept: str
@@ -84,32 +89,34 @@ class Schedule:
     message: str = ""
     """What went wrong with the run itself, in one sentence."""
 
-    def at(self, leg: int | None, concept: str) -> Optimum | None:
-        """The optimum of a concept at a leg; None: the fixed blade."""
-        return next((cell.optimum for cell in self.cells if (cell.leg, cell.concept) == (leg, concept)), None)
+    def at(self, condition: int | None, concept: str) -> Optimum | None:
+        """The optimum of a concept at a condition; None: the fixed blade."""
+        return next(
+            (cell.optimum for cell in self.cells if (cell.condition, cell.concept) == (condition, concept)), None
+        )
 
     @property
     def complete(self) -> bool:
         """Whether every cell is there."""
-        return len(self.cells) == len(self.plan.concepts) * (len(self.plan.legs) + 1)
+        return len(self.cells) == len(self.plan.concepts) * (len(self.plan.conditions) + 1)
 
     @property
     def converged(self) -> bool:
         """Whether every cell is there and was found."""
-        return self.complete and all(cell.optimum.status is Ended.CONVERGED for cell in self.cells)
+        return self.complete and all(cell.optimum.status is SearchStatus.CONVERGED for cell in self.cells)
 
-    def worth(self, concept: str) -> Worth | None:
+    def worth(self, concept: str) -> InFlightGain | None:
         """What moving is worth; None while a cell of the concept is missing or without an optimum."""
         fixed = self.at(None, concept)
         if fixed is None or fixed.best is None or fixed.baseline_power is None:
             return None
         moving = 0.0
-        for k, share in enumerate(Objective(self.plan.quantity, self.plan.legs).shares):
+        for k, share in enumerate(Objective(self.plan.quantity, self.plan.conditions).shares):
             found = self.at(k, concept)
             if found is None or found.best is None:
                 return None
             moving += share * found.best.power
-        return Worth(concept, fixed.baseline_power, fixed.best.power, moving)
+        return InFlightGain(concept, fixed.baseline_power, fixed.best.power, moving)
 
 
 def run_plan(
@@ -121,18 +128,18 @@ def run_plan(
 ) -> Schedule:
     """Work a plan off. `found`: cells of an earlier run, kept as they are; `keep` hears of every new one at once.
 
-    `stop` is asked several times a second; True ends the run with what there is.
+    `stop` is called several times a second; True ends the run with what there is.
     """
-    cells = {(cell.leg, cell.concept): cell for cell in found}
+    cells = {(cell.condition, cell.concept): cell for cell in found}
 
     def take(cell: Cell) -> None:
-        if (cell.leg, cell.concept) not in cells:
-            cells[cell.leg, cell.concept] = cell
+        if (cell.condition, cell.concept) not in cells:
+            cells[cell.condition, cell.concept] = cell
             if keep is not None:
                 keep(cell)
 
-    legs = range(len(plan.legs))
-    chunks = [tuple(legs[k : k + CHUNK]) for k in range(0, len(plan.legs), CHUNK)]
+    conditions = range(len(plan.conditions))
+    chunks = [tuple(conditions[k : k + CHUNK]) for k in range(0, len(plan.conditions), CHUNK)]
     message = ""
     with Workers(processes, take, stop) as workers:
         try:
@@ -142,26 +149,30 @@ def run_plan(
         except WorkerLost as lost:
             message = str(lost)
     order = {concept.name: k for k, concept in enumerate(plan.concepts)}
-    last = len(plan.legs)
-    in_order = sorted(cells.values(), key=lambda one: (last if one.leg is None else one.leg, order[one.concept]))
+    last = len(plan.conditions)
+    in_order = sorted(
+        cells.values(), key=lambda one: (last if one.condition is None else one.condition, order[one.concept])
+    )
     return Schedule(plan, tuple(in_order), message)
 
 
 _Known = dict[tuple[int | None, str], Cell]
 
 
-def _work_chunk(plan: Plan, legs: tuple[int, ...], known: _Known, stop: Callable[[], bool] | None) -> Iterator[Cell]:
+def _work_chunk(
+    plan: Plan, conditions: tuple[int, ...], known: _Known, stop: Callable[[], bool] | None
+) -> Iterator[Cell]:
     """All concepts at neighbouring conditions, one after the other."""
-    for leg in legs:
+    for condition in conditions:
         for concept in plan.concepts:
-            if (leg, concept.name) in known:
+            if (condition, concept.name) in known:
                 continue
-            neighbour = known.get((leg - 1, concept.name)) if leg - 1 in legs else None
-            guesses = _guesses(plan, leg, concept, known, neighbour)
+            neighbour = known.get((condition - 1, concept.name)) if condition - 1 in conditions else None
+            guesses = _guesses(plan, condition, concept, known, neighbour)
             search = Search(
-                design=plan.design_at(leg),
+                design=plan.design_at(condition),
                 concept=concept,
-                objective=Objective(plan.quantity, (plan.legs[leg],)),
+                objective=Objective(plan.quantity, (plan.conditions[condition],)),
                 limits=plan.limits,
                 # The neighbour's valley need not be the deepest here: other starts look elsewhere.
                 starts=max(plan.starts, len(guesses) + 1),
@@ -169,11 +180,11 @@ def _work_chunk(plan: Plan, legs: tuple[int, ...], known: _Known, stop: Callable
                 guesses=guesses,
                 band=False,
             )
-            optimum = optimise(search, stop=stop)
-            if optimum.status is Ended.STOPPED:
+            optimum = run_search(search, stop=stop)
+            if optimum.status is SearchStatus.STOPPED:
                 return
-            cell = Cell(leg, concept.name, optimum)
-            known[leg, concept.name] = cell
+            cell = Cell(condition, concept.name, optimum)
+            known[condition, concept.name] = cell
             yield cell
 
 
@@ -181,8 +192,8 @@ def _work_fixed(plan: Plan, concept: Concept, known: _Known, stop: Callable[[], 
     """The best fixed blade of one concept, from the mean of its best moving ones."""
     if (None, concept.name) in known:
         return
-    objective = Objective(plan.quantity, plan.legs)
-    bests = [(share, known.get((leg, concept.name))) for leg, share in enumerate(objective.shares)]
+    objective = Objective(plan.quantity, plan.conditions)
+    bests = [(share, known.get((condition, concept.name))) for condition, share in enumerate(objective.shares)]
     found = [(share, cell.optimum.best) for share, cell in bests if cell is not None and cell.optimum.best is not None]
     total = sum(share for share, _ in found)
     n = len(concept.parameters)
@@ -197,21 +208,115 @@ def _work_fixed(plan: Plan, concept: Concept, known: _Known, stop: Callable[[], 
         guesses=(middle,) if middle else (),
         band=False,
     )
-    optimum = optimise(search, stop=stop)
-    if optimum.status is not Ended.STOPPED:
+    optimum = run_search(search, stop=stop)
+    if optimum.status is not SearchStatus.STOPPED:
         yield Cell(None, concept.name, optimum)
 
 
 def _guesses(
-    plan: Plan, leg: int, concept: Concept, known: _Known, neighbour: Cell | None
+    plan: Plan, condition: int, concept: Concept, known: _Known, neighbour: Cell | None
 ) -> tuple[tuple[float, ...], ...]:
     """The neighbour's optimum, and the best of the simpler concepts at this condition."""
     guesses: list[tuple[float, ...]] = []
     if neighbour is not None and neighbour.optimum.best is not None:
         guesses.append(neighbour.optimum.best.parameters)
-    here = [known.get((leg, other.name)) for other in plan.concepts if other.name != concept.name]
+    here = [known.get((condition, other.name)) for other in plan.concepts if other.name != concept.name]
     simpler = [(cell.optimum.best.power, cell.optimum.design) for cell in here if cell and cell.optimum.best]
     if simpler:
         _, design = min(simpler, key=lambda one: one[0])
         guesses.append(nearest(concept, design.twist))
     return tuple(guesses)
+
+
+FORMAT = "rotor-explorer schedule"
+
+
+def read_cells(path: str | Path, plan: Plan) -> list[Cell]:
+    """Cells of an earlier run of the same plan; none where the file does not exist yet.
+
+    A last line cut short by a crash is left out. Raises ValueError for a file of another plan, or of something else.
+    """
+    path = Path(path)
+    if not path.exists():
+        return []
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+        heading: Any = json.loads(lines[0]) if lines else None
+    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
+        raise ValueError(f"schedule file {str(path)!r} cannot be read ({error}): give another file") from None
+    if not isinstance(heading, dict) or cast(dict[str, Any], heading).get("format") != FORMAT:
+        raise ValueError(f"{str(path)!r} is no schedule file: give another file, or one that does not exist yet")
+    if cast(dict[str, Any], heading).get("plan") != fingerprint(plan):
+        raise ValueError(
+            f"schedule file {str(path)!r} belongs to other flags: repeat those of its run, or give another file"
+        )
+    cells: list[Cell] = []
+    for line in lines[1:]:
+        try:
+            entry: Any = json.loads(line)
+        except json.JSONDecodeError:
+            continue
+        cells.append(_cell(entry, plan))
+    return cells
+
+
+def open_cells(path: str | Path, plan: Plan) -> Callable[[Cell], None]:
+    """Begin or continue the file; the function returned adds a cell at once."""
+    path = Path(path)
+
+    def add(text: str) -> None:
+        try:
+            with path.open("a", encoding="utf-8") as file:
+                file.write(text + "\n")
+        except OSError as error:
+            raise ValueError(f"cannot write {str(path)!r} ({error.strerror}): give a writable file") from None
+
+    if not path.exists():
+        add(json.dumps({"format": FORMAT, "plan": fingerprint(plan)}))
+    elif not path.read_text(encoding="utf-8").endswith("\n"):
+        add("")
+    return lambda cell: add(json.dumps(_record(cell), allow_nan=False))
+
+
+def _record(cell: Cell) -> dict[str, Any]:
+    one = cell.optimum
+    return {
+        "condition": cell.condition,
+        "concept": cell.concept,
+        "status": one.status.value,
+        "message": one.message,
+        "minima": [
+            [list(m.parameters), m.power, list(m.starts), list(m.active)]
+            for m in (one.minima or ((one.best,) if one.best is not None else ()))
+        ],
+        "baseline_power": one.baseline_power,
+        "evaluations": one.evaluations,
+        "starts": one.starts,
+        "seed": one.seed,
+        "elapsed": one.elapsed,
+    }
+
+
+def _cell(entry: dict[str, Any], plan: Plan) -> Cell:
+    concept = next(one for one in plan.concepts if one.name == entry["concept"])
+    minima = tuple(
+        Minimum(tuple(values), power, concept.twist(values).spec(), tuple(starts), tuple(active))
+        for values, power, starts, active in entry["minima"]
+    )
+    design = plan.design_at(entry["condition"])
+    best = minima[0] if minima else None
+    optimum = Optimum(
+        status=SearchStatus(entry["status"]),
+        message=entry["message"],
+        concept=concept.name,
+        design=design if best is None else concept.apply(design, best.parameters),
+        best=best,
+        minima=minima,
+        band=(),
+        baseline_power=entry["baseline_power"],
+        evaluations=entry["evaluations"],
+        starts=entry["starts"],
+        seed=entry["seed"],
+        elapsed=entry["elapsed"],
+    )
+    return Cell(entry["condition"], concept.name, optimum)

@@ -11,22 +11,21 @@ import numpy as np
 from scipy.stats import qmc
 
 from rotor.arrays import Array
+from rotor.blas_threads import one_blas_thread
 from rotor.design.design import Design
-from rotor.optimisation.band import measure_band
 from rotor.optimisation.concepts import Concept, nearest
-from rotor.optimisation.descent import descend
-from rotor.optimisation.evaluator import Evaluator, Stopped
+from rotor.optimisation.descent import descend, measure_band
+from rotor.optimisation.evaluator import FEASIBLE, Evaluation, Evaluator, SearchStopped
 from rotor.optimisation.limits import ChangeLimit as ChangeLimit
 from rotor.optimisation.limits import Limits as Limits
-from rotor.optimisation.limits import reach as reach
-from rotor.optimisation.metric import BAND, Metric, fit_metric, plain_metric
+from rotor.optimisation.limits import even_change_limit as even_change_limit
 from rotor.optimisation.objective import Objective, at_condition
-from rotor.optimisation.record import FEASIBLE, Record
+from rotor.optimisation.preconditioner import BAND, Preconditioner, fit_preconditioner, initial_preconditioner
 from rotor.optimisation.results import Band as Band
-from rotor.optimisation.results import Ended as Ended
 from rotor.optimisation.results import Minimum as Minimum
 from rotor.optimisation.results import Optimum as Optimum
 from rotor.optimisation.results import Progress as Progress
+from rotor.optimisation.results import SearchStatus as SearchStatus
 
 STARTS = 6
 """Starts of a search unless said otherwise; the first is the law nearest to the design's own twist."""
@@ -61,12 +60,13 @@ class Search:
         self.limits.bounds_of(self.concept)
 
 
-def optimise(
+@one_blas_thread()
+def run_search(
     search: Search,
     watch: Callable[[Progress], None] | None = None,
     stop: Callable[[], bool] | None = None,
 ) -> Optimum:
-    """Run a search. `watch` hears of every evaluation; `stop` is asked before each, and True ends the search.
+    """Run a search. `watch` hears of every evaluation; `stop` is called before each, and True ends the search.
 
     Always returns: stopped early it keeps the best so far; where no start trims within the limits it says so.
     """
@@ -82,9 +82,11 @@ def optimise(
             run.descend_from(k, x)
         if run.best is not None and search.band:
             evaluate.phase = "band"
-            metric = run.metric or plain_metric(run.best.x, run.best.watts)  # A start at the optimum leaves no trail.
-            run.band = measure_band(evaluate, metric, run.best)
-    except Stopped:
+            preconditioner = run.preconditioner or initial_preconditioner(
+                run.best.x, run.best.watts
+            )  # A start at the optimum leaves no trail.
+            run.band = measure_band(evaluate, preconditioner, run.best)
+    except SearchStopped:
         return run.result(stopped=True)
     return run.result(stopped=False)
 
@@ -95,14 +97,14 @@ class _Run:
     def __init__(self, search: Search, evaluate: Evaluator) -> None:
         self.search, self.evaluate = search, evaluate
         self.baseline: float | None = None
-        self.groups: list[tuple[Record, list[int]]] = []
+        self.groups: list[tuple[Evaluation, list[int]]] = []
         """Local minima: the best end of each, and the starts that ended there."""
         self.lost = 0
-        self.metric: Metric | None = None
+        self.preconditioner: Preconditioner | None = None
         self.band: tuple[Band, ...] = ()
 
     @property
-    def best(self) -> Record | None:
+    def best(self) -> Evaluation | None:
         """The best end of a descent."""
         return min((end for end, _ in self.groups), key=lambda end: end.watts, default=None)
 
@@ -112,18 +114,18 @@ class _Run:
         for _ in range(3):
             if first.power is not None:
                 break
-            x = 0.5 * (x + self._refuge())
+            x = 0.5 * (x + self._fallback())
             first = self.evaluate(x)
         if first.power is None:
             self.lost += 1
             return
-        descent = descend(self.evaluate, self.metric or plain_metric(x, first.power), first)
+        descent = descend(self.evaluate, self.preconditioner or initial_preconditioner(x, first.power), first)
         if descent.end is not None and descent.settled:
             self._gather(start, descent.end)
         if self.evaluate.best is not None:
-            self.metric = fit_metric(self.evaluate.records, self.evaluate.best) or self.metric
+            self.preconditioner = fit_preconditioner(self.evaluate.records, self.evaluate.best) or self.preconditioner
 
-    def _gather(self, start: int, end: Record) -> None:
+    def _gather(self, start: int, end: Evaluation) -> None:
         """Put an end with the minimum that it belongs to, or begin a new one."""
         for k, (lead, members) in enumerate(self.groups):
             if self._same(lead, end):
@@ -131,7 +133,7 @@ class _Run:
                 return
         self.groups.append((end, [start]))
 
-    def _same(self, a: Record, b: Record) -> bool:
+    def _same(self, a: Evaluation, b: Evaluation) -> bool:
         """Whether two ends are one minimum: near each other, or in one valley with no rise half-way."""
         higher = max(a.watts, b.watts)
         if abs(a.watts - b.watts) > BAND * higher:
@@ -141,7 +143,7 @@ class _Run:
         half = self.evaluate(0.5 * (a.x + b.x))
         return half.feasible and half.watts <= higher * (1.0 + _RISE)
 
-    def _refuge(self) -> Array:
+    def _fallback(self) -> Array:
         known = self.evaluate.best
         return known.x if known is not None else np.full(len(self.evaluate.span), 0.5)
 
@@ -155,12 +157,12 @@ class _Run:
         if seen is not None and (best is None or seen.watts < best.power * (1.0 - 1e-7)):
             best = _minimum(evaluate, seen, ())
         if stopped:
-            status = Ended.STOPPED
-            message = f"Stopped after {evaluate.count} evaluations; the best so far is kept."
+            status = SearchStatus.STOPPED
+            message = f"SearchStopped after {evaluate.count} evaluations; the best so far is kept."
             if self.groups and evaluate.phase == "band":
-                message = "Stopped while measuring the band; the search itself was complete."
+                message = "SearchStopped while measuring the band; the search itself was complete."
         elif best is None:
-            status = Ended.NOT_CONVERGED
+            status = SearchStatus.NOT_CONVERGED
             trimmed = any(one.power is not None for one in evaluate.records)
             message = (
                 "No design found keeps the limits: loosen them."
@@ -168,9 +170,12 @@ class _Run:
                 else "No start trims: lower the weight, the altitude or the speed."
             )
         elif not minima:
-            status, message = Ended.NOT_CONVERGED, "No descent settled at a minimum; the best point seen is given."
+            status, message = (
+                SearchStatus.NOT_CONVERGED,
+                "No descent settled at a minimum; the best point seen is given.",
+            )
         else:
-            status = Ended.CONVERGED
+            status = SearchStatus.CONVERGED
             agree = len(minima[0].starts)
             which = "only local minimum found" if len(minima) == 1 else f"best of {len(minima)} local minima"
             message = f"{agree} of {evaluate.starts} starts ended in the {which}."
@@ -203,7 +208,7 @@ def _starts(search: Search, evaluate: Evaluator) -> Iterable[Array]:
     return points
 
 
-def _minimum(evaluate: Evaluator, record: Record, starts: Sequence[int]) -> Minimum:
+def _minimum(evaluate: Evaluator, record: Evaluation, starts: Sequence[int]) -> Minimum:
     values = evaluate.values(record.x)
     active: list[str] = []
     for parameter, x in zip(evaluate.concept.parameters, record.x, strict=True):
@@ -212,7 +217,7 @@ def _minimum(evaluate: Evaluator, record: Record, starts: Sequence[int]) -> Mini
     limits = evaluate.limits
     tight = record.margins < 10.0 * FEASIBLE
     rates = 2 * len(evaluate.concept.rate_rows) if limits.rate is not None else 0
-    changes = len(record.margins) - rates - (len(evaluate.objective.legs) if limits.stalled is not None else 0)
+    changes = len(record.margins) - rates - (len(evaluate.objective.conditions) if limits.stalled is not None else 0)
     if tight[:rates].any():
         active.append("rate")
     if tight[rates : rates + changes].any():

@@ -1,15 +1,14 @@
-"""SciPy's SLSQP (Kraft 1988) with typed arguments, in the coordinates of a metric."""
+"""SciPy's SLSQP (Kraft 1988) with typed arguments."""
 
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, cast
+from typing import Any, Literal, cast
 
 import numpy as np
 from scipy import optimize
 
 from rotor.arrays import Array
-from rotor.optimisation.metric import Metric
 
 _minimize = cast(Callable[..., Any], optimize.minimize)
 
@@ -22,19 +21,26 @@ class Inequality:
     slopes: Callable[[Array], Array]
 
 
+@dataclass(frozen=True, eq=False)
+class SlsqpEnd:
+    """Where SLSQP ended."""
+
+    x: Array
+    settled: bool
+    """Whether it converged, or found no descent along the search direction, as at the kink of a movable break."""
+
+
 def slsqp(
-    value: Callable[[Array], float],
-    slope: Callable[[Array], Array],
+    value: Callable[[Array], Any],
+    slope: Callable[[Array], Array] | Literal[True],
     start: Array,
-    inequalities: Sequence[Inequality],
+    inequalities: Sequence[Inequality] = (),
     *,
     iterations: int,
     tolerance: float,
-) -> bool:
-    """Minimise; True when it ended by itself. The evaluations on the way are the result, whoever makes them keeps them.
-
-    An end without descent along the search direction counts as one: so descents end on the kink of a movable break.
-    """
+    bounds: Sequence[tuple[float, float]] | None = None,
+) -> SlsqpEnd:
+    """Minimise `value` from `start`; with slope True, `value` returns the value and its gradient together."""
     constraints = [{"type": "ineq", "fun": one.margins, "jac": one.slopes} for one in inequalities]
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)
@@ -43,20 +49,8 @@ def slsqp(
             start,
             jac=slope,
             method="SLSQP",
+            bounds=bounds,
             constraints=constraints,
             options={"maxiter": iterations, "ftol": tolerance},
         )
-    return int(ended.status) in (0, 8)
-
-
-def walls(metric: Metric) -> Inequality:
-    """The bounds 0 ≤ x ≤ 1, each scaled to a distance in the metric's coordinates."""
-    size = np.linalg.norm(metric.stretch, axis=1)
-    rows = metric.stretch / size[:, None]
-    both = np.vstack([rows, -rows])
-
-    def margins(y: Array) -> Array:
-        x = metric.x(y)
-        return np.concatenate([x / size, (1.0 - x) / size])
-
-    return Inequality(margins, lambda _: both)
+    return SlsqpEnd(np.asarray(ended.x, dtype=np.float64), int(ended.status) in (0, 8))

@@ -6,10 +6,10 @@ import numpy as np
 
 from rotor.actuator import tables as actuator_tables
 from rotor.actuator.catalogue import derating
-from rotor.actuator.fitted import Fitted, fit
-from rotor.actuator.pictures import black_box, section_picture, twist_under_voltage
+from rotor.actuator.installation import InstalledActuator, install
+from rotor.actuator.optimum import ConditionPair
+from rotor.actuator.pictures import electronics_station, section_picture, twist_under_voltage
 from rotor.actuator.placement import Host, default_placement
-from rotor.actuator.reach import Pair
 from rotor.design.twist import PiecewiseLinearTwist
 from rotor.files.make_design import uh60a_rotor
 from rotor.optimisation.concepts import find_concept
@@ -31,9 +31,9 @@ STYLES: dict[str, Style] = {"outline": "thin", "ply": "line"}
 """Of the parts of a section that are too thin to fill."""
 
 
-def fitted_blade(plies: int, host: Host, divisions: tuple[float, ...] = ()) -> Fitted:
+def fitted_blade(plies: int, host: Host, divisions: tuple[float, ...] = ()) -> InstalledActuator:
     """MFC P1 as the worked example places it."""
-    return fit(sheet("MFC_P1"), default_placement(plies, divisions), host, uh60a_rotor("flight"))
+    return install(sheet("MFC_P1"), default_placement(plies, divisions), host, uh60a_rotor("flight"))
 
 
 def figure_5_8() -> Report:
@@ -41,8 +41,8 @@ def figure_5_8() -> Report:
     rotor = uh60a_rotor("flight")
     law = find_concept("three-segment").twist((0.0, 0.0, 0.0))
     assert isinstance(law, PiecewiseLinearTwist)
-    fitted = fitted_blade(2, Host(), law.breaks)
-    box, placement = black_box(fitted), fitted.placement
+    installed = fitted_blade(2, Host(), law.breaks)
+    box, placement = electronics_station(installed), installed.placement
     front, rear = (0.25 - x for x in placement.chord)
     blade = (rotor.blade.root_cutout, 1.0)
     curves = [
@@ -51,7 +51,7 @@ def figure_5_8() -> Report:
         _box("drive electronics", box, (0.12, -0.12), 3, "fill"),
     ]
     rows = [("drive electronics", *box), *((f"segment {k + 1}", *ends) for k, ends in enumerate(placement.segments))]
-    bill = fitted.bill
+    masses = installed.masses
     return Report(
         number="5.8",
         kind="figure",
@@ -59,14 +59,14 @@ def figure_5_8() -> Report:
         "of drive electronics inboard of them (our layout).",
         statement=UNKNOWN,
         ours=f"Active from {placement.span[0]:.2f} to {placement.span[1]:.2f} R and {placement.chord[0]:.2f} to "
-        f"{placement.chord[1]:.2f} c, both skins, 2 plies: {bill.actuator:.1f} kg of plies, {bill.wiring:.1f} kg of "
-        f"leads and {bill.balance:.1f} kg of nose weight on a blade.",
+        f"{placement.chord[1]:.2f} c, both skins, 2 plies: {masses.actuator:.1f} kg of plies, {masses.wiring:.1f} kg "
+        f"of leads and {masses.balance:.1f} kg of nose weight on a blade.",
         verdict=Verdict.ALONE,
         because="The de-ice mat keeps plies off the nose, the pressurised spar keeps leads out of it; assets/"
         "uh60a_structure.toml names the sources.",
         tables=(table("layout", ("part", "start_r", "end_r"), rows),),
         panels=(Panel("r/R", "from the quarter chord [c]", tuple(curves), y_limits=(-1.75, 0.4)),),
-        numbers={"box_end": box[1], "active_start": placement.span[0], "ply_kg": bill.actuator},
+        numbers={"box_end": box[1], "active_start": placement.span[0], "ply_kg": masses.actuator},
     )
 
 
@@ -88,19 +88,19 @@ def figure_5_9() -> Report:
             curves.append(curve(label, points[:, 0], points[:, 1], style, colour=(7, 0, 5, 6, 1)[colour]))
             rows += [(host.label, part.label, y, z) for y, z in points]
         panels.append(Panel("x/c", "z/c", tuple(curves), title=title, equal=True))
-    fitted = fitted_blade(2, Host())
+    installed = fitted_blade(2, Host())
     return Report(
         number="5.9",
         kind="figure",
         caption="Section SC1095 with ±45° plies on both skins; walls and plies three times as thick as they are.",
         statement=UNKNOWN,
-        ours=f"On the flown blade the section, plies included, has GJ {1e-3 * fitted.section_stiffness:.1f} kN·m²; the "
-        f"whole voltage range twists it as {fitted.moment:.0f} N·m would.",
+        ours=f"On the flown blade the section, plies included, has GJ {1e-3 * installed.section_stiffness:.1f} kN·m²; "
+        f"the whole voltage range twists it as {installed.moment:.0f} N·m would.",
         verdict=Verdict.ALONE,
         because="Contour from the section's own coordinates, wall thickness calibrated on the published GJ.",
         tables=(table("outlines", ("blade", "part", "x_c", "z_c"), rows),),
         panels=tuple(panels),
-        numbers={"stiffness": fitted.section_stiffness, "moment": fitted.moment},
+        numbers={"stiffness": installed.section_stiffness, "moment": installed.moment},
     )
 
 
@@ -111,12 +111,12 @@ def figure_5_10() -> Report:
     numbers: dict[str, float] = {}
     low, high = sheet("MFC_P1").voltage_range
     for k, (name, (plies, host)) in enumerate(BLADES.items()):
-        fitted = fitted_blade(plies, host)
-        up, down = (twist_under_voltage(fitted, [volts]) for volts in (high, low))
+        installed = fitted_blade(plies, host)
+        up, down = (twist_under_voltage(installed, [volts]) for volts in (high, low))
         curves.append(curve(name, up.r, np.degrees(up.twist), colour=k))
         curves.append(curve("", down.r, np.degrees(down.twist), "dashed", colour=k))
         rows += [(name, r, *np.degrees(ends)) for r, *ends in zip(up.r, up.twist, down.twist, strict=True)]
-        numbers[name] = math.degrees(fitted.attainable)
+        numbers[name] = math.degrees(installed.attainable)
     return Report(
         number="5.10",
         kind="figure",
@@ -154,9 +154,9 @@ def table_5_1() -> Report:
 
 
 @Remembered
-def compared(name: str) -> actuator_tables.Table:
+def compared(name: str) -> actuator_tables.ActuatorTable:
     """Table 5.2 of one variant: four optima a concept, and the reach of six actuators."""
-    return actuator_tables.table_5_2(Pair(variant(name, mu=SPEEDS[0]), SPEEDS))
+    return actuator_tables.table_5_2(ConditionPair(variant(name, mu=SPEEDS[0]), SPEEDS))
 
 
 def table_5_2() -> Report:
@@ -180,7 +180,7 @@ def table_5_2() -> Report:
     )
 
 
-def _as_table(name: str, made: actuator_tables.Table) -> Table:
+def _as_table(name: str, made: actuator_tables.ActuatorTable) -> Table:
     return table(name, made.columns, made.rows)
 
 

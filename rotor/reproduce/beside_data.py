@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
-from rotor.optimisation.search import Search, optimise
+from rotor.optimisation.search import Search, run_search
 from rotor.reproduce import every_inflow
 from rotor.reproduce.aircraft import HORSEPOWER_KW, public_data
 from rotor.reproduce.optima import FULL, Scope
@@ -55,7 +55,7 @@ def three_beside(name: str, scope: Scope) -> tuple[Row, ...]:
             continue
         design = variant(name, twist="uh60a", mu=mu, mass=forward["mass_kg"])
         design = replace(design, condition=replace(design.condition, altitude=forward["altitude_m"]))
-        found = optimise(Search(design, concept, starts=1, guesses=guess, band=False))
+        found = run_search(Search(design, concept, starts=1, guesses=guess, band=False))
         assert found.best is not None, f"{name}, µ {mu:g}: {found.message}"
         guess = (found.best.parameters,)
         flown, moved = (solve(one).require().power.main_rotor / 1e3 for one in (design, found.design))

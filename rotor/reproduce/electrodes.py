@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from rotor.actuator.catalogue import PiezoPly, find_actuator
-from rotor.actuator.electrodes import FieldMap, deformed_sheet, field_map
+from rotor.actuator.electrical import FieldMap, deformed_sheet, field_map
 from rotor.arrays import Array
 from rotor.reproduce.optimum_twist import UNKNOWN
 from rotor.reproduce.report import Curve, FieldPanel, Panel, Report, Verdict, curve, floats, table

@@ -3,7 +3,7 @@
 import numpy as np
 
 from rotor.actuator.catalogue import PiezoPly, actuators
-from rotor.actuator.electrodes import strain_curve, thermal_coefficients
+from rotor.actuator.electrical import strain_curve, thermal_coefficients
 from rotor.reproduce.electrodes import KV_MM, MM, PAIR, PPM, SOURCE, sheet
 from rotor.reproduce.optimum_twist import UNKNOWN
 from rotor.reproduce.report import Curve, Panel, Report, Verdict, curve, table

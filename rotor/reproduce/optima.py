@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 from rotor.design.blade import with_airfoils
 from rotor.design.twist_spec import parse_twist
 from rotor.optimisation.concepts import Concept, find_concept, nearest
-from rotor.optimisation.objective import Leg, Objective
-from rotor.optimisation.search import Band, Ended, Optimum, Search, optimise
+from rotor.optimisation.objective import Objective, WeightedCondition
+from rotor.optimisation.search import Band, Optimum, Search, SearchStatus, run_search
 from rotor.reproduce.remember import Call, Remembered
 from rotor.reproduce.runs import choices, variant
 
@@ -108,7 +108,7 @@ def best(name: str, concept: str, mu: float, scope: Scope) -> Best:
         guesses.append(nearest(family, parse_twist(spec, builtin=design.twist)))
     # One start more than the guesses: begun right at the optimum, a search sees too little to measure its band.
     starts = max(scope.starts if not neighbour else 1, len(guesses) + 1)
-    found = optimise(Search(design, family, starts=starts, guesses=tuple(guesses)))
+    found = run_search(Search(design, family, starts=starts, guesses=tuple(guesses)))
     return _record(name, concept, mu, family, found)
 
 
@@ -129,10 +129,10 @@ def best_fixed(name: str, scope: Scope) -> Fixed:
     """The fixed blade that a moving one has to beat, started from the mean of the moving ones."""
     family = CONCEPTS["linear"][1]()
     design = variant(name, twist=BASELINE, mu=scope.speeds[0])
-    legs = tuple(Leg(replace(design.condition, advance_ratio=mu)) for mu in scope.speeds)
+    conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in scope.speeds)
     middle = sum(best(name, "linear", mu, scope).values[0] for mu in scope.speeds) / len(scope.speeds)
     guess = (math.radians(middle),)
-    found = optimise(Search(design, family, Objective("total", legs), starts=1, guesses=(guess,), band=False))
+    found = run_search(Search(design, family, Objective("total", conditions), starts=1, guesses=(guess,), band=False))
     assert found.best is not None, f"{name}: {found.message}"
     assert found.baseline_power is not None, f"{name}: the baseline blade does not trim at every speed"
     return Fixed(math.degrees(found.best.parameters[0]), found.best.power / 1e3, found.baseline_power / 1e3)
@@ -157,7 +157,7 @@ def _record(name: str, concept: str, mu: float, family: Concept, found: Optimum)
         variant=name,
         concept=concept,
         mu=mu,
-        converged=found.status is Ended.CONVERGED,
+        converged=found.status is SearchStatus.CONVERGED,
         message=found.message,
         names=tuple(p.label for p in parameters),
         values=tuple(p.shown(value) for p, value in zip(parameters, values, strict=True)),

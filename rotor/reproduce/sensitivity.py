@@ -9,7 +9,7 @@ from rotor.design.blade import with_airfoils
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
-from rotor.optimisation.search import Search, optimise
+from rotor.optimisation.search import Search, run_search
 from rotor.reproduce.trust import SensitivityRow
 
 SPEEDS = (0.0, 0.15, 0.30)
@@ -91,7 +91,7 @@ def sensitivity() -> Iterator[SensitivityRow]:
     for name, change in CHANGES:
         for mu in SPEEDS:
             design = change(make_design(twist=BASELINE, mu=mu))
-            found = optimise(Search(design, concept, starts=2))
+            found = run_search(Search(design, concept, starts=2))
             assert found.best is not None, f"{name}, µ {mu:g}: {found.message}"
             assert found.saving is not None, f"{name}, µ {mu:g}: the baseline does not trim"
             rate = found.best.parameters[0]

@@ -14,8 +14,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.stats import qmc
 
+from rotor.arrays import Array
+
 Ints = NDArray[np.int64]
-Floats = NDArray[np.float64]
+
 Method = Literal["sobol", "latin-hypercube"]
 
 
@@ -49,7 +51,7 @@ class Sample:
 
 
 @dataclass(frozen=True)
-class Places:
+class StudyPoints:
     """All points of a study, as values by quantity."""
 
     axes: tuple[Axis, ...]
@@ -105,7 +107,7 @@ def _walk(positions: Ints, sizes: tuple[int, ...]) -> list[Ints]:
 
 
 @cache
-def _spread(sample: Sample) -> Floats:
+def _spread(sample: Sample) -> Array:
     """The points of a sample as values, (count, ranges), neighbours one after the other."""
     n, d = sample.count, len(sample.ranges)
     if sample.method == "sobol":
@@ -117,7 +119,7 @@ def _spread(sample: Sample) -> Floats:
     return low + (high - low) * unit[_snake(unit)]
 
 
-def _snake(unit: Floats) -> Ints:
+def _snake(unit: Array) -> Ints:
     """An order of points of the unit cube that goes to and fro through its cells."""
     n, d = unit.shape
     cells = max(1, round(n ** (1.0 / d)))

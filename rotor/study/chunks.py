@@ -14,20 +14,19 @@ from typing import Any
 
 from rotor.design.design import FLIGHT_MODELS, THESIS_MODELS
 from rotor.files.provenance import package_version
-from rotor.study.columns import Column, columns_of
-from rotor.study.memory import Memory
 from rotor.study.point import Row, evaluate
 from rotor.study.quantities import QUANTITIES, Value
-from rotor.study.study import Study
+from rotor.study.study import Column, Study, columns_of
+from rotor.study.warm_starts import WarmStarts
 
 _M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3  # malloc.h of glibc
 
-GOOD = "converged"
+CONVERGED = "converged"
 """The status of a row that has its answer."""
 
 
 @dataclass(frozen=True)
-class Provenance:
+class StudyProvenance:
     """What every file of a study says about itself."""
 
     version: str
@@ -36,7 +35,7 @@ class Provenance:
 
 
 @dataclass(frozen=True)
-class Done:
+class FinishedChunk:
     """A chunk worked off. It travels: the file as bytes, so that only the one who asked needs its disk."""
 
     chunk: int
@@ -50,38 +49,38 @@ class Done:
     """Parquet."""
 
 
-class OtherVersion(ValueError):
+class VersionMismatch(ValueError):
     """A worker has another version of this package."""
 
 
-def work(study: Study, first: int, last: int) -> list[Row]:
+def evaluate_points(study: Study, first: int, last: int) -> list[Row]:
     """The rows of the points first … last − 1. Each begins with what those before it left."""
-    memory = Memory(study.places.ranges)
+    warm = WarmStarts(study.points.ranges)
     rows: list[Row] = []
     for number, values in enumerate(study.values(first, last), start=first):
-        rows.append({"point": number, **evaluate(values, study, memory)})
+        rows.append({"point": number, **evaluate(values, study, warm)})
     return rows
 
 
-def work_chunk(study: Study, chunk: int, provenance: Provenance) -> Done:
-    """A chunk as a worker does it. Raises OtherVersion where its package is not the one that asks."""
+def evaluate_chunk(study: Study, chunk: int, provenance: StudyProvenance) -> FinishedChunk:
+    """A chunk as a worker does it. Raises VersionMismatch where its package is not the one that asks."""
     if package_version() != provenance.version:
-        raise OtherVersion(
+        raise VersionMismatch(
             f"a worker has rotor-explorer {package_version()}, this command {provenance.version}: "
             "install the same version on every worker"
         )
-    keep_memory()
+    keep_freed_memory()
     begin = time.process_time()
-    rows = work(study, *study.span(chunk))
+    rows = evaluate_points(study, *study.span(chunk))
     content = parquet_of(
         rows, columns_of(study), describe(study, provenance) | {"chunk": str(chunk), "worker": _worker()}
     )
-    failures = sum(row["status"] != GOOD for row in rows)
-    return Done(chunk, len(rows), failures, time.process_time() - begin, _worker(), content)
+    failures = sum(row["status"] != CONVERGED for row in rows)
+    return FinishedChunk(chunk, len(rows), failures, time.process_time() - begin, _worker(), content)
 
 
 @cache
-def keep_memory() -> None:
+def keep_freed_memory() -> None:
     """Let this process keep what memory it frees, up to 64 MB, where the C library is GNU's.
 
     Dask starts its workers so that they give back all above 64 kB at once. A trim takes and frees arrays of 38 kB to
@@ -97,8 +96,8 @@ def _worker() -> str:
     return f"{socket.gethostname()}:{os.getpid()}"
 
 
-def describe(study: Study, provenance: Provenance) -> dict[str, str]:
-    """Provenance as it stands in the metadata of every file."""
+def describe(study: Study, provenance: StudyProvenance) -> dict[str, str]:
+    """StudyProvenance as it stands in the metadata of every file."""
     given = dict(study.given)
     return {
         "format": "rotor-explorer study",
@@ -118,7 +117,7 @@ def describe(study: Study, provenance: Provenance) -> dict[str, str]:
 
 def _models(study: Study) -> dict[str, Value]:
     """The models that all points share: those of the preset, but for what the study sets; its axes are columns."""
-    given = {name: value for name, value in study.given if QUANTITIES[name].place == "models"}
+    given = {name: value for name, value in study.given if QUANTITIES[name].section == "models"}
     if "preset" in study.axis_names:
         return given
     models = asdict(THESIS_MODELS if given.get("preset") == "thesis" else FLIGHT_MODELS)

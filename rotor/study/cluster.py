@@ -15,10 +15,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any
 
-from rotor.study.chunks import Done, OtherVersion, Provenance, work_chunk
+from rotor.study.chunks import FinishedChunk, StudyProvenance, VersionMismatch, evaluate_chunk
 from rotor.study.study import Study
 
-HOW_TO_GET = "studies need Dask, distributed and pyarrow: pip install 'rotor-explorer[study]'"
+INSTALL_HINT = "studies need Dask, distributed and pyarrow: pip install 'rotor-explorer[study]'"
 _AHEAD = 2
 """Chunks on their way for each thread of a worker: one that runs, one that waits."""
 _LOOK = 0.2
@@ -34,7 +34,7 @@ class ClusterLost(RuntimeError):
 
 
 @dataclass
-class Outcome:
+class ChunkRun:
     """How a run of chunks ended."""
 
     stopped: bool = False
@@ -48,7 +48,7 @@ def need_packages() -> None:
         for name in ("dask", "distributed", "pyarrow"):
             importlib.import_module(name)
     except ImportError:
-        raise ValueError(HOW_TO_GET) from None
+        raise ValueError(INSTALL_HINT) from None
 
 
 @contextmanager
@@ -94,18 +94,18 @@ def run_chunks(
     client: Any,
     study: Study,
     chunks: Sequence[int],
-    provenance: Provenance,
-    take: Callable[[Done], None],
+    provenance: StudyProvenance,
+    take: Callable[[FinishedChunk], None],
     stop: Callable[[], bool],
     wait_for_workers: Callable[[], None] = lambda: None,
-) -> Outcome:
+) -> ChunkRun:
     """Work chunks off, in any order; `take` has each as soon as it is done.
 
     `stop` is asked several times a second; True leaves what is on its way. `wait_for_workers` is told when there are
-    none. Raises ClusterLost where the scheduler is gone, OtherVersion where a worker has another version. What `take`
-    raises must be no OSError, which stands for the cluster's.
+    none. Raises ClusterLost where the scheduler is gone, VersionMismatch where a worker has another version.
+    `take` must not raise OSError, which is read as a failure of the cluster.
     """
-    outcome, news = Outcome(), queue.SimpleQueue[Any]()
+    ended, news = ChunkRun(), queue.SimpleQueue[Any]()
     waiting, under_way = iter(chunks), dict[Any, int]()
     tries = dict.fromkeys(chunks, 0)
     counted, threads, lonely = -_COUNT, 0, False
@@ -113,7 +113,7 @@ def run_chunks(
     def submit(chunk: int) -> None:
         tries[chunk] += 1
         key = f"rotor-study-{study.fingerprint}-{os.getpid()}-{chunk}-{tries[chunk]}"
-        future = client.submit(work_chunk, study, chunk, provenance, key=key, pure=False)
+        future = client.submit(evaluate_chunk, study, chunk, provenance, key=key, pure=False)
         under_way[future] = chunk
         future.add_done_callback(news.put)
 
@@ -127,10 +127,10 @@ def run_chunks(
             while len(under_way) < _AHEAD * max(threads, 1) and (chunk := next(waiting, None)) is not None:
                 submit(chunk)
             if not under_way:
-                return outcome
+                return ended
             if stop():
-                outcome.stopped = True
-                return outcome
+                ended.stopped = True
+                return ended
             try:
                 future = news.get(timeout=_LOOK)
             except queue.Empty:
@@ -143,7 +143,7 @@ def run_chunks(
                 if tries[chunk] <= _RETRIES:
                     submit(chunk)
                 else:
-                    outcome.lost.append(chunk)
+                    ended.lost.append(chunk)
             else:
                 raise ClusterLost(_GONE)
             future.release()
@@ -161,7 +161,7 @@ def _judge(error: BaseException, chunk: int) -> None:
     """Pass over the loss of workers, for which a chunk is tried again; raise what no other worker would do better."""
     if type(error).__name__ == "KilledWorker":
         return
-    if isinstance(error, OtherVersion):
+    if isinstance(error, VersionMismatch):
         raise error
     if isinstance(error, ImportError) or "deserialization" in str(error):
         cause = error.__cause__ or error  # Dask wraps what a worker without this package says.

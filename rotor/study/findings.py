@@ -1,4 +1,4 @@
-"""What the table of a study says: the best point, the robust best, what matters."""
+"""What a study shows: best point, robust best design, main effects, and the Pareto front of hover and cruise."""
 
 import math
 from dataclasses import dataclass
@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.study.results import Floats, Ints, Results
+from rotor.arrays import Array
+from rotor.study.results import Ints, Results
 
 _MANY = 20
 """Values of an axis from which it is looked at in tenths."""
@@ -16,7 +17,7 @@ _FEW = 10
 
 
 @dataclass(frozen=True)
-class Robust:
+class RobustDesign:
     """A design, and how it does over everything that nobody can choose."""
 
     design: dict[str, Any]
@@ -30,8 +31,8 @@ class Robust:
 class RobustBest:
     """The designs that do best over all uncertain cases."""
 
-    least_worst: Robust
-    least_mean: Robust
+    least_worst: RobustDesign
+    least_mean: RobustDesign
     designs: int
     """Compared: those that have an answer in every case."""
     dropped: int
@@ -63,10 +64,12 @@ def robust_best(results: Results, least: str, uncertain: tuple[str, ...]) -> Rob
     np.maximum.at(worst, design[known], values[known])
     mean = np.bincount(design[known], weights=values[known], minlength=designs) / np.maximum(count, 1)
 
-    def robust(of: Floats) -> Robust:
+    def robust(of: Array) -> RobustDesign:
         at = int(np.argmin(np.where(whole, of, math.inf)))
         row = int(np.argmax(design == at))
-        return Robust({name: results.columns[name][row] for name in chosen}, float(worst[at]), float(mean[at]), cases)
+        return RobustDesign(
+            {name: results.columns[name][row] for name in chosen}, float(worst[at]), float(mean[at]), cases
+        )
 
     return RobustBest(robust(worst), robust(mean), int(whole.sum()), int((~whole).sum()))
 
@@ -98,7 +101,7 @@ def effects(results: Results, column: str) -> tuple[Effect, ...]:
     return tuple(sorted(found, key=lambda one: -one.share))
 
 
-def _effect(axis: str, levels: list[Any], code: Ints, values: Floats) -> Effect:
+def _effect(axis: str, levels: list[Any], code: Ints, values: Array) -> Effect:
     count = np.bincount(code, minlength=len(levels))
     means = np.bincount(code, weights=values, minlength=len(levels)) / np.maximum(count, 1)
     share = float((count * (means - values.mean()) ** 2).sum() / count.sum() / np.var(values))
@@ -116,3 +119,58 @@ def _levels(at: NDArray[Any], sampled: bool) -> tuple[list[Any], Ints]:
         middles = [low + (k + 0.5) * part for k in range(parts)]
         return middles, np.clip(np.floor((at - low) / part), 0, parts - 1).astype(np.int64)
     return levels.tolist(), code.astype(np.int64)
+
+
+_MOST = 100
+"""Speeds of an axis; more than these are sampled, and no two points share one."""
+
+
+@dataclass(frozen=True, eq=False)
+class HoverCruisePairs:
+    """Blades with their power in hover and in cruise; arrays are (blades,)."""
+
+    hover: Array
+    """[W]"""
+    cruise: Array
+    """[W]"""
+    row: Ints
+    """The row of the results that has the cruise."""
+
+    @property
+    def best(self) -> NDArray[np.bool_]:
+        """The blades that none beats in one power without losing in the other."""
+        order = np.lexsort((self.hover, self.cruise))
+        before = np.minimum.accumulate(np.concatenate([[math.inf], self.hover[order][:-1]]))
+        best = np.zeros(len(self.hover), dtype=bool)
+        best[order] = self.hover[order] < before
+        return best
+
+
+def cruise_speeds(results: Results) -> tuple[float, ...]:
+    """Advance ratios for which there may be pairs: those beside hover on the axis, or all where hover is a column."""
+    speeds: list[float] = np.unique(results.columns["mu"][results.good]).tolist()
+    if _has_hover(results):
+        return tuple(speeds)
+    return tuple(speeds[1:]) if "mu" in results.axes and speeds and speeds[0] == 0.0 and len(speeds) <= _MOST else ()
+
+
+def hover_cruise_pairs(results: Results, cruise: float) -> HoverCruisePairs:
+    """All pairs of a cruise speed: rows that agree in every axis but speed, or rows that know their hover power."""
+    power, mu = results.columns["power_total_w"], results.columns["mu"]
+    here = np.flatnonzero(results.good & (mu == cruise))
+    if _has_hover(results):
+        hover = results.columns["hover_power_w"][here]
+        known = np.isfinite(hover)
+        return HoverCruisePairs(hover[known], power[here][known], here[known])
+    code = results.codes(tuple(name for name in results.axes if name != "mu"))
+    hovering = np.full(int(code.max(initial=0)) + 1, math.nan)
+    still = results.good & (mu == 0.0)
+    hovering[code[still]] = power[still]
+    hover = hovering[code[here]]
+    known = np.isfinite(hover)
+    return HoverCruisePairs(hover[known], power[here][known], here[known])
+
+
+def _has_hover(results: Results) -> bool:
+    column = results.columns.get("hover_power_w")
+    return column is not None and bool(np.isfinite(column).any())

@@ -18,10 +18,10 @@ from rotor.design.design import FLIGHT_MODELS, THESIS_MODELS, Design, check_pres
 from rotor.files.make_design import change_airfoils, make_design
 from rotor.optimisation.concepts import Concept, restrict
 from rotor.optimisation.objective import at_condition, hover_and_cruise
-from rotor.optimisation.search import Ended, Limits, Optimum, Search, optimise
-from rotor.study.memory import Memory
-from rotor.study.quantities import PLAIN, Value, blade_concept
-from rotor.study.study import Searching, Study
+from rotor.optimisation.search import Limits, Optimum, Search, SearchStatus, run_search
+from rotor.study.quantities import PLAIN, Value, concept_with_breaks
+from rotor.study.study import OptimumSettings, Study
+from rotor.study.warm_starts import WarmStarts
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -73,36 +73,36 @@ def trim_of(values: Values, study: Study) -> Design:
 def check_point(values: Values, study: Study) -> None:
     """Raise ValueError, with one sentence, for values that no point of the study can have."""
     design = design_of(values, dict(study.aircraft))
-    if study.searching is None:
+    if study.optimum is None:
         _bladed(design, values)
     else:
-        _search(design, values, study.searching, Memory({}))
+        _search(design, values, study.optimum, WarmStarts({}))
 
 
-def evaluate(values: Values, study: Study, memory: Memory) -> Row:
+def evaluate(values: Values, study: Study, warm: WarmStarts) -> Row:
     """The row of one point. Begins with what the points before left, and leaves what it found."""
     begin = time.perf_counter()
     row: Row = {name: value for name, value in values.items() if not isinstance(value, bool)}
     try:
         design = design_of(values, dict(study.aircraft))
         row = _condition(design) | row
-        if study.searching is None:
+        if study.optimum is None:
             design = _bladed(design, values)
-            solution = solve(design, memory.guess(values, hovering=design.hovering))
+            solution = solve(design, warm.guess(values, hovering=design.hovering))
             row |= {"status": solution.status.value, "message": solution.message}
         else:
-            search = _search(design, values, study.searching, memory)
-            optimum = optimise(search)
-            solution = solve(optimum.design, memory.guess(values, hovering=design.hovering))
+            search = _search(design, values, study.optimum, warm)
+            optimum = run_search(search)
+            solution = solve(optimum.design, warm.guess(values, hovering=design.hovering))
             row |= _found(optimum, search) | {"status": optimum.status.value, "message": optimum.message}
-            if optimum.status is Ended.CONVERGED and not solution.converged:
+            if optimum.status is SearchStatus.CONVERGED and not solution.converged:
                 row |= {"status": solution.status.value, "message": solution.message}
             if optimum.best is not None:
-                memory.concept, memory.optimum = _name(search.concept), optimum.best.parameters
+                warm.concept, warm.optimum = _name(search.concept), optimum.best.parameters
         row["twist"] = values.get("twist") or solution.design.twist.spec()
         if solution.converged:
             row |= _answer(solution)
-            memory.keep(values, solution)
+            warm.keep(values, solution)
     except ValueError as error:
         row |= {"status": "bad-input", "message": str(error)}
     except Exception as error:  # One point that nobody foresaw must not cost the others of its chunk.
@@ -122,7 +122,7 @@ def _bladed(design: Design, values: Values) -> Design:
         return design
     if "twist" in values:
         raise ValueError("twist and concept are both given: leave one out")
-    concept, held = blade_concept(str(values["concept"]), given)
+    concept, held = concept_with_breaks(str(values["concept"]), given)
     missing = [one.label for one in concept.parameters if one.name not in held]
     if missing:
         raise ValueError(
@@ -132,12 +132,12 @@ def _bladed(design: Design, values: Values) -> Design:
     return concept.apply(design, [held[one.name] for one in concept.parameters])
 
 
-def _search(design: Design, values: Values, searching: Searching, memory: Memory) -> Search:
+def _search(design: Design, values: Values, searching: OptimumSettings, warm: WarmStarts) -> Search:
     if "twist" in values:
         raise ValueError("an optimum searches for the twist: leave twist out")
     if "concept" not in values:
         raise ValueError('an optimum needs a twist concept: add for example concept = "two-segment" to [fixed]')
-    wide, held = blade_concept(str(values["concept"]), _parameters(values))
+    wide, held = concept_with_breaks(str(values["concept"]), _parameters(values))
     concept = restrict(wide, held) if held else wide
     share = values.get("hover_share")
     objective = (
@@ -145,7 +145,7 @@ def _search(design: Design, values: Values, searching: Searching, memory: Memory
         if share is None
         else hover_and_cruise(design, float(share), design.condition.advance_ratio, searching.objective)
     )
-    near = memory.optimum if memory.concept == _name(concept) else ()
+    near = warm.optimum if warm.concept == _name(concept) else ()
     return Search(
         design=design,
         concept=concept,
@@ -193,7 +193,10 @@ def _found(optimum: Optimum, search: Search) -> Row:
         row[parameter.label] = parameter.shown(value)
     row |= {"mean_power_w": best.power, "active": ", ".join(best.active)}
     assert search.objective is not None
-    if any(leg.condition.advance_ratio == 0.0 for leg in search.objective.legs) and len(search.objective.legs) > 1:
+    if (
+        any(condition.flight.advance_ratio == 0.0 for condition in search.objective.conditions)
+        and len(search.objective.conditions) > 1
+    ):
         hover = solve(optimum.design.at(mu=0.0))
         row["hover_power_w"] = hover.power.total if hover.converged else None
     return row

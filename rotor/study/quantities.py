@@ -9,7 +9,7 @@ from rotor.optimisation.concepts.catalogue import THREE_SEGMENT_FREE, TWO_AIRFOI
 
 Value = float | str | bool
 Kind = Literal["number", "text", "flag"]
-Place = Literal["fixed", "models"]
+QuantitySection = Literal["fixed", "models"]
 
 
 @dataclass(frozen=True)
@@ -19,7 +19,7 @@ class Quantity:
     name: str
     kind: Kind
     unit: str
-    place: Place
+    section: QuantitySection
     """The section of the study file that holds it; as an axis it stands in [axes]."""
     whole: bool = False
     """Whether a number of it is a whole one."""
@@ -64,7 +64,7 @@ _WIDER: dict[str, Concept] = {
 """Concepts with breaks held, and the same with breaks that a study can set."""
 
 
-def blade_concept(name: str, given: dict[str, float]) -> tuple[Concept, dict[str, float]]:
+def concept_with_breaks(name: str, given: dict[str, float]) -> tuple[Concept, dict[str, float]]:
     """The concept whose parameters include those given by label, and their values by name in SI.
 
     Raises ValueError for a concept or a parameter that there is not.
@@ -83,5 +83,5 @@ def blade_concept(name: str, given: dict[str, float]) -> tuple[Concept, dict[str
 
 def concept_labels(name: str, given: tuple[str, ...]) -> tuple[str, ...]:
     """Labels of a concept's parameters, with the breaks where a study sets those."""
-    concept, _ = blade_concept(name, dict.fromkeys(given, 0.0))
+    concept, _ = concept_with_breaks(name, dict.fromkeys(given, 0.0))
     return tuple(parameter.label for parameter in concept.parameters)

@@ -1,7 +1,8 @@
-"""A study's table read back, as far as it is there: a run that goes on, or was broken off, can be looked at."""
+"""Reads the results of a study, complete or still running, and rebuilds the design of a row."""
 
 import importlib
 import json
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, cast
@@ -9,10 +10,12 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.study.chunks import GOOD
+from rotor.design.design import Design
+from rotor.study.chunks import CONVERGED
+from rotor.study.point import design_of
+from rotor.study.quantities import PLAIN, QUANTITIES, Value, concept_with_breaks
 from rotor.study.store import read_about
 
-Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 
 
@@ -42,7 +45,7 @@ class Results:
     @property
     def good(self) -> NDArray[np.bool_]:
         """Rows that have their answer."""
-        return self.columns["status"] == GOOD
+        return self.columns["status"] == CONVERGED
 
     def row_of(self, point: int) -> int | None:
         """The row of a point by its number; None for one that is not there, or not yet."""
@@ -143,3 +146,22 @@ def columns_from(table: Any) -> dict[str, NDArray[Any]]:
         else:
             made[name] = column.cast(arrow.float64()).to_numpy()
     return made
+
+
+def design_of_row(results: Results, row: int) -> Design:
+    """The design of a row (0 upward). ValueError for one that has no blade, or is of a rotor file that is not here."""
+    given: dict[str, Any] = results.about.get("given", {})
+    values: dict[str, Value] = {name: value for name, value in given.items() if name in PLAIN}
+    values |= {name: results.columns[name][row] for name in results.axes if name in PLAIN}
+    blade = {
+        name: float(results.columns[name][row])
+        for name in results.columns
+        if name in QUANTITIES and name not in PLAIN and math.isfinite(results.columns[name][row])
+    }
+    design = design_of({name: value for name, value in values.items() if name != "concept"}, {})
+    if "concept" not in values:
+        return design
+    concept, held = concept_with_breaks(str(values["concept"]), blade)
+    if len(held) < len(concept.parameters):
+        raise ValueError(f"point {row} found no blade: choose another one")
+    return concept.apply(design, [held[one.name] for one in concept.parameters])

@@ -14,7 +14,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from rotor.study.chunks import Provenance, describe
+from rotor.study.chunks import StudyProvenance, describe
 from rotor.study.study import Study
 from rotor.study.study_file import StudyFile
 
@@ -27,14 +27,14 @@ def sha256(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-class NotStored(RuntimeError):
+class StoreError(RuntimeError):
     """A chunk could not be written; those before it are kept."""
 
 
 class Store:
     """The folder of one study, open for writing."""
 
-    def __init__(self, folder: str | Path, file: StudyFile, provenance: Provenance) -> None:
+    def __init__(self, folder: str | Path, file: StudyFile, provenance: StudyProvenance) -> None:
         """Begin or continue a folder. ValueError for one that belongs to another study, or that somebody writes to."""
         self.folder, self.study = Path(folder), file.study
         try:
@@ -77,19 +77,19 @@ class Store:
         return left
 
     def keep(self, chunk: int, content: bytes) -> None:
-        """Store a chunk. NotStored, for example where the disk is full, leaves the folder as it was."""
+        """Store a chunk. StoreError, for example where the disk is full, leaves the folder as it was."""
         name = f"chunk-{chunk:06d}.parquet"
         try:
             self._write(name, content)
         except OSError as error:
             with suppress(OSError):
                 (self.folder / f".{name}.part").unlink()
-            raise NotStored(
+            raise StoreError(
                 f"cannot write to {str(self.folder)!r} ({error.strerror}): make it possible, and run the same command "
                 "again to go on; finished chunks are kept"
             ) from None
 
-    def _check(self, known: dict[str, Any], provenance: Provenance) -> None:
+    def _check(self, known: dict[str, Any], provenance: StudyProvenance) -> None:
         if known.get("study") != self.study.fingerprint:
             raise ValueError(
                 f"folder {str(self.folder)!r} holds another study ({known.get('title')}): give another --out DIR, "
@@ -124,8 +124,8 @@ def read_about(folder: str | Path) -> dict[str, Any]:
     return about  # pyright: ignore[reportUnknownVariableType]
 
 
-def _about(study: Study, provenance: Provenance, known: dict[str, Any] | None) -> bytes:
-    places = study.places
+def _about(study: Study, provenance: StudyProvenance, known: dict[str, Any] | None) -> bytes:
+    places = study.points
     axes: dict[str, Any] = {axis.name: list(axis.values) for axis in places.axes}
     if places.sample is not None:
         axes |= {name: {"low": low, "high": high} for name, low, high in places.sample.ranges}
@@ -140,8 +140,8 @@ def _about(study: Study, provenance: Provenance, known: dict[str, Any] | None) -
         "points": study.count,
         "chunk": study.chunk,
         "chunks": study.chunks,
-        "least": study.aims.least,
-        "uncertain": list(study.aims.uncertain),
+        "least": study.show.least,
+        "uncertain": list(study.show.uncertain),
         "begun": known["begun"] if known else datetime.now(UTC).isoformat(timespec="seconds"),
     }
     return (json.dumps(record, indent=2, ensure_ascii=False) + "\n").encode()

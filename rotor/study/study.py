@@ -1,16 +1,17 @@
-"""What a study is: a value, that pickles, compares and has a fingerprint."""
+"""A study as a value: it pickles, compares and has a fingerprint; and the columns of its results table."""
 
 from dataclasses import dataclass
+from typing import Literal
 
 from rotor.design.aircraft import Aircraft
 from rotor.design.fingerprint import fingerprint
 from rotor.optimisation.objective import Quantity as Objective
-from rotor.study.axes import Places
-from rotor.study.quantities import PLAIN, Value
+from rotor.study.axes import StudyPoints
+from rotor.study.quantities import PLAIN, QUANTITIES, Value, concept_labels
 
 
 @dataclass(frozen=True)
-class Searching:
+class OptimumSettings:
     """How the twist of least power is searched for at each point."""
 
     starts: int = 3
@@ -24,7 +25,7 @@ class Searching:
 
 
 @dataclass(frozen=True)
-class Aims:
+class ShowSettings:
     """What `show` looks for. No answer of a point depends on it."""
 
     least: str = "power_total_w"
@@ -38,21 +39,21 @@ class Study:
     """Many designs, and what is wanted of each."""
 
     title: str
-    places: Places
+    points: StudyPoints
     given: tuple[tuple[str, Value], ...]
     """Values that all points share."""
-    searching: Searching | None
+    optimum: OptimumSettings | None
     """None: each point is a trim."""
     chunk: int
     """Points worked off together."""
-    aims: Aims
+    show: ShowSettings
     aircraft: tuple[tuple[str, Aircraft], ...] = ()
     """Rotors from files of the user's own, by the names that the study file gives them: a worker has no such files."""
 
     @property
     def count(self) -> int:
         """How many points."""
-        return self.places.count
+        return self.points.count
 
     @property
     def chunks(self) -> int:
@@ -65,13 +66,13 @@ class Study:
     def values(self, first: int, last: int) -> list[dict[str, Value]]:
         """All values of the points first … last − 1."""
         shared = dict(self.given)
-        return [{**shared, **own} for own in self.places.at(first, last)]
+        return [{**shared, **own} for own in self.points.at(first, last)]
 
     @property
     def axis_names(self) -> tuple[str, ...]:
         """Axes in the order of the file, sampled ranges last."""
-        sampled = () if self.places.sample is None else tuple(name for name, _, _ in self.places.sample.ranges)
-        return (*(axis.name for axis in self.places.axes), *sampled)
+        sampled = () if self.points.sample is None else tuple(name for name, _, _ in self.points.sample.ranges)
+        return (*(axis.name for axis in self.points.axes), *sampled)
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -81,7 +82,7 @@ class Study:
     @property
     def concepts(self) -> tuple[str, ...]:
         """The twist concepts that occur."""
-        for axis in self.places.axes:
+        for axis in self.points.axes:
             if axis.name == "concept":
                 return tuple(str(value) for value in axis.values)
         found = dict(self.given).get("concept")
@@ -95,7 +96,7 @@ class Study:
     @property
     def fingerprint(self) -> str:
         """The same for studies whose points have the same answers."""
-        return fingerprint((self.places, sorted(self.given), self.searching, self.chunk, self.aircraft))
+        return fingerprint((self.points, sorted(self.given), self.optimum, self.chunk, self.aircraft))
 
 
 def check_uncertain(uncertain: tuple[str, ...], axes: tuple[str, ...], sampled: tuple[str, ...]) -> None:
@@ -113,11 +114,89 @@ def check_uncertain(uncertain: tuple[str, ...], axes: tuple[str, ...], sampled: 
         )
 
 
-def good_chunk(count: int, *, search: bool) -> int:
-    """Points a chunk unless the file says otherwise: seconds of work, files that a folder can hold.
+def default_chunk(count: int, *, search: bool) -> int:
+    """Points a chunk unless the file says otherwise: seconds of evaluate_points, files that a folder can hold.
 
     A trim takes some 5 ms, an optimum some 0.3 s; a chunk starts cold, and is what a lost worker or a Ctrl-C costs.
     """
     most = 16 if search else 500
     few = max(count // 32, 4)
     return max(min(most, few), -(-count // 20_000))
+
+
+Kind = Literal["number", "count", "text"]
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column."""
+
+    name: str
+    kind: Kind
+    unit: str = ""
+
+
+_POWERS = tuple(
+    Column(f"power_{part}_w", "number", "W")
+    for part in ("total", "main_rotor", "induced", "profile", "parasite", "tail")
+)
+_ANGLES = tuple(
+    Column(f"{name}_deg", "number", "°")
+    for name in ("collective", "cyclic_1c", "cyclic_1s", "coning", "flap_1c", "flap_1s", "shaft_tilt")
+)
+_HEAD = (
+    Column("point", "count"),
+    Column("status", "text"),
+    Column("message", "text"),
+)
+_CONDITION = (
+    Column("rotor", "text"),
+    Column("mu", "number"),
+    Column("speed_m_s", "number", "m/s"),
+    Column("mass_kg", "number", "kg"),
+    Column("altitude_m", "number", "m"),
+    Column("preset", "text"),
+    Column("inflow", "text"),
+    Column("twist", "text"),
+)
+_ANSWER = (
+    *_POWERS,
+    Column("ct", "number"),
+    Column("cp", "number"),
+    Column("ct_over_sigma", "number"),
+    Column("lambda0", "number"),
+    *_ANGLES,
+    Column("reverse_flow_area_percent", "number", "%"),
+    Column("stalled_area_percent", "number", "%"),
+    Column("caveats", "text"),
+    Column("passes", "count"),
+    Column("elapsed_ms", "number", "ms"),
+)
+_SEARCH = (
+    Column("mean_power_w", "number", "W"),
+    Column("hover_power_w", "number", "W"),
+    Column("baseline_power_w", "number", "W"),
+    Column("saving_percent", "number", "%"),
+    Column("local_minima", "count"),
+    Column("active", "text"),
+    Column("evaluations", "count"),
+)
+"""`mean_power_w` is what the search made small; `hover_power_w` is there with hover_share."""
+
+
+def columns_of(study: Study) -> tuple[Column, ...]:
+    """All columns of a study's table: point, status, the condition, what the study sets or finds, the answer."""
+    known = {column.name for column in (*_HEAD, *_CONDITION)}
+    own = tuple(
+        Column(name, "number" if QUANTITIES[name].kind == "number" else "text", QUANTITIES[name].unit)
+        for name in dict.fromkeys((*study.names, *_found(study)))
+        if name not in known and QUANTITIES[name].kind != "flag"
+    )
+    return (*_HEAD, *_CONDITION, *own, *_ANSWER, *(_SEARCH if study.optimum is not None else ()))
+
+
+def _found(study: Study) -> tuple[str, ...]:
+    """Concept parameters that a search finds, by label."""
+    if study.optimum is None:
+        return ()
+    return tuple(label for name in study.concepts for label in concept_labels(name, study.parameters))

@@ -20,6 +20,7 @@ from rotor.aero.elements import COLLECTIVE, CYCLIC_1C, CYCLIC_1S, Pass, Problem,
 from rotor.aero.inflow.interface import InflowFeedback
 from rotor.aero.sums import Slopes, slopes, unweigh, velocity_columns
 from rotor.arrays import Array
+from rotor.blas_threads import one_blas_thread
 from rotor.trim.equations import combine_sums, jacobian, unknowns_of
 from rotor.trim.forward import guess_of
 from rotor.trim.hover import Annuli
@@ -140,6 +141,7 @@ def power_gradient(solution: Solution, objective: Objective = "total") -> PitchG
     return power_along(Adjoint(solution), objective)
 
 
+@one_blas_thread()
 def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradient:
     """The same from an adjoint that serves other measures as well.
 
@@ -165,7 +167,7 @@ def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradie
 
 def _tail_gain(solution: Solution) -> float:
     """What one watt at the shaft costs in all, the tail rotor included."""
-    return 1.0 + tail_power(solution.design, solution.power.main_rotor)[1]
+    return 1.0 + tail_power(solution.design, solution.last_power.main_rotor)[1]
 
 
 def _dot(stack: Array, weight: Array | float) -> Array:

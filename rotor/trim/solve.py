@@ -3,8 +3,6 @@
 import math
 import time
 
-from threadpoolctl import threadpool_limits  # pyright: ignore[reportMissingTypeStubs]
-
 from rotor.aero import kernel
 from rotor.aero.elements import (
     COLLECTIVE,
@@ -20,7 +18,8 @@ from rotor.aero.elements import (
     lay_out,
 )
 from rotor.aero.sums import sums
-from rotor.design.design import Design
+from rotor.blas_threads import one_blas_thread
+from rotor.design.design import Design, require_design
 from rotor.trim.forward import guess_of, trim
 from rotor.trim.hover import HoverResult, hover
 from rotor.trim.newton import Guess, TrimResult
@@ -28,17 +27,17 @@ from rotor.trim.power import hub_moment, power_budget
 from rotor.trim.solution import Controls, DiskFields, Solution, Status
 from rotor.trim.validity import caveats, failure_sentence
 
-# Systems of six unknowns: BLAS threads cost ten times what they save.
-threadpool_limits(limits=1, user_api="blas")
 
-
+@one_blas_thread()
 def solve(design: Design, start: Solution | Guess | None = None) -> Solution:
     """Trim the design; `start` is any earlier solution to begin from, or a guess made from several.
 
     Always returns: a design that does not trim comes back with `Status.NOT_CONVERGED` and one sentence.
     """
     begin = time.perf_counter()
-    problem = lay_out(design)
+    problem = lay_out(require_design(design))
+    if not isinstance(start, Solution | Guess | None):  # pyright: ignore[reportUnnecessaryIsInstance]
+        raise TypeError(f"start is {start!r:.80}: give an earlier solution or leave it out")
     guess = _guess(design, start) if isinstance(start, Solution) else start
     if design.hovering:
         ended: HoverResult | TrimResult = hover(problem, None if guess is None else float(guess.state[COLLECTIVE]))
@@ -76,7 +75,7 @@ def _assemble(problem: Problem, ended: HoverResult | TrimResult, begin: float) -
         caveats=caveats(problem, one, area["stalled"], moment) if converged else (),
         controls=_controls(one),
         disk=fields,
-        power=power,
+        last_power=power,
         hub_moment=moment,
         ct=total.thrust,
         cp=power.main_rotor / design.power_unit,

@@ -12,7 +12,7 @@ from explorer.app import App
 from explorer.hosting.house import ServerLimits
 from explorer.session import Session
 from rotor.files.provenance import package_version
-from rotor.study.chunks import Provenance, work_chunk
+from rotor.study.chunks import StudyProvenance, evaluate_chunk
 from rotor.study.results import read_results
 from rotor.study.store import Store
 from rotor.study.study_file import StudyFile, parse_study
@@ -45,9 +45,9 @@ azimuths = 48
 def studies(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with one finished study."""
     folder = tmp_path_factory.mktemp("studies")
-    whence = Provenance(package_version(), None, "0")
+    whence = StudyProvenance(package_version(), None, "0")
     store = Store(folder / "blades", StudyFile(parse_study(STUDY), STUDY, "study.toml"), whence)
-    store.keep(0, work_chunk(store.study, 0, whence).content)
+    store.keep(0, evaluate_chunk(store.study, 0, whence).content)
     store.close()
     return folder
 

@@ -34,8 +34,7 @@ from explorer.tabs.actuator.state import (
 )
 from explorer.tabs.actuator.study import Findings, VerdictTask, VerdictWorker, answer, lean
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
-from rotor.actuator.verdict import Verdict
-from rotor.actuator.wording import verdict_sentence
+from rotor.actuator.verdict import Verdict, verdict_sentence
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
 
@@ -54,16 +53,16 @@ def test_full_voltage_makes_the_twist_that_the_range_gives():
     made = inputs.apply(DESIGN).twist
     gained = float(made(1.0) - made(0.0)) - float(DESIGN.twist(1.0) - DESIGN.twist(0.0))
     # The table begins at 0.05 R, a hair outboard of the pitch bearing, and holds its end.
-    assert_allclose(gained, 0.6 * 0.75 * inputs.fitted(DESIGN.rotor).attainable, rtol=5e-3)
+    assert_allclose(gained, 0.6 * 0.75 * inputs.installed(DESIGN.rotor).attainable, rtol=5e-3)
 
 
 def test_crossed_fibres_turn_the_other_way():
-    fitted = ActuatorInputs().fitted(DESIGN.rotor)
-    there = ActuatorInputs(drives=FULL).change(fitted, 1.0)
-    assert_allclose(ActuatorInputs(drives=FULL, crossed=True).change(fitted, 1.0), -there)
+    installed = ActuatorInputs().installed(DESIGN.rotor)
+    there = ActuatorInputs(drives=FULL).change(installed, 1.0)
+    assert_allclose(ActuatorInputs(drives=FULL, crossed=True).change(installed, 1.0), -there)
     tube = ActuatorInputs(actuator="SMA_tube", drives=FULL)
-    fitted = tube.fitted(DESIGN.rotor)  # Has no fibres to cross.
-    assert_allclose(replace(tube, crossed=True).change(fitted, 1.0), tube.change(fitted, 1.0))
+    installed = tube.installed(DESIGN.rotor)  # Has no fibres to cross.
+    assert_allclose(replace(tube, crossed=True).change(installed, 1.0), tube.change(installed, 1.0))
 
 
 @pytest.mark.parametrize("id", ALL)
@@ -116,8 +115,8 @@ def test_the_question_does_not_hang_on_speed_voltage_or_view():
 @pytest.mark.parametrize("id", ALL)
 def test_the_cut_blade_is_whole_finite_and_small(id: str, blade):
     inputs = ActuatorInputs(actuator=id, blade=blade, concept="three-segment", drives=FULL)
-    fitted = inputs.fitted(DESIGN.rotor)
-    picture = cut_picture(inputs, fitted, DESIGN, 0.0)
+    installed = inputs.installed(DESIGN.rotor)
+    picture = cut_picture(inputs, installed, DESIGN, 0.0)
     for mesh, colour in picture.solids:
         assert np.isfinite(mesh.vertices).all()
         assert mesh.faces.max() < len(mesh.vertices)
@@ -129,8 +128,8 @@ def test_the_cut_blade_is_whole_finite_and_small(id: str, blade):
 
 
 def test_walls_stand_on_the_true_contour_and_plies_outside():
-    fitted = ActuatorInputs().fitted(DESIGN.rotor)
-    cut = actuator_cut.cut_blade(fitted, DESIGN.rotor)
+    installed = ActuatorInputs().installed(DESIGN.rotor)
+    cut = actuator_cut.cut_blade(installed, DESIGN.rotor)
     plies = [part for part in cut.parts if part.role == "ply"]
     assert plies
     for part in plies:
@@ -144,10 +143,11 @@ def test_walls_stand_on_the_true_contour_and_plies_outside():
 
 def test_voltage_turns_the_tip_of_the_cut_blade_nose_up():
     inputs = ActuatorInputs(drives=FULL, magnified=10.0)
-    fitted = inputs.fitted(DESIGN.rotor)
-    cut = actuator_cut.cut_blade(fitted, DESIGN.rotor)
+    installed = inputs.installed(DESIGN.rotor)
+    cut = actuator_cut.cut_blade(installed, DESIGN.rotor)
     tail = [
-        cut_picture(each, fitted, DESIGN, 0.0).solids[-4][0].vertices[:, 2].min() for each in (ActuatorInputs(), inputs)
+        cut_picture(each, installed, DESIGN, 0.0).solids[-4][0].vertices[:, 2].min()
+        for each in (ActuatorInputs(), inputs)
     ]
     assert len(cut.parts) >= 8
     assert tail[1] < tail[0]  # Nose up is tail down.
@@ -155,7 +155,7 @@ def test_voltage_turns_the_tip_of_the_cut_blade_nose_up():
 
 def test_leads_run_from_the_box_to_every_segment():
     inputs = ActuatorInputs(concept="three-segment")
-    cut = actuator_cut.cut_blade(inputs.fitted(DESIGN.rotor), DESIGN.rotor)
+    cut = actuator_cut.cut_blade(inputs.installed(DESIGN.rotor), DESIGN.rotor)
     leads = actuator_cut.lead_segments(cut, DESIGN.rotor, np.zeros(len(cut.edge_r)))
     ends = {round(float(x), 6) for x in leads[:, 1, 0]}
     for low, _ in actuator_cut.spans_of(cut):
@@ -166,7 +166,7 @@ def test_leads_run_from_the_box_to_every_segment():
 def test_the_close_up_holds_the_whole_blade(aspect: float):
     camera = actuator_view.fit_cut(DESIGN.rotor.radius, aspect)
     inputs = ActuatorInputs(drives=FULL)
-    picture = cut_picture(inputs, inputs.fitted(DESIGN.rotor), DESIGN, 0.0)
+    picture = cut_picture(inputs, inputs.installed(DESIGN.rotor), DESIGN, 0.0)
     points = np.concatenate([mesh.vertices for mesh, _ in picture.solids]) - camera.position
     forward = camera.look_at - camera.position
     forward /= np.linalg.norm(forward)
@@ -189,24 +189,24 @@ def test_colours_of_voltage_are_two_sided():
 
 def test_the_harmonic_moves_the_colour_with_azimuth():
     inputs = ActuatorInputs(per_rev=1, amplitude=50.0)
-    fitted = inputs.fitted(DESIGN.rotor)
-    assert voltage_shares(inputs, fitted, 0.0)[0] > 0.0 > voltage_shares(inputs, fitted, math.pi)[0]
+    installed = inputs.installed(DESIGN.rotor)
+    assert voltage_shares(inputs, installed, 0.0)[0] > 0.0 > voltage_shares(inputs, installed, math.pi)[0]
 
 
 @pytest.mark.parametrize("id", ALL)
 def test_the_section_is_drawn_with_its_plies(id: str):
-    fitted = ActuatorInputs(actuator=id).fitted(DESIGN.rotor)
-    svg = section_svg(fitted, (0.5,))
-    assert svg.count('class="rx-ply"') == (2 if isinstance(fitted.actuator, PiezoPly) else 0)
+    installed = ActuatorInputs(actuator=id).installed(DESIGN.rotor)
+    svg = section_svg(installed, (0.5,))
+    assert svg.count('class="rx-ply"') == (2 if isinstance(installed.actuator, PiezoPly) else 0)
     assert "nan" not in svg.lower()
 
 
 def test_more_voltage_than_there_is_is_said():
     inputs = ActuatorInputs(per_rev=1, amplitude=100.0)
-    fitted = inputs.fitted(DESIGN.rotor)
-    assert "beyond −500…1\u2009500 V" in actuator_readout.over_range(inputs, fitted)
-    assert actuator_readout.over_range(replace(inputs, amplitude=40.0), fitted) == ""
-    assert actuator_readout.over_range(replace(inputs, drives=(100.0 / 3.0,)), fitted) == ""  # 500 V, the middle.
+    installed = inputs.installed(DESIGN.rotor)
+    assert "beyond −500…1\u2009500 V" in actuator_readout.over_range(inputs, installed)
+    assert actuator_readout.over_range(replace(inputs, amplitude=40.0), installed) == ""
+    assert actuator_readout.over_range(replace(inputs, drives=(100.0 / 3.0,)), installed) == ""  # 500 V, the middle.
 
 
 @pytest.fixture(scope="module")
@@ -223,7 +223,7 @@ def test_the_verdict_is_told_whole(verdict: Verdict):
     panel = actuator_readout.verdict_panel(findings, question)
     assert 'data-kind="ready"' in panel
     assert verdict_sentence(verdict)[:40] in panel
-    numbers = actuator_readout.fit_panel(inputs, verdict.fitted, verdict)
+    numbers = actuator_readout.fit_panel(inputs, verdict.installed, verdict)
     assert re.search(r"Required Δtwist</span><span class=\"rx-num\">\d", numbers)
     limits = actuator_readout.limits_panel(verdict)
     assert all(limit.name.replace("-", " ") in limits for limit in verdict.limits)
@@ -256,7 +256,7 @@ def test_what_cannot_be_built_is_a_sentence():
 
 
 def test_the_chart_shows_need_and_reach(verdict: Verdict):
-    plot = actuator_plots.reach_plot(ActuatorInputs(drives=FULL), verdict.fitted, verdict, 0.13, None)
+    plot = actuator_plots.reach_plot(ActuatorInputs(drives=FULL), verdict.installed, verdict, 0.13, None)
     r, limit, counted, required, used, now = plot.data
     assert len({len(values) for values in plot.data}) == 1
     assert_allclose(abs(required[-1]), math.degrees(verdict.required), rtol=1e-6)
@@ -326,8 +326,8 @@ def test_a_lean_verdict_tells_the_same(verdict: Verdict):
     page = [
         (
             actuator_readout.verdict_panel(Findings(question, one), question),
-            actuator_readout.fit_panel(ActuatorInputs(), one.fitted, one),
-            actuator_readout.segments_panel(one.fitted, 1.0, one),
+            actuator_readout.fit_panel(ActuatorInputs(), one.installed, one),
+            actuator_readout.segments_panel(one.installed, 1.0, one),
             actuator_readout.limits_panel(one),
             actuator_table.table_panel(Findings(question, one, (("MFC_P1", one),)), question),
         )
@@ -339,4 +339,4 @@ def test_a_lean_verdict_tells_the_same(verdict: Verdict):
 
 
 def reach(verdict: Verdict) -> Plot:
-    return actuator_plots.reach_plot(ActuatorInputs(), verdict.fitted, verdict, 0.13, None)
+    return actuator_plots.reach_plot(ActuatorInputs(), verdict.installed, verdict, 0.13, None)

@@ -253,11 +253,11 @@ class TestTurns:
 
     def test_what_became_unwanted_gives_up_and_leaves_nothing_behind(self):
         turns = Turns(1)
-        holding, done = threading.Event(), threading.Event()
+        holding_caveats, done = threading.Event(), threading.Event()
 
         def hold() -> None:
             with turns.take():
-                holding.set()
+                holding_caveats.set()
                 done.wait()
 
         with turns.take() as turn:
@@ -265,7 +265,7 @@ class TestTurns:
             other.start()
             while not turns.waiting:
                 time.sleep(0.001)
-            assert not turn.give_way(holding.is_set)
+            assert not turn.give_way(holding_caveats.is_set)
             assert not turn.held
         done.set()
         other.join()

@@ -23,8 +23,8 @@ from explorer.hosting import gate, meter, uploads, viser_compat
 from explorer.hosting.doors import AllowedHosts
 from explorer.hosting.gate import RequestFilter
 from explorer.hosting.house import ServerLimits
-from explorer.soak import wire
-from explorer.soak.visitor import Visitor
+from tests.tools.soak import wire
+from tests.tools.soak.visitor import Visitor
 
 Result = TypeVar("Result")
 INNER, OUTER = "Inner [°/R]", "Outer [°/R]"

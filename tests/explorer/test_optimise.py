@@ -27,7 +27,7 @@ from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.objective import at_condition
 from rotor.optimisation.schedule import Cell, Plan
-from rotor.optimisation.search import Ended as Status
+from rotor.optimisation.search import SearchStatus as Status
 from rotor.trim.solve import solve
 
 UNIFORM = replace(make_design().models, inflow="uniform", elements=20, azimuths=36)
@@ -318,7 +318,7 @@ class TestSchedule:
         assert "Moving" not in schedule_view.table(schedule_view.PlanProgress(progress.plan))
 
     def test_legs_to_come_are_not_drawn(self, progress: schedule_view.PlanProgress):
-        half = schedule_view.PlanProgress(progress.plan, [cell for cell in progress.cells if cell.leg == 1])
+        half = schedule_view.PlanProgress(progress.plan, [cell for cell in progress.cells if cell.condition == 1])
         mu, _, fixed, moving = schedule_view.saving_plot(half, None).data
         np.testing.assert_allclose(mu, [0.3])
         np.testing.assert_allclose(moving, schedule_view.saving_plot(progress, None).data[3][1:])
@@ -328,7 +328,7 @@ class TestSchedule:
         rows = list(csv.DictReader(io.StringIO(schedule_view.csv_of(progress).decode())))
         assert [row["mu"] for row in rows] == ["0", "0.3", "mean"]
         for k, row in enumerate(rows[:2]):
-            condition = progress.plan.legs[k].condition
+            condition = progress.plan.conditions[k].flight
             twisted = replace(make_design(twist=row["twist"], models=UNIFORM), condition=condition)
             assert float(row["best_kw"]) == pytest.approx(solve(twisted).power.total / 1e3, abs=2e-3)
 

@@ -16,10 +16,9 @@ from explorer.tabs.studies.panel import StudiesPanel
 from explorer.tabs.studies.readout import numbers, point_line, summary
 from explorer.tabs.studies.results import find_studies, open_study
 from rotor.files.provenance import package_version
-from rotor.study.chunks import Provenance, work_chunk
-from rotor.study.front import Pairs, cruise_speeds, pairs_at
-from rotor.study.replay import design_of_row
-from rotor.study.results import Results, read_file
+from rotor.study.chunks import StudyProvenance, evaluate_chunk
+from rotor.study.findings import HoverCruisePairs, cruise_speeds, hover_cruise_pairs
+from rotor.study.results import Results, design_of_row, read_file
 from rotor.study.store import Store
 from rotor.study.study_file import StudyFile, parse_study
 from rotor.trim.solve import solve
@@ -50,13 +49,13 @@ azimuths = 24
 [optimum]
 starts = 1
 """
-WHENCE = Provenance(package_version(), None, "0")
+WHENCE = StudyProvenance(package_version(), None, "0")
 
 
 def finished(folder: Path, text: str) -> Results:
     store = Store(folder, StudyFile(parse_study(text), text, "study.toml"), WHENCE)
     for chunk in range(store.study.chunks):
-        store.keep(chunk, work_chunk(store.study, chunk, WHENCE).content)
+        store.keep(chunk, evaluate_chunk(store.study, chunk, WHENCE).content)
     store.close()
     return open_study(folder)
 
@@ -87,9 +86,9 @@ def test_results_are_found_beneath_a_folder_but_not_too_deep(trims: tuple[Path, 
 
 def test_a_result_that_has_gone_on_is_read_again(tmp_path: Path):
     store = Store(tmp_path, StudyFile(parse_study(TRIMS.replace("10", "4")), TRIMS, "study.toml"), WHENCE)
-    store.keep(0, work_chunk(store.study, 0, WHENCE).content)
+    store.keep(0, evaluate_chunk(store.study, 0, WHENCE).content)
     assert open_study(tmp_path).rows == 4
-    store.keep(1, work_chunk(store.study, 1, WHENCE).content)
+    store.keep(1, evaluate_chunk(store.study, 1, WHENCE).content)
     assert open_study(tmp_path).rows == 8
 
 
@@ -119,7 +118,7 @@ def test_points_go_by_their_numbers_where_some_are_missing(tmp_path: Path):
     text = TRIMS.replace("chunk = 10", "chunk = 3")
     store = Store(tmp_path, StudyFile(parse_study(text), text, "study.toml"), WHENCE)
     for chunk in (0, 2):
-        store.keep(chunk, work_chunk(store.study, chunk, WHENCE).content)
+        store.keep(chunk, evaluate_chunk(store.study, chunk, WHENCE).content)
     results = open_study(tmp_path)
     assert [results.row_of(point) for point in (0, 3, 6)] == [0, None, 3]
     assert numbers(results) == "0…7, but for those not done yet"
@@ -149,7 +148,7 @@ def test_a_single_point_can_be_drawn(tmp_path: Path):
 
 def test_a_range_of_one_chart_is_not_left_to_the_next(trims: tuple[Path, Results]):
     _, results = trims
-    front = study_charts.front(results, pairs_at(results, 0.2), 0.2, None, dark=False)
+    front = study_charts.front(results, hover_cruise_pairs(results, 0.2), 0.2, None, dark=False)
     scatter = study_charts.scatter(results, "mu", "power_total_w", "division", None, dark=False)
     for axis in ("xaxis", "yaxis"):
         assert (front.layout[axis].autorange, scatter.layout[axis].autorange) == (False, True)
@@ -171,13 +170,13 @@ def test_without_the_packages_the_tab_says_how_to_get_them(monkeypatch: pytest.M
 
 def test_the_front_is_what_none_beats_in_both():
     hover, cruise = np.array([3.0, 2.0, 1.0, 2.0, 4.0]), np.array([1.0, 2.0, 4.0, 3.0, 1.0])
-    assert_array_equal(Pairs(hover, cruise, np.arange(5)).best, [True, True, True, False, False])
+    assert_array_equal(HoverCruisePairs(hover, cruise, np.arange(5)).best, [True, True, True, False, False])
 
 
 def test_hover_goes_with_the_cruise_of_the_same_blade(trims: tuple[Path, Results], optima: Results):
     _, results = trims
     assert cruise_speeds(results) == (0.2,)
-    pairs = pairs_at(results, 0.2)
+    pairs = hover_cruise_pairs(results, 0.2)
     assert len(pairs.row) == 4
     for hover, row in zip(pairs.hover, pairs.row, strict=True):
         same = np.flatnonzero(
@@ -186,7 +185,7 @@ def test_hover_goes_with_the_cruise_of_the_same_blade(trims: tuple[Path, Results
             & (results.columns["outboard_rate_deg"] == results.columns["outboard_rate_deg"][row])
         )
         assert hover == results.columns["power_total_w"][same[0]]
-    known = pairs_at(optima, cruise_speeds(optima)[0])
+    known = hover_cruise_pairs(optima, cruise_speeds(optima)[0])
     assert_array_equal(known.hover, optima.columns["hover_power_w"])
     assert_allclose(0.5 * (known.hover + known.cruise), optima.columns["mean_power_w"], rtol=1e-7)
 
@@ -197,7 +196,7 @@ def test_charts_hold_the_rows_that_a_click_takes(trims: tuple[Path, Results], da
     assert study_charts.choices(results)[:4] == ("mu", "outboard_rate_deg", "division", "power_total_w")
     for figure, points in (
         (study_charts.scatter(results, "mu", "power_total_w", "division", 3, dark), 8),
-        (study_charts.front(results, pairs_at(results, 0.2), 0.2, None, dark), 4),
+        (study_charts.front(results, hover_cruise_pairs(results, 0.2), 0.2, None, dark), 4),
         (study_charts.parallel(results, "division", dark), 0),
     ):
         made = json.loads(figure.to_json())

@@ -94,7 +94,7 @@ class TestReadout:
 
     def test_change_against_the_baseline(self, forward: Solution):
         dearer = replace(
-            forward, power=replace(forward.power, profile=forward.power.profile + 0.1 * forward.power.total)
+            forward, last_power=replace(forward.power, profile=forward.power.profile + 0.1 * forward.power.total)
         )
         assert "+10.0 %" in readout.power_panel(dearer, forward)
         assert re.search(r"−9\.1 %", readout.power_panel(forward, dearer))
@@ -132,7 +132,7 @@ class TestReadout:
     def test_nothing_that_is_no_number_reaches_the_screen(self, forward: Solution):
         broken = replace(
             forward,
-            power=replace(forward.power, induced=math.nan),
+            last_power=replace(forward.power, induced=math.nan),
             controls=replace(forward.controls, collective=math.nan),
             ct=math.inf,
         )

@@ -94,9 +94,9 @@ def report_of(
     for entry in (*entries, reference):
         if not entry.solution.converged:
             raise ValueError(f"{entry.title} is not trimmed, so it cannot be reported: {entry.solution.message}")
-    fitted = {name: _fitted(FIELDS[name], entries) for name in _USUAL if not FIELDS[name].void_in_reverse_flow}
+    installed = {name: _fitted(FIELDS[name], entries) for name in _USUAL if not FIELDS[name].void_in_reverse_flow}
     return DesignReport(
-        reference, tuple(entries), view, datetime.now().astimezone(), {**fitted, **(ranges or {})}, own_section
+        reference, tuple(entries), view, datetime.now().astimezone(), {**installed, **(ranges or {})}, own_section
     )
 
 

@@ -19,7 +19,7 @@ from explorer.tabs.chart_panel import Chart, line
 from explorer.text.glossary import hint
 from explorer.theme.colours import BASELINE, NOW, THIS
 from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube, find_actuator
-from rotor.actuator.fitted import Fitted
+from rotor.actuator.installation import InstalledActuator
 from rotor.optimisation.concepts import find_concept
 
 FLY = ("At rest", "At first µ", "At second µ")
@@ -130,18 +130,18 @@ class ActuatorControls:
             magnified=float(self._magnified.value),
         )
 
-    def arrange(self, inputs: ActuatorInputs, fitted: Fitted) -> None:
+    def arrange(self, inputs: ActuatorInputs, installed: InstalledActuator) -> None:
         """Which widgets there are, and what they are called."""
-        count = len(fitted.shapes)
-        word = "Voltage" if isinstance(fitted.actuator, PiezoPly) else "Drive"
+        count = len(installed.shapes)
+        word = "Voltage" if isinstance(installed.actuator, PiezoPly) else "Drive"
         for k, handle in enumerate(self._drives):
             handle.visible = k < count
             handle.label = f"{word} {k + 1} [%]" if count > 1 else f"{word} [%]"
-        self._plies.label = "Tubes" if isinstance(fitted.actuator, TorqueTube) else "Plies a side"
-        passive = isinstance(fitted.actuator, ExtensionTwist)
+        self._plies.label = "Tubes" if isinstance(installed.actuator, TorqueTube) else "Plies a side"
+        passive = isinstance(installed.actuator, ExtensionTwist)
         for handle in (self._plies, self._span):
             handle.visible = not passive
-        self._chord.visible = self._crossed.visible = isinstance(fitted.actuator, PiezoPly)
+        self._chord.visible = self._crossed.visible = isinstance(installed.actuator, PiezoPly)
         self._magnified.visible = inputs.shown
         self._span.label = "Span {:.2f}–{:.2f}".format(*inputs.span)
         self._chord.label = "Chord {:.2f}–{:.2f}".format(*inputs.chord)
@@ -156,19 +156,19 @@ class ActuatorControls:
 
     def take(
         self,
-        fitted: Fitted,
+        installed: InstalledActuator,
         swings: tuple[tuple[float, ...], ...],
         voltages: tuple[tuple[float, float], ...],
         which: int,
     ) -> None:
         """Sliders as the verdict has them at one of its conditions."""
-        actuator = find_actuator(fitted.actuator.id)
+        actuator = find_actuator(installed.actuator.id)
         if isinstance(actuator, PiezoPly):
             unit = actuator.voltage_swing
             made = [pair[which] / unit for pair in voltages]
             wanted = [swing[which] for swing in zip(*swings, strict=True)]
             # Fibres laid the other way where the verdict's voltages oppose its twists.
-            opposed = fitted.host.kind == "retrofit" and sum(a * b for a, b in zip(made, wanted, strict=True)) < 0.0
+            opposed = installed.host.kind == "retrofit" and sum(a * b for a, b in zip(made, wanted, strict=True)) < 0.0
             self._crossed.value = opposed
         else:
             made = list(swings[which])

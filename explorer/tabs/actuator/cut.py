@@ -11,8 +11,8 @@ import numpy as np
 from explorer.picture.meshes import Mesh
 from explorer.tabs.actuator.walls import SIDES, CutPart, outline, skin_part, stations, tube_part, web_part, without
 from rotor.actuator.catalogue import PiezoPly, TorqueTube
-from rotor.actuator.fitted import Fitted
-from rotor.actuator.pictures import black_box
+from rotor.actuator.installation import InstalledActuator
+from rotor.actuator.pictures import electronics_station
 from rotor.actuator.section import passive_skin, passive_wall, section_spec
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
@@ -46,12 +46,12 @@ class Cut:
 
 
 @lru_cache(maxsize=8)
-def cut_blade(fitted: Fitted, rotor: Rotor) -> Cut:
+def cut_blade(installed: InstalledActuator, rotor: Rotor) -> Cut:
     """The pieces for an actuator on a blade."""
-    spec = section_spec(uh60a_structure(rotor.radius), fitted.host)
+    spec = section_spec(uh60a_structure(rotor.radius), installed.host)
     data = structure_data()["section"]
-    placement, actuator = fitted.placement, fitted.actuator
-    retrofit = fitted.host.kind == "retrofit"
+    placement, actuator = installed.placement, installed.actuator
+    retrofit = installed.host.kind == "retrofit"
     web = float(data["spar_web_c"] if retrofit else data["box_end_c"])
     ply = isinstance(actuator, PiezoPly)
     wall = passive_skin(spec, actuator, placement) if ply and not retrofit else passive_wall(spec)
@@ -86,7 +86,7 @@ def cut_blade(fitted: Fitted, rotor: Rotor) -> Cut:
                 pieces.append(tube_part(0.5 * actuator.diameter, span, number))
     edge_r = stations(whole[0])
     edge = np.stack([outline(spec, rotor, float(r)) for r in edge_r])
-    return Cut(tuple(pieces), edge, edge_r, black_box(fitted), rotor.radius, (window,))
+    return Cut(tuple(pieces), edge, edge_r, electronics_station(installed), rotor.radius, (window,))
 
 
 def part_mesh(cut: Cut, part: CutPart, twist: Array) -> Mesh:

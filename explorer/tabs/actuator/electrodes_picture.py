@@ -11,7 +11,7 @@ from explorer.picture.disk_image import encode_png
 from explorer.text.units import number
 from explorer.theme.colours import colour_map
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
-from rotor.actuator.electrodes import electric_field, field_map, free_strain, thermal_coefficients
+from rotor.actuator.electrical import electric_field, field_map, free_strain, thermal_coefficients
 from rotor.arrays import Array
 
 PAIR = {"interdigitated": "MFC_P1", "continuous": "MFC_P2"}

@@ -14,7 +14,7 @@ from explorer.tabs.actuator.state import MOST_SEGMENTS, ActuatorInputs, Question
 from explorer.tabs.actuator.study import CachedVerdicts, VerdictWorker
 from explorer.workers import solver
 from explorer.workers.pool import Share
-from rotor.actuator.fitted import Fitted
+from rotor.actuator.installation import InstalledActuator
 from rotor.design.design import Design
 from rotor.dynamics.structure import KNOWN_BLADE, check_blade
 from rotor.files.make_design import uh60a_rotor
@@ -54,29 +54,29 @@ class ActuatorPanel:
         """Everything that follows: `design` is without the actuator's twist, `solution` with it."""
         try:
             if design.aircraft.key != KNOWN_BLADE:
-                self._controls.arrange(inputs, inputs.fitted(uh60a_rotor(design.preset)))
+                self._controls.arrange(inputs, inputs.installed(uh60a_rotor(design.preset)))
             check_blade(design.aircraft)
-            fitted = inputs.fitted(design.rotor)
-            inputs.turning(fitted)  # Resonance speaks here.
+            installed = inputs.installed(design.rotor)
+            inputs.turning(installed)  # Resonance speaks here.
             question = question_of(inputs, design)
         except ValueError as error:
             self._cut.hide()
             self._drawn = None
             self.show_failure(str(error))
             return
-        self._controls.arrange(inputs, fitted)
-        self._draw(inputs, fitted, design, psi)
+        self._controls.arrange(inputs, installed)
+        self._draw(inputs, installed, design, psi)
         rest = self._rest.solve(design) if inputs.driven else None
         change = solution.power.total - rest.power.total if rest is not None and rest.converged else None
-        self._tell("now", self._controls.now, readout.now_panel(inputs, fitted, change))
-        self._tell("section", self._controls.section, section_svg(fitted, voltage_shares(inputs, fitted, psi)))
-        self._controls.electrodes.show(fitted.actuator, inputs.volts(fitted))
-        self._tell("bar", self._controls.bar, readout.voltage_bar(fitted.actuator))
+        self._tell("now", self._controls.now, readout.now_panel(inputs, installed, change))
+        self._tell("section", self._controls.section, section_svg(installed, voltage_shares(inputs, installed, psi)))
+        self._controls.electrodes.show(installed.actuator, inputs.volts(installed))
+        self._tell("bar", self._controls.bar, readout.voltage_bar(installed.actuator))
         self._asked = question
         now = (inputs, design)
         self._study.ask(question, wanted=self._touched, stirred=now != self._before)
         self._before = now
-        self._judge(inputs, fitted, question, design.rotor.blade.root_cutout)
+        self._judge(inputs, installed, question, design.rotor.blade.root_cutout)
 
     def show_failure(self, problem: str) -> None:
         """There is no such design: the sentence in place of the verdict, all else as it was."""
@@ -91,18 +91,18 @@ class ActuatorPanel:
         if self.shown.value:
             self.shown.value = False
 
-    def _judge(self, inputs: ActuatorInputs, fitted: Fitted, question: Question, root: float) -> None:
+    def _judge(self, inputs: ActuatorInputs, installed: InstalledActuator, question: Question, root: float) -> None:
         findings = self._study.findings
         verdict = findings.verdict if findings.question == question else None
         tell, places = self._tell, self._controls
         tell("verdict", places.verdict, readout.verdict_panel(findings, question))
-        tell("numbers", places.numbers, readout.fit_panel(inputs, fitted, verdict))
-        tell("segments", places.segments, readout.segments_panel(fitted, inputs.share, verdict))
+        tell("numbers", places.numbers, readout.fit_panel(inputs, installed, verdict))
+        tell("segments", places.segments, readout.segments_panel(installed, inputs.share, verdict))
         tell("limits", places.limits, readout.limits_panel(verdict))
         tell("table", places.table, table.table_panel(findings, question))
-        places.chart.show(plots.reach_plot(inputs, fitted, verdict, root, places.chart.y_range))
+        places.chart.show(plots.reach_plot(inputs, installed, verdict, root, places.chart.y_range))
 
-    def _draw(self, inputs: ActuatorInputs, fitted: Fitted, design: Design, psi: float) -> None:
+    def _draw(self, inputs: ActuatorInputs, installed: InstalledActuator, design: Design, psi: float) -> None:
         if not inputs.shown:
             self._cut.hide()
             self._drawn = None
@@ -111,7 +111,7 @@ class ActuatorPanel:
         if frame == self._drawn:
             return
         self._drawn = frame
-        picture = cut_picture(inputs, fitted, design, psi)
+        picture = cut_picture(inputs, installed, design, psi)
         with self._client.atomic():
             self._cut.show(picture)
         self._client.flush()
@@ -133,7 +133,7 @@ class ActuatorPanel:
             self._changed()
             self._client.add_notification("No verdict yet", "Its voltages are being computed.", auto_close_seconds=4)
             return
-        self._controls.take(verdict.fitted, verdict.reached.swings, verdict.voltages, which)
+        self._controls.take(verdict.installed, verdict.optimum.swings, verdict.voltages, which)
         self._fly(verdict.baseline.pair.advance_ratios[which])
 
     def _moved(self, by_hand: bool) -> None:

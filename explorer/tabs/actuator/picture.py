@@ -12,7 +12,7 @@ from explorer.tabs.actuator.state import ActuatorInputs
 from explorer.text.units import number
 from explorer.theme import colours
 from rotor.actuator.catalogue import PiezoPly, TorqueTube
-from rotor.actuator.fitted import Fitted
+from rotor.actuator.installation import InstalledActuator
 from rotor.arrays import Array
 from rotor.design.design import Design
 
@@ -38,19 +38,19 @@ class CutPicture:
     """Text and where it stands [m]."""
 
 
-def cut_picture(inputs: ActuatorInputs, fitted: Fitted, design: Design, psi: float) -> CutPicture:
+def cut_picture(inputs: ActuatorInputs, installed: InstalledActuator, design: Design, psi: float) -> CutPicture:
     """The blade at azimuth `psi` [rad], the actuator's part of its twist magnified; `design` is without actuator."""
     rotor = design.rotor
-    cut = actuator_cut.cut_blade(fitted, rotor)
+    cut = actuator_cut.cut_blade(installed, rotor)
 
     def still(r: Array) -> Array:
         return design.twist(np.maximum(r, rotor.blade.root_cutout))
 
     def twist(r: Array) -> Array:
-        moved = inputs.change(fitted, r) + inputs.harmonic_twist(fitted, psi, r)
+        moved = inputs.change(installed, r) + inputs.harmonic_twist(installed, psi, r)
         return still(r) + inputs.magnified * moved
 
-    shares = voltage_shares(inputs, fitted, psi)
+    shares = voltage_shares(inputs, installed, psi)
     solids = [
         (
             actuator_cut.part_mesh(cut, part, twist(part.r)),
@@ -66,20 +66,20 @@ def cut_picture(inputs: ActuatorInputs, fitted: Fitted, design: Design, psi: flo
         solids=tuple(solids),
         ghost=actuator_cut.ghost_segments(cut, still(cut.edge_r)),
         leads=actuator_cut.lead_segments(cut, rotor, edge_twist),
-        labels=_labels(inputs, fitted, cut, twist),
+        labels=_labels(inputs, installed, cut, twist),
     )
 
 
-def voltage_shares(inputs: ActuatorInputs, fitted: Fitted, psi: float) -> tuple[float, ...]:
+def voltage_shares(inputs: ActuatorInputs, installed: InstalledActuator, psi: float) -> tuple[float, ...]:
     """Of each segment, −1…1 of its positive or negative side, with the harmonic at this azimuth."""
-    steady = inputs.drive_shares(fitted)
-    if not inputs.per_rev or not isinstance(fitted.actuator, PiezoPly):
+    steady = inputs.drive_shares(installed)
+    if not inputs.per_rev or not isinstance(installed.actuator, PiezoPly):
         return steady
     wave = 0.01 * inputs.amplitude * math.cos(inputs.per_rev * psi - math.radians(inputs.phase))
-    low, high = fitted.actuator.voltage_range
+    low, high = installed.actuator.voltage_range
     found = []
-    for volts in inputs.volts(fitted):
-        now = volts + 0.5 * fitted.actuator.voltage_swing * (-wave if inputs.crossed else wave)
+    for volts in inputs.volts(installed):
+        now = volts + 0.5 * installed.actuator.voltage_swing * (-wave if inputs.crossed else wave)
         found.append(now / high if now >= 0.0 else now / -low if low < 0.0 else -1.0)
     return tuple(min(max(share, -1.0), 1.0) for share in found)
 
@@ -97,31 +97,31 @@ def lit(colour: colours.Rgb) -> colours.Rgb:
     return red, green, blue
 
 
-def drive_text(inputs: ActuatorInputs, fitted: Fitted, segment: int) -> str:
+def drive_text(inputs: ActuatorInputs, installed: InstalledActuator, segment: int) -> str:
     """What drives a segment, in words."""
-    if isinstance(fitted.actuator, PiezoPly):
-        return f"{number(inputs.volts(fitted)[segment], sign=True)} V"
-    return f"{number(100.0 * inputs.drive_shares(fitted)[segment], sign=True)} %"
+    if isinstance(installed.actuator, PiezoPly):
+        return f"{number(inputs.volts(installed)[segment], sign=True)} V"
+    return f"{number(100.0 * inputs.drive_shares(installed)[segment], sign=True)} %"
 
 
 def _labels(
-    inputs: ActuatorInputs, fitted: Fitted, cut: actuator_cut.Cut, twist: Callable[[Array], Array]
+    inputs: ActuatorInputs, installed: InstalledActuator, cut: actuator_cut.Cut, twist: Callable[[Array], Array]
 ) -> tuple[tuple[str, Array], ...]:
     def at(r: float, y: float, z: float) -> Array:
         return actuator_cut.anchor(cut, r, y, z, float(twist(np.array([r]))[0]))
 
     labels = [("drive electronics", at(0.5 * (cut.box[0] + 0.12), -0.01, 0.2))]
     window = cut.windows[0]
-    tip = math.degrees(float(inputs.change(fitted, 1.0)))
+    tip = math.degrees(float(inputs.change(installed, 1.0)))
     if round(tip, 2):
         labels.append((f"tip {number(tip, 2, sign=True)}°, drawn × {inputs.magnified:g}", at(0.80, -0.50, -0.05)))
     labels.append(("spar web", at(0.5 * sum(window), -0.02, 0.13)))
-    if isinstance(fitted.actuator, (PiezoPly, TorqueTube)):
+    if isinstance(installed.actuator, (PiezoPly, TorqueTube)):
         for k, (low, high) in enumerate(actuator_cut.spans_of(cut)):
-            word = "segment " if len(fitted.shapes) < 4 else ""
-            name = f"{word}{k + 1}: " if len(fitted.shapes) > 1 else ""
+            word = "segment " if len(installed.shapes) < 4 else ""
+            name = f"{word}{k + 1}: " if len(installed.shapes) > 1 else ""
             place = 0.5 * (low + high)
             if window[0] - 0.02 < place < window[1] + 0.02:
                 place = 0.5 * (window[1] + high) if high > window[1] + 0.05 else 0.5 * (low + window[0])
-            labels.append((name + drive_text(inputs, fitted, k), at(place, 0.0, 0.14)))
+            labels.append((name + drive_text(inputs, installed, k), at(place, 0.0, 0.14)))
     return tuple(labels)

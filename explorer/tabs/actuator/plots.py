@@ -4,27 +4,27 @@ import numpy as np
 
 from explorer.charts.plots import Plot, Range, held_range
 from explorer.tabs.actuator.state import ActuatorInputs
-from rotor.actuator.fitted import Fitted
-from rotor.actuator.pictures import need_and_reach
+from rotor.actuator.installation import InstalledActuator
+from rotor.actuator.pictures import twist_comparison
 from rotor.actuator.verdict import Verdict
 
 _STATIONS = 61
 
 
 def reach_plot(
-    inputs: ActuatorInputs, fitted: Fitted, verdict: Verdict | None, root: float, previous: Range | None
+    inputs: ActuatorInputs, installed: InstalledActuator, verdict: Verdict | None, root: float, previous: Range | None
 ) -> Plot:
     """Series: attainable, attainable as counted, required, used by the best twist within reach, now [°].
 
     Changes from the cut-out outwards; attainable is drawn on the side that is asked for.
     """
     r = np.linspace(root, 1.0, _STATIONS)
-    limit = fitted.limit(r) - fitted.limit(root)
-    now = inputs.change(fitted, r) - inputs.change(fitted, root)
+    limit = installed.limit(r) - installed.limit(root)
+    now = inputs.change(installed, r) - inputs.change(installed, root)
     none = np.full(_STATIONS, np.nan)
     required, used = none, none
     if verdict is not None:
-        curves = need_and_reach(verdict, _STATIONS)
+        curves = twist_comparison(verdict, _STATIONS)
         required, used = curves.required, curves.attained
         if required[np.argmax(np.abs(required))] < 0.0:
             limit = -limit

@@ -11,10 +11,9 @@ from explorer.tabs.actuator.study import Findings
 from explorer.text.units import number
 from explorer.theme.colours import css
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly
-from rotor.actuator.fitted import Fitted
+from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.limits import Limit
-from rotor.actuator.verdict import Verdict
-from rotor.actuator.wording import headline, verdict_sentence
+from rotor.actuator.verdict import Verdict, headline, verdict_sentence
 from rotor.reproduce.report import typographic
 
 SHEET = """<style>
@@ -67,9 +66,9 @@ def voltage_bar(actuator: Actuator) -> str:
     )
 
 
-def now_panel(inputs: ActuatorInputs, fitted: Fitted, change_w: float | None) -> str:
+def now_panel(inputs: ActuatorInputs, installed: InstalledActuator, change_w: float | None) -> str:
     """What the sliders make of the blade at this moment, and what that does to power."""
-    tip = math.degrees(float(inputs.change(fitted, 1.0)))
+    tip = math.degrees(float(inputs.change(installed, 1.0)))
     if not inputs.driven:
         power = '<span class="rx-dim">at rest: the design is untouched</span>'
     elif change_w is None:
@@ -77,9 +76,9 @@ def now_panel(inputs: ActuatorInputs, fitted: Fitted, change_w: float | None) ->
     else:
         kind = "" if abs(change_w) < 50.0 else " rx-less" if change_w < 0.0 else " rx-more"
         power = f'<span class="rx-push{kind}"><b>{number(1e-3 * change_w, 1, sign=True)} kW</b> of power</span>'
-    drives = " · ".join(drive_text(inputs, fitted, k) for k in range(len(fitted.shapes)))
+    drives = " · ".join(drive_text(inputs, installed, k) for k in range(len(installed.shapes)))
     lines = [f'<div class="rx-dim rx-small">tip against root, now: {drives}</div>']
-    made = inputs.turning(fitted)
+    made = inputs.turning(installed)
     if made is not None:
         half = math.degrees(made.amplitude)
         if half:
@@ -88,7 +87,7 @@ def now_panel(inputs: ActuatorInputs, fitted: Fitted, change_w: float | None) ->
         else:
             text = f"cannot follow {inputs.per_rev}/rev"
         lines.append(f'<div class="rx-dim rx-small">{text}</div>')
-    over = over_range(inputs, fitted)
+    over = over_range(inputs, installed)
     if over:
         lines.append(f'<div class="rxa-bad rx-small">{escape(over)}</div>')
     return (
@@ -97,13 +96,13 @@ def now_panel(inputs: ActuatorInputs, fitted: Fitted, change_w: float | None) ->
     )
 
 
-def over_range(inputs: ActuatorInputs, fitted: Fitted) -> str:
+def over_range(inputs: ActuatorInputs, installed: InstalledActuator) -> str:
     """A sentence when steady voltage and harmonic together leave the range; empty otherwise."""
-    actuator = fitted.actuator
+    actuator = installed.actuator
     if not inputs.per_rev or not isinstance(actuator, PiezoPly):
         return ""
     wave = 0.01 * inputs.amplitude * 0.5 * actuator.voltage_swing
-    volts = inputs.volts(fitted)
+    volts = inputs.volts(installed)
     least, most = min(volts) - wave, max(volts) + wave
     low, high = actuator.voltage_range
     if least >= low - 1e-6 and most <= high + 1e-6:
@@ -114,19 +113,19 @@ def over_range(inputs: ActuatorInputs, fitted: Fitted) -> str:
     )
 
 
-def fit_panel(inputs: ActuatorInputs, fitted: Fitted, verdict: Verdict | None) -> str:
+def fit_panel(inputs: ActuatorInputs, installed: InstalledActuator, verdict: Verdict | None) -> str:
     """Numbers in two columns: those of the actuator on the blade are known at once, those of the verdict follow."""
-    bill = fitted.bill
-    nominal, tested = math.degrees(fitted.attainable), math.degrees(fitted.attainable * fitted.derating)
+    masses = installed.masses
+    nominal, tested = math.degrees(installed.attainable), math.degrees(installed.attainable * installed.derating)
     entries = [
         ("Required Δtwist", _NONE if verdict is None else f"{number(math.degrees(verdict.required), 2)}°"),
-        ("Added mass", f"{number(bill.aircraft)} kg"),
+        ("Added mass", f"{number(masses.aircraft)} kg"),
         ("Attainable", f"{number(nominal, 2)}°"),
-        ("on each blade", f"{number(bill.blade, 1)} kg"),
-        ("derated by test", f"{number(tested, 2)}°" if fitted.derating < 1.0 else _NONE),
-        ("First torsion", f"{number(fitted.frequency, 2)} /rev"),
+        ("on each blade", f"{number(masses.blade, 1)} kg"),
+        ("derated by test", f"{number(tested, 2)}°" if installed.derating < 1.0 else _NONE),
+        ("First torsion", f"{number(installed.frequency, 2)} /rev"),
         (f"counted ({number(inputs.counted)} %)", f"{number(nominal * inputs.share, 2)}°"),
-        ("Moment", f"{number(fitted.moment)} N·m" if fitted.moment else _NONE),
+        ("Moment", f"{number(installed.moment)} N·m" if installed.moment else _NONE),
         ("Saving, gross", _kw(None if verdict is None else verdict.gross_saving)),
         ("Slewing", _NONE if verdict is None else f"{number(verdict.drive.slew_power)} W"),
         ("<b>Saving, net</b>", f"<b>{_kw(None if verdict is None else verdict.net_saving)}</b>"),
@@ -166,11 +165,11 @@ def _box(look: str, kind: str, text: str) -> str:
     return f'<div class="rxa-box rxa-{look}" data-explorer="verdict" data-kind="{kind}">{text}</div>'
 
 
-def segments_panel(fitted: Fitted, share: float, verdict: Verdict | None) -> str:
+def segments_panel(installed: InstalledActuator, share: float, verdict: Verdict | None) -> str:
     """Bars: what each segment can make, nominal and as tested, with a mark where the optimum asks for it."""
-    if isinstance(fitted.actuator, ExtensionTwist) and verdict is None:
+    if isinstance(installed.actuator, ExtensionTwist) and verdict is None:
         return ""
-    can = np.degrees(fitted.segment_twists)
+    can = np.degrees(installed.segment_twists)
     need = None if verdict is None else np.degrees(np.abs(verdict.required_segments))
     largest = max(float(can.max()), 0.0 if need is None else float(need.max()), 0.1) * 1.05
     rows: list[str] = []

@@ -6,7 +6,7 @@ from html import escape
 from explorer.tabs.actuator.picture import share_colour
 from explorer.theme.colours import css
 from rotor.actuator.catalogue import PiezoPly
-from rotor.actuator.fitted import Fitted
+from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.pictures import Part, section_picture
 
 _WIDTH, _HEIGHT = 312.0, 92.0
@@ -18,11 +18,11 @@ _FILLS = {"spar": "#5c6b80", "skin": "#9aa3ad", "web": "#3f4b5c", "tube": "#b779
 
 
 @lru_cache(maxsize=32)
-def section_svg(fitted: Fitted, shares: tuple[float, ...]) -> str:
+def section_svg(installed: InstalledActuator, shares: tuple[float, ...]) -> str:
     """The cut through the blade at its middle segment; `shares` −1…1 colour the plies as they do on the blade."""
     middle = len(shares) // 2
     share = shares[middle]
-    picture = section_picture(fitted, exaggerate=1.6)
+    picture = section_picture(installed, exaggerate=1.6)
     scale = (_WIDTH - 12.0) / picture.chord
     marks: list[str] = []
     for part in picture.parts:
@@ -37,8 +37,8 @@ def section_svg(fitted: Fitted, shares: tuple[float, ...]) -> str:
             marks.append(_polygon(part, scale, f'fill="{_FILLS[part.role]}"'))
     return (
         f'<div class="rx" data-explorer="section"><svg viewBox="0 0 {_WIDTH:g} {_HEIGHT:g}" width="100%" '
-        f'role="img" aria-label="Section of the blade with its plies">{"".join(marks)}{_scale(fitted)}</svg>'
-        f'<div class="rx-dim rx-small">{escape(_caption(fitted, middle + 1))}</div></div>'
+        f'role="img" aria-label="Section of the blade with its plies">{"".join(marks)}{_scale(installed)}</svg>'
+        f'<div class="rx-dim rx-small">{escape(_caption(installed, middle + 1))}</div></div>'
     )
 
 
@@ -60,9 +60,9 @@ def _polygon(part: Part, scale: float, style: str) -> str:
     return f'<polygon points="{points}" {style}/>'
 
 
-def _scale(fitted: Fitted) -> str:
-    front, rear = fitted.placement.chord
-    ends = (0.0, front, rear, 1.0) if isinstance(fitted.actuator, PiezoPly) else (0.0, 1.0)
+def _scale(installed: InstalledActuator) -> str:
+    front, rear = installed.placement.chord
+    ends = (0.0, front, rear, 1.0) if isinstance(installed.actuator, PiezoPly) else (0.0, 1.0)
     marks = []
     for end in ends:
         x = 6.0 + (_WIDTH - 12.0) * end
@@ -75,11 +75,11 @@ def _scale(fitted: Fitted) -> str:
     return "".join(marks)
 
 
-def _caption(fitted: Fitted, segment: int) -> str:
-    labels = [part.label for part in section_picture(fitted).parts]
+def _caption(installed: InstalledActuator, segment: int) -> str:
+    labels = [part.label for part in section_picture(installed).parts]
     walls = next((label.split(",")[0] for label in labels if "spar" in label or "box" in label), "")
-    plies = next((label.rsplit(",", 1)[0] for label in labels if "±" in label), fitted.actuator.name)
-    front, rear = fitted.placement.chord
-    where = f" a side, {100 * front:.0f}–{100 * rear:.0f} % chord" if isinstance(fitted.actuator, PiezoPly) else ""
-    shown = f" Segment {segment}." if len(fitted.shapes) > 1 else ""
+    plies = next((label.rsplit(",", 1)[0] for label in labels if "±" in label), installed.actuator.name)
+    front, rear = installed.placement.chord
+    where = f" a side, {100 * front:.0f}–{100 * rear:.0f} % chord" if isinstance(installed.actuator, PiezoPly) else ""
+    shown = f" Segment {segment}." if len(installed.shapes) > 1 else ""
     return f"SC1095 with {walls} and web; {plies}{where}.{shown} Walls and plies drawn thicker than they are."

@@ -7,12 +7,11 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotor.actuator.baseline import SMOOTH_DIVISIONS
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, find_actuator
-from rotor.actuator.fitted import Fitted, fit
 from rotor.actuator.harmonic import DynamicTwist, dynamic_twist, with_harmonic
+from rotor.actuator.installation import InstalledActuator, install
+from rotor.actuator.optimum import SMOOTH_DIVISIONS, STATIONS, ConditionPair, twisted
 from rotor.actuator.placement import BladeKind, Host, Placement
-from rotor.actuator.reach import STATIONS, Pair, twisted
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.design.design import Design
@@ -70,42 +69,42 @@ class ActuatorInputs:
     def share(self) -> float:
         return 0.01 * self.counted
 
-    def fitted(self, rotor: Rotor) -> Fitted:
+    def installed(self, rotor: Rotor) -> InstalledActuator:
         """The actuator on the blade; ValueError with one sentence where that cannot be built."""
         actuator = find_actuator(self.actuator)
         divisions = () if isinstance(actuator, ExtensionTwist) else concept_divisions(self.concept)
-        return fit(actuator, replace(self.placement, divisions=divisions), self.host, rotor)
+        return install(actuator, replace(self.placement, divisions=divisions), self.host, rotor)
 
-    def swings(self, fitted: Fitted) -> tuple[float, ...]:
+    def swings(self, installed: InstalledActuator) -> tuple[float, ...]:
         """Each segment's share of its whole range, positive for tip up."""
-        sign = -1.0 if self.crossed and isinstance(fitted.actuator, PiezoPly) else 1.0
-        return tuple(sign * swing_of(fitted.actuator, drive) for drive in self._segments(fitted))
+        sign = -1.0 if self.crossed and isinstance(installed.actuator, PiezoPly) else 1.0
+        return tuple(sign * swing_of(installed.actuator, drive) for drive in self._segments(installed))
 
-    def volts(self, fitted: Fitted) -> tuple[float, ...]:
+    def volts(self, installed: InstalledActuator) -> tuple[float, ...]:
         """Of each segment [V]; empty when voltage does not drive it."""
-        actuator = fitted.actuator
+        actuator = installed.actuator
         if not isinstance(actuator, PiezoPly):
             return ()
-        return tuple(swing_of(actuator, drive) * actuator.voltage_swing for drive in self._segments(fitted))
+        return tuple(swing_of(actuator, drive) * actuator.voltage_swing for drive in self._segments(installed))
 
-    def drive_shares(self, fitted: Fitted) -> tuple[float, ...]:
+    def drive_shares(self, installed: InstalledActuator) -> tuple[float, ...]:
         """Of each segment, −1…1."""
-        return tuple(0.01 * drive for drive in self._segments(fitted))
+        return tuple(0.01 * drive for drive in self._segments(installed))
 
-    def change(self, fitted: Fitted, r: ArrayLike) -> Array:
+    def change(self, installed: InstalledActuator, r: ArrayLike) -> Array:
         """The steady twist that the actuator adds at r/R, as counted on [rad]."""
-        return self.share * fitted.change(self.swings(fitted), r)
+        return self.share * installed.change(self.swings(installed), r)
 
-    def turning(self, fitted: Fitted) -> DynamicTwist | None:
+    def turning(self, installed: InstalledActuator) -> DynamicTwist | None:
         """What the whole range makes at the chosen harmonic, as counted on."""
         if not self.per_rev:
             return None
-        made = dynamic_twist(fitted, self.per_rev)
+        made = dynamic_twist(installed, self.per_rev)
         return replace(made, amplitude=self.share * made.amplitude, static=self.share * made.static)
 
-    def harmonic_twist(self, fitted: Fitted, psi: float, r: ArrayLike) -> Array:
+    def harmonic_twist(self, installed: InstalledActuator, psi: float, r: ArrayLike) -> Array:
         """The part that follows the azimuth, at one azimuth [rad]."""
-        made = self.turning(fitted)
+        made = self.turning(installed)
         stations = np.asarray(r, dtype=float)
         if made is None:
             return np.zeros_like(stations)
@@ -116,10 +115,10 @@ class ActuatorInputs:
         """The design as the actuator twists it; the very same one at rest, and on a blade of unknown structure."""
         if not self.driven or design.aircraft.key != KNOWN_BLADE:
             return design
-        fitted = self.fitted(design.rotor)
-        if any(self.swings(fitted)):
-            design = replace(design, twist=twisted(design.twist, self.change(fitted, STATIONS)))
-        made = self.turning(fitted)
+        installed = self.installed(design.rotor)
+        if any(self.swings(installed)):
+            design = replace(design, twist=twisted(design.twist, self.change(installed, STATIONS)))
+        made = self.turning(installed)
         if made is not None and made.amplitude > 0.0 and self.amplitude > 0.0:
             design = with_harmonic(design, made, 0.01 * self.amplitude, math.radians(self.phase))
         return design
@@ -128,15 +127,15 @@ class ActuatorInputs:
     def driven(self) -> bool:
         return any(self.drives) or (self.per_rev > 0 and self.amplitude > 0.0)
 
-    def _segments(self, fitted: Fitted) -> tuple[float, ...]:
-        return self.drives[: len(fitted.shapes)]
+    def _segments(self, installed: InstalledActuator) -> tuple[float, ...]:
+        return self.drives[: len(installed.shapes)]
 
 
 @dataclass(frozen=True)
 class Question:
     """All that a verdict depends on."""
 
-    pair: Pair
+    pair: ConditionPair
     concept: str
     actuator: str
     placement: Placement
@@ -147,7 +146,7 @@ class Question:
 def question_of(inputs: ActuatorInputs, design: Design) -> Question:
     """What the tab asks about a design; ValueError for a pair of equal conditions."""
     start = replace(design.condition, advance_ratio=inputs.advance_ratios[0])
-    pair = Pair(replace(design, condition=start, active_twist=None), inputs.advance_ratios)
+    pair = ConditionPair(replace(design, condition=start, active_twist=None), inputs.advance_ratios)
     return Question(pair, inputs.concept, inputs.actuator, inputs.placement, inputs.host, inputs.share)
 
 

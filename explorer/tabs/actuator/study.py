@@ -86,7 +86,7 @@ def lean(verdict: Verdict) -> Verdict:
     first, second = (replace(best, solutions=()) for best in base.best)
     fixed = replace(base.fixed, solutions=())
     base = replace(base, best=(first, second), fixed=fixed)
-    return replace(verdict, baseline=base, reached=replace(verdict.reached, solutions=()))
+    return replace(verdict, baseline=base, optimum=replace(verdict.optimum, solutions=()))
 
 
 class VerdictSource(Protocol):

@@ -7,8 +7,7 @@ from explorer.tabs.actuator.state import Question
 from explorer.tabs.actuator.study import Findings, Outcome
 from explorer.text.units import number
 from rotor.actuator.catalogue import Actuator, PiezoPly, TorqueTube, actuators, find_actuator
-from rotor.actuator.verdict import Verdict
-from rotor.actuator.wording import verdict_sentence
+from rotor.actuator.verdict import Verdict, verdict_sentence
 
 
 def table_panel(findings: Findings, question: Question) -> str:
@@ -44,7 +43,7 @@ def _row(id: str, outcome: Outcome | None, chosen: bool) -> str:
     cells = (
         number(math.degrees(outcome.attainable), 1),
         number(math.degrees(outcome.attainable_derated), 1),
-        number(outcome.fitted.bill.aircraft),
+        number(outcome.installed.masses.aircraft),
         number(1e-3 * outcome.net_saving, 1, sign=True),
     )
     numbers = "".join(f'<td class="rx-num">{cell}</td>' for cell in cells)

@@ -118,8 +118,8 @@ class MapPanel:
                 grid = np.array([[np.nan if power is None else power for power in row] for row in powers])
                 if np.isfinite(grid).any():
                     self._map = power_map.Map(task, grid)
-                    mu = task.objective.legs[0].condition.advance_ratio
-                    where = f"at µ {mu:g}" if len(task.objective.legs) == 1 else "mean of the legs"
+                    mu = task.objective.conditions[0].flight.advance_ratio
+                    where = f"at µ {mu:g}" if len(task.objective.conditions) == 1 else "mean of the legs"
                     self._line = f"{len(powers)} × {len(powers)} points, {where}"
                 else:
                     self._line = "No design on this map trims."

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from rotor.design.design import Design
-from rotor.optimisation.objective import Leg
+from rotor.optimisation.objective import WeightedCondition
 
 
 @dataclass(frozen=True)
@@ -25,9 +25,11 @@ ROWS = (
 )
 
 
-def legs(design: Design, rows: Sequence[MissionRow] = ROWS) -> tuple[Leg, ...]:
+def legs(design: Design, rows: Sequence[MissionRow] = ROWS) -> tuple[WeightedCondition, ...]:
     """The legs at the design's weight and altitude; ValueError with one sentence when no hours are flown."""
     flown = sorted((row for row in rows if row.hours > 0.0), key=lambda row: row.advance_ratio)
     if not flown:
         raise ValueError("The mission has no hours: give one of its rows more than 0.")
-    return tuple(Leg(replace(design.condition, advance_ratio=row.advance_ratio), row.hours) for row in flown)
+    return tuple(
+        WeightedCondition(replace(design.condition, advance_ratio=row.advance_ratio), row.hours) for row in flown
+    )

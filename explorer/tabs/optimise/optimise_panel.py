@@ -23,7 +23,7 @@ from explorer.workers.pool import Share
 from explorer.workers.tasks import SearchTask
 from rotor.design.design import Design
 from rotor.optimisation.concepts import CONCEPTS
-from rotor.optimisation.objective import Leg
+from rotor.optimisation.objective import WeightedCondition
 
 TIME_LIMIT = 60.0
 """[s] a search may take."""
@@ -33,7 +33,11 @@ class OptimisePanel:
     """One session's search. Buttons act at once; everything that only shows happens in `refresh`."""
 
     def __init__(
-        self, gui: viser.GuiApi, pool: Share, context: TabContext, legs: Callable[[Design], tuple[Leg, ...]]
+        self,
+        gui: viser.GuiApi,
+        pool: Share,
+        context: TabContext,
+        legs: Callable[[Design], tuple[WeightedCondition, ...]],
     ) -> None:
         """`legs`: of the mission, for a design."""
         self._pool, self._context, self.legs = pool, context, legs

@@ -18,7 +18,7 @@ from explorer.workers.job import Job, JobEnded, JobEvent, JobFailed, JobProgress
 from explorer.workers.pool import Share
 from explorer.workers.tasks import FixedPowers, ScheduleTask
 from rotor.design.design import Design
-from rotor.optimisation.objective import Leg
+from rotor.optimisation.objective import WeightedCondition
 from rotor.optimisation.schedule import Cell, Plan
 
 TIME_LIMIT = 180.0
@@ -43,7 +43,7 @@ class SchedulePanel:
         with gui.add_folder("Mission: µ and hours"):
             self._rows = [
                 gui.add_vector2(
-                    f"Leg {k + 1}",
+                    f"WeightedCondition {k + 1}",
                     (row.advance_ratio, row.hours),
                     min=(0.0, 0.0),
                     max=(0.45, 99.0),
@@ -86,7 +86,7 @@ class SchedulePanel:
         self._halt.on_click(lambda _: self.halt())
         self._verdict.on_click(self._judge)
 
-    def legs(self, design: Design) -> tuple[Leg, ...]:
+    def legs(self, design: Design) -> tuple[WeightedCondition, ...]:
         """The mission's legs; ValueError with one sentence for a mission that is none."""
         return mission.legs(design, [mission.MissionRow(*(float(x) for x in row.value)) for row in self._rows])
 
@@ -159,15 +159,15 @@ class SchedulePanel:
             case JobQueued(ahead):
                 self._line = "Waiting: next in line" if ahead == 0 else f"Waiting: {ahead} ahead"
             case JobStarted():
-                self._line = f"0 of {len(progress.plan.legs) + 1} optima"
+                self._line = f"0 of {len(progress.plan.conditions) + 1} optima"
             case JobProgress(Cell() as cell):
                 progress.cells.append(cell)
-                self._line = f"{len(progress.cells)} of {len(progress.plan.legs) + 1} optima"
+                self._line = f"{len(progress.cells)} of {len(progress.plan.conditions) + 1} optima"
             case JobProgress(FixedPowers(powers)):
                 progress.fixed_powers = powers
             case JobEnded(_, stopped, late):
                 self._running = False
-                count = f"{len(progress.cells)} of {len(progress.plan.legs) + 1} optima"
+                count = f"{len(progress.cells)} of {len(progress.plan.conditions) + 1} optima"
                 self._line = f"Time is up: {count} kept." if late else f"Stopped: {count} kept." if stopped else "Done."
             case JobFailed(message):
                 self._running, self._line = False, message

@@ -39,13 +39,15 @@ class PlanProgress:
     @property
     def part_done(self) -> float:
         """0…1"""
-        return len(self.cells) / (len(self.plan.legs) + 1)
+        return len(self.cells) / (len(self.plan.conditions) + 1)
 
 
 def twist_plot(progress: PlanProgress | None, previous: Range | None) -> Plot:
     """Series: LEGS best twists and the best fixed one [°]; one that is not known lies outside the axis."""
     r = np.linspace(0.13, 1.0, 80)
-    optima = [] if progress is None else [*(progress.at(k) for k in range(len(progress.plan.legs))), progress.at(None)]
+    optima = (
+        [] if progress is None else [*(progress.at(k) for k in range(len(progress.plan.conditions))), progress.at(None)]
+    )
     known = [np.degrees(one.design.twist(r)) for one in optima if one is not None and one.best is not None]
     y_range = (
         held_range(previous, min(map(np.min, known)), max(map(np.max, known))) if known else previous or (-1.0, 1.0)
@@ -59,8 +61,8 @@ def twist_plot(progress: PlanProgress | None, previous: Range | None) -> Plot:
 
 def saving_plot(progress: PlanProgress | None, previous: Range | None) -> Plot:
     """Series: no saving, best fixed blade, best twist per leg [% of the blade as it is] over µ; legs that are known."""
-    legs = [] if progress is None else [(leg, *_saving(progress, k)) for k, leg in enumerate(progress.plan.legs)]
-    points = sorted((leg.condition.advance_ratio, *saved) for leg, *saved in legs if math.isfinite(saved[0]))
+    legs = [] if progress is None else [(leg, *_saving(progress, k)) for k, leg in enumerate(progress.plan.conditions)]
+    points = sorted((leg.flight.advance_ratio, *saved) for leg, *saved in legs if math.isfinite(saved[0]))
     mu, moving, fixed = np.array(points or [(0.0, math.nan, math.nan), (0.4, math.nan, math.nan)]).T
     known = np.concatenate((fixed, moving))
     known = known[np.isfinite(known)]
@@ -83,12 +85,12 @@ def _saving(progress: PlanProgress, leg: int) -> tuple[float, float]:
 def table(progress: PlanProgress, units: Units = SI) -> str:
     """HTML: one row a leg, then what moving is worth."""
     rows = []
-    for k, leg in enumerate(progress.plan.legs):
+    for k, leg in enumerate(progress.plan.conditions):
         one = progress.at(k)
         moving, fixed = _saving(progress, k)
         baseline = None if one is None or one.baseline_power is None else units.power[0].of(one.baseline_power)
         rows.append(
-            f"<tr><td>{number(leg.condition.advance_ratio, 2) if leg.condition.advance_ratio else 'hover'}</td>"
+            f"<tr><td>{number(leg.flight.advance_ratio, 2) if leg.flight.advance_ratio else 'hover'}</td>"
             f'<td class="rx-num">{number(baseline)}</td><td class="rx-num">{number(fixed, 2)}</td>'
             f'<td class="rx-num">{number(moving, 2)}</td></tr>'
         )
@@ -119,8 +121,8 @@ def csv_of(progress: PlanProgress) -> bytes:
     text = io.StringIO()
     writer = csv.writer(text)
     writer.writerow(_COLUMNS)
-    for k, leg in enumerate(progress.plan.legs):
-        one, c = progress.at(k), leg.condition
+    for k, leg in enumerate(progress.plan.conditions):
+        one, c = progress.at(k), leg.flight
         best = None if one is None else one.best
         writer.writerow(
             (
@@ -137,7 +139,7 @@ def csv_of(progress: PlanProgress) -> bytes:
         )
     fixed = progress.at(None)
     if fixed is not None and fixed.best is not None:
-        hours = sum(leg.hours for leg in progress.plan.legs)
+        hours = sum(leg.hours for leg in progress.plan.conditions)
         mean = (_kilowatt(fixed.baseline_power), "", "", _kilowatt(fixed.best.power))
         writer.writerow(("mean", "", "", f"{hours:g}", *mean, fixed.best.twist))
     return text.getvalue().encode()

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from rotor.design.design import Design
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept
 from rotor.optimisation.concepts.catalogue import AIRFOIL_BREAKS, DIVISION
-from rotor.optimisation.objective import Leg, Objective, at_condition, hover_and_cruise
-from rotor.optimisation.search import STARTS, Limits, Search, reach
+from rotor.optimisation.objective import Objective, WeightedCondition, at_condition, hover_and_cruise
+from rotor.optimisation.search import STARTS, Limits, Search, even_change_limit
 
 OBJECTIVES = {
     "total": "Total power",
@@ -64,7 +64,7 @@ class SearchRequest:
             return find_concept(self.concept, breaks)
         return CONCEPTS[self.concept]
 
-    def wanted(self, design: Design, legs: Callable[[Design], tuple[Leg, ...]]) -> Objective:
+    def wanted(self, design: Design, legs: Callable[[Design], tuple[WeightedCondition, ...]]) -> Objective:
         """The objective; ValueError with one sentence where the design cannot have it."""
         if self.objective == "mission":
             return Objective("total", legs(design))
@@ -75,7 +75,7 @@ class SearchRequest:
             return hover_and_cruise(design, self.hover_share / 100.0, cruise)
         return at_condition(design, "induced" if self.objective == "induced" else "total")
 
-    def search(self, design: Design, legs: Callable[[Design], tuple[Leg, ...]]) -> Search:
+    def search(self, design: Design, legs: Callable[[Design], tuple[WeightedCondition, ...]]) -> Search:
         """The search; ValueError with one sentence where it makes no sense."""
         return Search(
             design=design,
@@ -87,5 +87,5 @@ class SearchRequest:
 
     def limits(self, design: Design) -> Limits:
         """The limits; change is counted from the design's own twist."""
-        change = None if self.change is None else reach(design.twist, math.radians(self.change))
+        change = None if self.change is None else even_change_limit(design.twist, math.radians(self.change))
         return Limits(stalled=None if self.stalled is None else self.stalled / 100.0, change=change)

@@ -83,7 +83,7 @@ def _block(parts: list[str], name: str = "found") -> str:
 
 
 def _legs(run: SearchRun) -> tuple[object, ...]:
-    return run.search.objective.legs if run.search.objective is not None else (None,)
+    return run.search.objective.conditions if run.search.objective is not None else (None,)
 
 
 def _quantity(run: SearchRun) -> str:

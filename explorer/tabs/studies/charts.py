@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from explorer.text.units import number
 from explorer.theme.colours import BASELINE, NOW, THIS, colour_map, css
-from rotor.study.front import Pairs
+from rotor.study.findings import HoverCruisePairs
 from rotor.study.results import Results
 
 Ints = NDArray[np.int64]
@@ -103,7 +103,7 @@ def scatter(results: Results, x: str, y: str, colour: str, now: int | None, dark
     return _figure(traces, title(results, x), title(results, y), dark)
 
 
-def front(results: Results, pairs: Pairs, cruise: float, now: int | None, dark: bool) -> Any:
+def front(results: Results, pairs: HoverCruisePairs, cruise: float, now: int | None, dark: bool) -> Any:
     """Hover power over cruise power of every blade, and the line of those that none beats in both."""
     best = pairs.best
     order = np.flatnonzero(best)[np.argsort(pairs.cruise[best], kind="stable")]

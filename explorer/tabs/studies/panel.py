@@ -19,10 +19,8 @@ from explorer.tabs.studies import charts as study_charts
 from explorer.tabs.studies.readout import numbers, point_line, problem_line, summary
 from explorer.tabs.studies.results import FoundStudy, find_studies, open_study
 from explorer.text.glossary import hint
-from rotor.study.findings import best_row
-from rotor.study.front import cruise_speeds, pairs_at
-from rotor.study.replay import design_of_row
-from rotor.study.results import Results, read_file
+from rotor.study.findings import best_row, cruise_speeds, hover_cruise_pairs
+from rotor.study.results import Results, design_of_row, read_file
 
 _log = logging.getLogger(__name__)
 
@@ -109,7 +107,7 @@ class StudiesPanel:
         asked = self._asked
         self._say(f"Reading {name} …")
 
-        def work() -> None:
+        def evaluate_points() -> None:
             try:
                 results = read()
                 if not results.good.any():
@@ -125,7 +123,7 @@ class StudiesPanel:
                 if asked == self._asked:
                     self._say(f"{name} cannot be shown ({error}): choose another result.", "problem")
 
-        threading.Thread(target=work, name="studies", daemon=True).start()
+        threading.Thread(target=evaluate_points, name="studies", daemon=True).start()
 
     def show(self, state: SessionState) -> None:
         """Follow the page's theme."""
@@ -189,7 +187,7 @@ class StudiesPanel:
             colour = self._names[self._colour.value]
             if kind == FRONT:
                 speed = self._speeds[self._cruise.value]
-                figure = study_charts.front(results, pairs_at(results, speed), speed, self._now, self._dark)
+                figure = study_charts.front(results, hover_cruise_pairs(results, speed), speed, self._now, self._dark)
             elif kind == PARALLEL:
                 figure = study_charts.parallel(results, colour, self._dark)
             else:

@@ -7,22 +7,21 @@ rounded C81 deck. Below the slowest polar it repeats; Mach 0.95 and 1.0 use the 
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
-from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81
 from rotor.airfoil.build.compressibility import BASE_MACH, SectionTraits, capped_polar, corrected_polar
+from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81
 from rotor.airfoil.polars import Polar
 from rotor.airfoil.wrap import BLEND_END_DEG, blend
+from rotor.arrays import Array
 
-FloatArray = NDArray[np.float64]
-Columns = tuple[FloatArray, FloatArray, FloatArray]
+Columns = tuple[Array, Array, Array]
 
 USED_ALPHA_DEG = 16.0  # Beyond, XFOIL jumps between separated branches; values are held there and blended away.
 DECK_MACH = np.array([0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0])
 
 
-def deck_alpha_deg() -> FloatArray:
+def deck_alpha_deg() -> Array:
     """The deck's angles [deg], at most 99: dense where flow separates and where reverse flow peaks."""
     reverse = [180.0, 177.5, 175.0, 172.5, 170.0, 167.5, 165.0, 160.0, 155.0, 150.0]
     broadside = [140.0, 130.0, 120.0, 105.0, 90.0, 75.0, 60.0, 50.0, 40.0, 35.0, 30.0, 26.0, 24.0, 22.0, 20.0, 18.0]
@@ -60,7 +59,7 @@ def assemble_deck(title: str, polars: Sequence[Polar], traits: SectionTraits) ->
     return parse_c81(format_c81(deck), title)
 
 
-def _between(ordered: Sequence[Polar], mach: float, alpha_deg: FloatArray) -> Columns:
+def _between(ordered: Sequence[Polar], mach: float, alpha_deg: Array) -> Columns:
     """The polars at a Mach number: the one that has it, or linear between its neighbours; held at the ends."""
     slower = max((p for p in ordered if p.mach <= mach + 1e-9), key=lambda p: p.mach, default=ordered[0])
     faster = min((p for p in ordered if p.mach >= mach - 1e-9), key=lambda p: p.mach, default=ordered[-1])
@@ -72,7 +71,7 @@ def _between(ordered: Sequence[Polar], mach: float, alpha_deg: FloatArray) -> Co
     return cl, cd, cm
 
 
-def _at(polar: Polar, alpha_deg: FloatArray) -> Columns:
+def _at(polar: Polar, alpha_deg: Array) -> Columns:
     """A polar at `alpha_deg`: gaps bridged monotonically, values held beyond USED_ALPHA_DEG."""
     where = np.clip(alpha_deg, max(polar.alpha_deg[0], -USED_ALPHA_DEG), min(polar.alpha_deg[-1], USED_ALPHA_DEG))
     cl, log_cd, cm = (
@@ -83,7 +82,7 @@ def _at(polar: Polar, alpha_deg: FloatArray) -> Columns:
     return cl, np.exp(log_cd) * np.tan(beyond) / np.tan(np.deg2rad(USED_ALPHA_DEG)), cm
 
 
-def _drag_grows_to_broadside(alpha_deg: FloatArray, cd: FloatArray) -> FloatArray:
+def _drag_grows_to_broadside(alpha_deg: Array, cd: Array) -> Array:
     """`cd` of one Mach made to grow outward from its least value to +-90 deg.
 
     The closed form knows no Mach number, so that above Mach 0.8 the blend would fall into it.

@@ -10,10 +10,9 @@ with LINEAR_RISE_FROM. The suction drag has no fitted constant.
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
-FloatArray = NDArray[np.float64]
+from rotor.arrays import Array
 
 NATIVE_MACH_LIMIT = 0.4  # Up to here XFOIL is used as it is: against RANS its drag is the better one.
 BASE_MACH = 0.3  # The polar that is taken on to higher Mach.
@@ -50,7 +49,7 @@ def lift_cap(mach: float, traits: SectionTraits) -> float:
     return float(PchipInterpolator(_CAP_MACH, _CAP_CL)(mach)) * traits.cap_ratio
 
 
-def smooth_cap(cl: FloatArray, upper: float, lower: float, sharpness: float = CAP_SHARPNESS) -> FloatArray:
+def smooth_cap(cl: Array, upper: float, lower: float, sharpness: float = CAP_SHARPNESS) -> Array:
     """`cl` held between -`lower` and `upper` without a corner: x / (1 + |x/cap|^n)^(1/n), n = `sharpness`."""
     cap = np.where(cl >= 0.0, upper, lower)
     return np.asarray(cl / (1.0 + np.abs(cl / cap) ** sharpness) ** (1.0 / sharpness), dtype=np.float64)
@@ -62,7 +61,7 @@ def prandtl_glauert(mach: float, base: float = BASE_MACH) -> float:
     return float(np.sqrt((1.0 - base**2) / (1.0 - held**2)))
 
 
-def wave_drag(mach: float, cl: FloatArray, thickness: float, korn: float = KORN_KAPPA) -> FloatArray:
+def wave_drag(mach: float, cl: Array, thickness: float, korn: float = KORN_KAPPA) -> Array:
     """Wave drag coefficient [-] by Korn's relation and Lock's fourth-power law, for an unswept section.
 
     M_dd = kappa - t/c - |cl|/10, M_cr = M_dd - (0.1/80)^(1/3), cd = 20 (M - M_cr)^4 (Mason 1990),
@@ -74,7 +73,7 @@ def wave_drag(mach: float, cl: FloatArray, thickness: float, korn: float = KORN_
     return 20.0 * quartic**4 + 80.0 * LINEAR_RISE_FROM**3 * (excess - quartic)
 
 
-def with_lost_suction(alpha: FloatArray, potential_cl: FloatArray, cl: FloatArray, cd: FloatArray) -> FloatArray:
+def with_lost_suction(alpha: Array, potential_cl: Array, cl: Array, cd: Array) -> Array:
     """`cd` [-] plus the drag of the leading-edge suction that goes with the lost lift, (cl_potential - cl) tan(alpha).
 
     `alpha` [rad], below 90 deg. Attached flow tilts the normal force forward by the suction; lost lift has
@@ -88,9 +87,9 @@ def with_lost_suction(alpha: FloatArray, potential_cl: FloatArray, cl: FloatArra
 
 
 def corrected_polar(
-    mach: float, alpha: FloatArray, cl: FloatArray, cd: FloatArray, cm: FloatArray, traits: SectionTraits,
+    mach: float, alpha: Array, cl: Array, cd: Array, cm: Array, traits: SectionTraits,
     base: float = BASE_MACH,
-) -> tuple[FloatArray, FloatArray, FloatArray]:  # fmt: skip
+) -> tuple[Array, Array, Array]:  # fmt: skip
     """(cl, cd, cm) at a `mach` where the polar itself ends, from the polar at `base`; `alpha` [rad] within +-0.5."""
     growth = prandtl_glauert(mach, base)
     cap = lift_cap(mach, traits)
@@ -105,8 +104,8 @@ def corrected_polar(
 
 
 def capped_polar(
-    mach: float, alpha: FloatArray, cl: FloatArray, cd: FloatArray, cm: FloatArray, traits: SectionTraits
-) -> tuple[FloatArray, FloatArray, FloatArray]:
+    mach: float, alpha: Array, cl: Array, cd: Array, cm: Array, traits: SectionTraits
+) -> tuple[Array, Array, Array]:
     """(cl, cd, cm) of a native polar, its positive lift capped where XFOIL's own maximum is not believed."""
     if not traits.cap_native:
         return cl, cd, cm

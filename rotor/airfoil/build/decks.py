@@ -7,17 +7,15 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.airfoil.build.assemble import assemble_deck
-from rotor.airfoil.c81 import C81Deck
 from rotor.airfoil.build.compressibility import SectionTraits
+from rotor.airfoil.build.xfoil import XfoilCase, run_polar
+from rotor.airfoil.c81 import C81Deck
 from rotor.airfoil.contour import load_contour
 from rotor.airfoil.polars import Polar, PolarSet
 from rotor.airfoil.wrap import BLEND_END_DEG
-from rotor.airfoil.build.xfoil import XfoilCase, run_polar
-
-FloatArray = NDArray[np.float64]
+from rotor.arrays import Array
 
 TRIP = 0.05  # Transition at 5 % chord, both sides: free transition gives 16-35 % too little drag.
 NATIVE_MACHS = (0.1, 0.2, 0.3, 0.4)
@@ -121,7 +119,7 @@ def compare_decks(new: C81Deck, old: C81Deck) -> Difference:
     lift = np.abs(new.cl.values - old.cl.values)[near]
     drag = np.abs(new.cd.values / old.cd.values - 1.0)[near]
 
-    def where(difference: FloatArray) -> str:
+    def where(difference: Array) -> str:
         i, j = np.unravel_index(int(np.argmax(difference)), difference.shape)
         return f"{old.cl.alpha_deg[near[i]]:g} deg, Mach {old.cl.mach[j]:g}"
 

@@ -9,13 +9,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
-from rotor.airfoil.contour import load_contour
 from rotor.airfoil.build.xfoil import XfoilError, require_xfoil, run_commands
+from rotor.airfoil.contour import load_contour
+from rotor.arrays import Array
 from rotor.assets import asset_path
-
-FloatArray = NDArray[np.float64]
 
 _COLUMNS = "x,y,cp,cf"
 _PANELS, _ITERATIONS = 160, 200
@@ -52,15 +50,15 @@ class Pressure:
     cd: float
     cm: float
     """XFOIL's own, cm about the quarter chord."""
-    x: FloatArray
-    y: FloatArray
+    x: Array
+    y: Array
     """Surface points [chord], x aft along the chord line, y up."""
-    cp: FloatArray
-    cf: FloatArray
+    cp: Array
+    cf: Array
     """Skin friction over free-stream dynamic pressure, positive in the direction of the flow."""
 
     @property
-    def forces(self) -> FloatArray:
+    def forces(self) -> Array:
         """−Cp n dl of each panel [chord], (panels, 2): the arrows of figs. 2.3, 3.1 and 3.2 times their panel's length.
 
         A closed outline run from the upper trailing edge forward has its outward normal at (−dy, dx)/dl turned by the

@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 
 from rotor.airfoil.contour import Contour
-from rotor.airfoil.polars import FloatArray, Polar
+from rotor.airfoil.polars import Array, Polar
 
 # gfortran's run-time calls this to switch the traps on; an empty one in front of it leaves them off.
 _TRAP_SHIM = "void _gfortran_set_fpe(int mask) { (void)mask; }\n"
@@ -172,7 +172,7 @@ def _gaps(missing: Sequence[float], step: float) -> list[tuple[float, float]]:
 def run_polar(
     contour: Contour,
     case: XfoilCase,
-    alpha_deg: FloatArray,
+    alpha_deg: Array,
     report: Callable[[str], None] = lambda _message: None,
 ) -> Polar:
     """Polar of `contour` at the uniformly spaced angles `alpha_deg` [deg]; what never converges is left out.

@@ -7,5 +7,5 @@ from rotor.optimisation.concepts.concept import Handle as Handle
 from rotor.optimisation.concepts.concept import Parameter as Parameter
 from rotor.optimisation.concepts.concept import Values as Values
 from rotor.optimisation.concepts.concept import nearest as nearest
-from rotor.optimisation.concepts.variations import on_top as on_top
-from rotor.optimisation.concepts.variations import restrict as restrict
+from rotor.optimisation.concepts.concept import on_top as on_top
+from rotor.optimisation.concepts.concept import restrict as restrict

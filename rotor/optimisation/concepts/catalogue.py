@@ -3,10 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from rotor.optimisation.concepts.concept import Concept
-from rotor.optimisation.concepts.segments import SegmentsConcept
-from rotor.optimisation.concepts.smooth import FreeFormConcept, LinearConcept, QuadraticConcept
-from rotor.optimisation.concepts.variations import restrict
+from rotor.optimisation.concepts.concept import Concept, restrict
+from rotor.optimisation.concepts.families import FreeFormConcept, LinearConcept, QuadraticConcept, SegmentsConcept
 
 DIVISIONS = (0.4, 0.5, 0.6, 0.7)
 """The divisions of the document's two-segment blades (thesis §4.1.3)."""

@@ -1,8 +1,8 @@
-"""What a twist concept is: named parameters, the law they make, and how the law answers to each of them."""
+"""Twist concepts: named parameters, the law they make, its derivatives; restricted and added concepts."""
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Literal, Protocol
 
 import numpy as np
@@ -10,7 +10,7 @@ from scipy.optimize import least_squares
 
 from rotor.arrays import Array
 from rotor.design.design import Design
-from rotor.design.twist import TwistLaw
+from rotor.design.twist import SumTwist, TwistLaw
 
 Values = Sequence[float] | Array
 """Parameters of a concept in its order, SI."""
@@ -137,3 +137,125 @@ def nearest(concept: Concept, law: TwistLaw, root: float = 0.13) -> tuple[float,
 
     found = least_squares(gap, np.full(len(span), 0.5), jac=slope, bounds=(0.0, 1.0), xtol=1e-12)
     return tuple((low + span * np.clip(found.x, 0.0, 1.0)).tolist())
+
+
+@dataclass(frozen=True)
+class Restricted:
+    """A concept with some parameters held."""
+
+    base: Concept
+    fixed: tuple[tuple[str, float], ...]
+    name: str
+    title: str
+    explanation: str
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        held = dict(self.fixed)
+        return tuple(parameter for parameter in self.base.parameters if parameter.name not in held)
+
+    @property
+    def handles(self) -> tuple[Handle, ...]:
+        held = dict(self.fixed)
+        return tuple(handle for handle in self.base.handles if handle.parameter not in held)
+
+    @property
+    def rate_rows(self) -> tuple[tuple[float, ...], ...]:
+        return tuple(tuple(row[k] for k in self._free) for row in self.base.rate_rows)
+
+    def twist(self, values: Values) -> TwistLaw:
+        return self.base.twist(self._full(values))
+
+    def slopes(self, values: Values, r: Array) -> Array:
+        return self.base.slopes(self._full(values), r)[list(self._free)]
+
+    def apply(self, design: Design, values: Values) -> Design:
+        return self.base.apply(design, self._full(values))
+
+    @property
+    def _free(self) -> tuple[int, ...]:
+        held = dict(self.fixed)
+        return tuple(k for k, parameter in enumerate(self.base.parameters) if parameter.name not in held)
+
+    def _full(self, values: Values) -> list[float]:
+        held, free = dict(self.fixed), iter(values)
+        return [held[p.name] if p.name in held else float(next(free)) for p in self.base.parameters]
+
+
+@dataclass(frozen=True)
+class OnTop:
+    """A concept for the change that is added to a law that stays: what an actuator does to the blade as built."""
+
+    base: Concept
+    law: TwistLaw
+
+    @property
+    def name(self) -> str:
+        return self.base.name
+
+    @property
+    def title(self) -> str:
+        return f"{self.base.title}, on top"
+
+    @property
+    def explanation(self) -> str:
+        return f"Added to the twist of the blade as it is. {self.base.explanation}"
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        return self.base.parameters
+
+    @property
+    def handles(self) -> tuple[Handle, ...]:
+        return self.base.handles
+
+    @property
+    def rate_rows(self) -> tuple[tuple[float, ...], ...]:
+        """Rates of the change."""
+        return self.base.rate_rows
+
+    def twist(self, values: Values) -> TwistLaw:
+        return SumTwist(self.law, self.base.twist(values))
+
+    def slopes(self, values: Values, r: Array) -> Array:
+        return self.base.slopes(values, r)
+
+    def apply(self, design: Design, values: Values) -> Design:
+        return replace(self.base.apply(design, values), twist=self.twist(values))
+
+
+def on_top(concept: Concept, law: TwistLaw) -> Concept:
+    """The concept as a change of a law that stays."""
+    return OnTop(concept, law)
+
+
+def restrict(
+    concept: Concept,
+    fixed: Mapping[str, float],
+    *,
+    name: str | None = None,
+    title: str | None = None,
+    explanation: str | None = None,
+) -> Concept:
+    """The concept with some parameters held at values (SI); ValueError for a name or a value it cannot take."""
+    known = {parameter.name: parameter for parameter in concept.parameters}
+    name = name or concept.name
+    for key, value in fixed.items():
+        if key not in known:
+            raise ValueError(f"concept {name} has no parameter {key!r}: it has {', '.join(known)}")
+        low, high = known[key].low, known[key].high
+        if not low <= value <= high:
+            shown = known[key].shown
+            raise ValueError(
+                f"{key} {shown(value):g} of concept {name} is outside {shown(low):g}…{shown(high):g}: "
+                "choose a value inside"
+            )
+    if len(fixed) >= len(known):
+        raise ValueError(f"concept {name} has nothing left to vary: leave at least one parameter free")
+    return Restricted(
+        concept,
+        tuple(fixed.items()),
+        name,
+        title or concept.title,
+        explanation or concept.explanation,
+    )

@@ -7,14 +7,12 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.actuator.bill import addition, balance_mass
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.electrical import capacitance, drive, harmonic_drive
-from rotor.actuator.fitted import Fitted, fit
-from rotor.actuator.flap_bending import ELEMENTS, bend
 from rotor.actuator.harmonic import dynamic_twist
+from rotor.actuator.installation import InstalledActuator, addition, balance_mass, install
 from rotor.actuator.limits import limits
-from rotor.actuator.loads import fibre_strain
+from rotor.actuator.loads import ELEMENTS, bend, fibre_strain
 from rotor.actuator.placement import Host, Placement, default_placement
 from rotor.dynamics.structure import BladeStructure, uh60a_structure
 from rotor.dynamics.torsion_beam import torsion_beam, torsion_frequency, twist_under_moment
@@ -33,9 +31,9 @@ def uniform(gj: float = 7e4, inertia: float = 0.15, length: float = 6.0, gyratio
     )  # fmt: skip
 
 
-def mfc(plies: int = 2, host: Host | None = None, placement: Placement | None = None) -> Fitted:
+def mfc(plies: int = 2, host: Host | None = None, placement: Placement | None = None) -> InstalledActuator:
     rotor = uh60a_rotor("flight")
-    return fit(find_actuator("MFC_P1"), placement or default_placement(plies), host or Host(), rotor)
+    return install(find_actuator("MFC_P1"), placement or default_placement(plies), host or Host(), rotor)
 
 
 # Torsion
@@ -53,11 +51,11 @@ def test_rotating_twist_closed_form(gj: float):
 @pytest.mark.parametrize(("host", "taken"), [(Host(), 0.07), (Host("new", 0.5), 0.13)])
 def test_what_rotation_takes_off_the_twist(host: Host, taken: float):
     """The shares that docs/theory.md §17 states, by trapeze effect and propeller moment, with two plies."""
-    fitted = mfc(2, host)
-    low, high = (fitted.beam.r[-1] * end for end in fitted.placement.span)
-    moment = fitted.moment * np.diff(np.clip(fitted.beam.r, low, high)) / np.diff(fitted.beam.r)
-    still = torsion_beam(uh60a_structure(), 0.0, scale=host.stiffness, addition=fitted.added)
-    share = 1.0 - fitted.attainable / twist_under_moment(still, moment)[-1]
+    installed = mfc(2, host)
+    low, high = (installed.beam.r[-1] * end for end in installed.placement.span)
+    moment = installed.moment * np.diff(np.clip(installed.beam.r, low, high)) / np.diff(installed.beam.r)
+    still = torsion_beam(uh60a_structure(), 0.0, scale=host.stiffness, addition=installed.added)
+    share = 1.0 - installed.attainable / twist_under_moment(still, moment)[-1]
     assert_allclose(share, taken, atol=0.006)
 
 
@@ -123,32 +121,36 @@ def test_worked_example(kind: str, share: float, plies: int, tip: float, mass: f
 
     So ours untwists more (8 % on the softest blade), and the added inertia counts about the quarter chord (6 %).
     """
-    fitted = mfc(plies, Host("retrofit" if kind == "retrofit" else "new", share))
-    assert_allclose(fitted.bill.actuator, mass, rtol=0.01)
+    installed = mfc(plies, Host("retrofit" if kind == "retrofit" else "new", share))
+    assert_allclose(installed.masses.actuator, mass, rtol=0.01)
     bare = addition(
-        fitted.bill, fitted.placement, uh60a_structure(), fitted.section_stiffness - share * 69760.0, balance=False
+        installed.masses,
+        installed.placement,
+        uh60a_structure(),
+        installed.section_stiffness - share * 69760.0,
+        balance=False,
     )
     beam = torsion_beam(uh60a_structure(), SPEED, scale=share, addition=bare)
-    moment = np.where((beam.centres > bare.span[0]) & (beam.centres < bare.span[1]), fitted.moment, 0.0)
+    moment = np.where((beam.centres > bare.span[0]) & (beam.centres < bare.span[1]), installed.moment, 0.0)
     assert_allclose(math.degrees(twist_under_moment(beam, moment)[-1]), tip, rtol=0.05 if share >= 0.9 else 0.08)
     assert_allclose(torsion_frequency(beam), frequency, rtol=0.06)
-    assert fitted.attainable < math.radians(tip) * 1.01
+    assert installed.attainable < math.radians(tip) * 1.01
 
 
 def test_four_degrees_take_870_newton_metres():
     """GJ θ' over the active span: 4° over 5.61 m is 868 N·m, 30 J."""
-    fitted = mfc(2)
+    installed = mfc(2)
     length = (0.9292 - 0.2433) * 8.1788
     moment = 69760.0 * math.radians(4.0) / length
     assert_allclose(moment, 868.0, rtol=0.01)
     assert_allclose(0.5 * moment * math.radians(4.0), 30.0, rtol=0.02)
-    assert_allclose(fitted.attainable, fitted.moment / fitted.section_stiffness * length, rtol=0.10)
+    assert_allclose(installed.attainable, installed.moment / installed.section_stiffness * length, rtol=0.10)
 
 
 def test_one_tube_of_shape_memory():
     """395 N·m on the flown blade: 4° take about 2.2 tubes."""
-    fitted = fit(find_actuator("SMA_tube"), default_placement(1), Host("new", 1.0), uh60a_rotor("flight"))
-    assert_allclose(math.radians(4.0) / fitted.attainable, 2.2, rtol=0.10)
+    installed = install(find_actuator("SMA_tube"), default_placement(1), Host("new", 1.0), uh60a_rotor("flight"))
+    assert_allclose(math.radians(4.0) / installed.attainable, 2.2, rtol=0.10)
 
 
 def test_segments_add_up():
@@ -172,11 +174,11 @@ def test_stiffness_comes_at_the_price_of_twist():
 
 def test_dynamic_answer():
     """2/rev of a blade at 4.6/rev: half the range, times about 1/(1 − (2/4.6)²); heat cannot follow."""
-    fitted = mfc(2)
-    made = dynamic_twist(fitted, 2)
-    assert_allclose(made.static, 0.5 * fitted.attainable, rtol=1e-9)
-    assert_allclose(made.amplitude / made.static, 1.0 / (1.0 - (2.0 / fitted.frequency) ** 2), rtol=0.05)
-    tube = fit(find_actuator("SMA_tube"), default_placement(1), Host(), uh60a_rotor("flight"))
+    installed = mfc(2)
+    made = dynamic_twist(installed, 2)
+    assert_allclose(made.static, 0.5 * installed.attainable, rtol=1e-9)
+    assert_allclose(made.amplitude / made.static, 1.0 / (1.0 - (2.0 / installed.frequency) ** 2), rtol=0.05)
+    tube = install(find_actuator("SMA_tube"), default_placement(1), Host(), uh60a_rotor("flight"))
     assert dynamic_twist(tube, 1).amplitude == 0.0
 
 
@@ -216,11 +218,11 @@ def test_flap_bending_without_pull_to_relieve_it():
 
 def test_fibre_strain_from_pull():
     """½ F_c/EA (1 − ν) at 45°: 750 µε at 2 m with the axial stiffness of the section, before plies weigh on it."""
-    fitted = mfc(1)
-    strain = fibre_strain(fitted)
+    installed = mfc(1)
+    strain = fibre_strain(installed)
     assert_allclose(strain.centrifugal[0], 0.5 * 285e3 / 1.33e8 * (1.0 - 0.31), rtol=0.25)
     assert_allclose(strain.flap, 0.0, atol=0.0)
-    flown = fibre_strain(fitted, solve(make_design(mu=0.3)).require())
+    flown = fibre_strain(installed, solve(make_design(mu=0.3)).require())
     assert 50e-6 < flown.flap.max() < 400e-6
 
 
@@ -235,20 +237,20 @@ def test_nose_weight():
 
 def test_capacitance_and_power():
     """One ply: 4.47 m², 13.4 µF; 2000 V in 10 s takes 27 J a blade; 2/rev at full swing 362 VA, 72 W (by hand)."""
-    fitted = mfc(1)
-    assert_allclose(fitted.skin_area, 4.47, rtol=0.01)
-    assert_allclose(capacitance(fitted), 13.4e-6, rtol=0.01)
-    moved = drive(fitted, (1.0,))
+    installed = mfc(1)
+    assert_allclose(installed.skin_area, 4.47, rtol=0.01)
+    assert_allclose(capacitance(installed), 13.4e-6, rtol=0.01)
+    moved = drive(installed, (1.0,))
     assert_allclose(moved.slew_power * 0.8 / 4.0, 2.7, rtol=0.01)
-    turned = harmonic_drive(fitted, 2.0, 1.0, SPEED)
+    turned = harmonic_drive(installed, 2.0, 1.0, SPEED)
     assert_allclose([turned.reactive, turned.loss], [362.0, 72.0], rtol=0.01)
 
 
 # Limits
 
 
-def broken(fitted: Fitted, swing: float = 1.0) -> set[str]:
-    return {limit.name for limit in limits(fitted, (swing,)) if not limit.ok}
+def broken(installed: InstalledActuator, swing: float = 1.0) -> set[str]:
+    return {limit.name for limit in limits(installed, (swing,)) if not limit.ok}
 
 
 def test_limits_speak():
@@ -261,8 +263,8 @@ def test_limits_speak():
     assert "space" in broken(mfc(4))
     assert "torsion-least" in broken(mfc(2, Host("new", 0.25)))
     rotor = uh60a_rotor("flight")
-    assert "space" in broken(fit(find_actuator("SMA_tube"), default_placement(2), Host(), rotor))
-    heat = fit(find_actuator("MFC_P1_HT"), default_placement(1), Host(), rotor)
+    assert "space" in broken(install(find_actuator("SMA_tube"), default_placement(2), Host(), rotor))
+    heat = install(find_actuator("MFC_P1_HT"), default_placement(1), Host(), rotor)
     assert "temperature" not in broken(heat)
 
 

@@ -7,7 +7,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.actuator.catalogue import PiezoPly, actuators, derating, find_actuator
-from rotor.actuator.electrodes import (
+from rotor.actuator.electrical import (
     deformed_sheet,
     electric_field,
     field_map,

@@ -1,4 +1,4 @@
-"""Would it pay: required, reached, carried, said; and the command."""
+"""Would it pay: required and attainable twist, net saving, the sentence, and the command."""
 
 import json
 import math
@@ -11,20 +11,18 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.__main__ import main
-from rotor.actuator.baseline import baseline
 from rotor.actuator.catalogue import find_actuator
-from rotor.actuator.fitted import fit
+from rotor.actuator.installation import install
 from rotor.actuator.limits import limits
-from rotor.actuator.pictures import need_and_reach, section_picture, twist_under_voltage
+from rotor.actuator.optimum import STATIONS, ConditionPair, baseline, best_actuated, twisted
+from rotor.actuator.pictures import section_picture, twist_comparison, twist_under_voltage
 from rotor.actuator.placement import Host, default_placement
-from rotor.actuator.reach import STATIONS, Pair, best_reach, twisted
 from rotor.actuator.tables import table_5_1, verdict_table
-from rotor.actuator.verdict import Verdict, change_limit, judge
-from rotor.actuator.wording import headline, verdict_sentence
+from rotor.actuator.verdict import Verdict, change_limit, headline, judge, verdict_sentence
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.limits import Limits
-from rotor.optimisation.search import Search, optimise
+from rotor.optimisation.search import Search, run_search
 from rotor.trim.solve import solve
 
 KEYS = [
@@ -37,10 +35,10 @@ CONCEPTS = ["linear", pytest.param("two-segment", marks=pytest.mark.slow)]
 
 
 @cache
-def pair(preset: str = "flight") -> Pair:
+def pair(preset: str = "flight") -> ConditionPair:
     design = make_design(preset=preset)
     coarse = replace(design.models, elements=16, azimuths=36)
-    return Pair(replace(design, models=coarse), (0.0, 0.3))
+    return ConditionPair(replace(design, models=coarse), (0.0, 0.3))
 
 
 @cache
@@ -54,7 +52,7 @@ def test_baseline_against_the_optimiser():
     """Two codes for one optimum: the search of `optimise` finds no better linear twist at either condition."""
     base = baseline(pair(), find_concept("linear"))
     for design, best in zip(pair().designs(), base.best, strict=True):
-        found = optimise(Search(design, find_concept("linear"), starts=2, band=False))
+        found = run_search(Search(design, find_concept("linear"), starts=2, band=False))
         assert found.best is not None
         assert_allclose(best.power, found.best.power, rtol=1e-5)
 
@@ -63,9 +61,9 @@ def test_baseline_against_the_optimiser():
 def test_reached_against_brute_force():
     """Linear jig and one swing on a grid: nothing on it is better, and the neighbours are barely worse."""
     judged = verdict()
-    shapes = np.interp(STATIONS, judged.fitted.r, judged.fitted.shapes[0])
-    jig = judged.reached.values[0]
-    swing = judged.reached.swings[1][0]
+    shapes = np.interp(STATIONS, judged.installed.r, judged.installed.shapes[0])
+    jig = judged.optimum.values[0]
+    swing = judged.optimum.swings[1][0]
     least = math.inf
     for rate in jig + np.radians([-1.0, 0.0, 1.0]):
         law = find_concept("linear").twist([rate])
@@ -76,7 +74,7 @@ def test_reached_against_brute_force():
                 solve(replace(second, twist=twisted(law, v * shapes))).power.total,
             ]
             least = min(least, float(np.mean(power)))
-    assert_allclose(judged.reached.power, least, rtol=2e-5)
+    assert_allclose(judged.optimum.power, least, rtol=2e-5)
 
 
 @pytest.mark.slow
@@ -91,8 +89,8 @@ def test_moving_beats_fixed_before_it_is_carried(concept: str):
 @pytest.mark.slow
 def test_more_reach_saves_more():
     linear = find_concept("linear")
-    fitted = verdict().fitted
-    powers = [best_reach(pair(), linear, fitted, derating=share).power for share in (0.0, 0.1, 0.3, 1.0)]
+    installed = verdict().installed
+    powers = [best_actuated(pair(), linear, installed, derating=share).power for share in (0.0, 0.1, 0.3, 1.0)]
     assert all(a >= b - 0.5 for a, b in pairwise(powers))
     assert_allclose(powers[0], verdict().baseline.fixed.power, rtol=1e-6)
 
@@ -103,7 +101,7 @@ def test_voltages_stay_in_range_and_make_the_change(kind: str, concept: str):
     judged = verdict(concept=concept, kind=kind)
     assert len(judged.voltages) == (1 if concept == "linear" else 2)
     for (a, b), change, twist in zip(
-        judged.voltages, judged.attained_segments, judged.fitted.segment_twists, strict=True
+        judged.voltages, judged.attained_segments, judged.installed.segment_twists, strict=True
     ):
         assert min(a, b) >= -500.0 - 1e-6
         assert max(a, b) <= 1500.0 + 1e-6
@@ -113,9 +111,9 @@ def test_voltages_stay_in_range_and_make_the_change(kind: str, concept: str):
 def test_mass_costs_induced_power():
     """ΔP/P ≈ 1.5 (P_i/P) Δm/m, mean of both conditions, plus a little for profile and tail."""
     judged = verdict()
-    share = judged.fitted.bill.aircraft / pair().design.condition.mass
-    induced = np.mean([solution.power.induced for solution in judged.reached.solutions])
-    cost = judged.carried_power - judged.reached.power
+    share = judged.installed.masses.aircraft / pair().design.condition.mass
+    induced = np.mean([solution.power.induced for solution in judged.optimum.solutions])
+    cost = judged.net_power - judged.optimum.power
     assert 1.0 < cost / (1.5 * induced * share) < 1.6
 
 
@@ -152,7 +150,7 @@ def test_headline_and_sentence_count_from_one_blade(kind: str):
     fixed = np.mean([solve(design).power.total for design in pair().designs()])
     if kind == "new":
         fixed = judged.baseline.fixed.power
-    assert_allclose(judged.gross_saving, fixed - judged.reached.power, atol=1e-6)
+    assert_allclose(judged.gross_saving, fixed - judged.optimum.power, atol=1e-6)
     assert_allclose(judged.ideal_saving, fixed - judged.baseline.ideal_power, atol=1e-6)
     blade = "the twist as built" if kind == "retrofit" else "the best fixed twist"
     sentence = verdict_sentence(judged)
@@ -165,13 +163,13 @@ def test_headline_and_sentence_count_from_one_blade(kind: str):
 def test_headlines():
     judged = verdict()
     buildable = tuple(replace(limit, ok=True) for limit in judged.limits)
-    reference_power = judged.carried_power + 2500.0
+    reference_power = judged.net_power + 2500.0
     good = replace(judged, reference_power=reference_power, limits=buildable)
     assert headline(good) == "Net benefit: saves 2.5 kW vs. the best fixed twist."
     stopped = tuple(replace(limit, ok=limit.name != "temperature") for limit in judged.limits)
     assert headline(replace(good, limits=stopped)).startswith("Cannot be built: it would save 2.5 kW")
-    assert headline(replace(good, reference_power=judged.carried_power)).startswith("No net benefit: saves as much as")
-    assert headline(replace(good, reference_power=judged.carried_power - 2500.0)).startswith(
+    assert headline(replace(good, reference_power=judged.net_power)).startswith("No net benefit: saves as much as")
+    assert headline(replace(good, reference_power=judged.net_power - 2500.0)).startswith(
         "No net benefit: costs 2.5 kW vs. "
     )
 
@@ -179,13 +177,13 @@ def test_headlines():
 def test_limits_say_what_they_found():
     """Kept or broken, one sentence holds; a sheet that cannot shear is not asked for millions of volts."""
     rotor = pair().design.rotor
-    thick = fit(find_actuator("MFC_P1"), default_placement(1), Host(), rotor)
+    thick = install(find_actuator("MFC_P1"), default_placement(1), Host(), rotor)
     said = {limit.name: limit for limit in limits(thick, (0.5,))}
     assert said["fibre-strain"].ok
     assert "follows linearly up to 1000" in said["fibre-strain"].sentence
-    assert "Plies a side: 1;" in said["space"].sentence
+    assert "Plies per side: 1," in said["space"].sentence
     assert "a swing of 1000 V" in said["voltage"].sentence
-    patch = fit(find_actuator("PZT5A"), default_placement(1), Host(), rotor)
+    patch = install(find_actuator("PZT5A"), default_placement(1), Host(), rotor)
     said = {limit.name: limit for limit in limits(patch, (5e4,))}
     assert "beyond any voltage" in said["voltage"].sentence
     assert not said["voltage"].ok
@@ -207,8 +205,8 @@ def test_limit_for_the_optimiser():
     judged = verdict()
     design = pair().designs()[1]
     reference = find_concept("linear").twist([math.radians(-20.0)])
-    limit = change_limit(judged.fitted, reference, derated=True)
-    found = optimise(Search(design, find_concept("linear"), limits=Limits(change=limit), starts=1, band=False))
+    limit = change_limit(judged.installed, reference, derated=True)
+    found = run_search(Search(design, find_concept("linear"), limits=Limits(change=limit), starts=1, band=False))
     assert found.best is not None
     root = design.rotor.blade.root_cutout
     law = find_concept("linear").twist(found.best.parameters)
@@ -221,19 +219,19 @@ def test_limit_for_the_optimiser():
 
 def test_pictures():
     judged = verdict()
-    picture = section_picture(judged.fitted)
+    picture = section_picture(judged.installed)
     assert {part.role for part in picture.parts} == {"outline", "skin", "web", "ply"}
     assert all(np.isfinite(part.points).all() and part.points.shape[1] == 2 for part in picture.parts)
     ply = next(part for part in picture.parts if part.role == "ply").points
     x, y = ply.T
     area = 0.5 * abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
     assert_allclose(area, 0.4 * 0.6e-3, rtol=0.02)  # 0.75 c of one skin, two plies.
-    curve = twist_under_voltage(judged.fitted, (1500.0,))
-    assert_allclose(curve.twist[-1], 0.75 * judged.fitted.shapes[0, -1], rtol=1e-6)
+    curve = twist_under_voltage(judged.installed, (1500.0,))
+    assert_allclose(curve.twist[-1], 0.75 * judged.installed.shapes[0, -1], rtol=1e-6)
     assert np.all(np.abs(curve.twist) <= curve.limit + 1e-12)
     with pytest.raises(ValueError, match="voltage 1600"):
-        twist_under_voltage(judged.fitted, (1600.0,))
-    chart = need_and_reach(judged)
+        twist_under_voltage(judged.installed, (1600.0,))
+    chart = twist_comparison(judged)
     assert_allclose(chart.required[-1], judged.required_segments.sum(), rtol=1e-6)
     assert chart.attained.shape == chart.r.shape
 
@@ -318,7 +316,7 @@ def test_bad_input_is_exit_2(arguments: list[str], words: str, capsys: pytest.Ca
 
 def test_reached_twist_can_be_flown_again():
     """The SPEC of a reached twist is read by every other command, and takes the same power."""
-    solution = verdict().reached.solutions[1]
+    solution = verdict().optimum.solutions[1]
     spec = solution.design.twist.spec()
     again = make_design(twist=spec, mu=0.3, models=solution.design.models)
     assert_allclose(solve(again).power.total, solution.power.total, rtol=1e-7)

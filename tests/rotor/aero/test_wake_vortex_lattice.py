@@ -12,7 +12,7 @@ from rotor.aero.inflow.interface import Wake
 from rotor.aero.inflow.vortex_lattice import Lattice
 from rotor.aero.inflow.vortex_wake import transfer
 from rotor.aero.momentum import glauert_inflow
-from rotor.analysis.ideal_circulation import least_induced_power
+from rotor.analysis.ideal_bound import least_induced_power
 
 
 @pytest.mark.slow

@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 
 from rotor.aero.inflow.interface import Wake
 from rotor.aero.inflow.vortex_lattice import Lattice
-from rotor.analysis.ideal_circulation import (
+from rotor.analysis.ideal_bound import (
     BOUND_LATTICE,
     InducedPower,
     LinearBlade,

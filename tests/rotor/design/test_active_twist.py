@@ -11,8 +11,8 @@ from numpy.testing import assert_allclose
 
 from rotor.__main__ import main
 from rotor.actuator.catalogue import find_actuator
-from rotor.actuator.fitted import fit
 from rotor.actuator.harmonic import phase_sweep
+from rotor.actuator.installation import install
 from rotor.actuator.placement import Host, default_placement
 from rotor.aero.elements import lay_out, run_pass
 from rotor.aero.sums import slopes
@@ -88,8 +88,8 @@ def test_it_rests_in_hover():
 def test_twice_per_revolution_pays_at_high_speed():
     """Published: 1–2 % (wind tunnel) to 3.3 % (computed, ±4°); a degree of 2/rev should give about a per cent."""
     design = make_design(mu=0.35)
-    fitted = fit(find_actuator("MFC_P1"), default_placement(2), Host(), design.rotor)
-    swept = phase_sweep(design, fitted, 2)
+    installed = install(find_actuator("MFC_P1"), default_placement(2), Host(), design.rotor)
+    swept = phase_sweep(design, installed, 2)
     share = swept.gross_saving / swept.still.power.total
     assert 0.005 < share < 0.03
     assert swept.best.design.active_twist is not None
@@ -100,8 +100,8 @@ def test_twice_per_revolution_pays_at_high_speed():
 @pytest.mark.slow
 def test_it_begins_to_pay_with_speed():
     """Net of its mass 2/rev loses at low speed and gains at high speed, as the literature has it."""
-    fitted = fit(find_actuator("MFC_P1_HT"), default_placement(1), Host(), make_design().rotor)
-    slow, fast = (phase_sweep(make_design(mu=mu), fitted, 2) for mu in (0.15, 0.35))
+    installed = install(find_actuator("MFC_P1_HT"), default_placement(1), Host(), make_design().rotor)
+    slow, fast = (phase_sweep(make_design(mu=mu), installed, 2) for mu in (0.15, 0.35))
     assert slow.net_saving is not None
     assert fast.net_saving is not None
     assert slow.net_saving < 0.0 < fast.net_saving

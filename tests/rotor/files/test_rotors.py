@@ -18,7 +18,7 @@ from rotor.files.design_file import case_of, design_of
 from rotor.files.rotor_file import find_aircraft, read_aircraft, shipped_aircraft
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.objective import at_condition
-from rotor.optimisation.search import Search, optimise
+from rotor.optimisation.search import Search, run_search
 from rotor.trim.solve import solve
 
 OTHERS = SHIPPED_ROTORS[1:]
@@ -133,7 +133,7 @@ def test_a_linear_optimum_of_another_rotor(key: str):
     search = Search(
         design=design, concept=find_concept("linear"), objective=at_condition(design, "total"), starts=1, band=False
     )
-    found = optimise(search)
+    found = run_search(search)
     assert found.best is not None
     assert found.baseline_power is not None
     assert 0.97 * found.baseline_power < found.best.power <= found.baseline_power * (1.0 + 1e-9)

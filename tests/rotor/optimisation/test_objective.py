@@ -12,9 +12,15 @@ from rotor.design.design import Design
 from rotor.design.flight import FlightCondition
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
-from rotor.optimisation.mission import read_mission
-from rotor.optimisation.objective import Leg, Objective, at_condition, hover_and_cruise, measure
-from rotor.optimisation.stall_limit import stalled_share
+from rotor.optimisation.limits import stalled_share
+from rotor.optimisation.objective import (
+    Objective,
+    WeightedCondition,
+    at_condition,
+    hover_and_cruise,
+    measure,
+    read_mission,
+)
 from rotor.trim import newton
 from rotor.trim.adjoint import Adjoint
 from rotor.trim.solve import solve
@@ -30,7 +36,9 @@ def test_mission_is_the_mean_by_hours():
     design = small(0.2)
     conditions = (FlightCondition(0.0, 8000.0), FlightCondition(0.25, 7500.0, 1000.0))
     powers = [solve(replace(design, condition=condition)).power.total for condition in conditions]
-    made = measure(Objective("total", (Leg(conditions[0], 1.0), Leg(conditions[1], 3.0))), design)
+    made = measure(
+        Objective("total", (WeightedCondition(conditions[0], 1.0), WeightedCondition(conditions[1], 3.0))), design
+    )
     assert made.power is not None
     assert_allclose(made.power, (powers[0] + 3.0 * powers[1]) / 4.0, rtol=1e-9)
 
@@ -38,18 +46,18 @@ def test_mission_is_the_mean_by_hours():
 def test_hover_and_cruise():
     design = small(0.2)
     mixed = hover_and_cruise(design, 0.25, 0.3)
-    assert [leg.condition.advance_ratio for leg in mixed.legs] == [0.0, 0.3]
+    assert [condition.flight.advance_ratio for condition in mixed.conditions] == [0.0, 0.3]
     assert_allclose(mixed.shares, (0.25, 0.75))
-    assert len(hover_and_cruise(design, 0.0, 0.3).legs) == 1
+    assert len(hover_and_cruise(design, 0.0, 0.3).conditions) == 1
     with pytest.raises(ValueError, match=r"hover share 1\.5"):
         hover_and_cruise(design, 1.5, 0.3)
 
 
 def test_what_does_not_trim_has_no_power():
-    """No zero, no NaN: None, and the sentence of the leg that failed."""
+    """No zero, no NaN: None, and the sentence of the condition that failed."""
     design = small(0.2)
-    legs = (Leg(design.condition), Leg(FlightCondition(0.0, 20000.0, 4000.0)))
-    made = measure(Objective("total", legs), design)
+    conditions = (WeightedCondition(design.condition), WeightedCondition(FlightCondition(0.0, 20000.0, 4000.0)))
+    made = measure(Objective("total", conditions), design)
     assert made.power is None
     assert made.by_pitch is None
     assert "lower the weight" in made.message
@@ -89,9 +97,9 @@ def test_mission_file(tmp_path: Path):
     path = tmp_path / "mission.csv"
     path.write_text(MISSION)
     first, second, third = read_mission(path, make_design(mass_kg=8000.0, altitude_m=200.0))
-    assert (first.condition.advance_ratio, first.condition.mass, first.hours) == (0.0, 9000.0, 0.5)
-    assert (second.condition.mass, second.condition.altitude, second.hours) == (8000.0, 1500.0, 2.0)
-    assert (third.condition.advance_ratio, third.condition.altitude, third.hours) == (0.3, 200.0, 1.0)
+    assert (first.flight.advance_ratio, first.flight.mass, first.hours) == (0.0, 9000.0, 0.5)
+    assert (second.flight.mass, second.flight.altitude, second.hours) == (8000.0, 1500.0, 2.0)
+    assert (third.flight.advance_ratio, third.flight.altitude, third.hours) == (0.3, 200.0, 1.0)
 
 
 @pytest.mark.parametrize(
@@ -99,7 +107,7 @@ def test_mission_file(tmp_path: Path):
     [
         (None, "does not exist"),
         ("", "is empty"),
-        ("mu,hours\n", "no legs"),
+        ("mu,hours\n", "no conditions"),
         ("speed,hours\n0.2,1\n", "line 1 reads 'speed,hours'"),
         ("mass_kg\n8000\n", "of which mu is needed"),
         ("mu,hours\n0.2,1\nfast,1\n", "line 3: mu is 'fast'"),
@@ -119,7 +127,7 @@ def test_mission_file_errors(tmp_path: Path, text: str | None, words: str):
 
 def test_objective_errors():
     with pytest.raises(ValueError, match="'shaft' is not known"):
-        Objective("shaft", (Leg(FlightCondition(0.2, 8000.0)),))  # pyright: ignore[reportArgumentType]
-    with pytest.raises(ValueError, match="at least one leg"):
+        Objective("shaft", (WeightedCondition(FlightCondition(0.2, 8000.0)),))  # pyright: ignore[reportArgumentType]
+    with pytest.raises(ValueError, match="at least one condition"):
         Objective("total", ())
     assert math.isclose(sum(at_condition(make_design()).shares), 1.0)

@@ -15,8 +15,17 @@ from rotor.design.flight import FlightCondition
 from rotor.design.twist import LinearTwist
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS, find_concept
-from rotor.optimisation.objective import Leg, Objective, at_condition, measure
-from rotor.optimisation.search import ChangeLimit, Ended, Limits, Optimum, Progress, Search, optimise, reach
+from rotor.optimisation.objective import Objective, WeightedCondition, at_condition, measure
+from rotor.optimisation.search import (
+    ChangeLimit,
+    Limits,
+    Optimum,
+    Progress,
+    Search,
+    SearchStatus,
+    even_change_limit,
+    run_search,
+)
 from rotor.trim.solve import solve
 
 DEGREE = math.radians(1.0)
@@ -45,8 +54,8 @@ def test_grid_finds_nothing_better_in_one_variable(mu: float):
     design = small(mu)
     rates = np.radians(np.arange(-30.0, 10.1, 2.0))
     powers = grid_powers(design, "linear", rates)
-    found = optimise(Search(design, CONCEPTS["linear"], band=False))
-    assert found.status is Ended.CONVERGED
+    found = run_search(Search(design, CONCEPTS["linear"], band=False))
+    assert found.status is SearchStatus.CONVERGED
     assert found.best is not None
     assert found.best.power <= powers.min() * (1.0 + 1e-6)
     assert abs(found.best.parameters[0] - rates[powers.argmin()]) < 2.0 * DEGREE
@@ -61,7 +70,7 @@ def test_grid_finds_nothing_better_in_two_variables():
     design = small(0.25)
     axis = np.radians(np.arange(-30.0, 10.1, 4.0))
     powers = grid_powers(design, "two-segment", axis, axis)
-    found = optimise(Search(design, CONCEPTS["two-segment"], band=False))
+    found = run_search(Search(design, CONCEPTS["two-segment"], band=False))
     assert found.best is not None
     assert found.best.power <= powers.min() * (1.0 + 1e-6)
     assert_allclose(found.best.power, powers.min(), rtol=2e-3)
@@ -73,13 +82,13 @@ def test_fine_grid_finds_nothing_better(mu: float):
     design = make_design(mu=mu)
     rates = np.radians(np.arange(-30.0, 10.01, 0.1))
     powers = grid_powers(design, "linear", rates)
-    linear = optimise(Search(design, CONCEPTS["linear"]))
+    linear = run_search(Search(design, CONCEPTS["linear"]))
     assert linear.best is not None
     assert linear.best.power <= powers.min() * (1.0 + 1e-7)
     assert_allclose(linear.best.power, powers.min(), rtol=1e-5)
     axis = np.radians(np.arange(-30.0, 10.1, 1.0))
     powers = grid_powers(design, "two-segment", axis, axis)
-    two = optimise(Search(design, CONCEPTS["two-segment"], starts=8))
+    two = run_search(Search(design, CONCEPTS["two-segment"], starts=8))
     assert two.best is not None
     assert two.best.power <= powers.min() * (1.0 + 1e-7)
     assert_allclose(two.best.power, powers.min(), rtol=1e-4)
@@ -93,7 +102,7 @@ def test_fine_grid_finds_nothing_better(mu: float):
 
 def test_band_in_one_variable_is_where_the_power_is_a_thousandth_higher():
     design = small(0.25)
-    found = optimise(Search(design, CONCEPTS["linear"], starts=2))
+    found = run_search(Search(design, CONCEPTS["linear"], starts=2))
     assert found.best is not None
     (band,) = found.band
     assert band.low < found.best.parameters[0] < band.high
@@ -106,7 +115,7 @@ def test_band_in_one_variable_is_where_the_power_is_a_thousandth_higher():
 def test_band_in_two_variables_on_a_grid():
     """Along one parameter the other is free: the grid's points inside the band reach as far, to a grid step."""
     design = small(0.3)
-    found = optimise(Search(design, CONCEPTS["two-segment"], starts=2))
+    found = run_search(Search(design, CONCEPTS["two-segment"], starts=2))
     assert found.best is not None
     inner, outer = np.radians(np.arange(-14.0, 10.1, 2.0)), np.radians(np.arange(-18.0, -10.9, 1.0))
     inside = grid_powers(design, "two-segment", inner, outer) <= 1.001 * found.best.power
@@ -126,9 +135,9 @@ def same(a: Optimum, b: Optimum) -> bool:
 @pytest.mark.slow
 def test_seed_decides_everything():
     search = Search(small(0.2), CONCEPTS["two-segment"], starts=3, seed=4)
-    assert same(optimise(search), optimise(pickle.loads(pickle.dumps(search))))
-    other = optimise(replace(search, seed=5))
-    first = optimise(search)
+    assert same(run_search(search), run_search(pickle.loads(pickle.dumps(search))))
+    other = run_search(replace(search, seed=5))
+    first = run_search(search)
     assert other.best is not None
     assert first.best is not None
     assert_allclose(other.best.power, first.best.power, rtol=1e-6)  # The same minimum from elsewhere.
@@ -139,7 +148,7 @@ def test_many_starts_end_in_one_minimum_and_richer_concepts_do_better():
     design = small(0.25)
     powers = {}
     for name in ("linear", "quadratic", "two-segment", "two-segment-free", "free-form"):
-        found = optimise(Search(design, CONCEPTS[name], starts=4, band=False))
+        found = run_search(Search(design, CONCEPTS[name], starts=4, band=False))
         assert found.best is not None
         powers[name] = found.best.power
         assert found.minima[0] == found.best
@@ -154,10 +163,10 @@ def test_bounds_rate_and_change_limits_hold():
     for limits, active in (
         (Limits(bounds=(("rate", -6 * DEGREE, 2 * DEGREE),)), "rate low"),
         (Limits(rate=(-5 * DEGREE, 0.0)), "rate"),
-        (Limits(change=reach(design.twist, 2.0 * DEGREE)), "change"),
+        (Limits(change=even_change_limit(design.twist, 2.0 * DEGREE)), "change"),
     ):
-        found = optimise(Search(design, CONCEPTS["linear"], limits=limits, starts=2))
-        assert found.status is Ended.CONVERGED
+        found = run_search(Search(design, CONCEPTS["linear"], limits=limits, starts=2))
+        assert found.status is SearchStatus.CONVERGED
         assert found.best is not None
         assert active in found.best.active
     # The optimum lies beyond −11°/R; two degrees from the cut-out (0.1304 R) to the tip are 2/0.8696 = 2.3 °/R.
@@ -172,7 +181,7 @@ def test_rate_limit_holds_on_every_segment_and_along_a_spline():
     limits = Limits(rate=(-15 * DEGREE, -5 * DEGREE))
     for name in ("three-segment", "free-form"):
         concept = CONCEPTS[name]
-        found = optimise(Search(design, concept, limits=limits, starts=2, band=False))
+        found = run_search(Search(design, concept, limits=limits, starts=2, band=False))
         assert found.best is not None
         rates = np.degrees(np.array(concept.rate_rows) @ found.best.parameters)
         assert rates.min() >= -15.0 - 0.01
@@ -183,7 +192,7 @@ def test_change_limit_may_vary_along_the_blade():
     """Nothing may move inboard of 0.6 R, a degree at the tip."""
     design = small(0.25, "linear:-8")
     limit = ChangeLimit(design.twist, (0.6, 1.0), (0.0, DEGREE))
-    found = optimise(Search(design, find_concept("two-segment", [0.6]), limits=Limits(change=limit), starts=2))
+    found = run_search(Search(design, find_concept("two-segment", [0.6]), limits=Limits(change=limit), starts=2))
     assert found.best is not None
     change = found.design.twist(np.linspace(0.14, 1.0, 44)) - design.twist(np.linspace(0.14, 1.0, 44))
     change -= change[0]
@@ -194,11 +203,11 @@ def test_change_limit_may_vary_along_the_blade():
 def test_stalled_area_limit_holds():
     """At µ 0.36 the best linear twist leaves more of the disk stalled than the limit; the limit costs power."""
     design = small(0.36)
-    free = optimise(Search(design, CONCEPTS["two-segment"], starts=2, band=False))
+    free = run_search(Search(design, CONCEPTS["two-segment"], starts=2, band=False))
     assert free.best is not None
     counted = measure(at_condition(design), free.design, stall=True).stalled[0]
     limit = 0.9 * counted
-    held = optimise(Search(design, CONCEPTS["two-segment"], limits=Limits(stalled=limit), starts=3, band=False))
+    held = run_search(Search(design, CONCEPTS["two-segment"], limits=Limits(stalled=limit), starts=3, band=False))
     assert held.best is not None
     assert "stalled area" in held.best.active
     assert measure(at_condition(design), held.design, stall=True).stalled[0] <= limit + 2e-5
@@ -207,7 +216,7 @@ def test_stalled_area_limit_holds():
 
 def test_progress_tells_every_evaluation_and_the_best_never_rises():
     heard: list[Progress] = []
-    found = optimise(Search(small(0.2), CONCEPTS["two-segment"], starts=3), heard.append)
+    found = run_search(Search(small(0.2), CONCEPTS["two-segment"], starts=3), heard.append)
     assert found.best is not None
     assert [progress.evaluation for progress in heard] == list(range(2, found.evaluations + 1))  # 1: the baseline.
     best = [progress.best_power for progress in heard if progress.best_power is not None]
@@ -221,8 +230,8 @@ def test_progress_tells_every_evaluation_and_the_best_never_rises():
 @pytest.mark.parametrize("after", [1, 4, 11, 40])
 def test_stopping_keeps_the_best_so_far(after: int):
     heard: list[Progress] = []
-    found = optimise(Search(small(0.2), CONCEPTS["free-form"]), heard.append, lambda: len(heard) >= after)
-    assert found.status is Ended.STOPPED
+    found = run_search(Search(small(0.2), CONCEPTS["free-form"]), heard.append, lambda: len(heard) >= after)
+    assert found.status is SearchStatus.STOPPED
     assert len(heard) == after
     assert found.best is not None
     assert_allclose(found.best.power, min(progress.power or math.inf for progress in heard), rtol=1e-9)
@@ -230,13 +239,13 @@ def test_stopping_keeps_the_best_so_far(after: int):
 
 
 def test_stopping_before_anything_is_known():
-    found = optimise(Search(small(0.2), CONCEPTS["linear"]), None, lambda: True)
-    assert (found.status, found.best, found.minima, found.saving) == (Ended.STOPPED, None, (), None)
+    found = run_search(Search(small(0.2), CONCEPTS["linear"]), None, lambda: True)
+    assert (found.status, found.best, found.minima, found.saving) == (SearchStatus.STOPPED, None, (), None)
 
 
 def test_the_optimum_has_the_power_that_solve_gives():
     design = small(0.3)
-    found = optimise(Search(design, CONCEPTS["three-segment"], starts=2, band=False))
+    found = run_search(Search(design, CONCEPTS["three-segment"], starts=2, band=False))
     assert found.best is not None
     assert_allclose(solve(found.design).power.total, found.best.power, rtol=1e-7)
     assert found.baseline_power is not None
@@ -246,15 +255,15 @@ def test_the_optimum_has_the_power_that_solve_gives():
 
 def test_what_cannot_fly_is_said_and_not_invented():
     design = replace(small(0.2), condition=FlightCondition(0.0, 20000.0, 4000.0))
-    found = optimise(Search(design, CONCEPTS["linear"], starts=2))
-    assert found.status is Ended.NOT_CONVERGED
+    found = run_search(Search(design, CONCEPTS["linear"], starts=2))
+    assert found.status is SearchStatus.NOT_CONVERGED
     assert (found.best, found.baseline_power, found.band) == (None, None, ())
     assert "No start trims" in found.message
 
 
 def test_limits_that_nothing_keeps_are_said():
-    found = optimise(Search(small(0.36), CONCEPTS["linear"], limits=Limits(stalled=1e-4), starts=1))
-    assert found.status is Ended.NOT_CONVERGED
+    found = run_search(Search(small(0.36), CONCEPTS["linear"], limits=Limits(stalled=1e-4), starts=1))
+    assert found.status is SearchStatus.NOT_CONVERGED
     assert "limits" in found.message
 
 
@@ -262,7 +271,7 @@ def test_limits_that_nothing_keeps_are_said():
 def test_near_the_edge_of_flight_starts_that_do_not_trim_are_survived():
     """At µ 0.4 and 9.3 t strong untwist does not trim: the search goes round it."""
     design = replace(small(0.4), condition=FlightCondition(0.4, 9300.0))
-    found = optimise(Search(design, CONCEPTS["linear"], starts=4, band=False))
+    found = run_search(Search(design, CONCEPTS["linear"], starts=4, band=False))
     best = min((one.power.total for one in (solve(replace(design, twist=LinearTwist(k * DEGREE)))
                 for k in range(-28, 9, 2)) if one.converged), default=math.inf)  # fmt: skip
     assert found.best is not None
@@ -271,10 +280,13 @@ def test_near_the_edge_of_flight_starts_that_do_not_trim_are_survived():
 
 def test_mission_optimum_lies_between_those_of_its_legs():
     design = small(0.2)
-    legs = tuple(Leg(replace(design.condition, advance_ratio=mu)) for mu in (0.1, 0.3))
+    conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in (0.1, 0.3))
     concept = CONCEPTS["linear"]
-    alone = [optimise(Search(design, concept, Objective("total", (leg,)), starts=2, band=False)) for leg in legs]
-    both = optimise(Search(design, concept, Objective("total", legs), starts=2, band=False))
+    alone = [
+        run_search(Search(design, concept, Objective("total", (condition,)), starts=2, band=False))
+        for condition in conditions
+    ]
+    both = run_search(Search(design, concept, Objective("total", conditions), starts=2, band=False))
     rates = [one.best.parameters[0] for one in alone if one.best is not None]
     assert both.best is not None
     assert min(rates) <= both.best.parameters[0] <= max(rates)
@@ -284,8 +296,8 @@ def test_mission_optimum_lies_between_those_of_its_legs():
 def test_induced_power_as_objective():
     """Each objective is least at its own optimum."""
     design = small(0.2)
-    total = optimise(Search(design, CONCEPTS["linear"], starts=2, band=False))
-    induced = optimise(Search(design, CONCEPTS["linear"], at_condition(design, "induced"), starts=2, band=False))
+    total = run_search(Search(design, CONCEPTS["linear"], starts=2, band=False))
+    induced = run_search(Search(design, CONCEPTS["linear"], at_condition(design, "induced"), starts=2, band=False))
     assert total.best is not None
     assert induced.best is not None
     powers = [one.power.induced for one in sweep(induced.design, [0.2])]

@@ -13,10 +13,9 @@ from numpy.testing import assert_allclose
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
-from rotor.optimisation.objective import Leg
-from rotor.optimisation.schedule import Cell, Plan, Schedule, run_plan
-from rotor.optimisation.schedule_file import open_cells, read_cells
-from rotor.optimisation.search import Ended, Limits
+from rotor.optimisation.objective import WeightedCondition
+from rotor.optimisation.schedule import Cell, Plan, Schedule, open_cells, read_cells, run_plan
+from rotor.optimisation.search import Limits, SearchStatus
 from rotor.trim.solve import solve
 
 NAMES = ("linear", "quadratic", "two-segment", "free-form")
@@ -29,8 +28,11 @@ def small() -> Design:
 
 def plan(*names: str, ratios: tuple[float, ...] = (0.0, 0.15, 0.3), hours: tuple[float, ...] = (1.0, 2.0, 1.0)) -> Plan:
     design = small()
-    legs = tuple(Leg(replace(design.condition, advance_ratio=mu), hour) for mu, hour in zip(ratios, hours, strict=True))
-    return Plan(design, tuple(CONCEPTS[name] for name in names), legs)
+    conditions = tuple(
+        WeightedCondition(replace(design.condition, advance_ratio=mu), hour)
+        for mu, hour in zip(ratios, hours, strict=True)
+    )
+    return Plan(design, tuple(CONCEPTS[name] for name in names), conditions)
 
 
 @pytest.fixture(scope="module")
@@ -38,8 +40,8 @@ def made() -> Schedule:
     return run_plan(plan(*NAMES))
 
 
-def power(schedule: Schedule, leg: int | None, name: str) -> float:
-    found = schedule.at(leg, name)
+def power(schedule: Schedule, condition: int | None, name: str) -> float:
+    found = schedule.at(condition, name)
     assert found is not None
     assert found.best is not None
     return found.best.power
@@ -48,8 +50,8 @@ def power(schedule: Schedule, leg: int | None, name: str) -> float:
 def test_it_is_complete(made: Schedule):
     assert made.complete
     assert made.converged
-    assert [cell.leg for cell in made.cells[:4]] == [0] * 4
-    assert made.cells[-1].leg is None
+    assert [cell.condition for cell in made.cells[:4]] == [0] * 4
+    assert made.cells[-1].condition is None
 
 
 def test_moving_is_never_worse_than_the_best_fixed_blade(made: Schedule):
@@ -60,28 +62,28 @@ def test_moving_is_never_worse_than_the_best_fixed_blade(made: Schedule):
         assert_allclose(worth.gain, worth.fixed - worth.moving)
         fixed = made.at(None, name)
         assert fixed is not None
-        for leg in range(3):  # In every condition by itself, too.
-            design = replace(fixed.design, condition=made.plan.legs[leg].condition)
-            assert power(made, leg, name) <= solve(design).power.total * (1 + 1e-6)
+        for condition in range(3):  # In every condition by itself, too.
+            design = replace(fixed.design, condition=made.plan.conditions[condition].flight)
+            assert power(made, condition, name) <= solve(design).power.total * (1 + 1e-6)
 
 
 def test_richer_concepts_are_never_worse(made: Schedule):
-    for leg in (0, 1, 2, None):
+    for condition in (0, 1, 2, None):
         for poor, rich in (
             ("linear", "quadratic"),
             ("linear", "two-segment"),
             ("quadratic", "free-form"),
         ):
-            assert power(made, leg, rich) <= power(made, leg, poor) * (1 + 2e-6)
+            assert power(made, condition, rich) <= power(made, condition, poor) * (1 + 2e-6)
         # The envelope of all, but for the kink that a smooth curve rounds off.
-        assert power(made, leg, "free-form") <= min(power(made, leg, name) for name in NAMES) * (1 + 3e-4)
+        assert power(made, condition, "free-form") <= min(power(made, condition, name) for name in NAMES) * (1 + 3e-4)
 
 
 def test_worth_is_the_mean_by_hours(made: Schedule):
     """Hand calculation with the hours 1, 2, 1."""
     worth = made.worth("linear")
     assert worth is not None
-    powers = [power(made, leg, "linear") for leg in range(3)]
+    powers = [power(made, condition, "linear") for condition in range(3)]
     assert_allclose(worth.moving, (powers[0] + 2 * powers[1] + powers[2]) / 4, rtol=1e-12)
 
 
@@ -100,7 +102,7 @@ def test_two_processes_find_the_same():
     assert there.converged
     assert len(heard) == len(there.cells) == len(here.cells)
     for a, b in zip(here.cells, there.cells, strict=True):
-        assert (a.leg, a.concept) == (b.leg, b.concept)
+        assert (a.condition, a.concept) == (b.condition, b.concept)
         assert a.optimum.best == b.optimum.best
 
 
@@ -119,9 +121,9 @@ def test_what_is_found_survives_a_stop_and_is_not_sought_again(tmp_path: Path):
     assert len(part.cells) == len(heard) >= 3
     assert part.worth("linear") is None
     with path.open("a") as file:
-        file.write('{"leg": 2, "conc')  # Cut short by a crash.
+        file.write('{"condition": 2, "conc')  # Cut short by a crash.
     found = read_cells(path, whole)
-    assert [(cell.leg, cell.concept) for cell in found] == [(cell.leg, cell.concept) for cell in heard]
+    assert [(cell.condition, cell.concept) for cell in found] == [(cell.condition, cell.concept) for cell in heard]
     for cell, kept in zip(found, heard, strict=True):
         assert cell.optimum.best == kept.optimum.best
         assert cell.optimum.design == kept.optimum.design
@@ -165,14 +167,17 @@ def test_a_file_of_another_plan_is_refused(tmp_path: Path):
 
 def test_a_leg_that_cannot_be_flown_is_not_hidden():
     design = small()
-    legs = (Leg(design.condition), Leg(replace(design.condition, advance_ratio=0.0, mass=20000.0, altitude=4000.0)))
-    schedule = run_plan(Plan(design, (CONCEPTS["linear"],), legs, starts=1))
+    conditions = (
+        WeightedCondition(design.condition),
+        WeightedCondition(replace(design.condition, advance_ratio=0.0, mass=20000.0, altitude=4000.0)),
+    )
+    schedule = run_plan(Plan(design, (CONCEPTS["linear"],), conditions, starts=1))
     assert schedule.complete
     assert not schedule.converged
     assert schedule.worth("linear") is None
     bad = schedule.at(1, "linear")
     assert bad is not None
-    assert bad.status is Ended.NOT_CONVERGED
+    assert bad.status is SearchStatus.NOT_CONVERGED
 
 
 @pytest.mark.slow
@@ -180,8 +185,8 @@ def test_fifteen_conditions_all_concepts_two_processes():
     """The whole of it on the full grid; what moving is worth stays within what a moving blade could at most gain."""
     design = make_design()
     ratios = (0.0, *(0.05 + 0.025 * k for k in range(1, 15)))
-    legs = tuple(Leg(replace(design.condition, advance_ratio=mu)) for mu in ratios)
-    schedule = run_plan(Plan(design, tuple(CONCEPTS.values()), legs), processes=2)
+    conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in ratios)
+    schedule = run_plan(Plan(design, tuple(CONCEPTS.values()), conditions), processes=2)
     assert schedule.converged
     for name in CONCEPTS:
         worth = schedule.worth(name)
@@ -191,6 +196,10 @@ def test_fifteen_conditions_all_concepts_two_processes():
     nested = (("linear", "quadratic"), ("linear", "two-segment"), ("linear", "three-segment"),
               ("two-segment", "two-segment-free"), ("three-segment", "three-segment-free"),
               ("two-segment-free", "three-segment-free"))  # fmt: skip
-    for leg in range(len(legs)):
+    for condition in range(len(conditions)):
         for poor, rich in nested:
-            assert power(schedule, leg, rich) <= power(schedule, leg, poor) * (1 + 5e-5), (leg, poor, rich)
+            assert power(schedule, condition, rich) <= power(schedule, condition, poor) * (1 + 5e-5), (
+                condition,
+                poor,
+                rich,
+            )

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 import pytest
 
-from rotor.actuator.electrodes import thermal_coefficients
+from rotor.actuator.electrical import thermal_coefficients
 from rotor.actuator.pictures import twist_under_voltage
 from rotor.reproduce import Report, Verdict
 from rotor.reproduce.actuated_blade import BLADES, fitted_blade

@@ -20,24 +20,24 @@ from rotor.assets import asset_path
 from rotor.command.progress import interruptible
 from rotor.files.make_design import make_design
 from rotor.study import cluster
-from rotor.study.axes import Axis, Places, Sample
-from rotor.study.chunks import Done, Provenance, work, work_chunk
+from rotor.study.axes import Axis, Sample, StudyPoints
+from rotor.study.chunks import FinishedChunk, StudyProvenance, evaluate_chunk, evaluate_points
 from rotor.study.findings import best_row, effects, robust_best
-from rotor.study.memory import Memory
 from rotor.study.results import Results, read_file, read_results
-from rotor.study.store import NotStored, Store
-from rotor.study.study import good_chunk
+from rotor.study.store import Store, StoreError
+from rotor.study.study import default_chunk
 from rotor.study.study_file import StudyFile, parse_study, read_study
+from rotor.study.warm_starts import WarmStarts
 from rotor.trim.solve import solve
 
-WHENCE = Provenance("0.0", None, "0")
+WHENCE = StudyProvenance("0.0", None, "0")
 COARSE = '[models]\ninflow = "pitt-peters"\nelements = 12\nazimuths = 24\n'
 SMALL = 'chunk = 4\n[axes]\nmu = [0.1, 0.2, 0.3]\nrate_deg = [-16, -8]\n[fixed]\nconcept = "linear"\n' + COARSE
 
 
 def test_neighbours_differ_by_one_step_and_every_point_comes_once():
     axes = (Axis("mu", (0.0, 0.1, 0.2, 0.3)), Axis("mass_kg", (1.0, 2.0)), Axis("inflow", ("a", "b", "c")))
-    places = Places(axes, Sample("sobol", 5, 0, (("altitude_m", 0.0, 100.0),)))
+    places = StudyPoints(axes, Sample("sobol", 5, 0, (("altitude_m", 0.0, 100.0),)))
     points = places.at(0, places.count)
     assert len(points) == 4 * 2 * 3 * 5 == len({tuple(sorted(point.items())) for point in points})
     for before, after in pairwise(points):
@@ -53,21 +53,21 @@ def test_neighbours_differ_by_one_step_and_every_point_comes_once():
 
 def test_a_study_of_a_billion_points_costs_no_memory():
     axis = tuple(float(k) for k in range(1000))
-    places = Places((Axis("mu", axis), Axis("mass_kg", axis), Axis("altitude_m", axis)), None)
+    places = StudyPoints((Axis("mu", axis), Axis("mass_kg", axis), Axis("altitude_m", axis)), None)
     assert places.count == 10**9
     assert places.at(10**9 - 1, 10**9)[0]["mu"] == 999.0
 
 
 @pytest.mark.parametrize("method", ["sobol", "latin-hypercube"])
 def test_samples_fill_their_ranges_and_walk_in_small_steps(method: Any):
-    places = Places((), Sample(method, 500, 3, (("mu", 0.1, 0.3), ("mass_kg", 6000.0, 9000.0))))
+    places = StudyPoints((), Sample(method, 500, 3, (("mu", 0.1, 0.3), ("mass_kg", 6000.0, 9000.0))))
     points = np.array([[point["mu"], point["mass_kg"]] for point in places.at(0, 500)])
     unit = (points - [0.1, 6000.0]) / [0.2, 3000.0]
     assert ((unit >= 0.0) & (unit <= 1.0)).all()
     assert_allclose(unit.mean(axis=0), 0.5, atol=0.01)
     step = np.sqrt((np.diff(unit, axis=0) ** 2).sum(axis=1)).mean()
     assert step < 3.0 / math.sqrt(500)  # At random it would be 0.52.
-    again = Places((), Sample(method, 500, 3, (("mu", 0.1, 0.3), ("mass_kg", 6000.0, 9000.0))))
+    again = StudyPoints((), Sample(method, 500, 3, (("mu", 0.1, 0.3), ("mass_kg", 6000.0, 9000.0))))
     assert again.at(0, 500) == places.at(0, 500)
 
 
@@ -75,9 +75,9 @@ def test_chunks_hold_all_points_in_order():
     study = parse_study(SMALL)
     assert (study.count, study.chunks) == (6, 2)
     assert [study.span(k) for k in range(2)] == [(0, 4), (4, 6)]
-    assert good_chunk(100_000, search=False) == 500
-    assert good_chunk(10**9, search=False) * 20_000 >= 10**9
-    assert good_chunk(20, search=True) == 4
+    assert default_chunk(100_000, search=False) == 500
+    assert default_chunk(10**9, search=False) * 20_000 >= 10**9
+    assert default_chunk(20, search=True) == 4
 
 
 BAD = {
@@ -172,7 +172,7 @@ def test_packaged_studies_are_good(path: Path):
 
 def test_rows_are_what_single_trims_answer():
     study = parse_study(SMALL)
-    for row in work(study, 0, study.count):
+    for row in evaluate_points(study, 0, study.count):
         design = make_design(twist=f"linear:{row['rate_deg']:g}", mu=row["mu"])
         models = replace(design.models, inflow="pitt-peters", elements=12, azimuths=24)
         alone = solve(replace(design, models=models))
@@ -190,7 +190,7 @@ def test_a_rotor_and_a_table_of_the_users_own_travel_with_the_study(tmp_path: Pa
     study = read_study(tmp_path / "study.toml").study
     for name in ("mine.toml", "twist.csv"):
         (tmp_path / name).unlink()
-    rows = work(study, 0, 2)
+    rows = evaluate_points(study, 0, 2)
     assert [row["status"] for row in rows] == ["converged", "converged"]
     assert [row["rotor"] for row in rows] == ["mine.toml", "s61"]
     assert rows[0]["mass_kg"] < 700.0 < rows[1]["mass_kg"]
@@ -199,7 +199,7 @@ def test_a_rotor_and_a_table_of_the_users_own_travel_with_the_study(tmp_path: Pa
 
 def test_an_optimum_says_what_it_found():
     text = '[axes]\nmu = [0.2]\n[fixed]\nconcept = "two-segment"\ndivision = 0.6\n[optimum]\nstarts = 1\n' + COARSE
-    (row,) = work(parse_study(text), 0, 1)
+    (row,) = evaluate_points(parse_study(text), 0, 1)
     assert row["status"] == "converged"
     assert row["division"] == 0.6
     assert row["twist"].endswith("@0.6")
@@ -210,7 +210,7 @@ def test_an_optimum_says_what_it_found():
 
 def test_a_failed_point_is_a_row_with_its_sentence(monkeypatch: pytest.MonkeyPatch):
     heavy = parse_study("[axes]\nmass_kg = [8000, 30000]\n[fixed]\nmu = 0\naltitude_m = 4000\n" + COARSE)
-    rows = work(heavy, 0, 2)
+    rows = evaluate_points(heavy, 0, 2)
     assert [row["status"] for row in rows] == ["converged", "not-converged"]
     assert "lower" in rows[1]["message"]
     assert "power_total_w" not in rows[1]
@@ -220,17 +220,17 @@ def test_a_failed_point_is_a_row_with_its_sentence(monkeypatch: pytest.MonkeyPat
         parse_study(crossed + rates)  # Where one value alone is at fault, the file says so …
     both = crossed.replace("[0.3, 0.9]", "[0.3, 0.7]").replace("outer_break = 0.8\n", "") + rates
     both = both.replace("[fixed]", "outer_break = [0.8, 0.5]\n[fixed]")
-    statuses = [row["status"] for row in work(parse_study(both + COARSE), 0, 4)]
+    statuses = [row["status"] for row in evaluate_points(parse_study(both + COARSE), 0, 4)]
     assert sorted(statuses) == ["bad-input", "converged", "converged", "converged"]  # … where a pair is, the row does.
     monkeypatch.setattr("rotor.study.point.solve", lambda *_: 1 / 0)
-    (row,) = work(parse_study("[axes]\nmu = [0.1]\n"), 0, 1)
+    (row,) = evaluate_points(parse_study("[axes]\nmu = [0.1]\n"), 0, 1)
     assert (row["status"], row["message"]) == ("error", "ZeroDivisionError: division by zero")
 
 
 def test_a_guess_follows_what_is_linear():
     """Trims on a plane: the model made of four of them meets the fifth, where the nearest alone misses."""
     solution = solve(replace(make_design(), models=replace(make_design().models, inflow="uniform")))
-    memory = Memory({"mu": (0.0, 1.0), "mass_kg": (0.0, 2000.0)})
+    memory = WarmStarts({"mu": (0.0, 1.0), "mass_kg": (0.0, 2000.0)})
 
     def at(mu: float, mass: float) -> dict[str, Any]:
         return {"mu": mu, "mass_kg": mass, "inflow": "uniform"}
@@ -248,17 +248,17 @@ def test_a_guess_follows_what_is_linear():
     assert memory.guess(at(0.17, 200.0), hovering=True) is None
 
 
-def stored(folder: Path, text: str = SMALL, whence: Provenance = WHENCE) -> Store:
+def stored(folder: Path, text: str = SMALL, whence: StudyProvenance = WHENCE) -> Store:
     return Store(folder, StudyFile(parse_study(text), text, "study.toml"), whence)
 
 
 @pytest.fixture
-def done(monkeypatch: pytest.MonkeyPatch) -> Callable[[Store, int], Done]:
+def done(monkeypatch: pytest.MonkeyPatch) -> Callable[[Store, int], FinishedChunk]:
     monkeypatch.setattr("rotor.study.chunks.package_version", lambda: WHENCE.version)
-    return lambda store, chunk: work_chunk(store.study, chunk, WHENCE)
+    return lambda store, chunk: evaluate_chunk(store.study, chunk, WHENCE)
 
 
-def test_a_folder_goes_on_where_it_was(tmp_path: Path, done: Callable[[Store, int], Done]):
+def test_a_folder_goes_on_where_it_was(tmp_path: Path, done: Callable[[Store, int], FinishedChunk]):
     store = stored(tmp_path / "out")
     with pytest.raises(ValueError, match="another run writes"):
         stored(tmp_path / "out")
@@ -283,7 +283,7 @@ def test_a_folder_goes_on_where_it_was(tmp_path: Path, done: Callable[[Store, in
 
 
 def test_a_full_disk_is_one_sentence_and_keeps_what_is_there(
-    tmp_path: Path, done: Callable[[Store, int], Done], monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, done: Callable[[Store, int], FinishedChunk], monkeypatch: pytest.MonkeyPatch
 ):
     store = stored(tmp_path / "out")
     store.keep(0, done(store, 0).content)
@@ -293,7 +293,7 @@ def test_a_full_disk_is_one_sentence_and_keeps_what_is_there(
         raise OSError(errno.ENOSPC, "No space left on device")
 
     monkeypatch.setattr("rotor.study.store.os.fsync", full)
-    with pytest.raises(NotStored, match=r"No space left on device\).*finished chunks are kept"):
+    with pytest.raises(StoreError, match=r"No space left on device\).*finished chunks are kept"):
         store.keep(1, content)
     assert store.missing() == [1]
     assert not list(store.folder.glob(".*.part"))
@@ -307,7 +307,7 @@ def test_what_is_done_first_is_spread_over_the_study(tmp_path: Path):
     assert left == store.missing()
 
 
-def test_files_say_units_and_whence_they_came(tmp_path: Path, done: Callable[[Store, int], Done]):
+def test_files_say_units_and_whence_they_came(tmp_path: Path, done: Callable[[Store, int], FinishedChunk]):
     parquet: Any = importlib.import_module("pyarrow.parquet")
     store = stored(tmp_path / "out")
     for chunk in range(2):
@@ -327,7 +327,9 @@ def test_files_say_units_and_whence_they_came(tmp_path: Path, done: Callable[[St
     assert parquet.read_table(tmp_path / "out").num_rows == 6  # As pandas reads a folder.
 
 
-def test_show_is_text_and_json(tmp_path: Path, done: Callable[[Store, int], Done], capsys: pytest.CaptureFixture[str]):
+def test_show_is_text_and_json(
+    tmp_path: Path, done: Callable[[Store, int], FinishedChunk], capsys: pytest.CaptureFixture[str]
+):
     store = stored(tmp_path / "out")
     store.keep(0, done(store, 0).content)
     store.close()

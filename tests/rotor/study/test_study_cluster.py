@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from rotor.study.chunks import work
+from rotor.study.chunks import evaluate_points
 from rotor.study.results import Results, read_results
 from rotor.study.study_file import read_study
 
@@ -119,7 +119,7 @@ def same_as_serial(file: Path, results: Results) -> None:
     assert results.good.all()
     for chunk in (0, 17, study.chunks - 1):
         first, last = study.span(chunk)
-        for row in work(study, first, last):
+        for row in evaluate_points(study, first, last):
             for name in ("power_total_w", "power_induced_w", "collective_deg", "lambda0", "mu", "mass_kg"):
                 assert_allclose(results.columns[name][row["point"]], row[name], rtol=1e-10)
 

@@ -12,7 +12,7 @@ from rotor.design.design import Design
 from rotor.design.flight import FlightCondition
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
-from rotor.optimisation.objective import QUANTITIES, Leg, Objective, at_condition, measure
+from rotor.optimisation.objective import QUANTITIES, Objective, WeightedCondition, at_condition, measure
 from rotor.trim import newton
 
 RELATIVE = 1e-6
@@ -91,9 +91,9 @@ def test_thesis_preset(name: str):
 def test_mission(name: str):
     design = small("flight", None, 0.2)
     legs = (
-        Leg(FlightCondition(0.0, 8000.0, 500.0), 0.5),
-        Leg(FlightCondition(0.15, 8300.0), 1.0),
-        Leg(FlightCondition(0.28, 7600.0, 1500.0), 2.0),
+        WeightedCondition(FlightCondition(0.0, 8000.0, 500.0), 0.5),
+        WeightedCondition(FlightCondition(0.15, 8300.0), 1.0),
+        WeightedCondition(FlightCondition(0.28, 7600.0, 1500.0), 2.0),
     )
     check(design, name, Objective("total", legs), every=False)
 

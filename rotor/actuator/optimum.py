@@ -1,28 +1,28 @@
-"""The best twist an actuator can reach: jig twist and voltages together, at two flight conditions.
+"""Optimum twist at two flight conditions, with and without an actuator.
 
-Not a check afterwards: the optimum is sought among what the fitted actuator can do,
+With an actuator the optimum is sought among the twists it can make,
 
     θ_k(r) = θ_jig(p; r) + s Σ_j v_kj φ_j(r),   k = from, to,
 
-with φ_j the twist that segment j makes over its whole voltage range, rotating, and s the derating. A blade made for it
-chooses its jig twist p within the concept, so only differences of v count; a retrofit keeps the twist it has, so its
-voltages count from zero volts. Mean power of the two conditions, by their shares of time, is made least by SLSQP on
-exact gradients.
+with φ_j the twist of segment j over its whole voltage range, rotating, and s the derating. A new blade chooses its jig
+twist p within the concept, so only differences of v matter. A retrofit keeps its twist, so its voltages count from
+zero. SLSQP with exact gradients minimises the mean power of the two conditions, weighted by their shares of time.
 """
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
-from scipy.optimize import minimize
 
 from rotor.actuator.catalogue import PiezoPly
-from rotor.actuator.fitted import Fitted
-from rotor.actuator.flap_bending import interpolate_columns
+from rotor.actuator.installation import InstalledActuator
+from rotor.actuator.loads import interpolate_columns
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import REFERENCE_RADIUS, PiecewiseLinearTwist, SumTwist, TwistLaw
-from rotor.optimisation.concepts import Concept, nearest
+from rotor.optimisation.concepts import Concept, nearest, restrict
+from rotor.optimisation.slsqp import slsqp
 from rotor.trim.adjoint import Adjoint, power_along
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -35,7 +35,7 @@ FLATTER = 0.5
 
 
 @dataclass(frozen=True)
-class Pair:
+class ConditionPair:
     """Two flight conditions of one aircraft."""
 
     design: Design
@@ -67,7 +67,7 @@ class Pair:
 
 
 @dataclass(frozen=True, eq=False)
-class Reached:
+class TwistOptimum:
     """An optimum over one or two conditions."""
 
     values: tuple[float, ...]
@@ -80,39 +80,44 @@ class Reached:
     """Mean by shares of time [W]."""
 
 
-def best_twist(design: Design, concept: Concept, starts: Sequence[Sequence[float]] = ()) -> Reached:
+def best_twist(design: Design, concept: Concept, starts: Sequence[Sequence[float]] = ()) -> TwistOptimum:
     """The concept's twist of least power at one condition."""
     return _search((design,), (1.0,), concept, None, 1.0, starts)
 
 
-def best_fixed(pair: Pair, concept: Concept, starts: Sequence[Sequence[float]] = ()) -> Reached:
+def best_fixed(pair: ConditionPair, concept: Concept, starts: Sequence[Sequence[float]] = ()) -> TwistOptimum:
     """The concept's one twist of least mean power: the blade that an actuator has to beat."""
     return _search(pair.designs(), pair.shares, concept, None, 1.0, starts)
 
 
-def best_reach(
-    pair: Pair, concept: Concept, fitted: Fitted, *, derating: float = 1.0, starts: Sequence[Sequence[float]] = ()
-) -> Reached:
+def best_actuated(
+    pair: ConditionPair,
+    concept: Concept,
+    installed: InstalledActuator,
+    *,
+    derating: float = 1.0,
+    starts: Sequence[Sequence[float]] = (),
+) -> TwistOptimum:
     """The least mean power with the actuator, within what it can do."""
-    return _search(pair.designs(), pair.shares, concept, fitted, derating, starts)
+    return _search(pair.designs(), pair.shares, concept, installed, derating, starts)
 
 
 def _search(
     designs: tuple[Design, ...],
     shares: tuple[float, ...],
     concept: Concept,
-    fitted: Fitted | None,
+    installed: InstalledActuator | None,
     derating: float,
     starts: Sequence[Sequence[float]],
-) -> Reached:
-    keeps_twist = fitted is not None and fitted.host.kind == "retrofit"
+) -> TwistOptimum:
+    keeps_twist = installed is not None and installed.host.kind == "retrofit"
     jigs: list[Sequence[float]] = [()] if keeps_twist else list(starts)
-    if not keeps_twist and (fitted is None or not starts):
+    if not keeps_twist and (installed is None or not starts):
         first = nearest(concept, designs[0].twist)
         jigs += [first, _flatter(concept, first)]
-    found: list[Reached] = []
+    found: list[TwistOptimum] = []
     for orientation in (1.0, -1.0) if keeps_twist else (1.0,):
-        task = _Task(designs, shares, None if keeps_twist else concept, fitted, derating, orientation)
+        task = _Task(designs, shares, None if keeps_twist else concept, installed, derating, orientation)
         found += [reached for jig in jigs if (reached := task.descend(jig)) is not None]
     if not found:
         raise RuntimeError(
@@ -133,36 +138,36 @@ class _Task:
         designs: tuple[Design, ...],
         shares: tuple[float, ...],
         concept: Concept | None,
-        fitted: Fitted | None,
+        installed: InstalledActuator | None,
         derating: float,
         orientation: float,
     ) -> None:
         self.designs, self.shares, self.concept = designs, shares, concept
         self.trims: list[Solution | None] = [None] * len(designs)
-        self.segments = len(fitted.shapes) if fitted else 0
+        self.segments = len(installed.shapes) if installed else 0
         self.shapes = np.zeros((0, len(STATIONS)))
-        if fitted:
-            self.shapes = derating * (_on_stations(STATIONS, fitted) - _on_stations(REFERENCE, fitted))
-        self.bounds = self._jig_bounds() + self._swing_bounds(fitted, orientation)
+        if installed:
+            self.shapes = derating * (_on_stations(STATIONS, installed) - _on_stations(REFERENCE, installed))
+        self.bounds = self._jig_bounds() + self._swing_bounds(installed, orientation)
         self.low = np.array([low for low, _ in self.bounds])
         self.span = np.array([high - low for low, high in self.bounds])
 
     def _jig_bounds(self) -> list[tuple[float, float]]:
         return [(p.low, p.high) for p in self.concept.parameters] if self.concept else []
 
-    def _swing_bounds(self, fitted: Fitted | None, orientation: float) -> list[tuple[float, float]]:
+    def _swing_bounds(self, installed: InstalledActuator | None, orientation: float) -> list[tuple[float, float]]:
         """Of v: a new blade counts from its first condition; a retrofit from zero volts, by how its fibres run."""
-        if fitted is None:
+        if installed is None:
             return []
         if self.concept is not None:
             return [(0.0, 0.0)] * self.segments + [(-1.0, 1.0)] * self.segments
         low, high = (0.0, 1.0)
-        if isinstance(fitted.actuator, PiezoPly):
-            low, high = (volts / fitted.actuator.voltage_swing for volts in fitted.actuator.voltage_range)
+        if isinstance(installed.actuator, PiezoPly):
+            low, high = (volts / installed.actuator.voltage_swing for volts in installed.actuator.voltage_range)
         ends = (low, high) if orientation > 0.0 else (-high, -low)
         return [ends] * (2 * self.segments)
 
-    def descend(self, jig: Sequence[float]) -> Reached | None:
+    def descend(self, jig: Sequence[float]) -> TwistOptimum | None:
         start = np.concatenate((jig, np.zeros(len(self.bounds) - len(jig))))
         free = self.span > 0.0
         x0 = np.zeros_like(start)
@@ -178,11 +183,8 @@ class _Task:
                 return 1.0 + float(np.sum((x - x0) ** 2)), 2.0 * (x - x0)
             return made[0] / unit, made[1] / unit
 
-        ended = minimize(
-            scaled, x0, jac=True, method="SLSQP", bounds=[(0.0, float(f)) for f in free],
-            options={"ftol": 1e-9, "maxiter": 60},
-        )  # fmt: skip
-        x = np.clip(np.asarray(ended.x, dtype=float), 0.0, 1.0)
+        ended = slsqp(scaled, True, x0, iterations=60, tolerance=1e-9, bounds=[(0.0, float(f)) for f in free])
+        x = np.clip(ended.x, 0.0, 1.0)
         final = self._power(x)
         if final is None or final[0] > unit:
             x, final = x0, self._power(x0)
@@ -193,7 +195,7 @@ class _Task:
             tuple(values[own + k * self.segments : own + (k + 1) * self.segments]) for k in range(len(self.designs))
         )
         solutions = tuple(trim for trim in self.trims if trim is not None)
-        return Reached(tuple(values[:own]), swings if self.segments else (), solutions, final[0])
+        return TwistOptimum(tuple(values[:own]), swings if self.segments else (), solutions, final[0])
 
     def _power(self, x: Array) -> tuple[float, Array] | None:
         """Mean power and its gradient by x; None when a condition does not trim."""
@@ -222,12 +224,76 @@ class _Task:
         return twisted(jig, swings @ self.shapes) if self.segments and np.any(swings) else jig
 
 
-def _on_stations(stations: Array, fitted: Fitted) -> Array:
+def _on_stations(stations: Array, installed: InstalledActuator) -> Array:
     """What each segment makes at r/R, (segments, stations)."""
-    return interpolate_columns(stations, fitted.r, fitted.shapes.T).T
+    return interpolate_columns(stations, installed.r, installed.shapes.T).T
 
 
 def twisted(jig: TwistLaw, change: Array) -> TwistLaw:
     """A jig law with a change of twist [rad] at STATIONS on top; its SPEC can be read again."""
     rates = np.diff(change) / np.diff(STATIONS)
     return SumTwist(jig, PiecewiseLinearTwist(tuple(rates.tolist()), tuple(STATIONS[1:-1].tolist())))
+
+
+SMOOTH_DIVISIONS = (0.4, 0.55, 0.7, 0.82)
+"""r/R of the electrical segments that follow a curved twist law."""
+
+
+@dataclass(frozen=True, eq=False)
+class Baseline:
+    """Optima of one concept for a pair of flight conditions, no actuator in sight."""
+
+    pair: ConditionPair
+    concept: Concept
+    """Its breaks held where the best fixed blade has them: an actuator cannot move them in flight."""
+    best: tuple[TwistOptimum, TwistOptimum]
+    """At each condition alone."""
+    fixed: TwistOptimum
+    """One blade for both."""
+
+    @property
+    def ideal_power(self) -> float:
+        """Mean power if the twist were free to move [W]."""
+        return sum(share * best.power for share, best in zip(self.pair.shares, self.best, strict=True))
+
+    @property
+    def ideal_saving(self) -> float:
+        """Of free movement over the best fixed blade [W]; the shape that plies make can save a little more."""
+        return self.fixed.power - self.ideal_power
+
+    @property
+    def divisions(self) -> tuple[float, ...]:
+        """r/R where the concept's segments meet."""
+        law = self.concept.twist(self.fixed.values)
+        if isinstance(law, PiecewiseLinearTwist):
+            return law.breaks
+        return () if len(self.fixed.values) == 1 else SMOOTH_DIVISIONS
+
+    def change(self, r: Array) -> Array:
+        """Required change of twist from the first condition to the second at r/R [rad], zero at the cut-out."""
+        first, second = (self.concept.twist(best.values) for best in self.best)
+        root = self.pair.design.rotor.blade.root_cutout
+        start = float(second(root) - first(root))
+        return second(r) - first(r) - start
+
+    def segment_changes(self, divisions: tuple[float, ...]) -> Array:
+        """Required change over each segment, cut-out to tip [rad], (segments,)."""
+        edges = np.array([self.pair.design.rotor.blade.root_cutout, *divisions, 1.0])
+        return np.diff(self.change(edges))
+
+
+@lru_cache(maxsize=64)
+def baseline(pair: ConditionPair, concept: Concept) -> Baseline:
+    """Find the optima; free breaks are held at those of the best fixed blade.
+
+    Raises RuntimeError with one sentence when no twist trims.
+    """
+    fixed = best_fixed(pair, concept)
+    named = list(zip(concept.parameters, fixed.values, strict=True))
+    breaks = {parameter.name: value for parameter, value in named if parameter.unit == "R"}
+    if breaks:
+        concept = restrict(concept, breaks)
+        fixed = replace(fixed, values=tuple(value for parameter, value in named if parameter.unit != "R"))
+    first, second = (best_twist(design, concept, [fixed.values]) for design in pair.designs())
+    better = best_fixed(pair, concept, [fixed.values, first.values, second.values])
+    return Baseline(pair, concept, (first, second), min((fixed, better), key=lambda found: found.power))

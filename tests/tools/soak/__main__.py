@@ -1,21 +1,21 @@
-"""`python -m explorer soak`: the command."""
+"""`python -m tests.tools.soak`: the command."""
 
 import argparse
 import json
 import sys
 
-from explorer.soak.figures import words
-from explorer.soak.run import Soak, soak
+from tests.tools.soak.figures import words
+from tests.tools.soak.run import Soak, soak
 
 
-def main(arguments: list[str]) -> int:
+def main(arguments: list[str] | None = None) -> int:
     """Exit code 0 when it passed, 1 when memory grew or an update was lost, 2 for bad input."""
     options = _parser().parse_args(arguments)
     plan = Soak(options.browsers, options.minutes, options.rate, options.real)
     try:
         report = soak(plan, lambda line: print(line, file=sys.stderr, flush=True))
     except RuntimeError as error:
-        print(f"explorer soak: {error}", file=sys.stderr)
+        print(f"soak: {error}", file=sys.stderr)
         return 2
     print(json.dumps(report.as_json(), indent=2) if options.json else words(report))
     return 0 if report.passed else 1
@@ -23,7 +23,7 @@ def main(arguments: list[str]) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="python -m explorer soak",
+        prog="python -m tests.tools.soak",
         description="Send many browsers to a server of its own, each dragging a slider, and report what it did to "
         "them: delays from edit to frame, lost updates, memory.",
     )
@@ -59,3 +59,7 @@ def _positive(text: str) -> float:
     if not 0.0 < value < 1e6:
         raise argparse.ArgumentTypeError(f"{text!r} is not a positive number")
     return value
+
+
+if __name__ == "__main__":
+    sys.exit(main())

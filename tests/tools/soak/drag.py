@@ -10,10 +10,10 @@ from functools import cache
 import numpy as np
 
 from explorer.picture.meshes import blade_shape, blade_vertices
-from explorer.soak.figures import Visit
-from explorer.soak.visitor import Visitor
 from explorer.state import Inputs
 from rotor.trim.solve import solve
+from tests.tools.soak.figures import Visit
+from tests.tools.soak.visitor import Visitor
 
 SLIDER, NAME = "Inner [°/R]", "two_inner"
 """The slider that is dragged, and the field of `Inputs` behind it."""

@@ -1,24 +1,22 @@
-"""What the points before leave to the next one: a first guess of its trim, and where its search may begin.
+"""First guesses for the trims and searches of a chunk, from the points computed before.
 
-Every trim unknown and the induced field change smoothly with speed, weight and twist, so several trims nearby say how:
-the guess follows their local linear model. A cold trim with the dynamic wake takes 7.9 passes in the mean, one from
-the trim before it 6.6, one from the model 3.8 (10⁵ points over four sampled ranges, docs/scale.md).
+Every trim unknown and the induced velocity vary smoothly with speed, mass and twist. The guess is a local linear model
+of nearby trims. A cold trim with the dynamic wake takes 7.9 iterations on average, one started from the previous trim
+6.6, one started from the linear model 3.8 (10⁵ points over four sampled ranges, docs/scale.md).
 """
 
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.aero.elements import N_STATE
+from rotor.arrays import Array
 from rotor.study.quantities import Value
 from rotor.trim.forward import guess_of
 from rotor.trim.newton import Guess
 from rotor.trim.solution import Solution
 
-Floats = NDArray[np.float64]
-
-_REMEMBERED = 64
+_KEPT = 64
 """Trims kept."""
 _NEAR = 10
 """Of them those that the linear model is made of."""
@@ -28,15 +26,15 @@ _FAR = 3.0
 """Sum of the weights' sizes beyond which the model is not trusted, and the nearest trim serves."""
 
 
-class Memory:
+class WarmStarts:
     """Trims and optima of the points before, of one chunk."""
 
     def __init__(self, ranges: Mapping[str, tuple[float, float]]) -> None:
         """`ranges`: low and high of each numeric axis; distances are parts of these."""
         self._ranges = {name: (low, (high - low) or 1.0) for name, (low, high) in ranges.items()}
         self._key: tuple[object, ...] = ()
-        self._places: list[Floats] = []
-        self._trims: list[Floats] = []
+        self._places: list[Array] = []
+        self._trims: list[Array] = []
         self._shape = (0, 0)
         self.concept = ""
         """The concept of the last optimum, and its parameters."""
@@ -65,17 +63,17 @@ class Memory:
             self._places, self._trims = [], []
         self._places.append(self._place(values))
         self._trims.append(np.concatenate([left.state, left.induced.ravel()]))
-        del self._places[:-_REMEMBERED], self._trims[:-_REMEMBERED]
+        del self._places[:-_KEPT], self._trims[:-_KEPT]
 
     def _kind(self, values: Mapping[str, Value], hovering: bool) -> tuple[object, ...]:
         """What trims must share to learn from one another."""
         return (hovering, *(value for name, value in values.items() if name not in self._ranges))
 
-    def _place(self, values: Mapping[str, Value]) -> Floats:
+    def _place(self, values: Mapping[str, Value]) -> Array:
         return np.array([(float(values[name]) - low) / span for name, (low, span) in self._ranges.items()])
 
 
-def _weights(steps: Floats) -> Floats:
+def _weights(steps: Array) -> Array:
     """Weights of all but the nearest trim, whose differences from it follow the way to the point, (trims − 1,).
 
     `steps`: from the point to each trim, the nearest first, (trims, axes). The weighted differences of place come as
@@ -83,7 +81,7 @@ def _weights(steps: Floats) -> Floats:
     """
     way, others = -steps[0], steps[1:] - steps[0]
     trust = 1.0 / ((steps[1:] ** 2).sum(axis=1) + 1e-12)
-    normal: Floats = (others.T * trust) @ others
+    normal: Array = (others.T * trust) @ others
     size = float(np.trace(normal))
     if size == 0.0:
         return np.zeros(len(others))

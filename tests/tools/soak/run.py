@@ -9,10 +9,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-from explorer.soak.drag import Dragger
-from explorer.soak.figures import SoakReport, judge
-from explorer.soak.process import processor_seconds, resident_mb
-from explorer.soak.real import visit
+from tests.tools.soak.drag import Dragger
+from tests.tools.soak.figures import SoakReport, judge
+from tests.tools.soak.process import processor_seconds, resident_mb
+from tests.tools.soak.real import visit
 
 _END = 10.0
 """[s] a server may take to end."""

@@ -1,4 +1,4 @@
-"""An actuator fitted to a blade: moment, twist along the span per segment, mass, frequency."""
+"""An actuator installed on a blade: moment, twist along the span by segment, added mass, torsion frequency."""
 
 from dataclasses import dataclass
 from functools import lru_cache
@@ -6,19 +6,78 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotor.actuator.bill import MassBill, addition, mass_bill
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, derating
 from rotor.actuator.placement import Host, Placement
 from rotor.actuator.section import SectionSpec, active_section, section_spec, skin
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
-from rotor.dynamics.structure import BladeStructure, uh60a_structure
+from rotor.dynamics.structure import BladeStructure, structure_data, uh60a_structure
 from rotor.dynamics.thin_wall import induced_twist_rate, torsional_stiffness
 from rotor.dynamics.torsion_beam import Addition, TorsionBeam, torsion_beam, torsion_frequency, twist_under_moment
 
 
+@dataclass(frozen=True)
+class MassBreakdown:
+    """Added mass [kg]."""
+
+    actuator: float
+    """Per blade."""
+    wiring: float
+    """Per blade."""
+    balance: float
+    """Per blade."""
+    electronics: float
+    """Per aircraft."""
+    blades: int
+
+    @property
+    def blade(self) -> float:
+        """On one blade."""
+        return self.actuator + self.wiring + self.balance
+
+    @property
+    def aircraft(self) -> float:
+        return self.blades * self.blade + self.electronics
+
+
+def balance_mass(mass: float, centre: float) -> float:
+    """Nose weight [kg] for a mass with its centre at x/c: Δm = m (x − 0.25)/(0.25 − 0.02), none when it is forward."""
+    limits = structure_data()["limits"]
+    axis, nose = float(limits["balance_axis_c"]), float(limits["nose_weight_c"])
+    return max(0.0, mass * (centre - axis) / (axis - nose))
+
+
+def mass_breakdown(actuator: Actuator, placement: Placement, blades: int, skin_area: float) -> MassBreakdown:
+    """The masses for one placement; `skin_area` [m²] is what one layer covers on one blade, both skins."""
+    limits = structure_data()["limits"]
+    wiring, electronics = float(limits["wiring_share"]), float(limits["electronics_share"])
+    if isinstance(actuator, ExtensionTwist):
+        return MassBreakdown(0.0, 0.0, 0.0, 0.0, blades)
+    if isinstance(actuator, PiezoPly):
+        own = actuator.material.density * actuator.thickness * placement.plies * skin_area
+        nose = balance_mass((1.0 + wiring) * own, 0.5 * sum(placement.chord))
+        return MassBreakdown(own, wiring * own, nose, electronics * own * blades, blades)
+    own = actuator.mass * placement.plies * len(placement.segments)
+    return MassBreakdown(own, wiring * own, 0.0, electronics * own * blades, blades)
+
+
+def addition(
+    masses: MassBreakdown, placement: Placement, structure: BladeStructure, stiffness: float, *, balance: bool = True
+) -> Addition:
+    """The masses as running mass, torsional inertia about the balance axis, and stiffness, over the active span."""
+    limits = structure_data()["limits"]
+    axis, nose = float(limits["balance_axis_c"]), float(limits["nose_weight_c"])
+    low, high = (structure.radius * end for end in placement.span)
+    front, rear = placement.chord
+    plies = (masses.actuator + masses.wiring if balance else masses.actuator) / (high - low)
+    weight = (masses.balance if balance else 0.0) / (high - low)
+    arm = 0.5 * (front + rear) - axis
+    spread = plies * (arm**2 + (rear - front) ** 2 / 12.0) + weight * (axis - nose) ** 2
+    return Addition((low, high), plies + weight, spread * structure.chord**2, stiffness)
+
+
 @dataclass(frozen=True, eq=False)
-class Fitted:
+class InstalledActuator:
     """One actuator on one blade. Angles are peak to peak over the whole voltage range, nominal, rotating."""
 
     actuator: Actuator
@@ -34,7 +93,7 @@ class Fitted:
     """Of one layer, both skins, one blade [m²]."""
     segment_areas: tuple[float, ...]
     """The same by segment."""
-    bill: MassBill
+    masses: MassBreakdown
     added: Addition
     beam: TorsionBeam
     r: Array
@@ -70,7 +129,7 @@ class Fitted:
 
 
 @lru_cache(maxsize=64)
-def fit(actuator: Actuator, placement: Placement, host: Host, rotor: Rotor) -> Fitted:
+def install(actuator: Actuator, placement: Placement, host: Host, rotor: Rotor) -> InstalledActuator:
     """Put the actuator on the blade of a rotor.
 
     Raises ValueError where the blade cannot be built, in one sentence.
@@ -80,7 +139,7 @@ def fit(actuator: Actuator, placement: Placement, host: Host, rotor: Rotor) -> F
     covered = _covered(spec, placement)
     lengths = np.array([(high - low) * structure.radius for low, high in placement.segments])
     areas = covered * lengths
-    bill = mass_bill(actuator, placement, rotor.blades, float(areas.sum()))
+    masses = mass_breakdown(actuator, placement, rotor.blades, float(areas.sum()))
     stiffness, moment = spec.stiffness, 0.0
     if isinstance(actuator, PiezoPly):
         section = active_section(spec, actuator, placement)
@@ -88,13 +147,13 @@ def fit(actuator: Actuator, placement: Placement, host: Host, rotor: Rotor) -> F
         moment = stiffness * induced_twist_rate(section)
     elif not isinstance(actuator, ExtensionTwist):
         moment = placement.plies * actuator.torque
-    added = addition(bill, placement, structure, stiffness - spec.stiffness)
+    added = addition(masses, placement, structure, stiffness - spec.stiffness)
     beam = torsion_beam(structure, rotor.angular_speed, scale=host.stiffness, addition=added)
     if isinstance(actuator, ExtensionTwist):
         shapes = _along_the_blade(actuator, beam)
     else:
         shapes = np.stack([_segment_shape(beam, structure, span, moment) for span in placement.segments])
-    return Fitted(
+    return InstalledActuator(
         actuator=actuator,
         placement=placement,
         host=host,
@@ -103,7 +162,7 @@ def fit(actuator: Actuator, placement: Placement, host: Host, rotor: Rotor) -> F
         twist_rate=moment / stiffness,
         skin_area=float(areas.sum()),
         segment_areas=tuple(float(area) for area in areas),
-        bill=bill,
+        masses=masses,
         added=added,
         beam=beam,
         r=beam.r / structure.radius,

@@ -9,7 +9,7 @@ from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import ConnectionClosed
 from websockets.typing import Subprotocol
 
-from explorer.soak import wire
+from tests.tools.soak import wire
 
 BLADE = "/rotor/blade_0"
 """The marked blade: its vertices tell which twist a frame shows."""

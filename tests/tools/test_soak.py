@@ -11,10 +11,11 @@ import numpy as np
 import pytest
 import zstandard
 
-from explorer.soak import command, wire
-from explorer.soak.figures import MemoryUse, Visit, delays, judge, memory, words
-from explorer.soak.process import processor_seconds, resident_mb
-from explorer.soak.visitor import Visitor
+from tests.tools.soak import __main__ as command
+from tests.tools.soak import wire
+from tests.tools.soak.figures import MemoryUse, Visit, delays, judge, memory, words
+from tests.tools.soak.process import processor_seconds, resident_mb
+from tests.tools.soak.visitor import Visitor
 
 
 def frame(messages: list[dict[str, object]], arrays: list[bytes]) -> bytes:
@@ -147,7 +148,7 @@ class TestCommand:
 @pytest.mark.slow
 def test_a_short_soak_loses_nothing():
     """As a user types it. Whether memory grows takes minutes to tell, so the exit code is not asked."""
-    typed = [sys.executable, "-m", "explorer", "soak", "--browsers", "4", "--minutes", "0.12", "--json"]
+    typed = [sys.executable, "-m", "tests.tools.soak", "--browsers", "4", "--minutes", "0.12", "--json"]
     ended = subprocess.run(typed, capture_output=True, text=True, timeout=120, check=False)
     assert ended.stdout, ended.stderr
     report = json.loads(ended.stdout)

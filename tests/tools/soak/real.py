@@ -6,8 +6,8 @@ import shutil
 import time
 from typing import Any
 
-from explorer.soak.drag import SLIDER
-from explorer.soak.figures import Visit
+from tests.tools.soak.drag import SLIDER
+from tests.tools.soak.figures import Visit
 
 _ARGUMENTS = ("--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 _NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")

@@ -1,8 +1,8 @@
-"""Coordinates in which the power is nearly a round bowl, from the gradients a search has already paid for.
+"""Coordinates in which the power is nearly a round paraboloid, from the gradients of earlier evaluations.
 
-Power is close to quadratic in the twist, but far rounder along some parameters than along others. The exact gradients
-of all evaluations so far determine its second derivatives by least squares; in the coordinates y of their square root a
-step of length one costs BAND of the power in any direction, so that a descent takes few steps and the band is a ball.
+Power is close to quadratic in the twist, but much flatter along some parameters than along others. Least squares on the
+exact gradients gives its second derivatives. In the coordinates y a step of length one costs BAND of the power in any
+direction, so a descent takes few steps and the band is a sphere.
 """
 
 from collections.abc import Callable, Sequence
@@ -12,7 +12,8 @@ from typing import Any, cast
 import numpy as np
 
 from rotor.arrays import Array
-from rotor.optimisation.record import Record
+from rotor.optimisation.evaluator import Evaluation
+from rotor.optimisation.slsqp import Inequality
 
 _least_squares = cast(Callable[..., Any], np.linalg.lstsq)
 
@@ -25,7 +26,7 @@ _FLATTEST = 2e-3
 
 
 @dataclass(frozen=True, eq=False)
-class Metric:
+class Preconditioner:
     """x = centre + stretch · y."""
 
     centre: Array
@@ -43,13 +44,13 @@ class Metric:
         return np.asarray(np.linalg.solve(self.stretch, x - self.centre), dtype=np.float64)
 
 
-def plain_metric(centre: Array, power: float) -> Metric:
+def initial_preconditioner(centre: Array, power: float) -> Preconditioner:
     """Before anything is known: power rises by some per cent over half the range of a parameter."""
-    return Metric(centre, np.sqrt(2.0 * BAND) * np.eye(len(centre)), 2.0 * BAND * power)
+    return Preconditioner(centre, np.sqrt(2.0 * BAND) * np.eye(len(centre)), 2.0 * BAND * power)
 
 
-def fit_metric(records: Sequence[Record], best: Record) -> Metric | None:
-    """The metric at the best point; None while the evaluations do not determine it."""
+def fit_preconditioner(records: Sequence[Evaluation], best: Evaluation) -> Preconditioner | None:
+    """The preconditioner at the best point; None while the evaluations do not determine it."""
     assert best.power is not None
     known = [one for one in records if one.power is not None and one.power < 1.5 * best.power]
     n = len(best.x)
@@ -76,4 +77,17 @@ def fit_metric(records: Sequence[Record], best: Record) -> Metric | None:
         return None
     size = np.maximum(size, _FLATTEST * size[-1])
     # P/P* − 1 = ½ xᵀ H x = BAND |y|².
-    return Metric(best.x, axes * np.sqrt(2.0 * BAND / size), 2.0 * BAND * best.power)
+    return Preconditioner(best.x, axes * np.sqrt(2.0 * BAND / size), 2.0 * BAND * best.power)
+
+
+def bound_margins(preconditioner: Preconditioner) -> Inequality:
+    """The bounds 0 ≤ x ≤ 1, each scaled to a distance in the preconditioner's coordinates."""
+    size = np.linalg.norm(preconditioner.stretch, axis=1)
+    rows = preconditioner.stretch / size[:, None]
+    both = np.vstack([rows, -rows])
+
+    def margins(y: Array) -> Array:
+        x = preconditioner.x(y)
+        return np.concatenate([x / size, (1.0 - x) / size])
+
+    return Inequality(margins, lambda _: both)

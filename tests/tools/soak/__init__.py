@@ -1,4 +1,4 @@
-"""`python -m explorer soak`: many browsers at once, each dragging, for minutes; what it did to them and to the server.
+"""`python -m tests.tools.soak`: many browsers drag a slider for minutes; reports delays, lost updates and memory.
 
 `wire` speaks the page's protocol, `visitor` is a browser without a screen, `run` starts a server and sends visitors,
 `figures` judges what they saw: no lost update, flat memory, how long an edit took to be seen.

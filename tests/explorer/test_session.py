@@ -1,0 +1,150 @@
+"""The path of a slider step: what the session calls on its page, and in which order."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from explorer import session as session_module
+from explorer.hosting.viser_compat import PageFacts
+from explorer.interface import Failure, Frame, SessionState
+from explorer.session import Session
+from explorer.state import Inputs, ViewState
+from rotor.design.design import Design
+
+
+class RecordingPage:
+    """A page without widgets: its inputs are set by the test, its calls are listed."""
+
+    def __init__(self, *_: Any) -> None:
+        self.inputs, self.view = Inputs(), ViewState()
+        self.calls: list[str] = []
+        self.frames: list[Frame] = []
+        self.states: list[SessionState] = []
+        self.failures: list[Failure] = []
+        self.found: Design | None = None
+        self.moves_sliders = False
+        self.pin = None
+
+    def __getattr__(self, name: str) -> Any:
+        return lambda *_, **__: self.calls.append(name)
+
+    def read(self) -> tuple[Inputs, ViewState]:
+        self.calls.append("read")
+        return self.inputs, self.view
+
+    def driven(self, design: Design) -> Design:
+        return design
+
+    def preview(self, design: Design) -> Design | None:
+        return self.found
+
+    def pin_or_swap(self, *_: Any) -> bool:
+        self.calls.append("pin_or_swap")
+        return self.moves_sliders
+
+    def solve_pinned(self, *_: Any) -> None:
+        self.calls.append("solve_pinned")
+
+    def show_frame(self, frame: Frame) -> None:
+        self.calls.append("show_frame")
+        self.frames.append(frame)
+
+    def show_results(self, _: Any, state: SessionState) -> None:
+        self.calls.append("show_results")
+        self.states.append(state)
+
+    def show_failure(self, failure: Failure) -> None:
+        self.calls.append("show_failure")
+        self.failures.append(failure)
+
+
+@pytest.fixture
+def session(monkeypatch: pytest.MonkeyPatch) -> Session:
+    """Its worker does not run: a test calls `_update` itself."""
+    monkeypatch.setattr(session_module, "Page", RecordingPage)
+    client: Any = SimpleNamespace(client_id=1)
+    shared: Any = SimpleNamespace(pool=SimpleNamespace(leave=lambda: None))
+    return Session(client, Inputs(), PageFacts(), shared)
+
+
+def update(session: Session) -> Any:
+    """One update in which nothing supersedes it; the page with the calls of this update only."""
+    page: Any = session.page
+    page.calls.clear()
+    session._all_changed = True
+    session._update(lambda: False)
+    return page
+
+
+def test_only_reading_and_pinning_come_before_the_frame(session: Session):
+    page = update(session)
+    assert page.calls[:3] == ["read", "pin_or_swap", "show_frame"]
+    assert page.calls[3:6] == ["solve_pinned", "show_results", "show_power"]
+    assert page.calls[-1] == "rest"
+    assert page.calls.index("follow") < page.calls.index("rest")
+    assert page.frames[-1].solution is page.states[-1].solution
+
+
+def test_pinned_design_is_solved_first_only_where_the_disk_shows_the_difference(session: Session):
+    page: Any = session.page
+    page.view = replace(page.view, difference=True)
+    assert update(session).calls[:4] == ["read", "pin_or_swap", "solve_pinned", "show_frame"]
+
+
+def test_inputs_without_a_design_keep_the_last_picture(session: Session):
+    good = update(session).frames[-1].solution
+    page: Any = session.page
+    page.inputs = replace(Inputs(), law="three", three_first=0.7, three_second=0.6)
+    update(session)
+    assert page.calls == ["read", "pin_or_swap", "show_failure", "show_power"]
+    failure = page.failures[-1]
+    assert failure.good is good
+    assert failure.solution is None
+    assert "out of order" in failure.message
+
+
+def test_trim_that_does_not_converge_shows_its_own_sentence(session: Session):
+    page: Any = session.page
+    page.inputs = replace(Inputs(), advance_ratio=0.45, mass_t=11.0, altitude_m=4000.0, inflow="drees")
+    update(session)
+    failure = page.failures[-1]
+    assert failure.solution is not None
+    assert not failure.solution.converged
+    assert failure.message == failure.solution.message
+    assert "show_frame" not in page.calls
+
+
+def test_button_that_moves_the_sliders_ends_the_update(session: Session):
+    page: Any = session.page
+    page.moves_sliders = True
+    assert update(session).calls == ["read", "pin_or_swap"]
+
+
+def test_azimuth_alone_updates_little(session: Session):
+    page = update(session)
+    page.calls.clear()
+    page.view = replace(page.view, azimuth_deg=75.0)
+    session._all_changed = False
+    session._update(lambda: False)
+    assert page.calls == ["read", "pin_or_swap", "show_frame", "solve_pinned", "show_azimuth"]
+    assert page.frames[-1].only_azimuth
+
+
+def test_search_is_shown_in_place_of_the_sliders(session: Session):
+    page: Any = session.page
+    page.found = replace(Inputs(), two_inner=-9.0).design()
+    update(session)
+    reading = page.frames[-1].reading
+    assert reading.previewed
+    assert page.frames[-1].solution.design == page.found
+    assert reading.sliders == Inputs().design()
+
+
+def test_frame_goes_out_when_newer_input_waits(session: Session):
+    page: Any = session.page
+    page.read = lambda: (session._wake(), (page.inputs, page.view))[1]
+    session._update(lambda: True)
+    assert page.calls[:4] == ["pin_or_swap", "show_frame", "solve_pinned", "show_results"]
+    assert "follow" not in page.calls
