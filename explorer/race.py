@@ -2,11 +2,12 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import accumulate
 from typing import Literal
 
-from explorer.state import LAWS, Inputs, with_optimum
+from explorer.interpolation import blend, eased
+from explorer.state import Inputs, with_optimum
 from explorer.tabs.optimise.run import SearchRun
 from explorer.text.units import SI, Units, number
 from rotor.design.design import Design
@@ -106,30 +107,6 @@ def race_of(run: SearchRun) -> Race:
 def inputs_at(inputs: Inputs, preview: Design) -> Inputs:
     """The slider positions that mean the previewed blade in the present flight, so that the sliders follow it."""
     return with_optimum(inputs, preview)
-
-
-def inputs_between(before: Inputs, after: Inputs, part: float) -> Inputs:
-    """Slider positions on the way from one preview to the next; `part` 0…1, eased at both ends.
-
-    Only the numbers of a twist law move; where the law changes, the new one stands at once.
-    """
-    names = LAWS[after.law].inputs
-    if part >= 1.0 or before.law != after.law or not names:
-        return after
-    weight = eased(part)
-    values = {name: blend(getattr(before, name), getattr(after, name), weight) for name in names}
-    return replace(after, **values)
-
-
-def eased(part: float) -> float:
-    """0…1 with rest at both ends: 3t² − 2t³, clamped."""
-    t = min(max(part, 0.0), 1.0)
-    return t * t * (3.0 - 2.0 * t)
-
-
-def blend(before: float, after: float, weight: float) -> float:
-    """Linear interpolation that is exact at both ends."""
-    return after if weight >= 1.0 else before + weight * (after - before)
 
 
 def counting(before: float, after: float, part: float, digits: int = 1) -> str:

@@ -12,7 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from explorer.race import blend, eased
+from explorer.interpolation import blend, eased
 from explorer.tabs.optimise.schedule_view import PlanProgress
 from explorer.text.units import SI, Units, number
 from rotor.design.design import Design

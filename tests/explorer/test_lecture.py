@@ -13,9 +13,10 @@ from explorer.sharing.address import Address, parameter, with_parameter
 from explorer.sharing.presentation import Presentations, PresentedView, follow_name, new_secret
 from explorer.state import Inputs, ViewState, baseline_of
 from explorer.tabs.keys.names import KEYS
-from explorer.tabs.lecture.cases import DOCUMENT
+from explorer.tabs.lecture.cases import CASES
 from explorer.tabs.lecture.steps import STEPS, LectureStep, beside, view_of
 from explorer.tabs.lecture.view import caption
+from explorer.text.units import AVIATION
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -42,7 +43,7 @@ class TestClaims:
         assert at[0.15].total < min(at[0.0].total, at[0.3].total)
 
     def test_twist_evens_the_inflow_of_hover(self):
-        flat, twisted = both("Why more twist helps hover")
+        flat, twisted = both("Why twist helps in hover")
         assert twisted.power.induced < 0.95 * flat.power.induced
 
         def rise(solution: Solution) -> float:
@@ -51,18 +52,18 @@ class TestClaims:
 
         assert rise(flat) > 1.3  # Without twist inflow grows towards the tip,
         assert abs(rise(twisted) - 1.0) < 0.5 * (rise(flat) - 1.0)  # with it, far less.
-        more = solved(replace(BY_TITLE["Why more twist helps hover"].inputs, linear=-24.0))
+        more = solved(replace(BY_TITLE["Why twist helps in hover"].inputs, linear=-24.0))
         assert more.power.total > twisted.power.total
 
     def test_linear_inflow_does_not_see_it(self):
-        flat, twisted = both("Why linear inflow cannot see it")
+        flat, twisted = both("Why linear inflow cannot show it")
         assert abs(twisted.power.induced - flat.power.induced) < 1e3
         assert flat.power.profile - twisted.power.profile > 10e3
         parts = twisted.power
         assert parts.induced > max(parts.profile, parts.parasite)
 
     def test_a_wake_sees_it(self):
-        flat, twisted = both("A wake that answers")
+        flat, twisted = both("A wake that responds to loading")
         induced = flat.power.induced - twisted.power.induced
         assert induced > 30e3
         assert induced > 0.5 * (flat.power.total - twisted.power.total)
@@ -76,7 +77,7 @@ class TestClaims:
         assert more.power.total < less.power.total
 
     def test_reverse_flow_drives_the_blade_drags_and_pushes_down(self):
-        without, rotor = both("Where the reverse flow eats power")
+        without, rotor = both("What reverse flow costs")
         assert rotor.power.total - without.power.total > 10e3
         disk = rotor.disk
         reverse = disk.u_t < 0.0
@@ -103,6 +104,12 @@ def test_a_step_says_what_is_seen(step: LectureStep):
     assert any(character.isdigit() for character in said)
     assert not any(mark in said for mark in (" kW", " %", "\u2009"))  # A number and its unit stay on one line.
     assert "nan" not in said
+    numbers = step.numbers(SessionState(step.inputs, ViewState(), solution, baseline, pinned))
+    assert len({one.caption for one in numbers}) == 3
+    for one in numbers:
+        assert re.search(r"\d", one.value)
+        assert " " not in one.value
+        assert len(one.value) <= 12
     html = caption(step, said)
     assert f'data-step="{STEPS.index(step) + 1}"' in html
     assert view_of(step, ViewState(dark=True)).dark
@@ -115,6 +122,17 @@ def test_what_is_said_of_power_adds_up():
     said = step.say(SessionState(step.inputs, ViewState(), solution, solution, None))
     shares = re.findall(r"([\d.]+)\u00a0%", said)
     assert sum(map(float, shares)) == pytest.approx(100.0, abs=1.0)
+
+
+def test_the_large_numbers_are_those_of_the_solutions():
+    step = BY_TITLE["A wake that responds to loading"]
+    flat, twisted = both(step.title)
+    numbers = step.numbers(SessionState(step.inputs, ViewState(), twisted, flat, flat))
+    changes = [float(one.value.removesuffix("\u00a0kW").replace("−", "-")) for one in numbers]
+    parts = [getattr(twisted.power, name) - getattr(flat.power, name) for name in ("induced", "profile", "total")]
+    assert changes == pytest.approx([part / 1e3 for part in parts], abs=0.51)
+    imperial = step.numbers(SessionState(step.inputs, ViewState(units=AVIATION.title), twisted, flat, flat))
+    assert all(one.value.endswith("\u00a0hp") for one in imperial)
 
 
 class TestBeside:
@@ -135,7 +153,7 @@ class TestBeside:
         assert against.design() == replace(step.against or Inputs(), inflow="dynamic-wake").design()
 
     def test_the_twist_and_the_flight_are_the_users(self):
-        step = BY_TITLE["Where the reverse flow eats power"]
+        step = BY_TITLE["What reverse flow costs"]
         against = beside(step, replace(step.inputs, advance_ratio=0.3, tip_loss=False))
         assert against == replace(step.inputs, advance_ratio=0.3, tip_loss=False, reverse_flow=False)
 
@@ -145,10 +163,18 @@ def test_eight_steps_and_their_keys():
     assert {"lecture", "lecture_next", "lecture_previous"} <= set(KEYS)
 
 
-@pytest.mark.parametrize("inputs", DOCUMENT.values(), ids=DOCUMENT)
-def test_the_documents_cases_trim(inputs: Inputs):
+@pytest.mark.parametrize("inputs", CASES.values(), ids=CASES)
+def test_every_case_trims_in_the_documents_preset(inputs: Inputs):
     assert inputs.preset == "thesis"
     assert solve(inputs.design()).converged
+
+
+def test_only_what_the_document_prints_is_called_its_own():
+    """It gives −16° and −13.5° in hover and −8° from µ 0.18; for low and high speed it prints no advance ratio."""
+    printed = {(0.0, -16.0), (0.0, -13.5), (0.18, -8.0)}
+    named = {title: (case.advance_ratio, case.linear) for title, case in CASES.items()}
+    assert {case for title, case in named.items() if title.startswith("Document: ")} == printed
+    assert all(title.startswith("Example: ") for title, case in named.items() if case not in printed)
 
 
 class TestStage:

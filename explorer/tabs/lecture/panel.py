@@ -9,6 +9,7 @@ import viser
 from explorer.hosting import viser_compat
 from explorer.interface import SessionState, TabContext
 from explorer.pinned import same_but_flight
+from explorer.snapshot import PageSnapshot
 from explorer.state import Inputs
 from explorer.tabs.lecture import cases, view
 from explorer.tabs.lecture import steps as lecture
@@ -35,12 +36,14 @@ class LecturePanel:
         self._against: Inputs | None = None
         """A, as the step wants it beside what is on the sliders."""
         self._told = ""
+        self._before: PageSnapshot | None = None
+        """The visitor's own page, to be given back at the end."""
         gui = client.gui
         self._begin = gui.add_button("Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture"))
         gui.add_html('<div class="rx rx-dim rx-small">Eight steps set the page and say what to watch.</div>')
         self._big = gui.add_checkbox("Big type", False, hint=hint("big_type"))
         self._flights = gui.add_button_group("Fly at µ", tuple(cases.FLIGHTS), hint=hint("lecture_flights"))
-        self._case = gui.add_dropdown("Document", (_NO_CASE, *cases.DOCUMENT), hint=hint("document_case"))
+        self._case = gui.add_dropdown("Cases", (_NO_CASE, *cases.CASES), hint=hint("document_case"))
         with gui.add_folder("Present to others"):
             self._present = gui.add_button("Present", icon=viser.Icon.PRESENTATION, color="gray", hint=hint("present"))
             gui.add_html(_PRESENTING)
@@ -48,7 +51,9 @@ class LecturePanel:
         self._caption_panel = gui.add_panel(visible=False)
         with self._caption_panel.add_tab("What to watch", viser.Icon.SCHOOL):
             # First, so that they stay where they are however long the text is.
-            self._buttons = gui.add_button_group("", ("Back", "Set again", "Next", "End"), hint=hint("lecture_step"))
+            self._buttons = gui.add_button_group(
+                "", ("Back", "Reset this step", "Next", "End"), hint=hint("lecture_step")
+            )
             self._caption = gui.add_html("")
         # It covers neither the rotor nor the controls, also in a small window.
         self._caption_panel.dock_below(gui.main_panel)
@@ -83,7 +88,9 @@ class LecturePanel:
             self.set(max(step, 0))
 
     def set(self, step: int) -> None:
-        """Set the page as a step wants it."""
+        """Set the page for a step."""
+        if self._step is None:
+            self._before = PageSnapshot.take(self._context)
         self._stand_at(step)
         wanted, context = STEPS[step], self._context
         inputs = self._kept(wanted.inputs)
@@ -106,8 +113,11 @@ class LecturePanel:
         self._flights.visible = self._buttons.visible = not held
 
     def end(self) -> None:
-        """The caption goes; the page stays as it is."""
+        """Give back the page as it was before the lecture."""
         self._stand_at(None)
+        before, self._before = self._before, None
+        if before is not None:
+            before.restore(self._context)
 
     def show(self, state: SessionState) -> None:
         """Say what is seen now."""
@@ -160,12 +170,12 @@ class LecturePanel:
         self._present.label = "Stop presenting" if self._presence.presenting else "Present"
 
     def _take_case(self, event: viser.GuiEvent[Any]) -> None:
-        if event.client is not None and event.target.value in cases.DOCUMENT:
-            self._context.set_inputs(self._kept(cases.DOCUMENT[event.target.value]))
+        if event.client is not None and event.target.value in cases.CASES:
+            self._context.set_inputs(self._kept(cases.CASES[event.target.value]))
 
     def _name_case(self, inputs: Inputs) -> None:
         """The menu names a case for as long as the sliders hold it."""
-        held = (title for title, case in cases.DOCUMENT.items() if self._kept(case) == inputs)
+        held = (title for title, case in cases.CASES.items() if self._kept(case) == inputs)
         if self._case.value != (title := next(held, _NO_CASE)):
             self._case.value = title
 
@@ -179,7 +189,7 @@ class LecturePanel:
                 self.go(-1)
             case "Next":
                 self.go(1)
-            case "Set again" if self._step is not None:
+            case "Reset this step" if self._step is not None:
                 self.set(self._step)
             case _:
                 self.end()

@@ -1,4 +1,4 @@
-"""The lecture: eight steps that set the page, say what to watch, and state what is seen in numbers of the moment."""
+"""The lecture: eight steps that set the page, say what to watch, and give the present numbers."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -13,6 +13,15 @@ Say = Callable[[SessionState], str]
 
 
 @dataclass(frozen=True)
+class LargeNumber:
+    """A number to be read from the back of the room."""
+
+    value: str
+    """With its unit, on one line."""
+    caption: str
+
+
+@dataclass(frozen=True)
 class LectureStep:
     """One stop of the lecture."""
 
@@ -23,7 +32,9 @@ class LectureStep:
     """What to try."""
     inputs: Inputs
     say: Say
-    """What is seen, in the numbers of the moment; it holds for whatever the sliders are moved to."""
+    """What is seen, in the present numbers; it holds wherever the sliders are moved."""
+    numbers: Callable[[SessionState], tuple[LargeNumber, LargeNumber, LargeNumber]]
+    """Three large numbers beside the caption."""
     against: Inputs | None = None
     """A of A/B."""
     field: str = "Induced inflow λi"
@@ -39,9 +50,9 @@ def view_of(step: LectureStep, view: ViewState) -> ViewState:
 
 
 def beside(step: LectureStep, inputs: Inputs) -> Inputs | None:
-    """A of a step beside what is on the sliders: its own blade and whatever else sets it apart, else as B is computed.
+    """A of a step for the inputs on the sliders: the step's own blade and differences, all else as in B.
 
-    So that A and B differ by what the step is about, also after the user has chosen another inflow.
+    So A and B differ only by the subject of the step, also after the user has chosen another inflow.
     """
     if step.against is None:
         return None
@@ -53,7 +64,7 @@ _TWIST = {"law"}.union(*(law.inputs for law in LAWS.values()))
 
 
 def _power(state: SessionState, watts: float, sign: bool = False) -> str:
-    """In the units that are chosen, on one line."""
+    """In the chosen units, on one line."""
     return UNITS[state.view.units].watts(watts, sign=sign).replace(" ", "\u00a0").replace("\u2009", "\u00a0")
 
 
@@ -97,11 +108,66 @@ def _per_cent(state: SessionState) -> str:
 
 def _actuator(state: SessionState) -> str:
     needs = _power(state, state.solution.power.total)
-    return f"This blade needs {needs} here; the tab says what moving it is worth, net."
+    return f"This blade needs {needs} here; the verdict gives the net benefit of changing its twist in flight."
 
 
 def _powers(state: SessionState) -> tuple[PowerBudget, PowerBudget]:
     return state.reference.power, state.solution.power
+
+
+def _total_and_parts(state: SessionState) -> tuple[LargeNumber, LargeNumber, LargeNumber]:
+    power = state.solution.power
+    return (
+        LargeNumber(_power(state, power.total), "total power"),
+        LargeNumber(_percent(power.induced / power.total), "of it induced"),
+        LargeNumber(_percent(power.parasite / power.total), "of it parasite"),
+    )
+
+
+def _induced_numbers(state: SessionState) -> tuple[LargeNumber, LargeNumber, LargeNumber]:
+    before, after = _powers(state)
+    return (
+        LargeNumber(_power(state, before.induced), "induced power, A"),
+        LargeNumber(_power(state, after.induced), "induced power, B"),
+        LargeNumber(_percent(after.induced / before.induced - 1.0, 1, sign=True), "change from A to B"),
+    )
+
+
+def _change_numbers(state: SessionState) -> tuple[LargeNumber, LargeNumber, LargeNumber]:
+    before, after = _powers(state)
+    return (
+        LargeNumber(_power(state, after.induced - before.induced, sign=True), "induced power, B − A"),
+        LargeNumber(_power(state, after.profile - before.profile, sign=True), "profile power, B − A"),
+        LargeNumber(_power(state, after.total - before.total, sign=True), "total power, B − A"),
+    )
+
+
+def _reverse_numbers(state: SessionState) -> tuple[LargeNumber, LargeNumber, LargeNumber]:
+    before, after = _powers(state)
+    return (
+        LargeNumber(_percent(state.solution.reverse_flow_area, 1), "of the disk in reverse flow"),
+        LargeNumber(_power(state, after.profile - before.profile, sign=True), "profile power it costs"),
+        LargeNumber(_power(state, after.total - before.total, sign=True), "total power it costs"),
+    )
+
+
+def _saving_numbers(state: SessionState) -> tuple[LargeNumber, LargeNumber, LargeNumber]:
+    before, after = _powers(state)
+    return (
+        LargeNumber(_power(state, before.total), "total power, A"),
+        LargeNumber(_power(state, after.total), "total power, B"),
+        LargeNumber(_percent(after.total / before.total - 1.0, 2, sign=True), "change from A to B"),
+    )
+
+
+def _actuator_numbers(state: SessionState) -> tuple[LargeNumber, LargeNumber, LargeNumber]:
+    power, units = state.solution.power, UNITS[state.view.units]
+    mass = units.mass.text(state.solution.design.condition.mass, 1 if units.mass.size > 1.0 else 0)
+    return (
+        LargeNumber(_power(state, power.total), "total power"),
+        LargeNumber(_power(state, 0.01 * power.total), "is one per cent of it"),
+        LargeNumber(mass.replace(" ", "\u00a0").replace("\u2009", "\u00a0"), "carried already"),
+    )
 
 
 _LINEAR = Inputs(law="linear")
@@ -110,82 +176,90 @@ _UH60A = Inputs(law="builtin")
 STEPS: tuple[LectureStep, ...] = (
     LectureStep(
         "A rotor in trim",
-        "Every picture is a rotor in trim: it carries the weight, overcomes the drag, and cyclic pitch holds its "
-        "disk square to the shaft. Its power has three parts: induced (making lift), profile (dragging blades), "
-        "parasite (pushing the fuselage); the tail rotor takes some more.",
+        "Every picture shows a rotor in trim: it carries the weight and overcomes the drag, and cyclic pitch removes "
+        "the first harmonic of flapping, so that the disk stays square to the shaft. Main-rotor power has three parts: "
+        "induced (making lift), profile (blade drag) and parasite (fuselage drag). The tail rotor needs some more.",
         "Drag the advance ratio from 0 to 0.3: induced power falls to about a third, parasite power grows with "
-        "the cube of the speed, and the total has a valley.",
+        "the cube of speed, and the total has a minimum.",
         _UH60A,
         _shares,
+        _total_and_parts,
     ),
     LectureStep(
-        "Why more twist helps hover",
-        "Without twist (A) the inflow of a hovering disk grows towards the tip. Twist moves lift inboard and "
-        "evens the inflow: the same thrust for less induced power.",
-        "Drag Rate on from −16° towards −24°: the gain ends where the inflow becomes uneven the other way.",
+        "Why twist helps in hover",
+        "Without twist (A) the inflow in hover grows towards the tip. Twist moves lift inboard and makes the inflow "
+        "more uniform: the same thrust for less induced power.",
+        "Drag Rate from −16° towards −24°: the gain ends where the inflow becomes non-uniform the other way.",
         replace(_LINEAR, linear=-16.0, advance_ratio=0.0),
         _induced,
+        _induced_numbers,
         against=replace(_LINEAR, linear=0.0, advance_ratio=0.0),
         difference=True,
     ),
     LectureStep(
-        "Why linear inflow cannot see it",
-        "A linear model takes its inflow from thrust and speed, not from where on the disk the lift is. Twist "
-        "then changes profile power only; the induced part, the largest at this speed, stays where it was.",
-        "Drag Rate anywhere: watch the induced line. Then go on to the next step.",
+        "Why linear inflow cannot show it",
+        "A linear inflow model depends on thrust and speed, not on where on the disk the lift is. Twist then changes "
+        "profile power only. Induced power, the largest part at this speed, stays the same.",
+        "Drag Rate to any value and watch the induced power. Then go to the next step.",
         replace(_LINEAR, linear=-12.0, inflow="pitt-peters"),
         _both,
+        _change_numbers,
         against=replace(_LINEAR, linear=0.0, inflow="pitt-peters"),
         difference=True,
     ),
     LectureStep(
-        "A wake that answers",
-        "The same two blades with a wake that follows the lift over the disk and over time: now the induced part "
-        "answers, and most of what twist saves in forward flight is induced power.",
-        "Drag Rate again; or compare with Drees and Coleman in the Inflow menu.",
+        "A wake that responds to loading",
+        "The same two blades with a wake that follows the load distribution over the disk and in time. Now induced "
+        "power changes too, and it is most of what twist saves in forward flight.",
+        "Drag Rate again, or compare Drees and Coleman in the Inflow menu.",
         replace(_LINEAR, linear=-12.0),
         _both,
+        _change_numbers,
         against=replace(_LINEAR, linear=0.0),
         difference=True,
     ),
     LectureStep(
         "Four blades are not infinitely many",
-        "Textbooks untwist a blade for speed. That rotor has infinitely many blades: its wake is steady, and −16°"
-        " (B) costs it induced power against −8° (A). Four blades shed a wake that beats with them.",
-        "Untick Infinite blades (Model folder): with four blades the same twist costs nothing.",
+        "Textbooks reduce twist for high speed. Their rotor has infinitely many blades: its wake is steady, and −16° "
+        "(B) costs induced power compared with −8° (A). Four blades shed a wake that pulsates with them.",
+        "Switch off Infinite blades under Model: with four blades the same twist costs nothing.",
         replace(_LINEAR, linear=-16.0, advance_ratio=0.3, inflow="dynamic-wake-infinite-blades"),
         _induced,
+        _induced_numbers,
         against=replace(_LINEAR, linear=-8.0, advance_ratio=0.3, inflow="dynamic-wake-infinite-blades"),
         difference=True,
     ),
     LectureStep(
-        "Where the reverse flow eats power",
-        "Inside the outline the air meets the retreating blade from behind. It even drives the blade there, but "
-        "its drag pushes the rotor back and its lift points down: the rest of the disk pays for both. A is "
-        "computed without it.",
-        "Open Probe and walk r at ψ = 270° through the outline; drag the advance ratio: the circle is µR wide.",
+        "What reverse flow costs",
+        "Inside the outline the air meets the retreating blade from behind. There it even drives the blade, but its "
+        "drag pushes the rotor back and its lift points down: the rest of the disk pays for both. A is computed "
+        "without reverse flow.",
+        "Open the probe and move r through the outline at ψ = 270°. Drag the advance ratio: the circle is µR wide.",
         replace(_UH60A, advance_ratio=0.37),
         _reverse,
+        _reverse_numbers,
         against=replace(_UH60A, advance_ratio=0.37, reverse_flow=False),
         field="Power dP/dr",
     ),
     LectureStep(
         "What two segments add",
-        "A is the best straight blade at this speed, B the best of two straight pieces. The valley of power is so"
-        " flat that degrees of twist decide about tenths of a per cent: compare powers, never angles.",
-        "Move Division and both rates: how far can each go before a kilowatt is lost? Or press Optimise.",
-        replace(Inputs(), two_inner=-7.9, two_outer=-16.7, two_division=0.7, advance_ratio=0.3),
+        "A is the best linear twist at this speed, B the best twist of two linear segments. The optimum is so flat "
+        "that degrees of twist change power by tenths of a per cent: compare powers, never angles.",
+        "Move the division and both rates: how far can each go before a kilowatt is lost? Or press Optimise.",
+        replace(Inputs(), law="two", two_inner=-7.9, two_outer=-16.7, two_division=0.7, advance_ratio=0.3),
         _per_cent,
+        _saving_numbers,
         against=replace(_LINEAR, linear=-13.1, advance_ratio=0.3),
         field="Thrust dT/dr",
     ),
     LectureStep(
-        "What a piezo ply can move",
-        "Plies of piezoelectric fibres at ±45° twist the blade when a voltage stretches them. The tab holds what "
-        "they can reach against what the best twist asks for, and what is left after their mass is carried.",
-        "Drag a voltage and watch the blade; add plies: twist grows, so does the mass; then read the verdict.",
+        "What a piezoelectric ply can twist",
+        "Plies of piezoelectric fibres at ±45° twist the blade when voltage strains them. The verdict compares the "
+        "twist they can supply with the twist needed, and gives the saving left after their mass is carried.",
+        "Drag a voltage and watch the blade. Add plies: twist grows, and so does mass. Then read the verdict.",
         replace(_UH60A, advance_ratio=0.3),
         _actuator,
+        _actuator_numbers,
         tab="Actuator",
     ),
 )
