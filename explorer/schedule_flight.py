@@ -149,8 +149,8 @@ class ScheduleFlight:
     def design(self, instant: FlightInstant) -> Design:
         """The design of an instant, to be solved and drawn."""
         plan = self._plan
-        leg = min(range(len(plan.legs)), key=lambda k: self._distance(k, instant))
-        condition = replace(plan.legs[leg].condition, advance_ratio=instant.advance_ratio)
+        leg = min(range(len(plan.conditions)), key=lambda k: self._distance(k, instant))
+        condition = replace(plan.conditions[leg].flight, advance_ratio=instant.advance_ratio)
         return replace(plan.design, twist=instant.twist, condition=condition)
 
     def sequence(self, frames_per_second: float = 10.0) -> list[FlightInstant]:
@@ -159,7 +159,7 @@ class ScheduleFlight:
         return [self.at(self.seconds * k / count) for k in range(count + 1)]
 
     def _distance(self, leg: int, instant: FlightInstant) -> float:
-        return abs(self._plan.legs[leg].condition.advance_ratio - instant.advance_ratio)
+        return abs(self._plan.conditions[leg].flight.advance_ratio - instant.advance_ratio)
 
     def _so_far(self, leg: int, part: float, read: Callable[[FlownLeg], float | None]) -> float | None:
         """Sum of hours × something over the legs before, and over `part` of this one; None where it is not known."""
@@ -175,13 +175,13 @@ class ScheduleFlight:
 def flown_legs(progress: PlanProgress) -> tuple[FlownLeg, ...]:
     """The legs whose optimum is known, in the order of speed."""
     legs: list[FlownLeg] = []
-    for k, leg in enumerate(progress.plan.legs):
+    for k, leg in enumerate(progress.plan.conditions):
         optimum = progress.at(k)
         if optimum is None or optimum.best is None or optimum.baseline_power is None:
             continue
         legs.append(
             FlownLeg(
-                advance_ratio=leg.condition.advance_ratio,
+                advance_ratio=leg.flight.advance_ratio,
                 hours=leg.hours,
                 twist=optimum.design.twist,
                 moving=optimum.best.power,

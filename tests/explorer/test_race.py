@@ -19,7 +19,7 @@ from explorer.tabs.optimise import mission
 from explorer.tabs.optimise.run import SearchRun
 from explorer.tabs.optimise.search_request import SearchRequest
 from rotor.files.make_design import make_design
-from rotor.optimisation.search import Progress, optimise
+from rotor.optimisation.search import Progress, run_search
 from rotor.trim.solve import solve
 
 UNIFORM = replace(make_design().models, inflow="uniform", elements=20, azimuths=36)
@@ -44,7 +44,7 @@ def raced() -> tuple[SearchRun, Race]:
         if progress.phase == "search" and progress.start == 1 and not halfway:
             halfway.append(race_of(run))
 
-    run.optimum = optimise(run.search, take)
+    run.optimum = run_search(run.search, take)
     run.state = "done"
     return run, halfway[0]
 

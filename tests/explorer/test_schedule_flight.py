@@ -19,7 +19,7 @@ from rotor.design.twist import (
 )
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
-from rotor.optimisation.objective import Leg
+from rotor.optimisation.objective import WeightedCondition
 from rotor.optimisation.schedule import Cell, Plan, run_plan
 from rotor.trim.solve import solve
 
@@ -38,13 +38,14 @@ def progress() -> PlanProgress:
     models = replace(make_design().models, inflow="uniform", elements=20, azimuths=36)
     design = make_design(twist="linear:-16", models=models)
     legs = tuple(
-        Leg(replace(design.condition, advance_ratio=mu), hours) for mu, hours in ((0.3, 0.5), (0.0, 1.0), (0.15, 2.0))
+        WeightedCondition(replace(design.condition, advance_ratio=mu), hours)
+        for mu, hours in ((0.3, 0.5), (0.0, 1.0), (0.15, 2.0))
     )
     plan = Plan(design, (CONCEPTS["linear"],), legs, starts=1)
     schedule = run_plan(plan)
     fixed = schedule.at(None, "linear")
     assert fixed is not None
-    powers = tuple(solve(replace(fixed.design, condition=leg.condition)).power.total for leg in legs)
+    powers = tuple(solve(replace(fixed.design, condition=leg.flight)).power.total for leg in legs)
     return PlanProgress(plan, list(schedule.cells), powers)
 
 
@@ -54,7 +55,7 @@ class TestFlight:
         assert [leg.advance_ratio for leg in flight.legs] == [0.0, 0.15, 0.3]
         assert [leg.hours for leg in flight.legs] == [1.0, 2.0, 0.5]
         for leg in flight.legs:
-            k = [one.condition.advance_ratio for one in progress.plan.legs].index(leg.advance_ratio)
+            k = [one.flight.advance_ratio for one in progress.plan.conditions].index(leg.advance_ratio)
             optimum = progress.at(k)
             assert optimum is not None
             assert optimum.best is not None
@@ -116,7 +117,7 @@ class TestFlight:
         assert flight.at(flight.seconds).numbers()[0][1] == "µ 0.30"
 
     def test_what_is_not_known_yet_is_left_out(self, progress: PlanProgress):
-        partial = PlanProgress(progress.plan, [cell for cell in progress.cells if cell.leg in (0, 1)])
+        partial = PlanProgress(progress.plan, [cell for cell in progress.cells if cell.condition in (0, 1)])
         flight = ScheduleFlight(partial)
         assert len(flight.legs) == 2
         assert flight.at(1.0).fixed is None
@@ -126,7 +127,7 @@ class TestFlight:
             ScheduleFlight(PlanProgress(progress.plan, empty))
 
     def test_one_leg_alone_stands_still(self, progress: PlanProgress):
-        flight = ScheduleFlight(PlanProgress(progress.plan, [cell for cell in progress.cells if cell.leg == 0]))
+        flight = ScheduleFlight(PlanProgress(progress.plan, [cell for cell in progress.cells if cell.condition == 0]))
         assert flight.at(0.0).twist == flight.at(flight.seconds).twist
         assert largest_change_deg(flight) == 0.0
 
