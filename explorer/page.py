@@ -41,8 +41,7 @@ from explorer.tabs.results import ResultsPanel
 from explorer.tabs.rotors.menu import RotorUpload
 from explorer.tabs.studies.panel import StudiesPanel
 from explorer.tabs.top_bar import TopBar
-from explorer.text import trust as trust_readout
-from explorer.text.status import status_panel
+from explorer.text.status import status_panel, trust_page
 from explorer.text.units import UNITS
 from explorer.theme import style_sheet as style
 from rotor.design.design import Design
@@ -130,7 +129,7 @@ class Page:
         with panel.add_tab("Studies"):
             studies = StudiesPanel(client, context, shared.studies)
         with panel.add_tab("Trust"):
-            gui.add_html(trust_readout.trust_page())
+            gui.add_html(trust_page())
         panel.dock_left()
         self._enlarge(False)
         followers: tuple[Tab, ...] = (self.top, self.probe, sensitivity, self.waterfall, studies)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 from explorer.state import Inputs
-from explorer.text.naming import flight_name, twist_name
+from explorer.text.design_words import flight_name, twist_name
 from explorer.workers.solver import BaselineCache
 from rotor.design.design import Design
 from rotor.design.twist import SumTwist

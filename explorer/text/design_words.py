@@ -1,11 +1,11 @@
-"""A design in a reader's words: its twist, its flight, its models. Degrees, knots and tonnes begin here."""
+"""A design in words: its twist, flight condition and models in full, or its name in a few words for lists."""
 
 import math
 
-from explorer.state import PRESET_TITLES
+from explorer.state import LAWS, PRESET_TITLES, Inputs
 from explorer.text.units import METRE_PER_SECOND, SI, TONNE, Units, number
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.switches import switched_off
+from rotor.aero.switches import SWITCHES, switched_off
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.active_twist import ActiveTwist
 from rotor.design.design import Design
@@ -22,6 +22,13 @@ from rotor.design.twist import (
 from rotor.files.rotor_file import shipped_aircraft
 
 _COUNT = {1: "One segment", 2: "Two segments", 3: "Three segments", 4: "Four segments"}
+_SHAPES = {
+    "linear": ("linear",),
+    "quadratic": ("quadratic_curvature", "quadratic_difference"),
+    "two": ("two_inner", "two_outer"),
+    "three": ("three_inner", "three_middle", "three_outer"),
+}
+_PLACES = {"two": ("two_division",), "three": ("three_first", "three_second")}
 
 
 def twist_words(law: TwistLaw) -> str:
@@ -90,6 +97,26 @@ def physics_words(design: Design) -> str:
     """What of the physics is switched off, or that the losses count."""
     off = [f"no {switch.title.lower()}" for switch in switched_off(design.models)]
     return ", ".join(off) or "tip and hub loss"
+
+
+def twist_name(inputs: Inputs) -> str:
+    """The twist: `Two segments −14/−8 at 0.5`, and before it the rotor where it is not the page's first."""
+    values = "/".join(number(getattr(inputs, name), 1).removesuffix(".0") for name in _SHAPES.get(inputs.law, ()))
+    places = "/".join(f"{getattr(inputs, name):g}" for name in _PLACES.get(inputs.law, ()))
+    name = LAWS[inputs.law].title
+    if values:
+        name += f" {values}" + ("°" if inputs.law == "linear" else "")
+    rotor = "" if inputs.rotor == SHIPPED_ROTORS[0] else f"{inputs.aircraft.name}, "
+    return rotor + name + (f" at {places}" if places else "")
+
+
+def flight_name(inputs: Inputs, units: Units = SI) -> str:
+    """The flight: `µ 0.25, 8.32 t`, the altitude where it is not sea level, and what of the physics is switched off."""
+    speed = f"µ {inputs.advance_ratio:g}" if inputs.advance_ratio else "hover"
+    high = f", {units.altitude.text(inputs.altitude_m)}" if inputs.altitude_m else ""
+    mass = f"{inputs.mass_t:g} t" if units is SI else units.mass.text(1e3 * inputs.mass_t)
+    off = "".join(f", no {switch.title.lower()}" for name, switch in SWITCHES.items() if not getattr(inputs, name))
+    return f"{speed}, {mass}{high}{off}"
 
 
 def _degrees(angle: float) -> str:

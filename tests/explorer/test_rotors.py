@@ -15,7 +15,7 @@ from explorer.rotor_choice import OWN, mass_range, menu_titles, reference_mass_t
 from explorer.sharing import share
 from explorer.state import Inputs, ViewState, baseline_of, inputs_of, with_optimum, with_rotor
 from explorer.tabs.rotors.uploaded_files import SUFFIXES, UploadedFiles
-from explorer.text.naming import twist_name
+from explorer.text.design_words import twist_name
 from explorer.text.readout import ideal_line, power_panel
 from rotor.airfoil.polars import read_polars
 from rotor.assets import SHIPPED_ROTORS, asset_path

@@ -2,7 +2,7 @@
 
 import re
 
-from explorer.text.trust import trust_page
+from explorer.text.status import trust_page
 from rotor.reproduce.trust import KINDS, sensitivity_rows, trust_rows
 
 

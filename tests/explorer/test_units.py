@@ -14,7 +14,7 @@ from explorer.tabs.controls import DesignControls
 from explorer.tabs.history import strip as history_view
 from explorer.text import comparison as ab_readout
 from explorer.text import readout
-from explorer.text.naming import flight_name
+from explorer.text.design_words import flight_name
 from explorer.text.units import AVIATION, FOOT, HORSEPOWER, KNOT, POUND, SI, UNITS
 from explorer.undo import History
 from rotor.files.make_design import make_design

@@ -9,7 +9,7 @@ import numpy as np
 
 from explorer.charts.clicks import write_to
 from explorer.state import Inputs
-from explorer.text.naming import flight_name, twist_name
+from explorer.text.design_words import flight_name, twist_name
 from explorer.text.units import SI, Units
 from explorer.theme.colours import BASELINE, NOW, THIS
 from explorer.undo import History
