@@ -1,4 +1,4 @@
-"""One sentence for every control and every read-out, with the equation or the section of docs/theory.md behind it."""
+"""One sentence for every control and every read-out, with its equation or its section of docs/theory.md."""
 
 from dataclasses import dataclass
 from html import escape
@@ -8,13 +8,13 @@ from rotor.aero.switches import SWITCHES
 
 @dataclass(frozen=True)
 class Term:
-    """What people read when they point at something."""
+    """The text of a tooltip."""
 
     sentence: str
     equations: tuple[str, ...] = ()
     """Of the source document, as numbered in docs/theory.md."""
     section: int = 0
-    """Of docs/theory.md, where no equation says it; 0: neither, a matter of the page."""
+    """Of docs/theory.md, where there is no equation; 0: neither, the entry is about the page."""
 
     @property
     def text(self) -> str:
@@ -25,8 +25,8 @@ class Term:
         return f"{self.sentence} Theory, section {self.section}." if self.section else self.sentence
 
 
-_RATE = "Slope of the twist in degrees per radius; negative: the outer end is nose-down."
-_DIVISION = "Where two segments of twist meet, as a fraction of the radius."
+_RATE = "Twist rate in degrees per radius; negative: the outboard end is nose-down."
+_DIVISION = "Radius where two twist segments meet, as a fraction of R."
 _SOURCES = {
     "flapping": ("2.39", "3.20"),
     "tip_loss": ("3.16",),
@@ -36,174 +36,194 @@ _SOURCES = {
 }
 
 CONTROLS: dict[str, Term] = {
-    "view": Term("Fits it into the window: the rotor, its plan, the marked blade, the advancing side."),
-    "law": Term("How the pitch changes along the blade; what is common to all of it is the collective's.", section=4),
+    "view": Term("Fits into the window: the rotor, its plan view, the reference blade, or the advancing side."),
+    "law": Term("How pitch varies along the blade; a uniform change of pitch is collective.", section=4),
     "linear": Term(_RATE, section=4),
-    "quadratic_curvature": Term("Second-order coefficient of the twist; 0 is the linear law.", section=4),
-    "quadratic_difference": Term("Twist at the tip minus twist at the centre.", section=4),
+    "quadratic_curvature": Term("Second-order coefficient of the twist; 0 gives linear twist.", section=4),
+    "quadratic_difference": Term("Twist at the tip minus twist at the centre of rotation.", section=4),
     **{name: Term(_RATE, section=4) for name in ("two_inner", "two_outer", "three_inner", "three_middle")},
     "three_outer": Term(_RATE, section=4),
     **{name: Term(_DIVISION, section=4) for name in ("two_division", "three_first", "three_second")},
     "advance_ratio": Term("Airspeed over tip speed, µ = V/ΩR; 0 is hover.", section=1),
     "mass_t": Term("Gross mass; the rotor carries its weight W = mg.", section=2),
-    "altitude_m": Term("Pressure altitude in the standard atmosphere: thinner air, slower sound.", section=2),
-    "field": Term("What colours the disk.", section=8),
-    "difference": Term("The field of this design minus that of the pinned one."),
-    "colours": Term("The range of the colours stays as it is while you drag; fit it to the data here."),
-    "outline_reverse_flow": Term("Draws where air meets the blade from behind, U_T < 0.", ("3.5",)),
-    "outline_stall": Term("Draws where the angle of attack is beyond the section's stall angle.", section=5),
-    "outline_drag_divergence": Term("Draws where drag grows by 0.1 per Mach number.", section=5),
-    "azimuth_deg": Term("Place of the marked blade: 0° over the tail, 90° on the advancing side.", section=1),
-    "exaggeration": Term("Exaggerates the twist of the drawn blades only."),
-    "rotor": Term("Which helicopter's rotor: its blades, sections, speed and weight, as it is built.", section=4),
-    "rotor_file": Term(
-        "A rotor of your own: a TOML file (docs/rotor_file.md); decks, polars and outlines it names before or after it."
+    "altitude_m": Term(
+        "Pressure altitude in the standard atmosphere: it sets air density and speed of sound.", section=2
     ),
-    "preset": Term("What the source document states, or what we believe; each choice can be changed.", section=15),
-    "inflow": Term("How the air through the disk answers to speed and load.", ("3.4",)),
-    "infinite": Term("The same wake averaged over time: the rotor that textbooks untwist for speed.", section=9),
-    "vortex_check": Term("Solves the same design with rigid helical vortices, the reference of the others.", section=9),
-    "play": Term("Walks the marked blade round the disk, flapping and pitching as it does; nothing is solved anew."),
-    "play_speed": Term("How fast the marked blade is walked; a real one needs a fraction of a second for a turn."),
-    "probe_r": Term("Where along the blade; or click the disk, or press arrow up and down."),
-    "probe_psi": Term("Where round the disk, 0° over the tail; arrow left and right.", section=1),
-    "probe_follow": Term("The probe sits on the marked blade: where one goes, the other follows."),
-    "probe_shown": Term("Ring and ray on the disk where the probe is, and its section on the blade."),
-    "probe_opened": Term("Draws angles up to three times wider, to make the triangle of velocities visible."),
+    "field": Term("Quantity on the disk.", section=8),
+    "difference": Term("The quantity of this design minus that of the pinned design A."),
+    "colours": Term("The colour range is held while you drag; fit it to the data here."),
+    "outline_reverse_flow": Term("Shows where the flow comes from the trailing edge, U_T < 0.", ("3.5",)),
+    "outline_stall": Term("Shows where the angle of attack exceeds the stall angle of the section.", section=5),
+    "outline_drag_divergence": Term("Shows where ∂C_d/∂M reaches 0.1.", section=5),
+    "azimuth_deg": Term(
+        "Azimuth of the reference blade (red): 0° over the tail, 90° on the advancing side.", section=1
+    ),
+    "exaggeration": Term("Exaggerates the twist of the drawn blades; the numbers stay true."),
+    "rotor": Term("The helicopter: its blades, sections, rotor speed and mass, as built.", section=4),
+    "rotor_file": Term(
+        "Your own rotor: a TOML file (docs/rotor_file.md), with the decks, polars and outlines that it names."
+    ),
+    "preset": Term("Model choices of the source document, or the best available; each can be changed.", section=15),
+    "inflow": Term("How the inflow through the disk depends on speed and load distribution.", ("3.4",)),
+    "infinite": Term(
+        "The same wake averaged over time, as for infinitely many blades: the rotor of most textbooks.", section=9
+    ),
+    "vortex_check": Term(
+        "Solves the same design with a rigid helical vortex wake, the reference for the other models.", section=9
+    ),
+    "play": Term("Turns the rotor, flapping and pitching; the solution stays the same."),
+    "play_speed": Term("Speed of the animation; the real rotor turns several times a second."),
+    "probe_r": Term("Radius of the probe; or click the disk, or press arrow up or down."),
+    "probe_psi": Term("Azimuth of the probe, 0° over the tail; or press arrow left or right.", section=1),
+    "probe_follow": Term("Keeps the probe on the reference blade."),
+    "probe_shown": Term("Shows the radius and azimuth of the probe on the disk, and its section on the blade."),
+    "probe_opened": Term("Draws angles up to three times larger, so that the velocity triangle can be seen."),
     "units": Term("kW, km/h, t and m, or hp, kt, lb and ft."),
-    "dark": Term("Light letters on a dark page."),
-    "reset": Term("Back to the design the page began with."),
-    "paint": Term("Blue: more pitch here saves power; rust: it costs.", section=13),
-    "search_concept": Term("Kind of twist law to search, from one rate to a free form.", section=13),
-    "objective": Term("What the search makes small: here, in hover and here, or over the mission.", section=13),
-    "hover_share": Term("Part of the time spent hovering; the rest is flown as set."),
-    "search_division": Term("Where the segments of the search meet, as a fraction of the radius.", section=4),
-    "starts": Term("Descents from different twists, so that no valley is missed.", section=13),
-    "limit_stall": Term("Holds the stalled part of the disk down while searching.", section=13),
-    "stalled_limit": Term("Largest stalled part of the disk that a found blade may have.", section=13),
-    "limit_change": Term("Stays within reach of an actuator.", section=13),
-    "change_limit": Term("Largest change of twist from the present one, root to tip."),
-    "optimise": Term("Searches the twist of least power; the blade shows what is tried.", section=13),
-    "stop": Term("Ends the search and keeps the best so far."),
-    "replay": Term("The designs on the way to the best."),
-    "search_result": Term("Puts the best on the sliders, goes back, or shows the way once more."),
-    "map_across": Term("Parameter of the twist along the map's width.", section=13),
-    "map_up": Term("Parameter of the twist along the map's height.", section=13),
-    "map_draw": Term("Trims a design at every point: power over two parameters of the twist.", section=13),
-    "map_point": Term("Click the map, or write x and y: the design goes there."),
-    "leg": Term("Advance ratio and hours of one leg of the mission; no hours: not flown.", section=13),
-    "schedule": Term("Finds the best twist of every leg, and the best one blade for all.", section=13),
-    "schedule_stop": Term("Ends the work and keeps what is known."),
-    "schedule_result": Term("Puts the best one blade on the sliders, or saves the table."),
-    "cut": Term("Shows one blade, opened, in place of the rotor."),
-    "magnified": Term("Exaggerates the movement in the cut blade only."),
-    "voltage": Term("Per cent of the positive, or of the smaller negative, end of the voltage range."),
-    "fly": Term("Sets the voltages of the verdict at one of its flight conditions, and the advance ratio with them."),
-    "actuator": Term("Which piezoelectric ply or torque tube turns the blade."),
-    "plies": Term("Active plies on either side of the section; tubes, for the tube."),
-    "span": Term("Where along the radius the actuator lies."),
-    "chord_range": Term("Where along the chord it lies; the de-ice mat heats the first 0.12 c."),
-    "blade_type": Term("The blade that is flown, or one built to be turned."),
-    "stiffness": Term("Torsional stiffness of the new blade over the flown one's."),
-    "crossed": Term("Fibres laid at −45°: positive voltage turns the tip down."),
-    "derating": Term("Share of the nominal twist to count on: 62 % by low-end strain and what a tested blade showed."),
-    "actuator_concept": Term("Kind of twist whose best at either speed the actuator should reach.", section=13),
-    "pair": Term("The two advance ratios between which the twist would change."),
-    "harmonic": Term("How often the twist goes up and down in a revolution; it rests in hover."),
-    "amplitude": Term("Of the twist that follows the azimuth, as part of half the voltage range."),
-    "phase": Term("Of the twist that follows the azimuth: the tip is most nose-up at phase over harmonic."),
-    "keep": Term("Sets the design aside (M), to come back to or to compare with."),
-    "take": Term("Clicks on the strip write here which step to take."),
-    "link": Term("Copies the page's address, which holds the whole design."),
-    "save": Term("Saves the design as a file that people and the command line can read."),
-    "load": Term("Takes a design file (JSON); a bad one says why and changes nothing."),
-    "export_shape": Term("One blade, or the rotor in trim, as closed surfaces: metres, true scale, no exaggeration."),
-    "export_table": Term("Every field over the disk; the blade at the marked azimuth; power over µ. With units."),
-    "export_picture": Term("The disk from above, or the rotor as you see it, with flight, power, scale and caveats."),
-    "export_size": Term("Width and height of the picture; the letters grow with it."),
-    "export_own": Term("Width and height [px], 300 to 4096, the longer at most two and a half times the shorter."),
-    "export_clear": Term("Leaves the background out, for slides that have their own."),
-    "export_kind": Term("Pixels, or, of the disk, a drawing that is sharp at any size."),
-    "export_report": Term("All designs of the session, A and the kept ones too, in one file that needs no server."),
-    "export_text": Term("A script or a command that computes this design's power elsewhere, to the last digit."),
+    "dark": Term("Light text on a dark page."),
+    "reset": Term("Returns to the design that the page opened with."),
+    "paint": Term("Blue: more pitch here saves power; rust: it costs power.", section=13),
+    "search_concept": Term("Family of twist laws to search, from a single rate to a free form.", section=13),
+    "objective": Term("Power to minimise: at this condition, in hover and cruise, or over the mission.", section=13),
+    "hover_share": Term("Share of the time in hover; the rest is flown at the present condition."),
+    "search_division": Term("Radius where the segments of the concept meet, as a fraction of R.", section=4),
+    "starts": Term("Starting points, so that no local minimum is missed.", section=13),
+    "limit_stall": Term("Limits the stalled part of the disk during the search.", section=13),
+    "stalled_limit": Term("Largest permitted stalled part of the disk.", section=13),
+    "limit_change": Term("Limits the change of twist, for example to the reach of an actuator.", section=13),
+    "change_limit": Term("Largest permitted change from the present twist, root to tip."),
+    "optimise": Term("Finds the twist of least power; the blade previews the best so far.", section=13),
+    "stop": Term("Stops the search and keeps the best so far."),
+    "replay": Term("The successive best designs of the search."),
+    "search_result": Term("Puts the optimum on the sliders, discards it, or replays the search."),
+    "map_across": Term("Twist parameter along the horizontal axis of the map.", section=13),
+    "map_up": Term("Twist parameter along the vertical axis of the map.", section=13),
+    "map_draw": Term("Power over two twist parameters; every point is a trimmed design.", section=13),
+    "map_point": Term("Click the map, or type x and y, to move the design there."),
+    "leg": Term("Advance ratio and hours of one mission leg; 0 hours: not flown.", section=13),
+    "schedule": Term("Finds the best twist of each leg, and the best fixed blade for all of them.", section=13),
+    "schedule_stop": Term("Stops and keeps the results so far."),
+    "schedule_result": Term("Puts the best fixed blade on the sliders, or saves the table."),
+    "cut": Term("Shows one blade cut open in place of the rotor."),
+    "magnified": Term("Exaggerates the deformation of the cut blade; the numbers stay true."),
+    "voltage": Term("Per cent of the positive or, below zero, of the negative end of the voltage range."),
+    "fly": Term("Flies one of the two conditions of the verdict, with its voltages and advance ratio."),
+    "actuator": Term("The piezoelectric ply or torque tube that twists the blade."),
+    "plies": Term("Active plies per side of the section, or number of torque tubes."),
+    "span": Term("Radial extent of the actuator."),
+    "chord_range": Term("Chordwise extent of the actuator; the de-icing mat covers the first 0.12 c."),
+    "blade_type": Term("Retrofit of the existing blade, or a new blade designed for active twist."),
+    "stiffness": Term("Torsional stiffness of the new blade, relative to the existing one."),
+    "crossed": Term("Fibres at −45°: positive voltage twists the tip nose-down."),
+    "derating": Term("Usable share of the nominal twist: 62 % from low-end strain and a tested blade."),
+    "actuator_concept": Term("Twist concept whose optimum at each speed the actuator should reach.", section=13),
+    "pair": Term("The two advance ratios between which the twist changes."),
+    "harmonic": Term("Cycles of active twist per revolution; none in hover."),
+    "amplitude": Term("Amplitude of the harmonic twist, as a share of half the voltage range."),
+    "phase": Term("Phase of the harmonic twist: the tip is most nose-up at ψ = phase/harmonic."),
+    "keep": Term("Bookmarks this design (M), to return to it or to compare with it."),
+    "take": Term("Step of the history to return to; a click on the strip sets it."),
+    "link": Term("Copies the address of the page, which contains the whole design."),
+    "save": Term("Saves the design as a file for the command line and for people."),
+    "load": Term("Loads a design file (JSON); an invalid one is rejected with the reason."),
+    "export_shape": Term("One blade, or the trimmed rotor, as closed surfaces in metres, without exaggeration."),
+    "export_table": Term(
+        "Every quantity over the disk, the blade at the present azimuth, or power over µ, with units."
+    ),
+    "export_picture": Term(
+        "The disk from above, or the rotor as shown, with flight condition, power, scale and caveats."
+    ),
+    "export_size": Term("Width and height of the picture; the text scales with it."),
+    "export_own": Term("Width and height [px], 300 to 4096; aspect ratio at most 2.5."),
+    "export_clear": Term("Transparent background, for slides."),
+    "export_kind": Term("Pixels, or a vector drawing of the disk."),
+    "export_report": Term("This design, A and all bookmarks in one file that opens without a server."),
+    "export_text": Term("A script or a command that reproduces the power of this design to the last digit."),
     "close": Term("Closes this window."),
-    "pin": Term("Back, forth; pin: every change becomes B beside A."),
-    "pinned": Term("Swap: A goes on the sliders and B becomes A; back: the sliders of A."),
-    "along": Term("On: A at the speed, weight and altitude on the sliders; off: A as it was when it was pinned."),
-    "lecture": Term("Eight steps that set the page and say what to watch; keys: Page down, up."),
-    "big_type": Term("Larger letters, for those who sit at the back."),
+    "pin": Term("Undo, redo; pin: this design becomes A, and every change is B beside it."),
+    "pinned": Term("Swap A and B, or return the sliders to A."),
+    "along": Term("On: A flies at the speed, mass and altitude on the sliders. Off: A stays as it was pinned."),
+    "lecture": Term("Eight steps that set the page and say what to watch. Keys: Page Down, Page Up."),
+    "big_type": Term("Larger text, for a lecture room."),
     "lecture_flights": Term("Sets the advance ratio.", section=1),
-    "document_case": Term("The document's own designs, in its preset.", section=15),
-    "present": Term("Gives a link by which others follow this page without moving it."),
-    "study": Term("A result of `python -m rotor study` that this server can read."),
-    "study_look": Term("Looks for results that have come since the page was opened."),
-    "study_file": Term("Takes one chunk of a result from this computer."),
-    "study_chart": Term("One quantity against another, hover against cruise, or all axes side by side."),
+    "document_case": Term("Designs that the source document states, and examples in its preset.", section=15),
+    "present": Term("Copies a link with which others follow this page without changing it."),
+    "study": Term("A result of `python -m rotor study` on this server."),
+    "study_look": Term("Looks for new results."),
+    "study_file": Term("Opens one result file from this computer."),
+    "study_chart": Term("One quantity over another, hover over cruise, or all axes side by side."),
     "study_axis": Term("The quantity along this axis."),
     "study_colour": Term("The quantity that colours the points."),
-    "study_cruise": Term("The speed that hover is compared with."),
-    "study_point": Term("Click a point, or write its number: the design goes on the sliders."),
-    "leave": Term("Stops following the presenter; this page goes on from here."),
-    "lecture_step": Term("A step back, this step once more, a step on, or the end of the lecture."),
+    "study_cruise": Term("The cruise speed that is compared with hover."),
+    "study_point": Term("Click a point, or type its number, to put its design on the sliders."),
+    "leave": Term("Stops following the presenter; the page is yours from here."),
+    "lecture_step": Term("Previous step, reset this step, next step, or end the lecture and return to your design."),
     **{name: Term(f"{s.on} Off: {s.off}", _SOURCES.get(name, ()), 5) for name, s in SWITCHES.items()},
 }
 """By the field of `Inputs` or `ViewState`, or a name of the widget's own."""
 
 READOUTS: dict[str, Term] = {
     "total_power": Term("Power of the main rotor and of the tail rotor that balances its torque.", section=12),
-    "change": Term("Total power of this design against that of the design it is compared with."),
-    "induced": Term("Σ λi dFz: power that goes into pushing air down.", section=12),
-    "profile": Term("Σ U dD: power that friction and pressure drag of the blades dissipate.", ("3.15",)),
-    "parasite": Term("D·V: power that drags the fuselage through the air.", ("3.19",)),
+    "change": Term("Total power relative to the reference design."),
+    "induced": Term("Σ λi dFz: power to make lift.", section=12),
+    "profile": Term("Σ U dD: power dissipated by the drag of the blade sections.", ("3.15",)),
+    "parasite": Term("D·V: power to overcome fuselage drag.", ("3.19",)),
     "tail": Term("Power of the tail rotor, which balances the torque.", section=12),
     "kappa": Term(
-        "κ: induced power over that of an even load, C_T λ0. "
-        "Ideal: the least of any circulation with this lift and C_l ≤ 1.2.",
+        "κ: induced power relative to uniform loading, C_T λ0. "
+        "Ideal: the least of any circulation with the same lift and C_l ≤ 1.2.",
         ("2.30",),
     ),
-    "vortex_check": Term("The same design with rigid helical vortices, and how far the answer is from it.", section=9),
-    "collective": Term("θ0: pitch at 0.75 R, common to all azimuths.", section=1),
-    "cyclic_1c": Term("θ1c: pitch that goes with cos ψ; it tilts the disk to the side.", section=1),
-    "cyclic_1s": Term("θ1s: pitch that goes with sin ψ; negative takes lift from the advancing side.", section=1),
-    "shaft_tilt": Term("α: how far the shaft leans forward, so that the thrust overcomes the drag.", section=11),
-    "coning": Term("β0: how far the blades bend up about their hinges under lift and centrifugal force.", ("2.41",)),
-    "flapping_1": Term("β1c, β1s: tilt of the disk of blade tips; β1c < 0 leans back.", ("2.41",)),
-    "flap_1c": Term("β1c: flapping that goes with cos ψ; negative when the disk tilts back.", ("2.41",)),
-    "flap_1s": Term("β1s: flapping that goes with sin ψ; the disk tilts to the side.", ("2.41",)),
-    "ct_over_sigma": Term("Blade loading: thrust coefficient over solidity.", ("2.11", "2.19")),
-    "figure_of_merit": Term("Ideal over actual power in hover; 1 is momentum theory.", ("2.10",)),
-    "lift_to_drag": Term("Weight times speed over induced and profile power.", section=12),
-    "reverse_flow_area": Term("Part of the disk where the blade meets the air from behind, U_T < 0.", ("3.5",)),
-    "stalled_area": Term("Part of the disk beyond the stall angle, reverse flow not counted.", section=5),
-    "speed": Term("Airspeed V = µΩR.", section=1),
-    "status": Term("How the trim ended, reasons to read it with care, and how it was computed.", section=11),
-    "chart_power": Term("Total power over speed; hover stands alone, because it is another model.", section=12),
-    "chart_apart": Term("Total power of B minus that of A over speed.", section=12),
-    "chart_twist": Term("Twist along the blade; zero at 0.75 R.", section=4),
-    "chart_alpha": Term("Angle of attack along the marked blade, and its stall angles; gaps: reverse flow.", section=8),
-    "chart_lift": Term("Section lift coefficient along the marked blade.", ("3.8",)),
-    "probe_alpha": Term("α = θ − φ: pitch less inflow angle, about the blade's reference line.", section=8),
-    "probe_region": Term("Attached, beyond the stall angle, beyond drag divergence, or met from behind.", section=5),
-    "probe_u_t": Term("Velocity in the plane of the disk and normal to the blade; negative: from behind.", ("3.5",)),
-    "probe_u_p": Term("Velocity down through the blade: inflow, flapping and coning.", ("3.6",)),
-    "probe_induced": Term("Velocity down that the rotor's own wake induces here.", section=9),
-    "probe_theta": Term("Pitch here: collective, cyclic and twist.", section=1),
-    "probe_phi": Term(
-        "How steeply the air comes down, φ = atan2(U_P, U_T); near 180° it comes from behind.", section=8
+    "vortex_check": Term("The same design with a rigid helical vortex wake, and the difference from it.", section=9),
+    "collective": Term("θ0: pitch at 0.75 R, mean over azimuth.", section=1),
+    "cyclic_1c": Term("θ1c: lateral cyclic, the cos ψ part of pitch.", section=1),
+    "cyclic_1s": Term(
+        "θ1s: longitudinal cyclic, the sin ψ part of pitch; negative reduces pitch on the advancing side.", section=1
     ),
-    "probe_margin": Term("Angle of attack left before the section stalls at this Mach number.", section=5),
-    "probe_section": Term("Whose measured or computed coefficients hold here.", section=5),
+    "shaft_tilt": Term("α: forward tilt of the shaft, so that thrust overcomes drag.", section=11),
+    "coning": Term("β0: mean flap angle, the balance of lift and centrifugal force.", ("2.41",)),
+    "flapping_1": Term("β1c, β1s: tilt of the tip-path plane; β1c < 0 tilts it back.", ("2.41",)),
+    "flap_1c": Term("β1c: longitudinal flapping; negative tilts the disk back.", ("2.41",)),
+    "flap_1s": Term("β1s: lateral flapping.", ("2.41",)),
+    "ct_over_sigma": Term("Blade loading: thrust coefficient over solidity.", ("2.11", "2.19")),
+    "figure_of_merit": Term("Ideal over actual power in hover; 1 is ideal momentum theory.", ("2.10",)),
+    "lift_to_drag": Term("Weight times speed, over the sum of induced and profile power.", section=12),
+    "reverse_flow_area": Term("Part of the disk in reverse flow, U_T < 0.", ("3.5",)),
+    "stalled_area": Term("Part of the disk that is stalled, reverse flow excluded.", section=5),
+    "speed": Term("Airspeed V = µΩR.", section=1),
+    "status": Term("Convergence of the trim, caveats, and the models used.", section=11),
+    "chart_power": Term(
+        "Total power over advance ratio; hover is a separate point because it uses another inflow model.", section=12
+    ),
+    "chart_apart": Term("Total power of B minus that of A over advance ratio.", section=12),
+    "chart_twist": Term("Twist along the blade; zero at 0.75 R.", section=4),
+    "chart_alpha": Term(
+        "Angle of attack along the reference blade, and its stall limits; gaps: reverse flow.", section=8
+    ),
+    "chart_lift": Term("Section lift coefficient along the reference blade.", ("3.8",)),
+    "probe_alpha": Term("α = θ − φ: pitch minus inflow angle.", section=8),
+    "probe_region": Term("Attached, stalled, beyond drag divergence, or in reverse flow.", section=5),
+    "probe_u_t": Term(
+        "Tangential velocity, in the plane of the disk and normal to the blade; negative: reverse flow.", ("3.5",)
+    ),
+    "probe_u_p": Term("Perpendicular velocity, down through the disk: inflow, flapping and coning.", ("3.6",)),
+    "probe_induced": Term("Downward velocity induced by the wake.", section=9),
+    "probe_theta": Term("Local pitch: collective, cyclic and twist.", section=1),
+    "probe_phi": Term("Inflow angle φ = atan2(U_P, U_T); near 180° in reverse flow.", section=8),
+    "probe_margin": Term("Margin to the stall angle of the section at this Mach number.", section=5),
+    "probe_section": Term("Source of the section coefficients.", section=5),
     "probe_mach": Term("Resultant velocity over the speed of sound.", section=8),
     "probe_cl": Term("Section lift coefficient at this α and Mach number.", section=5),
     "probe_cd": Term("Section drag coefficient at this α and Mach number.", section=5),
     "probe_ratio": Term("Lift over drag of the section.", section=5),
-    "probe_m2cn": Term("Normal force over chord and γp/2: what vibration and stall are read from.", section=8),
-    "probe_drag": Term("Force along the flow, of one blade and a metre of it.", ("3.8",)),
-    "probe_thrust": Term("Force along the shaft, of one blade and a metre of it; losses taken off.", ("2.17", "3.8")),
-    "probe_torque": Term("About the shaft, against the rotation, of one blade and a metre of it.", ("2.18", "3.10")),
-    "probe_power": Term("Torque times rotor speed; negative where the air drives the blade.", section=12),
-    "chart_lift_curve": Term("The section's own curve at this Mach number, and where the element is on it.", section=5),
-    "chart_sensitivity": Term("What a degree more pitch costs at each place along the blade, trim kept.", section=13),
+    "probe_m2cn": Term("M²c_n: normal force per unit span over ½γp c, the usual measure of airloads.", section=8),
+    "probe_drag": Term("Drag of one blade per metre of span, along the local flow.", ("3.8",)),
+    "probe_thrust": Term(
+        "Thrust of one blade per metre of span, along the shaft, with tip and root losses.", ("2.17", "3.8")
+    ),
+    "probe_torque": Term("Torque of one blade per metre of span, about the shaft.", ("2.18", "3.10")),
+    "probe_power": Term("Torque times rotor speed; negative where the flow drives the blade.", section=12),
+    "chart_lift_curve": Term("Lift curve of the section at this Mach number, and the present point on it.", section=5),
+    "chart_sensitivity": Term("Power sensitivity to local pitch along the blade, retrimmed.", section=13),
 }
 
 
