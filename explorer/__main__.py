@@ -32,14 +32,14 @@ def _run(options: argparse.Namespace) -> int:
     from explorer.app import App, PortBusy
     from explorer.hosting.doors import is_loopback, warning
     from explorer.hosting.house import ServerLimits
-    from explorer.state import Inputs, inputs_of
+    from explorer.state import OPENING, inputs_of
     from rotor.blas_threads import keep_one_blas_thread
     from rotor.files.design_file import read_case
 
     keep_one_blas_thread()
 
     try:
-        start = inputs_of(read_case(options.design)) if options.design else Inputs()
+        start = inputs_of(read_case(options.design)) if options.design else OPENING
         house = ServerLimits(
             options.max_sessions, 60.0 * options.sleep_after, tuple(options.allow_host), Path(options.studies)
         )

@@ -15,9 +15,10 @@ from explorer.hosting.hall import SeatQueue
 from explorer.hosting.house import ServerLimits
 from explorer.hosting.page import veiled
 from explorer.interface import SharedServices
+from explorer.overlay.assets import frame_html
 from explorer.session import Session
 from explorer.sharing.presentation import Presentations
-from explorer.state import Inputs
+from explorer.state import OPENING, Inputs
 from explorer.workers import solver
 from explorer.workers.newest_wins import IdleTimeout
 from explorer.workers.pool import Pool
@@ -34,14 +35,14 @@ class App:
 
     def __init__(self, host: str, port: int, start: Inputs | None = None, house: ServerLimits | None = None) -> None:
         _check_free(host, port)
-        self._start = start or Inputs()
+        self._start = start or OPENING
         self._house = house or ServerLimits()
         self._guests: dict[int, ClientConnection] = {}
         self._hall: SeatQueue[ClientConnection] = SeatQueue(self._house.sessions)
         self.pool = Pool()
         self._warmed = threading.Event()
         self.presentations = Presentations()
-        doors, page = AllowedHosts(host, self._house.allow_hosts), veiled(viser_compat.client_html())
+        doors, page = AllowedHosts(host, self._house.allow_hosts), veiled(viser_compat.client_html(), frame_html())
         gate = RequestFilter(doors, self._house.connections, page)
         self.server = viser_compat.quiet_server(host, port, "Rotor explorer", gate)
         viser_compat.remove_share_tunnel(self.server)

@@ -12,6 +12,7 @@ from explorer.charts.plots import PowerCurve
 from explorer.hosting import viser_compat
 from explorer.hosting.viser_compat import PageFacts, set_style
 from explorer.interface import Failure, Frame, Reading, SessionCallbacks, SessionState, SharedServices, Tab, TabContext
+from explorer.overlay.bridge import Bridge
 from explorer.picture.camera_views import View
 from explorer.pinned import Pinned
 from explorer.scene.camera import FittedCamera
@@ -23,12 +24,14 @@ from explorer.sharing.view_code import VIEW, view_from
 from explorer.state import Inputs, ViewState
 from explorer.tabs.actuator.panel import ActuatorPanel
 from explorer.tabs.actuator.view import fit_cut
-from explorer.tabs.controls import VIEW_BUTTONS, DesignControls
+from explorer.tabs.controls import DesignControls
+from explorer.tabs.display import Display
 from explorer.tabs.export_panel import ExportPanel, ExportSources
 from explorer.tabs.file_panel import FilePanel
 from explorer.tabs.history.panel import HistoryPanel
 from explorer.tabs.keys.commands import Actions, bind_commands
 from explorer.tabs.keys.keyboard import Keyboard
+from explorer.tabs.layout import MODES, Layout, Sections
 from explorer.tabs.lecture.panel import LecturePanel
 from explorer.tabs.lecture.presence import Presence, PresentationHooks
 from explorer.tabs.optimise.map_panel import MapPanel
@@ -37,21 +40,19 @@ from explorer.tabs.optimise.schedule_panel import SchedulePanel
 from explorer.tabs.optimise.sensitivity_panel import SensitivityPanel
 from explorer.tabs.physics.waterfall_panel import WaterfallPanel
 from explorer.tabs.probe.panel import ProbePanel
-from explorer.tabs.results import ResultsPanel
+from explorer.tabs.results import Results
 from explorer.tabs.rotors.menu import RotorUpload
+from explorer.tabs.settings_panel import SettingsPanel
 from explorer.tabs.studies.panel import StudiesPanel
 from explorer.tabs.top_bar import TopBar
-from explorer.text.status import status_panel, trust_page
 from explorer.text.units import UNITS
 from explorer.theme import style_sheet as style
 from rotor.design.design import Design
 from rotor.trim.solution import Solution
 
-_CHART_WIDTH, _CONTROL_WIDTH = 340, 320
-"""[px]; what they leave at 1280 is still a square."""
-_WIDER = 1.25
-"""Panels with big type, to those without."""
-_BRAND = (28, 126, 214)
+_BRAND = (37, 99, 235)
+VIEWS: tuple[tuple[View, str], ...] = (("3d", "Aircraft"), ("top", "Disk"), ("blade", "Blade"), ("side", "Side"))
+"""Views of the buttons over the scene, and their titles."""
 
 
 class Page:
@@ -76,24 +77,25 @@ class Page:
         self._theme()
         gui.set_panel_label("Rotor explorer")
         set_style(client, style.SHEET)  # Before the first widget.
-        gui.main_panel.dock_right()
+        self.bridge = bridge = Bridge(client)
         self._presence = Presence(client, shared.presentations, address)
-        self.top = TopBar(gui, callbacks.wake, lambda: self.history.undo(), lambda: self.history.redo())
-        tabs = gui.add_tab_group()
-        with tabs.add_tab("Design"):
-            self.controls = DesignControls(
-                gui, start, callbacks.wake, replace(view, dark=facts.dark), callbacks.azimuth_changed
-            )
+        self.layout = layout = Layout(client, bridge)
+        self.top = TopBar(bridge, layout, callbacks.wake)
+        self.display = Display(bridge, replace(view, dark=facts.dark), callbacks.wake, callbacks.azimuth_changed)
+        with layout.in_mode("explore"):
+            self.controls = DesignControls(gui, start, callbacks.wake)
+        self._start, self._touched, self._held, self._pause = start, False, False, 0.0
+        self._view: View = "3d"
         rotor = start.aircraft.rotor_for(start.preset)
         self._radius = rotor.radius
-        self.scene = SceneController(client, rotor, self.controls.display)
+        self.scene = SceneController(client, rotor, self.display)
         self._keyboard = Keyboard(client)
         context = self.context = TabContext(
             inputs=self.controls.inputs,
             set_inputs=self.controls.set_inputs,
-            view=self.controls.display.view,
-            set_view=self.controls.display.set_view,
-            set_azimuth=self.controls.display.turn,
+            view=self.display.view,
+            set_view=self.display.set_view,
+            set_azimuth=self.display.turn,
             wake=callbacks.wake,
             download=self._download,
             notify=self._notify,
@@ -101,42 +103,46 @@ class Page:
             pin=self.top.pin_inputs,
             bind_command=self._keyboard.bind,
         )
-        with tabs.add_tab("Optimise"):
-            self.optimise = OptimisePanel(gui, shared.pool, context, lambda design: self.schedule.legs(design))
-        with tabs.add_tab("Map"):
-            self.map = MapPanel(gui, shared.pool, context, self.optimise)
-        with tabs.add_tab("Schedule"):
-            self.schedule = SchedulePanel(gui, shared.pool, context, self.optimise.request)
-        with tabs.add_tab("Session"):
-            self.history = HistoryPanel(gui, context, start)
-            self.file = FilePanel(client, context, address, facts.kept)
-            sources = ExportSources(lambda: self.camera, lambda: self.history.kept, self.scene.held_range)
-            export = ExportPanel(client, context, sources)
-        with tabs.add_tab("Lecture"):
-            self.lecture = LecturePanel(client, context, self._presence, self._enlarge)
-        panel = self._panel = gui.add_panel()
-        with panel.add_tab("Results"):
-            self.results = ResultsPanel(gui)
-        with panel.add_tab("Twist"):
-            sensitivity = SensitivityPanel(gui, Strip(client.scene), context)
-        with panel.add_tab("Probe"):
-            self.probe = ProbePanel(client, context)
-        with panel.add_tab("Actuator"):
+        with layout.in_mode("optimise"):
+            tasks = Sections(gui, bridge, "task", ("Search", "Map", "Schedule"))
+            with tasks["Search"]:
+                self.optimise = OptimisePanel(
+                    gui, bridge, shared.pool, context, lambda design: self.schedule.legs(design)
+                )
+            with tasks["Map"]:
+                self.map = MapPanel(gui, shared.pool, context, self.optimise)
+            with tasks["Schedule"]:
+                self.schedule = SchedulePanel(gui, shared.pool, context, self.optimise.request)
+        with layout.in_mode("actuate"):
             self.actuator = ActuatorPanel(client, shared.pool, callbacks.wake, self._fly)
             self._actuator_inputs = self.actuator.inputs()
-        with panel.add_tab("Physics"):
-            self.waterfall = WaterfallPanel(gui)
-        with panel.add_tab("Studies"):
-            studies = StudiesPanel(client, context, shared.studies)
-        with panel.add_tab("Trust"):
-            gui.add_html(trust_page())
-        panel.dock_left()
-        self._enlarge(False)
-        followers: tuple[Tab, ...] = (self.top, self.probe, sensitivity, self.waterfall, studies)
+        self.results = Results(gui, bridge, layout)
+        with layout.in_drawer("details"):
+            self.waterfall = WaterfallPanel(gui, self.controls.show_costs)
+        with layout.in_drawer("twist"):
+            sensitivity = SensitivityPanel(gui, Strip(client.scene), context)
+        with layout.in_drawer("probe"):
+            self.probe = ProbePanel(client, context, self.display.set_playing, lambda: self._open("probe"))
+        with layout.in_drawer("open"):
+            opened = Sections(gui, bridge, "opened", ("Studies", "Files", "History"))
+            with opened["Studies"]:
+                studies = StudiesPanel(client, context, shared.studies)
+            with opened["History"]:
+                self.history = HistoryPanel(gui, context, start)
+        with opened["Files"]:
+            RotorUpload(gui, context)
+        with layout.in_drawer("share"):
+            self.file = FilePanel(client, context, address, facts.kept, opened["Files"])
+            sources = ExportSources(lambda: self.camera, lambda: self.history.kept, self.scene.held_range)
+            export = ExportPanel(client, context, sources, lambda: self._open("share"))
+        with layout.in_drawer("lecture"):
+            self.lecture = LecturePanel(gui, bridge, context, self._presence, self._set_stage)
+        with layout.in_drawer("settings"):
+            settings = SettingsPanel(gui, self.display, self._enlarge)
+        followers: tuple[Tab, ...] = (self.top, self.probe, sensitivity, self.waterfall, studies, settings)
         self.tabs = (*followers, self.history, self.file, export, self.lecture, self._presence)
         """Everything that only follows."""
         self.camera = FittedCamera(client, rotor.radius)
-        RotorUpload(self.controls.rotor.button, context)
         self._wire()
         for title, sentence in problems:
             self._notify(title, sentence)
@@ -144,16 +150,18 @@ class Page:
     def start(self) -> None:
         """The session begins: widgets as they will be, also where the first solution takes long."""
         self.actuator.start()
-        self._refresh(Reading(self.controls.inputs(), self.controls.display.view()))
+        self._refresh(Reading(self.controls.inputs(), self.display.view()))
 
     def stop(self) -> None:
         """The browser has left."""
         for tab in (self.optimise, self.map, self.schedule, self.actuator, *self.tabs):
             tab.stop()
+        self.bridge.stop()
 
     def read(self) -> tuple[Inputs, ViewState]:
         """What the widgets mean now."""
-        return self.history.read(self.controls.pauses.longest()), self.controls.display.view()
+        self._pause = self.controls.pauses.longest()
+        return self.history.read(self._pause), self.display.view()
 
     def driven(self, design: Design) -> Design:
         """The design with the actuator's twist; ValueError where it cannot drive this blade."""
@@ -172,7 +180,7 @@ class Page:
     def pin_or_swap(self, inputs: Inputs, solution: Solution | None) -> bool:
         """Do what the A/B buttons asked for; whether that moves the sliders."""
         moved = self.top.settle(inputs, solution, self.context)
-        self.controls.display.allow_difference(self.top.pinned is not None)
+        self.display.allow_difference(self.top.pinned is not None)
         return moved
 
     def solve_pinned(self, present: Design, hurried: bool) -> Solution | None:
@@ -200,7 +208,8 @@ class Page:
         """Numbers, charts, and the tabs that start long work."""
         self._refresh(reading)
         self.history.solved(reading.inputs, state.solution.power.total)
-        self.results.show(state)
+        self.results.show(state, self._pause)
+        self.display.show(state)
 
     def show_power(self, state: SessionState, curve: PowerCurve, failed: bool = False) -> None:
         """Power over advance ratio."""
@@ -217,23 +226,24 @@ class Page:
     def rest(self, state: SessionState, stop: Callable[[], bool]) -> None:
         """What can wait: the address once more, the waterfall, what the page keeps of an own rotor."""
         self.file.follow(state)
+        self.results.rest(stop)
         self.waterfall.climb(stop)
         if not stop():
             self.file.keep()
 
     def show_failure(self, failure: Failure) -> None:
         """The last converged picture stays, grey, beneath the sentence."""
-        reading, solution = failure.reading, failure.solution
+        reading = failure.reading
         self._refresh(reading)
         self.actuator.show_failure(failure.message)
-        self.results.problem(status_panel(None, failure.message) if solution is None else status_panel(solution))
+        self.results.problem(failure.message)
         for tab in self.tabs:
             tab.show_failure()
         self.scene.fade(failure.good, reading.view, self.top.answer if reading.view.difference else None)
 
     def show_error(self, sentence: str) -> None:
         """An update failed with an exception."""
-        self.results.problem(status_panel(None, sentence))
+        self.results.problem(sentence)
 
     @property
     def _actuator_in_frame(self) -> bool:
@@ -249,27 +259,78 @@ class Page:
         if reading.view.dark != self._dark:
             self._dark = reading.view.dark
             self._theme()
+        self.top.show_design(reading.inputs, self.history.steps)
+        self._touched = self._touched or reading.inputs != self._start
+        self._prompt()
         self.optimise.refresh(reading.sliders)
         self.map.refresh(reading.sliders)
         self.schedule.refresh()
 
     def _wire(self) -> None:
         """Buttons to what they do, once everything stands."""
-        controls, context = self.controls, self.context
+        controls, context, bridge = self.controls, self.context, self.bridge
         self.actuator.shown.on_update(self._cut_switched)
         controls.reset_button.on_click(lambda _: self._reset())
-        controls.view_buttons.on_click(lambda event: self._look(VIEW_BUTTONS[event.target.value]))
-        controls.display.range_buttons.on_click(lambda event: self._colour(event.target.value))
         controls.check_button.on_click(lambda _: self._check())
+        controls.optimise_button.on_click(lambda _: self._optimise())
+        bridge.on("mode", self._set_mode)
+        bridge.on("drawer", self._toggle_drawer)
+        bridge.on("rotor", lambda name: None if self._held else controls.choose_rotor(name))
+        bridge.on("undo", lambda _: self._step(self.history.undo))
+        bridge.on("redo", lambda _: self._step(self.history.redo))
+        bridge.on("view", lambda name: self._look(name))
+        bridge.on("colours", self._colour)
+        bridge.on("play", lambda _: self.probe.toggle())
+        self.results.curve.bind(context, lambda: not self._held)
         self.top.bind(context)
         self._presence.begin(context, PresentationHooks(lambda: self.lecture.step, self.lecture.follow, self._hold))
         bind_commands(context, Actions(self._look, self._colour, self._check, self._reset, self.optimise.toggle))
         self.file.begin()
+        self._show_views()
+        self.top.refresh()
 
     def _hold(self, held: bool) -> None:
         """Leave what moves the page to a presenter, or give it back."""
-        for part in (self.controls, self.top, self.lecture, self._keyboard):
+        self._held = held
+        for part in (self.controls, self.display, self.top, self.lecture, self._keyboard):
             part.hold(held)
+
+    def _prompt(self) -> None:
+        """What to do first, until something was done."""
+        words = None if self._touched or self._held else {"text": "Drag the twist", "node": "/rotor/blade_0"}
+        self.bridge.set(prompt=words)
+
+    def _step(self, step: Callable[[], None]) -> None:
+        if not self._held:
+            self.results.card.forget()
+            step()
+
+    def _set_mode(self, mode: str) -> None:
+        if mode in MODES:
+            if self.layout.mode == "actuate" and mode != "actuate":
+                self.actuator.leave_cut()
+            self.layout.show_mode(mode)
+            self.top.refresh()
+            self._callbacks.wake()
+
+    def _optimise(self) -> None:
+        self._set_mode("optimise")
+        self.optimise.begin()
+
+    def _toggle_drawer(self, name: str) -> None:
+        self.layout.show_drawer(name)
+        self.top.refresh()
+        self._callbacks.wake()
+
+    def _open(self, name: str) -> None:
+        if self.layout.drawer != name and self.lecture.step is None:
+            self._toggle_drawer(name)
+
+    def _set_stage(self, mode: str) -> None:
+        """A step of the lecture stands, or it has ended."""
+        if mode:
+            self.layout.show_drawer("")
+        self._set_mode(mode or "explore")
 
     def _download(self, name: str, content: bytes) -> None:
         self._client.send_file_download(name, content, save_immediately=True)
@@ -278,11 +339,9 @@ class Page:
         self._client.add_notification(title, sentence, auto_close_seconds=6)
 
     def _enlarge(self, big: bool) -> None:
-        """Big type in wider panels, or panels as wide as the rotor beside them can spare."""
+        """Big type in wider panels, or both as usual."""
         set_style(self._client, style.SHEET + (style.BIG if big else ""))
-        factor = _WIDER if big else 1.0
-        self._panel.set_width(factor * _CHART_WIDTH)
-        self._client.gui.main_panel.set_width(factor * _CONTROL_WIDTH)
+        self.layout.enlarge(big)
 
     def _theme(self) -> None:
         self._client.gui.configure_theme(
@@ -304,16 +363,24 @@ class Page:
 
     def _look(self, view: View) -> None:
         self.actuator.leave_cut()
+        self._view = view
         self.camera.aim(view)
+        self._show_views()
+
+    def _show_views(self) -> None:
+        self.bridge.set(views={"all": VIEWS, "now": self._view})
 
     def _check(self) -> None:
         self.results.check()
+        self._open("details")
         self._callbacks.wake()
 
     def _colour(self, order: str) -> None:
+        self.display.order_range(order)
         self.scene.order_range(order)
         self._callbacks.wake()
 
     def _reset(self) -> None:
+        self.results.card.forget()
         self.actuator.rest()
         self.controls.reset()

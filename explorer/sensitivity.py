@@ -19,6 +19,7 @@ from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
 _CONCEPTS: dict[str, Concept] = {
+    "builtin": CONCEPTS["two-segment-free"],
     "linear": CONCEPTS["linear"],
     "quadratic": CONCEPTS["quadratic"],
     "two": CONCEPTS["two-segment-free"],
@@ -44,6 +45,9 @@ class NaturalStep:
 _RATE = NaturalStep(1.0, "/°")
 _PLACE = NaturalStep(0.1, "/0.1 R")
 STEPS: dict[str, NaturalStep] = {
+    "built_inner": _RATE,
+    "built_outer": _RATE,
+    "built_division": _PLACE,
     "linear": _RATE,
     "quadratic_curvature": _RATE,
     "quadratic_difference": _RATE,

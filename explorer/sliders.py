@@ -29,23 +29,26 @@ def _weight(aircraft: Aircraft, units: Units) -> Slider:
     """About the aircraft's reference mass: in tonnes round numbers, in pounds those that reach as far."""
     low, high, step = mass_range(aircraft)
     if units is not AVIATION:
-        return Slider("Weight [t]", low, high, step)
+        return Slider("Mass [t]", low, high, step)
     coarse = 100.0 if high > 4.0 else 10.0
     ends = (math.floor(POUND.of(1e3 * low) / coarse), math.ceil(POUND.of(1e3 * high) / coarse))
-    return Slider("Weight [lb]", coarse * ends[0], coarse * ends[1], coarse)
+    return Slider("Mass [lb]", coarse * ends[0], coarse * ends[1], coarse)
 
 
 _FIRST = shipped_aircraft(SHIPPED_ROTORS[0])
 SLIDERS: dict[str, Slider] = {
+    "built_inner": Slider("Inboard ±", -20.0, 20.0, 0.1),
+    "built_outer": Slider("Outboard ±", -20.0, 20.0, 0.1),
+    "built_division": Slider("Division [R]", 0.2, 0.95, 0.01),
     "linear": Slider("Rate [°/R]", -30.0, 10.0, 0.1),
     "quadratic_curvature": Slider("Curve [°/R²]", -40.0, 40.0, 0.5),
     "quadratic_difference": Slider("Tip−root [°]", -30.0, 10.0, 0.1),
-    "two_inner": Slider("Inner [°/R]", -30.0, 10.0, 0.1),
-    "two_outer": Slider("Outer [°/R]", -30.0, 10.0, 0.1),
+    "two_inner": Slider("Inboard [°/R]", -30.0, 10.0, 0.1),
+    "two_outer": Slider("Outboard [°/R]", -30.0, 10.0, 0.1),
     "two_division": Slider("Division [R]", 0.2, 0.95, 0.01),
-    "three_inner": Slider("Inner [°/R]", -30.0, 10.0, 0.1),
+    "three_inner": Slider("Inboard [°/R]", -30.0, 10.0, 0.1),
     "three_middle": Slider("Middle [°/R]", -30.0, 10.0, 0.1),
-    "three_outer": Slider("Outer [°/R]", -30.0, 10.0, 0.1),
+    "three_outer": Slider("Outboard [°/R]", -30.0, 10.0, 0.1),
     "three_first": Slider("Division 1 [R]", 0.2, 0.95, 0.01),
     "three_second": Slider("Division 2 [R]", 0.2, 0.95, 0.01),
     "advance_ratio": Slider("Adv. ratio µ", 0.0, 0.45, 0.005),

@@ -12,7 +12,7 @@ from rotor.assets import SHIPPED_ROTORS
 from rotor.design.aircraft import Aircraft
 from rotor.design.blade import airfoils_spec
 from rotor.design.design import FLIGHT_MODELS, THESIS_MODELS, Design
-from rotor.design.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, QuadraticTwist, TwistLaw
+from rotor.design.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, QuadraticTwist, SumTwist, TwistLaw
 from rotor.files.make_design import change_airfoils, make_design
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.units import KNOT
@@ -30,6 +30,10 @@ class Inputs:
     """The rotor that the user brought; kept while another one is looked at."""
     preset: str = "flight"
     law: str = "two"
+    built_inner: float = 0.0
+    """Change of the twist as built, inboard of the division; the two with it [°/R], [°/R], [R]."""
+    built_outer: float = 0.0
+    built_division: float = 0.5
     linear: float = -12.0
     quadratic_curvature: float = 8.0
     quadratic_difference: float = -14.0
@@ -88,6 +92,10 @@ class Inputs:
         return self.advance_ratio * self.aircraft.rotor.tip_speed / KNOT
 
 
+OPENING = Inputs(law="builtin")
+"""What the page opens with: the first rotor as built."""
+
+
 @dataclass(frozen=True)
 class Law:
     """A twist law of the menu and the inputs that belong to it."""
@@ -106,12 +114,20 @@ def _segments(rates: tuple[float, ...], breaks: tuple[float, ...]) -> PiecewiseL
     return PiecewiseLinearTwist(tuple(math.radians(rate) for rate in rates), breaks)
 
 
+def _built(inputs: Inputs) -> TwistLaw | str:
+    """The blade as built, and on top of it a change in two straight pieces where there is one."""
+    if inputs.built_inner == inputs.built_outer == 0.0:
+        return "builtin"
+    change = _segments((inputs.built_inner, inputs.built_outer), (inputs.built_division,))
+    return SumTwist(_builtin_twist(inputs), change)
+
+
 def _given(inputs: Inputs) -> TwistLaw:
     return inputs.given or inputs.aircraft.twist_for(inputs.preset)
 
 
 LAWS: dict[str, Law] = {
-    "builtin": Law("Built-in", (), lambda i: "builtin"),
+    "builtin": Law("As built, changed", ("built_inner", "built_outer", "built_division"), lambda i: _built(i)),
     "linear": Law("Linear", ("linear",), lambda i: LinearTwist(math.radians(i.linear))),
     "quadratic": Law(
         "Quadratic",
@@ -146,7 +162,7 @@ class ViewState:
 
     field: str = "Angle of attack"
     azimuth_deg: float = 60.0
-    exaggeration: float = 1.0
+    exaggeration: float = 4.0
     difference: bool = False
     """Whether the disk shows B − A while a design is pinned."""
     reverse_flow: bool = True
@@ -180,7 +196,8 @@ def with_rotor(inputs: Inputs, name: str, own: Aircraft | None = None) -> Inputs
     """The same flight with another rotor as it is built, at its own reference mass; `own`: one newly brought."""
     changed = replace(inputs, rotor=name, own_rotor=own or inputs.own_rotor)
     mass = reference_mass_t(changed.aircraft)
-    return replace(changed, law="builtin", mass_t=mass, given=None, found=None, airfoils="")
+    plain = {"built_inner": 0.0, "built_outer": 0.0, "built_division": 0.5}
+    return replace(changed, law="builtin", mass_t=mass, given=None, found=None, airfoils="", **plain)
 
 
 def with_optimum(inputs: Inputs, design: Design) -> Inputs:
@@ -211,10 +228,17 @@ def _with_law(inputs: Inputs, twist: TwistLaw) -> Inputs | None:
         case PiecewiseLinearTwist((inner, middle, outer), (first, second)):
             rates = {"three_inner": _degrees(inner), "three_middle": _degrees(middle), "three_outer": _degrees(outer)}
             return replace(inputs, law="three", three_first=first, three_second=second, **rates)
+        case SumTwist(base, PiecewiseLinearTwist((inner, outer), (division,))) if base == _builtin_twist(inputs):
+            rates = {"built_inner": _degrees(inner), "built_outer": _degrees(outer)}
+            return replace(inputs, law="builtin", built_division=division, **rates)
         case IdealTwist():
             return replace(inputs, law="ideal")
         case _:
             return None
+
+
+def _builtin_twist(inputs: Inputs) -> TwistLaw:
+    return inputs.aircraft.rotor_for(inputs.preset).builtin_twist
 
 
 def preset_inflow(preset: str) -> str:

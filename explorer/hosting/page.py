@@ -31,8 +31,8 @@ class ServedPage:
         return f'"{hashlib.sha256(self.html).hexdigest()[:16]}"'
 
 
-def veiled(client: str) -> ServedPage:
-    """The client's page with title and veil; ValueError for a page that is not built as expected.
+def veiled(client: str, frame: str = "") -> ServedPage:
+    """The client's page with title, veil, and the `frame` behind the veil; ValueError for one built otherwise.
 
     Its script stands in the head; it moves behind the veil, so that the veil is painted while the script arrives.
     """
@@ -43,7 +43,7 @@ def veiled(client: str) -> ServedPage:
         raise ValueError("The client's page is not built as expected: a head that ends in its script, then a body.")
     title, _, after = head.partition("<title>")
     head = f"{title}<title>{TITLE}{after[after.index('</title>') :]}"
-    return ServedPage(f"{head}<style>{_STYLE}</style>{ends}{body}{_VEIL}{begins}{script}{content}".encode())
+    return ServedPage(f"{head}<style>{_STYLE}</style>{ends}{body}{_VEIL}{frame}{begins}{script}{content}".encode())
 
 
 _STYLE = """

@@ -124,6 +124,11 @@ def set_png(handle: viser.ImageHandle, png: bytes) -> None:
     handle._data = png
 
 
+def widget_id(handle: viser.GuiInputHandle[Any]) -> str:
+    """The name by which a page's messages mean this widget."""
+    return handle._impl.uuid
+
+
 def run_in_page(client: viser.ClientHandle, script: str) -> None:
     """Run a line of JavaScript in the page of one client."""
     client._websock_connection.queue_message(_messages.RunJavascriptMessage(script))

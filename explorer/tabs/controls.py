@@ -1,17 +1,15 @@
-"""The Design tab: widgets ↔ `Inputs`. Callbacks only say that something changed."""
+"""The rail of the Explore mode: widgets ↔ `Inputs`. Callbacks only say that something changed."""
 
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any, Protocol
 
 import viser
 
-from explorer.picture.camera_views import View
 from explorer.sliders import SLIDERS, meant, shown, slider
-from explorer.state import INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs, ViewState, preset_inflow, with_rotor
-from explorer.tabs.display import Display
-from explorer.tabs.rotors.menu import RotorMenu
+from explorer.state import INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs, preset_inflow, with_rotor
+from explorer.tabs import worth
 from explorer.text import readout
 from explorer.text.glossary import hint
 from explorer.text.units import SI, Units
@@ -32,21 +30,18 @@ class InputHandle(Protocol):
 
 FOUR, INFINITE = "dynamic-wake", "dynamic-wake-infinite-blades"
 """The same theory with the rotor's own blades and with infinitely many."""
-VIEW_BUTTONS: dict[str, View] = {"3D": "3d", "Top": "top", "Blade": "blade", "Side": "side"}
 
 
 class DesignControls:
-    """The widgets of one client, made once."""
+    """The widgets of one client's Explore mode, made once, and the view that goes with them."""
 
     def __init__(
         self,
         gui: viser.GuiApi,
         start: Inputs,
         changed: Callable[[], None],
-        view: ViewState,
-        turned: Callable[[], None] | None = None,
     ) -> None:
-        """`view`: what is shown at first. `changed`: something moved. `turned`: it was only the marked blade."""
+        """`changed`: something moved."""
         self._start = start
         self._changed = changed
         self._inputs: dict[str, InputHandle] = {}
@@ -57,22 +52,19 @@ class DesignControls:
         self._laws = _laws_of(start)
         self._inflows = {name: model.title for name, model in INFLOW_MODELS.items()}
         self._units = SI
-        """Of the weight and altitude sliders now."""
-        self.view_buttons = gui.add_button_group("View", tuple(VIEW_BUTTONS), hint=hint("view"))
-        with gui.add_folder("Twist"):
-            self._law = gui.add_dropdown(
-                "Law", tuple(self._laws.values()), initial_value=self._laws[start.law], hint=hint("law")
-            )
-            self._inputs["law"] = self._watched(self._law)
-            self._sliders(gui, tuple(name for law in LAWS.values() for name in law.inputs))
-        with gui.add_folder("Flight"):
-            self._sliders(gui, ("advance_ratio",))
-            self._speed = gui.add_html(readout.speed_line(0.0))
-            self._sliders(gui, ("mass_t", "altitude_m"))
-        with gui.add_folder("Disk and blades"):
-            self.display = Display(gui, view, changed, turned or changed)
-        with gui.add_folder("Model"):
-            self.rotor = RotorMenu(gui, start, self._rotor_chosen)
+        """Of the mass and altitude sliders now."""
+        self._worths: dict[str, viser.GuiHtmlHandle] = {}
+        gui.add_html(
+            '<div class="rxp-head">TWIST<span>slopes in °/R</span></div><div class="rxp-curve" data-curve></div>'
+        )
+        self._law = gui.add_dropdown(
+            "Law", tuple(self._laws.values()), initial_value=self._laws[start.law], hint=hint("law")
+        )
+        self._inputs["law"] = self._watched(self._law)
+        self._sliders(gui, tuple(name for law in LAWS.values() for name in law.inputs))
+        self._speed = gui.add_html(_flight_heading(0.0, SI))
+        self._sliders(gui, ("advance_ratio", "mass_t", "altitude_m"))
+        with gui.add_folder("Model", expand_by_default=False):
             titles = tuple(PRESET_TITLES.values())
             preset = gui.add_dropdown("Preset", titles, initial_value=PRESET_TITLES[start.preset], hint=hint("preset"))
             self._inputs["preset"] = self._watched(preset)
@@ -82,13 +74,14 @@ class DesignControls:
             self._explanation = gui.add_html("")
             self._infinite = gui.add_checkbox("Infinite blades", start.inflow == INFINITE, hint=hint("infinite"))
             self._infinite.on_update(self._infinite_changed)
-            self.check_button = gui.add_button("Check with the vortex wake", color="gray", hint=hint("vortex_check"))
-            self.display.add_page(gui, view)
-        with gui.add_folder("Physics", expand_by_default=False):
+            self._costs: dict[str, viser.GuiHtmlHandle] = {}
             for name, switch in SWITCHES.items():
                 box = gui.add_checkbox(switch.title, getattr(start, name), hint=hint(name))
                 self._inputs[name] = self._watched(box)
-        self.reset_button = gui.add_button("Reset design", hint=hint("reset"))
+                self._costs[name] = gui.add_html("")
+            self.check_button = gui.add_button("Check with the vortex wake", color="gray", hint=hint("vortex_check"))
+        self.optimise_button = gui.add_button("Optimise this blade", hint=hint("optimise"))
+        self.reset_button = gui.add_button("Reset design", color="gray", hint=hint("reset"))
         self._inputs["preset"].on_update(self._preset_changed)
 
     def inputs(self) -> Inputs:
@@ -108,10 +101,9 @@ class DesignControls:
 
     def hold(self, held: bool) -> None:
         """Take the widgets from the user, or give them back."""
-        own = (self._infinite, self.rotor.menu, self.rotor.button, self.reset_button)
+        own = (self._infinite, self.reset_button, self.optimise_button)
         for handle in (*self._inputs.values(), *own):
             handle.disabled = held
-        self.display.hold(held)
 
     def set_inputs(self, inputs: Inputs) -> None:
         """Move the widgets; the page follows as if they had been dragged."""
@@ -120,7 +112,6 @@ class DesignControls:
             self._laws = _laws_of(inputs)
             if self._law.options != tuple(self._laws.values()):
                 self._law.options = tuple(self._laws.values())
-            self.rotor.show(inputs)
             self._fit_mass(inputs)
             titles = {"law": self._laws, "preset": PRESET_TITLES, "inflow": self._inflows}
             for name in INPUT_NAMES:
@@ -135,11 +126,17 @@ class DesignControls:
         self._change_units(units)
         for key, law in LAWS.items():
             for name in law.inputs:
-                self._inputs[name].visible = key == inputs.law
-        self._speed.content = readout.speed_line(inputs.advance_ratio * inputs.aircraft.rotor.tip_speed, units)
+                self._inputs[name].visible = self._worths[name].visible = key == inputs.law
+        self._speed.content = _flight_heading(inputs.advance_ratio * inputs.aircraft.rotor.tip_speed, units)
         self._explanation.content = readout.explanation(INFLOW_MODELS[inputs.inflow].explanation)
         self._infinite.visible = inputs.inflow in (FOUR, INFINITE)
         self._infinite.value = inputs.inflow == INFINITE
+
+    def show_costs(self, costs: Mapping[str, str]) -> None:
+        """What each switch of the physics costs, in words, by its name."""
+        for name, handle in self._costs.items():
+            words = costs.get(name, "")
+            handle.content = f'<div class="rxp-cost" data-explorer="cost">{words}</div>' if words else ""
 
     def _change_units(self, units: Units) -> None:
         """Weight and altitude in other units; the inputs stay what they are."""
@@ -165,7 +162,10 @@ class DesignControls:
         for name in names:
             s = slider(name, SI, self._start.aircraft)
             value = min(max(float(getattr(self._start, name)), s.low), s.high)
-            self._inputs[name] = self._watched(gui.add_slider(s.label, s.low, s.high, s.step, value, hint=hint(name)))
+            shown_first = name not in _LAW_INPUTS or name in LAWS[self._start.law].inputs
+            handle = gui.add_slider(s.label, s.low, s.high, s.step, value, visible=shown_first, hint=hint(name))
+            self._inputs[name] = self._watched(handle)
+            self._worths[name] = gui.add_html(worth.place(name), visible=shown_first)
 
     def _watched(self, handle: Any) -> Any:
         handle.on_update(lambda _: self._moved())
@@ -179,7 +179,8 @@ class DesignControls:
         if event.client is not None:  # Not when the reset button moved it.
             self._inputs["inflow"].value = self._inflows[preset_inflow(self.inputs().preset)]
 
-    def _rotor_chosen(self, name: str) -> None:
+    def choose_rotor(self, name: str) -> None:
+        """Another rotor of the menu, as it is built."""
         self.pauses.moved(time.monotonic())
         self.set_inputs(with_rotor(self.inputs(), name))
 
@@ -199,6 +200,13 @@ class DesignControls:
             self._inputs["inflow"].value = self._inflows[INFINITE if event.target.value else FOUR]
 
 
+def _flight_heading(speed: float, units: Units) -> str:
+    """The heading of the flight sliders with the airspeed [m/s] as each reader reads it."""
+    words = units.airspeed(speed)
+    return f'<div class="rxp-head" data-ruled>FLIGHT<span class="rx-num" data-explorer="speed">{words}</span></div>'
+
+
+_LAW_INPUTS = frozenset(name for law in LAWS.values() for name in law.inputs)
 _HELD = ("rotor", "own_rotor", "given", "found", "airfoils")
 """Inputs that no slider moves by itself: a menu or a file brings them, with others."""
 

@@ -1,103 +1,145 @@
-"""What is shown: widgets ↔ `ViewState`, with colour bar and key of the outlines. None of it moves the design."""
+"""What is shown on the disk and how: the field card of the frame ↔ `ViewState`. None of it moves the design."""
 
+import threading
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
-import viser
+from explorer.interface import SessionState
+from explorer.overlay.bridge import Bridge
+from explorer.picture.colour_bar import tick_text
+from explorer.picture.fields import FIELDS, Field, ticks
+from explorer.state import ViewState
+from explorer.text.units import number
+from explorer.theme.colours import colour_map, css
 
-from explorer.picture.colour_bar import colour_bar, outline_legend
-from explorer.picture.fields import FIELDS, Field
-from explorer.state import TWIST_SHOWN, ViewState
-from explorer.text import readout
-from explorer.text.glossary import hint
-from explorer.text.units import UNITS
-
-_BAR, _LEGEND = 54, 40
-"""Heights of the colour bar and of the key of the outlines [px]."""
-_OUTLINES = {"reverse_flow": "Reverse flow", "stall": "Stall", "drag_divergence": "Drag diverg."}
+REGIONS = ("stall", "reverse_flow", "drag_divergence")
+TIMES = (1.0, 2.0, 4.0)
+"""How many times its twist a blade may be drawn with."""
+_COLOURS = 17
 
 
 class Display:
-    """The widgets of one client's view, made once: the disk's where they are made, the page's where asked for."""
+    """The view of one client. It has no widgets of viser's: the frame shows it and reports what is pressed."""
 
     def __init__(
-        self, gui: viser.GuiApi, start: ViewState, changed: Callable[[], None], turned: Callable[[], None]
+        self, bridge: Bridge, start: ViewState, changed: Callable[[], None], turned: Callable[[], None]
     ) -> None:
-        """`changed`: something is shown otherwise. `turned`: it was only the marked blade."""
-        self._changed = changed
-        self._field = self._seen(
-            gui.add_dropdown("Field", tuple(FIELDS), initial_value=start.field, hint=hint("field"))
-        )
-        self._difference = self._seen(
-            gui.add_checkbox("Show B − A", start.difference, visible=False, hint=hint("difference"))
-        )
-        self._awaited = False
+        """`changed`: something is shown otherwise. `turned`: it was only the reference blade."""
+        self._bridge, self._changed, self._turned = bridge, changed, turned
+        self._lock = threading.RLock()
+        self._view = replace(start, difference=False)
+        self._awaited = start.difference
         """B − A is to be shown as soon as there is an A."""
-        self._bar = gui.add_html(readout.reserved(_BAR))
-        self.range_buttons = gui.add_button_group("Colours", ("Rescale", "Default"), hint=hint("colours"))
-        self._legend = gui.add_html(readout.reserved(_LEGEND))
-        self._outlines = {
-            name: self._seen(gui.add_checkbox(title, getattr(start, name), hint=hint(f"outline_{name}")))
-            for name, title in _OUTLINES.items()
-        }
-        self._azimuth = gui.add_slider("Azimuth ψ [°]", 0.0, 360.0, 1.0, start.azimuth_deg, hint=hint("azimuth_deg"))
-        self._azimuth.on_update(lambda _: turned())
-        self._exaggeration = self._seen(
-            gui.add_slider("Twist shown ×", *TWIST_SHOWN, 0.5, start.exaggeration, hint=hint("exaggeration"))
-        )
-
-    def add_page(self, gui: viser.GuiApi, start: ViewState) -> None:
-        """The units and the ground of the whole page, in the folder that is open."""
-        units = gui.add_dropdown("Units", tuple(UNITS), initial_value=start.units, hint=hint("units"))
-        self._units = self._seen(units)
-        self._dark = self._seen(gui.add_checkbox("Dark page", start.dark, hint=hint("dark")))
+        self._allowed = self._held = self._playing = self._fitted = self._faded = False
+        self._stalled = ""
+        self._range: tuple[Field, tuple[float, float]] | None = None
+        bridge.on("field", lambda title: self._change(field=title) if title in FIELDS else None)
+        bridge.on("region", self._switch_region)
+        bridge.on("difference", lambda way: self._change(difference=way == "on" and self._allowed))
+        bridge.on("azimuth", self._turn_by_hand)
+        bridge.on("times", lambda _: self._next_times())
+        self._show_turn()
 
     def view(self) -> ViewState:
-        """What the widgets mean now."""
-        return ViewState(
-            field=self._field.value,
-            azimuth_deg=self._azimuth.value,
-            exaggeration=self._exaggeration.value,
-            difference=self._difference.value,
-            dark=self._dark.value,
-            units=self._units.value,
-            **{name: handle.value for name, handle in self._outlines.items()},
-        )
+        """What is shown now."""
+        return self._view
 
     def set_view(self, view: ViewState) -> None:
-        """Move the widgets."""
-        self._field.value, self._azimuth.value = view.field, view.azimuth_deg
-        self._exaggeration.value = view.exaggeration
-        self._dark.value, self._units.value = view.dark, view.units
-        self._awaited = view.difference and not self._difference.visible
-        self._difference.value = view.difference and not self._awaited
-        for name, handle in self._outlines.items():
-            handle.value = getattr(view, name)
+        """Show this."""
+        with self._lock:
+            self._awaited = view.difference and not self._allowed
+            self._view = replace(view, difference=view.difference and self._allowed)
+        self._show_turn()
+        self._show_field()
         self._changed()
 
     def turn(self, azimuth_deg: float) -> None:
-        """Move the marked blade."""
-        self._azimuth.value = azimuth_deg
+        """Move the reference blade."""
+        with self._lock:
+            self._view = replace(self._view, azimuth_deg=azimuth_deg % 360.0)
+        self._show_turn()
+        self._turned()
+
+    def set_playing(self, playing: bool) -> None:
+        """Whether the rotor turns by itself."""
+        self._playing = playing
+        self._show_turn()
 
     def hold(self, held: bool) -> None:
-        """Take the rotor's part of the widgets from the user, or give it back; units and ground stay their own."""
-        for handle in (self._field, self._difference, self._azimuth, self._exaggeration, *self._outlines.values()):
-            handle.disabled = held
+        """Take the rotor's part of the view from the user, or give it back; units and theme stay their own."""
+        self._held = held
+        self._show_turn()
+        self._show_field()
+
+    def order_range(self, order: str) -> None:
+        """A colour range was asked for: fitted ("Rescale") or the field's own ("Default")."""
+        self._fitted = order == "Rescale"
 
     def show_range(self, field: Field, colour_range: tuple[float, float], faded: bool) -> None:
-        """The colour bar and legend of a field."""
-        self._bar.content = colour_bar(field, *colour_range, faded)
-        self._legend.content = outline_legend(field)
+        """The colour bar of a field."""
+        self._range, self._faded = (field, colour_range), faded
+        self._show_field()
+
+    def show(self, state: SessionState) -> None:
+        """How much of the disk is stalled."""
+        share = 100.0 * state.solution.stalled_area
+        self._stalled = f"{number(share)} %" if share >= 0.5 else ""
+        self._show_field()
 
     def allow_difference(self, allowed: bool) -> None:
         """Whether there is a pinned design that the disk can show the difference from."""
-        if not allowed and self._difference.value:
-            self._difference.value = False
-        self._difference.visible = allowed
-        if allowed and self._awaited:
+        with self._lock:
+            if allowed == self._allowed:
+                return
+            self._allowed = allowed
+            wanted = allowed and (self._awaited or self._view.difference)
             self._awaited = False
-            self._difference.value = True
+            self._view = replace(self._view, difference=wanted)
+        self._show_field()
+        self._changed()
 
-    def _seen(self, handle: Any) -> Any:
-        handle.on_update(lambda _: self._changed())
-        return handle
+    def _change(self, **values: Any) -> None:
+        if self._held:
+            return
+        with self._lock:
+            self._view = replace(self._view, **values)
+        self._show_field()
+        self._changed()
+
+    def _switch_region(self, name: str) -> None:
+        if name in REGIONS:
+            self._change(**{name: not getattr(self._view, name)})
+
+    def _next_times(self) -> None:
+        later = [times for times in TIMES if times > self._view.exaggeration]
+        self._change(exaggeration=later[0] if later else TIMES[0])
+
+    def _turn_by_hand(self, azimuth_deg: float) -> None:
+        if not self._held:
+            self.turn(float(azimuth_deg))
+
+    def _show_turn(self) -> None:
+        self._bridge.set(turn={"psi": self._view.azimuth_deg, "playing": self._playing, "held": self._held})
+
+    def _show_field(self) -> None:
+        if self._range is None:
+            return
+        (field, (low, high)), view = self._range, self._view
+        self._bridge.set(
+            field={
+                "fields": list(FIELDS),
+                "field": view.field,
+                "unit": f"{field.unit}{field.note}",
+                "colours": [css(colour) for colour in colour_map(field.colours, _COLOURS).tolist()],
+                "ticks": [
+                    [round(100.0 * (value - low) / (high - low), 2), tick_text(value)] for value in ticks(low, high)
+                ],
+                "faded": self._faded,
+                "fitted": self._fitted,
+                "regions": {name: getattr(view, name) for name in REGIONS},
+                "stalled": self._stalled,
+                "difference": view.difference if self._allowed else None,
+                "held": self._held,
+            }
+        )

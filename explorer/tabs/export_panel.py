@@ -50,7 +50,10 @@ class ExportSources:
 class ExportPanel:
     """One session's. Each file is made on a thread of its own, one at a time; what fails is a sentence."""
 
-    def __init__(self, client: viser.ClientHandle, context: TabContext, sources: ExportSources) -> None:
+    def __init__(
+        self, client: viser.ClientHandle, context: TabContext, sources: ExportSources, open_drawer: Callable[[], None]
+    ) -> None:
+        """`open_drawer`: brings the folder before the eyes."""
         self._client, self._context, self._sources = client, context, sources
         self._busy = threading.Lock()
         self._curves = PowerCurves()
@@ -81,7 +84,7 @@ class ExportPanel:
         pictures.on_click(lambda event: self._picture(event.target.value))
         report.on_click(lambda _: self._do("the report", self._report))
         texts.on_click(self._text_clicked)
-        context.bind_command("export", self.reveal)
+        context.bind_command("export", open_drawer)
 
     def show(self, state: SessionState) -> None:
         """Files are made from the state of the session when they are asked for."""
@@ -93,10 +96,6 @@ class ExportPanel:
 
     def stop(self) -> None:
         """A file under way is made for nobody."""
-
-    def reveal(self) -> None:
-        """Bring the folder before the eyes."""
-        viser_compat.reveal(self._client, "Session", '[data-explorer="export"]')
 
     def _save(self, make: Callable[[SessionState], File]) -> None:
         def work(state: SessionState) -> str:

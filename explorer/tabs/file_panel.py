@@ -24,16 +24,26 @@ class FilePanel:
     """One session's. The address of the page follows the design, and what is shown of it, by itself."""
 
     def __init__(
-        self, client: viser.ClientHandle, context: TabContext, address: Address, kept: Mapping[str, str]
+        self,
+        client: viser.ClientHandle,
+        context: TabContext,
+        address: Address,
+        kept: Mapping[str, str],
+        folder: viser.GuiFolderHandle,
     ) -> None:
-        """`kept`: design files that the page kept for what its address cannot hold, by name in the address."""
+        """`kept`: design files that the page kept for what its address cannot hold, by name in the address.
+
+        `folder`: where the upload button goes.
+        """
         self._client, self._context, self._address, self._kept = client, context, address, dict(kept)
         self._records: dict[str, dict[str, Any]] = {}
         """Designs that the address cannot hold now, by name in it."""
         gui = client.gui
         with gui.add_folder("Link and file"):
+            gui.add_html('<div class="rx rx-dim rx-small">Anyone with the link sees this design.</div>')
             self._link = gui.add_button("Copy link", icon=viser.Icon.LINK, hint=hint("link"))
             self._save = gui.add_button("Save design", icon=viser.Icon.DOWNLOAD, color="gray", hint=hint("save"))
+        with folder:
             self._load = gui.add_upload_button(
                 "Load design", icon=viser.Icon.UPLOAD, color="gray", mime_type=".json", hint=hint("load")
             )

@@ -23,12 +23,13 @@ from rotor.files.rotor_file import shipped_aircraft
 
 _COUNT = {1: "One segment", 2: "Two segments", 3: "Three segments", 4: "Four segments"}
 _SHAPES = {
+    "builtin": ("built_inner", "built_outer"),
     "linear": ("linear",),
     "quadratic": ("quadratic_curvature", "quadratic_difference"),
     "two": ("two_inner", "two_outer"),
     "three": ("three_inner", "three_middle", "three_outer"),
 }
-_PLACES = {"two": ("two_division",), "three": ("three_first", "three_second")}
+_PLACES = {"builtin": ("built_division",), "two": ("two_division",), "three": ("three_first", "three_second")}
 
 
 def twist_words(law: TwistLaw) -> str:
@@ -101,12 +102,14 @@ def physics_words(design: Design) -> str:
 
 def twist_name(inputs: Inputs) -> str:
     """The twist: `Two segments −14/−8 at 0.5`, and before it the rotor where it is not the page's first."""
+    rotor = "" if inputs.rotor == SHIPPED_ROTORS[0] else f"{inputs.aircraft.name}, "
+    if inputs.law == "builtin" and inputs.built_inner == inputs.built_outer == 0.0:
+        return rotor + "As built"
     values = "/".join(number(getattr(inputs, name), 1).removesuffix(".0") for name in _SHAPES.get(inputs.law, ()))
     places = "/".join(f"{getattr(inputs, name):g}" for name in _PLACES.get(inputs.law, ()))
     name = LAWS[inputs.law].title
     if values:
         name += f" {values}" + ("°" if inputs.law == "linear" else "")
-    rotor = "" if inputs.rotor == SHIPPED_ROTORS[0] else f"{inputs.aircraft.name}, "
     return rotor + name + (f" at {places}" if places else "")
 
 

@@ -26,6 +26,7 @@ class Term:
 
 
 _RATE = "Twist rate in degrees per radius; negative: the outboard end is nose-down."
+_CHANGE = "Change of the twist rate as built, in degrees per radius; 0 is the blade as built."
 _DIVISION = "Radius where two twist segments meet, as a fraction of R."
 _SOURCES = {
     "flapping": ("2.39", "3.20"),
@@ -41,6 +42,8 @@ CONTROLS: dict[str, Term] = {
     "linear": Term(_RATE, section=4),
     "quadratic_curvature": Term("Second-order coefficient of the twist; 0 gives linear twist.", section=4),
     "quadratic_difference": Term("Twist at the tip minus twist at the centre of rotation.", section=4),
+    **{name: Term(_CHANGE, section=4) for name in ("built_inner", "built_outer")},
+    "built_division": Term(_DIVISION, section=4),
     **{name: Term(_RATE, section=4) for name in ("two_inner", "two_outer", "three_inner", "three_middle")},
     "three_outer": Term(_RATE, section=4),
     **{name: Term(_DIVISION, section=4) for name in ("two_division", "three_first", "three_second")},

@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 import viser
 
-from explorer.state import Inputs, ViewState
+from explorer.sliders import SLIDERS
+from explorer.state import Inputs
 from explorer.tabs.controls import DesignControls
 from explorer.text import comparison as ab_readout
 from explorer.text import readout
@@ -60,12 +61,18 @@ def test_switches_say_what_is_on_and_what_is_off():
 
 
 def test_every_widget_of_the_design_tab_has_its_sentence(server: viser.ViserServer):
-    DesignControls(server.gui, Inputs(), lambda: None, view=ViewState())
+    DesignControls(server.gui, Inputs(), lambda: None)
     texts = {entry.text for entry in CONTROLS.values()}
     handles = list(server.gui._gui_input_handle_from_uuid.values())
-    assert len(handles) > 30
+    assert len(handles) == len(SLIDERS) + len(SWITCHES) + 7
     for handle in handles:
         assert handle.hint in texts, f"{handle.label!r} explains nothing"
+
+
+def _never_seen(call: ast.Call) -> bool:
+    """Whether a widget only carries messages of the frame: it is made invisible and stays so."""
+    label = call.args[0].value if call.args and isinstance(call.args[0], ast.Constant) else ""
+    return label == "frame" and any(word.arg == "visible" for word in call.keywords)
 
 
 def test_every_widget_that_is_made_anywhere_asks_the_glossary():
@@ -77,7 +84,7 @@ def test_every_widget_that_is_made_anywhere_asks_the_glossary():
             label = node.args[0].value if node.args and isinstance(node.args[0], ast.Constant) else ""
             given = [keyword.value for keyword in node.keywords if keyword.arg == "hint"]
             where = f"{path.relative_to(ROOT)}:{node.lineno}, {label!r}"
-            assert given or label == "Close", (
+            assert given or label == "Close" or _never_seen(node), (
                 f"{where}: give it hint=hint(…) and a sentence in explorer/text/glossary.py"
             )
             assert not any(isinstance(value, ast.Constant) for value in given), f"{where}: put it into the glossary"

@@ -15,7 +15,6 @@ from explorer.state import Inputs, ViewState, baseline_of
 from explorer.tabs.keys.names import KEYS
 from explorer.tabs.lecture.cases import CASES
 from explorer.tabs.lecture.steps import STEPS, LectureStep, beside, view_of
-from explorer.tabs.lecture.view import caption
 from explorer.text.units import AVIATION
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -110,8 +109,6 @@ def test_a_step_says_what_is_seen(step: LectureStep):
         assert re.search(r"\d", one.value)
         assert " " not in one.value
         assert len(one.value) <= 12
-    html = caption(step, said)
-    assert f'data-step="{STEPS.index(step) + 1}"' in html
     assert view_of(step, ViewState(dark=True)).dark
     assert step.field in FIELDS
 

@@ -53,8 +53,8 @@ def test_another_rotor_comes_as_it_is_built():
     assert_allclose(design.condition.mass, 8620.0)
     assert baseline_of(design) == design
     assert inputs_of(design) == with_rotor(Inputs(advance_ratio=0.3, altitude_m=1000.0), "s61")
-    assert twist_name(inputs) == "Sikorsky S-61, Built-in"
-    assert twist_name(Inputs(law="builtin")) == "Built-in"
+    assert twist_name(inputs) == "Sikorsky S-61, As built"
+    assert twist_name(Inputs(law="builtin")) == "As built"
 
 
 def test_ones_own_rotor_stays_in_the_menu():
@@ -73,7 +73,7 @@ def test_designs_of_other_rotors_in_addresses_and_files():
     code = share.code_of(R22.design())
     assert code == "1;linear:-8;rotor=r22;mass=621"
     assert share.inputs_from(code) == R22
-    with pytest.raises(ValueError, match=r"Weight \[t\] is 8\.32, outside this page's 0\.37"):
+    with pytest.raises(ValueError, match=r"Mass \[t\] is 8\.32, outside this page's 0\.37"):
         share.within(replace(R22, mass_t=8.32))
     own = with_rotor(Inputs(), OWN, UploadedFiles().take("my.toml", GOOD.encode()).aircraft)
     with pytest.raises(ValueError, match="A rotor of your own fits in no address: save it as a design file"):

@@ -67,7 +67,7 @@ def test_weight_in_hover_costs_what_momentum_theory_says():
 
 
 def test_a_law_without_sliders_has_no_sensitivities():
-    inputs = Inputs(law="builtin")
+    inputs = Inputs(law="ideal")
     assert twist_sensitivities(inputs, power_gradient(solve(inputs.design()).require())) == {}
 
 

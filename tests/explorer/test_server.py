@@ -41,7 +41,7 @@ def server() -> Iterator[viser.ViserServer]:
 
 @pytest.fixture
 def controls(server: viser.ViserServer) -> DesignControls:
-    return DesignControls(server.gui, Inputs(), lambda: None, view=ViewState())
+    return DesignControls(server.gui, Inputs(), lambda: None)
 
 
 def free_port() -> int:
@@ -154,7 +154,6 @@ class TestCommand:
 class TestControls:
     def test_widgets_start_as_the_inputs(self, controls: DesignControls):
         assert controls.inputs() == Inputs()
-        assert controls.display.view() == ViewState()
 
     @pytest.mark.parametrize("law", [law for law in LAWS if law not in NOT_ALWAYS])
     def test_inputs_go_through_the_widgets_unchanged(self, controls: DesignControls, law: str):

@@ -9,7 +9,7 @@ import viser
 
 from explorer.charts import plots
 from explorer.sliders import SLIDERS, limits, meant, shown, slider
-from explorer.state import Inputs, ViewState
+from explorer.state import Inputs
 from explorer.tabs.controls import DesignControls
 from explorer.tabs.history import strip as history_view
 from explorer.text import comparison as ab_readout
@@ -30,7 +30,7 @@ def solution() -> Solution:
 @pytest.fixture
 def controls() -> Iterator[DesignControls]:
     server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-    yield DesignControls(server.gui, Inputs(), lambda: None, view=ViewState())
+    yield DesignControls(server.gui, Inputs(), lambda: None)
     server.stop()
 
 
@@ -100,7 +100,7 @@ class TestControls:
         assert controls.inputs() == wanted
         handle = controls._inputs["mass_t"]
         assert handle.value == pytest.approx(9050.0 / 0.45359237)
-        assert handle.label == "Weight [lb]"  # pyright: ignore[reportAttributeAccessIssue]
+        assert handle.label == "Mass [lb]"  # pyright: ignore[reportAttributeAccessIssue]
         controls.set_inputs(replace(wanted, altitude_m=3048.0))
         assert controls._inputs["altitude_m"].value == pytest.approx(10_000.0)
         controls.refresh(wanted, SI)
@@ -111,7 +111,3 @@ class TestControls:
         controls.refresh(Inputs(), UNITS["Aviation"])
         controls._inputs["mass_t"].value = 20000
         assert controls.inputs().mass_t == pytest.approx(9.0718474)
-
-    def test_the_view_holds_the_choice(self, controls: DesignControls):
-        controls.display.set_view(replace(ViewState(), units="Aviation"))
-        assert controls.display.view().units == "Aviation"

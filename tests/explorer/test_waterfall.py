@@ -89,7 +89,7 @@ class TestPanel:
     @pytest.fixture
     def panel(self) -> Iterator[WaterfallPanel]:
         server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
-        yield WaterfallPanel(server.gui)
+        yield WaterfallPanel(server.gui, lambda costs: None)
         server.stop()
 
     def test_it_comes_by_itself_and_never_while_superseded(self, panel: WaterfallPanel):

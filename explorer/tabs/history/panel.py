@@ -79,6 +79,12 @@ class HistoryPanel:
     def stop(self) -> None:
         """Nothing runs on."""
 
+    @property
+    def steps(self) -> tuple[bool, bool]:
+        """Whether there is a step to undo, and one to redo."""
+        with self._lock:
+            return bool(self._history.past), bool(self._history.future)
+
     def _draw(self, solution: Solution | None) -> None:
         with self._lock:
             steps, present, kept = self._history.steps, len(self._history.past), tuple(self._kept)

@@ -1,4 +1,4 @@
-"""The Lecture tab of one session, and the caption that stands below the controls while a lecture runs."""
+"""The lecture of one session: where it begins, its caption below the scene, and what it gives back at its end."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -6,12 +6,12 @@ from typing import Any
 
 import viser
 
-from explorer.hosting import viser_compat
 from explorer.interface import SessionState, TabContext
+from explorer.overlay.bridge import Bridge
 from explorer.pinned import same_but_flight
 from explorer.snapshot import PageSnapshot
 from explorer.state import Inputs
-from explorer.tabs.lecture import cases, view
+from explorer.tabs.lecture import cases
 from explorer.tabs.lecture import steps as lecture
 from explorer.tabs.lecture.presence import Presence
 from explorer.tabs.lecture.steps import STEPS
@@ -19,7 +19,7 @@ from explorer.text.glossary import hint
 
 _NO_CASE = "–"
 _PRESENTING = (
-    '<div class="rx rx-dim rx-small">Copies a link. Who opens it sees what you set here, as you set it, '
+    '<div class="rx rx-dim rx-small">Copies a link. Anyone with the link sees what you set here, as you set it, '
     "and may leave at any time.</div>"
 )
 
@@ -28,38 +28,35 @@ class LecturePanel:
     """One session's. Buttons act at once; the caption's numbers follow the session."""
 
     def __init__(
-        self, client: viser.ClientHandle, context: TabContext, presence: Presence, enlarge: Callable[[bool], None]
+        self,
+        gui: viser.GuiApi,
+        bridge: Bridge,
+        context: TabContext,
+        presence: Presence,
+        stage: Callable[[str], None],
     ) -> None:
-        """`enlarge`: big type for the whole page, or as it was."""
-        self._client, self._context, self._presence = client, context, presence
+        """`stage`: hears which mode a step wants to be seen in; empty: the lecture has ended."""
+        self._bridge, self._context, self._presence, self._stage = bridge, context, presence, stage
         self._step: int | None = None
-        self._against: Inputs | None = None
-        """A, as the step wants it beside what is on the sliders."""
-        self._told = ""
         self._before: PageSnapshot | None = None
         """The visitor's own page, to be given back at the end."""
-        gui = client.gui
+        self._against: Inputs | None = None
+        """A, as the step wants it beside what is on the sliders."""
+        self._held = False
+        self._state: SessionState | None = None
+        gui.add_html(
+            '<div class="rx rx-dim">Eight steps set the page and say what to watch. '
+            "End gives your own design back.</div>"
+        )
         self._begin = gui.add_button("Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture"))
-        gui.add_html('<div class="rx rx-dim rx-small">Eight steps set the page and say what to watch.</div>')
-        self._big = gui.add_checkbox("Big type", False, hint=hint("big_type"))
         self._flights = gui.add_button_group("Fly at µ", tuple(cases.FLIGHTS), hint=hint("lecture_flights"))
         self._case = gui.add_dropdown("Cases", (_NO_CASE, *cases.CASES), hint=hint("document_case"))
         with gui.add_folder("Present to others"):
             self._present = gui.add_button("Present", icon=viser.Icon.PRESENTATION, color="gray", hint=hint("present"))
             gui.add_html(_PRESENTING)
             self._name_present()  # A presenter who loads the page again presents on.
-        self._caption_panel = gui.add_panel(visible=False)
-        with self._caption_panel.add_tab("What to watch", viser.Icon.SCHOOL):
-            # First, so that they stay where they are however long the text is.
-            self._buttons = gui.add_button_group(
-                "", ("Back", "Reset this step", "Next", "End"), hint=hint("lecture_step")
-            )
-            self._caption = gui.add_html("")
-        # It covers neither the rotor nor the controls, also in a small window.
-        self._caption_panel.dock_below(gui.main_panel)
         self._begin.on_click(lambda _: self.toggle())
-        self._buttons.on_click(self._clicked)
-        self._big.on_update(lambda event: enlarge(event.target.value))
+        bridge.on("lecture", self._clicked)
         self._present.on_click(lambda _: self._present_or_end())
         self._flights.on_click(lambda event: self._fly(cases.FLIGHTS[event.target.value]))
         self._case.on_update(self._take_case)
@@ -88,8 +85,8 @@ class LecturePanel:
             self.set(max(step, 0))
 
     def set(self, step: int) -> None:
-        """Set the page for a step."""
-        if self._step is None:
+        """Set the page as a step wants it."""
+        if self._before is None:
             self._before = PageSnapshot.take(self._context)
         self._stand_at(step)
         wanted, context = STEPS[step], self._context
@@ -98,34 +95,38 @@ class LecturePanel:
         context.pin(self._against)
         context.set_view(lecture.view_of(wanted, context.view()))
         context.set_inputs(inputs)
-        for tab in (wanted.tab, "Design"):  # To watch; to try.
-            viser_compat.open_tab(self._client, tab)
+        self._stage(wanted.mode)
 
     def follow(self, step: int | None) -> None:
         """Show the step of another page, which sets the rest."""
         if step != self._step:
             self._against = None
             self._stand_at(step)
+            self._stage("" if step is None else STEPS[step].mode)
 
     def hold(self, held: bool) -> None:
         """Take what moves the page from the user, or give it back."""
+        self._held = held
         self._begin.disabled = self._case.disabled = held
-        self._flights.visible = self._buttons.visible = not held
+        self._flights.visible = not held
+        self._show()
 
     def end(self) -> None:
-        """Give back the page as it was before the lecture."""
-        self._stand_at(None)
+        """The caption goes, and the visitor's own design, view and A come back."""
         before, self._before = self._before, None
+        self._stand_at(None)
         if before is not None:
             before.restore(self._context)
+        self._stage("")
 
     def show(self, state: SessionState) -> None:
         """Say what is seen now."""
+        self._state = state
         self._name_case(state.inputs)
         step = self._step
         if step is None:
             return
-        self._tell(STEPS[step].say(state))
+        self._show()
         if self._against is None or state.pin is None or state.pin.inputs != self._against:
             return  # The user has made another design A.
         against = lecture.beside(STEPS[step], state.inputs)
@@ -134,27 +135,38 @@ class LecturePanel:
             self._context.pin(against)
 
     def show_failure(self) -> None:
-        if self._step is not None:
-            self._tell("")
+        """There is nothing to say in numbers."""
+        self._state = None
+        self._show()
 
     def stop(self) -> None:
         """Nothing runs on."""
 
     def _stand_at(self, step: int | None) -> None:
-        self._step = step
-        self._caption_panel.visible = step is not None
+        self._step, self._state = step, None
         self._begin.label = "Start the lecture" if step is None else "End the lecture"
-        if step is not None:
-            self._tell("")
+        self._show()
         self._context.wake()
 
-    def _tell(self, said: str) -> None:
-        step = self._step
-        if step is None:
+    def _show(self) -> None:
+        """The caption in the frame."""
+        if self._step is None:
+            self._bridge.set(lecture=None)
             return
-        content = view.caption(STEPS[step], said)
-        if content != self._told:
-            self._told = self._caption.content = content
+        step, state = STEPS[self._step], self._state
+        watch = step.watch + (" The disk shows B − A: blue is less, rust is more." if step.difference else "")
+        self._bridge.set(
+            lecture={
+                "at": self._step,
+                "of": len(STEPS),
+                "title": step.title,
+                "watch": watch,
+                "todo": step.do,
+                "said": "" if state is None else step.say(state),
+                "figures": [] if state is None else [(one.caption, one.value, "") for one in step.numbers(state)],
+                "held": self._held,
+            }
+        )
 
     def _fly(self, advance_ratio: float) -> None:
         self._context.set_inputs(replace(self._context.inputs(), advance_ratio=advance_ratio))
@@ -183,13 +195,15 @@ class LecturePanel:
         """These inputs, with the rotor that the user brought still in the menu."""
         return replace(inputs, own_rotor=self._context.inputs().own_rotor)
 
-    def _clicked(self, event: viser.GuiEvent[Any]) -> None:
-        match event.target.value:
-            case "Back":
+    def _clicked(self, which: Any) -> None:
+        if self._step is None or self._held:
+            return
+        match which:
+            case "back":
                 self.go(-1)
-            case "Next":
+            case "next":
                 self.go(1)
-            case "Reset this step" if self._step is not None:
+            case "again":
                 self.set(self._step)
             case _:
                 self.end()

@@ -40,13 +40,13 @@ class LectureStep:
     field: str = "Induced inflow λi"
     difference: bool = False
     """Whether the disk shows B − A."""
-    tab: str = "Results"
-    """Of the left panel, to be opened."""
+    mode: str = "explore"
+    """Mode of the page in which the step is seen."""
 
 
 def view_of(step: LectureStep, view: ViewState) -> ViewState:
     """What is shown at a step."""
-    return replace(view, field=step.field, difference=step.difference, reverse_flow=True, stall=True, exaggeration=1.0)
+    return replace(view, field=step.field, difference=step.difference, reverse_flow=True, stall=True)
 
 
 def beside(step: LectureStep, inputs: Inputs) -> Inputs | None:
@@ -260,6 +260,6 @@ STEPS: tuple[LectureStep, ...] = (
         replace(_UH60A, advance_ratio=0.3),
         _actuator,
         _actuator_numbers,
-        tab="Actuator",
+        mode="actuate",
     ),
 )

@@ -9,6 +9,7 @@ from typing import Any
 import viser
 
 from explorer.interface import TabContext
+from explorer.overlay.bridge import Bridge
 from explorer.state import baseline_of, baseline_title, with_optimum
 from explorer.tabs.optimise import text
 from explorer.tabs.optimise.chart import search_chart
@@ -17,7 +18,7 @@ from explorer.tabs.optimise.plot import TRACES, search_plot
 from explorer.tabs.optimise.run import FRAME, SearchRun
 from explorer.tabs.optimise.search_request import OBJECTIVES, SearchRequest
 from explorer.text.glossary import hint
-from explorer.text.units import UNITS
+from explorer.text.units import UNITS, number
 from explorer.workers.job import Job, JobEvent, JobProgress
 from explorer.workers.pool import Share
 from explorer.workers.tasks import SearchTask
@@ -35,12 +36,13 @@ class OptimisePanel:
     def __init__(
         self,
         gui: viser.GuiApi,
+        bridge: Bridge,
         pool: Share,
         context: TabContext,
         legs: Callable[[Design], tuple[WeightedCondition, ...]],
     ) -> None:
         """`legs`: of the mission, for a design."""
-        self._pool, self._context, self.legs = pool, context, legs
+        self._bridge, self._pool, self._context, self.legs = bridge, pool, context, legs
         self._beginning = threading.Lock()
         self._job: Job | None = None
         self._run: SearchRun | None = None
@@ -74,14 +76,15 @@ class OptimisePanel:
         self._found = gui.add_html("")
         self._scrubber = gui.add_slider("Replay", 0, 1, 1, 0, visible=False, hint=hint("replay"))
         self._frame = gui.add_html("")
-        self._verdict = gui.add_button_group(
-            "Result", ("Apply", "Discard", "Replay"), visible=False, hint=hint("search_result")
-        )
+        self._again = gui.add_button("Replay", color="gray", visible=False, hint=hint("search_result"))
         self._chart = search_chart(gui)
         self._details = gui.add_html("")
         self._begin.on_click(lambda _: self.begin())
         self._halt.on_click(lambda _: self.halt())
-        self._verdict.on_click(self._judge)
+        self._again.on_click(lambda _: self._replay())
+        bridge.on("apply", lambda _: self._judge(True))
+        bridge.on("discard", lambda _: self._judge(False))
+        bridge.on("halt", lambda _: self.halt())
         self._scrubber.on_update(self._scrubbed)
         for widget in (self._concept, self._objective, self._limit_stall, self._limit_change, *self._numbers.values()):
             widget.on_update(lambda event: context.wake() if event.client is not None else None)
@@ -183,6 +186,7 @@ class OptimisePanel:
         self._standing.content = text.standing(run, self._problem)
         self._bar.visible = run is not None
         self._chart.set_visible(run is not None and any(run.traces))
+        self._bridge.set(notice=self._notice(design))
         if run is None:
             return
         self._bar.value = round(100.0 * run.part_done, 1)
@@ -193,7 +197,7 @@ class OptimisePanel:
         here = design is not None and run.matches(design)
         if on_offer and here and self._scrubber.max != len(run.frames) - 1:
             self._scrubber.max = len(run.frames) - 1
-        self._verdict.visible = on_offer
+        self._again.visible = on_offer
         self._scrubber.visible = on_offer and here
         if on_offer and here:
             if self._scrubber.value != run.cursor:
@@ -215,16 +219,33 @@ class OptimisePanel:
             self._woken = now
             self._context.wake()
 
-    def _judge(self, event: viser.GuiEvent[Any]) -> None:
+    def _notice(self, design: Design | None) -> dict[str, object] | None:
+        """The bar over the scene while it shows a search instead of the sliders."""
+        run = self._run
+        if run is None or not self._offered or design is None or not run.matches(design):
+            return None
+        best, units = run.best, UNITS[self._context.view().units]
+        words = "" if best is None else f": {units.watts(best.power)}"
+        if best is not None and run.start_power:
+            words += f", {number(100.0 * (best.power / run.start_power - 1.0), 1, sign=True)} %"
+        if run.under_way:
+            return {"text": f"Searching{words}", "actions": [("halt", "Stop")]}
+        if len(run.frames) < 2:
+            return None
+        return {"text": f"Previewing optimum{words}", "actions": [("apply", "Apply"), ("discard", "Discard")]}
+
+    def _replay(self) -> None:
+        if self._run is not None:
+            self._run.replay()
+            self._context.wake()
+
+    def _judge(self, take: bool) -> None:
+        """Take what is previewed onto the sliders, or leave them as they are."""
         run = self._run
         if run is None or run.under_way or not run.frames:
             return
-        if event.target.value == "Replay":
-            run.replay()
-            self._context.wake()
-            return
         self._offered = False
-        if event.target.value == "Apply":
+        if take:
             here = run.matches(self._context.inputs().design())
             frame = run.chosen if here else run.frames[-1]
             self._context.set_inputs(with_optimum(self._context.inputs(), frame.design))

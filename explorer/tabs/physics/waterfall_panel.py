@@ -1,13 +1,13 @@
 """The tab of the physics: what each part costs, computed when the page rests."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 
 import viser
 
 from explorer.interface import SessionState
 from explorer.tabs.physics.waterfall_view import alone_table, waterfall_chart
 from explorer.text import readout
-from explorer.text.units import SI, UNITS
+from explorer.text.units import SI, UNITS, Units
 from rotor.aero.switches import SWITCHES, with_switches
 from rotor.analysis.waterfall import Step, climb, each_alone
 from rotor.design.design import Design
@@ -25,7 +25,9 @@ _CLIMB, _ALL = len(SWITCHES) + 1, 2 * len(SWITCHES) + 1
 class WaterfallPanel:
     """One session's."""
 
-    def __init__(self, gui: viser.GuiApi) -> None:
+    def __init__(self, gui: viser.GuiApi, show_costs: Callable[[Mapping[str, str]], None]) -> None:
+        """`show_costs`: hears what each switch costs, in words, by its name."""
+        self._show_costs = show_costs
         gui.add_html(_WORDS)
         self._chart = gui.add_html(waterfall_chart(()))
         self._table = gui.add_html("")
@@ -65,9 +67,19 @@ class WaterfallPanel:
         climbed, alone = self._steps[:_CLIMB], self._steps[_CLIMB:]
         self._drawn = waterfall_chart(climbed, self._units), alone_table(alone, self._units)
         self._chart.content, self._table.content = self._drawn
+        self._show_costs({step.switch.name: _cost(step, self._units) for step in alone if step.switch is not None})
 
     def _fade(self) -> None:
         self._chart.content, self._table.content = map(readout.faded, self._drawn)
+
+
+def _cost(step: Step, units: Units) -> str:
+    """What a switch adds to the power, from the trim without it."""
+    if step.note:
+        return step.note
+    if step.added is None:
+        return "does not trim without it"
+    return f"{units.watts(-step.added, 1, sign=True)} here"
 
 
 def _all_steps(design: Design) -> Iterator[Step]:

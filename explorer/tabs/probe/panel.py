@@ -2,6 +2,7 @@
 
 import math
 import threading
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
@@ -39,7 +40,15 @@ class _ProbePoint:
 class ProbePanel:
     """Widgets, cursor and clock. Clicks and keys only move widgets; everything is drawn on the session's worker."""
 
-    def __init__(self, client: viser.ClientHandle, context: TabContext) -> None:
+    def __init__(
+        self,
+        client: viser.ClientHandle,
+        context: TabContext,
+        playing: Callable[[bool], None],
+        opened: Callable[[], None],
+    ) -> None:
+        """`playing`: hears whether the rotor turns by itself. `opened`: a click on the disk wants the probe shown."""
+        self._playing, self._open = playing, opened
         self._client, self._context = client, context
         self._seen = True
         self._drawn: tuple[Solution, _ProbePoint, float | None] | None = None
@@ -53,15 +62,13 @@ class ProbePanel:
         self._left = 0.0
         """How long it may play on [s]."""
         gui = client.gui
-        self._button = gui.add_button("Play", icon=viser.Icon.PLAYER_PLAY, hint=hint("play"))
-        self._speed = gui.add_slider("Speed [°/s]", 5.0, 120.0, 5.0, 40.0, hint=hint("play_speed"))
+        self._speed = gui.add_slider("Play at [°/s]", 5.0, 120.0, 5.0, 40.0, hint=hint("play_speed"))
         self._r = gui.add_slider("Radius r/R", 0.5, 1.0, _R_STEP, 0.75, hint=hint("probe_r"))
         self._psi = gui.add_slider("Azimuth ψ [°]", 0.0, 360.0, _PSI_STEP, 60.0, hint=hint("probe_psi"))
         self._panel = gui.add_html("")
         self._follow = gui.add_checkbox("With the blade", True, hint=hint("probe_follow"))
         self._shown = gui.add_checkbox("On the disk", False, hint=hint("probe_shown"))
         self._opened = gui.add_checkbox("Angles ×3", False, hint=hint("probe_opened"))
-        self._button.on_click(lambda _: self.toggle())
         self._psi.on_update(lambda event: self._psi_moved(event.target.value) if event.client is not None else None)
         self._r.on_update(lambda event: self._moved() if event.client is not None else None)
         for box in (self._follow, self._shown, self._opened):
@@ -115,13 +122,13 @@ class ProbePanel:
             return
         self._walked, self._left = None, LONGEST
         self._player.play()
-        self._button.label, self._button.icon = "Pause", viser.Icon.PLAYER_PAUSE
+        self._playing(True)
 
     def _pause(self) -> None:
         if self._player.playing:
             self._player.pause()
             self._context.wake()  # What does not follow every turn of the blade follows now.
-        self._button.label, self._button.icon = "Play", viser.Icon.PLAYER_PLAY
+        self._playing(False)
 
     def _walk(self, seconds: float) -> None:
         """A step of the clock."""
@@ -179,6 +186,7 @@ class ProbePanel:
         found = pick(state.solution, event.ray_origin, event.ray_direction)
         if found is not None:
             self._set(found[0], round(math.degrees(found[1])) % 360)
+            self._open()
 
     def _bind(self) -> None:
         bind = self._context.bind_command

@@ -1,6 +1,7 @@
 """A browser without a screen: knows its widgets, reads every frame, moves sliders as the page would."""
 
 import asyncio
+import json
 import re
 from collections.abc import Callable
 from typing import Any
@@ -25,6 +26,9 @@ _CAMERA = {
     "up_direction": (0.0, 0.0, 1.0),
 }
 _SHOWN = re.compile(r'data-explorer="([\w-]+)"([^>]*)>([^<]*)')
+_FRAME = re.compile(r"RX\.set\((\{.*\})\)", re.DOTALL)
+_CARD_KINDS = {"care": "converged"}
+"""Kinds of the power card that the page marks otherwise."""
 _KIND = re.compile(r'data-kind="(\w+)"')
 
 
@@ -39,6 +43,8 @@ class Visitor:
         self._news = asyncio.Event()
         self.widgets: dict[str, dict[str, Any]] = {}
         """Properties by identity, as the page holds them; a widget's value under `value`."""
+        self.frame: dict[str, Any] = {}
+        """Parts of the page's state that the frame shows."""
         self.notices: list[str] = []
         self.blade = b""
         self.frames = 0
@@ -84,6 +90,10 @@ class Visitor:
 
     def text(self, part: str) -> str:
         """Text or kind of an element that the page marks with `data-explorer`; empty where there is none."""
+        power = self.frame.get("power")
+        if power is not None and part in ("status", "total-power"):
+            kind = power["status"]["kind"]
+            return f"{power['total']} {power['unit']}" if part == "total-power" else _CARD_KINDS.get(kind, kind)
         for widget in self.widgets.values():
             content = widget.get("content")
             if isinstance(content, str) and part in content:
@@ -135,5 +145,8 @@ class Visitor:
             case "NotificationShowMessage":
                 props = message.get("props", message)
                 self.notices.append(f"{props.get('title', '')}: {props.get('body', '')}")
+            case "RunJavascriptMessage":
+                if state := _FRAME.fullmatch(message["source"]):
+                    self.frame.update(json.loads(state[1]))
             case _ if "props" in message and "uuid" in message:
                 self.widgets[message["uuid"]] = {**message["props"], "value": message.get("value")}

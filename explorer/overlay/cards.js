@@ -1,0 +1,69 @@
+// The cards on the stage: power, quantity on the disk.
+(() => {
+  const {text, part} = RX;
+  const PARTS = ['induced', 'profile', 'parasite', 'tail'];
+
+  RX.paint('power', now => {
+    const place = part('power');
+    place.toggleAttribute('data-faded', Boolean(now.problem));
+    const total = Math.max(now.parts.reduce((sum, one) => sum + Math.max(one.share, 0), 0), 1e-6);
+    const bar = now.parts.map((one, k) => `<div style="flex:${Math.max(one.share, 0) / total};background:var(--rx-${PARTS[k]})"></div>`).join('')
+      + (now.ideal === null ? '' : `<u style="left:${100 * now.ideal}%" title="${text(now.ideal_title)}"></u>`);
+    const key = now.parts.map((one, k) => `<div style="--c:var(--rx-${PARTS[k]})" title="${text(one.title)}"><dt>${text(one.name)}</dt><dd class="rxf-num">${text(one.value)}</dd></div>`).join('');
+    const since = now.since ? `<span class="${now.since.kind ? `rxf-${now.since.kind}` : ''}">${text(now.since.value)}</span> <small>${text(now.since.words)}</small>` : `<span>${text(now.rest)}</span>`;
+    place.innerHTML = `<div data-explorer="power"><div class="rxf-total rxf-num"><span data-explorer="total-power">${text(now.total)}<small>${text(now.unit)}</small></span></div>
+      <div class="rxf-sub rxf-num"><span data-explorer="change" class="${now.kind ? `rxf-${now.kind}` : ''}">${text(now.change)}</span> vs. <span data-explorer="against">${text(now.against)}</span></div></div>
+      <div class="rxf-rule"></div>
+      ${now.problem ? `<div class="rxf-problem" data-explorer="problem" role="alert">${text(now.problem)}</div>` : `<div><div class="rxf-since rxf-num" data-explorer="since">${since}</div>
+      <div class="rxf-why rxf-num" data-explorer="why">${text(now.why)}</div></div>`}
+      <div class="rxf-rule"></div>
+      <div class="rxf-parts" data-do="drawer" data-value="details" title="Power and trim in detail"><div>${bar}</div><dl>${key}</dl></div>
+      <button class="rxf-chip" data-do="drawer" data-value="trust" data-explorer="status" data-kind="${now.status.kind === 'care' ? 'converged' : now.status.kind}" data-tone="${now.status.kind}" title="${text(now.status.title)}">${text(now.status.words)}</button>`;
+    const chip = place.querySelector('.rxf-chip');
+    if (now.status.kind === 'care') chip.style.cssText = 'background:var(--rx-warn);color:var(--rx-warn-ink)';
+    if (now.problem) RX.say(now.problem);
+  });
+
+  const REGIONS = {
+    stall: ['Stall', '<rect width="20" height="11" fill="#8fcf7c"/><path d="M-3 11 8 0M3 11 14 0M9 11 20 0M15 11 26 0" stroke="var(--rx-stall)" stroke-width="2.2"/>'],
+    reverse_flow: ['Reverse flow', '<rect x=".7" y=".7" width="18.6" height="9.6" fill="var(--rx-reverse)" stroke="#fff" stroke-width="1.4"/>'],
+    drag_divergence: ['Drag div.', '<path d="M0 5.500H20" stroke="var(--rx-ink)" stroke-width="2" stroke-dasharray="4.5 2.5"/>'],
+  };
+  RX.paint('field', now => {
+    const card = document.querySelector('.rxf-field');
+    card.hidden = !now;
+    if (!now) return;
+    const menu = card.querySelector('select'), names = now.fields.join('|');
+    if (menu.dataset.names !== names) {
+      menu.dataset.names = names;
+      menu.innerHTML = now.fields.map(name => `<option>${text(name)}</option>`).join('');
+    }
+    if (menu.value !== now.field) menu.value = now.field;
+    menu.disabled = now.held;
+    part('unit').textContent = now.unit;
+    const ticks = now.ticks.map(([at, word]) => `<span style="left:${at}%">${text(word)}</span>`).join('');
+    part('scale').className = now.faded ? 'rxf-faded' : '';
+    part('scale').innerHTML = `<div class="rxf-grad" title="Triangles: beyond the range"><i style="background:${now.colours[0]}"></i><i style="background:linear-gradient(90deg,${now.colours.join()})"></i><i style="background:${now.colours.at(-1)}"></i></div>
+      <div class="rxf-ticks rxf-num">${ticks}</div>`;
+    const fit = card.querySelector('.rxf-fit');
+    fit.dataset.value = now.fitted ? 'Default' : 'Rescale';
+    fit.textContent = now.fitted ? 'Reset' : 'Fit';
+    fit.ariaLabel = now.fitted ? 'Reset the colour range' : 'Fit the colour range';
+    const apart = now.difference === null ? '' : `<button data-do="difference" data-value="${now.difference ? 'off' : 'on'}" aria-pressed="${now.difference}">Show B − A</button>`;
+    part('legend').innerHTML = Object.entries(REGIONS).map(([name, [title, swatch]]) =>
+      `<button data-do="region" data-value="${name}" aria-pressed="${now.regions[name]}"><svg viewBox="0 0 20 11" aria-hidden="true">${swatch}</svg>${title}${name === 'stall' && now.stalled ? ` ${text(now.stalled)}` : ''}</button>`).join('') + apart;
+  });
+
+  RX.paint('turn', now => {
+    const slider = document.querySelector('.rxf-turn input'), button = document.querySelector('.rxf-turn button');
+    if (document.activeElement !== slider || now.playing) slider.value = now.psi;
+    slider.disabled = now.held;
+    document.querySelector('.rxf-turn output').textContent = `ψ ${Math.round(now.psi)}°`;
+    const wanted = now.playing ? 'pause' : 'play';
+    if (button.dataset.icon !== wanted) {
+      button.dataset.icon = wanted;
+      button.innerHTML = RX.icon(wanted);
+      button.ariaLabel = now.playing ? 'Stop the rotor' : 'Turn the rotor';
+    }
+  });
+})();

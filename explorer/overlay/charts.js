@@ -1,0 +1,121 @@
+// Small charts as SVG: the strip below the scene, and the twist curve that can be dragged.
+(() => {
+  const {text, part} = RX;
+  const digits = value => (value < 0 ? '−' : '') + Math.abs(value).toLocaleString('en', {maximumFractionDigits: 3, useGrouping: false});
+  const COLOURS = {this: 'var(--rx-blade)', saving: 'var(--rx-accent)', limit: 'var(--rx-stall)', reference: 'var(--rx-ghost)', pinned: 'var(--rx-pinned)'};
+  const DASHES = {reference: '4 3', pinned: '6 3', limit: '3 3'}, WIDTHS = {this: 2.1, saving: 2, reference: 1.5, pinned: 1.7, limit: 1.3};
+  const role = (line, one) => line.colour ? null : line.role === 'reference' && one.pinned ? 'pinned' : line.role;
+
+  function frameOf(one, width, height, left = 32, bottom = 17) {
+    const [x0, x1] = one.x_range, [y0, y1] = one.y_range, right = 8, top = 8;
+    return {
+      X: x => left + (x - x0) / (x1 - x0) * (width - left - right),
+      Y: y => top + (y1 - Math.max(y0 - 1e6, Math.min(y1 + 1e6, y))) / (y1 - y0) * (height - top - bottom),
+      left, right: width - right, top, base: height - bottom,
+    };
+  }
+  function axes(one, place, height) {
+    const rows = one.y_ticks.map(v => `<path d="M${place.left} ${place.Y(v).toFixed(1)}H${place.right}" stroke="var(${v === 0 ? '--rx-faint' : '--rx-grid'})"/>
+      <text x="${place.left - 6}" y="${(place.Y(v) + 3.5).toFixed(1)}" text-anchor="end">${digits(v)}</text>`);
+    const columns = one.x_ticks.map(v => `<text x="${place.X(v).toFixed(1)}" y="${height - 2}" text-anchor="middle">${digits(v)}</text>`);
+    return rows.join('') + columns.join('');
+  }
+  function curve(line, place, one) {
+    let path = '', open = false, first = null, last = null;
+    line.x.forEach((x, k) => {
+      const y = line.y[k];
+      if (y === null) { open = false; return; }
+      path += `${open ? 'L' : 'M'}${place.X(x).toFixed(1)} ${place.Y(y).toFixed(1)}`;
+      first ??= x; last = x; open = true;
+    });
+    if (!path) return '';
+    const kind = role(line, one), stroke = line.colour ?? COLOURS[kind];
+    const fill = line.filled ? `<path d="${path}L${place.X(last)} ${place.Y(0)}L${place.X(first)} ${place.Y(0)}Z" fill="${stroke}" opacity=".1"/>` : '';
+    return `${fill}<path d="${path}" fill="none" stroke="${stroke}" stroke-width="${line.width ?? WIDTHS[kind] ?? 2}" stroke-linejoin="round" ${DASHES[kind] ? `stroke-dasharray="${DASHES[kind]}"` : ''}/>`;
+  }
+  let clips = 0;
+  function chart(element, one) {
+    const width = Math.max(element.clientWidth - 32, 60), height = Math.max(element.clientHeight - 38, 40), place = frameOf(one, width, height), clip = `rxc${clips++ % 64}`;
+    const dots = one.dots.map(dot => `<circle cx="${place.X(dot.x).toFixed(1)}" cy="${place.Y(Math.max(one.y_range[0], Math.min(one.y_range[1], dot.y))).toFixed(1)}" r="${dot.label ? 3.5 : 4.5}" fill="${dot.label ? COLOURS.saving : COLOURS.this}" stroke="var(--rx-paper)" stroke-width="2"><title>${text(dot.label || 'now')}</title></circle>`).join('');
+    const key = (one.key ?? []).map(([name, shade]) => `<span class="rxf-legend-line" style="--c:${shade}"><i></i>${text(name)}</span>`).join('');
+    element.title = one.note ?? '';
+    element.toggleAttribute('data-wide', Boolean(one.wide));
+    element.toggleAttribute('data-faded', Boolean(one.faded));
+    element.innerHTML = `<div class="rxf-head"><b>${text(one.title)}</b><span class="rxf-dim">${text(one.unit)}</span>${key}<span class="rxf-num ${one.kind ? `rxf-${one.kind}` : ''}">${text(one.value)}</span></div>
+      <svg viewBox="0 0 ${width} ${height}" role="img" aria-label="${text(`${one.title}, ${one.unit}. ${one.value}. ${one.note ?? ''}`)}"><clipPath id="${clip}"><rect x="${place.left}" y="${place.top - 4}" width="${place.right - place.left + 6}" height="${place.base - place.top + 8}"/></clipPath>
+      ${axes(one, place, height)}<g clip-path="url(#${clip})">${one.lines.map(line => curve(line, place, one)).join('')}${dots}</g></svg>`;
+  }
+  RX.paint('strip', all => {
+    const strip = part('strip');
+    while (strip.children.length > all.length) strip.lastChild.remove();
+    while (strip.children.length < all.length) strip.append(Object.assign(document.createElement('div'), {className: 'rxf-chart'}));
+    if (strip.offsetParent === null && !strip.offsetHeight) return;
+    all.forEach((one, k) => { if (one) { strip.children[k].dataset.name = one.name; chart(strip.children[k], one); } });
+  });
+
+  // What a step of a slider is worth: an arrow from its thumb the way that saves power.
+  RX.paint('worth', all => {
+    for (const place of document.querySelectorAll('[data-worth]')) {
+      const one = all[place.dataset.worth], stamp = JSON.stringify(one ?? null);
+      if (place.dataset.stamp === stamp && place.childElementCount) continue;
+      place.dataset.stamp = stamp;
+      if (!one) { place.innerHTML = ''; continue; }
+      // The track lies between the label and the number.
+      const row = place.parentElement?.previousElementSibling?.querySelector('.mantine-Slider-root')?.getBoundingClientRect(), own = place.getBoundingClientRect();
+      const track = row && row.width ? [row.left - own.left, row.width] : [76, 166];
+      const start = track[0] + one.at * track[1], length = 8 + 34 * Math.min(one.size, 1);
+      const arrow = one.way ? `<i data-way="${one.way}" style="left:${one.way === 'up' ? start : start - length}px;width:${length}px"></i>` : '';
+      place.innerHTML = `${arrow}<span>${one.way ? `<b>${text(one.saving)}</b> ${text(one.unit)}` : text(one.saving)}</span>`;
+      place.title = one.sentence;
+    }
+  });
+
+  // The twist curve: its handles are dragged, or moved by arrow keys.
+  let held = null, sent = 0, waiting = null;
+  const tell = (name, change) => {
+    waiting = [name, change];
+    const wait = Math.max(0, 50 - (performance.now() - sent));
+    setTimeout(() => { if (waiting) { sent = performance.now(); RX.send('knot', waiting); waiting = null; } }, wait);
+  };
+  RX.paint('twist', now => {
+    for (const place of document.querySelectorAll('[data-curve]')) {
+      if (!place.offsetWidth) continue;
+      const stamp = JSON.stringify(now) + place.offsetWidth;
+      if (place.dataset.stamp === stamp && place.childElementCount) continue;
+      place.dataset.stamp = stamp;
+      const focus = document.activeElement?.dataset?.knot;
+      const width = place.offsetWidth, height = place.offsetHeight, frame = frameOf(now, width, height, 30);
+      const knots = now.knots.map(k => `<circle cx="${frame.X(k.r).toFixed(1)}" cy="${frame.Y(k.theta).toFixed(1)}" r="5" tabindex="0" role="slider" data-knot="${k.name}" aria-label="${text(k.title)}" aria-valuenow="${k.theta}" aria-valuetext="${digits(k.theta)}° at ${digits(k.r)} R"><title>${text(k.title)}</title></circle>`).join('');
+      place.innerHTML = `<svg viewBox="0 0 ${width} ${height}" role="group" aria-label="Twist curve">${axes(now, frame, height)}${now.lines.map(line => curve(line, frame, now)).join('')}${knots}</svg>`;
+      place.frame = frame;
+      if (focus) place.querySelector(`[data-knot="${focus}"]`)?.focus();
+    }
+  });
+  document.addEventListener('pointerdown', event => {
+    const knot = event.target instanceof Element && event.target.closest('[data-knot]');
+    if (!knot) return;
+    const place = knot.closest('[data-curve]');
+    held = {name: knot.dataset.knot, place};
+    event.preventDefault();
+    knot.focus();
+    RX.send('knot', [held.name, 'start']);
+  });
+  addEventListener('pointermove', event => {
+    if (!held) return;
+    const box = held.place.getBoundingClientRect(), now = RX.state.twist, frame = held.place.frame;
+    const [x0, x1] = now.x_range, [y0, y1] = now.y_range;
+    const r = x0 + (event.clientX - box.left - frame.left) / (frame.right - frame.left) * (x1 - x0);
+    const theta = y1 - (event.clientY - box.top - frame.top) / (frame.base - frame.top) * (y1 - y0);
+    tell(held.name, [r, theta]);
+  });
+  addEventListener('pointerup', () => { if (held) { const {name} = held; held = null; setTimeout(() => RX.send('knot', [name, 'end']), 70); } });
+  document.addEventListener('keydown', event => {
+    const knot = event.target instanceof Element && event.target.closest('[data-knot]');
+    const step = knot && {ArrowUp: [0, .1], ArrowDown: [0, -.1], ArrowLeft: [-.01, 0], ArrowRight: [.01, 0]}[event.key];
+    if (!step) return;
+    const k = RX.state.twist.knots.find(one => one.name === knot.dataset.knot), many = event.shiftKey ? 10 : 1;
+    event.preventDefault();
+    event.stopPropagation();
+    tell(k.name, [k.r + many * step[0], k.theta + many * step[1]]);
+  }, true);
+})();

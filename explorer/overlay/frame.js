@@ -1,0 +1,186 @@
+// The frame: takes parts of the page's state from Python, draws what has changed, and reports what is pressed.
+(() => {
+  const ICONS = {
+    undo: 'M4 9h10a6 6 0 0 1 0 12h-3M4 9l5-5M4 9l5 5', redo: 'M20 9H10a6 6 0 0 0 0 12h3M20 9l-5-5M20 9l-5 5',
+    pin: 'M12 16v6M8 3h8l-1 7 3 5H6l3-5z', share: 'M12 15V3M7 8l5-5 5 5M5 13v7h14v-7', play: 'M7 4l13 8-13 8z', pause: 'M8 5v14M16 5v14',
+    folder: 'M3 6h6l2 3h10v10H3z', sliders: 'M4 7h9M19 7h1M4 17h3M13 17h7M16 4v6M10 14v6', chart: 'M4 4v16h16M7 15l4-5 3 3 5-7',
+    gear: 'M12 9a3 3 0 1 0 0 6 3 3 0 0 0 0-6zM12 3v2.5M12 18.500V21M3 12h2.500M18.5 12H21M5.6 5.600l1.8 1.800M16.6 16.600l1.8 1.800M18.4 5.600l-1.8 1.800M7.4 16.600l-1.8 1.8',
+    hand: 'M8 12V5.500a1.6 1.6 0 0 1 3.2 0V11 4.200a1.6 1.6 0 0 1 3.2 0V11 6.200a1.6 1.6 0 0 1 3.2 0V15c0 4-2.6 6.5-6.2 6.5-3.2 0-4.7-1.6-6-4.200l-2-3.700a1.5 1.5 0 0 1 2.6-1.500z',
+  };
+  const icon = name => `<svg class="rxf-icon" viewBox="0 0 24 24" aria-hidden="true"><path d="${ICONS[name]}"/></svg>`;
+  const page = document.documentElement, root = document.getElementById('rx');
+  const part = name => root.querySelector(`[data-part=${name}]`);
+  const state = {}, painters = {}, later = new Set();
+  let bridge = null, serial = 0, frame = 0;
+
+  const RX = window.RX = {
+    state, icon, part,
+    // Text written into HTML.
+    text: value => String(value ?? '').replace(/[&<>"]/g, c => ({'&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;'})[c]),
+    // Draw `state[name]` with this function, once a frame at most.
+    paint(name, draw) { painters[name] = draw; },
+    again(...names) {
+      for (const name of names) later.add(name);
+      frame ||= requestAnimationFrame(() => {
+        frame = 0;
+        const due = [...later];
+        later.clear();
+        for (const name of due) if (name in state) painters[name]?.(state[name]);
+      });
+    },
+    // From Python: the text widget that hears us; later, parts of the state.
+    begin(uuid) { bridge = uuid; for (const name of Object.keys(state)) delete state[name]; page.removeAttribute('data-lecture'); },
+    set(parts) { for (const [name, value] of Object.entries(parts)) { state[name] = value; RX.again(name); } },
+    // To Python: what is wanted, and of what. A serial number makes every message another one.
+    send(name, value = null) {
+      const client = window.__viserMutable;
+      if (!client?.sendMessage || bridge === null) return;
+      client.sendMessage({type: 'GuiUpdateMessage', uuid: bridge, updates: {value: JSON.stringify([++serial, name, value])}});
+    },
+    say(sentence) { const place = root.querySelector('.rxf-said'); if (place.textContent !== sentence) place.textContent = sentence; },
+  };
+
+  for (const button of root.querySelectorAll('[data-icon]')) button.insertAdjacentHTML('afterbegin', icon(button.dataset.icon));
+  for (const button of root.querySelectorAll('.rxf-tools button'))
+    if (!button.ariaLabel) button.ariaLabel = button.textContent.trim();
+
+  // Everything with data-do reports itself; what has data-page acts here.
+  document.addEventListener('click', event => {
+    const near = event.target instanceof Element && event.target.closest('[data-do], [data-page]');
+    const menu = part('menu');
+    if (!menu.hidden && !(event.target instanceof Element && event.target.closest('[data-part=menu]')) && near?.dataset.do !== 'pin') menu.hidden = true;
+    if (!near || near.disabled || near.matches('select, input[type=range]')) return;
+    if (near.dataset.page) return toggle(near.dataset.page);
+    if (near.dataset.do === 'pin' && state.bar?.pinned && near.closest('.rxf-bar')) return pinMenu(near);
+    if (near.dataset.do === 'mode') mark(near.dataset.value);
+    if (near.closest('[data-part=menu]') && near.dataset.do !== 'along') menu.hidden = true;
+    RX.send(near.dataset.do, near.type === 'checkbox' ? near.checked : near.dataset.value ?? null);
+  });
+  document.addEventListener('change', event => {
+    if (event.target.matches?.('#rx select[data-do]')) { RX.send(event.target.dataset.do, event.target.value); event.target.blur(); }
+  });
+  let turning = 0;
+  document.addEventListener('input', event => {
+    if (!event.target.matches?.('#rx input[type=range]')) return;
+    clearTimeout(turning);
+    turning = setTimeout(() => RX.send(event.target.dataset.do, Number(event.target.value)), 30);
+  });
+  // Keys pressed in the frame's own controls are theirs alone.
+  root.addEventListener('keydown', event => {
+    if (event.target.matches('select, input') || (event.target.matches('button') && (event.key === ' ' || event.key === 'Enter'))) event.stopPropagation();
+  });
+  document.addEventListener('keydown', event => {
+    if (event.key !== 'Escape') return;
+    if (!part('menu').hidden) part('menu').hidden = true;
+    else if (state.bar?.drawer && !document.querySelector('dialog[open]')) RX.send('drawer', '');
+  });
+
+  function toggle(name) {
+    if (page.dataset[name] === 'open') delete page.dataset[name]; else page.dataset[name] = 'open';
+    root.querySelector(`[data-page=${name}]`).ariaExpanded = String(page.dataset[name] === 'open');
+    window.dispatchEvent(new Event('resize'));
+  }
+  if (innerWidth <= 700) page.dataset.rail = 'open';
+
+  function mark(mode) {
+    for (const button of root.querySelectorAll('.rxf-modes button')) button.setAttribute('aria-current', String(button.dataset.value === mode));
+    page.dataset.mode = mode;
+  }
+
+  RX.paint('bar', bar => {
+    const menu = root.querySelector('.rxf-rotor'), names = JSON.stringify(bar.rotors);
+    if (menu.dataset.names !== names) {
+      menu.dataset.names = names;
+      menu.innerHTML = bar.rotors.map(([name, title]) => `<option value="${RX.text(name)}">${RX.text(title)}</option>`).join('');
+    }
+    if (document.activeElement !== menu || menu.value !== bar.rotor) menu.value = bar.rotor;
+    menu.disabled = bar.held;
+    mark(bar.mode);
+    for (const name of ['undo', 'redo']) root.querySelector(`[data-do=${name}]`).disabled = !bar[name] || bar.held;
+    const pin = root.querySelector('.rxf-tools [data-do=pin]');
+    pin.disabled = bar.held;
+    pin.toggleAttribute('data-on', Boolean(bar.pinned));
+    pin.querySelector('span').textContent = bar.pinned ? 'A pinned ▾' : 'Pin A';
+    pin.ariaLabel = bar.pinned ? `A is ${bar.pinned.title}` : 'Pin A';
+    for (const button of root.querySelectorAll('.rxf-tools [data-do=drawer]')) button.ariaExpanded = String(button.dataset.value === bar.drawer);
+    if (!part('menu').hidden && bar.pinned) pinMenu(pin, true);
+  });
+
+  function pinMenu(button, keep) {
+    const menu = part('menu'), {pinned} = state.bar;
+    if (!keep && !menu.hidden) { menu.hidden = true; return; }
+    menu.innerHTML = `<p data-explorer="pinned"><b style="color:var(--rx-pinned)">A</b> ${RX.text(pinned.title)}<br>
+      <span class="rxf-dim rxf-num">${RX.text(pinned.power)}</span></p>
+      <button data-do="swap">Swap A and B</button><button data-do="back">Back to A</button>
+      <label><input type="checkbox" data-do="along" ${pinned.along ? 'checked' : ''}>Fly A at the current condition</label>
+      <button data-do="pin">Unpin</button>`;
+    const place = button.getBoundingClientRect();
+    menu.style.top = `${place.bottom + 6}px`;
+    menu.style.left = `${Math.max(8, Math.min(place.left, innerWidth - 300))}px`;
+    if (menu.hidden) { menu.hidden = false; menu.querySelector('button').focus(); }
+  }
+
+  RX.paint('views', views => {
+    part('views').innerHTML = views.all.map(([name, title]) =>
+      `<button data-do="view" data-value="${name}" aria-pressed="${name === views.now}">${RX.text(title)}</button>`).join('');
+  });
+  RX.paint('notice', notice => {
+    const place = part('notice');
+    place.hidden = !notice;
+    if (notice) place.innerHTML = `<span data-explorer="notice">${RX.text(notice.text)}</span>` + notice.actions.map(([name, title]) => `<button data-do="${name}">${RX.text(title)}</button>`).join('');
+  });
+  RX.paint('prompt', words => {
+    const place = part('prompt');
+    place.hidden = !words;
+    if (words) place.innerHTML = icon('hand') + `<span data-explorer="prompt">${RX.text(words.text)}</span>`;
+  });
+  RX.paint('lecture', step => {
+    const place = part('caption');
+    page.toggleAttribute('data-lecture', Boolean(step));
+    place.hidden = !step;
+    if (!step) { page.style.removeProperty('--rx-caption'); window.dispatchEvent(new Event('resize')); return; }
+    const figures = step.figures.map(([title, value, kind]) => `<div><b class="${kind ? `rxf-${kind}` : ''}">${RX.text(value)}</b><span>${RX.text(title)}</span></div>`).join('');
+    const dots = Array.from({length: step.of}, (_, k) => `<i ${k === step.at ? 'data-here' : ''}></i>`).join('');
+    const buttons = step.held ? '' : `<button data-do="lecture" data-value="back">Back</button><button data-do="lecture" data-value="again">Reset this step</button>
+      <button data-do="lecture" data-value="next" class="rxf-main">${step.at + 1 < step.of ? 'Next' : 'Finish'}</button><button data-do="lecture" data-value="end">End</button>`;
+    place.innerHTML = `<div data-explorer="lecture" data-step="${step.at + 1}"><h2>${RX.text(step.title)}</h2><p>${RX.text(step.watch)}</p>
+      <p><span data-explorer="said">${RX.text(step.said)}</span></p><p>${RX.text(step.todo)}</p></div>
+      <div class="rxf-figures">${figures}</div><div class="rxf-steps">${dots}<span class="rxf-push"></span>${buttons}</div>`;
+    page.style.setProperty('--rx-caption', `${place.offsetHeight}px`);
+  });
+
+  // The power at the hand, while something is dragged in the scene.
+  const tag = part('tag');
+  let x = 0, y = 0;
+  const follow = () => { tag.style.transform = `translate(${Math.min(x + 22, innerWidth - 220)}px, ${Math.max(y - 66, 4)}px)`; };
+  addEventListener('pointermove', event => { x = event.clientX; y = event.clientY; if (tag.hasAttribute('data-on')) follow(); }, true);
+  RX.paint('hand', hand => {
+    tag.toggleAttribute('data-on', Boolean(hand));
+    if (!hand) return;
+    tag.innerHTML = `<b class="rxf-num">${RX.text(hand.power)}</b><em class="rxf-num ${hand.kind ? `rxf-${hand.kind}` : ''}">${RX.text(hand.change)}</em><p class="rxf-num">${RX.text(hand.place)}</p>`;
+    follow();
+  });
+
+  // Where the canvas is: cards follow it; and the prompt follows a node of the scene.
+  let place = '';
+  function look() {
+    requestAnimationFrame(look);
+    const client = window.__viserMutable, canvas = client?.canvas;
+    if (!canvas) return;
+    const box = canvas.getBoundingClientRect(), now = [box.left, box.top, box.width, box.height].join();
+    if (now !== place) {
+      place = now;
+      for (const [name, value] of [['--rx-x', box.left], ['--rx-y', box.top], ['--rx-w', box.width], ['--rx-h', box.height]]) page.style.setProperty(name, `${value}px`);
+      for (let e = canvas.parentElement; e && e.id !== 'root'; e = e.parentElement) if (/background-color/.test(e.getAttribute('style') ?? '')) e.classList.add('rxf-ground');
+      RX.again('inset', 'strip', 'twist');
+    }
+    const words = state.prompt, node = words && client.nodeRefFromName?.[words.node];
+    if (!node || !client.camera) return;
+    const at = node.position.clone().setFromMatrixPosition(node.matrixWorld).project(client.camera), prompt = part('prompt');
+    const left = (at.x + 1) / 2 * box.width - 0.8 * prompt.offsetWidth, top = (1 - at.y) / 2 * box.height + 20;
+    prompt.style.transform = `translate(${Math.max(8, Math.min(left, box.width - prompt.offsetWidth - 8))}px, ${Math.max(8, Math.min(top, box.height - 60))}px)`;
+  }
+  requestAnimationFrame(look);
+  // What viser mounts anew is filled anew.
+  new MutationObserver(() => RX.again('twist', 'worth')).observe(document.getElementById('root') ?? document.body, {childList: true, subtree: true});
+})();

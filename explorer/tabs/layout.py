@@ -1,0 +1,116 @@
+"""Where the parts of the page stand: three modes in the rail on the right, and one drawer at a time on the left."""
+
+from html import escape
+from typing import Literal
+
+import viser
+
+from explorer.overlay.bridge import Bridge
+
+Mode = Literal["explore", "optimise", "actuate"]
+MODES: tuple[Mode, ...] = ("explore", "optimise", "actuate")
+DRAWERS = {
+    "open": "Open",
+    "share": "Share and export",
+    "details": "Power and trim",
+    "probe": "Blade element",
+    "twist": "Where to twist",
+    "trust": "How far to trust this",
+    "lecture": "Lecture",
+    "settings": "Settings",
+}
+"""Names and titles."""
+RAIL, DRAWER = 332, 348
+"""Widths [px]."""
+_WIDER = 1.22
+"""Widths with big type, to those without."""
+
+
+class Layout:
+    """One session's. What is not shown is not in the page, so that it costs the browser nothing."""
+
+    def __init__(self, client: viser.ClientHandle, bridge: Bridge) -> None:
+        self._gui, self._bridge = client.gui, bridge
+        self.mode: Mode = "explore"
+        self.drawer = ""
+        """The one that is open; empty: none."""
+        self._gui.main_panel.dock_right()
+        self._modes = {mode: self._gui.add_folder(None, visible=mode == self.mode) for mode in MODES}
+        self._panel = self._gui.add_panel(visible=False)
+        self._drawers: dict[str, viser.GuiFolderHandle] = {}
+        with self._panel.add_tab("Drawer"):
+            for name, title in DRAWERS.items():
+                self._drawers[name] = self._gui.add_folder(None, visible=False)
+                with self._drawers[name]:
+                    self._gui.add_html(
+                        f'<div class="rxp-title" data-explorer="drawer" data-name="{name}">{escape(title)}'
+                        '<button data-do="drawer" data-value="" aria-label="Close" title="Close (Esc)">×</button></div>'
+                    )
+        self._panel.dock_left()
+        self.enlarge(False)
+
+    def in_mode(self, mode: Mode) -> viser.GuiFolderHandle:
+        """Where the widgets of a mode go, as a context."""
+        return self._modes[mode]
+
+    def in_drawer(self, name: str) -> viser.GuiFolderHandle:
+        """Where the widgets of a drawer go, as a context; KeyError for a name without one."""
+        return self._drawers[name]
+
+    def show_mode(self, mode: Mode) -> None:
+        """Change what the rail holds."""
+        self.mode = mode
+        for name, folder in self._modes.items():
+            folder.visible = name == mode
+
+    def show_drawer(self, name: str) -> None:
+        """Open a drawer in place of another; one that is open, or the empty name, closes it."""
+        name = "" if name == self.drawer or name not in self._drawers else name
+        before, self.drawer = self.drawer, name
+        for one, folder in self._drawers.items():
+            if one in (before, name):
+                folder.visible = one == name
+        self._panel.visible = bool(name)
+
+    def open_drawer(self, name: str) -> None:
+        """Open a drawer, unless it is open."""
+        if name != self.drawer:
+            self.show_drawer(name)
+
+    def enlarge(self, big: bool) -> None:
+        """Widths for big type, or the usual ones."""
+        factor = _WIDER if big else 1.0
+        self._gui.main_panel.set_width(factor * RAIL)
+        self._panel.set_width(factor * DRAWER)
+
+
+class Sections:
+    """Parts of a rail or a drawer of which one is shown, with a row of buttons above them."""
+
+    def __init__(self, gui: viser.GuiApi, bridge: Bridge, name: str, titles: tuple[str, ...]) -> None:
+        """`name`: of the row in the frame; no other has it."""
+        self._name, self._now = name, titles[0]
+        self._row = gui.add_html("")
+        self._parts = {title: gui.add_folder(None, visible=title == self._now) for title in titles}
+        bridge.on(name, self.show)
+        self._draw()
+
+    def __getitem__(self, title: str) -> viser.GuiFolderHandle:
+        """Where the widgets of a part go, as a context."""
+        return self._parts[title]
+
+    def show(self, title: str) -> None:
+        """Show this part; a title without one is passed over."""
+        if title in self._parts and title != self._now:
+            self._parts[self._now].visible = False
+            self._now = title
+            self._parts[title].visible = True
+            self._draw()
+
+    def _draw(self) -> None:
+        buttons = "".join(
+            f'<button data-do="{self._name}" data-value="{escape(title)}" '
+            f'aria-pressed="{str(title == self._now).lower()}">{escape(title)}</button>'
+            for title in self._parts
+        )
+        self._row.content = f'<div class="rxp-sections" role="group">{buttons}</div>'

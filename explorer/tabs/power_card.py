@@ -1,0 +1,158 @@
+"""The power card of the frame: total, change, why, parts and how far to trust it, as values for the page."""
+
+from typing import Any
+
+from explorer.interface import SessionState
+from explorer.overlay.bridge import Bridge
+from explorer.power_tracker import PowerTracker
+from explorer.state import baseline_of
+from explorer.text.readout import PART_TITLES, fineness, ideal_induced
+from explorer.text.status import cautions
+from explorer.text.units import UNITS, Units, number
+from explorer.text.why import why
+from explorer.theme.colours import PARTS
+from rotor.design.design import Design
+from rotor.trim.solution import Solution
+
+_NOTICEABLE = 0.05
+"""Changes below this [%] have no colour."""
+_STALLED = 0.025
+"""Fraction of the disk from which stall is named beside the power."""
+
+
+class PowerCard:
+    """One session's. It keeps the solution before a grab, so that it can say why power changed."""
+
+    def __init__(self, bridge: Bridge) -> None:
+        self._bridge = bridge
+        self.tracker = PowerTracker()
+        self._last: Solution | None = None
+        self._before: Solution | None = None
+        """The solution that the change since the grab counts from."""
+        self._content: dict[str, Any] | None = None
+
+    def show(self, state: SessionState, pause: float) -> None:
+        """Show a converged state. `pause`: the longest rest of the inputs [s] since the last one."""
+        solution, units = state.solution, UNITS[state.view.units]
+        known = self.tracker.reference
+        self.tracker.solved(state.inputs, solution.power.total, pause)
+        if self.tracker.reference != known:
+            self._before = self._last
+        self._last = solution
+        self._content = {
+            **_numbers(state, units),
+            **self._change(state, units),
+            "problem": "",
+            "status": _status(state),
+        }
+        self._bridge.set(power=self._content)
+
+    def show_problem(self, sentence: str) -> None:
+        """Keep the last numbers, greyed, beside the sentence that says why there are none."""
+        if self._content is None:
+            self._content = _EMPTY
+        status = {"kind": "problem", "words": "no trim", "title": sentence}
+        problem = f"{sentence.rstrip('.')}. Greyed: last converged solution."
+        self._bridge.set(power={**self._content, "problem": problem, "status": status})
+
+    def forget(self) -> None:
+        """Another design came, by undo, link, file or menu: what was grabbed before does not count."""
+        self.tracker.reset()
+        self._before = None
+
+    def hand(self, units: Units) -> dict[str, str] | None:
+        """Power and its change for the tag beside the pointer; None before the first solution."""
+        last, change = self._last, self.tracker.change
+        if last is None:
+            return None
+        return {
+            "power": units.watts(last.power.total, fineness(last.power)),
+            "change": units.power[0].text(change or 0.0, fineness(last.power), sign=True),
+            "kind": _kind(change or 0.0, last.power.total),
+        }
+
+    def _change(self, state: SessionState, units: Units) -> dict[str, Any]:
+        solution, reference = state.solution, state.reference
+        change, before = self.tracker.change, self._before
+        if change is not None and before is not None:
+            value = units.watts(change, fineness(solution.power), sign=True)
+            since = {"value": value, "words": "since grabbed", "kind": _kind(change, solution.power.total)}
+            return {"since": since, "rest": "", "why": why(before, solution, units)}
+        if solution.design == reference.design or not reference.converged:
+            return {
+                "since": None,
+                "rest": "as built" if state.pinned is None else "same as A",
+                "why": "Drag the twist to change it.",
+            }
+        apart = solution.power.total - reference.power.total
+        value = units.watts(apart, fineness(solution.power), sign=True)
+        since = {"value": value, "words": "in all", "kind": _kind(apart, solution.power.total)}
+        return {"since": since, "rest": "", "why": why(reference, solution, units)}
+
+
+def against(design: Design, pinned: bool) -> str:
+    """What changes are measured against, in words."""
+    if pinned:
+        return "A"
+    twist = baseline_of(design).twist
+    return (
+        f"{design.aircraft.name} as built"
+        if twist == design.rotor.builtin_twist
+        else design.aircraft.twist_title(design.preset)
+    )
+
+
+def _numbers(state: SessionState, units: Units) -> dict[str, Any]:
+    solution, power = state.solution, state.solution.power
+    reference = state.reference.power if state.reference.converged else None
+    percent = 100.0 * (power.total / reference.total - 1.0) if reference is not None and reference.total > 0.0 else None
+    unit, digits = units.power[0], fineness(power)
+    parts = []
+    for name in PARTS:
+        value = getattr(power, name)
+        apart = None if reference is None else value - getattr(reference, name)
+        title = f"{PART_TITLES[name]} power {units.watts(value, digits)}"
+        parts.append(
+            {
+                "name": PART_TITLES[name].removesuffix(" rotor"),
+                "value": number(unit.of(value), digits),
+                "share": round(value / power.total, 5) if power.total > 0.0 else 0.0,
+                "title": title if apart is None else f"{title}, {units.watts(apart, digits, sign=True)} vs. reference",
+            }
+        )
+    ideal = ideal_induced(solution)
+    return {
+        "total": number(unit.of(power.total), digits),
+        "unit": unit.symbol,
+        "change": f"{number(percent, 1, sign=True)} %",
+        "kind": "" if percent is None or abs(percent) < _NOTICEABLE else "good" if percent < 0.0 else "bad",
+        "against": against(solution.design, state.pinned is not None),
+        "parts": parts,
+        "ideal": None if ideal is None or power.total <= 0.0 else round(ideal / power.total, 5),
+        "ideal_title": "" if ideal is None else f"Least induced power at this lift: {units.watts(ideal)}",
+    }
+
+
+def _status(state: SessionState) -> dict[str, str]:
+    """The chip: trimmed, or what to read with care."""
+    reasons = cautions(state.solution, state.pinned)
+    stalled = state.solution.stalled_area
+    if stalled >= _STALLED:
+        return {"kind": "care", "words": f"{number(100.0 * stalled, 1)} % of disk stalled", "title": " ".join(reasons)}
+    if reasons:
+        words = "read with care" if len(reasons) == 1 else f"{len(reasons)} cautions"
+        return {"kind": "care", "words": words, "title": " ".join(reasons)}
+    return {"kind": "converged", "words": "trimmed", "title": f"{state.solution.message} Click: how far to trust it."}
+
+
+def _kind(change: float, total: float) -> str:
+    """Class of a change of power [W]."""
+    if total <= 0.0 or abs(100.0 * change / total) < _NOTICEABLE:
+        return ""
+    return "good" if change < 0.0 else "bad"
+
+
+_EMPTY: dict[str, Any] = {
+    "total": "–", "unit": "kW", "change": "–", "kind": "", "against": "as built", "parts": [], "ideal": None,
+    "ideal_title": "", "since": None, "rest": "", "why": "",
+}  # fmt: skip
