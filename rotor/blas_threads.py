@@ -3,14 +3,13 @@
 The limit is the process's own setting, so it is put back when the outermost computation ends.
 """
 
+import importlib
 import threading
-from collections.abc import Iterator
+from collections.abc import Generator
 from contextlib import contextmanager
 from functools import cache
 from typing import Any
 
-import numpy as np  # noqa: F401 - loads NumPy's BLAS, which the controller below must find
-import scipy.linalg  # noqa: F401 - the same for SciPy's
 from threadpoolctl import ThreadpoolController  # pyright: ignore[reportMissingTypeStubs]
 
 _lock = threading.Lock()
@@ -22,11 +21,12 @@ _limit: Any = None
 
 @cache
 def _controller() -> Any:
+    importlib.import_module("scipy.linalg")  # The controller knows only the BLAS libraries that are loaded by now.
     return ThreadpoolController()
 
 
 @contextmanager
-def one_blas_thread() -> Iterator[None]:
+def one_blas_thread() -> Generator[None]:
     """Keep BLAS to one thread inside the block, or inside a function decorated with it."""
     global _running, _limit
     with _lock:
