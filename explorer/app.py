@@ -42,7 +42,7 @@ class App:
         self._warmed = threading.Event()
         self.presentations = Presentations()
         doors, page = AllowedHosts(host, self._house.allow_hosts), veiled(viser_compat.client_html())
-        gate = RequestFilter(doors, self._house.connections, page)
+        gate = RequestFilter(doors, self._house.connections, page, self._house.frame_ancestors)
         self.server = viser_compat.quiet_server(host, port, "Rotor explorer", gate)
         viser_compat.remove_share_tunnel(self.server)
         self.server.on_client_connect(self._connected)

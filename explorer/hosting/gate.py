@@ -45,12 +45,19 @@ class RequestFilter:
     """WebSockets at once; more than sessions, for some wait, sleep, or have not said who they are."""
     page: ServedPage | None = None
     """What is served in place of the server's own page."""
+    frame_ancestors: tuple[str, ...] = ()
+    """Origins of other pages that may show this one in a frame, such as a notebook's."""
 
     def around(self, handler: Handler, options: dict[str, Any]) -> tuple[Handler, dict[str, Any]]:
         """A server's handler and options with the gate before them."""
         gated = {**options, "max_size": LARGEST, "create_connection": RateLimitedConnection, "logger": _visitors}
         gated["process_request"] = self._asked(options["process_request"])
         return _contained(handler), gated
+
+    @property
+    def _headers(self) -> dict[str, str]:
+        ancestors = " ".join(("frame-ancestors 'self'", *self.frame_ancestors))
+        return {**_HEADERS, "Content-Security-Policy": ancestors}
 
     def _asked(self, inner: Answer) -> Answer:
         def process_request(connection: ServerConnection, request: Request) -> Response | None:
@@ -65,10 +72,10 @@ class RequestFilter:
             if upgrade and len(connection.server.connections) >= self.connections:
                 return _plain(http.HTTPStatus.SERVICE_UNAVAILABLE, "Too many pages are open: try again later.")
             if not upgrade and self.page is not None and request.path.partition("?")[0] in ("/", "/index.html"):
-                return _served(self.page, request)
+                return _served(self.page, request, self._headers)
             answer = inner(connection, request)
             if answer is not None:
-                for name, value in _HEADERS.items():
+                for name, value in self._headers.items():
                     answer.headers[name] = value
             return answer
 
@@ -113,9 +120,9 @@ async def _part(connection: ServerConnection, code: CloseCode, reason: str) -> N
     connection.transport.abort()
 
 
-def _served(page: ServedPage, request: Request) -> Response:
+def _served(page: ServedPage, request: Request, extra: dict[str, str]) -> Response:
     """The page, or the word that the browser's own copy still holds."""
-    headers = Headers({"ETag": page.tag, "Cache-Control": "no-cache", "Vary": "Accept-Encoding", **_HEADERS})
+    headers = Headers({"ETag": page.tag, "Cache-Control": "no-cache", "Vary": "Accept-Encoding", **extra})
     if page.tag in ",".join(request.headers.get_all("If-None-Match")):
         return Response(http.HTTPStatus.NOT_MODIFIED, http.HTTPStatus.NOT_MODIFIED.phrase, headers)
     packs = "gzip" in ",".join(request.headers.get_all("Accept-Encoding"))

@@ -21,6 +21,8 @@ class ServerLimits:
     """[s] without a change after which a page sleeps: its caches go, its place is free for others."""
     allow_hosts: tuple[str, ...] = ()
     """Further names the server is reached by."""
+    frame_ancestors: tuple[str, ...] = ()
+    """Origins of other pages that may show this one in a frame, such as a notebook's."""
     studies: Path = Path()
     """Results of studies beneath this folder are offered to every page; nothing else of the machine's disk is."""
 
