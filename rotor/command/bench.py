@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import root  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
-from rotor.aero.elements import N_STATE, Problem, lay_out, run_pass
+from rotor.aero.elements import Problem, build_problem, evaluate_elements
 from rotor.command.bench_batch import TARGET_PER_SECOND, measure_batch
 from rotor.command.bench_search import TARGETS_S, measure_searches
 from rotor.command.flags import add_command
@@ -81,10 +81,10 @@ def run(args: argparse.Namespace) -> int:
 def measure() -> tuple[dict[str, float], list[str]]:
     """Figures [ms] by name, and notes on what could not be measured."""
     linear, wake = _cases("pitt-peters"), _cases("dynamic-wake")
-    problems = [lay_out(design) for design in linear.designs]
-    passes = [newton(problem, first_guess(problem)).last for problem in problems]
+    problems = [build_problem(design) for design in linear.designs]
+    passes = [newton(problem, first_guess(problem)).elements for problem in problems]
     figures = {
-        "evaluation": _mean(lambda k: run_pass(problems[k], passes[k].state), 50),
+        "evaluation": _mean(lambda k: evaluate_elements(problems[k], passes[k].state), 50),
         "trim, cold": _mean(lambda k: solve(linear.designs[k]), 15),
         "trim, warm": _mean(lambda k: solve(linear.nearby[k], linear.solutions[k]), 15),
         "hover, cold": _time(lambda: solve(make_design(preset="flight", mu=0.0)), 15),
@@ -122,16 +122,13 @@ def _cases(inflow: str) -> _Cases:
 
 def _hybr(problem: Problem, start: Guess) -> None:
     """The same residual through scipy's Powell hybrid method with finite differences."""
-    unknowns = list(unknowns_of(problem.design.models))
-    base = start.state
+    unknowns = unknowns_of(problem.design.models)
 
     def residual(x: Any) -> Any:
-        state = np.empty(N_STATE)
-        state[:] = base
-        state[unknowns] = x
-        return residuals(problem, run_pass(problem, state))
+        state = replace(start.state, **dict(zip(unknowns, x.tolist(), strict=True)))
+        return residuals(problem, evaluate_elements(problem, state))
 
-    root(residual, base[unknowns], method="hybr", tol=1e-10)
+    root(residual, start.state.array(unknowns), method="hybr", tol=1e-10)
 
 
 def _dynbem(design: Design) -> dict[str, float]:

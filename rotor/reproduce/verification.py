@@ -8,7 +8,7 @@ import numpy as np
 from scipy.integrate import solve_ivp  # pyright: ignore[reportUnknownVariableType]
 
 from rotor.aero import kernel
-from rotor.aero.elements import CONING, FLAP_1C, FLAP_1S, lay_out, run_pass, skewed
+from rotor.aero.elements import build_problem, evaluate_elements, wake_at
 from rotor.arrays import Array
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.design import Design
@@ -146,20 +146,21 @@ def _profile() -> float:
 def _flapping() -> tuple[float, float]:
     """Largest difference of β0, β1c, β1s [°] between balance and marched motion; the marched 2/rev amplitude [°]."""
     design = _with_inflow(make_design(preset="thesis", twist="linear:-10", mu=0.15), "pitt-peters")
-    problem = lay_out(design)
-    state = newton(problem, first_guess(problem)).last.state
-    disk, flap, one = problem.disk, problem.flap, run_pass(problem, state)
+    problem = build_problem(design)
+    state = newton(problem, first_guess(problem)).elements.state
+    disk, flap, elements = problem.disk, problem.flap, evaluate_elements(problem, state)
+    flow = elements.flow
     r = disk.r
 
     def rates(psi: float, motion: Array) -> list[float]:
         cos, sin = np.array([math.cos(psi)]), np.array([math.sin(psi)])
         here = replace(disk, psi=np.array([psi]), cos=cos, sin=sin)
-        induced = problem.inflow.respond(here, skewed(problem, state), np.zeros((0, 0))).induced
-        theta = (problem.twist + state[0] + state[1] * cos + state[2] * sin)[:, None]
-        u_t = (r + one.flow.mu_x * sin)[:, None]
-        u_p = induced + ((r - flap.hinge) * motion[1] + one.flow.mu_z + one.flow.mu_x * motion[0] * cos)[:, None]
+        induced = problem.inflow.respond(here, wake_at(problem, state), np.zeros((0, 0))).induced
+        theta = (problem.twist + state.collective + state.cyclic_1c * cos + state.cyclic_1s * sin)[:, None]
+        u_t = (r + flow.mu_x * sin)[:, None]
+        u_p = induced + ((r - flap.hinge) * motion[1] + flow.mu_z + flow.mu_x * motion[0] * cos)[:, None]
         loads = kernel.element_loads(
-            theta, u_t, u_p, one.loss, problem.tip_mach,
+            theta, u_t, u_p, elements.loss, problem.tip_mach,
             disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables,
         )  # fmt: skip
         moment = float((r - flap.hinge) @ loads[kernel.FZ, :, 0]) * disk.dr
@@ -171,7 +172,7 @@ def _flapping() -> tuple[float, float]:
     found = solve_ivp(rates, (0.0, end), [0.05, 0.0], t_eval=end - 2.0 * math.pi + psi, rtol=1e-7, atol=1e-9)
     beta: Array = found.y[0]
     marched = (beta.mean(), 2.0 * (beta * np.cos(psi)).mean(), 2.0 * (beta * np.sin(psi)).mean())
-    balanced = (state[CONING], state[FLAP_1C], state[FLAP_1S])
+    balanced = (state.coning, state.flap_1c, state.flap_1s)
     second = 2.0 * math.hypot((beta * np.cos(2 * psi)).mean(), (beta * np.sin(2 * psi)).mean())
     gap = max(abs(float(a) - float(b)) for a, b in zip(marched, balanced, strict=True))
     return math.degrees(gap), math.degrees(second)

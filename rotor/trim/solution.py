@@ -10,6 +10,7 @@ from typing import Any, cast
 import numpy as np
 
 from rotor.aero.switches import switched_off
+from rotor.aero.trim_state import TrimState
 from rotor.arrays import Array
 from rotor.design.active_twist import active_twist_record
 from rotor.design.design import Design
@@ -32,25 +33,6 @@ class Caveat:
     """Short and stable, for scripts, for example low-speed-inflow."""
     sentence: str
     """What the user reads."""
-
-
-@dataclass(frozen=True)
-class Controls:
-    """The trim, all angles in radians. θ = θ0 + θ1c cos ψ + θ1s sin ψ, β likewise."""
-
-    collective: float
-    """θ0, the pitch at 0.75 R."""
-    cyclic_1c: float
-    cyclic_1s: float
-    shaft_tilt: float
-    """α, positive forward."""
-    coning: float
-    """β0, positive up."""
-    flap_1c: float
-    """β1c, negative when the disk tilts back."""
-    flap_1s: float
-    lambda0: float
-    """Mean induced inflow of momentum theory, over ΩR."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,7 +115,7 @@ class Solution:
     status: Status
     message: str
     caveats: tuple[Caveat, ...]
-    controls: Controls
+    controls: TrimState
     disk: DiskFields
     last_power: PowerBudget
     """Power by parts of the last iterate, converged or not; `power` is the same for a converged solution only."""

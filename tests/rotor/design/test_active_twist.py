@@ -14,7 +14,7 @@ from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.harmonic import phase_sweep
 from rotor.actuator.installation import install
 from rotor.actuator.placement import Host, default_placement
-from rotor.aero.elements import lay_out, run_pass
+from rotor.aero.elements import build_problem, evaluate_elements
 from rotor.aero.sums import slopes
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
@@ -69,12 +69,12 @@ def test_field_by_hand():
 def test_exact_jacobian_is_not_disturbed():
     """Newton needs no more passes, and the Jacobian agrees with differences of the residuals."""
     design = turning(make_design(mu=0.25), Harmonic(2, DEGREE))
-    problem = lay_out(replace(design, models=replace(design.models, inflow="pitt-peters")))
+    problem = build_problem(replace(design, models=replace(design.models, inflow="pitt-peters")))
     done = newton(problem, first_guess(problem))
     assert done.converged
     assert done.passes <= 6
-    one = run_pass(problem, done.last.state)
-    matrix = jacobian(problem, one, slopes(problem, one, UNKNOWNS["propulsive"], None))
+    elements = evaluate_elements(problem, done.elements.state)
+    matrix = jacobian(problem, elements, slopes(problem, elements, UNKNOWNS["propulsive"], None))
     assert np.linalg.cond(matrix) < 1e6
 
 
