@@ -5,7 +5,7 @@ import sys
 import webbrowser
 
 from explorer.app import App
-from explorer.hosting.house import ServerLimits
+from explorer.hosting.limits import ServerLimits
 from explorer.state import inputs_of
 from rotor.design.design import Design, require_design
 

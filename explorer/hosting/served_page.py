@@ -1,8 +1,8 @@
-"""The page that is served: viser's client behind a veil that says what is going on until there is something to see.
+"""The page that is served: viser's client with a loading screen until there is something to see.
 
-Without it a visitor looks at an empty window while 800 kB of script unpack, and then at panels and a picture that find
-their places one after the other. The veil is the first thing in the page, it lifts when the page has an answer and has
-come to rest, and comes back when the server does after it was gone. Pure: text in, text out.
+Without it a visitor looks at an empty window while 800 kB of script unpack, and then at panels and a picture that move
+into place one after the other. The loading screen is the first element of the page. It goes when the page has a
+solution and its layout is at rest, and comes back when the server returns after a break.
 """
 
 import gzip
@@ -22,19 +22,19 @@ class ServedPage:
 
     @cached_property
     def packed(self) -> bytes:
-        """The same, compressed by gzip."""
+        """Compressed by gzip."""
         return gzip.compress(self.html, 6, mtime=0)
 
     @cached_property
     def tag(self) -> str:
-        """Changes with the page: a browser that holds this one need not fetch it again."""
+        """ETag: a browser that holds this version need not fetch it again."""
         return f'"{hashlib.sha256(self.html).hexdigest()[:16]}"'
 
 
-def veiled(client: str) -> ServedPage:
-    """The client's page with title and veil; ValueError for a page that is not built as expected.
+def with_loading_screen(client: str) -> ServedPage:
+    """The client's page with our title and the loading screen; ValueError for a page of another layout.
 
-    Its script stands in the head; it moves behind the veil, so that the veil is painted while the script arrives.
+    Its script moves from the head behind the loading screen, which is then painted while the script arrives.
     """
     head, begins, rest = client.partition(_SCRIPT_BEGINS)
     script, ends, tail = rest.partition(_HEAD_ENDS)
@@ -43,7 +43,7 @@ def veiled(client: str) -> ServedPage:
         raise ValueError("The client's page is not built as expected: a head that ends in its script, then a body.")
     title, _, after = head.partition("<title>")
     head = f"{title}<title>{TITLE}{after[after.index('</title>') :]}"
-    return ServedPage(f"{head}<style>{_STYLE}</style>{ends}{body}{_VEIL}{begins}{script}{content}".encode())
+    return ServedPage(f"{head}<style>{_STYLE}</style>{ends}{body}{_LOADING_SCREEN}{begins}{script}{content}".encode())
 
 
 _STYLE = """
@@ -66,7 +66,7 @@ _STYLE = """
   font: 13.5px/1.42 system-ui, -apple-system, "Segoe UI", Roboto, Arial, sans-serif; }
 """
 
-_VEIL = """<div id="rx-veil"><svg viewBox="0 0 100 100"><circle cx="50" cy="50" r="46" stroke-opacity=".28"/>
+_LOADING_SCREEN = """<div id="rx-veil"><svg viewBox="0 0 100 100"><circle cx="50" cy="50" r="46" stroke-opacity=".28"/>
 <g stroke-width="4.5" stroke-linecap="round"><path d="M57 50H95M43 50H5M50 43V5M50 57V95"/>
 <circle cx="50" cy="50" r="3"/></g>
 </svg><b>Rotor explorer</b><p>Opening …</p></div>

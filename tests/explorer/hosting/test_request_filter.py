@@ -1,4 +1,4 @@
-"""The server before strangers: foreign pages, floods, files, junk, more visitors than places."""
+"""The server as a client meets it: who may connect, floods, uploads, places, sleep."""
 
 import asyncio
 import json
@@ -19,10 +19,10 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.typing import Subprotocol
 
 from explorer.app import App, PortBusy
-from explorer.hosting import gate, meter, uploads, viser_compat
-from explorer.hosting.doors import AllowedHosts
-from explorer.hosting.gate import RequestFilter
-from explorer.hosting.house import ServerLimits
+from explorer.hosting import limits, request_filter, viser_compat
+from explorer.hosting.allowed_hosts import AllowedHosts
+from explorer.hosting.limits import ServerLimits
+from explorer.hosting.request_filter import RequestFilter
 from tests.tools.soak import wire
 from tests.tools.soak.visitor import Visitor
 
@@ -32,7 +32,7 @@ INNER, OUTER = "Inner [°/R]", "Outer [°/R]"
 
 @pytest.fixture(scope="module")
 def app() -> Iterator[App]:
-    app = App("127.0.0.1", 0, house=ServerLimits(sessions=2))
+    app = App("127.0.0.1", 0, limits=ServerLimits(sessions=2))
     yield app
     app.stop()
 
@@ -87,25 +87,25 @@ class TestAllowedHosts:
         assert ran(lambda: handshake(app, Origin="http://evil.example")) == 403
         assert ran(lambda: handshake(app, Origin="null")) == 403
 
-    def test_our_own_page_and_what_is_no_browser_get_in(self, app: App):
+    def test_our_own_page_and_clients_without_origin_connect(self, app: App):
         assert ran(lambda: handshake(app, Origin=app.address)) == 101
         assert ran(lambda: handshake(app)) == 101
 
-    def test_a_foreign_name_gets_no_page(self, app: App):
+    def test_a_foreign_host_name_is_not_served(self, app: App):
         status, text, _ = page(app, "evil.example")
         assert status == 403
         assert "--allow-host evil.example" in text
 
-    def test_the_page_is_in_no_foreign_frame_and_tells_nobody_its_address(self, app: App):
+    def test_headers_forbid_foreign_frames_and_referrers(self, app: App):
         status, _, headers = page(app, app.address.removeprefix("http://"))
         assert status == 200
         assert headers["Content-Security-Policy"] == "frame-ancestors 'self'"
         assert headers["Referrer-Policy"] == "same-origin"
 
-    def test_two_hosts_are_none(self, app: App):
+    def test_two_host_headers_are_refused(self, app: App):
         assert ran(lambda: handshake(app, Host="evil.example")) == 403
 
-    def test_what_is_no_request_prints_nothing(self, app: App, caplog: pytest.LogCaptureFixture):
+    def test_a_malformed_request_prints_nothing(self, app: App, caplog: pytest.LogCaptureFixture):
         with socket.create_connection(("127.0.0.1", app.server.get_port()), timeout=20.0) as probe:
             probe.sendall(b"HEAD / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n")
             while probe.recv(4096):
@@ -113,26 +113,26 @@ class TestAllowedHosts:
         assert ran(lambda: handshake(app)) == 101  # By then the server has done with the probe.
         assert caplog.text == ""
 
-    def test_a_server_that_does_not_pass_its_gate_does_not_start(self, monkeypatch: pytest.MonkeyPatch):
+    def test_a_server_without_its_filter_does_not_start(self, monkeypatch: pytest.MonkeyPatch):
         class Elsewhere:
             def __init__(self, **_: object) -> None: ...
 
         monkeypatch.setattr(viser, "ViserServer", Elsewhere)
-        with pytest.raises(RuntimeError, match="without its gate"):
+        with pytest.raises(RuntimeError, match="without its request filter"):
             viser_compat.quiet_server("127.0.0.1", 0, "x", RequestFilter(AllowedHosts("127.0.0.1"), 1))
 
-    def test_the_gate_is_taken_down_behind_the_server_that_passed_it(self, app: App):
+    def test_websockets_is_restored_after_the_start(self, app: App):
         assert websockets.asyncio.server.serve.__module__ == "websockets.asyncio.server"
         assert app.server.get_port()
 
-    def test_an_address_that_is_none_is_one_sentence(self):
+    def test_an_unknown_host_to_listen_on_is_one_sentence(self):
         with pytest.raises(PortBusy, match="choose another with --host"):
             App("no.such.host.invalid", 0)
 
 
 @pytest.mark.slow
 class TestStrangers:
-    def test_a_request_for_a_public_tunnel_reaches_nobody(self, app: App, monkeypatch: pytest.MonkeyPatch):
+    def test_a_request_for_a_public_tunnel_is_ignored(self, app: App, monkeypatch: pytest.MonkeyPatch):
         asked = threading.Event()
         monkeypatch.setattr(app.server, "request_share_url", lambda *_: asked.set())
         monkeypatch.setattr(app.server, "disconnect_share_url", asked.set)
@@ -147,12 +147,14 @@ class TestStrangers:
         alone(work)
         assert not asked.is_set()
 
-    def test_a_flood_and_what_is_no_message_end_their_own_connection_only(
+    def test_a_flood_and_an_invalid_message_end_only_their_own_connection(
         self, app: App, monkeypatch: pytest.MonkeyPatch
     ):
         async def work() -> None:
             other = await arrive(app)
-            monkeypatch.setattr(gate, "RateLimiter", lambda now: meter.RateLimiter(now, meter.RateLimit(10.0, 50.0)))
+            monkeypatch.setattr(
+                request_filter, "RateLimiter", lambda now: limits.RateLimiter(now, limits.RateLimit(10.0, 50.0))
+            )
             flooder = Visitor()
             await flooder.open(app.address)
             for _ in range(60):
@@ -163,12 +165,12 @@ class TestStrangers:
                 assert await cut(app, junk) in (None, 1002, 1007)
             await still_served(other)
             connections = app.server._websock_server._live_connections.values()
-            assert [one.protocol.max_message_size for one in connections] == [meter.LARGEST]
+            assert [one.protocol.max_message_size for one in connections] == [limits.LARGEST_MESSAGE]
             await other.close()
 
         alone(work)
 
-    def test_a_slider_position_that_is_none_loses_nothing(self, app: App):
+    def test_invalid_slider_values_do_no_harm(self, app: App):
         async def work() -> None:
             visitor = await arrive(app)
             for value in (float("nan"), float("inf"), 1e300, -5.0, "x", None, [1, 2], {}):
@@ -185,16 +187,16 @@ class TestStrangers:
 
 
 class TestUploads:
-    def test_a_design_arrives_and_a_refusal_is_a_sentence_and_keeps_nothing(self, app: App):
+    def test_uploads_arrive_or_are_refused_with_a_sentence(self, app: App):
         design = json.dumps({"twist": "linear:-9"}).encode()
 
         async def work() -> None:
             visitor = await arrive(app)
             for name, size, parts, sentence in (
                 ("mine.json", len(design), [design], "Loaded: mine.json is on the sliders"),
-                ("large.json", uploads.LARGEST + 1, [b"x"], "File refused: 'large.json' has 4.0 MB"),
+                ("large.json", limits.LARGEST_FILE + 1, [b"x"], "File refused: 'large.json' has 4.0 MB"),
                 ("film.mp4", 10, [b"x" * 10], "choose a .json"),
-                ("liar.json", 10, [b"x" * 5, b"x" * 600], "longer than its sender had said"),
+                ("liar.json", 10, [b"x" * 5, b"x" * 600], "longer than announced"),
                 ("again.json", len(design), [design], "Loaded: again.json is on the sliders"),
             ):
                 visitor.notices.clear()
@@ -206,14 +208,14 @@ class TestUploads:
 
         alone(work)
 
-    def test_the_private_names_are_there(self):
+    def test_private_names_of_viser_exist(self):
         assert set(_messages.FileTransferStartUpload.__annotations__) >= {"size_bytes", "part_count", "filename"}
         assert _messages.RemoveNotificationMessage("x").uuid == "x"
 
 
 @pytest.mark.slow
 class TestPlaces:
-    def test_the_third_waits_and_is_seated_when_one_leaves(self, app: App):
+    def test_a_third_page_waits_until_one_leaves(self, app: App):
         async def work() -> None:
             first, second = await arrive(app), await arrive(app)
             third, fourth = Visitor(), Visitor()
@@ -231,7 +233,7 @@ class TestPlaces:
         alone(work)
         settle(app)
 
-    def test_a_page_comes_in_one_piece_with_its_first_answer(self, app: App):
+    def test_a_page_is_sent_in_one_piece_with_its_first_solution(self, app: App):
         async def work() -> None:
             visitor = await arrive(app)
             assert visitor.frames <= 6  # What the server says to all, what it asks, and the page; not four hundred.
@@ -241,7 +243,7 @@ class TestPlaces:
 
         alone(work)
 
-    def test_who_leaves_before_being_known_leaves_nothing(self, app: App):
+    def test_leaving_during_the_welcome_frees_everything(self, app: App):
         async def work() -> None:
             for _ in range(3):
                 visitor = Visitor()
@@ -251,7 +253,7 @@ class TestPlaces:
         alone(work)
         settle(app)
 
-    def test_more_connections_than_can_wait_are_told_to_come_later(self):
+    def test_too_many_connections_are_refused(self):
         server = viser_compat.quiet_server("127.0.0.1", 0, "x", RequestFilter(AllowedHosts("127.0.0.1"), 1))
         try:
 
@@ -268,8 +270,8 @@ class TestPlaces:
             viser_compat.quiet_stop(server)
 
     @pytest.mark.slow
-    def test_a_sleeper_makes_room_and_wakes_at_a_touch(self):
-        app = App("127.0.0.1", 0, house=ServerLimits(sessions=1, sleep_after=0.3))
+    def test_a_sleeping_page_makes_room_and_wakes_when_touched(self):
+        app = App("127.0.0.1", 0, limits=ServerLimits(sessions=1, sleep_after=0.3))
         try:
 
             async def work() -> None:
@@ -330,7 +332,7 @@ def words(visitor: Visitor) -> str:
 def settle(app: App) -> None:
     """Until the server has noticed that all have left."""
     for _ in range(200):
-        if not app._guests and not [t for t in threading.enumerate() if t.name.startswith("session-")]:
+        if not app._connections and not [t for t in threading.enumerate() if t.name.startswith("session-")]:
             return
         threading.Event().wait(0.02)
     raise AssertionError("sessions stay behind")

@@ -1,10 +1,10 @@
-"""Which names the server answers to, and whose pages may talk to it. Pure.
+"""Which host names the server answers to, and whose pages may connect to it.
 
-A browser lets any page open a WebSocket to any address, this machine's included, and only says in `Origin` which page
-that is. A page can also give its own name the address 127.0.0.1 (DNS rebinding); then `Host` holds that foreign name.
-So both are checked. A client without `Origin` is no browser: programs can send any header they like, so refusing those
-would protect nobody, and would shut out scripts and monitoring; what keeps them out is the address listened on, or a
-reverse proxy that asks who they are.
+A browser lets any page open a WebSocket to any address, also to this machine's, and only names that page in `Origin`.
+A page can also give its own name the address 127.0.0.1 (DNS rebinding); `Host` then holds that foreign name. So both
+are checked. A client without `Origin` is not a browser. Programs can send any header they like, so refusing those
+without it would protect nobody and would exclude scripts and monitoring. The address that is listened on keeps them
+out, or a reverse proxy that asks who they are.
 """
 
 import socket
@@ -15,7 +15,7 @@ from urllib.parse import urlsplit
 _LOOPBACK = ("localhost", "127.0.0.1", "::1")
 _DEFAULT_PORTS = {"http": 80, "https": 443}
 _SHOWN = 80
-"""Letters of a foreign name that a refusal repeats."""
+"""Characters of a foreign name that a refusal repeats."""
 
 
 @dataclass(frozen=True)
@@ -33,9 +33,9 @@ class AllowedHosts:
         return not is_loopback(self.host)
 
     def refusal(self, host: str | None, origin: str | None) -> str | None:
-        """Why a request with these headers is turned away, in a sentence; None where it is let in.
+        """Why a request with these headers is refused, in one sentence; None where it is accepted.
 
-        `origin` is None for what is no WebSocket, or no browser.
+        `origin` is None for a plain request, or from a client that is not a browser.
         """
         name, port = _split(host or "")
         if not name or not self._answers_to(name):
@@ -48,13 +48,13 @@ class AllowedHosts:
     def _answers_to(self, name: str) -> bool:
         if name in _LOOPBACK or name == self.host.lower() or name in self._also:
             return True
-        # Whoever comes by a number was not sent by a foreign name; a machine's own name is its owner's.
+        # A request by number was not sent by a foreign name; the machine's own name is trusted.
         return self.public and (_is_address(name) or name in _own_names())
 
     def _is_own(self, origin: str, name: str, port: int | None) -> bool:
         scheme, separator, place = origin.partition("://")
         if not separator or scheme not in _DEFAULT_PORTS:
-            return False  # "null" too: a sandboxed frame, a file.
+            return False  # Also "null": a sandboxed frame or a file.
         theirs, their_port = _split(place)
         if theirs in self._also:
             return True  # A proxy may have put another Host in place of the browser's.
@@ -67,10 +67,10 @@ class AllowedHosts:
 
 
 def host_name(text: str) -> str:
-    """A name as it is given to be allowed; ValueError with one sentence for what is none."""
+    """The host name in `text`; ValueError with one sentence where there is none."""
     name, _ = _split(text)
     if not name:
-        raise ValueError(f"{text!r} is not the name of a host: give it as in rotor.example, without https:// and path")
+        raise ValueError(f"{text!r} is not a host name: give it as in rotor.example, without https:// and path")
     return name
 
 
@@ -82,15 +82,15 @@ def is_loopback(host: str) -> bool:
 
 
 def warning(host: str) -> str:
-    """Two lines for whoever opens the server to other machines."""
+    """Two lines to print when the server listens to other machines."""
     return (
-        f"Warning: listening on {host}: whoever can reach this port can use the explorer, it asks for no password.\n"
-        "Put a reverse proxy with TLS and authentication in front (docs/deploy.md), and tell its name: --allow-host."
+        f"Warning: listening on {host}: whoever can reach this port can use the explorer; it asks for no password.\n"
+        "Put a reverse proxy with TLS and authentication in front (docs/deploy.md), and pass its name: --allow-host."
     )
 
 
 def _split(place: str) -> tuple[str, int | None]:
-    """Name in small letters, and port, of `name`, `name:port`, `[v6]:port`; an empty name for what is none of these."""
+    """Lower-case name and port of `name`, `name:port` or `[v6]:port`; an empty name for anything else."""
     try:
         parts = urlsplit("//" + place.strip())
         if parts.path or parts.query or parts.fragment or "@" in place:

@@ -1,8 +1,8 @@
-"""Whose turn it is to compute: a few rounds at once, first come first served, and frames before what can wait.
+"""Schedules the updates of all pages: a few at once, first come first served, frames before what can wait.
 
-All sessions share one process, and most of a round is Python, of which only one line runs at a time. Without turns
-twenty rounds would all be half done, none would be drawn, and the thread that talks to the browsers would wait for
-each of them in turn. With turns a round runs through, and nobody gets a second before all others had their first.
+All sessions share one process, and most of an update is Python, of which only one line runs at a time. Unscheduled,
+twenty updates would all be half done, none would be drawn, and the thread that talks to the browsers would wait for
+each of them. Scheduled, an update runs through, and no page gets its second before all others had their first.
 """
 
 import os
@@ -12,13 +12,13 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
 _LOOK = 0.02
-"""[s] between looks, by one that waits behind frames, at whether it is still wanted."""
-_SHARE = 4
-"""Frames in a row after which one that waits behind them has its turn: a crowd delays, it does not starve."""
+"""[s] between checks whether work that waits behind frames is still wanted."""
+_FRAMES_IN_A_ROW = 4
+"""Frames after which work that waits behind them has its turn: a crowd delays it but does not starve it."""
 
 
-class Turns:
-    """A fair gate for so many at once."""
+class FairScheduler:
+    """Grants a number of turns at once, frames first."""
 
     def __init__(self, at_once: int) -> None:
         self._free = at_once
@@ -29,7 +29,7 @@ class Turns:
 
     @contextmanager
     def take(self) -> "Iterator[Turn]":
-        """Wait for a turn, in the order of asking, and hold it; at the end it goes to who waits longest."""
+        """Wait for a turn, in the order of calls, and hold it to the end of the block."""
         turn = Turn(self)
         self._wait(self._ask(self._frames), lambda: False)
         try:
@@ -44,7 +44,7 @@ class Turns:
         return len(self._frames)
 
     def behind(self, held: bool, unwanted: Callable[[], bool]) -> bool:
-        """Give the turn, if it is held, to frames that wait, and wait for one behind them all; False if none came."""
+        """Pass the turn, if held, to waiting frames and wait for one after them; False if it became unwanted."""
         mine = self._ask(self._behind)
         if held:
             self._pass_on()
@@ -73,7 +73,7 @@ class Turns:
 
     def _pass_on(self) -> None:
         with self._lock:
-            if self._frames and not (self._behind and self._in_a_row >= _SHARE):
+            if self._frames and not (self._behind and self._in_a_row >= _FRAMES_IN_A_ROW):
                 self._in_a_row += 1
                 self._frames.popleft().set()
             elif self._behind:
@@ -84,21 +84,21 @@ class Turns:
 
 
 class Turn:
-    """One that is held."""
+    """The right to compute."""
 
-    def __init__(self, turns: Turns) -> None:
-        self._turns = turns
+    def __init__(self, scheduler: FairScheduler) -> None:
+        self._scheduler = scheduler
         self.held = True
 
     def give_way(self, unwanted: Callable[[], bool]) -> bool:
-        """Between two steps of work that can wait: let all frames by that wait, unless there are none.
+        """Let waiting frames go first; called between two steps of work that can wait.
 
-        False, and the turn is gone, when the work became unwanted meanwhile; asking again waits for another.
+        False when the work became unwanted meanwhile. The turn is then gone; a further call waits for another.
         """
-        if not self.held or self._turns.waiting:
-            self.held = self._turns.behind(self.held, unwanted)
+        if not self.held or self._scheduler.waiting:
+            self.held = self._scheduler.behind(self.held, unwanted)
         return self.held
 
 
-TURNS = Turns(min(os.cpu_count() or 1, 2))
-"""Those of this process."""
+SCHEDULER = FairScheduler(min(os.cpu_count() or 1, 2))
+"""Of this process."""
