@@ -34,12 +34,12 @@ def _run(options: argparse.Namespace) -> int:
     from explorer.hosting.limits import ServerLimits
     from explorer.state import Inputs, inputs_of
     from rotor.blas_threads import keep_one_blas_thread
-    from rotor.files.design_file import read_case
+    from rotor.files.design_file import read_design
 
     keep_one_blas_thread()
 
     try:
-        start = inputs_of(read_case(options.design)) if options.design else Inputs()
+        start = inputs_of(read_design(options.design)) if options.design else Inputs()
         limits = ServerLimits(
             options.max_sessions, 60.0 * options.sleep_after, tuple(options.allow_host), Path(options.studies)
         )

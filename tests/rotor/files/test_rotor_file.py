@@ -79,8 +79,8 @@ def test_a_small_file_is_enough():
 
 
 BAD = [
-    ("name = \n", "", "my.toml, line 1: this is no TOML"),
-    ('name = "Test rotor"', 'name = "Test', "my.toml, line 1: this is no TOML"),
+    ("name = \n", "", "my.toml, line 1: this is not TOML"),
+    ('name = "Test rotor"', 'name = "Test', "my.toml, line 1: this is not TOML"),
     ('name = "Test rotor"', 'name = "<b>"', "my.toml, line 1: name is '<b>': use 1 to 40 letters"),
     ("radius_m = 5.0", 'radius_m = "five"', "my.toml, line 5: radius_m is 'five', not a number"),
     ("radius_m = 5.0", "radius_m = 5000.0", "my.toml, line 5: radius_m is 5000, outside 0.1…30 m: check"),
