@@ -10,7 +10,7 @@ from pathlib import Path
 import matplotlib
 import pytest
 from numpy.testing import assert_allclose
-from threadpoolctl import threadpool_info
+from threadpoolctl import threadpool_info, threadpool_limits
 
 import explorer
 import rotor
@@ -272,11 +272,12 @@ def test_importing_changes_nothing_and_a_solve_puts_the_threads_back():
 
 def test_threads_that_solve_together_put_the_setting_back():
     """The limit belongs to the process: the last computation to end restores it, whatever their order."""
-    first, second = one_blas_thread(), one_blas_thread()
-    before = [one["num_threads"] for one in threadpool_info()]
-    first.__enter__()
-    second.__enter__()
-    first.__exit__(None, None, None)
-    assert {one["num_threads"] for one in threadpool_info() if one["user_api"] == "blas"} == {1}
-    second.__exit__(None, None, None)
-    assert [one["num_threads"] for one in threadpool_info()] == before
+    with threadpool_limits(limits=2, user_api="blas"):
+        before = [one["num_threads"] for one in threadpool_info()]
+        first, second = one_blas_thread(), one_blas_thread()
+        first.__enter__()
+        second.__enter__()
+        first.__exit__(None, None, None)
+        assert {one["num_threads"] for one in threadpool_info() if one["user_api"] == "blas"} == {1}
+        second.__exit__(None, None, None)
+        assert [one["num_threads"] for one in threadpool_info()] == before
