@@ -41,7 +41,10 @@ def _run(options: argparse.Namespace) -> int:
     try:
         start = inputs_of(read_design(options.design)) if options.design else Inputs()
         limits = ServerLimits(
-            options.max_sessions, 60.0 * options.sleep_after, tuple(options.allow_host), Path(options.studies)
+            sessions=options.max_sessions,
+            sleep_after=60.0 * options.sleep_after,
+            allow_hosts=tuple(options.allow_host),
+            studies=Path(options.studies),
         )
         app = App(options.host, options.port, start, limits)
     except (ValueError, FileNotFoundError, PortBusy) as error:

@@ -25,10 +25,10 @@ class ServerLimits:
     """[s] without a change after which a page sleeps: its caches are freed, another page may take its place."""
     allow_hosts: tuple[str, ...] = ()
     """Further names by which the server is reached."""
-    frame_ancestors: tuple[str, ...] = ()
-    """Origins of other pages that may show this one in a frame, such as a notebook's."""
     studies: Path = Path()
     """Results of studies in this folder are offered to every page; nothing else on the disk is."""
+    frame_ancestors: tuple[str, ...] = ()
+    """Origins of other pages that may show this one in a frame, such as a notebook's."""
 
     @property
     def connections(self) -> int:
