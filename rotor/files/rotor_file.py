@@ -12,8 +12,7 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, cast
 
-from rotor.airfoil.sections import OwnSection
-from rotor.airfoil.table import TABLE_NAMES
+from rotor.airfoil.sections import TABLE_NAMES, OwnSection
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.aircraft import HUBS, Aircraft, Hub, RotorFiles, Stated, TailRotor
 from rotor.design.blade import Blade, Rotor, Span

@@ -5,15 +5,12 @@ import re
 from collections.abc import Mapping
 from itertools import pairwise
 
-from rotor.airfoil.build.assemble import assemble_deck
 from rotor.airfoil.build.compressibility import NATIVE_MACH_LIMIT, SectionTraits
-from rotor.airfoil.build.xfoil_file import parse_polar_file
+from rotor.airfoil.build.decks import assemble_deck
 from rotor.airfoil.c81 import format_c81
-from rotor.airfoil.contour import SECTION_NAMES, load_contour, parse_contour, thickness_and_camber
-from rotor.airfoil.naca import is_naca
-from rotor.airfoil.polars import Polar
-from rotor.airfoil.sections import OwnSection, install_own
-from rotor.airfoil.table import TABLE_NAMES
+from rotor.airfoil.contour import SECTION_NAMES, is_naca, load_contour, parse_contour, thickness_and_camber
+from rotor.airfoil.polars import Polar, parse_polar_file
+from rotor.airfoil.sections import TABLE_NAMES, OwnSection, install_own
 from rotor.files.toml_table import TomlTable
 
 UNKNOWN_OUTLINE = "naca0012"

@@ -13,7 +13,7 @@ import numpy as np
 
 from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem
-from rotor.airfoil.table import MACH_STEP
+from rotor.airfoil.bicubic import MACH_STEP
 from rotor.arrays import Array
 from rotor.design.twist import TwistLaw
 from rotor.optimisation.concepts import Concept, Parameter, Values

@@ -21,7 +21,7 @@ from rotor.aero.sums import slopes
 from rotor.aero.switches import SWITCHES, no_effect, parse_switches, switched_off, with_switches
 from rotor.aero.trim_state import TrimState
 from rotor.airfoil.sections import load_installed
-from rotor.analysis.waterfall import PARTS, climb, waterfall
+from rotor.analysis.waterfall import PARTS, switch_on_steps, waterfall
 from rotor.assets import asset_path
 from rotor.design.design import Design
 from rotor.design.twist import TableTwist
@@ -338,7 +338,7 @@ class TestWaterfall:
     def test_a_step_that_does_not_trim_is_passed_over(self):
         """The hovering rotor lifts 21.5 t with the lift and the stall of Mach 0.3, and not with the real ones."""
         design = replace(small(0.0), condition=replace(small(0.0).condition, mass=21_500.0))
-        steps = list(climb(design))
+        steps = list(switch_on_steps(design))
         assert [step.power is not None for step in steps] == [True] * 5 + [False] * 2
         assert steps[5].change is None
         assert steps[6].against is steps[4].solution
