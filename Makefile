@@ -1,4 +1,4 @@
-# Two commands matter: `make run` and `make test`. Both set up what they need first, once.
+# The two commands you need are `make run` and `make test`. Both set up what they need first, once.
 
 PYTHON ?= python3
 HOST   ?= 127.0.0.1
@@ -12,7 +12,7 @@ DEV   := $(VENV)/.ready-dev
 WARM  := $(VENV)/.warm
 PIP   := $(BIN)/python -m pip --disable-pip-version-check --no-input --quiet
 
-.PHONY: help run test slow check-all lint format bench wheel browser setup setup-dev clean
+.PHONY: help run test slow check-all lint format bench release browser setup setup-dev clean
 .DELETE_ON_ERROR:
 
 help:                 ## list these targets
@@ -34,16 +34,15 @@ lint: setup-dev       ## formatting, lint and types
 	$(BIN)/ruff check .
 	$(BIN)/pyright
 
-format: setup-dev     ## put the code into the house format
+format: setup-dev     ## repair formatting and lint
 	$(BIN)/ruff format .
 	$(BIN)/ruff check --fix .
 
 bench: setup-dev      ## time the solver beside its baselines
 	$(BIN)/python -m rotor bench $(ARGS)
 
-wheel: setup          ## build dist/rotor_explorer-*.whl
-	$(PIP) wheel . --no-deps --no-build-isolation --wheel-dir dist
-	@ls -1 dist/*.whl
+release: setup-dev    ## build dist/*.whl and dist/*.tar.gz, and use the wheel in a clean environment
+	$(BIN)/python -m tests.tools.release --out dist
 
 clean:                ## remove what the other targets made
 	rm -rf $(VENV) dist artefacts .pytest_cache .ruff_cache .hypothesis
@@ -66,13 +65,13 @@ $(DEV): requirements-dev.txt $(READY)
 	@$(PIP) install -r requirements-dev.txt
 	@touch $@
 
-# The kernels are compiled on first use and kept beside their source; doing it here means that no page waits for it.
+# The kernels are compiled on first use and kept beside their source. Doing it here saves the first page the wait.
 $(WARM): $(READY) $(shell find rotor -name '*.py' 2>/dev/null)
 	@{ $(BIN)/python -m rotor solve --hover --json && $(BIN)/python -m rotor solve --mu 0.2 --json; } >/dev/null \
 	  && touch $@ || echo "The kernels could not be compiled ahead: the first page will take some seconds longer"
 
-# A browser for the tests: the one that is there, else Debian's as root, else Playwright's own download.
-# Having none is no error here: tests/conftest.py skips those tests loudly, and fails them in CI.
+# A browser for the tests: an installed one, else Debian's (as root), else Playwright's own download.
+# Without one, tests/conftest.py skips those tests with a banner, and fails them in CI.
 browser: $(DEV)
 	@$(BIN)/python tests/chromium.py >/dev/null && exit 0; \
 	if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
@@ -80,4 +79,4 @@ browser: $(DEV)
 	  { apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq chromium; } >/dev/null && exit 0; \
 	fi; \
 	echo "No Chromium here: asking Playwright for its own"; \
-	$(BIN)/python -m playwright install chromium || echo "No browser to be had: the browser tests will be skipped"
+	$(BIN)/python -m playwright install chromium || echo "No browser could be installed: the browser tests will be skipped"

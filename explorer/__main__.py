@@ -9,8 +9,8 @@ import webbrowser
 from collections.abc import Sequence
 from pathlib import Path
 
-from explorer.hosting.doors import host_name
-from explorer.hosting.house import SESSIONS, SLEEP_AFTER
+from explorer.hosting.allowed_hosts import host_name
+from explorer.hosting.limits import SESSIONS, SLEEP_AFTER
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
@@ -30,20 +30,23 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(options: argparse.Namespace) -> int:
     from explorer.app import App, PortBusy
-    from explorer.hosting.doors import is_loopback, warning
-    from explorer.hosting.house import ServerLimits
+    from explorer.hosting.allowed_hosts import is_loopback, warning
+    from explorer.hosting.limits import ServerLimits
     from explorer.state import OPENING, inputs_of
     from rotor.blas_threads import keep_one_blas_thread
-    from rotor.files.design_file import read_case
+    from rotor.files.design_file import read_design
 
     keep_one_blas_thread()
 
     try:
-        start = inputs_of(read_case(options.design)) if options.design else OPENING
-        house = ServerLimits(
-            options.max_sessions, 60.0 * options.sleep_after, tuple(options.allow_host), Path(options.studies)
+        start = inputs_of(read_design(options.design)) if options.design else OPENING
+        limits = ServerLimits(
+            sessions=options.max_sessions,
+            sleep_after=60.0 * options.sleep_after,
+            allow_hosts=tuple(options.allow_host),
+            studies=Path(options.studies),
         )
-        app = App(options.host, options.port, start, house)
+        app = App(options.host, options.port, start, limits)
     except (ValueError, FileNotFoundError, PortBusy) as error:
         print(f"explorer: {error}", file=sys.stderr)
         return 2
@@ -53,9 +56,9 @@ def _run(options: argparse.Namespace) -> int:
         print(f"Rotor explorer: {app.address}   (Ctrl-C stops it)", flush=True)
         if not options.no_browser:
             _open_browser(app.address)
-        # That a browser leaves in the middle of a round is no news.
+        # A browser may leave in the middle of an update.
         warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
-        signal.signal(signal.SIGTERM, signal.default_int_handler)  # A service manager's stop is as clean as Ctrl-C.
+        signal.signal(signal.SIGTERM, signal.default_int_handler)  # A service manager's stop ends like Ctrl-C.
         app.settle()
         threading.Event().wait()
     finally:
@@ -79,24 +82,24 @@ def _parser() -> argparse.ArgumentParser:
         type=_host_name,
         action="append",
         default=[],
-        help="a name the page is reached by, as behind a reverse proxy (may be given again)",
+        help="a further name by which the page is reached, as behind a reverse proxy (may be repeated)",
     )
     parser.add_argument(
         "--max-sessions",
         metavar="N",
         type=_sessions,
         default=SESSIONS,
-        help=f"pages at work at once (default {SESSIONS}); further visitors wait in line",
+        help=f"pages at work at once (default {SESSIONS}); further visitors wait in a queue",
     )
     parser.add_argument(
-        "--studies", metavar="DIR", default=".", help="where results of studies are looked for (default: here)"
+        "--studies", metavar="DIR", default=".", help="folder with results of studies (default: this one)"
     )
     parser.add_argument(
         "--sleep-after",
         metavar="MINUTES",
         type=_minutes,
         default=SLEEP_AFTER / 60.0,
-        help=f"rest after which a page makes room for others, and loses nothing (default {SLEEP_AFTER / 60.0:g})",
+        help=f"idle time after which a page gives its place to others (default {SLEEP_AFTER / 60.0:g})",
     )
     return parser
 
@@ -134,7 +137,7 @@ def _open_browser(address: str) -> None:
     try:
         webbrowser.get()
     except webbrowser.Error:
-        return  # No browser here; the printed address is enough.
+        return  # No browser on this machine; the printed address is enough.
     webbrowser.open(address)
 
 

@@ -1,4 +1,4 @@
-"""The server: one `Session` for each browser that connects and finds a place."""
+"""The server: one `Session` for each browser that connects and has a place."""
 
 import logging
 import socket
@@ -7,13 +7,13 @@ from functools import partial
 
 import viser
 
+from explorer.connection import ClientConnection
 from explorer.hosting import memory, viser_compat
-from explorer.hosting.doors import AllowedHosts
-from explorer.hosting.gate import RequestFilter
-from explorer.hosting.guest import ClientConnection
-from explorer.hosting.hall import SeatQueue
-from explorer.hosting.house import ServerLimits
-from explorer.hosting.page import veiled
+from explorer.hosting.allowed_hosts import AllowedHosts
+from explorer.hosting.limits import ServerLimits
+from explorer.hosting.request_filter import RequestFilter
+from explorer.hosting.seats import SeatQueue
+from explorer.hosting.served_page import with_loading_screen
 from explorer.interface import SharedServices
 from explorer.overlay.assets import frame_html
 from explorer.session import Session
@@ -27,24 +27,27 @@ _log = logging.getLogger(__name__)
 
 
 class PortBusy(RuntimeError):
-    """The wanted port is taken."""
+    """The wanted port cannot be listened on."""
 
 
 class App:
-    """A running server and its guests."""
+    """A running server and its connections."""
 
-    def __init__(self, host: str, port: int, start: Inputs | None = None, house: ServerLimits | None = None) -> None:
+    def __init__(self, host: str, port: int, start: Inputs | None = None, limits: ServerLimits | None = None) -> None:
         _check_free(host, port)
         self._start = start or OPENING
-        self._house = house or ServerLimits()
-        self._guests: dict[int, ClientConnection] = {}
-        self._hall: SeatQueue[ClientConnection] = SeatQueue(self._house.sessions)
+        self._limits = limits or ServerLimits()
+        self._connections: dict[int, ClientConnection] = {}
+        self._seats: SeatQueue[ClientConnection] = SeatQueue(self._limits.sessions)
         self.pool = Pool()
         self._warmed = threading.Event()
         self.presentations = Presentations()
-        doors, page = AllowedHosts(host, self._house.allow_hosts), veiled(viser_compat.client_html(), frame_html())
-        gate = RequestFilter(doors, self._house.connections, page)
-        self.server = viser_compat.quiet_server(host, port, "Rotor explorer", gate)
+        hosts, page = (
+            AllowedHosts(host, self._limits.allow_hosts),
+            with_loading_screen(viser_compat.client_html(), frame_html()),
+        )
+        request_filter = RequestFilter(hosts, self._limits.connections, page, self._limits.frame_ancestors)
+        self.server = viser_compat.quiet_server(host, port, "Rotor explorer", request_filter)
         viser_compat.remove_share_tunnel(self.server)
         self.server.on_client_connect(self._connected)
         self.server.on_client_disconnect(self._disconnected)
@@ -57,91 +60,94 @@ class App:
         return f"http://{shown}:{self.server.get_port()}"
 
     def settle(self) -> None:
-        """Wait until everything is loaded, and let it stay: for a process that does nothing else."""
+        """Wait until everything is loaded and keep it from garbage collection: for a process that only serves."""
         self._warmed.wait()
-        if not self._guests:  # What a page holds must go with it.
+        if not self._connections:  # What a page holds must be collected with it.
             memory.settle()
 
     @property
     def sessions(self) -> tuple[Session, ...]:
-        """Those at work, in the order they came."""
-        return tuple(guest.session for guest in tuple(self._guests.values()) if guest.session is not None)
+        """Sessions at work, in the order in which their browsers connected."""
+        return tuple(one.session for one in tuple(self._connections.values()) if one.session is not None)
 
     def stop(self) -> None:
-        guests, self._guests = list(self._guests.values()), {}
-        for guest in guests:
-            guest.leave()
+        connections, self._connections = list(self._connections.values()), {}
+        for connection in connections:
+            connection.leave()
         self.pool.close()
         viser_compat.quiet_stop(self.server)
 
     def _connected(self, client: viser.ClientHandle) -> None:
-        guest = self._guests[client.client_id] = ClientConnection(client)
-        # On a thread of its own: viser's are shared by all pages, and a slow browser would hold one.
-        _aside(f"welcome-{client.client_id}", partial(self._welcome, guest))
+        connection = self._connections[client.client_id] = ClientConnection(client)
+        # On its own thread: viser's are shared by all pages, and a slow browser would block one.
+        _in_thread(f"welcome-{client.client_id}", partial(self._welcome, connection))
 
     def _disconnected(self, client: viser.ClientHandle) -> None:
-        guest = self._guests.pop(client.client_id, None)
-        if guest is not None:
-            _aside(f"goodbye-{client.client_id}", partial(self._goodbye, guest))
+        connection = self._connections.pop(client.client_id, None)
+        if connection is not None:
+            _in_thread(f"goodbye-{client.client_id}", partial(self._leave, connection))
 
-    def _welcome(self, guest: ClientConnection) -> None:
-        guest.ask()
-        if self._hall.arrive(guest):
-            guest.sit(partial(self._session, guest))
+    def _welcome(self, connection: ClientConnection) -> None:
+        connection.ask()
+        if self._seats.arrive(connection):
+            connection.begin(partial(self._session, connection))
         else:
-            self._tell_line()
-        if guest.client.client_id not in self._guests:  # It left before it was known.
-            self._goodbye(guest)
+            self._show_positions()
+        if connection.client.client_id not in self._connections:  # It left before it had a place.
+            self._leave(connection)
 
-    def _goodbye(self, guest: ClientConnection) -> None:
-        guest.leave()
-        self._seat(self._hall.leave(guest))
+    def _leave(self, connection: ClientConnection) -> None:
+        connection.leave()
+        self._seat(self._seats.leave(connection))
         memory.give_back_soon()
 
-    def _session(self, guest: ClientConnection, client: viser.ClientHandle, facts: viser_compat.PageFacts) -> Session:
-        sleep = IdleTimeout(
-            self._house.sleep_after,
-            lambda: self._rest(guest),
-            lambda: self._hall.wake(guest),
+    def _session(
+        self, connection: ClientConnection, client: viser.ClientHandle, facts: viser_compat.PageFacts
+    ) -> Session:
+        idle = IdleTimeout(
+            self._limits.sleep_after,
+            lambda: self._sleep(connection),
+            lambda: self._seats.wake(connection),
         )
-        shared = SharedServices(self.pool.share(), self.presentations, self._house.studies)
-        return Session(client, self._start, facts, shared, sleep)
+        shared = SharedServices(self.pool.share(), self.presentations, self._limits.studies)
+        return Session(client, self._start, facts, shared, idle)
 
-    def _rest(self, guest: ClientConnection) -> None:
-        self._seat(self._hall.sleep(guest))
+    def _sleep(self, connection: ClientConnection) -> None:
+        self._seat(self._seats.sleep(connection))
         memory.give_back_soon()
 
     def _seat(self, coming: list[ClientConnection]) -> None:
-        """Those in line whose turn it is."""
-        for guest in coming:
-            _aside(f"seat-{guest.client.client_id}", partial(guest.sit, partial(self._session, guest)))
-        self._tell_line()
+        """Begin the sessions of those whose turn it is."""
+        for connection in coming:
+            begin = partial(connection.begin, partial(self._session, connection))
+            _in_thread(f"seat-{connection.client.client_id}", begin)
+        self._show_positions()
 
-    def _tell_line(self) -> None:
-        for ahead, guest in enumerate(self._hall.line):
-            guest.wait(self._house.sessions, ahead)
+    def _show_positions(self) -> None:
+        for ahead, connection in enumerate(self._seats.waiting):
+            connection.wait(self._limits.sessions, ahead)
 
     def _warm(self) -> None:
         try:
             solver.warm()
         except Exception:  # The sessions will meet the same error and show it.
             _log.exception("warming the solver failed")
-        self.pool.warm()  # Only now: the first page does not compete with it.
+        self.pool.warm()  # Only now, so that it does not compete with the first page.
         self._warmed.set()
 
 
-def _aside(name: str, work: partial[None]) -> None:
+def _in_thread(name: str, work: partial[None]) -> None:
     def run() -> None:
         try:
             work()
-        except Exception:  # One page's trouble is not the server's.
+        except Exception:  # A failure of one page must not stop the server.
             _log.exception("%s failed", name)
 
     threading.Thread(target=run, name=name, daemon=True).start()
 
 
 def _check_free(host: str, port: int) -> None:
-    """Raise PortBusy when this place cannot be listened on: viser would try a thousand ports without a word."""
+    """Raise PortBusy when the port cannot be listened on: viser would silently try a thousand others."""
     try:
         family, kind, protocol, _, place = socket.getaddrinfo(
             host or None, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE

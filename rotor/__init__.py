@@ -16,18 +16,19 @@ thesis, Instituto Superior Técnico, 2016 ("the document"), whose misprints are 
 
 from importlib.metadata import PackageNotFoundError, version
 
+from rotor.aero.trim_state import TrimState
 from rotor.analysis.sweep import SweepTable, plot_power, sweep
 from rotor.design.aircraft import Aircraft
 from rotor.design.blade import Rotor
 from rotor.design.design import Design, Models
 from rotor.design.flight import FlightCondition
 from rotor.design.twist_spec import parse_twist
-from rotor.files.design_file import read_case as load_design
+from rotor.files.design_file import read_design as load_design
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import read_rotor_file as load_rotor
 from rotor.optimisation.optimise import optimise
 from rotor.optimisation.results import Optimum
-from rotor.trim.solution import Caveat, Controls, PowerBudget, Solution, Status
+from rotor.trim.solution import Caveat, PowerBudget, Solution, Status
 from rotor.trim.solve import solve
 
 try:
@@ -38,7 +39,6 @@ except PackageNotFoundError:  # A checkout that was never installed.
 __all__ = (
     "Aircraft",
     "Caveat",
-    "Controls",
     "Design",
     "FlightCondition",
     "Models",
@@ -48,6 +48,7 @@ __all__ = (
     "Solution",
     "Status",
     "SweepTable",
+    "TrimState",
     "__version__",
     "load_design",
     "load_rotor",

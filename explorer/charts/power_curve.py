@@ -9,8 +9,8 @@ import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from explorer.charts.plots import SWEEP, PowerCurve
-from explorer.hosting.turns import TURNS
 from explorer.text.readout import ideal_induced
+from explorer.workers.scheduler import SCHEDULER
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.trim.solution import Solution
@@ -75,7 +75,7 @@ class PowerCurves:
         lost = 0
         for k, mu in enumerate(SWEEP):
             if superseded():
-                if patient or TURNS.waiting or time.monotonic() - begun > self._haste:
+                if patient or SCHEDULER.waiting or time.monotonic() - begun > self._haste:
                     return None, False
                 coarse = True
             if lost == (1 if coarse else 2):

@@ -1,1 +1,1 @@
-"""What stands around the pages: who is let in, who waits, whose turn it is, and the page that is served."""
+"""The server around the pages: allowed hosts, limits, places, the served page, and viser's private parts."""

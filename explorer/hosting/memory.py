@@ -1,4 +1,4 @@
-"""What a server does about memory that nobody needs any more, so that it shrinks again after a crowd."""
+"""Returns memory to the system when pages have gone."""
 
 import contextlib
 import ctypes
@@ -6,19 +6,19 @@ import gc
 import threading
 
 _PAUSE = 5.0
-"""[s] after a page has gone, so that a class that leaves is cleared away in one go."""
+"""[s] after a page has gone, so that pages that leave together are collected once."""
 _lock = threading.Lock()
 _due: threading.Timer | None = None
 
 
 def settle() -> None:
-    """What is loaded by now stays: looking through it for waste took 90 ms each time, in which no frame was made."""
+    """Exclude what is loaded by now from garbage collection: each pass over it took 90 ms, without a frame."""
     gc.collect()
     gc.freeze()
 
 
 def give_back_soon(pause: float = _PAUSE) -> None:
-    """Some page has gone, or sleeps: `give_back` after `pause` [s], once for all that go meanwhile."""
+    """Call `give_back` after `pause` [s], once for all calls until then."""
     global _due
     with _lock:
         if _due is None:
@@ -28,11 +28,11 @@ def give_back_soon(pause: float = _PAUSE) -> None:
 
 
 def give_back() -> None:
-    """Collect what pages that left held in circles, and return free memory to the system."""
+    """Collect the reference cycles of pages that have gone, and return free memory to the system."""
     global _due
     with _lock:
         _due = None
     gc.collect()
-    # glibc keeps what is freed for later, in one pool a thread; other systems return it by themselves.
+    # glibc keeps freed memory in one pool per thread; other systems return it by themselves.
     with contextlib.suppress(OSError, AttributeError, TypeError):
         ctypes.CDLL(None).malloc_trim(0)

@@ -1,4 +1,4 @@
-"""Every use of viser's private parts, in one place; each has a test, and viser is pinned for their sake."""
+"""Every use of viser's private parts. Each has a test, and viser is pinned because of them."""
 
 import contextlib
 import io
@@ -15,9 +15,8 @@ import viser
 import websockets.asyncio.server
 from viser import _messages
 
-from explorer.hosting import uploads
-from explorer.hosting.gate import RequestFilter
-from explorer.hosting.picture_in_page import picture_script
+from explorer.hosting.limits import refuse_upload
+from explorer.hosting.request_filter import RequestFilter
 
 _starting, _silent = threading.Lock(), threading.Lock()
 _SHEET = "rx-sheet"
@@ -28,40 +27,42 @@ _ONE_PIECE = 4096
 """Messages; a page has some five hundred to begin with."""
 
 
-def quiet_server(host: str, port: int, label: str, gate: RequestFilter | None = None) -> viser.ViserServer:
-    """A server that leaves it to us what is printed, `verbose=False` still prints a banner; with `gate` before it."""
-    with _silence(), _behind(gate) if gate else contextlib.nullcontext():
+def quiet_server(host: str, port: int, label: str, request_filter: RequestFilter | None = None) -> viser.ViserServer:
+    """A server that prints nothing (viser's `verbose=False` still prints a banner), with a filter for its requests."""
+    with _silence(), _filtered_by(request_filter) if request_filter else contextlib.nullcontext():
         return viser.ViserServer(host=host, port=port, label=label, verbose=False)
 
 
 @contextlib.contextmanager
 def _silence() -> Iterator[None]:
-    """Print nothing; one thread at a time, for two that take turns at it would leave the program mute."""
+    """Print nothing. One thread at a time: two at once could leave stdout redirected."""
     with _silent, contextlib.redirect_stdout(io.StringIO()):
         yield
 
 
 @contextlib.contextmanager
-def _behind(gate: RequestFilter) -> Iterator[None]:
-    """While a server starts, what it asks of `websockets` goes through the gate: viser offers no way to say so.
+def _filtered_by(request_filter: RequestFilter) -> Iterator[None]:
+    """While a server starts, pass its call of `websockets.serve` through the filter: viser has no option for it.
 
-    RuntimeError where it did not come by: a server that looks guarded must be.
+    RuntimeError if there was no such call: a server must not run without its filter.
     """
     serve, passed = websockets.asyncio.server.serve, []
 
-    def gated(handler: Any, *where: Any, **options: Any) -> Any:
+    def filtered(handler: Any, *where: Any, **options: Any) -> Any:
         passed.append(True)
-        handler, options = gate.around(handler, options)
+        handler, options = request_filter.around(handler, options)
         return serve(handler, *where, **options)
 
     with _starting:
-        websockets.asyncio.server.serve = gated  # pyright: ignore[reportAttributeAccessIssue]
+        websockets.asyncio.server.serve = filtered  # pyright: ignore[reportAttributeAccessIssue]
         try:
             yield
         finally:
             websockets.asyncio.server.serve = serve
     if not passed:
-        raise RuntimeError("The server started without its gate: this viser starts its server in another way.")
+        raise RuntimeError(
+            "The server started without its request filter: this viser starts its server in another way."
+        )
 
 
 def client_html() -> str:
@@ -75,20 +76,20 @@ def quiet_stop(server: viser.ViserServer) -> None:
 
 
 def remove_share_tunnel(server: viser.ViserServer) -> None:
-    """Make the server deaf to the request that opens a public tunnel; hiding its button does not."""
+    """Ignore the request that opens a public tunnel; hiding its button does not."""
     for message in (_messages.ShareUrlRequest, _messages.ShareUrlDisconnect):
         server._websock_server.unregister_handler(message)
 
 
 def guard_uploads(client: viser.ClientHandle, tell: Callable[[str], None]) -> None:
-    """Let only such uploads begin, and go on, as `uploads` allows; `tell` hears why one was refused."""
+    """Accept only uploads within `limits`; `tell` is called with the sentence when one is refused."""
     gui, connection = client.gui, client._websock_connection
     begin, more = gui._handle_file_transfer_start, gui._handle_file_transfer_part
     under_way = gui._current_file_upload_states
 
     def refuse(component: str | None, transfer: str, sentence: str) -> None:
         under_way.pop(transfer, None)
-        # The button is free again, and the page's own notice of progress goes.
+        # Enables the button again and removes the page's own progress notice.
         connection.queue_message(_messages.FileTransferPartAck(component, transfer, 1, 1))
         connection.queue_message(_messages.RemoveNotificationMessage(f"upload-{transfer}"))
         tell(sentence)
@@ -98,7 +99,7 @@ def guard_uploads(client: viser.ClientHandle, tell: Callable[[str], None]) -> No
         if button is None:
             return
         accepts = getattr(button._impl.props, "mime_type", "")
-        sentence = uploads.refusal(message.filename, message.size_bytes, message.part_count, len(under_way), accepts)
+        sentence = refuse_upload(message.filename, message.size_bytes, message.part_count, len(under_way), accepts)
         if sentence is None:
             begin(client_id, message)
         else:
@@ -109,7 +110,7 @@ def guard_uploads(client: viser.ClientHandle, tell: Callable[[str], None]) -> No
         if state is None:
             return  # Refused, or never begun: dropped.
         if state["transferred_bytes"] + len(message.content) > state["total_bytes"]:
-            refuse(message.source_component_uuid, message.transfer_uuid, "A file was longer than its sender had said.")
+            refuse(message.source_component_uuid, message.transfer_uuid, "A file was longer than announced.")
         else:
             more(client_id, message)
 
@@ -136,8 +137,8 @@ def run_in_page(client: viser.ClientHandle, script: str) -> None:
 
 @contextlib.contextmanager
 def at_once(client: viser.ClientHandle) -> Iterator[None]:
-    """Everything queued meanwhile reaches the page in one piece, so that it is laid out once; by itself it comes in
-    pieces of 128 messages, and what is there already jumps at each. Nothing may wait for the page's answer inside."""
+    """Send everything queued in the block as one piece, so that the page is laid out once. Otherwise it comes in pieces
+    of 128 messages, and the layout jumps at each. Nothing in the block may wait for an answer of the page."""
     client._websock_connection.get_message_buffer().max_window_size = _ONE_PIECE
     with client.atomic():
         yield
@@ -218,7 +219,7 @@ def save_picture(client: viser.ClientHandle, drawing: str, size: tuple[int, int]
     RuntimeError with the browser's reason where it could not, or has left; TimeoutError after `patience` [s].
     """
     key = f"picture-{client.client_id}-{secrets.token_hex(4)}"
-    run_in_page(client, picture_script(drawing, *size, name, key))
+    run_in_page(client, _picture_script(drawing, *size, name, key))
     deadline = time.monotonic() + patience
     while (said := client.local_storage.get_item(key, timeout=patience)) is None:
         if time.monotonic() > deadline:
@@ -235,3 +236,38 @@ def reveal(client: viser.ClientHandle, tab: str, selector: str) -> None:
     open_tab(client, tab)
     seen = f"document.querySelector({json.dumps(selector)})?.scrollIntoView({{block:'center'}})"
     run_in_page(client, f"setTimeout(()=>{seen},200)")
+
+
+_SAVE_PICTURE = """(async () => {
+  const said = text => localStorage.setItem('viser-user:' + KEY, text);
+  try {
+    const address = URL.createObjectURL(new Blob([DRAWING], {type: 'image/svg+xml;charset=utf-8'}));
+    const image = new Image();
+    image.src = address;
+    await image.decode();
+    const canvas = document.createElement('canvas');
+    canvas.width = WIDTH;
+    canvas.height = HEIGHT;
+    canvas.getContext('2d').drawImage(image, 0, 0, WIDTH, HEIGHT);
+    URL.revokeObjectURL(address);
+    const pixels = await new Promise(done => canvas.toBlob(done, 'image/png'));
+    if (!pixels) throw new Error('no memory for so many pixels');
+    const link = document.createElement('a');
+    link.href = URL.createObjectURL(pixels);
+    link.download = NAME;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+    said(String(pixels.size));
+  } catch (error) {
+    said('failed: ' + error.message);
+  }
+})()"""
+
+
+def _picture_script(drawing: str, width: int, height: int, name: str, key: str) -> str:
+    """JavaScript that saves an SVG as a PNG of so many pixels, and says under `key` how many bytes, or why not."""
+    words = {"DRAWING": drawing, "NAME": name, "KEY": key}
+    script = _SAVE_PICTURE.replace("WIDTH", str(width)).replace("HEIGHT", str(height))
+    for word in ("NAME", "KEY", "DRAWING"):  # The drawing last: what it holds is not looked into.
+        script = script.replace(word, json.dumps(words[word]))
+    return script

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rotor.aero.trim_state import TrimState
 from rotor.arrays import Array
-from rotor.trim.solution import Controls
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,12 +43,12 @@ def rotate(wxyz: Array, points: Array) -> Array:
     return np.asarray(points + turned, dtype=np.float64)
 
 
-def rotor_pose(controls: Controls) -> Pose:
+def rotor_pose(controls: TrimState) -> Pose:
     """The shaft, tilted forward by α (x is aft, so nose-down is a turn about −y)."""
     return Pose(about(1, -controls.shaft_tilt), np.zeros(3))
 
 
-def blade_pose(controls: Controls, psi: float, hinge: float) -> Pose:
+def blade_pose(controls: TrimState, psi: float, hinge: float) -> Pose:
     """A blade at azimuth ψ [rad] in the shaft frame: flapped about its hinge at `hinge` [m], then pitched.
 
     The twist is in the blade's own shape, so the pitch here is θ0 + θ1c cos ψ + θ1s sin ψ.
@@ -59,7 +59,7 @@ def blade_pose(controls: Controls, psi: float, hinge: float) -> Pose:
     return Pose(compose(about(2, psi), about(1, -flap), about(0, pitch)), hinge * np.array([cos, sin, 0.0]))
 
 
-def tip_path_pose(controls: Controls, drop: float) -> Pose:
+def tip_path_pose(controls: TrimState, drop: float) -> Pose:
     """The plane the blade tips run in, `drop` [m] below the hub so that blades are seen above it.
 
     z = β1c x + β1s y to first order: turned by −β1c about y and by β1s about x.

@@ -11,7 +11,7 @@ from explorer.sliders import SLIDERS, limits, slider
 from explorer.state import LAWS, Inputs, inputs_of
 from explorer.text.units import SI
 from rotor.design.design import Design
-from rotor.files.design_file import case_of, design_of, parse_case
+from rotor.files.design_file import design_from_record, design_record, parse_design
 from rotor.files.make_design import make_design
 
 VERSION = 1
@@ -36,9 +36,9 @@ def code_of(design: Design) -> str:
     """The design as a text; ValueError with one sentence for one that no address holds."""
     if design.aircraft.files is not None:
         raise ValueError("A rotor of your own fits in no address: save it as a design file and send that.")
-    record = case_of(design)
+    record = design_record(design)
     plain = make_design()
-    usual = case_of(make_design(preset=record["preset"], rotor=design.aircraft))
+    usual = design_record(make_design(preset=record["preset"], rotor=design.aircraft))
     usual |= {"preset": plain.preset, "rotor": plain.aircraft.key}
     changed = {key: value for key, value in record.items() if key not in _NEVER and value != usual.get(key)}
     words = [str(VERSION), record["twist"], *(f"{_SHORT.get(key, key)}={_word(v)}" for key, v in changed.items())]
@@ -67,7 +67,7 @@ def design_from(code: str) -> Design:
             )
         record[_LONG.get(key, key)] = _value(value)
     try:
-        return design_of(record)
+        return design_from_record(record)
     except ValueError as error:
         raise ValueError(f"The design in the address cannot be used: {error}") from None
 
@@ -81,7 +81,7 @@ def inputs_from(code: str, kept: str | None = None) -> Inputs:
         return within(inputs_of(design_from(code)))
     if kept is None:
         raise ValueError("Its rotor is its sender's own, and no address holds that: ask for the design file.")
-    return within(inputs_of(parse_case(kept.encode(), "of this page")))
+    return within(inputs_of(parse_design(kept.encode(), "of this page")))
 
 
 def within(inputs: Inputs) -> Inputs:

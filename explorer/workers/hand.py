@@ -2,8 +2,9 @@
 
 import threading
 import time
-from contextlib import suppress
-from multiprocessing import get_context
+from collections.abc import Generator
+from contextlib import contextmanager, suppress
+from multiprocessing import get_context, spawn
 from multiprocessing.connection import Connection, wait
 from typing import Any, Protocol
 
@@ -18,6 +19,8 @@ _LOOK = 2.0
 """How often a thread without work looks whether its process still lives [s]."""
 _START = 60.0
 """[s] a new process may take to import and compile."""
+_starting = threading.Lock()
+"""One process is started at a time."""
 
 
 class Work(Protocol):
@@ -79,7 +82,8 @@ class WorkerThread(threading.Thread):
             context = get_context("spawn")
             pipe, theirs = context.Pipe()
             process = context.Process(target=serve, args=(theirs,), name=self.name, daemon=True)
-            process.start()
+            with _without_main():
+                process.start()
             theirs.close()  # So that the pipe ends with the process.
             self._process, self._pipe = process, pipe
             if self._closed:
@@ -133,3 +137,25 @@ class WorkerThread(threading.Thread):
             process.join(1.0)
         if pipe is not None:
             pipe.close()
+
+
+@contextmanager
+def _without_main() -> Generator[None]:
+    """While this thread starts a process, do not have it import the main module, as `spawn` would.
+
+    A worker needs nothing from there, and a script that calls `explorer.show` would otherwise run again in each worker.
+    """
+    with _starting:
+        prepare, thread = spawn.get_preparation_data, threading.get_ident()
+
+        def prepared(name: str) -> dict[str, Any]:
+            data = prepare(name)
+            if threading.get_ident() != thread:
+                return data
+            return {key: value for key, value in data.items() if not key.startswith("init_main")}
+
+        spawn.get_preparation_data = prepared
+        try:
+            yield
+        finally:
+            spawn.get_preparation_data = prepare

@@ -1,43 +1,43 @@
-"""One thread that always works on the newest state: nothing is queued, nothing is debounced away."""
+"""A thread that always works on the newest state: nothing is queued, nothing is debounced."""
 
 import contextlib
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from explorer.hosting.turns import TURNS, Turn, Turns
+from explorer.workers.scheduler import SCHEDULER, FairScheduler, Turn
 
-Job = Callable[[Callable[[], bool]], None]
-"""Does one round; once its frame is out it asks its argument, between steps of what can wait, whether a newer round is
-already wanted, and returns early if so. Asking is where it waits, in a crowd, while the frames of others go first."""
+Update = Callable[[Callable[[], bool]], None]
+"""Does one update. Between steps of what can wait it calls its argument, which lets the frames of other pages go first
+and returns whether a newer update is wanted; the update then returns early."""
 
 
 @dataclass(frozen=True)
 class IdleTimeout:
-    """What happens when nothing is wanted for long; on the worker's thread."""
+    """What happens when no update is wanted for long; called on the worker's thread."""
 
     after: float
     """[s]"""
     on_sleep: Callable[[], None]
     on_wake: Callable[[], None]
-    """Before the round that ends it."""
+    """Called before the update that ends the sleep."""
 
 
 class NewestWins:
-    """Runs `job` once after every `wake`; wakes that come while it runs are answered by a single further run."""
+    """Runs `update` once after every `wake`; one further run answers all wakes that come while it runs."""
 
     def __init__(
         self,
-        job: Job,
+        update: Update,
         on_error: Callable[[Exception], None],
         name: str,
-        sleep: IdleTimeout | None = None,
-        turns: Turns = TURNS,
+        idle: IdleTimeout | None = None,
+        scheduler: FairScheduler = SCHEDULER,
     ) -> None:
-        self._job = job
+        self._update = update
         self._on_error = on_error
-        self._sleep = sleep
-        self._turns = turns
+        self._idle = idle
+        self._scheduler = scheduler
         self._wanted = threading.Event()
         self._stopped = False
         self._thread = threading.Thread(target=self._loop, name=name, daemon=True)
@@ -46,11 +46,11 @@ class NewestWins:
         self._thread.start()
 
     def wake(self) -> None:
-        """Something changed: a round that starts after this call will see it."""
+        """Something changed: an update that starts after this call will see it."""
         self._wanted.set()
 
     def stop(self, timeout: float = 2.0) -> None:
-        """End the thread after the round it is in."""
+        """End the thread after the update it is in."""
         self._stopped = True
         self._wanted.set()
         if threading.current_thread() is not self._thread and self._thread.is_alive():
@@ -58,34 +58,34 @@ class NewestWins:
 
     @property
     def superseded(self) -> bool:
-        """Whether a newer round is already wanted."""
+        """Whether a newer update is wanted."""
         return self._stopped or self._wanted.is_set()
 
-    def _asking(self, turn: Turn) -> Callable[[], bool]:
+    def _superseded_after(self, turn: Turn) -> Callable[[], bool]:
         return lambda: not turn.give_way(lambda: self.superseded) or self.superseded
 
     def _rest(self) -> None:
-        """Until something is wanted; one look at the clock on the way to sleep, none in it."""
-        sleep = self._sleep
-        if self._wanted.wait(None if sleep is None else sleep.after):
+        """Wait until an update is wanted."""
+        idle = self._idle
+        if self._wanted.wait(None if idle is None else idle.after):
             return
-        assert sleep is not None
-        sleep.on_sleep()
+        assert idle is not None
+        idle.on_sleep()
         self._wanted.wait()
-        sleep.on_wake()
+        idle.on_wake()
 
     def _loop(self) -> None:
         while True:
             self._rest()
             try:
-                with self._turns.take() as turn:
-                    # Cleared before the job reads anything, so that a change during the job wakes it again; and not
-                    # while it waits for its turn, for what changes then it will see.
+                with self._scheduler.take() as turn:
+                    # Cleared before the update reads anything, so that a change during the update wakes it again.
+                    # Not cleared before the turn: the update will see what changes while it waits.
                     self._wanted.clear()
                     if self._stopped:
                         return
-                    self._job(self._asking(turn))
-            except Exception as error:  # The session must survive whatever one round does.
+                    self._update(self._superseded_after(turn))
+            except Exception as error:  # The session must survive whatever one update does.
                 if not self._stopped:
-                    with contextlib.suppress(Exception):  # The browser may be gone: nobody is left to tell.
+                    with contextlib.suppress(Exception):  # The browser may have gone.
                         self._on_error(error)

@@ -7,8 +7,8 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from rotor.airfoil.bicubic import MACH_STEP, N_MACH
 from rotor.airfoil.polynomial import THESIS_NAME, polynomial_section
-from rotor.airfoil.table import MACH_STEP, N_MACH
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
 

@@ -1,14 +1,13 @@
-"""Blade elements: velocities at the section, loads, and their sums over the disk.
+"""Blade elements: the velocities at the section and the loads.
 
-Everything a trim unknown does to a blade element it does through the pitch θ, U_T and U_P, so one pass of loads with
-their pointwise derivatives gives every sum and its exact derivatives.
+A trim unknown acts on a blade element only through the pitch θ, U_T, U_P and the loss factor. So one evaluation of the
+loads with their pointwise derivatives gives every sum over the disk and its exact derivatives (`rotor.aero.sums`).
 """
 
 import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rotor.aero import kernel
 from rotor.aero.disk import Disk, build_disk
@@ -16,38 +15,34 @@ from rotor.aero.inflow import InflowModel, Wake, inflow_model
 from rotor.aero.inflow.interface import InflowResponse
 from rotor.aero.losses import loss_factor
 from rotor.aero.momentum import glauert_inflow
-from rotor.arrays import Array
+from rotor.aero.trim_state import TrimState
+from rotor.arrays import Array, Booleans
 from rotor.design.design import Design
 from rotor.dynamics.flapping import FlapDynamics, flap_dynamics
 
-COLLECTIVE, CYCLIC_1C, CYCLIC_1S, SHAFT_TILT, CONING, FLAP_1C, FLAP_1S, LAMBDA0 = range(8)
-"""Places of the trim unknowns in a state vector; angles in radians, λ0 over ΩR."""
-
-N_STATE = 8
-
 LOW_MACH = 0.3
-"""Where sections are read with compressibility switched off: the document's own polar (Re 3.68 million); lift is within
-5 % of incompressible there (Prandtl–Glauert), drag rise is far."""
+"""Mach number of the section data when compressibility is switched off: that of the document's polar (Re 3.68 million).
+Lift is within 5 % of incompressible there (Prandtl–Glauert), and far from drag rise."""
 
 LOSS_AZIMUTHS = 24
 """Azimuths over which the loss factor is averaged; 24 agree with 360 to 1e-4 in F (tested)."""
 
-_RING = 2.0 * np.pi * np.arange(LOSS_AZIMUTHS) / LOSS_AZIMUTHS
+_LOSS_PSI = 2.0 * np.pi * np.arange(LOSS_AZIMUTHS) / LOSS_AZIMUTHS
 _NO_LOAD = np.zeros((0, 0))
 
 
 @dataclass(frozen=True, eq=False)
 class Problem:
-    """A design laid out for computing: arrays and coefficients that no iteration changes."""
+    """A design on its grid: the arrays and coefficients that no iteration changes."""
 
     design: Design
     disk: Disk
-    ring: Disk
+    loss_disk: Disk
     """The same radii at the few azimuths over which the loss factor is averaged."""
     twist: Array
     """θ_tw at the elements [rad]."""
     active: Array
-    """θ_act [rad], (elements, azimuths), or (1, 1) where there is none."""
+    """θ_act [rad], (elements, azimuths), or (1, 1) without active twist."""
     flap: FlapDynamics
     tip_mach: float
     weight: float
@@ -55,13 +50,13 @@ class Problem:
     drag: float
     """Fuselage drag over ρA(ΩR)²."""
     inflow: InflowModel
-    idle: NDArray[np.bool_] | None
-    """Where elements carry no load, (elements, azimuths): the reverse-flow circle r < −µ sin ψ, where it is left out.
-    Drawn with µ, not µ cos α: so the trim does not move it while it is being found, and derivatives stay exact."""
+    unloaded: Booleans | None
+    """Elements that carry no load, (elements, azimuths): the reverse-flow region r < −µ sin ψ, where it is switched
+    off. Its border is drawn with µ, not µ cos α, so that it stays fixed during the trim and derivatives stay exact."""
 
 
-def lay_out(design: Design) -> Problem:
-    """The problem a design poses."""
+def build_problem(design: Design) -> Problem:
+    """The design on its grid."""
     rotor, condition, models = design.rotor, design.condition, design.models
     drag = design.drag / design.thrust_unit
     disk = build_disk(rotor, models.elements, models.azimuths, None if models.compressibility else LOW_MACH)
@@ -71,7 +66,7 @@ def lay_out(design: Design) -> Problem:
     return Problem(
         design=design,
         disk=disk,
-        ring=replace(disk, psi=_RING, cos=np.cos(_RING), sin=np.sin(_RING)),
+        loss_disk=replace(disk, psi=_LOSS_PSI, cos=np.cos(_LOSS_PSI), sin=np.sin(_LOSS_PSI)),
         twist=design.twist(disk.r),
         active=design.active_twist(disk.r, disk.psi) if design.active_twist else np.zeros((1, 1)),
         flap=flap_dynamics(rotor, condition.density, blade_weight=models.blade_weight),
@@ -79,7 +74,7 @@ def lay_out(design: Design) -> Problem:
         weight=design.weight_coefficient,
         drag=drag,
         inflow=inflow.with_wake_geometry(expected_wake(design, drag)),
-        idle=None if models.reverse_flow else disk.r[:, None] + condition.advance_ratio * disk.sin < 0.0,
+        unloaded=None if models.reverse_flow else disk.r[:, None] + condition.advance_ratio * disk.sin < 0.0,
     )
 
 
@@ -92,19 +87,20 @@ def expected_wake(design: Design, drag: float) -> Wake:
 
 
 @dataclass(frozen=True, eq=False)
-class Pass:
-    """One pass over the blade elements at a state. Fields are (elements, azimuths)."""
+class BladeElements:
+    """The blade elements at a trim state. Fields are (elements, azimuths)."""
 
-    state: Array
+    state: TrimState
     flow: Wake
     """µ_x, µ_z as the blade elements see them, and λ0."""
     theta: Array
+    """Pitch with twist [rad]."""
     u_t: Array
     u_p: Array
     induced: Array
     """λ_i"""
     response: InflowResponse | None
-    """What the inflow model answers to the loads; None in hover, whose annuli balance themselves."""
+    """Response of the inflow model to the loads; None in hover, where each annulus balances itself."""
     loss: Array
     """F on lift, (elements,)."""
     loss_slopes: Array
@@ -115,35 +111,35 @@ class Pass:
     """As `kernel.element_loads` returns."""
 
 
-def skewed(problem: Problem, state: Array) -> Wake:
-    """The wake a state leaves: µ cos α, µ sin α, λ0."""
-    mu, tilt = problem.design.condition.advance_ratio, float(state[SHAFT_TILT])
-    return Wake(mu * math.cos(tilt), mu * math.sin(tilt), float(state[LAMBDA0]))
+def wake_at(problem: Problem, state: TrimState) -> Wake:
+    """The wake of a trim state: µ cos α, µ sin α, λ0."""
+    mu, tilt = problem.design.condition.advance_ratio, state.shaft_tilt
+    return Wake(mu * math.cos(tilt), mu * math.sin(tilt), state.lambda0)
 
 
-def run_pass(problem: Problem, state: Array, induced: Array | None = None) -> Pass:
-    """Velocities of eqs. (3.5), (3.6) and the loads they make.
+def evaluate_elements(problem: Problem, state: TrimState, induced: Array | None = None) -> BladeElements:
+    """Velocities of eqs. (3.5), (3.6) and the loads they cause.
 
-    U_T = r + µ_x sin ψ; U_P = µ_z + λ_i + (r − e) β' + µ_x β cos ψ. µ_z is absent where the models leave out the axial
-    flow of the tilted disk, as (3.6) prints it; λ_i is then still skewed by the tilt, eq. (2.31). A model that responds
-    to the load needs the induced field to try; its response says what it should have been.
+    U_T = r + µ_x sin ψ; U_P = µ_z + λ_i + (r − e) β' + µ_x β cos ψ. Where the models leave out the axial flow of the
+    tilted disk, as (3.6) prints it, µ_z is absent; λ_i is then still skewed by the tilt, eq. (2.31). A load-dependent
+    inflow model needs a trial field `induced`, (elements, azimuths); its response gives the field for those loads.
     """
     disk, models = problem.disk, problem.design.models
     cos, sin = disk.cos, disk.sin
-    skew = skewed(problem, state)
-    flow = skew if models.disk_axial_flow else Wake(problem.design.condition.advance_ratio, 0.0, skew.lambda0)
+    wake = wake_at(problem, state)
+    flow = wake if models.disk_axial_flow else Wake(problem.design.condition.advance_ratio, 0.0, wake.lambda0)
     if problem.inflow.load_dependent:
         assert induced is not None
         response = None
         loss, loss_slopes = np.ones_like(disk.r), np.zeros((2, len(disk.r)))
     else:
-        response = problem.inflow.respond(disk, skew, _NO_LOAD)
+        response = problem.inflow.respond(disk, wake, _NO_LOAD)
         induced = response.induced
-        loss, loss_slopes = _lift_loss(problem, skew, flow)
+        loss, loss_slopes = _lift_loss(problem, wake, flow)
 
-    beta = state[CONING] + state[FLAP_1C] * cos + state[FLAP_1S] * sin
-    beta_rate = state[FLAP_1S] * cos - state[FLAP_1C] * sin
-    theta = (problem.twist + state[COLLECTIVE])[:, None] + (state[CYCLIC_1C] * cos + state[CYCLIC_1S] * sin)
+    beta = state.coning + state.flap_1c * cos + state.flap_1s * sin
+    beta_rate = state.flap_1s * cos - state.flap_1c * sin
+    theta = (problem.twist + state.collective)[:, None] + (state.cyclic_1c * cos + state.cyclic_1s * sin)
     theta += problem.active
     u_t = disk.r[:, None] + flow.mu_x * sin
     u_p = induced + (disk.r - problem.flap.hinge)[:, None] * beta_rate + (flow.mu_z + flow.mu_x * beta * cos)
@@ -151,32 +147,32 @@ def run_pass(problem: Problem, state: Array, induced: Array | None = None) -> Pa
         theta, u_t, u_p, loss, problem.tip_mach,
         disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables,
     )  # fmt: skip
-    if problem.idle is not None:
-        loads[: kernel.ALPHA, problem.idle] = 0.0
-        loads[kernel.CL :, problem.idle] = 0.0
+    if problem.unloaded is not None:
+        loads[: kernel.ALPHA, problem.unloaded] = 0.0
+        loads[kernel.CL :, problem.unloaded] = 0.0
     if response is None:
-        response = problem.inflow.respond(disk, skew, loads[kernel.FZ])
-    return Pass(state, flow, theta, u_t, u_p, induced, response, loss, loss_slopes, beta, loads)
+        response = problem.inflow.respond(disk, wake, loads[kernel.FZ])
+    return BladeElements(state, flow, theta, u_t, u_p, induced, response, loss, loss_slopes, beta, loads)
 
 
-def by_tilt(by_wake: Array, mu_x: float, mu_z: float) -> Array:
+def by_tilt_and_lambda0(by_wake: Array, mu_x: float, mu_z: float) -> Array:
     """Derivatives by (µ_x, µ_z, λ0) to derivatives by (α, λ0): µ_x = µ cos α, µ_z = µ sin α."""
     return np.stack([mu_x * by_wake[1] - mu_z * by_wake[0], by_wake[2]])
 
 
-def _lift_loss(problem: Problem, skew: Wake, flow: Wake) -> tuple[Array, Array]:
+def _lift_loss(problem: Problem, wake: Wake, flow: Wake) -> tuple[Array, Array]:
     """Loss factor on lift, averaged over azimuth (thesis p. 24), (elements,), and slopes by (α, λ0)."""
     models, rotor = problem.design.models, problem.design.rotor
-    around = problem.inflow.respond(problem.ring, skew, _NO_LOAD)
+    response = problem.inflow.respond(problem.loss_disk, wake, _NO_LOAD)
     factor, slope = loss_factor(
-        problem.ring.r[:, None],
-        flow.mu_z + around.induced,
+        problem.loss_disk.r[:, None],
+        flow.mu_z + response.induced,
         rotor.blades,
         rotor.blade.root_cutout,
         tip=models.tip_loss,
         hub=models.hub_loss,
     )
-    slopes = by_tilt(around.by_wake, skew.mu_x, skew.mu_z)
+    slopes = by_tilt_and_lambda0(response.by_wake, wake.mu_x, wake.mu_z)
     if models.disk_axial_flow:
-        slopes[0] += skew.mu_x
+        slopes[0] += wake.mu_x
     return factor.mean(axis=1), (slope * slopes).mean(axis=2)

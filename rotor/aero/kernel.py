@@ -16,7 +16,7 @@ from typing import Any
 import numba  # pyright: ignore[reportMissingTypeStubs]
 import numpy as np
 
-from rotor.airfoil.table import ALPHA_STEP, MACH_STEP, N_ALPHA, N_MACH
+from rotor.airfoil.bicubic import ALPHA_STEP, MACH_STEP, N_ALPHA, N_MACH
 from rotor.arrays import Array
 
 FZ, FX, FZ_THETA, FX_THETA, FZ_UT, FX_UT, FZ_UP, FX_UP, LIFT, ALPHA, MACH, CL, CD, CD_MACH = range(14)

@@ -85,7 +85,10 @@ def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
 
     Raises TypeError for anything but sweeps, and ImportError with the remedy where matplotlib is missing.
     """
-    if not tables or not all(isinstance(table, SweepTable) for table in tables):
+    if not tables or not all(
+        isinstance(table, SweepTable)  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass anything
+        for table in tables
+    ):
         raise TypeError(
             f"plot_power got {', '.join(type(table).__name__ for table in tables) or 'nothing'}: "
             "give what rotor.sweep returns, one table or several"

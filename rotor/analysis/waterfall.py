@@ -17,7 +17,7 @@ PARTS = ("induced", "profile", "parasite", "tail")
 
 
 @dataclass(frozen=True, eq=False)
-class Step:
+class WaterfallStep:
     """One trim, and what it differs by from the trim it is compared with."""
 
     switch: Switch | None
@@ -52,36 +52,36 @@ class Step:
         return None if change is None else sum(change.values())
 
 
-def climb(design: Design, order: Sequence[str] = tuple(SWITCHES)) -> Iterator[Step]:
+def switch_on_steps(design: Design, order: Sequence[str] = tuple(SWITCHES)) -> Iterator[WaterfallStep]:
     """The steps of the waterfall, each trimmed when it is asked for. The design's own switches do not matter.
 
     A step that does not trim is passed over: the next is compared with the last that did.
     """
     left = list(order)
     solution = solve(with_switches(design, left))
-    yield Step(None, solution, None)
+    yield WaterfallStep(None, solution, None)
     last = solution if solution.converged else None
     for name in order:
         left.remove(name)
         solution = solve(with_switches(design, left), last)
-        yield Step(SWITCHES[name], solution, last, no_effect(solution.design, name))
+        yield WaterfallStep(SWITCHES[name], solution, last, no_effect(solution.design, name))
         last = solution if solution.converged else last
 
 
-def each_alone(design: Design, full: Solution) -> Iterator[Step]:
+def switch_off_steps(design: Design, full: Solution) -> Iterator[WaterfallStep]:
     """The full model with one switch off at a time. `full`: the same design's solution with everything on."""
     for name, switch in SWITCHES.items():
         alone = with_switches(design, (name,))
-        yield Step(switch, solve(alone, full), full if full.converged else None, no_effect(alone, name))
+        yield WaterfallStep(switch, solve(alone, full), full if full.converged else None, no_effect(alone, name))
 
 
 @dataclass(frozen=True, eq=False)
 class Waterfall:
     """The whole answer."""
 
-    steps: tuple[Step, ...]
+    steps: tuple[WaterfallStep, ...]
     """All off, then one more on at each step; the last is the full model."""
-    alone: tuple[Step, ...]
+    alone: tuple[WaterfallStep, ...]
     """Each switch off alone, compared with the full model."""
 
     @property
@@ -94,6 +94,6 @@ class Waterfall:
 
 
 def waterfall(design: Design) -> Waterfall:
-    """Thirteen trims: the climb, and each switch off alone."""
-    steps = tuple(climb(design))
-    return Waterfall(steps, tuple(each_alone(design, steps[-1].solution)))
+    """Thirteen trims: the switch_on_steps, and each switch off alone."""
+    steps = tuple(switch_on_steps(design))
+    return Waterfall(steps, tuple(switch_off_steps(design, steps[-1].solution)))

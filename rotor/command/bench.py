@@ -1,8 +1,9 @@
-"""`bench`: milliseconds per evaluation and per trim, beside two baselines measured in the same run."""
+"""`bench`: times of evaluations, trims, searches and studies, beside scipy's root and dynbem."""
 
 import argparse
 import importlib
 import json
+import os
 import statistics
 import sys
 import time
@@ -13,18 +14,78 @@ from typing import Any
 import numpy as np
 from scipy.optimize import root  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
-from rotor.aero.elements import N_STATE, Problem, lay_out, run_pass
-from rotor.command.bench_batch import TARGET_PER_SECOND, measure_batch
-from rotor.command.bench_search import TARGETS_S, measure_searches
+from rotor.aero.elements import Problem, build_problem, evaluate_elements
 from rotor.command.flags import add_command
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
+from rotor.optimisation.concepts import CONCEPTS, find_concept
+from rotor.optimisation.objective import WeightedCondition
+from rotor.optimisation.schedule import Plan, run_plan
+from rotor.optimisation.search import Search, run_search
+from rotor.study.chunks import evaluate_points
+from rotor.study.point import trim_of
+from rotor.study.study_file import read_study
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.equations import residuals, unknowns_of
 from rotor.trim.forward import first_guess
 from rotor.trim.newton import Guess, newton
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
+
+TARGETS_S = {
+    "optimum, two segments": 1.0,
+    "optimum, three segments, 16 starts": 5.0,
+    "schedule, 15 conditions, 8 concepts": 60.0,
+}
+"""Targets of the project [s], flight preset, one core for an optimum, two for the schedule."""
+
+_SEARCH_ADVANCE_RATIOS = (0.1, 0.2, 0.3)
+
+
+def measure_searches(*, long: bool) -> dict[str, float]:
+    """Seconds by name; mean over three advance ratios, bands included. `long` adds the schedule."""
+    figures: dict[str, float] = {}
+    for name, concept, starts in (
+        ("optimum, two segments", "two-segment", 6),
+        ("optimum, three segments, 16 starts", "three-segment", 16),
+    ):
+        elapsed = 0.0
+        for mu in _SEARCH_ADVANCE_RATIOS:
+            design = make_design(preset="flight", mu=mu)
+            solve(design)  # Lays out the grid and the wake once, as a page has long done.
+            elapsed += run_search(Search(design, find_concept(concept), starts=starts)).elapsed
+        figures[name] = elapsed / len(_SEARCH_ADVANCE_RATIOS)
+    if long:
+        design = make_design(preset="flight")
+        ratios = [0.0, *(0.05 + 0.025 * k for k in range(1, 15))]
+        conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in ratios)
+        begin = time.perf_counter()
+        run_plan(Plan(design, tuple(CONCEPTS.values()), conditions), processes=min(2, os.cpu_count() or 1))
+        figures["schedule, 15 conditions, 8 concepts"] = time.perf_counter() - begin
+    return figures
+
+
+TARGET_PER_SECOND = 55.0
+"""10⁵ trims with the dynamic wake on two cores in 15 minutes."""
+_POINTS = 200
+
+
+def measure_batch() -> dict[str, float]:
+    """Trims a second of processor time, one core, by name; the middle of the packaged study of 10⁵ sampled trims."""
+    study = read_study("hundred_thousand.toml").study
+    first = study.chunks // 2 * study.chunk
+    designs = [trim_of(values, study) for values in study.values(first, first + _POINTS)]
+    return {
+        "each by itself": _points_per_second(lambda: [solve(design) for design in designs]),
+        "as a study works them off": _points_per_second(lambda: evaluate_points(study, first, first + _POINTS)),
+    }
+
+
+def _points_per_second(call: Callable[[], Any]) -> float:
+    begin = time.process_time()
+    call()
+    return _POINTS / (time.process_time() - begin)
+
 
 TARGETS_MS = {
     "evaluation": 0.5,
@@ -81,10 +142,10 @@ def run(args: argparse.Namespace) -> int:
 def measure() -> tuple[dict[str, float], list[str]]:
     """Figures [ms] by name, and notes on what could not be measured."""
     linear, wake = _cases("pitt-peters"), _cases("dynamic-wake")
-    problems = [lay_out(design) for design in linear.designs]
-    passes = [newton(problem, first_guess(problem)).last for problem in problems]
+    problems = [build_problem(design) for design in linear.designs]
+    passes = [newton(problem, first_guess(problem)).elements for problem in problems]
     figures = {
-        "evaluation": _mean(lambda k: run_pass(problems[k], passes[k].state), 50),
+        "evaluation": _mean(lambda k: evaluate_elements(problems[k], passes[k].state), 50),
         "trim, cold": _mean(lambda k: solve(linear.designs[k]), 15),
         "trim, warm": _mean(lambda k: solve(linear.nearby[k], linear.solutions[k]), 15),
         "hover, cold": _time(lambda: solve(make_design(preset="flight", mu=0.0)), 15),
@@ -122,16 +183,13 @@ def _cases(inflow: str) -> _Cases:
 
 def _hybr(problem: Problem, start: Guess) -> None:
     """The same residual through scipy's Powell hybrid method with finite differences."""
-    unknowns = list(unknowns_of(problem.design.models))
-    base = start.state
+    unknowns = unknowns_of(problem.design.models)
 
     def residual(x: Any) -> Any:
-        state = np.empty(N_STATE)
-        state[:] = base
-        state[unknowns] = x
-        return residuals(problem, run_pass(problem, state))
+        state = replace(start.state, **dict(zip(unknowns, x.tolist(), strict=True)))
+        return residuals(problem, evaluate_elements(problem, state))
 
-    root(residual, base[unknowns], method="hybr", tol=1e-10)
+    root(residual, start.state.array(unknowns), method="hybr", tol=1e-10)
 
 
 def _dynbem(design: Design) -> dict[str, float]:

@@ -1,4 +1,4 @@
-"""Flags that several commands share, what they mean, and tables as files."""
+"""Flags that several commands share: the design, the limits of a search, tables as CSV files."""
 
 import argparse
 import csv
@@ -8,13 +8,19 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+from rotor.actuator.catalogue import find_actuator
+from rotor.actuator.installation import install
+from rotor.actuator.placement import Host, default_placement
+from rotor.actuator.verdict import change_limit
 from rotor.aero.inflow import inflow_model
 from rotor.aero.switches import parse_switches
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.design import Design
-from rotor.files.design_file import read_case
+from rotor.files.design_file import read_design
 from rotor.files.make_design import change_airfoils, make_design
 from rotor.files.rotor_file import find_aircraft
+from rotor.optimisation.concepts import CONCEPTS, Concept
+from rotor.optimisation.search import ChangeLimit, Limits, even_change_limit
 
 
 def add_command(commands: Any, name: str, words: str, description: str = "") -> argparse.ArgumentParser:
@@ -52,7 +58,7 @@ def add_rotor_argument(parser: argparse.ArgumentParser) -> None:
 
 def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: float | None) -> Design:
     """The design that the flags describe, on top of a design file where one is given."""
-    base = read_case(args.case) if args.case else None
+    base = read_design(args.case) if args.case else None
     blade = base if base and not (args.preset or args.rotor) else None  # Another rotor, or preset, has its own blade.
     design = make_design(
         preset=args.preset or (base.preset if base else "flight"),
@@ -94,3 +100,98 @@ def finite(text: str) -> float:
     if not math.isfinite(value):
         raise argparse.ArgumentTypeError(f"{text!r} is not a finite number")
     return value
+
+
+def add_search_arguments(parser: argparse.ArgumentParser, starts: int) -> None:
+    """Starts, seed and limits."""
+    parser.add_argument("--starts", type=int, default=starts, metavar="N", help=f"starts a search (default {starts})")
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the starting points (default 0)")
+    parser.add_argument(
+        "--on-top", action="store_true", help="the concept is a change added to the design's own twist, which stays"
+    )
+    limits = parser.add_argument_group("limits")
+    limits.add_argument(
+        "--bound", action="append", default=[], metavar="NAME=LOW,HIGH",
+        help="bounds of one parameter, degrees or r/R, e.g. --bound outboard_rate=-20,0; repeatable",
+    )  # fmt: skip
+    limits.add_argument(
+        "--rate-deg", metavar="LOW,HIGH", help="twist rate of every segment, degrees per radius, e.g. --rate-deg=-20,0"
+    )
+    limits.add_argument("--stalled-percent", type=finite, metavar="P", help="largest stalled part of the disk")
+    limits.add_argument(
+        "--change-deg", type=finite, metavar="DEG",
+        help="largest change from the design's own twist, root to tip, growing evenly along the blade",
+    )  # fmt: skip
+    limits.add_argument(
+        "--actuator", metavar="ID",
+        help="stay within what this actuator on the flown blade can change of the design's own twist, e.g. MFC_P1",
+    )  # fmt: skip
+    limits.add_argument("--plies", type=int, metavar="N", help="of that actuator, per skin (default 2)")
+    limits.add_argument("--derated", action="store_true", help="count on what a tested blade showed of such a change")
+
+
+def limits_from(args: argparse.Namespace, design: Design, concepts: tuple[Concept, ...]) -> Limits:
+    """The limits that the flags describe; ValueError for what no concept can use."""
+    units = {parameter.name: parameter for one in concepts for parameter in one.parameters}
+    bounds: list[tuple[str, float, float]] = []
+    for text in args.bound:
+        name, _, numbers = str(text).partition("=")
+        name = name.removesuffix("_deg")
+        if name not in units:
+            raise ValueError(f"bound {text!r} names no parameter: use one of {', '.join(units)}")
+        low, high = _pair(numbers, f"bound {text!r}", f"{name}=-20,0")
+        bounds.append((name, units[name].from_shown(low), units[name].from_shown(high)))
+    rate = None
+    if args.rate_deg is not None:
+        low, high = _pair(args.rate_deg, f"rate {args.rate_deg!r}", "--rate-deg=-20,0")
+        rate = math.radians(low), math.radians(high)
+    if args.change_deg is not None and args.change_deg < 0.0:
+        raise ValueError(f"change limit {args.change_deg:g}° is negative: give 0 or more")
+    return Limits(
+        bounds=tuple(bounds),
+        rate=rate,
+        stalled=None if args.stalled_percent is None else args.stalled_percent / 100.0,
+        change=_change(args, design),
+    )
+
+
+def _change(args: argparse.Namespace, design: Design) -> ChangeLimit | None:
+    """Change from the design's own twist: an angle, or what an actuator can make."""
+    if args.actuator is None:
+        if args.plies is not None or args.derated:
+            raise ValueError("--plies and --derated are of an actuator: add --actuator, for example MFC_P1")
+        root = design.rotor.blade.root_cutout
+        return None if args.change_deg is None else even_change_limit(design.twist, math.radians(args.change_deg), root)
+    if args.change_deg is not None:
+        raise ValueError("--change-deg and --actuator both limit the change of twist: give one of them")
+    placement = default_placement(2 if args.plies is None else args.plies)
+    installed = install(find_actuator(args.actuator), placement, Host(), design.rotor)
+    return change_limit(installed, design.twist, root=design.rotor.blade.root_cutout, derated=args.derated)
+
+
+def concept_help() -> str:
+    """All names."""
+    return " | ".join(CONCEPTS)
+
+
+def parse_division(text: str | None) -> list[float] | None:
+    """r/R of one or two divisions."""
+    if text is None:
+        return None
+    try:
+        values = [float(item) for item in text.split(",")]
+    except ValueError:
+        values = [math.nan]
+    if not all(math.isfinite(value) for value in values):
+        raise ValueError(f"division {text!r} is not understood: write r/R, for example 0.5 or 0.4,0.8")
+    return values
+
+
+def _pair(text: str, what: str, example: str) -> tuple[float, float]:
+    try:
+        low, high = (float(item) for item in text.split(","))
+    except ValueError:
+        low = high = math.nan
+    if not (math.isfinite(low) and math.isfinite(high)):
+        raise ValueError(f"{what} is not understood: write two numbers, for example {example}")
+    return low, high

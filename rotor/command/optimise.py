@@ -5,9 +5,17 @@ import json
 from dataclasses import replace
 from typing import Any
 
-from rotor.command.flags import add_command, add_design_arguments, design_from, finite
+from rotor.command.flags import (
+    add_command,
+    add_design_arguments,
+    add_search_arguments,
+    concept_help,
+    design_from,
+    finite,
+    limits_from,
+    parse_division,
+)
 from rotor.command.progress import STOPPED, bar, interruptible
-from rotor.command.search_flags import add_search_arguments, concept_help, limits_from, parse_division
 from rotor.design.blade import airfoils_spec
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, find_concept, on_top

@@ -30,12 +30,12 @@ def add_parser(commands: Any) -> None:
 def run(args: argparse.Namespace) -> int:
     """0, or 130 when broken off; bad input is for the caller."""
     # Here, because no other command needs the catalogue.
-    from rotor.reproduce.catalogue import ENTRIES, Entry, find_entry, searches_of
-    from rotor.reproduce.files import write_all, write_report
+    from rotor.reproduce.catalogue import ENTRIES, CatalogueEntry, find_entry, searches_of
+    from rotor.reproduce.page import write_all, write_report
     from rotor.reproduce.pictures import NO_PICTURES, can_draw
-    from rotor.reproduce.remember import work_off
     from rotor.reproduce.report import Report, typographic
-    from rotor.reproduce.trust_files import write_trust
+    from rotor.reproduce.runs import compute_ahead
+    from rotor.reproduce.trust_page import write_trust
 
     if args.trust and args.figure:
         raise ValueError("--trust needs every figure: leave --figure out")
@@ -50,10 +50,10 @@ def run(args: argparse.Namespace) -> int:
     except OSError as error:
         raise ValueError(f"cannot make the folder {args.out!r} ({error.strerror}): give a writable one") from None
     begin = time.perf_counter()
-    made: list[tuple[Entry, Report]] = []
+    made: list[tuple[CatalogueEntry, Report]] = []
     pictures = can_draw()
 
-    def make(wanted: list[Entry]) -> None:
+    def make(wanted: list[CatalogueEntry]) -> None:
         for entry in tqdm(wanted, disable=not sys.stderr.isatty(), leave=False, unit="figure"):
             report = entry.make()
             write_report(report, folder, pictures=pictures)
@@ -67,7 +67,7 @@ def run(args: argparse.Namespace) -> int:
     if count:
         print(f"{count} searches for the optima of chapter 4, in {processes} processes", file=sys.stderr)
         with interruptible() as stop, bar(count, "search") as advance:
-            stopped = work_off(groups, processes, advance, stop)
+            stopped = compute_ahead(groups, processes, advance, stop)
     if not stopped:
         make([entry for entry in entries if entry.slow])
     made.sort(key=lambda pair: entries.index(pair[0]))

@@ -9,10 +9,17 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from rotor.command.flags import add_command, add_design_arguments, design_from
+from rotor.command.flags import (
+    add_command,
+    add_design_arguments,
+    add_search_arguments,
+    concept_help,
+    design_from,
+    limits_from,
+    parse_division,
+)
 from rotor.command.optimise import named
 from rotor.command.progress import STOPPED, bar, interruptible
-from rotor.command.search_flags import add_search_arguments, concept_help, limits_from, parse_division
 from rotor.files.ranges import parse_range
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
 from rotor.optimisation.objective import QUANTITIES, WeightedCondition, read_mission

@@ -4,7 +4,7 @@ import argparse
 import json
 from typing import Any
 
-from rotor.analysis.waterfall import PARTS, Step, Waterfall, waterfall
+from rotor.analysis.waterfall import PARTS, Waterfall, WaterfallStep, waterfall
 from rotor.command.flags import add_command, add_design_arguments, design_from, finite
 
 
@@ -39,7 +39,7 @@ def record(found: Waterfall) -> dict[str, Any]:
     }
 
 
-def _step_record(step: Step) -> dict[str, Any]:
+def _step_record(step: WaterfallStep) -> dict[str, Any]:
     return {
         "switch": step.switch.flag if step.switch else None,
         "total_w": step.power,
@@ -69,7 +69,7 @@ def report(found: Waterfall) -> str:
     )
 
 
-def _line(step: Step) -> str:
+def _line(step: WaterfallStep) -> str:
     note = f"   {step.note}" if step.note else ""
     if step.power is None:
         return f"{step.title:<18}{step.solution.message}"

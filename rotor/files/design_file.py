@@ -1,6 +1,6 @@
 """Design files: the choices behind a `Design` as JSON that a person can read and edit.
 
-`rotor` names a shipped rotor, or holds a user's own files word for word, so that nothing is lost with them.
+`rotor` names a shipped rotor, or holds a user's own files word for word, so that the file is complete.
 """
 
 import json
@@ -22,7 +22,7 @@ from rotor.files.rotor_file import LARGEST_FILE, find_aircraft, read_aircraft, s
 FORMAT = "rotor-explorer design"
 VERSION = 2
 READS = (1, 2)
-"""Version 1 knew no `rotor`: its designs are the UH-60A's."""
+"""Version 1 had no `rotor`: its designs are of the UH-60A."""
 
 _KEYS = (
     "format",
@@ -42,7 +42,7 @@ _KEYS = (
 """`solution` holds the results that `Solution.save` adds; they are not read back."""
 
 
-def case_of(design: Design) -> dict[str, Any]:
+def design_record(design: Design) -> dict[str, Any]:
     """The design as a JSON-ready record."""
     changed = design.rotor != design.aircraft.rotor_for(design.preset)
     airfoils = airfoils_spec(design.rotor) if changed else None
@@ -63,7 +63,7 @@ def case_of(design: Design) -> dict[str, Any]:
 
 
 def rotor_record(aircraft: Aircraft) -> Any:
-    """A shipped rotor's name; of a user's own all its files, line by line."""
+    """The name of a shipped rotor, or all files of a user's own, line by line."""
     if aircraft.files is None:
         return aircraft.key
     return {
@@ -75,7 +75,7 @@ def rotor_record(aircraft: Aircraft) -> Any:
 def read_rotor_record(record: Any, *, paths: bool = False) -> Aircraft:
     """The inverse; with `paths`, a text may also be the path of a rotor file on this machine.
 
-    Raises ValueError with one sentence for anything else.
+    Raises ValueError with one sentence for any other record.
     """
     if isinstance(record, str):
         return find_aircraft(record) if paths else shipped_aircraft(record)
@@ -86,49 +86,49 @@ def read_rotor_record(record: Any, *, paths: bool = False) -> Aircraft:
             raise KeyError(main)
     except (KeyError, TypeError, AttributeError):
         raise ValueError(
-            f"design file key 'rotor' is no rotor: write one of {', '.join(SHIPPED_ROTORS)}, "
+            f"design file key 'rotor' does not name or hold a rotor: write one of {', '.join(SHIPPED_ROTORS)}, "
             'or {"main": "my.toml", "files": {"my.toml": ["line", …]}}'
         ) from None
     return read_aircraft(main, texts)
 
 
-def design_of(case: dict[str, Any], *, paths: bool = False) -> Design:
-    """The design a record describes; what it leaves out is the preset's. `paths` as in `read_rotor_record`.
+def design_from_record(record: dict[str, Any], *, paths: bool = False) -> Design:
+    """The design of a record; keys it leaves out take the preset's values. `paths` as in `read_rotor_record`.
 
-    Raises ValueError with one sentence for anything it cannot use.
+    Raises ValueError with one sentence for a key or a value that it cannot use.
     """
-    unknown = sorted(set(case) - set(_KEYS))
+    unknown = sorted(set(record) - set(_KEYS))
     if unknown:
         raise ValueError(f"design file has the unknown key {unknown[0]!r}: the keys are {', '.join(_KEYS)}")
-    if case.get("format", FORMAT) != FORMAT or case.get("version", VERSION) not in READS:
+    if record.get("format", FORMAT) != FORMAT or record.get("version", VERSION) not in READS:
         raise ValueError(
-            f"design file is {case.get('format')!r} version {case.get('version')!r}: this program reads "
+            f"design file is {record.get('format')!r} version {record.get('version')!r}: this program reads "
             f"{FORMAT!r} version {' and '.join(map(str, READS))}"
         )
-    preset = _text(case, "preset", "flight")
-    twist = _text(case, "twist", "")
+    preset = _text(record, "preset", "flight")
+    twist = _text(record, "twist", "")
     design = make_design(
         preset=preset,
-        rotor=read_rotor_record(case.get("rotor", SHIPPED_ROTORS[0]), paths=paths),
+        rotor=read_rotor_record(record.get("rotor", SHIPPED_ROTORS[0]), paths=paths),
         twist=twist or None,
-        mu=_number(case, "advance_ratio", 0.2),
-        mass_kg=_number(case, "mass_kg", None),
-        altitude_m=_number(case, "altitude_m", 0.0),
+        mu=_number(record, "advance_ratio", 0.2),
+        mass_kg=_number(record, "mass_kg", None),
+        altitude_m=_number(record, "altitude_m", 0.0),
     )
-    inflow = _text(case, "inflow", design.models.inflow)
+    inflow = _text(record, "inflow", design.models.inflow)
     inflow_model(inflow)
     models = replace(
         design.models,
         inflow=inflow,
-        **{name: _flag(case, name, getattr(design.models, name)) for name in SWITCHES},
+        **{name: _flag(record, name, getattr(design.models, name)) for name in SWITCHES},
     )
-    airfoils = _text(case, "airfoils", "")
+    airfoils = _text(record, "airfoils", "")
     rotor = change_airfoils(design.rotor, airfoils) if airfoils else design.rotor
-    turning = read_active_twist(case["active_twist"]) if "active_twist" in case else None
-    return replace(design, models=models, rotor=rotor, active_twist=turning)
+    active_twist = read_active_twist(record["active_twist"]) if "active_twist" in record else None
+    return replace(design, models=models, rotor=rotor, active_twist=active_twist)
 
 
-def read_case(path: str | Path) -> Design:
+def read_design(path: str | Path) -> Design:
     """Read a design file; ValueError with one sentence when it cannot be used."""
     path = Path(path)
     try:
@@ -140,18 +140,18 @@ def read_case(path: str | Path) -> Design:
     return _named(_record(content, str(path)), str(path), paths=True)
 
 
-def parse_case(content: bytes, name: str) -> Design:
-    """The same for a file from another machine, which must not make this one open files of its own."""
+def parse_design(content: bytes, name: str) -> Design:
+    """The same for the content of an uploaded file, which may not name files of this machine."""
     record = _record(content, name)
     if "table:" in str(record.get("twist", "")):
-        raise ValueError(f"design file {name!r} names a twist table of another machine: give its rows as points:…@…")
+        raise ValueError(f"design file {name!r} names a twist table of another machine: write its rows as points:…@…")
     return _named(record, name)
 
 
 def _named(record: dict[str, Any], name: str, *, paths: bool = False) -> Design:
-    """As `design_of`; what is wrong is said of the file: several may be read at once."""
+    """As `design_from_record`, with the name of the file in the message, since several may be read at once."""
     try:
-        return design_of(record, paths=paths)
+        return design_from_record(record, paths=paths)
     except ValueError as error:
         raise ValueError(f"{name}: {error}") from None
 
@@ -162,31 +162,31 @@ def _record(content: bytes, name: str) -> dict[str, Any]:
     except (UnicodeDecodeError, json.JSONDecodeError) as error:
         raise ValueError(f"design file {name!r} cannot be read ({error}): give a JSON design file") from None
     if not isinstance(record, dict):
-        raise ValueError(f'design file {name!r} holds no JSON object: write {{"twist": "linear:-8", …}}')
+        raise ValueError(f'design file {name!r} is not a JSON object: write {{"twist": "linear:-8", …}}')
     return cast(dict[str, Any], record)
 
 
-def write_case(design: Design, path: str | Path) -> None:
+def write_design(design: Design, path: str | Path) -> None:
     """Write a design file."""
-    Path(path).write_text(json.dumps(case_of(design), indent=2) + "\n", encoding="utf-8")
+    Path(path).write_text(json.dumps(design_record(design), indent=2) + "\n", encoding="utf-8")
 
 
-def _number(case: dict[str, Any], key: str, default: Any) -> Any:
-    value = case.get(key, default)
+def _number(record: dict[str, Any], key: str, default: Any) -> Any:
+    value = record.get(key, default)
     if value is default or (isinstance(value, (int, float)) and not isinstance(value, bool)):
         return value
     raise ValueError(f"design file key {key!r} is {value!r}: give a number")
 
 
-def _text(case: dict[str, Any], key: str, default: str) -> str:
-    value = case.get(key, default)
+def _text(record: dict[str, Any], key: str, default: str) -> str:
+    value = record.get(key, default)
     if isinstance(value, str):
         return value
     raise ValueError(f"design file key {key!r} is {value!r}: give a text")
 
 
-def _flag(case: dict[str, Any], key: str, default: bool) -> bool:
-    value = case.get(key, default)
+def _flag(record: dict[str, Any], key: str, default: bool) -> bool:
+    value = record.get(key, default)
     if isinstance(value, bool):
         return value
     raise ValueError(f"design file key {key!r} is {value!r}: give true or false")

@@ -12,15 +12,14 @@ from itertools import pairwise
 from pathlib import Path
 from typing import Any, cast
 
-from rotor.airfoil.sections import OwnSection
-from rotor.airfoil.table import TABLE_NAMES
+from rotor.airfoil.sections import TABLE_NAMES, OwnSection
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.aircraft import HUBS, Aircraft, Hub, RotorFiles, Stated, TailRotor
 from rotor.design.blade import Blade, Rotor, Span
 from rotor.design.flight import Fuselage
 from rotor.design.twist import LinearTwist, TableTwist, TwistLaw
 from rotor.files.section_file import read_section
-from rotor.files.toml_table import Table, read_toml
+from rotor.files.toml_table import TomlTable, read_toml
 
 BAILEY_POLAR = (0.0087, -0.0216, 0.4)
 """c_d = δ0 + δ1 α + δ2 α² of Bailey, NACA Report 716 (1941): the textbook's section, for tail rotors without one."""
@@ -33,7 +32,7 @@ LARGEST_FILE = 2_000_000
 """[bytes] of a rotor file or of a file it names; a deck has some 40 000."""
 
 
-def named_files(top: Table) -> list[str]:
+def named_files(top: TomlTable) -> list[str]:
     """The section files a rotor file names, whatever else is wrong with it."""
     names: list[str] = []
     for own in _as_table(top.values.get("sections")).values():
@@ -87,7 +86,9 @@ def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraf
     return aircraft
 
 
-def _rotor(name: str, main: Table, given: Table, own: tuple[OwnSection, ...], twist_name: str, hub: Hub) -> Rotor:
+def _rotor(
+    name: str, main: TomlTable, given: TomlTable, own: tuple[OwnSection, ...], twist_name: str, hub: Hub
+) -> Rotor:
     radius = main.number("radius_m", low=0.1, high=30.0, unit="m")
     blades = main.count("blades", low=2, high=12)
     if hub != "articulated" and blades != 2:
@@ -105,7 +106,7 @@ def _rotor(name: str, main: Table, given: Table, own: tuple[OwnSection, ...], tw
     )
 
 
-def _stated(name: str, main: Table, flown: Rotor, own: tuple[OwnSection, ...], hub: Hub) -> Stated | None:
+def _stated(name: str, main: TomlTable, flown: Rotor, own: tuple[OwnSection, ...], hub: Hub) -> Stated | None:
     document = main.table("document", None)
     if document is None:
         return None
@@ -115,7 +116,7 @@ def _stated(name: str, main: Table, flown: Rotor, own: tuple[OwnSection, ...], h
     return Stated(replace(flown, name=name, blade=blade), twist)
 
 
-def _angular_speed(main: Table, radius: float) -> float:
+def _angular_speed(main: TomlTable, radius: float) -> float:
     given = [key for key in ("angular_speed_rad_s", "speed_rpm", "tip_speed_m_s") if main.has(key)]
     if len(given) > 1:
         raise main.fail(given[1], f"{given[0]} and {given[1]} say the same: keep one of them")
@@ -126,7 +127,7 @@ def _angular_speed(main: Table, radius: float) -> float:
     return main.number("angular_speed_rad_s", low=1.0, high=1000.0, unit="rad/s")
 
 
-def _blade(main: Table, given: Table, radius: float, own: tuple[OwnSection, ...], hub: Hub) -> Blade:
+def _blade(main: TomlTable, given: TomlTable, radius: float, own: tuple[OwnSection, ...], hub: Hub) -> Blade:
     root = main.number("root_cutout_r", low=0.02, high=0.8, unit="r/R")
     hinge = given.number("flap_hinge_m", 0.0, low=0.0, high=0.3 * radius, unit="m")
     if hub != "articulated" and hinge:
@@ -150,7 +151,7 @@ def _blade(main: Table, given: Table, radius: float, own: tuple[OwnSection, ...]
     )
 
 
-def _masses(given: Table, length: float) -> tuple[float, float, float]:
+def _masses(given: TomlTable, length: float) -> tuple[float, float, float]:
     """Mass, flap inertia and static moment about the hinge; of a uniform blade where only its mass is given."""
     if given.has("mass_per_length_kg_m"):
         mass = given.number("mass_per_length_kg_m", low=0.05, high=200.0, unit="kg/m") * length
@@ -164,7 +165,7 @@ def _masses(given: Table, length: float) -> tuple[float, float, float]:
     )
 
 
-def _spans(given: Table, root: float, own: tuple[OwnSection, ...]) -> tuple[Span, ...]:
+def _spans(given: TomlTable, root: float, own: tuple[OwnSection, ...]) -> tuple[Span, ...]:
     if given.has("section"):
         return (Span(root, 1.0, _known(given, given.string("section"), own)),)
     spans: list[Span] = []
@@ -180,7 +181,7 @@ def _spans(given: Table, root: float, own: tuple[OwnSection, ...]) -> tuple[Span
     return tuple(spans)
 
 
-def _known(table: Table, section: str, own: tuple[OwnSection, ...]) -> str:
+def _known(table: TomlTable, section: str, own: tuple[OwnSection, ...]) -> str:
     if section in TABLE_NAMES or any(section == one.name for one in own):
         return section
     raise table.fail(
@@ -190,7 +191,7 @@ def _known(table: Table, section: str, own: tuple[OwnSection, ...]) -> str:
     )
 
 
-def _twist(given: Table, name: str) -> TwistLaw:
+def _twist(given: TomlTable, name: str) -> TwistLaw:
     if given.has("linear_twist_deg"):
         return LinearTwist(math.radians(given.number("linear_twist_deg", low=-60.0, high=60.0, unit="° per radius")))
     stations = given.numbers("twist_r", low=0.0, high=1.0)
@@ -199,7 +200,7 @@ def _twist(given: Table, name: str) -> TwistLaw:
     return TableTwist(stations, tuple(math.radians(angle) for angle in angles), name=name)
 
 
-def _ascending(table: Table, place: str, stations: tuple[float, ...], key: str, values: tuple[float, ...]) -> None:
+def _ascending(table: TomlTable, place: str, stations: tuple[float, ...], key: str, values: tuple[float, ...]) -> None:
     if len(stations) != len(values) or len(stations) < 2:
         raise table.fail(key, f"{place} has {len(stations)} and {key} {len(values)} values: give one each, two or more")
     for low, high in pairwise(stations):
@@ -207,7 +208,7 @@ def _ascending(table: Table, place: str, stations: tuple[float, ...], key: str, 
             raise table.fail(place, f"{place} goes from {low:g} to {high:g}: let the stations ascend from root to tip")
 
 
-def _tail_rotor(tail: Table) -> TailRotor:
+def _tail_rotor(tail: TomlTable) -> TailRotor:
     radius = tail.number("radius_m", low=0.05, high=10.0, unit="m")
     chord = tail.number("chord_m", low=0.005, high=2.0, unit="m")
     polar = tail.numbers("drag_polar", BAILEY_POLAR, low=-10.0, high=10.0)
@@ -229,7 +230,7 @@ def _tail_rotor(tail: Table) -> TailRotor:
 
 
 def _own_sections(
-    top: Table, texts: Mapping[str, str], used: dict[str, str], remarks: list[str]
+    top: TomlTable, texts: Mapping[str, str], used: dict[str, str], remarks: list[str]
 ) -> tuple[OwnSection, ...]:
     sections = top.table("sections", None)
     if sections is None:

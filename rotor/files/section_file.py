@@ -5,23 +5,20 @@ import re
 from collections.abc import Mapping
 from itertools import pairwise
 
-from rotor.airfoil.build.assemble import assemble_deck
 from rotor.airfoil.build.compressibility import NATIVE_MACH_LIMIT, SectionTraits
-from rotor.airfoil.build.xfoil_file import parse_polar_file
+from rotor.airfoil.build.decks import assemble_deck
 from rotor.airfoil.c81 import format_c81
-from rotor.airfoil.contour import SECTION_NAMES, load_contour, parse_contour, thickness_and_camber
-from rotor.airfoil.naca import is_naca
-from rotor.airfoil.polars import Polar
-from rotor.airfoil.sections import OwnSection, install_own
-from rotor.airfoil.table import TABLE_NAMES
-from rotor.files.toml_table import Table
+from rotor.airfoil.contour import SECTION_NAMES, is_naca, load_contour, parse_contour, thickness_and_camber
+from rotor.airfoil.polars import Polar, parse_polar_file
+from rotor.airfoil.sections import TABLE_NAMES, OwnSection, install_own
+from rotor.files.toml_table import TomlTable
 
 UNKNOWN_OUTLINE = "naca0012"
 """What a section without an outline is drawn as."""
 
 
 def read_section(
-    table: Table, name: str, texts: Mapping[str, str], used: dict[str, str], remarks: list[str]
+    table: TomlTable, name: str, texts: Mapping[str, str], used: dict[str, str], remarks: list[str]
 ) -> OwnSection:
     """The section `[sections.name]`; notes the texts it used and what it had to assume.
 
@@ -58,7 +55,7 @@ def read_section(
 
 
 def _outline(
-    table: Table, name: str, texts: Mapping[str, str], used: dict[str, str], remarks: list[str]
+    table: TomlTable, name: str, texts: Mapping[str, str], used: dict[str, str], remarks: list[str]
 ) -> tuple[str, float]:
     """The outline as `OwnSection` keeps it, and t/c, given or measured on it."""
     given = table.string("outline", None)
@@ -76,7 +73,7 @@ def _outline(
     return outline, table.number("thickness", measured, low=0.02, high=0.4, unit="of the chord")
 
 
-def _deck_of(table: Table, name: str, polars: list[Polar], thickness: float, remarks: list[str]) -> str:
+def _deck_of(table: TomlTable, name: str, polars: list[Polar], thickness: float, remarks: list[str]) -> str:
     """A C81 deck of XFOIL polars, one a Mach number."""
     machs = sorted(polar.mach for polar in polars)
     twice = [mach for mach, after in pairwise(machs) if after - mach < 0.01]
@@ -105,7 +102,7 @@ def _deck_of(table: Table, name: str, polars: list[Polar], thickness: float, rem
     return format_c81(deck)
 
 
-def _file(table: Table, key: str, name: str, texts: Mapping[str, str], used: dict[str, str]) -> str:
+def _file(table: TomlTable, key: str, name: str, texts: Mapping[str, str], used: dict[str, str]) -> str:
     if name not in texts:
         raise table.fail(
             key, f"{key} names {name!r}, which is not there: put it beside the rotor file, on the page load it too"

@@ -1,6 +1,8 @@
 """One table of a TOML file, read key by key, with messages that name file, line, value and remedy.
 
 tomllib gives line numbers for broken syntax only; for a bad value the line is found by looking for its key.
+Own code, because msgspec 0.22 reports neither line, value, unit nor more than one bound: with a translation of its
+messages, and one type per table, the rotor and section files took as many lines (about 580) and lost the units.
 """
 
 import difflib
@@ -16,19 +18,19 @@ REQUIRED: Any = object()
 
 
 @dataclass
-class Table:
-    """A table's values, and which of its keys were asked for: `finish` refuses the rest."""
+class TomlTable:
+    """The values of a table, and the keys read so far: `finish` rejects all others."""
 
     file: str
     text: str
     path: tuple[str, ...]
     values: dict[str, Any]
     index: int = 0
-    """Its place in a list of tables."""
-    asked: set[str] = field(default_factory=set[str])
+    """Position in a list of tables."""
+    used: set[str] = field(default_factory=set[str])
 
     def fail(self, key: str | None, what: str) -> ValueError:
-        """The error to raise: file and line, then a sentence that names key and remedy."""
+        """The error to raise: file and line, then a sentence with key, value and remedy."""
         line = find_line(self.text, self.path, key, self.index)
         return ValueError(f"{self.file}{f', line {line}' if line else ''}: {what}")
 
@@ -97,27 +99,27 @@ class Table:
             return value
         if not isinstance(value, dict):
             raise self.fail(key, f"{key} is {value!r}, not a table: begin it with [{'.'.join((*self.path, key))}]")
-        return Table(self.file, self.text, (*self.path, key), cast(dict[str, Any], value))
+        return TomlTable(self.file, self.text, (*self.path, key), cast(dict[str, Any], value))
 
-    def tables(self, key: str, example: str) -> list["Table"]:
+    def tables(self, key: str, example: str) -> list["TomlTable"]:
         """A list of tables, written inline or as [[… .key]]."""
         value = self._take(key, REQUIRED, f"add {key} = [{example}]")
         items = cast(list[Any], value if isinstance(value, list) else [value])
         if not items or not all(isinstance(item, dict) for item in items):
-            raise self.fail(key, f"{key} is no list of tables: write {key} = [{example}]")
+            raise self.fail(key, f"{key} is not a list of tables: write {key} = [{example}]")
         path = (*self.path, key)
-        return [Table(self.file, self.text, path, cast(dict[str, Any], item), k) for k, item in enumerate(items)]
+        return [TomlTable(self.file, self.text, path, cast(dict[str, Any], item), k) for k, item in enumerate(items)]
 
     def finish(self) -> None:
-        """Refuse keys that nobody asked for: a misspelt key must not be passed over in silence."""
+        """Reject keys that were not read: a misspelt key must not be ignored."""
         for key in self.values:
-            if key not in self.asked:
-                known = sorted(self.asked)
+            if key not in self.used:
+                known = sorted(self.used)
                 remedy = _near(key, known) or f": the keys are {', '.join(known)}"
                 raise self.fail(key, f"unknown key {key!r}{remedy}")
 
     def _take(self, key: str, default: Any, remedy: str) -> Any:
-        self.asked.add(key)
+        self.used.add(key)
         if key in self.values:
             return self.values[key]
         if default is REQUIRED:
@@ -133,23 +135,23 @@ class Table:
             )
 
 
-def read_toml(file: str, text: str) -> Table:
-    """The file's top table; ValueError with line and remedy for text that is no TOML."""
+def read_toml(file: str, text: str) -> TomlTable:
+    """The file's top table; ValueError with line and remedy for text that is not TOML."""
     try:
-        return Table(file, text, (), tomllib.loads(text))
+        return TomlTable(file, text, (), tomllib.loads(text))
     except tomllib.TOMLDecodeError as error:
         what = str(error)
         found = re.search(r" \(at (?:line (\d+), column \d+|end of document)\)$", what)
         line = found[1] if found else None
         reason = what[: found.start()] if found else what
         place = f", line {line}" if line else ", at its end" if found else ""
-        raise ValueError(f"{file}{place}: this is no TOML ({reason}): write key = value, texts in quotes") from None
+        raise ValueError(f"{file}{place}: this is not TOML ({reason}): write key = value, texts in quotes") from None
 
 
 def find_line(text: str, path: tuple[str, ...], key: str | None, index: int = 0) -> int | None:
-    """The line that sets `key` in the table `path`, the `index`-th of its name; else that table's own line, or None.
+    """The line that sets `key` in the table `path`, the `index`-th of that name; else the line of the table, or None.
 
-    A key inside an inline table stands below the header of the table around it.
+    The keys of an inline table stand below the header of the table around it.
     """
     header: tuple[str, ...] = ()
     keys: list[int] = []

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotor.aero import kernel
-from rotor.aero.elements import Pass, Problem
-from rotor.airfoil.table import MACH_STEP
+from rotor.aero.elements import BladeElements, Problem
+from rotor.airfoil.bicubic import MACH_STEP
 from rotor.arrays import Array
 from rotor.design.twist import TwistLaw
 from rotor.optimisation.concepts import Concept, Parameter, Values
@@ -121,32 +121,32 @@ REVERSE_WIDTH = 0.02
 
 def stalled_share(adjoint: Adjoint) -> tuple[float, Array]:
     """Stalled part of πR² (0…1), reverse flow not counted, and its gradient by each element's pitch [1/rad]."""
-    problem, one = adjoint.problem, adjoint.one
+    problem, elements = adjoint.problem, adjoint.elements
     disk = problem.disk
     ring = 2.0 * disk.r[:, None] * disk.dr / len(disk.psi)
-    margin, by_alpha, by_mach = _margin(problem, one)
+    margin, by_alpha, by_mach = _margin(problem, elements)
     counted = 0.5 * (1.0 - np.tanh(0.5 * margin / WIDTH))
     by_margin = -counted * (1.0 - counted) / WIDTH
-    x = np.clip(one.u_t / REVERSE_WIDTH, 0.0, 1.0)
+    x = np.clip(elements.u_t / REVERSE_WIDTH, 0.0, 1.0)
     window, window_slope = x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x) / REVERSE_WIDTH
 
     # α = θ − atan2(U_P, U_T), M = U·M_tip.
-    square = one.u_t**2 + one.u_p**2 + 1e-30
-    over_t, over_p = one.u_t / square, one.u_p / square
-    mach = one.loads[kernel.MACH]
+    square = elements.u_t**2 + elements.u_p**2 + 1e-30
+    over_t, over_p = elements.u_t / square, elements.u_p / square
+    mach = elements.loads[kernel.MACH]
     slope = ring * window * by_margin
     weights = Weights(
-        pitch=slope * by_alpha,
-        across=slope * (by_alpha * over_p + by_mach * mach * over_t) + ring * window_slope * counted,
-        down=slope * (-by_alpha * over_t + by_mach * mach * over_p),
+        theta=slope * by_alpha,
+        u_t=slope * (by_alpha * over_p + by_mach * mach * over_t) + ring * window_slope * counted,
+        u_p=slope * (-by_alpha * over_t + by_mach * mach * over_p),
     )
     return float((ring * window * counted).sum()), adjoint.by_pitch(weights)
 
 
-def _margin(problem: Problem, one: Pass) -> tuple[Array, Array, Array]:
+def _margin(problem: Problem, elements: BladeElements) -> tuple[Array, Array, Array]:
     """Angle of attack left before stall [rad], and its slopes by α and Mach: `kernel.stall_margins` differentiated."""
     disk = problem.disk
-    alpha, mach = one.loads[kernel.ALPHA], one.loads[kernel.MACH]
+    alpha, mach = elements.loads[kernel.ALPHA], elements.loads[kernel.MACH]
     top = disk.stall.shape[2] - 1
     x = np.minimum(mach / MACH_STEP, top - 1e-9)
     k = x.astype(np.int64)

@@ -14,6 +14,7 @@ from rotor.design.design import Design
 from rotor.design.flight import FlightCondition
 from rotor.optimisation.limits import stalled_share
 from rotor.trim.adjoint import Adjoint, power_along
+from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -104,6 +105,7 @@ def measure(
     *,
     gradient: bool = True,
     stall: bool = False,
+    options: SolverOptions = DEFAULT_OPTIONS,
 ) -> Measured:
     """Trim the design on every condition; power, and its exact gradient by pitch along the blade.
 
@@ -116,7 +118,7 @@ def measure(
     stalled_by_pitch: list[Array] = []
     for k, (condition, share) in enumerate(zip(objective.conditions, objective.shares, strict=True)):
         start = starts[k] if k < len(starts) else None
-        solution = solve(replace(design, condition=condition.flight), start)
+        solution = solve(replace(design, condition=condition.flight), start, options)
         solutions.append(solution)
         if not solution.converged:
             return Measured(None, None, (), None, tuple(solutions))

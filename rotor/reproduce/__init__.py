@@ -6,5 +6,5 @@ Chapters 4–6 of the document are known to us by their captions only, so nothin
 
 from rotor.reproduce.catalogue import ENTRIES as ENTRIES
 from rotor.reproduce.catalogue import find_entry as find_entry
+from rotor.reproduce.report import Agreement as Agreement
 from rotor.reproduce.report import Report as Report
-from rotor.reproduce.report import Verdict as Verdict

@@ -13,11 +13,10 @@ from rotor.actuator.placement import Host, default_placement
 from rotor.design.twist import PiecewiseLinearTwist
 from rotor.files.make_design import uh60a_rotor
 from rotor.optimisation.concepts import find_concept
-from rotor.reproduce.electrodes import sheet
+from rotor.reproduce.actuator_sheets import sheet
 from rotor.reproduce.optimum_twist import UNKNOWN
-from rotor.reproduce.remember import Remembered
-from rotor.reproduce.report import Curve, Panel, Report, Style, Table, Verdict, curve, table
-from rotor.reproduce.runs import variant
+from rotor.reproduce.report import Agreement, Curve, CurveStyle, PlotPanel, Report, ReportTable, curve, table
+from rotor.reproduce.runs import CachedFunction, variant
 
 SPEEDS = (0.0, 0.3)
 """The two flight conditions of Table 5.2."""
@@ -27,7 +26,7 @@ BLADES: dict[str, tuple[int, Host]] = {
     "flown blade, 4 plies": (4, Host()),
     "new blade, GJ/2, 2 plies": (2, Host("new", 0.5)),
 }
-STYLES: dict[str, Style] = {"outline": "thin", "ply": "line"}
+STYLES: dict[str, CurveStyle] = {"outline": "thin", "ply": "line"}
 """Of the parts of a section that are too thin to fill."""
 
 
@@ -61,18 +60,18 @@ def figure_5_8() -> Report:
         ours=f"Active from {placement.span[0]:.2f} to {placement.span[1]:.2f} R and {placement.chord[0]:.2f} to "
         f"{placement.chord[1]:.2f} c, both skins, 2 plies: {masses.actuator:.1f} kg of plies, {masses.wiring:.1f} kg "
         f"of leads and {masses.balance:.1f} kg of nose weight on a blade.",
-        verdict=Verdict.ALONE,
+        verdict=Agreement.ALONE,
         because="The de-ice mat keeps plies off the nose, the pressurised spar keeps leads out of it; assets/"
         "uh60a_structure.toml names the sources.",
         tables=(table("layout", ("part", "start_r", "end_r"), rows),),
-        panels=(Panel("r/R", "from the quarter chord [c]", tuple(curves), y_limits=(-1.75, 0.4)),),
+        panels=(PlotPanel("r/R", "from the quarter chord [c]", tuple(curves), y_limits=(-1.75, 0.4)),),
         numbers={"box_end": box[1], "active_start": placement.span[0], "ply_kg": masses.actuator},
     )
 
 
 def figure_5_9() -> Report:
     """The section with its actuators."""
-    panels: list[Panel] = []
+    panels: list[PlotPanel] = []
     rows: list[tuple[str | float, ...]] = []
     for title, host in (("flown blade: plies on the spar and the aft skin", Host()),
                         ("new blade: plies in its torsion box", Host("new", 0.5))):  # fmt: skip
@@ -87,7 +86,7 @@ def figure_5_9() -> Report:
             style = STYLES.get(part.role, "fill")
             curves.append(curve(label, points[:, 0], points[:, 1], style, colour=(7, 0, 5, 6, 1)[colour]))
             rows += [(host.label, part.label, y, z) for y, z in points]
-        panels.append(Panel("x/c", "z/c", tuple(curves), title=title, equal=True))
+        panels.append(PlotPanel("x/c", "z/c", tuple(curves), title=title, equal=True))
     installed = fitted_blade(2, Host())
     return Report(
         number="5.9",
@@ -96,7 +95,7 @@ def figure_5_9() -> Report:
         statement=UNKNOWN,
         ours=f"On the flown blade the section, plies included, has GJ {1e-3 * installed.section_stiffness:.1f} kN·m²; "
         f"the whole voltage range twists it as {installed.moment:.0f} N·m would.",
-        verdict=Verdict.ALONE,
+        verdict=Agreement.ALONE,
         because="Contour from the section's own coordinates, wall thickness calibrated on the published GJ.",
         tables=(table("outlines", ("blade", "part", "x_c", "z_c"), rows),),
         panels=tuple(panels),
@@ -126,13 +125,13 @@ def figure_5_10() -> Report:
         ours="Root to tip over the whole range: "
         + "; ".join(f"{name}: {value:.2f}°" for name, value in numbers.items())
         + ".",
-        verdict=Verdict.ALONE,
+        verdict=Agreement.ALONE,
         because="Thin-walled laminate section (Bredt–Batho) on a rotating beam in torsion; finite elements of the "
         "section agree within 2 % (tests/rotor/actuator/test_actuator_fem.py). "
         "With the low end of the maker's strain and what one "
         f"tested blade showed of its model, count on {100 * derating(sheet('MFC_P1')):.0f} %.",
         tables=(table("twist", ("blade", "r", f"at_{high:.0f}_v_deg", f"at_{low:.0f}_v_deg"), rows),),
-        panels=(Panel("r/R", "twist [°]", tuple(curves)),),
+        panels=(PlotPanel("r/R", "twist [°]", tuple(curves)),),
         numbers=numbers,
     )
 
@@ -146,14 +145,14 @@ def table_5_1() -> Report:
         caption="Properties of the actuators that this package knows; columns and choice are ours.",
         statement=UNKNOWN,
         ours=f"{len(made.rows)} actuators. " + " ".join(made.notes),
-        verdict=Verdict.ALONE,
+        verdict=Agreement.ALONE,
         because="Each number carries its source and grade in assets/actuators.toml.",
         tables=(_as_table("properties", made),),
         numbers={"actuators": float(len(made.rows))},
     )
 
 
-@Remembered
+@CachedFunction
 def compared(name: str) -> actuator_tables.ActuatorTable:
     """Table 5.2 of one variant: four optima a concept, and the reach of six actuators."""
     return actuator_tables.table_5_2(ConditionPair(variant(name, mu=SPEEDS[0]), SPEEDS))
@@ -173,19 +172,19 @@ def table_5_2() -> Report:
         statement=UNKNOWN,
         ours=f"{sum(gain > 0.0 for gain in gains)} of {len(gains)} pay. The least loss is {best[0]} with the "
         f"{best[1]} concept: {best[net]} kW net. {made.notes[1]}",
-        verdict=Verdict.ALONE,
+        verdict=Agreement.ALONE,
         because=made.notes[0],
         tables=(_as_table("verdicts", made),),
         numbers={"largest_net_kw": max(gains), "rows": float(len(gains))},
     )
 
 
-def _as_table(name: str, made: actuator_tables.ActuatorTable) -> Table:
+def _as_table(name: str, made: actuator_tables.ActuatorTable) -> ReportTable:
     return table(name, made.columns, made.rows)
 
 
 def _box(
-    label: str, along: tuple[float, float], across: tuple[float, float], colour: int, style: Style = "line"
+    label: str, along: tuple[float, float], across: tuple[float, float], colour: int, style: CurveStyle = "line"
 ) -> Curve:
     (a, b), (c, d) = along, across
     return curve(label, (a, b, b, a, a), (c, c, d, d, c), style, colour=colour)

@@ -9,7 +9,7 @@ import numpy as np
 
 from rotor.assets import asset_path
 from rotor.files.make_design import make_design, uh60a_data
-from rotor.reproduce.report import Panel, Report, Verdict, curve, judged, table
+from rotor.reproduce.report import Agreement, PlotPanel, Report, curve, judged, table
 from rotor.reproduce.runs import solved
 from rotor.trim.solve import solve
 from rotor.units import KNOT
@@ -95,7 +95,7 @@ def tail_rotor() -> Report:
         "induced power down. The mean is near the document's number.",
         tables=(table("tail", ("mu", "main_rotor_kw", "tail_rotor_kw", "share_percent"), rows),),
         panels=(
-            Panel(
+            PlotPanel(
                 "advance ratio µ", "tail over main rotor [%]",
                 (
                     curve("ours, solved", TAIL_SPEEDS, [100 * s for s in shares], "both"),
@@ -130,7 +130,7 @@ def figure_3_10() -> Report:
         f"{100 * (ratio[moving].mean() - 1):+.1f} % in the mean, {100 * error:.1f} % rms. Hover: flight "
         f"{100 * (hover_ratio.min() - 1):+.0f}…{100 * (hover_ratio.max() - 1):+.0f} % from ten digitised points. "
         f"Least total power at µ {bucket['flight']:g} (flight), {bucket['thesis']:g} (thesis).",
-        verdict=Verdict.INDICATIVE,
+        verdict=Agreement.INDICATIVE,
         because="The thesis preset lies below the flight preset everywhere: free transition, one Mach number and "
         "linear inflow leave out drag and uneven induced power; agreement with flight test cannot be judged without "
         "its points.",
@@ -147,12 +147,12 @@ def figure_3_10() -> Report:
             ),
         ),
         panels=(
-            Panel(
+            PlotPanel(
                 "advance ratio µ", "total power [kW]",
                 tuple(curve(f"{name}, {_twist(name)}", SPEEDS, total[name], colour=k) for k, name in enumerate(_NAMES)),
                 title="8322.4 kg, sea level",
             ),
-            Panel(
+            PlotPanel(
                 "advance ratio µ", "main-rotor power [kW]",
                 (
                     *(curve(name, rotor_speeds, ours[name], colour=k) for k, name in enumerate(_NAMES)),
@@ -160,7 +160,7 @@ def figure_3_10() -> Report:
                 ),
                 title="7257.5 kg, 1600 m",
             ),
-            Panel(
+            PlotPanel(
                 "C_T/σ (σ = 0.0826)", "C_P/σ",
                 (
                     curve("flight", hover_ct, hover_ours),

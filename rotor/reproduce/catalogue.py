@@ -5,29 +5,23 @@ from dataclasses import dataclass
 
 from rotor.reproduce import (
     actuated_blade,
+    actuator_sheets,
     aircraft,
-    beside_data,
     comparison,
-    electrodes,
-    fits,
-    five_twists,
     flown_blade,
-    free_strain,
     grids,
-    hover_twists,
-    keys,
     optimum_twist,
     sections,
+    twist_effect,
     velocities,
 )
 from rotor.reproduce.optima import CONCEPTS, FULL, best_fixed, searches
-from rotor.reproduce.remember import Call
 from rotor.reproduce.report import Report
-from rotor.reproduce.runs import EVERY_VARIANT, choices
+from rotor.reproduce.runs import EVERY_VARIANT, Call, choices
 
 
 @dataclass(frozen=True)
-class Entry:
+class CatalogueEntry:
     """One figure or table and what makes it."""
 
     number: str
@@ -55,7 +49,7 @@ def _compared(name: str) -> Sequence[Call]:
 
 
 def _beside_data(name: str) -> Sequence[Call]:
-    return [(beside_data.three_beside, (name, FULL))]
+    return [(flown_blade.three_segment_rows, (name, FULL))]
 
 
 _SECTIONS = "2 Background"
@@ -65,60 +59,60 @@ _TWIST = "3.3 Effect of blade twist on main-rotor power"
 _OPTIMUM = "4 Results"
 _CONCEPT = "5 Concept"
 
-ENTRIES: tuple[Entry, ...] = (
-    Entry("2.3", sections.figure_2_3, _SECTIONS),
-    Entry("2.4", sections.figure_2_4, _SECTIONS),
-    Entry("2.6", velocities.figure_2_6, _SECTIONS),
-    Entry("2.7", velocities.figure_2_7, _SECTIONS),
-    Entry("2.8", velocities.figure_2_8, _SECTIONS),
-    Entry("3.1", sections.figure_3_1, _MODEL),
-    Entry("3.2", sections.figure_3_2, _MODEL),
-    Entry("3.3", fits.figure_3_3, _MODEL),
-    Entry("3.4", fits.figure_3_4, _MODEL),
-    Entry("3.5", fits.figure_3_5, _MODEL),
-    Entry("3.6", fits.figure_3_6, _MODEL),
-    Entry("3.7", grids.figure_3_7, _MODEL),
-    Entry("3.8", grids.figure_3_8, _MODEL),
-    Entry("3.9", grids.figure_3_9, _MODEL),
-    Entry("table 3.1", aircraft.table_3_1, _AIRCRAFT),
-    Entry("table 3.2", aircraft.table_3_2, _AIRCRAFT),
-    Entry("tail rotor", aircraft.tail_rotor, _AIRCRAFT),
-    Entry("3.10", aircraft.figure_3_10, _AIRCRAFT),
-    Entry("3.11", hover_twists.figure_3_11, _TWIST),
-    Entry("3.12", five_twists.figure_3_12, _TWIST),
-    Entry("3.13", five_twists.figure_3_13, _TWIST),
-    Entry("3.14", five_twists.figure_3_14, _TWIST),
-    Entry("3.15", five_twists.figure_3_15, _TWIST),
-    Entry("keys 1987", keys.keys_1987, _TWIST),
-    Entry("4.1", optimum_twist.figure_4_1, _OPTIMUM, _of("linear")),
-    Entry("4.2", optimum_twist.figure_4_2, _OPTIMUM, _of("quadratic")),
-    Entry("4.3", optimum_twist.figure_4_3, _OPTIMUM, _of("quadratic")),
-    Entry("4.4", optimum_twist.figure_4_4, _OPTIMUM, _of("two 40-60")),
-    Entry("4.5", optimum_twist.figure_4_5, _OPTIMUM, _of("two 50-50")),
-    Entry("4.6", optimum_twist.figure_4_6, _OPTIMUM, _of("two 60-40")),
-    Entry("4.7", optimum_twist.figure_4_7, _OPTIMUM, _of("two 70-30")),
-    Entry("4.8", optimum_twist.figure_4_8, _OPTIMUM, _of("two airfoils")),
-    Entry("4.9", flown_blade.figure_4_9, _OPTIMUM),
-    Entry("4.10", optimum_twist.figure_4_10, _OPTIMUM, _of("three")),
-    Entry("4.11", flown_blade.figure_4_11, _OPTIMUM),
-    Entry("4.12", beside_data.figure_4_12, _OPTIMUM, _beside_data),
-    Entry("4.13", comparison.figure_4_13, _OPTIMUM, _of(*CONCEPTS)),
-    Entry("table 4.1", comparison.table_4_1, _OPTIMUM, _all_and_fixed),
-    Entry("5.2", electrodes.figure_5_2, _CONCEPT),
-    Entry("5.3", electrodes.figure_5_3, _CONCEPT),
-    Entry("5.4", electrodes.figure_5_4, _CONCEPT),
-    Entry("5.5", free_strain.figure_5_5, _CONCEPT),
-    Entry("5.6", free_strain.figure_5_6, _CONCEPT),
-    Entry("5.7", free_strain.figure_5_7, _CONCEPT),
-    Entry("5.8", actuated_blade.figure_5_8, _CONCEPT),
-    Entry("5.9", actuated_blade.figure_5_9, _CONCEPT),
-    Entry("5.10", actuated_blade.figure_5_10, _CONCEPT),
-    Entry("table 5.1", actuated_blade.table_5_1, _CONCEPT),
-    Entry("table 5.2", actuated_blade.table_5_2, _CONCEPT, _compared),
+ENTRIES: tuple[CatalogueEntry, ...] = (
+    CatalogueEntry("2.3", sections.figure_2_3, _SECTIONS),
+    CatalogueEntry("2.4", sections.figure_2_4, _SECTIONS),
+    CatalogueEntry("2.6", velocities.figure_2_6, _SECTIONS),
+    CatalogueEntry("2.7", velocities.figure_2_7, _SECTIONS),
+    CatalogueEntry("2.8", velocities.figure_2_8, _SECTIONS),
+    CatalogueEntry("3.1", sections.figure_3_1, _MODEL),
+    CatalogueEntry("3.2", sections.figure_3_2, _MODEL),
+    CatalogueEntry("3.3", sections.figure_3_3, _MODEL),
+    CatalogueEntry("3.4", sections.figure_3_4, _MODEL),
+    CatalogueEntry("3.5", sections.figure_3_5, _MODEL),
+    CatalogueEntry("3.6", sections.figure_3_6, _MODEL),
+    CatalogueEntry("3.7", grids.figure_3_7, _MODEL),
+    CatalogueEntry("3.8", grids.figure_3_8, _MODEL),
+    CatalogueEntry("3.9", grids.figure_3_9, _MODEL),
+    CatalogueEntry("table 3.1", aircraft.table_3_1, _AIRCRAFT),
+    CatalogueEntry("table 3.2", aircraft.table_3_2, _AIRCRAFT),
+    CatalogueEntry("tail rotor", aircraft.tail_rotor, _AIRCRAFT),
+    CatalogueEntry("3.10", aircraft.figure_3_10, _AIRCRAFT),
+    CatalogueEntry("3.11", twist_effect.figure_3_11, _TWIST),
+    CatalogueEntry("3.12", twist_effect.figure_3_12, _TWIST),
+    CatalogueEntry("3.13", twist_effect.figure_3_13, _TWIST),
+    CatalogueEntry("3.14", twist_effect.figure_3_14, _TWIST),
+    CatalogueEntry("3.15", twist_effect.figure_3_15, _TWIST),
+    CatalogueEntry("keys 1987", twist_effect.keys_1987, _TWIST),
+    CatalogueEntry("4.1", optimum_twist.figure_4_1, _OPTIMUM, _of("linear")),
+    CatalogueEntry("4.2", optimum_twist.figure_4_2, _OPTIMUM, _of("quadratic")),
+    CatalogueEntry("4.3", optimum_twist.figure_4_3, _OPTIMUM, _of("quadratic")),
+    CatalogueEntry("4.4", optimum_twist.figure_4_4, _OPTIMUM, _of("two 40-60")),
+    CatalogueEntry("4.5", optimum_twist.figure_4_5, _OPTIMUM, _of("two 50-50")),
+    CatalogueEntry("4.6", optimum_twist.figure_4_6, _OPTIMUM, _of("two 60-40")),
+    CatalogueEntry("4.7", optimum_twist.figure_4_7, _OPTIMUM, _of("two 70-30")),
+    CatalogueEntry("4.8", optimum_twist.figure_4_8, _OPTIMUM, _of("two airfoils")),
+    CatalogueEntry("4.9", flown_blade.figure_4_9, _OPTIMUM),
+    CatalogueEntry("4.10", optimum_twist.figure_4_10, _OPTIMUM, _of("three")),
+    CatalogueEntry("4.11", flown_blade.figure_4_11, _OPTIMUM),
+    CatalogueEntry("4.12", flown_blade.figure_4_12, _OPTIMUM, _beside_data),
+    CatalogueEntry("4.13", comparison.figure_4_13, _OPTIMUM, _of(*CONCEPTS)),
+    CatalogueEntry("table 4.1", comparison.table_4_1, _OPTIMUM, _all_and_fixed),
+    CatalogueEntry("5.2", actuator_sheets.figure_5_2, _CONCEPT),
+    CatalogueEntry("5.3", actuator_sheets.figure_5_3, _CONCEPT),
+    CatalogueEntry("5.4", actuator_sheets.figure_5_4, _CONCEPT),
+    CatalogueEntry("5.5", actuator_sheets.figure_5_5, _CONCEPT),
+    CatalogueEntry("5.6", actuator_sheets.figure_5_6, _CONCEPT),
+    CatalogueEntry("5.7", actuator_sheets.figure_5_7, _CONCEPT),
+    CatalogueEntry("5.8", actuated_blade.figure_5_8, _CONCEPT),
+    CatalogueEntry("5.9", actuated_blade.figure_5_9, _CONCEPT),
+    CatalogueEntry("5.10", actuated_blade.figure_5_10, _CONCEPT),
+    CatalogueEntry("table 5.1", actuated_blade.table_5_1, _CONCEPT),
+    CatalogueEntry("table 5.2", actuated_blade.table_5_2, _CONCEPT, _compared),
 )
 
 
-def find_entry(number: str) -> Entry:
+def find_entry(number: str) -> CatalogueEntry:
     """The entry of that number, or of the title printed for it; ValueError with the numbers there are."""
     wanted = number.strip().lower().removeprefix("figure ")
     for entry in ENTRIES:
@@ -127,7 +121,7 @@ def find_entry(number: str) -> Entry:
     raise ValueError(f"figure {number!r} cannot be rebuilt: choose one of {', '.join(e.number for e in ENTRIES)}")
 
 
-def searches_of(entries: Sequence[Entry]) -> list[list[Call]]:
+def searches_of(entries: Sequence[CatalogueEntry]) -> list[list[Call]]:
     """All that the entries rest on, a list a variant, the slowest inflow model first."""
     order = sorted(EVERY_VARIANT, key=lambda name: choices(name)[1] != "vortex-wake")
     return [

@@ -1,15 +1,14 @@
 """Figure 4.13 and Table 4.1: all concepts side by side, and how much of their saving a fixed blade would have."""
 
-from rotor.reproduce import every_inflow
 from rotor.reproduce.optima import CONCEPTS, FULL, Scope, best, best_fixed
-from rotor.reproduce.optimum_twist import SHORT, UNKNOWN, Variants
-from rotor.reproduce.report import Curve, Panel, Report, Table, Verdict, curve, table
+from rotor.reproduce.optimum_twist import SHORT, UNKNOWN, Variants, by_model, model_panels
+from rotor.reproduce.report import Agreement, Curve, PlotPanel, Report, ReportTable, curve, table
 from rotor.reproduce.runs import EVERY_VARIANT, VARIANT_TITLES, VARIANTS, choices
 
 
 def figure_4_13(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Report:
     """All concepts side by side."""
-    panels: list[Panel] = []
+    panels: list[PlotPanel] = []
     numbers: dict[str, float] = {}
     for name in VARIANTS:
         curves: list[Curve] = []
@@ -21,7 +20,9 @@ def figure_4_13(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Repo
                 shown = [_percent(name, concept, mu, scope) for mu in part]
                 curves.append(curve(words, part, shown, "both", colour=k))
             numbers[f"{name}_{concept}_largest"] = max(savings) / 100.0
-        panels.append(Panel("advance ratio µ", "saving of total power [%]", tuple(curves), title=VARIANT_TITLES[name]))
+        panels.append(
+            PlotPanel("advance ratio µ", "saving of total power [%]", tuple(curves), title=VARIANT_TITLES[name])
+        )
 
     def gain(name: str, place: int) -> float:
         mu = scope.speeds[place]
@@ -37,22 +38,22 @@ def figure_4_13(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Repo
         ours="Three segments save beyond one linear twist at most "
         + ", ".join(f"{largest[name]:.2f} % ({SHORT[name]})" for name in VARIANTS)
         + f"; {max(largest.values()):.2f} % with any inflow model.",
-        verdict=Verdict.ALONE,
+        verdict=Agreement.ALONE,
         because="One linear twist, moved, takes most of what steady twist can give.",
         tables=(
-            every_inflow.by_model("three_beyond_linear_percent", gain, variants, scope),
+            by_model("three_beyond_linear_percent", gain, variants, scope),
             _savings_table(scope, variants),
         ),
         panels=tuple(panels),
         companion=(
-            *every_inflow.model_panels(
+            *model_panels(
                 "one linear twist saves [%]",
                 lambda name, k: _percent(name, "linear", scope.speeds[k], scope),
                 variants,
                 scope,
                 key=True,
             ),
-            *every_inflow.model_panels("three segments add [%]", gain, variants, scope, key=False),
+            *model_panels("three segments add [%]", gain, variants, scope, key=False),
         ),
         numbers={**numbers, **{f"{name}_three_over_linear": value / 100.0 for name, value in largest.items()}},
     )
@@ -88,7 +89,7 @@ def table_4_1(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Report
         statement=UNKNOWN,
         ours="; ".join(words[name] for name in VARIANTS)
         + f". With no inflow model is moving worth more than {100 * most:.1f} %.",
-        verdict=Verdict.ALONE,
+        verdict=Agreement.ALONE,
         because="Against −16° a part of every saving is only that −16° is not the best fixed blade for these speeds.",
         tables=(
             _mean_savings(scope, variants),
@@ -108,7 +109,7 @@ def _percent(name: str, concept: str, mu: float, scope: Scope) -> float:
     return 100.0 * best(name, concept, mu, scope).saving
 
 
-def _mean_savings(scope: Scope, variants: Variants) -> Table:
+def _mean_savings(scope: Scope, variants: Variants) -> ReportTable:
     """A row a model, a column a concept: mean power over the speeds against the mean of the baseline's [%]."""
     rows: list[tuple[str | float, ...]] = []
     for name in variants:
@@ -120,7 +121,7 @@ def _mean_savings(scope: Scope, variants: Variants) -> Table:
     return table("mean_saving_percent", ("preset", "inflow", *CONCEPTS), rows)
 
 
-def _savings_table(scope: Scope, variants: Variants) -> Table:
+def _savings_table(scope: Scope, variants: Variants) -> ReportTable:
     rows = [
         (*choices(name), concept, *(_percent(name, concept, mu, scope) for mu in scope.speeds))
         for name in variants

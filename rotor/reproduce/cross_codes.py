@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from rotor.airfoil.table import load_section
+from rotor.airfoil.sections import load_section
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
@@ -28,7 +28,7 @@ AXIAL_SPEED = 0.02
 
 
 @dataclass(frozen=True)
-class Beside:
+class CodeComparison:
     """One condition in both codes."""
 
     code: str
@@ -56,12 +56,12 @@ def have(package: str) -> bool:
     return importlib.util.find_spec(package) is not None
 
 
-def beside_dynbem() -> list[Beside]:
+def beside_dynbem() -> list[CodeComparison]:
     """Pitt–Peters, forward flight, moment trim; dynbem at our controls with its inflow settled."""
     return [_one_dynbem(mu) for mu in DYNBEM_SPEEDS]
 
 
-def beside_ccblade() -> list[Beside]:
+def beside_ccblade() -> list[CodeComparison]:
     """Hover: CCBlade at our collective, without and with its swirl."""
     return [_one_ccblade(mass, swirl) for mass in CCBLADE_MASSES for swirl in (False, True)]
 
@@ -81,7 +81,7 @@ def moment_trimmed(mu: float) -> Solution:
     return solve(_blade_without_coning(replace(design, models=models))).require()
 
 
-def _one_dynbem(mu: float) -> Beside:
+def _one_dynbem(mu: float) -> CodeComparison:
     dynbem: Any = importlib.import_module("dynbem")
     ours = moment_trimmed(mu)
     design, controls, rotor = ours.design, ours.controls, ours.design.rotor
@@ -113,7 +113,7 @@ def _one_dynbem(mu: float) -> Beside:
     thrust = -float(forces.F_world[2])
     torque = ours.power.shaft / rotor.angular_speed
     lambda0, gradient, _ = (float(value) for value in state.to_array())
-    return Beside(
+    return CodeComparison(
         code="dynbem",
         condition=f"µ {mu:g}",
         thrust=thrust / (ours.ct * design.thrust_unit) - 1.0,
@@ -164,7 +164,7 @@ class _MirroredSection:
         return (*pair, 0.0) if return_cm else pair
 
 
-def _one_ccblade(mass: float, swirl: bool) -> Beside:
+def _one_ccblade(mass: float, swirl: bool) -> CodeComparison:
     ccblade: Any = importlib.import_module("wisdem.ccblade.ccblade")
     design = make_design(preset="thesis", twist=f"linear:{RATE_DEG}", mu=0.0, mass_kg=mass)
     models = replace(design.models, hover_inflow="annulus", hub_loss=False)
@@ -185,7 +185,7 @@ def _one_ccblade(mass: float, swirl: bool) -> Beside:
     width = rotor.radius * (1.0 - root) / n
     thrust = -rotor.blades * float(np.asarray(loads["Np"]).sum()) * width
     torque = -rotor.blades * float((np.asarray(loads["Tp"]) * rotor.radius * r).sum()) * width
-    return Beside(
+    return CodeComparison(
         code="CCBlade",
         condition=f"hover, {mass:g} kg, {'with' if swirl else 'without'} swirl",
         thrust=thrust / (ours.ct * design.thrust_unit) - 1.0,

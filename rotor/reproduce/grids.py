@@ -7,7 +7,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from rotor.reproduce.report import Curve, Panel, Report, curve, judged, table
+from rotor.reproduce.report import Curve, PlotPanel, Report, curve, judged, table
 from rotor.reproduce.runs import variant
 from rotor.trim.solve import solve
 
@@ -86,7 +86,7 @@ def figure_3_9() -> Report:
         "reverse flow and of clamped polynomials leave a finite order. Flapping by harmonic balance asks for no more; "
         "one integrated in time, as the document's, may. The wake of the flight preset itself refuses fewer than 33.",
         tables=(table("power_kw", ("azimuths", *(name for name, _ in CASES), "flight-linear"), rows),),
-        panels=(Panel("azimuths", f"power, relative error to {FINEST_AZIMUTHS}", tuple(curves), log="xy"),),
+        panels=(PlotPanel("azimuths", f"power, relative error to {FINEST_AZIMUTHS}", tuple(curves), log="xy"),),
         numbers=numbers,
     )
 
@@ -130,8 +130,8 @@ def _elements(number: str, mu: float, azimuths: int) -> Report:
         "the tip, and the flown blade's airfoils and twist table have corners, which makes the order uneven.",
         tables=(table("power_kw", ("elements", *(name for name, _ in CASES)), rows),),
         panels=(
-            Panel("elements", "power [kW]", tuple(powers_of), log=""),
-            Panel("elements", "relative error to the limit", tuple(curves), log="xy"),
+            PlotPanel("elements", "power [kW]", tuple(powers_of), log=""),
+            PlotPanel("elements", "relative error to the limit", tuple(curves), log="xy"),
         ),
         numbers=numbers,
     )

@@ -14,7 +14,7 @@ from numpy.polynomial.chebyshev import chebval
 from rotor.aero.losses import prandtl
 from rotor.aero.momentum import glauert_inflow
 from rotor.airfoil.polynomial import polynomial_section, polynomial_table
-from rotor.airfoil.table import load_section
+from rotor.airfoil.sections import load_section
 from rotor.files.make_design import make_design
 from rotor.reproduce.report import typographic
 from rotor.reproduce.runs import variant

@@ -14,8 +14,7 @@ from rotor.design.twist_spec import parse_twist
 from rotor.optimisation.concepts import Concept, find_concept, nearest
 from rotor.optimisation.objective import Objective, WeightedCondition
 from rotor.optimisation.search import Band, Optimum, Search, SearchStatus, run_search
-from rotor.reproduce.remember import Call, Remembered
-from rotor.reproduce.runs import choices, variant
+from rotor.reproduce.runs import CachedFunction, Call, choices, variant
 
 BASELINE = "linear:-16"
 """The fixed blade of Table 4.1 (thesis §3.2: the UH-60A simplified)."""
@@ -38,7 +37,7 @@ QUICK = Scope((0.0, 0.15, 0.30), 2)
 
 
 @dataclass(frozen=True)
-class Best:
+class ConceptOptimum:
     """One optimum."""
 
     variant: str
@@ -84,8 +83,8 @@ CONCEPTS: dict[str, tuple[str, Callable[[], Concept]]] = {
 """The document's concepts: title, and the concept."""
 
 
-@Remembered
-def best(name: str, concept: str, mu: float, scope: Scope) -> Best:
+@CachedFunction
+def best(name: str, concept: str, mu: float, scope: Scope) -> ConceptOptimum:
     """The optimum of a concept at a speed, started from the slower neighbour's and from the linear one's."""
     preset = choices(name)[0]
     if mu == 0.0 and name != preset:  # Hover balances its annuli, whatever the model of forward flight.
@@ -113,7 +112,7 @@ def best(name: str, concept: str, mu: float, scope: Scope) -> Best:
 
 
 @dataclass(frozen=True)
-class Fixed:
+class FixedBlade:
     """The linear blade of least mean power over all speeds, each flown equally long."""
 
     rate_deg: float
@@ -124,8 +123,8 @@ class Fixed:
     """Mean total power of `BASELINE`."""
 
 
-@Remembered
-def best_fixed(name: str, scope: Scope) -> Fixed:
+@CachedFunction
+def best_fixed(name: str, scope: Scope) -> FixedBlade:
     """The fixed blade that a moving one has to beat, started from the mean of the moving ones."""
     family = CONCEPTS["linear"][1]()
     design = variant(name, twist=BASELINE, mu=scope.speeds[0])
@@ -135,7 +134,7 @@ def best_fixed(name: str, scope: Scope) -> Fixed:
     found = run_search(Search(design, family, Objective("total", conditions), starts=1, guesses=(guess,), band=False))
     assert found.best is not None, f"{name}: {found.message}"
     assert found.baseline_power is not None, f"{name}: the baseline blade does not trim at every speed"
-    return Fixed(math.degrees(found.best.parameters[0]), found.best.power / 1e3, found.baseline_power / 1e3)
+    return FixedBlade(math.degrees(found.best.parameters[0]), found.best.power / 1e3, found.baseline_power / 1e3)
 
 
 def searches(concepts: Sequence[str], name: str, scope: Scope) -> list[Call]:
@@ -144,7 +143,7 @@ def searches(concepts: Sequence[str], name: str, scope: Scope) -> list[Call]:
     return [(best, (name, concept, mu, scope)) for concept in wanted for mu in scope.speeds]
 
 
-def _record(name: str, concept: str, mu: float, family: Concept, found: Optimum) -> Best:
+def _record(name: str, concept: str, mu: float, family: Concept, found: Optimum) -> ConceptOptimum:
     assert found.baseline_power is not None, f"{name}, µ {mu:g}: the baseline blade does not trim"
     bands: dict[str, Band] = {one.parameter: one for one in found.band}
     parameters = family.parameters
@@ -153,7 +152,7 @@ def _record(name: str, concept: str, mu: float, family: Concept, found: Optimum)
     # A band without width was not found, whatever the search says: no smooth optimum is that sharp.
     found_band = {name: (one.low, one.high) for name, one in bands.items() if one.high > one.low}
     edges = [found_band.get(p.name, (math.nan, math.nan)) for p in parameters]
-    return Best(
+    return ConceptOptimum(
         variant=name,
         concept=concept,
         mu=mu,

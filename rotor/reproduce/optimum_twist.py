@@ -1,13 +1,83 @@
-"""Figures 4.1–4.8 and 4.10: the optimum twist of each concept over speed. Known by their captions only: ours stand
-alone."""
+"""Figures 4.1–4.8 and 4.10: the optimum twist of each concept over speed, with every inflow model. Our results only."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
-from rotor.reproduce import every_inflow
-from rotor.reproduce.optima import CONCEPTS, FULL, Best, Scope, best
-from rotor.reproduce.report import Curve, Panel, Report, Table, Verdict, curve, table
-from rotor.reproduce.runs import EVERY_VARIANT, VARIANT_TITLES, VARIANTS, choices
+from rotor.aero.inflow import INFLOW_MODELS
+from rotor.reproduce.optima import CONCEPTS, FULL, ConceptOptimum, Scope, best
+from rotor.reproduce.report import Agreement, Curve, PlotPanel, Report, ReportTable, TableCell, curve, table
+from rotor.reproduce.runs import EVERY_VARIANT, PRESETS, VARIANT_TITLES, VARIANTS, choices
+
+LINEAR = tuple(name for name, model in INFLOW_MODELS.items() if not model.load_dependent)
+"""Models whose inflow does not answer to where the lift is; they lie on one another."""
+REACTING = tuple(name for name, model in INFLOW_MODELS.items() if model.load_dependent)
+NOTE = "In hover every model gives the same: there the annuli balance themselves."
+
+Value = Callable[[str, int], float]
+"""Of a variant, at a place in the list of speeds."""
+
+
+def model_panels(
+    y_label: str, value: Value, variants: Sequence[str], scope: Scope, *, key: bool
+) -> tuple[PlotPanel, ...]:
+    """One panel a preset, a line a model, over the speeds of forward flight; `key`: whether the lines are named."""
+    flying = [k for k, mu in enumerate(scope.speeds) if mu > 0.0]
+    speeds = [scope.speeds[k] for k in flying]
+    panels: list[PlotPanel] = []
+    for preset in PRESETS:
+        curves: list[Curve] = []
+        for name in variants:
+            if choices(name)[0] != preset:
+                continue
+            inflow = choices(name)[1]
+            load_dependent = inflow in REACTING
+            label = INFLOW_MODELS[inflow].title if load_dependent else f"linear models ({len(LINEAR)})"
+            first = load_dependent or all(one.label != label for one in curves)
+            curves.append(
+                curve(
+                    label if key and first and preset == PRESETS[0] else "",
+                    speeds,
+                    [value(name, k) for k in flying],
+                    "both" if load_dependent else "thin",
+                    colour=REACTING.index(inflow) if load_dependent else 7,
+                )
+            )
+        panels.append(
+            PlotPanel("advance ratio µ", y_label, tuple(curves), title=f"{preset} preset, every inflow model")
+        )
+    return tuple(panels)
+
+
+def by_model(title: str, cell: Callable[[str, int], TableCell], variants: Sequence[str], scope: Scope) -> ReportTable:
+    """A row a model, a column a speed."""
+    columns = ("preset", "inflow", *("hover" if mu == 0.0 else f"mu_{mu:.3g}" for mu in scope.speeds))
+    places = range(len(scope.speeds))
+    return table(title, columns, [(*choices(name), *(cell(name, k) for k in places)) for name in variants])
+
+
+def with_band(one: ConceptOptimum, key: str) -> str:
+    """`-8.5 (-9.8…-7.2)`."""
+    place = one.names.index(key)
+    value, (low, high) = one.values[place], one.band[place]
+    return f"{value:.1f} ({low:.1f}…{high:.1f})" if math.isfinite(low) else f"{value:.1f}"
+
+
+def spread(value: Value, variants: Sequence[str], place: int, unit: str = "°") -> str:
+    """Least to largest over the models of each kind and preset, as a part of a sentence."""
+
+    def of(models: Sequence[str]) -> str:
+        parts: list[str] = []
+        for preset in PRESETS:
+            mine = [name for name in variants if choices(name)[0] == preset and choices(name)[1] in models]
+            found = [value(name, place) for name in mine]
+            if found:
+                ends = dict.fromkeys(f"{end:.1f}" for end in (min(found), max(found)))
+                parts.append(f"{'…'.join(ends)}{unit} ({preset})")
+        return ", ".join(parts)
+
+    words = ((of(LINEAR), "with the linear models"), (of(REACTING), "with those that answer to the load"))
+    return ", ".join(f"{found} {kind}" for found, kind in words if found)
+
 
 UNKNOWN = "Only the caption is known to us; the document's numbers are not."
 SHORT = {
@@ -114,10 +184,10 @@ def _figure(
         number=number,
         kind="figure",
         caption=f"Twist of least total power over speed: {title}. Shaded: within 0.1 % of that power, the other "
-        f"parameters following.{note} Below it, every inflow model in both presets. {every_inflow.NOTE}",
+        f"parameters following.{note} Below it, every inflow model in both presets. {NOTE}",
         statement=UNKNOWN,
         ours=f"{words}. {_across_models(found, shown, scope)}",
-        verdict=Verdict.ALONE,
+        verdict=Agreement.ALONE,
         because=f"The optimum is flat (up to {widest:.0f}° of twist for 0.1 % of power): read the band, not the line. "
         "With linear inflow it moves by profile drag alone; with an inflow that answers induced power moves it too."
         + ("" if settled else " Not every search settled; see the table."),
@@ -128,7 +198,7 @@ def _figure(
     )
 
 
-_Found = dict[str, list[Best]]
+_Found = dict[str, list[ConceptOptimum]]
 """By variant, over the speeds."""
 
 
@@ -136,42 +206,40 @@ def _across_models(found: _Found, shown: Sequence[str], scope: Scope) -> str:
     """What the choice of inflow model does at the middle of the speeds."""
     place = len(scope.speeds) // 2
     key = shown[-1]
-    rates = every_inflow.spread(lambda name, k: _value(found[name][k], key), tuple(found), place)
-    savings = every_inflow.spread(lambda name, k: 100.0 * found[name][k].saving, tuple(found), place, " %")
+    rates = spread(lambda name, k: _value(found[name][k], key), tuple(found), place)
+    savings = spread(lambda name, k: 100.0 * found[name][k].saving, tuple(found), place, " %")
     return f"At µ {scope.speeds[place]:g} the {_word(key)} is {rates}; the saving {savings}."
 
 
-def _companion(found: _Found, shown: Sequence[str], scope: Scope) -> tuple[Panel, ...]:
-    panels: list[Panel] = []
+def _companion(found: _Found, shown: Sequence[str], scope: Scope) -> tuple[PlotPanel, ...]:
+    panels: list[PlotPanel] = []
     for row, key in enumerate(shown):
-        panels += every_inflow.model_panels(
+        panels += model_panels(
             NAMES[key], lambda name, k, key=key: _value(found[name][k], key), tuple(found), scope, key=row == 0
         )
     return (
         *panels,
-        *every_inflow.model_panels(
+        *model_panels(
             "saving of total power [%]", lambda name, k: 100.0 * found[name][k].saving, tuple(found), scope, key=False
         ),
     )
 
 
-def _by_model(found: _Found, shown: Sequence[str], scope: Scope) -> tuple[Table, ...]:
+def _by_model(found: _Found, shown: Sequence[str], scope: Scope) -> tuple[ReportTable, ...]:
     rates = [
-        every_inflow.by_model(
+        by_model(
             f"{key}_by_inflow",
-            lambda name, k, key=key: every_inflow.with_band(found[name][k], key),
+            lambda name, k, key=key: with_band(found[name][k], key),
             tuple(found),
             scope,
         )
         for key in shown
     ]
-    saving = every_inflow.by_model(
-        "saving_percent_by_inflow", lambda name, k: 100.0 * found[name][k].saving, tuple(found), scope
-    )
+    saving = by_model("saving_percent_by_inflow", lambda name, k: 100.0 * found[name][k].saving, tuple(found), scope)
     return (*rates, saving)
 
 
-def _panel(name: str, row: list[Best], shown: Sequence[str]) -> Panel:
+def _panel(name: str, row: list[ConceptOptimum], shown: Sequence[str]) -> PlotPanel:
     curves: list[Curve] = []
     hover, flying = [one for one in row if one.mu == 0.0], [one for one in row if one.mu > 0.0]
     for k, key in enumerate(shown):
@@ -183,10 +251,10 @@ def _panel(name: str, row: list[Best], shown: Sequence[str]) -> Panel:
             curves.append(curve("", speeds, low, "band", upper=high, colour=k))
             curves.append(curve(words, speeds, [_value(one, key) for one in part], "both", colour=k))
     y_label = NAMES[shown[0]] if len(shown) == 1 else "twist rate [°/R]"
-    return Panel("advance ratio µ", y_label, tuple(curves), title=VARIANT_TITLES[name])
+    return PlotPanel("advance ratio µ", y_label, tuple(curves), title=VARIANT_TITLES[name])
 
 
-def _table(found: _Found, shown: Sequence[str]) -> Table:
+def _table(found: _Found, shown: Sequence[str]) -> ReportTable:
     columns = ["preset", "inflow", "mu", "status"]
     for key in shown:
         columns += [key, f"{key}_low", f"{key}_high"]
@@ -206,9 +274,9 @@ def _word(key: str) -> str:
     return NAMES[key].partition(" [")[0]
 
 
-def _value(one: Best, key: str) -> float:
+def _value(one: ConceptOptimum, key: str) -> float:
     return one.values[one.names.index(key)]
 
 
-def _band(one: Best, key: str) -> tuple[float, float]:
+def _band(one: ConceptOptimum, key: str) -> tuple[float, float]:
     return one.band[one.names.index(key)]

@@ -1,14 +1,16 @@
-"""`index.html`: every rebuilt figure with its statement, our number and the verdict. One file, pictures inside."""
+"""Reports as files: a CSV per table, figures, and `index.html` with statement, result and agreement of each."""
 
 import base64
+import csv
 from collections.abc import Sequence
 from html import escape as escape_html
 from itertools import groupby
 from pathlib import Path
 
-from rotor.reproduce.catalogue import Entry
-from rotor.reproduce.pictures import NO_PICTURES, pictures_of
-from rotor.reproduce.report import Report, Table, Verdict, typographic
+from rotor.reproduce.catalogue import CatalogueEntry
+from rotor.reproduce.misprints import write_misprints
+from rotor.reproduce.pictures import NO_PICTURES, can_draw, draw, pictures_of
+from rotor.reproduce.report import Agreement, Report, ReportTable, TableCell, typographic
 
 ROWS = 60
 """Rows of a table shown on the page; the CSV has them all."""
@@ -17,10 +19,10 @@ NOT_REBUILT = (
     ("5.1", "a drawing of what active twist control is"),
 )
 COLOURS = {
-    Verdict.AGREES: "#1d7a46",
-    Verdict.DIFFERS: "#b3452c",
-    Verdict.ALONE: "#5b6770",
-    Verdict.INDICATIVE: "#9a6b00",
+    Agreement.AGREES: "#1d7a46",
+    Agreement.DIFFERS: "#b3452c",
+    Agreement.ALONE: "#5b6770",
+    Agreement.INDICATIVE: "#9a6b00",
 }
 _CSS = """
 body{font:15px/1.5 system-ui,sans-serif;color:#1c2429;background:#f6f7f8;margin:0}
@@ -38,7 +40,7 @@ td:first-child,th:first-child{text-align:left}details{margin-top:6px}summary{cur
 """
 
 
-def write_page(made: Sequence[tuple[Entry, Report]], folder: Path, *, pictures: bool) -> Path:
+def write_page(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path, *, pictures: bool) -> Path:
     """Write the page; pictures are read back from the folder and put inside."""
     parts = [_head(made, pictures)]
     for chapter, group in groupby(made, key=lambda pair: pair[0].chapter):
@@ -56,8 +58,8 @@ def escape(text: str) -> str:
     return escape_html(typographic(text))
 
 
-def _head(made: Sequence[tuple[Entry, Report]], pictures: bool) -> str:
-    counts = {verdict: sum(report.verdict is verdict for _, report in made) for verdict in Verdict}
+def _head(made: Sequence[tuple[CatalogueEntry, Report]], pictures: bool) -> str:
+    counts = {verdict: sum(report.verdict is verdict for _, report in made) for verdict in Agreement}
     summary = ", ".join(f"{verdict.value} {count}" for verdict, count in counts.items() if count)
     rows = "".join(
         f'<tr><td><a href="#{report.stem}">{escape(report.title)}</a></td><td>{_chip(report.verdict)}</td>'
@@ -97,12 +99,12 @@ def _article(report: Report, folder: Path, *, pictures: bool) -> str:
     )
 
 
-def _csv_link(report: Report, one: Table) -> str:
+def _csv_link(report: Report, one: ReportTable) -> str:
     name = f"{report.stem}.csv" if len(report.tables) == 1 else f"{report.stem}-{one.name}.csv"
     return f'<a href="{name}">CSV {escape(one.name)}</a>'
 
 
-def _details(one: Table) -> str:
+def _details(one: ReportTable) -> str:
     head = "".join(f"<th>{escape(column)}</th>" for column in one.columns)
     body = "".join(
         "<tr>" + "".join(f"<td>{escape(c) if isinstance(c, str) else f'{c:.5g}'}</td>" for c in row) + "</tr>"
@@ -115,5 +117,38 @@ def _details(one: Table) -> str:
     )
 
 
-def _chip(verdict: Verdict) -> str:
+def _chip(verdict: Agreement) -> str:
     return f'<span class=chip style="background:{COLOURS[verdict]}">{verdict.value}</span>'
+
+
+def write_report(report: Report, folder: Path, *, pictures: bool) -> None:
+    """CSV per table, SVG and PNG."""
+    for one in report.tables:
+        write_csv(folder / csv_name(report, one), report, one)
+    if pictures:
+        draw(report, folder)
+
+
+def csv_name(report: Report, one: ReportTable) -> str:
+    """`figure-3_11-thesis_kw.csv`; without the table's name where it is the only one."""
+    return f"{report.stem}.csv" if len(report.tables) == 1 else f"{report.stem}-{one.name}.csv"
+
+
+def write_csv(path: Path, report: Report, one: ReportTable) -> None:
+    """One table with a heading of comments."""
+    with path.open("w", newline="", encoding="utf-8") as file:
+        file.write(f"# {report.title}: {report.caption}\n# Made by: python -m rotor reproduce\n")
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(one.columns)
+        writer.writerows([shown(cell) for cell in row] for row in one.rows)
+
+
+def shown(cell: TableCell) -> str:
+    """Six digits are more than any of it is worth."""
+    return cell if isinstance(cell, str) else f"{cell:.6g}"
+
+
+def write_all(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path) -> Path:
+    """The page `index.html` with everything made, and the page of misprints."""
+    write_misprints(folder)
+    return write_page(made, folder, pictures=can_draw())

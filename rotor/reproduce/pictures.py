@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from rotor.arrays import Array
-from rotor.reproduce.report import AnyPanel, DiskPanel, FieldPanel, Panel, Report, typographic
+from rotor.reproduce.report import AnyPanel, DiskPanel, FieldPanel, PlotPanel, Report, typographic
 
 PALETTE = ("#0b5fa5", "#d1495b", "#2a9d5c", "#e08e00", "#7a4fb3", "#1aa6b7", "#8c5a3c", "#555555")
 NO_PICTURES = (
@@ -62,7 +62,7 @@ def pictures_of(report: Report) -> tuple[tuple[str, tuple[AnyPanel, ...]], ...]:
 
 def same_key(panels: tuple[AnyPanel, ...]) -> bool:
     """Whether several panels name the same curves, too many to lie over them: one legend below serves all."""
-    keys = [tuple(one.label for one in panel.curves) for panel in panels if isinstance(panel, Panel)]
+    keys = [tuple(one.label for one in panel.curves) for panel in panels if isinstance(panel, PlotPanel)]
     return len(keys) == len(panels) > 1 and len(set(keys)) == 1 and len(keys[0]) > FEW
 
 
@@ -95,7 +95,7 @@ def _draw_picture(stem: str, panels: tuple[AnyPanel, ...], folder: Path, *, lege
         figure.savefig(folder / f"{stem}.png", dpi=130)
 
 
-def _draw_panel(axes: Any, panel: Panel, *, legend: bool) -> None:
+def _draw_panel(axes: Any, panel: PlotPanel, *, legend: bool) -> None:
     turn = 0
     for one in panel.curves:
         place = one.colour if one.colour is not None else turn

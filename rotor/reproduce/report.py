@@ -10,11 +10,11 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-Style = Literal["line", "thin", "points", "dashed", "both", "band", "fill"]
-Cell = str | float | int
+CurveStyle = Literal["line", "thin", "points", "dashed", "both", "band", "fill"]
+TableCell = str | float | int
 
 
-class Verdict(Enum):
+class Agreement(Enum):
     """How ours stands to the document's statement."""
 
     AGREES = "agrees"
@@ -32,7 +32,7 @@ class Curve:
     label: str
     x: tuple[float, ...]
     y: tuple[float, ...]
-    style: Style = "line"
+    style: CurveStyle = "line"
     upper: tuple[float, ...] = ()
     """With `band`: y is the lower edge and this the upper."""
     colour: int | None = None
@@ -40,7 +40,7 @@ class Curve:
 
 
 @dataclass(frozen=True)
-class Panel:
+class PlotPanel:
     """One pair of axes."""
 
     x_label: str
@@ -91,17 +91,17 @@ class FieldPanel:
     """Thick red lines on top."""
 
 
-AnyPanel = Panel | DiskPanel | FieldPanel
+AnyPanel = PlotPanel | DiskPanel | FieldPanel
 
 
 @dataclass(frozen=True)
-class Table:
+class ReportTable:
     """Rows of numbers and words, as they go into a CSV."""
 
     name: str
     """Short: part of the file name when a figure has several."""
     columns: tuple[str, ...]
-    rows: tuple[tuple[Cell, ...], ...]
+    rows: tuple[tuple[TableCell, ...], ...]
 
 
 @dataclass(frozen=True)
@@ -117,10 +117,10 @@ class Report:
     """What the document says about it."""
     ours: str
     """Our numbers, one or two sentences."""
-    verdict: Verdict
+    verdict: Agreement
     because: str
     """Why it differs, or what the agreement rests on; one sentence."""
-    tables: tuple[Table, ...]
+    tables: tuple[ReportTable, ...]
     panels: tuple[AnyPanel, ...] = ()
     companion: tuple[AnyPanel, ...] = ()
     """A second picture, where one would hold too much."""
@@ -142,7 +142,7 @@ def curve(
     label: str,
     x: ArrayLike,
     y: ArrayLike,
-    style: Style = "line",
+    style: CurveStyle = "line",
     *,
     upper: ArrayLike | None = None,
     colour: int | None = None,
@@ -157,9 +157,9 @@ def floats(values: ArrayLike) -> tuple[float, ...]:
     return tuple(float(value) for value in np.asarray(values, dtype=float).ravel())
 
 
-def table(name: str, columns: Sequence[str], rows: Iterable[Sequence[Cell]]) -> Table:
+def table(name: str, columns: Sequence[str], rows: Iterable[Sequence[TableCell]]) -> ReportTable:
     """A table from any rows; numpy numbers become plain ones."""
-    return Table(name, tuple(columns), tuple(tuple(_plain(cell) for cell in row) for row in rows))
+    return ReportTable(name, tuple(columns), tuple(tuple(_plain(cell) for cell in row) for row in rows))
 
 
 def typographic(text: str) -> str:
@@ -167,12 +167,12 @@ def typographic(text: str) -> str:
     return re.sub(r"(?<![\w.\-])-(?=\d)", "−", text)
 
 
-def judged(agrees: bool) -> Verdict:
+def judged(agrees: bool) -> Agreement:
     """Agrees or differs."""
-    return Verdict.AGREES if agrees else Verdict.DIFFERS
+    return Agreement.AGREES if agrees else Agreement.DIFFERS
 
 
-def _plain(cell: Cell) -> Cell:
+def _plain(cell: TableCell) -> TableCell:
     if isinstance(cell, (str, bool)):
         return cell
     if isinstance(cell, (int, np.integer)):

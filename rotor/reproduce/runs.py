@@ -1,13 +1,74 @@
-"""Solutions that several figures share, kept while the command runs."""
+"""Solutions and searches that several figures share, computed once."""
 
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
-from functools import lru_cache
+from functools import lru_cache, update_wrapper
+from typing import Any, Generic, ParamSpec, TypeVar
 
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
+from rotor.optimisation.processes import Workers
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+class CachedFunction(Generic[P, R]):
+    """A function of hashable arguments that keeps its answers. It pickles by its name, as a function does."""
+
+    def __init__(self, function: Callable[P, R]) -> None:
+        self.name = function.__qualname__
+        self.known: dict[tuple[object, ...], R] = {}
+        self._function = function
+        update_wrapper(self, function)
+
+    def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
+        assert not kwargs, "a remembered function knows its calls by position"
+        if args not in self.known:
+            self.known[args] = self._function(*args, **kwargs)
+        return self.known[args]
+
+    def __reduce__(self) -> str:
+        return self.name
+
+
+Call = tuple[CachedFunction[..., Any], tuple[Any, ...]]
+"""A remembered function and its arguments."""
+
+
+def compute_ahead(
+    groups: Sequence[Sequence[Call]],
+    processes: int,
+    advance: Callable[[str], None] | None = None,
+    stop: Callable[[], bool] | None = None,
+) -> bool:
+    """Make the calls, each group in one process, one after the other; True when stopped before the end.
+
+    The groups with most to do come first. `advance` hears of every call as it is answered.
+    """
+    waiting = [tuple(call for call in group if call[1] not in call[0].known) for group in groups]
+    seen: set[tuple[str, tuple[Any, ...]]] = set()
+
+    def take(answered: tuple[Call, Any]) -> None:
+        (function, args), answer = answered
+        function.known[args] = answer
+        if advance is not None and (function.name, args) not in seen:
+            seen.add((function.name, args))
+            advance(str(args[0]))
+
+    with Workers(processes, take, stop) as workers:
+        return workers.run([(_work, (group,)) for group in waiting if group])
+
+
+def _work(calls: tuple[Call, ...], stop: Callable[[], bool] | None) -> Iterator[tuple[Call, Any]]:
+    for function, args in calls:
+        if stop is not None and stop():
+            return
+        yield (function, args), function(*args)
+
 
 PRESETS = ("thesis", "flight")
 FIVE_RATES = (0, -4, -8, -12, -16)

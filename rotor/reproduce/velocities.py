@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from rotor.files.make_design import make_design
-from rotor.reproduce.report import Curve, DiskPanel, Panel, Report, curve, floats, judged, table
+from rotor.reproduce.report import Curve, DiskPanel, PlotPanel, Report, curve, floats, judged, table
 from rotor.reproduce.runs import solved
 from rotor.trim.solution import DiskFields
 from rotor.trim.solve import solve
@@ -74,8 +74,8 @@ def figure_2_7() -> Report:
         "again there and keeps it longer.",
         tables=(table("blade", ("preset", "r", "lambda_i", "dct_dr"), rows),),
         panels=(
-            Panel("r/R", "λ_i", tuple(inflow), title="Induced velocity / ΩR"),
-            Panel("r/R", "dC_T/dr", tuple(thrust), title="Thrust, the whole rotor as if smeared"),
+            PlotPanel("r/R", "λ_i", tuple(inflow), title="Induced velocity / ΩR"),
+            PlotPanel("r/R", "dC_T/dr", tuple(thrust), title="Thrust, the whole rotor as if smeared"),
         ),
         numbers=numbers,
     )

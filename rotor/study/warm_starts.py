@@ -9,7 +9,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from rotor.aero.elements import N_STATE
+from rotor.aero.trim_state import STATE_NAMES, TrimState
 from rotor.arrays import Array
 from rotor.study.quantities import Value
 from rotor.trim.forward import guess_of
@@ -49,7 +49,8 @@ class WarmStarts:
         vector = self._trims[order[0]].copy()
         for weight, other in zip(_weights(steps[order]), order[1:], strict=True):
             vector += weight * (self._trims[other] - self._trims[order[0]])
-        return Guess(vector[:N_STATE], vector[N_STATE:].reshape(self._shape))
+        n = len(STATE_NAMES)
+        return Guess(TrimState.from_array(vector[:n]), vector[n:].reshape(self._shape))
 
     def keep(self, values: Mapping[str, Value], solution: Solution) -> None:
         """Remember a trim; one that did not converge teaches nothing."""
@@ -62,7 +63,7 @@ class WarmStarts:
             self._key, self._shape = key, left.induced.shape
             self._places, self._trims = [], []
         self._places.append(self._place(values))
-        self._trims.append(np.concatenate([left.state, left.induced.ravel()]))
+        self._trims.append(np.concatenate([left.state.array(), left.induced.ravel()]))
         del self._places[:-_KEPT], self._trims[:-_KEPT]
 
     def _kind(self, values: Mapping[str, Value], hovering: bool) -> tuple[object, ...]:

@@ -1,8 +1,7 @@
 """The exact gradient of power by the pitch at every blade station: one linear solve, whatever the number of stations.
 
-The trim makes residuals R(x, d, λ) zero and the inflow answers λ = A d + b. The adjoint takes from what the loads do to
-a measure P what the trim gives back: with a = J⁻ᵀ ∂P/∂x, weights w = ∂P/∂F − a·∂R/∂F on the loads, and the inflow's
-answer u = Aᵀ(I − K Aᵀ)⁻¹(K w_z + ∂F_x/∂λ w_x + ∂P/∂λ),
+The trim makes the residuals R(x, d, λ) zero, and the inflow is λ = A d + b. For a measure P, with a = J⁻ᵀ ∂P/∂x, the
+weights w = ∂P/∂F − a·∂R/∂F on the loads, and the part u = Aᵀ(I − K Aᵀ)⁻¹(K w_z + ∂F_x/∂λ w_x + ∂P/∂λ) of the inflow,
 
     dP/dθ(r) = Σ_ψ [ (w_z + u) ∂F_z/∂θ + w_x ∂F_x/∂θ + ∂P/∂θ ].
 
@@ -16,14 +15,15 @@ from typing import Literal
 import numpy as np
 
 from rotor.aero import kernel
-from rotor.aero.elements import COLLECTIVE, CYCLIC_1C, CYCLIC_1S, Pass, Problem, lay_out, run_pass
+from rotor.aero.elements import BladeElements, Problem, build_problem, evaluate_elements
 from rotor.aero.inflow.interface import InflowFeedback
-from rotor.aero.sums import Slopes, slopes, unweigh, velocity_columns
+from rotor.aero.sums import Slopes, integrate_transposed, slopes, velocity_slopes
 from rotor.arrays import Array
 from rotor.blas_threads import one_blas_thread
 from rotor.trim.equations import combine_sums, jacobian, unknowns_of
 from rotor.trim.forward import guess_of
 from rotor.trim.hover import Annuli
+from rotor.trim.newton import inflow_feedback
 from rotor.trim.power import tail_power
 from rotor.trim.solution import Solution
 
@@ -32,7 +32,7 @@ Objective = Literal["total", "induced"]
 
 @dataclass(frozen=True, eq=False)
 class PitchGradient:
-    """How power answers to pitch along the blade, trim and inflow following."""
+    """Change of power with pitch along the blade; trim and inflow adjust."""
 
     r: Array
     """Element centres y/R, (elements,)."""
@@ -43,7 +43,7 @@ class PitchGradient:
 
     @property
     def density(self) -> Array:
-        """∂P/∂θ per unit of r [W/rad], (elements,): what a picture shows, whatever the grid."""
+        """∂P/∂θ per unit of r [W/rad], (elements,), independent of the grid."""
         return self.by_element / self.dr
 
     def along(self, twist_slopes: Array) -> Array:
@@ -53,83 +53,84 @@ class PitchGradient:
 
 @dataclass(frozen=True, eq=False)
 class Weights:
-    """How a measure answers to each element: its derivatives by what it is made of, (elements, azimuths) or 0."""
+    """Derivatives of a measure at each element, (elements, azimuths) or 0."""
 
-    lift: Array | float = 0.0
+    fz: Array | float = 0.0
     """By F_z."""
-    push: Array | float = 0.0
+    fx: Array | float = 0.0
     """By F_x."""
     inflow: Array | float = 0.0
     """By λ_i at the same velocities."""
-    pitch: Array | float = 0.0
+    theta: Array | float = 0.0
     """By θ at the same loads, as the next two."""
-    across: Array | float = 0.0
+    u_t: Array | float = 0.0
     """By U_T."""
-    down: Array | float = 0.0
+    u_p: Array | float = 0.0
     """By U_P."""
 
 
 class Adjoint:
-    """A converged solution, ready to say how any measure of it answers to the pitch along the blade."""
+    """The linearised trim of a converged solution: the gradient of any measure by the pitch along the blade."""
 
     def __init__(self, solution: Solution) -> None:
         """Raises RuntimeError with the solution's sentence when it is not converged."""
         solution.require()
         self.solution = solution
-        self.problem: Problem = lay_out(solution.design)
+        self.problem: Problem = build_problem(solution.design)
         self._annuli: Array | None = None
         if solution.design.hovering:
-            self.one, self._annuli = Annuli(self.problem).at(solution.controls.collective)
+            with one_blas_thread():
+                self.elements, self._annuli = Annuli(self.problem).at(solution.controls.collective)
         else:
             guess = guess_of(solution)
-            self.one: Pass = run_pass(self.problem, guess.state, guess.induced)
+            with one_blas_thread():
+                self.elements: BladeElements = evaluate_elements(self.problem, guess.state, guess.induced)
 
     def by_pitch(self, weights: Weights) -> Array:
         """∂(measure)/∂θ of each element's pitch, trim and inflow following, (elements,)."""
-        return self._forward(weights) if self._annuli is None else self._in_hover(weights, self._annuli)
+        with one_blas_thread():
+            return self._forward(weights) if self._annuli is None else self._in_hover(weights, self._annuli)
 
     @cached_property
     def _linear(self) -> tuple[Slopes, InflowFeedback | None, Array]:
-        """What the unknowns do to the pass, the inflow's loop, and the Jacobian of the trim."""
-        problem, one = self.problem, self.one
-        loop = (
-            one.response.feedback(one.loads[kernel.FZ_UP]) if problem.inflow.load_dependent and one.response else None
-        )
-        made = slopes(problem, one, unknowns_of(problem.design.models), loop)
-        return made, loop, jacobian(problem, one, made)
+        """Derivatives by the unknowns, the feedback of the inflow, and the Jacobian of the trim."""
+        problem, elements = self.problem, self.elements
+        feedback = inflow_feedback(problem, elements)
+        by_unknown = slopes(problem, elements, unknowns_of(problem.design.models), feedback)
+        return by_unknown, feedback, jacobian(problem, elements, by_unknown)
 
     def _forward(self, weights: Weights) -> Array:
-        problem, one, loads = self.problem, self.one, self.one.loads
-        made, loop, matrix = self._linear
-        by_unknown = _dot(made.lift, weights.lift) + _dot(made.push, weights.push)
-        answer = weights.inflow + weights.down
-        if made.inflow is not None:
-            by_unknown += _dot(made.inflow, answer)
+        problem, elements, loads = self.problem, self.elements, self.elements.loads
+        by_unknown, feedback, matrix = self._linear
+        measure = _dot(by_unknown.fz, weights.fz) + _dot(by_unknown.fx, weights.fx)
+        by_inflow = weights.inflow + weights.u_p
+        if by_unknown.inflow is not None:
+            measure += _dot(by_unknown.inflow, by_inflow)
         disk = problem.disk
-        turned = {COLLECTIVE: np.ones_like(disk.cos), CYCLIC_1C: disk.cos, CYCLIC_1S: disk.sin}
-        for k, unknown in enumerate(made.unknowns):
-            if unknown in turned:
-                by_unknown[k] += float(np.sum(weights.pitch * turned[unknown]))
+        pitch = {"collective": np.ones_like(disk.cos), "cyclic_1c": disk.cos, "cyclic_1s": disk.sin}
+        for k, unknown in enumerate(by_unknown.unknowns):
+            if unknown in pitch:
+                measure[k] += float(np.sum(weights.theta * pitch[unknown]))
             else:
-                across, down = velocity_columns(problem, one, unknown)
-                by_unknown[k] += float(np.sum(weights.across * across + weights.down * down))
+                u_t, u_p = velocity_slopes(problem, elements, unknown)
+                measure[k] += float(np.sum(weights.u_t * u_t + weights.u_p * u_p))
 
-        given_back = np.linalg.solve(matrix.T, by_unknown)
-        on_lift, on_push = unweigh(problem, one, given_back @ combine_sums(problem, one, np.eye(5)))
-        lift, push = weights.lift - on_lift, weights.push - on_push
-        if loop is not None and one.response is not None:
-            back = loads[kernel.FZ_UP] * lift + loads[kernel.FX_UP] * push + answer
-            lift = lift + one.response.apply_transposed(loop.solve_transposed(back))
-        return (lift * loads[kernel.FZ_THETA] + push * loads[kernel.FX_THETA] + weights.pitch).sum(axis=1)
+        adjoint = np.linalg.solve(matrix.T, measure)
+        trim_fz, trim_fx = integrate_transposed(problem, elements, adjoint @ combine_sums(problem, elements, np.eye(5)))
+        fz, fx = weights.fz - trim_fz, weights.fx - trim_fx
+        if feedback is not None and elements.response is not None:
+            source = loads[kernel.FZ_UP] * fz + loads[kernel.FX_UP] * fx + by_inflow
+            fz = fz + elements.response.apply_transposed(feedback.solve_transposed(source))
+        return (fz * loads[kernel.FZ_THETA] + fx * loads[kernel.FX_THETA] + weights.theta).sum(axis=1)
 
     def _in_hover(self, weights: Weights, annuli: Array) -> Array:
-        """Annuli stand alone but for the collective that keeps the thrust. `annuli`: ∂λ/∂θ of each."""
-        loads, answer = self.one.loads, annuli[:, None]
-        lift = loads[kernel.FZ_THETA] + loads[kernel.FZ_UP] * answer
-        push = loads[kernel.FX_THETA] + loads[kernel.FX_UP] * answer
-        measure = weights.lift * lift + weights.push * push + (weights.inflow + weights.down) * answer + weights.pitch
-        thrust = lift.sum(axis=1)
-        by_pitch = np.broadcast_to(measure, lift.shape).sum(axis=1)
+        """Annuli are independent but for the collective that keeps the thrust. `annuli`: ∂λ/∂θ of each."""
+        loads, inflow = self.elements.loads, annuli[:, None]
+        fz = loads[kernel.FZ_THETA] + loads[kernel.FZ_UP] * inflow
+        fx = loads[kernel.FX_THETA] + loads[kernel.FX_UP] * inflow
+        measure = weights.fz * fz + weights.fx * fx + (weights.inflow + weights.u_p) * inflow + weights.theta
+        thrust = fz.sum(axis=1)
+        by_pitch = np.broadcast_to(measure, fz.shape).sum(axis=1)
         return by_pitch - by_pitch.sum() / thrust.sum() * thrust
 
 
@@ -141,24 +142,23 @@ def power_gradient(solution: Solution, objective: Objective = "total") -> PitchG
     return power_along(Adjoint(solution), objective)
 
 
-@one_blas_thread()
 def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradient:
-    """The same from an adjoint that serves other measures as well.
+    """The same from an adjoint that is used for other measures as well.
 
     Main-rotor power is Σ (λ_i dF_z + U dD) + D·V, and U dD = U_T dF_x − U_P dF_z.
     """
-    problem, one = adjoint.problem, adjoint.one
+    problem, elements = adjoint.problem, adjoint.elements
     cell = problem.disk.dr / len(problem.disk.psi)
-    lift, push = one.loads[kernel.FZ], one.loads[kernel.FX]
+    fz, fx = elements.loads[kernel.FZ], elements.loads[kernel.FX]
     if objective == "induced":
-        weights, gain = Weights(lift=cell * one.induced, inflow=cell * lift), 1.0
+        weights, gain = Weights(fz=cell * elements.induced, inflow=cell * fz), 1.0
     else:
         weights = Weights(
-            lift=cell * (one.induced - one.u_p),
-            push=cell * one.u_t,
-            inflow=cell * lift,
-            across=cell * push,
-            down=-cell * lift,
+            fz=cell * (elements.induced - elements.u_p),
+            fx=cell * elements.u_t,
+            inflow=cell * fz,
+            u_t=cell * fx,
+            u_p=-cell * fz,
         )
         gain = _tail_gain(adjoint.solution)
     by_element = adjoint.by_pitch(weights) * gain * problem.design.power_unit
@@ -166,7 +166,7 @@ def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradie
 
 
 def _tail_gain(solution: Solution) -> float:
-    """What one watt at the shaft costs in all, the tail rotor included."""
+    """Total power per watt at the shaft, the tail rotor included."""
     return 1.0 + tail_power(solution.design, solution.last_power.main_rotor)[1]
 
 

@@ -15,11 +15,13 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotor.aero import kernel
-from rotor.aero.elements import COLLECTIVE, CONING, LAMBDA0, N_STATE, Pass, Problem
+from rotor.aero.elements import BladeElements, Problem
 from rotor.aero.inflow import Wake
 from rotor.aero.losses import loss_factor
+from rotor.aero.trim_state import TrimState
 from rotor.airfoil.sections import Section
 from rotor.arrays import Array
+from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
 
 LIFT_CURVE_MACH = 0.3
 """Mach number at which the linear lift curve of (3.3) is read off; the document's polar knows no other."""
@@ -27,7 +29,6 @@ LIFT_CURVE_MACH = 0.3
 _LARGEST_INFLOW = 0.6
 """Bracket of λ: no annulus of a rotor comes near it."""
 _LARGEST_COLLECTIVE = math.radians(40.0)
-_TOLERANCE = 1e-12
 
 
 def closed_form_inflow(
@@ -74,19 +75,17 @@ def _straight_line(section: Section) -> tuple[float, float]:
 class HoverResult:
     """Where the hover solution ended."""
 
-    last: Pass
+    elements: BladeElements
     residual: float
     """|C_T − C_W| over C_W."""
+    converged: bool
     passes: int
+    """Evaluations of the blade elements."""
     reached: float
-    """C_T over C_W that the rotor makes."""
-
-    @property
-    def converged(self) -> bool:
-        return self.residual <= 1e-10
+    """C_T over C_W."""
 
 
-def hover(problem: Problem, start: float | None = None) -> HoverResult:
+def hover(problem: Problem, start: float | None = None, options: SolverOptions = DEFAULT_OPTIONS) -> HoverResult:
     """Collective for a thrust equal to the weight; Newton with a bracket, from an optional collective [rad]."""
     annuli = Annuli(problem)
     low, high = -0.3, _LARGEST_COLLECTIVE
@@ -101,7 +100,7 @@ def hover(problem: Problem, start: float | None = None) -> HoverResult:
         error = thrust - problem.weight
         if abs(error) < best[0]:
             best = abs(error), theta0
-        if abs(error) <= _TOLERANCE * problem.weight or high - low < 1e-14:
+        if abs(error) <= options.hover_tolerance * problem.weight or high - low < 1e-14:
             break
         if error < 0.0 and slope > 0.0:
             low = theta0
@@ -114,11 +113,17 @@ def hover(problem: Problem, start: float | None = None) -> HoverResult:
             theta0 = 0.5 * (low + high)
     thrust, _ = annuli.thrust(best[1])
     residual = abs(thrust - problem.weight) / problem.weight
-    return HoverResult(annuli.spread(best[1], thrust), residual, annuli.passes, thrust / problem.weight)
+    return HoverResult(
+        elements=annuli.over_disk(best[1], thrust),
+        residual=residual,
+        converged=residual <= options.accepted_hover,
+        passes=annuli.passes,
+        reached=thrust / problem.weight,
+    )
 
 
 class Annuli:
-    """The annuli at a collective; remembers the last inflow as the next start."""
+    """The annuli at a collective; the last inflow is the next start."""
 
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
@@ -147,7 +152,7 @@ class Annuli:
         return 4.0 * factor * inflow * size * r, 4.0 * r * size * (2.0 * factor + slope * inflow)
 
     def lift(self, theta0: float, inflow: Array) -> tuple[Array, Array, Array]:
-        """Lift that the momentum balance sees, and its slopes by pitch and by λ."""
+        """Lift of the momentum balance, and its slopes by pitch and by λ."""
         if self.problem.design.models.hover_inflow == "annulus":
             loads = self.loads(theta0, inflow)
             return loads[kernel.FZ], loads[kernel.FZ_THETA], loads[kernel.FZ_UP]
@@ -162,9 +167,9 @@ class Annuli:
         low, high = np.full_like(inflow, -_LARGEST_INFLOW), np.full_like(inflow, _LARGEST_INFLOW)
         by_pitch = slope = np.ones_like(inflow)
         for _ in range(80):
-            push, push_slope = self.momentum(inflow)
+            momentum, momentum_slope = self.momentum(inflow)
             lift, by_pitch, by_inflow = self.lift(theta0, inflow)
-            error, slope = push - lift, push_slope - by_inflow
+            error, slope = momentum - lift, momentum_slope - by_inflow
             if np.abs(error).max() <= 1e-15 + 1e-13 * np.abs(lift).max():
                 break
             low = np.where(error < 0.0, inflow, low)
@@ -178,21 +183,21 @@ class Annuli:
         return inflow, by_pitch / np.maximum(slope, 1e-12)
 
     def thrust(self, theta0: float) -> tuple[float, float]:
-        """C_T and ∂C_T/∂θ0 with the inflow that answers."""
+        """C_T and ∂C_T/∂θ0, the change of inflow included."""
         inflow, response = self.solve(theta0)
         loads = self.loads(theta0, inflow)
         dr = self.problem.disk.dr
         slope = loads[kernel.FZ_THETA] + loads[kernel.FZ_UP] * response
         return float(loads[kernel.FZ].sum() * dr), float(slope.sum() * dr)
 
-    def at(self, theta0: float) -> tuple[Pass, Array]:
+    def at(self, theta0: float) -> tuple[BladeElements, Array]:
         """The whole disk at a collective, and ∂λ/∂θ of each annulus, (elements,)."""
         _, response = self.solve(theta0)
         thrust, _ = self.thrust(theta0)
-        return self.spread(theta0, thrust), response
+        return self.over_disk(theta0, thrust), response
 
-    def spread(self, theta0: float, thrust: float) -> Pass:
-        """The hovering rotor as a pass over the whole disk."""
+    def over_disk(self, theta0: float, thrust: float) -> BladeElements:
+        """The hovering rotor as blade elements over the whole disk."""
         problem, disk = self.problem, self.problem.disk
         shape = disk.shape
 
@@ -204,12 +209,11 @@ class Annuli:
         u_t = everywhere(disk.r)
         loads = np.repeat(self.loads(theta0, self.inflow)[:, :, None], shape[1], axis=2)
         moment = float(((disk.r - problem.flap.hinge) * loads[kernel.FZ, :, 0]).sum() * disk.dr)
-        state = np.zeros(N_STATE)
-        state[COLLECTIVE] = theta0
-        if problem.design.models.flapping:
-            state[CONING] = (problem.flap.load_gain * moment - problem.flap.weight) / problem.flap.frequency_squared
-        state[LAMBDA0] = math.sqrt(max(thrust, 0.0) / 2.0)
-        return Pass(
-            state, Wake(0.0, 0.0, float(state[LAMBDA0])), theta, u_t, induced, induced, None,
-            self.ones, np.zeros((2, shape[0])), np.full(shape[1], state[CONING]), loads,
+        coning = (problem.flap.load_gain * moment - problem.flap.weight) / problem.flap.frequency_squared
+        if not problem.design.models.flapping:
+            coning = 0.0
+        state = TrimState(collective=theta0, coning=coning, lambda0=math.sqrt(max(thrust, 0.0) / 2.0))
+        return BladeElements(
+            state, Wake(0.0, 0.0, state.lambda0), theta, u_t, induced, induced, None,
+            self.ones, np.zeros((2, shape[0])), np.full(shape[1], coning), loads,
         )  # fmt: skip

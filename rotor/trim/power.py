@@ -15,7 +15,7 @@ import math
 import numpy as np
 
 from rotor.aero import kernel
-from rotor.aero.elements import Pass, Problem
+from rotor.aero.elements import BladeElements, Problem
 from rotor.aero.momentum import glauert_inflow
 from rotor.arrays import Array
 from rotor.design.aircraft import FIXED_SHARE, TailRotor
@@ -23,13 +23,13 @@ from rotor.design.design import Design
 from rotor.trim.solution import HubMoment, PowerBudget
 
 
-def power_budget(problem: Problem, one: Pass) -> PowerBudget:
+def power_budget(problem: Problem, elements: BladeElements) -> PowerBudget:
     """Power [W] by parts, torque × Ω beside them."""
-    design, disk, loads = problem.design, problem.disk, one.loads
+    design, disk, loads = problem.design, problem.disk, elements.loads
     unit = design.power_unit * disk.dr / len(disk.psi)
-    cubed: Array = np.hypot(one.u_t, one.u_p) ** 3 * loads[kernel.CD]
+    cubed: Array = np.hypot(elements.u_t, elements.u_p) ** 3 * loads[kernel.CD]
     dissipation: Array = disk.half_solidity @ cubed
-    induced = float((one.induced * loads[kernel.FZ]).sum()) * unit
+    induced = float((elements.induced * loads[kernel.FZ]).sum()) * unit
     profile = float(dissipation.sum()) * unit
     parasite = problem.drag * design.condition.advance_ratio * design.power_unit
     shaft = float((disk.r @ loads[kernel.FX]).sum()) * unit
@@ -41,7 +41,7 @@ def power_budget(problem: Problem, one: Pass) -> PowerBudget:
 def tail_power(design: Design, main: float) -> tuple[float, float]:
     """Tail rotor power [W] beside a main rotor's [W], and its slope by that: solved, or the document's fixed share.
 
-    The share also stands where the aircraft has no tail rotor, or an unknown one.
+    The share also stands where the aircraft has no tail rotor, or an unknown elements.
     """
     if design.tail_rotor is None or not design.models.tail_rotor_solved:
         return FIXED_SHARE * main, FIXED_SHARE
@@ -60,14 +60,14 @@ def profile_power_coefficient(solidity: float, drag_coefficient: float, advance_
     return solidity * drag_coefficient / 8.0 * (1.0 + 3.0 * mu**2 + 0.375 * mu**4)
 
 
-def hub_moment(problem: Problem, one: Pass) -> HubMoment:
+def hub_moment(problem: Problem, elements: BladeElements) -> HubMoment:
     """Steady moments about the hub, first harmonics of Σ r dF_z.
 
     Hinged or not: a blade that flaps once a revolution feels as much from its inertia one way as from its centrifugal
     force the other, about the hub. Blades free to flap at the centre hand over nothing, because flapping evens it out.
     """
     design, disk = problem.design, problem.disk
-    moment = disk.r @ one.loads[kernel.FZ] * (design.thrust_unit * design.rotor.radius * disk.dr / len(disk.psi))
+    moment = disk.r @ elements.loads[kernel.FZ] * (design.thrust_unit * design.rotor.radius * disk.dr / len(disk.psi))
     return HubMoment(roll=float(moment @ disk.sin), pitch=-float(moment @ disk.cos))
 
 

@@ -10,10 +10,11 @@ from typing import Any, cast
 import numpy as np
 
 from rotor.aero.switches import switched_off
+from rotor.aero.trim_state import TrimState
 from rotor.arrays import Array
 from rotor.design.active_twist import active_twist_record
 from rotor.design.design import Design
-from rotor.files.design_file import case_of
+from rotor.files.design_file import design_record
 from rotor.plots import plot_disk
 
 
@@ -32,25 +33,6 @@ class Caveat:
     """Short and stable, for scripts, for example low-speed-inflow."""
     sentence: str
     """What the user reads."""
-
-
-@dataclass(frozen=True)
-class Controls:
-    """The trim, all angles in radians. θ = θ0 + θ1c cos ψ + θ1s sin ψ, β likewise."""
-
-    collective: float
-    """θ0, the pitch at 0.75 R."""
-    cyclic_1c: float
-    cyclic_1s: float
-    shaft_tilt: float
-    """α, positive forward."""
-    coning: float
-    """β0, positive up."""
-    flap_1c: float
-    """β1c, negative when the disk tilts back."""
-    flap_1s: float
-    lambda0: float
-    """Mean induced inflow of momentum theory, over ΩR."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,7 +115,7 @@ class Solution:
     status: Status
     message: str
     caveats: tuple[Caveat, ...]
-    controls: Controls
+    controls: TrimState
     disk: DiskFields
     last_power: PowerBudget
     """Power by parts of the last iterate, converged or not; `power` is the same for a converged solution only."""
@@ -261,7 +243,7 @@ class Solution:
 
     def save(self, path: str | Path) -> None:
         """Write the design and, under `solution`, its results as JSON; `load_design` reads the design back."""
-        record = {**case_of(self.design), "solution": self.to_dict()}
+        record = {**design_record(self.design), "solution": self.to_dict()}
         Path(path).write_text(json.dumps(record, indent=2, allow_nan=False) + "\n", encoding="utf-8")
 
     def plot(self, field: str = "alpha", ax: Any = None) -> Any:

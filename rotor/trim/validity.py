@@ -1,7 +1,7 @@
 """Where the answer stops being trustworthy, in sentences a user reads."""
 
 from rotor.aero import kernel
-from rotor.aero.elements import Pass, Problem
+from rotor.aero.elements import BladeElements, Problem
 from rotor.aero.switches import switched_off
 from rotor.design.aircraft import FIXED_SHARE
 from rotor.design.design import Design
@@ -17,7 +17,7 @@ STALL_SHARE = 0.02
 """Stalled part of the disk from which dynamic stall would matter to the numbers."""
 
 
-def caveats(problem: Problem, one: Pass, stalled: float, moment: HubMoment) -> tuple[Caveat, ...]:
+def caveats(problem: Problem, elements: BladeElements, stalled: float, moment: HubMoment) -> tuple[Caveat, ...]:
     """Reasons to read a converged solution with care."""
     design, disk = problem.design, problem.disk
     mu = design.condition.advance_ratio
@@ -72,14 +72,14 @@ def caveats(problem: Problem, one: Pass, stalled: float, moment: HubMoment) -> t
         )
     if stalled > STALL_SHARE:
         add("stall", f"{100.0 * stalled:.1f} % of the disk is stalled; section data are steady, without dynamic stall.")
-    top_mach = float(one.loads[kernel.MACH].max())
+    top_mach = float(elements.loads[kernel.MACH].max())
     if disk.fit_range is not None:
         if top_mach > 0.5:
             add(
                 "no-compressibility",
                 f"The section polar is for one Mach number (0.3); the tip reaches Mach {top_mach:.2f}.",
             )
-        clamped = _outside_fit(problem, one, disk.fit_range)
+        clamped = _outside_fit(problem, elements, disk.fit_range)
         if clamped > 0.0:
             add(
                 "polynomial-clamped",
@@ -121,10 +121,10 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
     )
 
 
-def _outside_fit(problem: Problem, one: Pass, fit_range: tuple[float, float]) -> float:
+def _outside_fit(problem: Problem, elements: BladeElements, fit_range: tuple[float, float]) -> float:
     """Part of πR², reverse flow not counted, where a polynomial polar is clamped."""
     disk = problem.disk
     low, high = fit_range
-    alpha = one.loads[kernel.ALPHA]
-    outside = ((alpha < low) | (alpha > high)) & (one.u_t >= 0.0)
+    alpha = elements.loads[kernel.ALPHA]
+    outside = ((alpha < low) | (alpha > high)) & (elements.u_t >= 0.0)
     return float((2.0 * disk.r[:, None] * disk.dr / len(disk.psi) * outside).sum())

@@ -12,7 +12,7 @@ import pytest
 from chromium import DRAW_NOTHING
 
 from explorer.app import App
-from explorer.hosting.house import ServerLimits
+from explorer.hosting.limits import ServerLimits
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, BrowserContext, Page
@@ -80,8 +80,8 @@ def test_opens_whole_and_then_nothing_jumps(context: "BrowserContext", artefacts
     assert sheet  # In the head: a panel that is folded away would take it along.
 
 
-def test_a_full_house_lets_in_who_waits(context: "BrowserContext", artefacts: Path):
-    app = App("127.0.0.1", 0, house=ServerLimits(sessions=1))
+def test_a_full_server_seats_the_next_page_when_one_leaves(context: "BrowserContext", artefacts: Path):
+    app = App("127.0.0.1", 0, limits=ServerLimits(sessions=1))
     try:
         first, second = context.new_page(), context.new_page()
         first.goto(app.address)

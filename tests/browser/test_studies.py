@@ -9,7 +9,7 @@ import pytest
 from watched import Watched, opened
 
 from explorer.app import App
-from explorer.hosting.house import ServerLimits
+from explorer.hosting.limits import ServerLimits
 from explorer.session import Session
 from rotor.files.provenance import package_version
 from rotor.study.chunks import StudyProvenance, evaluate_chunk
@@ -54,7 +54,7 @@ def studies(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def page(browser: "Browser", studies: Path) -> Iterator[tuple[Watched, Session]]:
-    app = App("127.0.0.1", 0, house=ServerLimits(studies=studies))
+    app = App("127.0.0.1", 0, limits=ServerLimits(studies=studies))
     watched = opened(browser, app.address, size=(1280, 900))
     watched.page.get_by_role("tab", name="Studies").click()
     yield watched, app.sessions[-1]

@@ -20,7 +20,7 @@ from explorer.text.readout import ideal_line, power_panel
 from rotor.airfoil.polars import read_polars
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.dynamics.structure import check_blade
-from rotor.files.design_file import case_of, parse_case
+from rotor.files.design_file import design_record, parse_design
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -78,9 +78,9 @@ def test_designs_of_other_rotors_in_addresses_and_files():
     own = with_rotor(Inputs(), OWN, UploadedFiles().take("my.toml", GOOD.encode()).aircraft)
     with pytest.raises(ValueError, match="A rotor of your own fits in no address: save it as a design file"):
         share.code_of(own.design())
-    read = parse_case(json.dumps(case_of(own.design())).encode(), "mine.json")
+    read = parse_design(json.dumps(design_record(own.design())).encode(), "mine.json")
     assert inputs_of(read) == own
-    assert share.inputs_from(share.KEPT, json.dumps(case_of(own.design()))) == own
+    assert share.inputs_from(share.KEPT, json.dumps(design_record(own.design()))) == own
     for kept in (None, "{", '{"rotor": 1}'):
         with pytest.raises(ValueError, match=r"sender's own|cannot be read|rotor"):
             share.inputs_from(share.KEPT, kept)
@@ -114,7 +114,7 @@ class TestShelf:
             ("my.toml", b"\xff\xfe\x00", "my.toml is no UTF-8 text"),
             ("my.toml", b"x" * 2_000_001, "my.toml has 2.0 MB: a rotor's files have 2 MB at most"),
             ("my.toml", GOOD.replace("radius_m = 5.0", "radius_m = -5.0").encode(), "my.toml, line 5: radius_m is -5"),
-            ("my.toml", b"name = \n", "my.toml, line 1: this is no TOML"),
+            ("my.toml", b"name = \n", "my.toml, line 1: this is not TOML"),
             ("mine.c81", DECK[:5000], "mine.c81, line 79"),
             ("p.txt", b"hello", "p.txt is no XFOIL polar file"),
             ("shape.dat", b"1 0\n0 0\n", "shape.dat has 2 points"),

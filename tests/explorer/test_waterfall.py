@@ -14,7 +14,7 @@ from explorer.tabs.physics.waterfall_panel import WaterfallPanel
 from explorer.tabs.physics.waterfall_view import alone_table, waterfall_chart
 from explorer.text.units import AVIATION, HORSEPOWER, KILOWATT, SI
 from rotor.aero.switches import SWITCHES
-from rotor.analysis.waterfall import Step, Waterfall, waterfall
+from rotor.analysis.waterfall import Waterfall, WaterfallStep, waterfall
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution, Status
@@ -122,7 +122,7 @@ class TestPanel:
         solution: Solution = solve(coarse(0.2))
         panel.show(SessionState(Inputs(), ViewState(), solution, solution, None, None))
         panel.climb(lambda: False)
-        steps: list[Step] = panel._steps
+        steps: list[WaterfallStep] = panel._steps
         panel.show(SessionState(Inputs(), ViewState(azimuth_deg=90.0), solution, solution, None, None))
         assert panel._steps is steps
         assert "rx-faded" not in panel._chart.content

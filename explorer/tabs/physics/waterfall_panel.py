@@ -9,7 +9,7 @@ from explorer.tabs.physics.waterfall_view import alone_table, waterfall_chart
 from explorer.text import readout
 from explorer.text.units import SI, UNITS, Units
 from rotor.aero.switches import SWITCHES, with_switches
-from rotor.analysis.waterfall import Step, climb, each_alone
+from rotor.analysis.waterfall import WaterfallStep, switch_off_steps, switch_on_steps
 from rotor.design.design import Design
 from rotor.trim.solution import Solution
 
@@ -34,8 +34,8 @@ class WaterfallPanel:
         self._design: Design | None = None
         """With everything on: what the steps are of."""
         self._units = SI
-        self._coming: Iterator[Step] = iter(())
-        self._steps: list[Step] = []
+        self._coming: Iterator[WaterfallStep] = iter(())
+        self._steps: list[WaterfallStep] = []
         self._drawn = waterfall_chart(()), ""
 
     def show(self, state: SessionState) -> None:
@@ -73,7 +73,7 @@ class WaterfallPanel:
         self._chart.content, self._table.content = map(readout.faded, self._drawn)
 
 
-def _cost(step: Step, units: Units) -> str:
+def _cost(step: WaterfallStep, units: Units) -> str:
     """What a switch adds to the power, from the trim without it."""
     if step.note:
         return step.note
@@ -82,11 +82,11 @@ def _cost(step: Step, units: Units) -> str:
     return f"{units.watts(-step.added, 1, sign=True)} here"
 
 
-def _all_steps(design: Design) -> Iterator[Step]:
-    """The climb, then each switch off alone."""
+def _all_steps(design: Design) -> Iterator[WaterfallStep]:
+    """All switches on one after another, then each switch off alone."""
     full: Solution | None = None
-    for step in climb(design):
+    for step in switch_on_steps(design):
         full = step.solution
         yield step
     assert full is not None
-    yield from each_alone(design, full)
+    yield from switch_off_steps(design, full)

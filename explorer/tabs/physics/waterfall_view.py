@@ -6,7 +6,7 @@ from html import escape
 from explorer.text.units import SI, Units, number
 from explorer.theme.colours import PARTS
 from rotor.aero.switches import SWITCHES
-from rotor.analysis.waterfall import Step
+from rotor.analysis.waterfall import WaterfallStep
 
 WIDTH = 312
 """[px] of the drawing; the panel scales it."""
@@ -17,7 +17,7 @@ _THINNEST = 1.6
 """[px] of a bar that stands for next to nothing."""
 
 
-def waterfall_chart(steps: Sequence[Step], units: Units = SI) -> str:
+def waterfall_chart(steps: Sequence[WaterfallStep], units: Units = SI) -> str:
     """Rows from everything off to everything on; as far as the steps are known. Empty without steps."""
     if not steps:
         return '<div class="rx rx-dim" data-explorer="waterfall" data-steps="0">Computing …</div>'
@@ -38,7 +38,7 @@ def waterfall_chart(steps: Sequence[Step], units: Units = SI) -> str:
     )
 
 
-def _row(step: Step, y: float, top: float, units: Units) -> str:
+def _row(step: WaterfallStep, y: float, top: float, units: Units) -> str:
     if step.power is None:
         sentence = f"<title>{escape(step.solution.message)}</title>"
         return (
@@ -64,7 +64,7 @@ def _row(step: Step, y: float, top: float, units: Units) -> str:
     )
 
 
-def _whole(name: str, step: Step, y: float, top: float, units: Units) -> str:
+def _whole(name: str, step: WaterfallStep, y: float, top: float, units: Units) -> str:
     """A bar of all parts from zero."""
     power, x, rects = step.solution.power, _BAR_LEFT, []
     for part, colour in PARTS.items():
@@ -93,7 +93,7 @@ def _patches(change: dict[str, float], y: float, units: Units) -> str:
     return "".join(drawn)
 
 
-def _spoken(step: Step, units: Units) -> str:
+def _spoken(step: WaterfallStep, units: Units) -> str:
     """The step in words, for those who point at it or have it read out."""
     change, unit = step.change or {}, units.power[0]
     parts = ", ".join(f"{part} {unit.text(value, 1, sign=True)}" for part, value in change.items())
@@ -110,7 +110,7 @@ def _key(units: Units) -> str:
     return f'<div class="rx-dim rx-small rx-line">{entries}<span>[{units.power[0].symbol}]</span></div>'
 
 
-def alone_table(steps: Sequence[Step], units: Units = SI) -> str:
+def alone_table(steps: Sequence[WaterfallStep], units: Units = SI) -> str:
     """Each switch off alone: the change of the total and of its two large parts."""
     if not steps:
         return ""

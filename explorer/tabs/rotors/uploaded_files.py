@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass, field
 
-from rotor.airfoil.build.xfoil_file import parse_polar_file
 from rotor.airfoil.c81 import parse_c81
 from rotor.airfoil.contour import parse_contour
-from rotor.airfoil.regrid import on_run_time_grid
+from rotor.airfoil.polars import parse_polar_file
+from rotor.airfoil.wrap import on_run_time_grid
 from rotor.design.aircraft import Aircraft
 from rotor.files.rotor_file import LARGEST_FILE, named_files, read_aircraft
 from rotor.files.toml_table import read_toml

@@ -8,45 +8,50 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.aero import kernel
-from rotor.aero.elements import LAMBDA0, N_STATE, SHAFT_TILT, Problem, lay_out, run_pass
-from rotor.aero.sums import slopes, sums
+from rotor.aero.elements import Problem, build_problem, evaluate_elements
+from rotor.aero.sums import disk_sums, slopes
+from rotor.aero.trim_state import TrimState
 from rotor.airfoil.sections import load_installed
-from rotor.design.design import FLIGHT_MODELS
 from rotor.files.make_design import make_design
 from rotor.trim.equations import UNKNOWNS, jacobian, residuals
 from rotor.trim.forward import first_guess
 from rotor.trim.newton import newton
 
-STATE = np.array([0.17, 0.03, -0.09, 0.08, 0.06, -0.02, 0.01, 0.012])
+STATE = TrimState(0.17, 0.03, -0.09, 0.08, 0.06, -0.02, 0.01, 0.012)
 
 
 def problem(preset: str = "flight", mu: float = 0.3, **models: object) -> Problem:
     """A problem with prescribed inflow, so that a pass needs no induced field."""
     design = make_design(preset=preset, mu=mu, twist="segments:-14,-6@0.6")
     prescribed = replace(design.models, inflow="pitt-peters" if preset == "flight" else design.models.inflow)
-    return lay_out(replace(design, models=replace(prescribed, **models)))
+    return build_problem(replace(design, models=replace(prescribed, **models)))
 
 
 @pytest.mark.parametrize("preset", ["flight", "thesis"])
 def test_velocities_and_loads_by_the_formulas(preset: str):
     """Eqs. (3.5)–(3.12) written out in plain NumPy at one state, reverse flow included."""
     p = problem(preset)
-    one = run_pass(p, STATE)
+    elements = evaluate_elements(p, STATE)
     disk, mu = p.disk, 0.3
     r, psi = disk.r[:, None], disk.psi[None, :]
-    tilt, beta0, b1c, b1s = STATE[3], STATE[4], STATE[5], STATE[6]
+    tilt, beta0, b1c, b1s = STATE.shaft_tilt, STATE.coning, STATE.flap_1c, STATE.flap_1s
     axial = preset == "flight"
     mu_x, mu_z = (mu * math.cos(tilt), mu * math.sin(tilt)) if axial else (mu, 0.0)
     beta = beta0 + b1c * np.cos(psi) + b1s * np.sin(psi)
     beta_rate = -b1c * np.sin(psi) + b1s * np.cos(psi)
     hinge = p.design.rotor.blade.flap_hinge
     u_t = r + mu_x * np.sin(psi)
-    u_p = mu_z + one.induced + (r - hinge) * beta_rate + mu_x * beta * np.cos(psi)
-    assert_allclose(one.u_t, u_t, rtol=1e-14, atol=1e-15)
-    assert_allclose(one.u_p, u_p, rtol=1e-12, atol=1e-15)
+    u_p = mu_z + elements.induced + (r - hinge) * beta_rate + mu_x * beta * np.cos(psi)
+    assert_allclose(elements.u_t, u_t, rtol=1e-14, atol=1e-15)
+    assert_allclose(elements.u_p, u_p, rtol=1e-12, atol=1e-15)
     assert (u_t < 0.0).any()
 
-    theta = STATE[0] + STATE[1] * np.cos(psi) + STATE[2] * np.sin(psi) + p.design.twist(disk.r)[:, None]
+    theta = (
+        STATE.collective
+        + STATE.cyclic_1c * np.cos(psi)
+        + STATE.cyclic_1s * np.sin(psi)
+        + p.design.twist(disk.r)[:, None]
+    )
     phi = np.arctan2(u_p, u_t)
     alpha = theta - phi
     speed = np.hypot(u_t, u_p)
@@ -60,11 +65,12 @@ def test_velocities_and_loads_by_the_formulas(preset: str):
             parts.append((at.cl, at.cd))
         cl = (1.0 - weight) * parts[0][0] + weight * parts[1][0]
         cd = (1.0 - weight) * parts[0][1] + weight * parts[1][1]
-        lift, drag = (disk.half_solidity[i] * speed[i] ** 2 * c for c in (one.loss[i] * cl, cd))
-        assert_allclose(one.loads[kernel.CL, i], cl, rtol=1e-9, atol=1e-10)
-        assert_allclose(one.loads[kernel.CD, i], cd, rtol=1e-9, atol=1e-10)
-        assert_allclose(one.loads[kernel.FZ, i], lift * np.cos(phi[i]) - drag * np.sin(phi[i]), rtol=1e-9, atol=1e-12)
-        assert_allclose(one.loads[kernel.FX, i], lift * np.sin(phi[i]) + drag * np.cos(phi[i]), rtol=1e-9, atol=1e-12)
+        lift, drag = (disk.half_solidity[i] * speed[i] ** 2 * c for c in (elements.loss[i] * cl, cd))
+        loads = elements.loads[:, i]
+        assert_allclose(loads[kernel.CL], cl, rtol=1e-9, atol=1e-10)
+        assert_allclose(loads[kernel.CD], cd, rtol=1e-9, atol=1e-10)
+        assert_allclose(loads[kernel.FZ], lift * np.cos(phi[i]) - drag * np.sin(phi[i]), rtol=1e-9, atol=1e-12)
+        assert_allclose(loads[kernel.FX], lift * np.sin(phi[i]) + drag * np.cos(phi[i]), rtol=1e-9, atol=1e-12)
 
 
 def test_chord_ratio_and_droop_of_the_r8():
@@ -83,15 +89,15 @@ def test_chord_ratio_and_droop_of_the_r8():
 def test_pointwise_derivatives(row: int):
     """∂F_z, ∂F_x by θ, U_T, U_P against central differences, everywhere on the disk."""
     p = problem()
-    one = run_pass(p, STATE)
+    elements = evaluate_elements(p, STATE)
     disk = p.disk
-    fields = [one.theta, one.u_t, one.u_p]
+    fields = [elements.theta, elements.u_t, elements.u_p]
     h = 1e-6
 
     def loads(shift: float):
         moved = [f + shift * (k == row) for k, f in enumerate(fields)]
         return kernel.element_loads(
-            *moved, one.loss, p.tip_mach, disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables
+            *moved, elements.loss, p.tip_mach, disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables
         )
 
     ahead, behind = loads(h), loads(-h)
@@ -100,7 +106,7 @@ def test_pointwise_derivatives(row: int):
         difference = (ahead[value] - behind[value]) / (2.0 * h)
         scale = np.abs(difference).max()
         # C¹ data: a difference across a knot errs by (jump of curvature) × h, 1e-6 of the scale here.
-        assert_allclose(one.loads[slope], difference, rtol=1e-5, atol=3e-6 * scale)
+        assert_allclose(elements.loads[slope], difference, rtol=1e-5, atol=3e-6 * scale)
 
 
 @pytest.mark.parametrize(
@@ -119,32 +125,31 @@ def test_trim_jacobian(preset: str, models: dict[str, object], mu: float):
     """The exact Jacobian of the trim residual against central differences."""
     p = problem(preset, mu, **models)
     unknowns = UNKNOWNS[p.design.models.trim]
-    state = STATE.copy()
+    state = STATE
     if preset == "thesis" or models.get("trim") == "thrust":
-        state[SHAFT_TILT] = math.atan2(p.drag, p.weight)
-    one = run_pass(p, state)
-    exact = jacobian(p, one, slopes(p, one, unknowns, None))
+        state = replace(STATE, shaft_tilt=math.atan2(p.drag, p.weight))
+    elements = evaluate_elements(p, state)
+    exact = jacobian(p, elements, slopes(p, elements, unknowns, None))
     h = 1e-6
     for k, unknown in enumerate(unknowns):
-        step = np.zeros(N_STATE)
-        step[unknown] = h * (0.1 if unknown == LAMBDA0 else 1.0)
-        ahead, behind = (residuals(p, run_pass(p, state + sign * step)) for sign in (1.0, -1.0))
-        difference = (ahead - behind) / (2.0 * step[unknown])
+        step = np.array([h * (0.1 if unknown == "lambda0" else 1.0)])
+        ahead, behind = (residuals(p, evaluate_elements(p, state.moved([unknown], s * step))) for s in (1.0, -1.0))
+        difference = (ahead - behind) / (2.0 * step[0])
         assert_allclose(exact[:, k], difference, rtol=2e-5, atol=2e-7)
 
 
 def test_newton_converges_quadratically():
     """Near the root each residual is of the order of the last one squared: the mark of an exact Jacobian."""
     p = problem(mu=0.2)
-    unknowns = list(UNKNOWNS["propulsive"])
-    state = newton(p, first_guess(p)).last.state.copy()
-    state[unknowns] += 2e-3
+    unknowns = UNKNOWNS["propulsive"]
+    state = newton(p, first_guess(p)).elements.state.moved(unknowns, np.full(len(unknowns), 2e-3))
     sizes = []
     for _ in range(4):
-        one = run_pass(p, state)
-        error = residuals(p, one)
+        elements = evaluate_elements(p, state)
+        error = residuals(p, elements)
         sizes.append(np.abs(error).max() / p.weight)
-        state[unknowns] -= np.linalg.solve(jacobian(p, one, slopes(p, one, tuple(unknowns), None)), error)
+        matrix = jacobian(p, elements, slopes(p, elements, unknowns, None))
+        state = state.moved(unknowns, np.asarray(np.linalg.solve(matrix, -error), dtype=float))
     assert sizes[1] < sizes[0] ** 2
     assert sizes[2] < sizes[1] ** 2
     assert sizes[3] < 1e-13
@@ -155,30 +160,24 @@ def test_loss_average_over_azimuth_is_settled():
     from rotor.aero.losses import loss_factor
 
     p = problem(mu=0.35)
-    state = newton(p, first_guess(p)).last.state
-    one = run_pass(p, state)
+    state = newton(p, first_guess(p)).elements.state
+    elements = evaluate_elements(p, state)
     psi = 2.0 * np.pi * np.arange(360) / 360
     around = replace(p.disk, psi=psi, cos=np.cos(psi), sin=np.sin(psi))
-    field = p.inflow.respond(around, one.flow, np.zeros((0, 0))).induced
+    field = p.inflow.respond(around, elements.flow, np.zeros((0, 0))).induced
     rotor = p.design.rotor
-    factor, _ = loss_factor(p.disk.r[:, None], one.flow.mu_z + field, rotor.blades, rotor.blade.root_cutout)
-    assert_allclose(one.loss, factor.mean(axis=1), atol=1e-4)
+    factor, _ = loss_factor(p.disk.r[:, None], elements.flow.mu_z + field, rotor.blades, rotor.blade.root_cutout)
+    assert_allclose(elements.loss, factor.mean(axis=1), atol=1e-4)
 
 
 def test_sums_by_quadrature_of_a_known_field():
     """A hovering untwisted rotor of constant C_l would give C_T = ½σ Cl/3 (1 − r0³): the sums integrate to that."""
     p = problem(mu=0.0)
-    one = run_pass(p, STATE * 0.0 + np.array([0.1, 0, 0, 0, 0, 0, 0, 1e-6]))
-    loads = one.loads.copy()
-    loads[kernel.FZ] = 0.5 * 0.08 * 0.6 * one.u_t**2
+    elements = evaluate_elements(p, TrimState(collective=0.1, lambda0=1e-6))
+    loads = elements.loads.copy()
+    loads[kernel.FZ] = 0.5 * 0.08 * 0.6 * elements.u_t**2
     loads[kernel.FX] = 0.0
-    total = sums(p, replace(one, loads=loads))
+    total = disk_sums(p, replace(elements, loads=loads))
     start = p.design.rotor.blade.root_cutout
     assert_allclose(total.thrust, 0.5 * 0.08 * 0.6 * (1.0 - start**3) / 3.0, rtol=2e-4)  # midpoint rule, 40 elements
     assert_allclose(total.moment[1:], 0.0, atol=1e-15)
-
-
-def test_models_are_values_not_branches():
-    """Every preset is a `Models` value; switching one choice changes only that one."""
-    changed = replace(FLIGHT_MODELS, inflow="uniform")
-    assert replace(changed, inflow=FLIGHT_MODELS.inflow) == FLIGHT_MODELS

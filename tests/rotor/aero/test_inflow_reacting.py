@@ -6,18 +6,19 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-import rotor.trim.newton
-from rotor.aero.elements import lay_out, run_pass
+from rotor.aero.elements import build_problem, evaluate_elements
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design.design import Design
 from rotor.design.twist import LinearTwist
 from rotor.files.make_design import make_design
 from rotor.trim.adjoint import Objective, power_gradient
 from rotor.trim.forward import guess_of
+from rotor.trim.options import SolverOptions
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
-REACTING = [name for name, model in INFLOW_MODELS.items() if model.load_dependent]
+LOAD_DEPENDENT = [name for name, model in INFLOW_MODELS.items() if model.load_dependent]
+TIGHT = SolverOptions(residual_tolerance=1e-13, inflow_tolerance=1e-12)
 
 
 def design_of(inflow: str, mu: float, twist: str = "linear:-10", preset: str = "flight") -> Design:
@@ -31,50 +32,49 @@ def coarse(inflow: str, mu: float) -> Design:
     return replace(design, models=replace(design.models, elements=20, azimuths=48))
 
 
-@pytest.mark.parametrize("inflow", REACTING)
+@pytest.mark.parametrize("inflow", LOAD_DEPENDENT)
 @pytest.mark.parametrize("mu", [0.06, 0.2, 0.35])
 def test_the_inflow_is_what_the_model_answers(inflow: str, mu: float):
     """Converged: λ_i = A d, closed to 1e-8 of λ0, and the power closed with it."""
     solution = solve(coarse(inflow, mu)).require()
-    problem = lay_out(solution.design)
+    problem = build_problem(solution.design)
     guess = guess_of(solution)
-    one = run_pass(problem, guess.state, guess.induced)
-    assert one.response is not None
-    assert_allclose(one.response.induced, solution.disk.induced, atol=1.1e-8 * solution.controls.lambda0)
+    elements = evaluate_elements(problem, guess.state, guess.induced)
+    assert elements.response is not None
+    assert_allclose(elements.response.induced, solution.disk.induced, atol=1.1e-8 * solution.controls.lambda0)
     assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-9)
 
 
-@pytest.mark.parametrize("inflow", REACTING)
+@pytest.mark.parametrize("inflow", LOAD_DEPENDENT)
 @pytest.mark.parametrize("mu", [0.1, 0.3])
 def test_loop_and_transposes(inflow: str, mu: float):
     """The loop solves z − A K z = f, and ⟨g, Bf⟩ = ⟨Bᵀg, f⟩ for A and for the loop, on random fields."""
     solution = solve(coarse(inflow, mu)).require()
-    problem = lay_out(solution.design)
+    problem = build_problem(solution.design)
     guess = guess_of(solution)
-    one = run_pass(problem, guess.state, guess.induced)
-    assert one.response is not None
-    slope = one.loads[6]  # FZ_UP
-    loop = one.response.feedback(slope)
+    elements = evaluate_elements(problem, guess.state, guess.induced)
+    assert elements.response is not None
+    slope = elements.loads[6]  # FZ_UP
+    feedback = elements.response.feedback(slope)
     random = np.random.default_rng(3)
     f, g = random.normal(size=(2, *problem.disk.shape))
-    z = loop.solve(f[None])[0]
-    assert_allclose(z - one.response.apply((slope * z)[None])[0], f, atol=1e-9 * np.abs(z).max())
-    v = loop.solve_transposed(g)
-    assert_allclose(v - slope * one.response.apply_transposed(v), g, atol=1e-9 * np.abs(v).max())
-    assert_allclose(np.vdot(g, one.response.apply(f[None])[0]), np.vdot(one.response.apply_transposed(g), f), rtol=1e-9)
+    z = feedback.solve(f[None])[0]
+    assert_allclose(z - elements.response.apply((slope * z)[None])[0], f, atol=1e-9 * np.abs(z).max())
+    v = feedback.solve_transposed(g)
+    assert_allclose(v - slope * elements.response.apply_transposed(v), g, atol=1e-9 * np.abs(v).max())
+    forward, transposed = elements.response.apply(f[None])[0], elements.response.apply_transposed(g)
+    assert_allclose(np.vdot(g, forward), np.vdot(transposed, f), rtol=1e-9)
 
 
-@pytest.mark.parametrize("inflow", [*REACTING, "pitt-peters", "drees"])
+@pytest.mark.parametrize("inflow", [*LOAD_DEPENDENT, "pitt-peters", "drees"])
 @pytest.mark.parametrize("objective", ["total", "induced"])
 @pytest.mark.parametrize("mu", [0.0, 0.12, 0.3])
-def test_adjoint_against_differences(monkeypatch: pytest.MonkeyPatch, inflow: str, objective: Objective, mu: float):
+def test_adjoint_against_differences(inflow: str, objective: Objective, mu: float):
     """dP by the twist rate, by the adjoint and by central differences of trims solved to 1e-13."""
-    monkeypatch.setattr(rotor.trim.newton, "TOLERANCE", 1e-13)
-    monkeypatch.setattr(rotor.trim.newton, "INFLOW_TOLERANCE", 1e-12)
     rate, h = np.radians(-11.0), 2e-5
 
     def at(value: float, start: Solution | None = None) -> Solution:
-        return solve(replace(coarse(inflow, mu), twist=LinearTwist(value)), start).require()
+        return solve(replace(coarse(inflow, mu), twist=LinearTwist(value)), start, TIGHT).require()
 
     middle = at(rate)
     gradient = power_gradient(middle, objective)
@@ -89,13 +89,11 @@ def test_adjoint_against_differences(monkeypatch: pytest.MonkeyPatch, inflow: st
 
 
 @pytest.mark.parametrize("preset", ["flight", "thesis"])
-def test_adjoint_at_every_element(monkeypatch: pytest.MonkeyPatch, preset: str):
+def test_adjoint_at_every_element(preset: str):
     """dP/dθ at single blade elements, hover and forward, both presets."""
-    monkeypatch.setattr(rotor.trim.newton, "TOLERANCE", 1e-13)
-    monkeypatch.setattr(rotor.trim.newton, "INFLOW_TOLERANCE", 1e-12)
     for mu in (0.0, 0.25):
         design = make_design(preset=preset, twist="linear:-10", mu=mu)
-        middle = solve(design).require()
+        middle = solve(design, options=TIGHT).require()
         gradient = power_gradient(middle)
         for element in (3, 20, 36):
             bump = np.zeros_like(gradient.r)
@@ -103,7 +101,7 @@ def test_adjoint_at_every_element(monkeypatch: pytest.MonkeyPatch, preset: str):
             powers = []
             for sign in (1.0, -1.0):
                 moved = _Bumped(sign * bump, gradient.r)
-                powers.append(solve(replace(design, twist=moved), middle).require().power.total)
+                powers.append(solve(replace(design, twist=moved), middle, TIGHT).require().power.total)
             difference = (powers[0] - powers[1]) / (2.0 * bump[element])
             assert_allclose(gradient.by_element[element], difference, rtol=2e-5, atol=1e-6 * middle.power.total)
 
@@ -121,7 +119,7 @@ class _Bumped:
         return "bumped"
 
 
-@pytest.mark.parametrize("inflow", REACTING)
+@pytest.mark.parametrize("inflow", LOAD_DEPENDENT)
 def test_twist_moves_induced_power(inflow: str):
     """The point of it all: 5–9 % of total power over 0…−20° (linear models: induced power to 1 % the same)."""
     induced = [solve(design_of(inflow, 0.2, f"linear:{rate}")).require().power.induced for rate in (0, -8, -20)]

@@ -13,26 +13,28 @@ from scipy.integrate import dblquad
 
 from rotor.__main__ import main
 from rotor.aero import kernel
-from rotor.aero.elements import LAMBDA0, LOW_MACH, N_STATE, lay_out, run_pass
+from rotor.aero.elements import LOW_MACH, build_problem, evaluate_elements
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.interface import Wake
 from rotor.aero.losses import tip_factor
 from rotor.aero.sums import slopes
 from rotor.aero.switches import SWITCHES, no_effect, parse_switches, switched_off, with_switches
+from rotor.aero.trim_state import TrimState
 from rotor.airfoil.sections import load_installed
-from rotor.analysis.waterfall import PARTS, climb, waterfall
+from rotor.analysis.waterfall import PARTS, switch_on_steps, waterfall
 from rotor.assets import asset_path
 from rotor.design.design import Design
 from rotor.design.twist import TableTwist
-from rotor.files.design_file import case_of, design_of
+from rotor.files.design_file import design_from_record, design_record
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import read_aircraft
-from rotor.trim import newton
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.equations import jacobian, residuals, unknowns_of
+from rotor.trim.options import SolverOptions
 from rotor.trim.power import hub_moment, power_budget
 from rotor.trim.solve import solve
 
+TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-11)
 EVERY = [
     tuple(n for n, on in zip(SWITCHES, c, strict=True) if not on) for c in itertools.product((True, False), repeat=6)
 ]
@@ -79,30 +81,29 @@ def test_combinations_trim_in_both_presets(preset: str, mu: float, every: int):
 @pytest.mark.parametrize("off", [*((n,) for n in SWITCHES), ("flapping", "reverse_flow"), tuple(SWITCHES)], ids=name)
 @pytest.mark.parametrize("trim", ["propulsive", "thrust"])
 def test_jacobian_against_differences(off: tuple[str, ...], trim: str):
-    problem = lay_out(with_switches(small(0.35, inflow="pitt-peters", trim=trim), off))
+    problem = build_problem(with_switches(small(0.35, inflow="pitt-peters", trim=trim), off))
     unknowns = unknowns_of(problem.design.models)
-    state = np.array([0.17, 0.03, -0.09, 0.08, 0.06, -0.02, 0.01, 0.012])
+    state = TrimState(0.17, 0.03, -0.09, 0.08, 0.06, -0.02, 0.01, 0.012)
     if "flapping" in off:
-        state[[1, 2, 4, 5, 6]] = 0.0
+        state = TrimState(collective=0.17, shaft_tilt=0.08, lambda0=0.012)
         assert len(unknowns) == (3 if trim == "propulsive" else 2)
-    one = run_pass(problem, state)
-    exact = jacobian(problem, one, slopes(problem, one, unknowns, None))
+    elements = evaluate_elements(problem, state)
+    exact = jacobian(problem, elements, slopes(problem, elements, unknowns, None))
     assert exact.shape == (len(unknowns), len(unknowns))
     for k, unknown in enumerate(unknowns):
-        step = np.zeros(N_STATE)
-        step[unknown] = 1e-6 * (0.1 if unknown == LAMBDA0 else 1.0)
-        ahead, behind = (residuals(problem, run_pass(problem, state + sign * step)) for sign in (1.0, -1.0))
-        assert_allclose(exact[:, k], (ahead - behind) / (2.0 * step[unknown]), rtol=2e-5, atol=2e-7)
+        step = np.array([1e-6 * (0.1 if unknown == "lambda0" else 1.0)])
+        ahead, behind = (
+            residuals(problem, evaluate_elements(problem, state.moved([unknown], sign * step))) for sign in (1.0, -1.0)
+        )
+        assert_allclose(exact[:, k], (ahead - behind) / (2.0 * step[0]), rtol=2e-5, atol=2e-7)
 
 
 @pytest.mark.parametrize("mu", [0.0, 0.3])
 @pytest.mark.parametrize("off", [*((n,) for n in SWITCHES), tuple(SWITCHES)], ids=name)
-def test_gradient_along_the_blade_against_differences(off: tuple[str, ...], mu: float, monkeypatch: pytest.MonkeyPatch):
+def test_gradient_along_the_blade_against_differences(off: tuple[str, ...], mu: float):
     """dP/dθ(r) with the dynamic wake, along one change of pitch that no twist law knows."""
-    monkeypatch.setattr(newton, "TOLERANCE", 1e-12)
-    monkeypatch.setattr(newton, "INFLOW_TOLERANCE", 1e-11)
     design = with_switches(small(mu), off)
-    r = lay_out(design).disk.r
+    r = build_problem(design).disk.r
     base, way = design.twist(r), np.random.default_rng(3).standard_normal(len(r))
     ends = (0.0, *r, 1.0)
 
@@ -110,9 +111,9 @@ def test_gradient_along_the_blade_against_differences(off: tuple[str, ...], mu: 
         angles = base + amount * way
         table = TableTwist(ends, (angles[0], *angles, angles[-1]))
         # A table is moved to be zero at 0.75 R: the collective takes that, and the power does not change.
-        return solve(replace(design, twist=table), centre).require().power.total
+        return solve(replace(design, twist=table), centre, TIGHT).require().power.total
 
-    centre = solve(design).require()
+    centre = solve(design, options=TIGHT).require()
     step = 2e-6
     measured = (power(step) - power(-step)) / (2.0 * step)
     exact = power_gradient(centre).by_element
@@ -141,12 +142,12 @@ class TestReverseFlow:
         """C_P0 = σC_d/4π ∬ (r + µ sin ψ)³ over the rest of the blade, by quadrature."""
         mu, drag = 0.4, 0.01
         design = make_design(preset="thesis", mu=mu)
-        problem = lay_out(with_switches(design, ("reverse_flow",)))
-        assert problem.idle is not None
-        one = run_pass(problem, np.array([0, 0, 0, 0, 0, 0, 0, 1e-9]))
-        loads = one.loads.copy()
-        loads[kernel.CD] = np.where(problem.idle, loads[kernel.CD], drag)
-        got = power_budget(problem, replace(one, loads=loads)).profile / design.power_unit
+        problem = build_problem(with_switches(design, ("reverse_flow",)))
+        assert problem.unloaded is not None
+        elements = evaluate_elements(problem, TrimState(lambda0=1e-9))
+        loads = elements.loads.copy()
+        loads[kernel.CD] = np.where(problem.unloaded, loads[kernel.CD], drag)
+        got = power_budget(problem, replace(elements, loads=loads)).profile / design.power_unit
         root = design.rotor.blade.root_cutout
         whole, _ = dblquad(
             lambda r, psi: (r + mu * math.sin(psi)) ** 3,
@@ -225,11 +226,11 @@ class TestFlapping:
         sigma, slope, mu, theta, inflow = 0.08, 5.73, 0.2, 0.12, 0.02
         design = make_design(mu=mu)
         fine = replace(design.models, elements=400, inflow="uniform")
-        problem = lay_out(with_switches(replace(design, models=fine), ("flapping",)))
-        one = run_pass(problem, np.array([theta, 0, 0, 0, 0, 0, 0, inflow]))
-        loads = one.loads.copy()
-        loads[kernel.FZ] = 0.5 * sigma * slope * (theta * one.u_t**2 - inflow * one.u_t)
-        moment = hub_moment(problem, replace(one, loads=loads))
+        problem = build_problem(with_switches(replace(design, models=fine), ("flapping",)))
+        elements = evaluate_elements(problem, TrimState(collective=theta, lambda0=inflow))
+        loads = elements.loads.copy()
+        loads[kernel.FZ] = 0.5 * sigma * slope * (theta * elements.u_t**2 - inflow * elements.u_t)
+        moment = hub_moment(problem, replace(elements, loads=loads))
         root = design.rotor.blade.root_cutout
         by_hand = 0.5 * sigma * slope * mu * (theta * (1 - root**3) / 3.0 - inflow * (1 - root**2) / 4.0)
         unit = design.thrust_unit * design.rotor.radius
@@ -264,9 +265,10 @@ class TestFlapping:
 class TestLossesAndFuselage:
     @pytest.mark.parametrize(("off", "end"), [("tip_loss", -1), ("hub_loss", 0)])
     def test_each_loss_has_its_own_end_of_the_blade(self, off: str, end: int):
-        state = np.array([0.17, 0, 0, 0.08, 0, 0, 0, 0.012])
+        state = TrimState(collective=0.17, shaft_tilt=0.08, lambda0=0.012)
         on, without = (
-            run_pass(lay_out(with_switches(small(0.2, inflow="drees"), names)), state).loss for names in ((), (off,))
+            evaluate_elements(build_problem(with_switches(small(0.2, inflow="drees"), names)), state).loss
+            for names in ((), (off,))
         )
         assert on[end] < 0.95
         assert without[end] == pytest.approx(1.0, abs=1e-4)
@@ -275,7 +277,7 @@ class TestLossesAndFuselage:
     @pytest.mark.parametrize("inflow", ["local-momentum", "dynamic-wake-infinite-blades"])
     def test_inflow_that_answers_leaves_its_own_factor_out(self, inflow: str):
         """At one load λ_i with tip loss is λ_i without it over F (2.28): F of the mean inflow by Prandtl."""
-        disk = lay_out(small(0.2)).disk
+        disk = build_problem(small(0.2)).disk
         wake = Wake(0.2, 0.01, 0.013)
         load = 0.02 * disk.r[:, None] * np.ones(disk.shape[1])
         model = INFLOW_MODELS[inflow]
@@ -287,7 +289,7 @@ class TestLossesAndFuselage:
     def test_four_blades_without_tip_loss_are_infinitely_many(self):
         wake = INFLOW_MODELS["dynamic-wake"].without_tip_loss()
         infinite = INFLOW_MODELS["dynamic-wake-infinite-blades"].without_tip_loss()
-        disk = lay_out(small(0.2)).disk
+        disk = build_problem(small(0.2)).disk
         load = np.random.default_rng(1).random(disk.shape)
         a, b = (m.respond(disk, Wake(0.2, 0.0, 0.013), load).induced for m in (wake, infinite))
         assert_allclose(a, b, rtol=1e-12)
@@ -336,7 +338,7 @@ class TestWaterfall:
     def test_a_step_that_does_not_trim_is_passed_over(self):
         """The hovering rotor lifts 21.5 t with the lift and the stall of Mach 0.3, and not with the real ones."""
         design = replace(small(0.0), condition=replace(small(0.0).condition, mass=21_500.0))
-        steps = list(climb(design))
+        steps = list(switch_on_steps(design))
         assert [step.power is not None for step in steps] == [True] * 5 + [False] * 2
         assert steps[5].change is None
         assert steps[6].against is steps[4].solution
@@ -370,7 +372,7 @@ class TestCommandAndFiles:
     def test_files_keep_every_switch_and_old_files_are_read(self, tmp_path: Path):
         for off in EVERY[::7]:
             design = with_switches(make_design(mu=0.2), off)
-            assert design_of(case_of(design)).models == design.models
-        assert switched_off(design_of({"tip_loss": False, "hub_loss": True}).models)[0].name == "tip_loss"
+            assert design_from_record(design_record(design)).models == design.models
+        assert switched_off(design_from_record({"tip_loss": False, "hub_loss": True}).models)[0].name == "tip_loss"
         with pytest.raises(ValueError, match="'flapping' is 0: give true or false"):
-            design_of({"flapping": 0})
+            design_from_record({"flapping": 0})

@@ -45,7 +45,7 @@ HUB_ZERO = 7.5 * MIDPOINTS**3 * np.sqrt(1.0 - MIDPOINTS**2)
 """d of type III, C_T = 1."""
 
 
-def skewed(chi_deg: float) -> Wake:
+def wake_at(chi_deg: float) -> Wake:
     """Unit speed at a skew angle, light loading (λ0 → 0, where V̄ = V_T)."""
     return Wake(math.sin(math.radians(chi_deg)), math.cos(math.radians(chi_deg)), 0.0)
 
@@ -107,7 +107,7 @@ def test_closed_forms_of_the_actuator_disk(kind: str, load: np.ndarray):
     for chi in {row["chi_deg"] for row in rows}:
         at = [row for row in rows if row["chi_deg"] == chi]
         radii = np.array([float(row["r"]) for row in at])
-        found = amplitudes(16, skewed(float(chi)), load, radii, 5)
+        found = amplitudes(16, wake_at(float(chi)), load, radii, 5)
         expected = np.array([[float(row[f"w{k}"]) for row in at] for k in range(5)])
         assert_allclose(found, expected, rtol=0, atol=2e-3)  # Truncation at S = 16, as measured by the reference.
         assert_allclose(found[1::2], expected[1::2], rtol=0, atol=2e-5)  # Midpoint sum of d at its √ end.
@@ -115,7 +115,7 @@ def test_closed_forms_of_the_actuator_disk(kind: str, load: np.ndarray):
 
 def test_one_state_in_axial_flow_gives_nine_sixteenths():
     """A truncation: the uniform mode alone answers 9/16 C_T/V to any load, momentum theory ½."""
-    flow, family = flow_parameters(skewed(0.0)), families(1)[0]
+    flow, family = flow_parameters(wake_at(0.0)), families(1)[0]
     influence, _ = family.influence(flow.half_skew)
     phi = radial_function(0, 1, 0.5)
     assert_allclose(phi * 0.5 * influence[0, 0] * 0.5 * phi, 9.0 / 16.0, rtol=1e-15)
@@ -124,7 +124,7 @@ def test_one_state_in_axial_flow_gives_nine_sixteenths():
 @pytest.mark.parametrize("load", [ELLIPTIC, HUB_ZERO])
 def test_mean_inflow_in_axial_flow_tends_to_momentum_theory(load: np.ndarray):
     mean = [
-        float((2.0 * MIDPOINTS * amplitudes(order, skewed(0.0), load, MIDPOINTS, 1)[0]).mean()) for order in (4, 16)
+        float((2.0 * MIDPOINTS * amplitudes(order, wake_at(0.0), load, MIDPOINTS, 1)[0]).mean()) for order in (4, 16)
     ]
     assert_allclose(mean[0], 0.5, rtol=0, atol=0.021)  # Truncation, 0.502 … 0.520 as the reference measured.
     assert_allclose(mean[1], 0.5, rtol=0, atol=0.0036)
@@ -132,7 +132,7 @@ def test_mean_inflow_in_axial_flow_tends_to_momentum_theory(load: np.ndarray):
 
 def test_pitt_peters_gains():
     """Three states give k_x = 3π/4 X on C_T/2V for the elliptic load; the hub-zero load projects to 15π/32 X."""
-    wake = skewed(60.0)
+    wake = wake_at(60.0)
     skew = math.tan(math.radians(30.0))
     at_tip = np.array([1.0])
     three = amplitudes(1, wake, ELLIPTIC, at_tip, 2)[1, 0]
@@ -168,7 +168,7 @@ def test_independent_of_the_fourier_operator_of_the_actuator_disk(m: int, sine: 
     mid = projection.r
     angle = 2.0 * np.pi * np.arange(azimuths) / azimuths
     d = 2.0 * mid[:, None] ** (m + 1) * (1.0 - mid[:, None] ** 2) ** 1.5 * trig(m * angle)
-    states = model.response(projection, skewed(chi_deg)).states(d)
+    states = model.response(projection, wake_at(chi_deg)).states(d)
     inside = r < 0.95
     found = np.zeros(int(inside.sum()))
     for kind, start, modes in ((np.cos, 0, mode_set(order)), (np.sin, len(mode_set(order)), mode_set(order, 1))):

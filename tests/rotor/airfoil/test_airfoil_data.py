@@ -6,14 +6,20 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.airfoil.build.assemble import DECK_MACH, deck_alpha_deg
 from rotor.airfoil.build.compressibility import prandtl_glauert, smooth_cap, wave_drag, with_lost_suction
-from rotor.airfoil.build.decks import NATIVE_MACHS, RECIPES, compare_decks, make_deck, run_trip_polars
+from rotor.airfoil.build.decks import (
+    DECK_MACH,
+    NATIVE_MACHS,
+    RECIPES,
+    compare_decks,
+    deck_alpha_deg,
+    make_deck,
+    run_trip_polars,
+)
 from rotor.airfoil.build.xfoil import XfoilMissing, require_xfoil
 from rotor.airfoil.c81 import C81Block, C81Deck, read_c81
 from rotor.airfoil.polars import PolarSet, read_polars, write_polars
-from rotor.airfoil.sections import load_installed
-from rotor.airfoil.table import load_section
+from rotor.airfoil.sections import load_installed, load_section
 from rotor.airfoil.wrap import blend_weight, wrap_coefficients
 from rotor.assets import asset_path
 

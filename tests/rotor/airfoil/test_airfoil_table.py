@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from rotor.airfoil.bicubic import bicubic_coefficients
+from rotor.airfoil.bicubic import ALPHA_STEP, MACH_STEP, N_ALPHA, N_MACH, bicubic_coefficients
 from rotor.airfoil.c81 import C81Block, read_c81
-from rotor.airfoil.section_table import table_from_deck
-from rotor.airfoil.table import ALPHA_STEP, MACH_STEP, N_ALPHA, N_MACH, TABLE_NAMES, SectionTable, load_section
+from rotor.airfoil.section_table import SectionTable, table_from_deck
+from rotor.airfoil.sections import TABLE_NAMES, load_section
 from rotor.assets import asset_path
 
 DECKS = ("sc1095", "sc1094r8")

@@ -14,11 +14,11 @@ from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.harmonic import phase_sweep
 from rotor.actuator.installation import install
 from rotor.actuator.placement import Host, default_placement
-from rotor.aero.elements import lay_out, run_pass
+from rotor.aero.elements import build_problem, evaluate_elements
 from rotor.aero.sums import slopes
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
-from rotor.files.design_file import design_of, read_case, write_case
+from rotor.files.design_file import design_from_record, read_design, write_design
 from rotor.files.make_design import make_design
 from rotor.trim.equations import UNKNOWNS, jacobian
 from rotor.trim.forward import first_guess
@@ -69,12 +69,12 @@ def test_field_by_hand():
 def test_exact_jacobian_is_not_disturbed():
     """Newton needs no more passes, and the Jacobian agrees with differences of the residuals."""
     design = turning(make_design(mu=0.25), Harmonic(2, DEGREE))
-    problem = lay_out(replace(design, models=replace(design.models, inflow="pitt-peters")))
+    problem = build_problem(replace(design, models=replace(design.models, inflow="pitt-peters")))
     done = newton(problem, first_guess(problem))
     assert done.converged
     assert done.passes <= 6
-    one = run_pass(problem, done.last.state)
-    matrix = jacobian(problem, one, slopes(problem, one, UNKNOWNS["propulsive"], None))
+    elements = evaluate_elements(problem, done.elements.state)
+    matrix = jacobian(problem, elements, slopes(problem, elements, UNKNOWNS["propulsive"], None))
     assert np.linalg.cond(matrix) < 1e6
 
 
@@ -119,8 +119,8 @@ def test_bad_input(make: object):
 
 def test_design_file_keeps_it(tmp_path: Path):
     design = turning(make_design(mu=0.3), Harmonic(2, 0.015, 1.2), stations=(0.2, 0.9), shape=(0.0, 1.0))
-    write_case(design, tmp_path / "case.json")
-    again = read_case(tmp_path / "case.json").active_twist
+    write_design(design, tmp_path / "case.json")
+    again = read_design(tmp_path / "case.json").active_twist
     assert again is not None
     assert_allclose([again.harmonics[0].amplitude, again.harmonics[0].phase], [0.015, 1.2], rtol=1e-12)
     assert again.stations == (0.2, 0.9)
@@ -129,7 +129,7 @@ def test_design_file_keeps_it(tmp_path: Path):
 def test_solve_names_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     """A power that active twist has changed is not printed as that of the bare twist law."""
     file = str(tmp_path / "case.json")
-    write_case(turning(make_design(mu=0.3), Harmonic(2, 1.5 * DEGREE, 1.0)), file)
+    write_design(turning(make_design(mu=0.3), Harmonic(2, 1.5 * DEGREE, 1.0)), file)
     assert main(["solve", "--case", file]) == 0
     assert "active twist 2/rev ±1.50°, phase 57°" in capsys.readouterr().out
     assert main(["solve", "--case", file, "--json"]) == 0
@@ -138,4 +138,4 @@ def test_solve_names_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
 
 def test_design_file_with_nonsense_says_so():
     with pytest.raises(ValueError, match="'active_twist' is 3"):
-        design_of({"active_twist": 3})
+        design_from_record({"active_twist": 3})

@@ -9,41 +9,42 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
 from rotor.aero import kernel
-from rotor.aero.elements import CONING, FLAP_1C, FLAP_1S, Problem, lay_out, run_pass, skewed
+from rotor.aero.elements import Problem, build_problem, evaluate_elements, wake_at
+from rotor.aero.trim_state import TrimState
 from rotor.dynamics.flapping import flap_dynamics, lock_number
 from rotor.files.make_design import make_design, uh60a_rotor
 from rotor.trim.forward import first_guess
 from rotor.trim.newton import newton
 
 
-def trimmed(preset: str, mu: float) -> tuple[Problem, np.ndarray]:
+def trimmed(preset: str, mu: float) -> tuple[Problem, TrimState]:
     design = make_design(preset=preset, mu=mu, twist="linear:-10")
-    problem = lay_out(replace(design, models=replace(design.models, inflow="pitt-peters")))
+    problem = build_problem(replace(design, models=replace(design.models, inflow="pitt-peters")))
     result = newton(problem, first_guess(problem))
     assert result.converged
-    return problem, result.last.state
+    return problem, result.elements.state
 
 
-def march(problem: Problem, state: np.ndarray, revolutions: int) -> np.ndarray:
+def march(problem: Problem, state: TrimState, revolutions: int) -> np.ndarray:
     """β(ψ) over the last revolution of β'' + ν²β = Γ Σ(r − e) dC_T/dr(ψ, β, β') dr − w, by Runge–Kutta.
 
     The load is evaluated at the instant's own β and β' with controls and inflow as trimmed; nothing here knows of
     harmonics.
     """
     disk, flap = problem.disk, problem.flap
-    one = run_pass(problem, state)
-    k = one.flow
+    elements = evaluate_elements(problem, state)
+    flow = elements.flow
     r = disk.r
 
     def acceleration(psi: float, beta: float, rate: float) -> float:
         cos, sin = np.array([math.cos(psi)]), np.array([math.sin(psi)])
         here = replace(disk, psi=np.array([psi]), cos=cos, sin=sin)
-        induced = problem.inflow.respond(here, skewed(problem, state), np.zeros((0, 0))).induced
-        theta = (problem.twist + state[0] + state[1] * cos + state[2] * sin)[:, None]
-        u_t = (r + k.mu_x * sin)[:, None]
-        u_p = induced + ((r - flap.hinge) * rate + k.mu_z + k.mu_x * beta * cos)[:, None]
+        induced = problem.inflow.respond(here, wake_at(problem, state), np.zeros((0, 0))).induced
+        theta = (problem.twist + state.collective + state.cyclic_1c * cos + state.cyclic_1s * sin)[:, None]
+        u_t = (r + flow.mu_x * sin)[:, None]
+        u_p = induced + ((r - flap.hinge) * rate + flow.mu_z + flow.mu_x * beta * cos)[:, None]
         loads = kernel.element_loads(
-            theta, u_t, u_p, one.loss, problem.tip_mach,
+            theta, u_t, u_p, elements.loss, problem.tip_mach,
             disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables,
         )  # fmt: skip
         moment = float((r - flap.hinge) @ loads[kernel.FZ, :, 0]) * disk.dr
@@ -65,7 +66,7 @@ def test_ode_agrees_with_harmonic_balance(preset: str, mu: float):
     beta = march(problem, state, revolutions=12)
     psi = np.linspace(0.0, 2.0 * math.pi, 73)[:-1]
     marched = [beta.mean(), 2.0 * (beta * np.cos(psi)).mean(), 2.0 * (beta * np.sin(psi)).mean()]
-    balanced = [state[CONING], state[FLAP_1C], state[FLAP_1S]]
+    balanced = [state.coning, state.flap_1c, state.flap_1s]
     second = math.hypot(2.0 * (beta * np.cos(2 * psi)).mean(), 2.0 * (beta * np.sin(2 * psi)).mean())
     # A 2/rev motion of amplitude b reaches 1/rev only through µ: its velocity 2br meets µ sin ψ (4/3 µb against the
     # damping ∫r³), its slope meets µ cos ψ (2/3 µb). So 2µb bounds what the balance neglects.
@@ -75,8 +76,8 @@ def test_ode_agrees_with_harmonic_balance(preset: str, mu: float):
 
 def test_no_hinge_offset_leaves_no_first_harmonic_moment():
     problem, state = trimmed("thesis", 0.25)
-    one = run_pass(problem, state)
-    moment = problem.disk.r @ one.loads[kernel.FZ] * problem.disk.dr
+    elements = evaluate_elements(problem, state)
+    moment = problem.disk.r @ elements.loads[kernel.FZ] * problem.disk.dr
     assert_allclose((moment @ problem.disk.cos, moment @ problem.disk.sin), 0.0, atol=1e-11)
 
 

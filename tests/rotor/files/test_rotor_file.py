@@ -11,11 +11,10 @@ from numpy.testing import assert_allclose
 
 from rotor import make_design
 from rotor.airfoil.build.decks import make_deck
-from rotor.airfoil.build.xfoil_file import parse_polar_file
 from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81
-from rotor.airfoil.polars import Polar, read_polars
-from rotor.airfoil.regrid import on_run_time_grid
+from rotor.airfoil.polars import Polar, parse_polar_file, read_polars
 from rotor.airfoil.sections import load_installed
+from rotor.airfoil.wrap import on_run_time_grid
 from rotor.assets import asset_path
 from rotor.design.aircraft import Aircraft
 from rotor.files.rotor_file import read_aircraft, read_rotor_file
@@ -79,8 +78,8 @@ def test_a_small_file_is_enough():
 
 
 BAD = [
-    ("name = \n", "", "my.toml, line 1: this is no TOML"),
-    ('name = "Test rotor"', 'name = "Test', "my.toml, line 1: this is no TOML"),
+    ("name = \n", "", "my.toml, line 1: this is not TOML"),
+    ('name = "Test rotor"', 'name = "Test', "my.toml, line 1: this is not TOML"),
     ('name = "Test rotor"', 'name = "<b>"', "my.toml, line 1: name is '<b>': use 1 to 40 letters"),
     ("radius_m = 5.0", 'radius_m = "five"', "my.toml, line 5: radius_m is 'five', not a number"),
     ("radius_m = 5.0", "radius_m = 5000.0", "my.toml, line 5: radius_m is 5000, outside 0.1…30 m: check"),

@@ -14,7 +14,7 @@ from rotor.__main__ import main
 from rotor.aero.inflow.vortex_lattice import shared_azimuths
 from rotor.analysis.ideal_bound import find_bound, ideal_factor
 from rotor.assets import SHIPPED_ROTORS, asset_path
-from rotor.files.design_file import case_of, design_of
+from rotor.files.design_file import design_from_record, design_record
 from rotor.files.rotor_file import find_aircraft, read_aircraft, shipped_aircraft
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.objective import at_condition
@@ -142,22 +142,24 @@ def test_a_linear_optimum_of_another_rotor(key: str):
 @pytest.mark.parametrize("key", SHIPPED_ROTORS)
 def test_design_files_name_a_shipped_rotor_and_hold_ones_own(key: str):
     design = make_design(rotor=key, twist="builtin", mu=0.23)
-    assert case_of(design)["rotor"] == key
-    assert design_of(json.loads(json.dumps(case_of(design)))) == design
+    assert design_record(design)["rotor"] == key
+    assert design_from_record(json.loads(json.dumps(design_record(design)))) == design
     mine = make_design(rotor=read_aircraft("my.toml", own(key)), twist="builtin", mu=0.23)
-    back = design_of(json.loads(json.dumps(case_of(mine))))
+    back = design_from_record(json.loads(json.dumps(design_record(mine))))
     assert back == mine
     assert pickle.loads(pickle.dumps(mine)) == mine
     assert back.aircraft.key == ""
 
 
 def test_design_files_of_version_1_are_the_uh60a():
-    design = design_of({"format": "rotor-explorer design", "version": 1, "twist": "uh60a"})
+    design = design_from_record({"format": "rotor-explorer design", "version": 1, "twist": "uh60a"})
     assert design.aircraft == shipped_aircraft("uh60a")
-    with pytest.raises(ValueError, match=r"design file key 'rotor' is no rotor: write one of uh60a, r22, s61"):
-        design_of({"rotor": {"main": "a.toml"}})
+    with pytest.raises(
+        ValueError, match=r"design file key 'rotor' does not name or hold a rotor: write one of uh60a, r22, s61"
+    ):
+        design_from_record({"rotor": {"main": "a.toml"}})
     with pytest.raises(ValueError, match="rotor '/etc/passwd' is not known: use uh60a"):
-        design_of({"rotor": "/etc/passwd"})  # A path is for the command line alone.
+        design_from_record({"rotor": "/etc/passwd"})  # A path is for the command line alone.
 
 
 def test_a_shipped_twist_goes_on_any_rotor():

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.testing import assert_allclose
 
 from rotor.airfoil.build.pressure import PRESSURE_CASES, read_pressure
-from rotor.reproduce import Report, Verdict
+from rotor.reproduce import Agreement, Report
 
 Make = Callable[[str], Report]
 
@@ -48,7 +48,7 @@ def test_figure_2_6(report: Make):
 def test_figure_2_7(report: Make):
     """Most thrust between 0.5 R and 0.9 R, and less at the very tip than at the peak."""
     one = report("2.7")
-    assert one.verdict is Verdict.AGREES
+    assert one.verdict is Agreement.AGREES
     for preset in ("thesis", "flight"):
         assert one.numbers[f"{preset}_share"] > 0.5
         assert 0.5 < one.numbers[f"{preset}_peak"] < 0.9

@@ -7,16 +7,16 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.reproduce import Report, Verdict
-from rotor.reproduce.five_twists import crossings
+from rotor.reproduce import Agreement, Report
 from rotor.reproduce.grids import convergence_order
-from rotor.reproduce.report import Table
+from rotor.reproduce.report import ReportTable
+from rotor.reproduce.twist_effect import crossings
 
 Make = Callable[[str], Report]
 FIVE = {0.0, -4.0, -8.0, -12.0, -16.0}
 
 
-def column(table: Table, name: str) -> np.ndarray:
+def column(table: ReportTable, name: str) -> np.ndarray:
     k = table.columns.index(name)
     return np.array([float(row[k]) for row in table.rows])
 
@@ -55,7 +55,7 @@ def test_figure_3_4(report: Make):
 def test_figure_3_5(report: Make):
     """The lift fit holds inside its range, and only there: free, it is absurd at 30°."""
     one = report("3.5")
-    assert one.verdict is Verdict.AGREES
+    assert one.verdict is Agreement.AGREES
     assert abs(one.numbers["unheld_at_30"]) > 100.0
 
 
@@ -95,7 +95,7 @@ def test_figure_3_9(report: Make):
     for preset in ("thesis", "flight"):
         assert one.numbers[f"{preset}_error_at_100"] < 1e-5
         assert one.numbers[f"{preset}_needed"] < 100
-    assert one.verdict is Verdict.DIFFERS
+    assert one.verdict is Agreement.DIFFERS
 
 
 def test_table_3_1(report: Make):
@@ -118,7 +118,7 @@ def test_figure_3_10(report: Make):
     """A bucket between hover and fast flight; within 15 % of a public model's curve; below the hover points. "
     "Indicative."""
     one = report("3.10")
-    assert one.verdict is Verdict.INDICATIVE
+    assert one.verdict is Agreement.INDICATIVE
     total = {name: column(one.tables[0], name) for name in ("flight", "thesis")}
     for power in total.values():
         assert power.min() < 0.7 * power[0]
@@ -149,7 +149,7 @@ def test_figure_3_12(report: Make):
     """Low speed likes strong twist, once the wake answers; with linear inflow by a tenth of a per cent only."""
     made = report("3.12")
     numbers = made.numbers
-    assert made.verdict is Verdict.DIFFERS
+    assert made.verdict is Agreement.DIFFERS
     assert "from µ 0.09 on it costs power" in made.because
     assert 0.0 < numbers["thesis_saving"] < 0.01
     assert numbers["thesis-wake_saving"] > 0.05
@@ -179,7 +179,7 @@ def test_figure_3_14(report: Make):
 def test_figure_3_15(report: Make):
     """Linear inflow leaves the five within a few per cent; a wake that answers spreads them more."""
     one = report("3.15")
-    assert one.verdict is Verdict.ALONE
+    assert one.verdict is Agreement.ALONE
     assert one.numbers["thesis_spread"] < 0.03 < 0.05 < one.numbers["thesis-wake_spread"]
     assert set(column(one.tables[0], "best")) <= FIVE
 
@@ -196,7 +196,7 @@ def test_keys_1987(report: Make):
     """More twist helps in hover in every preset; at 330 km/h it costs on the document's rotor. Another rotor: "
     "indicative."""
     one = report("keys 1987")
-    assert one.verdict is Verdict.INDICATIVE
+    assert one.verdict is Agreement.INDICATIVE
     for name in ("thesis", "thesis-wake", "flight"):
         assert -0.024 < one.numbers[f"{name}_hover"] < 0.0
         assert one.numbers[f"{name}_fastest_kmh"] == 330.0

@@ -5,11 +5,11 @@ from collections.abc import Callable
 import pytest
 
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.reproduce import Report, Verdict, beside_data
+from rotor.reproduce import Agreement, Report, flown_blade
 from rotor.reproduce import comparison as side_by_side
 from rotor.reproduce import optimum_twist as figures
-from rotor.reproduce.every_inflow import LINEAR
 from rotor.reproduce.optima import CONCEPTS, QUICK, best
+from rotor.reproduce.optimum_twist import LINEAR
 from rotor.reproduce.runs import EVERY_VARIANT, PRESETS, VARIANTS, choices, variant, with_inflow
 from rotor.trim.solve import solve
 
@@ -18,7 +18,7 @@ Make = Callable[[str], Report]
 
 def check(one: Report, concept: str, variants: tuple[str, ...] = EVERY_VARIANT) -> None:
     """Stands alone; converged; the band holds the optimum; never worse than the baseline, nor than one linear twist."""
-    assert one.verdict is Verdict.ALONE
+    assert one.verdict is Agreement.ALONE
     long = next(table for table in one.tables if table.name == "optimum")
     assert {row[:2] for row in long.rows} == {choices(name) for name in variants}
     for name in variants:
@@ -122,20 +122,20 @@ def test_figure_4_10():
 def test_figure_4_11(report: Make):
     """−16° is the straight line through the flown twist."""
     one = report("4.11")
-    assert one.verdict is Verdict.AGREES
+    assert one.verdict is Agreement.AGREES
     assert one.numbers["unweighted"] < -16.0 < one.numbers["weighted"]
 
 
 def test_figure_4_12():
     """Moving three segments saves, but little: nothing near the distance to any data."""
-    numbers = beside_data.figure_4_12(QUICK, ("flight",)).numbers
+    numbers = flown_blade.figure_4_12(QUICK, ("flight",)).numbers
     assert 0.0 < numbers["flight_least_saving"] <= numbers["flight_largest_saving"] < 0.05
 
 
 @pytest.mark.slow
 def test_figure_4_12_every_inflow():
     """With any model; the one that answers without wake losses (local momentum) sees most."""
-    numbers = beside_data.figure_4_12(QUICK).numbers
+    numbers = flown_blade.figure_4_12(QUICK).numbers
     for name in EVERY_VARIANT:
         assert 0.0 < numbers[f"{name}_least_saving"] <= numbers[f"{name}_largest_saving"] < 0.10
 

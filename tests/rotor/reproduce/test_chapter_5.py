@@ -6,9 +6,9 @@ import pytest
 
 from rotor.actuator.electrical import thermal_coefficients
 from rotor.actuator.pictures import twist_under_voltage
-from rotor.reproduce import Report, Verdict
+from rotor.reproduce import Agreement, Report
 from rotor.reproduce.actuated_blade import BLADES, fitted_blade
-from rotor.reproduce.electrodes import sheet
+from rotor.reproduce.actuator_sheets import sheet
 
 Make = Callable[[str], Report]
 
@@ -16,7 +16,7 @@ Make = Callable[[str], Report]
 def alone(report: Make, number: str) -> Report:
     """Nothing is compared with numbers that we do not have."""
     one = report(number)
-    assert one.verdict is Verdict.ALONE
+    assert one.verdict is Agreement.ALONE
     assert one.tables
     return one
 

@@ -11,9 +11,8 @@ from rotor.__main__ import main
 from rotor.reproduce import pictures
 from rotor.reproduce.catalogue import ENTRIES, find_entry, searches_of
 from rotor.reproduce.optima import FULL, best
-from rotor.reproduce.remember import Remembered, work_off
-from rotor.reproduce.report import Panel, curve, typographic
-from rotor.reproduce.runs import EVERY_VARIANT
+from rotor.reproduce.report import PlotPanel, curve, typographic
+from rotor.reproduce.runs import EVERY_VARIANT, CachedFunction, compute_ahead
 
 WANTED = {
     "2.3", "2.4", "2.6", "2.7", "2.8", "table 3.1", "table 3.2", "tail rotor", "table 4.1",
@@ -56,8 +55,8 @@ def test_figures_come_once_and_in_the_documents_order(tmp_path: Path, capsys: py
 
 
 def test_one_legend_serves_panels_that_name_the_same():
-    def panel(count: int, last: str = "−16°") -> Panel:
-        return Panel("x", "y", tuple(curve(last if k == count - 1 else f"{k}", [0.0], [0.0]) for k in range(count)))
+    def panel(count: int, last: str = "−16°") -> PlotPanel:
+        return PlotPanel("x", "y", tuple(curve(last if k == count - 1 else f"{k}", [0.0], [0.0]) for k in range(count)))
 
     assert pictures.same_key((panel(5), panel(5)))
     assert not pictures.same_key((panel(5),))
@@ -97,10 +96,10 @@ def test_what_other_processes_find_is_not_computed_again():
         asked.append(x)
         return x * x
 
-    remembered = Remembered(slow_square)
+    remembered = CachedFunction(slow_square)
     heard: list[str] = []
     assert remembered(2.0) == 4.0
-    assert not work_off([[(remembered, (2.0,)), (remembered, (3.0,))]], 1, heard.append)
+    assert not compute_ahead([[(remembered, (2.0,)), (remembered, (3.0,))]], 1, heard.append)
     assert (asked, heard) == ([2.0, 3.0], ["3.0"])
     assert remembered(3.0) == 9.0
     assert asked == [2.0, 3.0]

@@ -9,14 +9,12 @@ from pathlib import Path
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.airfoil.table import load_section
+from rotor.airfoil.sections import load_section
 from rotor.reproduce import ENTRIES, Report
 from rotor.reproduce.cross_codes import have
-from rotor.reproduce.sensitivity import sensitivity
 from rotor.reproduce.trust import KINDS, TrustRow, sensitivity_rows, trust_rows
-from rotor.reproduce.trust_files import FAST, page
-from rotor.reproduce.validation import LIFT_SLOPE, public_codes
-from rotor.reproduce.verification import between_theories
+from rotor.reproduce.trust_page import FAST, page, sensitivity
+from rotor.reproduce.trust_rows import LIFT_SLOPE, between_theories, public_codes
 
 TESTS = Path(__file__).parent.parent.parent
 DOCS = TESTS.parent / "docs"

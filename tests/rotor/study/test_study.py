@@ -243,7 +243,7 @@ def test_a_guess_follows_what_is_linear():
         memory.keep(at(mu, mass), trimmed(mu, mass))
     guess = memory.guess(at(0.17, 200.0), hovering=False)
     assert guess is not None
-    assert_allclose(guess.state[0], 0.1 + 0.2 * 0.17 + 1e-5 * 200.0, rtol=1e-3)
+    assert_allclose(guess.state.collective, 0.1 + 0.2 * 0.17 + 1e-5 * 200.0, rtol=1e-3)
     assert memory.guess(at(0.17, 200.0) | {"inflow": "drees"}, hovering=False) is None
     assert memory.guess(at(0.17, 200.0), hovering=True) is None
 

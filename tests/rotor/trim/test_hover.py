@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
-from rotor.aero.elements import lay_out
+from rotor.aero.elements import build_problem
 from rotor.aero.losses import loss_factor
 from rotor.airfoil.sections import load_installed
 from rotor.files.make_design import make_design
@@ -125,7 +125,7 @@ def test_collective_agrees_with_a_root_finder():
     from rotor.trim.hover import Annuli
 
     solution = hover()
-    annuli = Annuli(lay_out(solution.design))
+    annuli = Annuli(build_problem(solution.design))
     root = brentq(lambda t: annuli.thrust(t)[0] - solution.design.weight_coefficient, 0.0, 0.3, xtol=1e-13)
     assert_allclose(solution.controls.collective, root, atol=1e-10)
 
@@ -140,7 +140,7 @@ def test_too_heavy_says_so_in_one_sentence():
 
 def test_closed_form_uses_each_sections_own_lift_curve():
     """Eq. (3.3) on the flown blade: slope and zero-lift pitch are those of the section there, R8 drooped by 1°."""
-    problem = lay_out(make_design(preset="flight", mu=0.0))
+    problem = build_problem(make_design(preset="flight", mu=0.0))
     slope, zero = lift_curve(problem)
     for radius, name in ((0.3, "sc1095"), (0.65, "sc1094r8"), (0.95, "sc1095")):
         element = int(np.argmin(np.abs(problem.disk.r - radius)))

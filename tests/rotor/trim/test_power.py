@@ -9,9 +9,10 @@ from numpy.testing import assert_allclose
 from scipy.integrate import dblquad
 
 from rotor.aero import kernel
-from rotor.aero.elements import lay_out, run_pass
+from rotor.aero.elements import build_problem, evaluate_elements
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.linear import LINEAR_MODELS
+from rotor.aero.trim_state import TrimState
 from rotor.files.make_design import make_design
 from rotor.trim.power import power_budget, profile_power_coefficient
 from rotor.trim.solve import solve
@@ -51,11 +52,11 @@ def test_energy_identity_with_wanted_flapping():
 def test_section_identity():
     """U_T dF_x = U_P dF_z + U dD at every element: lift does no work on its own stream."""
     design = make_design(mu=0.35)
-    problem = lay_out(replace(design, models=replace(design.models, inflow="pitt-peters")))
-    one = run_pass(problem, np.array([0.2, 0.02, -0.1, 0.1, 0.06, 0.0, 0.0, 0.01]))
-    speed = np.hypot(one.u_t, one.u_p)
-    dissipation = problem.disk.half_solidity[:, None] * speed**3 * one.loads[kernel.CD]
-    left = one.u_t * one.loads[kernel.FX] - one.u_p * one.loads[kernel.FZ]
+    problem = build_problem(replace(design, models=replace(design.models, inflow="pitt-peters")))
+    elements = evaluate_elements(problem, TrimState(0.2, 0.02, -0.1, 0.1, 0.06, 0.0, 0.0, 0.01))
+    speed = np.hypot(elements.u_t, elements.u_p)
+    dissipation = problem.disk.half_solidity[:, None] * speed**3 * elements.loads[kernel.CD]
+    left = elements.u_t * elements.loads[kernel.FX] - elements.u_p * elements.loads[kernel.FZ]
     assert_allclose(left, dissipation, rtol=1e-9, atol=1e-15)
 
 
@@ -93,11 +94,11 @@ def test_eq_3_15_with_its_first_coefficient_corrected(mu: float):
 
 def test_numerical_profile_power_of_a_constant_drag():
     """Σ U dD on the grid for C_d = 0.01, U_P = 0 against the closed form less the cut-out's share."""
-    problem = lay_out(make_design(preset="thesis", mu=0.3))
-    one = run_pass(problem, np.zeros(8) + np.array([0, 0, 0, 0, 0, 0, 0, 1e-9]))
-    loads = one.loads.copy()
+    problem = build_problem(make_design(preset="thesis", mu=0.3))
+    elements = evaluate_elements(problem, TrimState(lambda0=1e-9))
+    loads = elements.loads.copy()
     loads[kernel.CD] = 0.01
-    budget = power_budget(problem, replace(one, loads=loads))
+    budget = power_budget(problem, replace(elements, loads=loads))
     start = problem.design.rotor.blade.root_cutout
     sigma = problem.design.rotor.solidity
 

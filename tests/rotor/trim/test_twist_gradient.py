@@ -13,8 +13,9 @@ from rotor.design.flight import FlightCondition
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.objective import QUANTITIES, Objective, WeightedCondition, at_condition, measure
-from rotor.trim import newton
+from rotor.trim.options import SolverOptions
 
+TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-11)
 RELATIVE = 1e-6
 """Accepted error, as a part of what the whole range of a parameter does to the power at the steepest slope."""
 # Breaks half-way between element centres: power has a kink (a jump of slope) where a break crosses one.
@@ -30,12 +31,6 @@ VALUES = {
 }
 
 
-@pytest.fixture(autouse=True)
-def _tight(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(newton, "TOLERANCE", 1e-12)
-    monkeypatch.setattr(newton, "INFLOW_TOLERANCE", 1e-11)
-
-
 def small(preset: str, inflow: str | None, mu: float) -> Design:
     """A coarse grid: exactness of a gradient does not depend on it."""
     design = make_design(preset=preset, mu=mu)
@@ -48,13 +43,14 @@ def check(design: Design, name: str, objective: Objective, *, every: bool = True
     concept = CONCEPTS[name]
     values = np.array(VALUES[name])
     span = np.array([parameter.high - parameter.low for parameter in concept.parameters])
-    centre = measure(objective, concept.apply(design, values))
+    centre = measure(objective, concept.apply(design, values), options=TIGHT)
     assert centre.by_pitch is not None
     exact = concept.slopes(values, centre.solutions[0].disk.r) @ centre.by_pitch * span
     step = 8e-6
 
     def power(direction: np.ndarray) -> float:
-        made = measure(objective, concept.apply(design, values + direction), centre.solutions, gradient=False)
+        changed = concept.apply(design, values + direction)
+        made = measure(objective, changed, centre.solutions, gradient=False, options=TIGHT)
         assert made.power is not None
         return made.power
 

@@ -1,0 +1,104 @@
+"""The limits of one server: pages at once, rest, what a browser may send, and what it may upload.
+
+The token bucket is our own: it is shorter than the configuration of a rate-limit library, and those wait where this
+must refuse.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+SESSIONS = 24
+"""Pages at work by default: a class. Each takes some 8 MB; with all of them dragging each gets a frame a second."""
+SLEEP_AFTER = 1800.0
+"""[s]; the break of a lecture."""
+_SPARE = 40
+"""Connections beyond the pages at work: pages that wait, sleep, or have only just connected."""
+
+
+@dataclass(frozen=True)
+class ServerLimits:
+    """Limits set by whoever starts the server."""
+
+    sessions: int = SESSIONS
+    """Pages at work at once."""
+    sleep_after: float = SLEEP_AFTER
+    """[s] without a change after which a page sleeps: its caches are freed, another page may take its place."""
+    allow_hosts: tuple[str, ...] = ()
+    """Further names by which the server is reached."""
+    studies: Path = Path()
+    """Results of studies in this folder are offered to every page; nothing else on the disk is."""
+    frame_ancestors: tuple[str, ...] = ()
+    """Origins of other pages that may show this one in a frame, such as a notebook's."""
+
+    @property
+    def connections(self) -> int:
+        """WebSockets at once."""
+        return 2 * self.sessions + _SPARE
+
+
+@dataclass(frozen=True)
+class RateLimit:
+    """A token bucket: it holds `burst` and fills by `rate` per second."""
+
+    rate: float
+    burst: float
+
+
+MESSAGES = RateLimit(rate=200.0, burst=2000.0)
+"""A dragged slider sends 20 a second, a turned camera 50; a tab that slept may send more at once."""
+BYTES = RateLimit(rate=2e6, burst=48e6)
+"""A file too large by mistake is refused with a sentence (`refuse_upload`) before this limit ends its connection."""
+LARGEST_MESSAGE = 16 * 2**20
+"""[bytes]; the largest honest message is a picture of the scene drawn by the browser."""
+
+
+class RateLimiter:
+    """The token buckets of one connection."""
+
+    def __init__(self, now: float, messages: RateLimit = MESSAGES, size: RateLimit = BYTES) -> None:
+        self._buckets = [[messages, messages.burst], [size, size.burst]]
+        self._then = now
+
+    def take(self, size: int, now: float) -> bool:
+        """Count a message of `size` bytes that came at `now` [s]; False when that is more than is allowed."""
+        since, self._then = max(now - self._then, 0.0), now
+        within = True
+        for bucket, cost in zip(self._buckets, (1.0, float(size)), strict=True):
+            limit, left = bucket
+            bucket[1] = min(left + since * limit.rate, limit.burst) - cost
+            within = within and bucket[1] >= 0.0
+        return within
+
+
+LARGEST_FILE = 4 * 2**20
+"""[bytes]; ten times the largest published table of section data."""
+_OF_TYPE = {".parquet": 32 * 2**20}
+"""[bytes]; the same for results of a study, which hold some hundred thousand designs."""
+_PARTS = 64
+"""The page sends parts of half a megabyte. A million small parts would take a hundred times their size in memory."""
+UPLOADS_AT_ONCE = 2
+"""Files on their way from one page."""
+
+
+def refuse_upload(name: str, size: int, parts: int, under_way: int, accepts: str) -> str | None:
+    """Why a file is refused, in one sentence; None where it is accepted. `accepts`: as in HTML, ".json,.toml" or "*/*".
+
+    The page's server keeps every part in memory until the last has come, and believes whatever size is claimed.
+    """
+    most = next((largest for ending, largest in _OF_TYPE.items() if name.lower().endswith(ending)), LARGEST_FILE)
+    shown = repr(name if len(name) <= 60 else name[:57] + "…")
+    if size > most:
+        return f"{shown} has {size / 2**20:.1f} MB: {most // 2**20} MB are the most."
+    if not _is_accepted(name, accepts):
+        return f"{shown} is not of a type that is read here: choose a {accepts.replace(',', ' or ')} file."
+    if under_way >= UPLOADS_AT_ONCE:
+        return f"{shown} must wait until the files before it have arrived: press again then."
+    if size < 0 or not 0 <= parts <= _PARTS:
+        return f"{shown} comes in {parts} parts: {_PARTS} are the most."
+    return None
+
+
+def _is_accepted(name: str, accepts: str) -> bool:
+    """Whether the ending is one of those listed; types without a dot say nothing about names."""
+    endings = [item.strip().lower() for item in accepts.split(",")]
+    return any(not item.startswith(".") or name.lower().endswith(item) for item in endings)

@@ -1,0 +1,145 @@
+"""Filters what reaches the page's server: whose requests, how many connections, how much each may send."""
+
+import asyncio
+import contextlib
+import http
+import logging
+import time
+from collections.abc import Awaitable, Callable
+from dataclasses import dataclass
+from typing import Any
+
+from websockets.asyncio.server import ServerConnection
+from websockets.datastructures import Headers, MultipleValuesError
+from websockets.exceptions import ConnectionClosed
+from websockets.frames import CloseCode
+from websockets.http11 import Request, Response
+
+from explorer.hosting.allowed_hosts import AllowedHosts
+from explorer.hosting.limits import LARGEST_MESSAGE, RateLimiter
+from explorer.hosting.served_page import ServedPage
+
+_log = logging.getLogger(__name__)
+_visitors = logging.getLogger(f"{__name__}.visitors")
+_visitors.setLevel(logging.CRITICAL)  # A malformed request is not an error of ours, so it is not printed.
+
+Answer = Callable[[ServerConnection, Request], Response | None]
+Handler = Callable[[ServerConnection], Awaitable[None]]
+
+_FLOOD = "More came from this page than the server takes; it starts again."
+_CLOSING = 1.0
+"""[s] a client has to complete the closing handshake."""
+_HEADERS = {
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "same-origin",  # An address may hold a design.
+    "Content-Security-Policy": "frame-ancestors 'self'",  # No foreign page puts ours under its buttons.
+}
+
+
+@dataclass(frozen=True)
+class RequestFilter:
+    """The rules, and the arguments for `websockets.serve` that enforce them."""
+
+    hosts: AllowedHosts
+    connections: int
+    """WebSockets at once."""
+    page: ServedPage | None = None
+    """Served in place of the server's own page."""
+    frame_ancestors: tuple[str, ...] = ()
+    """Origins of other pages that may show this one in a frame, such as a notebook's."""
+
+    def around(self, handler: Handler, options: dict[str, Any]) -> tuple[Handler, dict[str, Any]]:
+        """A server's handler and options with the filter before them."""
+        filtered = {
+            **options,
+            "max_size": LARGEST_MESSAGE,
+            "create_connection": RateLimitedConnection,
+            "logger": _visitors,
+        }
+        filtered["process_request"] = self._process(options["process_request"])
+        return _contained(handler), filtered
+
+    @property
+    def _headers(self) -> dict[str, str]:
+        ancestors = " ".join(("frame-ancestors 'self'", *self.frame_ancestors))
+        return {**_HEADERS, "Content-Security-Policy": ancestors}
+
+    def _process(self, inner: Answer) -> Answer:
+        def process_request(connection: ServerConnection, request: Request) -> Response | None:
+            upgrade = (request.headers.get("Upgrade") or "").lower() == "websocket"
+            try:
+                host, origin = request.headers.get("Host"), request.headers.get("Origin")
+            except MultipleValuesError:
+                host, origin = None, None
+            sentence = self.hosts.refusal(host, origin if upgrade else None)
+            if sentence is not None:
+                return _plain(http.HTTPStatus.FORBIDDEN, sentence)
+            if upgrade and len(connection.server.connections) >= self.connections:
+                return _plain(http.HTTPStatus.SERVICE_UNAVAILABLE, "Too many pages are open: try again later.")
+            if not upgrade and self.page is not None and request.path.partition("?")[0] in ("/", "/index.html"):
+                return _served(self.page, request, self._headers)
+            answer = inner(connection, request)
+            if answer is not None:
+                for name, value in self._headers.items():
+                    answer.headers[name] = value
+            return answer
+
+        return process_request
+
+
+class RateLimitedConnection(ServerConnection):
+    """A connection that is closed when it sends more than it may."""
+
+    def __init__(self, *positional: Any, **named: Any) -> None:
+        super().__init__(*positional, **named)
+        self._limiter = RateLimiter(time.monotonic())
+
+    async def recv(self, decode: bool | None = None) -> Any:
+        """The next message, counted."""
+        message = await super().recv(decode)
+        if not self._limiter.take(len(message), time.monotonic()):
+            _log.warning("a browser sent too much; its connection was closed")
+            # The page shows the reason for this code alone.
+            await _close(self, CloseCode.PROTOCOL_ERROR, _FLOOD)
+        return message
+
+
+def _contained(handler: Handler) -> Handler:
+    """A message that cannot be read ends its own connection, with one line in the log."""
+
+    async def contained(connection: ServerConnection) -> None:
+        try:
+            await handler(connection)
+        except ConnectionClosed:
+            raise
+        except Exception as error:
+            _log.warning("a browser sent an invalid message (%s: %s)", type(error).__name__, error)
+            await _close(connection, CloseCode.INVALID_DATA, "This is not a message of the page.")
+
+    return contained
+
+
+async def _close(connection: ServerConnection, code: CloseCode, reason: str) -> None:
+    with contextlib.suppress(TimeoutError):
+        await asyncio.wait_for(connection.close(code, reason), _CLOSING)
+    connection.transport.abort()
+
+
+def _served(page: ServedPage, request: Request, extra: dict[str, str]) -> Response:
+    """The page, or the status that the browser's own copy is current."""
+    headers = Headers({"ETag": page.tag, "Cache-Control": "no-cache", "Vary": "Accept-Encoding", **extra})
+    if page.tag in ",".join(request.headers.get_all("If-None-Match")):
+        return Response(http.HTTPStatus.NOT_MODIFIED, http.HTTPStatus.NOT_MODIFIED.phrase, headers)
+    packs = "gzip" in ",".join(request.headers.get_all("Accept-Encoding"))
+    body = page.packed if packs else page.html
+    headers["Content-Type"] = "text/html; charset=utf-8"
+    headers["Content-Length"] = str(len(body))
+    if packs:
+        headers["Content-Encoding"] = "gzip"
+    return Response(http.HTTPStatus.OK, http.HTTPStatus.OK.phrase, headers, body)
+
+
+def _plain(status: http.HTTPStatus, sentence: str) -> Response:
+    body = (sentence + "\n").encode()
+    headers = Headers({"Content-Type": "text/plain; charset=utf-8", "Content-Length": str(len(body)), **_HEADERS})
+    return Response(status, status.phrase, headers, body)

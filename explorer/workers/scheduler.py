@@ -1,0 +1,104 @@
+"""Schedules the updates of all pages: a few at once, first come first served, frames before what can wait.
+
+All sessions share one process, and most of an update is Python, of which only one line runs at a time. Unscheduled,
+twenty updates would all be half done, none would be drawn, and the thread that talks to the browsers would wait for
+each of them. Scheduled, an update runs through, and no page gets its second before all others had their first.
+"""
+
+import os
+import threading
+from collections import deque
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+_LOOK = 0.02
+"""[s] between checks whether work that waits behind frames is still wanted."""
+_FRAMES_IN_A_ROW = 4
+"""Frames after which work that waits behind them has its turn: a crowd delays it but does not starve it."""
+
+
+class FairScheduler:
+    """Grants a number of turns at once, frames first."""
+
+    def __init__(self, at_once: int) -> None:
+        self._free = at_once
+        self._lock = threading.Lock()
+        self._frames: deque[threading.Event] = deque()
+        self._behind: deque[threading.Event] = deque()
+        self._in_a_row = 0
+
+    @contextmanager
+    def take(self) -> "Iterator[Turn]":
+        """Wait for a turn, in the order of calls, and hold it to the end of the block."""
+        turn = Turn(self)
+        self._wait(self._ask(self._frames), lambda: False)
+        try:
+            yield turn
+        finally:
+            if turn.held:
+                self._pass_on()
+
+    @property
+    def waiting(self) -> int:
+        """How many frames wait for their turn."""
+        return len(self._frames)
+
+    def behind(self, held: bool, unwanted: Callable[[], bool]) -> bool:
+        """Pass the turn, if held, to waiting frames and wait for one after them; False if it became unwanted."""
+        mine = self._ask(self._behind)
+        if held:
+            self._pass_on()
+        return self._wait(mine, unwanted)
+
+    def _ask(self, queue: deque[threading.Event]) -> threading.Event:
+        mine = threading.Event()
+        with self._lock:
+            if self._free:
+                self._free -= 1
+                mine.set()
+            else:
+                queue.append(mine)
+        return mine
+
+    def _wait(self, mine: threading.Event, unwanted: Callable[[], bool]) -> bool:
+        while not mine.wait(None if mine.is_set() else _LOOK):
+            if not unwanted():
+                continue
+            with self._lock:
+                if mine.is_set():
+                    return True
+                self._behind.remove(mine)
+            return False
+        return True
+
+    def _pass_on(self) -> None:
+        with self._lock:
+            if self._frames and not (self._behind and self._in_a_row >= _FRAMES_IN_A_ROW):
+                self._in_a_row += 1
+                self._frames.popleft().set()
+            elif self._behind:
+                self._in_a_row = 0
+                self._behind.popleft().set()
+            else:
+                self._free += 1
+
+
+class Turn:
+    """The right to compute."""
+
+    def __init__(self, scheduler: FairScheduler) -> None:
+        self._scheduler = scheduler
+        self.held = True
+
+    def give_way(self, unwanted: Callable[[], bool]) -> bool:
+        """Let waiting frames go first; called between two steps of work that can wait.
+
+        False when the work became unwanted meanwhile. The turn is then gone; a further call waits for another.
+        """
+        if not self.held or self._scheduler.waiting:
+            self.held = self._scheduler.behind(self.held, unwanted)
+        return self.held
+
+
+SCHEDULER = FairScheduler(min(os.cpu_count() or 1, 2))
+"""Of this process."""

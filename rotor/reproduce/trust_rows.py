@@ -1,0 +1,290 @@
+"""Rows of the trust table: verification, public codes, validation, indicative comparisons, statements of the thesis."""
+
+import math
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+
+import numpy as np
+from scipy.integrate import solve_ivp  # pyright: ignore[reportUnknownVariableType]
+
+from rotor.aero import kernel
+from rotor.aero.elements import build_problem, evaluate_elements, wake_at
+from rotor.airfoil.sections import load_section
+from rotor.arrays import Array
+from rotor.assets import SHIPPED_ROTORS
+from rotor.design.design import Design
+from rotor.dynamics.flapping import lock_number
+from rotor.files.make_design import make_design, uh60a_rotor
+from rotor.reproduce.aircraft import figure_3_10, tail_rotor
+from rotor.reproduce.cross_codes import (
+    CCBLADE_DIFFERENCES,
+    DYNBEM_DIFFERENCES,
+    beside_ccblade,
+    beside_dynbem,
+    have,
+)
+from rotor.reproduce.grids import figure_3_7, figure_3_8, figure_3_9
+from rotor.reproduce.report import Report
+from rotor.reproduce.trust import Kind, TrustRow
+from rotor.reproduce.twist_effect import keys_1987
+from rotor.reproduce.velocities import figure_2_8
+from rotor.trim.adjoint import power_gradient
+from rotor.trim.forward import first_guess
+from rotor.trim.hover import closed_form_inflow
+from rotor.trim.newton import newton
+from rotor.trim.power import profile_power_coefficient
+from rotor.trim.solve import solve
+
+SPEEDS = (0.1, 0.2, 0.3)
+
+
+def verification() -> Iterator[TrustRow]:
+    """The fast rows."""
+    yield _bound("Uniform inflow of the ideal twist in hover, eqs. (1.1), (2.28)", "momentum theory", _ideal_twist(),
+                 1e-12, "rotor/trim/test_hover.py::test_ideal_twist_gives_uniform_inflow")  # fmt: skip
+    yield _bound("Closed form (3.3) closes the annulus balance, F included", "4Fλ²r = ½σC_lα(θr² − λr)", _closes(),
+                 1e-12, "rotor/trim/test_hover.py::test_closed_form_closes_the_balance")  # fmt: skip
+    yield _bound("Shaft power = induced + profile + parasite, µ 0.1…0.3, three inflow models", "identity", _energy(),
+                 1e-8, "rotor/trim/test_power.py::test_energy_identity")  # fmt: skip
+    yield _bound("Gradient of power by linear twist, dynamic wake", "central differences", _gradient(), 1e-5,
+                 "rotor/aero/test_inflow_reacting.py::test_adjoint_against_differences")  # fmt: skip
+    yield _bound("Profile power with reverse flow, (3.15) corrected", "quadrature of |U_T|³", _profile(), 1e-5,
+                 "rotor/trim/test_power.py::test_eq_3_15_with_its_first_coefficient_corrected")  # fmt: skip
+    flapping, second = _flapping()
+    yield TrustRow(
+        "verification", "First-harmonic flapping, µ 0.15, free flapping", "the equation of motion marched in time",
+        f"{flapping:.2f}°", flapping, 0.02, "rotor/dynamics/test_flapping.py::test_ode_agrees_with_harmonic_balance",
+        f"What is left is the neglected 2/rev motion ({second:.2f}°).",
+    )  # fmt: skip
+    hover, forward, azimuths = figure_3_7(), figure_3_8(), figure_3_9()
+    for name, report in (("hover", hover), ("µ 0.30", forward)):
+        error = max(report.numbers[f"{preset}_error_at_40"] for preset in ("thesis", "flight"))
+        yield _percent(f"Power at 40 elements, {name}", "limit of finer grids", error, 2e-4,
+                       "rotor/reproduce/test_chapter_3.py::test_figure_3_7")  # fmt: skip
+    error = max(azimuths.numbers[f"{preset}_error_at_100"] for preset in ("thesis", "flight"))
+    yield _bound("Power at 100 azimuths, µ 0.30", "720 azimuths", error, 1e-5,
+                 "rotor/reproduce/test_chapter_3.py::test_figure_3_9")  # fmt: skip
+    area = figure_2_8().numbers
+    yield _percent("Reverse-flow area, µ 0.30, counted in cells", "the circle r = −µ sin ψ",
+                   area["reverse_area"] / area["circle_area"] - 1.0, 5e-3,
+                   "rotor/reproduce/test_chapter_2.py::test_figure_2_8")  # fmt: skip
+
+
+def between_theories() -> Iterator[TrustRow]:
+    """Slow: dynamic wake against the vortex lattice, two theories of finite blades that share no code but the trim."""
+    for mu in SPEEDS:
+        power = [_total(inflow, mu, -16.0) for inflow in ("dynamic-wake", "vortex-wake")]
+        yield _percent(f"Trimmed total power by the dynamic wake, µ {mu:g}, −16°",
+                       "the same trim with a vortex lattice wake", power[0] / power[1] - 1.0, 2e-3,
+                       "rotor/aero/test_inflow_vortex.py::test_power_agrees")  # fmt: skip
+    best = [_best_rate(inflow) for inflow in ("dynamic-wake", "vortex-wake")]
+    yield TrustRow(
+        "verification", "Best linear twist by the dynamic wake, µ 0.2", "the same with a vortex lattice wake",
+        f"{best[0] - best[1]:+.1f}°", best[0] - best[1], 0.1,
+        "rotor/aero/test_inflow_vortex.py::test_best_linear_twist_agrees",
+        f"{best[0]:.1f}° and {best[1]:.1f}°.",
+    )  # fmt: skip
+    for name in SHIPPED_ROTORS[1:]:
+        design = make_design(rotor=name)
+        power = [_main_rotor(design, inflow) for inflow in ("dynamic-wake", "vortex-wake")]
+        yield _percent(
+            f"{design.rotor.blades} blades ({design.aircraft.name}): main-rotor power, µ 0.2",
+            "the same trim with a vortex lattice wake",
+            power[0] / power[1] - 1.0,
+            2e-3,
+            "rotor/files/test_rotors.py::test_dynamic_wake_of_two_and_of_five_blades_is_near_the_vortex_wake",
+        )
+
+
+def _main_rotor(design: Design, inflow: str) -> float:
+    """[W]"""
+    return solve(replace(design, models=replace(design.models, inflow=inflow))).require().power.main_rotor
+
+
+def _bound(what: str, against: str, error: float, below: float, test: str) -> TrustRow:
+    """An error that is rounding or discretisation: its size matters, not its digits."""
+    return TrustRow("verification", what, against, f"below {below:.0e}", abs(error), below, test)
+
+
+def _percent(what: str, against: str, error: float, allowed: float, test: str) -> TrustRow:
+    return TrustRow("verification", what, against, f"{100 * error:+.2f} %", error, allowed, test)
+
+
+def _ideal_twist() -> float:
+    """Spread of λ over its mean, r 0.13…1, linear lift curve, no losses."""
+    r = np.linspace(0.13, 1.0, 50)
+    inflow = closed_form_inflow(r, 0.12 / r, 0.0821, 5.9)
+    return float(np.ptp(inflow) / inflow.mean())
+
+
+def _closes() -> float:
+    r = np.linspace(0.15, 0.99, 50)
+    pitch, solidity, slope, factor = 0.25 - 0.15 * r, 0.0821, 5.9, 0.4 + 0.5 * r
+    inflow = closed_form_inflow(r, pitch, solidity, slope, factor=factor)
+    push = 4.0 * factor * inflow**2 * r
+    return float(np.abs(push / (0.5 * solidity * slope * (pitch * r**2 - inflow * r)) - 1.0).max())
+
+
+def _energy() -> float:
+    errors: list[float] = []
+    for inflow in ("dynamic-wake", "local-momentum", "pitt-peters"):
+        for mu in SPEEDS:
+            power = solve(_with_inflow(make_design(mu=mu), inflow)).require().power
+            errors.append(abs(power.shaft / power.main_rotor - 1.0))
+    return max(errors)
+
+
+def _gradient() -> float:
+    """Of ∂P/∂rate at µ 0.25, by differences of 0.05°."""
+
+    def at(rate: float) -> Design:
+        return make_design(twist=f"linear:{rate:.9g}", mu=0.25)
+
+    solution = solve(at(-8.0))
+    exact = float(power_gradient(solution).along((solution.disk.r - 0.75)[None])[0])
+    step = 0.05
+    ends = [solve(at(-8.0 + sign * step), solution).require().power.total for sign in (1, -1)]
+    return (ends[0] - ends[1]) / (2.0 * math.radians(step)) / exact - 1.0
+
+
+def _profile() -> float:
+    """∬|U_T|³ over a fine grid against 1 + 3µ² + ⅜µ⁴."""
+    n, m, mu = 2000, 720, 0.35
+    r = (np.arange(n) + 0.5) / n
+    u = np.abs(r[:, None] + mu * np.sin(2.0 * np.pi * np.arange(m) / m))
+    return float((u**3).mean()) * 0.5 * 0.0821 * 0.01 / profile_power_coefficient(0.0821, 0.01, mu) - 1.0
+
+
+def _flapping() -> tuple[float, float]:
+    """Largest difference of β0, β1c, β1s [°] between balance and marched motion; the marched 2/rev amplitude [°]."""
+    design = _with_inflow(make_design(preset="thesis", twist="linear:-10", mu=0.15), "pitt-peters")
+    problem = build_problem(design)
+    state = newton(problem, first_guess(problem)).elements.state
+    disk, flap, elements = problem.disk, problem.flap, evaluate_elements(problem, state)
+    flow = elements.flow
+    r = disk.r
+
+    def rates(psi: float, motion: Array) -> list[float]:
+        cos, sin = np.array([math.cos(psi)]), np.array([math.sin(psi)])
+        here = replace(disk, psi=np.array([psi]), cos=cos, sin=sin)
+        induced = problem.inflow.respond(here, wake_at(problem, state), np.zeros((0, 0))).induced
+        theta = (problem.twist + state.collective + state.cyclic_1c * cos + state.cyclic_1s * sin)[:, None]
+        u_t = (r + flow.mu_x * sin)[:, None]
+        u_p = induced + ((r - flap.hinge) * motion[1] + flow.mu_z + flow.mu_x * motion[0] * cos)[:, None]
+        loads = kernel.element_loads(
+            theta, u_t, u_p, elements.loss, problem.tip_mach,
+            disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables,
+        )  # fmt: skip
+        moment = float((r - flap.hinge) @ loads[kernel.FZ, :, 0]) * disk.dr
+        return [float(motion[1]), flap.load_gain * moment - flap.weight - flap.frequency_squared * float(motion[0])]
+
+    turns, n = 10, 36
+    psi = 2.0 * math.pi * np.arange(n) / n
+    end = 2.0 * math.pi * turns
+    found = solve_ivp(rates, (0.0, end), [0.05, 0.0], t_eval=end - 2.0 * math.pi + psi, rtol=1e-7, atol=1e-9)
+    beta: Array = found.y[0]
+    marched = (beta.mean(), 2.0 * (beta * np.cos(psi)).mean(), 2.0 * (beta * np.sin(psi)).mean())
+    balanced = (state.coning, state.flap_1c, state.flap_1s)
+    second = 2.0 * math.hypot((beta * np.cos(2 * psi)).mean(), (beta * np.sin(2 * psi)).mean())
+    gap = max(abs(float(a) - float(b)) for a, b in zip(marched, balanced, strict=True))
+    return math.degrees(gap), math.degrees(second)
+
+
+def _with_inflow(design: Design, inflow: str) -> Design:
+    return replace(design, models=replace(design.models, inflow=inflow))
+
+
+def _total(inflow: str, mu: float, rate: float) -> float:
+    design = make_design(twist=f"linear:{rate:g}", mu=mu)
+    return solve(_with_inflow(design, inflow)).require().power.total
+
+
+def _best_rate(inflow: str) -> float:
+    """Least of a quartic through the powers of six twists [°/R]."""
+    rates = np.array([0.0, -4.0, -8.0, -12.0, -16.0, -20.0])
+    fit = np.polyfit(rates, [_total(inflow, 0.2, float(rate)) for rate in rates], 4)
+    fine = np.linspace(-20.0, 0.0, 2001)
+    return float(fine[np.polyval(fit, fine).argmin()])
+
+
+LIFT_SLOPE = {"sc1095": 6.15, "sc1094r8": 6.30}
+"""[1/rad] over 0–8° at Mach 0.3, section decks of NASA CR-166309 (Howlett 1981)."""
+FLAP_FREQUENCY, LOCK_NUMBER = 1.04, 8.19
+"""First flap frequency over Ω, digitised fan plot of the UH-60A blade; Lock number of NASA TM-85890 (Hilbert 1984)."""
+
+
+def validation() -> Iterator[TrustRow]:
+    """Against measurement: hover only. Every point counts, whatever the test's own tolerance leaves out."""
+    hover = figure_3_10().numbers
+    test = "rotor/analysis/test_comparison.py::test_hover_points"
+    against = "digitised UH-60 rotor measurements, provenance incomplete"
+    yield _relative("validation", "Hover C_P, worst of ten points", against, hover["hover_least"], 3e-3, test,
+               "C_T/σ 0.022…0.072; whirl tower or wind tunnel is not documented.")  # fmt: skip
+    yield _relative("validation", "Hover C_P, best of ten points", against, hover["hover_largest"], 3e-3, test,
+               "Momentum theory knows no wake contraction and no tip-vortex interference.")  # fmt: skip
+
+
+def indicative() -> Iterator[TrustRow]:
+    """Against models, published constants of models, and other rotors."""
+    forward, keys, tail = figure_3_10().numbers, keys_1987().numbers, tail_rotor().numbers
+    for name, published in LIFT_SLOPE.items():
+        table = load_section(name)
+        slope = float(table(math.radians(8.0), 0.3).cl - table(0.0, 0.3).cl) / math.radians(8.0)
+        yield _relative("indicative", f"Lift slope of {name.upper()} over 0–8°, Mach 0.3",
+                   "flight-simulation deck of NASA CR-166309", slope / published - 1.0, 3e-3,
+                   "rotor/reproduce/test_trust.py::test_lift_slope_beside_the_public_deck",
+                   "XFOIL is steeper than that deck; published RANS agrees with XFOIL.")  # fmt: skip
+    rotor = uh60a_rotor("flight")
+    frequency = math.sqrt(rotor.flap_frequency_squared) / FLAP_FREQUENCY - 1.0
+    test = "rotor/dynamics/test_flapping.py::test_published_flap_frequency_and_lock_number"
+    yield _relative("indicative", "Rotating flap frequency", "1.04/rev, digitised fan plot of the UH-60A blade",
+                    frequency, 2e-3, test)  # fmt: skip
+    lock = lock_number(rotor, 1.225, 5.73) / LOCK_NUMBER - 1.0
+    yield _relative("indicative", "Lock number, lift slope 5.73", "8.19 of NASA TM-85890", lock, 2e-3, test)
+    test = "rotor/reproduce/test_chapter_3.py::test_figure_3_10"
+    yield _relative("indicative", "Main-rotor power in forward flight, rms over seven speeds",
+               "public model curve of the UH-60A", forward["rms_to_model_curve"], 3e-3, test,
+               "A model, said to agree with flight test above 50 kt.")  # fmt: skip
+    yield _relative("indicative", "Main-rotor power in forward flight, mean of seven speeds",
+               "public model curve of the UH-60A", forward["mean_to_model_curve"], 3e-3, test)  # fmt: skip
+    for name in ("thesis-wake", "flight"):
+        for key, words, published in (("hover", "hover", -0.024), ("fast", "330 km/h", 0.05)):
+            gap = keys[f"{name}_{key}"] - published
+            yield _relative("indicative", f"Power of −17.3° over −11.5°, {words}, {name}",
+                       f"{100 * published:+.1f} % (Keys et al. 1987, another rotor)", gap, 3e-3,
+                       "rotor/reproduce/test_chapter_3.py::test_keys_1987", unit="points")  # fmt: skip
+    yield _relative("indicative", "Tail rotor over main-rotor power, mean of four speeds", "5 % (the document)",
+               tail["mean"] - 0.05, 3e-3,
+               "rotor/reproduce/test_chapter_3.py::test_tail_rotor", unit="points")  # fmt: skip
+
+
+def public_codes() -> Iterator[TrustRow]:
+    """Beside dynbem and CCBlade; only those that are installed."""
+    test = "rotor/reproduce/test_cross_codes.py::test_dynbem_pitt_peters_forward_flight"
+    for one in beside_dynbem() if have("dynbem") else ():
+        note = f"Thrust {100 * one.thrust:+.2f} %. {one.detail}. {DYNBEM_DIFFERENCES}"
+        what = f"Torque, {one.condition}"
+        yield _relative("public code", what, "dynbem 0.8, Pitt–Peters", one.power, 5e-4, test, note, digits=2)
+    test = "rotor/reproduce/test_cross_codes.py::test_ccblade_hover"
+    for one in beside_ccblade() if have("wisdem") else ():
+        note = f"Thrust {100 * one.thrust:+.2f} %, {one.detail}. {CCBLADE_DIFFERENCES}"
+        what = f"Power, {one.condition}"
+        yield _relative("public code", what, "CCBlade of WISDEM 4.2, axial", one.power, 5e-4, test, note, digits=2)
+
+
+def statements(reports: Iterable[Report]) -> Iterator[TrustRow]:
+    """What became of each statement of the document."""
+    for one in reports:
+        chapter = one.number[0] if one.number[0].isdigit() else "3"
+        test = (
+            f"rotor/reproduce/test_chapter_{chapter}.py::test_{one.title.lower().replace(' ', '_').replace('.', '_')}"
+        )
+        yield TrustRow("document", one.title, one.statement, one.verdict.value, None, 0.0, test, one.ours)
+
+
+def _relative(
+    kind: Kind, what: str, against: str, error: float, allowed: float, test: str, note: str = "", *,
+    unit: str = "%", digits: int = 1,
+) -> TrustRow:  # fmt: skip
+    """An error that is a part of something, shown in per cent or in points of per cent."""
+    return TrustRow(kind, what, against, f"{100 * error:+.{digits}f} {unit}", error, allowed, test, note)

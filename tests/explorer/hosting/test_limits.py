@@ -1,0 +1,62 @@
+"""Limits of one server: rate of messages, uploads, freed memory."""
+
+import threading
+
+import pytest
+
+from explorer.hosting import memory
+from explorer.hosting.limits import LARGEST_FILE, RateLimit, RateLimiter, refuse_upload
+
+
+class TestRateLimiter:
+    def test_a_burst_is_allowed_then_only_the_rate(self):
+        limiter = RateLimiter(0.0, RateLimit(10.0, 20.0), RateLimit(1e6, 1e6))
+        assert all(limiter.take(1, 0.0) for _ in range(20))
+        assert not limiter.take(1, 0.0)
+        limiter = RateLimiter(0.0, RateLimit(10.0, 20.0), RateLimit(1e6, 1e6))
+        assert all(limiter.take(1, 0.1 * k) for k in range(1000))
+
+    def test_bytes_are_limited_too(self):
+        limiter = RateLimiter(0.0, RateLimit(100.0, 100.0), RateLimit(1e3, 1e4))
+        assert limiter.take(10_000, 0.0)
+        assert not limiter.take(1_000, 0.5)
+
+    def test_slider_and_camera_together_stay_below_the_limit(self):
+        limiter = RateLimiter(0.0)
+        assert all(limiter.take(300, k / 70.0) for k in range(70 * 600))
+
+
+class TestUploads:
+    def test_files_that_are_accepted(self):
+        assert refuse_upload("a.json", 1000, 1, 0, ".json") is None
+        assert refuse_upload("A.JSON", 1000, 1, 0, ".toml, .json") is None
+        assert refuse_upload("deck.c81", LARGEST_FILE, 8, 1, "*/*") is None
+        assert refuse_upload("empty.json", 0, 0, 0, ".json") is None
+        assert refuse_upload("study.parquet", 8 * LARGEST_FILE, 64, 0, ".parquet") is None
+
+    @pytest.mark.parametrize(
+        ("sent", "sentence"),
+        [
+            (("film.json", 2 * LARGEST_FILE, 16, 0, ".json"), "8.0 MB: 4 MB are the most"),
+            (("study.parquet", 9 * LARGEST_FILE, 64, 0, ".parquet"), "36.0 MB: 32 MB are the most"),
+            (("large.parquet", 8 * LARGEST_FILE, 64, 0, ".json"), "choose a .json file"),
+            (("film.mp4", 1000, 1, 0, ".json,.toml"), "choose a .json or .toml file"),
+            (("third.json", 1000, 1, 2, ".json"), "must wait"),
+            (("crumbs.json", 1000, 1000, 0, ".json"), "1000 parts"),
+            (("odd.json", -1, 1, 0, ".json"), "parts"),
+        ],
+    )
+    def test_files_that_are_refused_with_a_sentence(self, sent: tuple[str, int, int, int, str], sentence: str):
+        assert sentence in (refuse_upload(*sent) or "")
+
+
+class TestMemory:
+    def test_pages_that_leave_together_are_collected_once(self, monkeypatch: pytest.MonkeyPatch):
+        cleared = threading.Semaphore(0)
+        monkeypatch.setattr(memory.gc, "collect", lambda: cleared.release())
+        for _ in range(5):
+            memory.give_back_soon(0.1)
+        assert cleared.acquire(timeout=2.0)
+        assert not cleared.acquire(timeout=0.15)
+        memory.give_back_soon(0.0)
+        assert cleared.acquire(timeout=2.0)

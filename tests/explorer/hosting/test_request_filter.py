@@ -1,0 +1,338 @@
+"""The server as a client meets it: who may connect, floods, uploads, places, sleep."""
+
+import asyncio
+import json
+import socket
+import threading
+import urllib.error
+import urllib.request
+from collections.abc import Awaitable, Callable, Coroutine, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, TypeVar
+
+import pytest
+import viser
+import websockets.asyncio.server
+from viser import _messages
+from websockets.asyncio.client import connect
+from websockets.exceptions import ConnectionClosed, InvalidStatus
+from websockets.typing import Subprotocol
+
+from explorer.app import App, PortBusy
+from explorer.hosting import limits, request_filter, viser_compat
+from explorer.hosting.allowed_hosts import AllowedHosts
+from explorer.hosting.limits import ServerLimits
+from explorer.hosting.request_filter import RequestFilter
+from tests.tools.soak import wire
+from tests.tools.soak.visitor import Visitor
+
+Result = TypeVar("Result")
+INNER, OUTER = "Inner [°/R]", "Outer [°/R]"
+
+
+@pytest.fixture(scope="module")
+def app() -> Iterator[App]:
+    app = App("127.0.0.1", 0, limits=ServerLimits(sessions=2))
+    yield app
+    app.stop()
+
+
+def ran(work: Callable[[], Coroutine[Any, Any, Result]]) -> Result:
+    """The outcome of a coroutine, on a thread of its own: where a browser is open, this one has a loop already."""
+    with ThreadPoolExecutor(1) as thread:
+        return thread.submit(lambda: asyncio.run(work())).result()
+
+
+def alone(work: Callable[[], Awaitable[None]]) -> None:
+    """Run a test's visitors to their end, with a bound on time."""
+
+    async def bounded() -> None:
+        async with asyncio.timeout(90.0):
+            await work()
+
+    ran(bounded)
+
+
+async def arrive(app: App) -> Visitor:
+    visitor = Visitor()
+    await visitor.open(app.address)
+    await visitor.until(lambda: visitor.text("status") == "converged")
+    return visitor
+
+
+async def handshake(app: App, **headers: str) -> int:
+    """Status of a WebSocket handshake."""
+    uri = "ws" + app.address.removeprefix("http")
+    origin: Any = headers.pop("Origin", None)
+    try:
+        async with connect(
+            uri, subprotocols=[Subprotocol(wire.SUBPROTOCOL)], origin=origin, additional_headers=headers
+        ):
+            return 101
+    except InvalidStatus as refused:
+        return refused.response.status_code
+
+
+def page(app: App, host: str) -> tuple[int, str, dict[str, str]]:
+    request = urllib.request.Request(app.address, headers={"Host": host})
+    try:
+        with urllib.request.urlopen(request, timeout=10) as answer:
+            return answer.status, answer.read().decode(), dict(answer.headers)
+    except urllib.error.HTTPError as error:
+        return error.code, error.read().decode(), dict(error.headers)
+
+
+class TestAllowedHosts:
+    def test_a_foreign_page_gets_403(self, app: App):
+        assert ran(lambda: handshake(app, Origin="http://evil.example")) == 403
+        assert ran(lambda: handshake(app, Origin="null")) == 403
+
+    def test_our_own_page_and_clients_without_origin_connect(self, app: App):
+        assert ran(lambda: handshake(app, Origin=app.address)) == 101
+        assert ran(lambda: handshake(app)) == 101
+
+    def test_a_foreign_host_name_is_not_served(self, app: App):
+        status, text, _ = page(app, "evil.example")
+        assert status == 403
+        assert "--allow-host evil.example" in text
+
+    def test_headers_forbid_foreign_frames_and_referrers(self, app: App):
+        status, _, headers = page(app, app.address.removeprefix("http://"))
+        assert status == 200
+        assert headers["Content-Security-Policy"] == "frame-ancestors 'self'"
+        assert headers["Referrer-Policy"] == "same-origin"
+
+    def test_two_host_headers_are_refused(self, app: App):
+        assert ran(lambda: handshake(app, Host="evil.example")) == 403
+
+    def test_a_malformed_request_prints_nothing(self, app: App, caplog: pytest.LogCaptureFixture):
+        with socket.create_connection(("127.0.0.1", app.server.get_port()), timeout=20.0) as probe:
+            probe.sendall(b"HEAD / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n")
+            while probe.recv(4096):
+                pass
+        assert ran(lambda: handshake(app)) == 101  # By then the server has done with the probe.
+        assert caplog.text == ""
+
+    def test_a_server_without_its_filter_does_not_start(self, monkeypatch: pytest.MonkeyPatch):
+        class Elsewhere:
+            def __init__(self, **_: object) -> None: ...
+
+        monkeypatch.setattr(viser, "ViserServer", Elsewhere)
+        with pytest.raises(RuntimeError, match="without its request filter"):
+            viser_compat.quiet_server("127.0.0.1", 0, "x", RequestFilter(AllowedHosts("127.0.0.1"), 1))
+
+    def test_websockets_is_restored_after_the_start(self, app: App):
+        assert websockets.asyncio.server.serve.__module__ == "websockets.asyncio.server"
+        assert app.server.get_port()
+
+    def test_an_unknown_host_to_listen_on_is_one_sentence(self):
+        with pytest.raises(PortBusy, match="choose another with --host"):
+            App("no.such.host.invalid", 0)
+
+
+@pytest.mark.slow
+class TestStrangers:
+    def test_a_request_for_a_public_tunnel_is_ignored(self, app: App, monkeypatch: pytest.MonkeyPatch):
+        asked = threading.Event()
+        monkeypatch.setattr(app.server, "request_share_url", lambda *_: asked.set())
+        monkeypatch.setattr(app.server, "disconnect_share_url", asked.set)
+
+        async def work() -> None:
+            visitor = await arrive(app)
+            await visitor.send("ShareUrlRequest")
+            await visitor.send("ShareUrlDisconnect")
+            await still_served(visitor)
+            await visitor.close()
+
+        alone(work)
+        assert not asked.is_set()
+
+    def test_a_flood_and_an_invalid_message_end_only_their_own_connection(
+        self, app: App, monkeypatch: pytest.MonkeyPatch
+    ):
+        async def work() -> None:
+            other = await arrive(app)
+            monkeypatch.setattr(
+                request_filter, "RateLimiter", lambda now: limits.RateLimiter(now, limits.RateLimit(10.0, 50.0))
+            )
+            flooder = Visitor()
+            await flooder.open(app.address)
+            for _ in range(60):
+                await flooder.send("GuiUpdateMessage", uuid="none", updates={})
+            with pytest.raises(ConnectionError, match="More came"):
+                await flooder.until(lambda: False)
+            for junk in ("text", b"\xff\xff", b"", wire.encode("NoSuch"), wire.encode("GuiUpdateMessage", colour=1)):
+                assert await cut(app, junk) in (None, 1002, 1007)
+            await still_served(other)
+            connections = app.server._websock_server._live_connections.values()
+            assert [one.protocol.max_message_size for one in connections] == [limits.LARGEST_MESSAGE]
+            await other.close()
+
+        alone(work)
+
+    def test_invalid_slider_values_do_no_harm(self, app: App):
+        async def work() -> None:
+            visitor = await arrive(app)
+            for value in (float("nan"), float("inf"), 1e300, -5.0, "x", None, [1, 2], {}):
+                await visitor.move("Adv. ratio µ", value)
+                await visitor.move("Law", value)
+                await asyncio.sleep(0.01)
+                await visitor.move("Adv. ratio µ", 0.2)
+                await visitor.move("Law", "Two segments")
+                await still_served(visitor)
+            await visitor.until(lambda: visitor.text("status") == "converged")
+            await visitor.close()
+
+        alone(work)
+
+
+class TestUploads:
+    def test_uploads_arrive_or_are_refused_with_a_sentence(self, app: App):
+        design = json.dumps({"twist": "linear:-9"}).encode()
+
+        async def work() -> None:
+            visitor = await arrive(app)
+            for name, size, parts, sentence in (
+                ("mine.json", len(design), [design], "Loaded: mine.json is on the sliders"),
+                ("large.json", limits.LARGEST_FILE + 1, [b"x"], "File refused: 'large.json' has 4.0 MB"),
+                ("film.mp4", 10, [b"x" * 10], "choose a .json"),
+                ("liar.json", 10, [b"x" * 5, b"x" * 600], "longer than announced"),
+                ("again.json", len(design), [design], "Loaded: again.json is on the sliders"),
+            ):
+                visitor.notices.clear()
+                await upload(visitor, name, size, parts)
+                await visitor.until(lambda: bool(visitor.notices))
+                assert sentence in visitor.notices[0]
+                assert not any(client.gui._current_file_upload_states for client in app.server.get_clients().values())
+            await visitor.close()
+
+        alone(work)
+
+    def test_private_names_of_viser_exist(self):
+        assert set(_messages.FileTransferStartUpload.__annotations__) >= {"size_bytes", "part_count", "filename"}
+        assert _messages.RemoveNotificationMessage("x").uuid == "x"
+
+
+@pytest.mark.slow
+class TestPlaces:
+    def test_a_third_page_waits_until_one_leaves(self, app: App):
+        async def work() -> None:
+            first, second = await arrive(app), await arrive(app)
+            third, fourth = Visitor(), Visitor()
+            await third.open(app.address)
+            await third.until(lambda: "next" in words(third))
+            await fourth.open(app.address)
+            await fourth.until(lambda: "1 visitor waits" in words(fourth))
+            assert len([t for t in threading.enumerate() if t.name.startswith("session-")]) == 2
+            await first.close()
+            await third.until(lambda: third.text("status") == "converged")
+            await fourth.until(lambda: "next" in words(fourth))
+            for visitor in (second, third, fourth):
+                await visitor.close()
+
+        alone(work)
+        settle(app)
+
+    def test_a_page_is_sent_in_one_piece_with_its_first_solution(self, app: App):
+        async def work() -> None:
+            visitor = await arrive(app)
+            assert visitor.frames <= 6  # What the server says to all, what it asks, and the page; not four hundred.
+            assert visitor.blade
+            assert visitor.text("total-power").endswith("kW")
+            await visitor.close()
+
+        alone(work)
+
+    def test_leaving_during_the_welcome_frees_everything(self, app: App):
+        async def work() -> None:
+            for _ in range(3):
+                visitor = Visitor()
+                await visitor.open(app.address)
+                await visitor.close()
+
+        alone(work)
+        settle(app)
+
+    def test_too_many_connections_are_refused(self):
+        server = viser_compat.quiet_server("127.0.0.1", 0, "x", RequestFilter(AllowedHosts("127.0.0.1"), 1))
+        try:
+
+            async def work() -> None:
+                visitor = Visitor()
+                address = f"http://127.0.0.1:{server.get_port()}"
+                await visitor.open(address)
+                with pytest.raises(InvalidStatus, match="503"):
+                    await Visitor().open(address)
+                await visitor.close()
+
+            alone(work)
+        finally:
+            viser_compat.quiet_stop(server)
+
+    @pytest.mark.slow
+    def test_a_sleeping_page_makes_room_and_wakes_when_touched(self):
+        app = App("127.0.0.1", 0, limits=ServerLimits(sessions=1, sleep_after=0.3))
+        try:
+
+            async def work() -> None:
+                sleeper, other = await arrive(app), Visitor()
+                await other.open(app.address)
+                await other.until(lambda: other.text("status") == "converged")
+                await still_served(sleeper)
+                await other.close()
+                await sleeper.close()
+
+            alone(work)
+        finally:
+            app.stop()
+
+
+async def still_served(visitor: Visitor) -> None:
+    """A slider moved by this visitor still moves its blade."""
+    before = visitor.blade
+    value = visitor.widgets[visitor.find(OUTER)]["value"]
+    await visitor.move(OUTER, value + 1.0)
+    await visitor.until(lambda: visitor.blade != before)
+
+
+async def upload(visitor: Visitor, name: str, size: int, parts: list[bytes]) -> None:
+    button = visitor.find("Load design")
+    await visitor.send(
+        "FileTransferStartUpload",
+        source_component_uuid=button,
+        transfer_uuid="t",
+        filename=name,
+        mime_type="application/json",
+        part_count=len(parts),
+        size_bytes=size,
+    )
+    for k, part in enumerate(parts):
+        await visitor.send(
+            "FileTransferPart", source_component_uuid=button, transfer_uuid="t", part_index=k, content=part
+        )
+
+
+async def cut(app: App, message: bytes | str) -> int | None:
+    """The code with which the server closes after a message."""
+    uri = "ws" + app.address.removeprefix("http")
+    async with connect(uri, subprotocols=[Subprotocol(wire.SUBPROTOCOL)], max_size=None) as socket:
+        try:
+            await socket.send(message)
+            while True:
+                await socket.recv()
+        except ConnectionClosed as closed:
+            return None if closed.rcvd is None else closed.rcvd.code
+
+
+def words(visitor: Visitor) -> str:
+    """All text of the waiting room."""
+    return " ".join(str(w.get("content")) for w in visitor.widgets.values() if "rx-lobby" in str(w.get("content")))
+
+
+def settle(app: App) -> None:
+    """Until the server has noticed that all have left."""
+    for _ in range(200):
+        if not app._connections and not [t for t in threading.enumerate() if t.name.startswith("session-")]:
+            return
+        threading.Event().wait(0.02)
+    raise AssertionError("sessions stay behind")

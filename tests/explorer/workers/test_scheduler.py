@@ -1,0 +1,174 @@
+"""Turns of many pages at one processor, and the worker that waits for its turn."""
+
+import threading
+import time
+
+from explorer.workers.newest_wins import IdleTimeout, NewestWins
+from explorer.workers.scheduler import FairScheduler
+
+
+class TestScheduler:
+    def test_only_the_given_number_runs_at_once(self):
+        turns, lock, now, most = FairScheduler(2), threading.Lock(), 0, 0
+
+        def work() -> None:
+            nonlocal now, most
+            with turns.take():
+                with lock:
+                    now += 1
+                    most = max(most, now)
+                time.sleep(0.002)
+                with lock:
+                    now -= 1
+
+        threads = [threading.Thread(target=work) for _ in range(12)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        assert most == 2
+
+    def test_turns_are_given_in_order_of_arrival(self):
+        turns, order = FairScheduler(1), []
+
+        def work(k: int) -> None:
+            with turns.take():
+                order.append(k)
+
+        threads = [threading.Thread(target=work, args=(k,)) for k in range(12)]
+        with turns.take():
+            for k, thread in enumerate(threads):
+                thread.start()
+                while turns.waiting <= k:
+                    time.sleep(0.0005)
+        for thread in threads:
+            thread.join()
+        assert order == list(range(12))
+
+    def test_frames_go_before_work_that_can_wait(self):
+        turns, order = FairScheduler(1), []
+        held, go = threading.Event(), threading.Event()
+
+        def sweep() -> None:
+            with turns.take() as turn:
+                held.set()
+                go.wait()
+                assert turn.give_way(lambda: False)
+                order.append("sweep")
+
+        def frame(k: int) -> None:
+            with turns.take():
+                order.append(k)
+
+        threads = [threading.Thread(target=sweep), *(threading.Thread(target=frame, args=(k,)) for k in range(3))]
+        threads[0].start()
+        held.wait()
+        for thread in threads[1:]:
+            thread.start()
+        while turns.waiting < 3:
+            time.sleep(0.001)
+        go.set()
+        for thread in threads:
+            thread.join()
+        assert order[-1] == "sweep"
+
+    def test_frames_do_not_starve_work_that_can_wait(self):
+        turns, ended, frames = FairScheduler(1), threading.Event(), 0
+
+        def crowd() -> None:
+            nonlocal frames
+            while not ended.is_set():
+                with turns.take():
+                    frames += 1
+                    time.sleep(0.0002)
+
+        threads = [threading.Thread(target=crowd) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        with turns.take() as turn:
+            for _ in range(20):
+                assert turn.give_way(lambda: False)
+        ended.set()
+        for thread in threads:
+            thread.join()
+        assert frames >= 20
+
+    def test_unwanted_work_gives_up_its_place_in_the_queue(self):
+        turns = FairScheduler(1)
+        holding, done = threading.Event(), threading.Event()
+
+        def hold() -> None:
+            with turns.take():
+                holding.set()
+                done.wait()
+
+        with turns.take() as turn:
+            other = threading.Thread(target=hold)
+            other.start()
+            while not turns.waiting:
+                time.sleep(0.001)
+            assert not turn.give_way(holding.is_set)
+            assert not turn.held
+        done.set()
+        other.join()
+        with turns.take():
+            pass  # The one place is free again, once.
+        assert turns._free == 1
+
+    def test_a_single_page_does_not_wait(self):
+        turns = FairScheduler(1)
+        with turns.take() as turn:
+            begun = time.perf_counter()
+            assert all(turn.give_way(lambda: False) for _ in range(1000))
+            assert time.perf_counter() - begun < 0.1
+
+
+class TestWorker:
+    def test_twenty_busy_sessions_get_equal_shares(self):
+        """Rounds done by each while all want to work all the time differ by a few."""
+        turns, rounds, until = FairScheduler(2), [0] * 20, time.monotonic() + 0.4
+
+        def job(k: int) -> None:
+            rounds[k] += 1
+            time.sleep(0.001)
+
+        workers = [NewestWins(lambda _, k=k: job(k), print, f"w{k}", scheduler=turns) for k in range(20)]
+        for worker in workers:
+            worker.start()
+        while time.monotonic() < until:
+            for worker in workers:
+                worker.wake()
+            time.sleep(0.001)
+        for worker in workers:
+            worker.stop()
+        assert min(rounds) >= 3
+        assert max(rounds) - min(rounds) <= 3
+
+    def test_the_last_change_is_always_processed(self):
+        turns, state, seen = FairScheduler(1), [0], [0]
+
+        def job(_: object) -> None:
+            seen[0] = state[0]
+
+        worker = NewestWins(job, print, "w", scheduler=turns)
+        worker.start()
+        for k in range(200):
+            state[0] = k
+            worker.wake()
+        deadline = time.monotonic() + 2.0
+        while seen[0] != 199 and time.monotonic() < deadline:
+            time.sleep(0.001)
+        worker.stop()
+        assert seen[0] == 199
+
+    def test_idle_worker_sleeps_once_and_wakes_before_the_next_update(self):
+        events: list[str] = []
+        idle = IdleTimeout(0.03, lambda: events.append("sleep"), lambda: events.append("wake"))
+        worker = NewestWins(lambda _: events.append("update"), print, "w", idle)
+        worker.start()
+        time.sleep(0.15)
+        worker.wake()
+        while "update" not in events:
+            time.sleep(0.002)
+        worker.stop()
+        assert events[:3] == ["sleep", "wake", "update"]

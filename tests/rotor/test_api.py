@@ -1,0 +1,283 @@
+"""The public API: what a notebook says, what it is told for wrong arguments, and what importing leaves alone."""
+
+import json
+import math
+import subprocess
+import sys
+import urllib.request
+from pathlib import Path
+
+import matplotlib
+import pytest
+from numpy.testing import assert_allclose
+from threadpoolctl import threadpool_info, threadpool_limits
+
+import explorer
+import rotor
+from rotor.assets import asset_path
+from rotor.blas_threads import one_blas_thread
+from rotor.design.twist import LinearTwist
+from rotor.units import KNOT
+
+matplotlib.use("Agg")
+ROOT = Path(__file__).parent.parent.parent
+NOTEBOOK = """
+import rotor
+design = rotor.make_design(twist="linear:-12", mu=0.2)
+solution = rotor.solve(design)
+solution.power.total, solution.controls.collective, solution.disk.alpha
+rotor.solve(design.at(mu=0.3), start=solution)
+rotor.sweep(design, mu=[.1, .2, .3])
+best = rotor.optimise(design, concept="two-segment")
+design.with_twist(best.twist)
+solution.save("a.json")
+rotor.load_rotor("mine.toml"); rotor.load_design("a.json"); solution.save("a.json")
+solution.plot("alpha"), rotor.plot_power(rotor.sweep(design, mu=[.1, .2, .3]))
+import explorer; page = explorer.show(design, browser=False)
+"""
+"""The page is told not to open a browser; otherwise what a user types."""
+
+
+@pytest.fixture(scope="module")
+def design() -> rotor.Design:
+    return rotor.make_design(twist="linear:-12", mu=0.2)
+
+
+@pytest.fixture(scope="module")
+def solution(design: rotor.Design) -> rotor.Solution:
+    return rotor.solve(design).require()
+
+
+@pytest.fixture(scope="module")
+def failed(design: rotor.Design) -> rotor.Solution:
+    found = rotor.solve(design.at(mu=0.5, mass_kg=11_000))
+    assert not found.converged
+    return found
+
+
+def test_a_notebook_runs_as_printed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.chdir(tmp_path)
+    Path("mine.toml").write_bytes(asset_path("r22.toml").read_bytes())
+    names: dict = {}
+    try:
+        exec(NOTEBOOK, names)
+        page, best = names["page"], names["best"]
+        assert urllib.request.urlopen(page.address, timeout=10).status == 200
+        assert page.address in page._repr_html_()
+    finally:
+        if "page" in names:
+            names["page"].stop()
+    with pytest.raises(OSError, match="refused"):
+        urllib.request.urlopen(page.address, timeout=10)
+    assert best.saving_percent >= 0.0
+    low, high = best.band[0].low, best.band[0].high
+    assert low < best.twist.rates[0] < high
+    assert rotor.solve(names["design"].with_twist(best.twist)).power.total <= names["solution"].power.total
+
+
+def test_names_are_few_and_no_module_hides_a_function():
+    assert dir(rotor) == sorted(rotor.__all__)
+    assert len(dir(rotor)) <= 25
+    for name in ("solve", "sweep", "optimise", "make_design", "parse_twist", "load_rotor", "load_design", "plot_power"):
+        assert callable(getattr(rotor, name))
+    assert rotor.__version__[0].isdigit()
+    assert (ROOT / "rotor" / "py.typed").exists()
+    assert (ROOT / "explorer" / "py.typed").exists()
+
+
+class TestDesign:
+    def test_speed_in_knots_is_the_advance_ratio(self, design: rotor.Design):
+        assert_allclose(design.at(speed_kt=100.0).airspeed, 100.0 * KNOT, rtol=1e-14)
+        assert rotor.make_design(speed_kt=100.0).condition == rotor.make_design().at(speed_kt=100.0).condition
+
+    def test_what_is_left_out_stays(self, design: rotor.Design):
+        changed = design.at(mass_kg=9000)
+        assert (changed.condition.mass, changed.condition.advance_ratio) == (9000.0, 0.2)
+        assert design.at(hover=True).hovering
+        assert design.at() == design
+        assert design.at(altitude_m=1000).twist == design.twist
+
+    def test_twist_is_a_law_or_its_spec(self, design: rotor.Design):
+        law = LinearTwist(math.radians(-9.0))
+        assert design.with_twist(law) == design.with_twist("linear:-9")
+        assert design.with_twist("builtin").twist == design.rotor.builtin_twist
+        assert design.with_twist("ideal") == rotor.make_design(twist="ideal", mu=0.2)
+
+    def test_a_twist_stands_by_itself(self):
+        assert rotor.parse_twist("linear:-8") == LinearTwist(math.radians(-8.0))
+        for name in ("uh60a", "r22", "s61"):
+            assert rotor.parse_twist(name) == rotor.make_design(rotor=name).rotor.builtin_twist
+
+    def test_models_by_name(self):
+        assert rotor.make_design(inflow="uniform").models.inflow == "uniform"
+        assert rotor.make_design(preset="thesis").preset == "thesis"
+
+
+class TestSolution:
+    def test_repr_is_three_lines(self, solution: rotor.Solution, failed: rotor.Solution):
+        for found in (solution, failed):
+            assert len(repr(found).splitlines()) == 3
+            assert len(repr(found)) < 600
+        assert f"power {solution.power.total / 1e3:.1f} kW" in repr(solution)
+        assert "not in trim" in repr(failed)
+
+    def test_other_reprs_are_short(self, design: rotor.Design, solution: rotor.Solution):
+        best = rotor.optimise(design, "linear", starts=1)
+        for value in (design, design.rotor, design.aircraft, best, rotor.sweep(design, [0.2])):
+            assert len(repr(value)) < 200
+            assert "\n" not in repr(value)
+
+    def test_no_power_without_trim(self, failed: rotor.Solution):
+        with pytest.raises(RuntimeError, match=r"did not converge.*last_power"):
+            _ = failed.power
+        assert failed.last_power.total > 0.0
+        assert failed.to_dict()["power_w"]["total"] is None
+
+    def test_saved_design_loads_and_keeps_its_numbers(self, solution: rotor.Solution, tmp_path: Path):
+        path = tmp_path / "a.json"
+        solution.save(path)
+        assert rotor.load_design(path) == solution.design
+        saved = json.loads(path.read_text(encoding="utf-8"))["solution"]
+        assert saved["power_w"]["total"] == solution.power.total
+
+    def test_an_earlier_solution_is_a_better_start(self, design: rotor.Design, solution: rotor.Solution):
+        cold, warm = rotor.solve(design.at(mu=0.21)), rotor.solve(design.at(mu=0.21), start=solution)
+        assert warm.passes < cold.passes
+        assert_allclose(warm.power.total, cold.power.total, rtol=1e-8)
+
+    def test_plots(self, solution: rotor.Solution, design: rotor.Design):
+        axes = solution.plot("alpha")
+        assert "Angle of attack" in axes.get_title()
+        table = rotor.sweep(design, [0.1, 0.2])
+        axes = rotor.plot_power(table)
+        drawn = {line.get_label(): line.get_ydata() for line in axes.lines}
+        assert_allclose(drawn["total"], [one.power.total / 1e3 for one in table])
+        other = rotor.sweep(design.with_twist("linear:-4"), [0.1, 0.2])
+        assert [line.get_label() for line in rotor.plot_power(table, other).lines] == ["linear:-12", "linear:-4"]
+        matplotlib.pyplot.close("all")
+
+    def test_without_matplotlib_a_plot_names_the_remedy(
+        self, solution: rotor.Solution, monkeypatch: pytest.MonkeyPatch
+    ):
+        monkeypatch.setitem(sys.modules, "matplotlib.pyplot", None)
+        with pytest.raises(ImportError, match=r"pip install 'rotor-explorer\[plots\]'"):
+            solution.plot()
+
+
+class TestSweep:
+    def test_rows_have_units_in_their_columns(self, design: rotor.Design):
+        table = rotor.sweep(design, mu=(mu for mu in (0.0, 0.2)))
+        row = dict(zip(table.columns, table.rows[1], strict=True))
+        assert row["mu"] == 0.2
+        assert_allclose(row["speed_kt"], table[1].design.airspeed / KNOT)
+        assert_allclose(row["total_kw"], table[1].power.total / 1e3)
+        assert len(table) == len(list(table)) == 2
+
+    def test_what_does_not_converge_has_no_power(self, design: rotor.Design):
+        table = rotor.sweep(design.at(mass_kg=11_000), [0.2, 0.5])
+        assert [row[table.columns.index("total_kw")] is None for row in table.rows] == [False, True]
+
+    def test_dataframe_or_a_sentence(self, design: rotor.Design, monkeypatch: pytest.MonkeyPatch):
+        table = rotor.sweep(design, [0.2])
+
+        class Pandas:
+            """Takes the place of pandas, which the tests do without."""
+
+            @staticmethod
+            def DataFrame(rows: list, columns: list) -> tuple:
+                return rows, columns
+
+        monkeypatch.setitem(sys.modules, "pandas", Pandas)
+        assert table.to_dataframe() == (list(table.rows), list(table.columns))
+        monkeypatch.setitem(sys.modules, "pandas", None)
+        with pytest.raises(ImportError, match="pip install pandas"):
+            table.to_dataframe()
+
+
+WRONG = {
+    "rotor.make_design(twist=-12)": (TypeError, 'twist -12 is not a twist: write "linear:-12"'),
+    "rotor.make_design(twist='-12')": (ValueError, "twist '-12' is not known: write linear:-12"),
+    "rotor.make_design(twist='cubic:1')": (ValueError, "twist 'cubic:1' is not known: use linear:RATE"),
+    "rotor.make_design(twist=lambda r: 0 * r)": (TypeError, 'is not a twist: write a text such as "linear:-12"'),
+    "rotor.make_design(mu='fast')": (TypeError, "mu is 'fast', not a number: write for example mu=0.2"),
+    "rotor.make_design(mu=2)": (ValueError, "advance ratio 2 is outside 0…0.6"),
+    "rotor.make_design(mu=0.2, hover=True)": (ValueError, "mu=0.2 and hover=True each set the speed"),
+    "rotor.make_design(mu=0.2, speed_kt=90)": (ValueError, "give only one of mu, speed_kt and hover"),
+    "rotor.make_design(hover='yes')": (TypeError, "hover is 'yes': write hover=True"),
+    "rotor.make_design(mass_kg='8 t')": (TypeError, "mass_kg is '8 t', not a number"),
+    "rotor.make_design(mass_kg=8)": (ValueError, "mass 8 kg is outside 100…50000 kg"),
+    "rotor.make_design(rotor='bell')": (ValueError, "rotor 'bell' is not known: use uh60a, r22, s61, or rotor.load"),
+    "rotor.make_design(rotor=60)": (TypeError, "rotor 60 is not a rotor"),
+    "rotor.make_design(preset='best')": (ValueError, "preset 'best' is not known: use flight or thesis"),
+    "rotor.make_design(inflow='free')": (ValueError, "inflow model 'free' is not known: use one of uniform"),
+    "design.at(mu='fast')": (TypeError, "mu is 'fast'"),
+    "design.at(speed_kt=90, hover=True)": (ValueError, "speed_kt=90 and hover=True"),
+    "design.with_twist(-12)": (TypeError, 'write "linear:-12"'),
+    "rotor.parse_twist('builtin')": (ValueError, "twist 'builtin' needs a rotor"),
+    "rotor.parse_twist('ideal')": (ValueError, "write ideal:6.4"),
+    "rotor.solve('uh60a')": (TypeError, "design is 'uh60a': give what rotor.make_design"),
+    "rotor.solve(design, start=design)": (TypeError, "give an earlier solution or leave it out"),
+    "rotor.sweep(design, mu=0.2)": (TypeError, "give a list of advance ratios, for example mu=[0.1, 0.2, 0.3]"),
+    "rotor.sweep(design, mu=['fast'])": (TypeError, "mu is 'fast'"),
+    "rotor.optimise(design, concept='cubic')": (ValueError, "concept 'cubic' is not known: use one of linear"),
+    "rotor.optimise(design, starts='many')": (TypeError, "starts is 'many': give a whole number"),
+    "rotor.optimise(design, quantity='noise')": (ValueError, "objective 'noise' is not known: use total or induced"),
+    "rotor.load_design('none.json')": (ValueError, "'none.json' does not exist"),
+    "rotor.load_rotor('none.toml')": (ValueError, "'none.toml' does not exist"),
+    "rotor.plot_power(design)": (TypeError, "plot_power got Design: give what rotor.sweep returns"),
+    "solution.plot('noise')": (ValueError, "field 'noise' is not known: use one of alpha"),
+    "explorer.show('uh60a')": (TypeError, "design is 'uh60a': give what rotor.make_design"),
+}
+
+
+@pytest.mark.parametrize("call", WRONG)
+def test_a_wrong_argument_fails_at_once(call: str, design: rotor.Design, solution: rotor.Solution):
+    kind, words = WRONG[call]
+    with pytest.raises(kind) as caught:
+        eval(call, {"rotor": rotor, "explorer": explorer, "design": design, "solution": solution})
+    assert words in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+IMPORT = """
+import json, logging, os, signal, sys, warnings
+import numpy, scipy.linalg, scipy.sparse, scipy.special  # SciPy adds filters for warnings of its own.
+from threadpoolctl import threadpool_info, threadpool_limits
+threadpool_limits(limits=3, user_api="blas")
+
+def state():
+    return {
+        "threads": [(one["filepath"], one["num_threads"]) for one in threadpool_info()],
+        "warnings": [repr(one) for one in warnings.filters],
+        "signals": [repr(signal.getsignal(one)) for one in sorted(signal.valid_signals())],
+        "environment": dict(os.environ),
+        "logging": (logging.getLogger().level, [repr(one) for one in logging.getLogger().handlers]),
+        "numpy": (numpy.geterr(), numpy.get_printoptions()["precision"]),
+        "python": (sys.getrecursionlimit(), sys.getswitchinterval(), repr(sys.excepthook), os.getcwd(), sys.path[:]),
+    }
+
+before = state()
+import rotor, explorer
+names = [name for name, value in state().items() if value != before[name]]
+solved = rotor.solve(rotor.make_design()).converged
+print(json.dumps([names, solved, [name for name in ("threads", "environment") if state()[name] != before[name]]]))
+"""
+
+
+def test_importing_changes_nothing_and_a_solve_puts_the_threads_back():
+    """BLAS threads, warning filters, signal handlers, environment, logging, NumPy's and Python's own settings."""
+    done = subprocess.run([sys.executable, "-c", IMPORT], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert json.loads(done.stdout) == [[], True, []]
+
+
+def test_threads_that_solve_together_put_the_setting_back():
+    """The limit belongs to the process: the last computation to end restores it, whatever their order."""
+    with threadpool_limits(limits=2, user_api="blas"):
+        before = [one["num_threads"] for one in threadpool_info()]
+        first, second = one_blas_thread(), one_blas_thread()
+        first.__enter__()
+        second.__enter__()
+        first.__exit__(None, None, None)
+        assert {one["num_threads"] for one in threadpool_info() if one["user_api"] == "blas"} == {1}
+        second.__exit__(None, None, None)
+        assert [one["num_threads"] for one in threadpool_info()] == before
