@@ -224,7 +224,7 @@ class Page:
         self.file.follow(state)
 
     def rest(self, state: SessionState, stop: Callable[[], bool]) -> None:
-        """What can wait: the fine picture, the address once more, the waterfall, what the page keeps of an own rotor."""
+        """What can wait: the fine picture, the address, the waterfall, what the page keeps of an own rotor."""
         self.scene.settle()
         self.file.follow(state)
         self.results.rest(stop)
