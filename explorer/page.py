@@ -88,7 +88,7 @@ class Page:
         self._view: View = "3d"
         rotor = start.aircraft.rotor_for(start.preset)
         self._radius = rotor.radius
-        self.scene = SceneController(client, rotor, self.display)
+        self.scene = SceneController(client, rotor, self.display, facts.dark)
         self._keyboard = Keyboard(client)
         context = self.context = TabContext(
             inputs=self.controls.inputs,
@@ -142,7 +142,7 @@ class Page:
         followers: tuple[Tab, ...] = (self.top, self.probe, sensitivity, self.waterfall, studies, settings)
         self.tabs = (*followers, self.history, self.file, export, self.lecture, self._presence)
         """Everything that only follows."""
-        self.camera = FittedCamera(client, rotor.radius)
+        self.camera = self.scene.camera = FittedCamera(client, rotor.radius)
         self._wire()
         for title, sentence in problems:
             self._notify(title, sentence)
@@ -224,7 +224,8 @@ class Page:
         self.file.follow(state)
 
     def rest(self, state: SessionState, stop: Callable[[], bool]) -> None:
-        """What can wait: the address once more, the waterfall, what the page keeps of an own rotor."""
+        """What can wait: the fine picture, the address, the waterfall, what the page keeps of an own rotor."""
+        self.scene.settle()
         self.file.follow(state)
         self.results.rest(stop)
         self.waterfall.climb(stop)

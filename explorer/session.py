@@ -119,8 +119,9 @@ class Session:
         return solution
 
     def _draw(self, reading: Reading, solution: Solution, everything: bool) -> None:
-        """Solution → the frame. A is solved before the frame only where the disk shows the difference to it."""
-        pinned = self._page.solve_pinned(solution.design, self._overtaken()) if reading.view.difference else None
+        """Solution → the frame. A is solved before the frame only where the scene shows it."""
+        wanted = reading.view.difference or reading.view.beside
+        pinned = self._page.solve_pinned(solution.design, self._overtaken()) if wanted else None
         self._page.show_frame(Frame(reading, solution, pinned, only_azimuth=not everything))
 
     def _follow(self, reading: Reading, solution: Solution, everything: bool, superseded: Callable[[], bool]) -> None:

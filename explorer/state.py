@@ -152,7 +152,7 @@ NOT_ALWAYS = ("given", "found")
 """Laws that are in the menu only when the field of `Inputs` of the same name holds what they mean."""
 
 
-TWIST_SHOWN = 1.0, 5.0
+TWIST_SHOWN = 1.0, 6.0
 """Least and most times its twist that a blade is drawn with."""
 
 
@@ -161,7 +161,7 @@ class ViewState:
     """What is shown, which no answer depends on."""
 
     field: str = "Angle of attack"
-    azimuth_deg: float = 60.0
+    azimuth_deg: float = 65.0
     exaggeration: float = 4.0
     difference: bool = False
     """Whether the disk shows B − A while a design is pinned."""
@@ -171,6 +171,12 @@ class ViewState:
     dark: bool = False
     units: str = SI.title
     """A title of `explorer.text.units.UNITS`."""
+    wake: bool = True
+    """Whether the tip vortices are drawn."""
+    arrows: bool = False
+    """Whether arrows show the induced inflow."""
+    beside: bool = False
+    """Whether A stands beside B while a design is pinned."""
 
 
 def inputs_of(design: Design) -> Inputs:

@@ -12,9 +12,11 @@ from trimesh.visual.material import PBRMaterial
 from trimesh.visual.texture import TextureVisuals
 
 from explorer.export.provenance import PROGRAM
-from explorer.picture import meshes
+from explorer.picture.blade_mesh import BladeShape, Detail, blade_shape, blade_vertices
 from explorer.picture.moving_blades import blade_twists
 from explorer.picture.poses import Pose, blade_pose, rotor_pose
+from explorer.picture.rotor_head import mast, rotor_head
+from explorer.picture.solids import Faces
 from explorer.theme import colours
 from rotor.arrays import Array
 from rotor.design.design import Design
@@ -51,7 +53,7 @@ def rotor_scene(solution: Solution, azimuth_deg: float) -> trimesh.Scene:
     design, controls = solution.design, solution.controls
     scene = trimesh.Scene()
     body = _Z_UP @ _matrix(rotor_pose(controls))
-    for name, mesh in (("hub", meshes.hub(design.rotor)), ("mast", meshes.mast(design.rotor.radius))):
+    for name, mesh in (("hub", rotor_head(design.rotor)), ("mast", mast(design.rotor.radius))):
         scene.add_geometry(_painted(mesh.vertices, mesh.faces, colours.HUB), name, name, transform=body)
     step = 2.0 * math.pi / design.rotor.blades
     azimuths = tuple(math.radians(azimuth_deg) + k * step for k in range(design.rotor.blades))
@@ -86,20 +88,20 @@ def kinks(law: TwistLaw) -> tuple[float, ...]:
             return ()
 
 
-def _loft(design: Design, psi: float | None) -> tuple[meshes.BladeShape, Array]:
+def _loft(design: Design, psi: float | None) -> tuple[BladeShape, Array]:
     """In the blade's own axes, from its hinge."""
     active = design.active_twist.stations if design.active_twist is not None and psi is not None else ()
     places = tuple(sorted({*kinks(design.twist), *active}))
-    shape = meshes.blade_shape(design.rotor, meshes.Detail(POINTS, STATIONS, places))
+    shape = blade_shape(design.rotor, Detail(POINTS, STATIONS, places))
     turning = blade_twists(design, (psi,)) if psi is not None else ()
-    return shape, meshes.blade_vertices(shape, turning[0] if turning else design.twist)
+    return shape, blade_vertices(shape, turning[0] if turning else design.twist)
 
 
 def _hinge(design: Design) -> float:
     return design.rotor.blade.flap_hinge * design.rotor.radius
 
 
-def _painted(vertices: Array, faces: meshes.Faces, colour: colours.Rgb) -> trimesh.Trimesh:
+def _painted(vertices: Array, faces: Faces, colour: colours.Rgb) -> trimesh.Trimesh:
     """Vertices are kept as they are: the caps have their own, for a sharp edge."""
     mesh = trimesh.Trimesh(vertices, faces, process=False)
     material = PBRMaterial(baseColorFactor=[*colour, 255], metallicFactor=0.1, roughnessFactor=0.6)

@@ -8,16 +8,45 @@ import numpy as np
 
 from rotor.arrays import Array
 
-View = Literal["3d", "top", "blade", "side"]
-"""From behind and above; the plan; along the marked blade; level, from the advancing side."""
+View = Literal["3d", "disk", "top", "blade", "side"]
+"""The aircraft from behind and starboard; the disk from behind and above; the plan; along the reference blade; level,
+from the advancing side."""
 
-FIELD_OF_VIEW = math.radians(30.0)
+FIELD_OF_VIEW = math.radians(26.0)
 """Vertical [rad]: narrow, so that the near side of the disk is not blown up."""
 _MARGIN = 0.955
-_ELEVATION = {"3d": math.radians(57.0), "top": math.radians(89.9), "side": math.radians(9.0)}
+_DRAWN_FOR = 8.1788
+"""Radius [m] that the fixed measures below are given for."""
+_USUAL_TILT = math.radians(3.0)
+_FOLLOWS_TILT = 0.8
+"""How much of a further shaft tilt the camera rises with, so that it keeps its angle to the disk."""
+_ELEVATION = {"top": math.radians(89.9), "side": math.radians(9.0)}
 """Above the horizon; not quite 90° for the plan, where "up" would be undefined."""
 _BEHIND, _ABOVE = math.radians(38.0), math.radians(24.0)
 """The blade is seen from beyond its tip, so far towards its trailing edge, so far above."""
+
+
+@dataclass(frozen=True)
+class _Stand:
+    """Where a camera stands that is not fitted but composed, for bars and cards along the edges of the canvas."""
+
+    azimuth: float
+    """[rad]; 0 is behind the tail."""
+    elevation: float
+    look_at: tuple[float, float, float]
+    """[m] from the hub."""
+    distance: float
+    """[m]"""
+    aspect: float
+    """Width over height of the canvas below which the camera stands further back."""
+
+
+_STANDS = {
+    "3d": _Stand(math.radians(34.0), math.radians(24.0), (0.9, 0.3, -2.35), 33.5, 1.6),
+    "disk": _Stand(math.radians(0.02), math.radians(46.0), (1.0, 0.0, -2.0), 48.0, 1.05),
+}
+BESIDE = 1.75
+"""How many times as far the camera stands from two rotors side by side."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,23 +56,33 @@ class Camera:
     look_at: Array
 
 
-def fit(view: View, radius: float, aspect: float, azimuth: float = 0.0) -> Camera:
-    """The camera of a view, as close as its subject, labels included, allows.
+def fit(view: View, radius: float, aspect: float, azimuth: float = 0.0, tilt: float = _USUAL_TILT) -> Camera:
+    """The camera of a view, as close as its subject, words included, allows.
 
-    `aspect`: canvas width over height. `azimuth`: ψ [rad] of the marked blade, for "blade". In "3d" and "top" the nose
-    is up and the advancing side right; in "side" the nose is right.
+    `aspect`: canvas width over height. `azimuth`: ψ [rad] of the reference blade, for "blade". `tilt`: of the shaft
+    [rad]. In "disk" and "top" the nose is up and the advancing side right; in "side" the nose is right.
     """
     if view == "blade":
         cos, sin = math.cos(azimuth - _BEHIND), math.sin(azimuth - _BEHIND)
         backward = np.array([cos * math.cos(_ABOVE), sin * math.cos(_ABOVE), math.sin(_ABOVE)])
         return framed(_blade(radius, azimuth), backward, aspect)
+    if view in _STANDS:
+        return _standing(_STANDS[view], radius / _DRAWN_FOR, aspect, tilt)
     elevation = _ELEVATION[view]
     aside = np.array([0.0, 1.0, 0.0]) if view == "side" else np.array([1.0, 0.0, 0.0])
     backward = math.cos(elevation) * aside + np.array([0.0, 0.0, math.sin(elevation)])
     points = _outline(radius)
-    if view == "side":  # Mast, coning and tilt need height where the disk has none; the speed, room ahead.
-        points = np.concatenate((points, radius * np.array([[0.0, 0.0, -0.24], [-1.42, 0.0, -0.1], [1.0, 0.0, 0.2]])))
+    if view == "side":  # The airframe, coning and tilt need height where the disk has none.
+        points = np.concatenate((points, radius * np.array([[0.0, 0.0, -0.5], [1.35, 0.0, -0.2], [1.0, 0.0, 0.2]])))
     return framed(points, backward, aspect)
+
+
+def _standing(stand: _Stand, size: float, aspect: float, tilt: float) -> Camera:
+    elevation = stand.elevation + _FOLLOWS_TILT * (tilt - _USUAL_TILT)
+    level = math.cos(elevation)
+    backward = np.array([math.cos(stand.azimuth) * level, math.sin(stand.azimuth) * level, math.sin(elevation)])
+    look_at = size * np.array(stand.look_at)
+    return Camera(look_at + size * stand.distance * max(1.0, stand.aspect / max(aspect, 0.2)) * backward, look_at)
 
 
 def framed(points: Array, backward: Array, aspect: float, margin: float = _MARGIN) -> Camera:
@@ -69,11 +108,9 @@ def framed(points: Array, backward: Array, aspect: float, margin: float = _MARGI
 
 
 def _outline(radius: float) -> Array:
+    """The rim with the words round it."""
     psi = np.linspace(0.0, 2.0 * math.pi, 73)
-    ring = 1.16 * radius * np.stack((np.cos(psi), np.sin(psi), np.zeros_like(psi)), axis=1)
-    # The flight arrow ahead, and room for the labels to either side.
-    beyond = np.array([[-1.32, 0.0, 0.0], [0.0, 1.25, 0.0], [0.0, -1.25, 0.0]])
-    return np.concatenate((ring, radius * beyond))
+    return 1.2 * radius * np.stack((np.cos(psi), np.sin(psi), np.zeros_like(psi)), axis=1)
 
 
 def _blade(radius: float, azimuth: float) -> Array:

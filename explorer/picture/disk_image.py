@@ -1,4 +1,4 @@
-"""The disk as a picture: polar values → palette indices → a small PNG with transparent corners and cut-out."""
+"""The disk as a picture: polar values and marked regions → palette indices → a small PNG, transparent outside."""
 
 import struct
 import zlib
@@ -9,37 +9,54 @@ import numpy as np
 from numpy.typing import NDArray
 
 from explorer.picture.polar import PolarGrid
+from explorer.picture.regions import Region
+from explorer.picture.scene_theme import DiskInk
 from explorer.theme.colours import VOID, Scheme, colour_map, greyed
 from rotor.arrays import Array
 
 Bytes = NDArray[np.uint8]
 
+MOVING, AT_REST = 400, 960
+"""Pixels along each edge of the page's picture while something is dragged, and afterwards."""
 SIZE = 512
-"""Pixels along each edge of the page's picture."""
-RADII, AZIMUTHS = 176, 768
-"""Points of the polar grid behind it: about one pixel each."""
+"""Pixels along each edge of a picture for export, where nothing else is asked for."""
 LARGEST = 2400
 """Pixels along each edge of any picture: enough for the height of a 4K screen, about a second."""
 
 # Layout of the 256 palette entries.
 _CLEAR = 0
-_LEVELS = 190
-_VOID = 1 + _LEVELS
-_EDGE_COLOURS = 21
+_LEVELS = 112
+_HATCHED = _LEVELS
+"""Added to the entry of a colour: the same under a stripe."""
+_VOID, _REVERSE, _REVERSE_RIM, _DASH, _STALL_RIM = range(1 + 2 * _LEVELS, 6 + 2 * _LEVELS)
+_TEXT = _STALL_RIM + 1
+_TEXT_STEPS = 5
+"""From the ground of a label to its ink."""
+_FIRST_EDGE = _TEXT + _TEXT_STEPS
+_EDGE_COLOURS = 7
 _EDGE_ALPHAS = (0.25, 0.5, 0.75)
-_FIRST_EDGE = _VOID + 1
+_STRIPES = 26.0
+"""Stripes of the hatch per radius."""
+_STRIPE_SHARE = 0.36
+_REGION_ENTRIES = {
+    Region.STALL_RIM: _STALL_RIM,
+    Region.DASH: _DASH,
+    Region.REVERSE: _REVERSE,
+    Region.REVERSE_RIM: _REVERSE_RIM,
+}
 
 
 @dataclass(frozen=True, eq=False)
 class Raster:
     """Where each pixel looks on the polar grid. Row 0 is at the nose (ψ = 180°), columns run to starboard."""
 
-    index: NDArray[np.intp]
+    index: NDArray[np.int32]
     """Flat polar index of each covered pixel, shape (covered,)."""
-    covered: NDArray[np.intp]
+    covered: NDArray[np.int32]
     """Flat pixel index of each covered pixel."""
-    edge_level: Bytes
-    """Of each covered pixel: 0 inside, 1…3 for a quarter to three quarters covered."""
+    kind: NDArray[np.uint16]
+    """Row of the table that turns polar codes into palette entries, times 256: inside, under a stripe, or an edge pixel
+    a quarter to three quarters covered."""
 
 
 def half_width(radius: float, size: int = SIZE) -> float:
@@ -47,9 +64,14 @@ def half_width(radius: float, size: int = SIZE) -> float:
     return radius * size / (size - 2)
 
 
+def grid_size(size: int) -> tuple[int, int]:
+    """Radii and azimuths of the polar grid behind a picture of `size` pixels: about one pixel each."""
+    return (112, 384) if size <= MOVING else (round(0.34 * size), round(1.5 * size))
+
+
 @lru_cache(maxsize=4)
-def _page_raster(inner: float) -> Raster:
-    return _raster(inner, SIZE, RADII, AZIMUTHS)
+def _page_raster(inner: float, size: int) -> Raster:
+    return _raster(inner, size, *grid_size(size))
 
 
 def _raster(inner: float, size: int, radii: int, azimuths: int) -> Raster:
@@ -59,12 +81,25 @@ def _raster(inner: float, size: int, radii: int, azimuths: int) -> Raster:
     r = np.hypot(aft, starboard)
     pixel = 2.0 / (size - 2)
     coverage = np.clip((1.0 - r) / pixel + 0.5, 0.0, 1.0) * np.clip((r - inner) / pixel + 0.5, 0.0, 1.0)
-    quarters = np.rint(4.0 * coverage).astype(np.uint8).ravel()
-    covered = np.flatnonzero(quarters)
-    row = np.clip(np.rint((r - inner) / (1.0 - inner) * (radii - 1)), 0, radii - 1).astype(np.intp)
-    column = np.rint(np.arctan2(starboard, aft) / (2.0 * np.pi) * azimuths).astype(np.intp) % azimuths
+    quarters = np.rint(4.0 * coverage).astype(np.uint16).ravel()
+    covered = np.flatnonzero(quarters).astype(np.int32)
+    row = np.clip(np.rint((r - inner) / (1.0 - inner) * (radii - 1)), 0, radii - 1).astype(np.int32)
+    column = np.rint(np.arctan2(starboard, aft) / (2.0 * np.pi) * azimuths).astype(np.int32) % azimuths
+    stripe = (((aft - starboard) * _STRIPES) % 1.0 < _STRIPE_SHARE).ravel()[covered]
     level = quarters[covered]
-    return Raster((row * azimuths + column).ravel()[covered], covered, np.where(level == 4, 0, level).astype(np.uint8))
+    kind = np.where(level == 4, np.where(stripe, 1, 0), 1 + level).astype(np.uint16)
+    return Raster((row * azimuths + column).ravel()[covered], covered, kind * np.uint16(256))
+
+
+@lru_cache(maxsize=1)
+def _entries() -> Bytes:
+    """Palette entry of each polar code for each kind of pixel, flat, shape (5 × 256,)."""
+    code = np.arange(256)
+    plain = np.where((code > _HATCHED) & (code <= 2 * _LEVELS), code - _HATCHED, code)
+    hatched = code.copy()
+    colour = np.clip(plain - 1, 0, _LEVELS - 1) * (_EDGE_COLOURS - 1) // (_LEVELS - 1)
+    edges = [_FIRST_EDGE + 3 * colour + step for step in range(3)]
+    return np.concatenate((plain, hatched, *edges)).astype(np.uint8)
 
 
 def indices(
@@ -74,51 +109,77 @@ def indices(
     high: float,
     void: NDArray[np.bool_] | None = None,
     size: int = SIZE,
+    regions: Bytes | None = None,
 ) -> Bytes:
-    """Palette index of each pixel, shape (size, size), of polar `values` over the range `low`…`high`."""
-    inner, usual = float(grid.r[0]), (size, *values.shape) == (SIZE, RADII, AZIMUTHS)
-    # The page's own is kept for the next frame; a large one weighs more than it costs to make again.
-    raster = _page_raster(inner) if usual else _raster(inner, size, *values.shape)
+    """Palette index of each pixel, shape (size, size), of polar `values` over the range `low`…`high`.
+
+    `regions`: a `Region` for each polar point, drawn over the colours.
+    """
+    inner, usual = float(grid.r[0]), size in (MOVING, AT_REST) and values.shape == grid_size(size)
+    # The page's own are kept for the next frame; a large one weighs more than it costs to make again.
+    raster = _page_raster(inner, size) if usual else _raster(inner, size, *values.shape)
     scaled = np.clip((values - low) * ((_LEVELS - 1) / (high - low)), 0.0, _LEVELS - 1)
-    polar = (scaled + 0.5).astype(np.uint8)
-    pixels = polar.ravel()[raster.index]
-    edge = raster.edge_level
-    edge_colour = pixels.astype(np.uint16) * (_EDGE_COLOURS - 1) // (_LEVELS - 1)
-    covered = np.where(edge == 0, pixels + 1, _FIRST_EDGE + edge_colour * 3 + edge - 1).astype(np.uint8)
+    codes = (scaled + 1.5).astype(np.uint8)
     if void is not None:
-        covered = np.where(void.ravel()[raster.index] & (edge == 0), np.uint8(_VOID), covered)
+        codes[void] = _VOID
+    if regions is not None:
+        stalled = (regions == Region.STALLED) & (codes <= _LEVELS)
+        codes[stalled] += np.uint8(_HATCHED)
+        for region, entry in _REGION_ENTRIES.items():
+            codes[regions == region] = entry
     image = np.zeros(size * size, dtype=np.uint8)
-    image[raster.covered] = covered
+    image[raster.covered] = _entries()[raster.kind + codes.ravel()[raster.index]]
     return image.reshape(size, size)
 
 
-def palette(scheme: Scheme, faded: bool) -> Bytes:
-    """The 256 RGBA entries, shape (256, 4); `faded` is the grey picture of an answer that no longer holds."""
-    return _palette(scheme, faded).copy()
+def write_labels(pixels: Bytes, ink: Bytes, ground: NDArray[np.bool_]) -> None:
+    """Write labels into a picture: `ink` 0…255 on their `ground`, both of the picture's shape."""
+    steps = (ink.astype(np.uint16) * (_TEXT_STEPS - 1) // 255 + _TEXT).astype(np.uint8)
+    pixels[ground] = steps[ground]
 
 
-@lru_cache(maxsize=6)
-def _palette(scheme: Scheme, faded: bool) -> Bytes:
+def palette(scheme: Scheme, faded: bool, ink: DiskInk | None = None) -> Bytes:
+    """The 256 RGBA entries, shape (256, 4); `faded` is the grey picture of a solution that no longer holds.
+
+    `ink`: colours of the marked regions, and the opacity of the disk.
+    """
+    return _palette(scheme, faded, ink or DiskInk()).copy()
+
+
+@lru_cache(maxsize=8)
+def _palette(scheme: Scheme, faded: bool, ink: DiskInk) -> Bytes:
     colours = colour_map(scheme, _LEVELS)
     if faded:
         colours = greyed(colours)
     entries = np.zeros((256, 4), dtype=np.uint8)
     entries[_CLEAR, :3] = VOID
     entries[1 : 1 + _LEVELS, :3] = colours
-    entries[1 : 1 + _LEVELS, 3] = 255
-    entries[_VOID] = (*VOID, 255)
+    entries[1 : 1 + _LEVELS, 3] = round(255 * ink.opacity)
+    stripe = np.array(ink.stall, dtype=np.float64)
+    entries[1 + _HATCHED : 1 + _HATCHED + _LEVELS, :3] = (0.2 * colours + 0.8 * stripe).astype(np.uint8)
+    entries[1 + _HATCHED : 1 + _HATCHED + _LEVELS, 3] = 250
+    entries[_VOID] = (*VOID, round(255 * ink.opacity))
+    entries[_REVERSE] = (*ink.reverse_flow, 238)
+    entries[_REVERSE_RIM] = (*ink.reverse_flow_rim, 255)
+    entries[_DASH] = (*ink.drag_divergence, 255)
+    entries[_STALL_RIM] = (*ink.stall, 255)
+    shade = np.linspace(0.0, 1.0, _TEXT_STEPS)[:, None]
+    text = (1.0 - shade) * np.array(ink.label_ground) + shade * np.array(ink.label)
+    entries[_TEXT : _TEXT + _TEXT_STEPS, :3] = text.astype(np.uint8)
+    entries[_TEXT : _TEXT + _TEXT_STEPS, 3] = 255
     for colour in range(_EDGE_COLOURS):
         source = colours[colour * (_LEVELS - 1) // (_EDGE_COLOURS - 1)]
-        for step, alpha in enumerate(_EDGE_ALPHAS):
-            entries[_FIRST_EDGE + 3 * colour + step] = (*source, round(255 * alpha))
+        for step, share in enumerate(_EDGE_ALPHAS):
+            entries[_FIRST_EDGE + 3 * colour + step] = (*source, round(255 * share * ink.opacity))
     if faded:
         entries[:, 3] = (0.55 * entries[:, 3]).astype(np.uint8)
     return entries
 
 
-def encode_png(pixels: Bytes, entries: Bytes) -> bytes:
-    """A palette PNG: `pixels` of shape (rows, columns), `entries` RGBA of shape (256, 4)."""
-    return _png(pixels, 3, _chunk(b"PLTE", entries[:, :3].tobytes()) + _chunk(b"tRNS", entries[:, 3].tobytes()))
+def encode_png(pixels: Bytes, entries: Bytes, effort: int = 1) -> bytes:
+    """A palette PNG: `pixels` of shape (rows, columns), `entries` RGBA of shape (256, 4); `effort`: 1…9 to be small."""
+    before = _chunk(b"PLTE", entries[:, :3].tobytes()) + _chunk(b"tRNS", entries[:, 3].tobytes())
+    return _png(pixels, 3, before, effort)
 
 
 def encode_rgba(pixels: Bytes) -> bytes:
@@ -126,13 +187,18 @@ def encode_rgba(pixels: Bytes) -> bytes:
     return _png(pixels.reshape(len(pixels), -1), 6, b"")
 
 
-def _png(samples: Bytes, kind: int, before: bytes) -> bytes:
+def _png(samples: Bytes, kind: int, before: bytes, effort: int = 1) -> bytes:
     """`samples`: a line of bytes for each row; `kind`: PNG's colour type, 3 palette or 6 RGBA."""
     rows, length = samples.shape
     lines = np.zeros((rows, length + 1), dtype=np.uint8)  # Each line starts with filter type 0.
     lines[:, 1:] = samples
     header = struct.pack(">IIBBBBB", length if kind == 3 else length // 4, rows, 8, kind, 0, 0, 0)
-    parts = (_chunk(b"IHDR", header), before, _chunk(b"IDAT", zlib.compress(lines.tobytes(), 1)), _chunk(b"IEND", b""))
+    parts = (
+        _chunk(b"IHDR", header),
+        before,
+        _chunk(b"IDAT", zlib.compress(lines.tobytes(), effort)),
+        _chunk(b"IEND", b""),
+    )
     return b"\x89PNG\r\n\x1a\n" + b"".join(parts)
 
 

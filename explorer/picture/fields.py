@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from explorer.picture.polar import PolarGrid
-from explorer.picture.stall_region import angle_of_attack, stall_margin
+from explorer.picture.stall_region import refined
 from explorer.theme.colours import Scheme
 from rotor.arrays import Array
 from rotor.trim.solution import DiskFields, Solution
@@ -52,7 +52,7 @@ class Field:
 
 def reverse_flow(solution: Solution, grid: PolarGrid) -> NDArray[np.bool_]:
     """Where U_T < 0 on the polar grid, shape (radii, azimuths)."""
-    return grid.refine(solution.disk.u_t) < 0.0
+    return refined(solution, grid).u_t < 0.0
 
 
 def filled(disk: DiskFields, values: Array) -> Array:
@@ -75,7 +75,7 @@ def _inflow(solution: Solution, grid: PolarGrid) -> Array:
 
 
 def _alpha_deg(solution: Solution, grid: PolarGrid) -> Array:
-    return np.degrees(angle_of_attack(solution, grid))
+    return np.degrees(refined(solution, grid).alpha).astype(np.float64)
 
 
 def _mach(solution: Solution, grid: PolarGrid) -> Array:
@@ -105,7 +105,7 @@ def _power(solution: Solution, grid: PolarGrid) -> Array:
 
 
 def _stall_margin_deg(solution: Solution, grid: PolarGrid) -> Array:
-    return np.degrees(stall_margin(solution, grid))
+    return np.degrees(refined(solution, grid).margin).astype(np.float64)
 
 
 FIELDS: dict[str, Field] = {
@@ -133,11 +133,27 @@ def fitted_range(field: Field, values: Array, shown: NDArray[np.bool_] | None = 
     low, high = (float(end) for end in np.quantile(data, (0.005, 0.995)))
     if field.two_sided:
         high = max(abs(low), abs(high), 1e-3 * field.high)
-        step = round_up(high / 4.0)
+        step = round_up(high / 5.0)
         high = step * math.ceil(high / step - 1e-9)
         return -high, high
-    step = round_up(max(high - low, 1e-6) / 5.0)
+    step = round_up(max(high - low, 1e-6) / 10.0)
     return step * math.floor(low / step + 1e-9), step * math.ceil(high / step - 1e-9)
+
+
+def keeps_range(field: Field, values: Array, held: tuple[float, float]) -> bool:
+    """Whether a held range still fits: hardly anything beyond it, and the fitted one not much smaller."""
+    low, high = held
+    if not values.size:
+        return True
+    beyond = np.count_nonzero(values < low) + np.count_nonzero(values > high)
+    fitted = fitted_range(field, values)
+    return bool(beyond <= 0.02 * values.size) and (fitted[1] - fitted[0]) > 0.5 * (high - low)
+
+
+def over_range(values: Array, held: tuple[float, float]) -> tuple[bool, bool]:
+    """Whether a thousandth of the values lies below a range, and above it."""
+    least = 1e-3 * values.size
+    return bool(np.count_nonzero(values < held[0]) > least), bool(np.count_nonzero(values > held[1]) > least)
 
 
 def ticks(low: float, high: float, about: int = 5) -> tuple[float, ...]:

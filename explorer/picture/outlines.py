@@ -6,14 +6,12 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from explorer.picture.fields import filled
 from explorer.picture.polar import PolarGrid, polar_grid
+from explorer.picture.regions import divergence_margin
 from explorer.picture.stall_region import stall_margin
 from rotor.arrays import Array
 from rotor.trim.solution import Solution
 
-DRAG_DIVERGENCE = 0.1
-"""∂C_d/∂M that marks drag divergence."""
 _RADII, _AZIMUTHS = 80, 240
 
 
@@ -42,12 +40,12 @@ def stall_segments(solution: Solution) -> Array:
 
 
 def drag_divergence_segments(solution: Solution) -> Array:
-    """Where ∂C_d/∂M is 0.1, the reverse-flow region left out; shape (n, 2, 2), in radii."""
+    """Where drag diverges, the reverse-flow region left out; shape (n, 2, 2), in radii."""
     disk = solution.disk
     grid = polar_grid(disk, _RADII, _AZIMUTHS)
-    slope = grid.refine(filled(disk, np.clip(disk.cd_mach, -0.5, 0.5)))
+    slope = divergence_margin(solution, grid).astype(np.float64)
     # An element and a half clear of reverse flow: nearer, the line would only trace the elements' steps.
-    return _outside_reverse_flow(contour(grid, slope, DRAG_DIVERGENCE), solution, 1.5 * disk.dr)
+    return _outside_reverse_flow(contour(grid, slope, 0.0), solution, 1.5 * disk.dr)
 
 
 def _outside_reverse_flow(segments: Array, solution: Solution, clearance: float) -> Array:

@@ -7,38 +7,47 @@ import numpy as np
 from numpy.typing import NDArray
 
 from explorer.picture import disk_image
+from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.picture.fields import FIELDS, Field
-from explorer.picture.meshes import blade_shape, blade_vertices, size
+from explorer.picture.lettering import label_masks
 from explorer.picture.moving_blades import blade_twists
-from explorer.picture.outlines import drag_divergence_segments, reverse_flow_segments, stall_segments
 from explorer.picture.polar import polar_grid
-from explorer.picture.poses import Pose, blade_pose, rotor_pose, tip_path_pose
+from explorer.picture.poses import Pose, airframe_pose, blade_pose, rotor_pose, tip_path_pose
+from explorer.picture.regions import NO_MARKS, Marks, region_codes, region_labels
+from explorer.picture.rotor_head import size
+from explorer.picture.scene_theme import DiskInk, scene_theme
+from explorer.picture.stall_region import refined
 from explorer.state import ViewState
-from explorer.text.units import UNITS
 from explorer.theme import colours
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.trim.solution import Solution
 
-DISK_DROP = 0.35
+DISK_DROP = 0.30
 """How far the coloured disk lies below the hub [m], so that blades are seen on it; of the UH-60A's size."""
 LINE_LIFT = 0.02
 """How far lines lie above the disk [m]."""
+_SLOW = 0.2
+"""U_T/ΩR below which a field without meaning in reverse flow does not count for its range."""
+_LINE_PIXELS = 1.4
+"""Half the width of the lines on the disk, in pixels of its picture at rest."""
 
 OUTLINE_COLOURS = {
     "reverse_flow": (colours.REVERSE_FLOW, colours.CASING_DARK),
     "stall": (colours.STALL, colours.CASING_LIGHT),
     "drag_divergence": (colours.DRAG_DIVERGENCE, colours.CASING_LIGHT),
 }
-"""Line and casing, by the name of the toggle in `ViewState`."""
+"""Line and casing in drawings for print, by the name of the toggle in `ViewState`."""
 
 
 @dataclass(frozen=True, eq=False)
 class Blades:
     """Where the blades are; all that changes while the rotor turns."""
 
+    azimuth: float
+    """ψ of the reference blade [rad]."""
     poses: tuple[Pose, ...]
-    """The marked blade first."""
+    """The reference blade first."""
     shapes: tuple[Array, ...]
     """Vertices blade by blade where twist follows the azimuth; empty when all are alike."""
 
@@ -48,6 +57,7 @@ class Picture:
     """What one frame shows."""
 
     rotor: Pose
+    airframe: Pose
     disk: Pose
     blades: Blades
     blade_vertices: Array
@@ -55,10 +65,8 @@ class Picture:
     blade_faces: NDArray[np.uint32]
     """Shape (m, 3); changes only with the rotor."""
     png: bytes
-    outlines: dict[str, Array]
-    """Segments in the disk plane [m], shape (n, 2, 3), by toggle; empty when off."""
-    flight_label: str
-    """Empty in hover."""
+    png_size: int
+    """Pixels along each edge of `png`."""
 
 
 def disk_drop(rotor: Rotor) -> float:
@@ -67,35 +75,55 @@ def disk_drop(rotor: Rotor) -> float:
 
 
 def turned_blades(solution: Solution, view: ViewState) -> Blades:
-    """The blades with the marked one at the view's azimuth."""
+    """The blades with the reference blade at the view's azimuth."""
     rotor = solution.design.rotor
     first, step = math.radians(view.azimuth_deg), 2.0 * math.pi / rotor.blades
     azimuths = tuple(first + k * step for k in range(rotor.blades))
     hinge = rotor.blade.flap_hinge * rotor.radius
     twists = blade_twists(solution.design, azimuths)
     return Blades(
+        azimuth=first,
         poses=tuple(blade_pose(solution.controls, psi, hinge) for psi in azimuths),
         shapes=tuple(blade_vertices(blade_shape(rotor), twist, view.exaggeration) for twist in twists),
     )
 
 
 def make_picture(
-    solution: Solution, view: ViewState, colour_range: tuple[float, float], field: Field | None = None
+    solution: Solution,
+    view: ViewState,
+    colour_range: tuple[float, float],
+    field: Field | None = None,
+    pixels: int = disk_image.AT_REST,
 ) -> Picture:
-    """The frame for a converged solution. `field`: on the disk, where it is not just that of the view."""
+    """The frame for a converged solution. `field`: on the disk, where it is not just that of the view.
+
+    `pixels`: along each edge of the disk's picture.
+    """
     rotor, controls = solution.design.rotor, solution.controls
-    speed = solution.design.airspeed
     shape = blade_shape(rotor)
     return Picture(
         rotor=rotor_pose(controls),
+        airframe=airframe_pose(controls),
         disk=tip_path_pose(controls, disk_drop(rotor)),
         blades=turned_blades(solution, view),
         blade_vertices=blade_vertices(shape, solution.design.twist, view.exaggeration),
         blade_faces=shape.faces,
-        png=disk_png(solution, field or FIELDS[view.field], colour_range),
-        outlines=_outlines(solution, view),
-        flight_label=UNITS[view.units].speed[0].text(speed) if speed > 0.0 else "",
+        png=page_disk_png(solution, field or FIELDS[view.field], colour_range, view, pixels),
+        png_size=pixels,
     )
+
+
+def marks_of(view: ViewState) -> Marks:
+    """The regions a view marks."""
+    return Marks(view.stall, view.reverse_flow, view.drag_divergence)
+
+
+def page_disk_png(
+    solution: Solution, field: Field, colour_range: tuple[float, float], view: ViewState, pixels: int
+) -> bytes:
+    """The disk as the scene shows it: marked regions, in the ink of the page, with labels once it is at rest."""
+    ink = scene_theme(view.dark).ink
+    return disk_png(solution, field, colour_range, size=pixels, marks=marks_of(view), ink=ink)
 
 
 def disk_png(
@@ -104,34 +132,35 @@ def disk_png(
     colour_range: tuple[float, float],
     faded: bool = False,
     size: int = disk_image.SIZE,
+    marks: Marks = NO_MARKS,
+    ink: DiskInk | None = None,
 ) -> bytes:
-    """The coloured disk as a PNG of `size` pixels along each edge, at most `disk_image.LARGEST`."""
+    """The coloured disk as a PNG of `size` pixels along each edge, at most `disk_image.LARGEST`.
+
+    `marks`: regions drawn into it, and labelled where the picture is large enough to read.
+    """
     size = min(size, disk_image.LARGEST)
-    fineness = size / disk_image.SIZE
-    grid = polar_grid(solution.disk, round(fineness * disk_image.RADII), round(fineness * disk_image.AZIMUTHS))
-    pixels = disk_image.indices(grid, field.sample(solution, grid), *colour_range, field.void(solution, grid), size)
-    return disk_image.encode_png(pixels, disk_image.palette(field.colours, faded))
+    grid = polar_grid(solution.disk, *disk_image.grid_size(size))
+    half_width = _LINE_PIXELS * 2.0 / max(size, 640)
+    regions = region_codes(solution, grid, marks, half_width)
+    void = field.void(solution, grid)
+    pixels = disk_image.indices(grid, field.sample(solution, grid), *colour_range, void, size, regions)
+    if marks != NO_MARKS and size > disk_image.MOVING:
+        disk_image.write_labels(pixels, *label_masks(region_labels(solution, marks), size))
+    return disk_image.encode_png(pixels, disk_image.palette(field.colours, faded, ink))
 
 
 def field_values(solution: Solution, field: Field) -> Array:
-    """All values of a field that the disk shows, to fit a range to."""
+    """Values of a field that the disk shows, each for an equal area, to fit a range to.
+
+    A field without meaning in reverse flow is left out beside it too: angles run away where there is no flow.
+    """
     grid = polar_grid(solution.disk, 80, 240)
-    values, void = field.sample(solution, grid), field.void(solution, grid)
-    return values.ravel() if void is None else values[~void]
-
-
-def _outlines(solution: Solution, view: ViewState) -> dict[str, Array]:
-    sources = {
-        "reverse_flow": reverse_flow_segments,
-        "stall": stall_segments,
-        "drag_divergence": drag_divergence_segments,
-    }
-    return {
-        name: _in_space(source(solution) if getattr(view, name) else np.zeros((0, 2, 2)), solution.design.rotor.radius)
-        for name, source in sources.items()
-    }
-
-
-def _in_space(segments: Array, radius: float) -> Array:
-    lifted = np.full((*segments.shape[:2], 1), LINE_LIFT)
-    return np.concatenate((radius * segments, lifted), axis=2)
+    # Rows at equal steps of r², which ring areas go with.
+    r = np.sqrt(np.linspace(grid.r[0] ** 2, grid.r[-1] ** 2, 2 * len(grid.r)))
+    rows = np.rint(np.interp(r, grid.r, np.arange(len(grid.r)))).astype(int)
+    values, void = field.sample(solution, grid)[rows], field.void(solution, grid)
+    if void is None:
+        return values.ravel()
+    beside = void | (refined(solution, grid).u_t < _SLOW) if field.void_in_reverse_flow else void
+    return values[~beside[rows]]

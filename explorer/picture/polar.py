@@ -1,12 +1,16 @@
 """From the solver's (elements, azimuths) grid to a finer polar grid: smooth, periodic, one matrix on each side."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rotor.arrays import Array
 from rotor.trim.solution import DiskFields
+
+Single = NDArray[np.float32]
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,6 +29,18 @@ class PolarGrid:
     def refine(self, field: Array) -> Array:
         """`field` of shape (elements, solver azimuths) on this grid, shape (radii, azimuths)."""
         return self.along @ field @ self.around
+
+    def refine_all(self, fields: Sequence[Array]) -> Single:
+        """Several fields at once in single precision, shape (fields, radii, azimuths): for pictures, in a third of the
+        time."""
+        along, around = self._single
+        stack = np.stack(fields).astype(np.float32)
+        turned = (stack.reshape(-1, stack.shape[2]) @ around).reshape(len(fields), -1, around.shape[1])
+        return np.matmul(along, turned)
+
+    @cached_property
+    def _single(self) -> tuple[Single, Single]:
+        return self.along.astype(np.float32), self.around.astype(np.float32)
 
 
 def polar_grid(disk: DiskFields, radii: int, azimuths: int, ends: tuple[float, float] | None = None) -> PolarGrid:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from explorer.picture.airframe import SHAFT_FORWARD
 from rotor.aero.trim_state import TrimState
 from rotor.arrays import Array
 
@@ -46,6 +47,11 @@ def rotate(wxyz: Array, points: Array) -> Array:
 def rotor_pose(controls: TrimState) -> Pose:
     """The shaft, tilted forward by α (x is aft, so nose-down is a turn about −y)."""
     return Pose(about(1, -controls.shaft_tilt), np.zeros(3))
+
+
+def airframe_pose(controls: TrimState) -> Pose:
+    """The airframe in level flight: nose down by what the shaft tilt is more than its lean in the airframe."""
+    return Pose(about(1, SHAFT_FORWARD - controls.shaft_tilt), np.zeros(3))
 
 
 def blade_pose(controls: TrimState, psi: float, hinge: float) -> Pose:

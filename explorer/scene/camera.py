@@ -3,15 +3,18 @@
 import math
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import viser
 
-from explorer.picture.camera_views import FIELD_OF_VIEW, Camera, View, fit
+from explorer.picture.camera_views import BESIDE, FIELD_OF_VIEW, Camera, View, fit
 
 _SETTLES = 1.5
 """While the page lays itself out [s], camera messages still tell of older positions."""
+_LEAST_TILT = math.radians(0.2)
+"""A smaller change of the shaft tilt does not move the camera."""
 _TAKEN = 0.3
 """A camera this far [m] from where it was put was moved by the user."""
 
@@ -25,17 +28,26 @@ class FittedCamera:
         self._view: View | None = "3d"
         """None while something else than the rotor is looked at."""
         self._azimuth = 0.0
-        self._fit: Callable[[float], Camera] = partial(fit, "3d", radius)
+        self._tilt = math.radians(3.0)
+        self._beside = 1.0
+        """How many times as far the camera stands as from one rotor."""
+        self._fit: Callable[[float], Camera] = partial(self._fitted, "3d")
         self._following = True
         self._put: tuple[np.ndarray, tuple[int, int], float] | None = None
         client.camera.fov = FIELD_OF_VIEW
-        client.camera.near = 1.0  # A far near plane keeps the depth resolution that lines on the disk need.
+        client.camera.near = 2.0  # A far near plane keeps the depth resolution that words on the disk need.
         client.camera.on_update(self._moved)
 
     def aim(self, view: View) -> None:
         """Show the rotor, and go on doing so when the canvas changes."""
         self._view = view
-        self._aim(partial(fit, view, self._radius, azimuth=self._azimuth))
+        self._aim(partial(self._fitted, view))
+
+    def _fitted(self, view: View, aspect: float) -> Camera:
+        camera = fit(view, self._radius, aspect, self._azimuth, self._tilt)
+        if view == "blade":
+            return camera
+        return replace(camera, position=camera.look_at + self._beside * (camera.position - camera.look_at))
 
     def resize(self, radius: float) -> None:
         """The rotor is of another radius [m] now: fit it anew, unless something else is looked at."""
@@ -46,12 +58,21 @@ class FittedCamera:
             self.aim(self._view)
 
     def ride(self, azimuth: float) -> None:
-        """The marked blade is at ψ [rad] now: a camera that looks along it goes with it, until the user takes over."""
+        """The reference blade is at ψ [rad]: a camera that looks along it goes with it, until the user takes over."""
         if azimuth == self._azimuth:
             return
         self._azimuth = azimuth
         if self._view == "blade" and self._following:
             self.aim("blade")
+
+    def follow(self, tilt: float, beside: bool) -> None:
+        """Go with the shaft tilt [rad], and stand back for a second rotor, until the user takes over."""
+        far = BESIDE if beside else 1.0
+        if abs(tilt - self._tilt) < _LEAST_TILT and far == self._beside:
+            return
+        self._tilt, self._beside = tilt, far
+        if self._view is not None and self._view != "blade" and self._following:
+            self.aim(self._view)
 
     def pictured(self, aspect: float) -> tuple[np.ndarray, np.ndarray, float]:
         """Orientation wxyz, position [m] and vertical field of view [rad] that show at `aspect` what the page shows."""

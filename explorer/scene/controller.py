@@ -1,20 +1,31 @@
-"""The picture of one session: rotor, disk, ghost and colour range; draws only what has changed."""
+"""The picture of one session: rotor, disk, ghost and colour range; draws only what has changed.
 
+While something moves, the disk is small and only the reference blade is bent. `settle` draws the rest.
+"""
+
+import math
 from dataclasses import dataclass, replace
 
+import numpy as np
 import viser
 
 from explorer.picture.difference import shown_field
-from explorer.picture.fields import Field, fitted_range
+from explorer.picture.disk_image import AT_REST, MOVING
+from explorer.picture.fields import Field, fitted_range, keeps_range
 from explorer.picture.picture import disk_png, field_values, make_picture, turned_blades
-from explorer.scene.overlays import Ghost, OtherBlade
+from explorer.picture.scene_theme import scene_theme
+from explorer.scene.camera import FittedCamera
+from explorer.scene.overlays import AirLines, Ghost, OtherBlade
+from explorer.scene.page_scene import PageScene
 from explorer.scene.scene import Scene
-from explorer.state import ViewState
+from explorer.state import ViewState, baseline_of
 from explorer.tabs.display import Display
 from rotor.design.blade import Rotor
 from rotor.trim.solution import Solution
 
 Range = tuple[float, float]
+_APART = 1.32
+"""Half the distance between the hubs of two rotors side by side, in radii."""
 
 
 @dataclass(frozen=True)
@@ -23,84 +34,153 @@ class _Drawn:
 
     solution: Solution
     pinned: Solution | None
-    """Where the disk shows the difference to it."""
+    """Where the disk shows the difference to it, or it stands beside."""
     view: ViewState
     colour_range: Range
     ghost: OtherBlade | None
 
     def at(self, azimuth_deg: float) -> "_Drawn":
-        """The same with the marked blade elsewhere."""
+        """The same with the reference blade elsewhere."""
         return replace(self, view=replace(self.view, azimuth_deg=azimuth_deg))
 
 
 class SceneController:
     """One session's; everything but the buttons happens on its worker."""
 
-    def __init__(self, client: viser.ClientHandle, rotor: Rotor, display: Display) -> None:
+    def __init__(self, client: viser.ClientHandle, rotor: Rotor, display: Display, dark: bool = False) -> None:
         self._client = client
         self._display = display
-        self._scene = Scene(client.scene, rotor)
-        self._ghost = Ghost(client.scene, rotor)
+        theme = scene_theme(dark)
+        self.scene = Scene(client.scene, rotor, theme)
+        self._ghost = Ghost(client.scene, rotor, theme)
+        self._air = AirLines(client.scene)
+        self._page = PageScene(client)
+        self.camera: FittedCamera | None = None
+        """Follows the shaft tilt, once the page has one."""
         self._drawn: _Drawn | None = None
+        self._settled = False
+        """Whether the frame is drawn as finely as it can be."""
         self._ranges: dict[str, Range] = {}
         """By title of the field, once one was held."""
+        self._chosen: set[str] = set()
+        """Titles whose range the user asked for: it stays."""
         self._order: str | None = None
         """Another range that was asked for."""
 
     def draw(
         self, solution: Solution, view: ViewState, ghost: OtherBlade | None, pinned: Solution | None = None
     ) -> None:
-        """Show a converged answer, the ghost of another blade on the marked one, and on the disk B − A if wanted."""
+        """Show a converged solution, the ghost of another blade on the reference blade, and B − A or A if wanted."""
+        if ghost is None:
+            as_built = baseline_of(solution.design)
+            ghost = OtherBlade(as_built.rotor, as_built.twist, None)
         field = shown_field(view, pinned)
         colour_range = self._range(solution, field)
-        wanted = _Drawn(solution, pinned if view.difference else None, view, colour_range, ghost)
+        wanted = _Drawn(solution, pinned, view, colour_range, ghost)
         if self._drawn == wanted:
             return
         if self._drawn is not None and self._drawn.at(view.azimuth_deg) == wanted:
-            # The same disk, its colours and lines: only the blades turn.
+            # The same disk and its colours: only the blades turn.
             with self._client.atomic():
-                self._scene.turn(turned_blades(solution, view))
+                self.scene.rotor.turn(turned_blades(solution, view))
+                self._air.hide_vortices()
             self._client.flush()
-            self._drawn = wanted
+            self._drawn, self._settled = wanted, False
             return
-        picture = make_picture(solution, view, colour_range, field)
+        first = self._drawn is None
+        picture = make_picture(solution, view, colour_range, field, MOVING)
         with self._client.atomic():
-            self._scene.fit(solution.design.rotor)
-            self._scene.show(picture)
-            self._ghost.show(ghost, view.exaggeration)
+            self._set_theme(view)
+            self.scene.fit(solution.design.rotor)
+            self.scene.show(picture, everything=first)
+            self._ghost.show(ghost, solution.design.twist, view.exaggeration, at_rest=False)
+            self._page.move(solution, view)
         self._client.flush()  # The frame goes out now; read-outs and charts follow while it is drawn.
         self._display.show_range(field, colour_range, faded=False)
-        self._drawn = wanted
+        if self.camera is not None:
+            self.camera.follow(solution.controls.shaft_tilt, view.beside and pinned is not None)
+        self._drawn, self._settled = wanted, False
+
+    def settle(self) -> None:
+        """Nothing moves: draw the disk finely, all blades, the ghost's edges, vortices and arrows, and A beside B.
+
+        A colour range that no longer fits is fitted now.
+        """
+        drawn = self._drawn
+        if drawn is None or self._settled:
+            return
+        solution, view = drawn.solution, drawn.view
+        field = shown_field(view, drawn.pinned if view.difference else None)
+        values = field_values(solution, field)
+        if field.title not in self._chosen and not keeps_range(field, values, drawn.colour_range):
+            fitted = fitted_range(field, values)
+            self._ranges[field.title], drawn = fitted, replace(drawn, colour_range=fitted)
+            self._display.show_range(field, fitted, faded=False)
+        picture = make_picture(solution, view, drawn.colour_range, field, AT_REST)
+        beside = drawn.pinned if view.beside and drawn.pinned is not None and drawn.pinned.converged else None
+        other = None if beside is None else make_picture(beside, view, drawn.colour_range, field, AT_REST)
+        with self._client.atomic():
+            self.scene.show(picture)
+            self._ghost.show(drawn.ghost, solution.design.twist, view.exaggeration, at_rest=True)
+            self._air.show(solution, view, scene_theme(view.dark))
+            if beside is None or other is None:
+                self.scene.hide_beside()
+            else:
+                radius = max(beside.design.rotor.radius, solution.design.rotor.radius)
+                self.scene.show_beside(beside.design.rotor, other, apart(radius))
+        self._client.flush()
+        self._drawn, self._settled = drawn, True
 
     def fade(self, good: Solution | None, view: ViewState, pinned: Solution | None = None) -> None:
-        """Show that the picture, of the last good answer, no longer holds."""
+        """Show that the picture, of the last converged solution, no longer holds."""
         self._drawn = None
         if good is None:
             return
         field = shown_field(view, pinned)
         colour_range = self._range(good, field)
-        png = disk_png(good, field, colour_range, faded=True)
+        png = disk_png(good, field, colour_range, faded=True, size=MOVING)
         with self._client.atomic():
-            self._scene.fade(png)
+            self.scene.rotor.show_disk(png, MOVING)
         self._display.show_range(field, colour_range, faded=True)
+
+    def play(self, playing: bool) -> None:
+        """Turn the rotor in the page, flapping and pitching, or stop it where the view has it."""
+        self._page.play(playing)
+        if playing:
+            self._air.hide_vortices()
+        elif self._drawn is not None:
+            self._air.show(self._drawn.solution, self._drawn.view, scene_theme(self._drawn.view.dark))
 
     def set_seen(self, seen: bool) -> None:
         """Whether the rotor is in the scene, or makes room for something else."""
-        self._scene.set_seen(seen)
+        self.scene.set_seen(seen)
 
     def held_range(self, field: Field) -> Range:
         """The colour range a field has on the page."""
         return self._ranges.get(field.title, (field.low, field.high))
 
     def order_range(self, order: str) -> None:
-        """Fit the colour range to the data ("Rescale") or take its own again ("Default"), in the next round."""
+        """Fit the colour range to the data ("Rescale") or take its own again ("Default"), in the next update."""
         self._order = order
 
     def _range(self, solution: Solution, field: Field) -> Range:
-        """The colour range: held, unless a button asked for another."""
+        """The colour range: fitted when a field is first shown, held while anything moves."""
         order, self._order = self._order, None
-        if order == "Rescale":
-            self._ranges[field.title] = fitted_range(field, field_values(solution, field))
-        elif order == "Default" or field.title not in self._ranges:
+        if order == "Default":
             self._ranges[field.title] = (field.low, field.high)
+            self._chosen.add(field.title)
+        elif order == "Rescale" or field.title not in self._ranges:
+            self._ranges[field.title] = fitted_range(field, field_values(solution, field))
+            self._chosen.discard(field.title)
         return self._ranges[field.title]
+
+    def _set_theme(self, view: ViewState) -> None:
+        theme = scene_theme(view.dark)
+        self.scene.set_theme(theme)
+        self._ghost.set_theme(theme)
+
+
+def apart(radius: float) -> np.ndarray:
+    """Where the right one of two rotors side by side stands [m], across the usual line of sight."""
+    across = math.radians(90.0 + 17.0)
+    return _APART * radius * np.array([math.cos(across), math.sin(across), 0.0])

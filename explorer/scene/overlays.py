@@ -1,34 +1,48 @@
-"""What lies on the marked blade: the ghost of another blade, and colours. Made once, then moved."""
+"""What lies on and about the rotor: the ghost of another blade, tip vortices, inflow arrows, painted points.
 
+Handles are made once, then moved.
+"""
+
+import math
 from dataclasses import dataclass
 
 import numpy as np
 import viser
 from numpy.typing import NDArray
 
-from explorer.picture.meshes import ghost_segments
+from explorer.picture.blade_mesh import blade_shape, blade_vertices, ghost_segments, ghost_vertices
+from explorer.picture.scene_theme import SceneTheme
+from explorer.picture.solids import Mesh
+from explorer.picture.wake import inflow_arrows, tip_vortices
 from explorer.pinned import Pinned
+from explorer.scene.scene import ROTOR, set_mesh, solid
+from explorer.state import ViewState
 from explorer.theme import colours
 from rotor.design.blade import Rotor
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
+from rotor.trim.solution import Solution
 
-_BLADE = "/rotor/blade_0"
+_BLADE = f"{ROTOR}/blade_0"
+_LEAST = math.radians(0.25)
+"""A ghost is drawn where its twist differs by about this [rad]."""
+_OPACITY = 0.38
 
 
 @dataclass(frozen=True)
 class OtherBlade:
-    """A blade to compare the marked one with."""
+    """A blade to compare the reference blade with."""
 
     rotor: Rotor
     twist: TwistLaw
-    colour: colours.Rgb
+    colour: colours.Rgb | None
+    """None: the grey of the page's theme."""
 
 
 def ghost_of(begun: Design | None, pinned: Pinned | None) -> OtherBlade | None:
-    """The blade that the marked one is seen against: that a shown search began from, else A's, else none."""
+    """The blade that the reference blade is seen against: what a shown search began from, else A's; None: as built."""
     if begun is not None:
-        return OtherBlade(begun.rotor, begun.twist, colours.GHOST)
+        return OtherBlade(begun.rotor, begun.twist, None)
     if pinned is None:
         return None
     design = pinned.solution.design
@@ -36,34 +50,81 @@ def ghost_of(begun: Design | None, pinned: Pinned | None) -> OtherBlade | None:
 
 
 class Ghost:
-    """Outlines in the marked blade's own axes, so that only twist tells the two apart."""
+    """A translucent blade in the reference blade's own axes, so that only twist tells the two apart; edges at rest."""
 
-    def __init__(self, api: viser.SceneApi, rotor: Rotor) -> None:
-        self._shown: tuple[OtherBlade, float] | None = None
+    def __init__(self, api: viser.SceneApi, rotor: Rotor, theme: SceneTheme) -> None:
+        self._theme = theme
+        shape = blade_shape(rotor)
+        start = Mesh(blade_vertices(shape, rotor.builtin_twist), shape.faces)
+        self._surface = solid(api, f"{_BLADE}/other", start, theme.ghost)
+        self._surface.opacity = _OPACITY
+        self._surface.visible = False
+        # A colour for each point from the beginning: the page cannot change from one for all to one for each.
         self._lines = api.add_line_segments(
             f"{_BLADE}/ghost",
-            ghost_segments(rotor, rotor.builtin_twist).astype(np.float32),
-            colours.GHOST,
-            thickness=1.6,
+            np.zeros((1, 2, 3), dtype=np.float32),
+            _even(theme.ghost, 1),
+            thickness=1.4,
             thickness_units="screen",
             visible=False,
         )
 
-    def show(self, blade: OtherBlade | None, exaggeration: float) -> None:
-        """Show the ghost of a blade; None hides it."""
-        wanted = None if blade is None else (blade, exaggeration)
-        if wanted == self._shown:
+    def set_theme(self, theme: SceneTheme) -> None:
+        self._theme = theme
+
+    def show(self, other: OtherBlade | None, twist: TwistLaw, exaggeration: float, at_rest: bool) -> None:
+        """Show the ghost of another blade where its twist is not `twist`; None hides it."""
+        seen = other is not None and other.twist != twist
+        self._surface.visible = seen
+        self._lines.visible = seen and at_rest
+        if other is None or not seen:
             return
-        self._shown = wanted
-        if blade is not None:
-            self._lines.points = ghost_segments(blade.rotor, blade.twist, exaggeration).astype(np.float32)
-            # One colour for all, as when it was made: a colour for each point would leave the page's lines white.
-            self._lines.colors = np.array(blade.colour, dtype=np.uint8)
-        self._lines.visible = blade is not None
+        shape = blade_shape(other.rotor)
+        vertices = ghost_vertices(shape, other.twist, twist, exaggeration, _LEAST)
+        set_mesh(self._surface, Mesh(vertices, shape.faces))
+        colour = other.colour or self._theme.ghost
+        self._surface.color = colour
+        if at_rest:
+            segments = ghost_segments(other.rotor, other.twist, twist, exaggeration, _LEAST).astype(np.float32)
+            self._lines.visible = len(segments) > 0
+            if len(segments):
+                self._lines.points, self._lines.colors = segments, _even(colour, len(segments))
+
+
+class AirLines:
+    """Tip vortices and inflow arrows of the rotor of the sliders; drawn once nothing moves."""
+
+    def __init__(self, api: viser.SceneApi) -> None:
+        nothing, black = np.zeros((1, 2, 3), dtype=np.float32), np.zeros((1, 2, 3), dtype=np.uint8)
+        self._vortices, self._arrows = (
+            api.add_line_segments(
+                f"{ROTOR}/{name}", nothing, black, thickness=width, thickness_units="screen", visible=False
+            )
+            for name, width in (("vortices", 1.7), ("inflow", 1.5))
+        )
+
+    def show(self, solution: Solution, view: ViewState, theme: SceneTheme) -> None:
+        """Of this solution, as far as the view wants them."""
+        rotor = solution.design.rotor
+        if view.wake:
+            step = 2.0 * math.pi / rotor.blades
+            azimuths = [math.radians(view.azimuth_deg) + k * step for k in range(rotor.blades)]
+            points, age = tip_vortices(solution, azimuths)
+            share = age[:, :, None] ** 0.8
+            fading = (1.0 - share) * np.array(theme.vortex) + share * np.array(theme.vortex_end)
+            self._vortices.points, self._vortices.colors = points.astype(np.float32), fading.astype(np.uint8)
+        if view.arrows:
+            segments = inflow_arrows(solution).astype(np.float32)
+            self._arrows.points, self._arrows.colors = segments, _even(theme.inflow, len(segments))
+        self._vortices.visible, self._arrows.visible = view.wake, view.arrows
+
+    def hide_vortices(self) -> None:
+        """They belong to blades that have moved on."""
+        self._vortices.visible = False
 
 
 class Strip:
-    """Coloured points along the marked blade."""
+    """Coloured points along the reference blade."""
 
     def __init__(self, api: viser.SceneApi) -> None:
         self._points = api.add_point_cloud(
@@ -82,3 +143,8 @@ class Strip:
 
     def hide(self) -> None:
         self._points.visible = False
+
+
+def _even(colour: colours.Rgb, count: int) -> NDArray[np.uint8]:
+    """One colour for every end of `count` segments."""
+    return np.tile(np.array(colour, dtype=np.uint8), (count, 2, 1))

@@ -6,152 +6,260 @@ import numpy as np
 import viser
 
 from explorer.hosting import viser_compat
-from explorer.picture import meshes
+from explorer.picture.airframe import airframe
+from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.picture.disk_image import half_width
-from explorer.picture.picture import OUTLINE_COLOURS, Blades, Picture
+from explorer.picture.lettering import (
+    REACH,
+    SHADOW_CENTRE,
+    SHADOW_HALF,
+    letter_mask,
+    ring_mask,
+    shadow_mask,
+    tinted_png,
+)
+from explorer.picture.picture import Blades, Picture
 from explorer.picture.poses import Pose, about
+from explorer.picture.rotor_head import mast, rotor_head, size
+from explorer.picture.scene_theme import SceneTheme
+from explorer.picture.solids import Faces, Mesh, joined
 from explorer.state import ViewState
-from explorer.theme import colours
+from explorer.theme.colours import Rgb
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
 
-_DISK_TURN = (0.0, np.sqrt(0.5), np.sqrt(0.5), 0.0)
-"""Half a turn about the bisector of x and y: the picture's columns run to starboard, its rows aft."""
-_NOTHING = np.zeros((1, 2, 3))
+ROTOR, COMPARED = "/rotor", "/compared"
+"""Names of the rotor of the sliders and of the one beside it."""
+_FLAT = (0.0, math.sqrt(0.5), math.sqrt(0.5), 0.0)
+"""Half a turn about the bisector of x and y: a picture's columns run to starboard, its rows aft."""
+_BELOW_DISK = -0.06
+"""Height of the words about the disk [m]."""
+_BELOW_GROUND = 0.3
+"""How far the shadow lies below the wheels [m], so that it is not cut when the nose goes down."""
 
 
-class Scene:
-    """Blades, hub, disk, outlines, arrows and labels of one rotor."""
+class RotorNodes:
+    """Blades, head, disk and the words about it, under one frame."""
 
-    def __init__(self, api: viser.SceneApi, rotor: Rotor) -> None:
-        api.set_up_direction("+z")
-        api.configure_default_lights(cast_shadow=False)
-        self._api = api
-        self._seen = True
+    def __init__(self, api: viser.SceneApi, name: str, rotor: Rotor, theme: SceneTheme) -> None:
+        self._api, self._name, self._theme = api, name, theme
         self._fitted: Rotor | None = None
-        self._rotor = api.add_frame("/rotor", show_axes=False)
-        some = meshes.mast(1.0)
-        self._hub = self._solid(api, "/rotor/hub", some, colours.HUB)
-        self._mast = self._solid(api, "/rotor/mast", some, colours.HUB)
+        self.frame = api.add_frame(name, show_axes=False)
+        self._head = solid(api, f"{name}/head", mast(1.0), theme.head)
         self._blades: list[viser.MeshHandle] = []
         """Of the rotor with most blades so far; those beyond this rotor's are hidden."""
-        self._disk = api.add_frame("/rotor/disk", show_axes=False)
-        self._image = api.add_image(
-            "/rotor/aero/disk/field",
-            np.zeros((2, 2, 4), dtype=np.uint8),
-            1.0,
-            1.0,
-            format="png",
-            wxyz=_DISK_TURN,
-            cast_shadow=False,
-            receive_shadow=False,
-        )
-        self._rim = self._line(api, "/rotor/aero/disk/rim", np.zeros((1, 2, 3)), colours.RIM, 1.6)
-        self._outlines: dict[str, tuple[viser.LineSegmentsHandle, ...]] = {}
-        for name, (line, casing) in OUTLINE_COLOURS.items():
-            self._outlines[name] = (
-                self._line(api, f"/rotor/aero/disk/{name}_casing", _NOTHING, casing, 4.6),
-                self._line(api, f"/rotor/aero/disk/{name}", _NOTHING, line, 2.0),
-            )
-        self._turning = self._solid(api, "/rotor/aero/disk/rotation", meshes.rotation_arrow(1.0), colours.RIM)
-        self._azimuths = {
-            degrees: api.add_label(f"/rotor/aero/disk/psi_{degrees}", f"ψ = {degrees}°", anchor="center-center")
-            for degrees in (0, 90, 180, 270)
-        }
-        self._flight = api.add_frame("/flight", show_axes=False, visible=False)
-        self._arrow = self._solid(api, "/flight/arrow", meshes.flight_arrow(1.0), colours.MARKED_BLADE)
-        self._flight_label = api.add_label("/flight/label", "", anchor="center-left")
+        self._disk = api.add_frame(f"{name}/disk", show_axes=False)
+        self._ring = picture_plane(api, f"{name}/disk/words", (0.0, 0.0, _BELOW_DISK))
+        self._image = picture_plane(api, f"{name}/disk/field", (0.0, 0.0, 0.0))
+        self._png_size = 0
+        self.set_theme(theme)
         self.fit(rotor)
 
+    @property
+    def reference_blade(self) -> viser.MeshHandle:
+        """The red one, which can be grabbed."""
+        return self._blades[0]
+
     def fit(self, rotor: Rotor) -> None:
-        """Make room for a rotor: its blades, hub, disk and marks; nothing when it is the one that is shown."""
+        """Make room for a rotor: blades, head, disk and words; nothing when it is the one that is shown."""
         if rotor == self._fitted:
             return
         self._fitted, radius = rotor, rotor.radius
-        for handle, mesh in (
-            (self._hub, meshes.hub(rotor)),
-            (self._mast, meshes.mast(radius)),
-            (self._turning, meshes.rotation_arrow(radius)),
-            (self._arrow, meshes.flight_arrow(radius)),
-        ):
-            handle.vertices, handle.faces = mesh.vertices.astype(np.float32), mesh.faces
-        shape = meshes.blade_shape(rotor)
-        start = meshes.blade_vertices(shape, rotor.builtin_twist)
+        head = joined([rotor_head(rotor), mast(radius)])
+        set_mesh(self._head, head)
+        shape = blade_shape(rotor)
+        start = blade_vertices(shape, rotor.builtin_twist, ViewState.exaggeration)
         for k in range(len(self._blades), rotor.blades):
-            colour = colours.BLADE if k else colours.MARKED_BLADE
-            self._blades.append(self._solid(self._api, f"/rotor/blade_{k}", meshes.Mesh(start, shape.faces), colour))
+            colour = self._theme.blade if k else self._theme.reference_blade
+            blade = solid(self._api, f"{self._name}/blade_{k}", Mesh(start, shape.faces), colour)
+            self._blades.append(blade)
             psi = math.radians(ViewState.azimuth_deg) + k * 2.0 * math.pi / rotor.blades
             hinge = rotor.blade.flap_hinge * radius * np.array([math.cos(psi), math.sin(psi), 0.0])
-            _place(self._blades[k], Pose(about(2, psi), hinge))  # Until the first answer says more.
+            place(blade, Pose(about(2, psi), hinge))  # Until the first solution says more.
         for k, handle in enumerate(self._blades):
             handle.visible = k < rotor.blades
-        self._image.render_width = self._image.render_height = 2.0 * half_width(radius)
-        cutout = rotor.blade.root_cutout * radius
-        rim = (meshes.circle_segments(radius), meshes.circle_segments(cutout, 60), meshes.tick_segments(radius))
-        self._rim.points = np.concatenate(rim).astype(np.float32)
-        for degrees, label in self._azimuths.items():
-            psi = np.radians(degrees)
-            label.position = 1.135 * radius * np.array([np.cos(psi), np.sin(psi), 0.0])
-        self._flight_label.position = np.array([-1.27 * radius, 0.035 * radius, 0.0])
+        self._ring.render_width = self._ring.render_height = 2.0 * REACH * radius
+        self._png_size = 0
 
-    def show(self, picture: Picture) -> None:
-        """Assign one frame; call it inside `client.atomic()` so that the page draws it whole."""
-        _place(self._rotor, picture.rotor)
-        _place(self._disk, picture.disk)
-        for handle, _ in zip(self._blades, picture.blades.poses, strict=False):
-            if not np.array_equal(handle.faces, picture.blade_faces):
-                handle.faces = picture.blade_faces
-            if not picture.blades.shapes:
-                handle.vertices = picture.blade_vertices.astype(np.float32)
+    def show(self, picture: Picture, everything: bool) -> None:
+        """Assign one frame. `everything`: also the vertices of the other blades, which follow once nothing moves."""
+        self.frame.wxyz = picture.rotor.wxyz
+        place(self._disk, picture.disk)
+        if not picture.blades.shapes:
+            for handle in self._blades[: len(picture.blades.poses) if everything else 1]:
+                set_mesh(handle, Mesh(picture.blade_vertices, picture.blade_faces))
         self.turn(picture.blades)
-        viser_compat.set_png(self._image, picture.png)
-        for name, segments in picture.outlines.items():
-            for lift, handle in enumerate(self._outlines[name]):
-                handle.visible = len(segments) > 0
-                if len(segments):
-                    handle.points = (segments + np.array([0.0, 0.0, 0.05 * lift])).astype(np.float32)
-        self._flight.visible = self._seen and picture.flight_label != ""
-        if picture.flight_label:
-            self._flight_label.text = picture.flight_label
+        self.show_disk(picture.png, picture.png_size)
 
     def turn(self, blades: Blades) -> None:
-        """Move the blades, and nothing else."""
+        """Move the blades and the head, and nothing else."""
+        self._head.wxyz = about(2, blades.azimuth)
         for handle, pose in zip(self._blades, blades.poses, strict=False):
-            _place(handle, pose)
+            place(handle, pose)
         for handle, shape in zip(self._blades, blades.shapes, strict=False):
             handle.vertices = shape.astype(np.float32)
+
+    def show_disk(self, png: bytes, pixels: int) -> None:
+        """Another picture of the disk, `pixels` along each edge."""
+        viser_compat.set_png(self._image, png)
+        if pixels != self._png_size and self._fitted is not None:
+            self._png_size = pixels
+            self._image.render_width = self._image.render_height = 2.0 * half_width(self._fitted.radius, pixels)
+
+    def set_theme(self, theme: SceneTheme) -> None:
+        """Colours for a light page or a dark one."""
+        self._theme = theme
+        self._head.color = theme.head
+        for k, blade in enumerate(self._blades):
+            blade.color = theme.blade if k else theme.reference_blade
+        viser_compat.set_png(self._ring, tinted_png(ring_mask(), theme.lettering))
+
+
+class Scene:
+    """The rotor of the sliders, its airframe and shadow, the lights, and at times a second rotor beside it."""
+
+    def __init__(self, api: viser.SceneApi, rotor: Rotor, theme: SceneTheme) -> None:
+        self._api, self._theme = api, theme
+        self._seen, self._fitted = True, rotor
+        api.set_up_direction("+z")
+        api.configure_default_lights(enabled=False)
+        self._lights = [
+            api.add_light_directional(
+                f"/light/{k}", color=light.colour, intensity=light.intensity, position=light.position
+            )
+            for k, light in enumerate(theme.lights)
+        ]
+        self._sky = api.add_light_hemisphere("/light/sky", ground_color=(150, 160, 180), intensity=theme.sky)
+        self._shadow = picture_plane(api, "/shadow", (0.0, 0.0, 0.0))
+        self._airframe = api.add_frame("/airframe", show_axes=False)
+        craft = airframe(rotor)
+        self._body = solid(api, "/airframe/body", craft.body, theme.body)
+        self._glass = solid(api, "/airframe/glass", craft.glass, theme.glass)
+        self._dark_parts = solid(api, "/airframe/dark", craft.dark, theme.dark_parts)
+        self.rotor = RotorNodes(api, ROTOR, rotor, theme)
+        self._compared: RotorNodes | None = None
+        self._beside = False
+        self._letters: list[viser.ImageHandle] = []
+        self._light_up()
+        self._fit_airframe(rotor)
+
+    def fit(self, rotor: Rotor) -> None:
+        """Make room for a rotor."""
+        if rotor != self._fitted:
+            self._fitted = rotor
+            self._fit_airframe(rotor)
+        self.rotor.fit(rotor)
+
+    def show(self, picture: Picture, everything: bool = True) -> None:
+        """Assign one frame; call it inside `client.atomic()` so that the page draws it whole."""
+        self.rotor.show(picture, everything)
+        place(self._airframe, picture.airframe)
+
+    def show_beside(self, rotor: Rotor, picture: Picture, offset: Array) -> None:
+        """A second rotor at −`offset` [m] and the first at +`offset`, marked A and B; the airframe makes room."""
+        if self._compared is None:
+            self._compared = RotorNodes(self._api, COMPARED, rotor, self._theme)
+        self._compared.fit(rotor)
+        self._compared.show(picture, everything=True)
+        self._compared.frame.position = -offset
+        self.rotor.frame.position = offset
+        self._beside = True
+        self._show_letters(rotor.radius, offset)
+        self._set_visible()
+
+    def hide_beside(self) -> None:
+        """One rotor again."""
+        if self._beside:
+            self._beside = False
+            self.rotor.frame.position = np.zeros(3)
+            self._set_visible()
 
     def set_seen(self, seen: bool) -> None:
         """Whether the rotor is in the scene, or makes room for something else."""
         self._seen = seen
-        self._rotor.visible = seen
-        self._flight.visible = seen and self._flight_label.text != ""
+        self._set_visible()
 
-    def fade(self, png: bytes) -> None:
-        """Show that the picture is no longer the answer: a grey disk, no outlines."""
-        viser_compat.set_png(self._image, png)
-        for handles in self._outlines.values():
-            for handle in handles:
-                handle.visible = False
+    def set_theme(self, theme: SceneTheme) -> None:
+        """Colours and lights for a light page or a dark one."""
+        if theme is self._theme:
+            return
+        self._theme = theme
+        for handle, colour in (
+            (self._body, theme.body),
+            (self._glass, theme.glass),
+            (self._dark_parts, theme.dark_parts),
+        ):
+            handle.color = colour
+        for handle, light in zip(self._lights, theme.lights, strict=True):
+            handle.intensity = light.intensity
+        self._sky.intensity = theme.sky
+        self._light_up()
+        self.rotor.set_theme(theme)
+        if self._compared is not None:
+            self._compared.set_theme(theme)
+        for letter, text in zip(self._letters, "AB", strict=False):
+            viser_compat.set_png(letter, tinted_png(letter_mask(text), theme.lettering))
+        self._draw_shadow()
 
-    def _solid(self, api: viser.SceneApi, name: str, mesh: meshes.Mesh, colour: colours.Rgb) -> viser.MeshHandle:
-        return api.add_mesh_simple(
-            name, mesh.vertices, mesh.faces, color=colour, side="double", cast_shadow=False, receive_shadow=False
-        )
+    def _light_up(self) -> None:
+        self._api.configure_environment_map("studio", environment_intensity=self._theme.environment)
 
-    def _line(
-        self, api: viser.SceneApi, name: str, segments: Array, colour: colours.Rgb, pixels: float
-    ) -> viser.LineSegmentsHandle:
-        return api.add_line_segments(
-            name,
-            segments.astype(np.float32),
-            colour,
-            thickness=pixels,
-            thickness_units="screen",
-            visible=segments is not _NOTHING,
-        )
+    def _fit_airframe(self, rotor: Rotor) -> None:
+        craft = airframe(rotor)
+        for handle, mesh in ((self._body, craft.body), (self._glass, craft.glass), (self._dark_parts, craft.dark)):
+            set_mesh(handle, mesh)
+        half, radius = SHADOW_HALF * rotor.radius, rotor.radius
+        self._shadow.render_width = self._shadow.render_height = 2.0 * half
+        self._shadow.position = (SHADOW_CENTRE * radius, 0.0, craft.ground - _BELOW_GROUND * size(radius))
+        self._draw_shadow()
+
+    def _draw_shadow(self) -> None:
+        mask = shadow_mask(airframe(self._fitted), self._fitted.radius)
+        viser_compat.set_png(self._shadow, tinted_png(mask, self._theme.shadow, self._theme.shadow_strength))
+
+    def _show_letters(self, radius: float, offset: Array) -> None:
+        if not self._letters:
+            for text in "AB":
+                handle = picture_plane(self._api, f"/letter_{text}", (0.0, 0.0, 0.0))
+                viser_compat.set_png(handle, tinted_png(letter_mask(text), self._theme.lettering))
+                self._letters.append(handle)
+        for handle, side in zip(self._letters, (-1.0, 1.0), strict=True):
+            handle.render_width = handle.render_height = 0.4 * radius
+            handle.position = side * offset + np.array([1.42 * radius, 0.0, 0.0])
+
+    def _set_visible(self) -> None:
+        self.rotor.frame.visible = self._seen
+        for handle in (self._airframe, self._shadow):
+            handle.visible = self._seen and not self._beside
+        for handle in (*self._letters, *([self._compared.frame] if self._compared else [])):
+            handle.visible = self._seen and self._beside
 
 
-def _place(handle: viser.SceneNodeHandle, pose: Pose) -> None:
+def solid(api: viser.SceneApi, name: str, mesh: Mesh, colour: Rgb) -> viser.MeshHandle:
+    """A closed surface: only its front is drawn, which costs the page half."""
+    vertices = mesh.vertices.astype(np.float32)
+    return api.add_mesh_simple(
+        name, vertices, mesh.faces, color=colour, side="front", cast_shadow=False, receive_shadow=False
+    )
+
+
+def set_mesh(handle: viser.MeshHandle, mesh: Mesh) -> None:
+    """Another shape. Never faces without their vertices: of two sizes, the page must not draw a mixture."""
+    faces: Faces = mesh.faces
+    handle.vertices = mesh.vertices.astype(np.float32)
+    if not np.array_equal(handle.faces, faces):
+        handle.faces = faces
+
+
+def picture_plane(api: viser.SceneApi, name: str, position: tuple[float, float, float]) -> viser.ImageHandle:
+    """A flat picture, nose up; its size and content are assigned later."""
+    nothing = np.zeros((2, 2, 4), dtype=np.uint8)
+    return api.add_image(
+        name, nothing, 1.0, 1.0, format="png", wxyz=_FLAT, position=position, cast_shadow=False, receive_shadow=False
+    )
+
+
+def place(handle: viser.SceneNodeHandle, pose: Pose) -> None:
+    """Move a node within its parent."""
     handle.wxyz = pose.wxyz
     handle.position = pose.position

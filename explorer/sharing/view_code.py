@@ -48,7 +48,7 @@ def view_from(code: str) -> ViewState:
     for word in words:
         name, _, value = word.partition("=")
         if name not in _NAMES:
-            raise ValueError(f"The view in the address holds {cut(word)!r}: it may hold {', '.join(_NAMES)}.")
+            raise ValueError(f"The view in the address holds {cut(word)!r}: choose {', '.join(_NAMES)}.")
         view = replace(view, **{name: _value(name, value)})
     return view
 

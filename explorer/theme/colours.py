@@ -45,8 +45,6 @@ PARTS = {"induced": "#3b82c4", "profile": "#e6a117", "parasite": "#8d949c", "tai
 MARKED_BLADE: Rgb = (130, 20, 8)
 """Dark albedos: the page's lights bleach, and this one shows as a clear orange-red."""
 BLADE: Rgb = (40, 43, 50)
-GHOST: Rgb = (250, 250, 255)
-"""The blade a search began from."""
 PINNED_GHOST: Rgb = (255, 176, 0)
 """The blade of A, in the amber of its lines."""
 HUB: Rgb = (30, 32, 37)

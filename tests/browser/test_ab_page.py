@@ -42,7 +42,7 @@ def test_pin_move_compare_swap_back_and_let_go(browser: "Browser", app: App):
     watched.until_changed(lambda: ghost_seen(watched), False)
     page.wait_for_function("() => Object.keys(window.__viserTestpoints.uplots).length === 5", timeout=WAIT)
 
-    disk = watched.node("/rotor/aero/disk/field")
+    disk = watched.node("/rotor/disk/field")
     watched.press("Inner", "PageUp", 4)
     moved = watched.until_changed(lambda: total_row(watched)[2], "0.0")
     a, b, apart, percent = watched.at_rest(lambda: total_row(watched))
@@ -50,11 +50,11 @@ def test_pin_move_compare_swap_back_and_let_go(browser: "Browser", app: App):
     assert f"{b} kW" == watched.text("total-power")
     assert re.fullmatch(r"[+−]\d+\.\d", moved)
     assert watched.text("change").startswith(percent)
-    watched.until_changed(lambda: watched.node("/rotor/aero/disk/field"), disk)
-    plain = watched.at_rest(lambda: watched.node("/rotor/aero/disk/field"))
+    watched.until_changed(lambda: watched.node("/rotor/disk/field"), disk)
+    plain = watched.at_rest(lambda: watched.node("/rotor/disk/field"))
 
     page.get_by_label("Show B − A").check()
-    watched.until_changed(lambda: watched.node("/rotor/aero/disk/field"), plain)
+    watched.until_changed(lambda: watched.node("/rotor/disk/field"), plain)
     assert "Δ angle of attack [°], B − A" in watched.text("colour-bar")
 
     press(watched, "Swap A and B")

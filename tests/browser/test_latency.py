@@ -21,7 +21,7 @@ for (const type of [WebGLRenderingContext, WebGL2RenderingContext])
 """
 _WATCH = """
 () => {
-  const held = () => window.__viserSceneTree.getState()['/rotor/aero/disk/field'].message.props._data;
+  const held = () => window.__viserSceneTree.getState()['/rotor/disk/field'].message.props._data;
   window.__times = []; let pressed = null, before = held();
   window.addEventListener('keydown', () => { pressed = performance.now(); before = held(); }, true);
   const look = () => {

@@ -59,25 +59,25 @@ def test_twist_slider_moves_power_blade_and_disk(watched: Watched):
     power, blade, disk = (
         watched.text("total-power"),
         watched.node("/rotor/blade_0"),
-        watched.node("/rotor/aero/disk/field"),
+        watched.node("/rotor/disk/field"),
     )
     watched.press("Rate", "PageUp", 3)
     watched.press("Rate", "ArrowRight", 25)
     watched.until_changed(lambda: watched.text("total-power"), power)
     watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)
-    watched.until_changed(lambda: watched.node("/rotor/aero/disk/field"), disk)
+    watched.until_changed(lambda: watched.node("/rotor/disk/field"), disk)
 
 
 def test_speed_slider_moves_power_and_disk_but_not_the_blade(watched: Watched):
     power, blade, disk = (
         watched.text("total-power"),
         watched.node("/rotor/blade_0"),
-        watched.node("/rotor/aero/disk/field"),
+        watched.node("/rotor/disk/field"),
     )
     watched.press("Adv. ratio", "ArrowRight", 10)
     assert watched.until_changed(lambda: watched.text("speed"), "159 km/h · 44.2 m/s · 86 kt")
     watched.until_changed(lambda: watched.text("total-power"), power)
-    watched.until_changed(lambda: watched.node("/rotor/aero/disk/field"), disk)
+    watched.until_changed(lambda: watched.node("/rotor/disk/field"), disk)
     assert watched.node("/rotor/blade_0") == blade
 
 
@@ -110,13 +110,13 @@ def test_home_key_hovers(watched: Watched):
 
 
 def test_beyond_the_rotor_is_a_red_sentence_and_the_way_back_is_open(watched: Watched):
-    disk = watched.node("/rotor/aero/disk/field")
+    disk = watched.node("/rotor/disk/field")
     for label, value in (("Altitude", 4000), ("Weight", 11), ("Adv. ratio", 0.44)):
         watched.type(label, value)
         watched.page.wait_for_timeout(300)
     watched.page.wait_for_selector('[data-explorer="status"][data-kind="problem"]', timeout=WAIT)
     assert "Not trimmed" in watched.text("status")
-    watched.until_changed(lambda: watched.node("/rotor/aero/disk/field"), disk)
+    watched.until_changed(lambda: watched.node("/rotor/disk/field"), disk)
     watched.page.get_by_role("button", name="Reset design").click()
     watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
 
@@ -126,7 +126,7 @@ def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
     page = watched.page
     page.evaluate(
         """() => {
-            const held = () => window.__viserSceneTree.getState()['/rotor/aero/disk/field'].message.props._data;
+            const held = () => window.__viserSceneTree.getState()['/rotor/disk/field'].message.props._data;
             window.__seen = new Set();
             const look = () => { window.__seen.add(held()); requestAnimationFrame(look); };
             look();

@@ -68,7 +68,7 @@ def click_disk(watched: Watched, r: float, psi_deg: float) -> None:
 
 def test_a_click_on_the_disk_sets_the_probe_and_shows_it(watched: Watched):
     page = watched.page
-    assert not seen(watched, "/rotor/aero/disk/probe")
+    assert not seen(watched, "/rotor/disk/probe")
     page.keyboard.press("2")
     page.wait_for_timeout(900)
     blade = pose(watched, "/rotor/blade_0")
@@ -79,7 +79,7 @@ def test_a_click_on_the_disk_sets_the_probe_and_shows_it(watched: Watched):
     )
     assert number(watched, "Radius r/R") == pytest.approx(0.6, abs=0.02)
     assert number(watched, "Azimuth") == pytest.approx(300.0, abs=2.0)
-    assert seen(watched, "/rotor/aero/disk/probe")
+    assert seen(watched, "/rotor/disk/probe")
     assert watched.text("probe-alpha").startswith("α")
 
 
@@ -116,7 +116,7 @@ def test_sliders_step_finely_and_coarsely_and_their_number_follows(watched: Watc
 
 def test_play_turns_the_blades_alone_and_ends_with_pause(watched: Watched):
     page = watched.page
-    disk = watched.node("/rotor/aero/disk/field")
+    disk = watched.node("/rotor/disk/field")
     alpha, blade = watched.text("probe-alpha"), pose(watched, "/rotor/blade_0")
     page.keyboard.press("Space")
     page.get_by_role("button", name="Pause").wait_for(timeout=WAIT)
@@ -128,7 +128,7 @@ def test_play_turns_the_blades_alone_and_ends_with_pause(watched: Watched):
     stands = pose(watched, "/rotor/blade_0")
     page.wait_for_timeout(300)
     assert pose(watched, "/rotor/blade_0") == stands
-    assert watched.node("/rotor/aero/disk/field") == disk
+    assert watched.node("/rotor/disk/field") == disk
     assert not [thread.name for thread in threading.enumerate() if thread.name.startswith("play-")]
 
 

@@ -21,7 +21,7 @@ from explorer.state import Inputs, ViewState
 from explorer.text import comparison as ab_readout
 from explorer.text.status import cautions, status_panel
 from explorer.text.units import number
-from explorer.theme.colours import GHOST, PINNED_GHOST, VOID
+from explorer.theme.colours import PINNED_GHOST, VOID
 from rotor.design.design import Design
 from rotor.design.twist import LinearTwist, SumTwist
 from rotor.files.make_design import make_design
@@ -105,7 +105,7 @@ class TestButtons:
         assert of_a is not None
         assert (of_a.twist, of_a.colour) == (a.design.twist, PINNED_GHOST)
         assert of_search is not None
-        assert (of_search.twist, of_search.colour) == (b.design.twist, GHOST)
+        assert (of_search.twist, of_search.colour) == (b.design.twist, None)
         assert ghost_of(None, None) is None
 
 

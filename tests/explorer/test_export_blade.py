@@ -11,6 +11,7 @@ from numpy.testing import assert_allclose
 
 from explorer.export.blade import blade_mesh, blade_stl, kinks, rotor_glb
 from explorer.export.provenance import file_stem
+from explorer.picture.blade_mesh import swept_back
 from explorer.state import Inputs
 from rotor.airfoil.sections import load_installed
 from rotor.design.active_twist import ActiveTwist, Harmonic
@@ -123,6 +124,7 @@ def test_the_rotor_has_its_blades_hub_and_mast_in_metres_with_y_up():
     blade = scene.geometry[name]
     assert isinstance(blade, trimesh.Trimesh)
     tip = blade.vertices[blade.vertices[:, 0] > blade.vertices[:, 0].max() - 1e-6].mean(axis=0)
+    tip = tip + np.array([0.0, swept_back(rotor, 1.0), 0.0])  # Where it would be were it not swept.
     x, y, z = trimesh.transformations.transform_points([tip], matrix)[0]
     assert math.sqrt(x * x + y * y + z * z) == pytest.approx(rotor.radius, rel=2e-3)
     assert math.degrees(math.atan2(-z, x)) == pytest.approx(60.0, abs=2.0)

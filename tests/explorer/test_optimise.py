@@ -12,7 +12,7 @@ import pytest
 from PIL import Image
 
 from explorer.charts.plots import Plot
-from explorer.picture.meshes import blade_shape, blade_vertices, ghost_segments
+from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.state import baseline_of
 from explorer.tabs.optimise import mission, power_map, schedule_view, sensitivity
 from explorer.tabs.optimise import text as search_text
@@ -170,13 +170,6 @@ class TestCharts:
         saves = np.interp(outward, plot.data[0] - shape.r[0], plot.data[-1]) < -5.0
         red, blue = colours[:, 0].astype(int), colours[:, 2].astype(int)
         assert np.all(blue[saves] > red[saves])
-
-    def test_ghost_is_the_blade_as_lines(self):
-        design = make_design()
-        segments = ghost_segments(design.rotor, design.twist)
-        assert segments.shape[1:] == (2, 3)
-        vertices = blade_vertices(blade_shape(design.rotor), design.twist)
-        np.testing.assert_allclose(segments.reshape(-1, 3).max(axis=0)[0], vertices.max(axis=0)[0])
 
 
 class TestWords:

@@ -20,6 +20,7 @@ from explorer.app import App, PortBusy
 from explorer.hosting import viser_compat
 from explorer.picture import disk_image
 from explorer.picture.picture import make_picture
+from explorer.picture.scene_theme import DARK, LIGHT
 from explorer.scene.scene import Scene
 from explorer.sliders import SLIDERS
 from explorer.state import LAWS, NOT_ALWAYS, Inputs, ViewState, with_optimum
@@ -192,7 +193,7 @@ class TestControls:
 
 class TestScene:
     def test_a_frame_is_assigned_not_made_anew(self, server: viser.ViserServer):
-        scene = Scene(server.scene, uh60a_rotor("flight"))
+        scene = Scene(server.scene, uh60a_rotor("flight"), LIGHT)
         handles = dict(server.scene._handle_from_node_name)
         for preset, mu in (("flight", 0.0), ("flight", 0.3), ("thesis", 0.2)):
             solution = solve(make_design(preset=preset, mu=mu))
@@ -200,22 +201,72 @@ class TestScene:
         assert dict(server.scene._handle_from_node_name) == handles
 
     def test_twist_and_field_reach_the_handles(self, server: viser.ViserServer):
-        scene = Scene(server.scene, uh60a_rotor("flight"))
+        scene = Scene(server.scene, uh60a_rotor("flight"), LIGHT)
         seen = []
         for twist in ("linear:-4", "linear:-14"):
             solution = solve(make_design(twist=twist))
             scene.show(make_picture(solution, ViewState(), (-4.0, 10.0)))
-            seen.append((scene._blades[0].vertices.copy(), scene._image._data))
+            seen.append((scene.rotor.reference_blade.vertices.copy(), scene.rotor._image._data))
         assert not np.array_equal(seen[0][0], seen[1][0])
         assert seen[0][1] != seen[1][1]
 
-    def test_a_lost_answer_hides_the_outlines(self, server: viser.ViserServer):
-        scene = Scene(server.scene, uh60a_rotor("flight"))
-        solution = solve(make_design(mu=0.3))
+    def test_while_moving_only_the_reference_blade_is_bent(self, server: viser.ViserServer):
+        scene = Scene(server.scene, uh60a_rotor("flight"), LIGHT)
+        pictures = [
+            make_picture(solve(make_design(twist=twist)), ViewState(), (-4.0, 10.0), pixels=400)
+            for twist in ("linear:-4", "linear:-14")
+        ]
+        scene.show(pictures[0])
+        before = [blade.vertices.copy() for blade in scene.rotor._blades]
+        scene.show(pictures[1], everything=False)
+        moved = [not np.array_equal(a, b.vertices) for a, b in zip(before, scene.rotor._blades, strict=True)]
+        assert moved == [True, False, False, False]
+        scene.show(pictures[1])
+        assert all(np.array_equal(scene.rotor._blades[0].vertices, b.vertices) for b in scene.rotor._blades)
+
+    def test_another_rotor_fits_into_the_same_handles(self, server: viser.ViserServer):
+        scene = Scene(server.scene, uh60a_rotor("flight"), LIGHT)
+        names = set(server.scene._handle_from_node_name)
+        solution = solve(make_design(rotor="r22"))
+        scene.fit(solution.design.rotor)
         scene.show(make_picture(solution, ViewState(), (-4.0, 10.0)))
-        assert scene._outlines["reverse_flow"][0].visible
-        scene.fade(b"")
-        assert not scene._outlines["reverse_flow"][0].visible
+        assert set(server.scene._handle_from_node_name) == names
+        assert [blade.visible for blade in scene.rotor._blades] == [True, True, False, False]
+        reach = np.abs(scene._body.vertices).max()
+        assert reach < 1.5 * solution.design.rotor.radius
+
+    def test_a_stands_beside_b_and_the_airframe_makes_room(self, server: viser.ViserServer):
+        scene = Scene(server.scene, uh60a_rotor("flight"), LIGHT)
+        one, other = (
+            make_picture(solve(make_design(twist=twist)), ViewState(), (-4.0, 10.0))
+            for twist in ("linear:-4", "linear:-14")
+        )
+        scene.show(one)
+        scene.show_beside(uh60a_rotor("flight"), other, np.array([0.0, 10.0, 0.0]))
+        handles = server.scene._handle_from_node_name
+        assert handles["/rotor"].position[1] - handles["/compared"].position[1] == 20.0
+        assert handles["/compared"].visible
+        assert not handles["/airframe"].visible
+        assert not np.array_equal(handles["/compared/blade_0"].vertices, handles["/rotor/blade_0"].vertices)
+        scene.set_seen(False)
+        assert not handles["/compared"].visible
+        scene.set_seen(True)
+        scene.hide_beside()
+        assert not handles["/compared"].visible
+        assert handles["/airframe"].visible
+        assert handles["/rotor"].position[1] == 0.0
+
+    def test_a_dark_page_recolours_what_is_there(self, server: viser.ViserServer):
+        scene = Scene(server.scene, uh60a_rotor("flight"), LIGHT)
+        names = set(server.scene._handle_from_node_name)
+        words = server.scene._handle_from_node_name["/rotor/disk/words"]._data
+        scene.set_theme(DARK)
+        handles = server.scene._handle_from_node_name
+        assert set(handles) == names
+        assert tuple(handles["/airframe/body"].color) == DARK.body
+        assert tuple(handles["/rotor/blade_1"].color) == DARK.blade
+        assert tuple(handles["/rotor/blade_0"].color) == DARK.reference_blade
+        assert handles["/rotor/disk/words"]._data != words
 
 
 class TestViserCompat:

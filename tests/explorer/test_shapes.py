@@ -1,4 +1,4 @@
-"""The page's meshes: closed, truly shaped, visibly twisted."""
+"""The blade's mesh: closed, truly shaped, visibly twisted."""
 
 import math
 
@@ -7,15 +7,16 @@ import pytest
 import trimesh
 from numpy.testing import assert_allclose
 
-from explorer.picture import meshes
+from explorer.picture import blade_mesh
 from explorer.picture.section_outline import blade_axes_outline
 from rotor.airfoil.contour import load_contour, thickness_and_camber
 from rotor.airfoil.sections import load_installed
-from rotor.design.twist import LinearTwist
+from rotor.design.twist import LinearTwist, PiecewiseLinearTwist
 from rotor.files.make_design import uh60a_rotor
+from rotor.files.rotor_file import shipped_aircraft
 
 ROTOR = uh60a_rotor("flight")
-SHAPE = meshes.blade_shape(ROTOR)
+SHAPE = blade_mesh.blade_shape(ROTOR)
 
 
 def section_angle(vertices: np.ndarray, ring: int) -> float:
@@ -29,8 +30,8 @@ def section_angle(vertices: np.ndarray, ring: int) -> float:
 @pytest.mark.parametrize("preset", ["flight", "thesis"])
 def test_blade_is_watertight_and_the_right_way_out(preset: str):
     rotor = uh60a_rotor(preset)
-    shape = meshes.blade_shape(rotor)
-    mesh = trimesh.Trimesh(meshes.blade_vertices(shape, rotor.builtin_twist), shape.faces)
+    shape = blade_mesh.blade_shape(rotor)
+    mesh = trimesh.Trimesh(blade_mesh.blade_vertices(shape, rotor.builtin_twist), shape.faces)
     assert mesh.is_watertight
     assert mesh.is_winding_consistent
     assert mesh.volume > 0.0
@@ -43,15 +44,15 @@ def test_blade_volume_is_that_of_its_sections():
     area = 0.5 * np.abs(np.sum(y * np.roll(z, -1, axis=1) - z * np.roll(y, -1, axis=1), axis=1))
     assert_allclose(area.mean(), 0.064 * ROTOR.reference_chord**2, rtol=0.06)  # 0.68 of thickness 9.45 % times chord.
     lifted = float(np.trapezoid(area, SHAPE.outward[lifting]))
-    mesh = trimesh.Trimesh(meshes.blade_vertices(SHAPE, LinearTwist(0.0)), SHAPE.faces)
+    mesh = trimesh.Trimesh(blade_mesh.blade_vertices(SHAPE, LinearTwist(0.0)), SHAPE.faces)
     shank = math.pi * 0.085**2 * (ROTOR.blade.root_cutout - ROTOR.blade.flap_hinge) * ROTOR.radius
     assert lifted < mesh.volume < lifted + 1.1 * shank
 
 
 def test_twist_shows_from_root_to_tip():
     """−12° per radius turns the tip against the root by −12° times the lifting span."""
-    flat = meshes.blade_vertices(SHAPE, LinearTwist(0.0))
-    twisted = meshes.blade_vertices(SHAPE, LinearTwist(math.radians(-12.0)))
+    flat = blade_mesh.blade_vertices(SHAPE, LinearTwist(0.0))
+    twisted = blade_mesh.blade_vertices(SHAPE, LinearTwist(math.radians(-12.0)))
     last, root = len(SHAPE.r) - 1, 6
     turned = [section_angle(twisted, ring) - section_angle(flat, ring) for ring in (root, last)]
     span = 1.0 - ROTOR.blade.root_cutout
@@ -60,8 +61,8 @@ def test_twist_shows_from_root_to_tip():
 
 def test_twist_is_zero_at_three_quarters_and_exaggeration_multiplies_it():
     twist = LinearTwist(math.radians(-10.0))
-    once, thrice = (meshes.blade_vertices(SHAPE, twist, factor) for factor in (1.0, 3.0))
-    flat = meshes.blade_vertices(SHAPE, LinearTwist(0.0))
+    once, thrice = (blade_mesh.blade_vertices(SHAPE, twist, factor) for factor in (1.0, 3.0))
+    flat = blade_mesh.blade_vertices(SHAPE, LinearTwist(0.0))
     last = len(SHAPE.r) - 1
     zero = section_angle(flat, last)
     assert_allclose(section_angle(thrice, last) - zero, 3.0 * (section_angle(once, last) - zero), rtol=1e-9)
@@ -71,7 +72,7 @@ def test_twist_is_zero_at_three_quarters_and_exaggeration_multiplies_it():
 
 
 def test_only_vertices_change_with_the_twist():
-    one, other = (meshes.blade_vertices(SHAPE, LinearTwist(rate)) for rate in (0.0, -0.2))
+    one, other = (blade_mesh.blade_vertices(SHAPE, LinearTwist(rate)) for rate in (0.0, -0.2))
     assert one.shape == other.shape
     assert SHAPE.faces.max() == len(one) - 1
 
@@ -97,17 +98,40 @@ def test_r8_is_drooped_by_one_degree_and_longer():
     assert_allclose(turn, -1.0, atol=1e-9)
 
 
-@pytest.mark.parametrize("mesh", [meshes.hub(ROTOR), meshes.mast(ROTOR.radius)], ids=["hub", "mast"])
-def test_hub_and_mast_are_closed(mesh: meshes.Mesh):
-    body = trimesh.Trimesh(mesh.vertices, mesh.faces)
-    assert body.is_watertight
-    assert body.volume > 0.0
+class TestSweptTip:
+    def test_the_tip_of_the_uh60a_is_swept_by_20_degrees_from_0_929(self):
+        """The quarter chord lies 0.071 R tan 20° = 211 mm behind the axis; the structural model of SONATA has 196."""
+        assert_allclose(blade_mesh.swept_back(ROTOR, 1.0), 0.071 * 8.1788 * math.tan(math.radians(20.0)), rtol=1e-12)
+        flat = blade_mesh.blade_vertices(SHAPE, LinearTwist(0.0))
+        points = SHAPE.rings.shape[1]
+        nose = flat[: len(SHAPE.r) * points].reshape(-1, points, 3)[:, points // 2]
+        swept = SHAPE.r > 0.935
+        slope = np.diff(nose[swept, 1]) / np.diff(nose[swept, 0])
+        assert_allclose(slope, -math.tan(math.radians(20.0)), rtol=1e-6)
+
+    @pytest.mark.parametrize("name", ["r22", "s61"])
+    def test_other_rotors_have_straight_blades(self, name: str):
+        assert blade_mesh.swept_back(shipped_aircraft(name).rotor_for("flight"), [0.5, 0.95, 1.0]).max() == 0.0
 
 
-def test_arrows_point_the_right_way():
-    flight = meshes.flight_arrow(8.0).vertices
-    assert flight[:, 0].argmin() == 6  # The tip leads, towards −x.
-    turn = meshes.rotation_arrow(8.0).vertices
-    tip, first = turn[-1], turn[0]
-    assert math.atan2(tip[1], tip[0]) > math.atan2(first[1], first[0])  # Counter-clockwise seen from above.
-    assert np.hypot(turn[:, 0], turn[:, 1]).min() > 8.0
+class TestGhost:
+    """Inboard half of the blade twisted by 2° more than the ghost."""
+
+    HERE = PiecewiseLinearTwist((math.radians(-4.0), math.radians(-8.0)), (0.6,))
+    GHOST = PiecewiseLinearTwist((math.radians(-8.0), math.radians(-8.0)), (0.6,))
+
+    def test_it_is_whole_where_it_differs_and_nothing_where_it_does_not(self):
+        made = blade_mesh.ghost_vertices(SHAPE, self.GHOST, self.HERE, 4.0, math.radians(0.25))
+        whole = blade_mesh.blade_vertices(SHAPE, self.GHOST, 4.0)
+        points = SHAPE.rings.shape[1]
+        rings = made[: len(SHAPE.r) * points].reshape(-1, points, 3)
+        same = whole[: len(SHAPE.r) * points].reshape(-1, points, 3)
+        outboard, inboard = SHAPE.r > 0.62, SHAPE.r < 0.4
+        assert np.ptp(rings[outboard], axis=1).max() < 1e-12
+        assert_allclose(rings[inboard], same[inboard], atol=1e-12)
+
+    def test_its_lines_end_where_the_twists_meet(self):
+        lines = blade_mesh.ghost_segments(ROTOR, self.GHOST, self.HERE, 4.0, math.radians(0.25))
+        hinge = ROTOR.blade.flap_hinge
+        assert lines[..., 0].max() < (0.62 - hinge) * ROTOR.radius
+        assert len(blade_mesh.ghost_segments(ROTOR, self.HERE, self.HERE, 4.0, math.radians(0.25))) == 0

@@ -14,12 +14,15 @@ from explorer.text.units import UNITS
 VIEWS = st.builds(
     ViewState,
     field=st.sampled_from(tuple(FIELDS)),
-    exaggeration=st.sampled_from((1.0, 1.5, 5.0)),
+    exaggeration=st.sampled_from((1.0, 1.5, 5.0, 6.0)),
     difference=st.booleans(),
     reverse_flow=st.booleans(),
     stall=st.booleans(),
     drag_divergence=st.booleans(),
     units=st.sampled_from(tuple(UNITS)),
+    wake=st.booleans(),
+    arrows=st.booleans(),
+    beside=st.booleans(),
 )
 
 
@@ -28,7 +31,7 @@ VIEWS = st.builds(
 def test_a_view_comes_back_from_the_address(view: ViewState):
     code = view_code(view)
     assert (ViewState() if code is None else view_from(code)) == view
-    assert code is None or (code.isascii() and len(code) < 120)
+    assert code is None or (code.isascii() and len(code) < 160)
 
 
 def test_only_what_differs_is_written():
@@ -46,8 +49,8 @@ def test_only_what_differs_is_written():
         ("1;dark=on", "'dark=on'"),
         ("1;field=" + "x" * 90, "choose angle, induced"),
         ("1;stall=1", "choose on, off"),
-        ("1;exaggeration=nan", "from 1 to 5"),
-        ("1;exaggeration=50", "from 1 to 5"),
+        ("1;exaggeration=nan", "from 1 to 6"),
+        ("1;exaggeration=50", "from 1 to 6"),
     ],
 )
 def test_a_bad_view_is_one_sentence(code: str, said: str):

@@ -8,7 +8,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from explorer.picture.meshes import Mesh
+from explorer.picture.solids import Mesh
 from explorer.tabs.actuator.walls import SIDES, CutPart, outline, skin_part, stations, tube_part, web_part, without
 from rotor.actuator.catalogue import PiezoPly, TorqueTube
 from rotor.actuator.installation import InstalledActuator

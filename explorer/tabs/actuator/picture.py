@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from explorer.picture.meshes import Mesh
+from explorer.picture.solids import Mesh
 from explorer.tabs.actuator import cut as actuator_cut
 from explorer.tabs.actuator.state import ActuatorInputs
 from explorer.text.units import number

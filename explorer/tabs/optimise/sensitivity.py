@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from explorer.charts.plots import Plot, Range, held_range
-from explorer.picture.meshes import BladeShape, blade_vertices
+from explorer.picture.blade_mesh import BladeShape, blade_vertices
 from explorer.theme.colours import colour_map
 from rotor.design.twist import TwistLaw
 from rotor.trim.adjoint import Adjoint, PitchGradient, power_along

@@ -3,7 +3,7 @@
 import viser
 
 from explorer.interface import SessionState, TabContext
-from explorer.picture.meshes import blade_shape
+from explorer.picture.blade_mesh import blade_shape
 from explorer.scene.overlays import Strip
 from explorer.tabs.chart_panel import AB_KEY, Chart, Key, line, pinned_line
 from explorer.tabs.optimise import sensitivity

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import viser
 
-from explorer.picture.meshes import circle_segments
+from explorer.picture.blade_mesh import circle_segments
 from explorer.picture.picture import LINE_LIFT
 from explorer.picture.poses import about
 from explorer.tabs.probe.drawing import outline
@@ -18,7 +18,7 @@ from rotor.design.blade import Rotor
 Cased = tuple[viser.LineSegmentsHandle, viser.LineSegmentsHandle]
 """Casing and line."""
 
-_DISK, _BLADE = "/rotor/aero/disk/probe", "/rotor/blade_0/probe"
+_DISK, _BLADE = "/rotor/disk/probe", "/rotor/blade_0/probe"
 _RING = 0.036
 """Radius of the ring [R]."""
 _WIDER = 1.12

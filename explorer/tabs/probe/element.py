@@ -6,7 +6,7 @@ from enum import Enum
 
 import numpy as np
 
-from explorer.picture.outlines import DRAG_DIVERGENCE
+from explorer.picture.regions import DRAG_DIVERGENCE
 from rotor.aero.elements import LOW_MACH
 from rotor.airfoil.sections import Section
 from rotor.arrays import Array

@@ -9,7 +9,7 @@ from functools import cache
 
 import numpy as np
 
-from explorer.picture.meshes import blade_shape, blade_vertices
+from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.state import Inputs
 from rotor.trim.solve import solve
 from tests.tools.soak.figures import Visit

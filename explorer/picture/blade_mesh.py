@@ -1,0 +1,167 @@
+"""The blade lofted from its true sections and planform, its ghost, and lines in the rotor plane. Metres."""
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from explorer.picture.section_outline import blade_axes_outline
+from explorer.picture.solids import Faces
+from rotor.arrays import Array
+from rotor.design.blade import Rotor
+from rotor.design.twist import TwistLaw
+
+_SHANK_RADIUS = 0.16
+"""A plausible round root shank, in reference chords; the flown cuff's own shape is not in the data."""
+_SHANK_END = 0.70
+"""Where the shank begins to fair into the blade, as a fraction of the distance from hinge to root cut-out."""
+_SHANK_RINGS = 6
+SWEPT_TIPS = {"UH-60A": (0.929, math.radians(20.0))}
+"""r/R from which the quarter chord is swept back, and the sweep, by name of the rotor (Howlett, NASA CR-166309)."""
+
+
+@dataclass(frozen=True)
+class Detail:
+    """How finely a blade is lofted."""
+
+    points: int = 29
+    """Round a section (odd)."""
+    stations: int = 31
+    """Sections from root cut-out to tip; those where the blade's own sections change come on top."""
+    also: tuple[float, ...] = ()
+    """r/R of further sections, such as kinks of the twist."""
+
+
+PAGE = Detail()
+"""Coarse enough to be sent at every step of a slider: about 1,300 vertices."""
+
+
+@dataclass(frozen=True, eq=False)
+class BladeShape:
+    """A blade without twist, in its own axes: x outward from the flap hinge, y to the leading edge, z up."""
+
+    r: Array
+    """y/R of each ring, shape (rings,)."""
+    rings: Array
+    """Section outlines about the quarter chord, (y, z) [m], shape (rings, points, 2)."""
+    outward: Array
+    """Distance of each ring from the hinge [m], shape (rings,)."""
+    faces: Faces
+
+    def pitch(self, twist: TwistLaw, exaggeration: float) -> Array:
+        """Drawn twist of each ring [rad]; the shank keeps the root's."""
+        lifting = np.maximum(self.r, self.r[_SHANK_RINGS])
+        return np.asarray(exaggeration * twist(lifting), dtype=np.float64)
+
+
+def swept_back(rotor: Rotor, r: ArrayLike) -> Array:
+    """How far the quarter chord lies behind the pitch axis at r/R [m]; 0 for a straight blade."""
+    start, sweep = SWEPT_TIPS.get(rotor.name, (1.0, 0.0))
+    return np.maximum(np.asarray(r, dtype=np.float64) - start, 0.0) * rotor.radius * math.tan(sweep)
+
+
+@lru_cache(maxsize=4)
+def blade_shape(rotor: Rotor, detail: Detail = PAGE) -> BladeShape:
+    """The untwisted loft: round shank from the hinge, a fairing, then the blade's own sections to the tip."""
+    blade = rotor.blade
+    hinge, cutout = blade.flap_hinge, blade.root_cutout
+    knots = [edge for span in blade.spans for edge in (span.start, span.end)] + list(detail.also)
+    if rotor.name in SWEPT_TIPS:
+        knots.append(SWEPT_TIPS[rotor.name][0])
+    even = np.linspace(cutout, 1.0, detail.stations)
+    lifting = np.unique(np.round(np.concatenate((even, np.clip(knots, cutout, 1.0))), 5))
+    shank = hinge + (cutout - hinge) * np.array([0.0, _SHANK_END, 0.76, 0.82, 0.88, 0.94])
+    # Half a step short of closing: the ring's last side stands for the blunt trailing edge.
+    points = detail.points
+    angle = 2.0 * math.pi * (np.arange(points) + 0.5) / points
+    root = section_ring(rotor, cutout, points)
+    # The circle runs as the outlines do: from the trailing edge over the upper side to the nose.
+    circle = _SHANK_RADIUS * rotor.reference_chord * np.stack((-np.cos(angle), np.sin(angle)), axis=1)
+    fairing = np.clip((shank - shank[1]) / (cutout - shank[1]), 0.0, 1.0)
+    fairing = fairing**2 * (3.0 - 2.0 * fairing)
+    rings = [(1.0 - f) * circle + f * root for f in fairing]
+    rings += [section_ring(rotor, float(r), points) for r in lifting]
+    r = np.concatenate((shank, lifting))
+    outlines = np.array(rings)
+    outlines[:, :, 0] -= swept_back(rotor, r)[:, None]
+    return BladeShape(r, outlines, (r - hinge) * rotor.radius, _loft_faces(len(r), points))
+
+
+def section_ring(rotor: Rotor, r: float, points: int) -> Array:
+    """The section at r/R about its quarter chord, (y, z) [m], shape (points, 2); y to the leading edge, untwisted."""
+    inner, outer, weight = rotor.blade.section_at(r)
+    one, two = (blade_axes_outline(rotor.blade.installed(name), points) for name in (inner, outer))
+    return float(rotor.blade.chord(r)) * ((1.0 - weight) * one + weight * two)
+
+
+def blade_vertices(shape: BladeShape, twist: TwistLaw, exaggeration: float = 1.0) -> Array:
+    """The twisted blade's vertices, shape (n, 3); only these change when the twist does.
+
+    `exaggeration` multiplies the twist about its zero at 0.75 R.
+    """
+    return _with_ends(_turned(shape, shape.pitch(twist, exaggeration)))
+
+
+def ghost_vertices(shape: BladeShape, ghost: TwistLaw, twist: TwistLaw, exaggeration: float, least: float) -> Array:
+    """The blade with twist `ghost`, shown only where it differs from `twist`; shape (n, 3).
+
+    Rings shrink to the axis where the difference is below half of `least` [rad] and are whole above one and a half:
+    two surfaces in one place would flicker.
+    """
+    rings = _turned(shape, shape.pitch(ghost, exaggeration))
+    apart = np.abs(shape.pitch(ghost, 1.0) - shape.pitch(twist, 1.0))
+    whole = np.clip(apart / least - 0.5, 0.0, 1.0)[:, None, None]
+    axis = np.stack((shape.outward, np.zeros_like(shape.r), np.zeros_like(shape.r)), axis=1)[:, None]
+    return _with_ends(axis + whole * (rings - axis))
+
+
+def ghost_segments(rotor: Rotor, ghost: TwistLaw, twist: TwistLaw, exaggeration: float, least: float) -> Array:
+    """The same blade's edges and a few sections as lines, where the twists differ by `least` [rad]; (n, 2, 3)."""
+    shape = blade_shape(rotor)
+    rings = _turned(shape, shape.pitch(ghost, exaggeration))
+    apart = np.abs(shape.pitch(ghost, 1.0) - shape.pitch(twist, 1.0)) > least
+    count, points = rings.shape[:2]
+    sections = np.unique(np.linspace(_SHANK_RINGS, count - 1, 9).astype(int))
+    sections = sections[apart[sections]]
+    around = np.stack((rings[sections], np.roll(rings[sections], -1, axis=1)), axis=2)
+    along = rings[_SHANK_RINGS:, [0, points // 2]]
+    both = apart[_SHANK_RINGS:-1] & apart[_SHANK_RINGS + 1 :]
+    lengthwise = np.stack((along[:-1], along[1:]), axis=2)[both]
+    return np.concatenate((around.reshape(-1, 2, 3), lengthwise.reshape(-1, 2, 3)))
+
+
+def _turned(shape: BladeShape, angle: Array) -> Array:
+    """The rings in space, each turned nose up by its angle; shape (rings, points, 3)."""
+    cos, sin = np.cos(angle)[:, None], np.sin(angle)[:, None]
+    y, z = shape.rings[:, :, 0], shape.rings[:, :, 1]
+    outward = np.broadcast_to(shape.outward[:, None], y.shape)
+    return np.stack((outward, y * cos - z * sin, y * sin + z * cos), axis=-1)
+
+
+def _with_ends(rings: Array) -> Array:
+    """All vertices: the end rings come twice, so that the caps keep a sharp edge when normals are averaged."""
+    ends = [rings[0], rings[-1], rings[0].mean(axis=0)[None], rings[-1].mean(axis=0)[None]]
+    return np.concatenate([rings.reshape(-1, 3), *ends])
+
+
+def _loft_faces(rings: int, points: int) -> Faces:
+    start = np.arange(rings - 1)[:, None] * points + np.arange(points)[None, :]
+    following = np.arange(rings - 1)[:, None] * points + (np.arange(points)[None, :] + 1) % points
+    a, b = start.ravel(), following.ravel()
+    sides = np.concatenate((np.stack((a, b + points, b), 1), np.stack((a, a + points, b + points), 1)))
+    root, tip = rings * points, (rings + 1) * points
+    root_centre, tip_centre = (rings + 2) * points, (rings + 2) * points + 1
+    around = np.arange(points)
+    after = (around + 1) % points
+    root_cap = np.stack((root + around, root + after, np.full(points, root_centre)), 1)
+    tip_cap = np.stack((tip + after, tip + around, np.full(points, tip_centre)), 1)
+    return np.concatenate((sides, root_cap, tip_cap)).astype(np.uint32)
+
+
+def circle_segments(radius: float, count: int = 180) -> Array:
+    """A circle in the plane z = 0 as segments, shape (count, 2, 3)."""
+    angle = np.linspace(0.0, 2.0 * np.pi, count + 1)
+    ring = radius * np.stack((np.cos(angle), np.sin(angle), np.zeros_like(angle)), axis=1)
+    return np.stack((ring[:-1], ring[1:]), axis=1)

@@ -1,0 +1,210 @@
+"""Regions marked on the disk: stall, reverse flow, drag divergence; as codes on a polar grid, and their labels."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from explorer.picture.fields import filled
+from explorer.picture.polar import PolarGrid, Single, polar_grid
+from explorer.picture.stall_region import refined
+from rotor.trim.solution import Solution
+
+Bytes = NDArray[np.uint8]
+
+DRAG_DIVERGENCE = 0.1
+"""∂C_d/∂M that marks drag divergence."""
+_SLOPE_LIMIT = 0.5
+"""Steeper slopes belong to stall and are cut off before smoothing."""
+_SMOOTHING = (0.7, 1.2)
+"""Of ∂C_d/∂M, in elements and azimuths: the table's slope jumps from cell to cell."""
+_CLEAR_OF_REVERSE = 0.055
+"""U_T/ΩR below which neither stall nor drag divergence is marked: there is no lift to lose."""
+_DASHES = 96
+_DASH_SHARE = 0.58
+_LABEL_RADII, _LABEL_AZIMUTHS = 40, 180
+_PLANE = 90
+"""Points a side of the square on which the widest place of a region is looked for."""
+LETTER = 0.046
+"""Width of the letters' em on the disk, in radii."""
+_LEAST_AREA = 0.006
+"""Of the disk: a smaller region is not labelled."""
+
+
+class Region(IntEnum):
+    """What a polar point is marked as."""
+
+    NONE = 0
+    STALLED = 1
+    STALL_RIM = 2
+    DASH = 3
+    REVERSE = 4
+    REVERSE_RIM = 5
+
+
+@dataclass(frozen=True)
+class Marks:
+    """Which regions are marked."""
+
+    stall: bool = True
+    reverse_flow: bool = True
+    drag_divergence: bool = True
+
+
+NO_MARKS = Marks(False, False, False)
+
+
+@dataclass(frozen=True)
+class RegionLabel:
+    """A word on the disk."""
+
+    text: str
+    r: float
+    """r/R"""
+    psi: float
+    """[rad]"""
+
+    @property
+    def place(self) -> tuple[float, float]:
+        """To starboard and aft of the hub, in radii."""
+        return self.r * math.sin(self.psi), self.r * math.cos(self.psi)
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Its width and height on the disk, in radii."""
+        return (0.65 * len(self.text) + 1.2) * LETTER, 2.0 * LETTER
+
+
+def region_codes(solution: Solution, grid: PolarGrid, marks: Marks, half_width: float) -> Bytes | None:
+    """A `Region` for each polar point, shape (radii, azimuths); None where nothing is to be marked.
+
+    `half_width`: of the lines, in radii.
+    """
+    if marks == NO_MARKS:
+        return None
+    flow = refined(solution, grid)
+    clear = flow.u_t > _CLEAR_OF_REVERSE
+    codes = np.zeros(flow.u_t.shape, dtype=np.uint8)
+    if marks.stall:
+        margin = flow.margin
+        codes[(margin < 0.0) & clear] = Region.STALLED
+        codes[_line(grid, margin, 0.8 * half_width) & clear] = Region.STALL_RIM
+    if marks.drag_divergence:
+        # Dashes also where the line runs along a radius.
+        dash = (grid.psi * (_DASHES / (2.0 * math.pi)) + 0.5 * _DASHES / math.pi * grid.r[:, None]) % 1.0 < _DASH_SHARE
+        line = _line(grid, divergence_margin(solution, grid), half_width)
+        codes[line & dash & clear & (grid.r[:, None] < 0.995)] = Region.DASH
+    if marks.reverse_flow:
+        codes[flow.u_t < 0.0] = Region.REVERSE
+        codes[_line(grid, flow.u_t, 0.9 * half_width)] = Region.REVERSE_RIM
+    return codes
+
+
+def divergence_margin(solution: Solution, grid: PolarGrid) -> Single:
+    """∂C_d/∂M less the value that marks drag divergence, smoothed on the solver's grid; positive beyond it."""
+    slope = filled(solution.disk, np.clip(solution.disk.cd_mach, -_SLOPE_LIMIT, _SLOPE_LIMIT))
+    smooth = ndimage.gaussian_filter(slope, _SMOOTHING, mode=("nearest", "wrap"), truncate=3.0)
+    return grid.refine_all((smooth,))[0] - np.float32(DRAG_DIVERGENCE)
+
+
+def _line(grid: PolarGrid, values: Single, half_width: float) -> NDArray[np.bool_]:
+    """Where `values` are zero, as a line of even width: the distance is the value over its gradient.
+
+    Only points near a change of sign are looked at, so the gradient is not taken over the whole disk.
+    """
+    positive = values > 0.0
+    change = np.zeros_like(positive)
+    change[:-1] = positive[:-1] != positive[1:]
+    change[:, 1:] |= positive[:, 1:] != positive[:, :-1]
+    change[:, 0] |= positive[:, 0] != positive[:, -1]
+    spacing = float(grid.r[1] - grid.r[0])
+    if half_width < 0.6 * spacing:
+        return change  # No wider than the points are apart.
+    near = np.zeros_like(positive)
+    reach = math.ceil(half_width / spacing) + 1
+    rows, columns = np.nonzero(change)
+    count_r, count_psi = values.shape
+    for down in range(-reach, reach + 1):
+        for aside in range(-reach, reach + 1):
+            near[np.clip(rows + down, 0, count_r - 1), (columns + aside) % count_psi] = True
+    row, column = np.nonzero(near)
+    value = values[row, column]
+    inner, outer = np.maximum(row - 1, 0), np.minimum(row + 1, count_r - 1)
+    along = (values[outer, column] - values[inner, column]) / (grid.r[outer] - grid.r[inner])
+    step = 4.0 * math.pi / count_psi
+    around = (values[row, (column + 1) % count_psi] - values[row, column - 1]) / (step * grid.r[row])
+    line = np.zeros_like(positive)
+    line[row, column] = np.abs(value) < half_width * np.hypot(along, around)
+    return line
+
+
+def region_labels(solution: Solution, marks: Marks) -> tuple[RegionLabel, ...]:
+    """The words for the regions large enough to name, each near the widest place of its region, none over another."""
+    grid = polar_grid(solution.disk, _LABEL_RADII, _LABEL_AZIMUTHS)
+    flow = refined(solution, grid)
+    clear = flow.u_t > _CLEAR_OF_REVERSE
+    regions: list[tuple[str, NDArray[np.bool_]]] = []
+    if marks.reverse_flow:
+        regions.append(("REVERSE FLOW", flow.u_t < 0.0))
+    if marks.stall:
+        regions.append(("STALL", (flow.alpha > flow.upper) & clear))
+        regions.append(("NEGATIVE STALL", (flow.alpha < flow.lower) & clear))
+    labels: list[RegionLabel] = []
+    for text, inside in regions:
+        label = _widest(text, _on_plane(grid, inside), float(grid.r[0]), labels)
+        labels += [label] if label else []
+    if marks.drag_divergence:
+        labels += _divergence_label(solution, grid, clear, labels)
+    return tuple(labels)
+
+
+def _on_plane(grid: PolarGrid, inside: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """A polar mask on a square of _PLANE points a side: rows run aft, columns to starboard."""
+    place = (2.0 * np.arange(_PLANE) + 1.0) / _PLANE - 1.0
+    starboard, aft = np.meshgrid(place, place)
+    r = np.hypot(aft, starboard)
+    row = np.rint((r - grid.r[0]) / (grid.r[1] - grid.r[0])).astype(int)
+    column = np.rint(np.arctan2(starboard, aft) / (2.0 * math.pi) * len(grid.psi)).astype(int) % len(grid.psi)
+    within = (row >= 0) & (row < len(grid.r))
+    return within & inside[np.clip(row, 0, len(grid.r) - 1), column]
+
+
+def _widest(text: str, inside: NDArray[np.bool_], cutout: float, others: Sequence[RegionLabel]) -> RegionLabel | None:
+    """A label for a region, clear of the hub; None where the region is too small to name."""
+    if np.count_nonzero(inside) < _LEAST_AREA * 0.25 * math.pi * _PLANE**2:
+        return None
+    depth = np.asarray(ndimage.distance_transform_edt(inside))
+    for index in np.argsort(depth, axis=None)[::-1][: np.count_nonzero(depth)]:
+        row, column = divmod(int(index), _PLANE)
+        aft, starboard = (2.0 * row + 1.0) / _PLANE - 1.0, (2.0 * column + 1.0) / _PLANE - 1.0
+        width, height = RegionLabel(text, 0.0, 0.0).size
+        if abs(aft) < cutout + 0.5 * height:
+            starboard = math.copysign(max(abs(starboard), cutout + 0.5 * width), starboard)
+        label = RegionLabel(text, math.hypot(aft, starboard), math.atan2(starboard, aft) % (2.0 * math.pi))
+        if not any(_overlap(label, other) for other in others):
+            return label
+    return None
+
+
+def _divergence_label(
+    solution: Solution, grid: PolarGrid, clear: NDArray[np.bool_], others: Sequence[RegionLabel]
+) -> list[RegionLabel]:
+    """Inboard of the line on the advancing side, where it stands clear of the reference blade."""
+    beyond = (divergence_margin(solution, grid) > 0.0) & clear
+    column = int(np.argmin(np.abs(grid.psi - math.radians(105.0))))
+    outside = np.flatnonzero(~beyond[:, column])
+    if not len(outside) or not 0.45 < grid.r[outside[-1]] < 0.97:
+        return []
+    label = RegionLabel("DRAG DIVERGENCE", float(grid.r[outside[-1]]), float(grid.psi[column]))
+    half = 0.5 * label.size[0] + 0.03
+    label = RegionLabel(label.text, label.r - half, label.psi)
+    return [] if any(_overlap(label, other) for other in others) else [label]
+
+
+def _overlap(one: RegionLabel, other: RegionLabel) -> bool:
+    apart = [abs(a - b) for a, b in zip(one.place, other.place, strict=True)]
+    return all(gap < 0.5 * (a + b) for gap, a, b in zip(apart, one.size, other.size, strict=True))

@@ -1,0 +1,63 @@
+// The scene's own script in the page: gloss of surfaces, and the turning rotor.
+(() => {
+  if (window.rotorScene) return;
+  const viewer = () => window.__viserMutable;
+  let surfaces = {}, motion = null, psi = 0, playing = false, before = 0;
+
+  // Materials come and go with their nodes, so they are looked at again and again; a dressed one is left alone.
+  const dress = () => {
+    const nodes = viewer()?.nodeRefFromName;
+    let changed = false;
+    for (const [name, wanted] of Object.entries(surfaces))
+      nodes?.[name]?.traverse?.(part => {
+        const material = part.material;
+        if (!part.isMesh || !material?.userData || material.userData.dressed) return;
+        if (wanted.flat ? !material.map : material.roughness === undefined) return;
+        material.userData.dressed = changed = true;
+        if (wanted.flat) material.depthWrite = false;
+        else Object.assign(material, {roughness: wanted.roughness ?? 1, metalness: wanted.metalness ?? 0});
+      });
+    if (changed) viewer().requestRender?.();
+  };
+
+  // Turned by psi about the shaft, flapped about the hinge, then pitched: R_z(ψ) R_y(−β) R_x(θ).
+  const place = (name, angle, flap, pitch, hinge) => {
+    const [a, b, c] = [angle / 2, -flap / 2, pitch / 2];
+    const [ca, sa, cb, sb, cc, sc] = [Math.cos(a), Math.sin(a), Math.cos(b), Math.sin(b), Math.cos(c), Math.sin(c)];
+    viewer().nodePoseData[name] = {
+      wxyz: [ca * cb * cc + sa * sb * sc, ca * cb * sc - sa * sb * cc, ca * sb * cc + sa * cb * sc, sa * cb * cc - ca * sb * sc],
+      position: [hinge * Math.cos(angle), hinge * Math.sin(angle), 0], poseUpdateState: 'needsUpdate',
+    };
+  };
+  const harmonic = ([mean, cosine, sine], angle) => mean + cosine * Math.cos(angle) + sine * Math.sin(angle);
+  const show = at => {
+    for (let k = 0; k < motion.blades; k++) {
+      const angle = at + 2 * Math.PI * k / motion.blades;
+      place(`${motion.root}/blade_${k}`, angle, harmonic(motion.flap, angle), harmonic(motion.pitch, angle), motion.hinge);
+    }
+    place(`${motion.root}/head`, at, 0, 0, 0);
+    viewer().requestRender?.();
+  };
+
+  // Whoever asked for less motion sees the rotor at rest in steps of 30°.
+  const calm = matchMedia('(prefers-reduced-motion: reduce)');
+  const step = now => {
+    if (!playing) return;
+    const passed = (now - before) / 1000;
+    if (!calm.matches || passed > 1.5) {
+      psi += calm.matches ? Math.PI / 6 : motion.rate * Math.min(passed, 0.1);
+      before = now;
+      show(psi);
+    }
+    requestAnimationFrame(step);
+  };
+
+  window.rotorScene = {
+    dress(wanted) { surfaces = wanted; },
+    move(next) { motion = next; if (!playing) psi = next.psi; },
+    play() { if (playing) return; playing = true; before = performance.now(); requestAnimationFrame(step); },
+    stop() { playing = false; if (motion) { psi = motion.psi; show(psi); } },
+    get psi() { return psi; },
+  };
+  setInterval(dress, 500);
+})()

@@ -1,0 +1,67 @@
+"""What the page itself does for the scene: gloss of surfaces, and turning the rotor smoothly at the screen's own rate.
+
+It leans on private names of viser's client (`__viserMutable`: nodeRefFromName, nodePoseData, requestRender); each has a
+browser test.
+"""
+
+import json
+import math
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import viser
+
+from explorer.hosting.viser_compat import run_in_page
+from explorer.scene.scene import ROTOR
+from explorer.state import ViewState
+from rotor.trim.solution import Solution
+
+TURN_RATE = math.radians(54.0)
+"""[rad/s] while the rotor is played: slow enough to follow flapping and pitching of one blade."""
+SURFACES = {
+    f"{ROTOR}/blade_0": {"roughness": 0.55},
+    **{f"{ROTOR}/blade_{k}": {"roughness": 0.42} for k in range(1, 8)},
+    f"{ROTOR}/head": {"roughness": 0.38, "metalness": 0.55},
+    "/airframe/glass": {"roughness": 0.12, "metalness": 0.2},
+    **{name: {"flat": True} for name in ("/shadow", f"{ROTOR}/disk/words", f"{ROTOR}/disk/field")},
+    **{name: {"flat": True} for name in ("/compared/disk/words", "/compared/disk/field", "/letter_A", "/letter_B")},
+}
+"""Materials by node: how rough and metallic, or a flat picture, which must not hide what lies behind its corners."""
+
+
+@cache
+def _script() -> str:
+    return Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
+
+
+class PageScene:
+    """One client's."""
+
+    def __init__(self, client: viser.ClientHandle) -> None:
+        self._client = client
+        self._playing = False
+        self._motion: dict[str, Any] | None = None
+        run_in_page(client, f"{_script()};rotorScene.dress({json.dumps(SURFACES)})")
+
+    def move(self, solution: Solution, view: ViewState) -> None:
+        """How the blades flap and pitch from now on; sent at once only while the rotor turns."""
+        rotor, controls = solution.design.rotor, solution.controls
+        self._motion = {
+            "root": ROTOR,
+            "blades": rotor.blades,
+            "hinge": rotor.blade.flap_hinge * rotor.radius,
+            "flap": [controls.coning, controls.flap_1c, controls.flap_1s],
+            "pitch": [controls.collective, controls.cyclic_1c, controls.cyclic_1s],
+            "psi": math.radians(view.azimuth_deg),
+            "rate": TURN_RATE,
+        }
+        if self._playing:
+            run_in_page(self._client, f"rotorScene.move({json.dumps(self._motion)})")
+
+    def play(self, playing: bool) -> None:
+        """Begin to turn the rotor, or put it back where the view has it."""
+        self._playing = playing and self._motion is not None
+        if self._motion is not None:
+            way = "play" if playing else "stop"
+            run_in_page(self._client, f"rotorScene.move({json.dumps(self._motion)});rotorScene.{way}()")

@@ -1,0 +1,150 @@
+"""Airframe, rotor head and their primitives: closed surfaces, faces outward, and the dimensions of the aircraft."""
+
+import math
+
+import numpy as np
+import pytest
+import trimesh
+from scipy.spatial import cKDTree
+
+from explorer.picture.airframe import airframe
+from explorer.picture.rotor_head import mast, rotor_head
+from explorer.picture.solids import Hull, Mesh, joined, loft, revolved, surface, tube
+from rotor.assets import SHIPPED_ROTORS
+from rotor.design.blade import Rotor
+from rotor.files.rotor_file import shipped_aircraft
+
+
+def rotor_named(name: str) -> Rotor:
+    return shipped_aircraft(name).rotor_for("flight")
+
+
+def solid(mesh: Mesh) -> trimesh.Trimesh:
+    return trimesh.Trimesh(mesh.vertices, mesh.faces, process=False)
+
+
+def parts_of(mesh: Mesh) -> list[trimesh.Trimesh]:
+    return list(solid(mesh).split(only_watertight=False))
+
+
+class TestPrimitives:
+    def test_a_cylinder_has_the_volume_of_its_prism(self):
+        made = solid(tube((0, 0, 0), (0, 0, 2.0), 0.5, segments=64))
+        area = 0.5 * 64 * 0.5**2 * math.sin(2 * math.pi / 64)
+        assert made.is_watertight
+        assert made.volume == pytest.approx(2.0 * area, rel=1e-12)
+
+    @pytest.mark.parametrize("direction", [(1, 0, 0), (0, -1, 0), (1, 2, -3)])
+    def test_a_tube_points_anywhere(self, direction: tuple[float, float, float]):
+        made = solid(tube((0.1, 0.2, 0.3), direction, 0.1, 0.05))
+        assert made.is_watertight
+        assert made.volume > 0.0
+
+    def test_a_cone_frustum_of_revolution(self):
+        made = solid(revolved([[0, 0], [1, 0], [0.5, 2], [0, 2]], 200))
+        assert made.is_watertight
+        assert made.volume == pytest.approx(math.pi * 2 / 3 * (1 + 0.5 + 0.25), rel=1e-3)
+
+    def test_an_elliptic_hull_has_the_area_of_an_ellipse(self):
+        hull = Hull([(0.0, 1.0, -0.5, 0.5, 2.0), (2.0, 1.0, -0.5, 0.5, 2.0), (4.0, 1.0, -0.5, 0.5, 2.0)])
+        made = solid(hull.mesh(400))
+        assert made.is_watertight
+        assert made.volume == pytest.approx(4.0 * math.pi * 1.0 * 0.5, rel=1e-3)
+
+    def test_side_angle_finds_the_height_asked_for(self):
+        hull = Hull([(0.0, 1.0, -1.0, 0.5, 3.0), (1.0, 1.2, -1.0, 0.6, 3.5), (2.0, 1.0, -1.0, 0.5, 3.0)])
+        x, z = np.array([[0.5, 1.0]]), np.array([[-0.7, 0.3]])
+        patch = hull.patch(np.repeat(x, 2, axis=0), np.repeat(hull.side_angle(x, z), 2, axis=0), 0.0)
+        assert patch.vertices[:2, 2] == pytest.approx(z[0], abs=1e-9)
+
+    def test_surface_spans_its_chords(self):
+        made = solid(surface((1, 0, 0), (1.5, 2, 0), (1.0, 0.6), 0.12, upright=False))
+        assert made.is_watertight
+        assert made.bounds[:, 1] == pytest.approx([0.0, 2.0])
+        assert made.bounds[:, 0] == pytest.approx([1.0, 2.1])
+
+    def test_rings_in_either_order_face_outward(self):
+        angle = np.linspace(0, 2 * math.pi, 12, endpoint=False)
+        ring = np.stack((np.cos(angle), np.sin(angle), np.zeros(12)), 1)
+        above = ring + np.array([0, 0, 1])
+        for rings in ([ring, above], [above, ring], [ring[::-1], above[::-1]]):
+            assert solid(loft(rings)).volume > 0.0
+
+    def test_joined_keeps_every_triangle(self):
+        one, two = tube((0, 0, 0), (1, 0, 0), 0.1), tube((0, 5, 0), (1, 5, 0), 0.1)
+        both = solid(joined([one, two]))
+        assert len(both.faces) == len(one.faces) + len(two.faces)
+        assert both.volume == pytest.approx(solid(one).volume + solid(two).volume)
+
+
+@pytest.mark.parametrize("name", SHIPPED_ROTORS)
+class TestEveryRotor:
+    def test_all_parts_are_closed_and_face_outward(self, name: str):
+        craft = airframe(rotor_named(name))
+        for mesh in (craft.body, craft.dark, rotor_head(rotor_named(name)), mast(rotor_named(name).radius)):
+            parts = parts_of(mesh)
+            assert parts
+            assert all(part.is_watertight and part.volume > 0.0 for part in parts)
+
+    def test_glass_lies_just_off_the_hull_and_faces_outward(self, name: str):
+        rotor = rotor_named(name)
+        craft = airframe(rotor)
+        hull = max(parts_of(craft.body), key=lambda part: part.volume)
+        glass = solid(craft.glass)
+        centres = glass.triangles_center
+        nearest = cKDTree(hull.triangles_center).query(centres)[1]
+        outside = np.einsum("ij,ij->i", centres - hull.triangles_center[nearest], hull.face_normals[nearest])
+        scale = rotor.radius / 8.18
+        assert outside.min() > -0.005 * scale  # The hull's facets are flat, so a pane may touch one.
+        assert 0.005 * scale < np.median(outside) < 0.03 * scale
+        # Away from the plane of symmetry, a pane's normal has the sign of its side.
+        side = np.abs(glass.triangles_center[:, 1]) > 0.1 * rotor.radius
+        assert np.all(np.sign(glass.face_normals[side, 1]) == np.sign(glass.triangles_center[side, 1]))
+
+    def test_it_clears_the_disk_and_stands_on_the_ground(self, name: str):
+        craft, radius = airframe(rotor_named(name)), rotor_named(name).radius
+        inside = np.hypot(craft.body.vertices[:, 0], craft.body.vertices[:, 1]) < radius
+        assert craft.body.vertices[inside, 2].max() < -0.05 * radius
+        lowest = craft.dark.vertices[:, 2].min()
+        assert lowest == pytest.approx(craft.ground, abs=0.01 * radius)
+
+    def test_the_head_has_an_arm_for_each_blade(self, name: str):
+        rotor = rotor_named(name)
+        head = rotor_head(rotor).vertices
+        psi = np.degrees(np.arctan2(head[:, 1], head[:, 0]))
+        far = np.hypot(head[:, 0], head[:, 1]) > 0.95 * np.hypot(head[:, 0], head[:, 1]).max()
+        step = 360.0 / rotor.blades
+        arms = np.unique(np.round(psi[far] / step) % rotor.blades)
+        assert len(arms) == rotor.blades
+
+
+class TestBlackHawk:
+    """Against the dimensions in Jane's, which the module's docstring lists."""
+
+    CRAFT = airframe(rotor_named("uh60a"))
+
+    def test_fuselage_length_and_width(self):
+        body = self.CRAFT.body.vertices
+        # The fin's tip is the aftmost point: nose to there is 15.26 m.
+        assert np.ptp(body[:, 0]) == pytest.approx(15.26, abs=0.1)
+        cabin = body[(body[:, 0] < 2.0) & (body[:, 2] > -2.6)]
+        assert np.ptp(cabin[np.abs(cabin[:, 0]) < 1.0, 1]) == pytest.approx(2.36, abs=0.1)
+
+    def test_stabilator_span_and_wheels(self):
+        body, dark = self.CRAFT.body.vertices, self.CRAFT.dark.vertices
+        aft = body[(body[:, 0] > 8.3) & (body[:, 2] < -1.7)]
+        assert np.ptp(aft[:, 1]) == pytest.approx(4.38, abs=0.02)
+        wheels = dark[dark[:, 2] < -3.0]
+        main, tail = wheels[wheels[:, 0] < 0.0], wheels[wheels[:, 0] > 0.0]
+        track = main[main[:, 1] > 0.0, 1].mean() - main[main[:, 1] < 0.0, 1].mean()
+        assert track == pytest.approx(2.705, abs=0.02)
+        assert tail[:, 0].mean() - main[:, 0].mean() == pytest.approx(8.83, abs=0.05)
+
+    def test_tail_rotor_is_on_starboard_3_35_m_wide_and_canted_20_degrees(self):
+        dark = self.CRAFT.dark.vertices
+        rotor = dark[(dark[:, 0] > 7.8) & (dark[:, 2] > -2.0)]
+        assert rotor[:, 1].mean() > 0.0
+        middle = rotor.mean(axis=0)
+        assert 2.0 * np.linalg.norm(rotor - middle, axis=1).max() == pytest.approx(3.35, abs=0.1)
+        normal = np.linalg.svd(rotor - middle)[2][-1]
+        assert math.degrees(math.asin(abs(normal[2]))) == pytest.approx(20.0, abs=1.0)

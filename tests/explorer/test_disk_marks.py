@@ -1,0 +1,303 @@
+"""What is marked about the rotor: regions and labels on the disk, words round it, vortices, numbers of the inset."""
+
+import io
+import json
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from explorer.picture import disk_image, lettering
+from explorer.picture.airframe import airframe
+from explorer.picture.blade_inset import inset
+from explorer.picture.fields import FIELDS, fitted_range, keeps_range, over_range
+from explorer.picture.picture import disk_png, field_values
+from explorer.picture.polar import polar_grid
+from explorer.picture.regions import NO_MARKS, Marks, Region, RegionLabel, region_codes, region_labels
+from explorer.picture.scene_theme import DARK, LIGHT
+from explorer.picture.stall_region import angle_of_attack, refined, stall_margin
+from explorer.picture.wake import inflow_arrows, tip_vortices
+from rotor.design.twist import LinearTwist, PiecewiseLinearTwist
+from rotor.files.make_design import make_design
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+ALPHA = FIELDS["Angle of attack"]
+
+
+@pytest.fixture(scope="module")
+def fast() -> Solution:
+    """Heavy and fast, with too little twist outboard: stall, reverse flow and drag divergence."""
+    twist = PiecewiseLinearTwist((math.radians(-14.0), math.radians(-8.0)), (0.5,))
+    return solve(replace(make_design(mu=0.4, mass_kg=10500.0), twist=twist)).require()
+
+
+@pytest.fixture(scope="module")
+def hover() -> Solution:
+    return solve(make_design(mu=0.0)).require()
+
+
+def shown(solution: Solution, size: int, marks: Marks) -> np.ndarray:
+    """RGBA of the angle of attack, shape (size, size, 4)."""
+    png = disk_png(solution, ALPHA, (-6.0, 14.0), size=size, marks=marks, ink=LIGHT.ink)
+    return np.asarray(Image.open(io.BytesIO(png)).convert("RGBA")).astype(int)
+
+
+def codes_of(solution: Solution, marks: Marks, size: int = disk_image.AT_REST) -> np.ndarray:
+    grid = polar_grid(solution.disk, *disk_image.grid_size(size))
+    made = region_codes(solution, grid, marks, 2.8 / size)
+    assert made is not None
+    return made
+
+
+class TestRegions:
+    def test_the_stalled_share_of_the_disk_is_the_solvers(self, fast: Solution):
+        codes = codes_of(fast, Marks(drag_divergence=False, reverse_flow=False))
+        grid = polar_grid(fast.disk, *disk_image.grid_size(disk_image.AT_REST))
+        stalled = np.isin(codes, (Region.STALLED, Region.STALL_RIM)) & (stall_margin(fast, grid) < 0.0)
+        share = (stalled * grid.r[:, None]).sum() / (np.ones_like(stalled) * grid.r[:, None]).sum()
+        # The solver counts the whole blade's annulus too, but no strip beside reverse flow is left out there.
+        assert share == pytest.approx(fast.stalled_area, abs=0.02)
+        assert share > 0.02
+
+    def test_reverse_flow_is_the_circle_r_equals_minus_mu_sin_psi(self, fast: Solution):
+        codes = codes_of(fast, Marks(stall=False, drag_divergence=False))
+        grid = polar_grid(fast.disk, *disk_image.grid_size(disk_image.AT_REST))
+        mu = fast.design.condition.advance_ratio * math.cos(fast.controls.shaft_tilt)
+        edge = grid.r[:, None] + mu * np.sin(grid.psi)[None, :]
+        clear = np.abs(edge) > 0.02  # Away from the rim.
+        assert np.array_equal((codes == Region.REVERSE)[clear], (edge < 0.0)[clear])
+        rim = codes == Region.REVERSE_RIM
+        assert rim.any()
+        assert np.abs(edge[rim]).max() < 0.02
+
+    def test_a_line_is_as_wide_as_asked_for(self, fast: Solution):
+        """The rim of reverse flow along the radius through its middle, ψ = 270°."""
+        size, half = disk_image.AT_REST, 0.006
+        grid = polar_grid(fast.disk, *disk_image.grid_size(size))
+        codes = region_codes(fast, grid, Marks(stall=False, drag_divergence=False), half)
+        assert codes is not None
+        column = int(np.argmin(np.abs(grid.psi - 1.5 * math.pi)))
+        spacing = grid.r[1] - grid.r[0]
+        width = np.count_nonzero(codes[:, column] == Region.REVERSE_RIM) * spacing
+        assert width == pytest.approx(2.0 * 0.9 * half, abs=1.5 * spacing)
+
+    def test_drag_divergence_is_dashed(self, fast: Solution):
+        dashes = codes_of(fast, Marks(stall=False, reverse_flow=False)) == Region.DASH
+        around = dashes.any(axis=0)
+        assert np.count_nonzero(np.diff(around.astype(int)) == 1) > 10
+
+    def test_marks_can_be_switched_off(self, fast: Solution):
+        grid = polar_grid(fast.disk, 60, 180)
+        assert region_codes(fast, grid, NO_MARKS, 0.003) is None
+        only = codes_of(fast, Marks(stall=False, reverse_flow=False))
+        assert set(np.unique(only)) == {Region.NONE, Region.DASH}
+
+    def test_hover_has_no_reverse_flow(self, hover: Solution):
+        assert not (codes_of(hover, Marks()) == Region.REVERSE).any()
+
+    def test_single_precision_is_enough_for_pictures(self, fast: Solution):
+        grid = polar_grid(fast.disk, 112, 384)
+        flow = refined(fast, grid)
+        ahead = flow.u_t > 0.05
+        assert np.abs(flow.alpha - angle_of_attack(fast, grid))[ahead].max() < 1e-4
+        assert np.abs(flow.margin - stall_margin(fast, grid))[ahead].max() < 1e-4
+
+
+class TestLabels:
+    def test_each_region_is_named_where_it_is(self, fast: Solution):
+        labels = {label.text: label for label in region_labels(fast, Marks())}
+        assert {"STALL", "REVERSE FLOW", "DRAG DIVERGENCE"} <= set(labels)
+        stall, reverse, divergence = (labels[name] for name in ("STALL", "REVERSE FLOW", "DRAG DIVERGENCE"))
+        assert stall.r > 0.5
+        assert stall.place[0] < 0.0  # On the retreating side.
+        assert reverse.place[0] < 0.0
+        assert reverse.r < 0.5
+        assert divergence.place[0] > 0.0
+
+    def test_no_label_lies_over_another(self, fast: Solution):
+        labels = region_labels(fast, Marks())
+        for k, one in enumerate(labels):
+            for other in labels[k + 1 :]:
+                apart = [abs(a - b) for a, b in zip(one.place, other.place, strict=True)]
+                room = [0.5 * (a + b) for a, b in zip(one.size, other.size, strict=True)]
+                assert apart[0] >= room[0] - 1e-9 or apart[1] >= room[1] - 1e-9
+
+    def test_a_switched_off_region_is_not_named(self, fast: Solution):
+        assert {label.text for label in region_labels(fast, Marks(stall=False))} <= {"REVERSE FLOW", "DRAG DIVERGENCE"}
+        assert region_labels(fast, NO_MARKS) == ()
+
+    def test_hover_names_no_reverse_flow(self, hover: Solution):
+        assert "REVERSE FLOW" not in {label.text for label in region_labels(hover, Marks())}
+
+    @pytest.mark.parametrize("psi_deg", [0, 90, 200, 315])
+    def test_a_label_at_the_rim_stays_on_the_disk(self, psi_deg: int):
+        size = 960
+        label = RegionLabel("NEGATIVE STALL", 0.98, math.radians(psi_deg))
+        ink, ground = lettering.label_masks([label], size)
+        rows, columns = np.nonzero(ground)
+        r = np.hypot(rows - 479.5, columns - 479.5) / 479.0
+        assert r.max() < 1.0
+        assert ink[ground].max() > 200
+        assert not ink[~ground].any()
+
+    def test_the_picture_at_rest_is_labelled_and_the_moving_one_is_not(self, fast: Solution):
+        ground = np.array(LIGHT.ink.label_ground)
+
+        def count(size: int, marks: Marks) -> int:
+            return np.count_nonzero((shown(fast, size, marks)[..., :3] == ground).all(axis=2))
+
+        assert count(960, Marks()) > 2000
+        assert count(960, NO_MARKS) == count(400, Marks()) == 0
+
+
+class TestHatch:
+    def test_stall_is_striped_over_the_colours_of_the_field(self, fast: Solution):
+        """Of the stalled part about a third is stripe, the rest keeps the field's colour."""
+        regions = (NO_MARKS, Marks(reverse_flow=False, drag_divergence=False))
+        plain, marked = (shown(fast, 960, marks)[..., :3] for marks in regions)
+        grid = polar_grid(fast.disk, *disk_image.grid_size(960))
+        stalled = stall_margin(fast, grid) < math.radians(-0.6)
+        row, column = np.nonzero(stalled & (grid.r[:, None] > 0.6) & (grid.r[:, None] < 0.98))
+        x = np.rint(479.5 + 479.0 * grid.r[row] * np.sin(grid.psi[column])).astype(int)
+        y = np.rint(479.5 + 479.0 * grid.r[row] * np.cos(grid.psi[column])).astype(int)
+        changed = np.abs(plain[y, x] - marked[y, x]).sum(axis=1) > 60
+        assert 0.2 < changed.mean() < 0.62
+
+    def test_reverse_flow_is_slate_in_the_ink_of_the_page(self, fast: Solution):
+        for theme in (LIGHT, DARK):
+            png = disk_png(fast, ALPHA, (-6.0, 14.0), size=400, marks=Marks(), ink=theme.ink)
+            image = np.asarray(Image.open(io.BytesIO(png)).convert("RGBA"))
+            # µ = 0.4: the middle of the part outside the cut-out lies at r = 0.26, ψ = 270°.
+            pixel = image[200, round(199.5 - 0.26 * 199.0)]
+            assert tuple(pixel[:3]) == theme.ink.reverse_flow
+            assert pixel[3] > 230
+
+    def test_the_disk_is_translucent_so_that_the_airframe_shows(self, fast: Solution):
+        assert shown(fast, 400, Marks())[200, 350, 3] == round(255 * 0.76)
+
+
+class TestRanges:
+    @pytest.mark.parametrize("title", FIELDS)
+    def test_a_fitted_range_uses_the_colours(self, title: str, fast: Solution):
+        """Neither saturated nor flat: at most a fiftieth lies beyond, and the values fill half of the range."""
+        field = FIELDS[title]
+        values = field_values(fast, field)
+        low, high = fitted_range(field, values)
+        assert np.mean((values < low) | (values > high)) < 0.02
+        inner = np.quantile(values, (0.02, 0.98))
+        filled = max(abs(inner)) / high if field.two_sided else np.ptp(inner) / (high - low)
+        assert filled > 0.5
+        assert keeps_range(field, values, (low, high))
+
+    def test_a_range_is_held_until_it_no_longer_fits(self, fast: Solution, hover: Solution):
+        low, high = fitted_range(ALPHA, field_values(fast, ALPHA))
+        assert keeps_range(ALPHA, field_values(fast, ALPHA), (low - 2.0, high + 2.0))
+        assert not keeps_range(ALPHA, field_values(fast, ALPHA), (low + 6.0, high - 6.0))
+        assert not keeps_range(ALPHA, field_values(hover, ALPHA), (-60.0, 60.0))
+
+    def test_each_end_says_whether_values_lie_beyond(self):
+        values = np.linspace(0.0, 1.0, 2001)
+        assert over_range(values, (0.0, 1.0)) == (False, False)
+        assert over_range(values, (0.1, 1.0)) == (True, False)
+        assert over_range(values, (0.0, 0.9)) == (False, True)
+
+
+class TestFlatPictures:
+    def test_words_stand_at_their_sides(self):
+        """Ink in the band of the words: nose above, tail below, advancing right, retreating left."""
+        mask = lettering.ring_mask().astype(float)
+        size = len(mask)
+        middle = 0.5 * (size - 1)
+        row, column = np.nonzero(mask > 100)
+        r = np.hypot(row - middle, column - middle) / (0.5 * size / lettering.REACH)
+        psi = np.degrees(np.arctan2(column - middle, row - middle)) % 360
+        words = psi[(r > 1.09) & (r < 1.16)]
+        for centre in (15, 90, 180, 270):
+            assert np.count_nonzero(np.abs((words - centre + 180) % 360 - 180) < 12) > 500
+        assert np.count_nonzero(np.abs(words - 225) < 20) == 0
+
+    def test_nothing_lies_on_the_disk_itself(self):
+        mask = lettering.ring_mask()
+        size = len(mask)
+        y, x = np.indices(mask.shape) - 0.5 * (size - 1)
+        assert not mask[np.hypot(x, y) < 0.5 * size / lettering.REACH].any()
+
+    def test_a_tinted_picture_has_one_colour_and_the_masks_opacity(self):
+        mask = np.array([[0, 128], [255, 64]], dtype=np.uint8)
+        image = np.asarray(Image.open(io.BytesIO(lettering.tinted_png(mask, (10, 20, 30), 0.5))).convert("RGBA"))
+        assert (image[..., :3] == (10, 20, 30)).all()
+        assert image[..., 3].tolist() == [[0, 64], [128, 32]]
+
+    def test_the_shadow_is_under_the_airframe_and_fades(self):
+        rotor = make_design().rotor
+        mask = lettering.shadow_mask(airframe(rotor), rotor.radius).astype(int)
+        size = len(mask)
+        unit = 0.5 * size / (lettering.SHADOW_HALF * rotor.radius)
+        row = round(0.5 * size + (0.0 - lettering.SHADOW_CENTRE * rotor.radius) * unit)
+        assert mask[row, size // 2] > 150  # Below the cabin.
+        assert mask[0].max() == mask[-1].max() == 0
+        assert np.abs(mask - mask[:, ::-1]).max() < 30  # Nearly symmetric: only the tail rotor is not.
+
+
+class TestAirLines:
+    def test_a_vortex_begins_at_its_tip_and_drifts_with_the_stream(self, fast: Solution):
+        points, age = tip_vortices(fast, [0.3])
+        radius, controls = fast.design.rotor.radius, fast.controls
+        assert points.shape[1:] == (2, 3)
+        assert age.min() == 0.0
+        assert age.max() == 1.0
+        first = points[0, 0] / radius
+        assert np.hypot(first[0], first[1]) == pytest.approx(1.0)
+        assert math.atan2(first[1], first[0]) == pytest.approx(0.3)
+        # After a whole age ζ the point has moved aft by µ_x ζ and down by (µ_z + λ) ζ relative to where it was shed.
+        zeta = 2.0 * math.pi * 0.8
+        mu = fast.design.condition.advance_ratio
+        last = points[-1, 1] / radius
+        left = 0.3 - zeta
+        hovering = (mu * math.sin(controls.shaft_tilt) + controls.lambda0) / math.hypot(
+            mu * math.cos(controls.shaft_tilt), mu * math.sin(controls.shaft_tilt) + controls.lambda0
+        )
+        shed = 1.0 - 0.22 * hovering * (1.0 - math.exp(-zeta / 2.2))
+        assert last[0] - shed * math.cos(left) == pytest.approx(mu * math.cos(controls.shaft_tilt) * zeta, rel=1e-6)
+
+    def test_in_hover_the_wake_contracts_and_goes_straight_down(self, hover: Solution):
+        points, age = tip_vortices(hover, [0.0])
+        r = np.hypot(points[..., 0], points[..., 1]) / hover.design.rotor.radius
+        assert 0.78 < r.min() < 0.82
+        assert (np.diff(points[:, 0, 2]) < 0.0).all()
+        assert len(age) == len(points)
+
+    def test_inflow_arrows_are_as_long_as_the_inflow_and_point_down(self, hover: Solution):
+        segments = inflow_arrows(hover)
+        shafts = segments[: len(segments) // 3]
+        length = shafts[:, 0, 2] - shafts[:, 1, 2]
+        r = np.hypot(shafts[:, 0, 0], shafts[:, 0, 1]) / hover.design.rotor.radius
+        expected = 2.6 * np.interp(r, hover.disk.r, hover.disk.induced.mean(axis=1)) * hover.design.rotor.radius
+        np.testing.assert_allclose(length, expected, rtol=1e-3)
+
+
+class TestInset:
+    ROTOR = make_design().rotor
+
+    def test_it_is_json_with_true_angles_and_small(self):
+        made = inset(self.ROTOR, LinearTwist(math.radians(-12.0)), self.ROTOR.builtin_twist, 4.0)
+        assert len(json.dumps(made)) < 6000
+        assert made["times"] == 4.0
+        assert len(made["cuts"]) == 8
+        for cut in made["cuts"]:
+            assert cut["theta"] == pytest.approx(-12.0 * (cut["r"] - 0.75), abs=0.006)
+        assert made["r"][0] == pytest.approx(self.ROTOR.blade.root_cutout)
+        assert made["cuts"][-1]["r"] == 1.0
+
+    def test_outlines_are_true_sections_about_the_quarter_chord(self):
+        made = inset(self.ROTOR, LinearTwist(0.0), None, 4.0)
+        for cut in made["cuts"]:
+            forward, up = np.array(cut["outline"]).T
+            assert forward.max() == pytest.approx(0.25, abs=0.02)
+            assert forward.min() == pytest.approx(-0.75, abs=0.02)
+            assert 0.09 < np.ptp(up) < 0.13
+            assert cut["ghost"] is None
+        assert made["ghost"] is None
