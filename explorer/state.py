@@ -17,7 +17,7 @@ from rotor.files.make_design import change_airfoils, make_design
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.units import KNOT
 
-PRESET_TITLES = {"flight": "Flight (our best)", "thesis": "Thesis (as stated)"}
+PRESET_TITLES = {"flight": "Best available", "thesis": "Thesis (as stated)"}
 
 
 @dataclass(frozen=True)

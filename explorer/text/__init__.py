@@ -1,1 +1,1 @@
-"""Words and numbers as text: glossary, units, status, comparison."""
+"""Text of the page: tooltips, units, read-outs, status, names of designs, and why power changed."""

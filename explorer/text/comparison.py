@@ -20,17 +20,19 @@ from explorer.theme.colours import PARTS, PINNED, THIS
 from rotor.trim.solution import PowerBudget, Solution
 
 _Entry = tuple[str, str, Callable[[Solution], float | None], int]
-"""Sign, name in the glossary, what reads it, digits."""
+"""Symbol, name in the glossary, function that reads the value, digits."""
 
 
 def power_panel(solution: Solution, pinned: Solution, units: Units = SI) -> str:
-    """Total power with its change against A, the bars of both on one scale, and the parts of both.
+    """Total power with its change relative to A, the bars of both on one scale, and the parts of both.
 
-    Dashes stand for A where it has no trim.
+    Where A has no trim it shows dashes.
     """
     power = solution.power
     reference = pinned.power if pinned.converged else None
-    against = f"against {_name('A')}, {units.watts(reference.total)}" if reference else f"{_name('A')}: no trim here"
+    against = (
+        f"vs. {_name('A')}, {units.watts(reference.total)}" if reference else f"{_name('A')}: no trim at this condition"
+    )
     ideal = ideal_induced(solution)
     rows = [_row(PART_TITLES[name], power, reference, lambda p, n=name: getattr(p, n), units, name) for name in PARTS]
     rows.append(_row("Total", power, reference, lambda p: p.total, units))
@@ -77,8 +79,8 @@ def trim_panel(solution: Solution, pinned: Solution) -> str:
 
 
 def pinned_line(title: str, answer: Solution | None, where: str, units: Units = SI) -> str:
-    """What A is, in one line that never wraps. `where`: its own flight, empty when it flies along."""
-    power = "no trim here" if answer is None or not answer.converged else units.watts(answer.power.total)
+    """A in one line that never wraps. `where`: its own flight condition; empty when it flies at the current one."""
+    power = "no trim at this condition" if answer is None or not answer.converged else units.watts(answer.power.total)
     title = escape(title, quote=True)
     whole = f"A: {title}, {power}" + (f" at {where}" if where else "")
     flight = f'<div class="rx-line rx-dim rx-small"><span class="rx-push">at {where}</span></div>' if where else ""
@@ -94,7 +96,7 @@ def _name(letter: str) -> str:
 
 
 def _bars(power: PowerBudget, reference: PowerBudget | None, ideal: float | None) -> str:
-    """A above B, as long as they are dear."""
+    """A above B; the length of a bar is the total power."""
     longest = max(power.total, reference.total if reference else 0.0, 1.0)
     lines = []
     for letter, one, mark in (("A", reference, None), ("B", power, ideal)):

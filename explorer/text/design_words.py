@@ -33,12 +33,14 @@ _PLACES = {"builtin": ("built_division",), "two": ("two_division",), "three": ("
 
 
 def twist_words(law: TwistLaw) -> str:
-    """A law as one would say it, with its numbers."""
+    """A twist law in words, with its numbers."""
     match law:
         case LinearTwist(rate):
             return f"Linear, {_degrees(rate)}\u00a0°/R"
         case QuadraticTwist(curvature, difference):
-            return f"Quadratic, tip {_degrees(difference)}° against centre, curve {_degrees(curvature)}\u00a0°/R²"
+            return (
+                f"Quadratic, tip {_degrees(difference)}° relative to centre, curvature {_degrees(curvature)}\u00a0°/R²"
+            )
         case PiecewiseLinearTwist(rates, breaks):
             divided = f", divided at {_joined([f'{place:.2f}' for place in breaks])}\u00a0R" if breaks else ""
             count = _COUNT.get(len(rates), f"{len(rates)} segments")
@@ -49,11 +51,11 @@ def twist_words(law: TwistLaw) -> str:
             return f"Smooth curve through {len(angles)} angles, {_degrees(angles[-1] - angles[0])}° root to tip"
         case SumTwist(base, change):
             later = twist_words(change)
-            return f"{twist_words(base)}, with {later[:1].lower()}{later[1:]} on top"
+            return f"{twist_words(base)}, plus {later[:1].lower()}{later[1:]}"
         case TableTwist(name=name) if name in SHIPPED_ROTORS:
-            return f"{shipped_aircraft(name).name} built-in twist"
+            return f"{shipped_aircraft(name).name} twist as built"
         case TableTwist(name="builtin"):
-            return "Built-in twist"
+            return "Twist as built"
         case TableTwist():
             return "Twist from a table"
         case _:
@@ -61,7 +63,7 @@ def twist_words(law: TwistLaw) -> str:
 
 
 def active_words(active: ActiveTwist) -> str:
-    """Harmonics that come on top."""
+    """The harmonics of active twist."""
     waves = (f"{number(math.degrees(one.amplitude), 2)}° at {one.per_rev}/rev" for one in active.harmonics)
     return f"active twist of {_joined(list(waves))}"
 
@@ -73,7 +75,7 @@ def title_words(design: Design) -> str:
 
 
 def flight_words(design: Design, units: Units = SI) -> str:
-    """Speed, weight and height in one line."""
+    """Speed, mass and altitude in one line."""
     condition = design.condition
     speeds = " · ".join(unit.text(design.airspeed) for unit in units.speed if unit is not METRE_PER_SECOND)
     where = "Hover" if design.hovering else f"µ {number(condition.advance_ratio, 3)} · {speeds}"
@@ -88,20 +90,20 @@ def model_words(design: Design) -> str:
 
 
 def inflow_words(design: Design) -> str:
-    """The inflow that counts: that of hover, or that of forward flight."""
+    """The inflow model in use: that of hover, or that of forward flight."""
     if design.hovering:
         return "annulus balance" if design.models.hover_inflow == "annulus" else "closed form, eq. (3.3)"
     return INFLOW_MODELS[design.models.inflow].title
 
 
 def physics_words(design: Design) -> str:
-    """What of the physics is switched off, or that the losses count."""
+    """The effects that are switched off; with none, the losses included."""
     off = [f"no {switch.title.lower()}" for switch in switched_off(design.models)]
     return ", ".join(off) or "tip and hub loss"
 
 
 def twist_name(inputs: Inputs) -> str:
-    """The twist: `Two segments −14/−8 at 0.5`, and before it the rotor where it is not the page's first."""
+    """The twist: `Two segments −14/−8 at 0.5`, after the rotor's name where it is not the UH-60A."""
     rotor = "" if inputs.rotor == SHIPPED_ROTORS[0] else f"{inputs.aircraft.name}, "
     if inputs.law == "builtin" and inputs.built_inner == inputs.built_outer == 0.0:
         return rotor + "As built"
@@ -114,7 +116,7 @@ def twist_name(inputs: Inputs) -> str:
 
 
 def flight_name(inputs: Inputs, units: Units = SI) -> str:
-    """The flight: `µ 0.25, 8.32 t`, the altitude where it is not sea level, and what of the physics is switched off."""
+    """The flight condition: `µ 0.25, 8.32 t`, altitude above sea level, and the effects switched off."""
     speed = f"µ {inputs.advance_ratio:g}" if inputs.advance_ratio else "hover"
     high = f", {units.altitude.text(inputs.altitude_m)}" if inputs.altitude_m else ""
     mass = f"{inputs.mass_t:g} t" if units is SI else units.mass.text(1e3 * inputs.mass_t)
@@ -123,7 +125,7 @@ def flight_name(inputs: Inputs, units: Units = SI) -> str:
 
 
 def _degrees(angle: float) -> str:
-    """With one digit after the point, and none that is a zero."""
+    """With one decimal, left out where it is zero."""
     text = number(math.degrees(angle), 1)
     return text.removesuffix(".0")
 

@@ -1,4 +1,4 @@
-"""Solution → words and numbers for the panels, as HTML; kW, degrees, knots and per cent begin here."""
+"""Power, trim and speed of a solution as HTML, in the units of the page."""
 
 import math
 from html import escape
@@ -22,7 +22,7 @@ def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI
     return (
         f'<div class="rx" data-explorer="power">{total_line(power, reference, units)}'
         f'<div class="rx-line rx-dim"{tip("change")}><span>total power</span>'
-        f"<span>against {escape(baseline_title(solution.design))}</span></div>"
+        f"<span>vs. {escape(baseline_title(solution.design))}</span></div>"
         f'<div class="rx-bar">{bar(power, ideal)}</div><table>{rows}</table>{ideal_line(solution, ideal, units)}</div>'
     )
 
@@ -38,7 +38,7 @@ def total_line(power: PowerBudget, reference: PowerBudget | None, units: Units) 
 
 
 def ideal_induced(solution: Solution) -> float | None:
-    """The least induced power [W] that any circulation could have at this lift; None where it has not settled."""
+    """The least induced power [W] of any circulation at this lift; None where the bound has not converged."""
     design = solution.design
     factor = ideal_factor(design.condition.advance_ratio, solution.ct, design.aircraft.key)
     if factor is None or not math.isfinite(solution.ct):
@@ -47,10 +47,10 @@ def ideal_induced(solution: Solution) -> float | None:
 
 
 def ideal_line(solution: Solution, ideal: float | None, units: Units = SI) -> str:
-    """κ, and the bound beside it."""
+    """κ and its ideal bound."""
     kappa = f'κ = Pi/(CT·λ0) <b data-explorer="kappa">{number(solution.induced_power_factor, 2)}</b>'
     known = solution.design.aircraft.key == TABLE_ROTOR
-    bound = "ideal: not settled above µ 0.40" if known else "ideal: not computed for this rotor"
+    bound = "ideal: not converged above µ 0.40" if known else "ideal: not computed for this rotor"
     if ideal is not None:
         unit = solution.ct * solution.controls.lambda0 * solution.design.power_unit
         bound = f'<i class="rx-mark"></i> ideal <b>{units.watts(ideal)}</b>, κ {number(ideal / unit, 2)}'
@@ -58,7 +58,7 @@ def ideal_line(solution: Solution, ideal: float | None, units: Units = SI) -> st
 
 
 def check_panel(reference: Solution | None, solution: Solution, units: Units = SI) -> str:
-    """The same design with the vortex wake, beside what is shown."""
+    """The same design with the vortex wake, and the difference of the power shown from it."""
     if reference is None:
         return '<div class="rx rx-dim rx-check">Vortex wake: computing …</div>'
     if not reference.converged:
@@ -68,12 +68,12 @@ def check_panel(reference: Solution | None, solution: Solution, units: Units = S
         f'<div class="rx rx-check rx-line" data-explorer="check"{tip("vortex_check")}>'
         '<span class="rx-dim">Vortex wake</span>'
         f"<span><b>{units.watts(reference.power.total)}</b>, κ {number(reference.induced_power_factor, 2)}; "
-        f"shown is {number(apart, 1, sign=True)} %</span></div>"
+        f"the power shown is {number(apart, 1, sign=True)} %</span></div>"
     )
 
 
 def change(power: PowerBudget, reference: PowerBudget | None) -> str:
-    """Of the total [%], green for less, rust for more; a dash without a reference."""
+    """Change of the total [%]: green for less, rust for more; a dash without a reference."""
     if reference is None or reference.total <= 0.0:
         return f'<span class="rx-dim">{BLANK}</span>'
     percent = 100.0 * (power.total / reference.total - 1.0)
@@ -83,7 +83,7 @@ def change(power: PowerBudget, reference: PowerBudget | None) -> str:
 
 
 def direction(percent: float) -> str:
-    """Class of a change that is not nothing: less is green, more is rust."""
+    """CSS class of a change: green for less, rust for more, none below 0.05 %."""
     return "" if abs(percent) < 0.05 else " rx-less" if percent < 0.0 else " rx-more"
 
 
@@ -147,18 +147,18 @@ def _deg(angle: float, digits: int = 2) -> str:
 
 
 def reserved(height: int) -> str:
-    """The place of a read-out before the first answer, so that nothing moves when it comes. `height` in pixels."""
+    """Reserved space of a read-out before the first solution, so that nothing moves later. `height` in pixels."""
     return f'<div class="rx"><div class="rx-reserved" style="height:{height}px"></div></div>'
 
 
 def speed_line(speed: float, units: Units = SI) -> str:
-    """Airspeed [m/s] as the engineer, the driver and the pilot read it."""
+    """Airspeed [m/s] in the units of the page."""
     words = units.airspeed(speed)
     return f'<div class="rx rx-dim rx-speed" data-explorer="speed"{tip("speed")}>{words}</div>'
 
 
 def explanation(text: str) -> str:
-    """The line beneath a menu, in a box of constant height."""
+    """The line below a menu, in a box of constant height."""
     return f'<div class="rx rx-dim rx-small rx-explain">{escape(text)}</div>'
 
 
@@ -178,5 +178,5 @@ def dash(colour: str, dashed: bool = False) -> str:
 
 
 def faded(html: str) -> str:
-    """The same text, dimmed: no longer the answer."""
+    """The same text, greyed: out of date."""
     return f'<div class="rx-faded">{html}</div>'

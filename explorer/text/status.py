@@ -14,29 +14,29 @@ from rotor.trim.solution import Solution
 
 
 def status_panel(solution: Solution | None, problem: str | None = None, pinned: Solution | None = None) -> str:
-    """A box of constant height: how the solve ended, every reason to read it with care, and how it was computed.
+    """A box of constant height: convergence, caveats, and the models used.
 
-    `pinned`: A, whose reasons count too where two designs are compared.
+    `pinned`: A, whose caveats are added where two designs are compared.
     """
     if problem is None and solution is not None and not solution.converged:
         problem = solution.message
     if problem is not None:
-        # Whole, also where it takes a line more than the box: it then lies over numbers that no longer hold.
-        sentence = f"{escape(problem.rstrip('.'))}. In grey: the last good answer."
+        # In full, even if it is a line longer than the box: the numbers below are out of date anyway.
+        sentence = f"{escape(problem.rstrip('.'))}. Greyed: last converged solution."
         return _status("problem", f'<div class="rx-sentence">{sentence}</div>')
     if solution is None:
-        return _status("waiting", "Solving the first trim …")
+        return _status("waiting", "Computing the first trim …")
     caveats = "".join(
         f'<div class="rx-care"><span>▲</span><span>{escape(sentence)}</span></div>'
         for sentence in cautions(solution, pinned)
     )
-    detail = f"Residual below {tiny(solution.residual)} of weight, {solution.passes} passes."
+    detail = f"Force residual < {tiny(solution.residual)} <i>W</i>, {solution.passes} iterations."
     text = f'<div><span class="rx-good">●</span> {escape(solution.message)} {detail}</div>'
     return _status("converged", text + caveats + provenance(solution))
 
 
 def cautions(solution: Solution, pinned: Solution | None) -> list[str]:
-    """Reasons to read the numbers with care; with A beside them, whose each is and what else sets the two apart."""
+    """Caveats of a solution; with A pinned, those of both, and the other differences between the two."""
     own = [caveat.sentence for caveat in solution.caveats]
     if pinned is None:
         return own
@@ -46,9 +46,9 @@ def cautions(solution: Solution, pinned: Solution | None) -> list[str]:
     a, b = pinned.design, solution.design
     apart = []
     if a.condition != b.condition:
-        apart.append("A and B do not fly the same: the difference is not the design's alone.")
+        apart.append("A and B fly at different conditions: the difference is not due to the design alone.")
     if (a.preset, a.models) != (b.preset, b.models):
-        apart.append("A and B are computed with different models: the difference is not the blade's alone.")
+        apart.append("A and B use different models: the difference is not due to the blade alone.")
     return [
         *apart,
         *(sentence for sentence in own if sentence in other),
@@ -58,13 +58,13 @@ def cautions(solution: Solution, pinned: Solution | None) -> list[str]:
 
 
 def tiny(value: float) -> str:
-    """The power of ten above a small positive number."""
+    """The power of ten just above a small positive number."""
     exponent = min(math.floor(-math.log10(value)), 15) if 0.0 < value < 1.0 else 15
     return "10⁻" + str(exponent).translate(str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹"))
 
 
 def provenance(solution: Solution) -> str:
-    """How it was computed, and what kind of statement it is."""
+    """The models used, and the kind of result."""
     design = solution.design
     sections = dict.fromkeys(section_title(span.section) for span in design.rotor.blade.spans)
     return (
@@ -76,7 +76,7 @@ def provenance(solution: Solution) -> str:
 
 
 def section_title(section: str) -> str:
-    """A section as it is written."""
+    """The usual name of a section."""
     titles = {
         "sc1095": "SC1095",
         "sc1094r8": "SC1094 R8",
@@ -92,16 +92,16 @@ def _status(kind: str, text: str) -> str:
 
 
 def trust_page() -> str:
-    """Comparisons by kind, then how optimum and saving move with the models."""
+    """Comparisons by kind, then the sensitivity of optimum and saving to the models."""
     parts = [
         '<div class="rx rx-small rx-trust" data-explorer="trust">',
-        '<div class="rx-dim">Point at a row for the test that holds it. Made by runs: '
-        "<i>python -m rotor reproduce OUT --trust</i>; in full in docs/validation.md.</div>",
+        '<div class="rx-dim">Hover over a row to see the test it is verified by. Computed by '
+        "<i>python -m rotor reproduce OUT --trust</i>; details in docs/validation.md.</div>",
     ]
     for kind, title in KINDS.items():
         rows = "".join(_trust_row(row) for row in trust_rows() if row.kind == kind)
         parts.append(f"<h4>{escape(title)}</h4>{rows}")
-    parts.append("<h4>Best linear twist and what it saves against −16°, choice by choice</h4>")
+    parts.append("<h4>Best linear twist and its saving vs. −16°, by model choice</h4>")
     speeds = dict.fromkeys(row.mu for row in sensitivity_rows())
     parts.append(_cells("hover" if mu == 0.0 else f"µ {mu:g}" for mu in speeds))
     parts.extend(_change(change, list(rows)) for change, rows in groupby(sensitivity_rows(), lambda row: row.change))
@@ -123,5 +123,5 @@ def _change(change: str, rows: list[SensitivityRow]) -> str:
 
 
 def _cells(texts: Iterable[str]) -> str:
-    """Side by side, one a speed."""
+    """Side by side, one per speed."""
     return f'<div class="rx-dim rx-trust-speeds">{"".join(f"<span>{text}</span>" for text in texts)}</div>'

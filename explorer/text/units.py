@@ -1,4 +1,4 @@
-"""What numbers are shown in: SI as engineers write it, or what is painted in a cockpit. Inside all is SI."""
+"""The units of the page: SI, or aviation units. Everything inside the program is SI."""
 
 import math
 from dataclasses import dataclass
@@ -6,15 +6,15 @@ from dataclasses import dataclass
 from rotor import units
 
 BLANK = "–"
-"""What is not a number."""
+"""Shown in place of a missing number."""
 
 
 def number(value: float | None, digits: int = 0, sign: bool = False) -> str:
-    """A number with thousands set apart and a true minus; a dash for what is not a number."""
+    """A number with a thin space between thousands and a true minus; a dash for None, NaN and infinity."""
     if value is None or not math.isfinite(value):
         return BLANK
     text = f"{value:{'+' if sign else ''},.{digits}f}".replace(",", "\u2009").replace("-", "−")
-    # What rounds to nothing has no direction.
+    # A value that rounds to zero has no sign.
     return text.lstrip("+−") if not any(digit in text for digit in "123456789") else text
 
 
@@ -44,21 +44,21 @@ METRE, FOOT = Unit("m", 1.0), Unit("ft", 0.3048)
 
 @dataclass(frozen=True)
 class Units:
-    """A choice of units, each quantity in the order in which it is read."""
+    """A choice of units, the main unit of each quantity first."""
 
     title: str
     power: tuple[Unit, Unit]
-    """What is shown, and what stands beside it in small."""
+    """The main unit, and the one shown small beside it."""
     speed: tuple[Unit, Unit, Unit]
     mass: Unit
     altitude: Unit
 
     def watts(self, value: float | None, digits: int = 0, sign: bool = False) -> str:
-        """A power [W] in the unit shown."""
+        """A power [W] in the main unit."""
         return self.power[0].text(value, digits, sign)
 
     def airspeed(self, value: float) -> str:
-        """A speed [m/s] as each reader reads it; `hover` for none."""
+        """A speed [m/s] in all three units; `hover` for zero."""
         if value == 0.0:
             return "hover"
         return " · ".join(unit.text(value, 1 if unit is METRE_PER_SECOND else 0) for unit in self.speed)

@@ -121,7 +121,7 @@ def _search(
         found += [reached for jig in jigs if (reached := task.descend(jig)) is not None]
     if not found:
         raise RuntimeError(
-            "No twist of this concept trims at the flight conditions asked for: lower the weight or the advance ratio."
+            "No twist of this concept trims at the flight conditions asked for: lower the mass or the advance ratio."
         )
     return min(found, key=lambda reached: reached.power)
 

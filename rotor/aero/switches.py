@@ -1,4 +1,4 @@
-"""The parts of the physics that can be switched off to see what they cost. A lesson: no aircraft is without them."""
+"""The parts of the physics that can be switched off to see what they cost."""
 
 from collections.abc import Collection
 from dataclasses import dataclass, replace
@@ -31,38 +31,38 @@ _SWITCHES = (
     Switch(
         "flapping",
         "Flapping",
-        "The blades flap about their hinges, and cyclic evens out what first-harmonic flapping is left.",
-        "Blades held rigid, β = 0, and no cyclic: the hub carries the moment of the lopsided lift.",
+        "The blades flap about their hinges; cyclic trims the first harmonic of flapping.",
+        "Rigid blades, β = 0, without cyclic: the hub carries the moment of the asymmetric lift.",
     ),
     Switch(
         "tip_loss",
         "Tip loss",
-        "Lift fades at the tip of each of a finite number of blades: Prandtl's factor, or the wake of each blade.",
-        "F_tip = 1; a dynamic wake is that of infinitely many blades.",
+        "Lift falls to zero at the tip of each blade: Prandtl's factor, or the wake of each blade.",
+        "F_tip = 1; the dynamic wake becomes that of infinitely many blades.",
     ),
     Switch(
         "hub_loss",
         "Hub loss",
-        "Lift fades at the root: Prandtl's factor, in hover and with inflow that does not answer to the load.",
+        "Lift falls to zero at the root: Prandtl's factor, in hover and with inflow independent of the loading.",
         "F_hub = 1.",
     ),
     Switch(
         "reverse_flow",
         "Reverse flow",
-        "On the retreating side, inside r < −µ sin ψ, air comes from behind and the blade drags through it.",
+        "On the retreating side, inside r < −µ sin ψ, the flow comes from the trailing edge and adds drag.",
         "No load inside the circle r < −µ sin ψ.",
     ),
     Switch(
         "compressibility",
         "Compressibility",
-        "Section data answer to the Mach number: steeper lift, earlier stall, wave drag on the advancing tip.",
+        "Section data depend on Mach number: steeper lift curve, earlier stall, wave drag on the advancing tip.",
         "Section data at Mach 0.3 everywhere.",
     ),
     Switch(
         "fuselage",
         "Fuselage drag",
-        "The rotor overcomes the drag of the aircraft: parasite power, and a disk tilted forward to pull.",
-        "Drag area 0: nothing to pull.",
+        "The rotor overcomes the drag of the aircraft: parasite power, and a disk tilted forward.",
+        "Drag area 0.",
     ),
 )
 SWITCHES: dict[str, Switch] = {switch.name: switch for switch in _SWITCHES}
@@ -95,21 +95,21 @@ def no_effect(design: Design, name: str) -> str:
     inflow = inflow_model(design.models.inflow)
     match name:
         case "flapping" | "fuselage" if hovering:
-            return "hover is the same all the way round" if name == "flapping" else "no drag in hover"
+            return "hover is axisymmetric" if name == "flapping" else "no drag in hover"
         case "tip_loss" if not hovering and inflow.load_dependent and inflow.without_tip_loss() == inflow:
-            return "the blades of this wake end where they end"
+            return "this wake resolves the blade tips itself"
         case "hub_loss" if not hovering and inflow.load_dependent:
-            return "this wake answers at the root itself"
+            return "this wake resolves the root itself"
         case "reverse_flow" if design.condition.advance_ratio <= design.rotor.blade.root_cutout:
-            return "no blade is in reverse flow at this speed"
+            return "no blade element is in reverse flow at this speed"
         case "compressibility" if _one_mach(design):
-            return "the section is known at one Mach number"
+            return "the section data hold for one Mach number"
         case _:
             return ""
 
 
 def _one_mach(design: Design) -> bool:
-    """Whether no section of the blade answers to the Mach number."""
+    """Whether the data of every section of the blade hold for one Mach number only."""
     blade = design.rotor.blade
     names = {span.section for span in blade.spans}
     return not any(np.any(blade.installed(name).table.coefficients[..., 1:]) for name in names)

@@ -90,7 +90,7 @@ class Aircraft:
         return self.stated.twist if preset == "thesis" and self.stated else self.rotor.builtin_twist
 
     def twist_title(self, preset: str) -> str:
-        """That twist in the user's words."""
+        """A name for that twist, as the page shows it."""
         if preset == "thesis" and self.stated:
             return self.stated.twist.spec().replace("linear:-", "linear −") + "°"
-        return f"{self.name} twist"
+        return f"{self.name} as built"

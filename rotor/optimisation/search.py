@@ -167,7 +167,7 @@ class _Run:
             message = (
                 "No design found keeps the limits: loosen them."
                 if trimmed
-                else "No start trims: lower the weight, the altitude or the speed."
+                else "No start trims: lower the mass, the altitude or the speed."
             )
         elif not minima:
             status, message = (

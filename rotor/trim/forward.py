@@ -6,6 +6,7 @@ from dataclasses import replace
 from rotor.aero.elements import Problem, build_problem, expected_wake
 from rotor.aero.trim_state import TrimState
 from rotor.design.design import Design
+from rotor.design.flight import FlightCondition
 from rotor.trim.newton import Guess, TrimResult, newton
 from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
 from rotor.trim.solution import Solution
@@ -57,19 +58,21 @@ def guess_of(earlier: Solution) -> Guess:
 
 
 def _easier(design: Design, t: float) -> Design:
-    """The design on the way from a light rotor at moderate speed (t = 0) to the wanted condition (t = 1)."""
+    """The design in the flight condition of `easier_condition`."""
+    return replace(design, condition=easier_condition(design, t))
+
+
+def easier_condition(design: Design, t: float) -> FlightCondition:
+    """The condition on the way from a light rotor at moderate speed (t = 0) to the wanted one (t = 1)."""
     condition = design.condition
     speed = condition.advance_ratio
     easy_speed = min(max(speed, 0.08), 0.2)
     blade_loading = design.weight_coefficient / design.rotor.solidity
     easy_mass = min(condition.mass, 0.045 * condition.mass / max(blade_loading, 1e-9))
     return replace(
-        design,
-        condition=replace(
-            condition,
-            advance_ratio=easy_speed + t * (speed - easy_speed),
-            mass=easy_mass + t * (condition.mass - easy_mass),
-        ),
+        condition,
+        advance_ratio=easy_speed + t * (speed - easy_speed),
+        mass=easy_mass + t * (condition.mass - easy_mass),
     )
 
 

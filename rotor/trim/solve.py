@@ -55,7 +55,7 @@ def _assemble(problem: Problem, result: HoverResult | TrimResult, begin: float) 
         converged = False
         message = (
             f"The trim found takes {power.main_rotor / 1e3:.0f} kW, which no level flight can: "
-            "lower the advance ratio or the weight."
+            "lower the advance ratio or the mass."
         )
     return Solution(
         design=design,

@@ -1,20 +1,21 @@
-"""Where the answer stops being trustworthy, in sentences a user reads."""
+"""Limits of validity: caveats of a solution, and why a design did not trim."""
 
 from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem
 from rotor.aero.switches import switched_off
 from rotor.design.aircraft import FIXED_SHARE
 from rotor.design.design import Design
+from rotor.trim.forward import easier_condition
 from rotor.trim.solution import Caveat, HubMoment
 
 LOW_SPEED = 0.075
 """Below this advance ratio linear inflow is not trusted (thesis p. 26)."""
 LOWEST_SPEED = 0.05
-"""Below it the dynamic wake has not been set against a vortex wake; a real wake rolls up there."""
+"""Below it the dynamic wake has not been compared with a vortex wake; a real wake rolls up there."""
 HIGH_SPEED = 0.40
-"""Above it reverse flow and unsteady stall rule; quasi-steady sections no longer do."""
+"""Above it reverse flow and unsteady stall dominate; quasi-steady sections are not enough."""
 STALL_SHARE = 0.02
-"""Stalled part of the disk from which dynamic stall would matter to the numbers."""
+"""Stalled part of the disk above which dynamic stall would change the numbers."""
 
 
 def caveats(problem: Problem, elements: BladeElements, stalled: float, moment: HubMoment) -> tuple[Caveat, ...]:
@@ -31,59 +32,60 @@ def caveats(problem: Problem, elements: BladeElements, stalled: float, moment: H
     if design.aircraft.hub == "teetering":
         add(
             "teetering",
-            "A teetering hub holds its coning; here the blades cone as if hinged at the shaft, where they teeter.",
+            "A teetering hub fixes the coning; here each blade cones as if hinged at the shaft.",
         )
     if design.tail_rotor is None and design.models.tail_rotor_solved:
         add(
             "no-tail-rotor",
-            f"The rotor file has no tail rotor: {100.0 * FIXED_SHARE:.0f} % of the main rotor's power stand for it.",
+            f"The rotor file has no tail rotor: it is taken as {100.0 * FIXED_SHARE:.0f} % of main-rotor power.",
         )
     if design.preset == "thesis" and design.aircraft.stated is None:
         add(
             "thesis-models",
-            f"The document knows no {design.aircraft.name}: these are its models on this rotor's own blade.",
+            f"The document does not treat the {design.aircraft.name}: its models are applied to this rotor's blade.",
         )
     off = switched_off(design.models)
     if off:
         names = ", ".join(switch.title.lower() for switch in off)
-        add("switched-off", f"Switched off: {names}: a lesson, not the aircraft.")
+        add("switched-off", f"Switched off: {names}. For teaching; not the real aircraft.")
     if not design.models.flapping and mu > 0.0:
         add("rigid-blades", _rigid(moment))
         if not problem.inflow.load_dependent:
             add(
                 "rigid-blades-linear-inflow",
-                "Linear inflow does not answer to lopsided lift: the induced power of rigid blades comes out too low.",
+                "Linear inflow does not respond to loading: the induced power of rigid blades is too low.",
             )
     if design.active_twist and design.hovering:
-        add(
-            "active-twist-rests", "Active twist follows the azimuth and rests in hover; only the twist law counts here."
-        )
+        add("active-twist-rests", "Harmonic active twist is off in hover; only the twist law counts here.")
     if 0.0 < mu < LOW_SPEED and not problem.inflow.load_dependent:
-        add("low-speed-inflow", f"Linear inflow is not trusted below advance ratio {LOW_SPEED:g}; this is {mu:.3f}.")
+        add("low-speed-inflow", f"Linear inflow is not valid below advance ratio {LOW_SPEED:g}; this is {mu:.3f}.")
     elif 0.0 < mu < LOWEST_SPEED:
         add(
             "low-speed-inflow",
-            f"No skewed-wake model is proven below advance ratio {LOWEST_SPEED:g}; this is {mu:.3f}.",
+            f"No skewed-wake model is validated below advance ratio {LOWEST_SPEED:g}; this is {mu:.3f}.",
         )
     if mu > HIGH_SPEED:
         add(
             "high-speed",
-            f"Above advance ratio {HIGH_SPEED:.2f} quasi-steady sections and rigid blades are a rough guide.",
+            f"Above advance ratio {HIGH_SPEED:.2f} quasi-steady sections and rigid blades are only a rough guide.",
         )
     if stalled > STALL_SHARE:
-        add("stall", f"{100.0 * stalled:.1f} % of the disk is stalled; section data are steady, without dynamic stall.")
+        add(
+            "stall",
+            f"{100.0 * stalled:.1f} % of the disk is stalled; section data are steady: dynamic stall is not modelled.",
+        )
     top_mach = float(elements.loads[kernel.MACH].max())
     if disk.fit_range is not None:
         if top_mach > 0.5:
             add(
                 "no-compressibility",
-                f"The section polar is for one Mach number (0.3); the tip reaches Mach {top_mach:.2f}.",
+                f"The section polar holds for one Mach number (0.3); the tip reaches Mach {top_mach:.2f}.",
             )
         clamped = _outside_fit(problem, elements, disk.fit_range)
         if clamped > 0.0:
             add(
                 "polynomial-clamped",
-                f"{100.0 * clamped:.1f} % of the disk is outside the polynomials' fit and clamped.",
+                f"{100.0 * clamped:.1f} % of the disk is outside the fitted range of the polynomials and clamped.",
             )
     elif top_mach > disk.mach_limit:
         add(
@@ -97,7 +99,7 @@ def _rigid(moment: HubMoment) -> str:
     side = "retreating" if moment.roll >= 0.0 else "advancing"
     nose = "up" if moment.pitch >= 0.0 else "down"
     return (
-        f"Blades held rigid, no cyclic: the hub carries {abs(moment.roll) / 1e3:.0f} kN m rolling to the {side} side "
+        f"Rigid blades, no cyclic: the hub carries {abs(moment.roll) / 1e3:.0f} kN m of roll to the {side} side "
         f"and {abs(moment.pitch) / 1e3:.0f} kN m nose-{nose}."
     )
 
@@ -105,19 +107,22 @@ def _rigid(moment: HubMoment) -> str:
 def failure_sentence(design: Design, reached: float, stalled: float) -> str:
     """Why a design did not trim, and what would help."""
     condition = design.condition
-    share = f" {100.0 * stalled:.0f} % of the disk is stalled at the last attempt." if stalled > STALL_SHARE else ""
+    share = f" {100.0 * stalled:.0f} % of the disk is stalled in the last attempt." if stalled > STALL_SHARE else ""
     if design.hovering:
         return (
-            f"Not trimmed: the hovering rotor makes at most {100.0 * reached:.0f} % of the thrust that "
-            f"{condition.mass:.0f} kg at {condition.altitude:.0f} m needs; lower the weight or the altitude."
+            f"Not trimmed: in hover the rotor makes at most {100.0 * reached:.0f} % of the thrust needed for "
+            f"{condition.mass:.0f} kg at {condition.altitude:.0f} m. Lower the mass or the altitude."
         )
-    how_far = (
-        f" Coming from a lighter rotor, the trim ends {100.0 * reached:.0f} % of the way." if reached > 0.0 else ""
-    )
+    near = easier_condition(design, reached)
+    how_far = ""
+    if reached > 0.0 and near.advance_ratio == condition.advance_ratio:
+        how_far = f" A trim exists only up to {100.0 * near.mass / condition.mass:.0f} % of this mass."
+    elif reached > 0.0:
+        how_far = f" The nearest trim found is at {near.mass:.0f} kg and advance ratio {near.advance_ratio:.3f}."
     return (
         f"Not trimmed: {condition.mass:.0f} kg at {condition.altitude:.0f} m and advance ratio "
         f"{condition.advance_ratio:.3f} is beyond this rotor.{how_far}{share} "
-        f"Lower the weight, the altitude or the speed{'' if design.models.flapping else ', or let the blades flap'}."
+        f"Lower the mass, the altitude or the speed{'' if design.models.flapping else ', or let the blades flap'}."
     )
 
 

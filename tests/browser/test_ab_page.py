@@ -72,7 +72,7 @@ def test_pin_move_compare_swap_back_and_let_go(browser: "Browser", app: App):
     page.wait_for_selector('[data-explorer="ab"]', state="detached", timeout=WAIT)
     page.wait_for_selector('[data-explorer="pinned"]', state="detached", timeout=WAIT)
     watched.until_changed(lambda: ghost_seen(watched), True)
-    assert "against UH-60A twist" in watched.text("power")
+    assert "vs. UH-60A as built" in watched.text("power")
     assert watched.text("colour-bar").startswith("Angle of attack [°]\n")
     assert page.get_by_label("Show B − A").count() == 0
     page.wait_for_function("() => Object.keys(window.__viserTestpoints.uplots).length === 4", timeout=WAIT)

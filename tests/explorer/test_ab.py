@@ -192,13 +192,13 @@ class TestReadOut:
 
     def test_where_a_has_no_trim_there_are_dashes_and_a_sentence(self, lost: Solution, b: Solution):
         html = ab_readout.power_panel(b, lost)
-        assert "no trim here" in html
+        assert "no trim at this condition" in html
         assert cells(html, "Total")[1] == "–"
         assert cells(html, "Total")[3:] == ["–", "–"]
         assert 'data-explorer="change"' not in html
         assert "–" in ab_readout.trim_panel(b, lost)
         assert "A: Not trimmed: too heavy." in status_panel(b, pinned=lost)
-        assert "no trim here" in ab_readout.pinned_line("linear", lost, "")
+        assert "no trim at this condition" in ab_readout.pinned_line("linear", lost, "")
 
     def test_trim_of_both(self, along: Solution, b: Solution):
         html = ab_readout.trim_panel(b, along)
@@ -212,7 +212,7 @@ class TestReadOut:
         stall, mach = Caveat("stall", "Stalled."), Caveat("mach", "Fast.")
         noted = cautions(replace(b, caveats=(stall, mach)), replace(along, caveats=(stall,)))
         assert noted == ["Stalled.", "B: Fast."]
-        assert "do not fly the same" in cautions(b, a)[0]
+        assert "fly at different conditions" in cautions(b, a)[0]
         other = replace(along, design=replace(along.design, models=replace(QUICK, inflow="drees")))
         assert "different models" in cautions(b, other)[0]
         assert cautions(replace(b, caveats=(stall,)), None) == ["Stalled."]

@@ -44,7 +44,7 @@ def no_stop() -> bool:
 
 def run_of(request: SearchRequest, design: Any) -> SearchRun:
     """A search run here, its news heard as from a process."""
-    run = SearchRun(request.search(design, mission.legs), "UH-60A twist")
+    run = SearchRun(request.search(design, mission.legs), "UH-60A as built")
     run.on_event(JobStarted())
     task = SearchTask(run.search, baseline_of(design))
     run.on_event(JobEnded(task.run(lambda item: run.on_event(JobProgress(item)), no_stop)))

@@ -182,7 +182,7 @@ class Checked(HTMLParser):
 @pytest.fixture(scope="module")
 def report() -> DesignReport:
     return report_of(
-        ReportEntry("UH-60A twist", BASELINE), [ReportEntry("Now", NOW), ReportEntry("Kept <1>", FAST)], VIEW
+        ReportEntry("UH-60A as built", BASELINE), [ReportEntry("Now", NOW), ReportEntry("Kept <1>", FAST)], VIEW
     )
 
 

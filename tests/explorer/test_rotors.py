@@ -138,7 +138,7 @@ def test_the_picture_has_the_rotors_own_blades(r22: Solution):
 
 def test_read_outs_name_the_rotor_and_leave_out_a_bound_that_is_anothers(r22: Solution):
     html = power_panel(r22, solve(baseline_of(r22.design)))
-    assert "against Robinson R22 twist" in html
+    assert "vs. Robinson R22 as built" in html
     assert "ideal: not computed for this rotor" in ideal_line(r22, None)
     assert f"{r22.power.total / 1e3:.1f} kW" in html  # A light one is told to a tenth.
 

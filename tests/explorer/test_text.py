@@ -88,7 +88,7 @@ class TestReadout:
         total = number(forward.power.total / 1e3)
         assert f">{total} kW<" in html
         assert number(forward.power.total / 745.699872) + " hp" in html
-        for title in ("Induced", "Profile", "Parasite", "Tail rotor", "against UH-60A twist"):
+        for title in ("Induced", "Profile", "Parasite", "Tail rotor", "vs. UH-60A as built"):
             assert title in html
         assert ">0.0 %<" in html
 
@@ -120,8 +120,8 @@ class TestReadout:
         lost = replace(forward, status=Status.NOT_CONVERGED, message="Not trimmed: too heavy.")
         html = status_panel(lost)
         assert 'data-kind="problem"' in html
-        assert "Not trimmed: too heavy. In grey" in html
-        assert "choose less. In grey" in status_panel(None, "too much: choose less")
+        assert "Not trimmed: too heavy. Greyed: last converged solution" in html
+        assert "choose less. Greyed" in status_panel(None, "too much: choose less")
 
     def test_provenance_names_preset_inflow_sections_and_kind(self, forward: Solution):
         html = provenance(forward)
@@ -148,7 +148,7 @@ class TestReadout:
         assert 0.5 * forward.power.induced < ideal < forward.power.induced
         fast = solve(make_design(mu=0.43, mass_kg=6000.0)).require()
         assert readout.ideal_induced(fast) is None
-        assert "not settled" in readout.power_panel(fast, None)
+        assert "not converged above" in readout.power_panel(fast, None)
 
     def test_check_with_the_vortex_wake(self, forward: Solution):
         assert "computing" in readout.check_panel(None, forward)

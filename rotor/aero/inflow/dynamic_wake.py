@@ -278,19 +278,19 @@ DYNAMIC_WAKES = (
     DynamicWakeInflow(
         "dynamic-wake",
         "Dynamic wake (Peters–He)",
-        "Answers to where the lift is, with this rotor's own blades: the disk shows what each blade meets at ψ.",
+        "Responds to the load distribution, blade by blade: the disk shows the inflow each blade meets at ψ.",
         order=8,
     ),
     DynamicWakeInflow(
         "dynamic-wake-quick",
         "Dynamic wake, few states",
-        "The same theory with fewer shapes: quicker and coarser.",
+        "The same theory with fewer states: faster and coarser.",
         order=4,
     ),
     DynamicWakeInflow(
         "dynamic-wake-infinite-blades",
         "Dynamic wake, infinite blades",
-        "The time-averaged wake of infinitely many blades with Prandtl's tip factor: compare it with the real number.",
+        "The time-averaged wake of infinitely many blades, with Prandtl's tip factor.",
         order=8,
         infinite_blades=True,
     ),

@@ -69,7 +69,9 @@ class LocalMomentumInflow:
 
     name = "local-momentum"
     title = "Local momentum (sectors)"
-    explanation = "Each sector answers its own load, with a fore-aft gradient: induced power 17–39 % low beyond µ 0.3."
+    explanation = (
+        "Each sector balances its own load, with a fore-aft gradient; induced power is 17–39 % low beyond µ 0.3."
+    )
     tip: bool = True
 
     load_dependent = True

@@ -71,7 +71,9 @@ class VortexWakeInflow:
 
     name = "vortex-wake"
     title = "Vortex wake (rigid helices)"
-    explanation = "Each blade trails a rigid helical vortex sheet: the reference for the others, a second or so a trim."
+    explanation = (
+        "Each blade trails a rigid helical vortex sheet: the reference for the others; a trim takes about a second."
+    )
     load_dependent = True
 
     def without_tip_loss(self) -> "VortexWakeInflow":
