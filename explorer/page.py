@@ -17,6 +17,7 @@ from explorer.picture.camera_views import View
 from explorer.pinned import Pinned
 from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
+from explorer.scene.grab import BladeGrab
 from explorer.scene.overlays import Strip, ghost_of
 from explorer.sharing import share
 from explorer.sharing.address import Address
@@ -209,6 +210,7 @@ class Page:
         self._refresh(reading)
         self.history.solved(reading.inputs, state.solution.power.total)
         self.results.show(state, self._pause)
+        self._show_hand(state)
         self.display.show(state)
 
     def show_power(self, state: SessionState, curve: PowerCurve, failed: bool = False) -> None:
@@ -283,6 +285,8 @@ class Page:
         bridge.on("colours", self._colour)
         bridge.on("play", lambda _: self.probe.toggle())
         self.results.curve.bind(context, lambda: not self._held)
+        blade = self.scene.scene.rotor.reference_blade
+        self.grab = BladeGrab(blade, context, lambda: not self._held, self._grabbed)
         self.top.bind(context)
         self._presence.begin(context, PresentationHooks(lambda: self.lecture.step, self.lecture.follow, self._hold))
         bind_commands(context, Actions(self._look, self._colour, self._check, self._reset, self.optimise.toggle))
@@ -295,6 +299,23 @@ class Page:
         self._held = held
         for part in (self.controls, self.display, self.top, self.lecture, self._keyboard):
             part.hold(held)
+
+    def _grabbed(self, held: bool) -> None:
+        """The reference blade was taken by the hand, or let go."""
+        tracker = self.results.card.tracker
+        if held:
+            tracker.grab()
+        else:
+            tracker.release()
+            self.bridge.set(hand=None)
+        self.history.grab(held)
+        self._callbacks.wake()
+
+    def _show_hand(self, state: SessionState) -> None:
+        """Power and its change beside the pointer, while the blade is held."""
+        hand, place = self.results.card.hand(UNITS[state.view.units]), self.grab.place
+        if hand is not None and place:
+            self.bridge.set(hand={**hand, "place": place})
 
     def _prompt(self) -> None:
         """What to do first, until something was done."""

@@ -41,13 +41,23 @@ class History:
     """The next step to redo last."""
     _moving: frozenset[str] = frozenset()
     """What the present step has moved."""
+    _held: bool = False
+    """Whether something is held: all that moves until it is let go is one step."""
+
+    def hold(self) -> None:
+        """Something was taken by the hand: what moves from now on is a step of its own."""
+        self._held, self._moving = True, frozenset()
+
+    def release(self) -> None:
+        """It was let go: what moves next is another step."""
+        self._held, self._moving = False, frozenset()
 
     def note(self, inputs: Inputs, pause: float) -> bool:
         """Take the inputs of a round, and the longest pause [s] in moving them; whether they begin a new step."""
         moved = differing(self.present, inputs)
         if not moved:
             return False
-        dragging = moved <= self._moving and pause < PAUSE
+        dragging = bool(self._moving) if self._held else moved <= self._moving and pause < PAUSE
         if not dragging:
             self.past = [*self.past, self.present][-STEPS:]
             self._moving = moved

@@ -42,6 +42,15 @@ class HistoryPanel:
             self._history.note(inputs, pause)
         return inputs
 
+    def grab(self, held: bool) -> None:
+        """A blade or a curve is taken by the hand, or let go: what moves in between is one step."""
+        with self._lock:
+            if held:
+                self._history.hold()
+            else:
+                self._history.note(self._context.inputs(), 0.0)
+                self._history.release()
+
     def solved(self, inputs: Inputs, power: float) -> None:
         """They have an answer: total power [W]."""
         self._powers[inputs] = power

@@ -1,0 +1,209 @@
+"""Twisting the blade by hand: from a drag in the scene to the inputs on the sliders. Values only.
+
+The stations that can be grabbed are the root, the divisions and the tip. Turning one twists the pieces on both sides of
+it, so the station turns by that angle relative to its neighbours. Sliding a division moves it along the blade.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from explorer.sliders import limits, slider
+from explorer.state import LAWS, Inputs
+from explorer.text.units import SI
+from rotor.arrays import Array
+
+DEGREES_PER_RADIUS = 12.0
+"""How far a station turns [°] when the pointer moves by the rotor's radius across the blade."""
+_DECIDED = 0.015
+"""Movement, in radii, after which a drag is either a turn or a slide."""
+_ALONG = 1.7
+"""A drag slides a division when it goes this many times as far along the blade as across it."""
+_NEAR = 0.12
+"""A drag along the blade moves a division that is no further away [R]."""
+_GAP = 0.02
+"""Least distance of two divisions [R]."""
+PIECES = {
+    "linear": (("linear",), ()),
+    "builtin": (("built_inner", "built_outer"), ("built_division",)),
+    "two": (("two_inner", "two_outer"), ("two_division",)),
+    "three": (("three_inner", "three_middle", "three_outer"), ("three_first", "three_second")),
+}
+"""Rates and divisions, root to tip, of the laws made of straight pieces: fields of `Inputs`."""
+
+
+@dataclass(frozen=True)
+class Station:
+    """A place of the blade that can be grabbed."""
+
+    index: int
+    """From 0 at the root."""
+    r: float
+    """r/R"""
+    title: str
+    division: str | None = None
+    """Field of `Inputs` that sliding it changes."""
+
+
+@dataclass(frozen=True)
+class Movement:
+    """A drag seen by the viewer, in radii."""
+
+    along: float
+    """Outward along the blade."""
+    across: float
+    """Square to it on the screen, upward."""
+
+
+def grabbed_inputs(inputs: Inputs) -> Inputs:
+    """The inputs with a law that can be grabbed: any other is replaced by the nearest two segments."""
+    if inputs.law in PIECES or inputs.law == "quadratic":
+        return inputs
+    root = inputs.aircraft.rotor_for(inputs.preset).blade.root_cutout
+    twist, division = inputs.design().twist, 0.5
+    rates = {}
+    for name, ends in (("two_inner", (root, division)), ("two_outer", (division, 1.0))):
+        r = np.linspace(*ends, 30)
+        rates[name] = _onto(name, math.degrees(np.polyfit(r, twist(r), 1)[0]))
+    return replace(inputs, law="two", two_division=division, given=None, found=None, airfoils=inputs.airfoils, **rates)
+
+
+def stations(inputs: Inputs) -> tuple[Station, ...]:
+    """Where the law on the sliders can be grabbed, root to tip; none for a law without sliders."""
+    root = inputs.aircraft.rotor_for(inputs.preset).blade.root_cutout
+    if inputs.law == "quadratic":
+        return Station(0, root, "root"), Station(1, 0.5 * (root + 1.0), "middle"), Station(2, 1.0, "tip")
+    if inputs.law not in PIECES:
+        return ()
+    divisions = PIECES[inputs.law][1]
+    middle = [Station(k + 1, getattr(inputs, name), "division", name) for k, name in enumerate(divisions)]
+    return Station(0, root, "root"), *middle, Station(len(divisions) + 1, 1.0, "tip")
+
+
+def nearest_station(inputs: Inputs, r: float) -> Station | None:
+    """The station closest to r/R; None for a law without."""
+    return min(stations(inputs), key=lambda station: abs(station.r - r), default=None)
+
+
+def turned(inputs: Inputs, station: Station, degrees: float) -> Inputs:
+    """The inputs with a station turned nose up relative to its neighbours, as far as the sliders go."""
+    if inputs.law == "quadratic":
+        return _turned_quadratic(inputs, station, degrees)
+    rates = PIECES[inputs.law][0]
+    places = [one.r for one in stations(inputs)]
+    # Degrees per radius that a degree of this station means for the piece inboard of it and the one outboard.
+    slopes: dict[str, float] = {}
+    if station.index > 0:
+        slopes[rates[station.index - 1]] = 1.0 / (places[station.index] - places[station.index - 1])
+    if station.index < len(rates):
+        slopes[rates[station.index]] = -1.0 / (places[station.index + 1] - places[station.index])
+    return _stepped(inputs, slopes, degrees)
+
+
+def _turned_quadratic(inputs: Inputs, station: Station, degrees: float) -> Inputs:
+    """The ends change the twist from root to tip; the middle bends the blade away from its chord line."""
+    root = inputs.aircraft.rotor_for(inputs.preset).blade.root_cutout
+    if station.index == 1:
+        # A parabola lies a quarter of its coefficient times the square of its span below its chord.
+        return _stepped(inputs, {"quadratic_curvature": -4.0 / (1.0 - root) ** 2}, degrees)
+    # The slider holds the difference over the whole radius, of which the blade covers a part.
+    slope = 1.0 / (1.0 - root)
+    return _stepped(inputs, {"quadratic_difference": slope if station.index else -slope}, degrees)
+
+
+def _stepped(inputs: Inputs, slopes: dict[str, float], degrees: float) -> Inputs:
+    """Every named input moved by `slopes` times `degrees`; all stop when the first meets its limit."""
+    for name, slope in slopes.items():
+        low, high = limits(name)
+        ends = sorted(((low - getattr(inputs, name)) / slope, (high - getattr(inputs, name)) / slope))
+        degrees = min(max(degrees, ends[0]), ends[1])
+    values: dict[str, Any] = {name: _onto(name, getattr(inputs, name) + s * degrees) for name, s in slopes.items()}
+    return replace(inputs, **values)
+
+
+def slid(inputs: Inputs, station: Station, r: float) -> Inputs:
+    """The inputs with a division at another r/R, between its neighbours and within its slider."""
+    if station.division is None:
+        return inputs
+    others = [one.r for one in stations(inputs)]
+    low, high = limits(station.division)
+    inboard, outboard = others[station.index - 1], others[station.index + 1]
+    value = min(max(r, low, inboard + _GAP), high, outboard - _GAP)
+    return replace(inputs, **{station.division: _onto(station.division, value)})  # pyright: ignore[reportArgumentType]
+
+
+def movement(start: ArrayLike, end: ArrayLike, outward: ArrayLike, sight: ArrayLike, radius: float) -> Movement:
+    """A drag from `start` to `end` [m] over a blade that points `outward`, seen along `sight`.
+
+    The points lie in a plane square to the line of sight. Upward is with the world's z; for a blade that stands upright
+    on the screen it is to the viewer's left.
+    """
+    sight = np.asarray(sight, dtype=np.float64) / np.linalg.norm(sight)
+    outward = np.asarray(outward, dtype=np.float64) / np.linalg.norm(outward)
+    seen = outward - (outward @ sight) * sight
+    length = max(float(np.linalg.norm(seen)), 0.15)  # A blade that points at the viewer is not stretched without end.
+    seen = seen / max(float(np.linalg.norm(seen)), 1e-9)
+    across = np.cross(seen, sight)
+    if across[2] < 0.0:
+        across = -across
+    moved: Array = np.asarray(end, dtype=np.float64) - np.asarray(start, dtype=np.float64)
+    return Movement(float(moved @ seen) / (length * radius), float(moved @ across) / radius)
+
+
+@dataclass(frozen=True)
+class Grab:
+    """One drag, from the press to the release: where it began, and on what."""
+
+    before: Inputs
+    """On the sliders when it began."""
+    inputs: Inputs
+    """The same with a law that can be grabbed."""
+    r: float
+    """r/R of the point that was pressed."""
+    station: Station
+    slides: bool | None = None
+    """Whether it moves a division; None while it is not decided."""
+
+    def decided(self, move: Movement, shift: bool = False) -> "Grab":
+        """The same once the drag has gone far enough to tell what it is; `shift` asks for a slide."""
+        if self.slides is not None or (math.hypot(move.along, move.across) < _DECIDED and not shift):
+            return self
+        near = self.station.division is not None and (shift or abs(self.station.r - self.r) < _NEAR)
+        return replace(self, slides=near and (shift or abs(move.along) > _ALONG * abs(move.across)))
+
+    def moved(self, move: Movement) -> Inputs:
+        """The inputs that the drag has led to."""
+        if self.slides is None:
+            return self.before
+        if self.slides:
+            return slid(self.inputs, self.station, self.station.r + move.along)
+        return turned(self.inputs, self.station, DEGREES_PER_RADIUS * move.across)
+
+    def place(self, inputs: Inputs) -> str:
+        """Where the hand is, in words: the station and its twist, or the division's place."""
+        if self.slides and self.station.division is not None:
+            return f"division {getattr(inputs, self.station.division):.2f} R"
+        twist = LAWS[inputs.law].make(inputs)
+        law = inputs.design().twist if isinstance(twist, str) else twist
+        angle = math.degrees(float(law(np.array([self.station.r]))[0]))
+        words = f"{self.station.title} {self.station.r:.2f} R · θ {angle:+.1f}°"
+        return words.replace("-", "−")
+
+
+def begin(inputs: Inputs, r: float, shift: bool = False) -> Grab | None:
+    """A press on the blade at r/R; `shift` takes the nearest division. None where there is nothing to grab."""
+    ready = grabbed_inputs(inputs)
+    choice = [one for one in stations(ready) if one.division is not None] if shift else list(stations(ready))
+    if not choice:
+        return None
+    return Grab(inputs, ready, r, min(choice, key=lambda station: abs(station.r - r)))
+
+
+def _onto(name: str, value: float) -> float:
+    """The nearest place that the slider has."""
+    step = slider(name, SI).step
+    low, high = limits(name)
+    return round(min(max(step * round(value / step), low), high), 4)

@@ -1,0 +1,220 @@
+"""Twisting the blade by hand: geometry of the drag, what it does to the sliders, limits, and one step of undo."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from explorer.grab import (
+    DEGREES_PER_RADIUS,
+    PIECES,
+    Grab,
+    Movement,
+    begin,
+    grabbed_inputs,
+    movement,
+    nearest_station,
+    slid,
+    stations,
+    turned,
+)
+from explorer.sliders import limits
+from explorer.state import Inputs
+from explorer.undo import History
+
+TWO = Inputs(law="two", two_inner=-14.0, two_outer=-8.0, two_division=0.5)
+ROOT = TWO.aircraft.rotor_for("flight").blade.root_cutout
+
+
+def angles(inputs: Inputs, *r: float) -> np.ndarray:
+    """Twist [°] at r/R."""
+    return np.degrees(inputs.design().twist(np.array(r)))
+
+
+class TestStations:
+    @pytest.mark.parametrize("law", PIECES)
+    def test_root_divisions_and_tip_in_order(self, law: str):
+        places = [station.r for station in stations(Inputs(law=law))]
+        assert places[0] == ROOT
+        assert places[-1] == 1.0
+        assert places == sorted(places)
+        assert len(places) == len(PIECES[law][0]) + 1
+
+    def test_the_nearest_is_taken(self):
+        for r, title in ((0.2, "root"), (0.45, "division"), (0.93, "tip")):
+            station = nearest_station(TWO, r)
+            assert station is not None
+            assert station.title == title
+
+    @pytest.mark.parametrize("law", ["ideal", "found"])
+    def test_a_law_without_sliders_becomes_the_nearest_two_segments(self, law: str):
+        inputs = Inputs(law=law)
+        ready = grabbed_inputs(inputs)
+        assert ready.law == "two"
+        r = np.linspace(0.25, 0.95, 30)
+        before, after = inputs.design().twist(r), ready.design().twist(r)
+        # Ideal twist is steepest at the root.
+        assert np.abs((before - before.mean()) - (after - after.mean())).max() < math.radians(4.5)
+
+    @pytest.mark.parametrize("law", [*PIECES, "quadratic"])
+    def test_a_law_with_sliders_stays(self, law: str):
+        assert grabbed_inputs(Inputs(law=law)) == Inputs(law=law)
+
+
+class TestTurning:
+    @pytest.mark.parametrize("law", [*PIECES, "quadratic"])
+    def test_a_turned_end_turns_by_that_angle_relative_to_its_neighbour(self, law: str):
+        inputs = replace(Inputs(law=law), quadratic_curvature=0.0)
+        for index in (0, -1):
+            station = stations(inputs)[index]
+            neighbour = stations(inputs)[1 if index == 0 else -2]
+            if law == "quadratic":  # Its ends turn against each other.
+                neighbour = stations(inputs)[-1 if index == 0 else 0]
+            after = turned(inputs, station, 2.0)
+            change = angles(after, station.r, neighbour.r) - angles(inputs, station.r, neighbour.r)
+            assert change[0] - change[1] == pytest.approx(2.0, abs=0.05)
+
+    @pytest.mark.parametrize("law", ["two", "three", "builtin"])
+    def test_a_turned_division_bends_the_blade_and_leaves_the_rest_alone(self, law: str):
+        """Relative to the line between its neighbours it turns by the angle; root and tip keep their difference."""
+        inputs = Inputs(law=law)
+        station = stations(inputs)[1]
+        inboard, outboard = stations(inputs)[0].r, stations(inputs)[2].r
+        after = turned(inputs, station, 1.5)
+        change = angles(after, inboard, station.r, outboard) - angles(inputs, inboard, station.r, outboard)
+        assert change[2] - change[0] == pytest.approx(0.0, abs=0.06)
+        assert change[1] - change[0] == pytest.approx(1.5, abs=0.06)
+
+    def test_the_middle_of_a_quadratic_bends_it(self):
+        inputs = Inputs(law="quadratic", quadratic_curvature=0.0, quadratic_difference=-10.0)
+        root, middle, tip = stations(inputs)
+        after = turned(inputs, middle, 1.0)
+        at = angles(after, root.r, middle.r, tip.r)
+        # The slider has steps of 0.5 °/R², 0.1° of bend.
+        assert at[1] - 0.5 * (at[0] + at[2]) == pytest.approx(1.0, abs=0.1)
+
+    @pytest.mark.parametrize("degrees", [-80.0, 80.0])
+    @pytest.mark.parametrize("law", [*PIECES, "quadratic"])
+    def test_no_slider_leaves_its_limits(self, law: str, degrees: float):
+        for station in stations(Inputs(law=law)):
+            after = turned(Inputs(law=law), station, degrees)
+            for name in (*PIECES.get(law, ((), ()))[0], "quadratic_curvature", "quadratic_difference"):
+                low, high = limits(name)
+                assert low <= getattr(after, name) <= high
+
+    def test_at_a_limit_both_sides_stop_together(self):
+        """The bend stays what the hand has made it: one piece does not go on alone."""
+        inputs = replace(TWO, two_inner=9.0)
+        after = turned(inputs, stations(inputs)[1], 10.0)
+        assert after.two_inner == 10.0
+        bent = (after.two_inner - 9.0) * (0.5 - ROOT)
+        assert after.two_outer == pytest.approx(-8.0 - bent / 0.5, abs=0.06)
+
+
+class TestSliding:
+    def test_a_division_follows_the_hand_between_its_neighbours(self):
+        three = Inputs(law="three")
+        first, second = stations(three)[1:3]
+        assert slid(three, first, 0.5).three_first == 0.5
+        assert slid(three, first, 0.9).three_first == pytest.approx(three.three_second - 0.02)
+        assert slid(three, second, 0.1).three_second == pytest.approx(three.three_first + 0.02)
+        assert slid(three, second, 1.2).three_second == limits("three_second")[1]
+
+    def test_an_end_does_not_slide(self):
+        assert slid(TWO, stations(TWO)[-1], 0.7) == TWO
+
+
+class TestMovement:
+    """A blade that points to starboard, seen from behind: along is to the right, across is up."""
+
+    SIGHT = (-1.0, 0.0, 0.0)
+
+    def test_right_is_along_and_up_is_across(self):
+        assert movement((0, 4, 0), (0, 6, 0), (0, 4, 0), self.SIGHT, 8.0) == Movement(pytest.approx(0.25), 0.0)
+        assert movement((0, 4, 0), (0, 4, 1), (0, 4, 0), self.SIGHT, 8.0) == Movement(0.0, pytest.approx(0.125))
+
+    def test_a_foreshortened_blade_still_goes_with_the_pointer(self):
+        """Seen at 60° to its length it is half as long: half the movement means the whole."""
+        outward = (math.sin(math.radians(60.0)), math.cos(math.radians(60.0)), 0.0)
+        move = movement((0, 0, 0), (0, 1, 0), outward, self.SIGHT, 8.0)
+        assert move.along == pytest.approx(2.0 / 8.0)
+
+    def test_up_is_up_from_either_side(self):
+        for sight in (self.SIGHT, (1.0, 0.0, 0.0)):
+            assert movement((0, 4, 0), (0, 4, 1), (0, 1, 0), sight, 8.0).across > 0.0
+
+    def test_a_blade_towards_the_viewer_stays_finite(self):
+        move = movement((0, 0, 0), (0, 0.5, 0.5), (1.0, 0.0, 0.0), self.SIGHT, 8.0)
+        assert math.isfinite(move.along)
+        assert math.isfinite(move.across)
+
+
+def grab_at(r: float, shift: bool = False) -> Grab:
+    grab = begin(TWO, r, shift)
+    assert grab is not None
+    return grab
+
+
+class TestGrab:
+    def test_a_small_movement_is_nothing_yet(self):
+        grab = grab_at(0.95).decided(Movement(0.004, 0.004))
+        assert grab.slides is None
+        assert grab.moved(Movement(0.004, 0.004)) == TWO
+
+    def test_across_at_the_tip_turns_it_in_proportion(self):
+        move = Movement(0.0, 0.25)
+        grab = grab_at(0.95).decided(move)
+        after = grab.moved(move)
+        change = angles(after, 1.0, 0.5) - angles(TWO, 1.0, 0.5)
+        assert change[0] - change[1] == pytest.approx(0.25 * DEGREES_PER_RADIUS, abs=0.05)
+        assert after.two_inner == TWO.two_inner
+
+    def test_along_at_a_division_slides_it_by_as_much(self):
+        move = Movement(0.1, 0.02)
+        after = grab_at(0.52).decided(move).moved(move)
+        assert after.two_division == pytest.approx(0.6)
+        assert (after.two_inner, after.two_outer) == (TWO.two_inner, TWO.two_outer)
+
+    def test_along_the_tip_does_not_slide(self):
+        move = Movement(0.1, 0.02)
+        assert grab_at(0.97).decided(move).slides is False
+
+    def test_what_a_drag_is_stays_decided(self):
+        grab = grab_at(0.52).decided(Movement(0.0, 0.1))
+        assert grab.slides is False
+        assert grab.decided(Movement(0.4, 0.1)).slides is False
+
+    def test_shift_takes_the_nearest_division_from_anywhere(self):
+        move = Movement(0.0, 0.05)
+        grab = grab_at(0.95, shift=True).decided(move, shift=True)
+        assert grab.slides is True
+        assert grab.station.title == "division"
+
+    def test_back_at_the_start_the_blade_is_as_it_was(self):
+        grab = grab_at(0.95).decided(Movement(0.0, 0.2))
+        assert grab.moved(Movement(0.0, 0.0)) == TWO
+
+    def test_the_place_is_said_with_a_true_minus(self):
+        grab = grab_at(0.95).decided(Movement(0.0, 0.2))
+        assert grab.place(TWO) == "tip 1.00 R · θ −2.0°"
+        assert replace(grab_at(0.5), slides=True).place(TWO) == "division 0.50 R"
+
+
+class TestUndo:
+    def test_one_drag_is_one_step_however_long_and_whatever_it_moves(self):
+        history = History(TWO)
+        history.hold()
+        for inner, outer in ((-13.9, -8.0), (-13.5, -8.5), (-13.0, -9.0)):
+            history.note(replace(TWO, two_inner=inner, two_outer=outer), pause=5.0)
+        history.release()
+        assert len(history.past) == 1
+        assert history.undo() == TWO
+
+    def test_the_next_drag_is_another_step(self):
+        history = History(TWO)
+        for inner in (-13.0, -12.0):
+            history.hold()
+            history.note(replace(TWO, two_inner=inner), pause=0.1)
+            history.release()
+        assert len(history.past) == 2
