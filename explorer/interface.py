@@ -34,7 +34,7 @@ class SessionState:
     """What was pinned: its inputs, its title, and its solution at that time."""
 
     def only_turned(self, before: "SessionState | None") -> bool:
-        """Whether only the azimuth of the marked blade differs from `before`."""
+        """Whether only the azimuth of the reference blade differs from `before`."""
         return (
             before is not None
             and self.solution is before.solution
@@ -77,7 +77,7 @@ class Frame:
     pinned: Solution | None
     """A, where the disk shows the difference to it."""
     only_azimuth: bool
-    """Whether nothing but the azimuth of the marked blade can have changed since the last frame."""
+    """Whether nothing but the azimuth of the reference blade can have changed since the last frame."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -137,7 +137,7 @@ class SessionPage(Protocol):
         ...
 
     def show_azimuth(self, state: SessionState) -> None:
-        """Only the azimuth of the marked blade changed."""
+        """Only the azimuth of the reference blade changed."""
         ...
 
     def show_results(self, reading: Reading, state: SessionState) -> None:
@@ -175,7 +175,7 @@ class TabContext:
     view: Callable[[], ViewState]
     set_view: Callable[[ViewState], None]
     set_azimuth: Callable[[float], None]
-    """Move the marked blade to an azimuth [deg]. This is the cheapest change and may be called 20 times a second."""
+    """Move the reference blade to an azimuth [deg]. This is the cheapest change and may be called 20 times a second."""
     wake: Callable[[], None]
     """Something changed: the session's worker does another update."""
     download: Callable[[str, bytes], None]
@@ -213,7 +213,7 @@ class SessionCallbacks:
     wake: Callable[[], None]
     """Something changed."""
     azimuth_changed: Callable[[], None]
-    """Only the azimuth of the marked blade changed."""
+    """Only the azimuth of the reference blade changed."""
     state: Callable[[], SessionState | None]
     """The last converged state; None before the first."""
 

@@ -201,7 +201,7 @@ class Page:
             self._show_actuator(reading, solution)
 
     def show_azimuth(self, state: SessionState) -> None:
-        """Only the azimuth of the marked blade changed."""
+        """Only the azimuth of the reference blade changed."""
         self.results.turn(state)
         self.probe.show(state)
 

@@ -15,8 +15,8 @@ from rotor.trim.solve import solve
 Order = Literal["pin", "unpin", "swap", "back"]
 FLIGHT = ("advance_ratio", "mass_t", "altitude_m")
 """The inputs that say what is flown; the others say what flies, and how it is computed."""
-_NO_TRIM = "The design on the sliders has no trim: move a slider back first. Only a design that flies can be A."
-_DRIVEN = "The actuator's drive belongs to its own tab and stays as it is: set it there."
+_NO_TRIM = "The design on the sliders has no trim: move a slider back first. Only a trimmed design can be A."
+_DRIVEN = "The voltage of the actuator is unchanged: set it under Actuate."
 
 
 @dataclass(frozen=True, eq=False)

@@ -55,7 +55,7 @@ class Session:
         self._shown = threading.Event()
         """Set once the page has its first solution, or the sentence why there is none."""
         self._all_changed = True
-        """Whether more than the azimuth of the marked blade may have changed since the last update."""
+        """Whether more than the azimuth of the reference blade may have changed since the last update."""
         self._baseline = solver.BaselineCache()
         self._curves = PowerCurves()
         self._pool = shared.pool
@@ -163,7 +163,7 @@ class Session:
         self._worker.wake()
 
     def _overtaken(self) -> bool:
-        """Whether a newer update waits that changes more than the azimuth of the marked blade."""
+        """Whether a newer update waits that changes more than the azimuth of the reference blade."""
         return self._all_changed and self._worker.superseded
 
     def _freeing(self, idle: IdleTimeout | None) -> IdleTimeout | None:

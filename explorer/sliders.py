@@ -41,7 +41,7 @@ SLIDERS: dict[str, Slider] = {
     "built_outer": Slider("Outboard ±", -20.0, 20.0, 0.1),
     "built_division": Slider("Division [R]", 0.2, 0.95, 0.01),
     "linear": Slider("Rate [°/R]", -30.0, 10.0, 0.1),
-    "quadratic_curvature": Slider("Curve [°/R²]", -40.0, 40.0, 0.5),
+    "quadratic_curvature": Slider("Curvature [°/R²]", -40.0, 40.0, 0.5),
     "quadratic_difference": Slider("Tip−root [°]", -30.0, 10.0, 0.1),
     "two_inner": Slider("Inboard [°/R]", -30.0, 10.0, 0.1),
     "two_outer": Slider("Outboard [°/R]", -30.0, 10.0, 0.1),

@@ -126,7 +126,7 @@ def twist_plot(design: Design, reference: Design, previous: Range | None, pinned
 def alpha_plot(solution: Solution, azimuth_deg: float, pinned: Solution | None = None) -> Plot:
     """Series: negative and positive stall angle, α [°] along the blade at one azimuth; gaps in reverse flow.
 
-    The α of the marked blade alone, or of A and of B when A is pinned.
+    The α of the reference blade alone, or of A and of B when A is pinned.
     """
     low, high = -15.0, 20.0
 
@@ -151,7 +151,7 @@ def angles_along(solution: Solution, azimuth_deg: float) -> tuple[Array, Array, 
 
 
 def lift_plot(solution: Solution, azimuth_deg: float, pinned: Solution | None = None) -> Plot:
-    """Series: Cl along the marked blade at one azimuth, or of A and of B when A is pinned; reverse flow included."""
+    """Series: Cl along the reference blade at one azimuth, or of A and of B when A is pinned; reverse flow included."""
     series = _marked(solution, pinned, lambda one: _at_azimuth(one, one.disk.cl, azimuth_deg))
     return Plot((solution.disk.r, *series), (-0.5, 1.5))
 
@@ -159,7 +159,7 @@ def lift_plot(solution: Solution, azimuth_deg: float, pinned: Solution | None = 
 def _marked(
     solution: Solution, pinned: Solution | None, read: Callable[[Solution], Array]
 ) -> tuple[Array, Array, Array]:
-    """Series of the marked blade, of A, of B, on the elements of `solution`; those that do not apply are empty."""
+    """Series of the reference blade, of A, of B, on the elements of `solution`; those that do not apply are empty."""
     own, r = read(solution), solution.disk.r
     none = np.full_like(own, math.nan)
     if pinned is None:

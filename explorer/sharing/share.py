@@ -35,7 +35,7 @@ _NEVER = ("format", "version", "twist")
 def code_of(design: Design) -> str:
     """The design as a text; ValueError with one sentence for one that no address holds."""
     if design.aircraft.files is not None:
-        raise ValueError("A rotor of your own fits in no address: save it as a design file and send that.")
+        raise ValueError("Your own rotor does not fit in a link: save a design file and send that.")
     record = design_record(design)
     plain = make_design()
     usual = design_record(make_design(preset=record["preset"], rotor=design.aircraft))
@@ -44,7 +44,7 @@ def code_of(design: Design) -> str:
     words = [str(VERSION), record["twist"], *(f"{_SHORT.get(key, key)}={_word(v)}" for key, v in changed.items())]
     code = ";".join(words)
     if len(code) > LONGEST:
-        raise ValueError("This design is too large for an address: save it as a design file and send that.")
+        raise ValueError("This design is too long for a link: save a design file and send that.")
     return code
 
 
@@ -54,7 +54,7 @@ def design_from(code: str) -> Design:
     if version != str(VERSION) or not rest:
         raise ValueError(f"The design in the address, {cut(code)!r}, is not of version {VERSION}: ask for a new link.")
     if len(code) > LONGEST:
-        raise ValueError(f"The design in the address has {len(code)} characters: {LONGEST} are the most.")
+        raise ValueError(f"The design in the address has {len(code)} characters; at most {LONGEST} are allowed.")
     twist, *words = rest.split(";")
     if _reads_file(twist):
         raise ValueError(f"The twist {cut(twist)!r} is a file on the machine of the sender: ask for the design file.")
@@ -63,7 +63,7 @@ def design_from(code: str) -> Design:
         key, found, value = word.partition("=")
         if not found:
             raise ValueError(
-                f"The design in the address holds {cut(word)!r}, which is no key=value: ask for a new link."
+                f"The design in the address holds {cut(word)!r}, which is not key=value: ask for a new link."
             )
         record[_LONG.get(key, key)] = _value(value)
     try:
@@ -80,7 +80,7 @@ def inputs_from(code: str, kept: str | None = None) -> Inputs:
     if code != KEPT:
         return within(inputs_of(design_from(code)))
     if kept is None:
-        raise ValueError("Its rotor is its sender's own, and no address holds that: ask for the design file.")
+        raise ValueError("Its rotor is the sender's own and not part of the link: ask for the design file.")
     return within(inputs_of(parse_design(kept.encode(), "of this page")))
 
 

@@ -1,6 +1,6 @@
 """What is shown, as a short text for the page's address, and back: `1;field=mach;stall=off`.
 
-Version, and only what differs from how a page begins. Where the marked blade stands and whether the page is dark are
+Version, and only what differs from how a page begins. Where the reference blade stands and whether the page is dark are
 left out: the one turns while one looks, the other is every reader's own.
 """
 

@@ -18,8 +18,8 @@ AB_KEY: Key = (("B", THIS), ("A", PINNED, True))
 """While two designs are compared."""
 POWER_KEY: Key = (("this design", THIS), ("baseline", BASELINE, True), ("ideal", IDEAL, True))
 TWIST_KEY: Key = (("this design", THIS), ("baseline", BASELINE, True))
-ALPHA_KEY: Key = (("marked blade", NOW), ("stall", LIMIT, True))
-LIFT_KEY: Key = (("marked blade", NOW),)
+ALPHA_KEY: Key = (("reference blade", NOW), ("stall", LIMIT, True))
+LIFT_KEY: Key = (("reference blade", NOW),)
 IDEAL_KEY: Key = (("ideal", IDEAL, True),)
 STALL_KEY: Key = (("stall", LIMIT, True),)
 
@@ -141,7 +141,7 @@ class Charts:
         span = (0.1, 1.02)
         self.twist = Chart(gui, "Twist [°] over r/R", TWIST_KEY, "radius r/R", three, twist, span, name="chart_twist")
         stall = line("stall", LIMIT, 1.5, (5, 3))
-        marked = (line("marked blade", NOW), pinned_line(), line("B", THIS))
+        marked = (line("reference blade", NOW), pinned_line(), line("B", THIS))
         ends = (stall, stall, *marked)
         self.alpha = Chart(
             gui, "Angle of attack [°] over r/R", ALPHA_KEY, "radius r/R", ends, alpha, span, name="chart_alpha"

@@ -77,7 +77,7 @@ class ExportPanel:
             )
             texts = gui.add_button_group("Copy as", ("Python", "Command"), hint=hint("export_text"))
             self._state = gui.add_html("")
-        self._say("idle", "Exports the design that is shown.")
+        self._say("idle", "Exports the design on the sliders.")
         shapes.on_click(lambda event: self._save(_SHAPES[event.target.value]))
         tables.on_click(self._table_clicked)
         self._size.on_update(lambda _: self._size_changed())
@@ -124,7 +124,7 @@ class ExportPanel:
     def _picture(self, kind: str) -> None:
         flat = self._what.value == _DISK
         if not flat and kind == "SVG":
-            self._say("problem", "The 3D view is made of pixels: save it as PNG, or choose the disk.")
+            self._say("problem", "The 3D view is a pixel image: save it as PNG, or choose the disk.")
             return
         self._do("the picture", lambda state: self._disk_picture(state, kind) if flat else self._view_picture(state))
 
@@ -146,7 +146,7 @@ class ExportPanel:
     def _view_picture(self, state: SessionState) -> str:
         paper, on_disk = self._paper(state), self._shown(state)
         if state.view.exaggeration != 1.0:
-            times = f"Blades drawn with {state.view.exaggeration:g} times their twist"
+            times = f"Twist exaggeration × {state.view.exaggeration:g}"
             on_disk = replace(on_disk, note=f"{on_disk.note}. {times}" if on_disk.note else times)
         *_, wide, high = window(state.solution, paper)
         wxyz, position, fov = self._sources.camera().pictured(wide / high)
@@ -176,7 +176,7 @@ class ExportPanel:
             text = as_python(state.solution.design) if python else as_command_line(state.solution.design).text
             viser_compat.copy_text(self._client, json.dumps(text))
             self._show_text("As Python" if python else "As a command line", text)
-            return "In the clipboard, where the browser allows it."
+            return "Copied to the clipboard where the browser allows it."
 
         self._do("the text", work)
 
@@ -185,7 +185,7 @@ class ExportPanel:
         gui = self._client.gui
         with gui.add_modal(title) as modal:
             gui.add_html(
-                '<div class="rx rx-dim">Copied where the browser allows it; else select it here.</div>'
+                '<div class="rx rx-dim">Copied where the browser allows it; otherwise select it here.</div>'
                 f'<pre class="rx-code" data-explorer="code">{escape(text)}</pre>'
             )
             gui.add_button("Close", hint=hint("close")).on_click(lambda _: modal.close())
@@ -194,9 +194,9 @@ class ExportPanel:
         """Start `work`, unless other work is under way; it returns what was made."""
         state = self._context.state()
         if state is None:
-            self._say("problem", "There is no answer yet: wait for the first.")
+            self._say("problem", "There is no solution yet: wait for the first.")
         elif not self._busy.acquire(blocking=False):
-            self._say("busy", f"Still at work: {what} can be made after that.")
+            self._say("busy", f"Busy: {what} can be made after that.")
         else:
             self._say("busy", f"Making {what} …")
             threading.Thread(target=self._work, args=(what, work, state), name="export", daemon=True).start()
@@ -205,7 +205,7 @@ class ExportPanel:
         begin = time.perf_counter()
         try:
             made = work(state)
-            stale = " Of the last good answer: the sliders have none." if self._stale else ""
+            stale = " This is the last converged solution: the sliders have none." if self._stale else ""
             self._say("done", f"{made} ({time.perf_counter() - begin:.1f} s).{stale}")
         except (ValueError, TimeoutError) as error:
             self._say("problem", str(error))

@@ -96,7 +96,7 @@ class FilePanel:
             self._context.notify("No link", str(error))
             return
         viser_compat.copy_text(self._client, "location.href")
-        self._context.notify("Link copied", "It opens this design; the page's address is the same link.")
+        self._context.notify("Link copied", "It opens this design. The address of the page is the same link.")
 
     def save(self) -> None:
         """The design file, as `--case` and `--design` read it."""
@@ -127,5 +127,5 @@ class FilePanel:
             self._context.notify("Not loaded", str(error))
             return
         self._context.set_inputs(inputs)
-        more = " Its active twist is not taken: the Actuator tab drives the blade." if design.active_twist else ""
+        more = " Its active twist is ignored: set it under Actuate." if design.active_twist else ""
         self._context.notify("Loaded", f"{file.name} is on the sliders.{more}")

@@ -106,7 +106,11 @@ class TopBar:
         pinned, answer = self._board.pinned, self._board.answer
         if pinned is None:
             return None
-        power = "no trim here" if answer is None or not answer.converged else self._units.watts(answer.power.total)
+        power = (
+            "no trim at this condition"
+            if answer is None or not answer.converged
+            else self._units.watts(answer.power.total)
+        )
         where = "" if self._along else f" at {pinned.flight}"
         return {"title": pinned.title, "power": power + where, "along": self._along}
 

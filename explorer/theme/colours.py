@@ -36,7 +36,7 @@ BASELINE = "#868e96"
 IDEAL = "#0ca678"
 """The power of an ideal lift, in charts."""
 NOW = "#e03131"
-"""The present point and the marked blade, in charts."""
+"""The present point and the reference blade, in charts."""
 LIMIT = "#b5179e"
 """A limit, in charts."""
 PARTS = {"induced": "#3b82c4", "profile": "#e6a117", "parasite": "#8d949c", "tail": "#983a6e"}

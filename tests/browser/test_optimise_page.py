@@ -123,7 +123,7 @@ def test_stop_answers_within_three_tenths_of_a_second_and_keeps_the_best(page: t
     watched, session = page
     panel = session.page.optimise
     watched.choose("Concept", SLOW)
-    watched.row("Starts").get_by_role("slider").focus()
+    watched.row("Starting points").get_by_role("slider").focus()
     watched.page.keyboard.press("End")
     press(watched, "Optimise")
     until(watched, "running")
@@ -155,7 +155,7 @@ def test_stop_answers_within_three_tenths_of_a_second_and_keeps_the_best(page: t
 def test_the_page_goes_on_when_its_worker_is_killed(page: tuple[Watched, Session], app: App):
     watched, session = page
     watched.choose("Concept", SLOW)
-    watched.row("Starts").get_by_role("slider").focus()
+    watched.row("Starting points").get_by_role("slider").focus()
     watched.page.keyboard.press("End")
     press(watched, "Optimise")
     until(watched, "running")
@@ -211,7 +211,7 @@ def test_a_click_on_the_map_takes_the_point(page: tuple[Watched, Session]):
     watched, session = page
     watched.choose("Concept", "Two segments, free division")
     watched.page.get_by_role("tab", name="Map").click()
-    press(watched, "Draw map")
+    press(watched, "Compute map")
     watched.page.wait_for_selector("svg.rx-map image", timeout=WAIT)
     box = watched.page.locator("svg.rx-map image").bounding_box()
     assert box is not None
@@ -228,13 +228,13 @@ def test_a_click_on_the_map_takes_the_point(page: tuple[Watched, Session]):
 def test_a_schedule_can_be_saved(page: tuple[Watched, Session], tmp_path: Path):
     watched, session = page
     watched.choose("Concept", "Linear")
-    watched.row("Starts").get_by_role("slider").focus()
+    watched.row("Starting points").get_by_role("slider").focus()
     watched.page.keyboard.press("Home")
     watched.page.wait_for_timeout(150)
     watched.page.get_by_role("tab", name="Schedule").click()
-    press(watched, "Work out")
+    press(watched, "Compute schedule")
     watched.page.wait_for_selector('[data-explorer="schedule-state"][data-kind="done"]', timeout=WAIT)
-    assert re.search(r"Moving saves beyond it\s+\d", watched.text("schedule"))
+    assert re.search(r"Additional saving from variable twist\s+\d", watched.text("schedule"))
     with watched.page.expect_download() as download:
         press(watched, "Save CSV")
     download.value.save_as(tmp_path / "schedule.csv")

@@ -176,7 +176,7 @@ def test_keys_are_listed_and_the_palette_finds_them(watched: Watched):
     page.keyboard.press("Shift+?")
     page.wait_for_selector("dialog.rx-dialog")
     text = page.locator("dialog.rx-dialog").inner_text()
-    assert "Play, or pause, the marked blade" in text
+    assert "Play, or pause, the reference blade" in text
     page.keyboard.press("Escape")
     page.wait_for_selector("dialog.rx-dialog", state="detached")
     page.keyboard.press("Control+k")

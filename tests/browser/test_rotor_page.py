@@ -85,7 +85,7 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     assert watched.row("Rotor").locator("input").first.input_value() == "Mine (own)"
     file.write_text(text.replace('"naca63a015"', '"own"') + '\n[sections.own]\ndeck = "own.c81"\n', encoding="utf-8")
     load(watched, file)
-    watched.page.wait_for_selector("text=mine.toml is kept and waits for own.c81: load that next.", timeout=WAIT)
+    watched.page.wait_for_selector("text=mine.toml is loaded and needs own.c81: load that next.", timeout=WAIT)
     deck = tmp_path / "own.c81"
     deck.write_text(asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8"), encoding="utf-8")
     load(watched, deck)
@@ -100,6 +100,6 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     assert watched.row("Rotor").locator("input").first.input_value() == "Mine (own)"
     other = watched.page.context.new_page()  # Of another window, which does not.
     other.goto(address)
-    other.wait_for_selector("text=Its rotor is its sender's own", timeout=WAIT)
+    other.wait_for_selector("text=Its rotor is the sender's own", timeout=WAIT)
     other.close()
     assert watched.complaints == []

@@ -91,7 +91,7 @@ def test_other_charts_and_a_point_by_its_number(page: tuple[Watched, Session], a
     watched, session = page
     tab = watched.page
     watched.choose("Chart", "Scatter")
-    watched.choose("Across", "division r/R")
+    watched.choose("Horizontal", "division r/R")
     tab.wait_for_function("() => document.querySelectorAll('.js-plotly-plot .points path').length >= 36")
     watched.choose("Chart", "Hover against cruise")
     tab.wait_for_function("() => document.querySelectorAll('.js-plotly-plot .points path').length == 13")

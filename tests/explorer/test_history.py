@@ -155,7 +155,7 @@ class TestShare:
             ("2;linear:-8", "not of version 1"),
             ("1;table:/etc/passwd", "a file on the machine"),
             ("1;uh60a+table:/etc/passwd", "a file on the machine"),
-            ("1;linear:-8;mu", "no key=value"),
+            ("1;linear:-8;mu", "not key=value"),
             ("1;linear:-8;mu=fast", "give a number"),
             ("1;linear:-8;mu=NaN", "advance ratio nan"),
             ("1;linear:-8;wings=2", "unknown key 'wings'"),
@@ -163,7 +163,7 @@ class TestShare:
             ("1;bent:3", "is not known"),
             ("1;linear:-8;mu=0.47", "Adv. ratio µ is 0.47, outside this page's 0…0.45"),
             ("1;linear:-8;mass=1e9", "mass"),
-            ("1;linear:-8" + ";mu=0.2" * 400, f"{LONGEST} are the most"),
+            ("1;linear:-8" + ";mu=0.2" * 400, f"at most {LONGEST} are allowed"),
         ],
     )
     def test_a_bad_one_is_one_sentence(self, code: str, sentence: str):

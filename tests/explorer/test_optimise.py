@@ -129,7 +129,7 @@ class TestSearchRun:
         broken.on_event(JobFailed("The worker process ended unexpectedly."))
         assert broken.best is run.frames[2]
         assert "ended unexpectedly" in search_text.found(broken)
-        assert "best so far kept" in search_text.standing(broken)
+        assert "best so far is kept" in search_text.standing(broken)
 
 
 class TestCharts:
@@ -175,12 +175,12 @@ class TestCharts:
 class TestWords:
     def test_the_optimum_is_told_with_its_band(self, run: SearchRun):
         words = search_text.found(run) + search_text.details(run) + search_text.standing(run)
-        for part in ("Inboard rate", "Outboard rate", "within 0.1 %", "below the start", "Done"):
+        for part in ("Inboard rate", "Outboard rate", "within 0.1 %", "saving vs. starting design", "Done"):
             assert part in words
         assert "nan" not in words.lower()
 
-    def test_nothing_searched_yet(self):
-        assert "Nothing searched" in search_text.standing(None)
+    def test_before_the_first_search(self):
+        assert "Not run yet" in search_text.standing(None)
 
     @pytest.mark.parametrize("name", CONCEPTS)
     def test_every_concept_has_a_drawing_with_an_arrow_for_each_parameter(self, name: str):
@@ -206,7 +206,7 @@ class TestSearchRequest:
         assert SearchRequest(concept="three-segment").known_concept() is CONCEPTS["three-segment"]
 
     def test_hover_and_cruise_needs_a_cruise(self):
-        with pytest.raises(ValueError, match="advance ratio of the cruise"):
+        with pytest.raises(ValueError, match="set an advance ratio above 0"):
             SearchRequest(objective="hover-cruise").search(quick(mu=0.0), mission.legs)
 
     def test_a_mission_needs_hours(self):
@@ -247,7 +247,7 @@ class TestMap:
         assert picture.getpixel((3, 3))[3] > 0  # pyright: ignore[reportIndexIssue, reportOptionalSubscript]
         svg = ET.fromstring(power_map.drawing(drawn, (0.5, 0.5), exact=True).replace("&nbsp;", " "))
         assert svg.find("image") is not None
-        assert "Held: Inboard rate" in power_map.legend(drawn)
+        assert "Fixed: Inboard rate" in power_map.legend(drawn)
 
     def test_designs_that_do_not_trim_are_left_blank(self):
         powers = np.full((5, 5), 1e6) + np.arange(5.0)
@@ -306,7 +306,7 @@ class TestSchedule:
             assert finite(schedule_view.twist_plot(some, None))
             assert finite(schedule_view.saving_plot(some, None))
         table = schedule_view.table(progress)
-        assert "Moving saves beyond it" in table
+        assert "Additional saving from variable twist" in table
         assert "nan" not in table.lower()
         assert "Moving" not in schedule_view.table(schedule_view.PlanProgress(progress.plan))
 

@@ -76,7 +76,7 @@ def test_designs_of_other_rotors_in_addresses_and_files():
     with pytest.raises(ValueError, match=r"Mass \[t\] is 8\.32, outside this page's 0\.37"):
         share.within(replace(R22, mass_t=8.32))
     own = with_rotor(Inputs(), OWN, UploadedFiles().take("my.toml", GOOD.encode()).aircraft)
-    with pytest.raises(ValueError, match="A rotor of your own fits in no address: save it as a design file"):
+    with pytest.raises(ValueError, match="Your own rotor does not fit in a link: save a design file"):
         share.code_of(own.design())
     read = parse_design(json.dumps(design_record(own.design())).encode(), "mine.json")
     assert inputs_of(read) == own
@@ -95,7 +95,7 @@ class TestShelf:
         later = UploadedFiles()
         arrival = later.take("my.toml", NAMES_DECK)
         assert arrival.aircraft is None
-        assert arrival.sentence == "my.toml is kept and waits for mine.c81: load that next."
+        assert arrival.sentence == "my.toml is loaded and needs mine.c81: load that next."
         assert later.take("mine.c81", DECK).aircraft == craft
 
     def test_polars_and_windows_line_ends(self):
@@ -110,8 +110,8 @@ class TestShelf:
     @pytest.mark.parametrize(
         ("name", "content", "says"),
         [
-            ("photo.png", b"\x89PNG", "photo.png is none of .toml, .c81"),
-            ("my.toml", b"\xff\xfe\x00", "my.toml is no UTF-8 text"),
+            ("photo.png", b"\x89PNG", "photo.png is not one of .toml, .c81"),
+            ("my.toml", b"\xff\xfe\x00", "my.toml is not UTF-8 text"),
             ("my.toml", b"x" * 2_000_001, "my.toml has 2.0 MB: a rotor's files have 2 MB at most"),
             ("my.toml", GOOD.replace("radius_m = 5.0", "radius_m = -5.0").encode(), "my.toml, line 5: radius_m is -5"),
             ("my.toml", b"name = \n", "my.toml, line 1: this is not TOML"),

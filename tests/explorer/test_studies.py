@@ -121,7 +121,7 @@ def test_points_go_by_their_numbers_where_some_are_missing(tmp_path: Path):
         store.keep(chunk, evaluate_chunk(store.study, chunk, WHENCE).content)
     results = open_study(tmp_path)
     assert [results.row_of(point) for point in (0, 3, 6)] == [0, None, 3]
-    assert numbers(results) == "0…7, but for those not done yet"
+    assert numbers(results) == "0…7, some not computed yet"
     assert "point 6" in point_line(results, 3, "Taken")
     drawn = study_charts.scatter(results, "mu", "power_total_w", "division", None, dark=False).data[0]
     assert list(drawn.customdata) == [0, 1, 2, 6, 7]

@@ -38,19 +38,21 @@ class ActuatorControls:
         watched = self._watched
         gui.add_html(readout.SHEET)
         self.shown = watched(gui.add_checkbox("Show blade cut", False, hint=hint("cut")))
-        self._magnified = watched(gui.add_slider("Movement ×", 1.0, 20.0, 1.0, start.magnified, hint=hint("magnified")))
+        self._magnified = watched(
+            gui.add_slider("Deformation ×", 1.0, 20.0, 1.0, start.magnified, hint=hint("magnified"))
+        )
         self.now = gui.add_html("")
         self._drives = [
             watched(gui.add_slider("Voltage [%]", -100.0, 100.0, 1.0, 0.0, hint=hint("voltage")))
             for _ in range(MOST_SEGMENTS)
         ]
         self.bar = gui.add_html("")
-        self.fly_buttons = gui.add_button_group("Set", FLY, hint=hint("fly"))
+        self.fly_buttons = gui.add_button_group("Fly at", FLY, hint=hint("fly"))
         self.verdict = gui.add_html("")
         self.numbers = gui.add_html("")
         with gui.add_folder("Actuator and placement"):
             self._actuator = watched(gui.add_dropdown("Actuator", tuple(self._titles.values()), hint=hint("actuator")))
-            self._plies = watched(gui.add_slider("Plies a side", 1, 8, 1, start.plies, hint=hint("plies")))
+            self._plies = watched(gui.add_slider("Plies per side", 1, 8, 1, start.plies, hint=hint("plies")))
             self._span = watched(
                 gui.add_multi_slider("Span [R]", 0.14, 1.0, 0.01, start.span, min_range=0.05, hint=hint("span"))
             )
@@ -62,16 +64,16 @@ class ActuatorControls:
             )  # fmt: skip
             self._blade = watched(gui.add_dropdown("Blade type", tuple(BLADES), hint=hint("blade_type")))
             self._stiffness = watched(
-                gui.add_slider("GJ of new ×", 0.2, 1.5, 0.05, start.stiffness, hint=hint("stiffness"))
+                gui.add_slider("New blade GJ ×", 0.2, 1.5, 0.05, start.stiffness, hint=hint("stiffness"))
             )
-            self._crossed = watched(gui.add_checkbox("Fibres crossed", False, hint=hint("crossed")))
+            self._crossed = watched(gui.add_checkbox("Fibres at −45°", False, hint=hint("crossed")))
             self._counted = watched(
                 gui.add_slider(
                     "Derating [%]", 40.0, 100.0, 1.0, start.counted,
                     hint=hint("derating"),
                 )
             )  # fmt: skip
-        with gui.add_folder("Question"):
+        with gui.add_folder("Mission conditions"):
             self._concept = watched(
                 gui.add_dropdown("Concept", tuple(self._concepts.values()), hint=hint("actuator_concept"))
             )
@@ -102,7 +104,7 @@ class ActuatorControls:
         with gui.add_folder("All actuators on this blade"):
             self.table = gui.add_html("")
         self.electrodes = ElectrodesPanel(gui)
-        with gui.add_folder("Twist that follows the azimuth"):
+        with gui.add_folder("Harmonic active twist"):
             self._per_rev = watched(gui.add_dropdown("Harmonic", tuple(HARMONICS), hint=hint("harmonic")))
             self._amplitude = watched(
                 gui.add_slider("Amplitude [%]", 0.0, 100.0, 1.0, start.amplitude, hint=hint("amplitude"))
@@ -137,7 +139,7 @@ class ActuatorControls:
         for k, handle in enumerate(self._drives):
             handle.visible = k < count
             handle.label = f"{word} {k + 1} [%]" if count > 1 else f"{word} [%]"
-        self._plies.label = "Tubes" if isinstance(installed.actuator, TorqueTube) else "Plies a side"
+        self._plies.label = "Tubes" if isinstance(installed.actuator, TorqueTube) else "Plies per side"
         passive = isinstance(installed.actuator, ExtensionTwist)
         for handle in (self._plies, self._span):
             handle.visible = not passive

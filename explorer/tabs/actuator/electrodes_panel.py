@@ -21,7 +21,7 @@ class ElectrodesPanel:
                 (("this sheet", THIS), ("α·V", IDEAL), ("other kind", BASELINE)),
                 "voltage [V]",
                 (
-                    line("other kind, along", BASELINE, 2.0),
+                    line("other electrodes, along", BASELINE, 2.0),
                     line("across the fibres", THIS, 1.0),
                     line("along the fibres", THIS, 2.5),
                     line("along, by α = d/ΔES", IDEAL, 1.5, (5, 4)),

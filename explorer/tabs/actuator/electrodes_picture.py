@@ -80,10 +80,10 @@ def field_panel(actuator: PiezoPly) -> str:
     return (
         f'<div class="rx" data-explorer="electrodes"><svg viewBox="0 0 {_WIDTH:g} 122" width="100%" role="img" '
         f'aria-label="Cut through the sheet: electrodes, equal potential and field">{cuts}</svg>'
-        '<div class="rx-dim rx-small">One gap along the fibres; metal orange, lines of equal potential, colour the '
-        "field (0 to twice its mean).</div>"
-        f'{cells}<div class="rx-dim rx-small">Thermal analogy: a volt strains the sheet as a kelvin would one of '
-        "expansion α.</div></div>"
+        '<div class="rx-dim rx-small">One electrode gap along the fibres: electrodes orange, lines of equal potential, '
+        "colour for the field (0 to twice its mean).</div>"
+        f'{cells}<div class="rx-dim rx-small">Thermal analogy: one volt strains the sheet as one kelvin would '
+        "with expansion coefficient α.</div></div>"
     )
 
 
@@ -113,7 +113,7 @@ def ranges_panel(actuator: PiezoPly, volts: tuple[float, ...]) -> str:
         )
     return (
         f'<div class="rx" data-explorer="field-ranges">{_present(actuator, volts)}'
-        f'<div class="rx-dim rx-small">Field allowed [kV/mm]</div><div class="rxa-bars">{"".join(rows)}</div></div>'
+        f'<div class="rx-dim rx-small">Permitted field [kV/mm]</div><div class="rxa-bars">{"".join(rows)}</div></div>'
     )
 
 

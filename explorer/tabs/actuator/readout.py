@@ -70,14 +70,14 @@ def now_panel(inputs: ActuatorInputs, installed: InstalledActuator, change_w: fl
     """What the sliders make of the blade at this moment, and what that does to power."""
     tip = math.degrees(float(inputs.change(installed, 1.0)))
     if not inputs.driven:
-        power = '<span class="rx-dim">at rest: the design is untouched</span>'
+        power = '<span class="rx-dim">at rest: no change to the design</span>'
     elif change_w is None:
         power = '<span class="rx-dim">no trim to compare with</span>'
     else:
         kind = "" if abs(change_w) < 50.0 else " rx-less" if change_w < 0.0 else " rx-more"
         power = f'<span class="rx-push{kind}"><b>{number(1e-3 * change_w, 1, sign=True)} kW</b> of power</span>'
     drives = " · ".join(drive_text(inputs, installed, k) for k in range(len(installed.shapes)))
-    lines = [f'<div class="rx-dim rx-small">tip against root, now: {drives}</div>']
+    lines = [f'<div class="rx-dim rx-small">tip relative to root, now: {drives}</div>']
     made = inputs.turning(installed)
     if made is not None:
         half = math.degrees(made.amplitude)
@@ -85,7 +85,7 @@ def now_panel(inputs: ActuatorInputs, installed: InstalledActuator, change_w: fl
             used = number(0.01 * inputs.amplitude * half, 2)
             text = f"and ±{used}° of {number(half, 2)}° at {inputs.per_rev}/rev, as the blades turn"
         else:
-            text = f"cannot follow {inputs.per_rev}/rev"
+            text = f"cannot respond at {inputs.per_rev}/rev"
         lines.append(f'<div class="rx-dim rx-small">{text}</div>')
     over = over_range(inputs, installed)
     if over:
@@ -120,14 +120,14 @@ def fit_panel(inputs: ActuatorInputs, installed: InstalledActuator, verdict: Ver
     entries = [
         ("Required Δtwist", _NONE if verdict is None else f"{number(math.degrees(verdict.required), 2)}°"),
         ("Added mass", f"{number(masses.aircraft)} kg"),
-        ("Attainable", f"{number(nominal, 2)}°"),
+        ("Available", f"{number(nominal, 2)}°"),
         ("on each blade", f"{number(masses.blade, 1)} kg"),
         ("derated by test", f"{number(tested, 2)}°" if installed.derating < 1.0 else _NONE),
         ("First torsion", f"{number(installed.frequency, 2)} /rev"),
-        (f"counted ({number(inputs.counted)} %)", f"{number(nominal * inputs.share, 2)}°"),
+        (f"used ({number(inputs.counted)} %)", f"{number(nominal * inputs.share, 2)}°"),
         ("Moment", f"{number(installed.moment)} N·m" if installed.moment else _NONE),
         ("Saving, gross", _kw(None if verdict is None else verdict.gross_saving)),
-        ("Slewing", _NONE if verdict is None else f"{number(verdict.drive.slew_power)} W"),
+        ("Slewing power", _NONE if verdict is None else f"{number(verdict.drive.slew_power)} W"),
         ("<b>Saving, net</b>", f"<b>{_kw(None if verdict is None else verdict.net_saving)}</b>"),
         ("Unlimited twist", _kw(None if verdict is None else verdict.ideal_saving)),
     ]

@@ -80,6 +80,6 @@ def _caption(installed: InstalledActuator, segment: int) -> str:
     walls = next((label.split(",")[0] for label in labels if "spar" in label or "box" in label), "")
     plies = next((label.rsplit(",", 1)[0] for label in labels if "±" in label), installed.actuator.name)
     front, rear = installed.placement.chord
-    where = f" a side, {100 * front:.0f}–{100 * rear:.0f} % chord" if isinstance(installed.actuator, PiezoPly) else ""
+    where = f" per side, {100 * front:.0f}–{100 * rear:.0f} % chord" if isinstance(installed.actuator, PiezoPly) else ""
     shown = f" Segment {segment}." if len(installed.shapes) > 1 else ""
-    return f"SC1095 with {walls} and web; {plies}{where}.{shown} Walls and plies drawn thicker than they are."
+    return f"SC1095 with {walls} and web; {plies}{where}.{shown} Wall and ply thickness exaggerated."

@@ -22,7 +22,7 @@ from rotor.optimisation.concepts import find_concept
 CONCEPTS = ("linear", "quadratic", "two-segment", "three-segment")
 """Those whose divisions an actuator can be laid out for before any optimum is known."""
 MOST_SEGMENTS = len(SMOOTH_DIVISIONS) + 1
-BLADES: dict[str, BladeKind] = {"Flown blade (retrofit)": "retrofit", "New blade, softer": "new"}
+BLADES: dict[str, BladeKind] = {"Existing blade (retrofit)": "retrofit", "New blade, softer in torsion": "new"}
 HARMONICS = {"Off": 0, "1/rev": 1, "2/rev": 2}
 
 

@@ -74,14 +74,14 @@ def caption(history: History) -> str:
     """Where in the history the page stands."""
     return (
         f'<div class="rx-line rx-dim rx-small"><span>Step {len(history.past) + 1} of {len(history.steps)}</span>'
-        "<span>height: total power; click to go there</span></div>"
+        "<span>bar height: total power; click to go there</span></div>"
     )
 
 
 def kept_rows(kept: Sequence[Kept], present: Solution | None, units: Units = SI) -> str:
     """The kept designs: outline of the twist, name, power, and the change of the present design from it."""
     if not kept:
-        return '<div class="rx-dim rx-small">Nothing kept yet: Keep sets this design aside.</div>'
+        return '<div class="rx-dim rx-small">No bookmarks yet: Keep bookmarks this design.</div>'
     rows = []
     for k, item in enumerate(kept):
         change = _blank_change(present, item, units)

@@ -57,7 +57,7 @@ class Presence:
         self._pending: threading.Timer | None = None
         self._camera: tuple[Point, Point] | None = None
         self._banner = client.gui.add_html("", visible=False)
-        self._leave = client.gui.add_button("Leave, and go on alone", color="gray", visible=False, hint=hint("leave"))
+        self._leave = client.gui.add_button("Leave and continue alone", color="gray", visible=False, hint=hint("leave"))
         self._leave.on_click(lambda _: self.leave())
 
     def begin(self, context: TabContext, hooks: PresentationHooks) -> None:
@@ -86,9 +86,7 @@ class Presence:
         self._publish()
         viser_compat.copy_text(self._client, f"new URL('{self._link}', location.href).href")
         if self._context is not None:
-            self._context.notify(
-                "Presenting", "The link for those who follow is in the clipboard, and in the line above."
-            )
+            self._context.notify("Presenting", "The link for followers is in the clipboard and in the line above.")
 
     def end(self) -> None:
         """Stop presenting."""

@@ -18,10 +18,10 @@ def search_chart(gui: viser.GuiApi) -> Chart:
     return Chart(
         gui,
         "Power [kW] per start",
-        (("best", THIS), ("as it is", BASELINE)),
+        (("best", THIS), ("current design", BASELINE)),
         "evaluation",
         (
-            line("as it is", BASELINE, 1.5, (5, 3)),
+            line("current design", BASELINE, 1.5, (5, 3)),
             *(line(f"start {k + 1}", css(shades[k]), 1.0) for k in range(TRACES)),
             line("best", THIS, 2.2),
         ),

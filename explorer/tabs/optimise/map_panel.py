@@ -33,15 +33,15 @@ class MapPanel:
         self._job: Job | None = None
         self._task: MapTask | None = None
         self._map: power_map.Map | None = None
-        self._line = "Power over two parameters, the others as they are; a click on the map takes a point."
+        self._line = "Power over two parameters, the others fixed. Click the map to take a point."
         self._offered: tuple[str, ...] = ()
         self._drawn: object = None
         self._here: tuple[object, tuple[float, ...], bool] | None = None
         self._title = gui.add_html("")
         titles = tuple([parameter.title for parameter in self._request().known_concept().parameters])
-        self._x = gui.add_dropdown("Across", titles, hint=hint("map_across"))
-        self._y = gui.add_dropdown("Up", titles, hint=hint("map_up"))
-        self._draw = gui.add_button("Draw map", icon=viser.Icon.MAP_2, hint=hint("map_draw"))
+        self._x = gui.add_dropdown("Horizontal", titles, hint=hint("map_across"))
+        self._y = gui.add_dropdown("Vertical", titles, hint=hint("map_up"))
+        self._draw = gui.add_button("Compute map", icon=viser.Icon.MAP_2, hint=hint("map_draw"))
         self._state = gui.add_html("")
         self._picture = gui.add_html("")
         self._point = gui.add_text(power_map.FIELD, "", visible=False, hint=hint("map_point"))
@@ -56,7 +56,7 @@ class MapPanel:
             concept = request.known_concept()
             titles = [parameter.title for parameter in concept.parameters]
             if len(titles) < 2:
-                raise ValueError(f"{concept.title} has one parameter: choose a concept with more to draw a map.")
+                raise ValueError(f"{concept.title} has one parameter: a map needs two; choose another concept.")
             axes = self._axes(titles)
             objective = request.wanted(design, self._search.legs)
         except ValueError as error:
@@ -67,7 +67,7 @@ class MapPanel:
         task = self._task = MapTask(design, concept, objective, axes, values)
         if self._job is not None:
             self._pool.stop(self._job, quiet=True)
-        self._line = "Drawing …"
+        self._line = "Computing …"
         self._job = self._pool.submit(task, lambda news: self._on_event(task, news), TIME_LIMIT, _URGENCY)
         self._context.wake()
 
@@ -122,7 +122,7 @@ class MapPanel:
                     where = f"at µ {mu:g}" if len(task.objective.conditions) == 1 else "mean of the legs"
                     self._line = f"{len(powers)} × {len(powers)} points, {where}"
                 else:
-                    self._line = "No design on this map trims."
+                    self._line = "No design on this map has a trim."
             case JobFailed(message):
                 self._line = message
             case JobEnded(late=True):

@@ -29,7 +29,7 @@ def legs(design: Design, rows: Sequence[MissionRow] = ROWS) -> tuple[WeightedCon
     """The legs at the design's weight and altitude; ValueError with one sentence when no hours are flown."""
     flown = sorted((row for row in rows if row.hours > 0.0), key=lambda row: row.advance_ratio)
     if not flown:
-        raise ValueError("The mission has no hours: give one of its rows more than 0.")
+        raise ValueError("The mission has no hours: give at least one leg more than 0.")
     return tuple(
         WeightedCondition(replace(design.condition, advance_ratio=row.advance_ratio), row.hours) for row in flown
     )

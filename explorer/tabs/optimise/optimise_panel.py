@@ -62,13 +62,15 @@ class OptimisePanel:
             "division": gui.add_slider("Division [R]", 0.25, 0.92, 0.01, defaults.division, hint=where),
             "first": gui.add_slider("Division 1 [R]", 0.2, 0.6, 0.01, defaults.first, hint=where),
             "second": gui.add_slider("Division 2 [R]", 0.65, 0.95, 0.01, defaults.second, hint=where),
-            "starts": gui.add_slider("Starts", 1, TRACES, 1, defaults.starts, hint=hint("starts")),
+            "starts": gui.add_slider("Starting points", 1, TRACES, 1, defaults.starts, hint=hint("starts")),
         }
         with gui.add_folder("Limits", expand_by_default=False):
             self._limit_stall = gui.add_checkbox("Limit stall", False, hint=hint("limit_stall"))
             self._numbers["stalled"] = gui.add_slider("Stalled [%]", 0.0, 20.0, 0.5, 5.0, hint=hint("stalled_limit"))
-            self._limit_change = gui.add_checkbox("Limit change", False, hint=hint("limit_change"))
-            self._numbers["change"] = gui.add_slider("At tip [°]", 0.5, 15.0, 0.5, 4.0, hint=hint("change_limit"))
+            self._limit_change = gui.add_checkbox("Limit change of twist", False, hint=hint("limit_change"))
+            self._numbers["change"] = gui.add_slider(
+                "Change at tip [°]", 0.5, 15.0, 0.5, 4.0, hint=hint("change_limit")
+            )
         self._begin = gui.add_button("Optimise", icon=viser.Icon.PLAYER_PLAY, hint=hint("optimise"))
         self._halt = gui.add_button("Stop", icon=viser.Icon.PLAYER_STOP, color="red", visible=False, hint=hint("stop"))
         self._bar = gui.add_progress_bar(0.0)

@@ -157,11 +157,11 @@ def _digits(parameter: Parameter) -> int:
 
 
 def point_of(text: str, drawn: Map) -> tuple[float, ...]:
-    """The concept's parameters at a typed or clicked point; ValueError with one sentence for a text that is none."""
+    """The concept's parameters at a typed or clicked point; ValueError with one sentence for any other text."""
     try:
         x, y = (float(item) for item in text.replace(",", " ").replace("−", "-").split())
     except ValueError:
-        raise ValueError(f"{text!r} is not a point: write two numbers, x and y.") from None
+        raise ValueError(f"{text!r} is not a point: type two numbers, x and y.") from None
     values = list(drawn.task.values)
     for axis, parameter, value in zip(drawn.task.axes, drawn.parameters, (x, y), strict=True):
         inside = parameter.from_shown(value)
@@ -172,7 +172,7 @@ def point_of(text: str, drawn: Map) -> tuple[float, ...]:
 
 
 def legend(drawn: Map, units: Units = SI) -> str:
-    """Axes, least power, lines, and what is held."""
+    """Axes, least power, contour lines, and the fixed parameters."""
     x, y = drawn.parameters
     at_x, at_y, power = drawn.least
     best = [
@@ -189,12 +189,12 @@ def legend(drawn: Map, units: Units = SI) -> str:
         '<div class="rx rx-small" data-explorer="map-legend">'
         f"<div>★ {units.watts(power, 1)} at {', '.join(best)}</div>"
         f'<div class="rx-dim">Outline: {100 * _BAND:g} % above. Lines: {lines} %.</div>'
-        f'<div class="rx-dim">{"Held: " + escape(", ".join(held)) + "." if held else ""}</div></div>'
+        f'<div class="rx-dim">{"Fixed: " + escape(", ".join(held)) + "." if held else ""}</div></div>'
     )
 
 
 def title(drawn: Map) -> str:
-    """What runs along the axes."""
+    """Titles of the axes."""
     x, y = drawn.parameters
     return (
         f'<div class="rx rx-line rx-small rx-map-title"><span>↑ {escape(y.title)} [{y.shown_unit}]</span>'

@@ -37,13 +37,13 @@ class SchedulePanel:
         self._job: Job | None = None
         self._progress: PlanProgress | None = None
         self._running = False
-        self._line = "Best twist for each speed, and one blade for all."
+        self._line = "Best twist for each leg, and the best fixed blade for all."
         self._drawn: object = None
         self._concept = gui.add_html("")
         with gui.add_folder("Mission: µ and hours"):
             self._rows = [
                 gui.add_vector2(
-                    f"WeightedCondition {k + 1}",
+                    f"Leg {k + 1}",
                     (row.advance_ratio, row.hours),
                     min=(0.0, 0.0),
                     max=(0.45, 99.0),
@@ -52,7 +52,7 @@ class SchedulePanel:
                 )
                 for k, row in enumerate(mission.ROWS)
             ]
-        self._begin = gui.add_button("Work out", icon=viser.Icon.PLAYER_PLAY, hint=hint("schedule"))
+        self._begin = gui.add_button("Compute schedule", icon=viser.Icon.PLAYER_PLAY, hint=hint("schedule"))
         self._halt = gui.add_button(
             "Stop schedule", icon=viser.Icon.PLAYER_STOP, color="red", visible=False, hint=hint("schedule_stop")
         )
@@ -60,7 +60,7 @@ class SchedulePanel:
         self._state = gui.add_html("")
         self._table = gui.add_html("")
         self._verdict = gui.add_button_group(
-            "Result", ("Apply fixed", "Save CSV"), visible=False, hint=hint("schedule_result")
+            "Result", ("Apply fixed blade", "Save CSV"), visible=False, hint=hint("schedule_result")
         )
         shades = colour_map("sequential", LEGS + 3)[2:]  # Neither end is seen on every page.
         twists, savings = schedule_view.twist_plot(None, None), schedule_view.saving_plot(None, None)
@@ -76,9 +76,9 @@ class SchedulePanel:
         self._savings = Chart(
             gui,
             "Saving [%] over µ",
-            (("moving", THIS), ("fixed", NOW)),
+            (("variable", THIS), ("fixed", NOW)),
             "advance ratio µ",
-            (line("none", BASELINE, 0.7), line("fixed", NOW, 1.8, (5, 3)), line("moving", THIS)),
+            (line("none", BASELINE, 0.7), line("fixed", NOW, 1.8, (5, 3)), line("variable", THIS)),
             savings,
             (-0.012, 0.462),
         )
@@ -131,7 +131,7 @@ class SchedulePanel:
     def refresh(self) -> None:
         """Bring everything that only shows into line."""
         title = self._request().known_concept().title
-        self._concept.content = f'<div class="rx rx-dim rx-small">As in Optimise: {title}</div>'
+        self._concept.content = f'<div class="rx rx-dim rx-small">Concept from Optimise: {title}</div>'
         self._begin.visible, self._halt.visible = not self._running, self._running
         kind = "running" if self._running else "idle" if self._progress is None else "done"
         self._state.content = (

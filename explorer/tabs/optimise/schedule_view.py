@@ -95,8 +95,8 @@ def table(progress: PlanProgress, units: Units = SI) -> str:
             f'<td class="rx-num">{number(moving, 2)}</td></tr>'
         )
     heading = (
-        f'<tr class="rx-dim rx-small"><td>µ</td><td class="rx-num">as it is [{units.power[0].symbol}]</td>'
-        '<td class="rx-num">fixed [%]</td><td class="rx-num">moving [%]</td></tr>'
+        f'<tr class="rx-dim rx-small"><td>µ</td><td class="rx-num">current [{units.power[0].symbol}]</td>'
+        '<td class="rx-num">fixed [%]</td><td class="rx-num">variable [%]</td></tr>'
     )
     body = f"{verdict(progress, units)}<table>{heading}{''.join(rows)}</table>"
     return f'<div class="rx rx-found" data-explorer="schedule">{body}</div>'
@@ -111,7 +111,8 @@ def verdict(progress: PlanProgress, units: Units = SI) -> str:
     return (
         f'<table><tr><td>Best fixed blade saves</td><td class="rx-num">{units.watts(saved, 1)}</td>'
         f'<td class="rx-num" style="width:26%">{number(100.0 * saved / worth.baseline, 2)} %</td></tr>'
-        f'<tr><td><b>Moving saves beyond it</b></td><td class="rx-num"><b>{units.watts(worth.gain, 1)}</b></td>'
+        "<tr><td><b>Additional saving from variable twist</b></td>"
+        f'<td class="rx-num"><b>{units.watts(worth.gain, 1)}</b></td>'
         f'<td class="rx-num"><b>{number(100.0 * worth.share, 2)} %</b></td></tr></table>'
     )
 

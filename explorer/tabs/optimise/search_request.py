@@ -71,7 +71,7 @@ class SearchRequest:
         if self.objective == "hover-cruise":
             cruise = design.condition.advance_ratio
             if cruise == 0.0:
-                raise ValueError("Hover and cruise: set the advance ratio of the cruise, it is 0 now.")
+                raise ValueError("Hover and cruise: set an advance ratio above 0 for the cruise.")
             return hover_and_cruise(design, self.hover_share / 100.0, cruise)
         return at_condition(design, "induced" if self.objective == "induced" else "total")
 

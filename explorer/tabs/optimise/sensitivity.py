@@ -50,7 +50,7 @@ def blank_sensitivity() -> Plot:
 def strip(
     shape: BladeShape, twist: TwistLaw, exaggeration: float, plot: Plot
 ) -> tuple[NDArray[np.float32], NDArray[np.uint8]]:
-    """Points just above the marked blade, in its own axes, (n, 3), and their colours: rust costs power, blue saves."""
+    """Points just above the reference blade, in its own axes, (n, 3), and their colours: rust costs power, blue saves."""
     count, around = shape.rings.shape[:2]
     rings = blade_vertices(shape, twist, exaggeration)[: count * around].reshape(count, around, 3)[6:]
     upper = rings[:, : around // 2 + 1]  # From the trailing edge over the upper side to the nose.
@@ -75,10 +75,10 @@ def explanation(plot: Plot) -> str:
         return ""
     up, down = float(r[np.argmin(values)]), float(r[np.argmax(values)])
     if max(abs(values)) < 1.0:
-        return _box("Hardly any change of pitch, anywhere, saves power: the twist is near its best.")
+        return _box("No local change of pitch saves power: the twist is near its optimum.")
     return _box(
-        f"Power falls fastest with more pitch near {up:.2f} R and less near {down:.2f} R. "
-        "The trim is kept: a turn of the whole blade changes nothing."
+        f"Power falls fastest with more pitch near {up:.2f} R and less pitch near {down:.2f} R, retrimmed. "
+        "Uniform pitch is absorbed by collective."
     )
 
 

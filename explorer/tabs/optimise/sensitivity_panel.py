@@ -1,4 +1,4 @@
-"""The tab that says where to twist: a chart that follows the sliders, and the same painted on the marked blade."""
+"""The tab that says where to twist: a chart that follows the sliders, and the same painted on the reference blade."""
 
 import viser
 
@@ -13,8 +13,8 @@ from rotor.trim.solution import Solution
 
 _HEIGHT = 220
 _WORDS = (
-    '<div class="rx rx-dim rx-small rx-found">Power that a degree more pitch costs at each radius, or saves where '
-    "it is below zero, with the rotor trimmed again.</div>"
+    '<div class="rx rx-dim rx-small rx-found">Power sensitivity to local pitch, with the rotor retrimmed: '
+    "positive where more pitch costs power, negative where it saves.</div>"
 )
 _INDUCED = ("induced", BASELINE, True)
 _KEY: Key = (("total", THIS), _INDUCED)

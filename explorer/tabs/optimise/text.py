@@ -13,7 +13,7 @@ def standing(run: SearchRun | None, problem: str = "") -> str:
     if problem:
         return f'<div class="rx rx-found" data-explorer="search" data-kind="broken"><b>{escape(problem)}</b></div>'
     if run is None:
-        return '<div class="rx rx-dim" data-explorer="search" data-kind="idle">Nothing searched yet.</div>'
+        return '<div class="rx rx-dim" data-explorer="search" data-kind="idle">Not run yet.</div>'
     progress = run.progress
     count = "" if progress is None else f"{number(progress.evaluation)} designs · {number(progress.elapsed, 1)} s"
     if run.optimum is not None:
@@ -25,7 +25,7 @@ def standing(run: SearchRun | None, problem: str = "") -> str:
 
 
 def _where(run: SearchRun) -> str:
-    progress, kept = run.progress, "best so far kept" if run.best else "nothing found yet"
+    progress, kept = run.progress, "best so far is kept" if run.best else "nothing found yet"
     match run.state:
         case "starting":
             return "Starting a worker …"
@@ -35,10 +35,10 @@ def _where(run: SearchRun) -> str:
             return "Stopping …"
         case "running":
             if progress is None:
-                return "Trimming the blade as it is …"
+                return "Trimming the current design …"
             if progress.phase == "band":
                 return "Measuring the 0.1 % band"
-            return f"Start {progress.start + 1} of {progress.starts}"
+            return f"Starting point {progress.start + 1} of {progress.starts}"
         case "done":
             return "Done"
         case "stopped":
@@ -65,7 +65,7 @@ def found(run: SearchRun, units: Units = SI) -> str:
         f"{units.watts(best.power, 1)}</span><span class='rx-dim'>{mean}, "
         f"{'best so far' if run.under_way else 'best found'}</span></div>"
     )
-    rows = [_saving("the start", best.power, run.start_power, units)]
+    rows = [_saving("starting design", best.power, run.start_power, units)]
     if run.reference_power != run.start_power:
         rows.append(_saving(run.reference_title, best.power, run.reference_power, units))
     parts.append(f"<table>{''.join(rows)}</table>")
@@ -92,12 +92,12 @@ def _quantity(run: SearchRun) -> str:
 
 def _saving(title: str, power: float, reference: float | None, units: Units) -> str:
     if reference is None or reference <= 0.0:
-        return f'<tr><td class="rx-dim">{escape(title)}</td><td class="rx-num">does not trim</td><td></td></tr>'
+        return f'<tr><td class="rx-dim">{escape(title)}</td><td class="rx-num">has no trim</td><td></td></tr>'
     less = power <= reference
     percent = 100.0 * (power / reference - 1.0)
     kind = "" if abs(percent) < 0.005 else " rx-less" if less else " rx-more"
     return (
-        f'<tr><td class="rx-dim">{"below" if less else "above"} {escape(title)}</td>'
+        f'<tr><td class="rx-dim">{"saving vs." if less else "above"} {escape(title)}</td>'
         f'<td class="rx-num">{units.watts(abs(power - reference), 1)}</td>'
         f'<td class="rx-num{kind}" style="width:26%">{number(percent, 2, sign=True)} %</td></tr>'
     )
@@ -122,7 +122,7 @@ def _optimum(optimum: Optimum, concept: Concept, units: Units) -> str:
     lines = [f"<table>{heading if bands else ''}{''.join(rows)}</table>"]
     notes = [optimum.message]
     if best.active:
-        notes.append(f"Held by: {', '.join(name.replace('_', ' ') for name in best.active)}.")
+        notes.append(f"Active limits: {', '.join(name.replace('_', ' ') for name in best.active)}.")
     others = [units.watts(other.power, 1) for other in optimum.minima[1:3]]
     if others:
         notes.append(f"Other minima: {', '.join(others)}.")
@@ -136,7 +136,7 @@ def frame_line(run: SearchRun, units: Units = SI) -> str:
         return ""
     frame = run.frames[run.cursor]
     power = frame.power if frame.power < 1e12 else None  # A design that did not trim has no power.
-    what = "the blade it began from" if run.cursor == 0 else f"design {frame.evaluation}"
+    what = "starting design" if run.cursor == 0 else f"design {frame.evaluation}"
     return (
         f'<div class="rx rx-line rx-dim rx-small" data-explorer="frame"><span>{what}</span>'
         f"<span>{units.watts(power, 1)}</span></div>"
@@ -144,7 +144,7 @@ def frame_line(run: SearchRun, units: Units = SI) -> str:
 
 
 def moved_on() -> str:
-    """The sliders no longer mean the design that the search began from."""
+    """The sliders no longer hold the starting design of the search."""
     return (
-        '<div class="rx rx-dim rx-small" data-explorer="frame">The sliders have moved on. Apply takes the best.</div>'
+        '<div class="rx rx-dim rx-small" data-explorer="frame">The sliders have changed. Apply takes the optimum.</div>'
     )

@@ -14,9 +14,9 @@ from rotor.design.design import Design
 from rotor.trim.solution import Solution
 
 _WORDS = (
-    '<div class="rx rx-dim rx-small rx-found">The same flight, first without flapping, losses, reverse flow, '
-    "compressibility and drag, then with one more at a time: every row is a trim. "
-    "What a part costs depends on what is there already, so beneath stands each left out alone.</div>"
+    '<div class="rx rx-dim rx-small rx-found">The same condition without flapping, losses, reverse flow, '
+    "compressibility and fuselage drag, then with one more at a time; every row is a trim. "
+    "The cost of an effect depends on the others, so below: each effect removed on its own.</div>"
 )
 _CLIMB, _ALL = len(SWITCHES) + 1, 2 * len(SWITCHES) + 1
 """Steps from everything off to everything on, and with each switch off alone."""

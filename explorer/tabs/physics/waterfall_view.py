@@ -41,9 +41,7 @@ def waterfall_chart(steps: Sequence[WaterfallStep], units: Units = SI) -> str:
 def _row(step: WaterfallStep, y: float, top: float, units: Units) -> str:
     if step.power is None:
         sentence = f"<title>{escape(step.solution.message)}</title>"
-        return (
-            f"<g>{sentence}{_words(0, y + 11, step.title)}{_words(_BAR_LEFT, y + 11, 'does not trim', 'rx-w-bad')}</g>"
-        )
+        return f"<g>{sentence}{_words(0, y + 11, step.title)}{_words(_BAR_LEFT, y + 11, 'has no trim', 'rx-w-bad')}</g>"
     change, added = step.change, step.added
     if change is None or added is None or step.against is None:
         return _whole(step.title, step, y, top, units)
@@ -120,7 +118,7 @@ def alone_table(steps: Sequence[WaterfallStep], units: Units = SI) -> str:
         sentence = step.switch.off if step.switch else ""
         name = f'<tr title="{escape(sentence)}"><td>no {escape(step.title.lower())}</td>'
         if step.change is None or step.added is None:
-            rows.append(f'{name}<td colspan="3" class="rx-num rx-broken">does not trim</td></tr>')
+            rows.append(f'{name}<td colspan="3" class="rx-num rx-broken">has no trim</td></tr>')
         elif step.note:
             rows.append(f'{name}<td colspan="3" class="rx-num rx-dim rx-small">{escape(step.note)}</td></tr>')
         else:
@@ -132,7 +130,7 @@ def alone_table(steps: Sequence[WaterfallStep], units: Units = SI) -> str:
     )
     return (
         '<div class="rx rx-alone" data-explorer="each-alone"><table>'
-        f'<tr><td class="rx-dim">one off, the rest on</td>{head}</tr>{"".join(rows)}</table></div>'
+        f'<tr><td class="rx-dim">one off, all others on</td>{head}</tr>{"".join(rows)}</table></div>'
     )
 
 

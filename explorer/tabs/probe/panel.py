@@ -58,7 +58,7 @@ class ProbePanel:
         self._hand = threading.Lock()
         """Held by whoever turns the blade: the clock or the user."""
         self._walked: float | None = None
-        """Where the clock left the marked blade [deg]."""
+        """Where the clock left the reference blade [deg]."""
         self._left = 0.0
         """How long it may play on [s]."""
         gui = client.gui
@@ -66,9 +66,9 @@ class ProbePanel:
         self._r = gui.add_slider("Radius r/R", 0.5, 1.0, _R_STEP, 0.75, hint=hint("probe_r"))
         self._psi = gui.add_slider("Azimuth ψ [°]", 0.0, 360.0, _PSI_STEP, 60.0, hint=hint("probe_psi"))
         self._panel = gui.add_html("")
-        self._follow = gui.add_checkbox("With the blade", True, hint=hint("probe_follow"))
-        self._shown = gui.add_checkbox("On the disk", False, hint=hint("probe_shown"))
-        self._opened = gui.add_checkbox("Angles ×3", False, hint=hint("probe_opened"))
+        self._follow = gui.add_checkbox("Follow the reference blade", True, hint=hint("probe_follow"))
+        self._shown = gui.add_checkbox("Show on the disk", False, hint=hint("probe_shown"))
+        self._opened = gui.add_checkbox("Enlarge angles", False, hint=hint("probe_opened"))
         self._psi.on_update(lambda event: self._psi_moved(event.target.value) if event.client is not None else None)
         self._r.on_update(lambda event: self._moved() if event.client is not None else None)
         for box in (self._follow, self._shown, self._opened):
@@ -77,7 +77,7 @@ class ProbePanel:
         self._bind()
 
     def show(self, state: SessionState) -> None:
-        """Follow a converged answer, or the marked blade."""
+        """Follow a converged answer, or the reference blade."""
         if self._follow.value:
             # Where the blade is by now: an older place would pull a slider that is dragged back.
             self._psi.value = self._context.view().azimuth_deg
@@ -153,7 +153,7 @@ class ProbePanel:
         return probe(solution, r, math.radians(place.psi_deg))
 
     def _set(self, r: float, psi_deg: float | None = None) -> None:
-        """Move the probe, and with it the marked blade where they are tied; without ψ only along the blade."""
+        """Move the probe, and with it the reference blade where they are tied; without ψ only along the blade."""
         self._r.value = round(min(max(r, self._r.min), 1.0), 2)
         if psi_deg is None:
             self._moved()
@@ -203,7 +203,7 @@ def _innermost(rotor: Rotor) -> float:
 
 
 def _drawn_pitch(state: SessionState, here: Probe) -> float:
-    """Twist of the marked blade at the probe as it is drawn [rad]: in the blade's own axes, exaggerated."""
+    """Twist of the reference blade at the probe as it is drawn [rad]: in the blade's own axes, exaggerated."""
     design = state.solution.design
     twist = (*blade_twists(design, (math.radians(state.view.azimuth_deg),)), design.twist)[0]
     return state.view.exaggeration * float(twist([here.r])[0])

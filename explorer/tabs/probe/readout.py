@@ -80,9 +80,9 @@ def _table(probe: Probe) -> str:
     margin = probe.stall_margin
     efficiency = probe.cl / probe.cd if probe.cd > 0.0 else None
     entries = (
-        ("probe_u_t", "In plane U<sub>T</sub>", f"{number(probe.u_t, 1)} m/s"),
+        ("probe_u_t", "Tangential U<sub>T</sub>", f"{number(probe.u_t, 1)} m/s"),
         ("probe_mach", "Mach", number(probe.mach, 3)),
-        ("probe_u_p", "Down U<sub>P</sub>", f"{number(probe.u_p, 1)} m/s"),
+        ("probe_u_p", "Perpendicular U<sub>P</sub>", f"{number(probe.u_p, 1)} m/s"),
         ("probe_cl", "C<sub>l</sub>", number(probe.cl, 3)),
         ("probe_induced", "Induced v<sub>i</sub>", f"{number(probe.induced, 1)} m/s"),
         ("probe_cd", "C<sub>d</sub>", number(probe.cd, 4)),

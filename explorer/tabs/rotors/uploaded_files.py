@@ -40,22 +40,22 @@ class UploadedFiles:
         suffix = name[name.rfind(".") :].lower() if "." in name else ""
         if suffix not in SUFFIXES:
             known = ", ".join(SUFFIXES)
-            raise ValueError(f"{name} is none of {known}: load a rotor file, a deck, polars or an outline.")
+            raise ValueError(f"{name} is not one of {known}: load a rotor file, a deck, polars or an outline.")
         if len(content) > LARGEST_FILE:
             raise ValueError(f"{name} has {len(content) / 1e6:.1f} MB: a rotor's files have 2 MB at most.")
         if len(self.texts) >= _MOST_FILES and name not in self.texts:
-            raise ValueError(f"{_MOST_FILES} files are kept already: reload the page to begin anew.")
+            raise ValueError(f"{_MOST_FILES} files are loaded already: reload the page to start again.")
         try:
             text = content.decode("utf-8-sig")
         except UnicodeDecodeError:
-            raise ValueError(f"{name} is no UTF-8 text: save it as a text file.") from None
+            raise ValueError(f"{name} is not UTF-8 text: save it as a text file.") from None
         text = text.replace("\r\n", "\n")
         if suffix == ".toml":
             return self._rotor(name, text)
         _check(name, suffix, text)
         self.texts[name] = text
         if self.waiting is None:
-            return UploadResult(f"{name} is kept: a rotor file that names it under [sections] will use it.")
+            return UploadResult(f"{name} is loaded: a rotor file that names it under [sections] will use it.")
         return self._rotor(self.waiting, self.texts[self.waiting])
 
     def _rotor(self, name: str, text: str) -> UploadResult:
@@ -64,7 +64,7 @@ class UploadedFiles:
         if missing:
             self.texts[name], self.waiting = text, name
             also = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
-            return UploadResult(f"{name} is kept and waits for {missing[0]}{also}: load that next.")
+            return UploadResult(f"{name} is loaded and needs {missing[0]}{also}: load that next.")
         aircraft = read_aircraft(name, {**self.texts, name: text})
         self.texts[name], self.waiting = text, None
         return UploadResult(" ".join((f"{aircraft.name} is on the page.", *aircraft.remarks)), aircraft)

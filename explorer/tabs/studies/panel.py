@@ -33,12 +33,12 @@ _MISSING = (
     "<code>pip install 'rotor-explorer[study]'</code>, start it again."
 )
 _EMPTY = (
-    "No results beneath the folder that the page looks in (python -m explorer --studies DIR). To make one there: "
+    "No results in the folder that the page reads (python -m explorer --studies DIR). To make one there: "
     "python -m rotor study hover_cruise.toml"
 )
 _HINT = (
-    "Results of <code>python -m rotor study FILE.toml</code>. A click on a point puts its blade and its flight on the "
-    "sliders."
+    "Results of <code>python -m rotor study FILE.toml</code>. Click a point to put its blade and flight condition on "
+    "the sliders."
 )
 _CONFIG = {"displayModeBar": False, "doubleClick": "reset+autosize"}
 
@@ -74,8 +74,8 @@ class StudiesPanel:
             )  # fmt: skip
         self._state = gui.add_html("")
         self._kind = _menu(gui, "Chart", "study_chart")
-        self._x = _menu(gui, "Across", "study_axis")
-        self._y = _menu(gui, "Up", "study_axis")
+        self._x = _menu(gui, "Horizontal", "study_axis")
+        self._y = _menu(gui, "Vertical", "study_axis")
         self._colour = _menu(gui, "Colour", "study_colour")
         self._cruise = _menu(gui, "Cruise at", "study_cruise")
         self._place = gui.add_folder(None)
@@ -111,7 +111,7 @@ class StudiesPanel:
             try:
                 results = read()
                 if not results.good.any():
-                    raise ValueError(f"{name} has no point with an answer: {results.rows} rows, all failed.")
+                    raise ValueError(f"{name} has no converged point: {results.rows} rows, all failed.")
                 with self._lock:
                     if asked == self._asked:
                         self._show(results)
@@ -215,7 +215,7 @@ class StudiesPanel:
         try:
             row = results.row_of(int(text)) if text.isdecimal() else None
             if row is None:
-                raise ValueError(f"{text!r} is no point that is there: write a number in {numbers(results)}.")
+                raise ValueError(f"{text!r} is not a point: type a number in {numbers(results)}.")
             if not results.good[row]:
                 raise ValueError(f"Point {text} did not converge: choose another one.")
             inputs = share.within(inputs_of(design_of_row(results, row)))
@@ -223,7 +223,7 @@ class StudiesPanel:
             self._said.content = problem_line(str(error))
             return
         self._now = row
-        self._said.content = point_line(results, row, "Taken")
+        self._said.content = point_line(results, row, "Applied")
         self._context.set_inputs(inputs)
         self._draw()
 

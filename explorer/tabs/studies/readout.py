@@ -20,9 +20,9 @@ def summary(results: Results) -> str:
 
 
 def numbers(results: Results) -> str:
-    """The numbers of the points that are there."""
+    """The numbers of the available points."""
     points = results.columns["point"]
-    gaps = ", but for those not done yet" if points[-1] - points[0] >= results.rows else ""
+    gaps = ", some not computed yet" if points[-1] - points[0] >= results.rows else ""
     return f"{points[0]:.0f}…{points[-1]:.0f}{gaps}"
 
 
@@ -43,7 +43,7 @@ def _blank(results: Results, name: str, row: int) -> bool:
 
 
 def problem_line(sentence: str) -> str:
-    """What is wrong with the point that was asked for."""
+    """Why the requested point cannot be shown."""
     return f'<div class="rx rx-small rx-broken" data-explorer="study-point">{escape(sentence)}</div>'
 
 

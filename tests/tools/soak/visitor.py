@@ -13,7 +13,7 @@ from websockets.typing import Subprotocol
 from tests.tools.soak import wire
 
 BLADE = "/rotor/blade_0"
-"""The marked blade: its vertices tell which twist a frame shows."""
+"""The reference blade: its vertices tell which twist a frame shows."""
 _CAMERA = {
     "wxyz": (1.0, 0.0, 0.0, 0.0),
     "position": (20.0, 0.0, 20.0),
@@ -37,7 +37,7 @@ class Visitor:
 
     def __init__(self, seen: Callable[[bytes], None] = lambda vertices: None) -> None:
         self._seen = seen
-        """Called with the marked blade's vertices whenever a frame brings them."""
+        """Called with the reference blade's vertices whenever a frame brings them."""
         self._socket: ClientConnection | None = None
         self._reading: asyncio.Task[None] | None = None
         self._news = asyncio.Event()
