@@ -50,7 +50,7 @@ def blank_sensitivity() -> Plot:
 def strip(
     shape: BladeShape, twist: TwistLaw, exaggeration: float, plot: Plot
 ) -> tuple[NDArray[np.float32], NDArray[np.uint8]]:
-    """Points just above the reference blade, in its own axes, (n, 3), and their colours: rust costs power, blue saves."""
+    """Points just above the reference blade, in blade axes, (n, 3), and their colours: rust costs power, blue saves."""
     count, around = shape.rings.shape[:2]
     rings = blade_vertices(shape, twist, exaggeration)[: count * around].reshape(count, around, 3)[6:]
     upper = rings[:, : around // 2 + 1]  # From the trailing edge over the upper side to the nose.
