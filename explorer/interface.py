@@ -13,7 +13,7 @@ from explorer.charts.plots import PowerCurve
 from explorer.pinned import Pinned
 from explorer.sharing.presentation import Presentations
 from explorer.state import Inputs, ViewState
-from explorer.workers.pool import Share
+from explorer.workers.pool import PoolClient
 from rotor.design.design import Design
 from rotor.trim.solution import Solution
 
@@ -222,7 +222,7 @@ class SessionCallbacks:
 class SharedServices:
     """What the pages of one server share."""
 
-    pool: Share
+    pool: PoolClient
     """This page's access to the worker processes."""
     presentations: Presentations
     studies: Path = Path()

@@ -19,7 +19,7 @@ from explorer.tabs.optimise.search_request import OBJECTIVES, SearchRequest
 from explorer.text.glossary import hint
 from explorer.text.units import UNITS
 from explorer.workers.job import Job, JobEvent, JobProgress
-from explorer.workers.pool import Share
+from explorer.workers.pool import PoolClient
 from explorer.workers.tasks import SearchTask
 from rotor.design.design import Design
 from rotor.optimisation.concepts import CONCEPTS
@@ -35,7 +35,7 @@ class OptimisePanel:
     def __init__(
         self,
         gui: viser.GuiApi,
-        pool: Share,
+        pool: PoolClient,
         context: TabContext,
         legs: Callable[[Design], tuple[WeightedCondition, ...]],
     ) -> None:
