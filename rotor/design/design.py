@@ -20,7 +20,7 @@ Trim = Literal["propulsive", "thrust"]
 
 @dataclass(frozen=True)
 class Models:
-    """Which models compute the answer. A preset is a value of this type, never a branch of its own."""
+    """The models of a computation. A preset is a value of this type."""
 
     inflow: str
     """Forward-flight inflow model by name, one of `rotor.aero.inflow.INFLOW_MODELS`."""
@@ -38,13 +38,13 @@ class Models:
     tip_loss: bool = True
     """Prandtl's tip factor, eq. (3.16). Off: F_tip = 1; a dynamic wake is then that of infinitely many blades."""
     hub_loss: bool = True
-    """Root factor, eq. (3.17), where the inflow does not answer to the load. Off: F_hub = 1."""
+    """Root factor, eq. (3.17), where the inflow does not depend on the load. Off: F_hub = 1."""
     reverse_flow: bool = True
-    """Whether blade elements that the air meets from behind carry load. Off: none inside the circle r < −µ sin ψ."""
+    """Whether blade elements in reverse flow carry load. Off: none inside the circle r < −µ sin ψ."""
     flapping: bool = True
-    """Whether the blades flap. Off: held rigid, β = 0, without cyclic; the hub carries the moments that are left."""
+    """Whether the blades flap. Off: rigid blades, β = 0, without cyclic; the hub carries the moments."""
     compressibility: bool = True
-    """Whether sections answer to the Mach number. Off: their data at Mach 0.3 everywhere."""
+    """Whether section data depend on the Mach number. Off: data at Mach 0.3 everywhere."""
     fuselage: bool = True
     """Whether the airframe has drag, eq. (3.19). Off: drag area 0."""
     elements: int = 40
@@ -61,11 +61,11 @@ class Models:
 
 @dataclass(frozen=True, repr=False)
 class Design:
-    """A rotor, its twist, the flight condition and the models that compute it."""
+    """A rotor, its twist, the flight condition and the models."""
 
     preset: str
     aircraft: Aircraft
-    """What the design began as: its baseline, its name, its hub."""
+    """The aircraft the design is based on: its name, hub and baseline twist."""
     rotor: Rotor
     twist: TwistLaw
     condition: FlightCondition
@@ -73,7 +73,7 @@ class Design:
     tail_rotor: TailRotor | None
     models: Models
     active_twist: ActiveTwist | None = None
-    """Twist that follows the azimuth, added to the law in forward flight."""
+    """Twist as a function of azimuth, added to the twist law in forward flight."""
 
     def __repr__(self) -> str:
         condition = self.condition
@@ -127,7 +127,7 @@ class Design:
 
     @property
     def drag(self) -> float:
-        """What the airframe asks the rotor to overcome [N], eq. (3.19); 0 where the models leave it out."""
+        """Drag of the airframe [N], eq. (3.19); 0 where the models leave it out."""
         if not self.models.fuselage:
             return 0.0
         return self.fuselage.drag(self.condition.density, self.airspeed)

@@ -1,4 +1,4 @@
-"""Where the answer stops being trustworthy, in sentences a user reads."""
+"""The limits of validity of a solution, and why a design did not trim, in sentences for the user."""
 
 from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem
@@ -10,15 +10,15 @@ from rotor.trim.solution import Caveat, HubMoment
 LOW_SPEED = 0.075
 """Below this advance ratio linear inflow is not trusted (thesis p. 26)."""
 LOWEST_SPEED = 0.05
-"""Below it the dynamic wake has not been set against a vortex wake; a real wake rolls up there."""
+"""Below it the dynamic wake has not been compared with a vortex wake; a real wake rolls up there."""
 HIGH_SPEED = 0.40
-"""Above it reverse flow and unsteady stall rule; quasi-steady sections no longer do."""
+"""Above it reverse flow and unsteady stall dominate, and quasi-steady section data no longer suffice."""
 STALL_SHARE = 0.02
-"""Stalled part of the disk from which dynamic stall would matter to the numbers."""
+"""Stalled part of the disk above which dynamic stall would change the results."""
 
 
 def caveats(problem: Problem, elements: BladeElements, stalled: float, moment: HubMoment) -> tuple[Caveat, ...]:
-    """Reasons to read a converged solution with care."""
+    """The limits of validity that a converged solution exceeds."""
     design, disk = problem.design, problem.disk
     mu = design.condition.advance_ratio
     found: list[Caveat] = []
@@ -31,47 +31,48 @@ def caveats(problem: Problem, elements: BladeElements, stalled: float, moment: H
     if design.aircraft.hub == "teetering":
         add(
             "teetering",
-            "A teetering hub holds its coning; here the blades cone as if hinged at the shaft, where they teeter.",
+            "A teetering hub has built-in coning; here the blades cone as if each were hinged at the shaft.",
         )
     if design.tail_rotor is None and design.models.tail_rotor_solved:
         add(
             "no-tail-rotor",
-            f"The rotor file has no tail rotor: {100.0 * FIXED_SHARE:.0f} % of the main rotor's power stand for it.",
+            f"The rotor file has no tail rotor: {100.0 * FIXED_SHARE:.0f} % of main-rotor power is used instead.",
         )
     if design.preset == "thesis" and design.aircraft.stated is None:
         add(
             "thesis-models",
-            f"The document knows no {design.aircraft.name}: these are its models on this rotor's own blade.",
+            f"The document does not treat the {design.aircraft.name}: these are its models with this rotor's blade.",
         )
     off = switched_off(design.models)
     if off:
         names = ", ".join(switch.title.lower() for switch in off)
-        add("switched-off", f"Switched off: {names}: a lesson, not the aircraft.")
+        add("switched-off", f"Switched off: {names}. For teaching; the aircraft has all of them.")
     if not design.models.flapping and mu > 0.0:
         add("rigid-blades", _rigid(moment))
         if not problem.inflow.load_dependent:
             add(
                 "rigid-blades-linear-inflow",
-                "Linear inflow does not answer to lopsided lift: the induced power of rigid blades comes out too low.",
+                "Linear inflow does not respond to unequal lift: the induced power of rigid blades is too low.",
             )
     if design.active_twist and design.hovering:
-        add(
-            "active-twist-rests", "Active twist follows the azimuth and rests in hover; only the twist law counts here."
-        )
+        add("active-twist-rests", "Active twist is off in hover, where only the twist law acts.")
     if 0.0 < mu < LOW_SPEED and not problem.inflow.load_dependent:
-        add("low-speed-inflow", f"Linear inflow is not trusted below advance ratio {LOW_SPEED:g}; this is {mu:.3f}.")
+        add("low-speed-inflow", f"Linear inflow is not valid below advance ratio {LOW_SPEED:g}; this is {mu:.3f}.")
     elif 0.0 < mu < LOWEST_SPEED:
         add(
             "low-speed-inflow",
-            f"No skewed-wake model is proven below advance ratio {LOWEST_SPEED:g}; this is {mu:.3f}.",
+            f"No skewed-wake model is validated below advance ratio {LOWEST_SPEED:g}; this is {mu:.3f}.",
         )
     if mu > HIGH_SPEED:
         add(
             "high-speed",
-            f"Above advance ratio {HIGH_SPEED:.2f} quasi-steady sections and rigid blades are a rough guide.",
+            f"Above advance ratio {HIGH_SPEED:.2f} quasi-steady sections and rigid blades are a rough approximation.",
         )
     if stalled > STALL_SHARE:
-        add("stall", f"{100.0 * stalled:.1f} % of the disk is stalled; section data are steady, without dynamic stall.")
+        add(
+            "stall",
+            f"{100.0 * stalled:.1f} % of the disk is stalled; section data are steady, without dynamic stall.",
+        )
     top_mach = float(elements.loads[kernel.MACH].max())
     if disk.fit_range is not None:
         if top_mach > 0.5:
@@ -103,21 +104,23 @@ def _rigid(moment: HubMoment) -> str:
 
 
 def failure_sentence(design: Design, reached: float, stalled: float) -> str:
-    """Why a design did not trim, and what would help."""
+    """Why a design did not trim, and the remedy."""
     condition = design.condition
     share = f" {100.0 * stalled:.0f} % of the disk is stalled at the last attempt." if stalled > STALL_SHARE else ""
     if design.hovering:
         return (
-            f"Not trimmed: the hovering rotor makes at most {100.0 * reached:.0f} % of the thrust that "
-            f"{condition.mass:.0f} kg at {condition.altitude:.0f} m needs; lower the weight or the altitude."
+            f"Not trimmed: the hovering rotor produces at most {100.0 * reached:.0f} % of the thrust that "
+            f"{condition.mass:.0f} kg at {condition.altitude:.0f} m needs; lower the mass or the altitude."
         )
     how_far = (
-        f" Coming from a lighter rotor, the trim ends {100.0 * reached:.0f} % of the way." if reached > 0.0 else ""
+        f" Continuation from a lighter, slower rotor stops at {100.0 * reached:.0f} % of the way."
+        if reached > 0.0
+        else ""
     )
     return (
         f"Not trimmed: {condition.mass:.0f} kg at {condition.altitude:.0f} m and advance ratio "
         f"{condition.advance_ratio:.3f} is beyond this rotor.{how_far}{share} "
-        f"Lower the weight, the altitude or the speed{'' if design.models.flapping else ', or let the blades flap'}."
+        f"Lower the mass, the altitude or the speed{'' if design.models.flapping else ', or let the blades flap'}."
     )
 
 

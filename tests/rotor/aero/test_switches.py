@@ -257,7 +257,7 @@ class TestFlapping:
     def test_the_page_reads_what_the_hub_carries(self):
         solution = solve(with_switches(small(0.25), ("flapping",))).require()
         sentences = {caveat.name: caveat.sentence for caveat in solution.caveats}
-        assert sentences["switched-off"] == "Switched off: flapping: a lesson, not the aircraft."
+        assert sentences["switched-off"] == "Switched off: flapping. For teaching; the aircraft has all of them."
         assert f"{solution.hub_moment.roll / 1e3:.0f} kN m rolling to the retreating side" in sentences["rigid-blades"]
         assert solution.hub_moment.roll > 50e3
 

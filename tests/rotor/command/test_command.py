@@ -74,7 +74,7 @@ def test_not_converged_is_exit_1_with_nulls(capsys: pytest.CaptureFixture[str]):
     assert list(answer) == KEYS
     assert answer["status"] == "not-converged"
     assert answer["power_w"]["total"] is None
-    assert "lower the weight" in answer["message"]
+    assert "lower the mass" in answer["message"]
 
 
 @pytest.mark.parametrize(
