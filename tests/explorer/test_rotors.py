@@ -156,8 +156,6 @@ def test_a_pinned_design_of_another_rotor_keeps_its_own_flight(r22: Solution):
 
 def test_actuators_are_for_the_blade_whose_structure_is_known():
     check_blade(shipped_aircraft("uh60a"))
-    with pytest.raises(
-        ValueError, match="structure of the Robinson R22 blade is not known, and actuators are computed"
-    ):
+    with pytest.raises(ValueError, match="structure of the Robinson R22 blade is not known, and actuators are"):
         check_blade(shipped_aircraft("r22"))
     assert math.isfinite(R22.speed_kt)
