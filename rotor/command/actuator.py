@@ -77,7 +77,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def record(verdict: Verdict, turned: PhaseSweep | None = None) -> dict[str, Any]:
-    """The JSON of `actuator --json` (DESIGN §8). Savings are means over both conditions."""
+    """The JSON of `actuator --json`. Savings are means over both conditions."""
     values: dict[str, Any] = {
         "status": "converged",
         "message": verdict_sentence(verdict),

@@ -43,7 +43,7 @@ class SchedulePanel:
         with gui.add_folder("Mission: µ and hours"):
             self._rows = [
                 gui.add_vector2(
-                    f"WeightedCondition {k + 1}",
+                    f"Leg {k + 1}",
                     (row.advance_ratio, row.hours),
                     min=(0.0, 0.0),
                     max=(0.45, 99.0),

@@ -1,4 +1,4 @@
-"""The command line as scripts see it (DESIGN §8): flags, JSON keys, exit codes, one line for bad input."""
+"""The command line as scripts see it: flags, JSON keys, exit codes, one line for bad input."""
 
 import csv
 import json

@@ -79,7 +79,7 @@ def test_shaft_power_is_the_sum_of_its_parts(key: str):
 @pytest.mark.slow
 @pytest.mark.parametrize(("key", "low", "high"), [("r22", -0.010, 0.010), ("s61", 0.0, 0.025)])
 def test_dynamic_wake_of_two_and_of_five_blades_is_near_the_vortex_wake(key: str, low: float, high: float):
-    """Main-rotor power; on the UH-60A's four blades the two models differ by −0.9…+2.4 % (DESIGN §5)."""
+    """Main-rotor power; on the UH-60A's four blades the two models differ by −0.9…+2.4 %."""
     design = make_design(rotor=key)
     for mu in (0.1, 0.25):
         ours, oracle = (
