@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Protocol
 
 from explorer.charts.plots import PowerCurve
+from explorer.picture.fields import Field
 from explorer.pinned import Pinned
 from explorer.sharing.presentation import Presentations
 from explorer.state import Inputs, ViewState
@@ -227,3 +228,11 @@ class SharedServices:
     presentations: Presentations
     studies: Path = Path()
     """The folder whose results the Studies tab offers."""
+
+
+class RangeDisplay(Protocol):
+    """The widgets that show the colour range of the disk."""
+
+    def show_range(self, field: Field, colour_range: tuple[float, float], faded: bool) -> None:
+        """Show the colour bar of a field; `faded`: the disk no longer holds."""
+        ...

@@ -14,11 +14,18 @@ ROOT = Path(__file__).parent.parent
 PHYSICS = {"numpy", "scipy", "numba", "threadpoolctl", "tqdm"}
 KNOW_VISER = ("explorer/tabs/", "explorer/scene/", "explorer/hosting/")
 """Folders that may import viser; files directly in `explorer/` may too."""
-ORDER = (
-    "arrays", "units", "blas_threads", "plots", "assets", "airfoil", "design", "dynamics", "aero", "files", "trim",
-    "optimisation", "analysis", "actuator", "study", "reproduce", "command",
-)  # fmt: skip
-"""The folders of `rotor` from the ground up: each imports only from those before it."""
+ORDER = {
+    "rotor": (
+        "arrays", "units", "blas_threads", "plots", "assets", "airfoil", "design", "dynamics", "aero", "files", "trim",
+        "optimisation", "analysis", "actuator", "study", "reproduce", "command",
+    ),
+    "explorer": (
+        "theme", "workers", "hosting", "rotor_choice", "state", "text", "undo", "sliders", "pinned", "picture",
+        "charts", "sharing", "interface", "scene", "export", "tabs", "page", "session", "connection", "app",
+        "notebook",
+    ),
+}  # fmt: skip
+"""Folders and files of each package from the ground up: each imports only from itself and those before it."""
 
 
 def sources(package: str) -> list[Path]:
@@ -67,15 +74,27 @@ def test_only_one_file_leans_on_private_names_of_viser():
     assert set(users) <= {"viser_compat.py"}
 
 
-def test_no_import_in_rotor_points_up():
-    for path in sources("rotor"):
-        folder = path.relative_to(ROOT / "rotor").parts[0].removesuffix(".py")
+@pytest.mark.parametrize("package", ORDER)
+def test_no_import_points_up(package: str):
+    order = ORDER[package]
+    for path in sources(package):
+        folder = path.relative_to(ROOT / package).parts[0].removesuffix(".py")
         if folder.startswith("__"):
             continue
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("rotor."):
-                used = node.module.split(".")[1]
-                assert ORDER.index(used) <= ORDER.index(folder), f"{name(path)} imports {node.module}"
+        assert folder in order, f"{package}/{folder} has no place in ORDER"
+        for used in imported_parts(path, package):
+            assert order.index(used) <= order.index(folder), f"{name(path)} imports {package}.{used}"
+
+
+def imported_parts(path: Path, package: str) -> Iterator[str]:
+    """Folders and files of a package that a file imports, wherever in the file."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if not isinstance(node, ast.ImportFrom) or not node.module:
+            continue
+        if node.module == package:
+            yield from (alias.name for alias in node.names if alias.name in ORDER[package])
+        elif node.module.startswith(f"{package}."):
+            yield node.module.split(".")[1]
 
 
 def test_importing_rotor_brings_no_page():

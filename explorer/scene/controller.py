@@ -4,13 +4,13 @@ from dataclasses import dataclass, replace
 
 import viser
 
+from explorer.interface import RangeDisplay
 from explorer.picture.difference import shown_field
 from explorer.picture.fields import Field, fitted_range
 from explorer.picture.picture import disk_png, field_values, make_picture, turned_blades
 from explorer.scene.overlays import Ghost, OtherBlade
 from explorer.scene.scene import Scene
 from explorer.state import ViewState
-from explorer.tabs.display import Display
 from rotor.design.blade import Rotor
 from rotor.trim.solution import Solution
 
@@ -36,7 +36,7 @@ class _Drawn:
 class SceneController:
     """One session's; everything but the buttons happens on its worker."""
 
-    def __init__(self, client: viser.ClientHandle, rotor: Rotor, display: Display) -> None:
+    def __init__(self, client: viser.ClientHandle, rotor: Rotor, display: RangeDisplay) -> None:
         self._client = client
         self._display = display
         self._scene = Scene(client.scene, rotor)

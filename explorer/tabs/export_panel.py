@@ -25,8 +25,8 @@ from explorer.picture.disk_image import encode_rgba
 from explorer.picture.fields import FIELDS, Field
 from explorer.scene.camera import FittedCamera
 from explorer.scene.still_scene import make_stage
-from explorer.tabs.history.strip import Kept
 from explorer.text.glossary import hint
+from explorer.undo import KeptDesign
 
 _log = logging.getLogger(__name__)
 _OWN = "Own size"
@@ -41,7 +41,7 @@ class ExportSources:
     """What the folder needs beyond its context."""
 
     camera: Callable[[], FittedCamera]
-    kept: Callable[[], tuple[Kept, ...]]
+    kept: Callable[[], tuple[KeptDesign, ...]]
     """Designs that were set aside."""
     colour_range: Callable[[Field], Range]
     """As it is held on the page."""

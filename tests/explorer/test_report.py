@@ -25,12 +25,12 @@ from explorer.export.provenance import versions
 from explorer.export.report import command as report_command
 from explorer.export.report.contents import DesignReport, ReportEntry, report_of
 from explorer.export.report.document import report_html
-from explorer.export.scene_recordings import EmbeddedViewer, embedded_viewer
 from explorer.export.sheet import disk_sheet, shown, view_sheet, window
 from explorer.picture import disk_image
 from explorer.picture.disk_image import SIZE
 from explorer.picture.fields import FIELDS
 from explorer.picture.picture import disk_png
+from explorer.scene.embedded_viewer import EmbeddedViewer, embedded_viewer
 from explorer.scene.still_scene import make_stage
 from explorer.state import Inputs, ViewState, baseline_of
 from rotor.design.design import Design
