@@ -18,7 +18,6 @@ from rotor.command.parser import build_parser
 from rotor.design.blade import airfoils_spec
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
-from rotor.files.design_file import design_record
 from rotor.files.make_design import make_design
 
 CASE_FILE = "design.json"
@@ -53,7 +52,7 @@ def as_command_line(design: Design) -> CommandLine:
     note = "The twist table is read from a file: run this where it lies.\n" if "table:" in design.twist.spec() else ""
     if _is_read_as(flags, design):
         return CommandLine(_on_lines(["python -m rotor solve", *flags]), None, note)
-    case = json.dumps({**design_record(design), "twist": exact_spec(design.twist)}, indent=2) + "\n"
+    case = json.dumps({**design.to_dict(), "twist": exact_spec(design.twist)}, indent=2) + "\n"
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder, CASE_FILE)
         path.write_text(case, encoding="utf-8")

@@ -1,7 +1,7 @@
 """An aircraft as far as its rotor needs it: main rotor, tail rotor, drag area, mass. The contents of a rotor file."""
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 from rotor.design.blade import Rotor
 from rotor.design.flight import Fuselage
@@ -80,6 +80,15 @@ class Aircraft:
 
     def __repr__(self) -> str:
         return f"Aircraft({self.name}, {self.mass:.0f} kg, drag area {self.fuselage.drag_area:.3g} m², {self.rotor})"
+
+    def record(self) -> Any:
+        """For a design file: the name of a shipped rotor, or all files of a user's own, line by line."""
+        if self.files is None:
+            return self.key
+        return {
+            "main": self.files.main,
+            "files": {name: text.splitlines() for name, text in self.files.texts},
+        }
 
     def rotor_for(self, preset: str) -> Rotor:
         """The rotor of a preset: `thesis` takes the document's where there is one, else the rotor as built."""

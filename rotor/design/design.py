@@ -4,18 +4,24 @@ Equality, hashing, caching, JSON and undo come from that. A preset is a value of
 models, and `thesis`, those that the document states.
 """
 
-from dataclasses import dataclass, replace
-from typing import Literal
+import json
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+from typing import Any, Literal
 
-from rotor.design.active_twist import ActiveTwist
+from rotor.design.active_twist import ActiveTwist, active_twist_record
 from rotor.design.aircraft import Aircraft, TailRotor
-from rotor.design.blade import Rotor
+from rotor.design.blade import Rotor, airfoils_spec
 from rotor.design.flight import FlightCondition, Fuselage, advance_ratio, number
 from rotor.design.twist import TwistLaw, ideal_tip_pitch
-from rotor.design.twist_spec import parse_twist
+from rotor.design.twist_spec import inline_spec, parse_twist
 
 HoverInflow = Literal["annulus", "closed-form"]
 Trim = Literal["propulsive", "thrust"]
+
+FORMAT = "rotor-explorer design"
+"""Of design files."""
+VERSION = 2
 
 
 @dataclass(frozen=True)
@@ -119,6 +125,30 @@ class Design:
         slope = float(rotor.blade.installed(rotor.blade.spans[0].section).table.lift_slope(0.3))
         tip_pitch = ideal_tip_pitch(self.weight_coefficient, rotor.solidity, slope)
         return replace(self, twist=parse_twist(twist, builtin=rotor.builtin_twist, ideal_tip_pitch=tip_pitch))
+
+    def to_dict(self) -> dict[str, Any]:
+        """The record of a design file: texts, numbers and lists only."""
+        changed = self.rotor != self.aircraft.rotor_for(self.preset)
+        airfoils = airfoils_spec(self.rotor) if changed else None
+        switches = [field.name for field in fields(Models) if field.default is True]
+        return {
+            "format": FORMAT,
+            "version": VERSION,
+            "rotor": self.aircraft.record(),
+            "preset": self.preset,
+            "twist": inline_spec(self.twist),
+            "advance_ratio": self.condition.advance_ratio,
+            "mass_kg": self.condition.mass,
+            "altitude_m": self.condition.altitude,
+            "inflow": self.models.inflow,
+            **{name: getattr(self.models, name) for name in switches},
+            **({"airfoils": airfoils} if airfoils else {}),
+            **({"active_twist": active_twist_record(self.active_twist)} if self.active_twist else {}),
+        }
+
+    def save(self, path: str | Path) -> None:
+        """Write a design file, which `load_design` reads."""
+        Path(path).write_text(json.dumps(self.to_dict(), indent=2) + "\n", encoding="utf-8")
 
     @property
     def airspeed(self) -> float:

@@ -260,10 +260,10 @@ def find_aircraft(name: str) -> Aircraft:
     """The aircraft of a shipped rotor's name or of the path of a rotor file; ValueError with one sentence otherwise."""
     if name in SHIPPED_ROTORS or not ("." in name or "/" in name or Path(name).exists()):
         return shipped_aircraft(name)
-    return read_rotor_file(name)
+    return load_rotor(name)
 
 
-def read_rotor_file(path: str | Path) -> Aircraft:
+def load_rotor(path: str | Path) -> Aircraft:
     """The aircraft of a rotor file on disk, with the section files beside it.
 
     Raises ValueError with one sentence that names file, line and remedy.

@@ -14,7 +14,6 @@ from rotor.aero.trim_state import TrimState
 from rotor.arrays import Array
 from rotor.design.active_twist import active_twist_record
 from rotor.design.design import Design
-from rotor.files.design_file import design_record
 from rotor.plots import plot_disk
 
 
@@ -243,7 +242,7 @@ class Solution:
 
     def save(self, path: str | Path) -> None:
         """Write the design and, under `solution`, its results as JSON; `load_design` reads the design back."""
-        record = {**design_record(self.design), "solution": self.to_dict()}
+        record = {**self.design.to_dict(), "solution": self.to_dict()}
         Path(path).write_text(json.dumps(record, indent=2, allow_nan=False) + "\n", encoding="utf-8")
 
     def plot(self, field: str = "alpha", ax: Any = None) -> Any:

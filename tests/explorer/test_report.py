@@ -34,7 +34,6 @@ from explorer.scene.embedded_viewer import EmbeddedViewer, embedded_viewer
 from explorer.scene.still_scene import make_stage
 from explorer.state import Inputs, ViewState, baseline_of
 from rotor.design.design import Design
-from rotor.files.design_file import write_design
 from rotor.trim.solution import Status
 from rotor.trim.solve import solve
 
@@ -272,7 +271,7 @@ class TestCommand:
     ):
         monkeypatch.setattr(report_command, "report_html", lambda report, stage: report_html(report, stage, Swept()))
         for name, solution in (("now", NOW), ("fast", FAST)):
-            write_design(solution.design, tmp_path / f"{name}.json")
+            solution.design.save(tmp_path / f"{name}.json")
         out = tmp_path / "out.html"
         files = [str(tmp_path / f"{name}.json") for name in ("now", "fast")]
         assert command.main(["report", *files, "--out", str(out), "--field", "Mach number"]) == 0

@@ -17,7 +17,7 @@ from rotor.airfoil.sections import load_installed
 from rotor.airfoil.wrap import on_run_time_grid
 from rotor.assets import asset_path
 from rotor.design.aircraft import Aircraft
-from rotor.files.rotor_file import read_aircraft, read_rotor_file
+from rotor.files.rotor_file import load_rotor, read_aircraft
 from rotor.trim.solve import solve
 
 GOOD = """\
@@ -230,8 +230,8 @@ def test_files_beside_the_rotor_file_are_found(tmp_path: Path):
     text = GOOD.replace('"naca0012"', '"mine"') + '\n[sections.mine]\ndeck = "mine.c81"\n'
     (tmp_path / "my.toml").write_text(text, encoding="utf-8")
     with pytest.raises(ValueError, match=r"my\.toml, line 21: deck names 'mine\.c81', which is missing"):
-        read_rotor_file(tmp_path / "my.toml")
+        load_rotor(tmp_path / "my.toml")
     (tmp_path / "mine.c81").write_bytes(asset_path("airfoils/naca0012.c81").read_bytes())
-    assert read_rotor_file(tmp_path / "my.toml").rotor.blade.own_sections[0].name == "mine"
+    assert load_rotor(tmp_path / "my.toml").rotor.blade.own_sections[0].name == "mine"
     with pytest.raises(ValueError, match="does not exist"):
-        read_rotor_file(tmp_path / "other.toml")
+        load_rotor(tmp_path / "other.toml")

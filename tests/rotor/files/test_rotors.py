@@ -14,7 +14,7 @@ from rotor.__main__ import main
 from rotor.aero.inflow.vortex_lattice import shared_azimuths
 from rotor.analysis.ideal_bound import find_bound, ideal_factor
 from rotor.assets import SHIPPED_ROTORS, asset_path
-from rotor.files.design_file import design_from_record, design_record
+from rotor.files.design_file import design_from_record
 from rotor.files.rotor_file import find_aircraft, read_aircraft, shipped_aircraft
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.objective import at_condition
@@ -142,10 +142,10 @@ def test_a_linear_optimum_of_another_rotor(key: str):
 @pytest.mark.parametrize("key", SHIPPED_ROTORS)
 def test_design_files_name_a_shipped_rotor_and_hold_ones_own(key: str):
     design = make_design(rotor=key, twist="builtin", mu=0.23)
-    assert design_record(design)["rotor"] == key
-    assert design_from_record(json.loads(json.dumps(design_record(design)))) == design
+    assert design.to_dict()["rotor"] == key
+    assert design_from_record(json.loads(json.dumps(design.to_dict()))) == design
     mine = make_design(rotor=read_aircraft("my.toml", own(key)), twist="builtin", mu=0.23)
-    back = design_from_record(json.loads(json.dumps(design_record(mine))))
+    back = design_from_record(json.loads(json.dumps(mine.to_dict())))
     assert back == mine
     assert pickle.loads(pickle.dumps(mine)) == mine
     assert back.aircraft.key == ""
