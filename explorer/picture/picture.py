@@ -11,6 +11,7 @@ from explorer.picture.fields import FIELDS, Field
 from explorer.picture.meshes import blade_shape, blade_vertices, size
 from explorer.picture.moving_blades import blade_twists
 from explorer.picture.outlines import drag_divergence_segments, reverse_flow_segments, stall_segments
+from explorer.picture.png import encode_png
 from explorer.picture.polar import polar_grid
 from explorer.picture.poses import Pose, blade_pose, rotor_pose, tip_path_pose
 from explorer.state import ViewState
@@ -110,7 +111,7 @@ def disk_png(
     fineness = size / disk_image.SIZE
     grid = polar_grid(solution.disk, round(fineness * disk_image.RADII), round(fineness * disk_image.AZIMUTHS))
     pixels = disk_image.indices(grid, field.sample(solution, grid), *colour_range, field.void(solution, grid), size)
-    return disk_image.encode_png(pixels, disk_image.palette(field.colours, faded))
+    return encode_png(pixels, disk_image.palette(field.colours, faded))
 
 
 def field_values(solution: Solution, field: Field) -> Array:

@@ -21,8 +21,8 @@ from explorer.export.sheet import DiskContent, disk_sheet, shown, view_sheet, wi
 from explorer.hosting import viser_compat
 from explorer.interface import SessionState, TabContext
 from explorer.picture.difference import shown_field
-from explorer.picture.disk_image import encode_rgba
 from explorer.picture.fields import FIELDS, Field
+from explorer.picture.png import encode_rgba
 from explorer.scene.camera import FittedCamera
 from explorer.scene.still_scene import make_stage
 from explorer.text.glossary import hint
