@@ -101,9 +101,8 @@ def test_design_files_round_trip(tmp_path: Path, preset: str, twist: str | None)
     ],
 )
 def test_bad_design_files_are_one_sentence(case: dict[str, object], words: str):
-    with pytest.raises(ValueError, match=r"(?s).*") as caught:
+    with pytest.raises(ValueError, match=re.escape(words)) as caught:
         design_from_record(case)
-    assert words in str(caught.value)
     assert "\n" not in str(caught.value)
 
 
