@@ -4,14 +4,13 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from explorer.charts.paper import Paper
 from explorer.charts.plots import Range
 from explorer.charts.power_curve import PowerCurves
 from explorer.export.blade import blade_stl, rotor_glb
 from explorer.export.provenance import file_stem
 from explorer.export.report.contents import DesignReport, ReportEntry, report_of
 from explorer.export.report.document import report_html
-from explorer.export.sheet import DiskContent
+from explorer.export.sheet import DiskContent, Paper
 from explorer.export.tables import blade_csv, disk_csv, power_csv
 from explorer.interface import SessionState
 from explorer.picture.fields import FIELDS

@@ -11,13 +11,12 @@ from typing import Any
 
 import viser
 
-from explorer.charts.paper import LARGEST, SIZES, SMALLEST, Paper
 from explorer.charts.plots import Range
 from explorer.charts.power_curve import PowerCurves
 from explorer.export import files
 from explorer.export.as_code import as_command_line, as_python
 from explorer.export.files import File
-from explorer.export.sheet import DiskContent, disk_sheet, shown, view_sheet, window
+from explorer.export.sheet import LARGEST, SIZES, SMALLEST, DiskContent, Paper, disk_sheet, shown, view_sheet, window
 from explorer.hosting import viser_compat
 from explorer.interface import SessionState, TabContext
 from explorer.picture.difference import shown_field

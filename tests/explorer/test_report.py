@@ -16,16 +16,15 @@ from numpy.testing import assert_allclose
 from PIL import Image
 
 from explorer import __main__ as command
-from explorer.charts import marks
+from explorer.charts import svg
 from explorer.charts.line_chart import Trace, line_chart
-from explorer.charts.paper import SIZES, Paper
 from explorer.charts.plots import SWEEP, PowerCurve
 from explorer.charts.power_curve import PowerCurves
 from explorer.export.provenance import versions
 from explorer.export.report import command as report_command
 from explorer.export.report.contents import DesignReport, ReportEntry, report_of
 from explorer.export.report.document import report_html
-from explorer.export.sheet import disk_sheet, shown, view_sheet, window
+from explorer.export.sheet import SIZES, Paper, disk_sheet, shown, view_sheet, window
 from explorer.picture import disk_image
 from explorer.picture.disk_image import SIZE
 from explorer.picture.fields import FIELDS
@@ -70,11 +69,11 @@ class TestDrawing:
         ring = np.stack((corners, np.roll(corners, -1, axis=0)), axis=1)
         ring[2] = ring[2][::-1]  # Whichever way a segment runs.
         apart = np.array([[[3.0, 3.0], [4.0, 4.0]]])
-        square, line = marks.joined(np.concatenate((ring, apart)))
+        square, line = svg.joined(np.concatenate((ring, apart)))
         assert len(square) == 5
         assert_allclose(square[0], square[-1])
         assert_allclose(line, apart[0])
-        assert marks.polylines([square]).endswith("Z")
+        assert svg.polylines([square]).endswith("Z")
 
     def test_the_disk_has_the_pixels_asked_for_up_to_the_largest(self, monkeypatch: pytest.MonkeyPatch):
         monkeypatch.setattr(disk_image, "LARGEST", 600)
