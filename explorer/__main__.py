@@ -34,12 +34,12 @@ def _run(options: argparse.Namespace) -> int:
     from explorer.hosting.limits import ServerLimits
     from explorer.state import OPENING, inputs_of
     from rotor.blas_threads import keep_one_blas_thread
-    from rotor.files.design_file import read_design
+    from rotor.files.design_file import load_design
 
     keep_one_blas_thread()
 
     try:
-        start = inputs_of(read_design(options.design)) if options.design else OPENING
+        start = inputs_of(load_design(options.design)) if options.design else OPENING
         limits = ServerLimits(
             sessions=options.max_sessions,
             sleep_after=60.0 * options.sleep_after,

@@ -10,10 +10,11 @@ from pathlib import Path
 from typing import Protocol
 
 from explorer.charts.plots import PowerCurve
+from explorer.picture.fields import Field
 from explorer.pinned import Pinned
 from explorer.sharing.presentation import Presentations
 from explorer.state import Inputs, ViewState
-from explorer.workers.pool import Share
+from explorer.workers.pool import PoolClient
 from rotor.design.design import Design
 from rotor.trim.solution import Solution
 
@@ -222,8 +223,16 @@ class SessionCallbacks:
 class SharedServices:
     """What the pages of one server share."""
 
-    pool: Share
+    pool: PoolClient
     """This page's access to the worker processes."""
     presentations: Presentations
     studies: Path = Path()
     """The folder whose results the Studies tab offers."""
+
+
+class RangeDisplay(Protocol):
+    """The widgets that show the colour range of the disk."""
+
+    def show_range(self, field: Field, colour_range: tuple[float, float], faded: bool) -> None:
+        """Show the colour bar of a field; `faded`: the disk no longer holds."""
+        ...

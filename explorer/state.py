@@ -6,7 +6,6 @@ from dataclasses import dataclass, fields, replace
 from itertools import pairwise
 
 from explorer.rotor_choice import OWN, reference_mass_t
-from explorer.text.units import SI
 from rotor.aero.switches import SWITCHES
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.aircraft import Aircraft
@@ -169,7 +168,7 @@ class ViewState:
     stall: bool = True
     drag_divergence: bool = True
     dark: bool = False
-    units: str = SI.title
+    units: str = "SI"
     """A title of `explorer.text.units.UNITS`."""
     wake: bool = True
     """Whether the tip vortices are drawn."""

@@ -4,6 +4,7 @@ import math
 from dataclasses import dataclass, field, fields
 
 from explorer.state import Inputs
+from rotor.trim.solution import Solution
 
 STEPS = 100
 """Steps that can be undone."""
@@ -100,3 +101,16 @@ def differing(before: Inputs, after: Inputs) -> frozenset[str]:
     """Names of the inputs that two sets of them do not share."""
     names = (item.name for item in fields(Inputs))
     return frozenset(name for name in names if getattr(before, name) != getattr(after, name))
+
+
+@dataclass(frozen=True, eq=False)
+class KeptDesign:
+    """A design that the user set aside."""
+
+    inputs: Inputs
+    solution: Solution
+
+    @property
+    def power(self) -> float:
+        """Total [W]."""
+        return self.solution.power.total

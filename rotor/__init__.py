@@ -23,9 +23,9 @@ from rotor.design.blade import Rotor
 from rotor.design.design import Design, Models
 from rotor.design.flight import FlightCondition
 from rotor.design.twist_spec import parse_twist
-from rotor.files.design_file import read_design as load_design
+from rotor.files.design_file import load_design
 from rotor.files.make_design import make_design
-from rotor.files.rotor_file import read_rotor_file as load_rotor
+from rotor.files.rotor_file import load_rotor
 from rotor.optimisation.optimise import optimise
 from rotor.optimisation.results import Optimum
 from rotor.trim.solution import Caveat, PowerBudget, Solution, Status

@@ -1,4 +1,4 @@
-"""Where the data files are: `assets/` of the checkout, or its copy inside an installed wheel."""
+"""The path of data files: `assets/` of the checkout, or its copy in an installed wheel."""
 
 import csv
 from pathlib import Path
@@ -23,6 +23,6 @@ def asset_path(name: str) -> Path:
 
 
 def csv_rows(path: Path) -> list[dict[str, str]]:
-    """The rows of a table by column; lines that begin with # hold sources and are passed over."""
+    """The rows of a table by column; lines that begin with # hold sources and are skipped."""
     lines = path.read_text(encoding="utf-8").splitlines()
     return list(csv.DictReader(line for line in lines if not line.startswith("#")))

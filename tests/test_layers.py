@@ -14,11 +14,18 @@ ROOT = Path(__file__).parent.parent
 PHYSICS = {"numpy", "scipy", "numba", "threadpoolctl", "tqdm"}
 KNOW_VISER = ("explorer/tabs/", "explorer/scene/", "explorer/hosting/", "explorer/overlay/bridge.py")
 """Folders that may import viser; files directly in `explorer/` may too."""
-ORDER = (
-    "arrays", "units", "blas_threads", "plots", "assets", "airfoil", "design", "dynamics", "aero", "files", "trim",
-    "optimisation", "analysis", "actuator", "study", "reproduce", "command",
-)  # fmt: skip
-"""The folders of `rotor` from the ground up: each imports only from those before it."""
+ORDER = {
+    "rotor": (
+        "arrays", "units", "blas_threads", "plots", "assets", "airfoil", "design", "dynamics", "aero", "files", "trim",
+        "optimisation", "analysis", "actuator", "study", "reproduce", "command",
+    ),
+    "explorer": (
+        "theme", "workers", "hosting", "rotor_choice", "state", "text", "undo", "power_tracker", "sliders", "grab",
+        "pinned", "interpolation", "sensitivity", "tour", "picture", "charts", "sharing", "interface", "snapshot",
+        "overlay", "scene", "export", "tabs", "page", "session", "connection", "app", "notebook",
+    ),
+}  # fmt: skip
+"""Folders and files of each package from the ground up: each imports only from itself and those before it."""
 
 
 def sources(package: str) -> list[Path]:
@@ -67,15 +74,27 @@ def test_only_one_file_leans_on_private_names_of_viser():
     assert set(users) <= {"viser_compat.py"}
 
 
-def test_no_import_in_rotor_points_up():
-    for path in sources("rotor"):
-        folder = path.relative_to(ROOT / "rotor").parts[0].removesuffix(".py")
+@pytest.mark.parametrize("package", ORDER)
+def test_no_import_points_up(package: str):
+    order = ORDER[package]
+    for path in sources(package):
+        folder = path.relative_to(ROOT / package).parts[0].removesuffix(".py")
         if folder.startswith("__"):
             continue
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if isinstance(node, ast.ImportFrom) and node.module and node.module.startswith("rotor."):
-                used = node.module.split(".")[1]
-                assert ORDER.index(used) <= ORDER.index(folder), f"{name(path)} imports {node.module}"
+        assert folder in order, f"{package}/{folder} has no place in ORDER"
+        for used in imported_parts(path, package):
+            assert order.index(used) <= order.index(folder), f"{name(path)} imports {package}.{used}"
+
+
+def imported_parts(path: Path, package: str) -> Iterator[str]:
+    """Folders and files of a package that a file imports, wherever in the file."""
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if not isinstance(node, ast.ImportFrom) or not node.module:
+            continue
+        if node.module == package:
+            yield from (alias.name for alias in node.names if alias.name in ORDER[package])
+        elif node.module.startswith(f"{package}."):
+            yield node.module.split(".")[1]
 
 
 def test_importing_rotor_brings_no_page():
@@ -87,8 +106,8 @@ def test_importing_rotor_brings_no_page():
 def test_every_import_is_a_declared_dependency():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     declared = {re.split(r"[^\w-]", item)[0] for item in project["dependencies"]}
-    known = sys.stdlib_module_names | declared | {"rotor", "explorer"}
-    known |= {"PIL"} if "pillow" in declared else set()  # The one that is imported under another name.
+    imported_as = {"pillow": "PIL"}  # The one package whose module has another name.
+    known = sys.stdlib_module_names | {imported_as.get(item, item) for item in declared} | {"rotor", "explorer"}
     for path in (*sources("rotor"), *sources("explorer")):
         undeclared = imports(path, lazy=False) - known
         assert not undeclared, f"{name(path)} imports {sorted(undeclared)}: declare it in pyproject.toml, and say why"

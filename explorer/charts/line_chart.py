@@ -8,7 +8,7 @@ from html import escape
 
 import numpy as np
 
-from explorer.charts import marks
+from explorer.charts import svg
 from explorer.charts.plots import Range, held_range
 from explorer.picture.colour_bar import tick_text
 from explorer.picture.fields import ticks
@@ -85,17 +85,17 @@ class _Frame:
         for value in ticks(*self.x_range, about=7):
             x = float(self.place(np.array([value]), np.array([self.y_range[0]]))[0, 0])
             grid.append(f"M{x:.1f},{_TOP:g}V{bottom:g}")
-            words.append(marks.text(x, bottom + 1.25 * _SIZE, tick_text(value), _SIZE - 1, anchor="middle"))
+            words.append(svg.text(x, bottom + 1.25 * _SIZE, tick_text(value), _SIZE - 1, anchor="middle"))
         for value in ticks(*self.y_range, about=5):
             y = float(self.place(np.array([self.x_range[0]]), np.array([value]))[0, 1])
             grid.append(f"M{_LEFT:g},{y:.1f}H{right:g}")
-            words.append(marks.text(_LEFT - 6, y + 0.35 * _SIZE, tick_text(value), _SIZE - 1, anchor="end"))
+            words.append(svg.text(_LEFT - 6, y + 0.35 * _SIZE, tick_text(value), _SIZE - 1, anchor="end"))
         return (
             f'<path class="grid" d="{"".join(grid)}"/><path class="axis" d="M{_LEFT:g},{_TOP:g}V{bottom:g}H{right:g}"/>'
             + "".join(words)
-            + marks.text(0.5 * (_LEFT + right), self.full_height - 5, x_label, _SIZE, anchor="middle", opacity=0.75)
+            + svg.text(0.5 * (_LEFT + right), self.full_height - 5, x_label, _SIZE, anchor="middle", opacity=0.75)
             + f'<g transform="translate(12 {0.5 * (_TOP + bottom):.1f}) rotate(-90)">'
-            + marks.text(0, 0, y_label, _SIZE, anchor="middle", opacity=0.75)
+            + svg.text(0, 0, y_label, _SIZE, anchor="middle", opacity=0.75)
             + "</g>"
         )
 
@@ -105,7 +105,7 @@ def _line(frame: _Frame, trace: Trace) -> str:
     known = np.asarray(np.isfinite(points).all(axis=1))
     runs = np.split(np.arange(len(points)), np.flatnonzero(~known))
     lines = [np.compress(known[run], points[run], axis=0) for run in runs]
-    path = marks.polylines([line for line in lines if len(line) > 1])
+    path = svg.polylines([line for line in lines if len(line) > 1])
     dash = f' stroke-dasharray="{trace.dash}"' if trace.dash else ""
     return f'<path d="{path}" stroke="{trace.colour}" stroke-width="{trace.width:g}" stroke-linejoin="round"{dash}/>'
 

@@ -3,7 +3,7 @@
 import math
 from html import escape
 
-from explorer.charts import marks
+from explorer.charts import svg
 from explorer.picture import disk_image as image
 from explorer.picture.colour_bar import tick_text
 from explorer.picture.fields import Field, ticks
@@ -41,7 +41,7 @@ def disk_drawing(
     `pixels`: along each edge of the field's picture; `shown`: names of the outlines; `letters`: their height.
     """
     half = image.half_width(100.0, min(pixels, image.LARGEST))
-    picture = marks.image(-half, -half, 2 * half, 2 * half, disk_png(solution, field, colour_range, size=pixels))
+    picture = svg.image(-half, -half, 2 * half, 2 * half, disk_png(solution, field, colour_range, size=pixels))
     cutout = 100.0 * solution.design.rotor.blade.root_cutout
     rings = "".join(f'<circle r="{r:.2f}" fill="none"/>' for r in (100.0, cutout))
     rim = f'<g stroke="{css(RIM)}" stroke-width=".8">{rings}<path d="{_ticks()}"/></g>'
@@ -52,10 +52,10 @@ def _lines(solution: Solution, shown: tuple[str, ...]) -> str:
     """Outlines, each on a casing of its own, so that it reads on every colour."""
     out = []
     for name in shown:
-        lines = [_up(line) for line in marks.joined(OUTLINES[name][1](solution))]
+        lines = [_up(line) for line in svg.joined(OUTLINES[name][1](solution))]
         if lines:
             colour, casing = OUTLINE_COLOURS[name]
-            path = marks.polylines(lines)
+            path = svg.polylines(lines)
             out += [
                 f'<path d="{path}" stroke="{css(paint)}" stroke-width="{width}"/>'
                 for paint, width in ((casing, 2.2), (colour, 1.0))
@@ -81,10 +81,10 @@ def _ticks() -> str:
 def _labels(size: float) -> str:
     return "".join(
         (
-            marks.text(0, 107 + size, "ψ = 0°", size, anchor="middle"),
-            marks.text(107, 0.35 * size, "90°", size),
-            marks.text(0, -107, "180°", size, anchor="middle"),
-            marks.text(-107, 0.35 * size, "270°", size, anchor="end"),
+            svg.text(0, 107 + size, "ψ = 0°", size, anchor="middle"),
+            svg.text(107, 0.35 * size, "90°", size),
+            svg.text(0, -107, "180°", size, anchor="middle"),
+            svg.text(-107, 0.35 * size, "270°", size, anchor="end"),
             # The sense of rotation, outside the rim between ψ 22° and 50°.
             f'<g fill="{css(RIM)}" stroke="none"><path d="{_arc(22.0, 45.0, 109.0, 2.4)}"/>'
             f'<path d="{_arrow_head(45.0, 51.0, 109.0, 3.4)}"/></g>',
@@ -119,7 +119,7 @@ def _flight(solution: Solution, size: float, units: Units) -> str:
     if speed == 0.0:
         return ""
     arrow = '<path d="M0,-131 l4.4,7 h-2.9 v6 h-3 v-6 h-2.9 Z" fill="#c92a2a"/>'
-    return arrow + marks.text(7, -124.5 + 0.35 * size, units.speed[0].text(speed), size)
+    return arrow + svg.text(7, -124.5 + 0.35 * size, units.speed[0].text(speed), size)
 
 
 def bar_drawing(field: Field, colour_range: Range, wide: float, name: str, size: float = 9.0) -> str:
@@ -133,9 +133,9 @@ def bar_drawing(field: Field, colour_range: Range, wide: float, name: str, size:
     for value in ticks(low, high):
         x = wide * (value - low) / (high - low)
         scale.append(f'<path d="M{x:.1f},{2.5 * size:.1f}v{0.35 * size:.1f}" stroke="currentColor"/>')
-        scale.append(marks.text(x, 3.75 * size, tick_text(value), 0.92 * size, anchor="middle"))
+        scale.append(svg.text(x, 3.75 * size, tick_text(value), 0.92 * size, anchor="middle"))
     return (
-        f'<linearGradient id="{escape(name)}">{stops}</linearGradient>{marks.text(0, size, field.label, size)}'
+        f'<linearGradient id="{escape(name)}">{stops}</linearGradient>{svg.text(0, size, field.label, size)}'
         f'<rect y="{1.5 * size:.1f}" width="{wide:g}" height="{size:g}" rx="1" fill="url(#{escape(name)})"/>'
         + "".join(scale)
     )

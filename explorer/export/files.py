@@ -4,20 +4,19 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from explorer.charts.paper import Paper
 from explorer.charts.plots import Range
 from explorer.charts.power_curve import PowerCurves
 from explorer.export.blade import blade_stl, rotor_glb
 from explorer.export.provenance import file_stem
 from explorer.export.report.contents import DesignReport, ReportEntry, report_of
 from explorer.export.report.document import report_html
-from explorer.export.scene_recordings import EmbeddedViewer
-from explorer.export.sheet import DiskContent
+from explorer.export.sheet import DiskContent, Paper
 from explorer.export.tables import blade_csv, disk_csv, power_csv
 from explorer.interface import SessionState
 from explorer.picture.fields import FIELDS
+from explorer.scene.embedded_viewer import EmbeddedViewer
 from explorer.state import baseline_title
-from explorer.tabs.history.strip import Kept
+from explorer.undo import KeptDesign
 from rotor.trim.solution import Solution
 
 
@@ -69,7 +68,7 @@ def power_file(state: SessionState, curves: PowerCurves) -> File:
     return File(f"{file_stem(design, 'power')}.csv", content)
 
 
-def session_report(state: SessionState, kept: Sequence[Kept], colour_range: Range) -> DesignReport:
+def session_report(state: SessionState, kept: Sequence[KeptDesign], colour_range: Range) -> DesignReport:
     """The present design, the kept ones, and A or the baseline that they are compared with."""
     pinned, solution = state.pinned, state.solution
     if state.pin is None:

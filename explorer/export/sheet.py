@@ -6,8 +6,7 @@ The browser that asked for it turns it into pixels: it has the letters, Greek on
 import textwrap
 from dataclasses import dataclass
 
-from explorer.charts import marks
-from explorer.charts.paper import Paper
+from explorer.charts import svg
 from explorer.export.disk_drawing import HALF, OUTLINES, bar_drawing, disk_drawing, key_entries
 from explorer.export.provenance import PROGRAM, versions
 from explorer.picture.fields import FIELDS, Field
@@ -16,6 +15,50 @@ from explorer.text.design_words import active_words, flight_words, model_words, 
 from explorer.text.units import SI, UNITS, Units
 from explorer.theme.colours import PARTS
 from rotor.trim.solution import Solution
+
+SIZES = {
+    "1280 × 720": (1280, 720),
+    "1920 × 1080": (1920, 1080),
+    "3840 × 2160": (3840, 2160),
+    "2000 × 2000": (2000, 2000),
+}
+SMALLEST, LARGEST = 300, 4096
+"""[px], along either edge: below, words cannot be read; above, some browsers have no canvas."""
+
+
+@dataclass(frozen=True)
+class Paper:
+    """What a picture is drawn on."""
+
+    width: int
+    height: int
+    """[px]"""
+    dark: bool = False
+    transparent: bool = False
+
+    def __post_init__(self) -> None:
+        for edge in (self.width, self.height):
+            if not SMALLEST <= edge <= LARGEST:
+                raise ValueError(
+                    f"A picture of {self.width} × {self.height} pixels cannot be made: "
+                    f"keep both edges within {SMALLEST}…{LARGEST}."
+                )
+        if not 0.4 <= self.width / self.height <= 3.0:
+            raise ValueError(
+                f"{self.width} × {self.height} leaves no room for words beside the disk: "
+                "keep the longer edge within two and a half times the shorter."
+            )
+
+    @property
+    def unit(self) -> float:
+        """Hundredth part of what the words and the disk are measured by [px]."""
+        return min(self.width, self.height) / 100.0
+
+    @property
+    def beside(self) -> bool:
+        """Whether words stand beside the picture, or above and below it."""
+        return self.width >= 1.35 * self.height
+
 
 _PAPER = {False: "#ffffff", True: "#141416"}
 _INK = {False: "#212529", True: "#e9ecef"}
@@ -84,7 +127,7 @@ def disk_sheet(solution: Solution, shown: DiskContent, paper: Paper) -> str:
 def view_sheet(solution: Solution, shown: DiskContent, paper: Paper, render: bytes) -> str:
     """The rotor as it was seen; `render`: PNG of the size of its `window`."""
     x, y, wide, high = window(solution, paper)
-    seen = marks.image(x, y, wide, high, render)
+    seen = svg.image(x, y, wide, high, render)
     if not paper.beside:
         return _page(paper, seen + _above_and_below(solution, shown, paper))
     u = paper.unit
@@ -163,12 +206,12 @@ def _power(solution: Solution, units: Units, x: float, y: float, wide: float, u:
         words.append(
             f'<rect x="{column:.1f}" y="{row - 1.5 * u:.1f}" width="{1.5 * u:.1f}" height="{1.5 * u:.1f}" '
             f'fill="{PARTS[name]}"/>'
-            + marks.text(column + 2.4 * u, row, f"{_TITLES[name]} {units.watts(value)}", 1.9 * u)
+            + svg.text(column + 2.4 * u, row, f"{_TITLES[name]} {units.watts(value)}", 1.9 * u)
         )
     beside = (x + wide, y) if columns > 1 else (x, y - 4.6 * u)
     return (
-        marks.text(x, y, units.watts(power.total), 4.6 * u, weight=650)
-        + marks.text(*beside, "total power", 2.0 * u, anchor="end" if columns > 1 else "start", opacity=0.7)
+        svg.text(x, y, units.watts(power.total), 4.6 * u, weight=650)
+        + svg.text(*beside, "total power", 2.0 * u, anchor="end" if columns > 1 else "start", opacity=0.7)
         + "".join(bars + words)
     )
 
@@ -185,7 +228,7 @@ def _scale(solution: Solution, shown: DiskContent, x: float, y: float, wide: flo
             at, row = x, row + 2.7 * u
         entries.append(
             f'<g transform="translate({at:.1f} {row - 1.5 * u:.1f}) scale({0.2 * u:.3f})">{swatch}</g>'
-            + marks.text(at + 3.5 * u, row, title, 1.8 * u)
+            + svg.text(at + 3.5 * u, row, title, 1.8 * u)
         )
         at += needed
     return bar + "".join(entries)
@@ -194,7 +237,7 @@ def _scale(solution: Solution, shown: DiskContent, x: float, y: float, wide: flo
 def _foot(paper: Paper, x: float, anchor: str) -> str:
     u = paper.unit
     words = f"{PROGRAM} {versions()[PROGRAM].split(' ')[0]} · a model, not a measurement"
-    return marks.text(x, paper.height - 2.6 * u, words, 1.7 * u, anchor=anchor, opacity=0.6)
+    return svg.text(x, paper.height - 2.6 * u, words, 1.7 * u, anchor=anchor, opacity=0.6)
 
 
 def _warning(solution: Solution, x: float, bottom: float, wide: float, u: float) -> str:
@@ -216,5 +259,5 @@ def _wrapped(words: str, wide: float, size: float, bold: bool = False) -> list[s
 
 def _lines(lines: list[str], x: float, y: float, size: float, weight: int = 400, opacity: float = 1.0) -> str:
     return "".join(
-        marks.text(x, y + 1.3 * size * k, line, size, weight=weight, opacity=opacity) for k, line in enumerate(lines)
+        svg.text(x, y + 1.3 * size * k, line, size, weight=weight, opacity=opacity) for k, line in enumerate(lines)
     )

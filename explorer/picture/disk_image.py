@@ -1,7 +1,5 @@
 """The disk as a picture: polar values and marked regions → palette indices → a small PNG, transparent outside."""
 
-import struct
-import zlib
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -174,33 +172,3 @@ def _palette(scheme: Scheme, faded: bool, ink: DiskInk) -> Bytes:
     if faded:
         entries[:, 3] = (0.55 * entries[:, 3]).astype(np.uint8)
     return entries
-
-
-def encode_png(pixels: Bytes, entries: Bytes, effort: int = 1) -> bytes:
-    """A palette PNG: `pixels` of shape (rows, columns), `entries` RGBA of shape (256, 4); `effort`: 1…9 to be small."""
-    before = _chunk(b"PLTE", entries[:, :3].tobytes()) + _chunk(b"tRNS", entries[:, 3].tobytes())
-    return _png(pixels, 3, before, effort)
-
-
-def encode_rgba(pixels: Bytes) -> bytes:
-    """A true-colour PNG of shape (rows, columns, 4)."""
-    return _png(pixels.reshape(len(pixels), -1), 6, b"")
-
-
-def _png(samples: Bytes, kind: int, before: bytes, effort: int = 1) -> bytes:
-    """`samples`: a line of bytes for each row; `kind`: PNG's colour type, 3 palette or 6 RGBA."""
-    rows, length = samples.shape
-    lines = np.zeros((rows, length + 1), dtype=np.uint8)  # Each line starts with filter type 0.
-    lines[:, 1:] = samples
-    header = struct.pack(">IIBBBBB", length if kind == 3 else length // 4, rows, 8, kind, 0, 0, 0)
-    parts = (
-        _chunk(b"IHDR", header),
-        before,
-        _chunk(b"IDAT", zlib.compress(lines.tobytes(), effort)),
-        _chunk(b"IEND", b""),
-    )
-    return b"\x89PNG\r\n\x1a\n" + b"".join(parts)
-
-
-def _chunk(kind: bytes, body: bytes) -> bytes:
-    return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))

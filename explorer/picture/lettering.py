@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from PIL import Image, ImageChops, ImageDraw, ImageFilter, ImageFont
 
 from explorer.picture.airframe import Airframe
-from explorer.picture.disk_image import encode_png
+from explorer.picture.png import encode_png
 from explorer.picture.regions import LETTER, RegionLabel
 from explorer.theme.colours import Rgb
 

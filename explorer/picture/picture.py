@@ -11,6 +11,7 @@ from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.picture.fields import FIELDS, Field
 from explorer.picture.lettering import label_masks
 from explorer.picture.moving_blades import blade_twists
+from explorer.picture.png import encode_png
 from explorer.picture.polar import polar_grid
 from explorer.picture.poses import Pose, airframe_pose, blade_pose, rotor_pose, tip_path_pose
 from explorer.picture.regions import NO_MARKS, Marks, region_codes, region_labels
@@ -147,7 +148,7 @@ def disk_png(
     pixels = disk_image.indices(grid, field.sample(solution, grid), *colour_range, void, size, regions)
     if marks != NO_MARKS and size > disk_image.MOVING:
         disk_image.write_labels(pixels, *label_masks(region_labels(solution, marks), size))
-    return disk_image.encode_png(pixels, disk_image.palette(field.colours, faded, ink))
+    return encode_png(pixels, disk_image.palette(field.colours, faded, ink))
 
 
 def field_values(solution: Solution, field: Field) -> Array:

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 import viser
 
+from explorer.interface import RangeDisplay
 from explorer.picture.difference import shown_field
 from explorer.picture.disk_image import AT_REST, MOVING
 from explorer.picture.fields import Field, fitted_range, keeps_range
@@ -19,7 +20,6 @@ from explorer.scene.overlays import AirLines, Ghost, OtherBlade
 from explorer.scene.page_scene import PageScene
 from explorer.scene.scene import Scene
 from explorer.state import ViewState, baseline_of
-from explorer.tabs.display import Display
 from rotor.design.blade import Rotor
 from rotor.trim.solution import Solution
 
@@ -47,7 +47,7 @@ class _Drawn:
 class SceneController:
     """One session's; everything but the buttons happens on its worker."""
 
-    def __init__(self, client: viser.ClientHandle, rotor: Rotor, display: Display, dark: bool = False) -> None:
+    def __init__(self, client: viser.ClientHandle, rotor: Rotor, display: RangeDisplay, dark: bool = False) -> None:
         self._client = client
         self._display = display
         theme = scene_theme(dark)

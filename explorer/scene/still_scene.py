@@ -2,11 +2,11 @@
 
 from collections.abc import Sequence
 
-from explorer.export.scene_recordings import EmbeddedViewer, embedded_viewer
 from explorer.hosting import viser_compat
 from explorer.picture.camera_views import FIELD_OF_VIEW, fit
 from explorer.picture.picture import make_picture
 from explorer.picture.scene_theme import scene_theme
+from explorer.scene.embedded_viewer import EmbeddedViewer, embedded_viewer
 from explorer.scene.scene import Scene
 from explorer.state import ViewState
 from rotor.trim.solution import Solution

@@ -11,7 +11,7 @@ from explorer.sliders import SLIDERS, limits, slider
 from explorer.state import LAWS, Inputs, inputs_of
 from explorer.text.units import SI
 from rotor.design.design import Design
-from rotor.files.design_file import design_from_record, design_record, parse_design
+from rotor.files.design_file import design_from_record, parse_design
 from rotor.files.make_design import make_design
 
 VERSION = 1
@@ -36,9 +36,9 @@ def code_of(design: Design) -> str:
     """The design as a text; ValueError with one sentence for one that no address holds."""
     if design.aircraft.files is not None:
         raise ValueError("Your own rotor does not fit in a link: save a design file and send that.")
-    record = design_record(design)
+    record = design.to_dict()
     plain = make_design()
-    usual = design_record(make_design(preset=record["preset"], rotor=design.aircraft))
+    usual = make_design(preset=record["preset"], rotor=design.aircraft).to_dict()
     usual |= {"preset": plain.preset, "rotor": plain.aircraft.key}
     changed = {key: value for key, value in record.items() if key not in _NEVER and value != usual.get(key)}
     words = [str(VERSION), record["twist"], *(f"{_SHORT.get(key, key)}={_word(v)}" for key, v in changed.items())]

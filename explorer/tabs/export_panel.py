@@ -11,22 +11,21 @@ from typing import Any
 
 import viser
 
-from explorer.charts.paper import LARGEST, SIZES, SMALLEST, Paper
 from explorer.charts.plots import Range
 from explorer.charts.power_curve import PowerCurves
 from explorer.export import files
 from explorer.export.as_code import as_command_line, as_python
 from explorer.export.files import File
-from explorer.export.sheet import DiskContent, disk_sheet, shown, view_sheet, window
+from explorer.export.sheet import LARGEST, SIZES, SMALLEST, DiskContent, Paper, disk_sheet, shown, view_sheet, window
 from explorer.hosting import viser_compat
 from explorer.interface import SessionState, TabContext
 from explorer.picture.difference import shown_field
-from explorer.picture.disk_image import encode_rgba
 from explorer.picture.fields import FIELDS, Field
+from explorer.picture.png import encode_rgba
 from explorer.scene.camera import FittedCamera
 from explorer.scene.still_scene import make_stage
-from explorer.tabs.history.strip import Kept
 from explorer.text.glossary import hint
+from explorer.undo import KeptDesign
 
 _log = logging.getLogger(__name__)
 _OWN = "Own size"
@@ -41,7 +40,7 @@ class ExportSources:
     """What the folder needs beyond its context."""
 
     camera: Callable[[], FittedCamera]
-    kept: Callable[[], tuple[Kept, ...]]
+    kept: Callable[[], tuple[KeptDesign, ...]]
     """Designs that were set aside."""
     colour_range: Callable[[Field], Range]
     """As it is held on the page."""

@@ -14,7 +14,7 @@ from explorer.sharing.view_code import VIEW, view_code
 from explorer.state import inputs_of
 from explorer.text.glossary import hint
 from rotor.design.design import Design
-from rotor.files.design_file import design_record, parse_design
+from rotor.files.design_file import parse_design
 
 MOST_BYTES = 1_000_000
 """A design file may have; written ones have a thousand."""
@@ -76,7 +76,7 @@ class FilePanel:
         try:
             return share.code_of(design)
         except ValueError:
-            self._records[name] = design_record(design)
+            self._records[name] = design.to_dict()
             return share.KEPT
 
     def begin(self) -> None:
@@ -101,7 +101,7 @@ class FilePanel:
     def save(self) -> None:
         """The design file, as `--case` and `--design` read it."""
         try:
-            record = design_record(self._context.inputs().design())
+            record = self._context.inputs().design().to_dict()
         except ValueError as error:
             self._context.notify("Nothing saved", str(error))
             return

@@ -1,4 +1,4 @@
-"""What runs in a worker process: it takes tasks from a pipe, one at a time, and tells what it finds. Knows no page."""
+"""The worker process: takes tasks from a pipe, one at a time, and sends what they report. Does not know the page."""
 
 import os
 import signal
@@ -6,23 +6,23 @@ from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
-from typing import Any, Protocol
+from typing import Any, Literal, Protocol
 
 for _threads in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
-    os.environ.setdefault(_threads, "1")  # Nothing here has met NumPy yet: its BLAS makes no threads that only hinder.
+    os.environ.setdefault(_threads, "1")  # Before NumPy is loaded: its BLAS then makes no threads, which only hinder.
 
 _NICE = 5
-"""Where processors are short, the frames of those who drag come before searches."""
+"""Lower priority than the server, so that frames come before searches where processors are short."""
 
 Tell = Callable[[Any], None]
 Stop = Callable[[], bool]
 
 
 class Task(Protocol):
-    """A value that pickles and can be run."""
+    """A value that can be pickled and run."""
 
     def run(self, tell: Tell, stop: Stop) -> Any:
-        """Tells what it finds on the way; asks `stop` often, and returns what there is when it says True."""
+        """Report progress with `tell`; call `stop` often, and return what there is when it is True."""
         ...
 
 
@@ -39,50 +39,48 @@ class StopRequest:
 
 @dataclass(frozen=True)
 class WorkerReply:
-    """An answer of the process: `kind` is ready, told, done or failed."""
+    """What the process sends about the task of that number."""
 
     number: int
-    kind: str
+    kind: Literal["ready", "progress", "done", "failed"]
     item: Any = None
 
 
 def serve(pipe: "Connection[Any, Any]") -> None:
-    """The process's whole life: until the pipe closes, which it does when the page's server ends, however it ends."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the server to understand.
+    """The life of the process. It ends when the pipe closes, which it does however the server ends."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the server.
     if hasattr(os, "nice"):
         os.nice(_NICE)
     from explorer.workers import solver
-    from rotor.blas_threads import keep_one_blas_thread
 
-    keep_one_blas_thread()
     solver.warm()
     with suppress(EOFError, OSError):
         pipe.send(WorkerReply(0, "ready"))
         while True:
-            order = pipe.recv()
-            if isinstance(order, RunRequest):
-                _work(pipe, order)
+            request = pipe.recv()
+            if isinstance(request, RunRequest):
+                _run(pipe, request)
 
 
-def _work(pipe: "Connection[Any, Any]", order: RunRequest) -> None:
-    halted = False
+def _run(pipe: "Connection[Any, Any]", request: RunRequest) -> None:
+    stopped = False
 
     def stop() -> bool:
-        nonlocal halted
+        nonlocal stopped
         try:
-            while not halted and pipe.poll():
-                halted = pipe.recv() == StopRequest(order.number)
+            while not stopped and pipe.poll():
+                stopped = pipe.recv() == StopRequest(request.number)
         except (EOFError, OSError):
-            halted = True
-        return halted
+            stopped = True
+        return stopped
 
     def tell(item: Any) -> None:
-        pipe.send(WorkerReply(order.number, "told", item))
+        pipe.send(WorkerReply(request.number, "progress", item))
 
     try:
-        answer = WorkerReply(order.number, "done", order.task.run(tell, stop))
+        reply = WorkerReply(request.number, "done", request.task.run(tell, stop))
     except (EOFError, BrokenPipeError):
         raise
-    except Exception as error:  # The process must survive whatever one task does.
-        answer = WorkerReply(order.number, "failed", str(error) or type(error).__name__)
-    pipe.send(answer)
+    except Exception as error:  # The process must survive whatever a task does.
+        reply = WorkerReply(request.number, "failed", str(error) or type(error).__name__)
+    pipe.send(reply)

@@ -1,4 +1,4 @@
-"""The actuators to choose from, as `assets/actuators.toml` states them."""
+"""The actuators of `assets/actuators.toml`."""
 
 import math
 import re
@@ -17,7 +17,7 @@ _UNITS = re.compile(r"_(gpa|kg_m3|mm|pm_v|v|ppm|nf_cm2|c|nm|kg|w|s|deg)$")
 
 @dataclass(frozen=True)
 class DataProvenance:
-    """Where an actuator's numbers come from, and which of them not to lean on."""
+    """Source of an actuator's numbers, and which of them are not verified."""
 
     source: str
     recalled: tuple[str, ...]
@@ -25,7 +25,7 @@ class DataProvenance:
     assumed: tuple[str, ...]
 
     def warnings(self, name: str) -> tuple[str, ...]:
-        """What whoever uses the numbers has to be told."""
+        """Caveats of using the numbers, one sentence each."""
         found: list[str] = []
         if self.recalled:
             found.append(f"{name}: recalled, not looked up, verify before use: {_listed(self.recalled)}.")
@@ -85,7 +85,7 @@ class TorqueTube:
     id: str
     name: str
     torque: float
-    """[N m] per tube, blocking: nothing is taken off for the tube's own twist."""
+    """[N m] per tube, blocking: the torsional stiffness of the tube is not deducted."""
     mass: float
     """Package [kg] per tube."""
     move_power: float
@@ -102,7 +102,7 @@ class TorqueTube:
 
 @dataclass(frozen=True)
 class ExtensionTwist:
-    """A laminate that twists when centrifugal force stretches it: passive, so only rotor speed moves it."""
+    """A laminate that twists under centrifugal tension: passive, so only rotor speed changes its twist."""
 
     id: str
     name: str
@@ -141,12 +141,12 @@ def find_actuator(id: str) -> Actuator:
 
 @cache
 def model_to_test() -> float:
-    """What a tested blade showed of what its laminate model promised (low confidence)."""
+    """Measured over predicted twist of a tested blade (low confidence)."""
     return float(_data()["derating"]["model_to_test"])
 
 
 def derating(actuator: Actuator) -> float:
-    """Fraction of the nominal twist to count on: low-end strain times what tests show of models."""
+    """Usable fraction of the nominal twist: low-end strain times the ratio of test to model."""
     return actuator.low_swing * model_to_test() if isinstance(actuator, PiezoPly) else 1.0
 
 

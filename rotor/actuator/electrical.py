@@ -23,7 +23,7 @@ def electric_field(ply: PiezoPly, voltage: ArrayLike) -> Array:
 
 
 def thermal_coefficients(ply: PiezoPly) -> tuple[float, float]:
-    """α = d/ΔES along and across the fibres [1/V]: a volt does what a kelvin would do to a sheet of this expansion.
+    """α = d/ΔES along and across the fibres [1/V]: a volt acts like a kelvin on a sheet with this expansion.
 
     Source: thermal analogy of piezoelectric strain (Cote et al. 2004; the document's ΔES is the electrode gap).
     MFC P1: 460 pm/V over 0.5 mm = 9.2e-7 per V; measured 7.5e-7…9.0e-7. Range: strain linear in the field.
@@ -71,7 +71,7 @@ def strain_curve(ply: PiezoPly, points: int = 41) -> StrainCurve:
 
 
 def deformed_sheet(ply: PiezoPly, voltage: float, *, exaggerate: float = 1.0) -> Array:
-    """Corners of a unit square of the free sheet, fibres along x, at a voltage, (4, 2): what figure 5.2 is about."""
+    """Corners of a unit square of the free sheet, fibres along x, at a voltage, (4, 2) (figure 5.2)."""
     along, across = exaggerate * free_strain(ply, voltage)
     half = 0.5 * np.array([1.0 + along, 1.0 + across])
     return half * np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
@@ -119,12 +119,12 @@ def field_map(ply: PiezoPly, finger: float = 0.2, points: int = 61, sweeps: int 
 
 @dataclass(frozen=True)
 class Drive:
-    """What driving the actuators of all blades takes."""
+    """Drive power of the actuators of all blades."""
 
     capacitance: float
     """Of one blade [F]; 0 for a tube."""
     hold_power: float
-    """[W], all blades: nothing but leakage for a ply."""
+    """[W], all blades: only leakage for a ply."""
     slew_power: float
     """Mean [W] while changing the twist of all blades by the swing, amplifier losses included."""
     slew_time: float

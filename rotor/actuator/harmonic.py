@@ -1,7 +1,8 @@
-"""Active twist at 1/rev and 2/rev: what the actuator can make of it while it turns, and what that does to power.
+"""Harmonic active twist (1/rev, 2/rev): attainable amplitude and its effect on power.
 
-Half the voltage range is the amplitude; the blade in torsion answers dynamically, 1/(1 − (n/ν)²) near its first mode.
-The inflow has to answer to where the lift is, so use a load-dependent inflow model (dynamic wake).
+The amplitude is half the voltage range; the blade responds dynamically in torsion, 1/(1 − (n/ν)²) near its first mode.
+Use an inflow model that responds to the load distribution (dynamic wake).
+
 """
 
 import math
@@ -23,17 +24,17 @@ from rotor.trim.solve import solve
 SHAPE_STATIONS = 41
 PHASES = 12
 RESONANCE_MARGIN = 0.25
-"""From the first torsion frequency [per rev]. There only damping limits the twist, and none is modelled. Our choice: at
-4.6/rev what is told is then below ten times the static twist, 1/(1 − (ω/ω_θ)²)."""
+"""Least distance from the first torsion frequency [per rev]. Nearer, only damping limits the twist; none is modelled.
+Our choice: at 4.6/rev the amplitude then stays below ten times the static twist, 1/(1 − (ω/ω_θ)²)."""
 
 
 @dataclass(frozen=True, eq=False)
 class DynamicTwist:
-    """What the whole voltage range makes at one harmonic."""
+    """Twist of the whole voltage range at one harmonic."""
 
     per_rev: int
     amplitude: float
-    """Of the tip [rad], half of peak to peak, with the dynamic answer of the blade."""
+    """At the tip [rad], half of peak to peak, with the dynamic response of the blade."""
     static: float
     """The same without it."""
     stations: tuple[float, ...]
@@ -50,7 +51,7 @@ def dynamic_twist(installed: InstalledActuator, per_rev: int, *, derated: bool =
         return DynamicTwist(per_rev, 0.0, 0.0, (0.0, 1.0), (0.0, 1.0))
     if abs(per_rev - installed.frequency) < RESONANCE_MARGIN:
         raise ValueError(
-            f"{per_rev}/rev is too near to the first torsion frequency of {installed.frequency:.2f}/rev, where only "
+            f"{per_rev}/rev is too close to the first torsion frequency of {installed.frequency:.2f}/rev, where only "
             "damping limits the twist and none is modelled: choose another harmonic, stiffness or number of plies"
         )
     low, high = (installed.beam.r[-1] * end for end in installed.placement.span)
@@ -72,11 +73,11 @@ class PhaseSweep:
 
     dynamic: DynamicTwist
     share: float
-    """Of the amplitude used, 0…1."""
+    """Fraction of the amplitude used, 0…1."""
     phases: Array
     """[rad], (phases,)."""
     power: Array
-    """Total power change against no active twist [W], (phases,); NaN-free: phases that did not trim are left out."""
+    """Change of total power relative to no active twist [W], (phases,); phases that did not trim are left out."""
     still: Solution
     """Without active twist."""
     best: Solution
@@ -84,7 +85,7 @@ class PhaseSweep:
     drive_loss: float
     """Of all blades [W]."""
     net_power: float | None
-    """Of `best` with the actuator's mass on board and its losses fed [W]; None where that does not trim."""
+    """Power of `best` with the actuator's mass and losses [W]; None where it does not trim."""
 
     @property
     def gross_saving(self) -> float:
@@ -98,10 +99,10 @@ class PhaseSweep:
 
 
 def phase_sweep(design: Design, installed: InstalledActuator, per_rev: int, *, derated: bool = False) -> PhaseSweep:
-    """Sweep the phase at full amplitude, then try the best point of the bowl that amplitude and phase span.
+    """Sweep the phase at full amplitude, then try the minimum of a quadratic in amplitude and phase.
 
-    The voltage swings about the middle of its range, so none is left for a steady change; the twist law is taken to be
-    that of the middle. Raises RuntimeError when the design does not trim without active twist.
+    The voltage swings about the middle of its range, so no steady change is left; the twist law is that of the middle.
+    Raises RuntimeError when the design does not trim without active twist.
     """
     made = dynamic_twist(installed, per_rev, derated=derated)
     still = solve(replace(design, active_twist=None)).require()
@@ -143,7 +144,7 @@ def with_harmonic(design: Design, made: DynamicTwist, share: float, phase: float
 
 
 def _bowl(phases: list[float], changes: list[float]) -> list[tuple[float, float]]:
-    """Where the bowl ΔP = g·u + ½ u·K u, u = a (cos φ, sin φ), has its least within a ≤ 1: (amplitude, phase).
+    """Minimum of ΔP = g·u + ½ u·K u, u = a (cos φ, sin φ), within a ≤ 1: (amplitude, phase).
 
     Around full amplitude its first harmonic is the slope g; its mean and second harmonic are the curvature K.
     """

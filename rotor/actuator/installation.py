@@ -48,7 +48,7 @@ def balance_mass(mass: float, centre: float) -> float:
 
 
 def mass_breakdown(actuator: Actuator, placement: Placement, blades: int, skin_area: float) -> MassBreakdown:
-    """The masses for one placement; `skin_area` [m²] is what one layer covers on one blade, both skins."""
+    """Mass breakdown of one placement; `skin_area` [m²]: area of one layer on one blade, both skins."""
     limits = structure_data()["limits"]
     wiring, electronics = float(limits["wiring_share"]), float(limits["electronics_share"])
     if isinstance(actuator, ExtensionTwist):
@@ -64,7 +64,7 @@ def mass_breakdown(actuator: Actuator, placement: Placement, blades: int, skin_a
 def addition(
     masses: MassBreakdown, placement: Placement, structure: BladeStructure, stiffness: float, *, balance: bool = True
 ) -> Addition:
-    """The masses as running mass, torsional inertia about the balance axis, and stiffness, over the active span."""
+    """Mass per length, torsional inertia about the balance axis, and stiffness added over the active span."""
     limits = structure_data()["limits"]
     axis, nose = float(limits["balance_axis_c"]), float(limits["nose_weight_c"])
     low, high = (structure.radius * end for end in placement.span)
@@ -92,14 +92,14 @@ class InstalledActuator:
     skin_area: float
     """Of one layer, both skins, one blade [m²]."""
     segment_areas: tuple[float, ...]
-    """The same by segment."""
+    """By segment [m²]."""
     masses: MassBreakdown
     added: Addition
     beam: TorsionBeam
     r: Array
     """Nodes, r/R, (nodes,)."""
     shapes: Array
-    """Twist that each segment makes on its own [rad], zero at the pitch bearing, (segments, nodes)."""
+    """Twist of each segment alone [rad], zero at the pitch bearing, (segments, nodes)."""
     frequency: float
     """First torsion [per rev]."""
 
@@ -130,10 +130,7 @@ class InstalledActuator:
 
 @lru_cache(maxsize=64)
 def install(actuator: Actuator, placement: Placement, host: Host, rotor: Rotor) -> InstalledActuator:
-    """Put the actuator on the blade of a rotor.
-
-    Raises ValueError where the blade cannot be built, in one sentence.
-    """
+    """Install an actuator on the blade of a rotor. ValueError for a blade that cannot be built."""
     structure = uh60a_structure(rotor.radius)
     spec = section_spec(structure, host)
     covered = _covered(spec, placement)
@@ -179,7 +176,7 @@ def _segment_shape(beam: TorsionBeam, structure: BladeStructure, span: tuple[flo
 
 
 def _along_the_blade(actuator: ExtensionTwist, beam: TorsionBeam) -> Array:
-    """Twist of a uniform laminate follows the pull: rate ∝ F_c ∝ 1 − r²."""
+    """Twist of a uniform laminate: rate ∝ F_c ∝ 1 − r²."""
     x = beam.r / beam.r[-1]
     shape = x - x**3 / 3.0
     shape = shape - shape[0]

@@ -1,4 +1,4 @@
-"""What a real blade allows: each limit as a value, with a sentence."""
+"""Limits of a real blade: each a value, a bound and a sentence."""
 
 from dataclasses import dataclass
 
@@ -13,12 +13,12 @@ SECTION_THICKNESS = 0.095
 WEB_HEIGHT = 0.0907
 """Of the spar's web at 0.40 c, in chords."""
 UNREACHABLE = 100.0
-"""Times the range from which a number of volts says nothing any more: a sheet that hardly shears."""
+"""Multiple of the voltage range above which no voltage is printed (a sheet that hardly shears)."""
 
 
 @dataclass(frozen=True)
 class Limit:
-    """One constraint and how it stands."""
+    """One constraint: value, bound, and whether it is met."""
 
     name: str
     """Short and stable, for scripts."""
@@ -32,10 +32,10 @@ class Limit:
 def limits(
     installed: InstalledActuator, swings: tuple[float, ...], solution: Solution | None = None
 ) -> tuple[Limit, ...]:
-    """All constraints of §5.2 that can be put in numbers.
+    """All constraints of thesis §5.2 that can be quantified.
 
-    `swings`: what each segment is asked for, as a share of its range, may exceed 1. `solution`: the flight condition
-    whose flap bending counts.
+    `swings`: required twist of each segment over its range, may exceed 1. `solution`: the flight condition for flap
+    bending.
     """
     found: list[Limit] = []
     if isinstance(installed.actuator, PiezoPly):
@@ -58,18 +58,20 @@ def _electrical(ply: PiezoPly, swings: tuple[float, ...]) -> list[Limit]:
     field = most / ply.electrode_gap * 1e-6
     allowed = ply.voltage_swing / ply.electrode_gap * 1e-6
     span = f"{low:g}…{high:g} V ({low / ply.electrode_gap * 1e-6:.2g}…{high / ply.electrode_gap * 1e-6:.2g} kV/mm)"
-    needs = f"needs a swing of {most:.0f} V" if most < UNREACHABLE * ply.voltage_swing else "is beyond any voltage"
+    needs = (
+        f"needs a swing of {most:.0f} V" if most < UNREACHABLE * ply.voltage_swing else "is out of range at any voltage"
+    )
     swings_by = (
-        f"swings by {field:.2f} kV/mm" if field < UNREACHABLE * allowed else "would have to be hundreds of kV/mm"
+        f"swings by {field:.2f} kV/mm" if field < UNREACHABLE * allowed else "would have to swing by hundreds of kV/mm"
     )
     return [
         Limit(
             "voltage", ok, most, ply.voltage_swing, "V",
-            f"The twist asked for {needs}; the range is {span}.",
+            f"The required twist {needs}; the range is {span}.",
         ),
         Limit(
             "field", ok, field, allowed, "kV/mm",
-            f"The field {swings_by}; reverse field beyond the range would depolarise the sheet.",
+            f"The field {swings_by}; a reverse field beyond the range depolarises the sheet.",
         ),
     ]  # fmt: skip
 
@@ -78,11 +80,11 @@ def _strain(installed: InstalledActuator, ply: PiezoPly, solution: Solution | No
     strain = fibre_strain(installed, solution)
     worst = float(strain.total.max())
     where = float(strain.r[strain.total.argmax()])
-    flap = "with flap bending of the trimmed rotor" if solution else "flap bending not counted"
+    flap = "with flap bending of the trimmed rotor" if solution else "without flap bending"
     return Limit(
         "fibre-strain", worst <= ply.linear_strain, 1e6 * worst, 1e6 * ply.linear_strain, "µε",
-        f"Fibres are stretched by up to {1e6 * worst:.0f} µε at {where:.2f} R ({flap}); the sheet "
-        f"follows linearly up to {1e6 * ply.linear_strain:.0f} and must stay below {1e6 * ply.largest_strain:.0f}.",
+        f"Fibre strain is up to {1e6 * worst:.0f} µε at {where:.2f} R ({flap}); the sheet is linear "
+        f"up to {1e6 * ply.linear_strain:.0f} µε and must stay below {1e6 * ply.largest_strain:.0f} µε.",
     )  # fmt: skip
 
 
@@ -90,7 +92,7 @@ def _surface(installed: InstalledActuator, ply: PiezoPly) -> Limit:
     share = 2.0 * installed.placement.plies * ply.thickness / (SECTION_THICKNESS * uh60a_structure().chord)
     bound = float(structure_data()["limits"]["surface_share"])
     outside = installed.host.kind == "retrofit"
-    where = "outside the skins, so they change the contour" if outside else "inside the torsion skin"
+    where = "outside the skins, which changes the contour" if outside else "inside the torsion skin"
     return Limit(
         "space", not outside or share <= bound, 100.0 * share, 100.0 * bound, "% of thickness",
         f"Plies per side: {installed.placement.plies}, {where}: {100.0 * share:.1f} % of the section's thickness.",
@@ -102,19 +104,19 @@ def _tube(installed: InstalledActuator, tube: TorqueTube, swings: tuple[float, .
     retrofit = installed.host.kind == "retrofit"
     height = WEB_HEIGHT * uh60a_structure().chord
     where = (
-        "the flown spar is pressurised with nitrogen for its crack indicator and may not be opened"
+        "the existing spar is pressurised with nitrogen for its crack indicator and must not be opened"
         if retrofit
-        else "a spar made for it can hold it"
+        else "a spar designed for it can hold it"
     )
     return [
         Limit(
             "torque", worst <= 1.0 + 1e-9, worst * installed.moment, installed.moment, "N·m",
             f"The required twist needs {worst * installed.moment:.0f} N·m; {installed.placement.plies} tube(s) per "
-            f"segment give {installed.moment:.0f} N·m, the stiffness of the tubes themselves not counted.",
+            f"segment give {installed.moment:.0f} N·m, the torsional stiffness of the tubes not counted.",
         ),
         Limit(
             "space", not retrofit and tube.diameter <= height, 1e3 * tube.diameter, 1e3 * height, "mm",
-            f"A tube of {1e3 * tube.diameter:.0f} mm goes into a spar {1e3 * height:.0f} mm high: {where}.",
+            f"A tube of {1e3 * tube.diameter:.0f} mm in a spar {1e3 * height:.0f} mm high: {where}.",
         ),
     ]  # fmt: skip
 
@@ -122,8 +124,8 @@ def _tube(installed: InstalledActuator, tube: TorqueTube, swings: tuple[float, .
 def _rotor_speed(laminate: ExtensionTwist) -> Limit:
     return Limit(
         "rotor-speed", False, 0.0, 100.0 * laminate.speed_change, "% of Ω",
-        f"Only rotor speed moves it: {100.0 * laminate.speed_change:.0f} % slower for all of the change, and this "
-        "rotor turns at one speed.",
+        f"Only rotor speed changes the twist: {100.0 * laminate.speed_change:.0f} % slower for the full change, and "
+        "this rotor runs at constant speed.",
     )  # fmt: skip
 
 
@@ -132,12 +134,12 @@ def _temperature(installed: InstalledActuator) -> Limit:
     actuator = installed.actuator
     assert not isinstance(actuator, ExtensionTwist)
     top = actuator.temperature_range[1]
-    if top <= 85.0:  # Makers' storage limit; in use they ask for less.
+    if top <= 85.0:  # Manufacturer's storage limit; the operating limit is lower.
         top = min(top, float(data["running_temperature_c"]))
     on_heater = installed.placement.chord[0] < float(data["de_ice_end_c"]) and isinstance(actuator, PiezoPly)
     hottest = float(data["de_ice_temperature_c"] if on_heater else data["hot_day_c"])
     heater = "over the de-ice heater mat" if on_heater else "off the heater mat, on a hot day"
-    remedy = "" if hottest <= top else f"; begin at {data['de_ice_end_c']:g} c or use a high-temperature type"
+    remedy = "" if hottest <= top else f"; start at {data['de_ice_end_c']:g} c or use a high-temperature type"
     return Limit(
         "temperature", hottest <= top, hottest, top, "°C",
         f"The skin {heater} reaches about {hottest:.0f} °C; the actuator works up to {top:.0f} °C{remedy}.",
@@ -169,6 +171,6 @@ def _torsion(installed: InstalledActuator) -> list[Limit]:
         ),
         Limit(
             "torsion-least", frequency >= least, frequency, least, "per rev",
-            f"First torsion at {frequency:.2f}/rev; below {least:g} flutter and control loads need their own study.",
+            f"First torsion at {frequency:.2f}/rev; below {least:g}/rev flutter and control loads need a study.",
         ),
     ]  # fmt: skip

@@ -43,12 +43,12 @@ class ConditionPair:
     advance_ratios: tuple[float, float]
     """From, to."""
     share: float = 0.5
-    """Part of the time spent in the second."""
+    """Fraction of the time spent in the second condition."""
 
     def __post_init__(self) -> None:
         if not 0.0 < self.share < 1.0:
             raise ValueError(
-                f"time share {self.share:g} is not between 0 and 1: give the part of the time in the second state"
+                f"time share {self.share:g} is not between 0 and 1: give the fraction of time in the second condition"
             )
         if self.advance_ratios[0] == self.advance_ratios[1]:
             raise ValueError(f"both conditions have advance ratio {self.advance_ratios[0]:g}: give two that differ")
@@ -86,7 +86,7 @@ def best_twist(design: Design, concept: Concept, starts: Sequence[Sequence[float
 
 
 def best_fixed(pair: ConditionPair, concept: Concept, starts: Sequence[Sequence[float]] = ()) -> TwistOptimum:
-    """The concept's one twist of least mean power: the blade that an actuator has to beat."""
+    """The concept's fixed twist of least mean power, the reference for a new blade."""
     return _search(pair.designs(), pair.shares, concept, None, 1.0, starts)
 
 
@@ -98,7 +98,7 @@ def best_actuated(
     derating: float = 1.0,
     starts: Sequence[Sequence[float]] = (),
 ) -> TwistOptimum:
-    """The least mean power with the actuator, within what it can do."""
+    """Least mean power with the actuator, within its range."""
     return _search(pair.designs(), pair.shares, concept, installed, derating, starts)
 
 
@@ -121,7 +121,7 @@ def _search(
         found += [reached for jig in jigs if (reached := task.descend(jig)) is not None]
     if not found:
         raise RuntimeError(
-            "No twist of this concept trims at the flight conditions asked for: lower the mass or the advance ratio."
+            "No twist of this concept trims at these flight conditions: reduce the mass or the advance ratio."
         )
     return min(found, key=lambda reached: reached.power)
 
@@ -131,7 +131,7 @@ def _flatter(concept: Concept, values: tuple[float, ...]) -> tuple[float, ...]:
 
 
 class _Task:
-    """One descent: remembers its last trims as the next starts."""
+    """One descent; each trim starts from the previous one."""
 
     def __init__(
         self,
@@ -156,7 +156,7 @@ class _Task:
         return [(p.low, p.high) for p in self.concept.parameters] if self.concept else []
 
     def _swing_bounds(self, installed: InstalledActuator | None, orientation: float) -> list[tuple[float, float]]:
-        """Of v: a new blade counts from its first condition; a retrofit from zero volts, by how its fibres run."""
+        """Bounds of v: from the first condition for a new blade, from zero volts for a retrofit, by fibre direction."""
         if installed is None:
             return []
         if self.concept is not None:
@@ -179,7 +179,7 @@ class _Task:
 
         def scaled(x: Array) -> tuple[float, Array]:
             made = self._power(x)
-            if made is None:  # A wall: worse than the start, leading back to it.
+            if made is None:  # Penalty: worse than the start, with a gradient back to it.
                 return 1.0 + float(np.sum((x - x0) ** 2)), 2.0 * (x - x0)
             return made[0] / unit, made[1] / unit
 
@@ -225,7 +225,7 @@ class _Task:
 
 
 def _on_stations(stations: Array, installed: InstalledActuator) -> Array:
-    """What each segment makes at r/R, (segments, stations)."""
+    """Twist of each segment at r/R, (segments, stations)."""
     return interpolate_columns(stations, installed.r, installed.shapes.T).T
 
 
@@ -241,11 +241,11 @@ SMOOTH_DIVISIONS = (0.4, 0.55, 0.7, 0.82)
 
 @dataclass(frozen=True, eq=False)
 class Baseline:
-    """Optima of one concept for a pair of flight conditions, no actuator in sight."""
+    """Optima of one concept for a pair of flight conditions, without an actuator."""
 
     pair: ConditionPair
     concept: Concept
-    """Its breaks held where the best fixed blade has them: an actuator cannot move them in flight."""
+    """Breaks fixed where the best fixed blade has them: an actuator cannot move them in flight."""
     best: tuple[TwistOptimum, TwistOptimum]
     """At each condition alone."""
     fixed: TwistOptimum
@@ -253,12 +253,12 @@ class Baseline:
 
     @property
     def ideal_power(self) -> float:
-        """Mean power if the twist were free to move [W]."""
+        """Mean power with free in-flight twist [W]."""
         return sum(share * best.power for share, best in zip(self.pair.shares, self.best, strict=True))
 
     @property
     def ideal_saving(self) -> float:
-        """Of free movement over the best fixed blade [W]; the shape that plies make can save a little more."""
+        """Saving of free in-flight twist against the best fixed blade [W]; the plies' shape can save slightly more."""
         return self.fixed.power - self.ideal_power
 
     @property
@@ -284,7 +284,7 @@ class Baseline:
 
 @lru_cache(maxsize=64)
 def baseline(pair: ConditionPair, concept: Concept) -> Baseline:
-    """Find the optima; free breaks are held at those of the best fixed blade.
+    """Find the optima; free breaks are fixed at those of the best fixed blade.
 
     Raises RuntimeError with one sentence when no twist trims.
     """

@@ -1,4 +1,4 @@
-"""Arrays and text for drawing: section with plies, twist under voltage, required against attainable."""
+"""Arrays for drawings and charts: section with plies, twist under voltage, required and attainable twist."""
 
 import math
 from collections.abc import Sequence
@@ -29,7 +29,7 @@ class Part:
 
 @dataclass(frozen=True, eq=False)
 class SectionPicture:
-    """The cut, from the back to the front."""
+    """Parts of the section cut, in drawing order."""
 
     parts: tuple[Part, ...]
     chord: float
@@ -37,7 +37,7 @@ class SectionPicture:
 
 
 def section_picture(installed: InstalledActuator, *, exaggerate: float = 1.0) -> SectionPicture:
-    """Outline, walls and plies; wall and ply thickness times `exaggerate`, so that 0.3 mm can be seen."""
+    """Outline, walls and plies; wall and ply thickness times `exaggerate`, to make 0.3 mm visible."""
     structure = uh60a_structure(float(installed.beam.r[-1]))
     spec, placement, actuator = section_spec(structure, installed.host), installed.placement, installed.actuator
     data = structure_data()["section"]
@@ -91,7 +91,7 @@ class TwistCurve:
     limit: Array
     """Largest either way, nominal [rad], (stations,)."""
     derated: Array
-    """The same as tests suggest."""
+    """The same, derated by test."""
 
 
 def twist_under_voltage(installed: InstalledActuator, voltages: Sequence[float], stations: int = 61) -> TwistCurve:
@@ -120,14 +120,14 @@ def twist_under_voltage(installed: InstalledActuator, voltages: Sequence[float],
 
 @dataclass(frozen=True, eq=False)
 class TwistComparison:
-    """Required against attainable change for one verdict, curves and bars."""
+    """Required and attainable change of twist for one verdict, as curves and bars."""
 
     label: str
     r: Array
     required: Array
     """Between the optima of both conditions, zero at the cut-out [rad]."""
     attained: Array
-    """By the best twist the actuator can reach."""
+    """At the actuated optimum [rad]."""
     limit: Array
     derated: Array
     segments: tuple[str, ...]
@@ -159,12 +159,12 @@ def twist_comparison(verdict: Verdict, stations: int = 61) -> TwistComparison:
 
 
 def electronics_station(installed: InstalledActuator) -> tuple[float, float]:
-    """Where electronics would sit at the root, r/R (figure 5.8): inboard of the active span, outboard of the hinge."""
+    """Inner and outer end of the drive electronics, r/R (figure 5.8), between flap hinge and active span."""
     return float(installed.r[0]) + 0.02, installed.placement.span[0] - 0.02
 
 
 def default_host(kind: str) -> Host:
-    """Retrofit, or the new blade of half the stiffness that the worked example favours."""
+    """A retrofit, or the new blade with half the stiffness of the worked example."""
     return Host() if kind == "retrofit" else Host("new", 0.5)
 
 

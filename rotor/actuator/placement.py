@@ -1,4 +1,4 @@
-"""Where on the blade the actuator sits, and what kind of blade it sits on."""
+"""Placement of an actuator on the blade, and the blade that carries it."""
 
 import math
 from dataclasses import dataclass
@@ -12,7 +12,7 @@ BladeKind = Literal["retrofit", "new"]
 
 @dataclass(frozen=True)
 class Placement:
-    """Active stretch of span and chord, both skins, with its plies."""
+    """Active part of span and chord, both skins, and its plies."""
 
     span: tuple[float, float] = (0.2433, 0.9292)
     """r/R, inner and outer end."""
@@ -34,7 +34,7 @@ class Placement:
             raise ValueError(f"active chord {front:g}…{rear:g} is not inside 0…0.95 c: give front < rear as x/c")
         if not 1 <= self.plies <= 12:
             raise ValueError(
-                f"{self.plies} plies are outside 1…12: choose a number inside (six already weigh half a blade)"
+                f"{self.plies} plies are outside 1…12: choose a number inside (six weigh as much as half a blade)"
             )
         if any(a >= b for a, b in pairwise((0.0, *self.divisions, 1.0))):
             raise ValueError(f"segment divisions {list(self.divisions)} must ascend between 0 and 1")
@@ -52,16 +52,18 @@ class Host:
     """The blade that carries the actuator."""
 
     kind: BladeKind = "retrofit"
-    """`retrofit`: outside the skins of the flown blade; `new`: in the torsion skin of a blade made for it."""
+    """`retrofit`: outside the skins of the existing blade; `new`: in the torsion skin of a new blade."""
     stiffness: float = 1.0
-    """GJ over that of the flown blade; 1 for a retrofit."""
+    """GJ relative to the existing blade; 1 for a retrofit."""
 
     def __post_init__(self) -> None:
         if not 0.1 <= self.stiffness <= 2.0:
-            raise ValueError(f"blade stiffness {self.stiffness:g} is outside 0.1…2: give GJ over the flown blade's")
+            raise ValueError(
+                f"blade stiffness {self.stiffness:g} is outside 0.1…2: give GJ relative to the existing blade"
+            )
         if self.kind == "retrofit" and self.stiffness != 1.0:
             raise ValueError(
-                f"a retrofit keeps the blade, so stiffness {self.stiffness:g} makes no sense: choose a new one"
+                f"a retrofit keeps the blade, so its stiffness cannot be {self.stiffness:g}: use 1, or a new blade"
             )
 
     @property

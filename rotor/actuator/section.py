@@ -1,7 +1,7 @@
 """The blade's cross section with active plies: true contour, spar web, calibrated on the published GJ.
 
-Plies count in the middle of their wall. Laid outside they have a larger arm: by finite elements 2 % more twist on a
-2 mm skin, 13 % on 4.5 mm, so the model is on the safe side.
+Plies are placed in the middle of their wall. Outside they have a larger arm: 2 % more twist on a 2 mm skin, 13 % on
+4.5 mm by finite elements, so the model is conservative.
 """
 
 from dataclasses import dataclass
@@ -24,7 +24,7 @@ POINTS = 60
 
 @dataclass(frozen=True)
 class SectionSpec:
-    """A section to be built: what stands still when voltage changes."""
+    """Passive data of a section."""
 
     host: Host
     chord: float
@@ -72,8 +72,8 @@ def _calibrate(spec: SectionSpec, placement: Placement | None, active: Layer | N
     thinnest, thickest = 5e-5, 2e-2
     if excess(thinnest) > 0.0:
         raise ValueError(
-            f"the plies alone are stiffer than the GJ of {spec.stiffness:.0f} N·m² asked for: "
-            "take fewer plies or a stiffer blade"
+            f"the plies alone are stiffer than the GJ of {spec.stiffness:.0f} N·m² required: "
+            "use fewer plies or a stiffer blade"
         )
     return float(brentq(excess, thinnest, thickest, xtol=1e-8))
 

@@ -1,6 +1,6 @@
-"""Tables in the form of the document's 5.1 (actuator properties) and 5.2 (actuators and concepts compared).
+"""Tables 5.1 (actuator properties) and 5.2 (actuators and concepts compared).
 
-Its own tables are known by their titles only; columns and numbers here are ours.
+Only the titles of the thesis' tables are known; columns and numbers here are our own.
 """
 
 import math
@@ -21,7 +21,7 @@ COMPARED_CONCEPTS = ("linear", "quadratic", "two-segment", "three-segment")
 
 @dataclass(frozen=True)
 class ActuatorTable:
-    """Text, ready to print."""
+    """A table as text."""
 
     title: str
     columns: tuple[str, ...]
@@ -29,7 +29,7 @@ class ActuatorTable:
     notes: tuple[str, ...] = ()
 
     def text(self) -> str:
-        """Aligned columns."""
+        """The table with aligned columns."""
         widths = [max(len(row[k]) for row in (self.columns, *self.rows)) for k in range(len(self.columns))]
         lines = [self.title, ""]
         lines += [
@@ -75,7 +75,7 @@ def table_5_1() -> ActuatorTable:
         "Free strain is along the fibres over the whole voltage range, peak to peak; α = d/ΔES is the thermal analogy.",
         "Numbers and sources: assets/actuators.toml.",
     )
-    return ActuatorTable("ActuatorTable 5.1  Actuator properties", columns, tuple(rows), notes)
+    return ActuatorTable("Table 5.1  Actuator properties", columns, tuple(rows), notes)
 
 
 def _mode(actuator: TorqueTube | ExtensionTwist) -> str:
@@ -114,7 +114,7 @@ def compare(
     host: Host | None = None,
     derated: bool = False,
 ) -> list[Verdict]:
-    """A verdict for every actuator and concept, best net saving first."""
+    """Verdicts for every actuator and concept, best net saving first."""
     known = actuators()
     verdicts = [
         judge(known[id], pair, concept, placement or default_placement(), host, derated=derated)
@@ -128,7 +128,7 @@ def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
     """Rows of verdicts."""
     columns = (
         "actuator", "concept", "blade", "needed °", "nominal °", "tested °", "needed/nominal", "voltages V",
-        "mass kg", "torsion /rev", "ideal kW", "gross kW", "net kW", "limits broken",
+        "mass kg", "torsion /rev", "ideal kW", "gross kW", "net kW", "limits exceeded",
     )  # fmt: skip
     rows = [
         (
@@ -146,16 +146,16 @@ def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
     pair = verdicts[0].baseline.pair
     mu = " and ".join(f"{mu:g}" for mu in pair.advance_ratios)
     notes = (
-        "Angles: change from root to tip between the conditions, segments added whatever their sign; nominal over the "
-        "whole voltage range, tested by the low end of the maker's strain and what one blade showed of its model.",
-        "Ideal: saving of the concept free to move, over its best fixed blade; gross and net: of the best this "
-        "actuator can reach, before and after its mass is carried.",
+        "Angles: change of twist from root to tip between the conditions, magnitudes of segments added; nominal: "
+        "whole voltage range; tested: low end of the manufacturer's strain times test over model of one blade.",
+        "Ideal: saving of the concept with free in-flight twist against its best fixed blade; gross and net: saving "
+        "within the actuator's range, without and with its mass on board.",
     )
     return ActuatorTable(
-        f"ActuatorTable 5.2  Actuators and concepts compared, advance ratios {mu}", columns, tuple(rows), notes
+        f"Table 5.2  Actuators and concepts compared, advance ratios {mu}", columns, tuple(rows), notes
     )
 
 
 def kilowatts(power: float) -> str:
-    """One decimal, and no negative nothing."""
+    """Kilowatts with one decimal, without negative zero."""
     return f"{round(power / 1e3, 1) + 0.0:.1f}"

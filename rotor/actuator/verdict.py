@@ -19,7 +19,7 @@ from rotor.optimisation.limits import ChangeLimit
 from rotor.trim.solve import solve
 
 NOTHING = 1e-6
-"""A twist too small to divide by [rad]."""
+"""Least twist used as a divisor [rad]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,27 +29,27 @@ class Verdict:
     installed: InstalledActuator
     baseline: Baseline
     derating: float
-    """Share of the nominal twist that the saving was computed with."""
+    """Factor on the nominal twist used for the saving."""
     required_segments: Array
-    """Change that the concept's optima ask of each segment, (segments,)."""
+    """Change of twist between the optima, by segment [rad], (segments,)."""
     optimum: TwistOptimum
-    """The best twist this actuator can reach, at both conditions."""
+    """The best twist within the actuator's range, at both conditions."""
     reference_power: float
-    """Of the blade it is compared with: the flown twist for a retrofit, else the concept's best fixed blade."""
+    """Power of the reference blade: twist as built for a retrofit, else the concept's best fixed blade."""
     net_power: float
-    """With the actuator's mass on board and its drive fed, at the reached twists."""
+    """Power at these twists with the actuator's mass on board and its drive power."""
     drive: Drive
     limits: tuple[Limit, ...]
     caveats: tuple[str, ...]
 
     @property
     def required(self) -> float:
-        """Root to tip, segments added whatever their sign."""
+        """Root to tip, the magnitudes of the segments added [rad]."""
         return float(np.abs(self.required_segments).sum())
 
     @property
     def attainable(self) -> float:
-        """Root to tip over the whole voltage range, nominal."""
+        """Root to tip over the whole voltage range, nominal [rad]."""
         return self.installed.attainable
 
     @property
@@ -58,24 +58,24 @@ class Verdict:
 
     @property
     def ratio(self) -> float:
-        """Required over attainable in the worst segment."""
+        """Required over attainable twist in the worst segment."""
         available = np.maximum(self.installed.segment_twists * self.derating, NOTHING)
         return float(np.max(np.abs(self.required_segments) / available))
 
     @property
     def feasible(self) -> bool:
-        """Whether every segment can make the change its optimum asks for; other limits stand in `limits`."""
+        """Whether every segment can supply the required change of twist; other limits are in `limits`."""
         return self.ratio <= 1.0
 
     @property
     def attained_segments(self) -> Array:
-        """Change between the two conditions at the reached optimum, by segment."""
+        """Change of twist between the two conditions at the actuated optimum, by segment [rad]."""
         first, second = (np.array(swings) for swings in self.optimum.swings)
         return (second - first) * self.installed.shapes[:, -1] * self.derating
 
     @property
     def attained(self) -> float:
-        """The same root to tip, segments added whatever their sign."""
+        """The same root to tip, the magnitudes of the segments added [rad]."""
         return float(np.abs(self.attained_segments).sum())
 
     @property
@@ -93,7 +93,7 @@ class Verdict:
 
     @property
     def net_saving(self) -> float:
-        """After."""
+        """Saving with the actuator's mass and drive power counted [W]."""
         return self.reference_power - self.net_power
 
     @property
@@ -102,7 +102,7 @@ class Verdict:
 
     @property
     def buildable(self) -> bool:
-        """Whether no limit is broken but those on how far the twist goes, which the reached optimum keeps."""
+        """Whether only limits on the twist range are exceeded; the actuated optimum keeps those."""
         return all(limit.name in ("voltage", "field", "torque") for limit in self.broken)
 
     @property
@@ -111,12 +111,12 @@ class Verdict:
 
     @property
     def voltages(self) -> tuple[tuple[float, float], ...]:
-        """Of each segment at the first and at the second condition [V]; empty when voltage does not drive it."""
+        """Voltage of each segment at both conditions [V]; empty for actuators without voltage."""
         return segment_voltages(self.installed, self.optimum.swings)
 
     @property
     def actuator_off(self) -> Design:
-        """The second condition with the actuator at rest: the blade that harmonics of twist start from."""
+        """The design at the second condition with the actuator off, the start of a harmonic sweep."""
         base = self.baseline
         design = base.pair.designs()[1]
         return design if self.installed.host.kind == "retrofit" else base.concept.apply(design, base.fixed.values)
@@ -132,11 +132,10 @@ def judge(
     derated: bool = False,
     counted: float | None = None,
 ) -> Verdict:
-    """Fit the actuator, find the best twist it can reach, carry it, and say whether it pays.
+    """Install the actuator, find the best twist within its range, add its mass, and compute the net saving.
 
-    The placement's segments are the concept's. `derated` computes with the twist a tested blade would show,
-    `counted` with a share of the nominal twist of one's own.
-    Raises ValueError for a blade that cannot be built, RuntimeError where nothing trims; one sentence each.
+    The segments are those of the concept. `derated` uses the twist measured on a test blade, `counted` any other factor
+    on the nominal twist. Raises ValueError for a blade that cannot be built, RuntimeError where nothing trims.
     """
     host = host or Host()
     base = baseline(pair, concept)
@@ -168,12 +167,12 @@ def judge(
 
 
 def holding_caveats(actuator: Actuator) -> tuple[str, ...]:
-    """What a twist held for minutes needs."""
+    """Caveats of holding a twist for minutes."""
     if not isinstance(actuator, PiezoPly):
         return ()
     return (
         f"{actuator.id}: hysteresis of {100.0 * actuator.hysteresis:.0f} % and creep: holding a twist needs strain "
-        "feedback or charge drive; it falls back to the jig twist when voltage fails.",
+        "feedback or charge drive. Without voltage the blade returns to its jig twist.",
     )
 
 
@@ -195,10 +194,10 @@ def with_actuator_mass(design: Design, installed: InstalledActuator) -> Design:
 def change_limit(
     installed: InstalledActuator, reference: TwistLaw, *, root: float = 0.1304, derated: bool = False
 ) -> ChangeLimit:
-    """What the actuator can do as the optimiser's limit on the change from a reference twist.
+    """The actuator's range as a limit on the change of twist in a search.
 
-    Each segment's twist is spread over the whole segment, cut-out and tip included, as the concepts' laws are; what the
-    true shape along the active span does to power, `best_actuated` knows.
+    Each segment's twist is spread over the whole segment, cut-out and tip included, like the laws of the concepts;
+    `best_actuated` uses the true shape along the active span.
     """
     share = installed.derating if derated else 1.0
     ends = share * np.cumsum(installed.segment_twists)
@@ -209,10 +208,10 @@ def change_limit(
 def segment_voltages(
     installed: InstalledActuator, swings: tuple[tuple[float, ...], ...]
 ) -> tuple[tuple[float, float], ...]:
-    """Volts at both conditions.
+    """Voltages of each segment at both conditions [V].
 
-    A retrofit's count from zero volts. A new blade's jig twist is set so that a segment's two voltages lie around zero
-    as far as the negative side reaches, so that a blade without voltage flies between its two twists.
+    A retrofit counts from zero volts. A new blade's jig twist is set so that the two voltages of a segment lie around
+    zero as far as the negative range allows; without voltage the blade then flies between its two twists.
     """
     actuator = installed.actuator
     if not isinstance(actuator, PiezoPly):
@@ -225,7 +224,7 @@ def segment_voltages(
             offset = max(low, -0.5 * abs(b - a)) - min(a, b)
             a, b = a + offset, b + offset
         elif min(a, b) < low - 1e-6 or max(a, b) > actuator.voltage_range[1] + 1e-6:
-            a, b = -a, -b  # Fibres laid the other way.
+            a, b = -a, -b  # Fibres laid in the other direction.
         found.append((a, b))
     return tuple(found)
 
@@ -236,7 +235,7 @@ def _mean_power(pair: ConditionPair, designs: tuple[Design, ...]) -> float:
 
 
 SMALL = 1.0
-"""Powers nearer to zero are called nothing [W]."""
+"""Powers below this are printed as nothing [W]."""
 
 
 def headline(verdict: Verdict) -> str:
@@ -291,7 +290,7 @@ def _savings(verdict: Verdict) -> str:
 
 
 def count(verdict: Verdict) -> str:
-    """Plies, tubes or nothing to count."""
+    """Number of plies or tubes as text; "passive" for a laminate."""
     actuator, placement = verdict.installed.actuator, verdict.installed.placement
     if isinstance(actuator, ExtensionTwist):
         return "passive"
@@ -306,5 +305,5 @@ def flight(advance_ratio: float) -> str:
 
 
 def kw(power: float) -> str:
-    """Signed kilowatts, one decimal; nothing where it is nothing."""
+    """Kilowatts with one decimal; "nothing" below SMALL."""
     return "nothing" if abs(power) < SMALL else f"{power / 1e3:.1f} kW"

@@ -1,4 +1,4 @@
-"""The grid of blade elements and azimuths, and what a rotor is on it."""
+"""The grid of blade elements and azimuths, with the blade properties on it."""
 
 import math
 from dataclasses import dataclass
@@ -35,7 +35,7 @@ class Disk:
     weight: Array
     """Weight of the second of the two, (elements,)."""
     offset: Array
-    """How far the chord lines of the two point nose-down of the blade's reference line [rad], (elements, 2)."""
+    """Angle by which the chord lines of the two are nose-down of the blade's reference line [rad], (elements, 2)."""
     tables: Array
     """Section coefficients, (sections, α cells, Mach cells, 2, 4, 4)."""
     stall: Array
@@ -44,7 +44,7 @@ class Disk:
     mach_limit: float
     """Mach number where the section data end."""
     fit_range: tuple[float, float] | None
-    """Angles of attack [rad] beyond which the document's polynomials, of one Mach number, are clamped; None: decks."""
+    """Angles of attack [rad] beyond which the document's polynomials are clamped; None with tabulated sections."""
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -56,7 +56,7 @@ class Disk:
 def build_disk(rotor: Rotor, elements: int, azimuths: int, only_mach: float | None = None) -> Disk:
     """The rotor on a grid of equally wide elements and evenly spaced azimuths.
 
-    `only_mach`: sections answer as at that Mach number whatever the flow; None: as they do.
+    `only_mach`: section data are those of that Mach number everywhere; None: of the local Mach number.
     """
     blade = rotor.blade
     dr = (1.0 - blade.root_cutout) / elements
@@ -65,7 +65,7 @@ def build_disk(rotor: Rotor, elements: int, azimuths: int, only_mach: float | No
 
     names = tuple(dict.fromkeys(span.section for span in blade.spans))
     installed = [blade.installed(name) for name in names]
-    tables = [one.table if only_mach is None else one.table.held_at(only_mach) for one in installed]
+    tables = [item.table if only_mach is None else item.table.held_at(only_mach) for item in installed]
     section = np.zeros((elements, 2), dtype=np.int64)
     weight = np.zeros(elements)
     offset = np.zeros((elements, 2))

@@ -1,6 +1,6 @@
-"""The one hot loop: section loads and their pointwise derivatives at every blade element and azimuth.
+"""Section loads and their pointwise derivatives at every blade element and azimuth: the innermost loop.
 
-Compiled by numba because plain NumPy needs several times longer for the table look-up (`python -m rotor bench`).
+Compiled by numba, because plain NumPy takes several times as long for the table look-up (`python -m rotor bench`).
 With velocities over ΩR, U² = U_T² + U_P² and the smeared coefficients of eqs. (2.17), (2.18),
 
     dC_T/dr = ½σ U (F C_l U_T − C_d U_P)        dF_z = dL cos φ − dD sin φ     (2.15), (3.9)
@@ -30,7 +30,7 @@ _INVERSE_MACH = 1.0 / MACH_STEP
 
 
 def _compile(function: Any) -> Any:
-    # Contraction (fused multiply-add) is the only liberty taken with the arithmetic.
+    # Contraction (fused multiply-add) is the only deviation from strict IEEE arithmetic.
     return numba.njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})(function)
 
 

@@ -1,4 +1,4 @@
-"""The parts of the physics that can be switched off to see what they cost."""
+"""The effects that can be switched off to see their cost in power. For teaching: every aircraft has all of them."""
 
 from collections.abc import Collection
 from dataclasses import dataclass, replace
@@ -11,15 +11,15 @@ from rotor.design.design import Design, Models
 
 @dataclass(frozen=True)
 class Switch:
-    """One part of the physics."""
+    """One effect that can be switched off."""
 
     name: str
     """The field of `Models`."""
     title: str
     on: str
-    """What is there when it is on, one sentence."""
+    """The effect, one sentence."""
     off: str
-    """What is left out when it is off, one sentence."""
+    """The model without the effect, one sentence."""
 
     @property
     def flag(self) -> str:
@@ -31,46 +31,46 @@ _SWITCHES = (
     Switch(
         "flapping",
         "Flapping",
-        "The blades flap about their hinges; cyclic trims the first harmonic of flapping.",
-        "Rigid blades, β = 0, without cyclic: the hub carries the moment of the asymmetric lift.",
+        "The blades flap about their hinges, and cyclic removes the remaining first-harmonic flapping.",
+        "Rigid blades, β = 0, and no cyclic: the hub carries the moment of the unequal lift.",
     ),
     Switch(
         "tip_loss",
         "Tip loss",
-        "Lift falls to zero at the tip of each blade: Prandtl's factor, or the wake of each blade.",
-        "F_tip = 1; the dynamic wake becomes that of infinitely many blades.",
+        "Lift falls off at the tips of a finite number of blades: Prandtl's factor, or the wake of each blade.",
+        "F_tip = 1; a dynamic wake has infinitely many blades.",
     ),
     Switch(
         "hub_loss",
         "Hub loss",
-        "Lift falls to zero at the root: Prandtl's factor, in hover and with inflow independent of the loading.",
+        "Lift falls off at the root: Prandtl's factor, in hover and with inflow that does not depend on the load.",
         "F_hub = 1.",
     ),
     Switch(
         "reverse_flow",
         "Reverse flow",
-        "On the retreating side, inside r < −µ sin ψ, the flow comes from the trailing edge and adds drag.",
+        "On the retreating side, inside r < −µ sin ψ, air meets the blade from behind and adds drag.",
         "No load inside the circle r < −µ sin ψ.",
     ),
     Switch(
         "compressibility",
         "Compressibility",
-        "Section data depend on Mach number: steeper lift curve, earlier stall, wave drag on the advancing tip.",
+        "Section data depend on the Mach number: steeper lift, earlier stall, wave drag on the advancing tip.",
         "Section data at Mach 0.3 everywhere.",
     ),
     Switch(
         "fuselage",
         "Fuselage drag",
         "The rotor overcomes the drag of the aircraft: parasite power, and a disk tilted forward.",
-        "Drag area 0.",
+        "Drag area 0: no parasite power.",
     ),
 )
 SWITCHES: dict[str, Switch] = {switch.name: switch for switch in _SWITCHES}
-"""By field name, in the order in which a waterfall puts them on: the blade's motion, its ends, its air, its task."""
+"""By field name, in the order in which a waterfall adds them."""
 
 
 def switched_off(models: Models) -> tuple[Switch, ...]:
-    """What these models leave out."""
+    """The effects that these models leave out."""
     return tuple(switch for switch in _SWITCHES if not getattr(models, switch.name))
 
 
@@ -80,7 +80,7 @@ def with_switches(design: Design, off: Collection[str]) -> Design:
 
 
 def parse_switches(text: str) -> tuple[str, ...]:
-    """Field names from `tip-loss,reverse-flow`; ValueError names one that does not exist."""
+    """Field names from `tip-loss,reverse-flow`; ValueError for a name that is not known."""
     names = tuple(part.strip() for part in text.split(",") if part.strip())
     flags = {switch.flag: switch.name for switch in _SWITCHES}
     for name in names:
@@ -95,21 +95,21 @@ def no_effect(design: Design, name: str) -> str:
     inflow = inflow_model(design.models.inflow)
     match name:
         case "flapping" | "fuselage" if hovering:
-            return "hover is axisymmetric" if name == "flapping" else "no drag in hover"
+            return "hover is the same at every azimuth" if name == "flapping" else "no drag in hover"
         case "tip_loss" if not hovering and inflow.load_dependent and inflow.without_tip_loss() == inflow:
-            return "this wake resolves the blade tips itself"
+            return "tip loss is part of this wake"
         case "hub_loss" if not hovering and inflow.load_dependent:
-            return "this wake resolves the root itself"
+            return "root loss is part of this wake"
         case "reverse_flow" if design.condition.advance_ratio <= design.rotor.blade.root_cutout:
             return "no blade element is in reverse flow at this speed"
         case "compressibility" if _one_mach(design):
-            return "the section data hold for one Mach number"
+            return "the section data are for one Mach number"
         case _:
             return ""
 
 
 def _one_mach(design: Design) -> bool:
-    """Whether the data of every section of the blade hold for one Mach number only."""
+    """Whether no section of the blade depends on the Mach number."""
     blade = design.rotor.blade
     names = {span.section for span in blade.spans}
     return not any(np.any(blade.installed(name).table.coefficients[..., 1:]) for name in names)

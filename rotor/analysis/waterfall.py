@@ -94,6 +94,6 @@ class Waterfall:
 
 
 def waterfall(design: Design) -> Waterfall:
-    """Thirteen trims: the switch_on_steps, and each switch off alone."""
+    """Thirteen trims: all switches on one after another, then each one off alone."""
     steps = tuple(switch_on_steps(design))
     return Waterfall(steps, tuple(switch_off_steps(design, steps[-1].solution)))

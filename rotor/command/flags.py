@@ -16,7 +16,7 @@ from rotor.aero.inflow import inflow_model
 from rotor.aero.switches import parse_switches
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.design import Design
-from rotor.files.design_file import read_design
+from rotor.files.design_file import load_design
 from rotor.files.make_design import change_airfoils, make_design
 from rotor.files.rotor_file import find_aircraft
 from rotor.optimisation.concepts import CONCEPTS, Concept
@@ -58,7 +58,7 @@ def add_rotor_argument(parser: argparse.ArgumentParser) -> None:
 
 def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: float | None) -> Design:
     """The design that the flags describe, on top of a design file where one is given."""
-    base = read_design(args.case) if args.case else None
+    base = load_design(args.case) if args.case else None
     blade = base if base and not (args.preset or args.rotor) else None  # Another rotor, or preset, has its own blade.
     design = make_design(
         preset=args.preset or (base.preset if base else "flight"),

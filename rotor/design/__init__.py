@@ -1,1 +1,1 @@
-"""The nouns: twist laws, blade, rotor, aircraft, flight condition, and the `Design` that holds them. No arrays."""
+"""Data types: twist laws, blade, rotor, aircraft, flight condition, and the `Design` that holds them. No arrays."""

@@ -1,4 +1,4 @@
-"""Twist that moves with the blade's azimuth: θ_act(r, ψ) = shape(r) Σ_n A_n cos(nψ − φ_n), on top of the twist law."""
+"""Active twist, a function of azimuth: θ_act(r, ψ) = shape(r) Σ_n A_n cos(nψ − φ_n), added to the twist law."""
 
 import math
 from dataclasses import dataclass
@@ -16,9 +16,9 @@ class Harmonic:
 
     per_rev: int
     amplitude: float
-    """Of the tip against the root [rad]."""
+    """Twist of the tip relative to the root [rad]."""
     phase: float = 0.0
-    """φ [rad]: the tip is nose-up most at ψ = φ/n."""
+    """φ [rad]: the tip is most nose-up at ψ = φ/n."""
 
     def __post_init__(self) -> None:
         if not 1 <= self.per_rev <= 12:
@@ -29,13 +29,13 @@ class Harmonic:
 
 @dataclass(frozen=True)
 class ActiveTwist:
-    """Harmonics of twist with one shape along the span. In hover it rests: there is nothing to follow around."""
+    """Harmonics of twist with one shape along the span. Not used in hover, where nothing varies with azimuth."""
 
     harmonics: tuple[Harmonic, ...]
     stations: tuple[float, ...] = (0.13, 1.0)
     """r/R, ascending."""
     shape: tuple[float, ...] = (0.0, 1.0)
-    """Twist at the stations over that of the tip; linear between, held beyond."""
+    """Twist at the stations over that of the tip; linear between, constant beyond."""
 
     def __post_init__(self) -> None:
         if len(self.stations) != len(self.shape) or len(self.stations) < 2:
@@ -54,7 +54,7 @@ class ActiveTwist:
 
 
 def active_twist_record(twist: ActiveTwist) -> dict[str, Any]:
-    """As in a design file, degrees at this edge."""
+    """The record of a design file, with angles in degrees."""
     return {
         "harmonics": [
             {"per_rev": h.per_rev, "amplitude_deg": math.degrees(h.amplitude), "phase_deg": math.degrees(h.phase)}
@@ -66,7 +66,7 @@ def active_twist_record(twist: ActiveTwist) -> dict[str, Any]:
 
 
 def read_active_twist(record: Any) -> ActiveTwist:
-    """The inverse; ValueError with one sentence for anything else."""
+    """The inverse; ValueError with one sentence for any other record."""
     try:
         harmonics = tuple(
             Harmonic(int(row["per_rev"]), math.radians(row["amplitude_deg"]), math.radians(row.get("phase_deg", 0.0)))

@@ -1,14 +1,14 @@
 """An aircraft as far as its rotor needs it: main rotor, tail rotor, drag area, mass. The contents of a rotor file."""
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Any, Literal
 
 from rotor.design.blade import Rotor
 from rotor.design.flight import Fuselage
 from rotor.design.twist import TwistLaw
 
 FIXED_SHARE = 0.05
-"""Tail rotor over main rotor power as the document has it in every flight state (thesis §3.2, p. 25)."""
+"""Tail-rotor power over main-rotor power in the document, at every flight condition (thesis §3.2, p. 25)."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ HUBS: tuple[Hub, ...] = ("articulated", "teetering", "teetering-with-coning-hing
 
 @dataclass(frozen=True)
 class Stated:
-    """The rotor as the source document states it, where it differs from the one that flies."""
+    """The rotor as the source document states it, where it differs from the aircraft's."""
 
     rotor: Rotor
     twist: TwistLaw
@@ -48,49 +48,58 @@ class Stated:
 
 @dataclass(frozen=True)
 class RotorFiles:
-    """The files a user's rotor was read from, word for word, so that a saved design is complete."""
+    """The text of the files of a user's rotor, so that a saved design is complete."""
 
     main: str
-    """Name of the rotor file itself."""
+    """Name of the rotor file."""
     texts: tuple[tuple[str, str], ...]
-    """(name, text) of it and of every file it names."""
+    """(name, text) of the rotor file and of every file it names."""
 
 
 @dataclass(frozen=True, repr=False)
 class Aircraft:
-    """One aircraft, without arrays: equality, hashing and travel to other processes come free."""
+    """One aircraft, without arrays, so that it can be compared, hashed and sent to other processes."""
 
     name: str
-    """As people write it, for example UH-60A."""
+    """Display name, for example UH-60A."""
     rotor: Rotor
-    """As it flies, with its built-in twist."""
+    """The rotor as built, with its built-in twist."""
     fuselage: Fuselage
     mass: float
     """Reference mass [kg]."""
     tail_rotor: TailRotor | None = None
-    """None: another way to balance the torque, or an unknown one; the document's five per cent stand for it."""
+    """None: no tail rotor, or an unknown one; five per cent of main-rotor power is used instead."""
     hub: Hub = "articulated"
     stated: Stated | None = None
     key: str = ""
-    """Name of a shipped one, as `--rotor` takes it; empty for a user's own."""
+    """Name of a shipped aircraft, as for `--rotor`; empty for a user's own."""
     files: RotorFiles | None = None
-    """Of a user's own; None for a shipped one."""
+    """Files of a user's own aircraft; None for a shipped one."""
     remarks: tuple[str, ...] = ()
-    """What had to be assumed when its files were read, in sentences."""
+    """Assumptions made when the files were read, in sentences."""
 
     def __repr__(self) -> str:
         return f"Aircraft({self.name}, {self.mass:.0f} kg, drag area {self.fuselage.drag_area:.3g} m², {self.rotor})"
 
+    def record(self) -> Any:
+        """For a design file: the name of a shipped rotor, or all files of a user's own, line by line."""
+        if self.files is None:
+            return self.key
+        return {
+            "main": self.files.main,
+            "files": {name: text.splitlines() for name, text in self.files.texts},
+        }
+
     def rotor_for(self, preset: str) -> Rotor:
-        """The rotor that a preset computes: as the document states it (`thesis`, where it does), else as it flies."""
+        """The rotor of a preset: `thesis` takes the document's where there is one, else the rotor as built."""
         return self.stated.rotor if preset == "thesis" and self.stated else self.rotor
 
     def twist_for(self, preset: str) -> TwistLaw:
-        """The twist that changes count from: the document's (`thesis`, where it has one), else the built-in."""
+        """The baseline twist of a preset: `thesis` takes the document's where there is one, else the built-in twist."""
         return self.stated.twist if preset == "thesis" and self.stated else self.rotor.builtin_twist
 
     def twist_title(self, preset: str) -> str:
-        """A name for that twist, as the page shows it."""
+        """The name of the baseline twist for the user."""
         if preset == "thesis" and self.stated:
             return self.stated.twist.spec().replace("linear:-", "linear −") + "°"
         return f"{self.name} as built"

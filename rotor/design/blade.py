@@ -50,7 +50,7 @@ class Blade:
     mass: float
     """[kg]"""
     own_sections: tuple[OwnSection, ...] = ()
-    """Section data a user brought, which spans name beside the bundled ones."""
+    """Section data supplied by the user, which spans may name as well as the bundled ones."""
 
     def __post_init__(self) -> None:
         if len(self.chord_stations) != len(self.chords) or not self.chords:
@@ -67,8 +67,8 @@ class Blade:
         return np.interp(np.asarray(r, dtype=float), self.chord_stations, self.chords)
 
     def installed(self, name: str) -> Section:
-        """The section `name` with its table and outline: a user's own, or a bundled one (ValueError for neither)."""
-        own = next((one for one in self.own_sections if one.name == name), None)
+        """The section `name` with table and outline, the user's or a bundled one; ValueError for an unknown name."""
+        own = next((section for section in self.own_sections if section.name == name), None)
         return install_own(own) if own else load_installed(name)
 
     def section_at(self, r: float) -> tuple[str, str, float]:
@@ -93,7 +93,7 @@ class Rotor:
     angular_speed: float
     """Ω [rad/s]"""
     reference_chord: float
-    """Chord [m] that the quoted solidity stands for."""
+    """Chord [m] on which the quoted solidity is based."""
     builtin_twist: TwistLaw
 
     def __post_init__(self) -> None:
@@ -148,12 +148,12 @@ def parse_airfoils(rotor: Rotor, spec: str) -> Rotor:
     try:
         breaks = [float(item) for item in places.split(",")] if places else []
     except ValueError:
-        raise ValueError(f"airfoils {spec!r} hold a place that is no number: write sc1094r8,sc1095@0.5") from None
+        raise ValueError(f"airfoils {spec!r} hold a station that is not a number: write sc1094r8,sc1095@0.5") from None
     return with_airfoils(rotor, [name.strip() for name in names.split(",")], breaks)
 
 
 def airfoils_spec(rotor: Rotor) -> str | None:
-    """The sections as `parse_airfoils` reads them; None where two are blended into one another."""
+    """The SPEC of the sections for `parse_airfoils`; None where neighbouring sections are blended."""
     spans = rotor.blade.spans
     if any(inner.end != outer.start for inner, outer in pairwise(spans)):
         return None

@@ -4,23 +4,29 @@ Equality, hashing, caching, JSON and undo come from that. A preset is a value of
 models, and `thesis`, those that the document states.
 """
 
-from dataclasses import dataclass, replace
-from typing import Literal
+import json
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+from typing import Any, Literal
 
-from rotor.design.active_twist import ActiveTwist
+from rotor.design.active_twist import ActiveTwist, active_twist_record
 from rotor.design.aircraft import Aircraft, TailRotor
-from rotor.design.blade import Rotor
+from rotor.design.blade import Rotor, airfoils_spec
 from rotor.design.flight import FlightCondition, Fuselage, advance_ratio, number
 from rotor.design.twist import TwistLaw, ideal_tip_pitch
-from rotor.design.twist_spec import parse_twist
+from rotor.design.twist_spec import inline_spec, parse_twist
 
 HoverInflow = Literal["annulus", "closed-form"]
 Trim = Literal["propulsive", "thrust"]
 
+FORMAT = "rotor-explorer design"
+"""Of design files."""
+VERSION = 2
+
 
 @dataclass(frozen=True)
 class Models:
-    """Which models compute the answer. A preset is a value of this type, never a branch of its own."""
+    """The models of a computation. A preset is a value of this type."""
 
     inflow: str
     """Forward-flight inflow model by name, one of `rotor.aero.inflow.INFLOW_MODELS`."""
@@ -38,13 +44,13 @@ class Models:
     tip_loss: bool = True
     """Prandtl's tip factor, eq. (3.16). Off: F_tip = 1; a dynamic wake is then that of infinitely many blades."""
     hub_loss: bool = True
-    """Root factor, eq. (3.17), where the inflow does not answer to the load. Off: F_hub = 1."""
+    """Root factor, eq. (3.17), where the inflow does not depend on the load. Off: F_hub = 1."""
     reverse_flow: bool = True
-    """Whether blade elements that the air meets from behind carry load. Off: none inside the circle r < −µ sin ψ."""
+    """Whether blade elements in reverse flow carry load. Off: none inside the circle r < −µ sin ψ."""
     flapping: bool = True
-    """Whether the blades flap. Off: held rigid, β = 0, without cyclic; the hub carries the moments that are left."""
+    """Whether the blades flap. Off: rigid blades, β = 0, without cyclic; the hub carries the moments."""
     compressibility: bool = True
-    """Whether sections answer to the Mach number. Off: their data at Mach 0.3 everywhere."""
+    """Whether section data depend on the Mach number. Off: data at Mach 0.3 everywhere."""
     fuselage: bool = True
     """Whether the airframe has drag, eq. (3.19). Off: drag area 0."""
     elements: int = 40
@@ -61,11 +67,11 @@ class Models:
 
 @dataclass(frozen=True, repr=False)
 class Design:
-    """A rotor, its twist, the flight condition and the models that compute it."""
+    """A rotor, its twist, the flight condition and the models."""
 
     preset: str
     aircraft: Aircraft
-    """What the design began as: its baseline, its name, its hub."""
+    """The aircraft the design is based on: its name, hub and baseline twist."""
     rotor: Rotor
     twist: TwistLaw
     condition: FlightCondition
@@ -73,7 +79,7 @@ class Design:
     tail_rotor: TailRotor | None
     models: Models
     active_twist: ActiveTwist | None = None
-    """Twist that follows the azimuth, added to the law in forward flight."""
+    """Twist as a function of azimuth, added to the twist law in forward flight."""
 
     def __repr__(self) -> str:
         condition = self.condition
@@ -120,6 +126,30 @@ class Design:
         tip_pitch = ideal_tip_pitch(self.weight_coefficient, rotor.solidity, slope)
         return replace(self, twist=parse_twist(twist, builtin=rotor.builtin_twist, ideal_tip_pitch=tip_pitch))
 
+    def to_dict(self) -> dict[str, Any]:
+        """The record of a design file: texts, numbers and lists only."""
+        changed = self.rotor != self.aircraft.rotor_for(self.preset)
+        airfoils = airfoils_spec(self.rotor) if changed else None
+        switches = [field.name for field in fields(Models) if field.default is True]
+        return {
+            "format": FORMAT,
+            "version": VERSION,
+            "rotor": self.aircraft.record(),
+            "preset": self.preset,
+            "twist": inline_spec(self.twist),
+            "advance_ratio": self.condition.advance_ratio,
+            "mass_kg": self.condition.mass,
+            "altitude_m": self.condition.altitude,
+            "inflow": self.models.inflow,
+            **{name: getattr(self.models, name) for name in switches},
+            **({"airfoils": airfoils} if airfoils else {}),
+            **({"active_twist": active_twist_record(self.active_twist)} if self.active_twist else {}),
+        }
+
+    def save(self, path: str | Path) -> None:
+        """Write a design file, which `load_design` reads."""
+        Path(path).write_text(json.dumps(self.to_dict(), indent=2) + "\n", encoding="utf-8")
+
     @property
     def airspeed(self) -> float:
         """V = µΩR [m/s]"""
@@ -127,7 +157,7 @@ class Design:
 
     @property
     def drag(self) -> float:
-        """What the airframe asks the rotor to overcome [N], eq. (3.19); 0 where the models leave it out."""
+        """Drag of the airframe [N], eq. (3.19); 0 where the models leave it out."""
         if not self.models.fuselage:
             return 0.0
         return self.fuselage.drag(self.condition.density, self.airspeed)

@@ -1,4 +1,4 @@
-"""The flight condition: standard atmosphere, weight, advance ratio and what the airframe asks of the rotor."""
+"""The flight condition: standard atmosphere, weight, advance ratio, and the drag of the airframe."""
 
 import math
 from dataclasses import dataclass
@@ -28,9 +28,9 @@ class FlightCondition:
     altitude: float = 0.0
     """Pressure altitude in the standard atmosphere [m]."""
     flap_1c: float = 0.0
-    """Wanted longitudinal flapping β1c [rad], negative when the disk tilts back; used where cyclic trims flapping."""
+    """Given longitudinal flapping β1c [rad], negative when the disk tilts back; used where cyclic trims flapping."""
     flap_1s: float = 0.0
-    """Wanted lateral flapping β1s [rad]."""
+    """Given lateral flapping β1s [rad]."""
 
     def __post_init__(self) -> None:
         _check("advance ratio", self.advance_ratio, 0.0, 0.6, "")

@@ -22,7 +22,7 @@ REFERENCE_RADIUS = 0.75
 
 @runtime_checkable
 class TwistLaw(Protocol):
-    """Anything that gives the built-in pitch along the blade."""
+    """A function that gives the built-in pitch along the blade."""
 
     def __call__(self, r: ArrayLike) -> Array:
         """Built-in twist at r = y/R [rad], zero at 0.75 R; same shape as r."""
@@ -99,7 +99,7 @@ class PiecewiseLinearTwist:
 class SplineTwist:
     """A smooth curve through a few angles: the cubic spline without knots at the second and last but one station.
 
-    So it holds every linear and quadratic law exactly.
+    It represents every linear and quadratic law exactly.
     """
 
     stations: tuple[float, ...]
@@ -130,7 +130,7 @@ class SplineTwist:
 
 @dataclass(frozen=True)
 class SumTwist:
-    """A law and a change on top of it, as an actuator adds it to the blade as built."""
+    """A twist law plus a change, as an actuator adds one to the blade as built."""
 
     base: TwistLaw
     change: TwistLaw
@@ -161,14 +161,14 @@ class IdealTwist:
 
 @dataclass(frozen=True)
 class TableTwist:
-    """Linear interpolation of measured stations; held constant beyond the first and last."""
+    """Linear interpolation between stations; constant beyond the first and last."""
 
     stations: tuple[float, ...]
     """r/R, ascending."""
     angles: tuple[float, ...]
     """[rad]; shifted so that the law is zero at 0.75 R."""
     name: str = "table"
-    """How the law is named in a SPEC: a shipped rotor's name, or table:FILE."""
+    """Name of the law in a SPEC: a shipped rotor's name, or table:FILE."""
 
     def __post_init__(self) -> None:
         if len(self.stations) != len(self.angles) or len(self.stations) < 2:

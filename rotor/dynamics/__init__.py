@@ -1,1 +1,1 @@
-"""The blade as a structure: flapping, laminates, thin-walled sections, torsion."""
+"""The blade as a structure: flapping, thin-walled sections, torsion."""

@@ -4,7 +4,7 @@
 
 which is eqs. (2.37), (2.39) and (3.20) with the hinge at e instead of the centre, the blade load written by the smeared
 dC_T/dr, and the weight moment of the blade. With β = β0 + β1c cos ψ + β1s sin ψ (2.41) the left side is
-ν²β0 + (ν² − 1)(β1c cos ψ + β1s sin ψ): the hinge at the centre leaves no first-harmonic moment at all.
+ν²β0 + (ν² − 1)(β1c cos ψ + β1s sin ψ): with the hinge at the centre the first-harmonic moment vanishes.
 """
 
 import math
@@ -25,7 +25,7 @@ class FlapDynamics:
     load_gain: float
     """Γ: turns Σ (r − e) dC_T/dr dr into flapping acceleration."""
     weight: float
-    """g S/(I Ω²) [rad], the droop by the blade's own weight before the spring of rotation; 0 when neglected."""
+    """g S/(I Ω²) [rad], the static moment of the blade's weight over I Ω²; 0 when neglected."""
 
 
 def flap_dynamics(rotor: Rotor, density: float, *, blade_weight: bool) -> FlapDynamics:

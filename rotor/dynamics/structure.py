@@ -1,4 +1,4 @@
-"""The UH-60A blade as a structure along its span, as `assets/uh60a_structure.toml` states it."""
+"""The structure of the UH-60A blade along its span, from `assets/uh60a_structure.toml`."""
 
 import tomllib
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ class BladeStructure:
     chord: float
     """[m]"""
     clamp: float
-    """Where the blade is held in pitch [m]."""
+    """Radius of the pitch bearing [m]."""
     stations: tuple[float, ...]
     torsional_stiffness: tuple[float, ...]
     """GJ [N m²]"""
@@ -37,11 +37,11 @@ class BladeStructure:
     axial_stiffness: float
     """EA [N]"""
     tension_gyration: float
-    """k_A² [m²], the square of the polar radius of gyration of what carries the tension."""
+    """k_A² [m²], the square of the polar radius of gyration of the part that carries the tension."""
     section_stiffness: float
-    """GJ [N m²] that the section model is calibrated on."""
+    """GJ [N m²] to which the section model is calibrated."""
     reference_mass: float
-    """[kg] that shares of added mass are of."""
+    """Blade mass [kg] to which added mass is compared."""
 
     def at(self, r: ArrayLike, values: tuple[float, ...]) -> Array:
         """One of the distributions at r [m]."""
@@ -63,15 +63,15 @@ def structure_data() -> dict[str, Any]:
 
 
 KNOWN_BLADE = "uh60a"
-"""The rotor whose blade structure we hold."""
+"""The rotor whose blade structure is known."""
 
 
 def check_blade(aircraft: Aircraft) -> None:
-    """Raise ValueError for a rotor whose blade structure nobody has given us."""
+    """Raise ValueError for a rotor whose blade structure is not known."""
     if aircraft.key != KNOWN_BLADE:
         raise ValueError(
-            f"The structure of the {aircraft.name} blade is not known: actuators are worked out for the UH-60A only, "
-            "so choose that rotor."
+            f"The structure of the {aircraft.name} blade is not known, and actuators are computed for the UH-60A only: "
+            "choose that rotor."
         )
 
 

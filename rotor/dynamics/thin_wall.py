@@ -46,7 +46,7 @@ class Layer:
     angle: float
     """Of the fibres from the span axis [rad]."""
     free_strain: tuple[float, float] = (0.0, 0.0)
-    """Λ1, Λ2 along and across the fibres: what voltage (or heat) does to the sheet when nothing holds it [-]."""
+    """Λ1, Λ2 along and across the fibres: strain of the free sheet under voltage or heat [-]."""
 
 
 def reduced_stiffness(material: Material) -> Array:
@@ -70,14 +70,14 @@ def rotated_stiffness(material: Material, angle: float) -> Array:
 
 
 def free_strain_in_wall_axes(layer: Layer) -> Array:
-    """(ε_x, ε_s, γ_xs) of the unheld sheet: ε_x = Λ1c² + Λ2s², ε_s = Λ1s² + Λ2c², γ = 2sc(Λ1 − Λ2) [-]."""
+    """(ε_x, ε_s, γ_xs) of the free sheet: ε_x = Λ1c² + Λ2s², ε_s = Λ1s² + Λ2c², γ = 2sc(Λ1 − Λ2) [-]."""
     c, s = math.cos(layer.angle), math.sin(layer.angle)
     along, across = layer.free_strain
     return np.array([along * c * c + across * s * s, along * s * s + across * c * c, 2.0 * s * c * (along - across)])
 
 
 def blocked_shear_flow(layer: Layer) -> float:
-    """Shear flow of a sheet held still [N/m]; at 45° ½t[(Q11 − Q12)Λ1 − (Q22 − Q12)Λ2], zero for an isotropic one."""
+    """Shear flow of a blocked sheet [N/m]; at 45° ½t[(Q11 − Q12)Λ1 − (Q22 − Q12)Λ2], zero for an isotropic one."""
     blocked = rotated_stiffness(layer.material, layer.angle) @ free_strain_in_wall_axes(layer)
     return layer.thickness * float(blocked[2])
 
@@ -95,7 +95,7 @@ class Wall:
 
 
 def wall_of(layers: tuple[Layer, ...]) -> Wall:
-    """The laminate with its hoop force set to zero, as a thin wall between stations that are far apart may do."""
+    """The laminate without hoop force, as in a thin wall far from ribs and ends."""
     a, n = np.zeros((3, 3)), np.zeros(3)
     for layer in layers:
         q = rotated_stiffness(layer.material, layer.angle)
@@ -118,7 +118,7 @@ class Panel:
     """(y, z) along it [m], (points, 2)."""
     layers: tuple[Layer, ...]
     cells: tuple[int, ...]
-    """Cells on its left as it is walked, as numbers from 1; minus the number for a cell on its right."""
+    """Numbers (from 1) of the cells on the left along the points; negative for a cell on the right."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,7 +144,7 @@ class WallSection:
 
 @dataclass(frozen=True)
 class SectionResponse:
-    """What a section does under loads, or when its active plies are switched on."""
+    """Deformation of a section under loads or actuation."""
 
     twist_rate: float
     """θ' [rad/m]."""
@@ -159,7 +159,7 @@ class SectionResponse:
 
 
 def build_section(panels: tuple[Panel, ...]) -> WallSection:
-    """Cut panels into straight elements and measure the cells."""
+    """A section of straight wall elements, with the areas of its cells."""
     walls: list[Wall] = [wall_of(panel.layers) for panel in panels]
     cells = max(abs(cell) for panel in panels for cell in panel.cells)
     parts: list[tuple[Array, Array, Array, Array, Wall]] = []
@@ -237,7 +237,7 @@ def axial_stiffness(section: WallSection) -> float:
 
 
 def _extension_at_centre(section: WallSection) -> float:
-    """ε_x per newton applied at the tension centre, where it bends nothing: the least over all points."""
+    """ε_x per newton at the tension centre, where a force causes no bending: the least over all points."""
     base = respond(section, force=1.0)
     by_y, by_z = respond(section, moments=(1.0, 0.0)), respond(section, moments=(0.0, 1.0))
     compliance = np.array(
@@ -251,12 +251,12 @@ def _extension_at_centre(section: WallSection) -> float:
 
 
 def induced_twist_rate(section: WallSection) -> float:
-    """θ'_a of the free section when its plies see their whole voltage range [rad/m]."""
+    """θ'_a of the free section at the full voltage range of its plies [rad/m]."""
     return respond(section, voltage=1.0).twist_rate
 
 
 def actuation_moment(section: WallSection) -> float:
-    """M_a = GJ θ'_a: the end moment that would twist the passive section as much [N m]."""
+    """M_a = GJ θ'_a: the end moment that twists the passive section by the same rate [N m]."""
     return torsional_stiffness(section) * induced_twist_rate(section)
 
 

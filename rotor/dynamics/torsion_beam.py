@@ -1,8 +1,8 @@
-"""The rotating blade in torsion: what twist a section's actuation moment makes along the span, and at what frequency.
+"""The rotating blade in torsion: twist along the span under an actuation moment, and the first natural frequency.
 
     (GJ_e φ')' − Ω² I_θ φ = M_a',   φ = 0 at the pitch bearing,   GJ_e φ' = M_a at the free tip
 
-with the trapeze effect GJ_e = GJ + F_c k_A² (centrifugal force untwists; k_A² of what carries it) and the tennis-racket
+with the trapeze effect GJ_e = GJ + F_c k_A² (the centrifugal force untwists the blade) and the tennis-racket
 moment −Ω² I_θ φ per length (propeller moment, small angles, I_zz − I_yy ≈ I_θ). Uniform blade:
 φ_tip = (M_a/GJ_e) tanh(λL)/λ, λ² = Ω² I_θ/GJ_e. Source: Houbolt & Brooks, NACA TR 1346 (1958).
 Range: no coupling with bending, stiff control system. Linear finite elements, exact integrals of piecewise values.
@@ -22,10 +22,10 @@ ELEMENTS = 240
 
 @dataclass(frozen=True, eq=False)
 class TorsionBeam:
-    """A blade laid out for torsion: elements between nodes, values at element centres."""
+    """A blade discretised for torsion: elements between nodes, values at element centres."""
 
     r: Array
-    """Nodes [m], (elements + 1,), the first held in pitch."""
+    """Nodes [m], (elements + 1,), the first fixed in pitch."""
     stiffness: Array
     """GJ_e, trapeze effect included [N m²], (elements,)."""
     inertia: Array
@@ -40,7 +40,7 @@ class TorsionBeam:
 
 @dataclass(frozen=True)
 class Addition:
-    """What the actuator adds between two radii."""
+    """Mass, inertia and stiffness that the actuator adds between two radii."""
 
     span: tuple[float, float]
     """[m]"""
@@ -60,7 +60,7 @@ def torsion_beam(
     addition: Addition | None = None,
     trapeze: bool = True,
 ) -> TorsionBeam:
-    """The blade with GJ × `scale`, carrying an addition."""
+    """The blade with GJ × `scale` and an addition."""
     edges = np.linspace(structure.clamp, structure.radius, ELEMENTS + 1)
     r = np.unique(np.concatenate((edges, addition.span))) if addition else edges
     centres = 0.5 * (r[1:] + r[:-1])
@@ -120,6 +120,6 @@ def _matrices(beam: TorsionBeam) -> tuple[Array, Array]:
 
 
 def _dense(banded: Array) -> Array:
-    """Without the held node."""
+    """The full matrix, without the fixed node."""
     diagonal, off = banded[0, 1:], banded[1, 1:-1]
     return np.diag(diagonal) + np.diag(off, 1) + np.diag(off, -1)

@@ -1,1 +1,1 @@
-"""Design files, rotor files, section files, shipped rotors, and where a result came from."""
+"""Design files, rotor files, section files, shipped rotors, and the provenance of a result."""

@@ -1,4 +1,4 @@
-"""Design files: the choices behind a `Design` as JSON that a person can read and edit.
+"""Design files: the choices behind a `Design` as JSON that a person can read and edit. `Design.save` writes them.
 
 `rotor` names a shipped rotor, or holds a user's own files word for word, so that the file is complete.
 """
@@ -11,17 +11,13 @@ from typing import Any, cast
 from rotor.aero.inflow import inflow_model
 from rotor.aero.switches import SWITCHES
 from rotor.assets import SHIPPED_ROTORS
-from rotor.design.active_twist import active_twist_record, read_active_twist
+from rotor.design.active_twist import read_active_twist
 from rotor.design.aircraft import Aircraft
-from rotor.design.blade import airfoils_spec
-from rotor.design.design import Design
-from rotor.design.twist_spec import inline_spec
+from rotor.design.design import FORMAT, VERSION, Design
 from rotor.files.make_design import change_airfoils, make_design
 from rotor.files.rotor_file import LARGEST_FILE, find_aircraft, read_aircraft, shipped_aircraft
 
-FORMAT = "rotor-explorer design"
-VERSION = 2
-READS = (1, 2)
+READS = (1, VERSION)
 """Version 1 had no `rotor`: its designs are of the UH-60A."""
 
 _KEYS = (
@@ -42,38 +38,8 @@ _KEYS = (
 """`solution` holds the results that `Solution.save` adds; they are not read back."""
 
 
-def design_record(design: Design) -> dict[str, Any]:
-    """The design as a JSON-ready record."""
-    changed = design.rotor != design.aircraft.rotor_for(design.preset)
-    airfoils = airfoils_spec(design.rotor) if changed else None
-    return {
-        "format": FORMAT,
-        "version": VERSION,
-        "rotor": rotor_record(design.aircraft),
-        "preset": design.preset,
-        "twist": inline_spec(design.twist),
-        "advance_ratio": design.condition.advance_ratio,
-        "mass_kg": design.condition.mass,
-        "altitude_m": design.condition.altitude,
-        "inflow": design.models.inflow,
-        **{name: getattr(design.models, name) for name in SWITCHES},
-        **({"airfoils": airfoils} if airfoils else {}),
-        **({"active_twist": active_twist_record(design.active_twist)} if design.active_twist else {}),
-    }
-
-
-def rotor_record(aircraft: Aircraft) -> Any:
-    """The name of a shipped rotor, or all files of a user's own, line by line."""
-    if aircraft.files is None:
-        return aircraft.key
-    return {
-        "main": aircraft.files.main,
-        "files": {name: text.splitlines() for name, text in aircraft.files.texts},
-    }
-
-
 def read_rotor_record(record: Any, *, paths: bool = False) -> Aircraft:
-    """The inverse; with `paths`, a text may also be the path of a rotor file on this machine.
+    """The aircraft that `Aircraft.record` describes; with `paths`, a text may also be the path of a rotor file.
 
     Raises ValueError with one sentence for any other record.
     """
@@ -128,7 +94,7 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False) -> Design
     return replace(design, models=models, rotor=rotor, active_twist=active_twist)
 
 
-def read_design(path: str | Path) -> Design:
+def load_design(path: str | Path) -> Design:
     """Read a design file; ValueError with one sentence when it cannot be used."""
     path = Path(path)
     try:
@@ -164,11 +130,6 @@ def _record(content: bytes, name: str) -> dict[str, Any]:
     if not isinstance(record, dict):
         raise ValueError(f'design file {name!r} is not a JSON object: write {{"twist": "linear:-8", …}}')
     return cast(dict[str, Any], record)
-
-
-def write_design(design: Design, path: str | Path) -> None:
-    """Write a design file."""
-    Path(path).write_text(json.dumps(design_record(design), indent=2) + "\n", encoding="utf-8")
 
 
 def _number(record: dict[str, Any], key: str, default: Any) -> Any:

@@ -1,4 +1,4 @@
-"""Where a result came from: the package's version and, in a checkout, its commit."""
+"""The provenance of a result: the version of the package and, in a checkout, its commit."""
 
 import subprocess
 from functools import cache
@@ -9,7 +9,7 @@ _ROOT = Path(__file__).parent.parent.parent
 
 
 def package_version() -> str:
-    """Version of the installed package; "unknown" for a bare copy of its source."""
+    """Version of the installed package; "unknown" for a copy of the source."""
     try:
         return version("rotor-explorer")
     except PackageNotFoundError:
@@ -18,7 +18,7 @@ def package_version() -> str:
 
 @cache
 def commit() -> str | None:
-    """The commit that the package runs from, with + where files differ from it; None for an installed package."""
+    """The commit of the checkout, with + where files differ from it; None for an installed package."""
     if not (_ROOT / ".git").exists():
         return None
     command = ["git", "-C", str(_ROOT), "describe", "--always", "--dirty=+", "--exclude=*"]

@@ -1,9 +1,9 @@
-"""Ranges as people write them: `0.05:0.40:0.05`, `0.1,0.3` or one number."""
+"""Ranges in text: `0.05:0.40:0.05`, `0.1,0.3` or one number."""
 
 import math
 
-_MOST = 10_000
-"""Values of a range."""
+_MOST_VALUES = 10_000
+"""Largest number of values of a range."""
 
 
 def parse_range(text: str) -> list[float]:
@@ -16,11 +16,11 @@ def parse_range(text: str) -> list[float]:
             if not (step > 0.0 and high >= low):
                 raise ValueError
             count = math.floor((high - low) / step + 1e-9) + 1
-            values = [low + k * step for k in range(min(count, _MOST + 1))]
+            values = [low + k * step for k in range(min(count, _MOST_VALUES + 1))]
     except (ValueError, OverflowError):
         raise ValueError(f"range {text!r} is not understood: write a:b:step, for example 0.05:0.40:0.05") from None
-    if len(values) > _MOST:
-        raise ValueError(f"range {text!r} has more than {_MOST:,} values: take a larger step")
+    if len(values) > _MOST_VALUES:
+        raise ValueError(f"range {text!r} has more than {_MOST_VALUES:,} values: take a larger step")
     if not all(math.isfinite(value) for value in values):
         raise ValueError(f"range {text!r} holds a value that is not a number: write for example 0.05:0.40:0.05")
     return [round(value, 12) for value in values]

@@ -22,18 +22,18 @@ from rotor.files.section_file import read_section
 from rotor.files.toml_table import TomlTable, read_toml
 
 BAILEY_POLAR = (0.0087, -0.0216, 0.4)
-"""c_d = δ0 + δ1 α + δ2 α² of Bailey, NACA Report 716 (1941): the textbook's section, for tail rotors without one."""
+"""c_d = δ0 + δ1 α + δ2 α² of Bailey, NACA Report 716 (1941): used for tail rotors without a polar."""
 LIFT_SLOPE = 5.73
-"""[1/rad], the textbook's, for tail rotors without one."""
+"""[1/rad], used for tail rotors without a lift slope."""
 
 _NAME = r"[\w .,'()+/-]{1,40}"
-"""It stands in read-outs and menus."""
+"""A name appears in menus and tables."""
 LARGEST_FILE = 2_000_000
-"""[bytes] of a rotor file or of a file it names; a deck has some 40 000."""
+"""[bytes], of a rotor file or of a file it names; a deck has about 40 000."""
 
 
 def named_files(top: TomlTable) -> list[str]:
-    """The section files a rotor file names, whatever else is wrong with it."""
+    """The section files that a rotor file names, even where the rest of it has errors."""
     names: list[str] = []
     for own in _as_table(top.values.get("sections")).values():
         for key in ("deck", "polars", "outline"):
@@ -48,7 +48,7 @@ def _as_table(value: Any) -> dict[str, Any]:
 
 
 def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraft:
-    """The aircraft of the rotor file `main` among texts by file name; `key` for one that ships.
+    """The aircraft of the rotor file `main`, with the texts by file name; `key` is the name of a shipped one.
 
     Raises ValueError with one sentence that names file, line and remedy.
     """
@@ -92,7 +92,9 @@ def _rotor(
     radius = main.number("radius_m", low=0.1, high=30.0, unit="m")
     blades = main.count("blades", low=2, high=12)
     if hub != "articulated" and blades != 2:
-        raise main.fail("hub", f"hub is {hub!r} with {blades} blades: only two blades teeter, write articulated")
+        raise main.fail(
+            "hub", f"hub is {hub!r} with {blades} blades: a teetering hub has two blades, so write articulated"
+        )
     blade = _blade(main, given, radius, own, hub)
     chord = float(blade.chord(0.75))
     return Rotor(
@@ -119,7 +121,7 @@ def _stated(name: str, main: TomlTable, flown: Rotor, own: tuple[OwnSection, ...
 def _angular_speed(main: TomlTable, radius: float) -> float:
     given = [key for key in ("angular_speed_rad_s", "speed_rpm", "tip_speed_m_s") if main.has(key)]
     if len(given) > 1:
-        raise main.fail(given[1], f"{given[0]} and {given[1]} say the same: keep one of them")
+        raise main.fail(given[1], f"{given[0]} and {given[1]} both set the rotor speed: keep one of them")
     if main.has("speed_rpm"):
         return main.number("speed_rpm", low=10.0, high=10_000.0, unit="rpm") * math.pi / 30.0
     if main.has("tip_speed_m_s"):
@@ -131,7 +133,10 @@ def _blade(main: TomlTable, given: TomlTable, radius: float, own: tuple[OwnSecti
     root = main.number("root_cutout_r", low=0.02, high=0.8, unit="r/R")
     hinge = given.number("flap_hinge_m", 0.0, low=0.0, high=0.3 * radius, unit="m")
     if hub != "articulated" and hinge:
-        raise given.fail("flap_hinge_m", f"flap_hinge_m is {hinge:g} on a {hub} hub: it teeters at the shaft, write 0")
+        raise given.fail(
+            "flap_hinge_m",
+            f"flap_hinge_m is {hinge:g} on a {hub} hub: a teetering hub has its hinge at the shaft, so write 0",
+        )
     chords = given.numbers("chord_m", low=0.005, high=3.0)
     stations = given.numbers("chord_r", (root, 1.0) if len(chords) == 1 else (), low=0.0, high=1.0)
     if len(chords) == 1:
@@ -152,7 +157,7 @@ def _blade(main: TomlTable, given: TomlTable, radius: float, own: tuple[OwnSecti
 
 
 def _masses(given: TomlTable, length: float) -> tuple[float, float, float]:
-    """Mass, flap inertia and static moment about the hinge; of a uniform blade where only its mass is given."""
+    """Mass, flap inertia and static moment about the hinge; those of a uniform blade where only its mass is given."""
     if given.has("mass_per_length_kg_m"):
         mass = given.number("mass_per_length_kg_m", low=0.05, high=200.0, unit="kg/m") * length
     else:
@@ -242,7 +247,7 @@ def _own_sections(
 
 @cache
 def shipped_aircraft(name: str) -> Aircraft:
-    """A shipped aircraft; ValueError for a name that is none."""
+    """A shipped aircraft; ValueError for any other name."""
     if name not in SHIPPED_ROTORS:
         raise ValueError(
             f"rotor {name!r} is not known: use {', '.join(SHIPPED_ROTORS)}, or the path of a rotor file (.toml)"
@@ -252,13 +257,13 @@ def shipped_aircraft(name: str) -> Aircraft:
 
 
 def find_aircraft(name: str) -> Aircraft:
-    """The aircraft that `--rotor` names: a shipped one, or a rotor file's. ValueError with one sentence otherwise."""
+    """The aircraft of a shipped rotor's name or of the path of a rotor file; ValueError with one sentence otherwise."""
     if name in SHIPPED_ROTORS or not ("." in name or "/" in name or Path(name).exists()):
         return shipped_aircraft(name)
-    return read_rotor_file(name)
+    return load_rotor(name)
 
 
-def read_rotor_file(path: str | Path) -> Aircraft:
+def load_rotor(path: str | Path) -> Aircraft:
     """The aircraft of a rotor file on disk, with the section files beside it.
 
     Raises ValueError with one sentence that names file, line and remedy.
@@ -274,7 +279,7 @@ def read_rotor_file(path: str | Path) -> Aircraft:
 
 
 def read_text(path: Path) -> str:
-    """The text of a file; ValueError where it cannot be had."""
+    """The text of a file; ValueError where it cannot be read."""
     try:
         if path.stat().st_size > LARGEST_FILE:
             raise ValueError(f"{path.name} has {path.stat().st_size / 1e6:.1f} MB: a rotor's files have 2 MB at most")

@@ -1,4 +1,4 @@
-"""A section of a rotor file: a C81 deck as it is, or XFOIL polars made into one, and an outline for pictures."""
+"""A section of a rotor file: a C81 deck, or XFOIL polars converted to one, and an outline for pictures."""
 
 import math
 import re
@@ -14,19 +14,20 @@ from rotor.airfoil.sections import TABLE_NAMES, OwnSection, install_own
 from rotor.files.toml_table import TomlTable
 
 UNKNOWN_OUTLINE = "naca0012"
-"""What a section without an outline is drawn as."""
+"""The outline drawn for a section without one."""
 
 
 def read_section(
     table: TomlTable, name: str, texts: Mapping[str, str], used: dict[str, str], remarks: list[str]
 ) -> OwnSection:
-    """The section `[sections.name]`; notes the texts it used and what it had to assume.
+    """The section `[sections.name]`; adds the texts it uses to `used` and its assumptions to `remarks`.
 
     Raises ValueError with one sentence that names file, line and remedy.
     """
     if not re.fullmatch(r"[a-z0-9][a-z0-9._-]{0,39}", name) or name in TABLE_NAMES:
         raise table.fail(
-            None, f"section name {name!r} is taken or not plain: use letters a-z, digits and -, as my-section"
+            None,
+            f"section name {name!r} is taken or has other characters: use letters a-z, digits and -, as my-section",
         )
     outline, thickness = _outline(table, name, texts, used, remarks)
     if table.has("deck") == table.has("polars"):
@@ -36,7 +37,9 @@ def read_section(
         deck = _file(table, "deck", files[0], texts, used)
     else:
         files = table.strings("polars")
-        polars = [one for file in files for one in parse_polar_file(file, _file(table, "polars", file, texts, used))]
+        polars = [
+            polar for file in files for polar in parse_polar_file(file, _file(table, "polars", file, texts, used))
+        ]
         deck = _deck_of(table, name, polars, thickness, remarks)
     made = OwnSection(
         name=name,
@@ -57,7 +60,7 @@ def read_section(
 def _outline(
     table: TomlTable, name: str, texts: Mapping[str, str], used: dict[str, str], remarks: list[str]
 ) -> tuple[str, float]:
-    """The outline as `OwnSection` keeps it, and t/c, given or measured on it."""
+    """The outline in the form of `OwnSection`, and t/c, given or measured on the outline."""
     given = table.string("outline", None)
     if given is None:
         given = name if is_naca(name) else None
@@ -74,11 +77,11 @@ def _outline(
 
 
 def _deck_of(table: TomlTable, name: str, polars: list[Polar], thickness: float, remarks: list[str]) -> str:
-    """A C81 deck of XFOIL polars, one a Mach number."""
+    """A C81 deck from XFOIL polars, one per Mach number."""
     machs = sorted(polar.mach for polar in polars)
-    twice = [mach for mach, after in pairwise(machs) if after - mach < 0.01]
-    if twice:
-        raise table.fail("polars", f"two polars of {name} have Mach {twice[0]:g}: keep one for each Mach number")
+    repeated = [mach for mach, after in pairwise(machs) if after - mach < 0.01]
+    if repeated:
+        raise table.fail("polars", f"two polars of {name} have Mach {repeated[0]:g}: keep one for each Mach number")
     narrow = [p for p in polars if p.alpha_deg[0] > -4.0 or p.alpha_deg[-1] < 8.0]
     if narrow:
         low, high = narrow[0].alpha_deg[0], narrow[0].alpha_deg[-1]
@@ -89,14 +92,14 @@ def _deck_of(table: TomlTable, name: str, polars: list[Polar], thickness: float,
     low = max(polar.alpha_deg[0] for polar in polars)
     high = min(polar.alpha_deg[-1] for polar in polars)
     listed = ", ".join(f"{mach:g}" for mach in machs)
-    beyond = "Prandtl–Glauert lift, a lift cap and Korn's wave drag go on from there" if machs[-1] < 0.99 else "none"
+    above = ", above them Prandtl–Glauert lift, a lift limit and Korn's wave drag" if machs[-1] < 0.99 else ""
     remarks.append(
-        f"Section {name} is made of polars at Mach {listed} over {low:g}…{high:g}°: {beyond}, "
-        "and a closed form covers the angles beyond stall."
+        f"Section {name} is built from polars at Mach {listed} over {low:g}…{high:g}°{above}, "
+        "and from a closed form beyond stall."
     )
     if machs[-1] > NATIVE_MACH_LIMIT + 1e-9:
         remarks.append(
-            f"The polars of {name} above Mach {NATIVE_MACH_LIMIT:g} are used as given; XFOIL knows no shocks there."
+            f"The polars of {name} above Mach {NATIVE_MACH_LIMIT:g} are used as given; XFOIL does not model shocks."
         )
     deck = assemble_deck(name.upper()[:30], polars, SectionTraits(thickness=thickness))
     return format_c81(deck)
@@ -105,7 +108,7 @@ def _deck_of(table: TomlTable, name: str, polars: list[Polar], thickness: float,
 def _file(table: TomlTable, key: str, name: str, texts: Mapping[str, str], used: dict[str, str]) -> str:
     if name not in texts:
         raise table.fail(
-            key, f"{key} names {name!r}, which is not there: put it beside the rotor file, on the page load it too"
+            key, f"{key} names {name!r}, which is missing: put it beside the rotor file, or load it on the page too"
         )
     used[name] = texts[name]
     return texts[name]

@@ -158,9 +158,9 @@ class _Run:
             best = _minimum(evaluate, seen, ())
         if stopped:
             status = SearchStatus.STOPPED
-            message = f"SearchStopped after {evaluate.count} evaluations; the best so far is kept."
+            message = f"Stopped after {evaluate.count} evaluations; the best so far is kept."
             if self.groups and evaluate.phase == "band":
-                message = "SearchStopped while measuring the band; the search itself was complete."
+                message = "Stopped while measuring the band; the search itself was complete."
         elif best is None:
             status = SearchStatus.NOT_CONVERGED
             trimmed = any(one.power is not None for one in evaluate.records)

@@ -97,7 +97,7 @@ def _worker() -> str:
 
 
 def describe(study: Study, provenance: StudyProvenance) -> dict[str, str]:
-    """StudyProvenance as it stands in the metadata of every file."""
+    """The provenance in the metadata of every file."""
     given = dict(study.given)
     return {
         "format": "rotor-explorer study",

@@ -115,7 +115,7 @@ def check_uncertain(uncertain: tuple[str, ...], axes: tuple[str, ...], sampled: 
 
 
 def default_chunk(count: int, *, search: bool) -> int:
-    """Points a chunk unless the file says otherwise: seconds of evaluate_points, files that a folder can hold.
+    """Points a chunk unless the file says otherwise: seconds of work, files that a folder can hold.
 
     A trim takes some 5 ms, an optimum some 0.3 s; a chunk starts cold, and is what a lost worker or a Ctrl-C costs.
     """

@@ -1,4 +1,4 @@
-"""The exact gradient of power by the pitch at every blade station: one linear solve, whatever the number of stations.
+"""The exact gradient of power by the pitch at every blade station: one linear solve for any number of stations.
 
 The trim makes the residuals R(x, d, λ) zero, and the inflow is λ = A d + b. For a measure P, with a = J⁻ᵀ ∂P/∂x, the
 weights w = ∂P/∂F − a·∂R/∂F on the loads, and the part u = Aᵀ(I − K Aᵀ)⁻¹(K w_z + ∂F_x/∂λ w_x + ∂P/∂λ) of the inflow,

@@ -27,7 +27,7 @@ LIFT_CURVE_MACH = 0.3
 """Mach number at which the linear lift curve of (3.3) is read off; the document's polar knows no other."""
 
 _LARGEST_INFLOW = 0.6
-"""Bracket of λ: no annulus of a rotor comes near it."""
+"""Bracket of λ, far above any annulus of a rotor."""
 _LARGEST_COLLECTIVE = math.radians(40.0)
 
 
@@ -56,7 +56,7 @@ def closed_form_inflow(
 def lift_curve(problem: Problem) -> tuple[Array, Array]:
     """C_lα [1/rad] and the zero-lift pitch [rad] of each element's linear lift curve, (elements,); blended sections."""
     disk, blade = problem.disk, problem.design.rotor.blade
-    names = dict.fromkeys(span.section for span in blade.spans)  # In the order of the disk's tables.
+    names = dict.fromkeys(span.section for span in blade.spans)  # In the order of `Disk.tables`.
     slopes, zeros = np.array([_straight_line(blade.installed(name)) for name in names]).T
     first, second = disk.section.T
     return (

@@ -24,7 +24,7 @@ from rotor.trim.solution import HubMoment, PowerBudget
 
 
 def power_budget(problem: Problem, elements: BladeElements) -> PowerBudget:
-    """Power [W] by parts, torque × Ω beside them."""
+    """Power [W] by parts, and torque × Ω."""
     design, disk, loads = problem.design, problem.disk, elements.loads
     unit = design.power_unit * disk.dr / len(disk.psi)
     cubed: Array = np.hypot(elements.u_t, elements.u_p) ** 3 * loads[kernel.CD]
@@ -63,8 +63,8 @@ def profile_power_coefficient(solidity: float, drag_coefficient: float, advance_
 def hub_moment(problem: Problem, elements: BladeElements) -> HubMoment:
     """Steady moments about the hub, first harmonics of Σ r dF_z.
 
-    Hinged or not: a blade that flaps once a revolution feels as much from its inertia one way as from its centrifugal
-    force the other, about the hub. Blades free to flap at the centre hand over nothing, because flapping evens it out.
+    True with and without hinge offset: about the hub, the inertia and the centrifugal force of a blade that flaps once
+    per revolution cancel. Blades hinged at the centre transfer no moment, because flapping balances the lift.
     """
     design, disk = problem.design, problem.disk
     moment = disk.r @ elements.loads[kernel.FZ] * (design.thrust_unit * design.rotor.radius * disk.dr / len(disk.psi))

@@ -14,7 +14,6 @@ from rotor.aero.trim_state import TrimState
 from rotor.arrays import Array
 from rotor.design.active_twist import active_twist_record
 from rotor.design.design import Design
-from rotor.files.design_file import design_record
 from rotor.plots import plot_disk
 
 
@@ -27,12 +26,12 @@ class Status(Enum):
 
 @dataclass(frozen=True)
 class Caveat:
-    """A reason to read the numbers with care."""
+    """A limit of validity that a solution exceeds."""
 
     name: str
     """Short and stable, for scripts, for example low-speed-inflow."""
     sentence: str
-    """What the user reads."""
+    """The sentence for the user."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,11 +62,11 @@ class DiskFields:
     cd_mach: Array
     """∂C_d/∂M, whose value 0.1 marks drag divergence."""
     stall_margin: Array
-    """Angle of attack left before stall [rad], negative when stalled; NaN-free, π/2 in reverse flow."""
+    """Stall angle less angle of attack [rad]: negative when stalled, π/2 in reverse flow."""
     dct: Array
     """dC_T/dr of the whole rotor as if smeared."""
     dcq: Array
-    """In-plane force dC_H-like loading (drag direction) of the whole rotor as if smeared; dC_P/dr = r·dcq."""
+    """dC_Q/dr over r: in-plane force opposing rotation, of the whole rotor as if smeared; dC_P/dr = r·dcq."""
 
 
 @dataclass(frozen=True)
@@ -95,10 +94,10 @@ class PowerBudget:
 
 @dataclass(frozen=True)
 class HubMoment:
-    """Steady moments that the rotor head hands to the shaft [N m]."""
+    """Steady moments of the hub on the shaft [N m]."""
 
     roll: float
-    """Positive towards the retreating side: lift on the advancing side lifts that side."""
+    """Positive towards the retreating side, as from lift on the advancing side."""
     pitch: float
     """Positive nose-up."""
 
@@ -109,7 +108,7 @@ class HubMoment:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Solution:
-    """One trimmed (or honestly untrimmed) rotor."""
+    """A trimmed rotor, or the last iterate of one that did not trim."""
 
     design: Design
     status: Status
@@ -172,7 +171,7 @@ class Solution:
 
     @property
     def induced_power_factor(self) -> float:
-        """κ = C_Pi/(C_T λ0): induced power over that of an even load, momentum theory's C_T λ0."""
+        """κ = C_Pi/(C_T λ0): induced power over that of uniform loading by momentum theory."""
         return self.last_power.induced / (self.ct * self.controls.lambda0 * self.design.power_unit)
 
     @property
@@ -243,7 +242,7 @@ class Solution:
 
     def save(self, path: str | Path) -> None:
         """Write the design and, under `solution`, its results as JSON; `load_design` reads the design back."""
-        record = {**design_record(self.design), "solution": self.to_dict()}
+        record = {**self.design.to_dict(), "solution": self.to_dict()}
         Path(path).write_text(json.dumps(record, indent=2, allow_nan=False) + "\n", encoding="utf-8")
 
     def plot(self, field: str = "alpha", ax: Any = None) -> Any:

@@ -9,7 +9,7 @@ from watched import COARSE, WAIT, Watched, opened
 
 from explorer.app import App
 from explorer.state import Inputs
-from rotor.files.design_file import design_record, read_design
+from rotor.files.design_file import load_design
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
 
@@ -99,13 +99,11 @@ def test_save_and_load(browser: "Browser", app: App, tmp_path: Path):
         page.get_by_role("button", name="Save design").click()
     saved = tmp_path / "design.json"
     download.value.save_as(saved)
-    design = read_design(saved)
+    design = load_design(saved)
     assert design.twist.spec() == "spline:9,6,0,-5@0.13,0.4,0.75,1"
     assert design.condition.advance_ratio == 0.1
     before, other = shown_kw(watched), tmp_path / "other.json"
-    other.write_text(
-        json.dumps({**design_record(make_design(twist="linear:-6")), "advance_ratio": 0.25}), encoding="utf-8"
-    )
+    other.write_text(json.dumps({**make_design(twist="linear:-6").to_dict(), "advance_ratio": 0.25}), encoding="utf-8")
     file = page.get_by_role("button", name="Load design").locator("xpath=../input[@type='file']")
     file.set_input_files(other)
     design_in_address(watched, "linear:-6;mu=0.25")

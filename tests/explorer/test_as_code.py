@@ -14,8 +14,7 @@ from typing import Any
 
 import pytest
 
-from explorer.export.as_code import CASE_FILE, as_command_line, as_python
-from explorer.export.code_writer import degrees, exact_spec
+from explorer.export.as_code import CASE_FILE, as_command_line, as_python, degrees, exact_spec
 from explorer.state import Inputs
 from rotor.__main__ import main
 from rotor.design.active_twist import ActiveTwist, Harmonic

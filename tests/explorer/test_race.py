@@ -6,7 +6,9 @@ from typing import Any
 
 import pytest
 
-from explorer.race import (
+from explorer.state import Inputs
+from explorer.tabs.optimise import mission
+from explorer.tabs.optimise.race import (
     Race,
     RaceStart,
     counting,
@@ -14,8 +16,6 @@ from explorer.race import (
     inputs_at,
     race_of,
 )
-from explorer.state import Inputs
-from explorer.tabs.optimise import mission
 from explorer.tabs.optimise.run import SearchRun
 from explorer.tabs.optimise.search_request import SearchRequest
 from rotor.files.make_design import make_design

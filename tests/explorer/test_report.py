@@ -16,25 +16,23 @@ from numpy.testing import assert_allclose
 from PIL import Image
 
 from explorer import __main__ as command
-from explorer.charts import marks
+from explorer.charts import svg
 from explorer.charts.line_chart import Trace, line_chart
-from explorer.charts.paper import SIZES, Paper
 from explorer.charts.plots import SWEEP, PowerCurve
 from explorer.charts.power_curve import PowerCurves
 from explorer.export.provenance import versions
 from explorer.export.report import command as report_command
 from explorer.export.report.contents import DesignReport, ReportEntry, report_of
 from explorer.export.report.document import report_html
-from explorer.export.scene_recordings import EmbeddedViewer, embedded_viewer
-from explorer.export.sheet import disk_sheet, shown, view_sheet, window
+from explorer.export.sheet import SIZES, Paper, disk_sheet, shown, view_sheet, window
 from explorer.picture import disk_image
 from explorer.picture.disk_image import SIZE
 from explorer.picture.fields import FIELDS
 from explorer.picture.picture import disk_png
+from explorer.scene.embedded_viewer import EmbeddedViewer, embedded_viewer
 from explorer.scene.still_scene import make_stage
 from explorer.state import Inputs, ViewState, baseline_of
 from rotor.design.design import Design
-from rotor.files.design_file import write_design
 from rotor.trim.solution import Status
 from rotor.trim.solve import solve
 
@@ -71,11 +69,11 @@ class TestDrawing:
         ring = np.stack((corners, np.roll(corners, -1, axis=0)), axis=1)
         ring[2] = ring[2][::-1]  # Whichever way a segment runs.
         apart = np.array([[[3.0, 3.0], [4.0, 4.0]]])
-        square, line = marks.joined(np.concatenate((ring, apart)))
+        square, line = svg.joined(np.concatenate((ring, apart)))
         assert len(square) == 5
         assert_allclose(square[0], square[-1])
         assert_allclose(line, apart[0])
-        assert marks.polylines([square]).endswith("Z")
+        assert svg.polylines([square]).endswith("Z")
 
     def test_the_disk_has_the_pixels_asked_for_up_to_the_largest(self, monkeypatch: pytest.MonkeyPatch):
         monkeypatch.setattr(disk_image, "LARGEST", 600)
@@ -272,7 +270,7 @@ class TestCommand:
     ):
         monkeypatch.setattr(report_command, "report_html", lambda report, stage: report_html(report, stage, Swept()))
         for name, solution in (("now", NOW), ("fast", FAST)):
-            write_design(solution.design, tmp_path / f"{name}.json")
+            solution.design.save(tmp_path / f"{name}.json")
         out = tmp_path / "out.html"
         files = [str(tmp_path / f"{name}.json") for name in ("now", "fast")]
         assert command.main(["report", *files, "--out", str(out), "--field", "Mach number"]) == 0

@@ -20,6 +20,7 @@ from explorer.app import App, PortBusy
 from explorer.hosting import viser_compat
 from explorer.picture import disk_image
 from explorer.picture.picture import make_picture
+from explorer.picture.png import encode_png
 from explorer.picture.scene_theme import DARK, LIGHT
 from explorer.scene.scene import Scene
 from explorer.sliders import SLIDERS
@@ -274,7 +275,7 @@ class TestViserCompat:
 
     def test_an_encoded_png_is_assigned_as_it_is(self, server: viser.ViserServer):
         handle = server.scene.add_image("/x", np.zeros((2, 2, 4), dtype=np.uint8), 1.0, 1.0, format="png")
-        png = disk_image.encode_png(np.zeros((4, 4), dtype=np.uint8), disk_image.palette("diverging", False))
+        png = encode_png(np.zeros((4, 4), dtype=np.uint8), disk_image.palette("diverging", False))
         viser_compat.set_png(handle, png)
         assert handle._data == png
         assert Image.open(io.BytesIO(png)).size == (4, 4)

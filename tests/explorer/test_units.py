@@ -9,14 +9,14 @@ import viser
 
 from explorer.charts import plots
 from explorer.sliders import SLIDERS, limits, meant, shown, slider
-from explorer.state import Inputs
+from explorer.state import Inputs, ViewState
 from explorer.tabs.controls import DesignControls
 from explorer.tabs.history import strip as history_view
 from explorer.text import comparison as ab_readout
 from explorer.text import readout
 from explorer.text.design_words import flight_name
 from explorer.text.units import AVIATION, FOOT, HORSEPOWER, KNOT, POUND, SI, UNITS
-from explorer.undo import History
+from explorer.undo import History, KeptDesign
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -25,6 +25,10 @@ from rotor.trim.solve import solve
 @pytest.fixture(scope="module")
 def solution() -> Solution:
     return solve(make_design(mu=0.2)).require()
+
+
+def test_page_opens_in_one_of_the_units():
+    assert ViewState().units in UNITS
 
 
 @pytest.fixture
@@ -70,8 +74,8 @@ def test_searches_and_history_in_horsepower(solution: Solution):
     for units in (SI, AVIATION):
         shown = units.watts(solution.power.total)
         assert shown in history_view.strip(history, {Inputs(): solution.power.total}, units)
-        assert shown in history_view.kept_rows((history_view.Kept(Inputs(), solution),), None, units)
-    kept = history_view.Kept(Inputs(), solution)
+        assert shown in history_view.kept_rows((KeptDesign(Inputs(), solution),), None, units)
+    kept = KeptDesign(Inputs(), solution)
     assert "now 0 hp" in history_view.kept_rows((kept,), solution, AVIATION)
 
 

@@ -69,7 +69,7 @@ class TestDrawing:
     def test_what_cannot_matter_says_why(self):
         steps = waterfall(coarse(0.0))
         assert "no drag in hover" in waterfall_chart(steps.steps)
-        assert "hover is axisymmetric" in alone_table(steps.alone)
+        assert "hover is the same at every azimuth" in alone_table(steps.alone)
 
     def test_a_step_that_does_not_trim_is_named(self, found: Waterfall):
         lost = replace(found.steps[1].solution, status=Status.NOT_CONVERGED, message="Too <heavy>.")

@@ -108,6 +108,11 @@ class TestDesign:
         for name in ("uh60a", "r22", "s61"):
             assert rotor.parse_twist(name) == rotor.make_design(rotor=name).rotor.builtin_twist
 
+    def test_a_saved_design_is_the_same_when_loaded(self, design: rotor.Design, tmp_path: Path):
+        changed = design.at(hover=True, altitude_m=500.0)
+        changed.save(tmp_path / "a.json")
+        assert rotor.load_design(tmp_path / "a.json") == changed
+
     def test_models_by_name(self):
         assert rotor.make_design(inflow="uniform").models.inflow == "uniform"
         assert rotor.make_design(preset="thesis").preset == "thesis"

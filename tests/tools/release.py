@@ -113,7 +113,7 @@ def main() -> int:
         print(f"solve: {power / 1e3:.1f} kW")
         print(f"page: {len(fetch_page(python, place))} characters")
         print(study(python, place))
-    for made in sorted(folder.iterdir()):
+    for made in sorted((*folder.glob("*.whl"), *folder.glob("*.tar.gz"))):
         print(f"{made.stat().st_size / 1e6:8.2f} MB  {made.name}")
     return 0
 

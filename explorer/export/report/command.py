@@ -10,7 +10,7 @@ from explorer.export.report.document import report_html
 from explorer.picture.fields import FIELDS
 from explorer.scene.still_scene import make_stage
 from explorer.state import ViewState, baseline_of, baseline_title
-from rotor.files.design_file import read_design
+from rotor.files.design_file import load_design
 from rotor.trim.solve import solve
 
 
@@ -18,7 +18,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     """0 when the report is written, 1 when a design does not trim, 2 for bad input."""
     options = _parser().parse_args(arguments)
     try:
-        entries = [ReportEntry(Path(file).stem, solve(read_design(file))) for file in options.designs]
+        entries = [ReportEntry(Path(file).stem, solve(load_design(file))) for file in options.designs]
         view = ViewState(field=options.field)
     except (ValueError, FileNotFoundError) as error:
         print(f"explorer report: {error}", file=sys.stderr)

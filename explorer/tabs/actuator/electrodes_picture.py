@@ -7,7 +7,7 @@ from html import escape
 import numpy as np
 
 from explorer.charts.plots import Plot, held_range
-from explorer.picture.disk_image import encode_png
+from explorer.picture.png import encode_png
 from explorer.text.units import number
 from explorer.theme.colours import colour_map
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator

@@ -13,7 +13,7 @@ from explorer.tabs.actuator.section import section_svg
 from explorer.tabs.actuator.state import MOST_SEGMENTS, ActuatorInputs, Question, question_of
 from explorer.tabs.actuator.study import CachedVerdicts, VerdictWorker
 from explorer.workers import solver
-from explorer.workers.pool import Share
+from explorer.workers.pool import PoolClient
 from rotor.actuator.installation import InstalledActuator
 from rotor.design.design import Design
 from rotor.dynamics.structure import KNOWN_BLADE, check_blade
@@ -25,7 +25,7 @@ class ActuatorPanel:
     """Widgets, cut blade and background study; everything but `inputs` happens on the session's worker."""
 
     def __init__(
-        self, client: viser.ClientHandle, pool: Share, changed: Callable[[], None], fly: Callable[[float], None]
+        self, client: viser.ClientHandle, pool: PoolClient, changed: Callable[[], None], fly: Callable[[float], None]
     ) -> None:
         """`changed`: something moved. `fly`: set the page's advance ratio."""
         self._changed = changed

@@ -13,7 +13,7 @@ from typing import Any, Protocol
 from explorer.tabs.actuator.state import Question
 from explorer.workers.job import JobEnded, JobEvent, JobFailed
 from explorer.workers.newest_wins import NewestWins
-from explorer.workers.pool import Share
+from explorer.workers.pool import PoolClient
 from rotor.actuator.catalogue import actuators, find_actuator
 from rotor.actuator.verdict import Verdict, judge
 from rotor.optimisation.concepts import find_concept
@@ -100,7 +100,7 @@ class VerdictSource(Protocol):
 class CachedVerdicts:
     """What is known already, else a process of the pool."""
 
-    def __init__(self, pool: Share) -> None:
+    def __init__(self, pool: PoolClient) -> None:
         self._pool = pool
 
     def find(self, task: VerdictTask, superseded: Superseded) -> Outcome | None:

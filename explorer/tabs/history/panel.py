@@ -7,10 +7,10 @@ import viser
 from explorer.interface import SessionState, TabContext
 from explorer.state import Inputs
 from explorer.tabs.history import strip as view
-from explorer.tabs.history.strip import FIELD, MOST_KEPT, Kept
+from explorer.tabs.history.strip import FIELD, MOST_KEPT
 from explorer.text.glossary import hint
 from explorer.text.units import UNITS
-from explorer.undo import History
+from explorer.undo import History, KeptDesign
 from rotor.trim.solution import Solution
 
 
@@ -22,7 +22,7 @@ class HistoryPanel:
         self._lock = threading.RLock()
         self._history = History(start)
         self._powers: dict[Inputs, float] = {}
-        self._kept: list[Kept] = []
+        self._kept: list[KeptDesign] = []
         self._drawn: object = None
         with gui.add_folder("History"):
             self._strip = gui.add_html("")
@@ -70,11 +70,11 @@ class HistoryPanel:
             return
         with self._lock:
             others = [item for item in self._kept if item.inputs != state.inputs]
-            self._kept = [*others, Kept(state.inputs, state.solution)][-MOST_KEPT:]
+            self._kept = [*others, KeptDesign(state.inputs, state.solution)][-MOST_KEPT:]
         self._context.wake()
 
     @property
-    def kept(self) -> tuple[Kept, ...]:
+    def kept(self) -> tuple[KeptDesign, ...]:
         """Oldest first."""
         with self._lock:
             return tuple(self._kept)

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from html import escape
 
 import numpy as np
@@ -12,7 +11,7 @@ from explorer.state import Inputs
 from explorer.text.design_words import flight_name, twist_name
 from explorer.text.units import SI, Units
 from explorer.theme.colours import BASELINE, NOW, THIS
-from explorer.undo import History
+from explorer.undo import History, KeptDesign
 from rotor.trim.solution import Solution
 
 FIELD = "Take step"
@@ -23,19 +22,6 @@ SHOWN = 40
 
 _WIDTH, _HEIGHT, _LOWEST = 300.0, 40.0, 7.0
 _SPARK = 46.0, 18.0
-
-
-@dataclass(frozen=True, eq=False)
-class Kept:
-    """A design that was set aside."""
-
-    inputs: Inputs
-    solution: Solution
-
-    @property
-    def power(self) -> float:
-        """Total [W]."""
-        return self.solution.power.total
 
 
 def strip(history: History, powers: Mapping[Inputs, float], units: Units = SI) -> str:
@@ -78,7 +64,7 @@ def caption(history: History) -> str:
     )
 
 
-def kept_rows(kept: Sequence[Kept], present: Solution | None, units: Units = SI) -> str:
+def kept_rows(kept: Sequence[KeptDesign], present: Solution | None, units: Units = SI) -> str:
     """The kept designs: outline of the twist, name, power, and the change of the present design from it."""
     if not kept:
         return '<div class="rx-dim rx-small">No bookmarks yet: Keep bookmarks this design.</div>'
@@ -103,7 +89,7 @@ def asked(text: str) -> tuple[str, int] | None:
     return (verb, int(digits)) if verb in ("step", "take", "drop") and digits.isdigit() else None
 
 
-def _blank_change(present: Solution | None, item: Kept, units: Units) -> str:
+def _blank_change(present: Solution | None, item: KeptDesign, units: Units) -> str:
     if present is None or not math.isfinite(item.power):
         return ""
     return f"now {units.watts(present.power.total - item.power, sign=True)}"

@@ -10,7 +10,7 @@ from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.text.glossary import hint
 from explorer.text.units import UNITS
 from explorer.workers.job import Job, JobEnded, JobEvent, JobFailed, JobProgress
-from explorer.workers.pool import Share
+from explorer.workers.pool import PoolClient
 from explorer.workers.tasks import MapLevel, MapTask
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
@@ -27,7 +27,7 @@ _NEAR = 1e-3
 class MapPanel:
     """One session's map."""
 
-    def __init__(self, gui: viser.GuiApi, pool: Share, context: TabContext, search: OptimisePanel) -> None:
+    def __init__(self, gui: viser.GuiApi, pool: PoolClient, context: TabContext, search: OptimisePanel) -> None:
         """The map is of what the Optimise tab asks for."""
         self._pool, self._context, self._search, self._request = pool, context, search, search.request
         self._job: Job | None = None

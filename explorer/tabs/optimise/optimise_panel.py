@@ -20,7 +20,7 @@ from explorer.tabs.optimise.search_request import OBJECTIVES, SearchRequest
 from explorer.text.glossary import hint
 from explorer.text.units import UNITS, number
 from explorer.workers.job import Job, JobEvent, JobProgress
-from explorer.workers.pool import Share
+from explorer.workers.pool import PoolClient
 from explorer.workers.tasks import SearchTask
 from rotor.design.design import Design
 from rotor.optimisation.concepts import CONCEPTS
@@ -37,7 +37,7 @@ class OptimisePanel:
         self,
         gui: viser.GuiApi,
         bridge: Bridge,
-        pool: Share,
+        pool: PoolClient,
         context: TabContext,
         legs: Callable[[Design], tuple[WeightedCondition, ...]],
     ) -> None:

@@ -15,7 +15,7 @@ from explorer.text.glossary import hint
 from explorer.text.units import UNITS
 from explorer.theme.colours import BASELINE, NOW, THIS, colour_map, css
 from explorer.workers.job import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
-from explorer.workers.pool import Share
+from explorer.workers.pool import PoolClient
 from explorer.workers.tasks import FixedPowers, ScheduleTask
 from rotor.design.design import Design
 from rotor.optimisation.objective import WeightedCondition
@@ -31,7 +31,7 @@ class SchedulePanel:
     """One session's schedule."""
 
     def __init__(
-        self, gui: viser.GuiApi, pool: Share, context: TabContext, request: Callable[[], SearchRequest]
+        self, gui: viser.GuiApi, pool: PoolClient, context: TabContext, request: Callable[[], SearchRequest]
     ) -> None:
         self._pool, self._context, self._request = pool, context, request
         self._job: Job | None = None

@@ -17,7 +17,7 @@ from explorer.tabs.probe.element import Probe, probe
 from explorer.tabs.probe.readout import probe_panel
 from explorer.text.glossary import hint
 from explorer.text.readout import faded
-from explorer.workers.clock import Player
+from explorer.workers.player import Player
 from rotor.design.blade import Rotor
 from rotor.trim.solution import Solution
 

@@ -20,16 +20,16 @@ from rotor.arrays import Array
 
 @dataclass(frozen=True)
 class DynamicWake:
-    """Which dynamic wake: how many shapes, how many of the rotor's own harmonics."""
+    """The order of a dynamic wake, and the number of blade harmonics."""
 
     blades: int = 4
     order: int = 8
     """S: all modes with n − 1 ≤ S; 8 gives 25 cosines and 20 sines."""
     harmonics: int = 2
-    """k: the wave numbers N_b, 2N_b, … kN_b around the azimuth that a blade meets again each revolution.
-    0 is the time average: infinitely many blades, their number put back by λ_i/F."""
+    """k: blade harmonics with the wave numbers N_b, 2N_b, … kN_b around the azimuth.
+    0 is the time average: infinitely many blades, with the effect of their number restored by λ_i/F."""
     tip: bool = True
-    """Whether F puts it back; F = 1 otherwise."""
+    """Whether F is used; F = 1 otherwise."""
 
     def __post_init__(self) -> None:
         if self.order < 1:
@@ -42,10 +42,10 @@ class DynamicWake:
 
     @classmethod
     def of(cls, blades: int, order: int = 8, *, infinite_blades: bool = False, tip: bool = True) -> "DynamicWake":
-        """The wake nearest to `order` that keeps the truncation rule k = S/N_b.
+        """The wake nearest to `order` that satisfies the truncation rule k = S/N_b.
 
-        The rule is measured, not derived: with it the optimum twist at µ 0.2 is −12.5, −11.4, −11.2, −11.2° for
-        S = 4, 8, 12, 16; broken it is −9.3° (S 8, k 1). Beyond S = 12 the swirl that the theory leaves out spoils it.
+        The rule is empirical: with it the optimum twist at µ 0.2 is −12.5, −11.4, −11.2, −11.2° for S = 4, 8, 12, 16;
+        without it −9.3° (S 8, k 1). Beyond S = 12 the neglected swirl makes the result worse.
         """
         if infinite_blades:
             return cls(blades, order, 0, tip)
@@ -60,7 +60,7 @@ class DynamicWake:
         """Its projection on a grid (cached)."""
         return build_projection(self.order, self.blades, self.harmonics, root, elements, azimuths)
 
-    def response(self, projection: Projection, wake: Wake) -> "WakeOperator":
+    def operator(self, projection: Projection, wake: Wake) -> "WakeOperator":
         """A(wake) on that grid."""
         flow = flow_parameters(wake)
         responses = tuple(_FamilyResponse.solve(self, which, flow, projection.harmonics) for which in (0, 1))
@@ -84,7 +84,7 @@ class _FamilyResponse:
     """Diagonal of V."""
     uniform: Array
     rate: Array
-    """±qM: what ' does to a pair of cosine and sine amplitudes, (1 + 2k, modes)."""
+    """±qM: d/dψ of a pair of cosine and sine amplitudes times M, (1 + 2k, modes)."""
     swap: NDArray[np.int64]
 
     @classmethod
@@ -164,7 +164,7 @@ class WakeOperator:
         """∂x by (µ_x, µ_z, λ0) at fixed load, (3, states)."""
         p = self.projection.loads(d)
         split = self._split
-        parts = [one.slopes(part) for one, part in zip(self.families, (p[:split], p[split:]), strict=True)]
+        parts = [family.slopes(part) for family, part in zip(self.families, (p[:split], p[split:]), strict=True)]
         return self.flow.slopes.T @ np.concatenate(parts, axis=1)
 
     def induced_by_wake(self, d: Array) -> Array:
@@ -175,7 +175,7 @@ class WakeOperator:
         return out
 
     def feedback(self, slope: Array) -> "DynamicWakeFeedback":
-        """The loop inflow → load → inflow for a pointwise slope K = ∂d/∂λ_i (negative where lift answers)."""
+        """The feedback for a pointwise slope K = ∂d/∂λ_i, negative where more inflow reduces the lift."""
         reduced = self.projection.reduced(slope / self.factor[:, None])
         system = -self.transfer(reduced)
         system[np.diag_indices_from(system)] += 1.0
@@ -198,24 +198,24 @@ class WakeOperator:
 class DynamicWakeFeedback:
     """(I − A diag K)⁻¹, exactly, through one LU of the size of the states: I + (C/F) (I − T W (K/F) C)⁻¹ T W K."""
 
-    response: WakeOperator
+    operator: WakeOperator
     slope: Array
     lu: tuple[Array, NDArray[np.int32]]
 
     def solve_states(self, x: Array) -> Array:
-        """(I − T W (K/F) C)⁻¹ x, (states,) or (states, n): the loop among the states alone."""
+        """(I − T W (K/F) C)⁻¹ x, (states,) or (states, n): the feedback in terms of the states."""
         return lu_solve(self.lu, x, check_finite=False)
 
     def solve(self, fields: Array) -> Array:
         """λ with λ − A (K λ) = fields, for a field or a stack of fields, (…, elements, azimuths)."""
-        return fields + self.response.field(self.solve_states(self.response.states(self.slope * fields).T).T)
+        return fields + self.operator.field(self.solve_states(self.operator.states(self.slope * fields).T).T)
 
     def solve_transposed(self, field: Array) -> Array:
         """v with v − K Aᵀ v = field."""
-        response, projection = self.response, self.response.projection
-        back = projection.field_transposed(field / response.factor[:, None])
+        operator, projection = self.operator, self.operator.projection
+        back = projection.field_transposed(field / operator.factor[:, None])
         back = lu_solve(self.lu, back, trans=1, check_finite=False)
-        return field + self.slope * projection.loads_transposed(response.transfer(back, transposed=True))
+        return field + self.slope * projection.loads_transposed(operator.transfer(back, transposed=True))
 
 
 @dataclass(frozen=True)
@@ -232,11 +232,11 @@ class DynamicWakeInflow:
     load_dependent = True
 
     def without_tip_loss(self) -> "DynamicWakeInflow":
-        """Infinitely many blades with F = 1: what a few blades lose at their tips is in the harmonics of their wake."""
+        """Infinitely many blades with F = 1: the tip loss of a few blades is in the harmonics of their wake."""
         return replace(self, infinite_blades=True, tip=False)
 
     def with_wake_geometry(self, expected: Wake) -> "DynamicWakeInflow":
-        """Itself: the wake moves with the trim."""
+        """Itself: the wake follows the trim."""
         del expected
         return self
 
@@ -245,52 +245,52 @@ class DynamicWakeInflow:
         model = DynamicWake.of(disk.blades, self.order, infinite_blades=self.infinite_blades, tip=self.tip)
         elements, azimuths = disk.shape
         projection = model.on(disk.root, elements, azimuths)
-        return DynamicWakeResponse(model.response(projection, wake), load)
+        return DynamicWakeResponse(model.operator(projection, wake), load)
 
 
 class DynamicWakeResponse:
-    """A at one wake, with the answer to one load."""
+    """A at one wake, and the response to one load."""
 
-    def __init__(self, response: WakeOperator, load: Array) -> None:
-        self._response = response
+    def __init__(self, operator: WakeOperator, load: Array) -> None:
+        self._operator = operator
         self._load = load
-        self.induced = response.induced(load)
+        self.induced = operator.induced(load)
 
     @property
     def by_wake(self) -> Array:
         """∂λ_i by (µ_x, µ_z, λ0) at this load."""
-        return self._response.induced_by_wake(self._load)
+        return self._operator.induced_by_wake(self._load)
 
     def apply(self, fields: Array) -> Array:
         """A f."""
-        return self._response.induced(fields)
+        return self._operator.induced(fields)
 
     def apply_transposed(self, field: Array) -> Array:
         """Aᵀ f."""
-        return self._response.induced_transposed(field)
+        return self._operator.induced_transposed(field)
 
     def feedback(self, slope: Array) -> InflowFeedback:
         """(I − A diag K)⁻¹ through one factorisation of the wake's states."""
-        return self._response.feedback(slope)
+        return self._operator.feedback(slope)
 
 
 DYNAMIC_WAKES = (
     DynamicWakeInflow(
         "dynamic-wake",
         "Dynamic wake (Peters–He)",
-        "Responds to the load distribution, blade by blade: the disk shows the inflow each blade meets at ψ.",
+        "Responds to the load distribution, with this rotor's own blades: the disk shows the inflow at the blade at ψ.",
         order=8,
     ),
     DynamicWakeInflow(
         "dynamic-wake-quick",
         "Dynamic wake, few states",
-        "The same theory with fewer states: faster and coarser.",
+        "The same theory with fewer shapes: faster and coarser.",
         order=4,
     ),
     DynamicWakeInflow(
         "dynamic-wake-infinite-blades",
         "Dynamic wake, infinite blades",
-        "The time-averaged wake of infinitely many blades, with Prandtl's tip factor.",
+        "The time-averaged wake of infinitely many blades with Prandtl's tip factor, to compare with real blades.",
         order=8,
         infinite_blades=True,
     ),

@@ -17,7 +17,7 @@ from rotor.arrays import Array
 
 @dataclass(frozen=True)
 class Wake:
-    """Flow through the disk as momentum theory sees it; all over ΩR."""
+    """Flow through the disk by momentum theory; all over ΩR."""
 
     mu_x: float
     """Advance ratio in the disk plane, µ cos α."""
@@ -36,7 +36,7 @@ class Wake:
 
 
 class InflowFeedback(Protocol):
-    """The loop inflow → load → inflow for a pointwise load slope K = ∂d/∂λ_i."""
+    """The feedback inflow → load → inflow for a pointwise load slope K = ∂d/∂λ_i."""
 
     def solve(self, fields: Array) -> Array:
         """z with z − A K z = fields, for a stack of fields."""
@@ -48,7 +48,7 @@ class InflowFeedback(Protocol):
 
 
 class InflowResponse(Protocol):
-    """A model's answer at one wake and load."""
+    """The response of a model to one load at one wake."""
 
     @property
     def induced(self) -> Array:
@@ -61,7 +61,7 @@ class InflowResponse(Protocol):
         ...
 
     def apply(self, fields: Array) -> Array:
-        """A f: the inflow that a change of load drives, for a stack of fields."""
+        """A f: the inflow induced by a change of load f, for a stack of fields."""
         ...
 
     def apply_transposed(self, field: Array) -> Array:
@@ -69,7 +69,7 @@ class InflowResponse(Protocol):
         ...
 
     def feedback(self, slope: Array) -> InflowFeedback:
-        """The loop for K, (elements, azimuths)."""
+        """The feedback for K, (elements, azimuths)."""
         ...
 
 
@@ -88,26 +88,26 @@ class InflowModel(Protocol):
 
     @property
     def explanation(self) -> str:
-        """One line for the page: what it is, and from whom."""
+        """One line for the page: what the model is, and its source."""
         ...
 
     @property
     def load_dependent(self) -> bool:
-        """Whether the inflow answers to where the load is (A ≠ 0).
+        """Whether the inflow responds to the load distribution (A ≠ 0).
 
-        A model that does not react takes Prandtl's factor on the section lift; one that does has its blade tips in its
-        own wake.
+        With a model that does not, Prandtl's factor multiplies the section lift; one that does has tip losses of its
+        own.
         """
         ...
 
     def without_tip_loss(self) -> "InflowModel":
-        """The model of a rotor that loses nothing at its tips; itself, where that is not the model's to say."""
+        """The model without tip loss; the model itself where tip loss is on the section lift or cannot be removed."""
         ...
 
     def with_wake_geometry(self, expected: Wake) -> "InflowModel":
-        """The model for a problem whose wake momentum theory expects so; itself, where the trim moves the wake."""
+        """The model with its wake geometry fixed as momentum theory expects; itself where the wake follows the trim."""
         ...
 
     def respond(self, disk: Disk, wake: Wake, load: Array) -> InflowResponse:
-        """The answer at a wake to a load d(r, ψ); a model that does not react ignores the load."""
+        """The response at a wake to a load d(r, ψ), which a model that is not load-dependent ignores."""
         ...

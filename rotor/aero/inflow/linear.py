@@ -1,7 +1,7 @@
 """Linear inflow in forward flight: λ_i = λ0 (1 + k_x r cos ψ + k_y r sin ψ), eqs. (2.29), (3.4).
 
-Eq. (2.29) prints φ for ψ; (3.4) is right. The models differ in k_x and k_y only. None of them answers to where on the
-disk the lift is, so with them induced power does not depend on twist.
+Eq. (2.29) prints φ for ψ; (3.4) is right. The models differ in k_x and k_y only. None of them responds to the load
+distribution, so with them induced power does not depend on twist.
 """
 
 import math
@@ -25,7 +25,7 @@ class LinearInflow:
     name: str
     title: str
     explanation: str
-    """One line for the page: what it is, and from whom."""
+    """One line for the page: what the model is, and its source."""
     longitudinal: Callable[[Wake], Gradient]
     """k_x"""
     lateral: Callable[[Wake], Gradient]
@@ -38,7 +38,7 @@ class LinearInflow:
         return self
 
     def with_wake_geometry(self, expected: Wake) -> "LinearInflow":
-        """Itself: the wake moves with the trim."""
+        """Itself: the wake follows the trim."""
         del expected
         return self
 
@@ -60,21 +60,21 @@ class LinearInflow:
 
 @dataclass(frozen=True, eq=False)
 class PrescribedResponse:
-    """A = 0: nothing that the load does comes back."""
+    """The response of a prescribed inflow, A = 0."""
 
     induced: Array
     by_wake: Array
 
     def apply(self, fields: Array) -> Array:
-        """No load drives a prescribed inflow."""
+        """Zero: the load does not change a prescribed inflow."""
         return np.zeros_like(fields)
 
     def apply_transposed(self, field: Array) -> Array:
-        """No load drives a prescribed inflow."""
+        """Zero: the load does not change a prescribed inflow."""
         return np.zeros_like(field)
 
     def feedback(self, slope: Array) -> InflowFeedback:
-        """The open loop."""
+        """No feedback."""
         del slope
         return _NoFeedback()
 

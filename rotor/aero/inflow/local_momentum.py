@@ -19,7 +19,7 @@ from rotor.aero.losses import tip_factor
 from rotor.arrays import Array
 
 GRADIENT = 15.0 * math.pi / 32.0
-"""k_x over tan(χ/2): what the exact actuator disk gives for a load that vanishes at the hub (three-state theory)."""
+"""k_x over tan(χ/2): that of the exact actuator disk for a load that vanishes at the hub (three-state theory)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,9 +44,9 @@ class SectorOperator:
         return self.gain_slopes[:, :, None] * d + self.offset_slopes
 
     def feedback(self, slope: Array) -> Array:
-        """1/(1 − gain K) for a pointwise slope K = ∂d/∂λ_i: the loop inflow → load → inflow, point by point.
+        """1/(1 − gain K) for a pointwise slope K = ∂d/∂λ_i: the feedback inflow → load → inflow, point by point.
 
-        Its own transpose. K is negative where lift answers, so the divisor is above 1.
+        It is its own transpose. K is negative where more inflow reduces the lift, so the divisor is above 1.
         """
         return 1.0 / (1.0 - self.gain[:, None] * slope)
 
@@ -65,12 +65,12 @@ def sector_operator(r: Array, cos: Array, wake: Wake, blades: int, *, tip: bool 
 
 @dataclass(frozen=True)
 class LocalMomentumInflow:
-    """Every piece of the disk answers its own load."""
+    """The inflow at a point depends on the load at that point alone."""
 
     name = "local-momentum"
     title = "Local momentum (sectors)"
     explanation = (
-        "Each sector balances its own load, with a fore-aft gradient; induced power is 17–39 % low beyond µ 0.3."
+        "Each sector responds to its own load, plus a fore-aft gradient: induced power 17–39 % low above µ 0.3."
     )
     tip: bool = True
 
@@ -81,7 +81,7 @@ class LocalMomentumInflow:
         return replace(self, tip=False)
 
     def with_wake_geometry(self, expected: Wake) -> "LocalMomentumInflow":
-        """Itself: the wake moves with the trim."""
+        """Itself: the wake follows the trim."""
         del expected
         return self
 
@@ -91,7 +91,7 @@ class LocalMomentumInflow:
 
 
 class LocalMomentumResponse:
-    """A is one number per radius."""
+    """The response to one load; A is one number per radius."""
 
     def __init__(self, sectors: SectorOperator, load: Array) -> None:
         self._sectors = sectors

@@ -47,7 +47,7 @@ def mode_set(order: int, first: int = 0) -> tuple[Mode, ...]:
 
 
 def radial_function(m: int, n: int, r: ArrayLike) -> Array:
-    """φ_n^m at r = y/R, shape of r; positive where it leaves the centre.
+    """φ_n^m at r = y/R, shape of r; positive near the centre.
 
     The published power series Σ_q r^q (−1)^((q−m)/2) … cancels for large n; this is the same polynomial,
     r^m times a Jacobi polynomial P_k^(m, ½)(1 − 2r²) with k = (n − m − 1)/2, evaluated by its recurrence.
@@ -132,7 +132,7 @@ def _family(modes: tuple[Mode, ...], sign: float) -> Family:
 
 @dataclass(frozen=True, eq=False)
 class FlowParameters:
-    """What the matrices depend on, with slopes by (µ_x, µ_z, λ0), each (3,)."""
+    """The parameters of the matrices, with slopes by (µ_x, µ_z, λ0), each (3,)."""
 
     half_skew: float
     """X = tan(χ/2) = µ_x/(V_T + µ_z + λ0), regular from hover to edgewise flight."""

@@ -17,7 +17,7 @@ from rotor.arrays import Array
 
 LEAST_REVOLUTIONS = 3.0
 SLOWEST = 0.1
-"""|U_T| below which lift is no longer turned into circulation as L/U_T, which has no bound."""
+"""|U_T| below which circulation is no longer L/U_T, which would grow without bound."""
 
 
 @dataclass(frozen=True)
@@ -29,13 +29,13 @@ class Lattice:
     panels: int = 16
     azimuths: int = 36
     length: float = 12.0
-    """How far from the disk the wake's end is carried, in R. Cut at 6 the induced power is 0.4 % higher up to µ 0.3; in
-    axial flow 6 leaves 1.4 % of the inflow out, 12 0.3 %."""
+    """Distance of the wake's end from the disk, in R. Cut at 6 the induced power is 0.4 % higher up to µ 0.3; in
+    axial flow 6 neglects 1.4 % of the inflow, 12 0.3 %."""
     core: float = 0.02
-    """Vortex core radius over R. Of no account for a few blades; smooths the wakes of dozens."""
+    """Vortex core radius over R. Without effect for a few blades; smooths the wakes of dozens."""
     bare_from: float = 0.6
     """Radius outboard of which a blade's own young trailers have no core. Inboard, where the wake passes back over the
-    blade in reverse flow, the core keeps filaments that meet a control point by chance from shaking the answer."""
+    blade in reverse flow, the core keeps filaments that pass close to a control point from disturbing the result."""
 
     def __post_init__(self) -> None:
         if self.azimuths % self.blades:
@@ -45,7 +45,7 @@ class Lattice:
 
     @property
     def edges(self) -> Array:
-        """Radii of the trailers, (panels + 1,): by a sine, fine at the tip only; fine at the root too would breed
+        """Radii of the trailers, (panels + 1,): by a sine, fine at the tip only; fine at the root too would give
         near-singular rows in reverse flow."""
         return self.root + (1.0 - self.root) * np.sin(np.linspace(0.0, 0.5 * math.pi, self.panels + 1))
 
@@ -78,14 +78,14 @@ class Lattice:
         return self.blades / math.pi * u_t * circulation
 
     def circulation(self, d: Array, u_t: Array) -> Array:
-        """Γ of a load: (π/N_b) d U_T/max(U_T², 0.01), and 0 in reverse flow, where no lifting line can speak."""
+        """Γ of a load: (π/N_b) d U_T/max(U_T², 0.01), and 0 in reverse flow, where a lifting line does not apply."""
         floored = math.pi / self.blades * d * u_t / np.maximum(np.square(u_t), SLOWEST**2)
         return np.where(u_t > 0.0, floored, 0.0)
 
     def downwash(self, mu_x: float, axial: float) -> Array:
         """A with w = A Γ at the blade, (points, points), points row-major in (radius, azimuth); axial = µ_z + λ0.
 
-        Takes 0.05 … 0.5 s; remembered for the last few wakes, so round what you ask for.
+        Takes 0.05…0.5 s; cached for the last few wakes, so round the arguments.
         """
         return _downwash(self, mu_x, axial)
 
@@ -95,7 +95,7 @@ class Lattice:
 
 
 def shared_azimuths(least: int, blades: int) -> int:
-    """The fewest azimuths, `least` or more, that the blades can share."""
+    """The smallest multiple of the blade number that is `least` or more."""
     return -(-least // blades) * blades
 
 
@@ -113,12 +113,12 @@ def _downwash(lattice: Lattice, mu_x: float, axial: float) -> Array:
 
 YOUNG = 0.8
 """Age [rad] below which a blade's own trailers have no core outboard of `bare_from`: control points lie midway between
-smooth trailers, and the lifting line needs them as they are."""
+smooth trailers, and the lifting line needs them without a core."""
 
 
 ROUND = 4
-"""Pieces that draw a blade's own first trailer step: as one chord it leaves the blade askew, which costs 3 % of induced
-power at 36 azimuths and still 1 % at 72; four pieces leave 0.2 %."""
+"""Straight pieces of a blade's own first trailer step. One piece leaves the blade at a wrong angle: an error of 3 % of
+induced power at 36 azimuths and 1 % at 72; with four pieces 0.2 %."""
 
 
 def _compile(function: Any) -> Any:

@@ -21,10 +21,10 @@ from rotor.arrays import Array
 
 @dataclass(frozen=True, eq=False)
 class LatticeTransfer:
-    """Both ways; a field is (elements, azimuths) on the grid, (panels, azimuths) on the lattice."""
+    """Interpolation both ways; a field is (elements, azimuths) on the grid, (panels, azimuths) on the lattice."""
 
     inward: Array
-    """Elements → panels, (panels, elements); falls to zero at root and tip as circulation does."""
+    """Elements → panels, (panels, elements); goes to zero at root and tip as circulation does."""
     outward: Array
     """Panels → elements, (elements, panels); held beyond the last panel."""
     around: Array
@@ -51,7 +51,7 @@ def transfer(lattice: Lattice, r: Array, azimuths: int) -> LatticeTransfer:
 
 
 def _resampling(source: int, target: int) -> Array:
-    """Fourier interpolation of evenly spaced periodic samples, (target, source): the waves both can hold."""
+    """Fourier interpolation of evenly spaced periodic samples, (target, source): the harmonics that both resolve."""
     highest = (min(source, target) - 1) // 2
     angle = 2.0 * np.pi * (np.arange(target)[:, None] / target - np.arange(source) / source)
     waves = np.arange(1, highest + 1)
@@ -59,7 +59,7 @@ def _resampling(source: int, target: int) -> Array:
 
 
 PANELS, AZIMUTHS = 16, 36
-"""Lattice on which power is within 0.4 % of 24 × 60 with 80 elements (tested); azimuths at the least."""
+"""Lattice whose power is within 0.4 % of 24 × 60 with 80 elements (tested); the least number of azimuths."""
 
 
 @dataclass(frozen=True)
@@ -67,36 +67,34 @@ class VortexWakeInflow:
     """Rigid skewed helical vortex lattice of the rotor's own blades."""
 
     geometry: Wake | None = None
-    """The wake the helices follow; None until laid out."""
+    """The wake that the helices follow; None until it is fixed."""
 
     name = "vortex-wake"
     title = "Vortex wake (rigid helices)"
-    explanation = (
-        "Each blade trails a rigid helical vortex sheet: the reference for the others; a trim takes about a second."
-    )
+    explanation = "Each blade trails a rigid helical vortex sheet: the reference for other models, about 1 s per trim."
     load_dependent = True
 
     def without_tip_loss(self) -> "VortexWakeInflow":
-        """Itself: the blades of a lattice end where they end."""
+        """Itself: the tip loss of a lattice is that of its finite blades."""
         return self
 
     def with_wake_geometry(self, expected: Wake) -> "VortexWakeInflow":
-        """With its helices along the expected wake."""
+        """The model with its helices along the expected wake."""
         return replace(self, geometry=expected)
 
     def respond(self, disk: Disk, wake: Wake, load: Array) -> "VortexWakeResponse":
-        """λ_i = A d along the helices laid out."""
+        """λ_i = A d of the fixed helices."""
         geometry = self.geometry or wake
         return VortexWakeResponse(_influence(disk, geometry.mu_x, geometry.axial), load)
 
 
 @dataclass(frozen=True, eq=False)
 class _Influence:
-    """A load field on the disk to its inflow there, through the lattice."""
+    """The map from a load field on the disk to the inflow there, by the lattice."""
 
     grids: LatticeTransfer
     matrix: Array
-    """Downwash of the lattice by its load, (points, points)."""
+    """Downwash of the lattice per load on it, (points, points)."""
 
     def gather(self, fields: Array) -> Array:
         """Disk to lattice, (…, points)."""
@@ -117,7 +115,7 @@ class _Influence:
 
 
 class VortexWakeResponse:
-    """The answer to one load."""
+    """The response to one load."""
 
     def __init__(self, influence: _Influence, load: Array) -> None:
         self._influence = influence

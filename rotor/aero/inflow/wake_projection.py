@@ -1,8 +1,8 @@
-"""Between fields on the disk and the states of the dynamic wake.
+"""Projection between fields on the disk and the states of the dynamic wake.
 
-A state is a mode φ_n^m(r) cos mψ or sin mψ times one of the rotor's own harmonics 1, cos qψ, sin qψ, q = N_b, 2N_b, …:
-what survives in the fixed frame of N_b like blades. Every such shape is φ(r) times one azimuthal function, so sums over
-the disk are two small matrix products, never a matrix of the disk's size.
+A state is a mode φ_n^m(r) cos mψ or sin mψ times one of the blade harmonics 1, cos qψ, sin qψ, q = N_b, 2N_b, …, the
+harmonics of N_b identical blades in the fixed frame. Every such shape is φ(r) times one azimuthal function, so sums
+over the disk are two small matrix products, without a matrix of the size of the disk.
 """
 
 from dataclasses import dataclass
@@ -18,14 +18,14 @@ from rotor.arrays import Array, Integers
 
 @dataclass(frozen=True, eq=False)
 class Projection:
-    """States ↔ fields on one grid. States are ordered by family (cosines, sines), rotor harmonic, mode."""
+    """States ↔ fields on one grid. States are ordered by family (cosines, sines), blade harmonic, mode."""
 
     r: Array
     """Element centres, (elements,)."""
     radial: Array
     """φ of the modes, (modes, elements)."""
     azimuthal: Array
-    """All products cos mψ or sin mψ times rotor harmonic, (functions, azimuths)."""
+    """All products cos mψ or sin mψ times blade harmonic, (functions, azimuths)."""
     mode: Integers
     """Row of `radial` of each state, (states,)."""
     function: Integers
@@ -133,7 +133,7 @@ def build_projection(order: int, blades: int, harmonics: int, root: float, eleme
     highest = order + (waves[-1] if waves else 0)
     if azimuths <= 2 * highest:
         raise ValueError(
-            f"{azimuths} azimuths cannot hold the wake's {highest} waves per revolution: use more than {2 * highest}"
+            f"{azimuths} azimuths cannot resolve the wake's {highest} waves per revolution: use more than {2 * highest}"
         )
     dr = (1.0 - root) / elements
     r = np.linspace(root + 0.5 * dr, 1.0 - 0.5 * dr, elements)
@@ -141,7 +141,7 @@ def build_projection(order: int, blades: int, harmonics: int, root: float, eleme
     modes = mode_set(order)
     radial = radial_functions(modes, r)
 
-    # Rotor harmonics as (wave number, whether a sine), and every m as cosine, then sine.
+    # Blade harmonics as (wave number, whether a sine), and every m as cosine, then sine.
     rotor = [(0, 0)] + [(q, kind) for q in waves for kind in (0, 1)]
     places = [(m, 0) for m in range(order + 1)] + [(m, 1) for m in range(1, order + 1)]
     products = [_product(*place, *own) for place in places for own in rotor]

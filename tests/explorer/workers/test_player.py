@@ -5,7 +5,7 @@ import time
 
 import pytest
 
-from explorer.workers.clock import BEAT, Player
+from explorer.workers.player import BEAT, Player
 
 
 def playing(name: str) -> int:

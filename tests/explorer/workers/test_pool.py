@@ -13,9 +13,18 @@ from typing import Any
 
 import pytest
 
-from explorer.workers.job import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
+from explorer.workers.job import (
+    MOST_WAITING,
+    Job,
+    JobEnded,
+    JobEvent,
+    JobFailed,
+    JobProgress,
+    JobQueue,
+    JobQueued,
+    JobStarted,
+)
 from explorer.workers.pool import Pool
-from explorer.workers.queue import MOST_WAITING, Queue
 
 ROOT = Path(__file__).parent.parent.parent
 SOON = 60.0
@@ -63,18 +72,18 @@ class Heard(list[JobEvent]):
     """News of one job."""
 
     def until(self, kind: type, seconds: float = SOON) -> Any:
-        """The first news of that kind."""
+        """The first event of that kind."""
         deadline = time.monotonic() + seconds
         while time.monotonic() < deadline:
-            for news in list(self):
-                if isinstance(news, kind):
-                    return news
+            for event in list(self):
+                if isinstance(event, kind):
+                    return event
             time.sleep(0.002)
         raise AssertionError(f"no {kind.__name__} in {seconds:g} s: {list(self)}")
 
     @property
     def items(self) -> list[Any]:
-        return [news.item for news in self if isinstance(news, JobProgress)]
+        return [event.item for event in self if isinstance(event, JobProgress)]
 
 
 def submit(pool: Pool, task: Any, **how: Any) -> tuple[Job, Heard]:
@@ -122,12 +131,12 @@ def test_positions_in_the_queue_are_honest(pool: Pool):
     assert last[-1] == JobQueued(1)
     pool.stop(first)
     last.until(JobEnded)
-    assert [type(news) for news in urgent][-3:] == [JobStarted, JobProgress, JobEnded]
+    assert [type(event) for event in urgent][-3:] == [JobStarted, JobProgress, JobEnded]
     assert third.over
 
 
 class TestQueue:
-    def order(self, queue: Queue) -> list[int]:
+    def order(self, queue: JobQueue) -> list[int]:
         """Numbers of the jobs as they are taken, each done before the next."""
         taken = []
         while (job := queue.take()) is not None:
@@ -135,9 +144,9 @@ class TestQueue:
             queue.done(job)
         return taken
 
-    def filled(self, queue: Queue, *owners: str, urgency: int = 0) -> Queue:
+    def filled(self, queue: JobQueue, *owners: str, urgency: int = 0) -> JobQueue:
         for owner in owners:
-            queue.add(Job(next(self.numbers), Count(1), lambda news: None, 1.0, urgency, owner))
+            queue.add(Job(next(self.numbers), Count(1), lambda event: None, 1.0, urgency, owner))
         return queue
 
     @pytest.fixture(autouse=True)
@@ -145,22 +154,22 @@ class TestQueue:
         self.numbers = itertools.count(1)
 
     def test_pages_take_turns(self):
-        queue = self.filled(Queue(2), "a", "a", "a", "b", "c", "b")
+        queue = self.filled(JobQueue(2), "a", "a", "a", "b", "c", "b")
         assert self.order(queue) == [1, 4, 5, 2, 6, 3]
 
     def test_what_is_urgent_comes_first_among_equals(self):
-        queue = self.filled(Queue(2), "a", "a", urgency=1)
+        queue = self.filled(JobQueue(2), "a", "a", urgency=1)
         self.filled(queue, "b")
         assert self.order(queue) == [3, 1, 2]
 
     def test_no_page_has_all_processes_while_there_are_others(self):
-        queue = self.filled(Queue(2), "a", "a")
+        queue = self.filled(JobQueue(2), "a", "a")
         queue.pages = 2
         first = queue.take()
         assert first is not None
         assert queue.take() is None  # One process is kept for who comes.
         self.filled(queue, "b")
-        assert [job.owner for job in queue.stays(1)] == ["a"]
+        assert [job.owner for job in queue.behind(1)] == ["a"]
         other = queue.take()
         assert other is not None
         assert other.owner == "b"
@@ -169,13 +178,13 @@ class TestQueue:
         assert second.owner == "a"
 
     def test_alone_a_page_has_all(self):
-        queue = self.filled(Queue(2), "a", "a")
+        queue = self.filled(JobQueue(2), "a", "a")
         queue.pages = 1
         assert queue.take()
         assert queue.take()
 
     def test_a_page_cannot_fill_the_queue(self):
-        queue = self.filled(Queue(2), *"a" * MOST_WAITING)
+        queue = self.filled(JobQueue(2), *"a" * MOST_WAITING)
         assert queue.full("a")
         assert not queue.full("b")
         assert not queue.full(None)
@@ -223,7 +232,7 @@ def test_a_process_lost_while_idle_is_replaced_before_it_is_needed(pool: Pool):
     assert pool.pids not in ((), (before,))
     _, heard = submit(pool, Count(2))
     assert heard.until(JobEnded) == JobEnded(2)
-    assert not any(isinstance(news, JobFailed) for news in heard)
+    assert not any(isinstance(event, JobFailed) for event in heard)
 
 
 @pytest.mark.slow

@@ -186,7 +186,7 @@ def test_resonance_is_one_sentence():
     """An undamped blade driven at its own frequency twists without end: no number is given."""
     soft = mfc(5, Host("new", 0.2))
     assert_allclose(soft.frequency, 2.0, atol=0.1)
-    with pytest.raises(ValueError, match=r"2/rev is too near .* choose another harmonic"):
+    with pytest.raises(ValueError, match=r"2/rev is too close .* choose another harmonic"):
         dynamic_twist(soft, 2)
     assert dynamic_twist(soft, 1).amplitude > 0.0
 

@@ -55,7 +55,7 @@ def test_annulus_integrals_need_the_single_power():
 
 
 def test_annulus_climb_does_work_on_the_climb():
-    """With λ_c the power is λ dC_T: induced (λ − λ_c) plus switch_on_steps λ_c."""
+    """With λ_c the power is λ dC_T: induced (λ − λ_c) plus climb λ_c."""
     r = np.array([0.3, 0.7])
     assert_allclose(annulus_power(r, 0.07, 0.02), 0.07 * annulus_thrust(r, 0.07, 0.02), rtol=1e-14)
     assert_allclose(annulus_thrust(r, 0.07, 0.07), 0.0, atol=1e-18)

@@ -25,7 +25,7 @@ from rotor.analysis.waterfall import PARTS, switch_on_steps, waterfall
 from rotor.assets import asset_path
 from rotor.design.design import Design
 from rotor.design.twist import TableTwist
-from rotor.files.design_file import design_from_record, design_record
+from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import read_aircraft
 from rotor.trim.adjoint import power_gradient
@@ -257,8 +257,8 @@ class TestFlapping:
     def test_the_page_reads_what_the_hub_carries(self):
         solution = solve(with_switches(small(0.25), ("flapping",))).require()
         sentences = {caveat.name: caveat.sentence for caveat in solution.caveats}
-        assert sentences["switched-off"] == "Switched off: flapping. For teaching; not the real aircraft."
-        assert f"{solution.hub_moment.roll / 1e3:.0f} kN m of roll to the retreating side" in sentences["rigid-blades"]
+        assert sentences["switched-off"] == "Switched off: flapping. For teaching; the aircraft has all of them."
+        assert f"{solution.hub_moment.roll / 1e3:.0f} kN m rolling to the retreating side" in sentences["rigid-blades"]
         assert solution.hub_moment.roll > 50e3
 
 
@@ -372,7 +372,7 @@ class TestCommandAndFiles:
     def test_files_keep_every_switch_and_old_files_are_read(self, tmp_path: Path):
         for off in EVERY[::7]:
             design = with_switches(make_design(mu=0.2), off)
-            assert design_from_record(design_record(design)).models == design.models
+            assert design_from_record(design.to_dict()).models == design.models
         assert switched_off(design_from_record({"tip_loss": False, "hub_loss": True}).models)[0].name == "tip_loss"
         with pytest.raises(ValueError, match="'flapping' is 0: give true or false"):
             design_from_record({"flapping": 0})

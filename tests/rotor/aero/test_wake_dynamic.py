@@ -23,7 +23,7 @@ MODELS = [DynamicWake(), DynamicWake(harmonics=0), DynamicWake(order=4, harmonic
 
 
 def respond(model: DynamicWake, wake: Wake = FORWARD) -> WakeOperator:
-    return model.response(model.on(ROOT, ELEMENTS, AZIMUTHS), wake)
+    return model.operator(model.on(ROOT, ELEMENTS, AZIMUTHS), wake)
 
 
 def noise(seed: int) -> np.ndarray:
@@ -122,7 +122,7 @@ def test_steady_answer_to_the_hub_zero_load():
     ct = 0.006511
     d = np.repeat((ct * load / (load.sum() * dr))[:, None], azimuths, axis=1)
     lambda0, _ = glauert_inflow(ct, 0.2, 0.0)
-    response = model.response(projection, Wake(0.2, 0.0, lambda0))
+    response = model.operator(projection, Wake(0.2, 0.0, lambda0))
     inflow = projection.field(response.states(d))
     kappa = (inflow * d).mean(axis=1).sum() * dr / (ct * lambda0)
     assert 1.169 <= kappa <= 1.173  # The span of the reference's own values.
@@ -150,7 +150,7 @@ def test_blade_harmonics_against_time_marching():
     projection = model.on(ROOT, elements, azimuths)
     r, dr = projection.r, (1.0 - ROOT) / elements
     load = 0.01 * np.square(r)
-    response = model.response(projection, wake)
+    response = model.operator(projection, wake)
     balanced = response.induced(np.repeat(load[:, None], azimuths, axis=1))
 
     flow = flow_parameters(wake)
@@ -186,7 +186,7 @@ def test_axial_optimum_matches_an_independent_program(order: int, harmonics: int
     spread = np.repeat(loads.T[:, :, None], azimuths, axis=2)
     for row in table("axial_kappa"):
         axial = float(row["lam"])
-        response = model.response(projection, Wake(0.0, axial, 0.0))
+        response = model.operator(projection, Wake(0.0, axial, 0.0))
         inflow = np.stack([response.induced(load)[:, 0] for load in spread], axis=1)
         form, thrust = loads.T @ inflow * dr, loads.sum(axis=0) * dr
         # Some combinations of loads drive no state at all; the least-squares solution leaves them out.

@@ -29,7 +29,7 @@ def amplitudes(order: int, wake: Wake, load: np.ndarray, radii: np.ndarray, coun
     model = DynamicWake(order=order, harmonics=0)
     projection = model.on(0.0, len(load), 2 * order + 4)
     d = np.repeat(load[:, None], 2 * order + 4, axis=1)
-    states = model.response(projection, wake).states(d)
+    states = model.operator(projection, wake).states(d)
     modes = mode_set(order)
     radial = radial_functions(modes, radii)
     return np.stack(
@@ -168,7 +168,7 @@ def test_independent_of_the_fourier_operator_of_the_actuator_disk(m: int, sine: 
     mid = projection.r
     angle = 2.0 * np.pi * np.arange(azimuths) / azimuths
     d = 2.0 * mid[:, None] ** (m + 1) * (1.0 - mid[:, None] ** 2) ** 1.5 * trig(m * angle)
-    states = model.response(projection, wake_at(chi_deg)).states(d)
+    states = model.operator(projection, wake_at(chi_deg)).states(d)
     inside = r < 0.95
     found = np.zeros(int(inside.sum()))
     for kind, start, modes in ((np.cos, 0, mode_set(order)), (np.sin, len(mode_set(order)), mode_set(order, 1))):

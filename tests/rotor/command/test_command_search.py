@@ -1,4 +1,4 @@
-"""`optimise` and `schedule` as scripts see them (DESIGN §8)."""
+"""`optimise` and `schedule` as scripts see them."""
 
 import csv
 import json

@@ -18,7 +18,7 @@ from rotor.aero.elements import build_problem, evaluate_elements
 from rotor.aero.sums import slopes
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
-from rotor.files.design_file import design_from_record, read_design, write_design
+from rotor.files.design_file import design_from_record, load_design
 from rotor.files.make_design import make_design
 from rotor.trim.equations import UNKNOWNS, jacobian
 from rotor.trim.forward import first_guess
@@ -119,8 +119,8 @@ def test_bad_input(make: object):
 
 def test_design_file_keeps_it(tmp_path: Path):
     design = turning(make_design(mu=0.3), Harmonic(2, 0.015, 1.2), stations=(0.2, 0.9), shape=(0.0, 1.0))
-    write_design(design, tmp_path / "case.json")
-    again = read_design(tmp_path / "case.json").active_twist
+    design.save(tmp_path / "case.json")
+    again = load_design(tmp_path / "case.json").active_twist
     assert again is not None
     assert_allclose([again.harmonics[0].amplitude, again.harmonics[0].phase], [0.015, 1.2], rtol=1e-12)
     assert again.stations == (0.2, 0.9)
@@ -129,7 +129,7 @@ def test_design_file_keeps_it(tmp_path: Path):
 def test_solve_names_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     """A power that active twist has changed is not printed as that of the bare twist law."""
     file = str(tmp_path / "case.json")
-    write_design(turning(make_design(mu=0.3), Harmonic(2, 1.5 * DEGREE, 1.0)), file)
+    turning(make_design(mu=0.3), Harmonic(2, 1.5 * DEGREE, 1.0)).save(file)
     assert main(["solve", "--case", file]) == 0
     assert "active twist 2/rev ±1.50°, phase 57°" in capsys.readouterr().out
     assert main(["solve", "--case", file, "--json"]) == 0

@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 
 from rotor.aero.momentum import thrust_coefficient
 from rotor.assets import asset_path
-from rotor.files.design_file import design_from_record, design_record, read_design, write_design
+from rotor.files.design_file import design_from_record, load_design
 from rotor.files.make_design import make_design, uh60a_data, uh60a_rotor
 
 
@@ -81,11 +81,11 @@ def test_designs_are_values():
 def test_design_files_round_trip(tmp_path: Path, preset: str, twist: str | None):
     design = make_design(preset=preset, twist=twist, mu=0.23, mass_kg=7654.0, altitude_m=1200.0)
     path = tmp_path / "design.json"
-    write_design(design, path)
-    back = read_design(path)
+    design.save(path)
+    back = load_design(path)
     r = np.linspace(0.13, 1.0, 20)
     assert_allclose(back.twist(r), design.twist(r), atol=1e-8)  # Angles are kept to 1e-6 of a degree.
-    assert design_record(back) == design_record(design)
+    assert back.to_dict() == design.to_dict()
     assert json.loads(path.read_text())["version"] == 2
 
 
@@ -101,9 +101,8 @@ def test_design_files_round_trip(tmp_path: Path, preset: str, twist: str | None)
     ],
 )
 def test_bad_design_files_are_one_sentence(case: dict[str, object], words: str):
-    with pytest.raises(ValueError, match=r"(?s).*") as caught:
+    with pytest.raises(ValueError, match=re.escape(words)) as caught:
         design_from_record(case)
-    assert words in str(caught.value)
     assert "\n" not in str(caught.value)
 
 
@@ -111,10 +110,10 @@ def test_unreadable_design_file(tmp_path: Path):
     path = tmp_path / "broken.json"
     path.write_text("{not json")
     with pytest.raises(ValueError, match="cannot be read"):
-        read_design(path)
+        load_design(path)
     path.write_text('{"mass": 7000}')
     with pytest.raises(ValueError, match=r"broken\.json: design file has the unknown key 'mass'"):
-        read_design(path)
+        load_design(path)
 
 
 def test_tilt_and_cant_are_radians():

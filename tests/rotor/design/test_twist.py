@@ -1,6 +1,7 @@
 """Twist laws and their SPEC."""
 
 import math
+import re
 from pathlib import Path
 
 import numpy as np
@@ -130,9 +131,8 @@ def test_table_file(tmp_path: Path):
     ],
 )
 def test_bad_specs_are_one_sentence(spec: str, words: str):
-    with pytest.raises(ValueError, match=r"(?s).*") as caught:
+    with pytest.raises(ValueError, match=re.escape(words)) as caught:
         parse(spec)
-    assert words in str(caught.value)
     assert "\n" not in str(caught.value)
 
 
@@ -148,9 +148,9 @@ def test_bad_specs_are_one_sentence(spec: str, words: str):
 def test_bad_tables_are_one_sentence(tmp_path: Path, text: str, words: str):
     path = tmp_path / "bad.txt"
     path.write_text(text, encoding="utf-8")
-    with pytest.raises(ValueError, match=r"(?s).*") as caught:
+    with pytest.raises(ValueError, match=re.escape(words)) as caught:
         parse(f"table:{path}")
-    assert words in str(caught.value)
+    assert "\n" not in str(caught.value)
 
 
 def test_own_classes_equal_their_specs():

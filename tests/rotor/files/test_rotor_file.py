@@ -17,7 +17,7 @@ from rotor.airfoil.sections import load_installed
 from rotor.airfoil.wrap import on_run_time_grid
 from rotor.assets import asset_path
 from rotor.design.aircraft import Aircraft
-from rotor.files.rotor_file import read_aircraft, read_rotor_file
+from rotor.files.rotor_file import load_rotor, read_aircraft
 from rotor.trim.solve import solve
 
 GOOD = """\
@@ -167,7 +167,7 @@ def test_bad_section_files_get_one_sentence():
     of_deck = '\n[sections.mine]\ndeck = "a.c81"\n'
     cut = Polar(0.3, 3e6, polar.alpha_deg[30:45], polar.cl[30:45], polar.cd[30:45], polar.cm[30:45])
     cases: list[tuple[str, dict[str, str], str]] = [
-        (SECTION, {"a.txt": fine}, "my.toml, line 21: polars names 'b.txt', which is not there"),
+        (SECTION, {"a.txt": fine}, "my.toml, line 21: polars names 'b.txt', which is missing"),
         (SECTION, {"a.txt": fine, "b.txt": fine}, "line 21: two polars of mine have Mach 0.3"),
         (one, {"a.txt": fine.replace("Mach =", "Mach of")}, "a.txt does not say 'Mach ='"),
         (one, {"a.txt": "hello\n"}, "a.txt is no XFOIL polar file: save it with PACC"),
@@ -176,7 +176,7 @@ def test_bad_section_files_get_one_sentence():
         (of_deck, {"a.c81": deck.replace("NACA", "NACA 0012 is too long a title", 1)}, "a.c81"),
         (of_deck, {"a.c81": deck[:9000]}, "a card is missing, compare the counts in line 1"),
         ("\n[sections.mine]\n", {}, 'section mine needs either deck = "file.c81" or polars'),
-        (of_deck.replace("mine", '"My Section"'), {"a.c81": deck}, "section name 'My Section' is taken or not plain"),
+        (of_deck.replace("mine", '"My Section"'), {"a.c81": deck}, "section name 'My Section' is taken or has other"),
     ]  # fmt: skip
     for section, files, says in cases:
         with pytest.raises(ValueError, match=r"a\.|my\.toml") as caught:
@@ -229,9 +229,9 @@ def test_the_examples_in_the_docs_are_rotor_files(page: str):
 def test_files_beside_the_rotor_file_are_found(tmp_path: Path):
     text = GOOD.replace('"naca0012"', '"mine"') + '\n[sections.mine]\ndeck = "mine.c81"\n'
     (tmp_path / "my.toml").write_text(text, encoding="utf-8")
-    with pytest.raises(ValueError, match=r"my\.toml, line 21: deck names 'mine\.c81', which is not there"):
-        read_rotor_file(tmp_path / "my.toml")
+    with pytest.raises(ValueError, match=r"my\.toml, line 21: deck names 'mine\.c81', which is missing"):
+        load_rotor(tmp_path / "my.toml")
     (tmp_path / "mine.c81").write_bytes(asset_path("airfoils/naca0012.c81").read_bytes())
-    assert read_rotor_file(tmp_path / "my.toml").rotor.blade.own_sections[0].name == "mine"
+    assert load_rotor(tmp_path / "my.toml").rotor.blade.own_sections[0].name == "mine"
     with pytest.raises(ValueError, match="does not exist"):
-        read_rotor_file(tmp_path / "other.toml")
+        load_rotor(tmp_path / "other.toml")

@@ -14,7 +14,7 @@ from rotor.__main__ import main
 from rotor.aero.inflow.vortex_lattice import shared_azimuths
 from rotor.analysis.ideal_bound import find_bound, ideal_factor
 from rotor.assets import SHIPPED_ROTORS, asset_path
-from rotor.files.design_file import design_from_record, design_record
+from rotor.files.design_file import design_from_record
 from rotor.files.rotor_file import find_aircraft, read_aircraft, shipped_aircraft
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.objective import at_condition
@@ -79,7 +79,7 @@ def test_shaft_power_is_the_sum_of_its_parts(key: str):
 @pytest.mark.slow
 @pytest.mark.parametrize(("key", "low", "high"), [("r22", -0.010, 0.010), ("s61", 0.0, 0.025)])
 def test_dynamic_wake_of_two_and_of_five_blades_is_near_the_vortex_wake(key: str, low: float, high: float):
-    """Main-rotor power; on the UH-60A's four blades the two models differ by −0.9…+2.4 % (DESIGN §5)."""
+    """Main-rotor power; on the UH-60A's four blades the two models differ by −0.9…+2.4 %."""
     design = make_design(rotor=key)
     for mu in (0.1, 0.25):
         ours, oracle = (
@@ -142,10 +142,10 @@ def test_a_linear_optimum_of_another_rotor(key: str):
 @pytest.mark.parametrize("key", SHIPPED_ROTORS)
 def test_design_files_name_a_shipped_rotor_and_hold_ones_own(key: str):
     design = make_design(rotor=key, twist="builtin", mu=0.23)
-    assert design_record(design)["rotor"] == key
-    assert design_from_record(json.loads(json.dumps(design_record(design)))) == design
+    assert design.to_dict()["rotor"] == key
+    assert design_from_record(json.loads(json.dumps(design.to_dict()))) == design
     mine = make_design(rotor=read_aircraft("my.toml", own(key)), twist="builtin", mu=0.23)
-    back = design_from_record(json.loads(json.dumps(design_record(mine))))
+    back = design_from_record(json.loads(json.dumps(mine.to_dict())))
     assert back == mine
     assert pickle.loads(pickle.dumps(mine)) == mine
     assert back.aircraft.key == ""

@@ -12,7 +12,7 @@ from numpy.testing import assert_allclose
 from rotor import make_design, parse_twist
 from rotor.design.blade import airfoils_spec
 from rotor.design.twist import LinearTwist, QuadraticTwist, SplineTwist
-from rotor.files.design_file import read_design, write_design
+from rotor.files.design_file import load_design
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, nearest, on_top, restrict
 from rotor.trim.solve import solve
 
@@ -92,8 +92,8 @@ def test_two_airfoils_change_the_blade_and_survive_a_design_file(tmp_path: Path)
     concept = find_concept("two-segment-two-airfoils", [0.6])
     design = concept.apply(make_design(mu=0.25), [math.radians(-8.0), math.radians(-14.0)])
     assert airfoils_spec(design.rotor) == "sc1094r8,sc1095@0.6"
-    write_design(design, tmp_path / "design.json")
-    back = read_design(tmp_path / "design.json")
+    design.save(tmp_path / "design.json")
+    back = load_design(tmp_path / "design.json")
     assert back.rotor == design.rotor
     assert_allclose(solve(back).power.total, solve(design).power.total, rtol=1e-8)
     thesis = concept.apply(make_design(preset="thesis"), [0.0, 0.0])
@@ -101,7 +101,7 @@ def test_two_airfoils_change_the_blade_and_survive_a_design_file(tmp_path: Path)
 
 
 def test_a_design_file_without_change_names_no_airfoils(tmp_path: Path):
-    write_design(make_design(), tmp_path / "design.json")
+    make_design().save(tmp_path / "design.json")
     assert "airfoils" not in (tmp_path / "design.json").read_text()
 
 

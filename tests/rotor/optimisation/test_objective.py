@@ -60,7 +60,7 @@ def test_what_does_not_trim_has_no_power():
     made = measure(Objective("total", conditions), design)
     assert made.power is None
     assert made.by_pitch is None
-    assert "Lower the mass" in made.message
+    assert "lower the mass" in made.message
 
 
 @pytest.mark.parametrize("mu", [0.0, 0.25, 0.35])

@@ -54,7 +54,7 @@ def test_figure_4_1():
 
 @pytest.mark.slow
 def test_figure_4_1_every_inflow():
-    """The same with every model; the linear ones agree, and those that answer see more to gain (DESIGN §5)."""
+    """The same with every model; the linear ones agree, and those that answer see more to gain."""
     check(figures.figure_4_1(QUICK), "linear")
     for preset in PRESETS:
         flat = [best(with_inflow(preset, name), "linear", 0.15, QUICK) for name in LINEAR]

@@ -133,7 +133,7 @@ def test_collective_agrees_with_a_root_finder():
 def test_too_heavy_says_so_in_one_sentence():
     solution = solve(make_design(mu=0.0, mass_kg=20_000.0, altitude_m=4000.0))
     assert not solution.converged
-    assert "Lower the mass or the altitude" in solution.message
+    assert "lower the mass or the altitude" in solution.message
     with pytest.raises(RuntimeError, match="Not trimmed"):
         solution.require()
 

@@ -1,6 +1,7 @@
 """Over the whole input space: converged, or one sentence. Never NaN, a traceback or a warning."""
 
 import math
+import re
 from dataclasses import fields, replace
 
 import numpy as np
@@ -9,14 +10,22 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.design.design import PRESETS
+from rotor.design.design import PRESETS, Design
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
+TRIMMABLE = 0.08
+"""C_W/σ up to which every design must trim: the level-flight sweeps of the UH-60A Airloads Program, up to µ 0.37, had
+0.08 to 0.13 (Bousman & Kufeld, NASA TM-2005-212827)."""
+
+
+def blade_loading(design: Design) -> float:
+    return design.weight_coefficient / design.rotor.solidity
+
 
 def check(solution: Solution) -> None:
-    """What every answer promises."""
+    """Properties of every solution."""
     assert solution.message.endswith(".")
     assert "\n" not in solution.message
     assert "nan" not in solution.message.lower()
@@ -36,7 +45,7 @@ def check(solution: Solution) -> None:
         assert 0.0 <= solution.stalled_area <= 1.0
         assert solution.figure_of_merit is None or 0.0 < solution.figure_of_merit < 1.0
     else:
-        assert solution.message.startswith(("Not trimmed:", "The trim found"))
+        assert solution.message.startswith("Not trimmed:")
 
 
 @given(
@@ -57,7 +66,27 @@ def test_converged_or_a_sentence(
 ):
     design = make_design(preset=preset, twist=f"linear:{rate:.6f}", mu=mu, mass_kg=mass, altitude_m=altitude)
     models = replace(design.models, inflow=inflow, tip_loss=losses, hub_loss=losses)
-    check(solve(replace(design, models=models)))
+    solution = solve(replace(design, models=models))
+    check(solution)
+    assert solution.converged or blade_loading(design) > TRIMMABLE
+
+
+def test_few_designs_at_high_blade_loading_fail_to_trim():
+    """200 random designs over the same ranges: 6.4 % of 1500 fail, all of them above C_W/σ 0.084; at most 10 % may."""
+    random, failed = np.random.default_rng(1), 0
+    names = [name for name in INFLOW_MODELS if name != "vortex-wake"]  # Too slow for two hundred trims.
+    for k in range(200):
+        design = make_design(
+            preset=PRESETS[k % 2],
+            twist=f"linear:{random.uniform(-24.0, 5.0):.6f}",
+            mu=random.uniform(0.0005, 0.45),
+            mass_kg=random.uniform(5000.0, 11000.0),
+            altitude_m=random.uniform(0.0, 4000.0),
+        )
+        solution = solve(replace(design, models=replace(design.models, inflow=names[k % len(names)])))
+        failed += not solution.converged
+        assert solution.converged or blade_loading(design) > TRIMMABLE
+    assert failed <= 20
 
 
 @given(
@@ -103,9 +132,8 @@ def test_caveats_are_named():
     ],
 )
 def test_impossible_input_is_one_sentence(arguments: dict[str, object], words: str):
-    with pytest.raises(ValueError, match=r"(?s).*") as caught:
+    with pytest.raises(ValueError, match=re.escape(words)) as caught:
         make_design(**arguments)  # pyright: ignore[reportArgumentType]
-    assert words in str(caught.value)
     assert "\n" not in str(caught.value)
 
 
