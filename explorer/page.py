@@ -86,7 +86,6 @@ class Page:
         with layout.in_mode("explore"):
             self.controls = DesignControls(gui, start, callbacks.wake)
         self._start, self._touched, self._held, self._pause = start, False, False, 0.0
-        self._playing = False
         self._view: View = "3d"
         rotor = start.aircraft.rotor_for(start.preset)
         self._radius = rotor.radius
@@ -195,8 +194,7 @@ class Page:
         ghost = ghost_of(reading.sliders if reading.previewed else None, self.top.pinned)
         self._radius = solution.design.rotor.radius
         self.camera.resize(self._radius)
-        if not (self._playing and frame.only_azimuth):  # Then the page itself turns the blades, more smoothly.
-            self.scene.draw(solution, reading.view, ghost, frame.pinned)
+        self.scene.draw(solution, reading.view, ghost, frame.pinned)
         self.camera.ride(math.radians(reading.view.azimuth_deg))
         # Only at harmonics does the cut blade turn with the marked one.
         if self._actuator_in_frame and (not frame.only_azimuth or self._actuator_inputs.per_rev):
@@ -337,7 +335,6 @@ class Page:
 
     def _set_playing(self, playing: bool) -> None:
         """The rotor turns by itself from now on, or stands."""
-        self._playing = playing
         self.display.set_playing(playing)
         self.scene.play(playing)
 
