@@ -22,7 +22,7 @@ from explorer.scene.overlays import Strip, ghost_of
 from explorer.sharing import share
 from explorer.sharing.address import Address
 from explorer.sharing.view_code import VIEW, view_from
-from explorer.state import Inputs, ViewState
+from explorer.state import Inputs, ViewState, with_optimum
 from explorer.tabs.actuator.panel import ActuatorPanel
 from explorer.tabs.actuator.view import fit_cut
 from explorer.tabs.controls import DesignControls
@@ -113,7 +113,7 @@ class Page:
             with tasks["Map"]:
                 self.map = MapPanel(gui, shared.pool, context, self.optimise)
             with tasks["Schedule"]:
-                self.schedule = SchedulePanel(gui, shared.pool, context, self.optimise.request)
+                self.schedule = SchedulePanel(gui, bridge, shared.pool, context, self.optimise.request)
         with layout.in_mode("actuate"):
             self.actuator = ActuatorPanel(client, shared.pool, callbacks.wake, self._fly)
             self._actuator_inputs = self.actuator.inputs()
@@ -123,7 +123,7 @@ class Page:
         with layout.in_drawer("twist"):
             sensitivity = SensitivityPanel(gui, Strip(client.scene), context)
         with layout.in_drawer("probe"):
-            self.probe = ProbePanel(client, context, self.display.set_playing, lambda: self._open("probe"))
+            self.probe = ProbePanel(client, context, self._set_playing, lambda: self._open("probe"))
         with layout.in_drawer("open"):
             opened = Sections(gui, bridge, "opened", ("Studies", "Files", "History"))
             with opened["Studies"]:
@@ -171,7 +171,7 @@ class Page:
 
     def preview(self, design: Design) -> Design | None:
         """The design of a search to show in place of the one on the sliders."""
-        return self.optimise.preview(design)
+        return self.schedule.preview(design) or self.optimise.preview(design)
 
     @property
     def pin(self) -> Pinned | None:
@@ -265,9 +265,13 @@ class Page:
         self.top.show_design(reading.inputs, self.history.steps)
         self._touched = self._touched or reading.inputs != self._start
         self._prompt()
+        self.controls.follow(_on_sliders(reading))
         self.optimise.refresh(reading.sliders)
         self.map.refresh(reading.sliders)
         self.schedule.refresh()
+        self.bridge.set(notice=self.schedule.notice() or self.optimise.notice(reading.sliders))
+        racing = self.layout.mode == "optimise"
+        self.results.strip.show_race(self.optimise.race if racing else None, UNITS[reading.view.units])
 
     def _wire(self) -> None:
         """Buttons to what they do, once everything stands."""
@@ -319,13 +323,20 @@ class Page:
 
     def _prompt(self) -> None:
         """What to do first, until something was done."""
-        words = None if self._touched or self._held else {"text": "Drag the twist", "node": "/rotor/blade_0"}
+        wanted = not (self._touched or self._held) and self.layout.mode == "explore"
+        tip = [0.97 * self._radius, 0.0, 0.0]
+        words = {"text": "Drag the twist", "node": "/rotor/blade_0", "at": tip} if wanted else None
         self.bridge.set(prompt=words)
 
     def _step(self, step: Callable[[], None]) -> None:
         if not self._held:
             self.results.card.forget()
             step()
+
+    def _set_playing(self, playing: bool) -> None:
+        """The rotor turns by itself from now on, or stands."""
+        self.display.set_playing(playing)
+        self.scene.play(playing)
 
     def _set_mode(self, mode: str) -> None:
         if mode in MODES:
@@ -406,3 +417,11 @@ class Page:
         self.results.card.forget()
         self.actuator.rest()
         self.controls.reset()
+
+
+def _on_sliders(reading: Reading) -> Inputs | None:
+    """What the sliders show of a preview; None where there is none."""
+    if not reading.previewed or reading.design is None:
+        return None
+    preview = with_optimum(reading.inputs, reading.design)
+    return replace(preview, advance_ratio=reading.design.condition.advance_ratio)

@@ -27,6 +27,8 @@
   const REGIONS = {
     stall: ['Stall', '<rect width="20" height="11" fill="#8fcf7c"/><path d="M-3 11 8 0M3 11 14 0M9 11 20 0M15 11 26 0" stroke="var(--rx-stall)" stroke-width="2.2"/>'],
     reverse_flow: ['Reverse flow', '<rect x=".7" y=".7" width="18.6" height="9.6" fill="var(--rx-reverse)" stroke="#fff" stroke-width="1.4"/>'],
+    wake: ['Tip vortices', '<path d="M0 8.500C6 1 13 1 20 6.500" stroke="var(--rx-accent)" stroke-width="1.800" fill="none"/>'],
+    arrows: ['Inflow', '<path d="M5 0v9M2.200 6 5 9.500 7.800 6M15 0v9M12.200 6 15 9.500 17.800 6" stroke="var(--rx-accent)" stroke-width="1.500" fill="none"/>'],
     drag_divergence: ['Drag div.', '<path d="M0 5.500H20" stroke="var(--rx-ink)" stroke-width="2" stroke-dasharray="4.5 2.5"/>'],
   };
   RX.paint('field', now => {
@@ -43,13 +45,13 @@
     part('unit').textContent = now.unit;
     const ticks = now.ticks.map(([at, word]) => `<span style="left:${at}%">${text(word)}</span>`).join('');
     part('scale').className = now.faded ? 'rxf-faded' : '';
-    part('scale').innerHTML = `<div class="rxf-grad" title="Triangles: beyond the range"><i style="background:${now.colours[0]}"></i><i style="background:linear-gradient(90deg,${now.colours.join()})"></i><i style="background:${now.colours.at(-1)}"></i></div>
+    part('scale').innerHTML = `<div class="rxf-grad" title="Triangles: values beyond the range"><i style="background:${now.colours[0]};visibility:${now.beyond[0] ? 'visible' : 'hidden'}"></i><i style="background:linear-gradient(90deg,${now.colours.join()})"></i><i style="background:${now.colours.at(-1)};visibility:${now.beyond[1] ? 'visible' : 'hidden'}"></i></div>
       <div class="rxf-ticks rxf-num">${ticks}</div>`;
     const fit = card.querySelector('.rxf-fit');
     fit.dataset.value = now.fitted ? 'Default' : 'Rescale';
     fit.textContent = now.fitted ? 'Reset' : 'Fit';
     fit.ariaLabel = now.fitted ? 'Reset the colour range' : 'Fit the colour range';
-    const apart = now.difference === null ? '' : `<button data-do="difference" data-value="${now.difference ? 'off' : 'on'}" aria-pressed="${now.difference}">Show B − A</button>`;
+    const apart = now.difference === null ? '' : `<button data-do="difference" data-value="${now.difference ? 'off' : 'on'}" aria-pressed="${now.difference}">Show B − A</button><button data-do="region" data-value="beside" aria-pressed="${now.beside}">A beside B</button>`;
     part('legend').innerHTML = Object.entries(REGIONS).map(([name, [title, swatch]]) =>
       `<button data-do="region" data-value="${name}" aria-pressed="${now.regions[name]}"><svg viewBox="0 0 20 11" aria-hidden="true">${swatch}</svg>${title}${name === 'stall' && now.stalled ? ` ${text(now.stalled)}` : ''}</button>`).join('') + apart;
   });

@@ -1,5 +1,9 @@
 // The frame: takes parts of the page's state from Python, draws what has changed, and reports what is pressed.
 (() => {
+  // In a narrow window viser's client would leave its docks for a sheet of its own; ours are drawers by style sheet.
+  const media = window.matchMedia.bind(window);
+  window.matchMedia = query => media(/max-width:\s*36em/.test(query) ? 'not all' : query);
+
   const ICONS = {
     undo: 'M4 9h10a6 6 0 0 1 0 12h-3M4 9l5-5M4 9l5 5', redo: 'M20 9H10a6 6 0 0 0 0 12h3M20 9l-5-5M20 9l-5 5',
     pin: 'M12 16v6M8 3h8l-1 7 3 5H6l3-5z', share: 'M12 15V3M7 8l5-5 5 5M5 13v7h14v-7', play: 'M7 4l13 8-13 8z', pause: 'M8 5v14M16 5v14',
@@ -176,11 +180,18 @@
     }
     const words = state.prompt, node = words && client.nodeRefFromName?.[words.node];
     if (!node || !client.camera) return;
-    const at = node.position.clone().setFromMatrixPosition(node.matrixWorld).project(client.camera), prompt = part('prompt');
+    const at = node.position.clone().set(...words.at).applyMatrix4(node.matrixWorld).project(client.camera), prompt = part('prompt');
     const left = (at.x + 1) / 2 * box.width - 0.8 * prompt.offsetWidth, top = (1 - at.y) / 2 * box.height + 20;
     prompt.style.transform = `translate(${Math.max(8, Math.min(left, box.width - prompt.offsetWidth - 8))}px, ${Math.max(8, Math.min(top, box.height - 60))}px)`;
   }
   requestAnimationFrame(look);
+  // viser's remark on drawing in software is said for a while, and then makes room.
+  new MutationObserver(() => {
+    for (const note of document.querySelectorAll('.mantine-Notification-root:not([data-seen])')) {
+      note.dataset.seen = '';
+      if (/Software WebGL/.test(note.textContent)) setTimeout(() => note.querySelector('button')?.click(), 5000);
+    }
+  }).observe(document.body, {childList: true, subtree: true});
   // What viser mounts anew is filled anew.
   new MutationObserver(() => RX.again('twist', 'worth')).observe(document.getElementById('root') ?? document.body, {childList: true, subtree: true});
 })();

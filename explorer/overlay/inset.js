@@ -34,6 +34,7 @@
       const o = at(cut.r), shade = along(share(cut.r)), shape = (angle, kind) => `<path d="M${cut.outline.map(p => turned(o, angle, p)).join('L')}Z" ${kind}/>`;
       if (changed(cut)) inside += shape(cut.ghost, 'class="rxf-ghost-cut"');
       inside += shape(cut.theta, `fill="${shade}" fill-opacity=".84" stroke="${shade}"`);
+      if (width < 700 && k === now.cuts.length - 2) return;  // Its numbers would meet those of the tip.
       inside += `<text x="${o[0]}" y="${height - 14}" text-anchor="middle" style="fill:var(--rx-ink);font-weight:620;font-size:12px">${signed(cut.theta)}</text>
         <text x="${o[0]}" y="${height - 1}" text-anchor="middle">${changed(cut) ? `<tspan style="fill:var(--rx-blade);font-weight:600">${signed(cut.theta - cut.ghost)}</tspan> · ` : ''}${cut.r.toFixed(2)}</text>`;
     });

@@ -125,12 +125,14 @@ FIELDS: dict[str, Field] = {
 """By title, in the order of the menu."""
 
 
-def fitted_range(field: Field, values: Array, shown: NDArray[np.bool_] | None = None) -> tuple[float, float]:
-    """A round range that holds all but the outer half per cent of `values`; symmetric for a two-sided field."""
+def fitted_range(
+    field: Field, values: Array, shown: NDArray[np.bool_] | None = None, trim: float = 0.005
+) -> tuple[float, float]:
+    """A round range that holds all but the share `trim` of `values` at each end; symmetric for a two-sided field."""
     data = values if shown is None else values[shown]
     if not data.size:
         return field.low, field.high
-    low, high = (float(end) for end in np.quantile(data, (0.005, 0.995)))
+    low, high = (float(end) for end in np.quantile(data, (trim, 1.0 - trim)))
     if field.two_sided:
         high = max(abs(low), abs(high), 1e-3 * field.high)
         step = round_up(high / 5.0)
@@ -140,14 +142,18 @@ def fitted_range(field: Field, values: Array, shown: NDArray[np.bool_] | None = 
     return step * math.floor(low / step + 1e-9), step * math.ceil(high / step - 1e-9)
 
 
+TRIM = 0.02
+"""Share of the disk at each end that a range the page fits by itself leaves beyond it, for the sake of the rest."""
+
+
 def keeps_range(field: Field, values: Array, held: tuple[float, float]) -> bool:
     """Whether a held range still fits: hardly anything beyond it, and the fitted one not much smaller."""
     low, high = held
     if not values.size:
         return True
     beyond = np.count_nonzero(values < low) + np.count_nonzero(values > high)
-    fitted = fitted_range(field, values)
-    return bool(beyond <= 0.02 * values.size) and (fitted[1] - fitted[0]) > 0.5 * (high - low)
+    fitted = fitted_range(field, values, trim=TRIM)
+    return bool(beyond <= 3.0 * TRIM * values.size) and (fitted[1] - fitted[0]) > 0.5 * (high - low)
 
 
 def over_range(values: Array, held: tuple[float, float]) -> tuple[bool, bool]:

@@ -12,7 +12,7 @@ import viser
 from explorer.interface import RangeDisplay
 from explorer.picture.difference import shown_field
 from explorer.picture.disk_image import AT_REST, MOVING
-from explorer.picture.fields import Field, fitted_range, keeps_range
+from explorer.picture.fields import FIELDS, TRIM, Field, fitted_range, keeps_range, over_range
 from explorer.picture.picture import disk_png, field_values, make_picture, turned_blades
 from explorer.picture.scene_theme import scene_theme
 from explorer.scene.camera import FittedCamera
@@ -74,15 +74,17 @@ class SceneController:
         if ghost is None:
             as_built = baseline_of(solution.design)
             ghost = OtherBlade(as_built.rotor, as_built.twist, None)
-        field = shown_field(view, pinned)
+        field = _field(view, pinned)
         colour_range = self._range(solution, field)
         wanted = _Drawn(solution, pinned, view, colour_range, ghost)
         if self._drawn == wanted:
             return
         if self._drawn is not None and self._drawn.at(view.azimuth_deg) == wanted:
             # The same disk and its colours: only the blades turn.
+            blades = turned_blades(solution, view)
             with self._client.atomic():
-                self.scene.rotor.turn(turned_blades(solution, view))
+                self.scene.rotor.turn(blades, still=not self._page.playing)
+                self._page.turn(blades.azimuth)
                 self._air.hide_vortices()
             self._client.flush()
             self._drawn, self._settled = wanted, False
@@ -92,9 +94,9 @@ class SceneController:
         with self._client.atomic():
             self._set_theme(view)
             self.scene.fit(solution.design.rotor)
-            self.scene.show(picture, everything=first)
+            self.scene.show(picture, everything=first, still=not self._page.playing)
             self._ghost.show(ghost, solution.design.twist, view.exaggeration, at_rest=False)
-            self._page.move(solution, view)
+            self._page.move(solution)
         self._client.flush()  # The frame goes out now; read-outs and charts follow while it is drawn.
         self._display.show_range(field, colour_range, faded=False)
         if self.camera is not None:
@@ -110,19 +112,21 @@ class SceneController:
         if drawn is None or self._settled:
             return
         solution, view = drawn.solution, drawn.view
-        field = shown_field(view, drawn.pinned if view.difference else None)
+        field = _field(view, drawn.pinned)
         values = field_values(solution, field)
         if field.title not in self._chosen and not keeps_range(field, values, drawn.colour_range):
-            fitted = fitted_range(field, values)
+            fitted = fitted_range(field, values, trim=TRIM)
             self._ranges[field.title], drawn = fitted, replace(drawn, colour_range=fitted)
-            self._display.show_range(field, fitted, faded=False)
+        self._display.show_range(field, drawn.colour_range, False, over_range(values, drawn.colour_range))
         picture = make_picture(solution, view, drawn.colour_range, field, AT_REST)
         beside = drawn.pinned if view.beside and drawn.pinned is not None and drawn.pinned.converged else None
         other = None if beside is None else make_picture(beside, view, drawn.colour_range, field, AT_REST)
         with self._client.atomic():
-            self.scene.show(picture)
+            self.scene.show(picture, still=not self._page.playing)
             self._ghost.show(drawn.ghost, solution.design.twist, view.exaggeration, at_rest=True)
             self._air.show(solution, view, scene_theme(view.dark))
+            if self._page.playing:
+                self._air.hide_vortices()
             if beside is None or other is None:
                 self.scene.hide_beside()
             else:
@@ -144,12 +148,13 @@ class SceneController:
         self._display.show_range(field, colour_range, faded=True)
 
     def play(self, playing: bool) -> None:
-        """Turn the rotor in the page, flapping and pitching, or stop it where the view has it."""
+        """Whether the azimuth walks on by itself: the page then turns the rotor smoothly between its steps."""
         self._page.play(playing)
-        if playing:
-            self._air.hide_vortices()
-        elif self._drawn is not None:
-            self._air.show(self._drawn.solution, self._drawn.view, scene_theme(self._drawn.view.dark))
+        drawn = self._drawn
+        if not playing and drawn is not None:
+            with self._client.atomic():
+                self.scene.rotor.turn(turned_blades(drawn.solution, drawn.view))
+                self._air.show(drawn.solution, drawn.view, scene_theme(drawn.view.dark))
 
     def set_seen(self, seen: bool) -> None:
         """Whether the rotor is in the scene, or makes room for something else."""
@@ -160,17 +165,17 @@ class SceneController:
         return self._ranges.get(field.title, (field.low, field.high))
 
     def order_range(self, order: str) -> None:
-        """Fit the colour range to the data ("Rescale") or take its own again ("Default"), in the next update."""
+        """Fit the colour range to all values ("Rescale") or leave it to the page ("Default"), in the next update."""
         self._order = order
 
     def _range(self, solution: Solution, field: Field) -> Range:
         """The colour range: fitted when a field is first shown, held while anything moves."""
         order, self._order = self._order, None
-        if order == "Default":
-            self._ranges[field.title] = (field.low, field.high)
-            self._chosen.add(field.title)
-        elif order == "Rescale" or field.title not in self._ranges:
+        if order == "Rescale":
             self._ranges[field.title] = fitted_range(field, field_values(solution, field))
+            self._chosen.add(field.title)
+        elif order == "Default" or field.title not in self._ranges:
+            self._ranges[field.title] = fitted_range(field, field_values(solution, field), trim=TRIM)
             self._chosen.discard(field.title)
         return self._ranges[field.title]
 
@@ -178,6 +183,11 @@ class SceneController:
         theme = scene_theme(view.dark)
         self.scene.set_theme(theme)
         self._ghost.set_theme(theme)
+
+
+def _field(view: ViewState, pinned: Solution | None) -> Field:
+    """What the disk shows: B − A where wanted, but not while A stands beside B."""
+    return FIELDS[view.field] if view.beside else shown_field(view, pinned)
 
 
 def apart(radius: float) -> np.ndarray:

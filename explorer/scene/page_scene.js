@@ -2,7 +2,7 @@
 (() => {
   if (window.rotorScene) return;
   const viewer = () => window.__viserMutable;
-  let surfaces = {}, motion = null, psi = 0, playing = false, before = 0;
+  let surfaces = {}, motion = null, heard = null, mark = null, rate = 0, psi = 0, before = 0;
 
   // Materials come and go with their nodes, so they are looked at again and again; a dressed one is left alone.
   const dress = () => {
@@ -39,24 +39,40 @@
     viewer().requestRender?.();
   };
 
-  // Whoever asked for less motion sees the rotor at rest in steps of 30°.
+  // The server says ten or twenty times a second where the reference blade is; in between the page goes on at that rate
+  // and closes what is left between the two. Whoever asked for less motion sees the rotor at rest in steps of 30°.
   const calm = matchMedia('(prefers-reduced-motion: reduce)');
+  const near = angle => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
   const step = now => {
-    if (!playing) return;
-    const passed = (now - before) / 1000;
-    if (!calm.matches || passed > 1.5) {
-      psi += calm.matches ? Math.PI / 6 : motion.rate * Math.min(passed, 0.1);
-      before = now;
-      show(psi);
-    }
+    if (!motion) return;
     requestAnimationFrame(step);
+    if (!heard) return;
+    const passed = Math.min((now - before) / 1000, 0.1);
+    before = now;
+    const aim = heard.psi + rate * Math.min((now - heard.at) / 1000, 0.3);
+    if (calm.matches) {
+      if (Math.abs(near(aim - psi)) < Math.PI / 6) return;
+      psi = aim;
+    } else psi += rate * passed + near(aim - psi - rate * passed) * Math.min(1, 5 * passed);
+    show(psi);
   };
 
   window.rotorScene = {
     dress(wanted) { surfaces = wanted; },
-    move(next) { motion = next; if (!playing) psi = next.psi; },
-    play() { if (playing) return; playing = true; before = performance.now(); requestAnimationFrame(step); },
-    stop() { playing = false; if (motion) { psi = motion.psi; show(psi); } },
+    move(next) {
+      const begins = !motion;
+      motion = next;
+      if (begins) { heard = mark = null; rate = 0; before = performance.now(); requestAnimationFrame(step); }
+    },
+    turn(angle) {
+      const at = performance.now();
+      if (!heard) psi = angle;
+      // Messages come in bursts: the rate is taken over a quarter of a second.
+      if (!mark) mark = {psi: angle, at};
+      else if (at - mark.at > 250) { rate = near(angle - mark.psi) / ((at - mark.at) / 1000); mark = {psi: angle, at}; }
+      heard = {psi: angle, at};
+    },
+    stop() { motion = heard = mark = null; },
     get psi() { return psi; },
   };
   setInterval(dress, 500);

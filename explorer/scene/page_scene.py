@@ -8,17 +8,15 @@ import json
 import math
 from functools import cache
 from pathlib import Path
-from typing import Any
 
 import viser
 
 from explorer.hosting.viser_compat import run_in_page
 from explorer.scene.scene import ROTOR
-from explorer.state import ViewState
 from rotor.trim.solution import Solution
 
 TURN_RATE = math.radians(54.0)
-"""[rad/s] while the rotor is played: slow enough to follow flapping and pitching of one blade."""
+"""[rad/s] at which a played rotor turns: slow enough to follow flapping and pitching of one blade."""
 SURFACES = {
     f"{ROTOR}/blade_0": {"roughness": 0.55},
     **{f"{ROTOR}/blade_{k}": {"roughness": 0.42} for k in range(1, 8)},
@@ -40,28 +38,34 @@ class PageScene:
 
     def __init__(self, client: viser.ClientHandle) -> None:
         self._client = client
-        self._playing = False
-        self._motion: dict[str, Any] | None = None
+        self.playing = False
+        """Whether the page moves the blades."""
+        self._motion = ""
         run_in_page(client, f"{_script()};rotorScene.dress({json.dumps(SURFACES)})")
 
-    def move(self, solution: Solution, view: ViewState) -> None:
+    def move(self, solution: Solution) -> None:
         """How the blades flap and pitch from now on; sent at once only while the rotor turns."""
         rotor, controls = solution.design.rotor, solution.controls
-        self._motion = {
-            "root": ROTOR,
-            "blades": rotor.blades,
-            "hinge": rotor.blade.flap_hinge * rotor.radius,
-            "flap": [controls.coning, controls.flap_1c, controls.flap_1s],
-            "pitch": [controls.collective, controls.cyclic_1c, controls.cyclic_1s],
-            "psi": math.radians(view.azimuth_deg),
-            "rate": TURN_RATE,
-        }
-        if self._playing:
-            run_in_page(self._client, f"rotorScene.move({json.dumps(self._motion)})")
+        self._motion = json.dumps(
+            {
+                "root": ROTOR,
+                "blades": rotor.blades,
+                "hinge": rotor.blade.flap_hinge * rotor.radius,
+                "flap": [controls.coning, controls.flap_1c, controls.flap_1s],
+                "pitch": [controls.collective, controls.cyclic_1c, controls.cyclic_1s],
+            }
+        )
+        if self.playing:
+            run_in_page(self._client, f"rotorScene.move({self._motion})")
+
+    def turn(self, azimuth: float) -> None:
+        """The reference blade is at ψ [rad] now; the page goes on from here until it hears again."""
+        if self.playing:
+            run_in_page(self._client, f"rotorScene.turn({azimuth:.4f})")
 
     def play(self, playing: bool) -> None:
-        """Begin to turn the rotor, or put it back where the view has it."""
-        self._playing = playing and self._motion is not None
-        if self._motion is not None:
-            way = "play" if playing else "stop"
-            run_in_page(self._client, f"rotorScene.move({json.dumps(self._motion)});rotorScene.{way}()")
+        """Let the page move the blades, or leave them to the scene again."""
+        if playing == self.playing or not self._motion:
+            return
+        self.playing = playing
+        run_in_page(self._client, f"rotorScene.move({self._motion})" if playing else "rotorScene.stop()")

@@ -81,21 +81,25 @@ class RotorNodes:
         self._ring.render_width = self._ring.render_height = 2.0 * REACH * radius
         self._png_size = 0
 
-    def show(self, picture: Picture, everything: bool) -> None:
-        """Assign one frame. `everything`: also the vertices of the other blades, which follow once nothing moves."""
+    def show(self, picture: Picture, everything: bool, still: bool = True) -> None:
+        """Assign one frame. `everything`: also the vertices of the other blades, which follow once nothing moves.
+
+        `still`: False while the page itself moves the blades.
+        """
         self.frame.wxyz = picture.rotor.wxyz
         place(self._disk, picture.disk)
         if not picture.blades.shapes:
             for handle in self._blades[: len(picture.blades.poses) if everything else 1]:
                 set_mesh(handle, Mesh(picture.blade_vertices, picture.blade_faces))
-        self.turn(picture.blades)
+        self.turn(picture.blades, still)
         self.show_disk(picture.png, picture.png_size)
 
-    def turn(self, blades: Blades) -> None:
-        """Move the blades and the head, and nothing else."""
-        self._head.wxyz = about(2, blades.azimuth)
-        for handle, pose in zip(self._blades, blades.poses, strict=False):
-            place(handle, pose)
+    def turn(self, blades: Blades, still: bool = True) -> None:
+        """Move the blades and the head, and nothing else; `still`: False while the page itself moves them."""
+        if still:
+            self._head.wxyz = about(2, blades.azimuth)
+            for handle, pose in zip(self._blades, blades.poses, strict=False):
+                place(handle, pose)
         for handle, shape in zip(self._blades, blades.shapes, strict=False):
             handle.vertices = shape.astype(np.float32)
 
@@ -150,9 +154,9 @@ class Scene:
             self._fit_airframe(rotor)
         self.rotor.fit(rotor)
 
-    def show(self, picture: Picture, everything: bool = True) -> None:
+    def show(self, picture: Picture, everything: bool = True, still: bool = True) -> None:
         """Assign one frame; call it inside `client.atomic()` so that the page draws it whole."""
-        self.rotor.show(picture, everything)
+        self.rotor.show(picture, everything, still)
         place(self._airframe, picture.airframe)
 
     def show_beside(self, rotor: Rotor, picture: Picture, offset: Array) -> None:

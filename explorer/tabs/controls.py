@@ -48,6 +48,9 @@ class DesignControls:
         self._special = start
         """Holds what the laws mean that are not always there."""
         self._moving = threading.RLock()
+        self._own: Inputs | None = None
+        """The user's own inputs while the sliders show those of a preview."""
+        self._following = False
         self.pauses = Pauses()
         self._laws = _laws_of(start)
         self._inflows = {name: model.title for name, model in INFLOW_MODELS.items()}
@@ -85,8 +88,10 @@ class DesignControls:
         self._inputs["preset"].on_update(self._preset_changed)
 
     def inputs(self) -> Inputs:
-        """What the widgets mean now."""
+        """What the widgets mean now, or what they meant before they followed a preview."""
         with self._moving:
+            if self._own is not None:
+                return self._own
             values = {name: self._read(name, handle.value) for name, handle in self._inputs.items()}
             special = self._special
         values["law"] = _key(self._laws, values["law"])
@@ -107,26 +112,47 @@ class DesignControls:
 
     def set_inputs(self, inputs: Inputs) -> None:
         """Move the widgets; the page follows as if they had been dragged."""
-        with self._moving:  # A round that reads meanwhile would see half of them.
-            self._special = inputs
-            self._laws = _laws_of(inputs)
-            if self._law.options != tuple(self._laws.values()):
-                self._law.options = tuple(self._laws.values())
-            self._fit_mass(inputs)
-            titles = {"law": self._laws, "preset": PRESET_TITLES, "inflow": self._inflows}
-            for name in INPUT_NAMES:
-                if name in self._inputs:
-                    value = getattr(inputs, name)
-                    place = titles[name][value] if name in titles else self._shown(name, value)
-                    self._inputs[name].value = place
+        with self._moving:  # An update that reads meanwhile would see half of them.
+            self._own = None
+            self._place(inputs)
         self._changed()
+
+    def follow(self, preview: Inputs | None) -> None:
+        """Show a preview on the sliders; None: the user's own inputs again. `inputs` stay what they are."""
+        with self._moving:
+            own = self._own if self._own is not None else self.inputs() if preview is not None else None
+            if own is None:
+                return
+            self._following, self._own = True, own
+            try:
+                self._place(own if preview is None else preview)
+            finally:
+                self._following = False
+                self._own = None if preview is None else own
+
+    def _place(self, inputs: Inputs) -> None:
+        """Move the widgets, under the lock."""
+        self._special = inputs
+        self._laws = _laws_of(inputs)
+        if self._law.options != tuple(self._laws.values()):
+            self._law.options = tuple(self._laws.values())
+        self._fit_mass(inputs)
+        titles = {"law": self._laws, "preset": PRESET_TITLES, "inflow": self._inflows}
+        for name in INPUT_NAMES:
+            if name in self._inputs:
+                value = getattr(inputs, name)
+                place = titles[name][value] if name in titles else self._shown(name, value)
+                if self._inputs[name].value != place:
+                    self._inputs[name].value = place
 
     def refresh(self, inputs: Inputs, units: Units) -> None:
         """Bring everything that only follows the widgets into line: which sliders show, speed, units, explanations."""
         self._change_units(units)
         for key, law in LAWS.items():
             for name in law.inputs:
-                self._inputs[name].visible = self._worths[name].visible = key == inputs.law
+                shown_now = key == inputs.law
+                if self._inputs[name].visible != shown_now:
+                    self._inputs[name].visible = self._worths[name].visible = shown_now
         self._speed.content = _flight_heading(inputs.advance_ratio * inputs.aircraft.rotor.tip_speed, units)
         self._explanation.content = readout.explanation(INFLOW_MODELS[inputs.inflow].explanation)
         self._infinite.visible = inputs.inflow in (FOUR, INFINITE)
@@ -168,10 +194,14 @@ class DesignControls:
             self._worths[name] = gui.add_html(worth.place(name), visible=shown_first)
 
     def _watched(self, handle: Any) -> Any:
-        handle.on_update(lambda _: self._moved())
+        handle.on_update(lambda event: self._moved(event.client is not None))
         return handle
 
-    def _moved(self) -> None:
+    def _moved(self, by_hand: bool) -> None:
+        if self._following and not by_hand:
+            return
+        if by_hand:
+            self._own = None  # Whoever moves a slider goes on from the preview.
         self.pauses.moved(time.monotonic())
         self._changed()
 

@@ -13,7 +13,8 @@ from explorer.state import ViewState
 from explorer.text.units import number
 from explorer.theme.colours import colour_map, css
 
-REGIONS = ("stall", "reverse_flow", "drag_divergence")
+REGIONS = ("stall", "reverse_flow", "wake", "arrows", "drag_divergence")
+"""Fields of `ViewState` that a press switches."""
 TIMES = (1.0, 2.0, 4.0)
 """How many times its twist a blade may be drawn with."""
 _COLOURS = 17
@@ -34,6 +35,7 @@ class Display:
         self._allowed = self._held = self._playing = self._fitted = self._faded = False
         self._stalled = ""
         self._range: tuple[Field, tuple[float, float]] | None = None
+        self._beyond = (False, False)
         bridge.on("field", lambda title: self._change(field=title) if title in FIELDS else None)
         bridge.on("region", self._switch_region)
         bridge.on("difference", lambda way: self._change(difference=way == "on" and self._allowed))
@@ -76,9 +78,11 @@ class Display:
         """A colour range was asked for: fitted ("Rescale") or the field's own ("Default")."""
         self._fitted = order == "Rescale"
 
-    def show_range(self, field: Field, colour_range: tuple[float, float], faded: bool) -> None:
-        """The colour bar of a field."""
-        self._range, self._faded = (field, colour_range), faded
+    def show_range(
+        self, field: Field, colour_range: tuple[float, float], faded: bool, beyond: tuple[bool, bool] = (False, False)
+    ) -> None:
+        """The colour bar of a field; `beyond`: whether values lie below its range, and above."""
+        self._range, self._faded, self._beyond = (field, colour_range), faded, beyond
         self._show_field()
 
     def show(self, state: SessionState) -> None:
@@ -108,7 +112,7 @@ class Display:
         self._changed()
 
     def _switch_region(self, name: str) -> None:
-        if name in REGIONS:
+        if name in REGIONS or (name == "beside" and self._allowed):
             self._change(**{name: not getattr(self._view, name)})
 
     def _next_times(self) -> None:
@@ -140,6 +144,8 @@ class Display:
                 "regions": {name: getattr(view, name) for name in REGIONS},
                 "stalled": self._stalled,
                 "difference": view.difference if self._allowed else None,
+                "beside": view.beside,
+                "beyond": list(self._beyond),
                 "held": self._held,
             }
         )

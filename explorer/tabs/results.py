@@ -7,9 +7,10 @@ import viser
 from explorer.charts.plots import PowerCurve
 from explorer.interface import SessionState
 from explorer.overlay.bridge import Bridge
+from explorer.picture.blade_inset import inset
 from explorer.tabs.chart_strip import ChartStrip
 from explorer.tabs.layout import Layout
-from explorer.tabs.power_card import PowerCard
+from explorer.tabs.power_card import PowerCard, against
 from explorer.tabs.twist_curve import TwistCurve
 from explorer.tabs.worth import SliderWorth
 from explorer.text import comparison as ab_readout
@@ -26,7 +27,7 @@ class Results:
     """One session's."""
 
     def __init__(self, gui: viser.GuiApi, bridge: Bridge, layout: Layout) -> None:
-        self._layout = layout
+        self._bridge, self._layout = bridge, layout
         self.card = PowerCard(bridge)
         self.strip = ChartStrip(bridge)
         self.worth = SliderWorth(bridge)
@@ -49,6 +50,7 @@ class Results:
         """Follow a converged state. `pause`: the longest rest of the inputs [s] since the last one."""
         self._state = state
         self.card.show(state, pause)
+        self._show_inset(state)
         gradient = self._gradient_of(state.solution)
         self.curve.show(state)
         self.worth.show(state, gradient)
@@ -89,6 +91,13 @@ class Results:
     def units(self) -> Units:
         """Those of the last state."""
         return SI if self._state is None else UNITS[self._state.view.units]
+
+    def _show_inset(self, state: SessionState) -> None:
+        design, reference = state.solution.design, state.reference.design
+        ghost = reference.twist if design.rotor.radius == reference.rotor.radius else None
+        name = against(design, state.pinned is not None).removeprefix(f"{design.aircraft.name} ")
+        shown = inset(design.rotor, design.twist, ghost, state.view.exaggeration)
+        self._bridge.set(inset={**shown, "ghost_name": name})
 
     def _gradient_of(self, solution: Solution) -> PitchGradient | None:
         if self._gradient is None or self._gradient[0] is not solution:

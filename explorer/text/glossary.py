@@ -75,7 +75,6 @@ CONTROLS: dict[str, Term] = {
         "Solves the same design with a rigid helical vortex wake, the reference for the other models.", section=9
     ),
     "play": Term("Turns the rotor, flapping and pitching; the solution stays the same."),
-    "play_speed": Term("Speed of the animation; the real rotor turns several times a second."),
     "probe_r": Term("Radius of the probe; or click the disk, or press arrow up or down."),
     "probe_psi": Term("Azimuth of the probe, 0° over the tail; or press arrow left or right.", section=1),
     "probe_follow": Term("Keeps the probe on the reference blade."),
@@ -145,6 +144,7 @@ CONTROLS: dict[str, Term] = {
     "pin": Term("Undo, redo; pin: this design becomes A, and every change is B beside it."),
     "pinned": Term("Swap A and B, or return the sliders to A."),
     "along": Term("On: A flies at the speed, mass and altitude on the sliders. Off: A stays as it was pinned."),
+    "tour": Term("Six stops of ten seconds: the sliders move by themselves, and a caption says what to see."),
     "lecture": Term("Eight steps that set the page and say what to watch. Keys: Page Down, Page Up."),
     "big_type": Term("Larger text, for a lecture room."),
     "lecture_flights": Term("Sets the advance ratio.", section=1),

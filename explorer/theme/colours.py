@@ -124,3 +124,8 @@ def greyed(colours: NDArray[np.uint8]) -> NDArray[np.uint8]:
 def _bytes(srgb: Array) -> Rgb:
     red, green, blue = (round(255.0 * float(channel)) for channel in srgb)
     return red, green, blue
+
+
+_STARTS = 16
+START_COLOURS: tuple[Rgb, ...] = tuple(_sequential(_STARTS + 4)[2 + 7 * k % _STARTS] for k in range(_STARTS))
+"""Of the starts of a search, in steps that keep a few of them apart."""

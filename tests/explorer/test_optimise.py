@@ -9,18 +9,20 @@ from typing import Any
 
 import numpy as np
 import pytest
+from explorer.race import race_of
 from PIL import Image
 
 from explorer.charts.plots import Plot
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.state import baseline_of
+from explorer.tabs.chart_strip import race_chart
 from explorer.tabs.optimise import mission, power_map, schedule_view, sensitivity
 from explorer.tabs.optimise import text as search_text
 from explorer.tabs.optimise.concept_picture import concept_picture
 from explorer.tabs.optimise.map_panel import default_axes
-from explorer.tabs.optimise.plot import TRACES, search_plot
 from explorer.tabs.optimise.run import SearchRun
 from explorer.tabs.optimise.search_request import OBJECTIVES, SearchRequest
+from explorer.text.units import SI
 from explorer.workers.job import JobEnded, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.tasks import FixedPowers, MapLevel, MapTask, ScheduleTask, SearchTask
 from rotor.files.make_design import make_design
@@ -133,21 +135,27 @@ class TestSearchRun:
 
 
 class TestCharts:
-    def test_every_start_is_a_trace_of_finite_numbers(self, run: SearchRun):
-        plot = search_plot(run, None)
-        assert finite(plot)
-        assert len(plot.data) == 1 + 1 + TRACES + 1
-        low, high = plot.y_range
-        inside = [bool((values[-1] >= low) and (values[-1] <= high)) for values in plot.data[2:-1]]
-        assert inside[:3] == [True] * 3
-        assert not any(inside[3:])
+    def test_every_start_is_a_line_of_finite_numbers(self, run: SearchRun):
+        chart = race_chart(race_of(run), SI)
+        level, *starts = chart["lines"]
+        assert level["role"] == "reference"
+        assert len(starts) == sum(bool(trace) for trace in run.traces) == 3
+        low, high = chart["y_range"]
+        for line in starts:
+            assert len(line["x"]) == len(line["y"])
+            assert all(math.isfinite(value) for value in line["y"])
+            assert low <= line["y"][-1] <= high
         assert run.best is not None
-        assert plot.data[-1][-1] == pytest.approx(run.best.power / 1e3, rel=1e-4)
+        assert min(line["y"][-1] for line in starts) == pytest.approx(run.best.power / 1e3, rel=1e-4)
+        assert len({line["colour"] for line in starts}) == 3
 
-    def test_an_empty_chart_has_the_same_series(self):
-        plot = search_plot(None, None)
-        assert finite(plot)
-        assert len(plot.data) == 3 + TRACES
+    def test_the_headline_is_the_least_power_and_names_every_start(self, run: SearchRun):
+        race = race_of(run)
+        html = search_text.headline(race, run)
+        assert race.best_power is not None
+        assert SI.watts(race.best_power, 1) in html
+        for start in race.starts:
+            assert f"Start {start.start}:" in html
 
     def test_sensitivity_knows_that_turning_the_whole_blade_changes_nothing(self):
         solution = solve(make_design(mu=0.2))

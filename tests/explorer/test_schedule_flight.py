@@ -15,6 +15,7 @@ from rotor.design.twist import (
     PiecewiseLinearTwist,
     QuadraticTwist,
     SplineTwist,
+    SumTwist,
     TwistLaw,
 )
 from rotor.files.make_design import make_design
@@ -30,6 +31,7 @@ LAWS: tuple[tuple[TwistLaw, TwistLaw], ...] = (
     (SplineTwist((0.1, 0.4, 0.75, 1.0), (0.1, 0.05, 0.0, -0.1)), SplineTwist((0.1, 0.4, 0.75, 1.0), (0.0,) * 4)),
     (LinearTwist(-0.2), PiecewiseLinearTwist((-0.1, -0.3), (0.8,))),
     (IdealTwist(0.1), LinearTwist(-0.2)),
+    (SumTwist(IdealTwist(0.1), LinearTwist(-0.2)), SumTwist(IdealTwist(0.1), LinearTwist(0.1))),
 )
 
 
@@ -153,6 +155,10 @@ class TestTwistBetween:
     def test_half_way_between_two_rates(self):
         half = twist_between(LinearTwist(-0.2), LinearTwist(-0.1), 0.5)
         assert_allclose(half(1.0), 0.25 * -0.15)
+        built = IdealTwist(0.1)
+        assert twist_between(SumTwist(built, LinearTwist(-0.2)), SumTwist(built, LinearTwist(-0.1)), 0.5) == SumTwist(
+            built, twist_between(LinearTwist(-0.2), LinearTwist(-0.1), 0.5)
+        )
 
     @pytest.mark.parametrize(("before", "after"), LAWS)
     def test_zero_at_three_quarters_radius(self, before: TwistLaw, after: TwistLaw):

@@ -37,6 +37,7 @@ class ActuatorControls:
         start = ActuatorInputs()
         watched = self._watched
         gui.add_html(readout.SHEET)
+        self.verdict = gui.add_html("")
         self.shown = watched(gui.add_checkbox("Show blade cut", False, hint=hint("cut")))
         self._magnified = watched(
             gui.add_slider("Deformation ×", 1.0, 20.0, 1.0, start.magnified, hint=hint("magnified"))
@@ -48,7 +49,6 @@ class ActuatorControls:
         ]
         self.bar = gui.add_html("")
         self.fly_buttons = gui.add_button_group("Fly at", FLY, hint=hint("fly"))
-        self.verdict = gui.add_html("")
         self.numbers = gui.add_html("")
         with gui.add_folder("Actuator and placement"):
             self._actuator = watched(gui.add_dropdown("Actuator", tuple(self._titles.values()), hint=hint("actuator")))

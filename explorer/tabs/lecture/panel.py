@@ -16,6 +16,9 @@ from explorer.tabs.lecture import steps as lecture
 from explorer.tabs.lecture.presence import Presence
 from explorer.tabs.lecture.steps import STEPS
 from explorer.text.glossary import hint
+from explorer.text.units import UNITS
+from explorer.tour import STOPS, stop_begins, tour_at
+from explorer.workers.clock import Player
 
 _NO_CASE = "–"
 _PRESENTING = (
@@ -42,6 +45,9 @@ class LecturePanel:
         """The visitor's own page, to be given back at the end."""
         self._against: Inputs | None = None
         """A, as the step wants it beside what is on the sliders."""
+        self._time: float | None = None
+        """[s] since the tour began; None outside it."""
+        self._player = Player(self._tour_on, "tour")
         self._held = False
         self._state: SessionState | None = None
         gui.add_html(
@@ -49,6 +55,7 @@ class LecturePanel:
             "End gives your own design back.</div>"
         )
         self._begin = gui.add_button("Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture"))
+        self._tour = gui.add_button("One-minute tour", icon=viser.Icon.PLAYER_PLAY, color="gray", hint=hint("tour"))
         self._flights = gui.add_button_group("Fly at µ", tuple(cases.FLIGHTS), hint=hint("lecture_flights"))
         self._case = gui.add_dropdown("Cases", (_NO_CASE, *cases.CASES), hint=hint("document_case"))
         with gui.add_folder("Present to others"):
@@ -56,6 +63,7 @@ class LecturePanel:
             gui.add_html(_PRESENTING)
             self._name_present()  # A presenter who loads the page again presents on.
         self._begin.on_click(lambda _: self.toggle())
+        self._tour.on_click(lambda _: self.begin_tour())
         bridge.on("lecture", self._clicked)
         self._present.on_click(lambda _: self._present_or_end())
         self._flights.on_click(lambda event: self._fly(cases.FLIGHTS[event.target.value]))
@@ -84,10 +92,35 @@ class LecturePanel:
         else:
             self.set(max(step, 0))
 
+    def begin_tour(self) -> None:
+        """Six stops of ten seconds in which the sliders move by themselves; End gives the page back."""
+        if self._before is None:
+            self._before = PageSnapshot.take(self._context)
+        self._stand_at(None)
+        self._context.pin(None)
+        self._stage("explore")
+        self._time = 0.0
+        self._player.play()
+
+    def _tour_on(self, seconds: float) -> None:
+        """A step of the tour's clock."""
+        time = self._time
+        if time is None:
+            return
+        self._time = time + seconds
+        instant = tour_at(self._time)
+        if instant is None:
+            self.end()
+            return
+        self._context.set_view(instant.view(self._context.view()))
+        self._context.set_inputs(self._kept(instant.inputs))
+        self._show()
+
     def set(self, step: int) -> None:
         """Set the page as a step wants it."""
         if self._before is None:
             self._before = PageSnapshot.take(self._context)
+        self._stop_tour()
         self._stand_at(step)
         wanted, context = STEPS[step], self._context
         inputs = self._kept(wanted.inputs)
@@ -114,6 +147,7 @@ class LecturePanel:
     def end(self) -> None:
         """The caption goes, and the visitor's own design, view and A come back."""
         before, self._before = self._before, None
+        self._stop_tour()
         self._stand_at(None)
         if before is not None:
             before.restore(self._context)
@@ -124,6 +158,8 @@ class LecturePanel:
         self._state = state
         self._name_case(state.inputs)
         step = self._step
+        if self._time is not None:
+            self._show()
         if step is None:
             return
         self._show()
@@ -140,7 +176,12 @@ class LecturePanel:
         self._show()
 
     def stop(self) -> None:
-        """Nothing runs on."""
+        """The browser has left."""
+        self._player.pause()
+
+    def _stop_tour(self) -> None:
+        self._time = None
+        self._player.pause()
 
     def _stand_at(self, step: int | None) -> None:
         self._step, self._state = step, None
@@ -150,6 +191,9 @@ class LecturePanel:
 
     def _show(self) -> None:
         """The caption in the frame."""
+        if self._time is not None:
+            self._bridge.set(lecture=self._tour_caption(self._time))
+            return
         if self._step is None:
             self._bridge.set(lecture=None)
             return
@@ -195,8 +239,42 @@ class LecturePanel:
         """These inputs, with the rotor that the user brought still in the menu."""
         return replace(inputs, own_rotor=self._context.inputs().own_rotor)
 
+    def _tour_caption(self, time: float) -> dict[str, Any] | None:
+        instant, state = tour_at(time), self._state
+        if instant is None:
+            return None
+        numbers: list[tuple[str, str, str]] = []
+        if state is not None:
+            power, units = state.solution.power, UNITS[state.view.units]
+            numbers = [
+                ("total power", units.watts(power.total), ""),
+                ("induced", units.watts(power.induced), ""),
+                ("profile", units.watts(power.profile), ""),
+            ]
+        return {
+            "at": instant.stop,
+            "of": len(STOPS),
+            "title": "A tour of one minute",
+            "watch": instant.caption,
+            "todo": "",
+            "said": "",
+            "figures": numbers,
+            "held": self._held,
+        }
+
     def _clicked(self, which: Any) -> None:
-        if self._step is None or self._held:
+        if self._held:
+            return
+        if self._time is not None:
+            stop = tour_at(self._time)
+            now = 0 if stop is None else stop.stop
+            to = {"next": now + 1, "back": max(now - 1, 0), "again": now}.get(which)
+            if to is None or to >= len(STOPS):
+                self.end()
+            else:
+                self._time = stop_begins(to)
+            return
+        if self._step is None:
             return
         match which:
             case "back":

@@ -10,12 +10,11 @@ import viser
 
 from explorer.interface import TabContext
 from explorer.overlay.bridge import Bridge
+from explorer.race import Race, race_of
 from explorer.state import baseline_of, baseline_title, with_optimum
 from explorer.tabs.optimise import text
-from explorer.tabs.optimise.chart import search_chart
 from explorer.tabs.optimise.concept_picture import concept_picture
-from explorer.tabs.optimise.plot import TRACES, search_plot
-from explorer.tabs.optimise.run import FRAME, SearchRun
+from explorer.tabs.optimise.run import FRAME, TRACES, SearchRun
 from explorer.tabs.optimise.search_request import OBJECTIVES, SearchRequest
 from explorer.text.glossary import hint
 from explorer.text.units import UNITS, number
@@ -50,7 +49,6 @@ class OptimisePanel:
         """Whether the run's designs are shown, to be applied or discarded."""
         self._problem = ""
         self._woken = 0.0
-        self._drawn: object = None
         self._titles = {name: concept.title for name, concept in CONCEPTS.items()}
         titles, first = tuple(self._titles.values()), self._titles["two-segment-free"]
         self._concept = gui.add_dropdown("Concept", titles, initial_value=first, hint=hint("search_concept"))
@@ -74,12 +72,12 @@ class OptimisePanel:
         self._begin = gui.add_button("Optimise", icon=viser.Icon.PLAYER_PLAY, hint=hint("optimise"))
         self._halt = gui.add_button("Stop", icon=viser.Icon.PLAYER_STOP, color="red", visible=False, hint=hint("stop"))
         self._bar = gui.add_progress_bar(0.0)
+        self._headline = gui.add_html("")
         self._standing = gui.add_html(text.standing(None))
         self._found = gui.add_html("")
         self._scrubber = gui.add_slider("Replay", 0, 1, 1, 0, visible=False, hint=hint("replay"))
         self._frame = gui.add_html("")
         self._again = gui.add_button("Replay", color="gray", visible=False, hint=hint("search_result"))
-        self._chart = search_chart(gui)
         self._details = gui.add_html("")
         self._begin.on_click(lambda _: self.begin())
         self._halt.on_click(lambda _: self.halt())
@@ -166,6 +164,11 @@ class OptimisePanel:
         return None if frame is None else frame.design
 
     @property
+    def race(self) -> Race | None:
+        """The starts of the search; None where there is none."""
+        return None if self._run is None or not any(self._run.traces) else race_of(self._run)
+
+    @property
     def offered(self) -> bool:
         """Whether designs of a search are on offer."""
         return self._offered and self._run is not None
@@ -187,8 +190,6 @@ class OptimisePanel:
         self._begin.visible, self._halt.visible = not under_way, under_way
         self._standing.content = text.standing(run, self._problem)
         self._bar.visible = run is not None
-        self._chart.set_visible(run is not None and any(run.traces))
-        self._bridge.set(notice=self._notice(design))
         if run is None:
             return
         self._bar.value = round(100.0 * run.part_done, 1)
@@ -209,10 +210,8 @@ class OptimisePanel:
             self._frame.content = text.moved_on()
         else:
             self._frame.content = ""
-        seen = (id(run), run.progress, run.state, units)
-        if seen != self._drawn:
-            self._drawn, unit = seen, units.power[0]
-            self._chart.show(search_plot(run, self._chart.y_range, unit), title=f"Power [{unit.symbol}] per start")
+        race = race_of(run)
+        self._headline.content = text.headline(race, run, units)
 
     def _on_event(self, run: SearchRun, news: JobEvent) -> None:
         run.on_event(news)
@@ -221,7 +220,7 @@ class OptimisePanel:
             self._woken = now
             self._context.wake()
 
-    def _notice(self, design: Design | None) -> dict[str, object] | None:
+    def notice(self, design: Design | None) -> dict[str, object] | None:
         """The bar over the scene while it shows a search instead of the sliders."""
         run = self._run
         if run is None or not self._offered or design is None or not run.matches(design):

@@ -12,6 +12,8 @@ from rotor.optimisation.concepts import Concept
 from rotor.optimisation.search import Optimum, Progress, Search
 
 State = Literal["starting", "waiting", "running", "stopping", "done", "stopped", "late", "broken"]
+TRACES = 16
+"""The most starts of a search on the page."""
 FRAME = 0.1
 """A played design stays at least so long [s]."""
 _CATCH_UP = 8

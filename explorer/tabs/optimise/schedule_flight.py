@@ -21,6 +21,7 @@ from rotor.design.twist import (
     PiecewiseLinearTwist,
     QuadraticTwist,
     SplineTwist,
+    SumTwist,
     TableTwist,
     TwistLaw,
 )
@@ -212,6 +213,8 @@ def twist_between(before: TwistLaw, after: TwistLaw, weight: float) -> TwistLaw:
             return QuadraticTwist(*mix((before.curvature, before.difference), (after.curvature, after.difference)))
         case PiecewiseLinearTwist(), PiecewiseLinearTwist() if len(before.rates) == len(after.rates):
             return PiecewiseLinearTwist(mix(before.rates, after.rates), mix(before.breaks, after.breaks))
+        case SumTwist(), SumTwist() if before.base == after.base:
+            return SumTwist(before.base, twist_between(before.change, after.change, weight))
         case SplineTwist(), SplineTwist() if before.stations == after.stations:
             return SplineTwist(before.stations, mix(before.angles, after.angles))
         case _:

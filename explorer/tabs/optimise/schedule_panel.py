@@ -6,6 +6,8 @@ from typing import Any
 import viser
 
 from explorer.interface import TabContext
+from explorer.overlay.bridge import Bridge
+from explorer.schedule_flight import ScheduleFlight
 from explorer.state import with_optimum
 from explorer.tabs.chart_panel import Chart, line
 from explorer.tabs.optimise import mission, schedule_view
@@ -14,6 +16,7 @@ from explorer.tabs.optimise.search_request import SearchRequest
 from explorer.text.glossary import hint
 from explorer.text.units import UNITS
 from explorer.theme.colours import BASELINE, NOW, THIS, colour_map, css
+from explorer.workers.clock import Player
 from explorer.workers.job import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.pool import PoolClient
 from explorer.workers.tasks import FixedPowers, ScheduleTask
@@ -23,6 +26,8 @@ from rotor.optimisation.schedule import Cell, Plan
 
 TIME_LIMIT = 180.0
 """[s] a schedule may take."""
+_STAYS = 1.5
+"""[s] the end of the playback is shown."""
 _URGENCY = 1
 """After searches."""
 
@@ -31,9 +36,17 @@ class SchedulePanel:
     """One session's schedule."""
 
     def __init__(
+<<<<<<< HEAD
         self, gui: viser.GuiApi, pool: PoolClient, context: TabContext, request: Callable[[], SearchRequest]
+=======
+        self, gui: viser.GuiApi, bridge: Bridge, pool: Share, context: TabContext, request: Callable[[], SearchRequest]
+>>>>>>> stage
     ) -> None:
         self._pool, self._context, self._request = pool, context, request
+        self._flight: ScheduleFlight | None = None
+        self._time = 0.0
+        self._player = Player(self._fly_on, "schedule-flight")
+        bridge.on("land", lambda _: self.land())
         self._job: Job | None = None
         self._progress: PlanProgress | None = None
         self._running = False
@@ -60,7 +73,7 @@ class SchedulePanel:
         self._state = gui.add_html("")
         self._table = gui.add_html("")
         self._verdict = gui.add_button_group(
-            "Result", ("Apply fixed blade", "Save CSV"), visible=False, hint=hint("schedule_result")
+            "Result", ("Apply fixed", "Play", "Save CSV"), visible=False, hint=hint("schedule_result")
         )
         shades = colour_map("sequential", LEGS + 3)[2:]  # Neither end is seen on every page.
         twists, savings = schedule_view.twist_plot(None, None), schedule_view.saving_plot(None, None)
@@ -123,8 +136,56 @@ class SchedulePanel:
             self._pool.stop(self._job)
             self._context.wake()
 
+    def play(self) -> None:
+        """Fly the schedule: speed runs, the blade untwists, savings count up; pressed again, stop."""
+        if self._flight is not None:
+            self.land()
+            return
+        progress = self._progress
+        if progress is None:
+            return
+        try:
+            self._flight, self._time = ScheduleFlight(progress), 0.0
+        except ValueError as error:
+            self._line = str(error)
+        else:
+            self._player.play()
+        self._context.wake()
+
+    def land(self) -> None:
+        """Stop the playback; the page shows the sliders again."""
+        self._flight = None
+        self._player.pause()
+        self._context.wake()
+
+    def preview(self, design: Design) -> Design | None:
+        """The design of the playback to show instead of the sliders'."""
+        del design
+        flight = self._flight
+        return None if flight is None else flight.design(flight.at(self._time))
+
+    def notice(self) -> dict[str, object] | None:
+        """The bar over the scene during the playback."""
+        flight = self._flight
+        if flight is None:
+            return None
+        numbers = flight.at(self._time).numbers(UNITS[self._context.view().units])
+        return {"text": " · ".join(f"{caption} {value}" for caption, value in numbers), "actions": [("land", "Stop")]}
+
+    def _fly_on(self, seconds: float) -> None:
+        """A step of the clock."""
+        flight = self._flight
+        if flight is None:
+            return
+        self._time += seconds
+        if self._time > flight.seconds + _STAYS:
+            self.land()
+        else:
+            self._context.wake()
+
     def stop(self) -> None:
         """The browser has left."""
+        self._player.pause()
         if self._job is not None:
             self._pool.stop(self._job, quiet=True)
 
@@ -181,6 +242,9 @@ class SchedulePanel:
             return
         if event.target.value == "Save CSV":
             self._context.download("twist-schedule.csv", schedule_view.csv_of(progress))
+            return
+        if event.target.value == "Play":
+            self.play()
             return
         fixed = progress.at(None)
         if fixed is not None and fixed.best is not None:

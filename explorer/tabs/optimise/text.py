@@ -2,10 +2,31 @@
 
 from html import escape
 
+from explorer.race import Race
 from explorer.tabs.optimise.run import SearchRun
 from explorer.text.units import SI, Units, number
+from explorer.theme.colours import START_COLOURS, css
 from rotor.optimisation.concepts import Concept
 from rotor.optimisation.search import Optimum
+
+
+def headline(race: Race, run: SearchRun, units: Units = SI) -> str:
+    """The power of the best so far as a large number, and every start with its place in the race."""
+    if race.best_power is None:
+        return ""
+    change = "" if race.change is None else units.watts(race.change, 1, sign=True)
+    kind = "" if race.change is None or abs(race.change) < 50.0 else " rx-less" if race.change < 0.0 else " rx-more"
+    mean = "mean power" if len(_legs(run)) > 1 else f"{_quantity(run)} power"
+    mean += ", best so far" if run.under_way else ", best found"
+    rows = "".join(
+        f'<span><i style="background:{css(START_COLOURS[k])}"></i>{escape(start.legend(units))}</span>'
+        for k, start in enumerate(race.starts)
+    )
+    return (
+        f'<div class="rxp-big" data-explorer="race"><b data-explorer="best">{units.watts(race.best_power, 1)}</b>'
+        f'<em class="{kind}">{change}</em>'
+        f'<div class="rx-dim">{mean}</div><div class="rxp-race">{rows}</div></div>'
+    )
 
 
 def standing(run: SearchRun | None, problem: str = "") -> str:
@@ -59,12 +80,6 @@ def found(run: SearchRun, units: Units = SI) -> str:
         if run.state == "done":
             parts.append(f"<div>{escape(run.sentence)}</div>")
         return _block(parts)
-    mean = "mean power" if len(_legs(run)) > 1 else f"{_quantity(run)} power"
-    parts.append(
-        '<div class="rx-line rx-base"><span class="rx-best" data-explorer="best">'
-        f"{units.watts(best.power, 1)}</span><span class='rx-dim'>{mean}, "
-        f"{'best so far' if run.under_way else 'best found'}</span></div>"
-    )
     rows = [_saving("starting design", best.power, run.start_power, units)]
     if run.reference_power != run.start_power:
         rows.append(_saving(run.reference_title, best.power, run.reference_power, units))

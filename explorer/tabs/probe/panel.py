@@ -11,6 +11,7 @@ import viser
 from explorer.interface import SessionState, TabContext
 from explorer.picture.moving_blades import blade_twists
 from explorer.picture.pick import pick
+from explorer.scene.page_scene import TURN_RATE
 from explorer.tabs.keys.names import COARSE
 from explorer.tabs.probe.cursor import Cursor
 from explorer.tabs.probe.element import Probe, probe
@@ -62,7 +63,6 @@ class ProbePanel:
         self._left = 0.0
         """How long it may play on [s]."""
         gui = client.gui
-        self._speed = gui.add_slider("Play at [°/s]", 5.0, 120.0, 5.0, 40.0, hint=hint("play_speed"))
         self._r = gui.add_slider("Radius r/R", 0.5, 1.0, _R_STEP, 0.75, hint=hint("probe_r"))
         self._psi = gui.add_slider("Azimuth ψ [°]", 0.0, 360.0, _PSI_STEP, 60.0, hint=hint("probe_psi"))
         self._panel = gui.add_html("")
@@ -142,7 +142,7 @@ class ProbePanel:
         if (self._walked is not None and now != self._walked) or self._left <= 0.0:
             self._pause()  # The user has taken the blade, or gone.
             return
-        self._walked = (now + self._speed.value * seconds) % 360.0
+        self._walked = (now + math.degrees(TURN_RATE) * seconds) % 360.0
         self._context.set_azimuth(self._walked)
 
     def _place(self) -> _ProbePoint:

@@ -19,6 +19,7 @@ from explorer.tabs.studies import charts as study_charts
 from explorer.tabs.studies.readout import numbers, point_line, problem_line, summary
 from explorer.tabs.studies.results import FoundStudy, find_studies, open_study
 from explorer.text.glossary import hint
+from rotor.assets import asset_path
 from rotor.study.findings import best_row, cruise_speeds, hover_cruise_pairs
 from rotor.study.results import Results, design_of_row, read_file
 
@@ -94,6 +95,7 @@ class StudiesPanel:
     def look(self) -> None:
         """Find the results there are now."""
         found = {one.label(self._root): one for one in find_studies(self._root)}
+        found |= {f"Shipped: {one.title}": one for one in find_studies(asset_path("studies"))}
         self._found = found
         kept = self._menu.value if self._menu.value in found else _NONE
         self._menu.options = (_NONE, *found)

@@ -1,0 +1,227 @@
+"""The scene of one session: coarse while something moves, fine at rest, ranges held, A beside B, the turning rotor."""
+
+import math
+from collections.abc import Iterator
+from contextlib import nullcontext
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+import viser
+
+from explorer.hosting import viser_compat
+from explorer.picture.disk_image import AT_REST, MOVING
+from explorer.picture.fields import FIELDS, Field
+from explorer.scene.controller import SceneController, apart
+from explorer.scene.overlays import OtherBlade
+from explorer.state import ViewState
+from rotor.design.twist import LinearTwist
+from rotor.files.make_design import make_design
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+ROTOR = make_design().rotor
+VIEW = ViewState()
+
+
+class Shown:
+    """What a display was told."""
+
+    def __init__(self) -> None:
+        self.calls: list[tuple[str, tuple[float, float], bool, tuple[bool, bool]]] = []
+
+    def show_range(
+        self, field: Field, colour_range: tuple[float, float], faded: bool, beyond: tuple[bool, bool] = (False, False)
+    ) -> None:
+        self.calls.append((field.title, colour_range, faded, beyond))
+
+
+class Page:
+    """A scene without a browser: its handles, and the scripts that the page would run."""
+
+    def __init__(self, server: viser.ViserServer) -> None:
+        self.scripts: list[str] = []
+        queue = SimpleNamespace(queue_message=lambda message: self.scripts.append(message.source))
+        client: Any = SimpleNamespace(
+            scene=server.scene, atomic=nullcontext, flush=lambda: None, _websock_connection=queue
+        )
+        self.shown = Shown()
+        display: Any = self.shown
+        self.controller = SceneController(client, ROTOR, display)
+        self._nodes = server.scene._handle_from_node_name
+
+    def __getitem__(self, name: str) -> Any:
+        return self._nodes[name]
+
+
+@pytest.fixture
+def page() -> Iterator[Page]:
+    server = viser_compat.quiet_server("127.0.0.1", 0, "test")
+    yield Page(server)
+    viser_compat.quiet_stop(server)
+
+
+@pytest.fixture(scope="module")
+def built() -> Solution:
+    return solve(make_design(mu=0.3)).require()
+
+
+@pytest.fixture(scope="module")
+def changed() -> Solution:
+    return solve(replace(make_design(mu=0.3), twist=LinearTwist(math.radians(-6.0)))).require()
+
+
+class TestCoarseAndFine:
+    def test_the_disk_is_small_while_it_moves_and_large_at_rest(self, page: Page, built: Solution):
+        page.controller.draw(built, VIEW, None)
+        assert page["/rotor/disk/field"].render_width == pytest.approx(2 * ROTOR.radius * MOVING / (MOVING - 2))
+        small = len(page["/rotor/disk/field"]._data)
+        page.controller.settle()
+        assert page["/rotor/disk/field"].render_width == pytest.approx(2 * ROTOR.radius * AT_REST / (AT_REST - 2))
+        assert len(page["/rotor/disk/field"]._data) > 2 * small
+
+    def test_settling_twice_draws_once(self, page: Page, built: Solution):
+        page.controller.draw(built, VIEW, None)
+        page.controller.settle()
+        fine = page["/rotor/disk/field"]._data
+        page["/rotor/disk/field"]._data = b""
+        page.controller.settle()
+        assert page["/rotor/disk/field"]._data == b""
+        assert fine
+
+    def test_only_the_reference_blade_bends_until_it_settles(self, page: Page, built: Solution, changed: Solution):
+        page.controller.draw(built, VIEW, None)
+        before = page["/rotor/blade_2"].vertices.copy()
+        page.controller.draw(changed, VIEW, None)
+        assert np.array_equal(page["/rotor/blade_2"].vertices, before)
+        assert not np.array_equal(page["/rotor/blade_0"].vertices, before)
+        page.controller.settle()
+        assert np.array_equal(page["/rotor/blade_2"].vertices, page["/rotor/blade_0"].vertices)
+
+    def test_a_turned_blade_leaves_the_disk_alone(self, page: Page, built: Solution):
+        page.controller.draw(built, VIEW, None)
+        page["/rotor/disk/field"]._data = b"as it was"
+        page.controller.draw(built, replace(VIEW, azimuth_deg=120.0), None)
+        assert page["/rotor/disk/field"]._data == b"as it was"
+        hub = page["/rotor/blade_0"].position
+        assert math.degrees(math.atan2(hub[1], hub[0])) == pytest.approx(120.0)
+
+
+class TestGhost:
+    def test_the_blade_as_built_stands_behind_a_changed_one(self, page: Page, built: Solution, changed: Solution):
+        page.controller.draw(built, VIEW, None)
+        assert not page["/rotor/blade_0/other"].visible
+        page.controller.draw(changed, VIEW, None)
+        assert page["/rotor/blade_0/other"].visible
+        assert not page["/rotor/blade_0/ghost"].visible  # Its edges follow at rest.
+        page.controller.settle()
+        assert page["/rotor/blade_0/ghost"].visible
+
+    def test_another_blade_can_take_its_place(self, page: Page, changed: Solution):
+        other = OtherBlade(ROTOR, changed.design.twist, (255, 176, 0))
+        page.controller.draw(changed, VIEW, other)
+        assert not page["/rotor/blade_0/other"].visible  # The same twist: nothing to tell apart.
+        page.controller.draw(changed, VIEW, replace(other, twist=LinearTwist(-0.3)))
+        assert page["/rotor/blade_0/other"].visible
+        assert tuple(page["/rotor/blade_0/other"].color) == (255, 176, 0)
+
+
+class TestRanges:
+    def test_a_range_fits_the_field_when_it_is_first_shown(self, page: Page, built: Solution):
+        for title in FIELDS:
+            page.controller.draw(built, replace(VIEW, field=title), None)
+        ranges = {title: held for title, held, _, _ in page.shown.calls}
+        assert set(ranges) == set(FIELDS)
+        assert ranges["Mach number"][1] <= 1.0
+        assert ranges["Angle of attack"] != (FIELDS["Angle of attack"].low, FIELDS["Angle of attack"].high)
+
+    def test_it_is_held_while_moving_and_fitted_at_rest(self, page: Page):
+        view = replace(VIEW, field="Thrust dT/dr")
+        light, heavy = (solve(make_design(mu=0.3, mass_kg=mass)).require() for mass in (5200.0, 10500.0))
+        page.controller.draw(light, view, None)
+        page.controller.settle()
+        first = page.shown.calls[-1][1]
+        page.controller.draw(heavy, view, None)
+        assert page.shown.calls[-1][1] == first
+        page.controller.settle()
+        assert page.shown.calls[-1][1][1] > first[1]
+
+    def test_a_range_that_was_asked_for_stays(self, page: Page):
+        view = replace(VIEW, field="Thrust dT/dr")
+        light, heavy = (solve(make_design(mu=0.3, mass_kg=mass)).require() for mass in (5200.0, 10500.0))
+        page.controller.order_range("Rescale")
+        page.controller.draw(light, view, None)
+        asked = page.shown.calls[-1][1]
+        page.controller.draw(heavy, view, None)
+        page.controller.settle()
+        _, held, _, beyond = page.shown.calls[-1]
+        assert held == asked
+        assert beyond[1]  # The bar says that values lie above it.
+
+
+class TestBeside:
+    def test_a_stands_beside_b_at_rest(self, page: Page, built: Solution, changed: Solution):
+        view = replace(VIEW, beside=True)
+        page.controller.draw(changed, view, None, built)
+        page.controller.settle()
+        assert page["/compared"].visible
+        assert np.allclose(page["/rotor"].position, apart(ROTOR.radius))
+        assert np.allclose(page["/compared"].position, -apart(ROTOR.radius))
+        assert not np.array_equal(page["/compared/blade_0"].vertices, page["/rotor/blade_0"].vertices)
+        page.controller.draw(changed, VIEW, None)
+        page.controller.settle()
+        assert not page["/compared"].visible
+        assert np.allclose(page["/rotor"].position, 0.0)
+
+    def test_two_disks_do_not_touch(self):
+        assert 2.0 * np.linalg.norm(apart(8.0)) > 2.0 * 1.2 * 8.0
+
+
+class TestPlay:
+    def test_the_page_turns_the_blades_and_the_scene_leaves_them(self, page: Page, built: Solution):
+        page.controller.draw(built, VIEW, None)
+        page.controller.settle()
+        assert page["/rotor/vortices"].visible
+        before = page["/rotor/blade_0"].wxyz.copy()
+        page.controller.play(True)
+        page.controller.draw(built, replace(VIEW, azimuth_deg=90.0), None)
+        assert np.array_equal(page["/rotor/blade_0"].wxyz, before)
+        assert page.scripts[-1] == f"rotorScene.turn({math.pi / 2:.4f})"
+        assert not page["/rotor/vortices"].visible
+        page.controller.play(False)
+        assert page.scripts[-1] == "rotorScene.stop()"
+        assert not np.array_equal(page["/rotor/blade_0"].wxyz, before)
+        assert page["/rotor/vortices"].visible
+
+    def test_a_slider_that_moves_meanwhile_changes_how_the_blades_flap(
+        self, page: Page, built: Solution, changed: Solution
+    ):
+        page.controller.draw(built, VIEW, None)
+        page.controller.play(True)
+        page.controller.draw(changed, VIEW, None)
+        told = [script for script in page.scripts if script.startswith("rotorScene.move")]
+        assert len(told) == 2
+        assert f"{changed.controls.coning}" in told[-1]
+
+
+class TestOverlays:
+    def test_vortices_and_arrows_are_switched(self, page: Page, built: Solution):
+        for wake, arrows in ((True, False), (False, True)):
+            page.controller.draw(built, replace(VIEW, wake=wake, arrows=arrows), None)
+            page.controller.settle()
+            assert page["/rotor/vortices"].visible == wake
+            assert page["/rotor/inflow"].visible == arrows
+
+    def test_a_lost_trim_greys_the_disk(self, page: Page, built: Solution):
+        page.controller.draw(built, VIEW, None)
+        page.controller.fade(built, VIEW)
+        assert page.shown.calls[-1][2]
+        assert page["/rotor/disk/field"].render_width == pytest.approx(2 * ROTOR.radius * MOVING / (MOVING - 2))
+
+    def test_a_dark_view_takes_the_dark_theme(self, page: Page, built: Solution):
+        page.controller.draw(built, VIEW, None)
+        light = tuple(page["/airframe/body"].color)
+        page.controller.draw(built, replace(VIEW, dark=True), None)
+        assert tuple(page["/airframe/body"].color) != light
