@@ -13,7 +13,7 @@ from explorer.charts.strip import (
 )
 from explorer.interface import SessionState
 from explorer.overlay.bridge import Bridge
-from explorer.race import Race
+from explorer.tabs.optimise.race import Race
 from explorer.tabs.power_card import against
 from explorer.text.units import UNITS, Units
 from explorer.theme.colours import START_COLOURS, css

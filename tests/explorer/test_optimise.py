@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from explorer.race import race_of
 from PIL import Image
 
 from explorer.charts.plots import Plot
@@ -20,6 +19,7 @@ from explorer.tabs.optimise import mission, power_map, schedule_view, sensitivit
 from explorer.tabs.optimise import text as search_text
 from explorer.tabs.optimise.concept_picture import concept_picture
 from explorer.tabs.optimise.map_panel import default_axes
+from explorer.tabs.optimise.race import race_of
 from explorer.tabs.optimise.run import SearchRun
 from explorer.tabs.optimise.search_request import OBJECTIVES, SearchRequest
 from explorer.text.units import SI

@@ -18,7 +18,7 @@ from explorer.tabs.lecture.steps import STEPS
 from explorer.text.glossary import hint
 from explorer.text.units import UNITS
 from explorer.tour import STOPS, stop_begins, tour_at
-from explorer.workers.clock import Player
+from explorer.workers.player import Player
 
 _NO_CASE = "–"
 _PRESENTING = (

@@ -7,17 +7,17 @@ import viser
 
 from explorer.interface import TabContext
 from explorer.overlay.bridge import Bridge
-from explorer.schedule_flight import ScheduleFlight
 from explorer.state import with_optimum
 from explorer.tabs.chart_panel import Chart, line
 from explorer.tabs.optimise import mission, schedule_view
+from explorer.tabs.optimise.schedule_flight import ScheduleFlight
 from explorer.tabs.optimise.schedule_view import LEGS, PlanProgress
 from explorer.tabs.optimise.search_request import SearchRequest
 from explorer.text.glossary import hint
 from explorer.text.units import UNITS
 from explorer.theme.colours import BASELINE, NOW, THIS, colour_map, css
-from explorer.workers.clock import Player
 from explorer.workers.job import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
+from explorer.workers.player import Player
 from explorer.workers.pool import PoolClient
 from explorer.workers.tasks import FixedPowers, ScheduleTask
 from rotor.design.design import Design
@@ -36,11 +36,12 @@ class SchedulePanel:
     """One session's schedule."""
 
     def __init__(
-<<<<<<< HEAD
-        self, gui: viser.GuiApi, pool: PoolClient, context: TabContext, request: Callable[[], SearchRequest]
-=======
-        self, gui: viser.GuiApi, bridge: Bridge, pool: Share, context: TabContext, request: Callable[[], SearchRequest]
->>>>>>> stage
+        self,
+        gui: viser.GuiApi,
+        bridge: Bridge,
+        pool: PoolClient,
+        context: TabContext,
+        request: Callable[[], SearchRequest],
     ) -> None:
         self._pool, self._context, self._request = pool, context, request
         self._flight: ScheduleFlight | None = None

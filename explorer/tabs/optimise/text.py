@@ -2,7 +2,7 @@
 
 from html import escape
 
-from explorer.race import Race
+from explorer.tabs.optimise.race import Race
 from explorer.tabs.optimise.run import SearchRun
 from explorer.text.units import SI, Units, number
 from explorer.theme.colours import START_COLOURS, css
