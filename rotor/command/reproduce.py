@@ -43,7 +43,7 @@ def run(args: argparse.Namespace) -> int:
     if not 1 <= processes <= 64:
         raise ValueError(f"{processes} processes are outside 1…64: give one a core")
     wanted = [find_entry(number) for number in args.figure or ()]
-    entries = [entry for entry in ENTRIES if entry in wanted] if wanted else list(ENTRIES)  # In the document's order.
+    entries = [entry for entry in ENTRIES if entry in wanted] if wanted else list(ENTRIES)  # In the thesis' order.
     folder = Path(args.out)
     try:
         folder.mkdir(parents=True, exist_ok=True)

@@ -104,7 +104,7 @@ BAD = {
     "parameter": ("[axes]\nrate_deg = [-8]\n", "line 2", "concept"),
     "missing parameter": ("[axes]\ninboard_rate_deg = [-8]\n[fixed]\nconcept = 'two-segment'\n", "outboard", "add"),
     "no concept": ("[axes]\nmu = [0.1]\n[optimum]\n", "concept", "add"),
-    "nothing to search": ("[axes]\nrate_deg = [-8]\n[fixed]\nconcept = 'linear'\n[optimum]\n", "no free parameter", "leave"),
+    "none free": ("[axes]\nrate_deg = [-8]\n[fixed]\nconcept = 'linear'\n[optimum]\n", "no free parameter", "leave"),
     "starts": ("[axes]\nmu = [0.1]\n[fixed]\nconcept = 'linear'\n[optimum]\nstarts = 0\n", "line 6", "1…1000"),
     "rate": ("[axes]\nmu = [0.1]\n[fixed]\nconcept = 'linear'\n[optimum]\nrate_deg = [0, -20]\n", "line 6", "[-20, 0]"),
     "least": ("[axes]\nmu = [0.1]\n[show]\nleast = 'noise'\n", "line 4", "power_total_w"),
