@@ -76,7 +76,8 @@ def _head(made: Sequence[tuple[CatalogueEntry, Report]], pictures: bool) -> str:
         "<b>thesis</b> is the model as printed, <b>flight</b> the best available, <b>thesis-wake</b> the thesis preset "
         "with a wake that responds to loading. The text is available up to figure 3.15; of chapters 4 to 6 only "
         f'the captions.</p><p>{len(made)} rebuilt: {summary}. <a href="misprints.html">'
-        f"What the thesis omits or misprints</a>.</p>{without}<details open><summary>Contents</summary><table class=toc>{rows}</table></details>"
+        f"What the thesis omits or misprints</a>.</p>{without}"
+        f"<details open><summary>Contents</summary><table class=toc>{rows}</table></details>"
     )
 
 
