@@ -47,7 +47,7 @@ def verification() -> Iterator[TrustRow]:
     yield _bound("Shaft power = induced + profile + parasite, µ 0.1…0.3, three inflow models", "identity", _energy(),
                  1e-8, "rotor/trim/test_power.py::test_energy_identity")  # fmt: skip
     yield _bound("Gradient of power by linear twist, dynamic wake", "central differences", _gradient(), 1e-5,
-                 "rotor/aero/test_inflow_reacting.py::test_adjoint_against_differences")  # fmt: skip
+                 "rotor/aero/test_inflow_load_dependent.py::test_adjoint_against_differences")  # fmt: skip
     yield _bound("Profile power with reverse flow, (3.15) corrected", "quadrature of |U_T|³", _profile(), 1e-5,
                  "rotor/trim/test_power.py::test_eq_3_15_with_its_first_coefficient_corrected")  # fmt: skip
     flapping, second = _flapping()
