@@ -1,8 +1,8 @@
-"""The browser page: widgets → `Design` → `solve` → `Solution` → pictures, plots, read-outs.
+"""The page in the browser: sliders → `Design` → `solve` → `Solution` → 3D picture, charts and numbers.
 
-Modules that make arrays, text and decisions do not know viser; `tests/test_layers.py` lists those that may. Long work
-runs in processes: `SearchRequest` → `Search` → `workers.tasks` in a process → `tabs.optimise.run` → frames and charts.
-The session shows the designs of a search in place of the sliders' design until they are applied or discarded.
+`session.py` holds the path of a slider step; each other part of the page has a folder. Modules that make arrays, text
+and decisions do not import viser; `tests/test_layers.py` lists the folders that may, and the order in which folders
+import each other. Searches and schedules run in worker processes (`workers/`), and `tabs/` shows their progress.
 
 `show` opens the page from Python, in a notebook or a script.
 

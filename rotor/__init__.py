@@ -1,8 +1,14 @@
-"""Helicopter main-rotor aerodynamics: trim, power and twist, of the UH-60A where no other rotor is named.
+"""Helicopter main-rotor aerodynamics: trim, power and twist. The UH-60A is the default rotor.
 
-Conventions, said once:
+    design = rotor.make_design(twist="linear:-12", mu=0.2)
+    solution = rotor.solve(design)
+    solution.power.total
+    rotor.sweep(design, mu=[0.1, 0.2, 0.3])
+    rotor.optimise(design, concept="two-segment").twist
 
-- SI units and radians everywhere inside; names that end in `_deg`, `_kw`, `_kg`, `_m` are the edges.
+Conventions:
+
+- SI units and radians. A name that ends in `_deg`, `_kw`, `_kt`, `_kg` or `_m` has that unit.
 - ψ = 0 over the tail, counter-clockwise seen from above, advancing side ψ = 90°. r = y/R.
 - Arrays over the disk are (radius, azimuth): elements first, azimuths second.
 - Velocities are over ΩR. λ is positive down through the disk, U_P likewise. β up, θ nose-up.

@@ -1,6 +1,7 @@
 """The borders of the code: `rotor` knows no page, the page's arrays and text no viser, all imports are declared."""
 
 import ast
+import graphlib
 import re
 import subprocess
 import sys
@@ -45,6 +46,9 @@ def imports(path: Path, *, lazy: bool) -> set[str]:
                 yield from walk(child)
 
     return set(walk(ast.parse(path.read_text(encoding="utf-8"), str(path))))
+
+
+MODULES = [*sources("rotor"), *sources("explorer")]
 
 
 def name(path: Path) -> str:
@@ -97,6 +101,39 @@ def imported_parts(path: Path, package: str) -> Iterator[str]:
             yield node.module.split(".")[1]
 
 
+def test_no_modules_import_each_other_in_a_circle():
+    """Imports inside functions and for type checking included."""
+    modules = {".".join(path.relative_to(ROOT).with_suffix("").parts): path for path in MODULES}
+    modules = {module.removesuffix(".__init__"): path for module, path in modules.items()}
+    graph: dict[str, set[str]] = {module: set() for module in modules}
+    for module, path in modules.items():
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ImportFrom) and node.module:
+                inner = {f"{node.module}.{alias.name}" for alias in node.names} & set(modules)
+                graph[module] |= inner or ({node.module} & set(modules))
+    order = list(graphlib.TopologicalSorter(graph).static_order())  # CycleError names the circle.
+    assert len(order) == len(MODULES)
+
+
+def test_class_names_are_used_once():
+    places: dict[str, list[str]] = {}
+    for path in MODULES:
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ClassDef):
+                places.setdefault(node.name, []).append(name(path))
+    assert not {title: paths for title, paths in places.items() if len(paths) > 1}
+
+
+def test_no_module_is_long():
+    """None of 600 lines; above 400 the docstring explains the file in three lines or more."""
+    for path in MODULES:
+        text = path.read_text(encoding="utf-8")
+        length = text.count("\n")
+        assert length < 600, f"{name(path)} has {length} lines"
+        explained = (ast.get_docstring(ast.parse(text)) or "").count("\n") >= 2
+        assert length <= 400 or explained, f"{name(path)} has {length} lines: say in its docstring why it is one file"
+
+
 def test_importing_rotor_brings_no_page():
     code = "import sys, rotor; print(*sorted({m.partition('.')[0] for m in sys.modules} & {'viser', 'explorer'}))"
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
@@ -128,3 +165,12 @@ def test_pinned_versions_satisfy_what_is_declared():
     groups = [group for name, group in project["optional-dependencies"].items() if name != "crosscheck"]
     extras = {re.split(r"[^\w-]", item)[0] for group in groups for item in group}
     assert extras - {"rotor-explorer"} <= pins["requirements.txt"] | pins["requirements-dev.txt"]
+
+
+def test_commits_are_checked_by_the_same_ruff():
+    """pre-commit installs its own: the version in its file is the one in the requirements."""
+    pinned = re.search(r"^ruff==([\w.]+)$", (ROOT / "requirements-dev.txt").read_text(encoding="utf-8"), re.MULTILINE)
+    assert pinned is not None
+    used = re.findall(r"ruff==([\w.]+)", (ROOT / ".pre-commit-config.yaml").read_text(encoding="utf-8"))
+    assert used
+    assert set(used) == {pinned[1]}

@@ -1,1 +1,1 @@
-"""The command line, one command a file. Degrees, knots, kW and tonnes exist only here and in the explorer."""
+"""The command line, one command a file. Degrees, knots, kW and tonnes are used only here and in the explorer."""

@@ -1,4 +1,4 @@
-"""`actuator`: could an actuator make the change of twist between two flight conditions, and would it pay?"""
+"""`actuator`: required and attainable twist between two flight conditions, and the net saving."""
 
 import argparse
 import json
@@ -21,43 +21,52 @@ from rotor.optimisation.concepts import find_concept
 def add_parser(commands: Any) -> None:
     """Register the command."""
     parser = add_command(
-        commands, "actuator", "whether an actuator could make a change of twist, and whether that would pay"
+        commands, "actuator", "attainable twist, limits and net saving of an actuator between two flight conditions"
     )
-    parser.add_argument("--actuator", metavar="ID", default="MFC_P1", help="MFC_P1 (default) … see --table 5.1")
-    parser.add_argument("--plies", type=int, default=2, metavar="N", help="per skin (default 2); tubes for a tube")
+    parser.add_argument("--actuator", metavar="ID", default="MFC_P1", help="MFC_P1 (default); list: --table 5.1")
+    parser.add_argument(
+        "--plies", type=int, default=2, metavar="N", help="per skin (default 2); for a torque tube: number of tubes"
+    )
     parser.add_argument("--concept", default="linear", metavar="NAME", help="twist concept (default linear)")
-    parser.add_argument("--division", metavar="R,…", help="where segments meet, r/R, with segmented concepts")
+    parser.add_argument("--division", metavar="R,…", help="r/R of the breaks, for concepts with segments")
     parser.add_argument("--from-mu", type=finite, default=0.0, metavar="MU", help="first advance ratio (default hover)")
     parser.add_argument("--to-mu", type=finite, default=0.3, metavar="MU", help="second advance ratio (default 0.3)")
     parser.add_argument(
-        "--share", type=finite, default=0.5, metavar="0…1", help="part of the time in the second (default 0.5)"
+        "--share",
+        type=finite,
+        default=0.5,
+        metavar="0…1",
+        help="fraction of time in the second condition (default 0.5)",
     )
     parser.add_argument(
-        "--blade", choices=("retrofit", "new"), default="retrofit", help="the flown blade (default), or one made for it"
+        "--blade",
+        choices=("retrofit", "new"),
+        default="retrofit",
+        help="retrofit of the existing blade (default) or a new blade",
     )
     parser.add_argument(
-        "--stiffness", type=finite, metavar="G", help="GJ of a new blade over the flown one's (default 0.5)"
+        "--stiffness", type=finite, metavar="G", help="GJ of a new blade relative to the existing one (default 0.5)"
     )
     parser.add_argument("--span", metavar="A:B", help="active span, r/R (default 0.2433:0.9292)")
     parser.add_argument("--chord", metavar="A:B", help="active chord, x/c (default 0.05:0.80)")
     parser.add_argument("--angle-deg", type=finite, default=45.0, metavar="DEG", help="fibre angle (default 45)")
-    parser.add_argument("--derated", action="store_true", help="count on the twist that a tested blade would show")
-    parser.add_argument("--harmonic", type=int, metavar="N", help="also N/rev active twist at the second condition")
-    parser.add_argument("--table", choices=("5.1", "5.2"), help="print a table of the document's form instead")
+    parser.add_argument("--derated", action="store_true", help="use the twist derated by test")
+    parser.add_argument("--harmonic", type=int, metavar="N", help="also try N/rev active twist at the second condition")
+    parser.add_argument("--table", choices=("5.1", "5.2"), help="print table 5.1 or 5.2 instead")
     add_design_arguments(parser, one_twist=True)
     parser.add_argument("--json", action="store_true", help="machine-readable output")
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
-    """0 answered (yes or no), 1 where nothing trims."""
+    """Exit code 0, or 1 where nothing trims."""
     if args.table == "5.1":
         _show(table_5_1(), args.json)
         return 0
     actuator, concept = find_actuator(args.actuator), find_concept(args.concept, _divisions(args.division))
     pair = ConditionPair(design_from(args, args.twist, args.from_mu), (args.from_mu, args.to_mu), args.share)
     check_blade(pair.design.aircraft)
-    pair.designs()  # Bad input speaks before anything is computed.
+    pair.designs()  # Bad input is reported before anything is computed.
     if args.harmonic is not None:
         Harmonic(args.harmonic, 0.0)
     placement, host = _placement(args), _host(args.blade, args.stiffness)
@@ -77,7 +86,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def record(verdict: Verdict, turned: PhaseSweep | None = None) -> dict[str, Any]:
-    """The JSON of `actuator --json`. Savings are means over both conditions."""
+    """The JSON of `actuator --json`. Savings are means over both conditions [W]."""
     values: dict[str, Any] = {
         "status": "converged",
         "message": verdict_sentence(verdict),
@@ -114,7 +123,7 @@ def record(verdict: Verdict, turned: PhaseSweep | None = None) -> dict[str, Any]
 
 
 def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
-    """The same keys where nothing trims; what is not known is null."""
+    """The same keys where nothing trims; unknown values are null."""
     known = {"status": "not-converged", "message": message, "actuator": args.actuator, "plies": args.plies}
     unknown = (
         "required_twist_deg", "attainable_twist_deg", "attainable_twist_derated_deg", "feasible",
@@ -132,7 +141,7 @@ def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
 
 
 def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
-    """The same for a reader."""
+    """The same as text."""
     installed, base = verdict.installed, verdict.baseline
     masses = installed.masses
     first, second = (best.power / 1e3 for best in base.best)
@@ -141,36 +150,36 @@ def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
     lines = [
         verdict_sentence(verdict),
         "",
-        f"best twist at each condition  {twists[0]} ({first:.1f} kW), {twists[1]} ({second:.1f} kW)",
+        f"optimum at each condition     {twists[0]} ({first:.1f} kW), {twists[1]} ({second:.1f} kW)",
         f"best fixed blade              {twists[2]} (mean {base.fixed.power / 1e3:.1f} kW)",
-        f"unlimited twist would save    {_kw(verdict.ideal_saving)}",
-        f"this actuator saves, gross    {_kw(verdict.gross_saving)}",
-        f"after mass and drive          {_kw(verdict.net_saving)}",
+        f"free in-flight twist saves    {_kw(verdict.ideal_saving)}",
+        f"gross saving                  {_kw(verdict.gross_saving)}",
+        f"net saving, mass and drive    {_kw(verdict.net_saving)}",
         "",
-        f"twist needed      {math.degrees(verdict.required):8.2f} °  (segments added)",
+        f"twist required    {math.degrees(verdict.required):8.2f} °  (sum of segments)",
         f"twist attainable  {math.degrees(verdict.attainable):8.2f} °{tested}",
-        f"used              {math.degrees(verdict.attained):8.2f} °",
+        f"twist used        {math.degrees(verdict.attained):8.2f} °",
         f"moment            {installed.moment:8.0f} N·m on GJ {installed.section_stiffness:.0f} N·m²",
         f"torsion           {installed.frequency:8.2f} /rev",
         f"added mass        {masses.aircraft:8.1f} kg  ({masses.blade:.1f} per blade, "
         f"{masses.balance:.1f} of it nose weight)",
-        f"drive             {verdict.drive.slew_power:8.1f} W while moving for {verdict.drive.slew_time:.0f} s, "
+        f"drive             {verdict.drive.slew_power:8.1f} W during a change of {verdict.drive.slew_time:.0f} s, "
         f"{verdict.drive.hold_power:.0f} W to hold",
     ]
     edges = (base.pair.design.rotor.blade.root_cutout, *installed.placement.divisions, 1.0)
     for k, (a, b) in enumerate(verdict.voltages):
         lines.append(f"segment {k + 1}         {edges[k]:.2f}…{edges[k + 1]:.2f} R: {a:.0f} V, then {b:.0f} V")
     if turned is not None and not turned.dynamic.amplitude:
-        lines += ["", f"{turned.dynamic.per_rev}/rev: this actuator cannot follow it"]
+        lines += ["", f"{turned.dynamic.per_rev}/rev: this actuator is too slow"]
     elif turned is not None:
-        left = "no trim with" if turned.net_saving is None else f"{turned.net_saving / 1e3:.1f} kW after"
+        left = "no trim with" if turned.net_saving is None else f"{turned.net_saving / 1e3:.1f} kW with"
         lines += [
             "",
-            f"{turned.dynamic.per_rev}/rev at µ {base.pair.advance_ratios[1]:g} instead: up to "
+            f"{turned.dynamic.per_rev}/rev at µ {base.pair.advance_ratios[1]:g}: up to "
             f"±{math.degrees(turned.dynamic.amplitude):.2f}°, {100 * turned.share:.0f} % used, saves "
             f"{turned.gross_saving / 1e3:.1f} kW; {left} its mass and losses",
         ]
-    lines += ["", *(f"{'ok    ' if limit.ok else 'BROKEN'} {limit.sentence}" for limit in verdict.limits)]
+    lines += ["", *(f"{'met     ' if limit.ok else 'EXCEEDED'} {limit.sentence}" for limit in verdict.limits)]
     return "\n".join([*lines, *(f"caveat: {caveat}" for caveat in verdict.caveats)])
 
 
@@ -179,7 +188,7 @@ def _show(table: ActuatorTable, as_json: bool) -> None:
 
 
 def _kw(power: float) -> str:
-    """Two decimals in a column, and no negative nothing."""
+    """Kilowatts with two decimals, without negative zero."""
     return f"{round(power / 1e3, 2) + 0.0:8.2f} kW"
 
 
@@ -195,7 +204,7 @@ def _placement(args: argparse.Namespace) -> Placement:
     chord = _ends(args.chord, "chord") or base.chord
     if not 0.0 < args.angle_deg < 90.0:
         raise ValueError(
-            f"fibre angle {args.angle_deg:g}° is not between 0 and 90°: choose a value inside, 45 twists most"
+            f"fibre angle {args.angle_deg:g}° is not between 0 and 90°: choose a value inside; 45 gives the most twist"
         )
     return Placement(span, chord, args.plies, math.radians(args.angle_deg))
 

@@ -1,4 +1,4 @@
-"""`airfoil`: rebuild, verify or show a section's deck.
+"""`airfoil`: rebuilds, verifies or shows the deck of a section.
 
 Exit codes: 0 done, 1 `verify` found a difference, 2 bad input (raised as ValueError, printed by the caller).
 """
@@ -19,13 +19,13 @@ from rotor.airfoil.sections import load_installed
 from rotor.assets import asset_path
 from rotor.command.flags import add_command
 
-CL_TOLERANCE = 0.01  # Convergence gaps of XFOIL move with its version and the machine, so bytes cannot be compared.
+CL_TOLERANCE = 0.01  # XFOIL's convergence depends on version and machine, so files cannot be compared byte by byte.
 CD_TOLERANCE = 0.03
 
 
 def add_parser(subparsers: Any) -> None:
     """Register the command and its three actions."""
-    parser = add_command(subparsers, "airfoil", "section data: build, verify or show them")
+    parser = add_command(subparsers, "airfoil", "builds, verifies or shows section data")
     parser.add_argument("action", choices=("build", "verify", "show"), help="what to do")
     parser.add_argument("name", metavar="NAME", help=f"{', '.join(RECIPES)}; show also takes {THESIS_NAME}")
     parser.add_argument(

@@ -52,7 +52,7 @@ def measure_searches(*, long: bool) -> dict[str, float]:
         elapsed = 0.0
         for mu in _SEARCH_ADVANCE_RATIOS:
             design = make_design(preset="flight", mu=mu)
-            solve(design)  # Lays out the grid and the wake once, as a page has long done.
+            solve(design)  # Builds the grid and the wake once, as an open page has done.
             elapsed += run_search(Search(design, find_concept(concept), starts=starts)).elapsed
         figures[name] = elapsed / len(_SEARCH_ADVANCE_RATIOS)
     if long:
@@ -71,7 +71,7 @@ _POINTS = 200
 
 
 def measure_batch() -> dict[str, float]:
-    """Trims a second of processor time, one core, by name; the middle of the packaged study of 10⁵ sampled trims."""
+    """Trims a second of processor time, one core; the middle of the shipped study of 10⁵ sampled trims."""
     study = read_study("hundred_thousand.toml").study
     first = study.chunks // 2 * study.chunk
     designs = [trim_of(values, study) for values in study.values(first, first + _POINTS)]
@@ -108,7 +108,7 @@ def add_parser(commands: Any) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """0, whatever the machine: targets are printed, not enforced."""
+    """Exit code 0: targets are printed, not enforced."""
     figures, notes = measure()
     searches = measure_searches(long=args.long)
     batch = measure_batch()

@@ -36,16 +36,14 @@ def add_design_arguments(parser: argparse.ArgumentParser, *, one_twist: bool) ->
     )
     add_rotor_argument(parser)
     parser.add_argument("--twist", metavar="SPEC", nargs=None if one_twist else "+", help=twist)
-    parser.add_argument(
-        "--preset", metavar="NAME", help="flight (default): what we believe; thesis: as the document states"
-    )
+    parser.add_argument("--preset", metavar="NAME", help="flight (default): best available; thesis: as printed")
     parser.add_argument("--inflow", metavar="NAME", help="forward-flight inflow model, for example pitt-peters")
     parser.add_argument(
         "--mass-kg", type=finite, metavar="KG", help="aircraft mass (default: the rotor's reference mass)"
     )
     parser.add_argument("--altitude-m", type=finite, metavar="M", help="pressure altitude (default 0)")
-    parser.add_argument("--airfoils", metavar="SPEC", help="sections root to tip, as sc1094r8,sc1095@0.5")
-    parser.add_argument("--off", metavar="NAMES", help="switch off parts of the physics, as tip-loss,reverse-flow")
+    parser.add_argument("--airfoils", metavar="SPEC", help="sections root to tip, e.g. sc1094r8,sc1095@0.5")
+    parser.add_argument("--off", metavar="NAMES", help="switch off physical effects, e.g. tip-loss,reverse-flow")
     parser.add_argument("--case", metavar="FILE", help="design file (JSON); other flags override it")
 
 
@@ -59,7 +57,7 @@ def add_rotor_argument(parser: argparse.ArgumentParser) -> None:
 def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: float | None) -> Design:
     """The design that the flags describe, on top of a design file where one is given."""
     base = load_design(args.case) if args.case else None
-    blade = base if base and not (args.preset or args.rotor) else None  # Another rotor, or preset, has its own blade.
+    blade = base if base and not (args.preset or args.rotor) else None  # Another rotor or preset has its own blade.
     design = make_design(
         preset=args.preset or (base.preset if base else "flight"),
         rotor=find_aircraft(args.rotor) if args.rotor else base.aircraft if base else SHIPPED_ROTORS[0],
@@ -103,12 +101,12 @@ def finite(text: str) -> float:
 
 
 def add_search_arguments(parser: argparse.ArgumentParser, starts: int) -> None:
-    """Starts, seed and limits."""
-    parser.add_argument("--starts", type=int, default=starts, metavar="N", help=f"starts a search (default {starts})")
-    parser.add_argument("--seed", type=int, default=0, metavar="N", help="of the starting points (default 0)")
+    """Starting points, seed and limits."""
     parser.add_argument(
-        "--on-top", action="store_true", help="the concept is a change added to the design's own twist, which stays"
+        "--starts", type=int, default=starts, metavar="N", help=f"starting points per search (default {starts})"
     )
+    parser.add_argument("--seed", type=int, default=0, metavar="N", help="seed of the starting points (default 0)")
+    parser.add_argument("--on-top", action="store_true", help="add the concept to the design's own twist")
     limits = parser.add_argument_group("limits")
     limits.add_argument(
         "--bound", action="append", default=[], metavar="NAME=LOW,HIGH",
@@ -117,17 +115,17 @@ def add_search_arguments(parser: argparse.ArgumentParser, starts: int) -> None:
     limits.add_argument(
         "--rate-deg", metavar="LOW,HIGH", help="twist rate of every segment, degrees per radius, e.g. --rate-deg=-20,0"
     )
-    limits.add_argument("--stalled-percent", type=finite, metavar="P", help="largest stalled part of the disk")
+    limits.add_argument("--stalled-percent", type=finite, metavar="P", help="largest stalled fraction of the disk")
     limits.add_argument(
         "--change-deg", type=finite, metavar="DEG",
-        help="largest change from the design's own twist, root to tip, growing evenly along the blade",
+        help="largest change from the design's own twist, root to tip, linear along the blade",
     )  # fmt: skip
     limits.add_argument(
         "--actuator", metavar="ID",
-        help="stay within what this actuator on the flown blade can change of the design's own twist, e.g. MFC_P1",
+        help="limit the change of twist to the range of this actuator as a retrofit, e.g. MFC_P1",
     )  # fmt: skip
-    limits.add_argument("--plies", type=int, metavar="N", help="of that actuator, per skin (default 2)")
-    limits.add_argument("--derated", action="store_true", help="count on what a tested blade showed of such a change")
+    limits.add_argument("--plies", type=int, metavar="N", help="plies of that actuator per skin (default 2)")
+    limits.add_argument("--derated", action="store_true", help="use that range derated by test")
 
 
 def limits_from(args: argparse.Namespace, design: Design, concepts: tuple[Concept, ...]) -> Limits:
@@ -156,10 +154,10 @@ def limits_from(args: argparse.Namespace, design: Design, concepts: tuple[Concep
 
 
 def _change(args: argparse.Namespace, design: Design) -> ChangeLimit | None:
-    """Change from the design's own twist: an angle, or what an actuator can make."""
+    """Limit on the change from the design's own twist: an angle, or the range of an actuator."""
     if args.actuator is None:
         if args.plies is not None or args.derated:
-            raise ValueError("--plies and --derated are of an actuator: add --actuator, for example MFC_P1")
+            raise ValueError("--plies and --derated need an actuator: add --actuator, for example MFC_P1")
         root = design.rotor.blade.root_cutout
         return None if args.change_deg is None else even_change_limit(design.twist, math.radians(args.change_deg), root)
     if args.change_deg is not None:

@@ -1,4 +1,4 @@
-"""`ideal`: the least induced power that any circulation, and any steady twist, could have."""
+"""`ideal`: the least induced power over all circulations and over all steady twists."""
 
 import argparse
 import math
@@ -29,7 +29,7 @@ _EXPLANATION = (
 
 def add_parser(commands: Any) -> None:
     """Register the command."""
-    parser = add_command(commands, "ideal", "least induced power of any circulation and of any steady twist")
+    parser = add_command(commands, "ideal", "least induced power over all circulations and over all steady twists")
     parser.add_argument(
         "--mu", required=True, metavar="A:B:STEP", help="advance ratios above 0, for example 0.1:0.4:0.1"
     )
@@ -47,7 +47,7 @@ def run(args: argparse.Namespace) -> int:
     speeds = parse_range(args.mu)
     masses = parse_range(args.mass_kg) if args.mass_kg else [craft.mass]
     if min(speeds) < 0.02:
-        raise ValueError(f"advance ratio {min(speeds):g} is too slow for a skewed wake: start at 0.02 or more")
+        raise ValueError(f"advance ratio {min(speeds):g} is too low for a skewed wake: start at 0.02 or more")
     designs = [make_design(rotor=craft, mu=mu, mass_kg=mass) for mu in speeds for mass in masses]
     rows: list[tuple[str, ...]] = []
     print("".join(f"{name:>16}" for name in COLUMNS))

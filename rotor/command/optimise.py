@@ -26,25 +26,29 @@ from rotor.units import KNOT
 
 def add_parser(commands: Any) -> None:
     """Register the command."""
-    parser = add_command(commands, "optimise", "the twist of least power, how flat the optimum is, what it saves")
+    parser = add_command(commands, "optimise", "twist of least power, width of the optimum, saving")
     parser.add_argument("--concept", default="linear", metavar="NAME", help=concept_help())
-    parser.add_argument("--division", metavar="R", help="where segments meet, r/R: 0.5, or 0.48,0.84 for three")
+    parser.add_argument("--division", metavar="R", help="r/R of the breaks: 0.5, or 0.48,0.84 for three segments")
     speed = parser.add_mutually_exclusive_group()
-    speed.add_argument("--mu", type=finite, metavar="MU", help="advance ratio (default 0.2); cruise of hover-cruise")
+    speed.add_argument(
+        "--mu", type=finite, metavar="MU", help="advance ratio (default 0.2); the cruise condition of hover-cruise"
+    )
     speed.add_argument("--speed-kt", type=finite, metavar="KT", help="airspeed in knots")
     speed.add_argument("--hover", action="store_true", help="hover")
     parser.add_argument("--objective", default="total", metavar="NAME", help="total (default) | induced | hover-cruise")
-    parser.add_argument("--hover-share", type=finite, metavar="S", help="part of the time in hover (default 0.5)")
-    parser.add_argument("--mission", metavar="FILE", help="CSV of mu,mass_kg,altitude_m,hours: least mean power")
+    parser.add_argument("--hover-share", type=finite, metavar="S", help="fraction of time in hover (default 0.5)")
+    parser.add_argument("--mission", metavar="FILE", help="CSV of mu,mass_kg,altitude_m,hours: minimise the mean power")
     add_design_arguments(parser, one_twist=True)
     add_search_arguments(parser, STARTS)
-    parser.add_argument("--no-band", dest="band", action="store_false", help="do not measure how flat the optimum is")
+    parser.add_argument(
+        "--no-band", dest="band", action="store_false", help="do not compute the 0.1 % band of each parameter"
+    )
     parser.add_argument("--json", action="store_true", help="machine-readable output")
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
-    """0 converged, 1 not converged, 130 stopped by Ctrl-C with the best so far printed."""
+    """0 converged, 1 not converged, 130 stopped by Ctrl-C with the best design so far printed."""
     design = design_from(args, args.twist, 0.0 if args.hover or args.speed_kt is not None else args.mu)
     if args.speed_kt is not None:
         design = design_from(args, args.twist, args.speed_kt * KNOT / design.rotor.tip_speed)
@@ -69,7 +73,7 @@ def run(args: argparse.Namespace) -> int:
 def _objective(args: argparse.Namespace, design: Design) -> Objective:
     if args.objective == "hover-cruise":
         if args.mission or args.hover:
-            raise ValueError("objective hover-cruise has its own conditions: leave out --mission and --hover")
+            raise ValueError("objective hover-cruise sets its own conditions: omit --mission and --hover")
         return hover_and_cruise(
             design, 0.5 if args.hover_share is None else args.hover_share, design.condition.advance_ratio
         )
@@ -87,7 +91,7 @@ def _words(progress: Progress) -> str:
 
 
 def named(concept: Concept, values: tuple[float, ...]) -> dict[str, float]:
-    """Parameters by name as people read them, degrees in names that end in _deg."""
+    """Parameters by label, degrees in labels that end in _deg."""
     return {
         parameter.label: round(parameter.shown(value), 6)
         for parameter, value in zip(concept.parameters, values, strict=True)
@@ -95,7 +99,7 @@ def named(concept: Concept, values: tuple[float, ...]) -> dict[str, float]:
 
 
 def record(optimum: Optimum, concept: Concept) -> dict[str, Any]:
-    """The JSON of `optimise --json`; what was not found is null."""
+    """The JSON of `optimise --json`; values not found are null."""
     best = optimum.best
     by_name = {parameter.name: parameter for parameter in concept.parameters}
     return {
@@ -135,7 +139,7 @@ def _minimum(one: Minimum, concept: Concept) -> dict[str, Any]:
 
 
 def report(optimum: Optimum, concept: Concept) -> str:
-    """The same for a reader."""
+    """The same as text."""
     best = optimum.best
     lines = [f"{concept.title}: {optimum.status.value}. {optimum.message}"]
     if best is None:
@@ -151,10 +155,12 @@ def report(optimum: Optimum, concept: Concept) -> str:
     airfoils = airfoils_spec(optimum.design.rotor)
     if airfoils:
         lines.append(f"airfoils {airfoils}")
-    lines.append(f"power {best.power / 1e3:.2f} kW" + (f"; held by {', '.join(best.active)}" if best.active else ""))
+    lines.append(
+        f"power {best.power / 1e3:.2f} kW" + (f"; active limits: {', '.join(best.active)}" if best.active else "")
+    )
     if optimum.baseline_power is not None and optimum.saving is not None:
-        lines.append(f"the blade given takes {optimum.baseline_power / 1e3:.2f} kW: {100 * optimum.saving:.2f} % saved")
+        lines.append(f"starting design {optimum.baseline_power / 1e3:.2f} kW, saving {100 * optimum.saving:.2f} %")
     for other in optimum.minima[1:]:
-        lines.append(f"another minimum: {other.power / 1e3:.2f} kW with {other.twist}")
+        lines.append(f"local minimum: {other.power / 1e3:.2f} kW with {other.twist}")
     lines.append(f"{optimum.evaluations} designs in {optimum.elapsed:.2f} s")
     return "\n".join(lines)

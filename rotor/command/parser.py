@@ -8,7 +8,7 @@ from rotor.command import actuator, airfoil, bench, ideal, optimise, reproduce, 
 
 
 class OneLineParser(argparse.ArgumentParser):
-    """Says what is wrong in one line, as every other error of this program."""
+    """Reports errors in one line, like the rest of this program."""
 
     def error(self, message: str) -> NoReturn:
         raise ValueError(f"{message}; see {self.prog} --help")
@@ -20,7 +20,9 @@ def build_parser() -> argparse.ArgumentParser:
         prog="python -m rotor",
         description="Helicopter main rotors: trim, power, twist.",
         epilog="Each command has its --help.",
-        formatter_class=partial(argparse.HelpFormatter, indent_increment=1),  # All names stand beside their words.
+        formatter_class=partial(
+            argparse.HelpFormatter, indent_increment=1
+        ),  # Every name has its help on the same line.
     )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=OneLineParser)
     for command in (solve, sweep, waterfall, optimise, schedule, study, ideal, actuator, reproduce, airfoil, bench):

@@ -1,4 +1,4 @@
-"""Long work on a terminal: a bar where somebody watches, and Ctrl-C as a request to stop and show what there is."""
+"""Progress of long commands: a bar on a terminal, and Ctrl-C as a request to stop and print the results so far."""
 
 import signal
 import sys
@@ -11,12 +11,12 @@ from typing import Any
 _TWICE = 0.5
 """[s]"""
 STOPPED = 130
-"""Exit code after Ctrl-C; what was found has been printed."""
+"""Exit code after Ctrl-C; results so far are printed."""
 
 
 @contextmanager
 def bar(total: int | None, unit: str) -> Generator[Callable[[str], None]]:
-    """A progress bar on stderr when that is a terminal, else nothing; call it with a few words to advance it."""
+    """A progress bar on stderr if that is a terminal; call it with a short text to advance it by one."""
     if not sys.stderr.isatty():
         yield lambda words: None
         return
@@ -36,9 +36,9 @@ def bar(total: int | None, unit: str) -> Generator[Callable[[str], None]]:
 
 @contextmanager
 def interruptible() -> Generator[Callable[[], bool]]:
-    """A `stop` that turns True at the first Ctrl-C; the second one breaks off at once.
+    """A `stop` that returns True after the first Ctrl-C; a second one interrupts at once.
 
-    Some programs hand one Ctrl-C on twice, to a process and to its group: within half a second two are one.
+    Some programs send one Ctrl-C twice, to a process and to its group: two within half a second count as one.
     """
     asked: list[float] = []
 

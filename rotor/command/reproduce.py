@@ -1,4 +1,4 @@
-"""`reproduce`: rebuild the document's figures and tables, and the trust table."""
+"""`reproduce`: rebuilds the figures and tables of the thesis, and the trust table."""
 
 import argparse
 import os
@@ -15,7 +15,7 @@ from rotor.command.progress import STOPPED, bar, interruptible
 
 def add_parser(commands: Any) -> None:
     """Register the command."""
-    parser = add_command(commands, "reproduce", "every figure and table of the document that can be rebuilt")
+    parser = add_command(commands, "reproduce", "rebuilds every figure and table of the thesis that can be rebuilt")
     parser.add_argument("out", metavar="OUT_DIR", help="folder for CSV, SVG, PNG and index.html; made when missing")
     parser.add_argument(
         "--figure", metavar="N", action="append", help="only this one, for example 3.11 or 'table 4.1'; repeatable"
@@ -28,7 +28,7 @@ def add_parser(commands: Any) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """0, or 130 when broken off; bad input is for the caller."""
+    """0, or 130 when interrupted."""
     # Here, because no other command needs the catalogue.
     from rotor.reproduce.catalogue import ENTRIES, CatalogueEntry, find_entry, searches_of
     from rotor.reproduce.page import write_all, write_report
@@ -43,7 +43,7 @@ def run(args: argparse.Namespace) -> int:
     if not 1 <= processes <= 64:
         raise ValueError(f"{processes} processes are outside 1…64: give one a core")
     wanted = [find_entry(number) for number in args.figure or ()]
-    entries = [entry for entry in ENTRIES if entry in wanted] if wanted else list(ENTRIES)  # In the document's order.
+    entries = [entry for entry in ENTRIES if entry in wanted] if wanted else list(ENTRIES)  # In the thesis' order.
     folder = Path(args.out)
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -76,6 +76,6 @@ def run(args: argparse.Namespace) -> int:
         print(f"note: {NO_PICTURES}", file=sys.stderr)
     if args.trust and not stopped:
         print(f"trust page: {write_trust([report for _, report in made], folder)}")
-    left = f", {len(entries) - len(made)} left out because you broke off" if stopped else ""
+    left = f", {len(entries) - len(made)} left out because of Ctrl-C" if stopped else ""
     print(f"{len(made)} rebuilt in {time.perf_counter() - begin:.0f} s{left}: {page}")
     return STOPPED if stopped else 0

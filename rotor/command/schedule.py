@@ -1,4 +1,4 @@
-"""`schedule`: the best twist for each flight condition, the best fixed blade, and what moving is worth beyond it."""
+"""`schedule`: optimum twist at each flight condition, best fixed blade, and the gain of in-flight twist change."""
 
 import argparse
 import csv
@@ -34,7 +34,7 @@ COLUMNS = ("mu", "mass_kg", "altitude_m", "hours", "concept", "status", "baselin
 
 def add_parser(commands: Any) -> None:
     """Register the command."""
-    parser = add_command(commands, "schedule", "best twist per condition, best fixed blade, worth of moving")
+    parser = add_command(commands, "schedule", "optimum twist per condition, best fixed blade, gain of in-flight twist")
     parser.add_argument(
         "--concept", nargs="+", default=list(DEFAULT_CONCEPTS), metavar="NAME", help=f"all | {concept_help()}"
     )
@@ -42,18 +42,18 @@ def add_parser(commands: Any) -> None:
     where = parser.add_mutually_exclusive_group()
     where.add_argument("--mu", metavar="A:B:STEP", help=f"advance ratios, equal hours each (default {DEFAULT_MU})")
     where.add_argument("--mission", metavar="FILE", help="CSV of mu,mass_kg,altitude_m,hours")
-    parser.add_argument("--objective", default="total", choices=QUANTITIES, help="what to make small (default total)")
+    parser.add_argument("--objective", default="total", choices=QUANTITIES, help="power to minimise (default total)")
     add_design_arguments(parser, one_twist=True)
     add_search_arguments(parser, 4)
     parser.add_argument("--processes", type=int, metavar="N", help="processes to use (default: one a core, at most 4)")
-    parser.add_argument("--resume", metavar="FILE", help="keep what is found in this file, go on from what it holds")
+    parser.add_argument("--resume", metavar="FILE", help="store results in this file and resume from it")
     parser.add_argument("--csv", metavar="FILE", help="write the table to a file as well")
     parser.add_argument("--json", action="store_true", help="machine-readable output")
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
-    """0 when every optimum was found, 1 when not, 130 stopped by Ctrl-C with what was found printed."""
+    """0 when every optimum was found, 1 when not, 130 stopped by Ctrl-C with the results so far printed."""
     plan = plan_from(args)
     processes = args.processes if args.processes is not None else min(os.cpu_count() or 1, 4)
     if not 1 <= processes <= 64:
@@ -112,7 +112,7 @@ _DIVIDED = ("two-segment", "two-segment-two-airfoils")
 
 
 def record(schedule: Schedule) -> dict[str, Any]:
-    """The JSON of `schedule --json`; what was not found is null."""
+    """The JSON of `schedule --json`; values not found are null."""
     plan = schedule.plan
     worth = {concept.name: schedule.worth(concept.name) for concept in plan.concepts}
     return {
@@ -164,7 +164,7 @@ def _entry(optimum: Optimum | None, concept: Concept) -> dict[str, Any] | None:
 
 
 def report(schedule: Schedule) -> str:
-    """Tables for a reader."""
+    """The same as tables."""
     rows = _rows(schedule)
     widths = (7, 9, 11, 7, 26, 14, 12, 10, 15, 0)
     lines = ["".join(f"{cell:<{width}}" for cell, width in zip(COLUMNS, widths, strict=True))]
@@ -174,11 +174,12 @@ def report(schedule: Schedule) -> str:
         one = schedule.worth(concept.name)
         if one is not None:
             lines.append(
-                f"{concept.title}: as it is {one.baseline / 1e3:.2f} kW, best fixed {one.fixed / 1e3:.2f} kW, "
-                f"moving {one.moving / 1e3:.2f} kW. Moving is worth {one.gain / 1e3:.2f} kW ({100 * one.share:.2f} %)."
+                f"{concept.title}: current design {one.baseline / 1e3:.2f} kW, best fixed {one.fixed / 1e3:.2f} kW, "
+                f"variable {one.moving / 1e3:.2f} kW. Additional saving from variable twist {one.gain / 1e3:.2f} kW "
+                f"({100 * one.share:.2f} %)."
             )
     if not schedule.complete:
-        lines.append("Stopped before the end: --resume FILE keeps what is found and goes on from it.")
+        lines.append("Stopped before the end: use --resume FILE to store results and continue.")
     return "\n".join(lines)
 
 

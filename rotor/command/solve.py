@@ -1,4 +1,4 @@
-"""`solve`: trim one design and print it."""
+"""`solve`: trims one design and prints the result."""
 
 import argparse
 import json
@@ -13,7 +13,7 @@ from rotor.units import KNOT
 
 def add_parser(commands: Any) -> None:
     """Register the command."""
-    parser = add_command(commands, "solve", "trim one design; power, trim and caveats")
+    parser = add_command(commands, "solve", "trims one design: power, controls and caveats")
     speed = parser.add_mutually_exclusive_group()
     speed.add_argument("--mu", type=finite, metavar="MU", help="advance ratio (default 0.2)")
     speed.add_argument("--speed-kt", type=finite, metavar="KT", help="airspeed in knots")
@@ -35,7 +35,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def report(solution: Solution) -> str:
-    """The same for a reader."""
+    """The same as text."""
     design, controls = solution.design, solution.controls
     inflow = design.models.hover_inflow if design.hovering else design.models.inflow
     lines = [

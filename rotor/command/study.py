@@ -24,11 +24,11 @@ from rotor.study.study import check_uncertain
 from rotor.study.study_file import StudyFile, read_study
 
 _SENTENCES = 3
-"""Different sentences of failed points that are printed."""
+"""Largest number of different failure messages printed."""
 
 
 def record(results: Results, least: str | None = None, uncertain: tuple[str, ...] | None = None) -> dict[str, Any]:
-    """The JSON of `study show --json`; None where there is no answer. ValueError for a column or axis there is not."""
+    """The JSON of `study show --json`; None where there is no result. ValueError for an unknown column or axis."""
     least, uncertain = _aims(results, least, uncertain)
     row = best_row(results, least)
     robust = robust_best(results, least, uncertain) if uncertain else None
@@ -56,7 +56,7 @@ def record(results: Results, least: str | None = None, uncertain: tuple[str, ...
 
 
 def report(results: Results, least: str | None = None, uncertain: tuple[str, ...] | None = None) -> str:
-    """The same for a reader."""
+    """The same as text."""
     shown = record(results, least, uncertain)
     least = shown["least"]
     assert least is not None
@@ -79,11 +79,11 @@ def report(results: Results, least: str | None = None, uncertain: tuple[str, ...
         for name, one in (("least worst case", robust["least_worst"]), ("least mean", robust["least_mean"])):
             lines.append(f"  {name:<17} worst {value(one['worst'])}, mean {value(one['mean'])}: {_at(one['design'])}")
         if robust["dropped"]:
-            lines.append(f"  {_count(robust['dropped'], 'design')} left out: a case failed, or is not done yet")
+            lines.append(f"  {_count(robust['dropped'], 'design')} left out: a case failed or is not finished")
     elif shown["uncertain"]:
-        lines += ["", f"no design has an answer in every case of {', '.join(shown['uncertain'])}"]
+        lines += ["", f"no design has a result in every case of {', '.join(shown['uncertain'])}"]
     if shown["sensitivities"]:
-        so_far = "" if shown["done"] == shown["points"] else ", as far as it is known"
+        so_far = "" if shown["done"] == shown["points"] else ", from the finished points"
         lines += ["", f"what {least} depends on{so_far}: share of its variance; mean where that is least … most"]
         for one in shown["sensitivities"]:
             ends = (
@@ -105,7 +105,7 @@ def _aims(results: Results, least: str | None, uncertain: tuple[str, ...] | None
     least = least or str(results.about.get("least", "power_total_w"))
     numbers = [name for name in results.columns if results.numeric(name)]
     if least not in numbers:
-        raise ValueError(f"column {least!r} is not there to make small: use one of {', '.join(numbers)}")
+        raise ValueError(f"column {least!r} does not exist: use one of {', '.join(numbers)}")
     if uncertain is None:
         uncertain = tuple(results.about.get("uncertain", ()))
     else:
@@ -155,7 +155,7 @@ def _shown(number: float, unit: str) -> str:
 
 
 _SAY_EVERY = 60.0
-"""[s] between lines of progress where nobody watches a terminal."""
+"""[s] between lines of progress without a terminal."""
 
 
 def add_parser(commands: Any) -> None:
@@ -163,29 +163,29 @@ def add_parser(commands: Any) -> None:
     parser = add_command(
         commands,
         "study",
-        "many designs from one file, on one machine or many",
-        "Run a study file; or `study show DIR`: the best, the robust best and the sensitivities.",
+        "many designs from one file, on one machine or a cluster",
+        "Runs a study file. `study show DIR` prints the best point, the robust best design and the sensitivities.",
     )
-    parser.add_argument(
-        "file", metavar="FILE.toml", help="study file, or an example by name: two_segment.toml; or show"
-    )
+    parser.add_argument("file", metavar="FILE.toml", help="study file, a shipped example (two_segment.toml), or show")
     parser.add_argument("folder", metavar="DIR", nargs="?", help="with show: the --out DIR of a study")
     parser.add_argument(
-        "--scheduler", metavar="tcp://HOST:PORT", help="a running Dask cluster (default: one made here)"
+        "--scheduler", metavar="tcp://HOST:PORT", help="address of a running Dask cluster (default: start one here)"
     )
     parser.add_argument(
-        "--workers", type=int, metavar="N", help="processes of the cluster made here (default: one a core)"
+        "--workers", type=int, metavar="N", help="processes of the cluster started here (default: one per core)"
     )
-    parser.add_argument("--out", metavar="DIR", help="where results go (default: the file's name); continued if begun")
-    parser.add_argument("--dry-run", action="store_true", help="check the file and say what it would cost, run nothing")
-    parser.add_argument("--least", metavar="COLUMN", help="with show: the column to make small")
-    parser.add_argument("--uncertain", metavar="AXIS,…", help="with show: axes that nobody can choose")
+    parser.add_argument("--out", metavar="DIR", help="results folder (default: the file's name); resumed if it exists")
+    parser.add_argument(
+        "--dry-run", action="store_true", help="check the file and estimate the time, without running it"
+    )
+    parser.add_argument("--least", metavar="COLUMN", help="with show: the column to minimise")
+    parser.add_argument("--uncertain", metavar="AXIS,…", help="with show: uncertain axes")
     parser.add_argument("--json", action="store_true", help="with show: machine-readable output")
     parser.set_defaults(run=run)
 
 
 def run(args: argparse.Namespace) -> int:
-    """0 every point converged, 1 some did not, 130 stopped by Ctrl-C with all finished chunks kept."""
+    """0 if every point converged, 1 if not, 130 if stopped by Ctrl-C; finished chunks are kept."""
     if args.file == "show":
         return _show(args)
     for flag, name in (
@@ -198,9 +198,9 @@ def run(args: argparse.Namespace) -> int:
             raise ValueError(f"{name} belongs to show: write `study show DIR`")
     file = read_study(args.file)
     if args.workers is not None and not 1 <= args.workers <= 1024:
-        raise ValueError(f"{args.workers} workers are outside 1…1024: give one a core")
+        raise ValueError(f"{args.workers} workers are outside 1…1024: use one per core")
     if args.workers is not None and args.scheduler:
-        raise ValueError("--workers is for the cluster made here: leave it out, or leave out --scheduler")
+        raise ValueError("--workers is for the cluster started here: omit it, or omit --scheduler")
     if args.dry_run:
         return _dry_run(file)
     need_packages()
@@ -221,7 +221,7 @@ def _run(args: argparse.Namespace, store: Store, provenance: StudyProvenance) ->
     message, stopped, lost, effort = "", False, list[int](), _Effort()
     if missing:
         if args.scheduler is None:
-            evaluate_points(study, 0, 1)  # Before all processes do: the kernels are compiled once, not in each of them.
+            evaluate_points(study, 0, 1)  # Compiles the kernels once, not in every process.
         with interruptible() as stop, _progress(study.count, study.count - left) as advance:
 
             def take(done: FinishedChunk) -> None:
@@ -242,7 +242,7 @@ def _run(args: argparse.Namespace, store: Store, provenance: StudyProvenance) ->
 
 @dataclass
 class _Effort:
-    """What a run took."""
+    """Points and processor time of a run."""
 
     begun: float = field(default_factory=time.monotonic)
     points: int = 0
@@ -269,14 +269,12 @@ def _summary(store: Store, stopped: bool, lost: list[int], message: str) -> int:
         print(report(read_results(store.folder)))
     if stopped and missing:
         print(
-            f"rotor: stopped with {done:,} of {store.study.count:,} points kept; the same command goes on",
+            f"rotor: stopped with {done:,} of {store.study.count:,} points kept; run the same command to continue",
             file=sys.stderr,
         )
         return STOPPED
     if lost:
-        message = (
-            f"{len(lost)} chunk(s) took their workers down, perhaps for lack of memory: run the same command again"
-        )
+        message = f"{len(lost)} chunk(s) stopped their workers, perhaps for lack of memory: run the same command again"
     if message:
         print(f"rotor: {message}", file=sys.stderr)
     return 0 if not missing and bool(read_results(store.folder, texts=False).good.all()) else 1
@@ -287,7 +285,7 @@ def _show(args: argparse.Namespace) -> int:
         raise ValueError("show needs a folder: write `study show DIR`")
     for flag in ("scheduler", "workers", "out", "dry_run"):
         if getattr(args, flag):
-            raise ValueError(f"--{flag.replace('_', '-')} is for a run: leave it out of `study show`")
+            raise ValueError(f"--{flag.replace('_', '-')} belongs to a run: omit it with `study show`")
     need_packages()
     results = read_results(args.folder)
     uncertain = None if args.uncertain is None else tuple(name.strip() for name in args.uncertain.split(","))
@@ -297,10 +295,10 @@ def _show(args: argparse.Namespace) -> int:
 
 
 def _dry_run(file: StudyFile) -> int:
-    """What a study would cost, from a few of its points worked off here."""
+    """Estimates the time of a study from a few of its points."""
     study = file.study
     few = min(study.chunk, 4 if study.optimum is not None else 40)
-    evaluate_points(study, 0, few)  # Compiles, lays out grids.
+    evaluate_points(study, 0, few)  # Compiles kernels and builds grids.
     begin = time.process_time()
     evaluate_points(study, 0, few)
     each = (time.process_time() - begin) / few
@@ -320,7 +318,7 @@ def _tell_lonely(address: str | None) -> Callable[[], None]:
 
 @contextmanager
 def _progress(total: int, done: int) -> Generator[Callable[[int, int], None]]:
-    """A bar where somebody watches, else a line a minute: rate, time left, failures."""
+    """A bar on a terminal, else a line per minute: rate, time left, failures."""
     begin, first, failed = time.monotonic(), done, 0
     said = begin
     bar: Any = None
@@ -352,12 +350,12 @@ def _progress(total: int, done: int) -> Generator[Callable[[int, int], None]]:
 
 
 def _rate(points_per_second: float) -> str:
-    """Points a second, or a minute where they take that long."""
+    """Points per second, or per minute below five per second."""
     return f"{points_per_second:,.0f}/s" if points_per_second >= 5.0 else f"{60.0 * points_per_second:,.0f}/min"
 
 
 def _span(seconds: float) -> str:
-    """A time as people say it."""
+    """A time in s, min, h or days."""
     for size, name in ((86400.0, "days"), (3600.0, "h"), (60.0, "min")):
         if seconds >= 2.0 * size:
             return f"{seconds / size:,.1f} {name}"

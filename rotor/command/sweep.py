@@ -21,7 +21,7 @@ def run(args: argparse.Namespace) -> int:
     """0 when every point converged, else 1."""
     advance_ratios = parse_range(args.mu)
     specs: list[str | None] = list(args.twist) if args.twist else [None]
-    designs = [design_from(args, spec, mu) for spec in specs for mu in advance_ratios]  # Bad input speaks first.
+    designs = [design_from(args, spec, mu) for spec in specs for mu in advance_ratios]  # Bad input is reported first.
     rows: list[tuple[str, ...]] = []
     converged = True
     longest = max(len(design.twist.spec()) for design in designs)

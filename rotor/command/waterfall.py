@@ -1,4 +1,4 @@
-"""`waterfall`: what each part of the physics costs, switched on one after another."""
+"""`waterfall`: power of each physical effect, switched on one after another."""
 
 import argparse
 import json
@@ -10,7 +10,7 @@ from rotor.command.flags import add_command, add_design_arguments, design_from, 
 
 def add_parser(commands: Any) -> None:
     """Register the command."""
-    parser = add_command(commands, "waterfall", "what tip loss, flapping, reverse flow … cost, one after another")
+    parser = add_command(commands, "waterfall", "power of tip loss, flapping, reverse flow …, one after another")
     parser.add_argument("--mu", type=finite, metavar="MU", help="advance ratio (default 0.2); 0 is hover")
     add_design_arguments(parser, one_twist=True)
     parser.add_argument("--json", action="store_true", help="machine-readable output")
@@ -26,7 +26,7 @@ def run(args: argparse.Namespace) -> int:
 
 
 def record(found: Waterfall) -> dict[str, Any]:
-    """The JSON; what a step that did not trim cannot know is null."""
+    """The JSON; values of a step that did not trim are null."""
     design = found.full.design
     return {
         "status": "converged" if found.converged else "not-converged",
@@ -50,7 +50,7 @@ def _step_record(step: WaterfallStep) -> dict[str, Any]:
 
 
 def report(found: Waterfall) -> str:
-    """Two tables for a reader."""
+    """The same as two tables."""
     design = found.full.design
     heading = f"{'kW':<18}{'total':>9}{'change':>9}" + "".join(f"{part:>10}" for part in PARTS)
     return "\n".join(
@@ -62,7 +62,7 @@ def report(found: Waterfall) -> str:
             heading,
             *(_line(step) for step in found.steps),
             "",
-            "Each switched off alone, everything else on",
+            "Each effect removed on its own",
             heading,
             *(_line(step) for step in found.alone),
         ]
@@ -82,5 +82,5 @@ def _line(step: WaterfallStep) -> str:
 
 
 def _kilowatts(power: float) -> float:
-    """Rounded as it is printed, so that nothing is +0.0 and never −0.0."""
+    """Kilowatts rounded as printed, without negative zero."""
     return round(power / 1e3, 1) + 0.0

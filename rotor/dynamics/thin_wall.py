@@ -216,13 +216,13 @@ def respond(
     right[3] = torque
     scale = np.sqrt(np.abs(np.diagonal(matrix)))
     scale[3] = np.abs(2.0 * section.areas).max() / scale[4:].max()
-    answer = np.linalg.solve(matrix / np.outer(scale, scale), right / scale) / scale
+    unknowns = np.linalg.solve(matrix / np.outer(scale, scale), right / scale) / scale
     return SectionResponse(
-        twist_rate=float(answer[3]),
-        extension=float(answer[0]),
-        curvature_y=float(answer[1]),
-        curvature_z=float(answer[2]),
-        cell_flows=tuple(float(flow) for flow in answer[4:]),
+        twist_rate=float(unknowns[3]),
+        extension=float(unknowns[0]),
+        curvature_y=float(unknowns[1]),
+        curvature_z=float(unknowns[2]),
+        cell_flows=tuple(float(flow) for flow in unknowns[4:]),
     )
 
 

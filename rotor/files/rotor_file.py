@@ -219,7 +219,7 @@ def _tail_rotor(tail: TomlTable) -> TailRotor:
     polar = tail.numbers("drag_polar", BAILEY_POLAR, low=-10.0, high=10.0)
     if len(polar) != 3 or polar[0] <= 0.0:
         raise tail.fail("drag_polar", f"drag_polar is {list(polar)}: give δ0 > 0, δ1 and δ2 of δ0 + δ1 α + δ2 α²")
-    made = TailRotor(
+    rotor = TailRotor(
         radius=radius,
         angular_speed=_angular_speed(tail, radius),
         chord=chord,
@@ -231,7 +231,7 @@ def _tail_rotor(tail: TomlTable) -> TailRotor:
         lift_slope=tail.number("lift_slope_per_rad", LIFT_SLOPE, low=1.0, high=10.0, unit="1/rad"),
     )
     tail.finish()
-    return made
+    return rotor
 
 
 def _own_sections(
@@ -240,9 +240,9 @@ def _own_sections(
     sections = top.table("sections", None)
     if sections is None:
         return ()
-    made = tuple(read_section(sections.table(name), name, texts, used, remarks) for name in sections.values)
+    own = tuple(read_section(sections.table(name), name, texts, used, remarks) for name in sections.values)
     sections.finish()
-    return made
+    return own
 
 
 @cache

@@ -41,7 +41,7 @@ def read_section(
             polar for file in files for polar in parse_polar_file(file, _file(table, "polars", file, texts, used))
         ]
         deck = _deck_of(table, name, polars, thickness, remarks)
-    made = OwnSection(
+    section = OwnSection(
         name=name,
         deck=deck,
         outline=outline,
@@ -51,10 +51,10 @@ def read_section(
     )
     table.finish()
     try:
-        install_own(made)
+        install_own(section)
     except ValueError as error:
         raise ValueError(f"{files[0]}: {error}" if files[0] not in str(error) else str(error)) from None
-    return made
+    return section
 
 
 def _outline(

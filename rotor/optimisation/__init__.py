@@ -1,1 +1,1 @@
-"""The twist of least power: objective, search, band, schedule, mission."""
+"""The twist of least power: concepts, objective, limits, search, schedule."""

@@ -27,7 +27,7 @@ class Descent:
     end: Evaluation | None
     """The best feasible point on the way; None when there was none."""
     settled: bool
-    """Whether it ended by itself, at what looks like a minimum."""
+    """Whether it converged."""
 
 
 def descend(evaluate: Evaluator, preconditioner: Preconditioner, first: Evaluation) -> Descent:
@@ -50,7 +50,7 @@ def descend(evaluate: Evaluator, preconditioner: Preconditioner, first: Evaluati
 
 
 class CachedProblem:
-    """What SLSQP asks, from one evaluation a point."""
+    """Value, gradient and margins for SLSQP from one evaluation per point."""
 
     def __init__(self, evaluate: Evaluator, preconditioner: Preconditioner, first: Evaluation) -> None:
         self.evaluate, self.preconditioner = evaluate, preconditioner
@@ -83,7 +83,7 @@ class CachedProblem:
         return away / max(float(np.linalg.norm(away)), 1e-12)
 
     def margins(self, y: Array) -> Array:
-        """What is left of the limits; where nothing trims, what was left at the nearest point that did."""
+        """Margins of the limits; where nothing trims, those of the nearest point that did."""
         return self._trimmed_at(y).margins
 
     def margin_slopes(self, y: Array) -> Array:
@@ -102,7 +102,7 @@ class CachedProblem:
 
 
 _TOLERANCE = 1e-3
-"""Of the reach, at which a side is done."""
+"""Relative tolerance of a side of the band."""
 _INSIDE = 2e-5
 """Power above the edge of the band that still counts as on it: two per cent of the band."""
 _BAND_ITERATIONS = 7
@@ -124,7 +124,7 @@ def measure_band(evaluate: Evaluator, preconditioner: Preconditioner, best: Eval
 
 
 def _go(evaluate: Evaluator, preconditioner: Preconditioner, best: Evaluation, edge: float, row: Array) -> None:
-    """Go as far as the band allows along one row of the preconditioner; the evaluations on the way are what counts."""
+    """Maximise one parameter within the band, along one row of the preconditioner; the evaluations are the result."""
     problem = CachedProblem(evaluate, preconditioner, best)
     along = row / np.linalg.norm(row)
     centre = preconditioner.y(best.x)
@@ -132,7 +132,7 @@ def _go(evaluate: Evaluator, preconditioner: Preconditioner, best: Evaluation, e
 
     def room(y: Array) -> Array:
         record = problem.at(y)
-        if record.power is None:  # Outside by the square of the distance, as a round bowl would have it.
+        if record.power is None:  # Outside by the square of the distance, as for a quadratic.
             return np.array([1.0 - float(((y - centre) ** 2).sum())])
         return np.array([(edge - record.power) / scale])
 

@@ -21,7 +21,7 @@ FEASIBLE = 1e-3
 
 @dataclass(frozen=True, eq=False)
 class Evaluation:
-    """A design evaluated. x: parameters scaled to 0…1 over their bounds."""
+    """One evaluated design. x: parameters scaled to 0…1 over their bounds."""
 
     x: Array
     power: float | None
@@ -29,13 +29,13 @@ class Evaluation:
     slope: Array
     """∂power/∂x [W]"""
     margins: Array
-    """What is left of each limit, scaled, (limits,)."""
+    """Margin of each limit, scaled, positive inside, (limits,)."""
     margin_slopes: Array
     """(limits, parameters)"""
 
     @property
     def feasible(self) -> bool:
-        """Whether it trims and keeps all limits."""
+        """Whether it trims and meets all limits."""
         return self.power is not None and bool((self.margins >= -FEASIBLE).all())
 
     @property
@@ -45,7 +45,7 @@ class Evaluation:
 
 
 _KEPT_SOLUTIONS = 64
-"""Solutions kept to start trims from."""
+"""Solutions kept as starts for trims."""
 
 
 class SearchStopped(Exception):

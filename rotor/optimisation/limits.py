@@ -22,12 +22,12 @@ from rotor.trim.adjoint import Adjoint, Weights
 _DEGREE = math.radians(1.0)
 _PERCENT = 0.01
 CHANGE_STATIONS = 33
-"""Radii at which the change of twist is held to its limit, root cut-out to tip."""
+"""Number of radii at which the change limit is enforced, root cut-out to tip."""
 
 
 @dataclass(frozen=True)
 class ChangeLimit:
-    """How far an actuator can turn the blade away from a reference, seen from its clamped root."""
+    """Largest change of twist from a reference law, relative to the clamped root."""
 
     reference: TwistLaw
     stations: tuple[float, ...]
@@ -44,13 +44,13 @@ class ChangeLimit:
 
 
 def even_change_limit(reference: TwistLaw, tip: float, root: float = 0.0) -> ChangeLimit:
-    """The limit of an actuator that twists evenly along the blade: zero at `root` (r/R), `tip` [rad] at the tip."""
+    """A change limit that grows linearly along the blade: zero at `root` (r/R), `tip` [rad] at the tip."""
     return ChangeLimit(reference, (root, 1.0), (0.0, tip))
 
 
 @dataclass(frozen=True)
 class Limits:
-    """All limits on a search; none by default but the concept's own bounds."""
+    """Limits of a search; by default only the bounds of the concept."""
 
     bounds: tuple[tuple[str, float, float], ...] = ()
     """Parameter, low, high (SI): the rate of one segment, for example."""
@@ -63,7 +63,7 @@ class Limits:
     def __post_init__(self) -> None:
         if self.rate is not None and not self.rate[0] < self.rate[1]:
             low, high = (math.degrees(value) for value in self.rate)
-            raise ValueError(f"rate limits {low:g}…{high:g}°/R leave nothing: give the steepest first, as -20,0")
+            raise ValueError(f"rate limits {low:g}…{high:g}°/R are empty: give the steepest first, e.g. -20,0")
         if self.stalled is not None and not 0.0 <= self.stalled <= 1.0:
             raise ValueError(f"stalled-area limit {100 * self.stalled:g} % is outside 0…100 %: choose a value inside")
 
@@ -77,7 +77,7 @@ class Limits:
             if not low < high:
                 parameter: Parameter = known[name]
                 raise ValueError(
-                    f"bounds {parameter.shown(low):g}…{parameter.shown(high):g} of {name} leave nothing: "
+                    f"bounds {parameter.shown(low):g}…{parameter.shown(high):g} of {name} are empty: "
                     "give low, then high"
                 )
             found[name] = (low, high)
@@ -85,7 +85,7 @@ class Limits:
 
 
 def cheap_margins(limits: Limits, concept: Concept, values: Values, root: float) -> tuple[Array, Array]:
-    """What is left of rate and change limits [degrees], positive inside, (margins,); slopes (margins, parameters)."""
+    """Margins of rate and change limits [°], positive inside, (margins,), and gradients (margins, parameters)."""
     n = len(concept.parameters)
     margins: list[Array] = [np.zeros(0)]
     slopes: list[Array] = [np.zeros((0, n))]

@@ -24,7 +24,7 @@ QUANTITIES: tuple[Quantity, ...] = ("total", "induced")
 
 @dataclass(frozen=True)
 class WeightedCondition:
-    """A flight condition and how long it is flown."""
+    """A flight condition and its flight time."""
 
     flight: FlightCondition
     hours: float = 1.0
@@ -45,11 +45,11 @@ class Objective:
         if self.quantity not in QUANTITIES:
             raise ValueError(f"objective {self.quantity!r} is not known: use {' or '.join(QUANTITIES)}")
         if not self.conditions:
-            raise ValueError("an objective without a flight condition: give at least one condition")
+            raise ValueError("an objective needs a flight condition: give at least one")
 
     @property
     def shares(self) -> tuple[float, ...]:
-        """Part of the hours of each condition."""
+        """Fraction of the total time of each condition."""
         hours = math.fsum(condition.hours for condition in self.conditions)
         return tuple(condition.hours / hours for condition in self.conditions)
 
@@ -62,9 +62,9 @@ def at_condition(design: Design, quantity: Quantity = "total") -> Objective:
 def hover_and_cruise(
     design: Design, hover_share: float, cruise_advance_ratio: float, quantity: Quantity = "total"
 ) -> Objective:
-    """Power in hover and in cruise, weighted by the part of the time spent hovering (0…1)."""
+    """Power in hover and in cruise, weighted by the fraction of time in hover (0…1)."""
     if not 0.0 <= hover_share <= 1.0:
-        raise ValueError(f"hover share {hover_share:g} is outside 0…1: give the part of the time spent hovering")
+        raise ValueError(f"hover share {hover_share:g} is outside 0…1: give the fraction of time in hover")
     pairs = ((0.0, hover_share), (cruise_advance_ratio, 1.0 - hover_share))
     conditions = tuple(
         WeightedCondition(replace(design.condition, advance_ratio=mu), share) for mu, share in pairs if share > 0.0
@@ -74,7 +74,7 @@ def hover_and_cruise(
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """A design measured by an objective."""
+    """An objective evaluated for a design."""
 
     power: float | None
     """Mean power [W]; None when a condition did not trim."""
@@ -89,7 +89,7 @@ class Measured:
 
     @property
     def message(self) -> str:
-        """The sentence of the condition that did not trim, or of the last one."""
+        """Message of the condition that did not trim, or of the last one."""
         return self.solutions[-1].message
 
 
@@ -138,7 +138,7 @@ COLUMNS = ("mu", "mass_kg", "altitude_m", "hours")
 
 
 def read_mission(path: str | Path, design: Design) -> tuple[WeightedCondition, ...]:
-    """Legs of a CSV table with the columns mu, mass_kg, altitude_m, hours; `#` starts a comment.
+    """Flight conditions of a CSV table with the columns mu, mass_kg, altitude_m, hours; `#` starts a comment.
 
     Only mu is needed: mass and altitude left out or blank are the design's own, hours are 1. Raises ValueError with one
     sentence that names file, line and remedy.
@@ -153,16 +153,16 @@ def read_mission(path: str | Path, design: Design) -> tuple[WeightedCondition, .
     numbered = [(number, line.partition("#")[0].strip()) for number, line in enumerate(text.splitlines(), start=1)]
     rows = [(number, next(csv.reader([line]))) for number, line in numbered if line]
     if not rows:
-        raise ValueError(f"mission {str(path)!r} is empty: begin it with the line {','.join(COLUMNS)}")
+        raise ValueError(f"mission {str(path)!r} is empty: start it with the line {','.join(COLUMNS)}")
     heading = [cell.strip() for cell in rows[0][1]]
     unknown = [name for name in heading if name not in COLUMNS]
     if unknown or "mu" not in heading:
         raise ValueError(
             f"mission {str(path)!r} line {rows[0][0]} reads {','.join(heading)!r}: "
-            f"write the heading {','.join(COLUMNS)}, of which mu is needed"
+            f"write the heading {','.join(COLUMNS)}; only mu is required"
         )
     if len(rows) < 2:
-        raise ValueError(f"mission {str(path)!r} has no conditions: add a line such as 0.2,8322,0,1.5")
+        raise ValueError(f"mission {str(path)!r} has no flight conditions: add a line such as 0.2,8322,0,1.5")
     return tuple(
         _condition(path, number, dict(zip(heading, cells, strict=False)), design) for number, cells in rows[1:]
     )

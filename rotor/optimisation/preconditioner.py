@@ -18,11 +18,11 @@ from rotor.optimisation.slsqp import Inequality
 _least_squares = cast(Callable[..., Any], np.linalg.lstsq)
 
 BAND = 1e-3
-"""Flatness that is reported: parameters within this part of the least power."""
+"""Relative rise of power that defines the band of each parameter."""
 _REACH = 0.25
-"""How far (scaled) evaluations still count in full for the second derivatives at a point."""
+"""Scaled distance within which evaluations have full weight for the second derivatives."""
 _FLATTEST = 2e-3
-"""Least curvature taken for real, as a part of the largest: flatter directions are left to the descent to find."""
+"""Least curvature over the largest; flatter directions are left to the descent."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +45,7 @@ class Preconditioner:
 
 
 def initial_preconditioner(centre: Array, power: float) -> Preconditioner:
-    """Before anything is known: power rises by some per cent over half the range of a parameter."""
+    """Before any evaluation: power rises by some per cent over half the range of a parameter."""
     return Preconditioner(centre, np.sqrt(2.0 * BAND) * np.eye(len(centre)), 2.0 * BAND * power)
 
 

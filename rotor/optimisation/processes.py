@@ -1,6 +1,6 @@
-"""Generators worked off here or in other processes, their items handed on one by one, stopped when told.
+"""Generator tasks run here or in other processes; items are passed on one by one, and tasks can be stopped.
 
-A task is a function at the top of a module, that takes its arguments and a `stop` to ask, and yields items.
+A task is a module-level function that takes its arguments and a `stop` callable, and yields items.
 """
 
 import signal
@@ -17,15 +17,15 @@ from rotor.blas_threads import keep_one_blas_thread
 
 Stop = Callable[[], bool]
 Work = Callable[..., Iterator[Any]]
-"""work(*arguments, stop) yields items; each is handed on once, and again at the end of the task from processes."""
+"""work(*arguments, stop) yields items; each is delivered at once, and from processes again at the end of the task."""
 
 
 class WorkerLost(RuntimeError):
-    """A process ended unexpectedly; what it had handed on is kept."""
+    """A process ended unexpectedly; items delivered before are kept."""
 
 
 class Workers:
-    """A place to run tasks: here, or in processes that are started once. Use it in a `with`."""
+    """Runs tasks here, or in processes that are started once. A context manager."""
 
     def __init__(self, processes: int, take: Callable[[Any], None], stop: Stop | None) -> None:
         self._take, self._stop = take, stop
@@ -59,7 +59,7 @@ class Workers:
         except BrokenProcessPool:
             self._deliver()
             raise WorkerLost(
-                "A worker process was lost, perhaps for lack of memory; what was found is kept: use fewer processes."
+                "A worker process was lost, perhaps for lack of memory; results so far are kept: use fewer processes."
             ) from None
 
     def _wait(self, waiting: set[Future[list[Any]]]) -> bool:
@@ -67,7 +67,7 @@ class Workers:
         while waiting:
             done, waiting = wait(waiting, timeout=0.1, return_when=FIRST_COMPLETED)
             self._deliver()
-            for future in done:  # Whatever the queue still holds comes with the result as well.
+            for future in done:  # Items still in the queue are part of the result as well.
                 for item in future.result():
                     self._take(item)
             if not stopped and self._asked():
@@ -94,7 +94,7 @@ _items: "Queue[Any] | None" = None
 
 
 def _join(stop_event: _Flag, items: "Queue[Any]") -> None:
-    """What a new process is told: when to stop, where to send items. Ctrl-C is for the parent to understand."""
+    """Initialise a new process: stop event, queue for items, Ctrl-C left to the parent."""
     global _stop_event, _items
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     _stop_event, _items = stop_event, items

@@ -1,4 +1,4 @@
-"""What a search tells while it runs, and what it returns. Values without arrays: they pickle, compare and travel."""
+"""Progress and result of a search, as values without arrays: they pickle and compare."""
 
 from dataclasses import dataclass
 from enum import Enum
@@ -20,13 +20,13 @@ class SearchStatus(Enum):
 
 @dataclass(frozen=True)
 class Progress:
-    """One evaluation of one design, as soon as it is known."""
+    """Progress after one evaluation."""
 
     phase: Phase
     start: int
-    """Which start this belongs to, from 0."""
+    """Index of the start, from 0."""
     starts: int
-    """How many there will be."""
+    """Number of starts."""
     evaluation: int
     """Running number, from 1."""
     parameters: tuple[float, ...]
@@ -56,12 +56,12 @@ class Minimum:
     starts: tuple[int, ...]
     """The starts that ended here."""
     active: tuple[str, ...]
-    """Bounds and limits that hold it, for example `division high` or `stalled area`."""
+    """Active bounds and limits, for example `division high` or `stalled area`."""
 
 
 @dataclass(frozen=True)
 class Band:
-    """How far one parameter can go, the others following, before the power is BAND above the least."""
+    """Range of one parameter, the others re-optimised, within BAND of the least power."""
 
     parameter: str
     low: float
@@ -70,14 +70,14 @@ class Band:
 
 @dataclass(frozen=True, repr=False)
 class Optimum:
-    """What a search found."""
+    """The result of a search."""
 
     status: SearchStatus
     message: str
     """Why it stopped, in one sentence."""
     concept: str
     design: Design
-    """The design with the best twist, ready to solve; the design given where nothing was found."""
+    """The design with the best twist, or the given design where nothing was found."""
     best: Minimum | None
     minima: tuple[Minimum, ...]
     """All local minima found, the best first."""
@@ -110,7 +110,7 @@ class Optimum:
 
     @property
     def saving(self) -> float | None:
-        """Part of the baseline's power that the best twist saves."""
+        """Saving of the best twist relative to the baseline power."""
         if self.best is None or self.baseline_power is None:
             return None
         return 1.0 - self.best.power / self.baseline_power

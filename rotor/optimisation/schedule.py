@@ -20,17 +20,17 @@ from rotor.optimisation.processes import WorkerLost, Workers
 from rotor.optimisation.search import Limits, Minimum, Optimum, Search, SearchStatus, run_search
 
 CHUNK = 4
-"""Neighbouring conditions worked off together."""
+"""Neighbouring conditions computed together."""
 
 
 @dataclass(frozen=True)
 class Plan:
-    """What to schedule. A value: it pickles."""
+    """A schedule to compute, as a value: it pickles."""
 
     design: Design
-    """The blade as it is; its own twist is the baseline."""
+    """The current design; its twist is the baseline."""
     concepts: tuple[Concept, ...]
-    """Simple ones first: the richer start from their optima."""
+    """Simplest first: the others start from their optima."""
     conditions: tuple[WeightedCondition, ...]
     """In the order of the table, neighbours next to each other."""
     quantity: Quantity = "total"
@@ -44,13 +44,13 @@ class Plan:
             raise ValueError("a schedule needs a flight condition and a concept: give at least one of each")
 
     def design_at(self, condition: int | None) -> Design:
-        """The design as it is at a condition; None: at its own condition."""
+        """The current design at a condition; None: at its own condition."""
         return self.design if condition is None else replace(self.design, condition=self.conditions[condition].flight)
 
 
 @dataclass(frozen=True)
 class Cell:
-    """One answer: a concept at one condition, or fixed over all (condition None)."""
+    """The optimum of a concept at one condition, or fixed for all (condition None)."""
 
     condition: int | None
     concept: str
@@ -59,11 +59,11 @@ class Cell:
 
 @dataclass(frozen=True)
 class InFlightGain:
-    """What a concept gains by moving, over the mission."""
+    """Gain of in-flight twist change of a concept over the mission."""
 
     concept: str
     baseline: float
-    """Mean power of the blade as it is [W]."""
+    """Mean power of the current design [W]."""
     fixed: float
     """Mean power of the best fixed blade [W]."""
     moving: float
@@ -71,23 +71,23 @@ class InFlightGain:
 
     @property
     def gain(self) -> float:
-        """[W] that moving saves beyond the best fixed blade."""
+        """Additional saving of variable twist relative to the best fixed blade [W]."""
         return self.fixed - self.moving
 
     @property
     def share(self) -> float:
-        """The same as a part of the best fixed blade's power."""
+        """The same relative to the best fixed blade's power."""
         return self.gain / self.fixed
 
 
 @dataclass(frozen=True)
 class Schedule:
-    """What is known of a plan: complete, or as far as it came."""
+    """Results of a plan, complete or partial."""
 
     plan: Plan
     cells: tuple[Cell, ...]
     message: str = ""
-    """What went wrong with the run itself, in one sentence."""
+    """Error of the run itself, in one sentence."""
 
     def at(self, condition: int | None, concept: str) -> Optimum | None:
         """The optimum of a concept at a condition; None: the fixed blade."""
@@ -106,7 +106,7 @@ class Schedule:
         return self.complete and all(cell.optimum.status is SearchStatus.CONVERGED for cell in self.cells)
 
     def worth(self, concept: str) -> InFlightGain | None:
-        """What moving is worth; None while a cell of the concept is missing or without an optimum."""
+        """Gain of in-flight twist; None while an optimum of the concept is missing."""
         fixed = self.at(None, concept)
         if fixed is None or fixed.best is None or fixed.baseline_power is None:
             return None
@@ -126,9 +126,9 @@ def run_plan(
     stop: Callable[[], bool] | None = None,
     processes: int = 1,
 ) -> Schedule:
-    """Work a plan off. `found`: cells of an earlier run, kept as they are; `keep` hears of every new one at once.
+    """Compute a plan. `found`: cells of an earlier run, kept; `keep` is called with every new cell.
 
-    `stop` is called several times a second; True ends the run with what there is.
+    `stop` is called several times a second; True ends the run with the results so far.
     """
     cells = {(cell.condition, cell.concept): cell for cell in found}
 
@@ -174,7 +174,7 @@ def _work_chunk(
                 concept=concept,
                 objective=Objective(plan.quantity, (plan.conditions[condition],)),
                 limits=plan.limits,
-                # The neighbour's valley need not be the deepest here: other starts look elsewhere.
+                # The neighbour's minimum need not be the best here, so other starting points are added.
                 starts=max(plan.starts, len(guesses) + 1),
                 seed=plan.seed,
                 guesses=guesses,
@@ -189,7 +189,7 @@ def _work_chunk(
 
 
 def _work_fixed(plan: Plan, concept: Concept, known: _Known, stop: Callable[[], bool] | None) -> Iterator[Cell]:
-    """The best fixed blade of one concept, from the mean of its best moving ones."""
+    """The best fixed blade of one concept, started from the mean of its optima."""
     if (None, concept.name) in known:
         return
     objective = Objective(plan.quantity, plan.conditions)
@@ -245,10 +245,10 @@ def read_cells(path: str | Path, plan: Plan) -> list[Cell]:
     except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
         raise ValueError(f"schedule file {str(path)!r} cannot be read ({error}): give another file") from None
     if not isinstance(heading, dict) or cast(dict[str, Any], heading).get("format") != FORMAT:
-        raise ValueError(f"{str(path)!r} is no schedule file: give another file, or one that does not exist yet")
+        raise ValueError(f"{str(path)!r} is not a schedule file: give another file, or a new one")
     if cast(dict[str, Any], heading).get("plan") != fingerprint(plan):
         raise ValueError(
-            f"schedule file {str(path)!r} belongs to other flags: repeat those of its run, or give another file"
+            f"schedule file {str(path)!r} was made with other flags: repeat the flags of its run, or give another file"
         )
     cells: list[Cell] = []
     for line in lines[1:]:
@@ -261,7 +261,7 @@ def read_cells(path: str | Path, plan: Plan) -> list[Cell]:
 
 
 def open_cells(path: str | Path, plan: Plan) -> Callable[[Cell], None]:
-    """Begin or continue the file; the function returned adds a cell at once."""
+    """Start or continue the file; the returned function appends a cell."""
     path = Path(path)
 
     def add(text: str) -> None:

@@ -1,7 +1,7 @@
 """The twist of least power: a global search from many starts, with every local minimum and the flatness of the best.
 
-The document pairs fmincon with GlobalSearch (thesis §2.7). Here SLSQP descends from a seeded low-discrepancy set of
-starts (Halton) on the exact gradient; the minima are gathered, and the band says what the optimum is worth in degrees.
+The thesis uses fmincon with GlobalSearch (§2.7). Here SLSQP descends on the exact gradient from a seeded
+low-discrepancy set of starting points (Halton); minima are grouped, and the band gives the flatness of the best.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -28,16 +28,16 @@ from rotor.optimisation.results import Progress as Progress
 from rotor.optimisation.results import SearchStatus as SearchStatus
 
 STARTS = 6
-"""Starts of a search unless said otherwise; the first is the law nearest to the design's own twist."""
+"""Default number of starting points; the first is the law nearest to the design's own twist."""
 _SAME_PLACE = 0.05
-"""Ends whose parameters agree to this part of their ranges are one minimum."""
+"""Ends whose parameters agree within this fraction of their ranges are one minimum."""
 _RISE = 1e-6
-"""Part of the power that the way between two ends of one valley may rise."""
+"""Relative rise of power allowed half-way between two ends of one minimum."""
 
 
 @dataclass(frozen=True)
 class Search:
-    """What to search for. A value: it pickles, so a search can run in another process."""
+    """A search as a value: it pickles, so it can run in another process."""
 
     design: Design
     """The blade to improve; its own twist is the baseline."""
@@ -54,7 +54,7 @@ class Search:
 
     def __post_init__(self) -> None:
         if not 1 <= self.starts <= 1000:
-            raise ValueError(f"{self.starts} starts are outside 1…1000: 6 are enough for most concepts")
+            raise ValueError(f"{self.starts} starts are outside 1…1000: 6 suffice for most concepts")
         if self.seed < 0:
             raise ValueError(f"seed {self.seed} is negative: give 0 or more")
         self.limits.bounds_of(self.concept)
@@ -66,9 +66,9 @@ def run_search(
     watch: Callable[[Progress], None] | None = None,
     stop: Callable[[], bool] | None = None,
 ) -> Optimum:
-    """Run a search. `watch` hears of every evaluation; `stop` is called before each, and True ends the search.
+    """Run a search. `watch` is called after every evaluation; `stop` before each one, True ends the search.
 
-    Always returns: stopped early it keeps the best so far; where no start trims within the limits it says so.
+    Always returns: stopped early with the best so far; where no start trims within the limits, with a message.
     """
     count = max(search.starts, len(search.guesses))
     objective = search.objective or at_condition(search.design)
@@ -84,7 +84,7 @@ def run_search(
             evaluate.phase = "band"
             preconditioner = run.preconditioner or initial_preconditioner(
                 run.best.x, run.best.watts
-            )  # A start at the optimum leaves no trail.
+            )  # A start at the optimum has too few evaluations.
             run.band = measure_band(evaluate, preconditioner, run.best)
     except SearchStopped:
         return run.result(stopped=True)
@@ -92,7 +92,7 @@ def run_search(
 
 
 class _Run:
-    """A search under way."""
+    """State of a running search."""
 
     def __init__(self, search: Search, evaluate: Evaluator) -> None:
         self.search, self.evaluate = search, evaluate
@@ -109,7 +109,7 @@ class _Run:
         return min((end for end, _ in self.groups), key=lambda end: end.watts, default=None)
 
     def descend_from(self, start: int, x: Array) -> None:
-        """One start; a point that does not trim is drawn towards the middle first."""
+        """Descend from one start; a point that does not trim is moved towards the best point first."""
         first = self.evaluate(x)
         for _ in range(3):
             if first.power is not None:
@@ -126,7 +126,7 @@ class _Run:
             self.preconditioner = fit_preconditioner(self.evaluate.records, self.evaluate.best) or self.preconditioner
 
     def _gather(self, start: int, end: Evaluation) -> None:
-        """Put an end with the minimum that it belongs to, or begin a new one."""
+        """Add an end to its minimum, or begin a new one."""
         for k, (lead, members) in enumerate(self.groups):
             if self._same(lead, end):
                 self.groups[k] = (min(lead, end, key=lambda one: one.watts), [*members, start])
@@ -134,7 +134,7 @@ class _Run:
         self.groups.append((end, [start]))
 
     def _same(self, a: Evaluation, b: Evaluation) -> bool:
-        """Whether two ends are one minimum: near each other, or in one valley with no rise half-way."""
+        """Whether two ends are one minimum: near each other, or without a rise half-way."""
         higher = max(a.watts, b.watts)
         if abs(a.watts - b.watts) > BAND * higher:
             return False
@@ -158,29 +158,29 @@ class _Run:
             best = _minimum(evaluate, seen, ())
         if stopped:
             status = SearchStatus.STOPPED
-            message = f"Stopped after {evaluate.count} evaluations; the best so far is kept."
+            message = f"Stopped after {evaluate.count} evaluations; the best design so far is kept."
             if self.groups and evaluate.phase == "band":
                 message = "Stopped while measuring the band; the search itself was complete."
         elif best is None:
             status = SearchStatus.NOT_CONVERGED
             trimmed = any(one.power is not None for one in evaluate.records)
             message = (
-                "No design found keeps the limits: loosen them."
+                "No design found meets the limits: relax them."
                 if trimmed
-                else "No start trims: lower the mass, the altitude or the speed."
+                else "No start trims: reduce the mass, the altitude or the speed."
             )
         elif not minima:
             status, message = (
                 SearchStatus.NOT_CONVERGED,
-                "No descent settled at a minimum; the best point seen is given.",
+                "No descent converged to a minimum; the best point found is returned.",
             )
         else:
             status = SearchStatus.CONVERGED
             agree = len(minima[0].starts)
             which = "only local minimum found" if len(minima) == 1 else f"best of {len(minima)} local minima"
-            message = f"{agree} of {evaluate.starts} starts ended in the {which}."
+            message = f"{agree} of {evaluate.starts} starting points ended in the {which}."
             if self.lost:
-                message += f" {self.lost} found no trim."
+                message += f" {self.lost} did not trim."
         return Optimum(
             status=status,
             message=message,
@@ -198,7 +198,7 @@ class _Run:
 
 
 def _starts(search: Search, evaluate: Evaluator) -> Iterable[Array]:
-    """Guesses, the law nearest to the design's own, then Halton points of the seed."""
+    """Starting points: guesses, the law nearest to the design's own, then Halton points of the seed."""
     points = [evaluate.scaled(guess) for guess in search.guesses]
     if len(points) < search.starts:
         points.append(evaluate.scaled(nearest(search.concept, search.design.twist)))

@@ -1,7 +1,7 @@
-"""The document's figures and tables, rebuilt: each with its statement, our number and a verdict decided by it.
+"""Figures and tables of the thesis, rebuilt: each with its statement, our number and the resulting verdict.
 
-`python -m rotor reproduce OUT`. One chapter section a file; each figure is a function that returns a `Report`.
-Chapters 4–6 of the document are known to us by their captions only, so nothing there is compared: ours stands alone.
+`python -m rotor reproduce OUT`. One topic per file; each figure is a function that returns a `Report`.
+Of chapters 4–6 only the captions are known, so those results are not compared.
 """
 
 from rotor.reproduce.catalogue import ENTRIES as ENTRIES

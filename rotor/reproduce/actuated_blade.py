@@ -61,8 +61,8 @@ def figure_5_8() -> Report:
         f"{placement.chord[1]:.2f} c, both skins, 2 plies: {masses.actuator:.1f} kg of plies, {masses.wiring:.1f} kg "
         f"of leads and {masses.balance:.1f} kg of nose weight on a blade.",
         verdict=Agreement.ALONE,
-        because="The de-ice mat keeps plies off the nose, the pressurised spar keeps leads out of it; assets/"
-        "uh60a_structure.toml names the sources.",
+        because="The de-ice mat excludes plies on the nose, the pressurised spar excludes leads inside it; sources: "
+        "assets/uh60a_structure.toml.",
         tables=(table("layout", ("part", "start_r", "end_r"), rows),),
         panels=(PlotPanel("r/R", "from the quarter chord [c]", tuple(curves), y_limits=(-1.75, 0.4)),),
         numbers={"box_end": box[1], "active_start": placement.span[0], "ply_kg": masses.actuator},
@@ -96,7 +96,7 @@ def figure_5_9() -> Report:
         ours=f"On the flown blade the section, plies included, has GJ {1e-3 * installed.section_stiffness:.1f} kN·m²; "
         f"the whole voltage range twists it as {installed.moment:.0f} N·m would.",
         verdict=Agreement.ALONE,
-        because="Contour from the section's own coordinates, wall thickness calibrated on the published GJ.",
+        because="Contour from the coordinates of the section, wall thickness calibrated on the published GJ.",
         tables=(table("outlines", ("blade", "part", "x_c", "z_c"), rows),),
         panels=tuple(panels),
         numbers={"stiffness": installed.section_stiffness, "moment": installed.moment},
@@ -120,7 +120,7 @@ def figure_5_10() -> Report:
         number="5.10",
         kind="figure",
         caption=f"Twist of the rotating blade with every ply at {high:.0f} V (full) and at {low:.0f} V (dashed), zero "
-        "at 0 V: each volt loads the plies as a kelvin of the thermal analogy would.",
+        "at 0 V: a volt acts on the plies like a kelvin of the thermal analogy.",
         statement=UNKNOWN,
         ours="Root to tip over the whole range: "
         + "; ".join(f"{name}: {value:.2f}°" for name, value in numbers.items())
@@ -129,7 +129,7 @@ def figure_5_10() -> Report:
         because="Thin-walled laminate section (Bredt–Batho) on a rotating beam in torsion; finite elements of the "
         "section agree within 2 % (tests/rotor/actuator/test_actuator_fem.py). "
         "With the low end of the maker's strain and what one "
-        f"tested blade showed of its model, count on {100 * derating(sheet('MFC_P1')):.0f} %.",
+        f"tested blade relative to its model, use {100 * derating(sheet('MFC_P1')):.0f} %.",
         tables=(table("twist", ("blade", "r", f"at_{high:.0f}_v_deg", f"at_{low:.0f}_v_deg"), rows),),
         panels=(PlotPanel("r/R", "twist [°]", tuple(curves)),),
         numbers=numbers,
@@ -170,7 +170,7 @@ def table_5_2() -> Report:
         caption=f"Actuators and twist concepts compared between hover and µ {SPEEDS[1]:g}, half the time each, on the "
         "flown blade (flight preset); best net saving first.",
         statement=UNKNOWN,
-        ours=f"{sum(gain > 0.0 for gain in gains)} of {len(gains)} pay. The least loss is {best[0]} with the "
+        ours=f"{sum(gain > 0.0 for gain in gains)} of {len(gains)} have a net benefit. The best is {best[0]} with the "
         f"{best[1]} concept: {best[net]} kW net. {made.notes[1]}",
         verdict=Agreement.ALONE,
         because=made.notes[0],

@@ -14,9 +14,7 @@ PAIR = ("MFC_P1", "MFC_P2")
 """The same fibres with interdigitated and with continuous electrodes."""
 EXAGGERATE = 150.0
 """Strains of a part in a thousand, made visible."""
-SOURCE = (
-    "Properties and their sources stand in assets/actuators.toml; those recalled or assumed are marked in Table 5.1."
-)
+SOURCE = "Properties and sources: assets/actuators.toml; recalled or assumed values are marked in Table 5.1."
 FINGER = 0.2
 """Part of the gap that an electrode finger covers (assumed)."""
 COLOURS = (0.0, 6.0)
@@ -68,7 +66,8 @@ def figure_5_2() -> Report:
         statement=UNKNOWN,
         ours=f"At {high:.0f} V MFC P1 grows by {PPM * numbers['MFC_P1_along_1']:.0f} µε along its fibres and shrinks "
         f"by {-PPM * numbers['MFC_P1_across_1']:.0f} µε across; laid at 45° it shears by "
-        f"{PPM * shear / EXAGGERATE:.0f} µε, which is what twists a blade. MFC P2 shrinks both ways and hardly shears.",
+        f"{PPM * shear / EXAGGERATE:.0f} µε, which twists the blade. MFC P2 shrinks in both directions and hardly "
+        "shears.",
         verdict=Agreement.ALONE,
         because=SOURCE,
         tables=(table("strain", ("actuator", "voltage_v", "along_ppm", "across_ppm"), rows),),
@@ -93,7 +92,7 @@ def figure_5_4() -> Report:
         "5.4", "field",
         "Field in the same cuts at the highest voltage allowed.",
         f"Laplace's equation for one dielectric, fingers {100 * FINGER:.0f} % of the gap wide (assumed); the edge of a "
-        "finger is a singularity, so its peak grows as the grid is refined and is cut off in the colours.",
+        "finger is a singularity, so its peak grows with grid refinement and is clipped in the colours.",
     )  # fmt: skip
 
 
@@ -210,7 +209,7 @@ def figure_5_5() -> Report:
         statement=UNKNOWN,
         ours="Peak to peak: "
         + ", ".join(f"{id.replace('_', ' ')} {PPM * value:.0f} µε" for id, value in numbers.items())
-        + f". The same fibres strain {ratio:.1f} times as far with interdigitated electrodes.",
+        + f". The same fibres strain {ratio:.1f} times as much with interdigitated electrodes.",
         verdict=Agreement.ALONE,
         because=f"d33 is about twice d31, and the range of field is wider. {SOURCE}",
         tables=(table("strain", ("actuator", "voltage_v", "field_kv_mm", "along_ppm", "across_ppm"), rows),),
@@ -233,7 +232,7 @@ def figure_5_6() -> Report:
         number="5.6",
         kind="figure",
         caption="Macro fibre composite P1: strain over its voltage range between the low and the high end of the "
-        "maker's figures, and by the thermal analogy α = d/ΔES (a volt does what a kelvin would do).",
+        "maker's figures, and by the thermal analogy α = d/ΔES (a volt acts like a kelvin).",
         statement=UNKNOWN,
         ours=f"α {1e6 * alpha:.2f}·10⁻⁶ per volt along and {1e6 * across:.2f}·10⁻⁶ across; measured "
         f"{1e6 * one.low_swing * per_volt:.2f} to {1e6 * per_volt:.2f}·10⁻⁶ along, over "

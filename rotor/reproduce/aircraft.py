@@ -18,7 +18,7 @@ HORSEPOWER_KW = 0.745700
 """[kW], mechanical"""
 SPEEDS = (0.0, 0.075, 0.1, 0.125, 0.15, 0.175, 0.2, 0.225, 0.25, 0.275, 0.3, 0.325, 0.35)
 TAIL_SPEEDS = (0.0, 0.1, 0.2, 0.3)
-"""The document's hovering, low, medium and high speed; it states no numbers for them."""
+"""The thesis' hovering, low, medium and high speed; it states no numbers for them."""
 
 DOCUMENT_3_1 = {
     "radius_m": 1.6764, "angular_speed_rad_s": 124.62, "chord_m": 0.2469, "blades": 4.0, "arm_m": 9.926,
@@ -39,8 +39,8 @@ def table_3_1() -> Report:
     """The tail rotor."""
     loaded = {key: float(uh60a_data()["tail_rotor"][key]) for key in DOCUMENT_3_1}
     return _as_loaded(
-        "3.1", "Tail rotor as loaded, beside the document's", DOCUMENT_3_1, loaded,
-        "Twist −18° and section SC1095 stand in the document too; the tail rotor is solved by an energy method that "
+        "3.1", "Tail rotor as loaded, beside the thesis", DOCUMENT_3_1, loaded,
+        "Twist −18° and section SC1095 stand in the thesis too; the tail rotor is solved by an energy method that "
         "needs neither.",
     )  # fmt: skip
 
@@ -52,8 +52,8 @@ def table_3_2() -> Report:
     sources = {**main, **main["document"], **data["airframe"]}
     loaded = {key: float(sources[key]) for key in DOCUMENT_3_2}
     return _as_loaded(
-        "3.2", "Main rotor and mass as loaded, beside the document's", DOCUMENT_3_2, loaded,
-        "The document calls 8322.4 kg a weight; it is the mass of C_W = 0.0065 at sea level. The flight preset uses "
+        "3.2", "Main rotor and mass as loaded, beside the thesis", DOCUMENT_3_2, loaded,
+        "The thesis calls 8322.4 kg a weight; it is the mass of C_W = 0.0065 at sea level. The flight preset uses "
         "measured blade mass and flap inertia instead of 13.92 kg/m.",
     )  # fmt: skip
 
@@ -65,7 +65,7 @@ def _as_loaded(number: str, caption: str, document: dict[str, float], loaded: di
         number=number,
         kind="table",
         caption=f"{caption}.",
-        statement="The numbers of the document, p. 25.",
+        statement="The numbers of the thesis, p. 25.",
         ours=f"{len(rows)} numbers loaded from assets/uh60a.toml; largest difference {100 * worst:.2g} %.",
         verdict=judged(worst == 0.0),
         because=because,
@@ -90,9 +90,10 @@ def tail_rotor() -> Report:
         statement="In hovering, low, medium and high speed the tail rotor adds 5 % (p. 25).",
         ours=", ".join(f"{100 * share:.1f} % at µ {mu:g}" for mu, share in zip(TAIL_SPEEDS, shares, strict=True)) + ".",
         verdict=judged(low >= 0.04 and high <= 0.06),
-        because=f"Solved by speed it is no constant: {100 * low:.1f} to {100 * high:.1f} %. It is largest in hover, "
-        "where induced power rules, and falls with speed although torque rises again: air through its disk takes the "
-        "induced power down. The mean is near the document's number.",
+        because=f"It is not constant over speed: {100 * low:.1f} to {100 * high:.1f} %. It is largest in hover, "
+        "where induced power dominates, and falls with speed although torque rises again: flow through its disk "
+        "reduces the "
+        "induced power. The mean is near the thesis' number.",
         tables=(table("tail", ("mu", "main_rotor_kw", "tail_rotor_kw", "share_percent"), rows),),
         panels=(
             PlotPanel(
@@ -123,8 +124,9 @@ def figure_3_10() -> Report:
         kind="figure",
         caption="Total power over advance ratio at 8322.4 kg, sea level, fuselage and tail rotor included; main-rotor "
         "power at 7257.5 kg, 1600 m beside a public model curve of the UH-60A; hover points beside digitised "
-        "measurements. Indicative: the curve is a model's, the points' provenance is incomplete, and the document's "
-        "own flight-test points are not known to us.",
+        "measurements. Indicative: the curve is a model's, the points' provenance is incomplete, and the flight-test "
+        "points "
+        "of the thesis are not known.",
         statement="The predictions of the simple model are in good agreement with flight test (p. 26).",
         ours=f"Main rotor beside the public model curve at {int(moving.sum())} speeds above µ 0.075: flight "
         f"{100 * (ratio[moving].mean() - 1):+.1f} % in the mean, {100 * error:.1f} % rms. Hover: flight "
@@ -132,8 +134,8 @@ def figure_3_10() -> Report:
         f"Least total power at µ {bucket['flight']:g} (flight), {bucket['thesis']:g} (thesis).",
         verdict=Agreement.INDICATIVE,
         because="The thesis preset lies below the flight preset everywhere: free transition, one Mach number and "
-        "linear inflow leave out drag and uneven induced power; agreement with flight test cannot be judged without "
-        "its points.",
+        "linear inflow underestimate drag and nonuniform induced power; agreement with flight test cannot be judged "
+        "without its points.",
         tables=(
             table("total_kw", ("mu", *_NAMES), zip(SPEEDS, *(total[name] for name in _NAMES), strict=True)),
             table(

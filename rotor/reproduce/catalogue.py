@@ -1,4 +1,4 @@
-"""Every figure and table that can be rebuilt, in the document's order."""
+"""Every figure and table that can be rebuilt, in the thesis' order."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

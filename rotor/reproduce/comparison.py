@@ -15,7 +15,7 @@ def figure_4_13(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Repo
         for k, concept in enumerate(CONCEPTS):
             savings = [_percent(name, concept, mu, scope) for mu in scope.speeds]
             label = concept if name == VARIANTS[1] else ""
-            # Between hover and the slowest flight no inflow model is proven: a gap, not a line.
+            # No inflow model is validated between hover and the lowest speed: leave a gap.
             for part, words in ([mu for mu in scope.speeds if mu > 0.0], label), ([0.0], ""):
                 shown = [_percent(name, concept, mu, scope) for mu in part]
                 curves.append(curve(words, part, shown, "both", colour=k))
@@ -32,14 +32,14 @@ def figure_4_13(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Repo
     return Report(
         number="4.13",
         kind="figure",
-        caption="Saving of total power by each concept, moved to its optimum at each speed, against a fixed linear "
+        caption="Saving of total power by each concept at its optimum for each speed, relative to a fixed linear "
         "−16°. Below it, with every inflow model: what one linear twist saves, and what three segments add to it.",
         statement=UNKNOWN,
-        ours="Three segments save beyond one linear twist at most "
+        ours="Three segments save more than one linear twist by at most "
         + ", ".join(f"{largest[name]:.2f} % ({SHORT[name]})" for name in VARIANTS)
         + f"; {max(largest.values()):.2f} % with any inflow model.",
         verdict=Agreement.ALONE,
-        because="One linear twist, moved, takes most of what steady twist can give.",
+        because="One variable linear twist gives most of the saving of steady twist.",
         tables=(
             by_model("three_beyond_linear_percent", gain, variants, scope),
             _savings_table(scope, variants),
@@ -75,22 +75,24 @@ def table_4_1(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Report
         numbers |= {f"{name}_fixed": 1 - fixed / baseline, f"{name}_moving": 1 - moving / fixed}
         if name in VARIANTS:
             words[name] = (
-                f"{SHORT[name]}: moving one linear twist saves {100 * (1 - moving / baseline):.1f} % of mean power "
-                f"against −16°, but a fixed {one.rate_deg:.1f}° saves {100 * (1 - fixed / baseline):.1f} %, so moving "
-                f"is worth {100 * (1 - moving / fixed):.1f} %"
+                f"{SHORT[name]}: variable linear twist saves {100 * (1 - moving / baseline):.1f} % of mean power "
+                f"relative to −16°, a fixed {one.rate_deg:.1f}° saves {100 * (1 - fixed / baseline):.1f} %; the "
+                "additional "
+                f"saving from variable twist is {100 * (1 - moving / fixed):.1f} %"
             )
     most = max(numbers[f"{name}_moving"] for name in variants)
     return Report(
         number="4.1",
         kind="table",
         caption="Reduction of total power between a fixed linear −16° and each concept, mean over the speeds and speed "
-        "by speed, with every inflow model; and how much of it the best fixed linear blade would take without moving "
-        "(every speed flown equally long).",
+        "by speed, with every inflow model; and the part of it that the best fixed linear blade would give "
+        "(equal time at every speed).",
         statement=UNKNOWN,
         ours="; ".join(words[name] for name in VARIANTS)
-        + f". With no inflow model is moving worth more than {100 * most:.1f} %.",
+        + f". With every inflow model it is at most {100 * most:.1f} %.",
         verdict=Agreement.ALONE,
-        because="Against −16° a part of every saving is only that −16° is not the best fixed blade for these speeds.",
+        because="Part of every saving relative to −16° arises because −16° is not the best fixed blade for these "
+        "speeds.",
         tables=(
             _mean_savings(scope, variants),
             table(

@@ -73,7 +73,7 @@ def _blade_without_coning(design: Design) -> Design:
 
 
 def moment_trimmed(mu: float) -> Solution:
-    """The document's rotor in propulsive trim with three-state gains and no loss factors."""
+    """The thesis' rotor in propulsive trim with three-state gains and no loss factors."""
     design = make_design(preset="thesis", twist=f"linear:{RATE_DEG}", mu=mu)
     models = replace(
         design.models, trim="propulsive", disk_axial_flow=True, inflow="pitt-peters", tip_loss=False, hub_loss=False

@@ -37,14 +37,14 @@ def figure_4_9() -> Report:
     return Report(
         number="4.9",
         kind="figure",
-        caption="Planform of the UH-60A blade as the flight preset has it: sections, chord, root cut-out; the 20° "
+        caption="Planform of the UH-60A blade in the flight preset: sections, chord, root cut-out; the 20° "
         "sweep of the tip and the trailing-edge tab are not modelled.",
         statement=UNKNOWN,
         ours=f"SC1095 over {100 * shares['sc1095']:.0f} % of the radius, SC1094 R8 over "
         f"{100 * shares['sc1094r8']:.0f} %, "
         "blended between.",
         verdict=Agreement.ALONE,
-        because="Numbers and sources stand in assets/uh60a.toml.",
+        because="Numbers and sources: assets/uh60a.toml.",
         tables=(table("spans", ("section", "start_r", "end_r", "chord_m"), rows),),
         panels=(PlotPanel("r/R", "from the quarter chord, over R", tuple(curves), equal=True),),
         numbers=shares,
@@ -61,7 +61,7 @@ def figure_4_11() -> Report:
     return Report(
         number="4.11",
         kind="figure",
-        caption="Built-in twist of the UH-60A and the linear twist that stands for it.",
+        caption="Built-in twist of the UH-60A and its linear approximation.",
         statement="The nonlinear twist is approximated by a linear −16° (p. 25).",
         ours=f"Straight line through it from 0.2 R to the tip: {plain:.1f}° unweighted, {weighted:.1f}° weighted by "
         "r².",
@@ -81,7 +81,7 @@ def figure_4_11() -> Report:
 
 
 SLOWEST = 0.075
-"""µ below which no inflow model is proven."""
+"""µ below which no inflow model is validated."""
 FEW = 3
 """Speeds in a test."""
 
@@ -148,11 +148,11 @@ def figure_4_12(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Repo
         "public model curve of the UH-60A (7257.5 kg, 1600 m; indicative, not flight test). Below it, the saving with "
         f"every inflow model. {NOTE}",
         statement=UNKNOWN,
-        ours=f"The best three segments save, of main-rotor power against the built-in twist, {ranges}; at µ "
+        ours=f"Relative to the built-in twist the best three segments save {ranges} of main-rotor power; at µ "
         f"{speeds.speeds[place]:.2f} {spread(percent, variants, place, ' %')}.",
         verdict=Agreement.ALONE,
-        because="A saving by twist is smaller than the distance between model and data, so only differences between "
-        "our own curves mean something.",
+        because="The saving is smaller than the difference between model and data, so only differences between our "
+        "own curves are meaningful.",
         tables=(
             by_model("saving_percent_by_inflow", percent, variants, speeds),
             table(
@@ -176,8 +176,8 @@ def figure_4_12(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Repo
 
 def _panel(name: str, rows: Sequence[SpeedRow], *, named: bool) -> PlotPanel:
     curves: list[Curve] = []
-    # Between hover and the slowest flight no inflow model is proven: a gap, not a line.
-    labels = ("built-in twist", "three segments, moving", "public model curve (indicative)")
+    # No inflow model is validated between hover and the lowest speed: leave a gap.
+    labels = ("built-in twist", "three segments, variable", "public model curve (indicative)")
     for part in ([row for row in rows if row.mu > 0.0], [row for row in rows if row.mu == 0.0]):
         speeds = [row.mu for row in part]
         built, best, public = labels if named and part[0].mu > 0.0 else ("", "", "")

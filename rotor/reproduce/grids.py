@@ -17,7 +17,7 @@ WAKE_LEAST = 36
 """The dynamic wake carries 16 waves per revolution and refuses fewer than 33 azimuths."""
 FINEST_AZIMUTHS = 720
 FORWARD = 0.30
-"""Advance ratio of figs. 3.8 and 3.9: "high speed forward flight" in the document (p. 21)."""
+"""Advance ratio of figs. 3.8 and 3.9: "high speed forward flight" in the thesis (p. 21)."""
 ENOUGH = 1e-3
 """Part of the power that counts as converged."""
 CASES = (("thesis", "linear:-16"), ("flight", "uh60a"))
@@ -73,7 +73,7 @@ def figure_3_9() -> Report:
         kind="figure",
         caption=f"Power in forward flight, µ {FORWARD:.2f}, against the number of azimuths (40 elements).",
         statement="At least 100 azimuthal positions are needed (p. 22).",
-        ours=f"At 100 azimuths power is within {1e6 * worst:.1g} millionths of {FINEST_AZIMUTHS} in both presets; "
+        ours=f"At 100 azimuths the power is within {1e6 * worst:.1g} millionths of {FINEST_AZIMUTHS} in both presets; "
         "within 0.1 % from "
         + ", ".join(f"{numbers[f'{name}_needed']:.0f} ({name})" for name, _ in CASES)
         + " on. From 100 to 360 azimuths the error falls with order "
@@ -81,10 +81,10 @@ def figure_3_9() -> Report:
         + ".",
         verdict=judged(worst < ENOUGH and needed >= 100),
         because="100 is enough"
-        + ("" if needed >= 100 else ", but far fewer do for power")
-        + ": evenly summed, a smooth periodic load converges faster than any power, and only the corners of stall, of "
-        "reverse flow and of clamped polynomials leave a finite order. Flapping by harmonic balance asks for no more; "
-        "one integrated in time, as the document's, may. The wake of the flight preset itself refuses fewer than 33.",
+        + ("" if needed >= 100 else ", but far fewer suffice for power")
+        + ": the uniform sum of a smooth periodic load converges faster than any power; only the kinks of stall, of "
+        "reverse flow and of clamped polynomials leave a finite order. Flapping by harmonic balance needs no more; "
+        "integration in time, as in the thesis, may. The wake of the flight preset needs at least 33.",
         tables=(table("power_kw", ("azimuths", *(name for name, _ in CASES), "flight-linear"), rows),),
         panels=(PlotPanel("azimuths", f"power, relative error to {FINEST_AZIMUTHS}", tuple(curves), log="xy"),),
         numbers=numbers,
@@ -117,7 +117,7 @@ def _elements(number: str, mu: float, azimuths: int) -> Report:
         kind="figure",
         caption=f"Main-rotor power in {where} against the number of blade elements.",
         statement="Power settles as the number of elements grows, so that a smallest sufficient number can be read off "
-        "(p. 21–22; the number is in the figure, which we do not hold).",
+        "(p. 21–22; the number is in the figure, which is not available).",
         ours="; ".join(
             f"{name}: observed order {numbers[f'{name}_order']:.1f}, limit {numbers[f'{name}_limit_kw']:.1f} kW, at 40 "
             f"elements off by {100 * numbers[f'{name}_error_at_40']:.2f} %, within 0.1 % from "
@@ -127,7 +127,7 @@ def _elements(number: str, mu: float, azimuths: int) -> Report:
         + ".",
         verdict=judged(worst < 5e-3),
         because="It settles. The midpoint rule has order 2 on smooth loads; Prandtl's factor ends in a square root at "
-        "the tip, and the flown blade's airfoils and twist table have corners, which makes the order uneven.",
+        "the tip, and the airfoils and twist table of the UH-60A have kinks, which makes the order irregular.",
         tables=(table("power_kw", ("elements", *(name for name, _ in CASES)), rows),),
         panels=(
             PlotPanel("elements", "power [kW]", tuple(powers_of), log=""),

@@ -1,4 +1,4 @@
-"""What the document omits or misprints, each with two lines of Python that show it. The lines are run."""
+"""What the thesis omits or misprints, each with two lines of Python that show it. The lines are run."""
 
 import math
 from collections.abc import Callable
@@ -195,7 +195,7 @@ def write_misprints(folder: Path) -> Path:
         "td,th{vertical-align:top;text-align:left;padding:6px 10px;border-bottom:1px solid #dde2e6}"
         "pre{white-space:pre-wrap;"
         "background:#f3f5f6;padding:6px 8px;overflow-x:auto;font-size:12.5px;margin:6px 0 0}small{color:#5b6770}"
-        "table{border-collapse:collapse}</style><h1>What the document omits or misprints</h1>"
+        "table{border-collapse:collapse}</style><h1>What the thesis omits or misprints</h1>"
         '<p><a href="index.html">Back</a>. Each with two lines that were run to make this page.</p><table><tr>'
         "<th>Equation</th><th>As printed</th><th>Ours, and why</th><th>Print</th><th>Ours</th></tr>"
         f"{''.join(rows)}</table></html>\n",

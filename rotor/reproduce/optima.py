@@ -1,7 +1,7 @@
 """Chapter 4: the twist of least power for every concept, over speed, in both presets and with every inflow model.
 
-The document's own numbers of chapter 4 are not known to us, so nothing here is compared with them. What is said of
-each optimum: parameters, the band within 0.1 % of its power, the power, and the saving against the document's
+The thesis' own numbers of chapter 4 are not known to us, so nothing here is compared with them. What is said of
+each optimum: parameters, the band within 0.1 % of its power, the power, and the saving against the thesis'
 baseline, a fixed linear twist of −16°.
 """
 
@@ -80,7 +80,7 @@ CONCEPTS: dict[str, tuple[str, Callable[[], Concept]]] = {
     "two airfoils": ("two sections, two airfoils, 50 – 50", lambda: find_concept("two-segment-two-airfoils", (0.5,))),
     "three": ("three linear sections", lambda: find_concept("three-segment")),
 }
-"""The document's concepts: title, and the concept."""
+"""The thesis' concepts: title, and the concept."""
 
 
 @CachedFunction

@@ -9,9 +9,9 @@ from rotor.reproduce.report import Agreement, Curve, PlotPanel, Report, ReportTa
 from rotor.reproduce.runs import EVERY_VARIANT, PRESETS, VARIANT_TITLES, VARIANTS, choices
 
 LINEAR = tuple(name for name, model in INFLOW_MODELS.items() if not model.load_dependent)
-"""Models whose inflow does not answer to where the lift is; they lie on one another."""
+"""Models that do not respond to the load distribution; their results coincide."""
 REACTING = tuple(name for name, model in INFLOW_MODELS.items() if model.load_dependent)
-NOTE = "In hover every model gives the same: there the annuli balance themselves."
+NOTE = "In hover every model gives the same: hover uses the annulus balance."
 
 Value = Callable[[str, int], float]
 """Of a variant, at a place in the list of speeds."""
@@ -75,11 +75,11 @@ def spread(value: Value, variants: Sequence[str], place: int, unit: str = "°") 
                 parts.append(f"{'…'.join(ends)}{unit} ({preset})")
         return ", ".join(parts)
 
-    words = ((of(LINEAR), "with the linear models"), (of(REACTING), "with those that answer to the load"))
+    words = ((of(LINEAR), "with the linear models"), (of(REACTING), "with the models that respond to loading"))
     return ", ".join(f"{found} {kind}" for found, kind in words if found)
 
 
-UNKNOWN = "Only the caption is known to us; the document's numbers are not."
+UNKNOWN = "Only the caption is known; the numbers of the thesis are not."
 SHORT = {
     "thesis": "thesis",
     "thesis-wake": "thesis + wake",
@@ -138,7 +138,8 @@ def figure_4_8(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Repor
     """Two sections, two airfoils."""
     return _figure(
         "4.8", "two airfoils", _TWO, scope, variants,
-        " SC1094 R8 inboard, SC1095 outboard, changing at the division (our order; the document's is not known). In "
+        " SC1094 R8 inboard, SC1095 outboard, changing at the division (our order; that of the thesis is not known). "
+        "In "
         "the thesis preset decks replace the polynomials and the annulus balance eq. (3.3), in the baseline too: the "
         "R8 exists as a deck only, and (3.3) knows one lift curve for a whole blade.",
     )  # fmt: skip
@@ -148,7 +149,7 @@ def figure_4_10(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Repo
     """Three sections."""
     return _figure(
         "4.10", "three", ("inboard_rate_deg", "middle_rate_deg", "outboard_rate_deg"), scope, variants,
-        " Divided where the UH-60A changes its airfoils.",
+        " Breaks where the UH-60A changes its airfoils.",
     )  # fmt: skip
 
 
@@ -184,13 +185,13 @@ def _figure(
         number=number,
         kind="figure",
         caption=f"Twist of least total power over speed: {title}. Shaded: within 0.1 % of that power, the other "
-        f"parameters following.{note} Below it, every inflow model in both presets. {NOTE}",
+        f"parameters re-optimised.{note} Below it, every inflow model in both presets. {NOTE}",
         statement=UNKNOWN,
         ours=f"{words}. {_across_models(found, shown, scope)}",
         verdict=Agreement.ALONE,
         because=f"The optimum is flat (up to {widest:.0f}° of twist for 0.1 % of power): read the band, not the line. "
-        "With linear inflow it moves by profile drag alone; with an inflow that answers induced power moves it too."
-        + ("" if settled else " Not every search settled; see the table."),
+        "With linear inflow only profile power moves it; with a model that responds to loading, induced power does too."
+        + ("" if settled else " Not every search converged; see the table."),
         tables=(*_by_model(found, shown, scope), _table(found, shown)),
         panels=tuple(_panel(name, found[name], shown) for name in VARIANTS),
         companion=_companion(found, shown, scope),
@@ -244,7 +245,7 @@ def _panel(name: str, row: list[ConceptOptimum], shown: Sequence[str]) -> PlotPa
     hover, flying = [one for one in row if one.mu == 0.0], [one for one in row if one.mu > 0.0]
     for k, key in enumerate(shown):
         label = _word(key) if len(shown) > 1 else "optimum"
-        # Between hover and the slowest flight no inflow model is proven: a gap, not a line.
+        # No inflow model is validated between hover and the lowest speed: leave a gap.
         for part, words in ((flying, label), (hover, "")):
             speeds = [one.mu for one in part]
             low, high = ([_band(one, key)[end] for one in part] for end in (0, 1))

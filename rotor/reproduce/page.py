@@ -68,16 +68,16 @@ def _head(made: Sequence[tuple[CatalogueEntry, Report]], pictures: bool) -> str:
     )
     without = "" if pictures else f"<p><b>{escape(NO_PICTURES)}</b></p>"
     return (
-        '<!doctype html><html lang="en"><meta charset="utf-8"><title>The document, rebuilt</title>'
+        '<!doctype html><html lang="en"><meta charset="utf-8"><title>The thesis, rebuilt</title>'
         '<meta name="viewport" content="width=device-width,initial-scale=1">'
-        f"<style>{_CSS}</style><main><h1>The document, rebuilt</h1>"
+        f"<style>{_CSS}</style><main><h1>The thesis, rebuilt</h1>"
         "<p>Figures and tables of M. Lonoce, <i>Helicopter Blade Twist Optimization in Forward Flight</i> (MSc thesis, "
         "Instituto Superior Técnico, 2016), computed anew. Captions are ours; no picture is taken from there. "
-        "<b>thesis</b> is what the document states, <b>flight</b> what we believe, <b>thesis-wake</b> the thesis "
-        "preset with a wake that answers to where the lift is. We hold the text up to figure 3.15; of chapters 4 to 6 "
-        "only the "
-        f'captions.</p><p>{len(made)} rebuilt: {summary}. <a href="misprints.html">What the document omits or misprints'
-        f"</a>.</p>{without}<details open><summary>Contents</summary><table class=toc>{rows}</table></details>"
+        "<b>thesis</b> is the model as printed, <b>flight</b> the best available, <b>thesis-wake</b> the thesis preset "
+        "with a wake that responds to loading. The text is available up to figure 3.15; of chapters 4 to 6 only "
+        f'the captions.</p><p>{len(made)} rebuilt: {summary}. <a href="misprints.html">'
+        f"What the thesis omits or misprints</a>.</p>{without}"
+        f"<details open><summary>Contents</summary><table class=toc>{rows}</table></details>"
     )
 
 
@@ -92,7 +92,7 @@ def _article(report: Report, folder: Path, *, pictures: bool) -> str:
     tables = "".join(_details(one) for one in report.tables)
     return (
         f'<article id="{report.stem}"><h3>{escape(report.title)} {_chip(report.verdict)}</h3>'
-        f"<div>{escape(report.caption)}</div>{image}<dl><dt>The document</dt><dd>{escape(report.statement)}</dd>"
+        f"<div>{escape(report.caption)}</div>{image}<dl><dt>The thesis</dt><dd>{escape(report.statement)}</dd>"
         f"<dt>Ours</dt><dd>{escape(report.ours)}</dd>"
         f"<dt>{escape(report.verdict.value.capitalize())}</dt><dd>{escape(report.because)}</dd></dl>"
         f"<div class=small>{' · '.join(files)}</div>{tables}</article>"

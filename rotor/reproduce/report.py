@@ -1,4 +1,4 @@
-"""What a rebuilt figure is: a caption, what the document says, our numbers, and a verdict that the numbers decide."""
+"""A rebuilt figure: caption, statement of the thesis, our numbers, verdict; and the data of its plots and tables."""
 
 import math
 import re
@@ -15,14 +15,14 @@ TableCell = str | float | int
 
 
 class Agreement(Enum):
-    """How ours stands to the document's statement."""
+    """How our result compares with the statement of the thesis."""
 
     AGREES = "agrees"
     DIFFERS = "differs"
-    ALONE = "stands alone"
-    """The document's own number is not known, or there is no statement to test."""
+    ALONE = "no reference"
+    """The number of the thesis is not known, or there is no statement to test."""
     INDICATIVE = "indicative"
-    """Set beside data of unclear origin or another model: no judgement either way."""
+    """Compared with data of unclear origin or with another model: no verdict."""
 
 
 @dataclass(frozen=True)
@@ -96,7 +96,7 @@ AnyPanel = PlotPanel | DiskPanel | FieldPanel
 
 @dataclass(frozen=True)
 class ReportTable:
-    """Rows of numbers and words, as they go into a CSV."""
+    """Rows of numbers and text for a CSV file."""
 
     name: str
     """Short: part of the file name when a figure has several."""
@@ -106,26 +106,26 @@ class ReportTable:
 
 @dataclass(frozen=True)
 class Report:
-    """One figure or table of the document, rebuilt."""
+    """One rebuilt figure or table of the thesis."""
 
     number: str
-    """As the document numbers it, for example 3.11; or a word for what it does not number."""
+    """As the thesis numbers it, for example 3.11; or a word for what it does not number."""
     kind: Literal["figure", "table", "claim"]
     caption: str
     """In our own words."""
     statement: str
-    """What the document says about it."""
+    """The statement of the thesis."""
     ours: str
     """Our numbers, one or two sentences."""
     verdict: Agreement
     because: str
-    """Why it differs, or what the agreement rests on; one sentence."""
+    """Reason for the difference, or basis of the agreement; one sentence."""
     tables: tuple[ReportTable, ...]
     panels: tuple[AnyPanel, ...] = ()
     companion: tuple[AnyPanel, ...] = ()
-    """A second picture, where one would hold too much."""
+    """Panels of a second figure."""
     numbers: Mapping[str, float] = field(default_factory=dict[str, float])
-    """What the statement was judged by, by name."""
+    """Numbers that decide the verdict, by name."""
 
     @property
     def title(self) -> str:

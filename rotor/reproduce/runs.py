@@ -17,7 +17,7 @@ R = TypeVar("R")
 
 
 class CachedFunction(Generic[P, R]):
-    """A function of hashable arguments that keeps its answers. It pickles by its name, as a function does."""
+    """A function of hashable arguments that keeps its results. It pickles by name."""
 
     def __init__(self, function: Callable[P, R]) -> None:
         self.name = function.__qualname__
@@ -26,7 +26,7 @@ class CachedFunction(Generic[P, R]):
         update_wrapper(self, function)
 
     def __call__(self, *args: P.args, **kwargs: P.kwargs) -> R:
-        assert not kwargs, "a remembered function knows its calls by position"
+        assert not kwargs, "pass arguments by position"
         if args not in self.known:
             self.known[args] = self._function(*args, **kwargs)
         return self.known[args]
@@ -36,7 +36,7 @@ class CachedFunction(Generic[P, R]):
 
 
 Call = tuple[CachedFunction[..., Any], tuple[Any, ...]]
-"""A remembered function and its arguments."""
+"""A cached function and its arguments."""
 
 
 def compute_ahead(
@@ -47,7 +47,7 @@ def compute_ahead(
 ) -> bool:
     """Make the calls, each group in one process, one after the other; True when stopped before the end.
 
-    The groups with most to do come first. `advance` hears of every call as it is answered.
+    The longest groups come first. `advance` is called after every call.
     """
     waiting = [tuple(call for call in group if call[1] not in call[0].known) for group in groups]
     seen: set[tuple[str, tuple[Any, ...]]] = set()
@@ -72,7 +72,7 @@ def _work(calls: tuple[Call, ...], stop: Callable[[], bool] | None) -> Iterator[
 
 PRESETS = ("thesis", "flight")
 FIVE_RATES = (0, -4, -8, -12, -16)
-"""The document's linear twists [degrees per radius] (thesis §3.3)."""
+"""The linear twists of the thesis [degrees per radius] (thesis §3.3)."""
 
 THESIS_WAKE = "thesis-wake"
 """The `thesis` preset with the dynamic wake for its linear inflow: the least change that lets twist act on induced
@@ -85,8 +85,8 @@ THESIS_TRIMMED = "thesis-trimmed"
 in U_P."""
 
 VARIANTS = ("thesis", THESIS_WAKE, "flight", FLIGHT_LINEAR)
-"""Those that have a picture of their own: each preset with an inflow that answers to the load, and with one that does
-not."""
+"""Those that have a picture of their own: each preset with an inflow model that responds to loading, and with one that
+does not."""
 VARIANT_TITLES = {
     "thesis": "thesis preset (linear inflow as printed)",
     THESIS_WAKE: "thesis preset with the dynamic wake",

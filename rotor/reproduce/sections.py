@@ -56,7 +56,7 @@ def figure_2_4() -> Report:
     return Report(
         number="2.4",
         kind="figure",
-        caption="Pressure coefficient on the upper and lower side of NACA 23015. The document states neither angle nor "
+        caption="Pressure coefficient on the upper and lower side of NACA 23015. The thesis states neither angle nor "
         f"flow; ours: {_flow(pressure.case)}. {origin}",
         statement="XFOIL gives how the pressure coefficient changes over the top and the bottom of a section (p. 9).",
         ours=f"Least Cp {pressure.cp[peak]:.2f} at {100 * pressure.x[peak]:.0f} % chord on the upper side; largest "
@@ -99,14 +99,14 @@ def _forces(number: str, section: str, statement: str) -> Report:
         kind="figure",
         caption=f"Pressure forces around {TITLES[section]}: arrows of −Cp normal to the surface; "
         f"{_flow(pressure.case)}. "
-        f"Angle, Mach and Reynolds number are ours where the document is silent. {origin}",
+        f"Angle, Mach and Reynolds number are ours where the thesis is silent. {origin}",
         statement=statement,
         ours=f"cl {pressure.cl:.3f}, cd {pressure.cd:.5f}, cm {pressure.cm:.3f}; the arrows add up to cl "
         f"{integrated:.3f} "
         f"({round(100 * gap, 2) + 0.0:+.2f} %). {beside[0]}".rstrip(),
         verdict=judged(abs(gap) < 5e-3),
-        because="The arrows carry XFOIL's lift, which proves order, sign and scale, not XFOIL; the document prints no "
-        "number to set beside.",
+        because="The arrows integrate to XFOIL's lift, which verifies order, sign and scale, not XFOIL; the thesis "
+        "gives no number to compare.",
         tables=(_table(pressure),),
         panels=(_arrows(pressure),),
         numbers={"cl": pressure.cl, "cl_integrated": integrated, "cd": pressure.cd, **beside[1]},
@@ -161,7 +161,7 @@ def _table(pressure: Pressure) -> ReportTable:
 
 
 RANGES = ((-10.0, 15.0), (-10.0, 20.0))
-"""Ranges of the fit [deg]: ours, and one that reaches into stall. The document states none."""
+"""Ranges of the fit [deg]: ours, and one that reaches into stall. The thesis states none."""
 GOOD = 0.01
 """Part of the coefficient's own spread over the range that a good compromise may miss."""
 ATTACHED_DEG = (-4.0, 8.0)
@@ -221,7 +221,7 @@ def _error(number: str, which: str, chosen: int) -> Report:
         number=number,
         kind="figure",
         caption=f"Error of the {which} polynomial of SC1095 against its order, over two ranges of α. Data: XFOIL, M "
-        "0.3, Re 3.68 million, Ncrit 9 (our assumption; the document states range and flow nowhere).",
+        "0.3, Re 3.68 million, Ncrit 9 (our assumption; the thesis states range and flow nowhere).",
         statement=f"Order {chosen} is a good compromise between error and cost (p. 18).",
         ours=f"Order {chosen}: rms {numbers['at_-10_15']:.5f} over −10…15°, {100 * share:.2f} % of the spread of "
         f"{symbol}; "
@@ -230,8 +230,8 @@ def _error(number: str, which: str, chosen: int) -> Report:
         f"gains a factor {numbers['last_step_-10_20']:.2f}, the step to order {chosen + 2} another "
         f"{numbers['next_step_-10_20']:.2f}.",
         verdict=judged(share < GOOD),
-        because=("It is the knee over −10…20°" if knee else "It is no sharp knee")
-        + ", but there is no plateau: more order always helps a little, because stall is a corner.",
+        because=("It is the knee over −10…20°" if knee else "It is not a sharp knee")
+        + ", but there is no plateau: a higher order always helps slightly, because stall is a kink.",
         tables=(table("error", ("order", *(f"rms_{low:g}_{high:g}_deg" for low, high in RANGES)), rows),),
         panels=(panel,),
         numbers={**numbers, "share_of_spread": share},
@@ -260,7 +260,7 @@ def _fit(number: str, which: str, order: int) -> Report:
     if which == "drag":
         words += f" In attached flow ({ATTACHED_DEG[0]:g}…{ATTACHED_DEG[1]:g}°) Cd is off by "
         words += f"{100 * np.sqrt(np.mean(relative**2)):.1f} % rms, {100 * np.abs(relative).max():.1f} % at most."
-    words += f" Not held at its ends, it would give {symbol} {unheld:.3g} at 30°."
+    words += f" Without holding the end values it would give {symbol} {unheld:.3g} at 30°."
     return Report(
         number=number,
         kind="figure",
@@ -269,8 +269,8 @@ def _fit(number: str, which: str, order: int) -> Report:
         "information of the section (p. 18).",
         ours=words,
         verdict=judged(rms < GOOD * _spread(which)),
-        because="Inside the range of the fit it does; outside it must be held at its end values, which the document "
-        "does not mention and from µ 0.15 on a trim needs.",
+        because="Inside the range of the fit it does; outside it must be held at its end values, which the thesis "
+        "does not mention and a trim needs from µ 0.15.",
         tables=(
             table(
                 "fit", ("alpha_deg", symbol.lower(), f"{symbol.lower()}_fit"), zip(alpha_deg, data, made, strict=True)

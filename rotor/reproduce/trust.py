@@ -14,10 +14,10 @@ from rotor.assets import asset_path, csv_rows
 Kind = Literal["verification", "public code", "validation", "indicative", "document"]
 KINDS: dict[Kind, str] = {
     "verification": "Verification: against theory, identities and limits, and between our own theories",
-    "public code": "Verification: beside independent public codes, same controls and section data",
+    "public code": "Verification: against independent public codes, same controls and section data",
     "validation": "Validation: against measurement",
     "indicative": "Indicative: against another model, or data of unclear origin",
-    "document": "The document's statements (python -m rotor reproduce)",
+    "document": "Statements of the thesis (python -m rotor reproduce)",
 }
 """What each kind of row is worth."""
 

@@ -69,7 +69,7 @@ CHANGES: tuple[tuple[str, Change], ...] = (
     ("none: flight preset", lambda design: design),
     ("section: SC1095 deck all along", _airfoil("sc1095")),
     ("section: SC1094 R8 deck all along", _airfoil("sc1094r8")),
-    ("section: the document's polynomials (M 0.3, free transition)", _airfoil("sc1095-thesis")),
+    ("section: the thesis' polynomials (M 0.3, free transition)", _airfoil("sc1095-thesis")),
     ("Mach: half the tip speed, same coefficients", _slow_tip),
     ("inflow: Pitt–Peters, linear", _models(inflow="pitt-peters")),
     ("inflow: Drees, linear", _models(inflow="drees")),
@@ -157,11 +157,13 @@ def page(rows: Iterable[TrustRow], changes: Iterable[SensitivityRow]) -> str:
     parts = [
         "# How far to trust the numbers",
         "Made by `python -m rotor reproduce OUT --trust` from actual runs; "
-        "`tests/rotor/reproduce/test_trust.py` makes the "
-        "rows again and compares.",
-        "Three words, always kept apart: **verification** (against theory, identities, other codes: do we solve our "
-        "equations?), **validation** (against measurement: are they the right ones?), **indicative** (against another "
-        "model, or data of unclear origin: no proof either way). There is little validation here, because little is "
+        "`tests/rotor/reproduce/test_trust.py` recomputes the "
+        "rows and compares.",
+        "Three kinds of comparison: **verification** (against theory, identities, other codes: are the "
+        "equations solved correctly?), **validation** (against measurement: are they the right equations?), "
+        "**indicative** "
+        "(against another model, or data of unclear origin: no proof). There is little validation here, because "
+        "little is "
         "public; the forward-flight power of the UH-60A is not validated.",
     ]
     for kind, heading in KINDS.items():
@@ -170,13 +172,13 @@ def page(rows: Iterable[TrustRow], changes: Iterable[SensitivityRow]) -> str:
             continue
         parts.append(f"## {heading}")
         first = ("Statement", "Verdict") if kind == "document" else ("Against", "Error")
-        lines = [f"| What | {first[0]} | {first[1]} | Held by | |", "| --- | --- | --- | --- | --- |"]
+        lines = [f"| What | {first[0]} | {first[1]} | Verified by | |", "| --- | --- | --- | --- | --- |"]
         cells = ((row.what, row.against, row.shown, f"`{row.test}`", _own(row)) for row in mine)
         lines += ["| " + " | ".join(cell.replace("|", "\\|") for cell in row) + " |" for row in cells]
         parts.append("\n".join(lines))
         parts += dict.fromkeys(_shared(row) for row in mine if _shared(row))  # Once, under the table.
     parts += _sensitivity_part(changes)
-    parts.append("## Not modelled, so not to be trusted")
+    parts.append("## Not modelled")
     parts.append("\n".join(f"- {one}" for one in _NOT_MODELLED))
     return typographic("\n\n".join(parts)) + "\n"
 
@@ -194,10 +196,10 @@ def _sensitivity_part(changes: Sequence[SensitivityRow]) -> list[str]:
         ]
         lines.append(f"| {name} | {' | '.join(cells)} |")
     return [
-        "## Sensitivity of the best linear twist and of its worth",
+        "## Sensitivity of the best linear twist and its saving",
         "Flight preset with one choice changed; the best linear twist per radius with its band within 0.1 % of the "
         "least total power, and the saving of total power against a linear −16° under the same choice. The optimum "
-        "moves by degrees, its worth by tenths of a per cent up to a few: compare powers, never angles alone.",
+        "changes by degrees, its saving by tenths of a per cent up to a few: compare powers, not angles alone.",
         "\n".join(lines),
     ]
 

@@ -42,19 +42,19 @@ def verification() -> Iterator[TrustRow]:
     """The fast rows."""
     yield _bound("Uniform inflow of the ideal twist in hover, eqs. (1.1), (2.28)", "momentum theory", _ideal_twist(),
                  1e-12, "rotor/trim/test_hover.py::test_ideal_twist_gives_uniform_inflow")  # fmt: skip
-    yield _bound("Closed form (3.3) closes the annulus balance, F included", "4Fλ²r = ½σC_lα(θr² − λr)", _closes(),
+    yield _bound("Closed form (3.3) satisfies the annulus balance, F included", "4Fλ²r = ½σC_lα(θr² − λr)", _closes(),
                  1e-12, "rotor/trim/test_hover.py::test_closed_form_closes_the_balance")  # fmt: skip
     yield _bound("Shaft power = induced + profile + parasite, µ 0.1…0.3, three inflow models", "identity", _energy(),
                  1e-8, "rotor/trim/test_power.py::test_energy_identity")  # fmt: skip
     yield _bound("Gradient of power by linear twist, dynamic wake", "central differences", _gradient(), 1e-5,
-                 "rotor/aero/test_inflow_reacting.py::test_adjoint_against_differences")  # fmt: skip
+                 "rotor/aero/test_inflow_load_dependent.py::test_adjoint_against_differences")  # fmt: skip
     yield _bound("Profile power with reverse flow, (3.15) corrected", "quadrature of |U_T|³", _profile(), 1e-5,
                  "rotor/trim/test_power.py::test_eq_3_15_with_its_first_coefficient_corrected")  # fmt: skip
     flapping, second = _flapping()
     yield TrustRow(
-        "verification", "First-harmonic flapping, µ 0.15, free flapping", "the equation of motion marched in time",
+        "verification", "First-harmonic flapping, µ 0.15, free flapping", "time integration of the equation of motion",
         f"{flapping:.2f}°", flapping, 0.02, "rotor/dynamics/test_flapping.py::test_ode_agrees_with_harmonic_balance",
-        f"What is left is the neglected 2/rev motion ({second:.2f}°).",
+        f"The rest is the neglected 2/rev motion ({second:.2f}°).",
     )  # fmt: skip
     hover, forward, azimuths = figure_3_7(), figure_3_8(), figure_3_9()
     for name, report in (("hover", hover), ("µ 0.30", forward)):
@@ -221,7 +221,7 @@ def validation() -> Iterator[TrustRow]:
     yield _relative("validation", "Hover C_P, worst of ten points", against, hover["hover_least"], 3e-3, test,
                "C_T/σ 0.022…0.072; whirl tower or wind tunnel is not documented.")  # fmt: skip
     yield _relative("validation", "Hover C_P, best of ten points", against, hover["hover_largest"], 3e-3, test,
-               "Momentum theory knows no wake contraction and no tip-vortex interference.")  # fmt: skip
+               "Momentum theory has no wake contraction and no tip-vortex interference.")  # fmt: skip
 
 
 def indicative() -> Iterator[TrustRow]:
@@ -244,7 +244,7 @@ def indicative() -> Iterator[TrustRow]:
     test = "rotor/reproduce/test_chapter_3.py::test_figure_3_10"
     yield _relative("indicative", "Main-rotor power in forward flight, rms over seven speeds",
                "public model curve of the UH-60A", forward["rms_to_model_curve"], 3e-3, test,
-               "A model, said to agree with flight test above 50 kt.")  # fmt: skip
+               "A model, reported to agree with flight test above 50 kt.")  # fmt: skip
     yield _relative("indicative", "Main-rotor power in forward flight, mean of seven speeds",
                "public model curve of the UH-60A", forward["mean_to_model_curve"], 3e-3, test)  # fmt: skip
     for name in ("thesis-wake", "flight"):
@@ -253,7 +253,7 @@ def indicative() -> Iterator[TrustRow]:
             yield _relative("indicative", f"Power of −17.3° over −11.5°, {words}, {name}",
                        f"{100 * published:+.1f} % (Keys et al. 1987, another rotor)", gap, 3e-3,
                        "rotor/reproduce/test_chapter_3.py::test_keys_1987", unit="points")  # fmt: skip
-    yield _relative("indicative", "Tail rotor over main-rotor power, mean of four speeds", "5 % (the document)",
+    yield _relative("indicative", "Tail rotor over main-rotor power, mean of four speeds", "5 % (the thesis)",
                tail["mean"] - 0.05, 3e-3,
                "rotor/reproduce/test_chapter_3.py::test_tail_rotor", unit="points")  # fmt: skip
 
@@ -273,7 +273,7 @@ def public_codes() -> Iterator[TrustRow]:
 
 
 def statements(reports: Iterable[Report]) -> Iterator[TrustRow]:
-    """What became of each statement of the document."""
+    """What became of each statement of the thesis."""
     for one in reports:
         chapter = one.number[0] if one.number[0].isdigit() else "3"
         test = (

@@ -53,7 +53,7 @@ def figure_3_11() -> Report:
             for rate in FIVE_RATES
         }
         curves = [curve(f"{rate}°", loading, over[rate]) for rate in FIVE_RATES]
-        panels.append(PlotPanel("C_T/σ", "over the best of the five [%]", tuple(curves), title=f"{name} preset"))
+        panels.append(PlotPanel("C_T/σ", "relative to the best of the five [%]", tuple(curves), title=f"{name} preset"))
         rows = [
             (mass, loading[k], *(powers[rate][k].power.main_rotor / 1e3 for rate in FIVE_RATES))
             for k, mass in enumerate(MASSES)
@@ -85,9 +85,9 @@ def figure_3_11() -> Report:
         "blade stalls (p. 27).",
         ours="; ".join(words) + ".",
         verdict=judged(agrees),
-        because=f"There is one shallow optimum, and −16° {place}. The document's −13.5° costs "
-        f"{100 * numbers['thesis_cost_of_13_5']:.2f} % here: where the inner blade stalls rests on the polar and its "
-        "fit, which the document does not state, and on the mass (lighter rotors want less twist).",
+        because=f"There is one shallow optimum, and −16° {place}. The thesis' −13.5° costs "
+        f"{100 * numbers['thesis_cost_of_13_5']:.2f} % here: inboard stall depends on the polar and its "
+        "fit, which the thesis does not state, and on the mass (lighter rotors need less twist).",
         tables=tuple(tables),
         panels=tuple(panels),
         numbers=numbers,
@@ -98,7 +98,7 @@ FIVE_NAMES = ("thesis", THESIS_WAKE, "flight")
 LOW = (0.075, 0.09, 0.105, 0.12, 0.135, 0.15)
 MEDIUM = (0.15, 0.17, 0.18, 0.19, 0.21, 0.23, 0.25)
 HIGH = (0.25, 0.27, 0.29, 0.31, 0.33, 0.35)
-"""Advance ratios of the document's low, medium and high speed. It states 0.18 only; the borders are ours."""
+"""Advance ratios of the thesis' low, medium and high speed. It states 0.18 only; the borders are ours."""
 
 
 def figure_3_12() -> Report:
@@ -113,8 +113,9 @@ def figure_3_12() -> Report:
         not costs,
         f"At µ {LOW[0]:g}, −16° against 0° saves {100 * saves['thesis']:.1f} % in the thesis preset"
         + (f", and from µ {costs[0]:g} on it costs power" if costs else "")
-        + f": its linear inflow cannot see twist, so its best goes from {slow}° to {fast}° by profile drag alone. Once "
-        f"the wake answers, twist saves {100 * saves[THESIS_WAKE]:.1f} % on the same blade, "
+        + f": its linear inflow does not respond to twist, so the best goes from {slow}° to {fast}° because of "
+        "profile power alone. "
+        f"With a wake that responds to loading, twist saves {100 * saves[THESIS_WAKE]:.1f} % on the same blade, "
         f"{100 * saves['flight']:.1f} % in the flight preset.",
         {f"{name}_saving": value for name, value in saves.items()},
     )  # fmt: skip
@@ -129,10 +130,10 @@ def figure_3_13() -> Report:
         "3.13", "medium", MEDIUM,
         "Beyond µ 0.18 the twist of −8° needs the least power (p. 28).",
         set(after["thesis"]) == {-8},
-        f"Beyond 0.18 the best of the five is {_best_words(after)}; −8° costs at most {_cost_words(cost)}. Linear "
-        "inflow leaves the choice to profile drag, on a flat curve"
+        f"Beyond 0.18 the best of the five is {_best_words(after)}; −8° costs at most {_cost_words(cost)}. With linear "
+        "inflow only profile power decides, on a flat curve"
         + (
-            "; with the wake in its place the same blade does what the document says."
+            "; with the wake instead, the same blade behaves as the thesis states."
             if set(after[THESIS_WAKE]) == {-8}
             else "."
         ),
@@ -156,9 +157,10 @@ def figure_3_14() -> Report:
         best["thesis"] == [-4] and anywhere < 2e-3,
         f"At µ {last:g} the best of the five is {_best_words(best)}; −4° costs {_cost_words(cost)}, and in "
         f"the thesis preset nowhere from µ {HIGH[0]:g} on more than {100 * anywhere:.2f} %. "
-        f"The document's blade and section with the wake and a trim by cyclic, with µ sin α in U_P, prefers {trimmed}°"
+        "The thesis' blade and section with the wake and a trim by cyclic, with µ sin α in U_P, has its optimum at "
+        f"{trimmed}°"
         + (
-            ": it is the trim and the term missing from (3.6), not the section or Mach number, that make −4° win."
+            ": −4° is best because of the trim and the term missing in (3.6), not the section or Mach number."
             if trimmed == best["flight"][0]
             else "."
         ),
@@ -194,14 +196,15 @@ def figure_3_15() -> Report:
     return Report(
         number="3.15",
         kind="figure",
-        caption="Five linear twists over speed, as power over that of −8°. The document shows here a figure of Han et "
-        "al. 2015 (elastic blades, variable twist), which cannot be rebuilt with rigid blades; this is its subject.",
-        statement="A figure of another work, whose numbers the text we hold does not give (p. 29).",
+        caption="Five linear twists over speed, as power over that of −8°. The thesis shows here a figure of Han et "
+        "al. 2015 (elastic blades, variable twist), which cannot be rebuilt with rigid blades; this figure shows the "
+        "same subject.",
+        statement="A figure of another work, without numbers in the available text (p. 29).",
         ours="Largest spread between the five: "
         + ", ".join(f"{100 * spread[name]:.1f} % ({name})" for name in FIVE_NAMES)
         + ".",
         verdict=Agreement.ALONE,
-        because="The text ends with this figure.",
+        because="The available text ends with this figure.",
         tables=tables,
         panels=panels,
         numbers={f"{name}_spread": value for name, value in spread.items()},
@@ -209,7 +212,7 @@ def figure_3_15() -> Report:
 
 
 def best_of_five(name: str, mu: float) -> int:
-    """The best of the document's five twists [°/R]."""
+    """The best of the thesis' five twists [°/R]."""
     return min(FIVE_RATES, key=lambda rate: main_rotor_kw(name, rate, mu))
 
 
@@ -327,7 +330,7 @@ def keys_1987() -> Report:
         number="Keys 1987",
         kind="claim",
         caption="Power of linear twist −17.3° over that of −11.5°, beside the published wind-tunnel result of another "
-        "rotor (quoted by the document).",
+        "rotor (quoted by the thesis).",
         statement="Keys et al.: −2.4 % in hover, +5 % at 330 km/h; 7.5 km/h slower for the same power (p. 26, 28).",
         ours="Hover: "
         + ", ".join(f"{100 * hover[name]:+.1f} % ({name})" for name in KEYS_NAMES)
@@ -337,8 +340,9 @@ def keys_1987() -> Report:
         + ", ".join(f"{slower[name]:+.1f} km/h ({name})" for name in KEYS_NAMES)
         + ".",
         verdict=Agreement.INDICATIVE,
-        because=f"The sign in hover is theirs in {_among(helps)}, the sign at speed in {_among(costs)}. Another rotor "
-        "(Mach-scaled, other sections and loading), so the numbers are not ours to meet.",
+        because=f"The sign in hover agrees in {_among(helps)}, the sign at speed in {_among(costs)}. It is another "
+        "rotor "
+        "(Mach-scaled, other sections and loading), so the numbers need not agree.",
         tables=(
             table(
                 "strong_over_weak_percent", ("speed_kmh", "mu", *KEYS_NAMES, "published"),

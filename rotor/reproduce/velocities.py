@@ -14,7 +14,7 @@ from rotor.trim.solve import solve
 FINE = 200
 """Elements of fig. 2.7: enough to see the load fall within the last per cent of the blade."""
 FAST = 0.30
-"""Advance ratio of fig. 2.8; the document states none."""
+"""Advance ratio of fig. 2.8; the thesis states none."""
 
 
 def figure_2_6() -> Report:
@@ -29,7 +29,7 @@ def figure_2_6() -> Report:
         statement="In hover the velocity distribution is the same at every azimuth (p. 13).",
         ours=f"Largest difference over azimuth {spread:.1e}; U_T/ΩR = {slope:.6f} r.",
         verdict=judged(spread < 1e-12 and abs(slope - 1.0) < 1e-9),
-        because="The hovering rotor is solved annulus by annulus: U_T = Ωy and nothing else.",
+        because="The hovering rotor is solved annulus by annulus: U_T = Ωy.",
         tables=(table("u_t", ("r", "u_t"), zip(disk.r, disk.u_t[:, 0], strict=True)),),
         panels=(_disk(disk, disk.u_t, "U_T / ΩR", "hover"),),
         numbers={"spread_over_azimuth": spread, "slope": slope},
@@ -70,8 +70,8 @@ def figure_2_7() -> Report:
         )
         + ".",
         verdict=judged(good),
-        because="Prandtl's factor takes the load off the end of the blade; the built-in twist of the UH-60A turns up "
-        "again there and keeps it longer.",
+        because="Prandtl's factor unloads the blade tip; the built-in twist of the UH-60A turns up again there and "
+        "keeps the load further outboard.",
         tables=(table("blade", ("preset", "r", "lambda_i", "dct_dr"), rows),),
         panels=(
             PlotPanel("r/R", "λ_i", tuple(inflow), title="Induced velocity / ΩR"),
@@ -94,8 +94,7 @@ def figure_2_8() -> Report:
     return Report(
         number="2.8",
         kind="figure",
-        caption=f"Velocity normal to the leading edge in forward flight, µ {FAST:.2f} (ours; the document states "
-        "none).",
+        caption=f"Velocity normal to the leading edge in forward flight, µ {FAST:.2f} (ours; the thesis states none).",
         statement="At ψ = 90° the blade meets ΩR + V; on the retreating side there is a region where air comes from "
         "the trailing edge (p. 14).",
         ours=f"From {low:.3f} to {top:.3f} ΩR. Reverse flow over {100 * ours:.2f} % of the disk; the circle "

@@ -24,7 +24,7 @@ from rotor.arrays import Array
 from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
 
 LIFT_CURVE_MACH = 0.3
-"""Mach number at which the linear lift curve of (3.3) is read off; the document's polar knows no other."""
+"""Mach number at which the linear lift curve of (3.3) is read off; the document's polar has no other."""
 
 _LARGEST_INFLOW = 0.6
 """Bracket of λ, far above any annulus of a rotor."""

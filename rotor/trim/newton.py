@@ -126,8 +126,8 @@ def _evaluate(problem: Problem, state: TrimState, induced: Array | None, options
 
 def _differentiate(problem: Problem, elements: BladeElements, unknowns: tuple[Unknown, ...]) -> _Derivatives:
     feedback = inflow_feedback(problem, elements)
-    made = slopes(problem, elements, unknowns, feedback)
-    return _Derivatives(made, jacobian(problem, elements, made), feedback)
+    by_unknown = slopes(problem, elements, unknowns, feedback)
+    return _Derivatives(by_unknown, jacobian(problem, elements, by_unknown), feedback)
 
 
 def inflow_feedback(problem: Problem, elements: BladeElements) -> InflowFeedback | None:

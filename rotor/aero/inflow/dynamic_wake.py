@@ -98,9 +98,9 @@ class _FamilyResponse:
         blocks: list[Array] = [0.5 * influence / diagonal]
         for q in harmonics:
             system = np.diag(diagonal) + 1j * q * (family.mass[:, None] * influence)
-            answer = np.linalg.solve(system.T, 0.5 * influence.T).T
+            solved = np.linalg.solve(system.T, 0.5 * influence.T).T
             # a = x_c − i x_s for λ ∝ x_c cos qψ + x_s sin qψ, and the loads likewise.
-            real, imaginary = answer.real.astype(float), answer.imag.astype(float)
+            real, imaginary = solved.real.astype(float), solved.imag.astype(float)
             blocks.append(np.block([[real, imaginary], [-imaginary, real]]))
         signed = np.array([0.0] + [s * q for q in harmonics for s in (1.0, -1.0)])
         swap = np.array([0] + [2 * k + s for k in range(len(harmonics)) for s in (2, 1)], dtype=np.int64)

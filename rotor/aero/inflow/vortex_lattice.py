@@ -192,20 +192,20 @@ def downwash_matrix(
         for i in range(n):
             px = centres[i] * math.cos(j * step)
             py = centres[i] * math.sin(j * step)
-            answer = out[j, i]
+            downwash = out[j, i]
             for blade in range(blades):
                 first = j + blade * azimuths // blades
                 _nodes(edges, first * step, 0.0, mu_x, 0.0, px, py, ax, ay, a)
                 az = 0.0
                 if blade > 0:
                     for e in range(n):
-                        answer[first % azimuths, e] += _segment(
+                        downwash[first % azimuths, e] += _segment(
                             ax[e], ay[e], 0.0, a[e], ax[e + 1], ay[e + 1], 0.0, a[e + 1], core
                         )
                 for k in range(steps):
-                    younger = answer[(first - k + 1) % azimuths]
-                    here = answer[(first - k) % azimuths]
-                    older = answer[(first - k - 1) % azimuths]
+                    younger = downwash[(first - k + 1) % azimuths]
+                    here = downwash[(first - k) % azimuths]
+                    older = downwash[(first - k - 1) % azimuths]
                     pieces = ROUND if blade == 0 and k == 0 else 1
                     bare = blade == 0 and k * step < YOUNG and centres[i] > bare_from
                     radius = 0.0 if bare else core

@@ -17,7 +17,7 @@ _THREE = (("inboard", "Inboard"), ("middle", "Middle"), ("outboard", "Outboard")
 _DIVISION = ("division", "Division", 0.25, 0.92)
 
 TWO_SEGMENT_FREE = SegmentsConcept(
-    "two-segment-free", "Two segments, free division", "Two straight segments; the division moves too.", _TWO,
+    "two-segment-free", "Two segments, free division", "Two straight segments with a free division.", _TWO,
     (_DIVISION,),
 )  # fmt: skip
 TWO_AIRFOILS = SegmentsConcept(
@@ -32,7 +32,7 @@ TWO_AIRFOILS = SegmentsConcept(
     airfoils=("sc1094r8", "sc1095"),
 )
 THREE_SEGMENT_FREE = SegmentsConcept(
-    "three-segment-free", "Three segments, free breaks", "Three straight segments; both breaks move too.", _THREE,
+    "three-segment-free", "Three segments, free breaks", "Three straight segments with free breaks.", _THREE,
     (("inner_break", "Inner break", 0.2, 0.64), ("outer_break", "Outer break", 0.66, 0.95)),
 )  # fmt: skip
 
@@ -76,7 +76,7 @@ CONCEPTS: dict[str, Concept] = {
         FreeFormConcept(),
     )
 }
-"""Concepts by name, the simple ones first; a concept may lean on those before it for a start."""
+"""Concepts by name, the simplest first; a search of a concept may start from those before it."""
 
 
 def find_concept(name: str, division: Sequence[float] | None = None) -> Concept:

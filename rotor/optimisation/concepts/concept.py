@@ -34,21 +34,21 @@ class Parameter:
 
     @property
     def angular(self) -> bool:
-        """Whether people read it in degrees."""
+        """Whether it is shown in degrees."""
         return self.unit != "R"
 
     @property
     def label(self) -> str:
-        """Name at the edges, where angles are in degrees."""
+        """Name in files and output, with _deg for angles."""
         return f"{self.name}_deg" if self.angular else self.name
 
     @property
     def shown_unit(self) -> str:
-        """Unit at the edges."""
+        """Unit in files and output."""
         return self.unit.replace("rad", "°")
 
     def shown(self, value: float) -> float:
-        """The value as people read it: degrees where it is angular."""
+        """The value in shown units: degrees for angles."""
         return math.degrees(value) if self.angular else value
 
     def from_shown(self, value: float) -> float:
@@ -58,7 +58,7 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Handle:
-    """What one parameter moves, for a small drawing of the blade."""
+    """What one parameter moves, for a sketch of the blade."""
 
     parameter: str
     motion: Motion
@@ -95,7 +95,7 @@ class Concept(Protocol):
 
     @property
     def handles(self) -> tuple[Handle, ...]:
-        """A picture of the degrees of freedom, one per parameter."""
+        """Sketch elements of the degrees of freedom, one per parameter."""
         ...
 
     @property
@@ -112,14 +112,14 @@ class Concept(Protocol):
         ...
 
     def apply(self, design: Design, values: Values) -> Design:
-        """The design with the law, and with whatever else the concept changes about the blade."""
+        """The design with the law and all other changes of the concept, for example sections."""
         ...
 
 
 def nearest(concept: Concept, law: TwistLaw, root: float = 0.13) -> tuple[float, ...]:
     """The values within bounds whose law is nearest to another one, in the mean square along the blade.
 
-    A shift of the whole blade is no difference: the collective takes it.
+    Uniform pitch does not count: it is absorbed by collective.
     """
     r = np.linspace(root, 1.0, 60)
     wanted = law(r) - law(r).mean()
@@ -141,7 +141,7 @@ def nearest(concept: Concept, law: TwistLaw, root: float = 0.13) -> tuple[float,
 
 @dataclass(frozen=True)
 class Restricted:
-    """A concept with some parameters held."""
+    """A concept with some parameters fixed."""
 
     base: Concept
     fixed: tuple[tuple[str, float], ...]
@@ -184,7 +184,7 @@ class Restricted:
 
 @dataclass(frozen=True)
 class OnTop:
-    """A concept for the change that is added to a law that stays: what an actuator does to the blade as built."""
+    """A concept added to a fixed law, for example an actuator on the blade as built."""
 
     base: Concept
     law: TwistLaw
@@ -199,7 +199,7 @@ class OnTop:
 
     @property
     def explanation(self) -> str:
-        return f"Added to the twist of the blade as it is. {self.base.explanation}"
+        return f"Added to the twist of the current design. {self.base.explanation}"
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
@@ -225,7 +225,7 @@ class OnTop:
 
 
 def on_top(concept: Concept, law: TwistLaw) -> Concept:
-    """The concept as a change of a law that stays."""
+    """The concept added to a fixed law."""
     return OnTop(concept, law)
 
 
@@ -237,7 +237,7 @@ def restrict(
     title: str | None = None,
     explanation: str | None = None,
 ) -> Concept:
-    """The concept with some parameters held at values (SI); ValueError for a name or a value it cannot take."""
+    """The concept with some parameters fixed (SI); ValueError for an unknown name or a value out of bounds."""
     known = {parameter.name: parameter for parameter in concept.parameters}
     name = name or concept.name
     for key, value in fixed.items():
@@ -251,7 +251,7 @@ def restrict(
                 "choose a value inside"
             )
     if len(fixed) >= len(known):
-        raise ValueError(f"concept {name} has nothing left to vary: leave at least one parameter free")
+        raise ValueError(f"concept {name} has no free parameter left: leave at least one free")
     return Restricted(
         concept,
         tuple(fixed.items()),

@@ -20,7 +20,7 @@ from rotor.design.twist import (
 from rotor.optimisation.concepts.concept import Handle, Parameter, Values
 
 STEEPEST, FLATTEST = math.radians(-30.0), math.radians(10.0)
-"""Default bounds of a twist rate [rad/R]: beyond them blades stall at the root or lift backwards at the tip."""
+"""Default bounds of a twist rate [rad/R]: beyond them blades stall at the root or carry negative lift at the tip."""
 
 
 @dataclass(frozen=True)
@@ -79,12 +79,12 @@ _LOOSE_STEEPEST, _LOOSE_FLATTEST = math.radians(-40.0), math.radians(30.0)
 class FreeFormConcept:
     """A cubic spline through seven angles, that at 0.75 R being zero: the envelope of the others.
 
-    A kink it can only round off, so a law of straight segments may be better by a trace.
+    It rounds off kinks, so a law of straight segments may be slightly better.
     """
 
     name = "free-form"
     title = "Free form"
-    explanation = "A smooth curve through seven points: what any shape could reach."
+    explanation = "A smooth curve through seven points, the bound for any smooth shape."
     knots: tuple[float, ...] = (0.13, 0.30, 0.46, 0.61, REFERENCE_RADIUS, 0.88, 1.0)
     """r/R; one is at 0.75, where every law is zero."""
 
@@ -146,7 +146,7 @@ class SegmentsConcept:
     breaks: tuple[tuple[str, str, float, float], ...]
     """Name, title, low and high of each break, r/R."""
     airfoils: tuple[str, ...] = ()
-    """A section for each segment; none: the design's own."""
+    """A section for each segment; empty: the design's own."""
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:

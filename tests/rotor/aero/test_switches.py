@@ -63,7 +63,7 @@ def test_energy_identity_for_every_combination(inflow: str):
     "inflow",
     ["local-momentum", "dynamic-wake-infinite-blades", pytest.param("vortex-wake", marks=pytest.mark.slow)],
 )
-def test_energy_identity_for_every_inflow_that_answers(inflow: str):
+def test_energy_identity_for_every_load_dependent_inflow(inflow: str):
     for off in ((), tuple(SWITCHES)):
         solution = solve(with_switches(small(0.2, inflow=inflow), off)).require()
         assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=2e-9)
@@ -189,14 +189,14 @@ class TestCompressibility:
                 assert not got.cl_mach.any()
                 assert_allclose(held.stall_alpha(other), table.stall_alpha(mach), atol=1e-12)
 
-    def test_a_section_of_ones_own_is_asked_too(self):
+    def test_the_section_of_a_user_counts_for_compressibility(self):
         deck = asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8")
         text = asset_path("r22.toml").read_text(encoding="utf-8").replace('"naca63a015"', '"mine"')
         text += '\n[sections.mine]\ndeck = "mine.c81"\n'
         craft = read_aircraft("my.toml", {"my.toml": text, "mine.c81": deck})
         assert no_effect(make_design(rotor=craft, mu=0.2), "compressibility") == ""
 
-    def test_the_document_knows_one_mach_number(self):
+    def test_the_document_has_one_mach_number(self):
         design = make_design(preset="thesis", mu=0.3)
         off = solve(with_switches(design, ("compressibility",))).require()
         assert_allclose(off.power.total, solve(design).require().power.total, rtol=1e-12)
@@ -238,7 +238,7 @@ class TestFlapping:
         assert_allclose(moment.pitch / unit, 0.0, atol=1e-12)
         assert moment.roll > 0.0
 
-    def test_blades_hinged_at_the_centre_hand_over_nothing(self):
+    def test_blades_hinged_at_the_centre_transfer_no_moment(self):
         solution = solve(make_design(preset="thesis", mu=0.3)).require()
         assert solution.hub_moment.size < 1.0  # [N m] of 670 kN m of weight × radius
 
@@ -254,7 +254,7 @@ class TestFlapping:
         assert_allclose(solution.hub_moment.roll, offset * (lift @ np.sin(disk.psi) + inertia * c.flap_1s), rtol=1e-6)
         assert_allclose(solution.hub_moment.pitch, -offset * (lift @ np.cos(disk.psi) + inertia * c.flap_1c), rtol=1e-6)
 
-    def test_the_page_reads_what_the_hub_carries(self):
+    def test_a_caveat_gives_the_hub_moment_of_rigid_blades(self):
         solution = solve(with_switches(small(0.25), ("flapping",))).require()
         sentences = {caveat.name: caveat.sentence for caveat in solution.caveats}
         assert sentences["switched-off"] == "Switched off: flapping. For teaching; the aircraft has all of them."
@@ -264,7 +264,7 @@ class TestFlapping:
 
 class TestLossesAndFuselage:
     @pytest.mark.parametrize(("off", "end"), [("tip_loss", -1), ("hub_loss", 0)])
-    def test_each_loss_has_its_own_end_of_the_blade(self, off: str, end: int):
+    def test_each_loss_acts_at_its_end_of_the_blade(self, off: str, end: int):
         state = TrimState(collective=0.17, shaft_tilt=0.08, lambda0=0.012)
         on, without = (
             evaluate_elements(build_problem(with_switches(small(0.2, inflow="drees"), names)), state).loss
@@ -275,7 +275,7 @@ class TestLossesAndFuselage:
         assert without[-1 - end] == pytest.approx(on[-1 - end], abs=1e-4)
 
     @pytest.mark.parametrize("inflow", ["local-momentum", "dynamic-wake-infinite-blades"])
-    def test_inflow_that_answers_leaves_its_own_factor_out(self, inflow: str):
+    def test_load_dependent_inflow_without_tip_loss_drops_its_factor(self, inflow: str):
         """At one load λ_i with tip loss is λ_i without it over F (2.28): F of the mean inflow by Prandtl."""
         disk = build_problem(small(0.2)).disk
         wake = Wake(0.2, 0.01, 0.013)
@@ -295,7 +295,7 @@ class TestLossesAndFuselage:
         assert_allclose(a, b, rtol=1e-12)
         assert no_effect(small(0.2, inflow="vortex-wake"), "tip_loss")
 
-    def test_losses_only_cost(self):
+    def test_losses_increase_power(self):
         full = solve(make_design(mu=0.0)).require().power.total
         for off in ("tip_loss", "hub_loss"):
             assert solve(with_switches(make_design(mu=0.0), (off,))).require().power.total < full
@@ -335,7 +335,7 @@ class TestWaterfall:
         assert by_drag.change is not None
         assert_allclose(by_drag.change["parasite"], -found.full.power.parasite, rtol=1e-12)
 
-    def test_a_step_that_does_not_trim_is_passed_over(self):
+    def test_a_step_that_does_not_trim_is_skipped(self):
         """The hovering rotor lifts 21.5 t with the lift and the stall of Mach 0.3, and not with the real ones."""
         design = replace(small(0.0), condition=replace(small(0.0).condition, mass=21_500.0))
         steps = list(switch_on_steps(design))
@@ -356,7 +356,7 @@ class TestWaterfall:
 
 
 class TestCommandAndFiles:
-    def test_off_reaches_the_physics(self, capsys: pytest.CaptureFixture[str]):
+    def test_the_off_flag_changes_the_models(self, capsys: pytest.CaptureFixture[str]):
         assert main(["solve", "--mu", "0.2", "--off", "tip-loss, reverse_flow", "--json"]) == 0
         answer = json.loads(capsys.readouterr().out)
         assert answer["switched_off"] == ["tip-loss", "reverse-flow"]

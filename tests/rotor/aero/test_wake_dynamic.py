@@ -74,7 +74,7 @@ def test_transposes(model: DynamicWake):
     assert_allclose(np.vdot(g, response.induced(d)), np.vdot(response.induced_transposed(g), d), rtol=0, atol=1e-10)
 
 
-def test_loop_is_solved_exactly(model: DynamicWake):
+def test_feedback_is_solved_exactly(model: DynamicWake):
     response = respond(model)
     slope, f, g = -0.3 * np.abs(noise(7)), noise(8), noise(9)
     loop = response.feedback(slope)
@@ -112,7 +112,7 @@ def test_slopes_exist_everywhere(mu: float, axial: float, lambda0: float):
     assert np.isfinite(response.induced_by_wake(noise(12))).all()
 
 
-def test_steady_answer_to_the_hub_zero_load():
+def test_steady_response_to_a_load_that_vanishes_at_the_hub():
     """Induced power of the actuator disk's type III load over Glauert's at µ 0.2, without tip factor: 1.169."""
     model = DynamicWake(harmonics=0)
     elements, azimuths = 200, 36
@@ -195,7 +195,7 @@ def test_axial_optimum_matches_an_independent_program(order: int, harmonics: int
         assert_allclose(2.0 * axial / (thrust @ best), float(row[f"GDW_S{order}k{harmonics}"]), atol=2e-4)
 
 
-def test_infinite_blades_see_the_tip_factor():
+def test_infinite_blades_use_the_tip_factor():
     model = DynamicWake.of(4, infinite_blades=True)
     response = respond(model)
     d = noise(14)

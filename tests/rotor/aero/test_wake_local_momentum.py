@@ -44,7 +44,7 @@ def test_slopes(wake: tuple[float, float, float]):
         assert_allclose(exact[k], (ahead - behind) / 2e-6, rtol=0, atol=1e-8 * np.abs(exact).max())
 
 
-def test_loop_closes():
+def test_feedback_is_solved():
     response = sector_operator(R, COS, Wake(0.2, 0.01, 0.017), 4)
     slope = -np.abs(np.random.default_rng(2).normal(size=(12, 24)))
     f = np.random.default_rng(3).normal(size=(12, 24))

@@ -55,14 +55,14 @@ def test_inflow_matches_an_independent_lattice(case: tuple[str, str]):
         assert_allclose(found, expected, rtol=0, atol=0.01 * np.abs(expected).max())
 
 
-def test_hover_knows_no_azimuth():
+def test_downwash_in_hover_does_not_depend_on_azimuth():
     lattice = Lattice(panels=4, azimuths=12)
     matrix = lattice.downwash(0.0, 0.06).reshape(4, 12, 4, 12)
     turned = np.roll(matrix, (1, 1), axis=(1, 3))
     assert_allclose(turned, matrix, rtol=0, atol=1e-10 * np.abs(matrix).max())  # Rounding of positions.
 
 
-def test_load_and_circulation_are_inverse_where_the_blade_flies_forward():
+def test_load_and_circulation_are_inverse_outside_reverse_flow():
     lattice = Lattice()
     u_t = lattice.tangential(0.3)
     d = np.random.default_rng(1).normal(size=u_t.shape)
@@ -77,7 +77,7 @@ def test_panels_cover_the_blade():
     assert np.all((lattice.edges[:-1] < lattice.r) & (lattice.r < lattice.edges[1:]))
 
 
-def test_azimuths_must_divide_among_the_blades():
+def test_azimuths_must_be_a_multiple_of_the_blades():
     with pytest.raises(ValueError, match="multiple of 5"):
         Lattice(blades=5)
 

@@ -78,14 +78,14 @@ def test_exact_jacobian_is_not_disturbed():
     assert np.linalg.cond(matrix) < 1e6
 
 
-def test_it_rests_in_hover():
+def test_active_twist_is_off_in_hover():
     design = turning(make_design(mu=0.0), Harmonic(2, DEGREE))
     solution = solve(design).require()
     assert solution.power.total == solve(replace(design, active_twist=None)).power.total
     assert "active-twist-rests" in [caveat.name for caveat in solution.caveats]
 
 
-def test_twice_per_revolution_pays_at_high_speed():
+def test_twice_per_revolution_saves_power_at_high_speed():
     """Published: 1–2 % (wind tunnel) to 3.3 % (computed, ±4°); a degree of 2/rev should give about a per cent."""
     design = make_design(mu=0.35)
     installed = install(find_actuator("MFC_P1"), default_placement(2), Host(), design.rotor)
@@ -98,7 +98,7 @@ def test_twice_per_revolution_pays_at_high_speed():
 
 
 @pytest.mark.slow
-def test_it_begins_to_pay_with_speed():
+def test_the_saving_grows_with_speed():
     """Net of its mass 2/rev loses at low speed and gains at high speed, as the literature has it."""
     installed = install(find_actuator("MFC_P1_HT"), default_placement(1), Host(), make_design().rotor)
     slow, fast = (phase_sweep(make_design(mu=mu), installed, 2) for mu in (0.15, 0.35))
@@ -117,7 +117,7 @@ def test_bad_input(make: object):
         make()  # type: ignore[operator]
 
 
-def test_design_file_keeps_it(tmp_path: Path):
+def test_design_file_keeps_active_twist(tmp_path: Path):
     design = turning(make_design(mu=0.3), Harmonic(2, 0.015, 1.2), stations=(0.2, 0.9), shape=(0.0, 1.0))
     design.save(tmp_path / "case.json")
     again = load_design(tmp_path / "case.json").active_twist
@@ -126,7 +126,7 @@ def test_design_file_keeps_it(tmp_path: Path):
     assert again.stations == (0.2, 0.9)
 
 
-def test_solve_names_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+def test_solve_reports_active_twist(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     """A power that active twist has changed is not printed as that of the bare twist law."""
     file = str(tmp_path / "case.json")
     turning(make_design(mu=0.3), Harmonic(2, 1.5 * DEGREE, 1.0)).save(file)
@@ -136,6 +136,6 @@ def test_solve_names_it(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     assert json.loads(capsys.readouterr().out)["active_twist"]["harmonics"][0]["per_rev"] == 2
 
 
-def test_design_file_with_nonsense_says_so():
+def test_bad_active_twist_in_a_design_file_is_one_sentence():
     with pytest.raises(ValueError, match="'active_twist' is 3"):
         design_from_record({"active_twist": 3})

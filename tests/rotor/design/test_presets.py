@@ -25,7 +25,7 @@ def test_tables_3_1_and_3_2():
     assert make_design(preset="thesis").condition.mass == 8322.4
 
 
-def test_solidity_says_which():
+def test_solidity_of_the_reference_chord():
     assert_allclose(uh60a_rotor("flight").solidity, 0.0821, atol=5e-5)
 
 

@@ -96,14 +96,14 @@ def test_document_inertia():
     assert rotor.flap_frequency_squared == 1.0
 
 
-def test_blade_weight_droops():
+def test_blade_weight_lowers_the_coning():
     """g S/(I Ω²) = 9.807·385.66/(2050.8·729) = 0.00253 rad."""
     rotor = uh60a_rotor("flight")
     assert_allclose(flap_dynamics(rotor, 1.225, blade_weight=True).weight, 0.00253, atol=1e-5)
     assert flap_dynamics(rotor, 1.225, blade_weight=False).weight == 0.0
 
 
-def test_wanted_flapping_is_flown():
+def test_given_flapping_is_trimmed():
     """β1c given: the trim keeps it, and the hinge offset carries a hub moment."""
     from rotor.trim.solve import solve
 

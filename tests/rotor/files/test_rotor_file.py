@@ -62,7 +62,7 @@ def polar_file(polar: Polar) -> str:
     )
 
 
-def test_a_small_file_is_enough():
+def test_a_minimal_file_is_enough():
     craft = read(GOOD)
     rotor, blade = craft.rotor, craft.rotor.blade
     assert (craft.name, rotor.blades, craft.mass, craft.tail_rotor, craft.key) == ("Test rotor", 3, 1500.0, None, "")
@@ -112,7 +112,7 @@ def test_bad_files_get_one_sentence_with_line_and_remedy(good: str, bad: str, sa
     assert ": " in sentence
 
 
-def test_spans_are_named_by_their_own_line():
+def test_a_bad_span_is_reported_with_its_line():
     spans = """spans = [
   { start_r = 0.2, end_r = 0.6, section = "naca0012" },
   { start_r = 0.5, end_r = 1.0, section = "sc1095" },
@@ -123,7 +123,7 @@ def test_spans_are_named_by_their_own_line():
     assert craft.rotor.blade.section_at(0.65)[:2] == ("naca0012", "sc1095")
 
 
-def test_a_deck_of_ones_own_flies_and_travels_as_a_value():
+def test_a_users_deck_is_used_and_pickles():
     deck = asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8")
     text = GOOD.replace('"naca0012"', '"mine"') + '\n[sections.mine]\ndeck = "mine.c81"\noutline = "naca0012"\n'
     craft = read(text, **{"mine.c81": deck})
@@ -138,7 +138,7 @@ def test_a_deck_of_ones_own_flies_and_travels_as_a_value():
 SECTION = '\n[sections.mine]\npolars = ["a.txt", "b.txt"]\noutline = "naca0012"\n'
 
 
-def test_xfoil_polars_become_the_deck_that_ours_became():
+def test_xfoil_polars_give_the_bundled_deck():
     polars = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars
     files = {"a.txt": polar_file(polars[2]), "b.txt": polar_file(polars[3])}
     craft = read(GOOD.replace('"naca0012"', '"mine"', 1) + SECTION, **files)
@@ -154,7 +154,7 @@ def test_xfoil_polars_become_the_deck_that_ours_became():
     assert_allclose(mine(small, 0.6).cl, ours(small, 0.6).cl, atol=0.02)
 
 
-def test_polars_in_our_own_csv_are_read_too():
+def test_polars_in_the_bundled_csv_format_are_read():
     text = asset_path("airfoils/naca0012_trip5.polars.csv").read_text(encoding="utf-8")
     assert [p.mach for p in parse_polar_file("all.csv", text)] == [0.1, 0.2, 0.3, 0.4]
 
@@ -185,14 +185,14 @@ def test_bad_section_files_get_one_sentence():
         assert "\n" not in str(caught.value)
 
 
-def test_a_missing_outline_is_drawn_as_a_plain_section_and_says_so():
+def test_a_missing_outline_is_a_symmetric_section_with_a_remark():
     deck = asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8")
     craft = read(GOOD.replace('"naca0012"', '"mine"') + '\n[sections.mine]\ndeck = "a.c81"\n', **{"a.c81": deck})
     assert craft.remarks == ("The outline of section mine is not given: it is drawn as a symmetric 12 % section.",)
     assert craft.rotor.blade.installed("mine").outline.name == "naca0012"
 
 
-def test_foreign_decks_come_to_the_run_time_grid():
+def test_other_decks_are_interpolated_to_the_run_time_grid():
     """A deck with odd angles and Machs that ends at stall: its own values inside, the closed form far out."""
     ours = make_deck("naca0012", read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")))
     alpha, mach = np.array([-14.0, -9.3, -4.7, 0.0, 4.7, 9.3, 14.0]), np.array([0.3, 0.42, 0.61])
@@ -208,7 +208,7 @@ def test_foreign_decks_come_to_the_run_time_grid():
         on_run_time_grid(C81Deck("ODD", C81Block(mach, alpha[2:5], lift.values[2:5]), drag, drag))
 
 
-def test_what_was_assumed_of_the_files_is_said_with_the_answer():
+def test_assumptions_about_files_are_caveats():
     polar = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars[2]
     one = '\n[sections.mine]\npolars = "a.txt"\noutline = "naca0012"\n'
     craft = read(GOOD.replace('"naca0012"', '"mine"', 1) + one, **{"a.txt": polar_file(polar)})

@@ -34,7 +34,7 @@ def own(key: str) -> dict[str, str]:
     return {"my.toml": asset_path(f"{key}.toml").read_text(encoding="utf-8")}
 
 
-def test_what_ships():
+def test_shipped_rotors():
     blades = {key: shipped_aircraft(key).rotor.blades for key in SHIPPED_ROTORS}
     assert blades == {"uh60a": 4, "r22": 2, "s61": 5}
     r22 = shipped_aircraft("r22").rotor
@@ -58,7 +58,7 @@ def test_hover_between_the_bounds_of_momentum_theory(key: str):
     assert 1.0 < solution.induced_power_factor < 1.15
 
 
-def test_the_r22_hovers_and_cruises_on_its_engine():
+def test_the_r22_hovers_and_cruises_within_engine_power():
     """Indicative: 124 hp continuous, 131 hp for five minutes (flight manual), some 5 % of it for transmission and fan.
 
     Out of ground effect at full weight it hovers on less; its fastest cruise, 96 kt, takes about the continuous power.
@@ -103,7 +103,7 @@ def test_trims_over_the_flight_envelope(key: str, preset: str):
                 assert solution.converged, f"{key} {preset} {mass} {altitude} {mu}: {solution.message}"
 
 
-def test_the_thesis_preset_on_another_rotor_says_what_it_is():
+def test_the_thesis_preset_on_another_rotor_has_a_caveat():
     solution = solve(make_design(preset="thesis", rotor="r22", mu=0.2)).require()
     assert solution.design.twist == shipped_aircraft("r22").rotor.builtin_twist
     assert [one.name for one in solution.caveats] == ["thesis-models"]
@@ -111,7 +111,7 @@ def test_the_thesis_preset_on_another_rotor_says_what_it_is():
     assert_allclose(solution.power.tail, 0.05 * solution.power.main_rotor, rtol=1e-12)
 
 
-def test_an_aircraft_without_tail_rotor_pays_the_documents_share():
+def test_without_tail_rotor_the_documents_share_is_used():
     text = own("r22")["my.toml"]
     craft = read_aircraft("my.toml", {"my.toml": re.sub(r"(?s)\[tail_rotor\].*\[airframe\]", "[airframe]", text)})
     solution = solve(make_design(rotor=craft, mu=0.2)).require()
@@ -119,7 +119,7 @@ def test_an_aircraft_without_tail_rotor_pays_the_documents_share():
     assert "no-tail-rotor" in [one.name for one in solution.caveats]
 
 
-def test_a_plain_teetering_hub_says_what_coning_means():
+def test_a_teetering_hub_has_a_caveat_about_coning():
     text = own("r22")["my.toml"].replace("teetering-with-coning-hinges", "teetering")
     solution = solve(make_design(rotor=read_aircraft("my.toml", {"my.toml": text})))
     assert [one.name for one in solution.caveats] == ["teetering"]
@@ -140,7 +140,7 @@ def test_a_linear_optimum_of_another_rotor(key: str):
 
 
 @pytest.mark.parametrize("key", SHIPPED_ROTORS)
-def test_design_files_name_a_shipped_rotor_and_hold_ones_own(key: str):
+def test_design_files_name_a_shipped_rotor_and_contain_a_users_own(key: str):
     design = make_design(rotor=key, twist="builtin", mu=0.23)
     assert design.to_dict()["rotor"] == key
     assert design_from_record(json.loads(json.dumps(design.to_dict()))) == design
@@ -162,13 +162,13 @@ def test_design_files_of_version_1_are_the_uh60a():
         design_from_record({"rotor": "/etc/passwd"})  # A path is for the command line alone.
 
 
-def test_a_shipped_twist_goes_on_any_rotor():
+def test_a_shipped_twist_fits_any_rotor():
     design = make_design(rotor="r22", twist="uh60a+linear:2")
     assert design.twist.spec() == "uh60a+linear:2"
     assert make_design(twist="s61").twist == shipped_aircraft("s61").rotor.builtin_twist
 
 
-def test_the_bound_is_of_the_rotor_it_was_computed_for():
+def test_the_ideal_bound_is_read_only_for_its_rotor():
     assert shared_azimuths(72, 5) == 75
     assert ideal_factor(0.2, 0.0065, "r22") is None
     assert ideal_factor(0.2, 0.0065, "uh60a") is not None

@@ -136,7 +136,7 @@ def test_a_change_on_top_of_a_law_that_stays():
         (lambda: find_concept("two-segment", [0.99]), "outside 0.25…0.92"),
         (lambda: find_concept("three-segment", [0.8, 0.4]), "must ascend"),
         (lambda: restrict(CONCEPTS["quadratic"], {"rate": 0.0}), "no parameter 'rate'"),
-        (lambda: restrict(CONCEPTS["linear"], {"rate": 0.0}), "nothing left to vary"),
+        (lambda: restrict(CONCEPTS["linear"], {"rate": 0.0}), "no free parameter left"),
         (lambda: parse_twist("spline:1,2@0.2,0.8"), "four or more"),
         (lambda: parse_twist("spline:1,2,3,4@0.2,0.1,0.8,1"), "ascend"),
     ],

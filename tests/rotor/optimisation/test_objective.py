@@ -106,9 +106,9 @@ def test_mission_file(tmp_path: Path):
     [
         (None, "does not exist"),
         ("", "is empty"),
-        ("mu,hours\n", "no conditions"),
+        ("mu,hours\n", "no flight conditions"),
         ("speed,hours\n0.2,1\n", "line 1 reads 'speed,hours'"),
-        ("mass_kg\n8000\n", "of which mu is needed"),
+        ("mass_kg\n8000\n", "only mu is required"),
         ("mu,hours\n0.2,1\nfast,1\n", "line 3: mu is 'fast'"),
         ("mu,hours\n0.9,1\n", "line 2: advance ratio 0.9"),
         ("mu,hours\n0.2,0\n", "line 2: 0 hours"),
@@ -127,6 +127,6 @@ def test_mission_file_errors(tmp_path: Path, text: str | None, words: str):
 def test_objective_errors():
     with pytest.raises(ValueError, match="'shaft' is not known"):
         Objective("shaft", (WeightedCondition(FlightCondition(0.2, 8000.0)),))  # pyright: ignore[reportArgumentType]
-    with pytest.raises(ValueError, match="at least one condition"):
+    with pytest.raises(ValueError, match="give at least one"):
         Objective("total", ())
     assert math.isclose(sum(at_condition(make_design()).shares), 1.0)

@@ -311,7 +311,7 @@ def test_induced_power_as_objective():
         (lambda: Search(small(0.2), CONCEPTS["linear"], starts=0), "0 starts"),
         (lambda: Search(small(0.2), CONCEPTS["linear"], seed=-1), "seed -1"),
         (lambda: Search(small(0.2), CONCEPTS["linear"], limits=Limits(bounds=(("angle", 0, 1),))), "no parameter"),
-        (lambda: Search(small(0.2), CONCEPTS["linear"], limits=Limits(bounds=(("rate", 0.1, 0.0),))), "leave nothing"),
+        (lambda: Search(small(0.2), CONCEPTS["linear"], limits=Limits(bounds=(("rate", 0.1, 0.0),))), "are empty"),
         (lambda: Limits(rate=(0.1, 0.0)), "steepest first"),
         (lambda: Limits(stalled=2.0), "200 %"),
         (lambda: ChangeLimit(LinearTwist(0.0), (0.0, 1.0), (0.1,)), "one angle"),

@@ -157,7 +157,7 @@ def test_a_lost_worker_is_said_and_what_it_found_is_kept():
 def test_a_file_of_another_plan_is_refused(tmp_path: Path):
     path = tmp_path / "found.jsonl"
     open_cells(path, plan("linear"))
-    with pytest.raises(ValueError, match="belongs to other flags"):
+    with pytest.raises(ValueError, match="made with other flags"):
         read_cells(path, replace(plan("linear"), limits=Limits(stalled=0.01)))
     path.write_text("mu,hours\n")
     with pytest.raises(ValueError, match="cannot be read"):

@@ -1,4 +1,4 @@
-"""The statements behind the figures and tables of chapter 3, as the document makes them or as our numbers refuse
+"""The statements behind the figures and tables of chapter 3, as the thesis makes them or as our numbers refuse
 them."""
 
 from collections.abc import Callable
@@ -90,7 +90,7 @@ def test_order_of_a_known_sequence():
 
 
 def test_figure_3_9(report: Make):
-    """A hundred azimuths are enough to 0.1 %; fewer are, too, which the document does not say."""
+    """A hundred azimuths are enough to 0.1 %; fewer are, too, which the thesis does not say."""
     one = report("3.9")
     for preset in ("thesis", "flight"):
         assert one.numbers[f"{preset}_error_at_100"] < 1e-5
@@ -136,9 +136,7 @@ def test_figure_3_11(report: Make):
         assert -18.0 < one.numbers[f"{preset}_optimum"] < -13.0
         assert 0.0 <= one.numbers[f"{preset}_cost_of_13_5"] < 3e-3
         assert one.numbers[f"{preset}_cost_of_0"] > 0.05
-    for (
-        made
-    ) in one.tables:  # At the document's mass and above, more twist helps down to −12°; lighter rotors want less.
+    for made in one.tables:  # At the thesis' mass and above, more twist helps down to −12°; lighter rotors want less.
         heavy = column(made, "mass_kg") > 8000.0
         powers = np.array([column(made, f"linear_{rate}")[heavy] for rate in (0, -4, -8, -12)])
         assert (np.diff(powers, axis=0) < 0.0).all()
@@ -158,7 +156,7 @@ def test_figure_3_12(report: Make):
 
 @pytest.mark.slow
 def test_figure_3_13(report: Make):
-    """−8° is the best of five beyond µ 0.18 with the wake on the document's rotor; with linear inflow it costs < 0.5 "
+    """−8° is the best of five beyond µ 0.18 with the wake on the thesis' rotor; with linear inflow it costs < 0.5 "
     "%."""
     numbers = report("3.13").numbers
     assert numbers["thesis-wake_always_8"] == 1.0
@@ -167,7 +165,7 @@ def test_figure_3_13(report: Make):
 
 @pytest.mark.slow
 def test_figure_3_14(report: Make):
-    """−4° wins at µ 0.35 on the document's rotor with either inflow, not in the flight preset, nor once trimmed by "
+    """−4° wins at µ 0.35 on the thesis' rotor with either inflow, not in the flight preset, nor once trimmed by "
     "cyclic."""
     numbers = report("3.14").numbers
     assert numbers["thesis_best"] == numbers["thesis-wake_best"] == -4.0
@@ -185,7 +183,7 @@ def test_figure_3_15(report: Make):
 
 
 def test_crossings_are_where_powers_meet():
-    """Between −4° and −8° on the document's rotor; the two costs cross once at low speed."""
+    """Between −4° and −8° on the thesis' rotor; the two costs cross once at low speed."""
     found = crossings("thesis", -4, -8, (0.075, 0.105, 0.135))
     assert len(found) == 1
     assert 0.075 < found[0] < 0.135
@@ -193,7 +191,7 @@ def test_crossings_are_where_powers_meet():
 
 @pytest.mark.slow
 def test_keys_1987(report: Make):
-    """More twist helps in hover in every preset; at 330 km/h it costs on the document's rotor. Another rotor: "
+    """More twist helps in hover in every preset; at 330 km/h it costs on the thesis' rotor. Another rotor: "
     "indicative."""
     one = report("keys 1987")
     assert one.verdict is Agreement.INDICATIVE

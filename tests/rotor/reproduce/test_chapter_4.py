@@ -1,4 +1,4 @@
-"""Chapter 4: no number of the document is known, so what is tested is what any optimum must satisfy."""
+"""Chapter 4: no number of the thesis is known, so what is tested is what any optimum must satisfy."""
 
 from collections.abc import Callable
 
@@ -66,7 +66,7 @@ def test_figure_4_1_every_inflow():
 
 
 def test_figure_4_1_steady_decrease_with_the_wake():
-    """The document's idea on its own rotor: with a wake that answers, the optimum falls steadily with speed."""
+    """The thesis' idea on its own rotor: with a wake that answers, the optimum falls steadily with speed."""
     rates = [best("thesis-wake", "linear", mu, QUICK).values[0] for mu in QUICK.speeds]
     assert rates[0] < rates[1] - 2.0 < rates[2] - 4.0
 

@@ -1,6 +1,6 @@
-"""The first claims of the document (thesis §3.2, §3.3), printed and tested as physical statements.
+"""The first claims of the thesis (thesis §3.2, §3.3), printed and tested as physical statements.
 
-The document's optima are on curves that are flat to a per cent, its polar is not stated, and its induced power cannot
+The thesis' optima are on curves that are flat to a per cent, its polar is not stated, and its induced power cannot
 see twist; so powers are compared, never angles alone. Run with -s to read the tables.
 """
 
@@ -37,7 +37,7 @@ def test_hover_optimum_of_linear_twist(preset: str):
     print(
         f"\n{preset}: hover optimum {rates[k]:.1f}°, {powers[k]:.0f} kW, within 0.1 % from {band[0]:.1f} "
         f"to {band[-1]:.1f}°; "
-        f"the document's −13.5° costs {100 * cost:.2f} %"
+        f"the thesis' −13.5° costs {100 * cost:.2f} %"
     )
     assert -19.0 < rates[k] < -12.0
     assert cost < 3e-3
@@ -53,12 +53,12 @@ def test_best_of_five_twists(preset: str):
         row = "  ".join(f"{power_kw(preset, rate, mu):8.1f}" for rate in RATES)
         print(f"  µ {mu:.2f}  {row}   best {best(preset, mu)}°")
     if preset == "thesis":
-        assert best(preset, 0.35) == -4  # As the document says.
+        assert best(preset, 0.35) == -4  # As the thesis says.
         assert best(preset, 0.1) <= best(preset, 0.18)  # Low speed wants at least as much twist.
         for mu in (0.18, 0.25):  # Where our best differs from −8°, −8° costs less than half a per cent.
             assert power_kw(preset, -8, mu) < 1.005 * power_kw(preset, best(preset, mu), mu)
     else:
-        # With drag rise by Mach the advancing tip must be unloaded: the untwisted blade pays, unlike in the document.
+        # With drag rise by Mach the advancing tip must be unloaded: the untwisted blade pays, unlike in the thesis.
         assert power_kw(preset, 0, 0.35) > 1.05 * power_kw(preset, best(preset, 0.35), 0.35)
 
 

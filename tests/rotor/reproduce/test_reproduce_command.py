@@ -51,7 +51,7 @@ def test_figures_come_once_and_in_the_documents_order(tmp_path: Path, capsys: py
     page = (tmp_path / "index.html").read_text(encoding="utf-8")
     found = re.findall(r'<article id="([\w-]+)"', page)
     assert found == ["table-3_1", "table-3_2", "table-5_1"]
-    assert "3 rebuilt: agrees 2, stands alone 1." in page
+    assert "3 rebuilt: agrees 2, no reference 1." in page
 
 
 def test_one_legend_serves_panels_that_name_the_same():

@@ -72,7 +72,7 @@ def test_fast_rows_still_hold():
 
 @pytest.mark.slow
 def test_verdicts_still_hold(report: Callable[[str], Report]):
-    """What became of the document's statements; chapter 4 makes none that can be judged."""
+    """What became of the thesis' statements; chapter 4 makes none that can be judged."""
     shown = {row.what: row.shown for row in trust_rows() if row.kind == "document"}
     for entry in ENTRIES:
         if not entry.slow:

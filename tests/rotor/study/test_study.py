@@ -104,7 +104,7 @@ BAD = {
     "parameter": ("[axes]\nrate_deg = [-8]\n", "line 2", "concept"),
     "missing parameter": ("[axes]\ninboard_rate_deg = [-8]\n[fixed]\nconcept = 'two-segment'\n", "outboard", "add"),
     "no concept": ("[axes]\nmu = [0.1]\n[optimum]\n", "concept", "add"),
-    "nothing left": ("[axes]\nrate_deg = [-8]\n[fixed]\nconcept = 'linear'\n[optimum]\n", "nothing left", "leave"),
+    "none free": ("[axes]\nrate_deg = [-8]\n[fixed]\nconcept = 'linear'\n[optimum]\n", "no free parameter", "leave"),
     "starts": ("[axes]\nmu = [0.1]\n[fixed]\nconcept = 'linear'\n[optimum]\nstarts = 0\n", "line 6", "1…1000"),
     "rate": ("[axes]\nmu = [0.1]\n[fixed]\nconcept = 'linear'\n[optimum]\nrate_deg = [0, -20]\n", "line 6", "[-20, 0]"),
     "least": ("[axes]\nmu = [0.1]\n[show]\nleast = 'noise'\n", "line 4", "power_total_w"),
@@ -340,7 +340,7 @@ def test_show_is_text_and_json(
     assert main(["study", "show", str(tmp_path / "out"), "--least", "stalled_area_percent"]) == 0
     out = capsys.readouterr().out
     assert "least stalled_area_percent" in out
-    assert "depends on, as far as it is known" in out
+    assert "depends on, from the finished points" in out
     assert main(["study", "show", str(tmp_path / "out"), "--least", "noise"]) == 2
     assert "noise" in capsys.readouterr().err
 
@@ -371,7 +371,7 @@ def test_best_and_robust_best_by_hand():
 
 
 def test_effects_share_the_variance_as_the_formula_says():
-    """f = 3x + y on a full grid: Var x-part : Var y-part = 9 : 1, nothing left for z."""
+    """f = 3x + y on a full grid: Var x-part : Var y-part = 9 : 1, no free parameter left for z."""
     grid = np.array(np.meshgrid([0.0, 1.0], [0.0, 1.0], [0.0, 1.0], indexing="ij")).reshape(3, -1)
     results = results_of(x=grid[0], y=grid[1], z=grid[2], power_total_w=3.0 * grid[0] + grid[1])
     found = {one.axis: one for one in effects(results, "power_total_w")}

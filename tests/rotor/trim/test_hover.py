@@ -81,7 +81,7 @@ def test_annulus_balance_closes_with_the_real_polar(twist: str):
 
 
 @pytest.mark.parametrize("preset", ["flight", "thesis"])
-def test_thrust_is_weight_and_nothing_turns_with_azimuth(preset: str):
+def test_thrust_is_weight_and_nothing_varies_with_azimuth(preset: str):
     solution = hover(preset)
     assert_allclose(solution.ct, solution.design.weight_coefficient, rtol=1e-10)
     assert np.ptp(solution.disk.dct, axis=1).max() == 0.0
@@ -130,7 +130,7 @@ def test_collective_agrees_with_a_root_finder():
     assert_allclose(solution.controls.collective, root, atol=1e-10)
 
 
-def test_too_heavy_says_so_in_one_sentence():
+def test_too_heavy_is_one_sentence():
     solution = solve(make_design(mu=0.0, mass_kg=20_000.0, altitude_m=4000.0))
     assert not solution.converged
     assert "lower the mass or the altitude" in solution.message

@@ -41,7 +41,7 @@ def test_energy_identity_over_conditions(mass: float, altitude: float, mu: float
     assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-9)
 
 
-def test_energy_identity_with_wanted_flapping():
+def test_energy_identity_with_given_flapping():
     """Flapping moves air, but over a revolution its work on a periodic blade is nothing."""
     design = make_design(mu=0.25)
     design = replace(design, condition=replace(design.condition, flap_1c=0.04, flap_1s=-0.03))
@@ -67,7 +67,7 @@ def test_thesis_torque_is_not_power():
 
 
 @pytest.mark.parametrize("name", [model.name for model in LINEAR_MODELS])
-def test_linear_inflow_cannot_see_twist(name: str):
+def test_induced_power_of_linear_inflow_does_not_depend_on_twist(name: str):
     """Induced power is λ0 C_T and a hub-moment term: the same for every twist to 1 % (DESIGN: ≤ 1 kW … of 150–560)."""
     for mu in (0.15, 0.3):
         induced = []

@@ -95,7 +95,7 @@ def test_few_designs_at_high_blade_loading_fail_to_trim():
     gap=st.floats(0.05, 0.3),
     mu=st.floats(0.0, 0.4),
 )
-def test_segments_converge_or_say_so(rates: list[float], first: float, gap: float, mu: float):
+def test_segments_converge_or_are_one_sentence(rates: list[float], first: float, gap: float, mu: float):
     breaks = ",".join(f"{b:.6f}" for b in (first, first + gap)[: len(rates) - 1])
     check(solve(make_design(twist=f"segments:{','.join(f'{r:.6f}' for r in rates)}@{breaks}", mu=mu)))
 

@@ -34,7 +34,7 @@ def coarse(inflow: str, mu: float) -> Design:
 
 @pytest.mark.parametrize("inflow", LOAD_DEPENDENT)
 @pytest.mark.parametrize("mu", [0.06, 0.2, 0.35])
-def test_the_inflow_is_what_the_model_answers(inflow: str, mu: float):
+def test_the_converged_inflow_is_the_response_of_the_model(inflow: str, mu: float):
     """Converged: λ_i = A d, closed to 1e-8 of λ0, and the power closed with it."""
     solution = solve(coarse(inflow, mu)).require()
     problem = build_problem(solution.design)
@@ -47,7 +47,7 @@ def test_the_inflow_is_what_the_model_answers(inflow: str, mu: float):
 
 @pytest.mark.parametrize("inflow", LOAD_DEPENDENT)
 @pytest.mark.parametrize("mu", [0.1, 0.3])
-def test_loop_and_transposes(inflow: str, mu: float):
+def test_feedback_and_transposes(inflow: str, mu: float):
     """The loop solves z − A K z = f, and ⟨g, Bf⟩ = ⟨Bᵀg, f⟩ for A and for the loop, on random fields."""
     solution = solve(coarse(inflow, mu)).require()
     problem = build_problem(solution.design)
@@ -120,7 +120,7 @@ class _Bumped:
 
 
 @pytest.mark.parametrize("inflow", LOAD_DEPENDENT)
-def test_twist_moves_induced_power(inflow: str):
+def test_twist_changes_induced_power(inflow: str):
     """The point of it all: 5–9 % of total power over 0…−20° (linear models: induced power to 1 % the same)."""
     induced = [solve(design_of(inflow, 0.2, f"linear:{rate}")).require().power.induced for rate in (0, -8, -20)]
     assert np.ptp(induced) > 0.05 * min(induced)
