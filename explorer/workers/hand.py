@@ -64,7 +64,7 @@ class WorkerThread(threading.Thread):
                 self._do(job)
             except (OSError, EOFError):
                 self._drop()
-                job.tell(JobFailed("The worker process ended unexpectedly; a new one is on its way. Press again."))
+                job.tell(JobFailed("The worker process ended unexpectedly; a new one is starting. Press again."))
             except Exception as error:  # A task that does not pickle, for example: the hand must live on.
                 job.tell(JobFailed(f"The work could not be done: {error}"))
             self.idle = True

@@ -65,7 +65,7 @@ def _electrical(ply: PiezoPly, swings: tuple[float, ...]) -> list[Limit]:
     return [
         Limit(
             "voltage", ok, most, ply.voltage_swing, "V",
-            f"The twist asked for {needs}; the range is {span}.",
+            f"The required twist {needs}; the range is {span}.",
         ),
         Limit(
             "field", ok, field, allowed, "kV/mm",
@@ -78,11 +78,11 @@ def _strain(installed: InstalledActuator, ply: PiezoPly, solution: Solution | No
     strain = fibre_strain(installed, solution)
     worst = float(strain.total.max())
     where = float(strain.r[strain.total.argmax()])
-    flap = "with flap bending of the trimmed rotor" if solution else "flap bending not counted"
+    flap = "including flap bending of the trimmed rotor" if solution else "without flap bending"
     return Limit(
         "fibre-strain", worst <= ply.linear_strain, 1e6 * worst, 1e6 * ply.linear_strain, "µε",
-        f"Fibres are stretched by up to {1e6 * worst:.0f} µε at {where:.2f} R ({flap}); the sheet "
-        f"follows linearly up to {1e6 * ply.linear_strain:.0f} and must stay below {1e6 * ply.largest_strain:.0f}.",
+        f"Fibre strain reaches {1e6 * worst:.0f} µε at {where:.2f} R ({flap}); the sheet "
+        f"is linear up to {1e6 * ply.linear_strain:.0f} and must stay below {1e6 * ply.largest_strain:.0f}.",
     )  # fmt: skip
 
 
@@ -90,7 +90,7 @@ def _surface(installed: InstalledActuator, ply: PiezoPly) -> Limit:
     share = 2.0 * installed.placement.plies * ply.thickness / (SECTION_THICKNESS * uh60a_structure().chord)
     bound = float(structure_data()["limits"]["surface_share"])
     outside = installed.host.kind == "retrofit"
-    where = "outside the skins, so they change the contour" if outside else "inside the torsion skin"
+    where = "outside the skin, so they change the contour" if outside else "inside the torsion skin"
     return Limit(
         "space", not outside or share <= bound, 100.0 * share, 100.0 * bound, "% of thickness",
         f"Plies per side: {installed.placement.plies}, {where}: {100.0 * share:.1f} % of the section's thickness.",
@@ -102,15 +102,15 @@ def _tube(installed: InstalledActuator, tube: TorqueTube, swings: tuple[float, .
     retrofit = installed.host.kind == "retrofit"
     height = WEB_HEIGHT * uh60a_structure().chord
     where = (
-        "the flown spar is pressurised with nitrogen for its crack indicator and may not be opened"
+        "the existing spar is pressurised with nitrogen for crack indication and must not be opened"
         if retrofit
-        else "a spar made for it can hold it"
+        else "a spar designed for it can hold it"
     )
     return [
         Limit(
             "torque", worst <= 1.0 + 1e-9, worst * installed.moment, installed.moment, "N·m",
             f"The required twist needs {worst * installed.moment:.0f} N·m; {installed.placement.plies} tube(s) per "
-            f"segment give {installed.moment:.0f} N·m, the stiffness of the tubes themselves not counted.",
+            f"segment give {installed.moment:.0f} N·m, without the stiffness of the tubes themselves.",
         ),
         Limit(
             "space", not retrofit and tube.diameter <= height, 1e3 * tube.diameter, 1e3 * height, "mm",
@@ -122,8 +122,8 @@ def _tube(installed: InstalledActuator, tube: TorqueTube, swings: tuple[float, .
 def _rotor_speed(laminate: ExtensionTwist) -> Limit:
     return Limit(
         "rotor-speed", False, 0.0, 100.0 * laminate.speed_change, "% of Ω",
-        f"Only rotor speed moves it: {100.0 * laminate.speed_change:.0f} % slower for all of the change, and this "
-        "rotor turns at one speed.",
+        f"Only rotor speed changes the twist: {100.0 * laminate.speed_change:.0f} % slower for full change, but "
+        "this rotor runs at constant speed.",
     )  # fmt: skip
 
 
@@ -136,8 +136,8 @@ def _temperature(installed: InstalledActuator) -> Limit:
         top = min(top, float(data["running_temperature_c"]))
     on_heater = installed.placement.chord[0] < float(data["de_ice_end_c"]) and isinstance(actuator, PiezoPly)
     hottest = float(data["de_ice_temperature_c"] if on_heater else data["hot_day_c"])
-    heater = "over the de-ice heater mat" if on_heater else "off the heater mat, on a hot day"
-    remedy = "" if hottest <= top else f"; begin at {data['de_ice_end_c']:g} c or use a high-temperature type"
+    heater = "over the de-icing mat" if on_heater else "off the de-icing mat, on a hot day"
+    remedy = "" if hottest <= top else f"; start at {data['de_ice_end_c']:g} c or use a high-temperature type"
     return Limit(
         "temperature", hottest <= top, hottest, top, "°C",
         f"The skin {heater} reaches about {hottest:.0f} °C; the actuator works up to {top:.0f} °C{remedy}.",
@@ -169,6 +169,6 @@ def _torsion(installed: InstalledActuator) -> list[Limit]:
         ),
         Limit(
             "torsion-least", frequency >= least, frequency, least, "per rev",
-            f"First torsion at {frequency:.2f}/rev; below {least:g} flutter and control loads need their own study.",
+            f"First torsion at {frequency:.2f}/rev; below {least:g}/rev, flutter and control loads need a separate study.",
         ),
     ]  # fmt: skip

@@ -158,29 +158,29 @@ class _Run:
             best = _minimum(evaluate, seen, ())
         if stopped:
             status = SearchStatus.STOPPED
-            message = f"SearchStopped after {evaluate.count} evaluations; the best so far is kept."
+            message = f"Stopped after {evaluate.count} evaluations; the best so far is kept."
             if self.groups and evaluate.phase == "band":
-                message = "SearchStopped while measuring the band; the search itself was complete."
+                message = "Stopped while measuring the band; the search itself was complete."
         elif best is None:
             status = SearchStatus.NOT_CONVERGED
             trimmed = any(one.power is not None for one in evaluate.records)
             message = (
-                "No design found keeps the limits: loosen them."
+                "No design found meets the limits: relax them."
                 if trimmed
-                else "No start trims: lower the mass, the altitude or the speed."
+                else "No starting point has a trim: lower the mass, the altitude or the speed."
             )
         elif not minima:
             status, message = (
                 SearchStatus.NOT_CONVERGED,
-                "No descent settled at a minimum; the best point seen is given.",
+                "No descent converged to a minimum; this is the best design found.",
             )
         else:
             status = SearchStatus.CONVERGED
             agree = len(minima[0].starts)
             which = "only local minimum found" if len(minima) == 1 else f"best of {len(minima)} local minima"
-            message = f"{agree} of {evaluate.starts} starts ended in the {which}."
+            message = f"{agree} of {evaluate.starts} starting points converged to the {which}."
             if self.lost:
-                message += f" {self.lost} found no trim."
+                message += f" {self.lost} had no trim."
         return Optimum(
             status=status,
             message=message,

@@ -54,7 +54,7 @@ def _assemble(problem: Problem, result: HoverResult | TrimResult, begin: float) 
     if converged and not 0.0 < power.main_rotor < math.inf:
         converged = False
         message = (
-            f"The trim found takes {power.main_rotor / 1e3:.0f} kW, which no level flight can: "
+            f"The trim found takes {power.main_rotor / 1e3:.0f} kW, which is impossible in level flight: "
             "lower the advance ratio or the mass."
         )
     return Solution(

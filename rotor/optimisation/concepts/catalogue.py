@@ -17,7 +17,7 @@ _THREE = (("inboard", "Inboard"), ("middle", "Middle"), ("outboard", "Outboard")
 _DIVISION = ("division", "Division", 0.25, 0.92)
 
 TWO_SEGMENT_FREE = SegmentsConcept(
-    "two-segment-free", "Two segments, free division", "Two straight segments; the division moves too.", _TWO,
+    "two-segment-free", "Two segments, free division", "Two linear segments with a free division.", _TWO,
     (_DIVISION,),
 )  # fmt: skip
 TWO_AIRFOILS = SegmentsConcept(
@@ -32,8 +32,8 @@ TWO_AIRFOILS = SegmentsConcept(
     airfoils=("sc1094r8", "sc1095"),
 )
 THREE_SEGMENT_FREE = SegmentsConcept(
-    "three-segment-free", "Three segments, free breaks", "Three straight segments; both breaks move too.", _THREE,
-    (("inner_break", "Inner break", 0.2, 0.64), ("outer_break", "Outer break", 0.66, 0.95)),
+    "three-segment-free", "Three segments, free breaks", "Three linear segments with two free breaks.", _THREE,
+    (("inner_break", "Inboard break", 0.2, 0.64), ("outer_break", "Outboard break", 0.66, 0.95)),
 )  # fmt: skip
 
 
@@ -43,7 +43,7 @@ def _two_segment(division: float) -> Concept:
         {"division": division},
         name="two-segment",
         title="Two segments",
-        explanation=f"Two straight segments, divided at {division:g} R.",
+        explanation=f"Two linear segments, divided at {division:g} R.",
     )
 
 
@@ -52,14 +52,14 @@ def _three_segment(inner: float, outer: float) -> Concept:
         raise ValueError(f"divisions {inner:g}, {outer:g} must ascend between 0.15 and 0.97 R: reorder or move them")
     anywhere = replace(
         THREE_SEGMENT_FREE,
-        breaks=(("inner_break", "Inner break", 0.15, 0.97), ("outer_break", "Outer break", 0.15, 0.97)),
+        breaks=(("inner_break", "Inboard break", 0.15, 0.97), ("outer_break", "Outboard break", 0.15, 0.97)),
     )
     return restrict(
         anywhere,
         {"inner_break": inner, "outer_break": outer},
         name="three-segment",
         title="Three segments",
-        explanation=f"Three straight segments that meet at {inner:.3g} and {outer:.3g} R, where the airfoils change.",
+        explanation=f"Three linear segments that meet at {inner:.3g} and {outer:.3g} R, where the airfoils change.",
     )
 
 

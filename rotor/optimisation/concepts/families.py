@@ -84,7 +84,7 @@ class FreeFormConcept:
 
     name = "free-form"
     title = "Free form"
-    explanation = "A smooth curve through seven points: what any shape could reach."
+    explanation = "A smooth curve through seven points: the envelope of the other concepts."
     knots: tuple[float, ...] = (0.13, 0.30, 0.46, 0.61, REFERENCE_RADIUS, 0.88, 1.0)
     """r/R; one is at 0.75, where every law is zero."""
 

@@ -180,7 +180,7 @@ def test_limits_say_what_they_found():
     thick = install(find_actuator("MFC_P1"), default_placement(1), Host(), rotor)
     said = {limit.name: limit for limit in limits(thick, (0.5,))}
     assert said["fibre-strain"].ok
-    assert "follows linearly up to 1000" in said["fibre-strain"].sentence
+    assert "is linear up to 1000" in said["fibre-strain"].sentence
     assert "Plies per side: 1," in said["space"].sentence
     assert "a swing of 1000 V" in said["voltage"].sentence
     patch = install(find_actuator("PZT5A"), default_placement(1), Host(), rotor)
