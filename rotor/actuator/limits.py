@@ -169,6 +169,6 @@ def _torsion(installed: InstalledActuator) -> list[Limit]:
         ),
         Limit(
             "torsion-least", frequency >= least, frequency, least, "per rev",
-            f"First torsion at {frequency:.2f}/rev; below {least:g}/rev, flutter and control loads need their own study.",
+            f"First torsion at {frequency:.2f}/rev; below {least:g}/rev, flutter and control loads need a study.",
         ),
     ]  # fmt: skip
