@@ -101,7 +101,7 @@ def _waiting_text(places: int, ahead: int) -> str:
     return (
         '<div class="rx rx-lobby" data-explorer="lobby">'
         f"<p><b>{taken}</b> {line}</p>"
-        "<p>Leave this page open: the explorer appears here as soon as somebody leaves, or rests for long.</p>"
+        "<p>Leave this page open: the explorer appears here as soon as another visitor leaves or stays idle.</p>"
         '<p class="rx-dim">To run one of your own: <code>make run</code>. '
         "Whoever runs this one can allow more: <code>--max-sessions</code>.</p></div>"
     )

@@ -119,7 +119,7 @@ def as_command_line(design: Design) -> CommandLine:
     What is returned has been read back to the same design. ValueError with one sentence where neither can hold it.
     """
     flags = _flags(design)
-    note = "The twist table is read from a file: run this where it lies.\n" if "table:" in design.twist.spec() else ""
+    note = "The twist table is read from a file: run this in its folder.\n" if "table:" in design.twist.spec() else ""
     if _is_read_as(flags, design):
         return CommandLine(_on_lines(["python -m rotor solve", *flags]), None, note)
     case = json.dumps({**design.to_dict(), "twist": exact_spec(design.twist)}, indent=2) + "\n"
@@ -127,8 +127,8 @@ def as_command_line(design: Design) -> CommandLine:
         path = Path(folder, CASE_FILE)
         path.write_text(case, encoding="utf-8")
         if not _is_read_as([f"--case {shlex.quote(str(path))}"], design):
-            raise ValueError("Neither flags nor a design file can say all of this design: copy it as Python.")
-    note += "Flags cannot say all of this design, so it is written to a design file first.\n"
+            raise ValueError("Neither flags nor a design file can express this design: copy it as Python.")
+    note += "Flags cannot express this design, so it is written to a design file first.\n"
     return CommandLine(f"python -m rotor solve --case {CASE_FILE}", case, note)
 
 
@@ -225,7 +225,7 @@ def as_python(design: Design) -> str:
             "",
             f"design = {made}",
             *([f"design = {changed}"] if changed else []),
-            "solution = solve(design).require()  # RuntimeError with the reason where it does not trim",
+            "solution = solve(design).require()  # RuntimeError with the reason where there is no trim",
             "",
             'for part in ("total", "main_rotor", "induced", "profile", "parasite", "tail"):',
             '    print(f"{part:<12}{getattr(solution.power, part) / 1e3:14.6f} kW")',

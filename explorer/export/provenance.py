@@ -51,7 +51,7 @@ def provenance_lines(solution: Solution) -> list[str]:
     ]
     if design.active_twist is not None:
         waves = ", ".join(f"{one.per_rev}/rev {one.amplitude:g} rad" for one in design.active_twist.harmonics)
-        lines.insert(1, f"active twist on top: {waves}" + (" (at rest in hover)" if design.hovering else ""))
+        lines.insert(1, f"added active twist: {waves}" + (" (at rest in hover)" if design.hovering else ""))
     lines += [f"caveat: {caveat.sentence}" for caveat in solution.caveats]
     lines.append(", ".join(f"{name} {number}" for name, number in versions().items()))
     lines.append("A model, not a measurement.")

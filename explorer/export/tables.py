@@ -32,7 +32,7 @@ _MEANINGS = {
     "cl": "section lift coefficient",
     "cd": "section drag coefficient",
     "cd_mach": "change of cd with Mach number; 0.1 marks drag divergence",
-    "stall_margin": "angle of attack left before stall; 90 in reverse flow",
+    "stall_margin": "margin to the stall angle; 90 in reverse flow",
     "dct": "dCT/dr of all blades, smeared",
     "dcq": "dCQ/dr / r of all blades, smeared",
 }
@@ -98,8 +98,8 @@ def power_csv(solution: Solution, reference: Design, curve: PowerCurve) -> bytes
     ]
     notes = [
         f"reference: {reference.twist.spec()}, {condition_line(reference)}",
-        "mu = 0 is hover, another model than forward flight; empty where a point does not trim",
-        "ideal lift: the induced power that no circulation with this lift could go below",
+        "mu = 0 is hover, with another inflow model; empty where there is no trim",
+        "ideal lift: the least induced power of any circulation with this lift",
     ]
     return _table(solution, notes, columns)
 

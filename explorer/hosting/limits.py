@@ -88,13 +88,13 @@ def refuse_upload(name: str, size: int, parts: int, under_way: int, accepts: str
     most = next((largest for ending, largest in _OF_TYPE.items() if name.lower().endswith(ending)), LARGEST_FILE)
     shown = repr(name if len(name) <= 60 else name[:57] + "…")
     if size > most:
-        return f"{shown} has {size / 2**20:.1f} MB: {most // 2**20} MB are the most."
+        return f"{shown} has {size / 2**20:.1f} MB: {most // 2**20} MB are allowed."
     if not _is_accepted(name, accepts):
-        return f"{shown} is not of a type that is read here: choose a {accepts.replace(',', ' or ')} file."
+        return f"{shown} is not a supported type: choose a {accepts.replace(',', ' or ')} file."
     if under_way >= UPLOADS_AT_ONCE:
         return f"{shown} must wait until the files before it have arrived: press again then."
     if size < 0 or not 0 <= parts <= _PARTS:
-        return f"{shown} comes in {parts} parts: {_PARTS} are the most."
+        return f"{shown} comes in {parts} parts: {_PARTS} are allowed."
     return None
 
 

@@ -43,7 +43,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="python -m explorer report", description="Designs side by side as one HTML file that needs no server."
+        prog="python -m explorer report",
+        description="Designs side by side as one HTML file that opens without a server.",
     )
     parser.add_argument(
         "designs",

@@ -90,7 +90,7 @@ def report_of(
 ) -> DesignReport:
     """A report as of now; ValueError where there is nothing to report on, or where one does not hold."""
     if not entries:
-        raise ValueError("There is no design to report on: wait for the first answer.")
+        raise ValueError("There is no design to report on: wait for the first solution.")
     for entry in (*entries, reference):
         if not entry.solution.converged:
             raise ValueError(f"{entry.title} is not trimmed, so it cannot be reported: {entry.solution.message}")

@@ -88,7 +88,7 @@ def _stage(report: DesignReport, stage: EmbeddedViewer | None) -> str:
     return (
         f'<section class="stage"><h2>The rotor in trim</h2>'
         f'<div class="tabs">{tabs if len(report.shown) > 1 else ""}<span class="dim">'
-        "Drag to turn, right button to move, wheel to come closer.</span></div>"
+        "Drag to turn, right button to move, wheel to zoom.</span></div>"
         '<iframe id="viewer" title="The rotor in three dimensions"></iframe>'
         f'<div class="scale">{bar}</div><script id="stage" type="application/json">{stage.json}</script></section>'
     )
@@ -123,7 +123,7 @@ def _again(solution: Solution) -> str:
         except ValueError as error:
             text = str(error)
         parts.append(f"<details><summary>{title}</summary><pre>{escape(text)}</pre></details>")
-    return f"<h3>To compute it again</h3>{''.join(parts)}"
+    return f"<h3>To reproduce it</h3>{''.join(parts)}"
 
 
 def _caveats(solution: Solution) -> str:
@@ -139,10 +139,10 @@ def _caveats(solution: Solution) -> str:
 def _foot() -> str:
     rows = "".join(f"<tr><td>{escape(name)}</td><td>{escape(text)}</td></tr>" for name, text in versions().items())
     return (
-        "<footer><h2>How far to trust it</h2><p>Every design here is trimmed: thrust balances weight and drag, and "
+        "<footer><h2>Validity</h2><p>Every design here is trimmed: thrust balances weight and drag, and "
         "power by parts adds up to it. Forward-flight power is <b>indicative</b>: a model against other models, not "
-        "against a measurement. Hover power was set against digitised measurements of incomplete provenance and lies "
-        "2 to 12 % below them. Not modelled: bending and torsion of the blade, dynamic stall, distortion of the wake, "
-        "interference of the fuselage. Optima of twist are flat: compare powers, not angles.</p>"
+        "against a measurement. Hover power was compared with digitised measurements of incomplete provenance and is "
+        "2 to 12 % below them. Not modelled: bending and torsion of the blade, dynamic stall, wake distortion, "
+        "fuselage interference. Twist optima are flat: compare powers, not angles.</p>"
         f"<table class='versions'>{rows}</table></footer>"
     )

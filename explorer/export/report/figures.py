@@ -43,7 +43,7 @@ def overview(report: DesignReport, curves: PowerCurves) -> str:
     charts = [
         line_chart(
             "Power over advance ratio",
-            "advance ratio µ; hover stands alone, it is another model",
+            "advance ratio µ; hover is a separate point, another inflow model",
             f"total power [{report.units.power[0].symbol}]",
             power,
             (-0.01, 0.46),
@@ -59,7 +59,7 @@ def overview(report: DesignReport, curves: PowerCurves) -> str:
             line_chart(
                 "Change of power",
                 "advance ratio µ",
-                f"against {report.reference.title} [%]",
+                f"vs. {report.reference.title} [%]",
                 [Trace("", BASELINE, np.array([0.0, 0.5]), np.zeros(2), "6 4", 1.4), *changes],
                 (-0.01, 0.46),
             ),
@@ -159,7 +159,7 @@ def along(solution: Solution) -> str:
     alpha.append(Trace("stall at ψ 270°", BASELINE, r[:0], r[:0], "3 3", 1.2))
     return (
         '<h3>Along the blade</h3><div class="charts">'
-        + line_chart("Angle of attack", "r/R; reverse flow left out", "α [°]", alpha, (0.1, 1.01), (-15.0, 20.0))
-        + line_chart("Lift coefficient", "r/R; reverse flow left out", "Cl", lift, (0.1, 1.01), (-0.5, 1.5))
+        + line_chart("Angle of attack", "r/R; reverse flow omitted", "α [°]", alpha, (0.1, 1.01), (-15.0, 20.0))
+        + line_chart("Lift coefficient", "r/R; reverse flow omitted", "Cl", lift, (0.1, 1.01), (-0.5, 1.5))
         + "</div>"
     )

@@ -38,8 +38,8 @@ def comparison(report: DesignReport) -> str:
     reference = report.reference.solution
     elsewhere = [entry.title for entry in report.entries if not report.comparable(entry)]
     note = (
-        f"<p class='note'>{escape(', '.join(elsewhere))}: in another flight condition than "
-        f"{escape(report.reference.title)}; a difference of power would not be that of the blade.</p>"
+        f"<p class='note'>{escape(', '.join(elsewhere))}: at another flight condition than "
+        f"{escape(report.reference.title)}; the power difference is not due to the blade alone.</p>"
         if elsewhere
         else ""
     )
@@ -57,7 +57,7 @@ def comparison(report: DesignReport) -> str:
     rows = [
         _row("Twist", [escape(twist_words(entry.solution.design.twist)) for entry in report.all], "words"),
         _row("Speed", [_speed(entry.solution.design, report.units) for entry in report.all]),
-        _row("Weight, altitude", [_weight(entry.solution.design, report.units) for entry in report.all]),
+        _row("Mass, altitude", [_weight(entry.solution.design, report.units) for entry in report.all]),
         _row("Model", [_model(entry.solution.design) for entry in report.all], "words"),
         _row("<b>Total power</b>", compared(_total), "total"),
         *(
@@ -67,7 +67,7 @@ def comparison(report: DesignReport) -> str:
             )
             for name, title in PART_TITLES.items()
         ),
-        _row("Induced over even load κ", [number(e.solution.induced_power_factor, 3) for e in report.all]),
+        _row("Induced factor κ", [number(e.solution.induced_power_factor, 3) for e in report.all]),
         _row("Efficiency", [_efficiency(e.solution) for e in report.all]),
         _row("Stalled area", [f"{number(100 * e.solution.stalled_area, 1)} %" for e in report.all]),
     ]
@@ -94,7 +94,7 @@ def conditions(solution: Solution) -> str:
         ("Inflow", inflow_words(design)),
         ("Physics", physics_words(design)),
         ("Grid", f"{models.elements} elements × {models.azimuths} azimuths"),
-        ("Twist as written", design.twist.spec()),
+        ("Twist SPEC", design.twist.spec()),
     ]
     return _table("Condition and model", rows)
 
@@ -113,7 +113,7 @@ def parts(report: DesignReport, entry: ReportEntry) -> str:
     ]
     if report.comparable(entry):
         change = units.watts(power.total - report.reference.solution.power.total, 1, sign=True)
-        rows.append((f"Against {escape(report.reference.title)}", change))
+        rows.append((f"vs. {escape(report.reference.title)}", change))
     rows.append(("Least induced, any circulation", "not settled" if ideal is None else units.watts(ideal, 1)))
     return _table("Power", rows, raw=True)
 

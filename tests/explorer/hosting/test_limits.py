@@ -37,8 +37,8 @@ class TestUploads:
     @pytest.mark.parametrize(
         ("sent", "sentence"),
         [
-            (("film.json", 2 * LARGEST_FILE, 16, 0, ".json"), "8.0 MB: 4 MB are the most"),
-            (("study.parquet", 9 * LARGEST_FILE, 64, 0, ".parquet"), "36.0 MB: 32 MB are the most"),
+            (("film.json", 2 * LARGEST_FILE, 16, 0, ".json"), "8.0 MB: 4 MB are allowed"),
+            (("study.parquet", 9 * LARGEST_FILE, 64, 0, ".parquet"), "36.0 MB: 32 MB are allowed"),
             (("large.parquet", 8 * LARGEST_FILE, 64, 0, ".json"), "choose a .json file"),
             (("film.mp4", 1000, 1, 0, ".json,.toml"), "choose a .json or .toml file"),
             (("third.json", 1000, 1, 2, ".json"), "must wait"),

@@ -258,7 +258,7 @@ def test_what_cannot_fly_is_said_and_not_invented():
     found = run_search(Search(design, CONCEPTS["linear"], starts=2))
     assert found.status is SearchStatus.NOT_CONVERGED
     assert (found.best, found.baseline_power, found.band) == (None, None, ())
-    assert "No start trims" in found.message
+    assert "No starting point has a trim" in found.message
 
 
 def test_limits_that_nothing_keeps_are_said():
