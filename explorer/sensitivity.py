@@ -1,4 +1,4 @@
-"""What a step of each slider is worth: the change of total power, as a signed number beside the slider.
+"""Power sensitivity of each slider: the change of total power for one natural step of it.
 
 Twist sliders: exact. The adjoint gives ∂P/∂θ(r) with trim and inflow following, and the concept that belongs to the
 law gives ∂θ_tw(r)/∂p, so that one step costs (∂P/∂θ · ∂θ_tw/∂p) × step. Flight sliders (advance ratio, mass, altitude):
@@ -72,7 +72,7 @@ _AVIATION_STEPS = {
 
 @dataclass(frozen=True)
 class SliderSensitivity:
-    """What one slider is worth where it stands."""
+    """Power sensitivity of one slider at its present position."""
 
     name: str
     """The field of `Inputs`."""
@@ -103,12 +103,12 @@ class SliderSensitivity:
 
 
 def natural_step(name: str, units: Units = SI) -> NaturalStep:
-    """The step that a slider's worth is given for; KeyError for a name without a slider."""
+    """The step that the sensitivity of a slider is given for; KeyError for a name without a slider."""
     return _AVIATION_STEPS[name] if units is AVIATION and name in _AVIATION_STEPS else STEPS[name]
 
 
 def twist_sensitivities(inputs: Inputs, gradient: PitchGradient) -> dict[str, SliderSensitivity]:
-    """Exact worth of each slider of the present twist law, in the order of the page; none for a law without sliders.
+    """Exact sensitivity of each slider of the present twist law, in the order of the page; empty without sliders.
 
     `gradient`: of the solution of these inputs.
     """
@@ -129,7 +129,7 @@ def twist_sensitivities(inputs: Inputs, gradient: PitchGradient) -> dict[str, Sl
 def flight_sensitivities(
     solution: Solution, superseded: Callable[[], bool] = lambda: False
 ) -> dict[str, SliderSensitivity]:
-    """Worth of advance ratio, mass and altitude by central differences of a tenth of a step.
+    """Sensitivity of advance ratio, mass and altitude by central differences of a tenth of a step.
 
     One-sided where one neighbour does not trim or lies outside the permitted range; a slider without a trimmed
     neighbour is left out, and so is the advance ratio in hover, which another model computes. `superseded` is asked

@@ -61,7 +61,7 @@ class DesignControls:
             '<div class="rxp-head">TWIST<span>slopes in °/R</span></div><div class="rxp-curve" data-curve></div>'
         )
         self._law = gui.add_dropdown(
-            "Law", tuple(self._laws.values()), initial_value=self._laws[start.law], hint=hint("law")
+            "Twist concept", tuple(self._laws.values()), initial_value=self._laws[start.law], hint=hint("law")
         )
         self._inputs["law"] = self._watched(self._law)
         self._sliders(gui, tuple(name for law in LAWS.values() for name in law.inputs))

@@ -43,7 +43,9 @@ def test_slider_to_frame(browser: "Browser", artefacts: Path, label: str):
         page.goto(app.address)
         page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=20_000)
         if label == "Rate":
-            row = page.locator("label", has_text="Law").locator("xpath=ancestor::div[contains(@class,'Flex-root')][1]")
+            row = page.locator("label", has_text="Twist concept").locator(
+                "xpath=ancestor::div[contains(@class,'Flex-root')][1]"
+            )
             row.locator("input").first.click()
             page.get_by_role("option", name="Linear", exact=True).click()
         page.wait_for_timeout(3000)

@@ -54,7 +54,7 @@ def test_first_page_is_the_trimmed_uh60a(watched: Watched):
 
 
 def test_twist_slider_moves_power_blade_and_disk(watched: Watched):
-    watched.choose("Law", "Linear")
+    watched.choose("Twist concept", "Linear")
     watched.until_changed(lambda: watched.text("change"), "0.0 %")
     power, blade, disk = (
         watched.text("total-power"),
@@ -177,7 +177,7 @@ def test_two_browsers_do_not_disturb_each_other(watched: Watched, browser: "Brow
 
 
 def test_crossed_divisions_are_one_red_sentence(watched: Watched):
-    watched.choose("Law", "Three segments")
+    watched.choose("Twist concept", "Three segments")
     watched.until_changed(lambda: watched.text("change"), "0.0 %")
     watched.type("Division 2", 0.3)
     watched.page.wait_for_selector('[data-explorer="status"][data-kind="problem"]', timeout=WAIT)
@@ -253,7 +253,7 @@ def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any,
 def test_picture_of_the_readme(browser: "Browser", app: App, artefacts: Path):
     """docs/images/explorer.png is a copy of what this saves."""
     watched = painted(browser, app.address, "light", (1500, 940))
-    watched.choose("Law", "Two segments")
+    watched.choose("Twist concept", "Two segments")
     watched.choose("Field", "Induced inflow λi")
     watched.page.wait_for_timeout(2500)
     watched.quiet()

@@ -193,7 +193,7 @@ def test_keys_are_listed_and_the_palette_finds_them(watched: Watched):
 def test_a_sentence_in_red_dims_the_probe_and_stops_play(watched: Watched):
     page = watched.page
     page.keyboard.press("Space")
-    watched.choose("Law", "Three segments")
+    watched.choose("Twist concept", "Three segments")
     watched.type("Division 2", 0.3)
     page.wait_for_selector(".rx-faded [data-explorer=probe]", timeout=WAIT)
     assert page.get_by_role("button", name="Play").count()

@@ -175,10 +175,10 @@ class TestStrangers:
             visitor = await arrive(app)
             for value in (float("nan"), float("inf"), 1e300, -5.0, "x", None, [1, 2], {}):
                 await visitor.move("Adv. ratio µ", value)
-                await visitor.move("Law", value)
+                await visitor.move("Twist concept", value)
                 await asyncio.sleep(0.01)
                 await visitor.move("Adv. ratio µ", 0.2)
-                await visitor.move("Law", "Two segments")
+                await visitor.move("Twist concept", "Two segments")
                 await still_served(visitor)
             await visitor.until(lambda: visitor.text("status") == "converged")
             await visitor.close()

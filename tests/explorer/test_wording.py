@@ -1,0 +1,63 @@
+"""One name for one thing: phrases that the page and the command line do not use, because another one stands for it."""
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent.parent
+INSTEAD = {
+    "our best": "best available",
+    "marked blade": "reference blade",
+    "In grey": "greyed",
+    "last good answer": "last converged solution",
+    "that answers": "that responds to loading",
+    "answer to where": "respond to the load distribution",
+    "even load": "uniform loading",
+    "flies along": "fly A at the current condition",
+    "met from behind": "reverse flow",
+    "valley": "local minimum",
+    "as tests suggest": "derated by test",
+    "plies a side": "plies per side",
+    "Nothing searched": "not run yet",
+    "Work out": "compute",
+    "worth of moving": "value of in-flight twist change",
+    "what moving is worth": "value of in-flight twist change",
+    "sets this design aside": "bookmarks this design",
+    "Inner [": "Inboard [",
+    "Outer [": "Outboard [",
+    "Inner break": "Inboard break",
+    "Outer break": "Outboard break",
+    "Weight [": "Mass [",
+    "lower the weight": "lower the mass",
+    "UH-60A twist": "UH-60A as built",
+}
+"""Phrase → the one to use."""
+
+
+def shown_texts(path: Path) -> Iterator[str]:
+    """String constants of a file that are no docstrings."""
+    tree = ast.parse(path.read_text(encoding="utf-8"))
+    silent = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in silent:
+            yield node.value
+
+
+def test_the_reader_finds_text_and_leaves_docstrings_out(tmp_path: Path):
+    file = tmp_path / "a.py"
+    file.write_text('"""A valley."""\nx = f"the {1} valley"\n', encoding="utf-8")
+    assert list(shown_texts(file)) == ["the ", " valley"]
+
+
+@pytest.mark.parametrize("package", ["explorer", "rotor"])
+def test_no_text_uses_a_second_name(package: str):
+    found = [
+        f"{path.relative_to(ROOT)}: {phrase!r}: write {better!r}"
+        for path in sorted((ROOT / package).rglob("*.py"))
+        for text in shown_texts(path)
+        for phrase, better in INSTEAD.items()
+        if phrase.lower() in text.lower()
+    ]
+    assert not found, "\n".join(found)
