@@ -33,7 +33,7 @@ TWO_AIRFOILS = SegmentsConcept(
 )
 THREE_SEGMENT_FREE = SegmentsConcept(
     "three-segment-free", "Three segments, free breaks", "Three straight segments with free breaks.", _THREE,
-    (("inner_break", "Inner break", 0.2, 0.64), ("outer_break", "Outer break", 0.66, 0.95)),
+    (("inner_break", "Inboard break", 0.2, 0.64), ("outer_break", "Outboard break", 0.66, 0.95)),
 )  # fmt: skip
 
 
@@ -52,7 +52,7 @@ def _three_segment(inner: float, outer: float) -> Concept:
         raise ValueError(f"divisions {inner:g}, {outer:g} must ascend between 0.15 and 0.97 R: reorder or move them")
     anywhere = replace(
         THREE_SEGMENT_FREE,
-        breaks=(("inner_break", "Inner break", 0.15, 0.97), ("outer_break", "Outer break", 0.15, 0.97)),
+        breaks=(("inner_break", "Inboard break", 0.15, 0.97), ("outer_break", "Outboard break", 0.15, 0.97)),
     )
     return restrict(
         anywhere,
