@@ -41,7 +41,7 @@ from explorer.tabs.optimise.schedule_panel import SchedulePanel
 from explorer.tabs.optimise.sensitivity_panel import SensitivityPanel
 from explorer.tabs.physics.waterfall_panel import WaterfallPanel
 from explorer.tabs.probe.panel import ProbePanel
-from explorer.tabs.results import Results
+from explorer.tabs.results import ResultsPanel
 from explorer.tabs.rotors.menu import RotorUpload
 from explorer.tabs.settings_panel import SettingsPanel
 from explorer.tabs.studies.panel import StudiesPanel
@@ -117,7 +117,7 @@ class Page:
         with layout.in_mode("actuate"):
             self.actuator = ActuatorPanel(client, shared.pool, callbacks.wake, self._fly)
             self._actuator_inputs = self.actuator.inputs()
-        self.results = Results(gui, bridge, layout)
+        self.results = ResultsPanel(gui, bridge, layout)
         with layout.in_drawer("details"):
             self.waterfall = WaterfallPanel(gui, self.controls.show_costs)
         with layout.in_drawer("twist"):

@@ -11,7 +11,7 @@ from explorer.picture.blade_inset import inset
 from explorer.tabs.chart_strip import ChartStrip
 from explorer.tabs.layout import Layout
 from explorer.tabs.power_card import PowerCard, against
-from explorer.tabs.twist_curve import TwistCurve
+from explorer.tabs.twist_curve import TwistCurveEditor
 from explorer.tabs.worth import SliderWorth
 from explorer.text import comparison as ab_readout
 from explorer.text import readout
@@ -23,7 +23,7 @@ from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
 
-class Results:
+class ResultsPanel:
     """One session's."""
 
     def __init__(self, gui: viser.GuiApi, bridge: Bridge, layout: Layout) -> None:
@@ -31,7 +31,7 @@ class Results:
         self.card = PowerCard(bridge)
         self.strip = ChartStrip(bridge)
         self.worth = SliderWorth(bridge)
-        self.curve = TwistCurve(bridge, self.card.tracker)
+        self.curve = TwistCurveEditor(bridge, self.card.tracker)
         self._state: SessionState | None = None
         """The last converged one."""
         self._gradient: tuple[Solution, PitchGradient] | None = None

@@ -89,7 +89,7 @@ def moved(inputs: Inputs, knot: Knot, r: float, turned: float) -> Inputs:
     return replace(inputs, **values)
 
 
-class TwistCurve:
+class TwistCurveEditor:
     """One session's."""
 
     def __init__(self, bridge: Bridge, tracker: PowerTracker) -> None:

@@ -13,7 +13,7 @@ from rotor.arrays import Array
 from rotor.trim.solution import DiskFields, Solution
 
 
-class Region(Enum):
+class FlowRegion(Enum):
     """What the section's flow is like."""
 
     ATTACHED = "attached"
@@ -121,13 +121,13 @@ class Probe:
         return min(self.stall[1] - self.alpha, self.alpha - self.stall[0])
 
     @property
-    def region(self) -> Region:
+    def region(self) -> FlowRegion:
         margin = self.stall_margin
         if margin is None:
-            return Region.IDLE if self.idle else Region.REVERSE
+            return FlowRegion.IDLE if self.idle else FlowRegion.REVERSE
         if margin < 0.0:
-            return Region.STALLED
-        return Region.DIVERGED if self.cd_mach > DRAG_DIVERGENCE else Region.ATTACHED
+            return FlowRegion.STALLED
+        return FlowRegion.DIVERGED if self.cd_mach > DRAG_DIVERGENCE else FlowRegion.ATTACHED
 
 
 def probe(solution: Solution, r: float, psi: float) -> Probe:

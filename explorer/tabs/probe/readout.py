@@ -7,7 +7,7 @@ import numpy as np
 
 from explorer.charts import svg
 from explorer.tabs.probe.drawing import ALPHA, DRAG, LIFT, Scales, drawing
-from explorer.tabs.probe.element import Blend, Probe, Region
+from explorer.tabs.probe.element import Blend, Probe, FlowRegion
 from explorer.text.glossary import tip
 from explorer.text.status import section_title
 from explorer.text.units import number
@@ -15,11 +15,11 @@ from explorer.theme.colours import LIMIT, NOW
 from rotor.trim.solution import Solution
 
 _CHIPS = {
-    Region.IDLE: "back",
-    Region.ATTACHED: "good",
-    Region.STALLED: "bad",
-    Region.REVERSE: "back",
-    Region.DIVERGED: "bad",
+    FlowRegion.IDLE: "back",
+    FlowRegion.ATTACHED: "good",
+    FlowRegion.STALLED: "bad",
+    FlowRegion.REVERSE: "back",
+    FlowRegion.DIVERGED: "bad",
 }
 _WIDTH, _HEIGHT = 312.0, 96.0
 _LEFT, _RIGHT, _TOP, _BOTTOM = 26.0, 300.0, 6.0, 80.0
