@@ -16,7 +16,7 @@ from explorer.picture.pick import pick
 from explorer.picture.picture import DISK_DROP
 from explorer.picture.poses import compose, rotate, rotor_pose, tip_path_pose
 from explorer.tabs.probe.drawing import drawing
-from explorer.tabs.probe.element import Region, probe
+from explorer.tabs.probe.element import FlowRegion, probe
 from explorer.tabs.probe.readout import probe_panel
 from rotor.design.design import FLIGHT_MODELS
 from rotor.files.make_design import make_design
@@ -57,10 +57,10 @@ def test_at_a_station_it_is_what_the_disk_holds(solution: Solution):
         assert_allclose(seen, [field[i, j] for field in fields], rtol=1e-14, atol=1e-15)
         assert_allclose(math.remainder(p.alpha - disk.alpha[i, j], math.tau), 0.0, atol=1e-13)
         if disk.u_t[i, j] < 0.0:
-            assert p.region is (Region.REVERSE if solution.design.models.reverse_flow else Region.IDLE)
+            assert p.region is (FlowRegion.REVERSE if solution.design.models.reverse_flow else FlowRegion.IDLE)
         else:
             assert p.stall_margin == pytest.approx(disk.stall_margin[i, j], abs=1e-12)
-            assert (p.region is Region.STALLED) == (disk.stall_margin[i, j] < 0.0)
+            assert (p.region is FlowRegion.STALLED) == (disk.stall_margin[i, j] < 0.0)
 
 
 @pytest.mark.parametrize("solution", ["fast", "thesis"], indirect=True)
@@ -123,7 +123,7 @@ def test_alpha_turns_with_the_flow_not_through_zero(fast: Solution):
     wind = replace(disk, u_t=behind, u_p=0.02 * sign * np.ones_like(behind), theta=np.zeros_like(behind))
     p = probe(replace(fast, disk=wind), 0.5, float(0.5 * disk.psi[1]))
     assert_allclose(abs(p.alpha), math.pi)
-    assert p.region is Region.REVERSE
+    assert p.region is FlowRegion.REVERSE
 
 
 def test_an_r_off_the_blade_is_refused(fast: Solution):
@@ -219,7 +219,7 @@ class TestDrawing:
 
     def test_in_reverse_flow_the_wind_comes_from_the_trailing_edge(self, fast: Solution):
         p = probe(fast, 0.25, math.radians(270.0))
-        assert p.region is Region.REVERSE
+        assert p.region is FlowRegion.REVERSE
         drawn, scales = drawing(p, 300.0, 8e3, opened=True)
         assert scales.angles == 1  # Large angles stay as they are.
         wind = next(line for line in re.findall(r"<line[^>]*>", drawn) if 'stroke-width="2.6"' in line)

@@ -7,7 +7,7 @@ import numpy as np
 
 from explorer.charts import svg
 from explorer.tabs.probe.drawing import ALPHA, DRAG, LIFT, Scales, drawing
-from explorer.tabs.probe.element import Blend, Probe, FlowRegion
+from explorer.tabs.probe.element import Blend, FlowRegion, Probe
 from explorer.text.glossary import tip
 from explorer.text.status import section_title
 from explorer.text.units import number
