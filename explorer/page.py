@@ -1,4 +1,8 @@
-"""What stands where on the page of one client, and what its buttons do to one another."""
+"""The page of one client: the arrangement of its panels, and the actions of its buttons on each other.
+
+Building and wiring are one file, because every button acts on panels that are made here.
+The panels themselves are in `explorer/tabs`, the scene in `explorer/scene`.
+"""
 
 import math
 from collections.abc import Callable
