@@ -118,16 +118,20 @@ def ghost_vertices(shape: BladeShape, ghost: TwistLaw, twist: TwistLaw, exaggera
 
 
 def ghost_segments(rotor: Rotor, ghost: TwistLaw, twist: TwistLaw, exaggeration: float, least: float) -> Array:
-    """The same blade's edges and a few sections as lines, where the twists differ by `least` [rad]; (n, 2, 3)."""
+    """The same blade's leading and trailing edge as lines, where the twists differ by `least` [rad]; (n, 2, 3).
+
+    A section closes each stretch at both ends.
+    """
     shape = blade_shape(rotor)
     rings = _turned(shape, shape.pitch(ghost, exaggeration))
     apart = np.abs(shape.pitch(ghost, 1.0) - shape.pitch(twist, 1.0)) > least
-    count, points = rings.shape[:2]
-    sections = np.unique(np.linspace(_SHANK_RINGS, count - 1, 9).astype(int))
-    sections = sections[apart[sections]]
-    around = np.stack((rings[sections], np.roll(rings[sections], -1, axis=1)), axis=2)
-    along = rings[_SHANK_RINGS:, [0, points // 2]]
-    both = apart[_SHANK_RINGS:-1] & apart[_SHANK_RINGS + 1 :]
+    apart[:_SHANK_RINGS] = False
+    points = rings.shape[1]
+    both = apart[:-1] & apart[1:]
+    padded = np.concatenate(([False], apart, [False]))
+    ends = apart & ~(padded[:-2] & padded[2:])
+    around = np.stack((rings[ends], np.roll(rings[ends], -1, axis=1)), axis=2)
+    along = rings[:, [0, points // 2]]
     lengthwise = np.stack((along[:-1], along[1:]), axis=2)[both]
     return np.concatenate((around.reshape(-1, 2, 3), lengthwise.reshape(-1, 2, 3)))
 

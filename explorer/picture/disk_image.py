@@ -30,6 +30,7 @@ _VOID, _REVERSE, _REVERSE_RIM, _DASH, _STALL_RIM = range(1 + 2 * _LEVELS, 6 + 2 
 _TEXT = _STALL_RIM + 1
 _TEXT_STEPS = 5
 """From the ground of a label to its ink."""
+_LABEL_GROUND_ALPHA = 190
 _FIRST_EDGE = _TEXT + _TEXT_STEPS
 _EDGE_COLOURS = 7
 _EDGE_ALPHAS = (0.25, 0.5, 0.75)
@@ -164,7 +165,7 @@ def _palette(scheme: Scheme, faded: bool, ink: DiskInk) -> Bytes:
     shade = np.linspace(0.0, 1.0, _TEXT_STEPS)[:, None]
     text = (1.0 - shade) * np.array(ink.label_ground) + shade * np.array(ink.label)
     entries[_TEXT : _TEXT + _TEXT_STEPS, :3] = text.astype(np.uint8)
-    entries[_TEXT : _TEXT + _TEXT_STEPS, 3] = 255
+    entries[_TEXT : _TEXT + _TEXT_STEPS, 3] = np.linspace(_LABEL_GROUND_ALPHA, 255, _TEXT_STEPS)
     for colour in range(_EDGE_COLOURS):
         source = colours[colour * (_LEVELS - 1) // (_EDGE_COLOURS - 1)]
         for step, share in enumerate(_EDGE_ALPHAS):

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotor.arrays import Array
+from rotor.blas_threads import one_blas_thread
 from rotor.trim.solution import DiskFields
 
 Single = NDArray[np.float32]
@@ -26,10 +27,12 @@ class PolarGrid:
     around: Array
     """Interpolation in azimuth, shape (solver azimuths, azimuths)."""
 
+    @one_blas_thread()
     def refine(self, field: Array) -> Array:
         """`field` of shape (elements, solver azimuths) on this grid, shape (radii, azimuths)."""
         return self.along @ field @ self.around
 
+    @one_blas_thread()
     def refine_all(self, fields: Sequence[Array]) -> Single:
         """Several fields at once in single precision, shape (fields, radii, azimuths): for pictures, in a third of the
         time."""

@@ -107,7 +107,9 @@ def region_codes(solution: Solution, grid: PolarGrid, marks: Marks, half_width: 
 def divergence_margin(solution: Solution, grid: PolarGrid) -> Single:
     """∂C_d/∂M less the value that marks drag divergence, smoothed on the solver's grid; positive beyond it."""
     slope = filled(solution.disk, np.clip(solution.disk.cd_mach, -_SLOPE_LIMIT, _SLOPE_LIMIT))
-    smooth = ndimage.gaussian_filter(slope, _SMOOTHING, mode=("nearest", "wrap"), truncate=3.0)
+    along, around = _SMOOTHING
+    smooth = ndimage.gaussian_filter1d(slope, along, axis=0, mode="nearest", truncate=3.0)
+    smooth = ndimage.gaussian_filter1d(smooth, around, axis=1, mode="wrap", truncate=3.0)
     return grid.refine_all((smooth,))[0] - np.float32(DRAG_DIVERGENCE)
 
 

@@ -125,7 +125,7 @@ class SceneController:
             self.scene.show(picture, still=not self._page.playing)
             self._ghost.show(drawn.ghost, solution.design.twist, view.exaggeration, at_rest=True)
             self._air.show(solution, view, scene_theme(view.dark))
-            if self._page.playing:
+            if self._page.playing or beside is not None:
                 self._air.hide_vortices()
             if beside is None or other is None:
                 self.scene.hide_beside()
@@ -192,5 +192,5 @@ def _field(view: ViewState, pinned: Solution | None) -> Field:
 
 def apart(radius: float) -> np.ndarray:
     """Where the right one of two rotors side by side stands [m], across the usual line of sight."""
-    across = math.radians(90.0 + 17.0)
+    across = math.radians(90.0 + 34.0)
     return _APART * radius * np.array([math.cos(across), math.sin(across), 0.0])

@@ -88,7 +88,8 @@ class Ghost:
             segments = ghost_segments(other.rotor, other.twist, twist, exaggeration, _LEAST).astype(np.float32)
             self._lines.visible = len(segments) > 0
             if len(segments):
-                self._lines.points, self._lines.colors = segments, _even(colour, len(segments))
+                dark: colours.Rgb = (colour[0] // 2, colour[1] // 2, colour[2] // 2)
+                self._lines.points, self._lines.colors = segments, _even(dark, len(segments))
 
 
 class AirLines:

@@ -228,8 +228,8 @@ class Scene:
                 viser_compat.set_png(handle, tinted_png(letter_mask(text), self._theme.lettering))
                 self._letters.append(handle)
         for handle, side in zip(self._letters, (-1.0, 1.0), strict=True):
-            handle.render_width = handle.render_height = 0.4 * radius
-            handle.position = side * offset + np.array([1.42 * radius, 0.0, 0.0])
+            handle.render_width = handle.render_height = 0.34 * radius
+            handle.position = side * offset + np.array([1.30 * radius, -0.45 * radius, 0.0])
 
     def _set_visible(self) -> None:
         self.rotor.frame.visible = self._seen
