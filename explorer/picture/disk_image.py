@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from explorer.picture.polar import PolarGrid
-from explorer.picture.regions import Region
+from explorer.picture.regions import MarkedRegion
 from explorer.picture.scene_theme import DiskInk
 from explorer.theme.colours import VOID, Scheme, colour_map, greyed
 from rotor.arrays import Array
@@ -38,10 +38,10 @@ _STRIPES = 26.0
 """Stripes of the hatch per radius."""
 _STRIPE_SHARE = 0.36
 _REGION_ENTRIES = {
-    Region.STALL_RIM: _STALL_RIM,
-    Region.DASH: _DASH,
-    Region.REVERSE: _REVERSE,
-    Region.REVERSE_RIM: _REVERSE_RIM,
+    MarkedRegion.STALL_RIM: _STALL_RIM,
+    MarkedRegion.DASH: _DASH,
+    MarkedRegion.REVERSE: _REVERSE,
+    MarkedRegion.REVERSE_RIM: _REVERSE_RIM,
 }
 
 
@@ -112,7 +112,7 @@ def indices(
 ) -> Bytes:
     """Palette index of each pixel, shape (size, size), of polar `values` over the range `low`…`high`.
 
-    `regions`: a `Region` for each polar point, drawn over the colours.
+    `regions`: a `MarkedRegion` for each polar point, drawn over the colours.
     """
     inner, usual = float(grid.r[0]), size in (MOVING, AT_REST) and values.shape == grid_size(size)
     # The page's own are kept for the next frame; a large one weighs more than it costs to make again.
@@ -122,7 +122,7 @@ def indices(
     if void is not None:
         codes[void] = _VOID
     if regions is not None:
-        stalled = (regions == Region.STALLED) & (codes <= _LEVELS)
+        stalled = (regions == MarkedRegion.STALLED) & (codes <= _LEVELS)
         codes[stalled] += np.uint8(_HATCHED)
         for region, entry in _REGION_ENTRIES.items():
             codes[regions == region] = entry

@@ -93,7 +93,8 @@ class _Ring:
             sense = -1.0 if outward else 1.0
             at = degrees + sense * math.degrees((place + 0.5 * width) / r)
             place += width
-            tile = Image.new("L", (self._pixels(1.8 * height),) * 2, 0)
+            edge = self._pixels(1.8 * height)
+            tile = Image.new("L", (edge, edge), 0)
             stroke = self._pixels(0.035 * height)
             middle = (0.5 * tile.width, 0.5 * tile.height)
             pen = ImageDraw.Draw(tile)

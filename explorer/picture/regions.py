@@ -35,7 +35,7 @@ _LEAST_AREA = 0.006
 """Of the disk: a smaller region is not labelled."""
 
 
-class Region(IntEnum):
+class MarkedRegion(IntEnum):
     """What a polar point is marked as."""
 
     NONE = 0
@@ -80,7 +80,7 @@ class RegionLabel:
 
 
 def region_codes(solution: Solution, grid: PolarGrid, marks: Marks, half_width: float) -> Bytes | None:
-    """A `Region` for each polar point, shape (radii, azimuths); None where nothing is to be marked.
+    """A `MarkedRegion` for each polar point, shape (radii, azimuths); None where nothing is to be marked.
 
     `half_width`: of the lines, in radii.
     """
@@ -91,16 +91,16 @@ def region_codes(solution: Solution, grid: PolarGrid, marks: Marks, half_width: 
     codes = np.zeros(flow.u_t.shape, dtype=np.uint8)
     if marks.stall:
         margin = flow.margin
-        codes[(margin < 0.0) & clear] = Region.STALLED
-        codes[_line(grid, margin, 0.8 * half_width) & clear] = Region.STALL_RIM
+        codes[(margin < 0.0) & clear] = MarkedRegion.STALLED
+        codes[_line(grid, margin, 0.8 * half_width) & clear] = MarkedRegion.STALL_RIM
     if marks.drag_divergence:
         # Dashes also where the line runs along a radius.
         dash = (grid.psi * (_DASHES / (2.0 * math.pi)) + 0.5 * _DASHES / math.pi * grid.r[:, None]) % 1.0 < _DASH_SHARE
         line = _line(grid, divergence_margin(solution, grid), half_width)
-        codes[line & dash & clear & (grid.r[:, None] < 0.995)] = Region.DASH
+        codes[line & dash & clear & (grid.r[:, None] < 0.995)] = MarkedRegion.DASH
     if marks.reverse_flow:
-        codes[flow.u_t < 0.0] = Region.REVERSE
-        codes[_line(grid, flow.u_t, 0.9 * half_width)] = Region.REVERSE_RIM
+        codes[flow.u_t < 0.0] = MarkedRegion.REVERSE
+        codes[_line(grid, flow.u_t, 0.9 * half_width)] = MarkedRegion.REVERSE_RIM
     return codes
 
 

@@ -15,7 +15,7 @@ from explorer.picture.blade_inset import inset
 from explorer.picture.fields import FIELDS, fitted_range, keeps_range, over_range
 from explorer.picture.picture import disk_png, field_values
 from explorer.picture.polar import polar_grid
-from explorer.picture.regions import NO_MARKS, Marks, Region, RegionLabel, region_codes, region_labels
+from explorer.picture.regions import NO_MARKS, MarkedRegion, Marks, RegionLabel, region_codes, region_labels
 from explorer.picture.scene_theme import DARK, LIGHT
 from explorer.picture.stall_region import angle_of_attack, refined, stall_margin
 from explorer.picture.wake import inflow_arrows, tip_vortices
@@ -56,7 +56,7 @@ class TestRegions:
     def test_the_stalled_share_of_the_disk_is_the_solvers(self, fast: Solution):
         codes = codes_of(fast, Marks(drag_divergence=False, reverse_flow=False))
         grid = polar_grid(fast.disk, *disk_image.grid_size(disk_image.AT_REST))
-        stalled = np.isin(codes, (Region.STALLED, Region.STALL_RIM)) & (stall_margin(fast, grid) < 0.0)
+        stalled = np.isin(codes, (MarkedRegion.STALLED, MarkedRegion.STALL_RIM)) & (stall_margin(fast, grid) < 0.0)
         share = (stalled * grid.r[:, None]).sum() / (np.ones_like(stalled) * grid.r[:, None]).sum()
         # The solver counts the whole blade's annulus too, but no strip beside reverse flow is left out there.
         assert share == pytest.approx(fast.stalled_area, abs=0.02)
@@ -68,8 +68,8 @@ class TestRegions:
         mu = fast.design.condition.advance_ratio * math.cos(fast.controls.shaft_tilt)
         edge = grid.r[:, None] + mu * np.sin(grid.psi)[None, :]
         clear = np.abs(edge) > 0.02  # Away from the rim.
-        assert np.array_equal((codes == Region.REVERSE)[clear], (edge < 0.0)[clear])
-        rim = codes == Region.REVERSE_RIM
+        assert np.array_equal((codes == MarkedRegion.REVERSE)[clear], (edge < 0.0)[clear])
+        rim = codes == MarkedRegion.REVERSE_RIM
         assert rim.any()
         assert np.abs(edge[rim]).max() < 0.02
 
@@ -81,11 +81,11 @@ class TestRegions:
         assert codes is not None
         column = int(np.argmin(np.abs(grid.psi - 1.5 * math.pi)))
         spacing = grid.r[1] - grid.r[0]
-        width = np.count_nonzero(codes[:, column] == Region.REVERSE_RIM) * spacing
+        width = np.count_nonzero(codes[:, column] == MarkedRegion.REVERSE_RIM) * spacing
         assert width == pytest.approx(2.0 * 0.9 * half, abs=1.5 * spacing)
 
     def test_drag_divergence_is_dashed(self, fast: Solution):
-        dashes = codes_of(fast, Marks(stall=False, reverse_flow=False)) == Region.DASH
+        dashes = codes_of(fast, Marks(stall=False, reverse_flow=False)) == MarkedRegion.DASH
         around = dashes.any(axis=0)
         assert np.count_nonzero(np.diff(around.astype(int)) == 1) > 10
 
@@ -93,10 +93,10 @@ class TestRegions:
         grid = polar_grid(fast.disk, 60, 180)
         assert region_codes(fast, grid, NO_MARKS, 0.003) is None
         only = codes_of(fast, Marks(stall=False, reverse_flow=False))
-        assert set(np.unique(only)) == {Region.NONE, Region.DASH}
+        assert set(np.unique(only)) == {MarkedRegion.NONE, MarkedRegion.DASH}
 
     def test_hover_has_no_reverse_flow(self, hover: Solution):
-        assert not (codes_of(hover, Marks()) == Region.REVERSE).any()
+        assert not (codes_of(hover, Marks()) == MarkedRegion.REVERSE).any()
 
     def test_single_precision_is_enough_for_pictures(self, fast: Solution):
         grid = polar_grid(fast.disk, 112, 384)
@@ -147,7 +147,7 @@ class TestLabels:
         ground = np.array(LIGHT.ink.label_ground)
 
         def count(size: int, marks: Marks) -> int:
-            return np.count_nonzero((shown(fast, size, marks)[..., :3] == ground).all(axis=2))
+            return int(np.count_nonzero((shown(fast, size, marks)[..., :3] == ground).all(axis=2)))
 
         assert count(960, Marks()) > 2000
         assert count(960, NO_MARKS) == count(400, Marks()) == 0
