@@ -63,7 +63,7 @@ def name(path: Path) -> str:
 @pytest.mark.parametrize("path", sources("rotor"), ids=name)
 def test_rotor_imports_only_numerics(path: Path):
     foreign = imports(path, lazy=False) - sys.stdlib_module_names - PHYSICS - {"rotor"}
-    assert not foreign, f"{name(path)} imports {sorted(foreign)}: import anything but numerical libraries inside a function"
+    assert not foreign, f"{name(path)} imports {sorted(foreign)}: import all but numerical libraries inside functions"
     assert not imports(path, lazy=True) & {"explorer", "viser"}, f"{name(path)}: rotor must not import the page"
 
 

@@ -62,7 +62,9 @@ def test_a_notebook_runs_as_printed(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     try:
         exec(NOTEBOOK, names)
         page, best = names["page"], names["best"]
-        assert urllib.request.urlopen(page.address, timeout=10).status == 200
+        answer = urllib.request.urlopen(page.address, timeout=10)
+        assert answer.status == 200
+        assert "frame-ancestors 'self' http://localhost:*" in answer.headers["Content-Security-Policy"]
         assert page.address in page._repr_html_()
     finally:
         if "page" in names:
