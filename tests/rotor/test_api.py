@@ -6,9 +6,11 @@ import subprocess
 import sys
 import urllib.request
 from pathlib import Path
+from typing import Any
 
 import matplotlib
 import pytest
+from matplotlib import pyplot
 from numpy.testing import assert_allclose
 from threadpoolctl import threadpool_info, threadpool_limits
 
@@ -161,7 +163,7 @@ class TestSolution:
         assert_allclose(drawn["total"], [one.power.total / 1e3 for one in table])
         other = rotor.sweep(design.with_twist("linear:-4"), [0.1, 0.2])
         assert [line.get_label() for line in rotor.plot_power(table, other).lines] == ["linear:-12", "linear:-4"]
-        matplotlib.pyplot.close("all")
+        pyplot.close("all")
 
     def test_without_matplotlib_a_plot_names_the_remedy(
         self, solution: rotor.Solution, monkeypatch: pytest.MonkeyPatch
@@ -174,7 +176,7 @@ class TestSolution:
 class TestSweep:
     def test_rows_have_units_in_their_columns(self, design: rotor.Design):
         table = rotor.sweep(design, mu=(mu for mu in (0.0, 0.2)))
-        row = dict(zip(table.columns, table.rows[1], strict=True))
+        row: dict[str, Any] = dict(zip(table.columns, table.rows[1], strict=True))
         assert row["mu"] == 0.2
         assert_allclose(row["speed_kt"], table[1].design.airspeed / KNOT)
         assert_allclose(row["total_kw"], table[1].power.total / 1e3)
