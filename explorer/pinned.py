@@ -1,4 +1,4 @@
-"""A of A/B: the design that was pinned, its answer in the flight that is compared, and what the buttons do."""
+"""A of A/B: the pinned design, its solution in the compared flight condition, and what the buttons do."""
 
 from collections import deque
 from dataclasses import dataclass, replace
@@ -14,7 +14,7 @@ from rotor.trim.solve import solve
 
 Order = Literal["pin", "unpin", "swap", "back"]
 FLIGHT = ("advance_ratio", "mass_t", "altitude_m")
-"""The inputs that say what is flown; the others say what flies, and how it is computed."""
+"""The inputs of the flight condition; the others are the aircraft and the models."""
 _NO_TRIM = "The design on the sliders has no trim: move a slider back first. Only a trimmed design can be A."
 _DRIVEN = "The voltage of the actuator is unchanged: set it under Actuate."
 
@@ -26,33 +26,33 @@ class Pinned:
     inputs: Inputs
     """What was on the sliders."""
     solution: Solution
-    """As it was when it was pinned; converged."""
+    """Its solution when it was pinned; converged."""
 
     @property
     def title(self) -> str:
-        """The blade in a few words."""
+        """A short name of the blade."""
         return twist_name(self.inputs) + (", driven" if self.driven else "")
 
     @property
     def driven(self) -> bool:
-        """Whether an actuator twists the blade too, which the sliders do not hold."""
+        """Whether an actuator also twists the blade, which the sliders cannot show."""
         design = self.solution.design
         added = isinstance(design.twist, SumTwist) and design.twist != self.inputs.twist()
         return added or design.active_twist is not None
 
     @property
     def flight(self) -> str:
-        """Where it flew when it was pinned."""
+        """Its flight condition when it was pinned."""
         return flight_name(self.inputs)
 
     def design(self, present: Design) -> Design:
-        """A's blade and models in the flight of the present design."""
+        """A's blade and models in the flight condition of the present design."""
         return replace(self.solution.design, condition=present.condition)
 
     def sliders(self, present: Inputs, along: bool) -> Inputs:
         """The slider positions that mean A: in the present flight when it flies along, else in its own.
 
-        Another rotor does not fly along: its weight is its own.
+        Another rotor keeps its own flight condition, because its weight differs.
         """
         if not along or self.inputs.aircraft != present.aircraft:
             return self.inputs
@@ -66,13 +66,13 @@ def same_but_flight(one: Inputs, other: Inputs) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class PinResult:
-    """What a button leads to."""
+    """The result of a button."""
 
     pinned: Pinned | None
     inputs: Inputs | None = None
-    """To be put on the sliders."""
+    """Inputs to put on the sliders."""
     sentence: str = ""
-    """To be told."""
+    """A sentence to show."""
 
 
 def act(order: Order, pinned: Pinned | None, inputs: Inputs, solution: Solution | None, along: bool) -> PinResult:
@@ -105,17 +105,17 @@ class Pinboard:
         self._known = BaselineCache()
 
     def ask(self, order: Order) -> None:
-        """A button was pressed; acts in the next round."""
+        """A button was pressed; takes effect in the next update."""
         self._asked.append(order)
 
     def put(self, inputs: Inputs | None) -> None:
-        """These inputs shall be A, or nothing; acts in the next round."""
+        """Pin these inputs as A, or nothing; takes effect in the next update."""
         self._put.append(inputs)
 
     def settle(self, inputs: Inputs, solution: Solution | None, along: bool) -> PinResult | None:
         """Do what was asked, with what is on the sliders and its answer; None when nothing was.
 
-        What was asked after a button that moves the sliders waits for the round in which they have moved.
+        Requests after a button that moves the sliders wait for the update in which they have moved.
         """
         outcome = None
         while self._put:
@@ -128,17 +128,17 @@ class Pinboard:
         return outcome
 
     def pin(self, pinned: Pinned | None) -> None:
-        """Let this be A; None: nothing."""
+        """Pin this as A; None removes the pin."""
         if pinned is not self.pinned:
             self.pinned = pinned
             self.answer = None if pinned is None else pinned.solution
             self._known = BaselineCache() if pinned is None else BaselineCache(pinned.solution.design, pinned.solution)
 
     def solve(self, present: Design, along: bool, hurried: bool = False) -> Solution | None:
-        """A's answer: in the flight of the present design when it flies along, else as it was.
+        """A's solution: in the present flight condition if A flies along, else as it was when pinned.
 
-        A of another rotor stays as it was: its weight is its own. A trim that fails takes half a second to fail:
-        `hurried`, when newer input waits, it is not tried again.
+        A of another rotor keeps its own solution, because its weight differs. A trim that fails takes half a second, so
+        it is not repeated when `hurried`: a newer update waits.
         """
         along = along and self.pinned is not None and self.pinned.solution.design.aircraft == present.aircraft
         if self.pinned is None or (along and hurried and self.answer is not None and not self.answer.converged):

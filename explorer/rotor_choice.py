@@ -1,4 +1,4 @@
-"""The rotors of the page's menu, and what of the page depends on which one it is."""
+"""The rotors of the page's menu, and the weights that the page offers for each."""
 
 from functools import cache
 
@@ -7,14 +7,14 @@ from rotor.design.aircraft import Aircraft
 from rotor.files.rotor_file import shipped_aircraft
 
 OWN = "own"
-"""Name in `Inputs` of a rotor that the user brought."""
+"""Name in `Inputs` of the user's own rotor."""
 _LIGHTEST, _HEAVIEST = 0.6, 1.32
-"""Weights on the slider, over the rotor's reference mass."""
+"""Ends of the weight slider over the rotor's reference mass."""
 
 
 @cache
 def menu_titles(own: Aircraft | None) -> dict[str, str]:
-    """The menu: name in `Inputs` → title; a user's own comes last, where there is one."""
+    """The menu: name in `Inputs` → title; the user's own rotor comes last."""
     titles = {name: shipped_aircraft(name).name for name in SHIPPED_ROTORS}
     return titles if own is None else {**titles, OWN: f"{own.name} (own)"}
 
@@ -28,7 +28,7 @@ def mass_range(aircraft: Aircraft) -> tuple[float, float, float]:
 
 
 def reference_mass_t(aircraft: Aircraft) -> float:
-    """The reference mass [t] as people write it, where the weight slider can hold it."""
+    """The reference mass [t], rounded, within the range of the weight slider."""
     low, high, _ = mass_range(aircraft)
     tonnes = aircraft.mass / 1e3
     return min(max(round(tonnes, 2 if tonnes > 1.0 else 3), low), high)

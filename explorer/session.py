@@ -30,6 +30,7 @@ from explorer.page import Page
 from explorer.state import Inputs, baseline_of, with_optimum
 from explorer.workers import solver
 from explorer.workers.newest_wins import IdleTimeout, NewestWins
+from rotor.blas_threads import one_blas_thread
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -79,6 +80,7 @@ class Session:
         """Wait until the first solution is shown, at most `patience` [s]."""
         self._shown.wait(patience)
 
+    @one_blas_thread()  # The pictures too: in a notebook's process they would take ten times as long.
     def _update(self, superseded: Callable[[], bool]) -> None:
         """One slider step; `superseded` gives way to the frames of other pages, then says whether to stop."""
         everything, self._all_changed = self._all_changed, False

@@ -7,9 +7,9 @@ from explorer.state import Inputs
 from rotor.trim.solution import Solution
 
 STEPS = 100
-"""Steps that can be undone."""
+"""Most steps that can be undone."""
 PAUSE = 1.2
-"""[s] without movement after which the same slider begins another step."""
+"""[s] without movement after which the same slider begins a new step."""
 
 
 class Pauses:
@@ -54,7 +54,7 @@ class History:
         self._held, self._moving = False, frozenset()
 
     def note(self, inputs: Inputs, pause: float) -> bool:
-        """Take the inputs of a round, and the longest pause [s] in moving them; whether they begin a new step."""
+        """Take the inputs of an update and the longest pause [s] in moving them; whether they begin a new step."""
         moved = differing(self.present, inputs)
         if not moved:
             return False
@@ -66,15 +66,15 @@ class History:
         return not dragging
 
     def undo(self) -> Inputs | None:
-        """The step before becomes the present; None where there is none."""
+        """Make the step before the present one; None where there is none."""
         return self._step(self.past, self.future)
 
     def redo(self) -> Inputs | None:
-        """The step that was undone becomes the present; None where there is none."""
+        """Make the step that was undone the present one; None where there is none."""
         return self._step(self.future, self.past)
 
     def go(self, step: int) -> Inputs | None:
-        """Undo or redo until `steps[step]` is the present; None for a step that is not there, or is the present."""
+        """Undo or redo until `steps[step]` is the present; None where there is no such step, or it is the present."""
         if step == len(self.past) or not 0 <= step < len(self.steps):
             return None
         while step < len(self.past):

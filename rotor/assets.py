@@ -4,7 +4,7 @@ import csv
 from pathlib import Path
 
 SHIPPED_ROTORS = ("uh60a", "r22", "s61")
-"""Names of the rotors that ship; `assets/<name>.toml` holds each. The first is the default."""
+"""Names of the shipped rotors, each in `assets/<name>.toml`. The first is the default."""
 
 _PACKAGED = Path(__file__).parent / "_assets"
 _CHECKOUT = Path(__file__).parent.parent / "assets"

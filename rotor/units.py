@@ -1,4 +1,4 @@
-"""Units and constants of nature that stand once for all folders; inside `rotor` everything else is SI."""
+"""Units and physical constants used in several folders. Everything inside `rotor` is SI."""
 
 KNOT = 1852.0 / 3600.0
 """One knot [m/s], exact."""

@@ -1,6 +1,6 @@
 """Clicks on drawings: a line of JavaScript that writes what was clicked into a text field of the page.
 
-viser's HTML has no events of its own; its text fields do, and tell the server as if the text had been typed.
+viser's HTML has no events. Its text fields have, and send the text to the server as if it had been typed.
 """
 
 from html import escape

@@ -1,4 +1,4 @@
-"""A chart of lines as SVG, for pages that stand alone. Colours of text and grid come from around it."""
+"""A line chart as SVG for stand-alone pages. Text and grid take their colours from the page."""
 
 import math
 import zlib
@@ -17,7 +17,7 @@ from rotor.arrays import Array
 WIDE, HIGH = 520.0, 270.0
 _LEFT, _RIGHT, _TOP, _BOTTOM = 52.0, 14.0, 12.0, 40.0
 _SIZE = 12.0
-"""Of the letters."""
+"""Font size."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +29,7 @@ class Trace:
     x: Array
     y: Array
     dash: str = ""
-    """As SVG has it, for example 5 3."""
+    """As in SVG, for example 5 3."""
     width: float = 2.0
     points: bool = False
     """Points instead of a line."""
@@ -44,7 +44,7 @@ def line_chart(
     y_range: Range | None = None,
     high: float = HIGH,
 ) -> str:
-    """The chart with its title and a key of those lines that have a label; lines are cut off at the axes."""
+    """The chart with title and a key of the labelled lines; lines are clipped at the axes."""
     y_range = y_range or _fitted(traces)
     frame = _Frame(x_range, y_range, high)
     lines = "".join(_points(frame, trace) if trace.points else _line(frame, trace) for trace in traces)
@@ -72,7 +72,7 @@ class _Frame:
         return self.full_height - _TOP - _BOTTOM
 
     def place(self, x: Array, y: Array) -> Array:
-        """Points of the drawing, (n, 2); far outside is drawn in to just outside, so that paths stay short."""
+        """Points of the drawing, (n, 2); points far outside are moved to just outside, so that paths stay short."""
         across = (x - self.x_range[0]) / (self.x_range[1] - self.x_range[0])
         up = (y - self.y_range[0]) / (self.y_range[1] - self.y_range[0])
         return np.stack(
@@ -138,5 +138,5 @@ def _fitted(traces: Sequence[Trace]) -> Range:
 
 
 def _name(title: str, traces: Sequence[Trace]) -> str:
-    """Unlike that of another chart on the same page."""
+    """A name that no other chart on the page has."""
     return f"{zlib.crc32(b''.join([title.encode(), *(trace.y.tobytes() for trace in traces)])):x}"

@@ -16,18 +16,18 @@ from rotor.trim.validity import LOW_SPEED
 Range = tuple[float, float]
 
 SWEEP = (0.0, *(round(LOW_SPEED + 0.025 * k, 3) for k in range(16)))
-"""Advance ratios of the power curve: hover, then from where forward inflow is trusted."""
+"""Advance ratios of the power curve: hover, then from where the forward inflow is valid."""
 
 
 @dataclass(frozen=True, eq=False)
 class Plot:
-    """One chart's content."""
+    """The content of one chart."""
 
     data: tuple[Array, ...]
     """Abscissa, then one array per series, all of one length."""
     y_range: Range
     x_range: Range | None = None
-    """None: as the chart was made."""
+    """None: the range that the chart was made with."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,16 +38,16 @@ class PowerCurve:
     reference: Array
     """A when one is pinned, else the baseline."""
     ideal: Array
-    """This design's power were its induced power the least that any circulation could have."""
+    """This design's power with the least induced power that any circulation could have."""
 
     def in_unit(self, unit: Unit) -> "PowerCurve":
-        """The same in another unit than kW."""
+        """The curve in a unit other than kW."""
         factor = KILOWATT.size / unit.size
         return PowerCurve(factor * self.design, factor * self.reference, factor * self.ideal)
 
 
 def held_range(previous: Range | None, low: float, high: float) -> Range:
-    """A round axis range that stays as it is while the data fit it and fill it reasonably."""
+    """A round axis range that is kept while the data fit into it and fill it reasonably."""
     if not (math.isfinite(low) and math.isfinite(high)):
         return previous or (0.0, 1.0)
     if previous is not None and previous[0] <= low and high <= previous[1] <= previous[0] + 2.5 * (high - low):
@@ -90,7 +90,7 @@ def _with_point(mu: float) -> Array:
 
 
 def _line(x: Array, values: Array) -> Array:
-    """A curve over `SWEEP` at x, where forward flight is trusted."""
+    """A curve over `SWEEP` at x, where the forward inflow is valid."""
     y = np.interp(x, np.array(SWEEP[1:]), values[1:], left=math.nan, right=math.nan)
     y[x < LOW_SPEED] = math.nan
     return y
@@ -109,7 +109,7 @@ def _placed(pinned: bool, reference: Array, design: Array) -> tuple[Array, Array
 
 
 def _flown(data: tuple[Array, ...], mu: float) -> list[Array]:
-    """What a range must hold: the last points climb so steeply that they would flatten everything else."""
+    """The values that a range must hold; the last points rise so steeply that they would flatten all others."""
     flown = data[0] <= max(0.4, mu)
     return [values[flown] for values in data[1:]]
 
@@ -190,7 +190,7 @@ def _range_of(series: Sequence[Array], previous: Range | None, floor: float | No
 
 
 def blank() -> tuple[Plot, Plot, Plot, Plot, Plot]:
-    """Empty charts for a page that waits for its first answer: power, B − A, twist, α, Cl.
+    """Empty charts for a page that waits for its first solution: power, B − A, twist, α, Cl.
 
     Their ranges are none that an answer has, so that the first answer makes the page build each chart anew: viser's
     charts start with no width, and one that is fed while it gets its width would stay without axis numbers.

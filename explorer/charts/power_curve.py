@@ -1,4 +1,4 @@
-"""Power against advance ratio, swept after the frame and given up when newer input waits."""
+"""Power against advance ratio, swept after the frame and abandoned when newer input waits."""
 
 import math
 import time
@@ -17,26 +17,26 @@ from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
 PATIENCE = 0.6
-"""A curve older than this [s] is swept, coarsely, even while a slider moves, so that a drag never starves it."""
+"""A curve older than this [s] is swept coarsely even while a slider moves, so that it follows a long drag."""
 HASTE = 0.15
-"""[s] that such a sweep may hold a drag up: where it takes longer, the machine is busy, and frames come first."""
+"""[s] that such a sweep may delay a drag; if it takes longer, the machine is busy and frames come first."""
 _KEPT = 200
 """Curves remembered per session."""
 
 
 class PowerCurves:
-    """Remembers the curves of one session, total and ideal power; a curve belongs to a design whatever its speed."""
+    """The curves of one session, total and ideal power; a curve belongs to a design at any speed."""
 
     def __init__(self, haste: float = HASTE) -> None:
         self._haste = haste
         self._curves: dict[Design, Array] = {}
         """(2, points): total and ideal [kW]."""
         self._coarse: set[Design] = set()
-        """Curves swept in haste, to be swept again once there is time."""
+        """Curves swept coarsely, to be swept again once there is time."""
         self._last: tuple[Design | None, float] = (None, -math.inf)
 
     def known(self, design: Design, reference: Design) -> PowerCurve:
-        """The curves of a design and of what it is compared with; of the design, until it is swept, the one before."""
+        """The curves of a design and of its reference; until the design is swept, the curve before it."""
         blank = np.full((2, len(SWEEP)), math.nan)
         last = self._last[0]
         alike = last is not None and last.aircraft == design.aircraft
@@ -51,7 +51,7 @@ class PowerCurves:
         superseded: Callable[[], bool],
         known: Callable[[], None] = lambda: None,
     ) -> bool:
-        """Make the curves of a design and of what it is compared with known; False when given up half way.
+        """Sweep the curves of a design and its reference; False when abandoned half way.
 
         `known`: called after each of the two.
         """
@@ -68,7 +68,7 @@ class PowerCurves:
         return True
 
     def _swept(self, family: Design, superseded: Callable[[], bool], patient: bool) -> tuple[Array | None, bool]:
-        """Total and ideal power over `SWEEP`, and whether in haste; None when given up to newer input."""
+        """Total and ideal power over `SWEEP`, and whether coarse; None when abandoned for newer input."""
         coarse, begun = False, time.monotonic()
         values = np.full((2, len(SWEEP)), math.nan)
         start: Solution | None = None
@@ -79,7 +79,7 @@ class PowerCurves:
                     return None, False
                 coarse = True
             if lost == (1 if coarse else 2):
-                break  # Beyond this rotor: faster there is no trim either, and to find that out takes long.
+                break  # Faster flight does not trim either, and each failed trim takes long.
             if coarse and k > 0 and (k - 1) % 3:
                 continue
             point = solve(family.at(mu=mu), start)
@@ -100,13 +100,13 @@ def _family(design: Design) -> Design:
 
 
 def _powers(point: Solution) -> tuple[float, float]:
-    """Total power, and what it would be with the least induced power at this lift [kW]."""
+    """Total power, and total power with the least induced power at this lift [kW]."""
     total, ideal = point.power.total / 1e3, ideal_induced(point)
     return total, math.nan if ideal is None else total - (point.power.induced - ideal) / 1e3
 
 
 def _bridged(values: Array) -> Array:
-    """Points left out of a coarse sweep, on a smooth line between those of forward flight, not beyond them."""
+    """Fill the points left out of a coarse sweep by a smooth line between those of forward flight."""
     k = np.arange(len(values))
     have = np.isfinite(values) & (k > 0)
     if have.sum() < 2:

@@ -1,7 +1,7 @@
-"""A design as text that runs elsewhere: a short Python script, or a command line. Both give the page's power.
+"""A design as a short Python script or a command line; both compute the power of the page.
 
-Neither lists what a design may hold. Both start from what `make_design` makes and write down whatever differs, so that
-a choice added to `Design` is written too, or refused in a sentence, and never left out in silence.
+Both start from the result of `make_design` and write whatever differs. So a field added to `Design` later is written
+too, or refused with a sentence, and never left out silently.
 """
 
 import json
@@ -32,7 +32,7 @@ from rotor.files.make_design import make_design
 _CALL_WIDTH = 100
 """Characters after which a call is written one argument a line."""
 _EXACT = 1e-12
-"""Relative: what reading degrees and writing radians may change."""
+"""Relative tolerance: degrees are read, radians are stored."""
 CASE_FILE = "design.json"
 """What a design file is called in a command."""
 _WIDTH = 90
@@ -46,12 +46,12 @@ class PythonWriter:
         self._names: set[tuple[str, str]] = set()
 
     def name(self, module: str, name: str) -> str:
-        """A name, imported."""
+        """The name, which is added to the imports."""
         self._names.add((module, name))
         return name
 
     def imports(self) -> list[str]:
-        """One line a module."""
+        """One line per module."""
         modules = sorted({module for module, _ in self._names}, key=lambda m: (m.startswith("rotor"), m))
         return [
             f"from {module} import {', '.join(sorted(n for m, n in self._names if m == module))}" for module in modules
@@ -103,11 +103,11 @@ class CommandLine:
     command: str
     case: str | None = None
     note: str = ""
-    """What the reader must know; one sentence a line."""
+    """Notes for the reader, one sentence per line."""
 
     @property
     def text(self) -> str:
-        """All of it, to be pasted into a shell."""
+        """The whole text, to be pasted into a shell."""
         note = "".join(f"# {line}\n" for line in self.note.splitlines())
         file = "" if self.case is None else f"cat > {CASE_FILE} <<'END'\n{self.case}END\n"
         return f"{note}{file}{self.command}\n"
@@ -151,7 +151,7 @@ def _flags(design: Design) -> list[str]:
 
 
 def _is_read_as(flags: list[str], design: Design) -> bool:
-    """Whether `solve` makes this very design of the flags."""
+    """Whether `solve` makes exactly this design from the flags."""
     try:
         args = build_parser().parse_args(["solve", *shlex.split(" ".join(flags))])
         read = design_from(args, args.twist, 0.0 if args.hover else args.mu)
@@ -175,12 +175,12 @@ def _on_lines(words: list[str]) -> str:
 
 
 def _twist_of(design: Design, spec: str) -> TwistLaw:
-    """What a SPEC means on this design's rotor at its weight."""
+    """The law of a SPEC on this design's rotor at its weight."""
     return make_design(preset=design.preset, rotor=design.aircraft, twist=spec, mass_kg=design.condition.mass).twist
 
 
 def _aircraft(design: Design, writer: PythonWriter) -> list[str]:
-    """The argument that names the aircraft, nothing for the default; a user's own is written out with all its files."""
+    """The argument for the aircraft; none for the default. A user's own is written out with all its files."""
     files = design.aircraft.files
     if files is None:
         return [] if design.aircraft.key == SHIPPED_ROTORS[0] else [f"rotor={writer.value(design.aircraft.key)}"]
@@ -205,7 +205,7 @@ def as_python(design: Design) -> str:
         altitude_m=condition.altitude,
     )
     spec = exact_spec(design.twist)
-    # A SPEC is what people write; it serves where it says the law to the last digit and needs no file.
+    # A SPEC is easier to read; it is used where it is exact and needs no file.
     spoken = "table:" not in spec and _twist_of(design, spec) == design.twist
     arguments = [
         f"preset={writer.value(design.preset)}",
@@ -258,7 +258,7 @@ def _is_number(value: Any) -> bool:
 
 
 def exact_spec(law: TwistLaw) -> str:
-    """A law's SPEC with as many digits as bring it back; `TwistLaw.spec` rounds to what people read."""
+    """A law's SPEC with all digits needed to read it back; `TwistLaw.spec` rounds for people."""
     match law:
         case LinearTwist(rate):
             return f"linear:{degrees(rate)}"

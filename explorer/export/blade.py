@@ -1,4 +1,4 @@
-"""The blade for other programs: a closed surface in metres, as STL for printing and CAD and as GLB of the whole rotor.
+"""The blade as STL for printing and CAD, and the rotor as GLB: closed surfaces in metres.
 
 Finer than the blade on the page, with a section wherever the twist has a kink, and never exaggerated.
 """
@@ -28,7 +28,7 @@ POINTS, STATIONS = 97, 121
 _HEADER = 80
 """Bytes of free text at the head of a binary STL file."""
 _Z_UP = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, -1.0, 0.0, 0.0], [0.0, 0.0, 0.0, 1.0]])
-"""From z up, as here, to y up, as glTF has it."""
+"""From z up, as here, to y up, as in glTF."""
 
 
 def blade_mesh(design: Design, psi: float | None = None) -> trimesh.Trimesh:
@@ -76,7 +76,7 @@ def rotor_glb(solution: Solution, azimuth_deg: float) -> bytes:
 
 
 def kinks(law: TwistLaw) -> tuple[float, ...]:
-    """r/R where the law changes its slope at once."""
+    """Stations r/R where the slope of the law jumps."""
     match law:
         case PiecewiseLinearTwist(breaks=breaks):
             return breaks

@@ -1,4 +1,4 @@
-"""The disk from above as SVG: field, outlines, azimuth marks, flight arrow; its colour bar; its key. Any size."""
+"""The disk from above as SVG of any size: field, outlines, azimuth marks, flight arrow, colour bar and key."""
 
 import math
 from html import escape
@@ -49,7 +49,7 @@ def disk_drawing(
 
 
 def _lines(solution: Solution, shown: tuple[str, ...]) -> str:
-    """Outlines, each on a casing of its own, so that it reads on every colour."""
+    """Outlines, each with a casing, so that they can be seen on every colour."""
     out = []
     for name in shown:
         lines = [_up(line) for line in svg.joined(OUTLINES[name][1](solution))]
@@ -85,7 +85,7 @@ def _labels(size: float) -> str:
             svg.text(107, 0.35 * size, "90°", size),
             svg.text(0, -107, "180°", size, anchor="middle"),
             svg.text(-107, 0.35 * size, "270°", size, anchor="end"),
-            # The sense of rotation, outside the rim between ψ 22° and 50°.
+            # Arrow of the sense of rotation, outside the rim between ψ 22° and 50°.
             f'<g fill="{css(RIM)}" stroke="none"><path d="{_arc(22.0, 45.0, 109.0, 2.4)}"/>'
             f'<path d="{_arrow_head(45.0, 51.0, 109.0, 3.4)}"/></g>',
         )
@@ -142,7 +142,7 @@ def bar_drawing(field: Field, colour_range: Range, wide: float, name: str, size:
 
 
 def key_entries(solution: Solution, field: Field, shown: tuple[str, ...] = tuple(OUTLINES)) -> list[tuple[str, str]]:
-    """What the lines and the grey patch mean: title, and a swatch 14 × 8 as the inside of an SVG."""
+    """Key of the outlines and the grey patch: title, and a swatch 14 × 8 as the inside of an SVG."""
     entries = []
     for name in shown:
         title, source = OUTLINES[name]

@@ -1,4 +1,4 @@
-"""What the session saves, as file names and bytes: shapes, tables, the report. From one moment of the session."""
+"""The files that a session saves, as names and bytes: shapes, tables, the report."""
 
 import math
 from collections.abc import Sequence
@@ -22,20 +22,20 @@ from rotor.trim.solution import Solution
 
 @dataclass(frozen=True)
 class File:
-    """To be saved."""
+    """A file to be saved."""
 
     name: str
     content: bytes
 
     @property
     def size(self) -> str:
-        """In a reader's words."""
+        """The size as text."""
         count = len(self.content)
         return f"{count / 1e6:.1f} MB" if count >= 1e6 else f"{max(count / 1e3, 1.0):.0f} kB"
 
 
 def blade_file(state: SessionState) -> File:
-    """One blade as STL; where the twist follows the azimuth, the marked one as it is drawn."""
+    """One blade as STL; with active twist the marked blade at its azimuth."""
     design, azimuth = state.solution.design, state.view.azimuth_deg
     active = design.active_twist is not None and not design.hovering
     parts = ("blade", f"psi{azimuth:.0f}") if active else ("blade",)
@@ -61,7 +61,7 @@ def along_file(state: SessionState) -> File:
 
 
 def power_file(state: SessionState, curves: PowerCurves) -> File:
-    """Power over advance ratio as CSV; sweeps what is not known yet."""
+    """Power over advance ratio as CSV."""
     design, reference = state.solution.design, state.reference.design
     curves.sweep(design, reference, lambda: False)
     content = power_csv(state.solution, reference, curves.known(design, reference))
@@ -69,12 +69,12 @@ def power_file(state: SessionState, curves: PowerCurves) -> File:
 
 
 def session_report(state: SessionState, kept: Sequence[KeptDesign], colour_range: Range) -> DesignReport:
-    """The present design, the kept ones, and A or the baseline that they are compared with."""
+    """The report of the present and the kept designs, compared with A or the baseline."""
     pinned, solution = state.pinned, state.solution
     if state.pin is None:
         reference = ReportEntry(baseline_title(solution.design), state.baseline)
     else:
-        # A may have no trim in the present flight; then as it was when it was pinned.
+        # A may not converge in the present flight condition; then its own solution is used.
         flies = pinned is not None and pinned.converged
         reference = ReportEntry("A, pinned", pinned if pinned is not None and flies else state.pin.solution)
     others = [item for item in kept if item.solution.design not in (solution.design, reference.solution.design)]
@@ -94,6 +94,6 @@ def report_file(report: DesignReport, stage: EmbeddedViewer | None, curves: Powe
 
 
 def picture_name(solution: Solution, shown: DiskContent, what: str, paper: Paper, ending: str) -> str:
-    """Of a picture; what is on the disk and its size are in it."""
+    """Name of a picture: design, content of the disk, size."""
     field = next((title for title in FIELDS if title == shown.field.title), "difference")
     return f"{file_stem(solution.design, what, field, f'{paper.width}x{paper.height}')}.{ending}"

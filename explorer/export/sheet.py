@@ -23,12 +23,12 @@ SIZES = {
     "2000 × 2000": (2000, 2000),
 }
 SMALLEST, LARGEST = 300, 4096
-"""[px], along either edge: below, words cannot be read; above, some browsers have no canvas."""
+"""[px] along either edge; smaller text cannot be read, and some browsers have no larger canvas."""
 
 
 @dataclass(frozen=True)
 class Paper:
-    """What a picture is drawn on."""
+    """Size and background of a picture."""
 
     width: int
     height: int
@@ -51,12 +51,12 @@ class Paper:
 
     @property
     def unit(self) -> float:
-        """Hundredth part of what the words and the disk are measured by [px]."""
+        """Unit of all lengths: a hundredth of the shorter edge [px]."""
         return min(self.width, self.height) / 100.0
 
     @property
     def beside(self) -> bool:
-        """Whether words stand beside the picture, or above and below it."""
+        """Whether the text is beside the picture; else it is above and below."""
         return self.width >= 1.35 * self.height
 
 
@@ -64,7 +64,7 @@ _PAPER = {False: "#ffffff", True: "#141416"}
 _INK = {False: "#212529", True: "#e9ecef"}
 _FONT = "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', Helvetica, Arial, sans-serif"
 _INDENT = "\u2003 "
-"""As wide as the sign of a caveat."""
+"""Indent as wide as the sign of a caveat."""
 _TITLES = {"induced": "Induced", "profile": "Profile", "parasite": "Parasite", "tail": "Tail rotor"}
 
 
@@ -75,16 +75,16 @@ class DiskContent:
     field: Field
     colour_range: tuple[float, float]
     outlines: tuple[str, ...] = tuple(OUTLINES)
-    """By their names in `ViewState`."""
+    """Names of outlines in `ViewState`."""
     note: str = ""
-    """A line below the title, for example what A is."""
+    """A line below the title, for example the title of A."""
     units: Units = SI
 
 
 def shown(
     view: ViewState, field: Field | None = None, colour_range: tuple[float, float] | None = None, note: str = ""
 ) -> DiskContent:
-    """What the page shows; `field` where it is not just that of the view, and its colour range where it was moved."""
+    """The content of the disk on the page; `field` and `colour_range` where they differ from those of the view."""
     field = field or FIELDS[view.field]
     return DiskContent(
         field,
@@ -96,7 +96,7 @@ def shown(
 
 
 def window(solution: Solution, paper: Paper) -> tuple[int, int, int, int]:
-    """Where the view of the rotor goes: x, y, width, height [px]."""
+    """The rectangle of the rotor's view: x, y, width, height [px]."""
     if paper.beside:
         return 0, 0, paper.width, paper.height
     top = round(13 * paper.unit)
@@ -104,7 +104,7 @@ def window(solution: Solution, paper: Paper) -> tuple[int, int, int, int]:
 
 
 def _below(solution: Solution, paper: Paper) -> float:
-    """Height of what stands below the picture, in the paper's units."""
+    """Height of the text below the picture, in units of the paper."""
     lines = sum(map(len, _caveats(solution, paper.width - 8 * paper.unit, paper.unit)))
     return 18.0 + 2.5 * lines
 
@@ -125,7 +125,7 @@ def disk_sheet(solution: Solution, shown: DiskContent, paper: Paper) -> str:
 
 
 def view_sheet(solution: Solution, shown: DiskContent, paper: Paper, render: bytes) -> str:
-    """The rotor as it was seen; `render`: PNG of the size of its `window`."""
+    """The view of the rotor; `render`: a PNG of the size of its `window`."""
     x, y, wide, high = window(solution, paper)
     seen = svg.image(x, y, wide, high, render)
     if not paper.beside:
@@ -154,7 +154,7 @@ def _page(paper: Paper, inside: str) -> str:
 
 
 def _column(solution: Solution, shown: DiskContent, paper: Paper, x: float, wide: float) -> str:
-    """Everything that is said, beside the disk."""
+    """All text and scales, beside the disk."""
     u = paper.unit
     return (
         _heading(solution, shown, x, 9 * u, wide, u)
@@ -191,7 +191,7 @@ def _heading(solution: Solution, shown: DiskContent, x: float, y: float, wide: f
 
 
 def _power(solution: Solution, units: Units, x: float, y: float, wide: float, u: float) -> str:
-    """Total power, and its parts as a bar and in words."""
+    """Total power, and its parts as a bar and as text."""
     power = solution.power
     values = {name: max(getattr(power, name), 0.0) for name in PARTS}
     total = max(sum(values.values()), 1.0)
@@ -241,19 +241,19 @@ def _foot(paper: Paper, x: float, anchor: str) -> str:
 
 
 def _warning(solution: Solution, x: float, bottom: float, wide: float, u: float) -> str:
-    """Every caveat, the last line ending at `bottom`."""
+    """All caveats; the last line ends at `bottom`."""
     lines = [line for block in _caveats(solution, wide, u) for line in block]
     return _lines(lines, x, bottom - 2.5 * u * (len(lines) - 1), 1.9 * u)
 
 
 def _caveats(solution: Solution, wide: float, u: float) -> list[list[str]]:
-    """Wrapped, each with its sign; further lines stand in."""
+    """Caveats wrapped to lines, each with its sign, further lines indented."""
     blocks = [_wrapped(caveat.sentence, wide - 3 * u, 1.9 * u) for caveat in solution.caveats]
     return [[f"▲ {block[0]}", *(f"{_INDENT}{line}" for line in block[1:])] for block in blocks]
 
 
 def _wrapped(words: str, wide: float, size: float, bold: bool = False) -> list[str]:
-    """Lines that fit, by the mean width of letters."""
+    """Lines that fit into `wide`, by the mean width of letters."""
     return textwrap.wrap(words, max(int(wide / ((0.56 if bold else 0.53) * size)), 8)) or [""]
 
 

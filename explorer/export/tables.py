@@ -1,6 +1,6 @@
-"""Tables for other programs: the disk, the blade at one azimuth, power over speed. Comments say where they come from.
+"""CSV tables for other programs: the disk, the blade at one azimuth, power over speed.
 
-Lines that begin with # hold provenance; then a row of names with units, then numbers. What is not known is empty.
+Lines that begin with # hold provenance; then a row of names with units, then numbers. Unknown values are empty.
 """
 
 import csv
@@ -20,7 +20,7 @@ from rotor.trim.solution import DiskFields, Solution
 from rotor.units import KNOT
 
 _ANGLES = {"theta", "alpha", "stall_margin"}
-"""Fields in radians, written in degrees."""
+"""Fields in radians that are written in degrees."""
 _MEANINGS = {
     "theta": "pitch with twist",
     "u_t": "in-plane velocity across the blade over tip speed",
@@ -62,7 +62,7 @@ def disk_csv(solution: Solution) -> bytes:
 
 
 def blade_csv(solution: Solution, reference: Design, azimuth_deg: float) -> bytes:
-    """What the charts along the blade show: twist, angle of attack between its stall angles, lift coefficient.
+    """The charts along the blade: twist, angle of attack with its stall angles, lift coefficient.
 
     `reference`: what the page compares with, A or the baseline.
     """
@@ -105,7 +105,7 @@ def power_csv(solution: Solution, reference: Design, curve: PowerCurve) -> bytes
 
 
 def _disk_fields(disk: DiskFields) -> list[str]:
-    """Names of everything that is (elements, azimuths)."""
+    """Names of the fields of shape (elements, azimuths)."""
     shape = (len(disk.r), len(disk.psi))
     return [one.name for one in fields(disk) if np.shape(getattr(disk, one.name)) == shape]
 
@@ -121,5 +121,5 @@ def _table(solution: Solution, notes: Sequence[str], columns: Sequence[tuple[str
 
 
 def _number(value: float) -> str:
-    """Nine digits; empty for what is not a number."""
+    """Nine digits; empty for NaN."""
     return f"{value + 0.0:.9g}" if math.isfinite(value) else ""

@@ -1,4 +1,4 @@
-"""The query of the page's address, kept by the server: several parts of the page each have a name in it."""
+"""The query of the page's address, kept by the server; several parts of the page have a name in it."""
 
 import math
 import threading
@@ -8,12 +8,12 @@ from typing import TypeVar
 from urllib.parse import parse_qsl, quote
 
 _PLAIN = ":;,@/="
-"""Characters that a query may hold as they are, so that a design in it can be read."""
+"""Characters that are not escaped, so that a design in the address can be read."""
 
 _Part = TypeVar("_Part")
 
 _PAUSE = 0.4
-"""[s] between two addresses: browsers take offence at a hundred in half a minute."""
+"""[s] between two changes: browsers refuse a hundred in half a minute."""
 
 
 def parameter(query: str, name: str) -> str | None:
@@ -22,7 +22,7 @@ def parameter(query: str, name: str) -> str | None:
 
 
 def with_parameter(query: str, name: str, value: str | None) -> str:
-    """The query with a name set, at its end; None takes it away. Everything else stays."""
+    """The query with a name set, at its end; None removes it. Everything else stays."""
     pairs = [pair for pair in parse_qsl(query.lstrip("?"), keep_blank_values=True) if pair[0] != name]
     if value is not None:
         pairs.append((name, value))
@@ -30,10 +30,10 @@ def with_parameter(query: str, name: str, value: str | None) -> str:
 
 
 class Address:
-    """Of one page. Any thread may call."""
+    """The address of one page; safe from any thread."""
 
     def __init__(self, query: str, write: Callable[[str], None], pause: float = _PAUSE) -> None:
-        """`query`: that the page was opened with; `write` puts another into the address, `pause` [s] apart or more."""
+        """`query`: that of the opened page. `write` puts another into the address, at least `pause` [s] apart."""
         self._query, self._write, self._pause = query, write, pause
         self._lock = threading.Lock()
         self._written = -math.inf
@@ -45,7 +45,7 @@ class Address:
     def read(
         self, name: str, meaning: Callable[[str], _Part], usual: _Part, title: str, problems: list[tuple[str, str]]
     ) -> _Part:
-        """What a name's value means; the usual where there is none or a bad one, and then why, under `title`."""
+        """The meaning of a name's value; `usual` where there is none or a bad one. Problems are added under `title`."""
         value = self[name]
         try:
             return usual if value is None else meaning(value)
@@ -60,7 +60,7 @@ class Address:
             self._query = with_parameter(self._query, name, value)
             wait = self._pause - (time.monotonic() - self._written)
             if self._waiting is not None:
-                return  # What waits to be written will be the newest.
+                return  # The waiting write will take the newest value.
             if wait > 0.0:
                 self._waiting = threading.Timer(wait, self._put)
                 self._waiting.daemon = True

@@ -1,4 +1,4 @@
-"""One page presents, others follow: what the presenters of a server show, and who looks. Any thread may call."""
+"""Presentations: one page presents, others follow. Safe from any thread."""
 
 import hashlib
 import logging
@@ -12,7 +12,7 @@ from explorer.state import Inputs, ViewState
 _log = logging.getLogger(__name__)
 
 PRESENT, FOLLOW = "present", "follow"
-"""Names in the page's address: the presenter's own secret, and what the others are given."""
+"""Names in the page's address: the secret of the presenter, and the name given to followers."""
 
 Point = tuple[float, float, float]
 """[m]"""
@@ -27,13 +27,13 @@ class PresentedView:
     against: Inputs | None = None
     """A of A/B."""
     step: int | None = None
-    """Of the lecture."""
+    """Step of the lecture."""
     camera: tuple[Point, Point] | None = None
     """Position and the point looked at [m]."""
 
 
 Listener = Callable[[PresentedView | None], None]
-"""Hears what is shown; None: the presenter has gone."""
+"""Called with what is shown; None when the presentation has ended."""
 
 
 def new_secret() -> str:
@@ -41,7 +41,7 @@ def new_secret() -> str:
 
 
 def follow_name(secret: str) -> str:
-    """What followers are given; it does not tell the secret."""
+    """The name for followers, from which the secret cannot be found."""
     return hashlib.sha256(secret.encode()).hexdigest()[:12]
 
 
@@ -72,7 +72,7 @@ class Presentations:
         _tell(listeners, shown)
 
     def end(self, secret: str) -> None:
-        """The presenter has stopped; who follows keeps what was shown last."""
+        """The presenter has stopped; followers keep what was shown last."""
         name = follow_name(secret)
         with self._lock:
             self._shown.pop(name, None)
@@ -81,7 +81,7 @@ class Presentations:
         _tell(listeners, None)
 
     def follow(self, name: str, listener: Listener) -> Callable[[], None]:
-        """Hear what is shown, from now on; the answer ends it. A presenter who has not come yet is waited for."""
+        """Call `listener` with what is shown from now on, also by a presenter who comes later; returns how to stop."""
         with self._lock:
             number, self._next = self._next, self._next + 1
             self._listeners.setdefault(name, {})[number] = listener
@@ -109,9 +109,9 @@ class Presentations:
 
 
 def _tell(listeners: Iterable[Listener], shown: PresentedView | None) -> None:
-    """One page that cannot follow, because its browser is just leaving, must not keep it from the others."""
+    """Call all listeners; one that fails, because its browser is leaving, does not affect the others."""
     for listener in listeners:
         try:
             listener(shown)
         except Exception:
-            _log.exception("a follower did not hear")
+            _log.exception("a follower could not be updated")

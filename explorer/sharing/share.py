@@ -1,4 +1,4 @@
-"""A design as a short text for the page's address, and back; the same record as a design file, checked the same way.
+"""A design as a short text for the page's address, and back. It holds the record of a design file.
 
 `1;segments:-14,-8@0.5;mu=0.25;mass=9000`: version, twist, and what differs from the preset's own design.
 """
@@ -20,10 +20,10 @@ DESIGN = "d"
 PINNED = "a"
 """Name of the design that is pinned beside it."""
 LONGEST = 1800
-"""Characters a design may take: the length of address that every browser and mail program carries."""
+"""Most characters of a design: every browser and mail program accepts an address of this length."""
 
 KEPT = "own"
-"""In place of a design that no address holds: the page itself keeps its file, and has it after a reload."""
+"""Stands for a design that does not fit into an address: the page keeps its file, also over a reload."""
 
 _SHORT = {"advance_ratio": "mu", "mass_kg": "mass", "altitude_m": "alt"}
 _LONG = {short: key for key, short in _SHORT.items()}
@@ -33,9 +33,9 @@ _NEVER = ("format", "version", "twist")
 
 
 def code_of(design: Design) -> str:
-    """The design as a text; ValueError with one sentence for one that no address holds."""
+    """The design as text; ValueError with one sentence for one that does not fit into an address."""
     if design.aircraft.files is not None:
-        raise ValueError("Your own rotor does not fit in a link: save a design file and send that.")
+        raise ValueError("A link cannot hold a rotor of your own: save the design as a file and send that.")
     record = design.to_dict()
     plain = make_design()
     usual = make_design(preset=record["preset"], rotor=design.aircraft).to_dict()
@@ -44,12 +44,12 @@ def code_of(design: Design) -> str:
     words = [str(VERSION), record["twist"], *(f"{_SHORT.get(key, key)}={_word(v)}" for key, v in changed.items())]
     code = ";".join(words)
     if len(code) > LONGEST:
-        raise ValueError("This design is too long for a link: save a design file and send that.")
+        raise ValueError("This design is too long for a link: save it as a file and send that.")
     return code
 
 
 def design_from(code: str) -> Design:
-    """The design a text means; ValueError with one sentence for one that means none."""
+    """The design of a text; ValueError with one sentence for an invalid one."""
     version, _, rest = code.strip().partition(";")
     if version != str(VERSION) or not rest:
         raise ValueError(f"The design in the address, {cut(code)!r}, is not of version {VERSION}: ask for a new link.")
@@ -63,7 +63,7 @@ def design_from(code: str) -> Design:
         key, found, value = word.partition("=")
         if not found:
             raise ValueError(
-                f"The design in the address holds {cut(word)!r}, which is not key=value: ask for a new link."
+                f"The design in the address holds {cut(word)!r}, not of the form key=value: ask for a new link."
             )
         record[_LONG.get(key, key)] = _value(value)
     try:
@@ -73,14 +73,14 @@ def design_from(code: str) -> Design:
 
 
 def inputs_from(code: str, kept: str | None = None) -> Inputs:
-    """The slider positions a text means; ValueError also for a position that no slider holds.
+    """The slider positions of a text; ValueError also for a position outside a slider's range.
 
     `kept`: the design file that the page has where the text is `KEPT`.
     """
     if code != KEPT:
         return within(inputs_of(design_from(code)))
     if kept is None:
-        raise ValueError("Its rotor is the sender's own and not part of the link: ask for the design file.")
+        raise ValueError("Its rotor is the sender's own and is not in the link: ask for the design file.")
     return within(inputs_of(parse_design(kept.encode(), "of this page")))
 
 
@@ -126,5 +126,5 @@ def _value(word: str) -> object:
 
 
 def cut(text: str) -> str:
-    """A text of the address as a sentence can hold it."""
+    """A text of the address, shortened for a sentence."""
     return text if len(text) <= 40 else text[:39] + "…"

@@ -1,4 +1,4 @@
-"""A clock that walks something on in small steps, in a thread of its own that lives only while it plays."""
+"""A clock that advances something in small steps, on a thread that exists only while it plays."""
 
 import logging
 import threading
@@ -8,11 +8,11 @@ from collections.abc import Callable
 _log = logging.getLogger(__name__)
 
 BEAT = 0.05
-"""Time between steps [s]; more often than 20 times a second no browser is asked to draw."""
+"""Time between steps [s]: a browser is asked to draw at most 20 times a second."""
 
 
 class Player:
-    """Play and pause; from any thread."""
+    """Play and pause; safe from any thread."""
 
     def __init__(self, step: Callable[[float], None], name: str) -> None:
         """`step` is called with the time [s] since its last call, or since play was pressed."""
@@ -27,7 +27,7 @@ class Player:
         return self._pause is not None
 
     def play(self) -> None:
-        """Go on; nothing happens where it plays already."""
+        """Start, unless it plays already."""
         with self._lock:
             if self._pause is None:
                 pause = self._pause = threading.Event()
@@ -46,7 +46,7 @@ class Player:
             now = time.monotonic()
             try:
                 self._step(now - before)
-            except Exception:  # Whoever is walked has gone, as a browser may at any moment.
+            except Exception:  # The browser may have gone.
                 _log.exception("play ended")
                 self.pause()
             before = now

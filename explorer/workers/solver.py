@@ -1,4 +1,4 @@
-"""The solver as the page uses it: warmed in the background, and a baseline remembered."""
+"""The solver as the page uses it: warmed at the start, with a cached baseline."""
 
 from dataclasses import dataclass, replace
 
@@ -9,7 +9,7 @@ from rotor.trim.solve import solve
 
 
 def warm() -> None:
-    """Compile and load everything that a first answer would otherwise wait for."""
+    """Compile and load everything that the first solution would wait for."""
     for preset in PRESETS:
         for advance_ratio in (0.0, 0.2):
             solve(make_design(preset=preset, mu=advance_ratio))
@@ -22,7 +22,7 @@ def with_vortex_wake(design: Design) -> Design:
 
 @dataclass
 class BaselineCache:
-    """The baseline's answers of one session, kept while its condition stays."""
+    """The last baseline solution of a session, reused while its design stays the same."""
 
     design: Design | None = None
     solution: Solution | None = None

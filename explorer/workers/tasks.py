@@ -1,4 +1,4 @@
-"""The long work that worker processes do for the page. Values that pickle; no viser."""
+"""Tasks of the worker processes, as values that can be pickled. They do not know viser."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ from rotor.trim.solution import Solution
 
 @dataclass(frozen=True)
 class ReferencePower:
-    """Power of what the saving is also measured against, by the objective of a search [W]; None: does not trim."""
+    """Power of the reference design by the objective of a search [W]; None if it does not trim."""
 
     power: float | None
 
@@ -32,7 +32,7 @@ class SearchTask:
 
     search: Search
     reference: Design
-    """What the saving is also measured against."""
+    """The second reference of the saving."""
 
     def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Optimum:
         """Tells `StartPower`, `ReferencePower`, then every `Progress`."""
@@ -70,7 +70,7 @@ class MapTask:
             near: tuple[Solution, ...] = ()
             for row in range(0, finest + 1, stride):
                 columns = range(0, finest + 1, stride)
-                # To and fro, so that each trim starts from its neighbour.
+                # Back and forth, so that each trim starts from its neighbour.
                 for column in columns if row // stride % 2 == 0 else reversed(columns):
                     if (row, column) in known:
                         continue
@@ -84,7 +84,7 @@ class MapTask:
         return True
 
     def at(self, x: float, y: float) -> Design:
-        """The design at a place of the map, 0…1 along each axis."""
+        """The design at a point of the map, 0…1 along each axis."""
         values = list(self.values)
         for axis, part in zip(self.axes, (x, y), strict=True):
             parameter = self.concept.parameters[axis]
@@ -106,7 +106,7 @@ class ScheduleTask:
     plan: Plan
 
     def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Schedule:
-        """Tells every `Cell`, then `FixedPowers`. Every leg has all its starts, whatever its neighbour found."""
+        """Tells every `Cell`, then `FixedPowers`. Every leg uses all its starts."""
         plan, concept = self.plan, self.plan.concepts[0]
         cells: list[Cell] = []
         guesses: tuple[tuple[float, ...], ...] = ()
@@ -136,7 +136,7 @@ class ScheduleTask:
 
 
 def _middle(cells: list[Cell], plan: Plan) -> tuple[tuple[float, ...], ...]:
-    """The mean of the best moving blades, by their hours: where the search for a fixed one begins."""
+    """The mean of the best moving blades, weighted by hours: the start of the search for a fixed one."""
     shares = Objective(plan.quantity, plan.conditions).shares
     found = [(share, cell.optimum.best) for share, cell in zip(shares, cells, strict=True) if cell.optimum.best]
     total = sum(share for share, _ in found)

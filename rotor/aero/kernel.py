@@ -45,7 +45,7 @@ def _section(table: Any, alpha: float, mach: float) -> Any:
     u = x - i
     y = mach * _INVERSE_MACH
     inside = 1.0
-    if y >= N_MACH:  # Beyond the table the section is held, with no slope; the solution carries a caveat.
+    if y >= N_MACH:  # Beyond the table the section data are constant, without slope; the solution has a caveat.
         y = N_MACH - 1e-9
         inside = 0.0
     j = int(y)

@@ -95,7 +95,8 @@ def parse_polar_file(name: str, text: str) -> tuple[Polar, ...]:
     dashes = next((k for k, line in enumerate(lines) if re.match(r"\s*-{4,}[\s-]+$", line)), None)
     if dashes is None or dashes == 0:
         raise ValueError(
-            f"{name} is no XFOIL polar file: save it with PACC in XFOIL's OPER menu, or write a CSV headed {COLUMNS}"
+            f"{name} is not an XFOIL polar file: save it with PACC in XFOIL's OPER menu, or write a CSV headed "
+            f"{COLUMNS}"
         )
     heads = lines[dashes - 1].lower().split()
     if heads[:3] != ["alpha", "cl", "cd"]:
@@ -116,7 +117,7 @@ def parse_polar_file(name: str, text: str) -> tuple[Polar, ...]:
             cm = words[moment] if moment is not None else 0.0
         except (ValueError, IndexError):
             raise ValueError(
-                f"{name}, line {number}: {line.strip()!r} is no row of numbers: remove or mend it"
+                f"{name}, line {number}: {line.strip()!r} is not a row of numbers: remove or correct it"
             ) from None
         if not (np.isfinite([alpha, cl, cd, cm]).all() and cd > 0.0 and abs(cl) < 5.0 and abs(alpha) <= 180.0):
             raise ValueError(f"{name}, line {number}: cl {cl:g}, cd {cd:g} at {alpha:g} deg cannot be: remove the row")

@@ -1,1 +1,1 @@
-"""What is computed from many solutions: sweeps, the power waterfall, the ideal bound."""
+"""Results from many solutions: sweeps, the power waterfall, the ideal bound."""

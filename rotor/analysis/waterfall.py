@@ -1,7 +1,6 @@
-"""What each part of the physics costs: power from everything switched off to everything on, one real trim a step.
+"""Power of each physical effect: from all effects off to all on, one trim per step.
 
-The order is part of the answer: what a switch costs depends on what is on already. So the same question is asked a
-second way, with each switch off alone.
+The power of an effect depends on the effects already on, so it is also computed with each effect removed on its own.
 """
 
 from collections.abc import Iterator, Sequence
@@ -18,15 +17,15 @@ PARTS = ("induced", "profile", "parasite", "tail")
 
 @dataclass(frozen=True, eq=False)
 class WaterfallStep:
-    """One trim, and what it differs by from the trim it is compared with."""
+    """One trim and its difference from a reference trim."""
 
     switch: Switch | None
-    """What was switched; None: the start."""
+    """The switch changed; None at the start."""
     solution: Solution
     against: Solution | None
     """The last step before it that trimmed, or the full model; None at the start."""
     note: str = ""
-    """Why this switch cannot change the power here, as a clause."""
+    """Why this switch has no effect here, as a clause."""
 
     @property
     def title(self) -> str:
@@ -55,7 +54,7 @@ class WaterfallStep:
 def switch_on_steps(design: Design, order: Sequence[str] = tuple(SWITCHES)) -> Iterator[WaterfallStep]:
     """The steps of the waterfall, each trimmed when it is asked for. The design's own switches do not matter.
 
-    A step that does not trim is passed over: the next is compared with the last that did.
+    A step that does not trim is skipped: the next is compared with the last that did.
     """
     left = list(order)
     solution = solve(with_switches(design, left))
@@ -77,7 +76,7 @@ def switch_off_steps(design: Design, full: Solution) -> Iterator[WaterfallStep]:
 
 @dataclass(frozen=True, eq=False)
 class Waterfall:
-    """The whole answer."""
+    """All steps of the waterfall."""
 
     steps: tuple[WaterfallStep, ...]
     """All off, then one more on at each step; the last is the full model."""

@@ -117,7 +117,7 @@ class Design:
     def with_twist(self, twist: TwistLaw | str) -> "Design":
         """The same design with another twist: a law, or a SPEC as `parse_twist` reads it.
 
-        In a SPEC `builtin` is this rotor's own twist, and `ideal` the twist that carries this weight in hover.
+        In a SPEC `builtin` is this rotor's own twist, and `ideal` the ideal twist for this weight in hover.
         """
         if isinstance(twist, TwistLaw):
             return replace(self, twist=twist)

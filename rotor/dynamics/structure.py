@@ -16,7 +16,7 @@ from rotor.dynamics.thin_wall import Material
 
 @dataclass(frozen=True)
 class BladeStructure:
-    """Stiffness and mass along one blade; stations in metres, values linear between them and held beyond."""
+    """Stiffness and mass along one blade; stations in metres, values linear between them and constant beyond."""
 
     radius: float
     """[m]"""

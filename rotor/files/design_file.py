@@ -1,6 +1,6 @@
 """Design files: the choices behind a `Design` as JSON that a person can read and edit. `Design.save` writes them.
 
-`rotor` names a shipped rotor, or holds a user's own files word for word, so that the file is complete.
+`rotor` names a shipped rotor, or contains the text of a user's own rotor files, so that the design file is complete.
 """
 
 import json

@@ -179,7 +179,8 @@ def _spans(given: TomlTable, root: float, own: tuple[OwnSection, ...]) -> tuple[
         start, end = (table.number(name, low=0.0, high=1.0, unit="r/R") for name in ("start_r", "end_r"))
         if start >= end or (spans and start < spans[-1].end):
             raise table.fail(
-                "start_r", f"span of {section} runs {start:g}…{end:g}: let the spans ascend and not overlap"
+                "start_r",
+                f"span of {section} runs {start:g}…{end:g}: write the spans in ascending order, not overlapping",
             )
         table.finish()
         spans.append(Span(start, end, section))
@@ -210,7 +211,7 @@ def _ascending(table: TomlTable, place: str, stations: tuple[float, ...], key: s
         raise table.fail(key, f"{place} has {len(stations)} and {key} {len(values)} values: give one each, two or more")
     for low, high in pairwise(stations):
         if low >= high:
-            raise table.fail(place, f"{place} goes from {low:g} to {high:g}: let the stations ascend from root to tip")
+            raise table.fail(place, f"{place} goes from {low:g} to {high:g}: write the stations in ascending order")
 
 
 def _tail_rotor(tail: TomlTable) -> TailRotor:
@@ -264,7 +265,7 @@ def find_aircraft(name: str) -> Aircraft:
 
 
 def load_rotor(path: str | Path) -> Aircraft:
-    """The aircraft of a rotor file on disk, with the section files beside it.
+    """The aircraft of a rotor file on disk, with the section files in the same folder.
 
     Raises ValueError with one sentence that names file, line and remedy.
     """

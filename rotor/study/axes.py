@@ -1,8 +1,9 @@
-"""The axes of a study, and the order in which its points are worked off.
+"""The axes of a study, and the order in which its points are computed.
 
-Axes with values are crossed; ranges are sampled together. The order is a walk that changes one axis by one step at a
-time (a reflected mixed-radix Gray code), the axis of the smallest steps fastest, so that every trim starts next to the
-one before. It is computed, not stored: a study of 10⁹ points costs no memory.
+Axes with values are crossed; ranges are sampled together. The order changes one axis by one step at a time (a reflected
+mixed-radix Gray code), the axis with the smallest steps fastest, so that every trim starts next to the previous one. It
+is computed, not stored: a study of 10⁹ points needs no memory.
+
 """
 
 import math
@@ -35,7 +36,7 @@ class Axis:
 
 @dataclass(frozen=True)
 class Sample:
-    """Points spread evenly over several ranges together."""
+    """Points distributed evenly over several ranges together."""
 
     method: Method
     count: int
@@ -52,7 +53,7 @@ class Sample:
 
 @dataclass(frozen=True)
 class StudyPoints:
-    """All points of a study, as values by quantity."""
+    """All points of a study; the values of each by quantity."""
 
     axes: tuple[Axis, ...]
     sample: Sample | None
@@ -72,7 +73,7 @@ class StudyPoints:
         return grids | ({name: (low, high) for name, low, high in self.sample.ranges} if self.sample else {})
 
     def at(self, first: int, last: int) -> list[dict[str, float | str]]:
-        """The values of the points first … last − 1 in the order they are worked off."""
+        """Values of the points first … last − 1 in the order of computation."""
         digits = _walk(np.arange(first, last, dtype=np.int64), tuple(size for _, size in self._order))
         columns: dict[str, list[float | str]] = {}
         for (axis, _), digit in zip(self._order, digits, strict=True):
@@ -85,7 +86,7 @@ class StudyPoints:
 
     @property
     def _order(self) -> list[tuple[Axis | Sample, int]]:
-        """Axes from slow to fast: texts, whose steps are the largest, then by how finely each is divided."""
+        """Axes from slow to fast: texts, then axes by increasing number of values."""
         ranked: list[tuple[float, Axis | Sample, int]] = [
             (0.0 if axis.textual else len(axis.values), axis, len(axis.values)) for axis in self.axes
         ]
@@ -95,7 +96,7 @@ class StudyPoints:
 
 
 def _walk(positions: Ints, sizes: tuple[int, ...]) -> list[Ints]:
-    """Digits of each axis, slow to fast; each runs to and fro, so that neighbours differ by one step of one axis."""
+    """Digits of each axis, slow to fast; each runs back and forth, so neighbours differ by one step."""
     digits: list[Ints] = []
     block = math.prod(sizes)
     for size in sizes:
@@ -108,10 +109,10 @@ def _walk(positions: Ints, sizes: tuple[int, ...]) -> list[Ints]:
 
 @cache
 def _spread(sample: Sample) -> Array:
-    """The points of a sample as values, (count, ranges), neighbours one after the other."""
+    """The points of a sample as values, (count, ranges), neighbours adjacent."""
     n, d = sample.count, len(sample.ranges)
     if sample.method == "sobol":
-        # The sequence is balanced over powers of two; any first part of one is spread nearly as well.
+        # The sequence is balanced over powers of two; a first part of it is distributed nearly as well.
         unit = qmc.Sobol(d, seed=sample.seed).random_base2((n - 1).bit_length())[:n]
     else:
         unit = qmc.LatinHypercube(d, seed=sample.seed).random(n)
@@ -120,7 +121,7 @@ def _spread(sample: Sample) -> Array:
 
 
 def _snake(unit: Array) -> Ints:
-    """An order of points of the unit cube that goes to and fro through its cells."""
+    """An order of points of the unit cube that runs back and forth through its cells."""
     n, d = unit.shape
     cells = max(1, round(n ** (1.0 / d)))
     number = np.zeros(n, dtype=np.int64)

@@ -1,4 +1,4 @@
-"""One chunk of a study: its points one after the other, and the Parquet file that they make."""
+"""One chunk of a study: its points in order, and the Parquet file of their rows."""
 
 import ctypes
 import importlib
@@ -22,12 +22,12 @@ from rotor.study.warm_starts import WarmStarts
 _M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3  # malloc.h of glibc
 
 CONVERGED = "converged"
-"""The status of a row that has its answer."""
+"""Status of a row with a result."""
 
 
 @dataclass(frozen=True)
 class StudyProvenance:
-    """What every file of a study says about itself."""
+    """Provenance stored in every file of a study."""
 
     version: str
     commit: str | None
@@ -36,7 +36,7 @@ class StudyProvenance:
 
 @dataclass(frozen=True)
 class FinishedChunk:
-    """A chunk worked off. It travels: the file as bytes, so that only the one who asked needs its disk."""
+    """A finished chunk, with its file as bytes: workers need no access to the folder."""
 
     chunk: int
     rows: int
@@ -54,7 +54,7 @@ class VersionMismatch(ValueError):
 
 
 def evaluate_points(study: Study, first: int, last: int) -> list[Row]:
-    """The rows of the points first … last − 1. Each begins with what those before it left."""
+    """Rows of the points first … last − 1; each starts from the results of those before."""
     warm = WarmStarts(study.points.ranges)
     rows: list[Row] = []
     for number, values in enumerate(study.values(first, last), start=first):
@@ -63,7 +63,7 @@ def evaluate_points(study: Study, first: int, last: int) -> list[Row]:
 
 
 def evaluate_chunk(study: Study, chunk: int, provenance: StudyProvenance) -> FinishedChunk:
-    """A chunk as a worker does it. Raises VersionMismatch where its package is not the one that asks."""
+    """Compute a chunk on a worker. VersionMismatch if its package version differs from the command's."""
     if package_version() != provenance.version:
         raise VersionMismatch(
             f"a worker has rotor-explorer {package_version()}, this command {provenance.version}: "
@@ -81,10 +81,10 @@ def evaluate_chunk(study: Study, chunk: int, provenance: StudyProvenance) -> Fin
 
 @cache
 def keep_freed_memory() -> None:
-    """Let this process keep what memory it frees, up to 64 MB, where the C library is GNU's.
+    """Keep up to 64 MB of freed memory in this process (glibc only).
 
-    Dask starts its workers so that they give back all above 64 kB at once. A trim takes and frees arrays of 38 kB to
-    1 MB all the time, and spent a third of its processor time on asking for them again.
+    Dask workers return freed memory above 64 kB at once. A trim allocates arrays of 38 kB to 1 MB all the time, and
+    spent a third of its processor time on page faults.
     """
     with suppress(OSError, AttributeError, TypeError):
         libc = ctypes.CDLL(None)
@@ -116,7 +116,7 @@ def describe(study: Study, provenance: StudyProvenance) -> dict[str, str]:
 
 
 def _models(study: Study) -> dict[str, Value]:
-    """The models that all points share: those of the preset, but for what the study sets; its axes are columns."""
+    """Models shared by all points: those of the preset with the changes of the study; axes are columns."""
     given = {name: value for name, value in study.given if QUANTITIES[name].section == "models"}
     if "preset" in study.axis_names:
         return given

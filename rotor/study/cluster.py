@@ -1,7 +1,7 @@
-"""Chunks on Dask: an embedded cluster of one process a core, or any running one by its address.
+"""Runs chunks on Dask: on an embedded cluster with one process per core, or on a running one by its address.
 
-A window of chunks is on its way at any time, so that a million points do not flood the scheduler; a chunk whose worker
-is lost goes to another one.
+Only a window of chunks is submitted at a time, so that a million points do not flood the scheduler. A chunk whose
+worker is lost is submitted again.
 """
 
 import importlib
@@ -20,13 +20,13 @@ from rotor.study.study import Study
 
 INSTALL_HINT = "studies need Dask, distributed and pyarrow: pip install 'rotor-explorer[study]'"
 _AHEAD = 2
-"""Chunks on their way for each thread of a worker: one that runs, one that waits."""
+"""Submitted chunks per thread of a worker: one running, one waiting."""
 _LOOK = 0.2
-"""[s] between looks at whether somebody asked to stop."""
+"""[s] between checks for a request to stop."""
 _COUNT = 5.0
-"""[s] between counts of the workers, which come and go."""
+"""[s] between counts of the workers, which may join and leave."""
 _RETRIES = 3
-"""Times that a chunk may be handed out again after Dask gave it up with its workers."""
+"""Times that a chunk is submitted again after its workers were lost."""
 
 
 class ClusterLost(RuntimeError):
@@ -39,11 +39,11 @@ class ChunkRun:
 
     stopped: bool = False
     lost: list[int] = field(default_factory=list[int])
-    """Chunks that took their workers down with them, again and again."""
+    """Chunks that repeatedly stopped their workers."""
 
 
 def need_packages() -> None:
-    """ValueError, with how to get them, where the packages of studies are missing."""
+    """ValueError with the remedy where the packages of studies are missing."""
     try:
         for name in ("dask", "distributed", "pyarrow"):
             importlib.import_module(name)
@@ -53,9 +53,9 @@ def need_packages() -> None:
 
 @contextmanager
 def connected(address: str | None, workers: int | None) -> Generator[Any]:
-    """A Dask client: of the cluster at `address`, or of one made here for the while. ValueError for no answer."""
+    """A Dask client of the cluster at `address`, or of a temporary one here. ValueError if none answers."""
     distributed: Any = importlib.import_module("distributed")
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # What goes wrong is said in our sentences.
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # Errors are reported by this package.
     if address is not None:
         try:
             client = distributed.Client(address, timeout="10s", set_as_default=False)
@@ -69,14 +69,14 @@ def connected(address: str | None, workers: int | None) -> Generator[Any]:
         finally:
             client.close(timeout=5)
         return
-    # Processes begun while Ctrl-C is ignored go on ignoring it: it is for this one to understand.
+    # Processes started while Ctrl-C is ignored keep ignoring it; only this process handles it.
     before = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
         cluster = distributed.LocalCluster(
             n_workers=workers or os.cpu_count() or 1,
             threads_per_worker=1,
             host="127.0.0.1",
-            dashboard_address="127.0.0.1:0",  # Its own choice, 8787, may be taken by another study or cluster.
+            dashboard_address="127.0.0.1:0",  # The default port 8787 may be in use.
             scheduler_kwargs={"dashboard": False},
             silence_logs=logging.CRITICAL,
         )
@@ -99,11 +99,11 @@ def run_chunks(
     stop: Callable[[], bool],
     wait_for_workers: Callable[[], None] = lambda: None,
 ) -> ChunkRun:
-    """Work chunks off, in any order; `take` has each as soon as it is done.
+    """Compute chunks in any order; `take` is called with each finished one.
 
-    `stop` is asked several times a second; True leaves what is on its way. `wait_for_workers` is told when there are
-    none. Raises ClusterLost where the scheduler is gone, VersionMismatch where a worker has another version.
-    `take` must not raise OSError, which is read as a failure of the cluster.
+    `stop` is called several times a second; True ends the run. `wait_for_workers` is called without workers. Raises
+    ClusterLost where the scheduler is gone, VersionMismatch where a worker has another version. `take` must not raise
+    OSError, which is read as a failure of the cluster.
     """
     ended, news = ChunkRun(), queue.SimpleQueue[Any]()
     waiting, under_way = iter(chunks), dict[Any, int]()
@@ -154,17 +154,17 @@ def run_chunks(
             future.cancel()
 
 
-_GONE = "the Dask scheduler is gone: finished chunks are kept; run the same command again to go on"
+_GONE = "the Dask scheduler is gone: finished chunks are kept; run the same command again to continue"
 
 
 def _judge(error: BaseException, chunk: int) -> None:
-    """Pass over the loss of workers, for which a chunk is tried again; raise what no other worker would do better."""
+    """Ignore the loss of workers, after which a chunk is retried; raise every other error."""
     if type(error).__name__ == "KilledWorker":
         return
     if isinstance(error, VersionMismatch):
         raise error
     if isinstance(error, ImportError) or "deserialization" in str(error):
-        cause = error.__cause__ or error  # Dask wraps what a worker without this package says.
+        cause = error.__cause__ or error  # Dask wraps the error of a worker without this package.
         raise ValueError(
             f"a worker cannot read the study ({str(cause).partition(chr(10))[0]}): install rotor-explorer[study], "
             "the same version, on every worker"

@@ -11,17 +11,17 @@ from rotor.arrays import Array
 from rotor.study.results import Ints, Results
 
 _MANY = 20
-"""Values of an axis from which it is looked at in tenths."""
+"""Number of values from which an axis is divided into ten parts."""
 _FEW = 10
-"""Values of a sampled axis that a part of its range must hold in the mean: with less, chance looks like an effect."""
+"""Least mean number of values per part of a sampled axis: with fewer, noise looks like an effect."""
 
 
 @dataclass(frozen=True)
 class RobustDesign:
-    """A design, and how it does over everything that nobody can choose."""
+    """A design and its results over all uncertain cases."""
 
     design: dict[str, Any]
-    """Values of the axes that can be chosen."""
+    """Values of the axes that are not uncertain."""
     worst: float
     mean: float
     cases: int
@@ -29,14 +29,14 @@ class RobustDesign:
 
 @dataclass(frozen=True)
 class RobustBest:
-    """The designs that do best over all uncertain cases."""
+    """The best designs over all uncertain cases."""
 
     least_worst: RobustDesign
     least_mean: RobustDesign
     designs: int
-    """Compared: those that have an answer in every case."""
+    """Number of designs compared: those with a result in every case."""
     dropped: int
-    """Left out, because a case failed or is still missing."""
+    """Number of designs left out: a case failed or is missing."""
 
 
 def best_row(results: Results, least: str) -> int | None:
@@ -48,8 +48,8 @@ def best_row(results: Results, least: str) -> int | None:
 def robust_best(results: Results, least: str, uncertain: tuple[str, ...]) -> RobustBest | None:
     """The design of the least worst case and that of the least mean; None where no design has all its cases.
 
-    Designs are told apart by the axes that are not uncertain. Each must have answers in as many cases as the study
-    has combinations of the uncertain axes, as far as the finished rows show them.
+    Designs differ in the axes that are not uncertain. Each must have results in as many cases as the finished rows have
+    combinations of the uncertain axes.
     """
     chosen = tuple(name for name in results.axes if name not in uncertain)
     design, case = results.codes(chosen), results.codes(uncertain)
@@ -76,11 +76,11 @@ def robust_best(results: Results, least: str, uncertain: tuple[str, ...]) -> Rob
 
 @dataclass(frozen=True)
 class Effect:
-    """What one axis does by itself, all others averaged over."""
+    """Main effect of one axis, averaged over all others."""
 
     axis: str
     share: float
-    """Part of the column's variance that goes with this axis alone (0…1); the first-order index of Sobol' sense."""
+    """Fraction of the variance due to this axis alone (0…1), the first-order Sobol' index."""
     least_at: Any
     least: float
     """Mean of the column at the value, or in the part of the range, where that is least."""
@@ -138,7 +138,7 @@ class HoverCruisePairs:
 
     @property
     def best(self) -> NDArray[np.bool_]:
-        """The blades that none beats in one power without losing in the other."""
+        """Pareto front: blades that no other one beats in both powers."""
         order = np.lexsort((self.hover, self.cruise))
         before = np.minimum.accumulate(np.concatenate([[math.inf], self.hover[order][:-1]]))
         best = np.zeros(len(self.hover), dtype=bool)
@@ -155,7 +155,7 @@ def cruise_speeds(results: Results) -> tuple[float, ...]:
 
 
 def hover_cruise_pairs(results: Results, cruise: float) -> HoverCruisePairs:
-    """All pairs of a cruise speed: rows that agree in every axis but speed, or rows that know their hover power."""
+    """Pairs at a cruise speed: rows that agree in every axis but speed, or rows with their own hover power."""
     power, mu = results.columns["power_total_w"], results.columns["mu"]
     here = np.flatnonzero(results.good & (mu == cruise))
     if _has_hover(results):

@@ -1,7 +1,7 @@
-"""One point of a study: from its values to a design, its trim or its optimum, and the row they make.
+"""One point of a study: from its values to a design, its trim or its optimum, and the row of results.
 
-A point always makes a row: what does not trim, what no design can be made of, and what fails in a way that nobody
-thought of, is a row with its status and its sentence.
+A point always gives a row. If it does not trim, if no design can be made of it, or if an unexpected error occurs, the
+row has its status and a message.
 """
 
 import math
@@ -26,14 +26,14 @@ from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
 _CRUISE = 0.2
-"""Advance ratio where a study says none."""
+"""Default advance ratio."""
 
 Row = dict[str, Any]
 Values = Mapping[str, Value]
 
 
 def design_of(values: Values, aircraft: Mapping[str, Aircraft]) -> Design:
-    """The design that a point's values describe; a twist still to be searched for is the preset's own.
+    """The design that a point's values describe; a twist to be searched for is that of the preset.
 
     `aircraft`: rotors of the user's own by name. Raises ValueError with one sentence.
     """
@@ -58,7 +58,7 @@ def design_of(values: Values, aircraft: Mapping[str, Aircraft]) -> Design:
     )
     if "speed_kt" in values:
         if "mu" in values:
-            raise ValueError("mu and speed_kt are both given: leave one out")
+            raise ValueError("mu and speed_kt are both given: omit one")
         design = design.at(speed_kt=float(values["speed_kt"]))
     if "airfoils" in values:
         design = replace(design, rotor=change_airfoils(design.rotor, str(values["airfoils"])))
@@ -80,7 +80,7 @@ def check_point(values: Values, study: Study) -> None:
 
 
 def evaluate(values: Values, study: Study, warm: WarmStarts) -> Row:
-    """The row of one point. Begins with what the points before left, and leaves what it found."""
+    """The row of one point, started from earlier points; its trim and optimum are kept for later ones."""
     begin = time.perf_counter()
     row: Row = {name: value for name, value in values.items() if not isinstance(value, bool)}
     try:
@@ -105,23 +105,23 @@ def evaluate(values: Values, study: Study, warm: WarmStarts) -> Row:
             warm.keep(values, solution)
     except ValueError as error:
         row |= {"status": "bad-input", "message": str(error)}
-    except Exception as error:  # One point that nobody foresaw must not cost the others of its chunk.
+    except Exception as error:  # An unexpected error of one point must not stop its chunk.
         row |= {"status": "error", "message": f"{type(error).__name__}: {error}"}
     row["elapsed_ms"] = 1e3 * (time.perf_counter() - begin)
     return row
 
 
 def _bladed(design: Design, values: Values) -> Design:
-    """The design with the blade of a concept whose parameters are all given; else as it is."""
+    """The design with the blade of a concept if one is given; all its parameters must be set."""
     given = _parameters(values)
     if "hover_share" in values:
-        raise ValueError("hover_share is for an optimum: add [optimum], or leave it out")
+        raise ValueError("hover_share needs a search: add [optimum], or omit hover_share")
     if "concept" not in values:
         if given:
             raise ValueError(f"{next(iter(given))} belongs to a twist concept: name it in [fixed] as concept = …")
         return design
     if "twist" in values:
-        raise ValueError("twist and concept are both given: leave one out")
+        raise ValueError("twist and concept are both given: omit one")
     concept, held = concept_with_breaks(str(values["concept"]), given)
     missing = [one.label for one in concept.parameters if one.name not in held]
     if missing:
@@ -134,7 +134,7 @@ def _bladed(design: Design, values: Values) -> Design:
 
 def _search(design: Design, values: Values, searching: OptimumSettings, warm: WarmStarts) -> Search:
     if "twist" in values:
-        raise ValueError("an optimum searches for the twist: leave twist out")
+        raise ValueError("an optimum searches for the twist: omit twist")
     if "concept" not in values:
         raise ValueError('an optimum needs a twist concept: add for example concept = "two-segment" to [fixed]')
     wide, held = concept_with_breaks(str(values["concept"]), _parameters(values))

@@ -1,4 +1,4 @@
-"""What a study can set: names, units, and where in the file they stand."""
+"""The quantities that a study can set: names, units, and their section in the file."""
 
 from dataclasses import dataclass
 from typing import Literal

@@ -25,7 +25,7 @@ _LARGEST = 400_000_000
 
 @dataclass(frozen=True, eq=False)
 class Results:
-    """The table of a study as far as it is there."""
+    """The results of a study, complete or partial."""
 
     about: dict[str, Any]
     """The folder's `_study.json`, or the metadata of one file."""
@@ -39,16 +39,16 @@ class Results:
 
     @property
     def points(self) -> int:
-        """How many there will be."""
+        """Number of points of the whole study."""
         return int(self.about.get("points", self.rows))
 
     @property
     def good(self) -> NDArray[np.bool_]:
-        """Rows that have their answer."""
+        """Rows with a result, (rows,)."""
         return self.columns["status"] == CONVERGED
 
     def row_of(self, point: int) -> int | None:
-        """The row of a point by its number; None for one that is not there, or not yet."""
+        """Row of a point by its number; None if it is missing."""
         found = np.flatnonzero(self.columns["point"] == point)
         return int(found[0]) if found.size else None
 
@@ -83,7 +83,7 @@ def read_results(folder: str | Path, *, texts: bool = True) -> Results:
     about = read_about(folder)
     paths = sorted(Path(folder).glob("chunk-*.parquet"))
     if not paths:
-        raise ValueError(f"folder {str(folder)!r} has no finished chunk yet: run its study for longer")
+        raise ValueError(f"folder {str(folder)!r} has no finished chunk yet: let the study run longer")
     parquet: Any = importlib.import_module("pyarrow.parquet")
     axes = tuple(str(name) for name in about["axes"])
     names = _wanted(parquet.read_schema(paths[0]), axes, texts)
@@ -103,7 +103,7 @@ def read_file(content: bytes, name: str) -> Results:
         said: dict[str, Any] = {
             key.decode(): value.decode() for key, value in metadata.items() if key != b"ARROW:schema"
         }
-        foreign = ValueError(f"{name!r} is no result of a study: give a chunk-….parquet of its folder")
+        foreign = ValueError(f"{name!r} is not a result of a study: give a chunk-….parquet of its folder")
         if said.get("format") != "rotor-explorer study":
             raise foreign
         try:
@@ -123,7 +123,7 @@ def read_file(content: bytes, name: str) -> Results:
         names = _wanted(file.schema_arrow, axes, texts=False)
         table = parquet.read_table(arrow.BufferReader(content), columns=names, read_dictionary=names)
     except (OSError, arrow.ArrowException) as error:
-        raise ValueError(f"{name!r} is no Parquet file ({error}): give a chunk-….parquet of a study") from None
+        raise ValueError(f"{name!r} is not a Parquet file ({error}): give a chunk-….parquet of a study") from None
     return Results(said, axes, columns_from(table))
 
 

@@ -1,7 +1,8 @@
-"""A study's results on disk: a folder with one Parquet file a chunk, each there in full or not at all.
+"""The results of a study on disk: a folder with one Parquet file per chunk, each written completely or not at all.
 
-`pandas.read_parquet(FOLDER)` reads them as one table. The names of all else begin with `_` or a dot, which readers of
-Parquet pass over.
+`pandas.read_parquet(FOLDER)` reads them as one table. All other names begin with `_` or a dot, which Parquet readers
+ignore.
+
 """
 
 import hashlib
@@ -28,7 +29,7 @@ def sha256(text: str) -> str:
 
 
 class StoreError(RuntimeError):
-    """A chunk could not be written; those before it are kept."""
+    """A chunk could not be written; earlier chunks are kept."""
 
 
 class Store:
@@ -41,32 +42,32 @@ class Store:
             self.folder.mkdir(parents=True, exist_ok=True)
             known = read_about(self.folder) if (self.folder / ABOUT).exists() else None
             if known is None and any(self.folder.iterdir()):
-                raise ValueError(f"folder {str(folder)!r} holds other things: give a new one with --out DIR")
+                raise ValueError(f"folder {str(folder)!r} holds other files: give a new one with --out DIR")
             if known is not None:
                 self._check(known, provenance)
             self._lock = _hold(self.folder)
             self._write(SOURCE, file.text.encode())
             self._write(ABOUT, _about(file.study, provenance, known))
-            for left in self.folder.glob(".*.part"):  # Of a run that was killed while it wrote.
+            for left in self.folder.glob(".*.part"):  # Left by a run that was killed while writing.
                 left.unlink()
         except OSError as error:
             raise ValueError(f"cannot write to {str(folder)!r} ({error.strerror}): give --out DIR") from None
 
     def close(self) -> None:
-        """Let others write to the folder."""
+        """Release the folder."""
         if self._lock is not None:
             os.close(self._lock)
             self._lock = None
 
     def missing(self) -> list[int]:
-        """Chunks still to do, mixed: a run broken off has looked everywhere, and the time left is that of all.
+        """Missing chunks in random order, so that an interrupted run covers the whole study.
 
         A file of another study, or one that cannot be read, counts as missing.
         """
         parquet: Any = importlib.import_module("pyarrow.parquet")
         found: set[int] = set()
         for path in self.folder.glob("chunk-*.parquet"):
-            with suppress(Exception):  # Whatever is wrong with a file, its chunk is done again.
+            with suppress(Exception):  # A damaged file counts as missing.
                 about = parquet.read_metadata(path)
                 number = int(about.metadata[b"chunk"])
                 first, last = self.study.span(number)
@@ -85,8 +86,9 @@ class Store:
             with suppress(OSError):
                 (self.folder / f".{name}.part").unlink()
             raise StoreError(
-                f"cannot write to {str(self.folder)!r} ({error.strerror}): make it possible, and run the same command "
-                "again to go on; finished chunks are kept"
+                f"cannot write to {str(self.folder)!r} ({error.strerror}): free the disk or fix its permissions, and "
+                "run the same "
+                "command again; finished chunks are kept"
             ) from None
 
     def _check(self, known: dict[str, Any], provenance: StudyProvenance) -> None:
@@ -120,7 +122,7 @@ def read_about(folder: str | Path) -> dict[str, Any]:
     except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
         raise ValueError(f"{str(path)!r} cannot be read ({error}): give the --out DIR of a study") from None
     if not isinstance(about, dict) or about.get("format") != "rotor-explorer study":  # pyright: ignore[reportUnknownMemberType]
-        raise ValueError(f"{str(path)!r} is no study of this program: give the --out DIR of a study")
+        raise ValueError(f"{str(path)!r} is not a study of this program: give the --out DIR of a study")
     return about  # pyright: ignore[reportUnknownVariableType]
 
 
@@ -148,7 +150,7 @@ def _about(study: Study, provenance: StudyProvenance, known: dict[str, Any] | No
 
 
 def _hold(folder: Path) -> int | None:
-    """A lock that ends with the process, however that ends; None where the system has none."""
+    """A lock that is released when the process ends; None where the system has no such lock."""
     try:
         import fcntl
     except ImportError:

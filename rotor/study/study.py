@@ -12,7 +12,7 @@ from rotor.study.quantities import PLAIN, QUANTITIES, Value, concept_labels
 
 @dataclass(frozen=True)
 class OptimumSettings:
-    """How the twist of least power is searched for at each point."""
+    """Settings of the search at each point."""
 
     starts: int = 3
     """One of them begins at the optimum of the point before."""
@@ -26,17 +26,17 @@ class OptimumSettings:
 
 @dataclass(frozen=True)
 class ShowSettings:
-    """What `show` looks for. No answer of a point depends on it."""
+    """Settings of `show`; the results of points do not depend on them."""
 
     least: str = "power_total_w"
-    """The column to make small."""
+    """The column to minimise."""
     uncertain: tuple[str, ...] = ()
-    """Axes that nobody can choose: a robust design is best over all of their values."""
+    """Uncertain axes: a robust design is best over all of their values."""
 
 
 @dataclass(frozen=True)
 class Study:
-    """Many designs, and what is wanted of each."""
+    """A study: points, shared values, settings of search and output."""
 
     title: str
     points: StudyPoints
@@ -45,7 +45,7 @@ class Study:
     optimum: OptimumSettings | None
     """None: each point is a trim."""
     chunk: int
-    """Points worked off together."""
+    """Points per chunk."""
     show: ShowSettings
     aircraft: tuple[tuple[str, Aircraft], ...] = ()
     """Rotors from files of the user's own, by the names that the study file gives them: a worker has no such files."""
@@ -103,13 +103,13 @@ def check_uncertain(uncertain: tuple[str, ...], axes: tuple[str, ...], sampled: 
     """ValueError, with one sentence, for uncertain axes over which no design can be the robust best."""
     for name in uncertain:
         if name not in axes:
-            raise ValueError(f"axis {name!r} is none of this study: use some of {', '.join(axes)}")
+            raise ValueError(f"axis {name!r} is not an axis of this study: use some of {', '.join(axes)}")
     if set(axes) <= set(uncertain):
-        raise ValueError("every axis is uncertain, so that no design is left to choose: leave one out")
+        raise ValueError("every axis is uncertain, so there are no designs to compare: omit one")
     fixed = [name for name in sampled if name not in uncertain]
     if fixed and (mixed := [name for name in sampled if name in uncertain]):
         raise ValueError(
-            f"{mixed[0]} is sampled together with {fixed[0]}, so that no two designs meet the same cases: "
+            f"{mixed[0]} is sampled together with {fixed[0]}, so no two designs have the same cases: "
             f"give {mixed[0]} a list of values"
         )
 

@@ -1,6 +1,7 @@
 """Study files: TOML with axes, fixed values, models, sampling and optimum settings.
 
-Every error is a ValueError with one sentence that names the file, the line, the value and the remedy.
+Every error is a ValueError with one sentence that names the file, the line, the value and the remedy. Checked by hand,
+not by msgspec: most keys are quantities whose names and kinds are data, and its messages lack line, value and remedy.
 """
 
 import math
@@ -35,20 +36,20 @@ SECTIONS: dict[str, tuple[str, ...]] = {
 
 
 class Document:
-    """A parsed study file. ValueError, with a sentence that names the line, for a key that no study has."""
+    """A parsed study file. ValueError with the line for an unknown key."""
 
     def __init__(self, text: str, name: str) -> None:
         self._lines, self._name = text.splitlines(), name
         try:
             self._content = tomllib.loads(text)
         except tomllib.TOMLDecodeError as error:
-            raise ValueError(f"study file {name!r} is no TOML ({error}): mend that line") from None
+            raise ValueError(f"study file {name!r} is not valid TOML ({error}): correct that line") from None
         for key, value in self._content.items():
             if key not in SECTIONS[""] and key not in SECTIONS:
                 names = ", ".join([*SECTIONS[""], *(f"[{name}]" for name in SECTIONS if name)])
-                raise self.wrong("", key, f"{key!r} is not known there: a study file has {names}")
+                raise self.wrong("", key, f"{key!r} is not known: a study file has {names}")
             if key in SECTIONS and not isinstance(value, dict):
-                raise self.wrong("", key, f"{key} is no section: write [{key}] on a line, and its keys beneath")
+                raise self.wrong("", key, f"{key} is not a section: write [{key}] on a line and its keys below")
         for section, keys in SECTIONS.items():
             for key in self.section(section) if keys and section else ():
                 if key not in keys:
@@ -67,7 +68,7 @@ class Document:
         return ValueError(f"study file {self._name!r}{f' line {line}' if line else ''}: {sentence}")
 
     def _line(self, section: str, key: str) -> int | None:
-        """Where a key stands, or its section, written as [section], [section.key], section.key = or section = {…}."""
+        """The line of a key, or of its section, written as [section], [section.key], section.key = or section = {…}."""
         here, found = "", None
         for number, line in enumerate(self._lines, start=1):
             heading = re.match(r"\s*\[+\s*([\w-]+)\s*(?:\.\s*([\w-]+)\s*)?\]", line)
@@ -90,7 +91,7 @@ _MANY = 10**10
 
 
 class Reader:
-    """A document becoming a study."""
+    """Reads a study from a parsed file."""
 
     def __init__(self, file: Document, path: Path) -> None:
         self._file, self._path = file, path
@@ -136,7 +137,7 @@ class Reader:
                 if (one.kind != "flag" if section == "axes" else one.section == section)
             ]
             raise self._file.wrong(
-                section, key, f"{key!r} is no quantity of [{section}]: use one of {', '.join(names)}"
+                section, key, f"{key!r} is not a quantity of [{section}]: use one of {', '.join(names)}"
             )
         if QUANTITIES[key].kind == "flag" and section == "axes":
             raise self._file.wrong(section, key, f"{key} cannot be an axis: set it in [models] and make two studies")
@@ -165,11 +166,11 @@ class Reader:
             if QUANTITIES[key].whole and float(one) % 1.0:
                 raise self._file.wrong("axes", key, f"axis {key} holds {one!r}: give whole numbers")
         if len(set(found)) < len(found):
-            raise self._file.wrong("axes", key, f"axis {key} holds a value twice: leave one out")
+            raise self._file.wrong("axes", key, f"axis {key} holds a value twice: remove one")
         return tuple(found) if QUANTITIES[key].kind == "text" else tuple(float(one) for one in found)
 
     def _portable(self, section: str, key: str, text: str) -> str:
-        """What another machine can read as well: a rotor's file is read here, a twist table becomes its rows."""
+        """The value without files, for other machines: reads a rotor file, inlines a twist table."""
         try:
             if key == "rotor" and text not in SHIPPED_ROTORS:
                 beside = self._path.parent / text
@@ -219,9 +220,9 @@ class Reader:
                 self._known(section, key)
                 one = QUANTITIES[key]
                 if one.section != section:
-                    raise self._file.wrong(section, key, f"{key} stands in [{section}]: move it to [{one.section}]")
+                    raise self._file.wrong(section, key, f"{key} is in [{section}]: move it to [{one.section}]")
                 if key in varied:
-                    raise self._file.wrong(section, key, f"{key} is an axis and in [{section}] as well: leave one out")
+                    raise self._file.wrong(section, key, f"{key} is an axis and also in [{section}]: remove one")
                 number = _finite(value) and not (one.whole and value % 1)
                 right = {"number": number, "text": isinstance(value, str), "flag": isinstance(value, bool)}
                 if not right[one.kind]:
@@ -273,7 +274,7 @@ class Reader:
         return ShowSettings(least, tuple(cast(list[str], uncertain)))
 
     def _try_points(self, study: Study) -> None:
-        """Every value of every axis once, the others at their first: what no point can use is said before the run."""
+        """Try every value of every axis, the others at their first, to report errors before the run."""
         first: dict[str, Value] = {axis.name: axis.values[0] for axis in study.points.axes}
         sampled = () if study.points.sample is None else study.points.sample.ranges
         first |= {name: low for name, low, _ in sampled}
@@ -291,7 +292,7 @@ class Reader:
                 raise self._file.wrong(section, at, str(error)) from None
 
     def _culprit(self, sentence: str, values: dict[str, Value], study: Study) -> tuple[str, str]:
-        """The key that a sentence about one point speaks of; failing that the one without which the point is good."""
+        """The key named in an error message, else the key whose removal makes the point valid."""
         keys = [(section, key) for section in ("fixed", "models", "axes") for key in self._file.section(section)]
         for section, key in keys:
             value = values[key]
@@ -334,7 +335,7 @@ def read_study(path: str | Path) -> StudyFile:
                 f"study file {path.name!r} does not exist: give a TOML file, or an example of the package: {examples}"
             ) from None
     try:
-        text = path.read_text(encoding="utf-8-sig")  # Notepad puts a mark before the text.
+        text = path.read_text(encoding="utf-8-sig")  # Notepad writes a byte-order mark.
     except FileNotFoundError:
         raise ValueError(f"study file {str(path)!r} does not exist: give the path of a TOML file") from None
     except (OSError, UnicodeDecodeError) as error:

@@ -39,9 +39,9 @@ def power_budget(problem: Problem, elements: BladeElements) -> PowerBudget:
 
 
 def tail_power(design: Design, main: float) -> tuple[float, float]:
-    """Tail rotor power [W] beside a main rotor's [W], and its slope by that: solved, or the document's fixed share.
+    """Tail-rotor power [W] for a main-rotor power [W], and its slope: solved, or the document's fixed share.
 
-    The share also stands where the aircraft has no tail rotor, or an unknown elements.
+    The share is also used where the aircraft has no tail rotor, or an unknown one.
     """
     if design.tail_rotor is None or not design.models.tail_rotor_solved:
         return FIXED_SHARE * main, FIXED_SHARE

@@ -89,7 +89,7 @@ def caveats(problem: Problem, elements: BladeElements, stalled: float, moment: H
     elif top_mach > disk.mach_limit:
         add(
             "mach-outside-data",
-            f"The tip reaches Mach {top_mach:.2f}; the section data end at {disk.mach_limit:.2f} and are held there.",
+            f"The tip reaches Mach {top_mach:.2f}; section data end at {disk.mach_limit:.2f} and are constant above.",
         )
     return tuple(found)
 
@@ -98,7 +98,7 @@ def _rigid(moment: HubMoment) -> str:
     side = "retreating" if moment.roll >= 0.0 else "advancing"
     nose = "up" if moment.pitch >= 0.0 else "down"
     return (
-        f"Rigid blades, no cyclic: the hub carries {abs(moment.roll) / 1e3:.0f} kN m rolling to the {side} side "
+        f"Rigid blades without cyclic: the hub carries {abs(moment.roll) / 1e3:.0f} kN m rolling to the {side} side "
         f"and {abs(moment.pitch) / 1e3:.0f} kN m nose-{nose}."
     )
 

@@ -155,7 +155,7 @@ class TestShare:
             ("2;linear:-8", "not of version 1"),
             ("1;table:/etc/passwd", "a file on the machine"),
             ("1;uh60a+table:/etc/passwd", "a file on the machine"),
-            ("1;linear:-8;mu", "not key=value"),
+            ("1;linear:-8;mu", "not of the form key=value"),
             ("1;linear:-8;mu=fast", "give a number"),
             ("1;linear:-8;mu=NaN", "advance ratio nan"),
             ("1;linear:-8;wings=2", "unknown key 'wings'"),

@@ -205,7 +205,7 @@ class TestStage:
         presentations.follow(follow_name(secret), heard.append)
         presentations.present(secret, PresentedView(Inputs(), ViewState()))
         assert len(heard) == 1
-        assert "did not hear" in caplog.text
+        assert "could not be updated" in caplog.text
 
     def test_the_name_does_not_tell_the_secret(self):
         presentations, secret = Presentations(), new_secret()

@@ -76,7 +76,7 @@ def test_designs_of_other_rotors_in_addresses_and_files():
     with pytest.raises(ValueError, match=r"Mass \[t\] is 8\.32, outside this page's 0\.37"):
         share.within(replace(R22, mass_t=8.32))
     own = with_rotor(Inputs(), OWN, UploadedFiles().take("my.toml", GOOD.encode()).aircraft)
-    with pytest.raises(ValueError, match="Your own rotor does not fit in a link: save a design file"):
+    with pytest.raises(ValueError, match="A link cannot hold a rotor of your own: save the design as a file"):
         share.code_of(own.design())
     read = parse_design(json.dumps(own.design().to_dict()).encode(), "mine.json")
     assert inputs_of(read) == own

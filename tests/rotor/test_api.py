@@ -6,9 +6,11 @@ import subprocess
 import sys
 import urllib.request
 from pathlib import Path
+from typing import Any
 
 import matplotlib
 import pytest
+from matplotlib import pyplot
 from numpy.testing import assert_allclose
 from threadpoolctl import threadpool_info, threadpool_limits
 
@@ -62,7 +64,9 @@ def test_a_notebook_runs_as_printed(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     try:
         exec(NOTEBOOK, names)
         page, best = names["page"], names["best"]
-        assert urllib.request.urlopen(page.address, timeout=10).status == 200
+        answer = urllib.request.urlopen(page.address, timeout=10)
+        assert answer.status == 200
+        assert "frame-ancestors 'self' http://localhost:*" in answer.headers["Content-Security-Policy"]
         assert page.address in page._repr_html_()
     finally:
         if "page" in names:
@@ -159,7 +163,7 @@ class TestSolution:
         assert_allclose(drawn["total"], [one.power.total / 1e3 for one in table])
         other = rotor.sweep(design.with_twist("linear:-4"), [0.1, 0.2])
         assert [line.get_label() for line in rotor.plot_power(table, other).lines] == ["linear:-12", "linear:-4"]
-        matplotlib.pyplot.close("all")
+        pyplot.close("all")
 
     def test_without_matplotlib_a_plot_names_the_remedy(
         self, solution: rotor.Solution, monkeypatch: pytest.MonkeyPatch
@@ -172,7 +176,7 @@ class TestSolution:
 class TestSweep:
     def test_rows_have_units_in_their_columns(self, design: rotor.Design):
         table = rotor.sweep(design, mu=(mu for mu in (0.0, 0.2)))
-        row = dict(zip(table.columns, table.rows[1], strict=True))
+        row: dict[str, Any] = dict(zip(table.columns, table.rows[1], strict=True))
         assert row["mu"] == 0.2
         assert_allclose(row["speed_kt"], table[1].design.airspeed / KNOT)
         assert_allclose(row["total_kw"], table[1].power.total / 1e3)
@@ -263,14 +267,17 @@ def state():
 
 before = state()
 import rotor, explorer
-names = [name for name, value in state().items() if value != before[name]]
+names = [name for name, value in state().items() if value != before[name]] + ["viser"] * ("viser" in sys.modules)
 solved = rotor.solve(rotor.make_design()).converged
 print(json.dumps([names, solved, [name for name in ("threads", "environment") if state()[name] != before[name]]]))
 """
 
 
 def test_importing_changes_nothing_and_a_solve_puts_the_threads_back():
-    """BLAS threads, warning filters, signal handlers, environment, logging, NumPy's and Python's own settings."""
+    """BLAS threads, warning filters, signal handlers, environment, logging, NumPy's and Python's own settings.
+
+    Nor does it load the page's server.
+    """
     done = subprocess.run([sys.executable, "-c", IMPORT], cwd=ROOT, capture_output=True, text=True, check=True)
     assert json.loads(done.stdout) == [[], True, []]
 

@@ -1,4 +1,4 @@
-"""What a report is made of: the designs of a session, what they are compared with, their colours and fields."""
+"""The content of a report: the designs of a session, their reference, colours and fields."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
@@ -15,7 +15,7 @@ from explorer.theme.colours import BASELINE
 from rotor.trim.solution import Solution
 
 COLOURS = ("#1c7ed6", "#e8590c", "#0ca678", "#9c36b5", "#c99700", "#c2255c", "#0b7285", "#5f3dc4")
-"""Of designs in charts and badges, in turn."""
+"""Colours of the designs in charts and badges, in turn."""
 FIELDS_SHOWN = 4
 _USUAL = ("Angle of attack", "Induced inflow λi", "Thrust dT/dr", "Power dP/dr")
 
@@ -25,57 +25,57 @@ class ReportEntry:
     """A design of the report."""
 
     title: str
-    """What the user calls it, for example Now."""
+    """The name that the user knows, for example Now."""
     solution: Solution
     """Converged."""
 
 
 @dataclass(frozen=True, eq=False)
 class DesignReport:
-    """What a report is made of."""
+    """The content of a report."""
 
     reference: ReportEntry
-    """What changes are counted from: the pinned design, or the baseline twist."""
+    """The reference of all changes: the pinned design, or the baseline twist."""
     entries: tuple[ReportEntry, ...]
     """The designs, the present one first; the reference is not among them."""
     view: ViewState
     when: datetime
     ranges: Mapping[str, Range] = field(default_factory=dict)
-    """Colour range by title of a field where it is not the usual one; the same for all designs."""
+    """Colour range by title of the field, where it is not the default; the same for all designs."""
     own_section: bool = False
-    """Whether the reference is a design of the user's, to be shown as the others are."""
+    """Whether the reference is the user's own design, which is shown like the others."""
 
     @property
     def units(self) -> Units:
-        """Of powers, speeds and weights."""
+        """Units of power, speed and weight."""
         return UNITS[self.view.units]
 
     def colour_range(self, shown: Field) -> Range:
-        """Of a field."""
+        """The colour range of a field."""
         return self.ranges.get(shown.title, (shown.low, shown.high))
 
     def comparable(self, entry: ReportEntry) -> bool:
-        """Whether it flies as the reference does, so that a difference of power is the blade's."""
+        """Whether it has the reference's flight condition, so that the blade explains a difference of power."""
         return entry.solution.design.condition == self.reference.solution.design.condition
 
     @property
     def all(self) -> tuple[ReportEntry, ...]:
-        """The reference last."""
+        """All designs, the reference last."""
         return (*self.entries, self.reference)
 
     @property
     def shown(self) -> tuple[ReportEntry, ...]:
-        """Those with a section and a scene of their own: the first of `all`."""
+        """The designs with a section and a 3D scene: the first of `all`."""
         return self.all if self.own_section else self.entries
 
 
 def colours_of(report: DesignReport) -> list[str]:
-    """Of each entry, and grey for the reference."""
+    """The colour of each entry; grey for the reference."""
     return [*(COLOURS[k % len(COLOURS)] for k in range(len(report.entries))), BASELINE]
 
 
 def fields_of(report: DesignReport) -> list[Field]:
-    """The field on the page, then the usual ones."""
+    """The field on the page, then the default ones."""
     names = dict.fromkeys((report.view.field, *_USUAL))
     return [FIELDS[name] for name in list(names)[:FIELDS_SHOWN]]
 
@@ -88,7 +88,7 @@ def report_of(
     *,
     own_section: bool = False,
 ) -> DesignReport:
-    """A report as of now; ValueError where there is nothing to report on, or where one does not hold."""
+    """A report of these designs; ValueError where there is none, or where one did not converge."""
     if not entries:
         raise ValueError("There is no design to report on: wait for the first solution.")
     for entry in (*entries, reference):
@@ -101,5 +101,5 @@ def report_of(
 
 
 def _fitted(shown: Field, entries: Sequence[ReportEntry]) -> Range:
-    """A range that holds what all the designs have, so that their pictures can be compared."""
+    """A colour range that covers all designs, so that their pictures can be compared."""
     return fitted_range(shown, np.concatenate([field_values(entry.solution, shown).ravel() for entry in entries]))

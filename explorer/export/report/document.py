@@ -114,7 +114,7 @@ def _section(report: DesignReport, k: int) -> str:
 
 
 def _again(solution: Solution) -> str:
-    """How to compute it again: command line and script."""
+    """How to reproduce it: command line and script."""
     texts = {"Python": as_python, "Command line": lambda design: as_command_line(design).text}
     parts = []
     for title, write in texts.items():

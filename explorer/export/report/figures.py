@@ -19,9 +19,9 @@ from rotor.arrays import Array
 from rotor.trim.solution import Solution
 
 PIXELS = 400
-"""Of a disk's field along each edge: twice what a page shows of it would be finer than the solver's grid."""
+"""Pixels of a disk along each edge; more would be finer than the solver's grid."""
 AZIMUTHS = {0: "#0ca678", 90: "#e8590c", 180: "#1c7ed6", 270: "#9c36b5"}
-"""Of the charts along the blade, with their colours: tail, advancing, nose, retreating."""
+"""Azimuths of the charts along the blade, with their colours: tail, advancing, nose, retreating."""
 _BAR = 200.0
 _LETTERS = 10.0
 
@@ -92,7 +92,7 @@ def _mean_load(solution: Solution) -> Array:
 
 
 def _change(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerCurves) -> list[Trace]:
-    """Against the reference over speed, for blades that carry the same weight at the same height."""
+    """Change against the reference over speed, for blades with the same weight and altitude."""
     design, reference = entry.solution.design, report.reference.solution.design
     alike = replace(design.condition, advance_ratio=0.0) == replace(reference.condition, advance_ratio=0.0)
     if entry is report.reference or not alike:
@@ -116,7 +116,7 @@ def _smooth(values: Array) -> tuple[Array, Array]:
 
 
 def disks(report: DesignReport, entry: ReportEntry, k: int) -> str:
-    """The fields over the disk, each with its scale; what the lines mean stands below."""
+    """The fields over the disk, each with its scale, and the key of the outlines."""
     solution, figures = entry.solution, []
     for n, field in enumerate(fields_of(report)):
         colour_range = report.colour_range(field)
@@ -140,7 +140,7 @@ def disks(report: DesignReport, entry: ReportEntry, k: int) -> str:
 
 
 def bar(field: Field, colour_range: tuple[float, float], name: str) -> str:
-    """A colour bar as an SVG of its own."""
+    """A colour bar as a separate SVG."""
     drawn = bar_drawing(field, colour_range, _BAR, name, _LETTERS)
     return f'<svg class="bar-svg" viewBox="-14 0 {_BAR + 28:g} {4 * _LETTERS:g}">{drawn}</svg>'
 

@@ -22,7 +22,7 @@ Row = tuple[str, str]
 
 
 def change_words(report: DesignReport, entry: ReportEntry) -> str:
-    """Change of total power against the reference, where both fly alike."""
+    """Change of total power against the reference, where the flight condition is the same."""
     reference = report.reference
     if entry is reference:
         return '<span class="change dim">reference</span>'
@@ -51,9 +51,7 @@ def comparison(report: DesignReport) -> str:
         ]
 
     head = "".join(f"<th>{escape(entry.title)}</th>" for entry in report.all)
-    width = 170 + round(
-        len(report.all) * min(max(890 / len(report.all), 150), 230)
-    )  # [px]; more than fit are scrolled.
+    width = 170 + round(len(report.all) * min(max(890 / len(report.all), 150), 230))  # [px]; a wider table scrolls.
     rows = [
         _row("Twist", [escape(twist_words(entry.solution.design.twist)) for entry in report.all], "words"),
         _row("Speed", [_speed(entry.solution.design, report.units) for entry in report.all]),
@@ -79,7 +77,7 @@ def comparison(report: DesignReport) -> str:
 
 
 def conditions(solution: Solution) -> str:
-    """What was asked."""
+    """Flight condition, rotor and models."""
     design = solution.design
     condition, rotor, models = design.condition, design.rotor, design.models
     rows = [
@@ -119,7 +117,7 @@ def parts(report: DesignReport, entry: ReportEntry) -> str:
 
 
 def trim(solution: Solution) -> str:
-    """The trim and what it amounts to."""
+    """The trim and the coefficients of the rotor."""
     c = solution.controls
     rows = [
         ("Collective θ0, at 0.75 R", _degrees(c.collective)),
@@ -139,7 +137,7 @@ def trim(solution: Solution) -> str:
 
 
 def blade(design: Design) -> str:
-    """Built-in twist, zero at 0.75 R, chord and section at round stations."""
+    """Twist, zero at 0.75 R, chord and section at given stations."""
     shape = design.rotor.blade
     stations = [shape.root_cutout, *(r for r in STATIONS if r > shape.root_cutout)]
     angles, chords = np.degrees(design.twist(np.array(stations))), shape.chord(stations)
@@ -171,7 +169,7 @@ def _row(name: str, cells: list[str], kind: str = "") -> str:
 
 
 def _with_change(solution: Solution, reference: Solution, value: Callable[[Solution], float], units: Units) -> str:
-    """A power, and beneath it the difference, in its unit and in per cent."""
+    """A power, and below it the difference in its unit and in per cent."""
     here, there = value(solution), value(reference)
     if solution is reference:
         return units.watts(here, 1)

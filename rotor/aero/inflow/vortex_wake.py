@@ -26,7 +26,7 @@ class LatticeTransfer:
     inward: Array
     """Elements → panels, (panels, elements); goes to zero at root and tip as circulation does."""
     outward: Array
-    """Panels → elements, (elements, panels); held beyond the last panel."""
+    """Panels → elements, (elements, panels); constant beyond the last panel."""
     around: Array
     """Azimuths of the grid → of the lattice, (lattice, grid)."""
     back: Array

@@ -1,4 +1,4 @@
-"""From a low-speed polar to high subsonic Mach: what XFOIL cannot do, because it has no shocks.
+"""From a low-speed polar to high subsonic Mach numbers, where XFOIL has no shocks.
 
 Native XFOIL stands up to Mach 0.4. Above, its Mach 0.3 polar is taken on by textbook steps:
 Prandtl-Glauert lift, a smooth cap on lift, drag of the lost leading-edge suction, Korn-Lock wave drag.

@@ -1,9 +1,8 @@
-"""Running XFOIL without a screen, and believing only what it wrote to the polar file.
+"""Runs XFOIL without a screen and reads its polar files.
 
-Two ways, because Debian's binary dies of a floating-point trap when its graphics are switched off:
-with a C compiler, a one-line library that keeps the traps disabled is preloaded (fast, more points
-converge); else `xvfb-run` gives XFOIL a screen. Both can hang or crash at single angles, so every sweep
-is its own process with a time limit, and sweeps with other panelings fill the gaps.
+Debian's binary stops with a floating-point trap when its graphics are off. With a C compiler, a one-line library that
+disables the traps is preloaded (fast, more points converge); otherwise `xvfb-run` provides a screen. Both can hang or
+crash at single angles, so every sweep is a process with a time limit, and sweeps with other panelings fill the gaps.
 """
 
 import atexit

@@ -117,7 +117,9 @@ def test_a_bad_span_is_reported_with_its_line():
   { start_r = 0.2, end_r = 0.6, section = "naca0012" },
   { start_r = 0.5, end_r = 1.0, section = "sc1095" },
 ]"""
-    with pytest.raises(ValueError, match=r"my\.toml, line 12: span of sc1095 runs 0\.5…1: let the spans ascend"):
+    with pytest.raises(
+        ValueError, match=r"my\.toml, line 12: span of sc1095 runs 0\.5…1: write the spans in ascending order"
+    ):
         read(GOOD.replace('section = "naca0012"', spans))
     craft = read(GOOD.replace('section = "naca0012"', spans.replace("start_r = 0.5", "start_r = 0.7")))
     assert craft.rotor.blade.section_at(0.65)[:2] == ("naca0012", "sc1095")

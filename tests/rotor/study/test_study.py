@@ -81,7 +81,7 @@ def test_chunks_hold_all_points_in_order():
 
 
 BAD = {
-    "axes": ("[axes\n", "line 1", "mend"),
+    "axes": ("[axes\n", "line 1", "correct that line"),
     "none": ("title = 'x'\n", "no axes", "add"),
     "unknown section": ("[axis]\nmu = [0.1]\n", "line 1", "[axes]"),
     "unknown key": ("chunks = 3\n[axes]\nmu = [0.1]\n", "line 1", "chunk"),
@@ -89,10 +89,10 @@ BAD = {
     "text": ("[axes]\nmu = ['fast']\n", "line 2", "give a list"),
     "range": ("[axes]\nmu = '0.3:0.1:0.1'\n", "line 2", "0.3:0.1:0.1"),
     "empty": ("[axes]\nmu = []\n", "line 2", "one at least"),
-    "twice": ("[axes]\nmu = [0.1, 0.1]\n", "line 2", "leave one out"),
+    "twice": ("[axes]\nmu = [0.1, 0.1]\n", "line 2", "remove one"),
     "outside": ("[axes]\nmu = [0.1, 0.9]\n", "line 2", "0.9"),
     "fixed outside": ("[axes]\nmu = [0.1]\n[fixed]\nmass_kg = -5\n", "line 4", "-5"),
-    "both": ("[axes]\nmu = [0.1]\n[fixed]\nmu = 0.2\n", "line 4", "leave one out"),
+    "both": ("[axes]\nmu = [0.1]\n[fixed]\nmu = 0.2\n", "line 4", "remove one"),
     "place": ("[axes]\nmu = [0.1]\n[fixed]\ninflow = 'drees'\n", "line 4", "[models]"),
     "inflow": ("[axes]\nmu = [0.1]\n[models]\ninflow = 'free'\n", "line 4", "'free'"),
     "flag": ("[axes]\nmu = [0.1]\n[models]\ntip_loss = 'no'\n", "line 4", "true or false"),
@@ -123,12 +123,12 @@ BAD = {
     "half an element of an axis": ("[axes]\nazimuths = [36, 40.5]\n", "line 2", "whole number"),
     "elements sampled": ("[axes]\nelements = { low = 20, high = 40 }\n[sample]\ncount = 8\n", "line 2", "list"),
     "share without optimum": ("[axes]\nmu = [0.1]\n[fixed]\nhover_share = 0.5\n", "line 4", "[optimum]"),
-    "twist and optimum": ("[axes]\nmu = [0.1]\n[fixed]\ntwist = 'ideal'\n[optimum]\n", "line 4", "leave"),
-    "all uncertain": ("[axes]\nmu = [0.1]\n[show]\nuncertain = ['mu']\n", "line 4", "leave one out"),
+    "twist and optimum": ("[axes]\nmu = [0.1]\n[fixed]\ntwist = 'ideal'\n[optimum]\n", "line 4", "omit twist"),
+    "all uncertain": ("[axes]\nmu = [0.1]\n[show]\nuncertain = ['mu']\n", "line 4", "omit one"),
     "partly sampled": (
         "[axes]\nmu = { low = 0.1, high = 0.3 }\nmass_kg = { low = 7000, high = 8000 }\n[sample]\ncount = 8\n"
         "[show]\nuncertain = ['mu']\n", "line 7", "list of values"),
-    "speeds": ("[axes]\nspeed_kt = [90]\nmu = [0.1]\n", "line 2", "leave one out"),
+    "speeds": ("[axes]\nspeed_kt = [90]\nmu = [0.1]\n", "line 2", "omit one"),
 }  # fmt: skip
 
 
@@ -278,7 +278,7 @@ def test_a_folder_goes_on_where_it_was(tmp_path: Path, done: Callable[[Store, in
         stored(tmp_path / "out", whence=replace(WHENCE, version="0.1"))
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "letter.txt").write_text("dear")
-    with pytest.raises(ValueError, match="holds other things"):
+    with pytest.raises(ValueError, match="holds other files"):
         stored(tmp_path / "mine")
 
 
@@ -408,7 +408,7 @@ def test_a_file_that_is_no_result_or_unpacks_to_much_is_one_sentence():
     content = packed(1000, "converged")
     for wrong in ({"format": "letters"}, {"axes": "none"}, {"axes": '["mu"]'}):
         odd = packed(1, "converged", about | wrong)
-        with pytest.raises(ValueError, match=r"'odd.parquet' is no result"):
+        with pytest.raises(ValueError, match=r"'odd.parquet' is not a result"):
             read_file(odd, "odd.parquet")
     assert read_file(content, "small.parquet").good.all()
     with pytest.MonkeyPatch.context() as patch:

@@ -1,0 +1,66 @@
+"""`explorer.show`: the page started from Python."""
+
+import sys
+import types
+import webbrowser
+
+import pytest
+
+import explorer
+import rotor
+from explorer import notebook
+
+
+class FakeApp:
+    """Stands for the server: what it was started with, and how often it was stopped."""
+
+    made: "list[FakeApp]" = []  # noqa: RUF012 - emptied by the fixture
+
+    def __init__(self, host, port, start, limits) -> None:
+        self.host, self.port, self.start, self.limits = host, port, start, limits
+        self.address, self.stops = f"http://{host}:8765", 0
+        self.made.append(self)
+
+    def stop(self) -> None:
+        self.stops += 1
+
+
+@pytest.fixture
+def opened(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Addresses that a browser was asked to open; no server starts."""
+    addresses: list[str] = []
+    FakeApp.made.clear()
+    monkeypatch.setattr(notebook, "App", FakeApp)
+    monkeypatch.setattr(webbrowser, "open", addresses.append)
+    monkeypatch.delitem(sys.modules, "ipykernel", raising=False)
+    return addresses
+
+
+@pytest.mark.parametrize("key", ["uh60a", "s61"])
+def test_the_page_starts_on_the_design(opened: list[str], key: str):
+    design = rotor.make_design(rotor=key, twist="segments:-12,-4@0.5", mu=0.25, mass_kg=8000, altitude_m=500)
+    page = explorer.show(design)
+    (app,) = FakeApp.made
+    assert app.start.design() == design
+    assert app.host == "127.0.0.1"
+    assert opened == [page.address]
+    page.stop()
+
+
+def test_in_jupyter_the_page_is_inline(opened: list[str], monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setitem(sys.modules, "ipykernel", types.ModuleType("ipykernel"))
+    page = explorer.show(rotor.make_design())
+    assert opened == []
+    assert f'<iframe src="{page.address}"' in page._repr_html_()
+    assert "http://localhost:*" in FakeApp.made[0].limits.frame_ancestors
+    page.stop()
+    assert "<iframe" not in page._repr_html_()
+
+
+def test_a_second_stop_does_nothing(opened: list[str]):
+    page = explorer.show(rotor.make_design(), browser=False)
+    page.stop()
+    page.stop()
+    assert FakeApp.made[0].stops == 1
+    assert "stopped" in repr(page)
+    assert opened == []
