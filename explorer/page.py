@@ -56,7 +56,7 @@ from rotor.design.design import Design
 from rotor.trim.solution import Solution
 
 _BRAND = (37, 99, 235)
-VIEWS: tuple[tuple[View, str], ...] = (("3d", "Aircraft"), ("top", "Disk"), ("blade", "Blade"), ("side", "Side"))
+VIEWS: tuple[tuple[View, str], ...] = (("3d", "Aircraft"), ("disk", "Disk"), ("blade", "Blade"), ("side", "Side"))
 """Views of the buttons over the scene, and their titles."""
 
 
@@ -401,8 +401,9 @@ class Page:
     def _look(self, view: View) -> None:
         self.actuator.leave_cut()
         self._view = view
-        self.camera.aim(view)
+        self.scene.look(view)
         self._show_views()
+        self._callbacks.wake()
 
     def _show_views(self) -> None:
         self.bridge.set(views={"all": VIEWS, "now": self._view})

@@ -77,6 +77,12 @@ def fit(view: View, radius: float, aspect: float, azimuth: float = 0.0, tilt: fl
     return framed(points, backward, aspect)
 
 
+def reader(view: View) -> tuple[float, float]:
+    """For words that lie on the disk: the azimuth [rad] a view is seen from, and how much taller they should be."""
+    stand = _STANDS.get(view, _STANDS["disk"])
+    return stand.azimuth, min(0.85 / math.sin(stand.elevation), 2.2)
+
+
 def _standing(stand: _Stand, size: float, aspect: float, tilt: float) -> Camera:
     elevation = stand.elevation + _FOLLOWS_TILT * (tilt - _USUAL_TILT)
     level = math.cos(elevation)

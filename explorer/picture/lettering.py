@@ -29,8 +29,6 @@ _SHARP = 2
 """The words are drawn this many times as large and reduced: lines and arcs have no smooth edges of their own."""
 _INSIDE = 0.98
 """Radius that no label reaches beyond."""
-_STRETCH = 1.5
-"""Of the region labels, along the flight direction."""
 
 
 def tinted_png(mask: Bytes, colour: Rgb, strength: float = 1.0) -> bytes:
@@ -129,32 +127,35 @@ def letter_mask(text: str) -> Bytes:
     return np.asarray(tile)
 
 
-def label_masks(labels: Sequence[RegionLabel], size: int) -> tuple[Bytes, NDArray[np.bool_]]:
+def label_masks(
+    labels: Sequence[RegionLabel], size: int, azimuth: float = 0.0, stretch: float = 1.5
+) -> tuple[Bytes, NDArray[np.bool_]]:
     """Ink 0…255 and ground of the region labels, on a disk picture of `size` pixels along each edge.
 
-    Letters are taller than wide, as on a road: the disk is mostly seen from a low angle.
+    They read from left to right for a viewer at `azimuth` [rad], 0 behind the tail. As on a road, letters are taller
+    than wide by `stretch`, because the disk is seen from a low angle.
     """
     ink, ground = Image.new("L", (size, size), 0), Image.new("L", (size, size), 0)
-    pad = ImageDraw.Draw(ground)
     unit = 0.5 * (size - 2)
     font = ImageFont.load_default(round(LETTER * unit))
     for label in labels:
-        wide, high = (round(length * unit) for length in label.size)
+        wide, high = round(label.size[0] * unit), round(1.35 * LETTER * unit)
+        words, pad = Image.new("L", (wide, high), 0), Image.new("L", (wide, round(stretch * high)), 0)
+        pen = ImageDraw.Draw(words)
+        pen.text((0.5 * wide, 0.5 * high), label.text, fill=255, font=font, anchor="mm", stroke_width=0.6)
+        words = words.resize(pad.size, Image.Resampling.BICUBIC)
+        ImageDraw.Draw(pad).rounded_rectangle((0, 0, pad.width - 1, pad.height - 1), radius=0.45 * pad.height, fill=255)
+        words, pad = (
+            tile.rotate(math.degrees(azimuth), Image.Resampling.BICUBIC, expand=True) for tile in (words, pad)
+        )
         # Within the disk: a label at the rim moves in.
+        room = _INSIDE * unit - 0.5 * math.hypot(wide, stretch * high)
         aside, aft = (offset * unit for offset in label.place)
-        aft = _within(aft, math.sqrt((_INSIDE * unit) ** 2 - (0.5 * wide) ** 2) - 0.5 * high)
-        aside = _within(aside, math.sqrt((_INSIDE * unit) ** 2 - (abs(aft) + 0.5 * high) ** 2) - 0.5 * wide)
-        left, top = round(0.5 * (size - wide) + aside), round(0.5 * (size - high) + aft)
-        tile = Image.new("L", (wide, round(high / _STRETCH)), 0)
-        pen = ImageDraw.Draw(tile)
-        pen.text((0.5 * wide, 0.5 * tile.height), label.text, fill=255, font=font, anchor="mm", stroke_width=0.6)
-        pad.rounded_rectangle((left, top, left + wide, top + high), radius=0.45 * high, fill=255)
-        ink.paste(tile.resize((wide, high), Image.Resampling.BICUBIC), (left, top))
-    return np.asarray(ink), np.asarray(ground) > 0
-
-
-def _within(value: float, limit: float) -> float:
-    return min(max(value, -limit), limit)
+        inward = min(1.0, room / max(math.hypot(aside, aft), 1e-9))
+        corner = (round(0.5 * (size - pad.width) + inward * aside), round(0.5 * (size - pad.height) + inward * aft))
+        ink.paste(words, corner, pad)
+        ground.paste(pad, corner, pad)
+    return np.asarray(ink), np.asarray(ground) > 127
 
 
 @lru_cache(maxsize=4)

@@ -28,6 +28,9 @@ DISK_DROP = 0.30
 """How far the coloured disk lies below the hub [m], so that blades are seen on it; of the UH-60A's size."""
 LINE_LIFT = 0.02
 """How far lines lie above the disk [m]."""
+Reader = tuple[float, float]
+"""Whom the labels on the disk face: azimuth [rad], and how much taller than wide they are drawn."""
+READER: Reader = (0.0, 1.5)
 _SLOW = 0.2
 """U_T/ΩR below which a field without meaning in reverse flow does not count for its range."""
 _LINE_PIXELS = 1.4
@@ -95,10 +98,11 @@ def make_picture(
     colour_range: tuple[float, float],
     field: Field | None = None,
     pixels: int = disk_image.AT_REST,
+    reader: Reader = READER,
 ) -> Picture:
     """The frame for a converged solution. `field`: on the disk, where it is not just that of the view.
 
-    `pixels`: along each edge of the disk's picture.
+    `pixels`: along each edge of the disk's picture. `reader`: whom its labels face.
     """
     rotor, controls = solution.design.rotor, solution.controls
     shape = blade_shape(rotor)
@@ -109,7 +113,7 @@ def make_picture(
         blades=turned_blades(solution, view),
         blade_vertices=blade_vertices(shape, solution.design.twist, view.exaggeration),
         blade_faces=shape.faces,
-        png=page_disk_png(solution, field or FIELDS[view.field], colour_range, view, pixels),
+        png=page_disk_png(solution, field or FIELDS[view.field], colour_range, view, pixels, reader),
         png_size=pixels,
     )
 
@@ -120,11 +124,16 @@ def marks_of(view: ViewState) -> Marks:
 
 
 def page_disk_png(
-    solution: Solution, field: Field, colour_range: tuple[float, float], view: ViewState, pixels: int
+    solution: Solution,
+    field: Field,
+    colour_range: tuple[float, float],
+    view: ViewState,
+    pixels: int,
+    reader: Reader = READER,
 ) -> bytes:
     """The disk as the scene shows it: marked regions, in the ink of the page, with labels once it is at rest."""
     ink = scene_theme(view.dark).ink
-    return disk_png(solution, field, colour_range, size=pixels, marks=marks_of(view), ink=ink)
+    return disk_png(solution, field, colour_range, size=pixels, marks=marks_of(view), ink=ink, reader=reader)
 
 
 def disk_png(
@@ -135,6 +144,7 @@ def disk_png(
     size: int = disk_image.SIZE,
     marks: Marks = NO_MARKS,
     ink: DiskInk | None = None,
+    reader: Reader = READER,
 ) -> bytes:
     """The coloured disk as a PNG of `size` pixels along each edge, at most `disk_image.LARGEST`.
 
@@ -147,7 +157,7 @@ def disk_png(
     void = field.void(solution, grid)
     pixels = disk_image.indices(grid, field.sample(solution, grid), *colour_range, void, size, regions)
     if marks != NO_MARKS and size > disk_image.MOVING:
-        disk_image.write_labels(pixels, *label_masks(region_labels(solution, marks), size))
+        disk_image.write_labels(pixels, *label_masks(region_labels(solution, marks), size, *reader))
     return encode_png(pixels, disk_image.palette(field.colours, faded, ink))
 
 

@@ -10,6 +10,7 @@ import numpy as np
 import viser
 
 from explorer.interface import RangeDisplay
+from explorer.picture.camera_views import View, reader
 from explorer.picture.difference import shown_field
 from explorer.picture.disk_image import AT_REST, MOVING
 from explorer.picture.fields import FIELDS, TRIM, Field, fitted_range, keeps_range, over_range
@@ -38,6 +39,8 @@ class _Drawn:
     view: ViewState
     colour_range: Range
     ghost: OtherBlade | None
+    look: View
+    """The camera's: labels on the disk face it."""
 
     def at(self, azimuth_deg: float) -> "_Drawn":
         """The same with the reference blade elsewhere."""
@@ -57,6 +60,7 @@ class SceneController:
         self._page = PageScene(client)
         self.camera: FittedCamera | None = None
         """Follows the shaft tilt, once the page has one."""
+        self._look: View = "3d"
         self._drawn: _Drawn | None = None
         self._settled = False
         """Whether the frame is drawn as finely as it can be."""
@@ -76,7 +80,7 @@ class SceneController:
             ghost = OtherBlade(as_built.rotor, as_built.twist, None)
         field = _field(view, pinned)
         colour_range = self._range(solution, field)
-        wanted = _Drawn(solution, pinned, view, colour_range, ghost)
+        wanted = _Drawn(solution, pinned, view, colour_range, ghost, self._look)
         if self._drawn == wanted:
             return
         if self._drawn is not None and self._drawn.at(view.azimuth_deg) == wanted:
@@ -118,9 +122,10 @@ class SceneController:
             fitted = fitted_range(field, values, trim=TRIM)
             self._ranges[field.title], drawn = fitted, replace(drawn, colour_range=fitted)
         self._display.show_range(field, drawn.colour_range, False, over_range(values, drawn.colour_range))
-        picture = make_picture(solution, view, drawn.colour_range, field, AT_REST)
+        towards = reader(drawn.look)
+        picture = make_picture(solution, view, drawn.colour_range, field, AT_REST, towards)
         beside = drawn.pinned if view.beside and drawn.pinned is not None and drawn.pinned.converged else None
-        other = None if beside is None else make_picture(beside, view, drawn.colour_range, field, AT_REST)
+        other = None if beside is None else make_picture(beside, view, drawn.colour_range, field, AT_REST, towards)
         with self._client.atomic():
             self.scene.show(picture, still=not self._page.playing)
             self._ghost.show(drawn.ghost, solution.design.twist, view.exaggeration, at_rest=True)
@@ -155,6 +160,13 @@ class SceneController:
             with self._client.atomic():
                 self.scene.rotor.turn(turned_blades(drawn.solution, drawn.view))
                 self._air.show(drawn.solution, drawn.view, scene_theme(drawn.view.dark))
+
+    def look(self, view: View) -> None:
+        """Aim the camera. Near the blade, airframe and words make room; labels on the disk turn in the next update."""
+        self._look = view
+        self.scene.set_close(view == "blade")
+        if self.camera is not None:
+            self.camera.aim(view)
 
     def set_seen(self, seen: bool) -> None:
         """Whether the rotor is in the scene, or makes room for something else."""

@@ -49,7 +49,7 @@ class RotorNodes:
         self._blades: list[viser.MeshHandle] = []
         """Of the rotor with most blades so far; those beyond this rotor's are hidden."""
         self._disk = api.add_frame(f"{name}/disk", show_axes=False)
-        self._ring = picture_plane(api, f"{name}/disk/words", (0.0, 0.0, _BELOW_DISK))
+        self.words = picture_plane(api, f"{name}/disk/words", (0.0, 0.0, _BELOW_DISK))
         self._image = picture_plane(api, f"{name}/disk/field", (0.0, 0.0, 0.0))
         self._png_size = 0
         self.set_theme(theme)
@@ -78,7 +78,7 @@ class RotorNodes:
             place(blade, Pose(about(2, psi), hinge))  # Until the first solution says more.
         for k, handle in enumerate(self._blades):
             handle.visible = k < rotor.blades
-        self._ring.render_width = self._ring.render_height = 2.0 * REACH * radius
+        self.words.render_width = self.words.render_height = 2.0 * REACH * radius
         self._png_size = 0
 
     def show(self, picture: Picture, everything: bool, still: bool = True) -> None:
@@ -116,7 +116,7 @@ class RotorNodes:
         self._head.color = theme.head
         for k, blade in enumerate(self._blades):
             blade.color = theme.blade if k else theme.reference_blade
-        viser_compat.set_png(self._ring, tinted_png(ring_mask(), theme.lettering))
+        viser_compat.set_png(self.words, tinted_png(ring_mask(), theme.lettering))
 
 
 class Scene:
@@ -124,7 +124,7 @@ class Scene:
 
     def __init__(self, api: viser.SceneApi, rotor: Rotor, theme: SceneTheme) -> None:
         self._api, self._theme = api, theme
-        self._seen, self._fitted = True, rotor
+        self._seen, self._close, self._fitted = True, False, rotor
         api.set_up_direction("+z")
         api.configure_default_lights(enabled=False)
         self._lights = [
@@ -183,6 +183,11 @@ class Scene:
         self._seen = seen
         self._set_visible()
 
+    def set_close(self, close: bool) -> None:
+        """Whether one blade is looked at from near: airframe, shadow and words make room."""
+        self._close = close
+        self._set_visible()
+
     def set_theme(self, theme: SceneTheme) -> None:
         """Colours and lights for a light page or a dark one."""
         if theme is self._theme:
@@ -233,8 +238,9 @@ class Scene:
 
     def _set_visible(self) -> None:
         self.rotor.frame.visible = self._seen
+        self.rotor.words.visible = not self._close
         for handle in (self._airframe, self._shadow):
-            handle.visible = self._seen and not self._beside
+            handle.visible = self._seen and not self._beside and not self._close
         for handle in (*self._letters, *([self._compared.frame] if self._compared else [])):
             handle.visible = self._seen and self._beside
 

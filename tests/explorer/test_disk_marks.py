@@ -143,6 +143,17 @@ class TestLabels:
         assert ink[ground].max() > 200
         assert not ink[~ground].any()
 
+    @pytest.mark.parametrize("azimuth_deg", [0.0, 34.0])
+    def test_a_label_reads_from_left_to_right_for_its_reader(self, azimuth_deg: float):
+        """Its long side lies along the reader's right: forward of starboard for one who stands to starboard."""
+        azimuth = math.radians(azimuth_deg)
+        _, ground = lettering.label_masks([RegionLabel("DRAG DIVERGENCE", 0.5, 1.6)], 960, azimuth, 1.5)
+        rows, columns = np.nonzero(ground)
+        aft, starboard = rows - rows.mean(), columns - columns.mean()
+        along = np.linalg.eigh(np.cov(np.stack((aft, starboard))))[1][:, -1]
+        along *= np.sign(along[1])
+        assert along == pytest.approx([-math.sin(azimuth), math.cos(azimuth)], abs=0.02)
+
     def test_the_picture_at_rest_is_labelled_and_the_moving_one_is_not(self, fast: Solution):
         ground = np.array(LIGHT.ink.label_ground)
 

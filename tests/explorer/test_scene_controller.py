@@ -109,6 +109,26 @@ class TestCoarseAndFine:
         assert math.degrees(math.atan2(hub[1], hub[0])) == pytest.approx(120.0)
 
 
+class TestLook:
+    def test_near_the_blade_airframe_and_words_make_room(self, page: Page, built: Solution):
+        page.controller.draw(built, VIEW, None)
+        page.controller.look("blade")
+        assert not page["/airframe"].visible
+        assert not page["/rotor/disk/words"].visible
+        page.controller.look("3d")
+        assert page["/airframe"].visible
+        assert page["/rotor/disk/words"].visible
+
+    def test_labels_turn_with_the_view(self, page: Page, built: Solution):
+        pictures = []
+        for view in ("3d", "disk"):
+            page.controller.look(view)
+            page.controller.draw(built, VIEW, None)
+            page.controller.settle()
+            pictures.append(page["/rotor/disk/field"]._data)
+        assert pictures[0] != pictures[1]
+
+
 class TestGhost:
     def test_the_blade_as_built_stands_behind_a_changed_one(self, page: Page, built: Solution, changed: Solution):
         page.controller.draw(built, VIEW, None)
