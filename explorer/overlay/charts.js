@@ -71,7 +71,7 @@
   });
 
   // The twist curve: its handles are dragged, or moved by arrow keys.
-  let held = null, sent = 0, waiting = null;
+  let held = null, sent = 0, waiting = null, pressed = null;
   const tell = (name, change) => {
     waiting = [name, change];
     const wait = Math.max(0, 50 - (performance.now() - sent));
@@ -113,9 +113,12 @@
     const knot = event.target instanceof Element && event.target.closest('[data-knot]');
     const step = knot && {ArrowUp: [0, .1], ArrowDown: [0, -.1], ArrowLeft: [-.01, 0], ArrowRight: [.01, 0]}[event.key];
     if (!step) return;
-    const k = RX.state.twist.knots.find(one => one.name === knot.dataset.knot), many = event.shiftKey ? 10 : 1;
+    // Presses that come faster than answers add up.
+    const now = performance.now(), many = event.shiftKey ? 10 : 1;
+    const k = pressed && pressed.name === knot.dataset.knot && now - pressed.at < 700 ? pressed : RX.state.twist.knots.find(one => one.name === knot.dataset.knot);
     event.preventDefault();
     event.stopPropagation();
-    tell(k.name, [k.r + many * step[0], k.theta + many * step[1]]);
+    pressed = {name: k.name, r: k.r + many * step[0], theta: k.theta + many * step[1], at: now};
+    tell(k.name, [pressed.r, pressed.theta]);
   }, true);
 })();

@@ -29,15 +29,16 @@ class PowerCard:
         self._last: Solution | None = None
         self._before: Solution | None = None
         """The solution that the change since the grab counts from."""
+        self._counted_from: float | None = None
+        """Its power [W]."""
         self._content: dict[str, Any] | None = None
 
     def show(self, state: SessionState, pause: float) -> None:
         """Show a converged state. `pause`: the longest rest of the inputs [s] since the last one."""
         solution, units = state.solution, UNITS[state.view.units]
-        known = self.tracker.reference
         self.tracker.solved(state.inputs, solution.power.total, pause)
-        if self.tracker.reference != known:
-            self._before = self._last
+        if self.tracker.reference != self._counted_from:
+            self._counted_from, self._before = self.tracker.reference, self._last
         self._last = solution
         self._content = {
             **_numbers(state, units),
@@ -58,7 +59,7 @@ class PowerCard:
     def forget(self) -> None:
         """Another design came, by undo, link, file or menu: what was grabbed before does not count."""
         self.tracker.reset()
-        self._before = None
+        self._before = self._counted_from = None
 
     def hand(self, units: Units) -> dict[str, str] | None:
         """Power and its change for the tag beside the pointer; None before the first solution."""

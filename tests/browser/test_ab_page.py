@@ -8,11 +8,13 @@ import pytest
 from watched import WAIT, Watched, for_people, opened, painted
 
 from explorer.app import App
+from explorer.state import Inputs
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.browser
+START = Inputs()
 
 
 def ghost_seen(watched: Watched) -> bool:
@@ -25,6 +27,12 @@ def total_row(watched: Watched) -> list[str]:
     return [text.strip() for text in cells[1:]]
 
 
+def menu(watched: Watched) -> None:
+    """Open the menu of A."""
+    watched.page.get_by_role("button", name="A is").click()
+    watched.page.wait_for_selector('[data-explorer="pinned"]', timeout=WAIT)
+
+
 def press(watched: Watched, name: str) -> None:
     watched.page.get_by_role("button", name=name, exact=True).click()
 
@@ -33,17 +41,22 @@ def test_pin_move_compare_swap_back_and_let_go(browser: "Browser", app: App):
     watched = opened(browser, app.address)
     page = watched.page
     begun = watched.text("total-power")
-    assert page.get_by_label("Show B − A").count() == 0
+    watched.drawer("details")
+    assert page.get_by_role("button", name="Show B − A").count() == 0
 
-    press(watched, "Pin as A")
-    page.wait_for_selector('[data-explorer="pinned"]', timeout=WAIT)
-    assert re.search(r"A:\s*Two segments −14/−8 at 0\.5\s+" + begun, watched.text("pinned"))
+    page.keyboard.press("p")
+    page.wait_for_function("() => RX.state.bar.pinned", timeout=WAIT)
+    page.wait_for_selector('[data-explorer="ab"]', timeout=WAIT)
+    menu(watched)
+    assert re.search(r"A\s*Two segments −14/−8 at 0\.5\s+" + begun, watched.text("pinned"))
+    page.keyboard.press("Escape")
+    assert watched.text("against") == "A"
     assert total_row(watched)[2:] == ["0.0", "0.0"]
     watched.until_changed(lambda: ghost_seen(watched), False)
-    page.wait_for_function("() => Object.keys(window.__viserTestpoints.uplots).length === 5", timeout=WAIT)
+    assert page.evaluate("() => RX.state.strip.every(chart => chart.pinned)")
 
     disk = watched.node("/rotor/disk/field")
-    watched.press("Inner", "PageUp", 4)
+    watched.press("Inboard", "PageUp", 4)
     moved = watched.until_changed(lambda: total_row(watched)[2], "0.0")
     a, b, apart, percent = watched.at_rest(lambda: total_row(watched))
     assert f"{a} kW" == begun
@@ -53,10 +66,12 @@ def test_pin_move_compare_swap_back_and_let_go(browser: "Browser", app: App):
     watched.until_changed(lambda: watched.node("/rotor/disk/field"), disk)
     plain = watched.at_rest(lambda: watched.node("/rotor/disk/field"))
 
-    page.get_by_label("Show B − A").check()
+    page.get_by_role("button", name="Show B − A").click()
     watched.until_changed(lambda: watched.node("/rotor/disk/field"), plain)
-    assert "Δ angle of attack [°], B − A" in watched.text("colour-bar")
+    assert page.get_by_role("button", name="Show B − A").get_attribute("aria-pressed") == "true"
+    assert "B − A" in page.locator('[data-part="unit"]').inner_text()
 
+    menu(watched)
     press(watched, "Swap A and B")
     watched.until_changed(lambda: watched.text("total-power"), f"{b} kW")
     watched.until_changed(lambda: total_row(watched)[2], apart)
@@ -64,18 +79,20 @@ def test_pin_move_compare_swap_back_and_let_go(browser: "Browser", app: App):
     assert swapped[:2] == [b, a]
     assert swapped[2].lstrip("+−") == apart.lstrip("+−")
 
+    menu(watched)
     press(watched, "Back to A")
     watched.until_changed(lambda: total_row(watched)[2], swapped[2])
     assert watched.at_rest(lambda: total_row(watched)) == [b, b, "0.0", "0.0"]
 
+    menu(watched)
     press(watched, "Unpin")
     page.wait_for_selector('[data-explorer="ab"]', state="detached", timeout=WAIT)
-    page.wait_for_selector('[data-explorer="pinned"]', state="detached", timeout=WAIT)
+    page.wait_for_function("() => !RX.state.bar.pinned", timeout=WAIT)
     watched.until_changed(lambda: ghost_seen(watched), True)
-    assert "vs. UH-60A as built" in watched.text("power")
-    assert watched.text("colour-bar").startswith("Angle of attack [°]\n")
-    assert page.get_by_label("Show B − A").count() == 0
-    page.wait_for_function("() => Object.keys(window.__viserTestpoints.uplots).length === 4", timeout=WAIT)
+    assert watched.text("against") == "UH-60A as built"
+    assert "B − A" not in page.locator('[data-part="unit"]').inner_text()
+    assert page.get_by_role("button", name="Show B − A").count() == 0
+    page.wait_for_function("() => RX.state.strip.every(chart => !chart.pinned)", timeout=WAIT)
     assert not re.search(r"\b(NaN|nan|inf|undefined)\b", page.inner_text("body"))
     assert watched.complaints == []
     watched.close()
@@ -84,12 +101,12 @@ def test_pin_move_compare_swap_back_and_let_go(browser: "Browser", app: App):
 @for_people
 def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any, size: tuple[int, int]):
     watched = painted(browser, app.address, scheme, size)
-    press(watched, "Pin as A")
-    watched.page.wait_for_selector('[data-explorer="pinned"]', timeout=WAIT)
-    for label, value in (("Inner", -20), ("Outer", -2), ("Division", 0.6)):
+    watched.page.keyboard.press("p")
+    watched.page.wait_for_function("() => RX.state.bar.pinned", timeout=WAIT)
+    for label, value in (("Inboard", -20), ("Outboard", -2), ("Division", 0.6)):
         watched.type(label, value)
         watched.page.wait_for_timeout(300)
-    watched.page.get_by_label("Show B − A").check()
+    watched.page.get_by_role("button", name="Show B − A").click()
     watched.page.wait_for_timeout(2500)
     watched.quiet()
     path = artefacts / f"ab-{scheme}-{size[0]}x{size[1]}.png"

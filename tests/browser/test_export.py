@@ -28,7 +28,7 @@ START = Inputs(law="linear", linear=-16.0, advance_ratio=0.41)
 def shared(browser: "Browser", app: App) -> Iterator[Watched]:
     watched = opened(browser, app.address)
     watched.page.context.grant_permissions(["clipboard-read", "clipboard-write"])
-    watched.page.get_by_role("tab", name="Session").click()
+    watched.drawer("share")
     watched.page.wait_for_selector('[data-explorer="export"]')
     yield watched
     watched.close()
@@ -128,7 +128,7 @@ def test_text_is_shown_copied_and_has_the_power_of_the_page(watched: Watched):
 
 def test_the_report_opens_without_a_server_and_asks_for_nothing(watched: Watched, tmp_path: Path):
     shown = watched.text("total-power")
-    watched.page.get_by_role("button", name="Keep this design").click()
+    watched.page.keyboard.press("m")
     path = saved(watched, "Report of this session", tmp_path)
     assert path.stat().st_size < 3_000_000
     report = Watched(watched.page.context.new_page())
@@ -150,17 +150,16 @@ def test_the_report_opens_without_a_server_and_asks_for_nothing(watched: Watched
 
 
 def test_the_key_brings_the_folder_before_the_eyes(watched: Watched):
-    watched.page.get_by_role("tab", name="Design").click()
     watched.page.keyboard.press("Escape")
+    watched.page.wait_for_selector('[data-explorer="export"]', state="detached", timeout=WAIT)
     watched.page.keyboard.press("x")
     watched.page.wait_for_selector('[data-explorer="export"]', state="visible", timeout=WAIT)
 
 
 def test_a_design_without_an_answer_is_said_to_have_none(watched: Watched, tmp_path: Path):
-    watched.page.get_by_role("tab", name="Design").click()
     watched.type("Altitude", 4000.0)
     watched.page.wait_for_selector('[data-explorer="status"][data-kind="problem"]', timeout=WAIT)
-    watched.page.get_by_role("tab", name="Session").click()
+    watched.drawer("share")
     path = saved(watched, "Power", tmp_path)
     assert "the sliders have none" in watched.text("export")
     assert "8320 kg, 0 m" in path.read_text(encoding="utf-8")
@@ -170,8 +169,8 @@ def test_a_design_without_an_answer_is_said_to_have_none(watched: Watched, tmp_p
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_screenshots_of_report_and_pictures(browser: "Browser", app: App, artefacts: Path, tmp_path: Path, scheme: Any):
     watched = painted(browser, app.address, scheme, (1280, 720))
-    watched.page.get_by_role("tab", name="Session").click()
-    watched.page.get_by_role("button", name="Keep this design").click()
+    watched.drawer("share")
+    watched.page.keyboard.press("m")
     watched.choose("Picture", "3D view")
     picture = saved(watched, "PNG", tmp_path)
     picture.rename(artefacts / f"export-view-{scheme}.png")

@@ -1,6 +1,7 @@
 """The lecture and the presenter on the real page."""
 
 import re
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
@@ -26,59 +27,62 @@ def stands_at(page: "Page", step: int) -> None:
 def test_the_lecture_sets_the_page_and_says_what_is_seen(browser: "Browser", app: App):
     watched = opened(browser, app.address)
     page = watched.page
-    page.get_by_role("tab", name="Lecture").click()
+    watched.drawer("lecture")
+    watched.type("Adv. ratio", 0.22)
+    own = "d=1;uh60a;mu=0.22"
+    design_in_address(watched, own)
     page.get_by_role("button", name="Start the lecture").click()
     stands_at(page, 1)
-    design_in_address(watched, "d=1;uh60a")
+    page.wait_for_function("() => !location.search.includes('mu=')", timeout=WAIT)
     page.get_by_role("button", name="Next").click()
     stands_at(page, 2)
     design_in_address(watched, "linear:-16;mu=0")
     said = watched.text("said")
     assert said.startswith("Induced power: A ")
-    page.get_by_role("tab", name="Design").click()
-    watched.type("Rate", -10)
+    page.evaluate("() => RX.send('knot', ['1', [1.0, -3.0]])")  # The curve's handle moves the rate.
     assert watched.until_changed(lambda: watched.text("said"), said).startswith("Induced power: A ")
-    page.keyboard.press("Escape")
     for k in range(3, len(STEPS) + 1):
         page.keyboard.press("PageDown")
         stands_at(page, k)
-    assert page.get_by_role("tab", name="Actuator").get_attribute("aria-selected") == "true"
+    assert page.evaluate("() => RX.state.bar.mode") == "actuate"
     page.keyboard.press("PageUp")
     stands_at(page, len(STEPS) - 1)
     page.get_by_role("button", name="End", exact=True).click()
-    page.wait_for_selector('[data-explorer="lecture"]', state="detached", timeout=WAIT)
-    page.get_by_role("tab", name="Lecture").click()
+    page.wait_for_selector('[data-explorer="lecture"]', state="hidden", timeout=WAIT)
+    design_in_address(watched, own)  # The visitor's own design is back.
+    watched.drawer("settings")
     page.get_by_label("Big type").check()
     page.wait_for_function(
-        """() => parseFloat(getComputedStyle(document.querySelector('[data-explorer="total-power"]')).fontSize) > 30""",
+        """() => parseFloat(getComputedStyle(document.querySelector('[data-explorer="drawer"]')).fontSize) > 16""",
         timeout=WAIT,
     )
     assert watched.complaints == []
     watched.close()
 
 
-def test_the_caption_leaves_a_tablets_rotor_and_controls_in_sight(browser: "Browser", app: App):
-    watched = opened(browser, app.address, size=(1024, 768))
+@pytest.mark.parametrize("size", [(1500, 940), (1024, 768), (390, 844)])
+def test_the_lecture_is_the_scene_a_caption_and_three_numbers(browser: "Browser", app: App, size: tuple[int, int]):
+    watched = opened(browser, app.address, size=size)
     page = watched.page
     page.keyboard.press("t")
     stands_at(page, 1)
     page.keyboard.press("PageDown")
     stands_at(page, 2)
-    page.wait_for_function(  # Wanted before there was an A.
-        """() => document.evaluate("//label[.='Show B − A']/ancestor::div[contains(@class,'Flex-root')][1]//input",
-            document, null, 9).singleNodeValue?.checked""",
-        timeout=WAIT,
-    )
+    page.wait_for_function("() => RX.state.field.difference === true", timeout=WAIT)  # Wanted before there was an A.
+    assert page.locator(".rxf-figures b").count() == 3
     # At its middle each is what is seen there: nothing lies over it.
     seen = """e => { const box = e.getBoundingClientRect();
         return e.contains(document.elementFromPoint(box.x + box.width / 2, box.y + box.height / 2)); }"""
-    for label in ("Rate", "Adv. ratio"):
-        assert watched.row(label).get_by_role("slider").evaluate(seen), label
-    assert page.locator(".rx-said").evaluate(seen)
-    assert page.get_by_role("button", name="Next", exact=True).evaluate(seen)
-    scene, caption = page.locator("canvas[data-engine]"), page.locator('[data-explorer="lecture"]')
-    reaches = scene.evaluate("e => e.getBoundingClientRect().right")
-    assert caption.evaluate("e => e.getBoundingClientRect().left") >= reaches
+    for part in (page.locator('[data-explorer="said"]'), page.get_by_role("button", name="Next", exact=True)):
+        assert part.evaluate(seen)
+    scene = page.locator("canvas[data-engine]").evaluate("e => e.getBoundingClientRect().toJSON()")
+    caption = page.locator(".rxf-caption").evaluate("e => e.getBoundingClientRect().toJSON()")
+    assert scene["left"] == 0
+    assert scene["right"] == size[0]  # Full-bleed.
+    assert caption["top"] >= scene["bottom"] - 1
+    assert caption["bottom"] <= size[1] + 1
+    for panel in ("[data-dock-region]", ".rxf-strip", ".rxf-power"):
+        assert not page.locator(panel).first.is_visible(), panel
     watched.close()
 
 
@@ -93,20 +97,21 @@ def test_with_four_blades_a_step_compares_four_with_four(browser: "Browser", app
     stands_at(page, 5)
     before = watched.at_rest(lambda: watched.text("said"))
     assert "(+1" in before
-    page.get_by_label("Infinite blades").uncheck()
+    inputs = app.sessions[-1].page.context.inputs()
+    app.sessions[-1].page.context.set_inputs(replace(inputs, inflow="dynamic-wake"))
     watched.until_changed(lambda: watched.text("said"), before)
     after = watched.at_rest(lambda: watched.text("said"))
     change = re.search(r"\(([+−][\d.]+)", after)
     assert change is not None
     assert float(change[1].replace("−", "-")) < 1.0
-    assert "different models" not in watched.text("status")
+    assert "different models" not in page.evaluate("() => RX.state.power.status.title")
     watched.close()
 
 
 def test_others_follow_the_presenter_and_may_leave(browser: "Browser", app: App):
     presenter = opened(browser, app.address)
     page = presenter.page
-    page.get_by_role("tab", name="Lecture").click()
+    presenter.drawer("lecture")
     page.get_by_role("button", name="Present", exact=True).click()
     page.wait_for_function("() => location.search.includes('present=')", timeout=WAIT)
     link = presenter.page.locator('[data-explorer="presence"] a').get_attribute("href")
@@ -120,7 +125,6 @@ def test_others_follow_the_presenter_and_may_leave(browser: "Browser", app: App)
         """() => document.querySelector('[data-explorer="presence"]').innerText.includes('1 follows')""", timeout=WAIT
     )
     before = shown_kw(follower)
-    page.get_by_role("tab", name="Design").click()
     presenter.type("Adv. ratio", 0.3)
     assert follower.until_changed(lambda: shown_kw(follower), before) == presenter.until_changed(
         lambda: shown_kw(presenter), before
@@ -137,9 +141,9 @@ def test_others_follow_the_presenter_and_may_leave(browser: "Browser", app: App)
     other.keyboard.press("Escape")
     for key in ("h", "t", "p"):  # Nor do its keys move it, nor its buttons.
         other.keyboard.press(key)
-    assert not other.get_by_role("button", name="Pin as A").is_visible()
+    assert other.get_by_role("button", name="Pin A").is_disabled()
     other.wait_for_timeout(1500)
-    assert other.locator('[data-explorer="lecture"]').count() == 0
+    assert not other.locator('[data-explorer="lecture"]').is_visible()
     assert "mu=0.3" in other.url
     assert "&a=" not in other.url
     other.get_by_role("button", name="Leave, and go on alone").click()

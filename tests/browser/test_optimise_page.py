@@ -13,12 +13,14 @@ from watched import WAIT, Watched, opened
 
 from explorer.app import App
 from explorer.session import Session
+from explorer.state import Inputs, with_optimum
 from rotor.trim.solve import solve
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.browser
+START = Inputs()
 SLOW = "Three segments, free breaks"
 """With sixteen starts it takes many times as long as a test waits before it presses Stop."""
 
@@ -41,10 +43,10 @@ def shared(browser: "Browser", app: App) -> "Iterator[tuple[Watched, Session]]":
 def page(shared: tuple[Watched, Session]) -> tuple[Watched, Session]:
     """The shared page on its first design, no search under way, on the Optimise tab."""
     watched, session = shared
-    watched.page.get_by_role("tab", name="Design").click()
-    watched.page.get_by_role("button", name="Reset design").click()
+    watched.reset()
     watched.page.wait_for_timeout(300)
-    watched.page.get_by_role("tab", name="Optimise").click()
+    watched.mode("optimise")
+    watched.section("Search")
     return watched, session
 
 
@@ -54,7 +56,9 @@ def until(watched: Watched, *kinds: str) -> None:
 
 
 def press(watched: Watched, name: str) -> None:
-    watched.page.get_by_role("button", name=name, exact=True).click()
+    """A button of the rail or of the bar over the scene, not the mode of the same name."""
+    rail = watched.page.locator("[data-dock-region=right], [data-part=notice]")
+    rail.get_by_role("button", name=name, exact=True).first.click()
 
 
 def run_of(session: Session) -> Any:
@@ -78,11 +82,18 @@ def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tu
     watched.choose("Concept", "Two segments")
     press(watched, "Optimise")
     until(watched, "done")
-    # The picture follows the search; the sliders have not moved.
+    # The picture and the sliders follow the search; the design is the user's own until it is applied.
     watched.until_changed(lambda: watched.text("total-power"), before)
     watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)
     assert session.page.controls.inputs().law == law
     run = run_of(session)
+    assert "Previewing optimum" in watched.text("notice")
+    watched.mode("explore")
+    shown = with_optimum(session.page.controls.inputs(), run.frames[-1].design)
+    assert float(watched.row("Inboard").locator("input:not([type=hidden])").last.input_value()) == pytest.approx(
+        shown.two_inner, abs=0.06
+    )
+    watched.mode("optimise")
     watched.page.wait_for_function(f"() => document.body.innerText.includes('design {run.frames[-1].evaluation}')")
     press(watched, "Apply")
     watched.page.wait_for_timeout(600)
@@ -91,7 +102,8 @@ def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tu
     power = solve(design).power.total
     assert power == pytest.approx(run.optimum.best.power, rel=1e-6)
     assert power < run.start_power
-    assert watched.text("total-power").startswith(f"{power / 1e3:.0f} kW")
+    assert watched.text("total-power").startswith(f"{power / 1e3:.0f}")
+    assert watched.page.evaluate("() => RX.state.notice === null")
     assert watched.complaints == []
 
 
@@ -165,11 +177,11 @@ def test_the_page_goes_on_when_its_worker_is_killed(page: tuple[Watched, Session
     until(watched, "broken")
     assert "ended unexpectedly" in watched.text("found")
     assert run_of(session).best is not None
-    watched.page.get_by_role("tab", name="Design").click()
+    watched.mode("explore")
     speed = watched.text("speed")
     watched.press("Adv. ratio", "ArrowRight", 5)
     watched.until_changed(lambda: watched.text("speed"), speed)
-    watched.page.get_by_role("tab", name="Optimise").click()
+    watched.mode("optimise")
     watched.choose("Concept", "Linear")
     press(watched, "Optimise")
     until(watched, "done")
@@ -183,7 +195,7 @@ def test_two_browsers_at_once_do_not_disturb_each_other(page: tuple[Watched, Ses
     watched.choose("Concept", SLOW)
     press(watched, "Optimise")
     until(watched, "running")
-    other.page.get_by_role("tab", name="Optimise").click()
+    other.mode("optimise")
     assert 'data-kind="idle"' in others.page.optimise._standing.content
     assert other.text("total-power") == before
     other.choose("Concept", "Linear")
@@ -210,7 +222,7 @@ def test_two_browsers_at_once_do_not_disturb_each_other(page: tuple[Watched, Ses
 def test_a_click_on_the_map_takes_the_point(page: tuple[Watched, Session]):
     watched, session = page
     watched.choose("Concept", "Two segments, free division")
-    watched.page.get_by_role("tab", name="Map").click()
+    watched.section("Map")
     press(watched, "Compute map")
     watched.page.wait_for_selector("svg.rx-map image", timeout=WAIT)
     box = watched.page.locator("svg.rx-map image").bounding_box()
@@ -231,7 +243,7 @@ def test_a_schedule_can_be_saved(page: tuple[Watched, Session], tmp_path: Path):
     watched.row("Starting points").get_by_role("slider").focus()
     watched.page.keyboard.press("Home")
     watched.page.wait_for_timeout(150)
-    watched.page.get_by_role("tab", name="Schedule").click()
+    watched.section("Schedule")
     press(watched, "Compute schedule")
     watched.page.wait_for_selector('[data-explorer="schedule-state"][data-kind="done"]', timeout=WAIT)
     assert re.search(r"Additional saving from variable twist\s+\d", watched.text("schedule"))

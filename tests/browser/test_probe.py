@@ -28,7 +28,7 @@ RADIUS = uh60a_rotor("flight").radius
 def watched(browser: "Browser", app: App) -> Iterator[Watched]:
     watched = opened(browser, app.address)
     watched.quiet()
-    watched.page.get_by_role("tab", name="Probe").click()
+    watched.drawer("probe")
     watched.page.wait_for_selector('[data-explorer="probe"]')
     yield watched
     assert watched.complaints == []
@@ -97,13 +97,13 @@ def test_arrow_keys_step_the_probe_and_leave_the_camera_alone(watched: Watched):
 
 
 def test_sliders_step_finely_and_coarsely_and_their_number_follows(watched: Watched):
-    page, row = watched.page, watched.row("Speed")
+    page, row = watched.page, watched.row("Adv. ratio")
     slider, field = row.get_by_role("slider"), row.locator("input:not([type=hidden])").last
-    for key, change in (("ArrowRight", 5), ("Shift+ArrowLeft", -50), ("PageUp", 50), ("ArrowLeft", -5)):
+    for key, change in (("ArrowRight", 0.005), ("Shift+ArrowLeft", -0.05), ("PageUp", 0.05), ("ArrowLeft", -0.005)):
         before = float(field.input_value())
         slider.focus()
         page.keyboard.press(key)
-        wanted = min(max(before + change, 5.0), 120.0)
+        wanted = round(min(max(before + change, 0.0), 0.45), 3)
         watched.until_changed(lambda wanted=wanted: float(field.input_value()) == wanted, before=False)
         assert float(slider.get_attribute("aria-valuenow") or "nan") == wanted
     field.focus()
@@ -119,7 +119,7 @@ def test_play_turns_the_blades_alone_and_ends_with_pause(watched: Watched):
     disk = watched.node("/rotor/disk/field")
     alpha, blade = watched.text("probe-alpha"), pose(watched, "/rotor/blade_0")
     page.keyboard.press("Space")
-    page.get_by_role("button", name="Pause").wait_for(timeout=WAIT)
+    page.get_by_role("button", name="Stop the rotor").wait_for(timeout=WAIT)
     for _ in range(3):
         blade = watched.until_changed(lambda: pose(watched, "/rotor/blade_0"), blade)
     watched.until_changed(lambda: watched.text("probe-alpha"), alpha)
@@ -138,9 +138,9 @@ def test_the_blade_stops_for_the_hand_that_takes_it(watched: Watched):
     page.wait_for_timeout(400)
     page.keyboard.press("ArrowUp")  # The radius alone: it plays on.
     page.wait_for_timeout(300)
-    assert page.get_by_role("button", name="Pause").count()
+    assert page.get_by_role("button", name="Stop the rotor").count()
     page.keyboard.press("Shift+ArrowRight")
-    page.get_by_role("button", name="Play").wait_for(timeout=WAIT)
+    page.get_by_role("button", name="Turn the rotor").wait_for(timeout=WAIT)
 
 
 @pytest.mark.parametrize(("key", "view"), [("1", "3d"), ("2", "top"), ("4", "side")])
@@ -196,8 +196,8 @@ def test_a_sentence_in_red_dims_the_probe_and_stops_play(watched: Watched):
     watched.choose("Twist concept", "Three segments")
     watched.type("Division 2", 0.3)
     page.wait_for_selector(".rx-faded [data-explorer=probe]", timeout=WAIT)
-    assert page.get_by_role("button", name="Play").count()
-    page.get_by_role("button", name="Reset design").click()
+    assert page.get_by_role("button", name="Turn the rotor").count()
+    watched.reset()
     page.wait_for_selector(".rx-faded [data-explorer=probe]", state="detached", timeout=WAIT)
 
 
@@ -206,7 +206,7 @@ def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any,
     watched = painted(browser, app.address, scheme, size)
     page = watched.page
     watched.type("Adv. ratio", 0.37)
-    page.get_by_role("tab", name="Probe").click()
+    watched.drawer("probe")
     page.wait_for_timeout(2500)
     watched.quiet()
     page.keyboard.press("Escape")

@@ -126,7 +126,7 @@ def test_outlives_its_server(context: "BrowserContext", artefacts: Path):
     with served(port) as address:
         page.goto(address)
         page.wait_for_function(_OPEN, timeout=WAIT)
-        set_field(page, "Inner", "-11.5")
+        set_field(page, "Inboard", "-11.5")
         page.wait_for_function("() => location.search.includes('-11.5')", timeout=WAIT)
         power = page.locator("[data-explorer=total-power]").first.inner_text()
     page.wait_for_selector("#rx-gone", timeout=WAIT)
@@ -134,7 +134,7 @@ def test_outlives_its_server(context: "BrowserContext", artefacts: Path):
     with served(port):
         page.wait_for_selector("#rx-gone", state="detached", timeout=WAIT)
         page.wait_for_function(_OPEN, timeout=WAIT)
-        assert field(page, "Inner") == "-11.5"
+        assert field(page, "Inboard") == "-11.5"
         same = "power => document.querySelector('[data-explorer=total-power]').innerText === power"
         page.wait_for_function(same, arg=power, timeout=WAIT)
 

@@ -23,6 +23,7 @@ BLADES = r"""() => Object.entries(window.__viserSceneTree.getState()).filter(
 @pytest.fixture
 def watched(app: App, browser: "Browser") -> Iterator[Watched]:
     watched = opened(browser, app.address)
+    watched.drawer("trust")
     yield watched
     watched.close()
 
@@ -36,6 +37,11 @@ def shown(watched: Watched, part: str, text: str) -> None:
     )
 
 
+def choose(watched: Watched, rotor: str) -> None:
+    """Another rotor from the menu of the bar."""
+    watched.page.locator(".rxf-rotor").select_option(label=rotor)
+
+
 def load(watched: Watched, file: Path) -> None:
     """As a user picks a file."""
     with watched.page.expect_file_chooser() as chooser:
@@ -46,25 +52,25 @@ def load(watched: Watched, file: Path) -> None:
 def test_a_two_bladed_rotor_and_back(watched: Watched):
     heavy = watched.text("total-power")
     assert watched.page.evaluate(BLADES) == 4
-    watched.choose("Rotor", "Robinson R22")
+    choose(watched, "Robinson R22")
     shown(watched, "provenance", "NACA 63-015A")
-    shown(watched, "power", "against Robinson R22 twist")
+    shown(watched, "against", "Robinson R22 as built")
     assert watched.page.evaluate(BLADES) == 2
     assert float(watched.text("total-power").split()[0]) < 100.0
-    watched.choose("Rotor", "Sikorsky S-61")
+    choose(watched, "Sikorsky S-61")
     shown(watched, "provenance", "NACA 0012")
     assert watched.page.evaluate(BLADES) == 5
-    watched.choose("Rotor", "UH-60A")
+    choose(watched, "UH-60A")
     shown(watched, "total-power", heavy)
     assert watched.page.evaluate(BLADES) == 4
     assert watched.complaints == []
 
 
 def test_optimise_works_on_another_rotor(watched: Watched):
-    watched.choose("Rotor", "Robinson R22")
+    choose(watched, "Robinson R22")
     shown(watched, "provenance", "NACA 63-015A")
-    watched.page.get_by_role("tab", name="Optimise").click()
-    watched.page.get_by_role("button", name="Optimise", exact=True).click()
+    watched.mode("optimise")
+    watched.page.locator("[data-dock-region=right]").get_by_role("button", name="Optimise", exact=True).click()
     watched.page.wait_for_selector('[data-explorer="search"][data-kind="done"]', timeout=6 * WAIT)
     assert "Robinson R22 twist" in watched.page.inner_text("body")
     assert float(watched.text("best").split()[0]) < 100.0  # [kW]
@@ -74,15 +80,17 @@ def test_optimise_works_on_another_rotor(watched: Watched):
 def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     text = asset_path("r22.toml").read_text(encoding="utf-8").replace("Robinson R22", "Mine")
     file = tmp_path / "mine.toml"
+    watched.drawer("open")
+    watched.section("Files")
     file.write_text(text.replace("radius_m = 3.8354", "radius_m = -3.8"), encoding="utf-8")
     load(watched, file)
     watched.page.wait_for_selector("text=mine.toml, line 14: radius_m is -3.8, outside", timeout=WAIT)
     assert "SC1095" in watched.text("provenance")  # Nothing is lost.
     file.write_text(text, encoding="utf-8")  # Mended, under the same name.
     load(watched, file)
-    shown(watched, "power", "against Mine twist")
+    shown(watched, "against", "Mine as built")
     assert watched.page.evaluate(BLADES) == 2
-    assert watched.row("Rotor").locator("input").first.input_value() == "Mine (own)"
+    assert watched.page.locator(".rxf-rotor option:checked").inner_text() == "Mine (own)"
     file.write_text(text.replace('"naca63a015"', '"own"') + '\n[sections.own]\ndeck = "own.c81"\n', encoding="utf-8")
     load(watched, file)
     watched.page.wait_for_selector("text=mine.toml is loaded and needs own.c81: load that next.", timeout=WAIT)
@@ -97,7 +105,7 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     watched.page.reload()  # No address holds it: the page itself does.
     shown(watched, "provenance", "own")
     shown(watched, "total-power", power)
-    assert watched.row("Rotor").locator("input").first.input_value() == "Mine (own)"
+    assert watched.page.locator(".rxf-rotor option:checked").inner_text() == "Mine (own)"
     other = watched.page.context.new_page()  # Of another window, which does not.
     other.goto(address)
     other.wait_for_selector("text=Its rotor is the sender's own", timeout=WAIT)

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from playwright.sync_api import Browser
 
 pytestmark = pytest.mark.browser
+START = Inputs()
 
 
 def design_in_address(watched: Watched, text: str) -> None:
@@ -24,13 +25,13 @@ def design_in_address(watched: Watched, text: str) -> None:
 
 
 def shown_kw(watched: Watched) -> str:
-    return watched.text("total-power").removesuffix(" kW")
+    return watched.text("total-power").removesuffix("kW").strip()
 
 
 def test_undo_redo_and_history(browser: "Browser", app: App):
     watched = opened(browser, app.address)
     page, begun = watched.page, shown_kw(watched)
-    watched.type("Inner", -14.4)
+    watched.type("Inboard", -14.4)
     design_in_address(watched, "segments:-14.4,-8@0.5")
     watched.type("Adv. ratio", 0.22)
     design_in_address(watched, "mu=0.22")
@@ -45,7 +46,8 @@ def test_undo_redo_and_history(browser: "Browser", app: App):
     page.keyboard.press("Control+Shift+z")
     page.keyboard.press("Control+Shift+z")
     design_in_address(watched, "mu=0.22")
-    page.get_by_role("tab", name="Session").click()
+    watched.drawer("open")
+    watched.section("History")
     strip = page.locator('[data-explorer="history"]')
     strip.wait_for(timeout=WAIT)
     assert (strip.get_attribute("data-steps"), strip.get_attribute("data-present")) == ("3", "2")
@@ -70,17 +72,17 @@ def test_the_address_is_the_design(browser: "Browser", app: App):
     design_in_address(watched, "linear:-9.8;mu=0.3")
     assert "fixedDpr=0.5" in watched.page.url
     shown = shown_kw(watched)
-    watched.choose("Field", "Mach number")
-    watched.page.get_by_label("Stall").uncheck()
+    watched.show("Mach number")
+    watched.page.locator("[data-do=region][data-value=stall]").click()
     design_in_address(watched, "&v=1;field=mach;stall=off")
-    watched.page.get_by_role("button", name="Pin as A").click()
+    watched.page.get_by_role("button", name="Pin A").click()
     design_in_address(watched, "&a=1;linear:-9.8;mu=0.3")
     watched.page.reload()
     watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
     assert shown_kw(watched) == shown
-    watched.page.get_by_role("button", name="Back to A").wait_for(timeout=WAIT)
-    assert watched.row("Field").locator("input").first.input_value() == "Mach number"
-    assert not watched.page.get_by_label("Stall").is_checked()
+    watched.page.wait_for_function("() => RX.state.bar.pinned", timeout=WAIT)
+    assert watched.page.locator(".rxf-field select").input_value() == "Mach number"
+    assert watched.page.locator("[data-do=region][data-value=stall]").get_attribute("aria-pressed") == "false"
     watched.close()
 
 
@@ -94,7 +96,7 @@ def test_a_bad_address_is_one_sentence_and_the_usual_design(browser: "Browser", 
 def test_save_and_load(browser: "Browser", app: App, tmp_path: Path):
     watched = opened(browser, app.address, COARSE + "&d=1;spline:9,6,0,-5@0.13,0.4,0.75,1;mu=0.1;airfoils=sc1095")
     page = watched.page
-    page.get_by_role("tab", name="Session").click()
+    watched.drawer("share")
     with page.expect_download() as download:
         page.get_by_role("button", name="Save design").click()
     saved = tmp_path / "design.json"
@@ -104,6 +106,8 @@ def test_save_and_load(browser: "Browser", app: App, tmp_path: Path):
     assert design.condition.advance_ratio == 0.1
     before, other = shown_kw(watched), tmp_path / "other.json"
     other.write_text(json.dumps({**make_design(twist="linear:-6").to_dict(), "advance_ratio": 0.25}), encoding="utf-8")
+    watched.drawer("open")
+    watched.section("Files")
     file = page.get_by_role("button", name="Load design").locator("xpath=../input[@type='file']")
     file.set_input_files(other)
     design_in_address(watched, "linear:-6;mu=0.25")

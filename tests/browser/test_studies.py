@@ -56,7 +56,7 @@ def studies(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def page(browser: "Browser", studies: Path) -> Iterator[tuple[Watched, Session]]:
     app = App("127.0.0.1", 0, limits=ServerLimits(studies=studies))
     watched = opened(browser, app.address, size=(1280, 900))
-    watched.page.get_by_role("tab", name="Studies").click()
+    watched.drawer("open")
     yield watched, app.sessions[-1]
     watched.close()
     app.stop()

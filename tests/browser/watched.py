@@ -11,7 +11,7 @@ from chromium import DRAW_NOTHING
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Locator, Page
 
-SMALL = (1000, 600)
+SMALL = (1180, 640)
 WAIT = 45_000
 """[ms]; far more than it takes, for machines that draw in software."""
 COARSE = "?fixedDpr=0.5"
@@ -52,6 +52,32 @@ class Watched:
     def type(self, label: str, value: float) -> None:
         self.row(label).locator("input:not([type=hidden])").last.fill(f"{value:g}")
         self.page.keyboard.press("Enter")
+
+    def mode(self, name: str) -> None:
+        """Explore, Optimise or Actuate: what the rail holds."""
+        self.page.locator(f".rxf-modes [data-value={name}]").click()
+        self.page.wait_for_function("name => RX.state.bar?.mode === name", arg=name, timeout=WAIT)
+
+    def drawer(self, name: str) -> None:
+        """Open a drawer, unless it is open."""
+        if self.page.evaluate("() => RX.state.bar.drawer") != name:
+            self.page.evaluate("name => RX.send('drawer', name)", name)
+        self.page.wait_for_selector(f'[data-explorer="drawer"][data-name="{name}"]', timeout=WAIT)
+
+    def section(self, title: str) -> None:
+        """A part of a rail or drawer that has several."""
+        button = self.page.locator(".rxp-sections button", has_text=title)
+        button.click()
+        self.page.wait_for_selector(f'.rxp-sections button[aria-pressed=true] >> text="{title}"', timeout=WAIT)
+
+    def reset(self) -> None:
+        """Back to the design the page began with."""
+        self.mode("explore")
+        self.page.get_by_role("button", name="Reset design").click()
+
+    def show(self, field: str) -> None:
+        """Another quantity on the disk."""
+        self.page.locator(".rxf-field select").select_option(field)
 
     def text(self, part: str) -> str:
         return self.page.locator(f'[data-explorer="{part}"]').first.inner_text()

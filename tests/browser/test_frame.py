@@ -1,0 +1,211 @@
+"""The frame of the page: opening, prompt, modes, drawers, the twist curve, keyboard and spoken names."""
+
+import re
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import pytest
+from watched import WAIT, Watched, opened
+
+from explorer.app import App
+from explorer.tabs.layout import DRAWERS
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture(scope="module")
+def shared(browser: "Browser", app: App) -> Iterator[Watched]:
+    watched = opened(browser, app.address, size=(1500, 940))
+    yield watched
+    watched.close()
+
+
+@pytest.fixture
+def watched(shared: Watched) -> Iterator[Watched]:
+    """The page as it opens, but for the prompt."""
+    shared.reset()
+    shared.page.evaluate("() => RX.send('drawer', '')")
+    shared.page.wait_for_function("() => RX.state.bar.drawer === '' && RX.state.power.change === '0.0 %'", timeout=WAIT)
+    yield shared
+    assert shared.complaints == []
+
+
+def middle(watched: Watched, selector: str) -> tuple[float, float]:
+    box = watched.page.locator(selector).bounding_box()
+    assert box is not None
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def test_it_opens_as_built_with_one_prompt_that_the_first_edit_ends(browser: "Browser", app: App):
+    watched = opened(browser, app.address, size=(1500, 940))
+    assert watched.text("change") == "0.0 %"
+    assert watched.text("against") == "UH-60A as built"
+    assert watched.text("since") == "as built"
+    assert watched.text("prompt") == "Drag the twist"
+    watched.press("Outboard", "ArrowRight", 3)
+    watched.page.wait_for_selector('[data-explorer="prompt"]', state="hidden", timeout=WAIT)
+    assert re.fullmatch(r"[+−]?\d+ kW since grabbed", watched.text("since"))
+    watched.page.get_by_role("button", name="Undo").click()
+    watched.page.wait_for_function("() => RX.state.power.change === '0.0 %'", timeout=WAIT)
+    assert watched.page.locator('[data-explorer="prompt"]').is_hidden()
+    watched.close()
+
+
+def test_each_mode_has_its_own_rail(watched: Watched):
+    rail = watched.page.locator("[data-dock-region=right]")
+    for mode, mark in (("optimise", "Objective"), ("actuate", "Show blade cut"), ("explore", "Adv. ratio")):
+        watched.mode(mode)
+        rail.get_by_text(mark).first.wait_for(timeout=WAIT)
+        assert watched.page.locator(".rxf-modes [aria-current=true]").inner_text().lower() == mode
+    assert rail.get_by_text("Objective").count() == 0
+
+
+@pytest.mark.parametrize("name", DRAWERS)
+def test_each_drawer_opens_beside_the_scene_and_escape_closes_it(watched: Watched, name: str):
+    page = watched.page
+    watched.drawer(name)
+    assert page.locator('[data-explorer="drawer"]').inner_text().startswith(DRAWERS[name])
+    page.wait_for_function("() => document.querySelector('canvas').getBoundingClientRect().left > 300", timeout=WAIT)
+    page.keyboard.press("Escape")
+    page.wait_for_selector('[data-explorer="drawer"]', state="detached", timeout=WAIT)
+    page.wait_for_function("() => document.querySelector('canvas').getBoundingClientRect().left < 2", timeout=WAIT)
+
+
+def test_the_status_opens_trust_and_the_parts_open_the_numbers(watched: Watched):
+    page = watched.page
+    page.locator(".rxf-chip").click()
+    page.wait_for_selector('[data-explorer="drawer"][data-name="trust"]', timeout=WAIT)
+    page.wait_for_selector('[data-explorer="provenance"]', timeout=WAIT)
+    page.locator(".rxf-parts").click()
+    page.wait_for_selector('[data-explorer="drawer"][data-name="details"]', timeout=WAIT)
+    page.wait_for_selector('[data-explorer="trim"]', timeout=WAIT)
+    page.get_by_role("button", name="Close").click()
+    page.wait_for_selector('[data-explorer="drawer"]', state="detached", timeout=WAIT)
+
+
+def test_the_twist_curve_is_dragged_and_the_tag_of_power_follows(watched: Watched):
+    page = watched.page
+    x, y = middle(watched, '[data-knot="2"]')
+    before, blade = watched.text("total-power"), watched.node("/rotor/blade_0")
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for step in range(1, 9):
+        page.mouse.move(x, y - 3 * step)
+        page.wait_for_timeout(60)
+    watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)  # While the button is down.
+    page.mouse.up()
+    watched.until_changed(lambda: watched.text("total-power"), before)
+    outer = float(watched.row("Outboard").locator("input:not([type=hidden])").last.input_value())
+    assert 2.0 < outer < 20.0  # Up is nose-up: less washout.
+    assert "since grabbed" in watched.text("since")
+    x, y = middle(watched, '[data-knot="1"]')
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 40, y, steps=6)
+    page.mouse.up()
+    page.wait_for_timeout(600)
+    assert float(watched.row("Division").locator("input:not([type=hidden])").last.input_value()) > 0.55
+
+
+def test_the_handles_of_the_curve_have_keys(watched: Watched):
+    page = watched.page
+    page.locator('[data-knot="2"]').focus()
+    for _ in range(5):
+        page.keyboard.press("ArrowUp")
+        page.wait_for_timeout(120)
+    page.wait_for_function("() => Number(RX.state.twist.knots.at(-1).theta) > -1", timeout=WAIT)
+    assert page.evaluate("() => document.activeElement.dataset.knot") == "2"
+    assert float(watched.row("Outboard").locator("input:not([type=hidden])").last.input_value()) > 0.5
+
+
+def test_each_slider_says_what_a_step_is_worth(watched: Watched):
+    page = watched.page
+    page.wait_for_function("() => Object.keys(RX.state.worth).length === 6", timeout=WAIT)
+    for name in ("built_inner", "built_outer", "built_division", "advance_ratio", "mass_t", "altitude_m"):
+        place = page.locator(f'[data-worth="{name}"]')
+        assert re.search(r"−\d+\.\d (kW|hp)/|flat", place.inner_text()), name
+        assert "changes power by" in (place.get_attribute("title") or "")
+
+
+def test_why_names_the_cause(watched: Watched):
+    watched.press("Inboard", "PageUp", 3)
+    watched.page.wait_for_function("() => RX.state.power.since", timeout=WAIT)
+    why = watched.at_rest(lambda: watched.text("why"))
+    assert re.match(r"Lift (moved|hardly moved)", why)
+    assert re.search(r"induced [+−]\d", why)
+
+
+def test_everything_that_can_be_pressed_has_a_name(watched: Watched):
+    nameless = watched.page.evaluate(
+        """() => [...document.querySelectorAll('#rx button, #rx select, #rx input')].filter(e => e.checkVisibility())
+            .filter(e => !(e.ariaLabel || e.innerText?.trim() || e.title || e.labels?.length)).map(e => e.outerHTML)"""
+    )
+    assert nameless == []
+
+
+def test_the_bar_is_walked_with_the_tab_key_and_focus_is_seen(watched: Watched):
+    page = watched.page
+    page.locator(".rxf-rotor").focus()
+    reached = []
+    for _ in range(10):
+        page.keyboard.press("Tab")
+        reached.append(
+            page.evaluate("() => document.activeElement.innerText?.trim() || document.activeElement.ariaLabel")
+        )
+        width = page.evaluate("() => getComputedStyle(document.activeElement).outlineWidth")
+        assert width == "2px", reached
+    assert reached[:3] == ["Explore", "Optimise", "Actuate"]
+    assert {"Pin A", "Open", "Share", "Lecture"} <= set(reached)
+
+
+def test_less_motion_is_respected(browser: "Browser", app: App):
+    context = browser.new_context(viewport={"width": 1280, "height": 720}, reduced_motion="reduce")
+    watched = Watched(context.new_page())
+    watched.open(app.address)
+    moving = """() => [...document.querySelectorAll('#rx *, [data-dock-region]')]
+        .filter(e => parseFloat(getComputedStyle(e).transitionDuration) > 0).length"""
+    assert watched.page.evaluate(moving) == 0
+    watched.close()
+
+
+def test_on_a_tablet_the_rail_is_a_drawer(browser: "Browser", app: App):
+    watched = opened(browser, app.address, size=(768, 1024))
+    page, rail = watched.page, watched.page.locator("[data-dock-region=right]")
+    width = "() => document.querySelector('canvas').getBoundingClientRect().width"
+    assert page.evaluate(width) == 768
+    assert not rail.is_visible()
+    page.get_by_role("button", name="Controls").click()
+    page.wait_for_function("() => document.querySelector('[data-dock-region=right]').checkVisibility()", timeout=WAIT)
+    page.wait_for_timeout(300)
+    box = rail.bounding_box()
+    assert box is not None
+    assert box["x"] + box["width"] == pytest.approx(768, abs=1)
+    assert page.evaluate(width) == 768
+    before = watched.text("total-power")
+    watched.press("Outboard", "PageUp", 3)
+    watched.until_changed(lambda: watched.text("total-power"), before)
+    page.get_by_role("button", name="Controls").click()
+    rail.wait_for(state="hidden", timeout=WAIT)
+    watched.close()
+
+
+def test_on_a_phone_power_is_read_and_twist_is_dragged(browser: "Browser", app: App):
+    watched = opened(browser, app.address, size=(390, 844))
+    page = watched.page
+    for part in ("total-power", "status"):
+        box = page.locator(f'[data-explorer="{part}"]').first.bounding_box()
+        assert box is not None
+        assert box["x"] >= 0
+        assert box["x"] + box["width"] <= 390
+    before = watched.text("total-power")
+    x, y = middle(watched, '[data-knot="2"]')
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x, y - 30, steps=8)
+    page.mouse.up()
+    watched.until_changed(lambda: watched.text("total-power"), before)
+    assert page.evaluate("() => document.documentElement.scrollWidth") <= 390
+    watched.close()
