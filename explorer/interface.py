@@ -233,6 +233,8 @@ class SharedServices:
 class RangeDisplay(Protocol):
     """The widgets that show the colour range of the disk."""
 
-    def show_range(self, field: Field, colour_range: tuple[float, float], faded: bool) -> None:
+    def show_range(
+        self, field: Field, colour_range: tuple[float, float], faded: bool, beyond: tuple[bool, bool] = (False, False)
+    ) -> None:
         """Show the colour bar of a field; `faded`: the disk no longer holds."""
         ...

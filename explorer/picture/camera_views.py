@@ -45,7 +45,7 @@ _STANDS = {
     "3d": _Stand(math.radians(34.0), math.radians(24.0), (0.9, 0.3, -2.35), 33.5, 1.6),
     "disk": _Stand(math.radians(0.02), math.radians(46.0), (1.0, 0.0, -2.0), 48.0, 1.05),
 }
-BESIDE = 1.75
+BESIDE = 1.66
 """How many times as far the camera stands from two rotors side by side."""
 
 
@@ -56,18 +56,30 @@ class Camera:
     look_at: Array
 
 
-def fit(view: View, radius: float, aspect: float, azimuth: float = 0.0, tilt: float = _USUAL_TILT) -> Camera:
+USUALLY_COVERED = 0.27
+"""Fraction of the canvas, from below, that cards cover on a screen of 1500 × 940 pixels."""
+
+
+def fit(
+    view: View,
+    radius: float,
+    aspect: float,
+    azimuth: float = 0.0,
+    tilt: float = _USUAL_TILT,
+    covered: float = USUALLY_COVERED,
+) -> Camera:
     """The camera of a view, as close as its subject, words included, allows.
 
     `aspect`: canvas width over height. `azimuth`: ψ [rad] of the reference blade, for "blade". `tilt`: of the shaft
-    [rad]. In "disk" and "top" the nose is up and the advancing side right; in "side" the nose is right.
+    [rad]. `covered`: fraction of the canvas that cards cover from below. In "disk" and "top" the nose is up and the
+    advancing side right; in "side" the nose is right.
     """
     if view == "blade":
         cos, sin = math.cos(azimuth - _BEHIND), math.sin(azimuth - _BEHIND)
         backward = np.array([cos * math.cos(_ABOVE), sin * math.cos(_ABOVE), math.sin(_ABOVE)])
         return framed(_blade(radius, azimuth), backward, aspect)
     if view in _STANDS:
-        return _standing(_STANDS[view], radius / _DRAWN_FOR, aspect, tilt)
+        return _above_cards(_standing(_STANDS[view], radius / _DRAWN_FOR, aspect, tilt), covered)
     elevation = _ELEVATION[view]
     aside = np.array([0.0, 1.0, 0.0]) if view == "side" else np.array([1.0, 0.0, 0.0])
     backward = math.cos(elevation) * aside + np.array([0.0, 0.0, math.sin(elevation)])
@@ -117,6 +129,18 @@ def _outline(radius: float) -> Array:
     """The rim with the words round it."""
     psi = np.linspace(0.0, 2.0 * math.pi, 73)
     return 1.2 * radius * np.stack((np.cos(psi), np.sin(psi), np.zeros_like(psi)), axis=1)
+
+
+def _above_cards(camera: Camera, covered: float) -> Camera:
+    """The same composition in the part of the canvas that is free, where cards cover more of it than usual."""
+    if covered <= USUALLY_COVERED:
+        return camera
+    sight = (camera.position - camera.look_at) * (1.0 - USUALLY_COVERED) / (1.0 - covered)
+    backward = sight / np.linalg.norm(sight)
+    up = np.array([0.0, 0.0, 1.0]) - backward[2] * backward
+    height = 2.0 * float(np.linalg.norm(sight)) * math.tan(FIELD_OF_VIEW / 2.0)
+    lower = 0.5 * (covered - USUALLY_COVERED) * height * up / np.linalg.norm(up)
+    return Camera(camera.look_at - lower + sight, camera.look_at - lower)
 
 
 def _blade(radius: float, azimuth: float) -> Array:

@@ -13,6 +13,10 @@ from explorer.picture.camera_views import BESIDE, FIELD_OF_VIEW, Camera, View, f
 
 _SETTLES = 1.5
 """While the page lays itself out [s], camera messages still tell of older positions."""
+_CARDS = 200
+"""Height of the cards along the lower edge of the canvas, with their margins [px]."""
+_MOST_COVERED = 0.45
+"""On a lower canvas the scene goes on behind the cards: there is no room beside them."""
 _LEAST_TILT = math.radians(0.2)
 """A smaller change of the shaft tilt does not move the camera."""
 _TAKEN = 0.3
@@ -44,7 +48,8 @@ class FittedCamera:
         self._aim(partial(self._fitted, view))
 
     def _fitted(self, view: View, aspect: float) -> Camera:
-        camera = fit(view, self._radius, aspect, self._azimuth, self._tilt)
+        height = max(self._client.camera.image_height, _CARDS / _MOST_COVERED)
+        camera = fit(view, self._radius, aspect, self._azimuth, self._tilt, _CARDS / height)
         if view == "blade":
             return camera
         return replace(camera, position=camera.look_at + self._beside * (camera.position - camera.look_at))

@@ -45,8 +45,8 @@ PARTS = {"induced": "#3b82c4", "profile": "#e6a117", "parasite": "#8d949c", "tai
 MARKED_BLADE: Rgb = (130, 20, 8)
 """Dark albedos: the page's lights bleach, and this one shows as a clear orange-red."""
 BLADE: Rgb = (40, 43, 50)
-PINNED_GHOST: Rgb = (255, 176, 0)
-"""The blade of A, in the amber of its lines."""
+PINNED_GHOST: Rgb = (96, 58, 214)
+"""The blade of A, in the violet that A has in the frame; an albedo."""
 HUB: Rgb = (30, 32, 37)
 RIM: Rgb = (112, 118, 128)
 """A grey that reads on white and on near-black."""
