@@ -167,7 +167,7 @@ class _Run:
             message = (
                 "No design found meets the limits: relax them."
                 if trimmed
-                else "No start trims: reduce the mass, the altitude or the speed."
+                else "No starting point has a trim: reduce the mass, the altitude or the speed."
             )
         elif not minima:
             status, message = (
@@ -178,9 +178,9 @@ class _Run:
             status = SearchStatus.CONVERGED
             agree = len(minima[0].starts)
             which = "only local minimum found" if len(minima) == 1 else f"best of {len(minima)} local minima"
-            message = f"{agree} of {evaluate.starts} starting points ended in the {which}."
+            message = f"{agree} of {evaluate.starts} starting points converged to the {which}."
             if self.lost:
-                message += f" {self.lost} did not trim."
+                message += f" {self.lost} had no trim."
         return Optimum(
             status=status,
             message=message,

@@ -1,10 +1,13 @@
 """The limits of validity of a solution, and why a design did not trim, in sentences for the user."""
 
+import math
+
 from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem
 from rotor.aero.switches import switched_off
 from rotor.design.aircraft import FIXED_SHARE
 from rotor.design.design import Design
+from rotor.trim.forward import easier_condition
 from rotor.trim.solution import Caveat, HubMoment
 
 LOW_SPEED = 0.075
@@ -112,11 +115,12 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
             f"Not trimmed: the hovering rotor produces at most {100.0 * reached:.0f} % of the thrust that "
             f"{condition.mass:.0f} kg at {condition.altitude:.0f} m needs; lower the mass or the altitude."
         )
-    how_far = (
-        f" Continuation from a lighter, slower rotor stops at {100.0 * reached:.0f} % of the way."
-        if reached > 0.0
-        else ""
-    )
+    near = easier_condition(design, reached)
+    how_far = ""
+    if reached > 0.0 and near.advance_ratio == condition.advance_ratio:
+        how_far = f" A trim exists only up to {math.floor(near.mass)} kg."
+    elif reached > 0.0:
+        how_far = f" The nearest trim found is at {near.mass:.0f} kg and advance ratio {near.advance_ratio:.3f}."
     return (
         f"Not trimmed: {condition.mass:.0f} kg at {condition.altitude:.0f} m and advance ratio "
         f"{condition.advance_ratio:.3f} is beyond this rotor.{how_far}{share} "

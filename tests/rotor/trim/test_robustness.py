@@ -48,6 +48,15 @@ def check(solution: Solution) -> None:
         assert solution.message.startswith("Not trimmed:")
 
 
+def test_the_largest_mass_that_a_failure_names_is_where_trims_end():
+    lost = solve(make_design(mu=0.2, mass_kg=18_000.0))
+    found = re.search(r"A trim exists only up to (\d+) kg\.", lost.message)
+    assert found
+    largest = float(found[1])
+    assert solve(make_design(mu=0.2, mass_kg=0.99 * largest)).converged
+    assert not solve(make_design(mu=0.2, mass_kg=1.02 * largest)).converged
+
+
 @given(
     preset=st.sampled_from(PRESETS),
     inflow=st.sampled_from(sorted(INFLOW_MODELS)),
