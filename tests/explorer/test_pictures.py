@@ -354,14 +354,14 @@ class TestCamera:
     def test_cards_that_cover_more_leave_the_same_picture_above_them(self, covered: float):
         """In the free part of the canvas everything is where it was, as much smaller as that part is.
 
-        From further away the near side is less blown up, so the whole is a little smaller still.
+        From further away the near side is less blown up, so the whole is a little smaller and lower still.
         """
         _, usual, _ = on_canvas(fit("3d", 8.18, 1.7), 1.7, self.RIM)
         _, lifted, _ = on_canvas(fit("3d", 8.18, 1.7, covered=covered), 1.7, self.RIM)
         free = (1.0 - covered) / (1.0 - 0.27)
         # Up is 1: the middle of the free part lies at its covered fraction.
         assert 0.9 * free * np.ptp(usual) < np.ptp(lifted) <= free * np.ptp(usual)
-        assert lifted.mean() - covered == pytest.approx(free * (usual.mean() - 0.27), abs=0.03)
+        assert lifted.mean() - covered == pytest.approx(free * (usual.mean() - 0.27), abs=0.06)
 
     def test_the_camera_rises_with_the_shaft_tilt(self):
         """A rotor tilted by 6° more is seen 4.8° further from above."""
