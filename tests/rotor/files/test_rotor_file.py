@@ -173,7 +173,7 @@ def test_bad_section_files_get_one_sentence():
         (SECTION, {"a.txt": fine, "b.txt": fine}, "line 21: two polars of mine have Mach 0.3"),
         (one, {"a.txt": fine.replace("Mach =", "Mach of")}, "a.txt does not say 'Mach ='"),
         (one, {"a.txt": "hello\n"}, "a.txt is not an XFOIL polar file: save it with PACC"),
-        (one, {"a.txt": fine.replace("   0.0500   0.0500", "", 1).replace("0.0", "oops", 9)}, "is not a row of numbers"),
+        (one, {"a.txt": fine.replace("   0.0500   0.0500", "", 1).replace("0.0", "oops", 9)}, "not a row of numbers"),
         (one, {"a.txt": polar_file(cut)}, "line 21: the polar of mine at Mach 0.3 covers"),
         (of_deck, {"a.c81": deck.replace("NACA", "NACA 0012 is too long a title", 1)}, "a.c81"),
         (of_deck, {"a.c81": deck[:9000]}, "a card is missing, compare the counts in line 1"),
