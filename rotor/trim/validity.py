@@ -49,7 +49,7 @@ def caveats(problem: Problem, elements: BladeElements, stalled: float, moment: H
     off = switched_off(design.models)
     if off:
         names = ", ".join(switch.title.lower() for switch in off)
-        add("switched-off", f"Switched off: {names}. For teaching; the aircraft has all of them.")
+        add("switched-off", f"Switched off: {names}. The result is for teaching, not for the aircraft.")
     if not design.models.flapping and mu > 0.0:
         add("rigid-blades", _rigid(moment))
         if not problem.inflow.load_dependent:

@@ -116,7 +116,7 @@ class TestShelf:
             ("my.toml", GOOD.replace("radius_m = 5.0", "radius_m = -5.0").encode(), "my.toml, line 5: radius_m is -5"),
             ("my.toml", b"name = \n", "my.toml, line 1: this is not TOML"),
             ("mine.c81", DECK[:5000], "mine.c81, line 79"),
-            ("p.txt", b"hello", "p.txt is no XFOIL polar file"),
+            ("p.txt", b"hello", "p.txt is not an XFOIL polar file"),
             ("shape.dat", b"1 0\n0 0\n", "shape.dat has 2 points"),
         ],
     )

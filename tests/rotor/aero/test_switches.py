@@ -257,7 +257,7 @@ class TestFlapping:
     def test_a_caveat_gives_the_hub_moment_of_rigid_blades(self):
         solution = solve(with_switches(small(0.25), ("flapping",))).require()
         sentences = {caveat.name: caveat.sentence for caveat in solution.caveats}
-        assert sentences["switched-off"] == "Switched off: flapping. For teaching; the aircraft has all of them."
+        assert sentences["switched-off"] == "Switched off: flapping. The result is for teaching, not for the aircraft."
         assert f"{solution.hub_moment.roll / 1e3:.0f} kN m rolling to the retreating side" in sentences["rigid-blades"]
         assert solution.hub_moment.roll > 50e3
 
