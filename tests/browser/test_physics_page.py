@@ -40,7 +40,7 @@ def test_a_switch_changes_the_power_and_the_page_says_so(watched: Watched):
     with_moment = watched.until_changed(lambda: watched.text("total-power"), before)
     assert kilowatts(with_moment) > kilowatts(before) + 100.0
     status = watched.page.evaluate("() => RX.state.power.status.title")
-    assert "Switched off: flapping. For teaching; the aircraft has all of them." in status
+    assert "Switched off: flapping. The result is for teaching, not for the aircraft." in status
     assert re.search(r"the hub carries 2\d\d kN m rolling to the retreating side", status)
     box(watched, "Flapping")
     watched.until_changed(lambda: watched.text("total-power"), with_moment)
