@@ -49,7 +49,9 @@ class FittedCamera:
 
     def _fitted(self, view: View, aspect: float) -> Camera:
         height = max(self._client.camera.image_height, _CARDS / _MOST_COVERED)
-        camera = fit(view, self._radius, aspect, self._azimuth, self._tilt, _CARDS / height)
+        # Two rotors side by side are low: they leave the cards their room anyway.
+        covered = _CARDS / height if self._beside == 1.0 else 0.0
+        camera = fit(view, self._radius, aspect, self._azimuth, self._tilt, covered)
         if view == "blade":
             return camera
         return replace(camera, position=camera.look_at + self._beside * (camera.position - camera.look_at))

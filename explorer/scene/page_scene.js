@@ -4,14 +4,27 @@
   const viewer = () => window.__viserMutable;
   let surfaces = {}, motion = null, heard = null, mark = null, rate = 0, psi = 0, before = 0;
 
+  // Pictures seen from a low angle stay sharp with anisotropic filtering, which a graphics card gives for nothing.
+  const hardware = () => {
+    const gl = viewer().canvas?.getContext('webgl2'), info = gl?.getExtension('WEBGL_debug_renderer_info');
+    return Boolean(info) && !/swiftshader|llvmpipe|software/i.test(gl.getParameter(info.UNMASKED_RENDERER_WEBGL));
+  };
+  let sharp = null;
+
   // Materials come and go with their nodes, so they are looked at again and again; a dressed one is left alone.
   const dress = () => {
     const nodes = viewer()?.nodeRefFromName;
     let changed = false;
+    sharp ??= viewer()?.canvas ? hardware() : null;
     for (const [name, wanted] of Object.entries(surfaces))
       nodes?.[name]?.traverse?.(part => {
         const material = part.material;
-        if (!part.isMesh || !material?.userData || material.userData.dressed) return;
+        if (!part.isMesh || !material?.userData) return;
+        if (wanted.flat && sharp && material.map && material.map.anisotropy < 8) {
+          material.map.anisotropy = 8;
+          material.map.needsUpdate = changed = true;
+        }
+        if (material.userData.dressed) return;
         if (wanted.flat ? !material.map : material.roughness === undefined) return;
         material.userData.dressed = changed = true;
         if (wanted.flat) material.depthWrite = false;
