@@ -149,6 +149,15 @@ div:has(> .rx-bridge), div:has(> .rx-bridge) + div { display: none !important; }
 """
 
 BIG = """
+html { font-size: 16.5px !important; }
+#rx { font-size: 15px; }
+#rx .rxf-modes button, #rx .rxf-tools button, .rxf-head, .rxf-head b { font-size: 14.5px; }
+.rxf-since small, .rxf-sub, .rxf-why { font-size: 14.5px; }
+#rx .rxf-chip, .rxf-parts dl, .rxf-field, #rx .rxf-legend button { font-size: 13px; }
+.rxf-total { font-size: 46px; }
+#rx svg text, .rxp-curve svg text { font-size: 12.5px; }
+.rxp-title { font-size: 19px; }
+.rxp-head, .rxp-head span, .rxp-worth { font-size: 13px; }
 :root { --mantine-scale: 1.2; }
 .rx, .rx-status, .rx-heading, .rx-legend, .rx-scale, .rx-kappa, .rx-speed, .rx-check { font-size: 15.5px; }
 .rx-status { height: 92px; }

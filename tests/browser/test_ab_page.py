@@ -38,7 +38,7 @@ def press(watched: Watched, name: str) -> None:
 
 
 def test_pin_move_compare_swap_back_and_let_go(browser: "Browser", app: App):
-    watched = opened(browser, app.address)
+    watched = opened(browser, app.address, size=(1500, 940))
     page = watched.page
     begun = watched.text("total-power")
     watched.drawer("details")
@@ -52,11 +52,12 @@ def test_pin_move_compare_swap_back_and_let_go(browser: "Browser", app: App):
     page.keyboard.press("Escape")
     assert watched.text("against") == "A"
     assert total_row(watched)[2:] == ["0.0", "0.0"]
-    watched.until_changed(lambda: ghost_seen(watched), False)
+    watched.until_changed(lambda: ghost_seen(watched), True)  # A and B are one blade.
     assert page.evaluate("() => RX.state.strip.every(chart => chart.pinned)")
 
     disk = watched.node("/rotor/disk/field")
     watched.press("Inboard", "PageUp", 4)
+    watched.until_changed(lambda: ghost_seen(watched), False)
     moved = watched.until_changed(lambda: total_row(watched)[2], "0.0")
     a, b, apart, percent = watched.at_rest(lambda: total_row(watched))
     assert f"{a} kW" == begun
@@ -88,7 +89,7 @@ def test_pin_move_compare_swap_back_and_let_go(browser: "Browser", app: App):
     press(watched, "Unpin")
     page.wait_for_selector('[data-explorer="ab"]', state="detached", timeout=WAIT)
     page.wait_for_function("() => !RX.state.bar.pinned", timeout=WAIT)
-    watched.until_changed(lambda: ghost_seen(watched), True)
+    watched.until_changed(lambda: ghost_seen(watched), False)  # Of the blade as built.
     assert watched.text("against") == "UH-60A as built"
     assert "B − A" not in page.locator('[data-part="unit"]').inner_text()
     assert page.get_by_role("button", name="Show B − A").count() == 0
