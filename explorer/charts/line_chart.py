@@ -10,8 +10,7 @@ import numpy as np
 
 from explorer.charts import svg
 from explorer.charts.plots import Range, held_range
-from explorer.picture.colour_bar import tick_text
-from explorer.picture.fields import ticks
+from explorer.picture.fields import tick_text, ticks
 from rotor.arrays import Array
 
 WIDE, HIGH = 520.0, 270.0

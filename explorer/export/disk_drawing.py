@@ -5,8 +5,7 @@ from html import escape
 
 from explorer.charts import svg
 from explorer.picture import disk_image as image
-from explorer.picture.colour_bar import tick_text
-from explorer.picture.fields import Field, ticks
+from explorer.picture.fields import Field, tick_text, ticks
 from explorer.picture.outlines import drag_divergence_segments, reverse_flow_segments, stall_segments
 from explorer.picture.picture import OUTLINE_COLOURS, disk_png
 from explorer.text.units import SI, Units

@@ -173,3 +173,8 @@ def round_up(step: float) -> float:
     """The round number 1, 2 or 5 × 10ⁿ nearest above `step`."""
     power = 10.0 ** math.floor(math.log10(step))
     return power * next(factor for factor in (1.0, 2.0, 5.0, 10.0) if factor * power >= step * (1.0 - 1e-9))
+
+
+def tick_text(value: float) -> str:
+    """A tick's number with a true minus sign and no needless digits."""
+    return f"{round(value, 6) + 0.0:g}".replace("-", "−")

@@ -7,8 +7,7 @@ from typing import Any
 
 from explorer.interface import SessionState
 from explorer.overlay.bridge import Bridge
-from explorer.picture.colour_bar import tick_text
-from explorer.picture.fields import FIELDS, Field, ticks
+from explorer.picture.fields import FIELDS, Field, tick_text, ticks
 from explorer.state import ViewState
 from explorer.text.units import number
 from explorer.theme.colours import colour_map, css

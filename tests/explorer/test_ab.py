@@ -10,7 +10,6 @@ from numpy.testing import assert_allclose
 from PIL import Image
 
 from explorer.charts import plots
-from explorer.picture.colour_bar import colour_bar
 from explorer.picture.difference import difference, shown_field
 from explorer.picture.fields import FIELDS, fitted_range
 from explorer.picture.picture import disk_png, field_values
@@ -313,9 +312,7 @@ class TestDisk:
         plain, wanted = ViewState(), ViewState(difference=True)
         assert shown_field(plain, b) is FIELDS[plain.field]
         assert shown_field(wanted, None) is FIELDS[plain.field]
-        html = colour_bar(shown_field(wanted, b), -2.0, 2.0)
-        assert "Δ angle of attack [°], B − A" in html
-        assert "−2<" in html
+        assert shown_field(wanted, b).label == "Δ angle of attack [°], B − A"
         assert difference(FIELDS["Mach number"], b).label == "Δ Mach number, B − A"
 
     def test_a_used_up_margin_stays_rust(self, b: Solution):

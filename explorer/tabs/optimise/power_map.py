@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import RectBivariateSpline
 
 from explorer.charts.clicks import write_to
-from explorer.picture.colour_bar import tick_text
-from explorer.picture.fields import ticks
+from explorer.picture.fields import tick_text, ticks
 from explorer.picture.png import encode_png
 from explorer.text.units import SI, Units, number
 from explorer.theme.colours import NOW, colour_map
