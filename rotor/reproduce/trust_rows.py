@@ -23,11 +23,10 @@ from rotor.reproduce.cross_codes import (
     beside_dynbem,
     have,
 )
-from rotor.reproduce.grids import figure_3_7, figure_3_8, figure_3_9
+from rotor.reproduce.disk_figures import figure_2_8, figure_3_7, figure_3_8, figure_3_9
 from rotor.reproduce.report import Report
 from rotor.reproduce.trust import Kind, TrustRow
 from rotor.reproduce.twist_effect import keys_1987
-from rotor.reproduce.velocities import figure_2_8
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.forward import first_guess
 from rotor.trim.hover import closed_form_inflow

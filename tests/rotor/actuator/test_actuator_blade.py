@@ -11,11 +11,15 @@ from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.electrical import capacitance, drive, harmonic_drive
 from rotor.actuator.harmonic import dynamic_twist
 from rotor.actuator.installation import InstalledActuator, addition, balance_mass, install
-from rotor.actuator.limits import limits
-from rotor.actuator.loads import ELEMENTS, bend, fibre_strain
-from rotor.actuator.placement import Host, Placement, default_placement
-from rotor.dynamics.structure import BladeStructure, uh60a_structure
-from rotor.dynamics.torsion_beam import torsion_beam, torsion_frequency, twist_under_moment
+from rotor.actuator.limits import ELEMENTS, bend, fibre_strain, limits
+from rotor.actuator.section import Host, Placement, default_placement
+from rotor.dynamics.structure import (
+    BladeStructure,
+    torsion_beam,
+    torsion_frequency,
+    twist_under_moment,
+    uh60a_structure,
+)
 from rotor.files.make_design import make_design, uh60a_rotor
 from rotor.trim.solve import solve
 

@@ -7,10 +7,12 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.actuator.catalogue import PiezoPly, find_actuator
-from rotor.actuator.placement import Host, Placement, default_placement
 from rotor.actuator.section import (
+    Host,
+    Placement,
     SectionSpec,
     active_section,
+    default_placement,
     passive_section,
     section_spec,
 )

@@ -16,7 +16,7 @@ from rotor.actuator.installation import install
 from rotor.actuator.limits import limits
 from rotor.actuator.optimum import STATIONS, ConditionPair, baseline, best_actuated, twisted
 from rotor.actuator.pictures import section_picture, twist_comparison, twist_under_voltage
-from rotor.actuator.placement import Host, default_placement
+from rotor.actuator.section import Host, default_placement
 from rotor.actuator.tables import table_5_1, verdict_table
 from rotor.actuator.verdict import Verdict, change_limit, judge, verdict_sentence
 from rotor.files.make_design import make_design

@@ -10,7 +10,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.__main__ import main
-from rotor.command.sweep import COLUMNS
+from rotor.analysis.series import COLUMNS
 from rotor.files.ranges import parse_range
 
 KEYS = [

@@ -13,7 +13,7 @@ from rotor.__main__ import main
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.harmonic import phase_sweep
 from rotor.actuator.installation import install
-from rotor.actuator.placement import Host, default_placement
+from rotor.actuator.section import Host, default_placement
 from rotor.aero.elements import build_problem, evaluate_elements
 from rotor.aero.sums import slopes
 from rotor.design.active_twist import ActiveTwist, Harmonic

@@ -17,8 +17,8 @@ from rotor.design.twist import (
     QuadraticTwist,
     TwistLaw,
     ideal_tip_pitch,
+    parse_twist,
 )
-from rotor.design.twist_spec import parse_twist
 from rotor.files.make_design import make_design, uh60a_twist
 
 R = np.linspace(0.13, 1.0, 88)

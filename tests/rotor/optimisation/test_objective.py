@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor.design.aircraft import FlightCondition
 from rotor.design.design import Design
-from rotor.design.flight import FlightCondition
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.limits import stalled_share

@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.analysis.sweep import sweep
+from rotor.analysis.series import sweep
+from rotor.design.aircraft import FlightCondition
 from rotor.design.design import Design
-from rotor.design.flight import FlightCondition
 from rotor.design.twist import LinearTwist
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS, find_concept

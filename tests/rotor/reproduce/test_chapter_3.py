@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.reproduce import Agreement, Report
-from rotor.reproduce.grids import convergence_order
+from rotor.reproduce.disk_figures import convergence_order
 from rotor.reproduce.report import ReportTable
 from rotor.reproduce.twist_effect import crossings
 

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import pytest
 
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.reproduce import Agreement, Report, flown_blade
+from rotor.reproduce import Agreement, Report
 from rotor.reproduce import comparison as side_by_side
 from rotor.reproduce import optimum_twist as figures
 from rotor.reproduce.optima import CONCEPTS, QUICK, best
@@ -128,14 +128,14 @@ def test_figure_4_11(report: Make):
 
 def test_figure_4_12():
     """Moving three segments saves, but little: nothing near the distance to any data."""
-    numbers = flown_blade.figure_4_12(QUICK, ("flight",)).numbers
+    numbers = side_by_side.figure_4_12(QUICK, ("flight",)).numbers
     assert 0.0 < numbers["flight_least_saving"] <= numbers["flight_largest_saving"] < 0.05
 
 
 @pytest.mark.slow
 def test_figure_4_12_every_inflow():
     """With any model; the one that answers without wake losses (local momentum) sees most."""
-    numbers = flown_blade.figure_4_12(QUICK).numbers
+    numbers = side_by_side.figure_4_12(QUICK).numbers
     for name in EVERY_VARIANT:
         assert 0.0 < numbers[f"{name}_least_saving"] <= numbers[f"{name}_largest_saving"] < 0.10
 

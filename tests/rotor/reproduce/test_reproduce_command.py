@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from rotor.__main__ import main
-from rotor.reproduce import pictures
+from rotor.reproduce import page as pictures
 from rotor.reproduce.catalogue import ENTRIES, find_entry, searches_of
 from rotor.reproduce.optima import FULL, best
 from rotor.reproduce.report import PlotPanel, curve, typographic

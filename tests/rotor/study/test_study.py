@@ -17,17 +17,15 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from rotor.__main__ import main
 from rotor.assets import asset_path
-from rotor.command.progress import interruptible
+from rotor.command.common import interruptible
 from rotor.files.make_design import make_design
 from rotor.study import cluster
-from rotor.study.axes import Axis, Sample, StudyPoints
 from rotor.study.chunks import FinishedChunk, StudyProvenance, evaluate_chunk, evaluate_points
 from rotor.study.findings import best_row, effects, robust_best
-from rotor.study.results import Results, read_file, read_results
-from rotor.study.store import Store, StoreError
-from rotor.study.study import default_chunk
+from rotor.study.point import WarmStarts
+from rotor.study.results import Results, Store, StoreError, read_file, read_results
+from rotor.study.study import Axis, Sample, StudyPoints, default_chunk
 from rotor.study.study_file import StudyFile, parse_study, read_study
-from rotor.study.warm_starts import WarmStarts
 from rotor.trim.solve import solve
 
 WHENCE = StudyProvenance("0.0", None, "0")
@@ -292,7 +290,7 @@ def test_a_full_disk_is_one_sentence_and_keeps_what_is_there(
     def full(handle: int) -> None:
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr("rotor.study.store.os.fsync", full)
+    monkeypatch.setattr("rotor.study.results.os.fsync", full)
     with pytest.raises(StoreError, match=r"No space left on device\).*finished chunks are kept"):
         store.keep(1, content)
     assert store.missing() == [1]
