@@ -231,7 +231,7 @@ def indicative() -> Iterator[TrustRow]:
         slope = float(table(math.radians(8.0), 0.3).cl - table(0.0, 0.3).cl) / math.radians(8.0)
         yield _relative("indicative", f"Lift slope of {name.upper()} over 0–8°, Mach 0.3",
                    "flight-simulation deck of NASA CR-166309", slope / published - 1.0, 3e-3,
-                   "rotor/reproduce/test_trust.py::test_lift_slope_beside_the_public_deck",
+                   "rotor/reproduce/test_trust.py::test_lift_slope_compared_with_the_public_deck",
                    "XFOIL is steeper than that deck; published RANS agrees with XFOIL.")  # fmt: skip
     rotor = uh60a_rotor("flight")
     frequency = math.sqrt(rotor.flap_frequency_squared) / FLAP_FREQUENCY - 1.0

@@ -32,7 +32,7 @@ def check(one: Report, concept: str, variants: tuple[str, ...] = EVERY_VARIANT) 
                 assert found.power_kw <= best(name, "linear", mu, QUICK).power_kw * (1.0 + 1e-5)
 
 
-def test_every_inflow_model_stands_in_both_presets():
+def test_both_presets_have_every_inflow_model():
     """The four with pictures of their own are among them; in hover the model makes no difference and is not asked."""
     assert {choices(name) for name in EVERY_VARIANT} == {(preset, name) for preset in PRESETS for name in INFLOW_MODELS}
     assert set(VARIANTS) < set(EVERY_VARIANT)
@@ -65,7 +65,7 @@ def test_figure_4_1_every_inflow():
                 assert best(name, "linear", 0.0, QUICK).values[0] < best(name, "linear", 0.15, QUICK).values[0]
 
 
-def test_figure_4_1_steady_decrease_with_the_wake():
+def test_figure_4_1_decreases_steadily_with_the_wake():
     """The thesis' idea on its own rotor: with a wake that answers, the optimum falls steadily with speed."""
     rates = [best("thesis-wake", "linear", mu, QUICK).values[0] for mu in QUICK.speeds]
     assert rates[0] < rates[1] - 2.0 < rates[2] - 4.0
