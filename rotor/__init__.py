@@ -23,17 +23,16 @@ thesis, Instituto Superior Técnico, 2016 ("the document"), whose misprints are 
 from importlib.metadata import PackageNotFoundError, version
 
 from rotor.aero.trim_state import TrimState
-from rotor.analysis.sweep import SweepTable, plot_power, sweep
-from rotor.design.aircraft import Aircraft
+from rotor.analysis.series import SweepTable, plot_power, sweep
+from rotor.design.aircraft import Aircraft, FlightCondition
 from rotor.design.blade import Rotor
 from rotor.design.design import Design, Models
-from rotor.design.flight import FlightCondition
-from rotor.design.twist_spec import parse_twist
+from rotor.design.twist import parse_twist
 from rotor.files.design_file import load_design
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import load_rotor
-from rotor.optimisation.optimise import optimise
 from rotor.optimisation.results import Optimum
+from rotor.optimisation.search import optimise
 from rotor.trim.solution import Caveat, PowerBudget, Solution, Status
 from rotor.trim.solve import solve
 

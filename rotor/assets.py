@@ -1,13 +1,20 @@
-"""The path of data files: `assets/` of the checkout, or its copy in an installed wheel."""
+"""The installed package: the path of its data files, its version and, in a checkout, its commit.
+
+Data files are in `assets/` of the checkout, or its copy in an installed wheel.
+"""
 
 import csv
+import subprocess
+from functools import cache
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 SHIPPED_ROTORS = ("uh60a", "r22", "s61")
 """Names of the shipped rotors, each in `assets/<name>.toml`. The first is the default."""
 
 _PACKAGED = Path(__file__).parent / "_assets"
-_CHECKOUT = Path(__file__).parent.parent / "assets"
+_CHECKOUT_ROOT = Path(__file__).parent.parent
+_CHECKOUT = _CHECKOUT_ROOT / "assets"
 
 
 def asset_path(name: str) -> Path:
@@ -26,3 +33,23 @@ def csv_rows(path: Path) -> list[dict[str, str]]:
     """The rows of a table by column; lines that begin with # hold sources and are skipped."""
     lines = path.read_text(encoding="utf-8").splitlines()
     return list(csv.DictReader(line for line in lines if not line.startswith("#")))
+
+
+def package_version() -> str:
+    """Version of the installed package; "unknown" for a copy of the source."""
+    try:
+        return version("rotor-explorer")
+    except PackageNotFoundError:
+        return "unknown"
+
+
+@cache
+def commit() -> str | None:
+    """The commit of the checkout, with + where files differ from it; None for an installed package."""
+    if not (_CHECKOUT_ROOT / ".git").exists():
+        return None
+    command = ["git", "-C", str(_CHECKOUT_ROOT), "describe", "--always", "--dirty=+", "--exclude=*"]
+    try:
+        return subprocess.run(command, capture_output=True, text=True, timeout=5.0, check=True).stdout.strip()
+    except (OSError, subprocess.SubprocessError):
+        return None

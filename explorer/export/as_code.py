@@ -14,7 +14,7 @@ from typing import Any
 
 from rotor.aero.switches import switched_off
 from rotor.assets import SHIPPED_ROTORS
-from rotor.command.flags import design_from
+from rotor.command.common import design_from
 from rotor.command.parser import build_parser
 from rotor.design.blade import airfoils_spec
 from rotor.design.design import Design

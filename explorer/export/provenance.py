@@ -6,8 +6,8 @@ from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 
 from explorer.text.design_words import inflow_words, physics_words
+from rotor.assets import commit
 from rotor.design.design import Design
-from rotor.files.provenance import commit
 from rotor.trim.solution import Solution
 
 PROGRAM = "rotor explorer"

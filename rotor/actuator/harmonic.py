@@ -17,7 +17,7 @@ from rotor.actuator.verdict import with_actuator_mass
 from rotor.arrays import Array
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
-from rotor.dynamics.torsion_beam import twist_under_moment
+from rotor.dynamics.structure import twist_under_moment
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 

@@ -7,13 +7,20 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, derating
-from rotor.actuator.placement import Host, Placement
-from rotor.actuator.section import SectionSpec, active_section, section_spec, skin
+from rotor.actuator.section import Host, Placement, SectionSpec, active_section, section_spec, skin
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
-from rotor.dynamics.structure import BladeStructure, structure_data, uh60a_structure
+from rotor.dynamics.structure import (
+    Addition,
+    BladeStructure,
+    TorsionBeam,
+    structure_data,
+    torsion_beam,
+    torsion_frequency,
+    twist_under_moment,
+    uh60a_structure,
+)
 from rotor.dynamics.thin_wall import induced_twist_rate, torsional_stiffness
-from rotor.dynamics.torsion_beam import Addition, TorsionBeam, torsion_beam, torsion_frequency, twist_under_moment
 
 
 @dataclass(frozen=True)

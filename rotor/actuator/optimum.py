@@ -17,12 +17,12 @@ import numpy as np
 
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.installation import InstalledActuator
-from rotor.actuator.loads import interpolate_columns
+from rotor.actuator.limits import interpolate_columns
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import REFERENCE_RADIUS, PiecewiseLinearTwist, SumTwist, TwistLaw
 from rotor.optimisation.concepts import Concept, nearest, restrict
-from rotor.optimisation.slsqp import slsqp
+from rotor.optimisation.descent import slsqp
 from rotor.trim.adjoint import Adjoint, power_along
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve

@@ -9,8 +9,16 @@ import numpy as np
 
 from rotor.actuator.catalogue import PiezoPly, TorqueTube
 from rotor.actuator.installation import InstalledActuator
-from rotor.actuator.placement import Host, Placement
-from rotor.actuator.section import SectionSpec, passive_skin, passive_wall, section_spec, skin, web_line
+from rotor.actuator.section import (
+    Host,
+    Placement,
+    SectionSpec,
+    passive_skin,
+    passive_wall,
+    section_spec,
+    skin,
+    web_line,
+)
 from rotor.actuator.verdict import Verdict
 from rotor.arrays import Array
 from rotor.dynamics.structure import structure_data, uh60a_structure

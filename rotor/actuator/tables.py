@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube, actuators
 from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.placement import Host, Placement, default_placement
+from rotor.actuator.section import Host, Placement, default_placement
 from rotor.actuator.verdict import Verdict, count, judge
 from rotor.optimisation.concepts import Concept, find_concept
 

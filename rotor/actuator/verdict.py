@@ -10,7 +10,7 @@ from rotor.actuator.electrical import Drive, drive
 from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.limits import Limit, limits
 from rotor.actuator.optimum import Baseline, ConditionPair, TwistOptimum, baseline, best_actuated
-from rotor.actuator.placement import Host, Placement
+from rotor.actuator.section import Host, Placement
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw

@@ -1,7 +1,7 @@
 """Section aerodynamics: coordinates, polars, decks, and the smooth run-time table.
 
-At run time only `load_section`, `SectionTable` and `load_contour` matter; XFOIL is needed for rebuilding
-the bundled polars alone. Angles are radians, except where a name ends in `_deg`.
+The run-time interface is `load_section`, `SectionTable` and `load_contour`. XFOIL is needed only to rebuild the
+bundled polars. Angles are radians, except where a name ends in `_deg`.
 """
 
 from rotor.airfoil.contour import Contour as Contour

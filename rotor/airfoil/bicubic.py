@@ -1,7 +1,7 @@
 """Deck values as a smooth surface: bicubic Hermite cells on one uniform grid that all sections share.
 
-The deck's own knots carry monotone (PCHIP) slopes; the piecewise cubics through them are laid out on the
-uniform grid without any change of shape, because every knot is a node of the grid. The surface is C1
+The slopes at the deck's knots are monotone (PCHIP). Every knot is a node of the uniform grid, so the piecewise cubics
+keep their shape on it. The surface is C1
 everywhere, periodic in alpha, without overshoot, and reproduces every deck value.
 """
 
@@ -43,11 +43,11 @@ def _nodes_along_alpha(block: C81Block) -> tuple[Array, Array]:
 
 
 def _along_mach(mach: Array, values: Array) -> tuple[Array, Array]:
-    """Values and Mach-slopes (per cell) at the uniform Mach nodes, shape (rows, N_MACH + 1), held outside."""
+    """Values and Mach-slopes (per cell) at the uniform Mach nodes, shape (rows, N_MACH + 1), constant outside."""
     nodes = mach_nodes()
     inside = np.clip(nodes, mach[0], mach[-1])
     own = np.asarray(PchipInterpolator(mach, values, axis=1).derivative()(mach))
-    own[:, -1] = 0.0  # Held beyond the data, so flat at its end: C1 across the limit.
+    own[:, -1] = 0.0  # Constant beyond the data, so the slope at its end is zero: C1 across the limit.
     own[:, 0] = 0.0
     curve = CubicHermiteSpline(mach, values, own, axis=1)
     slope: Callable[[Array], Array] = curve.derivative()
@@ -58,7 +58,7 @@ def _along_mach(mach: Array, values: Array) -> tuple[Array, Array]:
 def bicubic_coefficients(block: C81Block) -> Array:
     """Cell polynomials (N_ALPHA, N_MACH, 4, 4) of the C1 surface through the deck values of `block`.
 
-    A ValueError says when the knots do not lie on the uniform grid or do not close the circle.
+    Raises ValueError when a knot is not on the uniform grid, or when the angles do not cover the full circle.
     """
     steps = block.mach / MACH_STEP
     if np.any(np.abs(steps - np.round(steps)) > 1e-9) or block.mach[-1] > 1.0 + 1e-9:

@@ -1,4 +1,4 @@
-"""C81 airfoil decks: the fixed-column text tables of rotorcraft codes, read strictly and written exactly.
+"""C81 airfoil decks: the fixed-column text tables of rotorcraft codes, strict reading and exact writing.
 
 Card image: a title card (30 characters of name, then 6I2: number of Machs and of angles for cl, cd, cm);
 then for each coefficient the Mach cards (seven blanks, then nine fields a card) and for each angle one
@@ -41,7 +41,7 @@ class C81Deck:
 
 
 class _Cards:
-    """The cards of one file, taken in order, with messages that name file and line."""
+    """The cards of one file, taken in order, with error messages that give file and line."""
 
     def __init__(self, name: str, text: str) -> None:
         self.name = name
@@ -104,7 +104,7 @@ def _block(cards: _Cards, name: str, machs: int, angles: int) -> C81Block:
 
 
 def parse_c81(text: str, name: str = "deck") -> C81Deck:
-    """The deck in `text`; a ValueError says in one sentence which line of `name` is wrong and what to do."""
+    """The deck in `text`. Raises ValueError with one sentence that gives the line of `name` and the remedy."""
     cards = _Cards(name, text)
     head = cards.take().ljust(42)
     counts: list[int] = []

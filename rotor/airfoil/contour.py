@@ -31,7 +31,7 @@ _FIVE_DIGIT = {  # Middle digits: where the camber is: (m, k1) for a design lift
 
 
 def is_naca(name: str) -> bool:
-    """Whether `naca_points` can draw `name`: naca0012, naca2412, naca23012."""
+    """Whether `naca_points` has a formula for `name`, such as naca0012, naca2412 or naca23012."""
     found = re.fullmatch(r"naca(\d{4}|\d{5})", name)
     return found is not None and (len(found[1]) == 4 or found[1][1:3] in _FIVE_DIGIT) and int(found[1][-2:]) > 0
 
@@ -79,7 +79,7 @@ SECTION_NAMES = ("sc1095", "sc1094r8", "naca0012", "naca63a015")
 
 @dataclass(frozen=True, eq=False)
 class Contour:
-    """A closed-by-its-gap section outline.
+    """A section outline; the trailing-edge gap, if any, closes it.
 
     `points` has shape (n, 2): x aft and y up in chord lengths [-], upper trailing edge first.
     """
@@ -96,7 +96,7 @@ def read_contour(path: Path, name: str | None = None) -> Contour:
 def parse_contour(text: str, name: str) -> Contour:
     """The outline in `text`: `x y` per line, `#` lines and one title line ignored.
 
-    Both our own files and plain Selig files pass; anything else is a ValueError that names the line of `name`.
+    Reads the bundled files and plain Selig files. Raises ValueError with the line of `name` for anything else.
     """
     rows: list[tuple[float, float]] = []
     for number, line in enumerate(text.splitlines(), start=1):
@@ -141,7 +141,7 @@ def trailing_edge(contour: Contour) -> Array:
 
 
 def leading_edge_index(contour: Contour) -> int:
-    """Index of the outline point farthest from the trailing edge: the nose."""
+    """Index of the nose, the outline point farthest from the trailing edge."""
     return int(np.argmax(np.hypot(*(contour.points - trailing_edge(contour)).T)))
 
 

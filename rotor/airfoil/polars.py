@@ -1,4 +1,4 @@
-"""Raw polars as files: our CSV with a header that says how it was made, and the polar files of XFOIL (PACC)."""
+"""Raw polars as files: CSV with a header that records how it was made, and XFOIL polar files (PACC)."""
 
 import re
 from dataclasses import dataclass
@@ -40,7 +40,7 @@ class PolarSet:
 
 
 def write_polars(path: Path, polar_set: PolarSet) -> None:
-    """Write a polar set; four to five decimals, as XFOIL prints them, so nothing is lost."""
+    """Write a polar set; four to five decimals, as XFOIL prints them, so no digit is lost."""
     lines = [f"# {line}" for line in polar_set.header] + [COLUMNS]
     for p in polar_set.polars:
         for a, cl, cd, cm in zip(p.alpha_deg, p.cl, p.cd, p.cm, strict=True):
@@ -54,7 +54,7 @@ def read_polars(path: Path) -> PolarSet:
 
 
 def parse_polars(text: str, name: str) -> PolarSet:
-    """The polar set in `text`; a damaged line is a ValueError that names it in `name`."""
+    """The polar set in `text`. Raises ValueError with the line of `name` that is damaged."""
     header: list[str] = []
     rows: list[tuple[float, ...]] = []
     for number, line in enumerate(text.splitlines(), start=1):

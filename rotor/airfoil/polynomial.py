@@ -1,8 +1,8 @@
 """The document's section model: one polar, one polynomial each for lift and drag, no Mach number.
 
 Lonoce fits Cl by order 10 and Cd by order 12 to XFOIL data of SC1095 (figs. 3.3-3.6). Range, Reynolds number,
-Mach and transition are not stated; ours are SC1095, M 0.3, Re 3.68e6, Ncrit 9, -10..15 deg, held outside
-(unheld, Cl is 3.5e3 at 30 deg). The fit is a Chebyshev series in the scaled angle: in degrees, the
+Mach and transition are not stated; ours are SC1095, M 0.3, Re 3.68e6, Ncrit 9, -10..15 deg, constant outside
+(extrapolated, Cl is 3.5e3 at 30 deg). The fit is a Chebyshev series in the scaled angle: in degrees, the
 order-12 power basis would have a condition number of 2e15.
 """
 
@@ -32,7 +32,7 @@ def _series_at(t: Array, series: Array) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class PolynomialSection:
-    """Least-squares Chebyshev series of lift and drag over `fit_range` [rad], held outside.
+    """Least-squares Chebyshev series of lift and drag over `fit_range` [rad], constant outside.
 
     `cl_series`, `cd_series` are coefficients in t = (2 alpha - a - b) / (b - a), [a, b] = `fit_range`.
     """
@@ -46,7 +46,7 @@ class PolynomialSection:
         return (2.0 * np.clip(alpha, a, b) - a - b) / (b - a)
 
     def outside(self, alpha: ArrayLike) -> NDArray[np.bool_]:
-        """True where `alpha` [rad] lies outside the fit, so that the end value is held."""
+        """True where `alpha` [rad] lies outside the fit, where the end value is used."""
         a = np.asarray(alpha, dtype=np.float64)
         return (a < self.fit_range[0]) | (a > self.fit_range[1])
 
@@ -56,7 +56,7 @@ class PolynomialSection:
         return _series_at(t, self.cl_series), _series_at(t, self.cd_series)
 
     def slopes(self, alpha: ArrayLike) -> tuple[Array, Array]:
-        """(dcl, dcd)/dalpha [1/rad], zero where the value is held; at the ends of the fit, from inside."""
+        """(dcl, dcd)/dalpha [1/rad], zero outside the fit; at its ends, the slope from inside."""
         a = np.asarray(alpha, dtype=np.float64)
         t, scale = self._scaled(a), np.where(self.outside(a), 0.0, 2.0 / (self.fit_range[1] - self.fit_range[0]))
         cl, cd = (np.asarray(chebyshev.chebder(s), dtype=np.float64) for s in (self.cl_series, self.cd_series))
@@ -128,7 +128,7 @@ def document_angle(alpha: Array) -> tuple[Array, Array]:
 
     The document takes phi = arctan(U_P / U_T) and changes the sign of the drag where U_T <= 0. There
     phi = phi_atan2 -+ pi, alpha_doc = alpha +- pi, and with Fz = L cos(phi) - D sin(phi),
-    Fx = L sin(phi) + D cos(phi) both cosine and sine turn over: in atan2 form lift and drag would change
+    Fx = L sin(phi) + D cos(phi) both cosine and sine change sign: in atan2 form lift and drag would change
     sign, and the document's own change restores the drag: Cl(alpha) = -Cl_doc, Cd(alpha) = +Cd_doc.
     The sign of that lift is wrong: at 175 deg a NACA 0012 measures cl = -0.54 (TN 3361), this gives +0.5.
     It is kept, because the `thesis` preset is the document as stated, and reverse flow is slow.
@@ -154,11 +154,11 @@ def polynomial_table() -> SectionTable:
     """
     section = polynomial_section()
     edges = -np.pi + (np.arange(N_ALPHA)[:, None] + np.array([0.0, 1.0])) * ALPHA_STEP
-    middle = edges.mean(axis=1, keepdims=True)  # Decides on which side of a jump a whole cell lies.
+    middle = edges.mean(axis=1, keepdims=True)  # Determines on which side of a jump a whole cell lies.
     turn = document_angle(middle)[0] - middle
     sign = document_angle(middle)[1]
     angle = edges + turn
-    # Nudged inward, so that a cell outside the fit has no slope and one inside has all of it at the shared edge.
+    # Moved slightly inward: at a shared edge a cell outside the fit has zero slope and one inside the full slope.
     probe = angle + np.array([1e-9, -1e-9])
     (cl, cd), (cl_slope, cd_slope) = section(angle), section.slopes(probe)
     out = np.zeros((2, N_ALPHA, N_MACH, 4, 4))

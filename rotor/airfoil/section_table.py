@@ -23,7 +23,7 @@ from rotor.airfoil.c81 import C81Deck
 from rotor.arrays import Array
 
 SLOPE_FRACTION = 0.25
-SEARCH_OUTWARD = np.deg2rad(np.arange(20, 301) / 10.0)  # From zero lift: 2 deg, attached for certain, to 30 deg.
+SEARCH_OUTWARD = np.deg2rad(np.arange(20, 301) / 10.0)  # From zero lift: 2 deg, where flow is attached, to 30 deg.
 
 
 def first_quarter_slope(slope: Array, attached: Array) -> Array:
@@ -31,7 +31,7 @@ def first_quarter_slope(slope: Array, attached: Array) -> Array:
 
     `slope`, shape (curves, SEARCH_OUTWARD.size), is dcl/dalpha of each curve outward from its zero lift, and
     `attached`, shape (curves,), its attached value. Linear between steps of 0.1 deg; 30 deg where the slope
-    never falls so far.
+    stays above that fraction.
     """
     excess = slope - SLOPE_FRACTION * attached[:, None]
     low = excess <= 0.0
@@ -63,7 +63,7 @@ class SectionTable:
     `coefficients` has shape (N_ALPHA, N_MACH, 2, 4, 4), C-contiguous: in cell (i, j)
     value[k] = sum_ab c[i, j, k, a, b] u^a v^b with u = (alpha + pi) / ALPHA_STEP - i and
     v = mach / MACH_STEP - j in [0, 1]; k = 0 is cl, k = 1 is cd. Beyond `mach_limit`, the last Mach of
-    the data, values are held. `alpha_stall_positive`, `alpha_stall_negative` [rad], shape (N_MACH + 1,), are
+    the data, values are constant. `alpha_stall_positive`, `alpha_stall_negative` [rad], shape (N_MACH + 1,), are
     the stall angles at the grid's Machs, as `rotor.airfoil.section_table` defines them. `fit_range` [rad] is where a
     polynomial section was fitted and None for a deck. Compares and hashes by identity.
     """
@@ -82,7 +82,7 @@ class SectionTable:
         assert self.alpha_stall_positive.shape == self.alpha_stall_negative.shape == (N_MACH + 1,)
 
     def __call__(self, alpha: ArrayLike, mach: ArrayLike) -> SectionCoefficients:
-        """Coefficients at `alpha` [rad, any turn] and `mach` (held outside 0..mach_limit), broadcast together."""
+        """Coefficients at `alpha` [rad, any turn] and `mach` (constant outside 0..mach_limit), broadcast together."""
         a, m = np.broadcast_arrays(np.asarray(alpha, dtype=np.float64), np.asarray(mach, dtype=np.float64))
         turn = np.mod((a + np.pi) / ALPHA_STEP, N_ALPHA)
         i = np.minimum(turn.astype(np.intp), N_ALPHA - 1)
@@ -104,7 +104,7 @@ class SectionTable:
         )
 
     def held_at(self, mach: float) -> "SectionTable":
-        """The section of one Mach number (0 to below 1) at every Mach number: no slope by it, and no limit."""
+        """The coefficients of one Mach number (0 to below 1) at every Mach number: zero Mach slope, no Mach limit."""
         place = min(mach, self.mach_limit) / MACH_STEP
         j = min(int(place), N_MACH - 1)
         along = self.coefficients[:, j] @ (place - j) ** np.arange(4)  # (alpha cells, 2, 4)
@@ -116,13 +116,13 @@ class SectionTable:
         )
 
     def stall_alpha(self, mach: ArrayLike) -> tuple[Array, Array]:
-        """Stall angles (negative, positive) [rad] at `mach`, linear between the grid's Machs, held outside."""
+        """Stall angles (negative, positive) [rad] at `mach`, linear between the grid's Machs, constant outside."""
         m = np.asarray(mach, dtype=np.float64)
         negative = np.interp(m, mach_nodes(), self.alpha_stall_negative)
         return np.asarray(negative), np.asarray(np.interp(m, mach_nodes(), self.alpha_stall_positive))
 
     def zero_lift_alpha(self, mach: ArrayLike) -> Array:
-        """Angle of attack of no lift [rad], of those within -6..6 deg, at `mach`: Newton from the sampled crossing."""
+        """Zero-lift angle of attack [rad] at `mach`, within -6..6 deg: Newton's method from the sampled crossing."""
         m = np.asarray(mach, dtype=np.float64)
         sample = np.deg2rad(np.linspace(-6.0, 6.0, 25))
         alpha = sample[np.argmin(np.abs(self(sample, m[..., None]).cl), axis=-1)]
@@ -138,7 +138,7 @@ class SectionTable:
         return np.asarray((self(zero + span, m).cl - self(zero - span, m).cl) / (2.0 * span))
 
     def drag_divergence_mach(self, alpha: ArrayLike) -> Array:
-        """Lowest Mach with dcd/dM = 0.1 at `alpha` [rad]; NaN-free: mach_limit where it is not reached."""
+        """Lowest Mach with dcd/dM = 0.1 at `alpha` [rad]; `mach_limit` where that slope is not reached."""
         a = np.asarray(alpha, dtype=np.float64)
         mach = np.arange(0.3, self.mach_limit + 1e-9, 0.002)
         slope = self(a[..., None], mach).cd_mach
@@ -163,6 +163,6 @@ def make_table(
 
 
 def table_from_deck(name: str, source: str, deck: C81Deck) -> SectionTable:
-    """The run-time table of `deck`; beyond the lower of its two last Machs (lift, drag) it is held."""
+    """The run-time table of `deck`; constant beyond the lower of its two last Machs (lift, drag)."""
     coefficients = stack_coefficients(bicubic_coefficients(deck.cl), bicubic_coefficients(deck.cd))
     return make_table(name, source, coefficients, float(min(deck.cl.mach[-1], deck.cd.mach[-1])))

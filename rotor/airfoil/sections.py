@@ -1,7 +1,7 @@
 """Sections by name and as installed on a blade: table, outline, chord line, chord ratio.
 
-Bundled sections go by name. A user's section is a value (`OwnSection`) that holds its whole deck as text, so that a
-design stays hashable and can be sent to other processes.
+Bundled sections are identified by name. A user's section is a value (`OwnSection`) that holds its whole deck as text,
+so that a design stays hashable and can be sent to other processes.
 """
 
 from dataclasses import dataclass
@@ -23,7 +23,7 @@ _SOURCE = "XFOIL 6.99 tripped at 5 % chord, Re of its own rotor, compressibility
 
 @lru_cache(maxsize=16)
 def load_section(name: str) -> SectionTable:
-    """The bundled table of `name`, one of `TABLE_NAMES`; read and laid out once, in about 20 ms."""
+    """The bundled table of `name`, one of `TABLE_NAMES`; read once and cached; takes about 20 ms."""
     if name == THESIS_NAME:
         return polynomial_table()
     if name not in SECTION_NAMES:
@@ -41,7 +41,7 @@ _R8_CHORD_RATIO = 1.009875
 class Section:
     """A section on the blade.
 
-    `incidence_offset` [rad] is how far its chord line points nose-down of the blade's line (on the UH-60A that of
+    `incidence_offset` [rad] is the nose-down angle of its chord line from the blade's (on the UH-60A that of
     the SC1095): the table is asked at alpha_blade - incidence_offset. `chord_ratio` [-] is its chord over the
     blade's. `outline` is its shape, for pictures.
     """
@@ -59,7 +59,7 @@ class OwnSection:
 
     name: str
     deck: str
-    """C81 text: the user's deck, or one made of the user's polars."""
+    """C81 text: the user's deck, or one made from the user's polars."""
     outline: str
     """Name of a bundled or NACA outline, or coordinates as text (Selig), one point a line."""
     source: str
@@ -80,9 +80,9 @@ def load_installed(name: str) -> Section:
 
 @lru_cache(maxsize=16)
 def install_own(own: OwnSection) -> Section:
-    """A user's section; read and laid out once a process, in some 30 ms.
+    """A user's section; read once per process and cached; takes some 30 ms.
 
-    Raises ValueError with one sentence that names line and remedy for a deck or an outline that cannot be used.
+    Raises ValueError with one sentence that gives line and remedy for a deck or an outline that cannot be used.
     """
     deck = on_run_time_grid(parse_c81(own.deck, own.name))
     outline = parse_contour(own.outline, own.name) if "\n" in own.outline else load_contour(own.outline)

@@ -1,9 +1,9 @@
-"""Coefficients over ±180°: the closed form beyond stall, the blend into it, and foreign decks on the run-time grid.
+"""Coefficients over ±180°: the closed form beyond stall, the blend, and other codes' decks on the run-time grid.
 
 Nine constants fitted by this project to the NACA 0012 measurements over 0..180 deg of NACA TN 3361 (Critzos, Heyson
-and Boswinkle 1955), symmetrised; four more for the moment. A 9.5 % section with a sharp trailing edge behaves alike
-there: broadside it is a plate, backwards it stalls early at its sharp edge. The fit is within 0.039 (cl) and 0.014
-(cd) rms of the measurements; it is not independent evidence of them.
+and Boswinkle 1955), symmetrised; four more for the moment. A 9.5 % section with a sharp trailing edge behaves
+similarly there: at 90° like a flat plate, and in reverse flow it stalls early at its sharp edge. The fit is within
+0.039 (cl) and 0.014 (cd) rms of the measurements; it is not independent evidence of them.
 
 Decks of other codes have their own knots, and some end at stall. Values between knots follow PCHIP curves, as in
 `bicubic`; missing angles are filled by the closed form.
@@ -16,8 +16,8 @@ from rotor.airfoil.bicubic import MACH_STEP, N_MACH
 from rotor.airfoil.c81 import C81Block, C81Deck
 from rotor.arrays import Array
 
-BLEND_START_DEG = 16.0  # |alpha| below which the polar stands alone.
-BLEND_END_DEG = 26.0  # |alpha| above which the closed form stands alone.
+BLEND_START_DEG = 16.0  # |alpha| below which only the polar is used.
+BLEND_END_DEG = 26.0  # |alpha| above which only the closed form is used.
 
 # cl = sum s_k sin(k a) - P (x/w) exp((1 - (x/w)^2)/2), x = 180 deg - |a|: the last term is reverse-flow lift.
 _CL_SIN = (0.07290562895790871, 1.0548966550216816)
@@ -30,7 +30,7 @@ _CM_SIN = (-0.58524, 0.14099, -0.03031, 0.04132)  # cm = sum m_k sin(k a), k fro
 def wrap_coefficients(alpha: Array) -> tuple[Array, Array, Array]:
     """(cl, cd, cm) [-] of the closed form at `alpha` [rad], within -pi..pi; for 20..180 deg either way.
 
-    cl and cm are odd, cd is even; cd lies between 0.043 (backwards) and 2.1 (broadside).
+    cl and cm are odd, cd is even; cd lies between 0.043 (at 180 deg) and 2.1 (at 90 deg).
     """
     size = np.abs(alpha)
     x = (np.pi - size) / np.deg2rad(_REVERSE_WIDTH_DEG)
@@ -51,14 +51,14 @@ def blend(alpha: Array, cl: Array, cd: Array, cm: Array) -> tuple[Array, Array, 
     """Polar values blended into the closed form: cl and cm linearly, cd in its logarithm so that it stays positive."""
     weight = blend_weight(alpha)
     far_cl, far_cd, far_cm = wrap_coefficients(alpha)
-    # Each cd plays no part where its weight is zero: there the polar may be anything, and the series is negative.
+    # A cd of zero weight has no effect: there the polar may have any value, and the series is negative.
     log_near, log_far = np.log(np.where(weight < 1.0, cd, 1.0)), np.log(np.where(weight > 0.0, far_cd, 1.0))
     log_cd = (1.0 - weight) * log_near + weight * log_far
     return (1.0 - weight) * cl + weight * far_cl, np.exp(log_cd), (1.0 - weight) * cm + weight * far_cm
 
 
 _LEAST_RANGE_DEG = 8.0
-"""A deck must at least cover −8…8°: what lies inside no formula can guess."""
+"""A deck must at least cover −8…8°: no formula can replace data within it."""
 
 
 def on_run_time_grid(deck: C81Deck) -> C81Deck:
@@ -100,7 +100,7 @@ def _block(title: str, block: C81Block, kind: int) -> C81Block:
 
 
 def _whole_circle(alpha: Array, values: Array, kind: int) -> tuple[Array, Array]:
-    """Values at every half degree: the deck within its angles, faded into the closed form beyond them."""
+    """Values at every half degree: the deck within its angles, blended into the closed form beyond them."""
     nodes = np.linspace(-180.0, 180.0, 721)
     curve = PchipInterpolator(alpha, values, axis=0)
     own = np.asarray(curve(np.clip(nodes, alpha[0], alpha[-1])), dtype=np.float64)

@@ -9,10 +9,10 @@ from typing import Any
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.harmonic import PhaseSweep, phase_sweep
 from rotor.actuator.optimum import ConditionPair
-from rotor.actuator.placement import BladeKind, Host, Placement, default_placement
+from rotor.actuator.section import BladeKind, Host, Placement, default_placement
 from rotor.actuator.tables import ActuatorTable, table_5_1, table_5_2
 from rotor.actuator.verdict import Verdict, judge, verdict_sentence
-from rotor.command.flags import add_command, add_design_arguments, design_from, finite
+from rotor.command.common import add_command, add_design_arguments, design_from, finite
 from rotor.design.active_twist import Harmonic
 from rotor.dynamics.structure import check_blade
 from rotor.optimisation.concepts import find_concept

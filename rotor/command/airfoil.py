@@ -17,7 +17,7 @@ from rotor.airfoil.polars import read_polars, write_polars
 from rotor.airfoil.polynomial import THESIS_NAME
 from rotor.airfoil.sections import load_installed
 from rotor.assets import asset_path
-from rotor.command.flags import add_command
+from rotor.command.common import add_command
 
 CL_TOLERANCE = 0.01  # XFOIL's convergence depends on version and machine, so files cannot be compared byte by byte.
 CD_TOLERANCE = 0.03

@@ -15,7 +15,7 @@ import numpy as np
 from scipy.optimize import root  # pyright: ignore[reportMissingTypeStubs, reportUnknownVariableType]
 
 from rotor.aero.elements import Problem, build_problem, evaluate_elements
-from rotor.command.flags import add_command
+from rotor.command.common import add_command
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS, find_concept

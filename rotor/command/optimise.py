@@ -5,17 +5,19 @@ import json
 from dataclasses import replace
 from typing import Any
 
-from rotor.command.flags import (
+from rotor.command.common import (
+    STOPPED,
     add_command,
     add_design_arguments,
     add_search_arguments,
+    bar,
     concept_help,
     design_from,
     finite,
+    interruptible,
     limits_from,
     parse_division,
 )
-from rotor.command.progress import STOPPED, bar, interruptible
 from rotor.design.blade import airfoils_spec
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, find_concept, on_top

@@ -4,7 +4,7 @@ import argparse
 from functools import partial
 from typing import NoReturn
 
-from rotor.command import actuator, airfoil, bench, ideal, optimise, reproduce, schedule, solve, study, sweep, waterfall
+from rotor.command import actuator, airfoil, bench, optimise, reproduce, schedule, solve, study, tables
 
 
 class OneLineParser(argparse.ArgumentParser):
@@ -25,6 +25,18 @@ def build_parser() -> argparse.ArgumentParser:
         ),  # Every name has its help on the same line.
     )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=OneLineParser)
-    for command in (solve, sweep, waterfall, optimise, schedule, study, ideal, actuator, reproduce, airfoil, bench):
-        command.add_parser(commands)
+    for add in (
+        solve.add_parser,
+        tables.add_sweep,
+        tables.add_waterfall,
+        optimise.add_parser,
+        schedule.add_parser,
+        study.add_parser,
+        tables.add_ideal,
+        actuator.add_parser,
+        reproduce.add_parser,
+        airfoil.add_parser,
+        bench.add_parser,
+    ):
+        add(commands)
     return parser

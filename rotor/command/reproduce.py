@@ -9,8 +9,7 @@ from typing import Any
 
 from tqdm import tqdm
 
-from rotor.command.flags import add_command
-from rotor.command.progress import STOPPED, bar, interruptible
+from rotor.command.common import STOPPED, add_command, bar, interruptible
 
 
 def add_parser(commands: Any) -> None:
@@ -31,8 +30,7 @@ def run(args: argparse.Namespace) -> int:
     """0, or 130 when interrupted."""
     # Here, because no other command needs the catalogue.
     from rotor.reproduce.catalogue import ENTRIES, CatalogueEntry, find_entry, searches_of
-    from rotor.reproduce.page import write_all, write_report
-    from rotor.reproduce.pictures import NO_PICTURES, can_draw
+    from rotor.reproduce.page import NO_PICTURES, can_draw, write_all, write_report
     from rotor.reproduce.report import Report, typographic
     from rotor.reproduce.runs import compute_ahead
     from rotor.reproduce.trust_page import write_trust

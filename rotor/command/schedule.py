@@ -9,17 +9,19 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from rotor.command.flags import (
+from rotor.command.common import (
+    STOPPED,
     add_command,
     add_design_arguments,
     add_search_arguments,
+    bar,
     concept_help,
     design_from,
+    interruptible,
     limits_from,
     parse_division,
 )
 from rotor.command.optimise import named
-from rotor.command.progress import STOPPED, bar, interruptible
 from rotor.files.ranges import parse_range
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
 from rotor.optimisation.objective import QUANTITIES, WeightedCondition, read_mission

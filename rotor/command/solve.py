@@ -5,7 +5,7 @@ import json
 import math
 from typing import Any
 
-from rotor.command.flags import add_command, add_design_arguments, design_from, finite
+from rotor.command.common import add_command, add_design_arguments, design_from, finite
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.units import KNOT

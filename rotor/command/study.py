@@ -12,14 +12,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from rotor.command.flags import add_command
-from rotor.command.progress import STOPPED, interruptible
-from rotor.files.provenance import commit, package_version
+from rotor.assets import commit, package_version
+from rotor.command.common import STOPPED, add_command, interruptible
 from rotor.study.chunks import FinishedChunk, StudyProvenance, evaluate_points
 from rotor.study.cluster import ClusterLost, connected, need_packages, run_chunks
 from rotor.study.findings import Effect, RobustDesign, best_row, effects, robust_best
-from rotor.study.results import Results, read_results
-from rotor.study.store import Store, StoreError, sha256
+from rotor.study.results import Results, Store, StoreError, read_results, sha256
 from rotor.study.study import check_uncertain
 from rotor.study.study_file import StudyFile, read_study
 

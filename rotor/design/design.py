@@ -1,20 +1,39 @@
 """A design: everything that determines a result, as one value without arrays; and the models of the two presets.
 
-Equality, hashing, caching, JSON and undo come from that. A preset is a value of `Models`: `flight`, the best available
+Equality, hashing, caching, JSON and undo come from that. `fingerprint` is the same for equal values, so that a results
+file can be matched with what it was computed from. A preset is a value of `Models`: `flight`, the best available
 models, and `thesis`, those that the document states.
 """
 
+import hashlib
 import json
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields, is_dataclass, replace
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, cast
 
 from rotor.design.active_twist import ActiveTwist, active_twist_record
-from rotor.design.aircraft import Aircraft, TailRotor
+from rotor.design.aircraft import Aircraft, FlightCondition, Fuselage, TailRotor, advance_ratio, number
 from rotor.design.blade import Rotor, airfoils_spec
-from rotor.design.flight import FlightCondition, Fuselage, advance_ratio, number
-from rotor.design.twist import TwistLaw, ideal_tip_pitch
-from rotor.design.twist_spec import inline_spec, parse_twist
+from rotor.design.twist import TwistLaw, ideal_tip_pitch, inline_spec, parse_twist
+
+
+def fingerprint(value: object) -> str:
+    """16 hexadecimal digits of SHA-256 over every field of a value made of dataclasses, tuples, lists and numbers."""
+    return hashlib.sha256(_text(value).encode()).hexdigest()[:16]
+
+
+def _text(value: Any) -> str:
+    """The value with every field of every dataclass: their own `repr` may be shorter."""
+    if is_dataclass(value) and not isinstance(value, type):
+        inside = ", ".join(f"{field.name}={_text(getattr(value, field.name))}" for field in fields(value) if field.repr)
+        return f"{type(value).__qualname__}({inside})"
+    if type(value) is tuple:
+        items = [_text(item) for item in cast(tuple[Any, ...], value)]
+        return f"({items[0]},)" if len(items) == 1 else f"({', '.join(items)})"
+    if type(value) is list:
+        return f"[{', '.join(_text(item) for item in cast(list[Any], value))}]"
+    return repr(value)
+
 
 HoverInflow = Literal["annulus", "closed-form"]
 Trim = Literal["propulsive", "thrust"]

@@ -7,10 +7,9 @@ from typing import Any
 
 from rotor.aero.inflow import inflow_model
 from rotor.assets import SHIPPED_ROTORS, asset_path
-from rotor.design.aircraft import Aircraft
+from rotor.design.aircraft import Aircraft, FlightCondition, advance_ratio, number
 from rotor.design.blade import Rotor, parse_airfoils
 from rotor.design.design import FLIGHT_MODELS, THESIS_MODELS, Design, Models, check_preset
-from rotor.design.flight import FlightCondition, advance_ratio, number
 from rotor.design.twist import TwistLaw
 from rotor.files.rotor_file import shipped_aircraft
 

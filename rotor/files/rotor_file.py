@@ -14,9 +14,8 @@ from typing import Any, cast
 
 from rotor.airfoil.sections import TABLE_NAMES, OwnSection
 from rotor.assets import SHIPPED_ROTORS, asset_path
-from rotor.design.aircraft import HUBS, Aircraft, Hub, RotorFiles, Stated, TailRotor
+from rotor.design.aircraft import HUBS, Aircraft, Fuselage, Hub, RotorFiles, Stated, TailRotor
 from rotor.design.blade import Blade, Rotor, Span
-from rotor.design.flight import Fuselage
 from rotor.design.twist import LinearTwist, TableTwist, TwistLaw
 from rotor.files.section_file import read_section
 from rotor.files.toml_table import TomlTable, read_toml

@@ -1,19 +1,150 @@
 """From one start to one local minimum, and how flat the minimum is.
 
-A descent is SLSQP on the exact gradient. The band of a parameter is how far it can go with P ≤ (1 + BAND) P*, the
-others re-optimised: one small SLSQP problem per parameter and side, started from the end of the ellipsoid that the
-preconditioner predicts. Earlier evaluations inside the band widen it.
+A descent is SciPy's SLSQP (Kraft 1988) on the exact gradient, in coordinates in which the power is nearly a round
+paraboloid. Power is close to quadratic in the twist, but much flatter along some parameters than along others. Least
+squares on the exact gradients of earlier evaluations gives its second derivatives. In the coordinates y a step of
+length one costs BAND of the power in any direction, so a descent takes few steps and the band is a sphere.
+
+The band of a parameter is how far it can go with P ≤ (1 + BAND) P*, the others re-optimised: one small SLSQP problem
+per parameter and side, started from the end of the ellipsoid that the second derivatives predict. Earlier evaluations
+inside the band widen it.
 """
 
+import warnings
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any, Literal, cast
 
 import numpy as np
+from scipy import optimize
 
 from rotor.arrays import Array
 from rotor.optimisation.evaluator import Evaluation, Evaluator
-from rotor.optimisation.preconditioner import BAND, Preconditioner, bound_margins
 from rotor.optimisation.results import Band
-from rotor.optimisation.slsqp import Inequality, slsqp
+
+_minimize = cast(Callable[..., Any], optimize.minimize)
+
+
+@dataclass(frozen=True, eq=False)
+class Inequality:
+    """margins(y) ≥ 0."""
+
+    margins: Callable[[Array], Array]
+    slopes: Callable[[Array], Array]
+
+
+@dataclass(frozen=True, eq=False)
+class SlsqpEnd:
+    """Where SLSQP ended."""
+
+    x: Array
+    settled: bool
+    """Whether it converged, or found no descent along the search direction, as at the kink of a movable break."""
+
+
+def slsqp(
+    value: Callable[[Array], Any],
+    slope: Callable[[Array], Array] | Literal[True],
+    start: Array,
+    inequalities: Sequence[Inequality] = (),
+    *,
+    iterations: int,
+    tolerance: float,
+    bounds: Sequence[tuple[float, float]] | None = None,
+) -> SlsqpEnd:
+    """Minimise `value` from `start`; with slope True, `value` returns the value and its gradient together."""
+    constraints = [{"type": "ineq", "fun": one.margins, "jac": one.slopes} for one in inequalities]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RuntimeWarning)
+        ended = _minimize(
+            value,
+            start,
+            jac=slope,
+            method="SLSQP",
+            bounds=bounds,
+            constraints=constraints,
+            options={"maxiter": iterations, "ftol": tolerance},
+        )
+    return SlsqpEnd(np.asarray(ended.x, dtype=np.float64), int(ended.status) in (0, 8))
+
+
+_least_squares = cast(Callable[..., Any], np.linalg.lstsq)
+
+BAND = 1e-3
+"""Relative rise of power that defines the band of each parameter."""
+_REACH = 0.25
+"""Scaled distance within which evaluations have full weight for the second derivatives."""
+_FLATTEST = 2e-3
+"""Least curvature over the largest; flatter directions are left to the descent."""
+
+
+@dataclass(frozen=True, eq=False)
+class Preconditioner:
+    """x = centre + stretch · y."""
+
+    centre: Array
+    stretch: Array
+    """(parameters, parameters)"""
+    unit: float
+    """Power [W] by which the objective is scaled: half a |y|² of it."""
+
+    def x(self, y: Array) -> Array:
+        """Scaled parameters of y."""
+        return self.centre + self.stretch @ y
+
+    def y(self, x: Array) -> Array:
+        """The inverse of `x`."""
+        return np.asarray(np.linalg.solve(self.stretch, x - self.centre), dtype=np.float64)
+
+
+def initial_preconditioner(centre: Array, power: float) -> Preconditioner:
+    """Before any evaluation: power rises by some per cent over half the range of a parameter."""
+    return Preconditioner(centre, np.sqrt(2.0 * BAND) * np.eye(len(centre)), 2.0 * BAND * power)
+
+
+def fit_preconditioner(records: Sequence[Evaluation], best: Evaluation) -> Preconditioner | None:
+    """The preconditioner at the best point; None while the evaluations do not determine it."""
+    assert best.power is not None
+    known = [one for one in records if one.power is not None and one.power < 1.5 * best.power]
+    n = len(best.x)
+    pairs = [(i, j) for i in range(n) for j in range(i, n)]
+    if len(known) * n < len(pairs) + 2 * n:
+        return None
+    offsets = np.array([one.x - best.x for one in known])
+    gradients = np.array([one.slope for one in known]) / best.power
+    weight = 1.0 / (1.0 + (offsets**2).sum(axis=1) / _REACH**2)
+    # Unknowns: the gradient at the best point, then the upper triangle of the second derivatives.
+    rows = np.zeros((len(known), n, n + len(pairs)))
+    rows[:, np.arange(n), np.arange(n)] = 1.0
+    for column, (i, j) in enumerate(pairs, start=n):
+        rows[:, i, column] += offsets[:, j]
+        if i != j:
+            rows[:, j, column] += offsets[:, i]
+    matrix, wanted = (rows * weight[:, None, None]).reshape(-1, n + len(pairs)), (gradients * weight[:, None]).ravel()
+    found: list[float] = _least_squares(matrix, wanted, rcond=1e-9)[0].tolist()
+    second = np.zeros((n, n))
+    for value, (i, j) in zip(found[n:], pairs, strict=True):
+        second[i, j] = second[j, i] = value
+    size, axes = np.linalg.eigh(second)
+    if not size[-1] > 0.0:
+        return None
+    size = np.maximum(size, _FLATTEST * size[-1])
+    # P/P* − 1 = ½ xᵀ H x = BAND |y|².
+    return Preconditioner(best.x, axes * np.sqrt(2.0 * BAND / size), 2.0 * BAND * best.power)
+
+
+def bound_margins(preconditioner: Preconditioner) -> Inequality:
+    """The bounds 0 ≤ x ≤ 1, each scaled to a distance in the preconditioner's coordinates."""
+    size = np.linalg.norm(preconditioner.stretch, axis=1)
+    rows = preconditioner.stretch / size[:, None]
+    both = np.vstack([rows, -rows])
+
+    def margins(y: Array) -> Array:
+        x = preconditioner.x(y)
+        return np.concatenate([x / size, (1.0 - x) / size])
+
+    return Inequality(margins, lambda _: both)
+
 
 TOLERANCE = 2e-4
 """Change of the objective at which a descent ends, in units of the preconditioner: 4e-7 of the power."""

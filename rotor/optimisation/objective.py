@@ -10,8 +10,8 @@ from typing import Literal
 import numpy as np
 
 from rotor.arrays import Array
+from rotor.design.aircraft import FlightCondition
 from rotor.design.design import Design
-from rotor.design.flight import FlightCondition
 from rotor.optimisation.limits import stalled_share
 from rotor.trim.adjoint import Adjoint, power_along
 from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions

@@ -12,8 +12,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, cast
 
-from rotor.design.design import Design
-from rotor.design.fingerprint import fingerprint
+from rotor.design.design import Design, fingerprint
 from rotor.optimisation.concepts import Concept, nearest
 from rotor.optimisation.objective import Objective, Quantity, WeightedCondition
 from rotor.optimisation.processes import WorkerLost, Workers

@@ -2,6 +2,7 @@
 
 The thesis uses fmincon with GlobalSearch (§2.7). Here SLSQP descends on the exact gradient from a seeded
 low-discrepancy set of starting points (Halton); minima are grouped, and the band gives the flatness of the best.
+`optimise` runs the search for one design in one call.
 """
 
 from collections.abc import Callable, Iterable, Sequence
@@ -12,15 +13,22 @@ from scipy.stats import qmc
 
 from rotor.arrays import Array
 from rotor.blas_threads import one_blas_thread
-from rotor.design.design import Design
-from rotor.optimisation.concepts import Concept, nearest
-from rotor.optimisation.descent import descend, measure_band
+from rotor.design.aircraft import number
+from rotor.design.design import Design, require_design
+from rotor.optimisation.concepts import Concept, find_concept, nearest
+from rotor.optimisation.descent import (
+    BAND,
+    Preconditioner,
+    descend,
+    fit_preconditioner,
+    initial_preconditioner,
+    measure_band,
+)
 from rotor.optimisation.evaluator import FEASIBLE, Evaluation, Evaluator, SearchStopped
 from rotor.optimisation.limits import ChangeLimit as ChangeLimit
 from rotor.optimisation.limits import Limits as Limits
 from rotor.optimisation.limits import even_change_limit as even_change_limit
-from rotor.optimisation.objective import Objective, at_condition
-from rotor.optimisation.preconditioner import BAND, Preconditioner, fit_preconditioner, initial_preconditioner
+from rotor.optimisation.objective import Objective, Quantity, at_condition
 from rotor.optimisation.results import Band as Band
 from rotor.optimisation.results import Minimum as Minimum
 from rotor.optimisation.results import Optimum as Optimum
@@ -225,3 +233,41 @@ def _minimum(evaluate: Evaluator, record: Evaluation, starts: Sequence[int]) -> 
     if tight[rates + changes :].any():
         active.append("stalled area")
     return Minimum(values, record.watts, evaluate.concept.twist(values).spec(), tuple(starts), tuple(active))
+
+
+def optimise(
+    design: Design,
+    concept: str = "two-segment",
+    *,
+    division: float | Sequence[float] | None = None,
+    quantity: Quantity = "total",
+    limits: Limits | None = None,
+    starts: int = STARTS,
+    seed: int = 0,
+) -> Optimum:
+    """The twist of a concept with the least power at the design's own flight condition.
+
+    concept: `linear`, `quadratic`, `two-segment`, `three-segment`, `free-form` or another name in `CONCEPTS`.
+    division: r/R where the segments meet, for the concepts that hold it fixed.
+    quantity: the power to make small, `total` or `induced`.
+    limits: bounds on twist rates, on the change of twist and on the stalled area; by default the concept's own bounds.
+    starts, seed: number of descents, and the seed of their starting points.
+
+    The design's own twist is the baseline of `saving_percent`. A search always returns; its `status` and `message` say
+    how it ended. Raises TypeError or ValueError with one sentence for an argument that cannot be used.
+    """
+    for name, value in (("starts", starts), ("seed", seed)):
+        if not isinstance(value, int):  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass anything
+            raise TypeError(f"{name} is {value!r}: give a whole number")
+    divisions = (division,) if isinstance(division, int | float) else division
+    if divisions is not None:
+        divisions = [number("division", item, "0.5") for item in divisions]
+    search = Search(
+        design=require_design(design),
+        concept=find_concept(concept, divisions),
+        objective=at_condition(design, quantity),
+        limits=limits or Limits(),
+        starts=starts,
+        seed=seed,
+    )
+    return run_search(search)

@@ -9,7 +9,7 @@ from rotor.actuator.catalogue import derating
 from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pictures import electronics_station, section_picture, twist_under_voltage
-from rotor.actuator.placement import Host, default_placement
+from rotor.actuator.section import Host, default_placement
 from rotor.design.twist import PiecewiseLinearTwist
 from rotor.files.make_design import uh60a_rotor
 from rotor.optimisation.concepts import find_concept

@@ -8,12 +8,10 @@ from rotor.reproduce import (
     actuator_sheets,
     aircraft,
     comparison,
-    flown_blade,
-    grids,
+    disk_figures,
     optimum_twist,
     sections,
     twist_effect,
-    velocities,
 )
 from rotor.reproduce.optima import CONCEPTS, FULL, best_fixed, searches
 from rotor.reproduce.report import Report
@@ -49,7 +47,7 @@ def _compared(name: str) -> Sequence[Call]:
 
 
 def _beside_data(name: str) -> Sequence[Call]:
-    return [(flown_blade.three_segment_rows, (name, FULL))]
+    return [(comparison.three_segment_rows, (name, FULL))]
 
 
 _SECTIONS = "2 Background"
@@ -62,18 +60,18 @@ _CONCEPT = "5 Concept"
 ENTRIES: tuple[CatalogueEntry, ...] = (
     CatalogueEntry("2.3", sections.figure_2_3, _SECTIONS),
     CatalogueEntry("2.4", sections.figure_2_4, _SECTIONS),
-    CatalogueEntry("2.6", velocities.figure_2_6, _SECTIONS),
-    CatalogueEntry("2.7", velocities.figure_2_7, _SECTIONS),
-    CatalogueEntry("2.8", velocities.figure_2_8, _SECTIONS),
+    CatalogueEntry("2.6", disk_figures.figure_2_6, _SECTIONS),
+    CatalogueEntry("2.7", disk_figures.figure_2_7, _SECTIONS),
+    CatalogueEntry("2.8", disk_figures.figure_2_8, _SECTIONS),
     CatalogueEntry("3.1", sections.figure_3_1, _MODEL),
     CatalogueEntry("3.2", sections.figure_3_2, _MODEL),
     CatalogueEntry("3.3", sections.figure_3_3, _MODEL),
     CatalogueEntry("3.4", sections.figure_3_4, _MODEL),
     CatalogueEntry("3.5", sections.figure_3_5, _MODEL),
     CatalogueEntry("3.6", sections.figure_3_6, _MODEL),
-    CatalogueEntry("3.7", grids.figure_3_7, _MODEL),
-    CatalogueEntry("3.8", grids.figure_3_8, _MODEL),
-    CatalogueEntry("3.9", grids.figure_3_9, _MODEL),
+    CatalogueEntry("3.7", disk_figures.figure_3_7, _MODEL),
+    CatalogueEntry("3.8", disk_figures.figure_3_8, _MODEL),
+    CatalogueEntry("3.9", disk_figures.figure_3_9, _MODEL),
     CatalogueEntry("table 3.1", aircraft.table_3_1, _AIRCRAFT),
     CatalogueEntry("table 3.2", aircraft.table_3_2, _AIRCRAFT),
     CatalogueEntry("tail rotor", aircraft.tail_rotor, _AIRCRAFT),
@@ -92,10 +90,10 @@ ENTRIES: tuple[CatalogueEntry, ...] = (
     CatalogueEntry("4.6", optimum_twist.figure_4_6, _OPTIMUM, _of("two 60-40")),
     CatalogueEntry("4.7", optimum_twist.figure_4_7, _OPTIMUM, _of("two 70-30")),
     CatalogueEntry("4.8", optimum_twist.figure_4_8, _OPTIMUM, _of("two airfoils")),
-    CatalogueEntry("4.9", flown_blade.figure_4_9, _OPTIMUM),
+    CatalogueEntry("4.9", comparison.figure_4_9, _OPTIMUM),
     CatalogueEntry("4.10", optimum_twist.figure_4_10, _OPTIMUM, _of("three")),
-    CatalogueEntry("4.11", flown_blade.figure_4_11, _OPTIMUM),
-    CatalogueEntry("4.12", flown_blade.figure_4_12, _OPTIMUM, _beside_data),
+    CatalogueEntry("4.11", comparison.figure_4_11, _OPTIMUM),
+    CatalogueEntry("4.12", comparison.figure_4_12, _OPTIMUM, _beside_data),
     CatalogueEntry("4.13", comparison.figure_4_13, _OPTIMUM, _of(*CONCEPTS)),
     CatalogueEntry("table 4.1", comparison.table_4_1, _OPTIMUM, _all_and_fixed),
     CatalogueEntry("5.2", actuator_sheets.figure_5_2, _CONCEPT),

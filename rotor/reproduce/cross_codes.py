@@ -1,7 +1,7 @@
-"""Our rotor beside two independent public codes, in one run: dynbem in forward flight, WISDEM's CCBlade in axial flow.
+"""Our rotor compared with two independent public codes: dynbem in forward flight, WISDEM's CCBlade in axial flow.
 
-Both get our trimmed controls, our blade and our section data, so that what is left between the codes is their
-mathematics. Neither is a dependency: they come with the extras `test` and `crosscheck`.
+Both use our trimmed controls, our blade and our section data, so the remaining differences come from their
+mathematics. Neither is a dependency: they are installed by the extras `test` and `crosscheck`.
 """
 
 import importlib
@@ -24,7 +24,7 @@ RATE_DEG = -8.0
 SECTION = "sc1095-thesis"
 MACH = 0.3
 AXIAL_SPEED = 0.02
-"""CCBlade divides by the axial speed; 0.02 m/s of climb stands for hover, where some 13 m/s are induced."""
+"""CCBlade divides by the axial speed; hover is run as a climb of 0.02 m/s, with about 13 m/s induced."""
 
 
 @dataclass(frozen=True)
@@ -34,9 +34,9 @@ class CodeComparison:
     code: str
     condition: str
     thrust: float
-    """Theirs over ours, less one."""
+    """Their value over ours, minus one."""
     power: float
-    """Theirs over ours, less one (torque)."""
+    """Their torque over ours, minus one."""
     detail: str
 
 
@@ -67,7 +67,7 @@ def beside_ccblade() -> list[CodeComparison]:
 
 
 def _blade_without_coning(design: Design) -> Design:
-    """A blade too heavy to cone: theirs do not."""
+    """The design with a blade too heavy to cone: dynbem's blades are rigid."""
     blade = replace(design.rotor.blade, flap_inertia=1e8 * design.rotor.blade.flap_inertia)
     return replace(design, rotor=replace(design.rotor, blade=blade))
 
@@ -96,13 +96,13 @@ def _one_dynbem(mu: float) -> CodeComparison:
     )  # fmt: skip
     definition = dynbem.RotorDefinition(
         blade,
-        dynbem.LinearPolarParameters(0.0, 6.0, 0.01, 12.0),  # Not used: the table below takes its place.
+        dynbem.LinearPolarParameters(0.0, 6.0, 0.01, 12.0),  # Not used: replaced by the table below.
         control=dynbem.ControlProperties(swashplate_pitch_gain_rad=1.0),
     )
     polar = dynbem.TabulatedPolar(alpha, np.ascontiguousarray(section.cl), np.ascontiguousarray(section.cd))
     model = dynbem.PittPetersModel(definition, polar, design.models.azimuths)
     speed, tilt = design.airspeed, controls.shaft_tilt
-    # World axes: x forward, z down; azimuth from the nose, so that both cyclics turn their sign.
+    # World axes: x forward, z down; azimuth from the nose, so both cyclics change sign.
     inputs = dynbem.RotorInputs(
         collective_rad=controls.collective, tilt_lon=controls.cyclic_1c, tilt_lat=-controls.cyclic_1s, R_hub=np.eye(3),
         v_hub_world=np.array([speed * math.cos(tilt), 0.0, -speed * math.sin(tilt)]), wind_world=np.zeros(3),
@@ -131,7 +131,7 @@ def _gradient(ours: Solution) -> float:
 
 
 def _settle(model: Any, inputs: Any, state: Any) -> tuple[Any, Any]:
-    """Newton's method to the steady inflow states: zero rates. Differences of 1e-6 in three states are enough."""
+    """Newton's method for the steady inflow states, where the rates are zero; Jacobian by differences of 1e-6."""
     x = np.array(state.to_array(), dtype=float)
     for _ in range(30):
         forces, rate = model.compute_forces(inputs, state.from_array(x))
@@ -151,13 +151,13 @@ def _settle(model: Any, inputs: Any, state: Any) -> tuple[Any, Any]:
 
 
 class _MirroredSection:
-    """Our section table as CCBlade asks for one: α is φ − θ for a turbine, and lift turns its sign."""
+    """Our section table in CCBlade's interface: for a turbine α is φ − θ, and lift changes sign."""
 
     def __init__(self) -> None:
         self.table = load_section(SECTION)
 
     def evaluate(self, alpha: float, reynolds: float, return_cm: bool = False) -> tuple[float, ...]:
-        """(cl, cd) at α [rad], and cm, which is not asked for."""
+        """(cl, cd) at α [rad], and cm, which CCBlade does not use."""
         del reynolds
         found = self.table(-float(np.asarray(alpha).item()), MACH)
         pair = (-float(found.cl), float(found.cd))

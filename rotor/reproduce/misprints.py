@@ -1,4 +1,4 @@
-"""What the thesis omits or misprints, each with two lines of Python that show it. The lines are run."""
+"""What the thesis omits or misprints, each with two lines of Python that are run to show it."""
 
 import math
 from collections.abc import Callable
@@ -21,25 +21,25 @@ from rotor.reproduce.runs import variant
 from rotor.trim.solve import solve
 
 ROUNDING = 1e-9
-"""Nothing smaller is shown as a number."""
+"""Smaller values are shown as 0."""
 
 
 @dataclass(frozen=True)
 class Misprint:
-    """One place."""
+    """One misprint, ambiguity or omission."""
 
     equation: str
     page: str
     kind: str
-    """misprint, ambiguous, or omission"""
+    """`misprint`, `ambiguous`, or `omission`."""
     printed: str
-    """What stands there."""
+    """The printed text."""
     ours: str
-    """What we compute with, and why."""
+    """What this program computes, and why."""
     setting: str
     """First line: a statement."""
     showing: str
-    """Second line: an expression of two values, the print's and ours."""
+    """Second line: an expression of two values, as printed and ours."""
     unit: str = ""
 
 
@@ -58,7 +58,7 @@ MISPRINTS: tuple[Misprint, ...] = (
     ),
     Misprint(
         "2.29", "12", "misprint", "λi = λ0(1 + kx r cos φ + ky r sin φ)",
-        "ψ for φ, as (3.4). Shown: the fore-aft range of λi/λ0 at 0.75 R; φ, the inflow angle, makes none.",
+        "ψ for φ, as (3.4). Shown: the fore-aft range of λi/λ0 at 0.75 R; with φ, the inflow angle, there is none.",
         "kx, phi, psi = 1.9, np.full(360, np.radians(5)), np.radians(np.arange(360))",
         "np.ptp(1 + kx * 0.75 * np.cos(phi)), np.ptp(1 + kx * 0.75 * np.cos(psi))",
     ),
@@ -70,15 +70,15 @@ MISPRINTS: tuple[Misprint, ...] = (
     ),
     Misprint(
         "2.32", "13", "misprint", "kx = (15π/23) tan(χ/2), named Pitt–Peters",
-        "15π/32 is the gain of their three-state matrix (½, 15π/64). Both are kept, by name; measured gradients lie "
-        "nearer the print.",
+        "15π/32 is the gain of their three-state matrix (½, 15π/64). Both are kept, by name; measured gradients are "
+        "closer to the printed value.",
         "mean, gradient = 1 / 2, 15 * np.pi / 64",
         "15 * np.pi / 23, gradient / mean",
     ),
     Misprint(
         "3.3", "18", "omission", "one lift-curve slope for hover",
-        "Closed form only for a straight lift curve; the flight preset balances each annulus with the real one. "
-        "Shown: hover power, linear −16°, flight preset with either.",
+        "The closed form needs a straight lift curve; the flight preset balances each annulus with the real curve. "
+        "Shown: hover power, linear −16°, flight preset with each.",
         "design = make_design(twist='linear:-16', mu=0.0)",
         "hover_kw(design, 'closed-form'), hover_kw(design, 'annulus')", "kW",
     ),
@@ -90,20 +90,21 @@ MISPRINTS: tuple[Misprint, ...] = (
     ),
     Misprint(
         "3.1, 3.2", "18", "omission", "polynomials of order 10 and 12, range and ends not mentioned",
-        "Held at the ends of the fit. Shown: Cl at 30°, free and held.",
+        "Constant beyond the ends of the fit. Shown: Cl at 30°, extrapolated and constant.",
         "fit, end = polynomial_section(), polynomial_section().fit_range",
         "free(fit.cl_series, end, np.radians(30)), float(fit(np.radians(30))[0])",
     ),
     Misprint(
         "3.6", "21", "omission", "U_P without µ sin α ΩR",
-        "The tilted disk sees the stream. Without it torque × Ω misses the parasite power, and what the disk, flapped "
-        "back, draws from the stream: shown at µ 0.30, beside the sum of parts that the thesis preset takes as power.",
+        "Through a tilted disk there is axial flow. Without it torque × Ω leaves out the parasite power and the "
+        "power that the disk, flapped back, takes from the stream. Shown at µ 0.30: torque × Ω, and the sum of parts "
+        "that the thesis preset takes as power.",
         "power = solve(make_design(preset='thesis', mu=0.30)).require().power",
         "power.shaft / 1e3, power.main_rotor / 1e3", "kW",
     ),
     Misprint(
         "3.4 and abstract", "20, ix", "omission", "linear inflow, and twist that evens the inflow",
-        "Linear inflow does not respond to loading. Shown: the difference of induced power between 0° and "
+        "Linear inflow does not respond to the load distribution. Shown: difference in induced power between 0° and "
         "−16° at µ 0.2, as printed and with the dynamic wake.",
         "spread = lambda name: abs(induced_kw(name, 0) - induced_kw(name, -16))",
         "spread('thesis'), spread('thesis-wake')", "kW",
@@ -149,7 +150,7 @@ MISPRINTS: tuple[Misprint, ...] = (
 
 
 def shown_values(one: Misprint) -> tuple[float, float]:
-    """Run the two lines: the print's value and ours."""
+    """Run the two lines: the value as printed and ours."""
     names = dict(_names())
     exec(one.setting, names)
     printed, ours = eval(one.showing, names)
@@ -177,7 +178,7 @@ def _names() -> dict[str, Any]:
 
 
 def write_misprints(folder: Path) -> Path:
-    """The page `misprints.html`."""
+    """Write `misprints.html` into `folder`; its path."""
     rows: list[str] = []
     for one in MISPRINTS:
         printed, ours = shown_values(one)
@@ -197,7 +198,7 @@ def write_misprints(folder: Path) -> Path:
         "background:#f3f5f6;padding:6px 8px;overflow-x:auto;font-size:12.5px;margin:6px 0 0}small{color:#5b6770}"
         "table{border-collapse:collapse}</style><h1>What the thesis omits or misprints</h1>"
         '<p><a href="index.html">Back</a>. Each with two lines that were run to make this page.</p><table><tr>'
-        "<th>Equation</th><th>As printed</th><th>Ours, and why</th><th>Print</th><th>Ours</th></tr>"
+        "<th>Equation</th><th>As printed</th><th>Ours, and why</th><th>Printed</th><th>Ours</th></tr>"
         f"{''.join(rows)}</table></html>\n",
         encoding="utf-8",
     )

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from rotor.design.blade import with_airfoils
-from rotor.design.twist_spec import parse_twist
+from rotor.design.twist import parse_twist
 from rotor.optimisation.concepts import Concept, find_concept, nearest
 from rotor.optimisation.objective import Objective, WeightedCondition
 from rotor.optimisation.search import Band, Optimum, Search, SearchStatus, run_search

@@ -23,11 +23,10 @@ from rotor.reproduce.cross_codes import (
     beside_dynbem,
     have,
 )
-from rotor.reproduce.grids import figure_3_7, figure_3_8, figure_3_9
+from rotor.reproduce.disk_figures import figure_2_8, figure_3_7, figure_3_8, figure_3_9
 from rotor.reproduce.report import Report
 from rotor.reproduce.trust import Kind, TrustRow
 from rotor.reproduce.twist_effect import keys_1987
-from rotor.reproduce.velocities import figure_2_8
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.forward import first_guess
 from rotor.trim.hover import closed_form_inflow
@@ -232,7 +231,7 @@ def indicative() -> Iterator[TrustRow]:
         slope = float(table(math.radians(8.0), 0.3).cl - table(0.0, 0.3).cl) / math.radians(8.0)
         yield _relative("indicative", f"Lift slope of {name.upper()} over 0–8°, Mach 0.3",
                    "flight-simulation deck of NASA CR-166309", slope / published - 1.0, 3e-3,
-                   "rotor/reproduce/test_trust.py::test_lift_slope_beside_the_public_deck",
+                   "rotor/reproduce/test_trust.py::test_lift_slope_compared_with_the_public_deck",
                    "XFOIL is steeper than that deck; published RANS agrees with XFOIL.")  # fmt: skip
     rotor = uh60a_rotor("flight")
     frequency = math.sqrt(rotor.flap_frequency_squared) / FLAP_FREQUENCY - 1.0

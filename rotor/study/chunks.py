@@ -12,12 +12,11 @@ from dataclasses import asdict, dataclass
 from functools import cache
 from typing import Any
 
+from rotor.assets import package_version
 from rotor.design.design import FLIGHT_MODELS, THESIS_MODELS
-from rotor.files.provenance import package_version
-from rotor.study.point import Row, evaluate
+from rotor.study.point import Row, WarmStarts, evaluate
 from rotor.study.quantities import QUANTITIES, Value
 from rotor.study.study import Column, Study, columns_of
-from rotor.study.warm_starts import WarmStarts
 
 _M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3  # malloc.h of glibc
 

@@ -14,14 +14,23 @@ from typing import Any, cast
 
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.aircraft import Aircraft
-from rotor.design.twist_spec import inline_spec
+from rotor.design.twist import inline_spec
 from rotor.files.make_design import make_design
 from rotor.files.ranges import parse_range
 from rotor.files.rotor_file import find_aircraft
-from rotor.study.axes import Axis, Sample, StudyPoints
 from rotor.study.point import check_point
 from rotor.study.quantities import QUANTITIES, Value
-from rotor.study.study import OptimumSettings, ShowSettings, Study, check_uncertain, columns_of, default_chunk
+from rotor.study.study import (
+    Axis,
+    OptimumSettings,
+    Sample,
+    ShowSettings,
+    Study,
+    StudyPoints,
+    check_uncertain,
+    columns_of,
+    default_chunk,
+)
 
 SECTIONS: dict[str, tuple[str, ...]] = {
     "": ("title", "chunk"),

@@ -5,8 +5,8 @@ from dataclasses import replace
 
 from rotor.aero.elements import Problem, build_problem, expected_wake
 from rotor.aero.trim_state import TrimState
+from rotor.design.aircraft import FlightCondition
 from rotor.design.design import Design
-from rotor.design.flight import FlightCondition
 from rotor.trim.newton import Guess, TrimResult, newton
 from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
 from rotor.trim.solution import Solution

@@ -11,10 +11,9 @@ from watched import Watched, opened
 from explorer.app import App
 from explorer.hosting.limits import ServerLimits
 from explorer.session import Session
-from rotor.files.provenance import package_version
+from rotor.assets import package_version
 from rotor.study.chunks import StudyProvenance, evaluate_chunk
-from rotor.study.results import read_results
-from rotor.study.store import Store
+from rotor.study.results import Store, read_results
 from rotor.study.study_file import StudyFile, parse_study
 
 if TYPE_CHECKING:

@@ -15,11 +15,10 @@ from explorer.tabs.studies import charts as study_charts
 from explorer.tabs.studies.panel import StudiesPanel
 from explorer.tabs.studies.readout import numbers, point_line, summary
 from explorer.tabs.studies.results import find_studies, open_study
-from rotor.files.provenance import package_version
+from rotor.assets import package_version
 from rotor.study.chunks import StudyProvenance, evaluate_chunk
 from rotor.study.findings import HoverCruisePairs, cruise_speeds, hover_cruise_pairs
-from rotor.study.results import Results, design_of_row, read_file
-from rotor.study.store import Store
+from rotor.study.results import Results, Store, design_of_row, read_file
 from rotor.study.study_file import StudyFile, parse_study
 from rotor.trim.solve import solve
 

@@ -14,7 +14,7 @@ from explorer.tabs.physics.waterfall_panel import WaterfallPanel
 from explorer.tabs.physics.waterfall_view import alone_table, waterfall_chart
 from explorer.text.units import AVIATION, HORSEPOWER, KILOWATT, SI
 from rotor.aero.switches import SWITCHES
-from rotor.analysis.waterfall import Waterfall, WaterfallStep, waterfall
+from rotor.analysis.series import Waterfall, WaterfallStep, waterfall
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution, Status

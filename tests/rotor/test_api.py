@@ -57,7 +57,7 @@ def failed(design: rotor.Design) -> rotor.Solution:
     return found
 
 
-def test_a_notebook_runs_as_printed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+def test_the_notebook_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.chdir(tmp_path)
     Path("mine.toml").write_bytes(asset_path("r22.toml").read_bytes())
     names: dict = {}
@@ -79,7 +79,7 @@ def test_a_notebook_runs_as_printed(tmp_path: Path, monkeypatch: pytest.MonkeyPa
     assert rotor.solve(names["design"].with_twist(best.twist)).power.total <= names["solution"].power.total
 
 
-def test_names_are_few_and_no_module_hides_a_function():
+def test_the_api_is_small_and_no_module_shadows_a_function():
     assert dir(rotor) == sorted(rotor.__all__)
     assert len(dir(rotor)) <= 25
     for name in ("solve", "sweep", "optimise", "make_design", "parse_twist", "load_rotor", "load_design", "plot_power"):
@@ -94,7 +94,7 @@ class TestDesign:
         assert_allclose(design.at(speed_kt=100.0).airspeed, 100.0 * KNOT, rtol=1e-14)
         assert rotor.make_design(speed_kt=100.0).condition == rotor.make_design().at(speed_kt=100.0).condition
 
-    def test_what_is_left_out_stays(self, design: rotor.Design):
+    def test_arguments_left_out_keep_their_values(self, design: rotor.Design):
         changed = design.at(mass_kg=9000)
         assert (changed.condition.mass, changed.condition.advance_ratio) == (9000.0, 0.2)
         assert design.at(hover=True).hovering
@@ -107,7 +107,7 @@ class TestDesign:
         assert design.with_twist("builtin").twist == design.rotor.builtin_twist
         assert design.with_twist("ideal") == rotor.make_design(twist="ideal", mu=0.2)
 
-    def test_a_twist_stands_by_itself(self):
+    def test_a_twist_law_can_be_used_alone(self):
         assert rotor.parse_twist("linear:-8") == LinearTwist(math.radians(-8.0))
         for name in ("uh60a", "r22", "s61"):
             assert rotor.parse_twist(name) == rotor.make_design(rotor=name).rotor.builtin_twist
@@ -136,7 +136,7 @@ class TestSolution:
             assert len(repr(value)) < 200
             assert "\n" not in repr(value)
 
-    def test_no_power_without_trim(self, failed: rotor.Solution):
+    def test_an_unconverged_solution_refuses_its_power(self, failed: rotor.Solution):
         with pytest.raises(RuntimeError, match=r"did not converge.*last_power"):
             _ = failed.power
         assert failed.last_power.total > 0.0
@@ -149,7 +149,9 @@ class TestSolution:
         saved = json.loads(path.read_text(encoding="utf-8"))["solution"]
         assert saved["power_w"]["total"] == solution.power.total
 
-    def test_an_earlier_solution_is_a_better_start(self, design: rotor.Design, solution: rotor.Solution):
+    def test_a_start_from_an_earlier_solution_needs_fewer_iterations(
+        self, design: rotor.Design, solution: rotor.Solution
+    ):
         cold, warm = rotor.solve(design.at(mu=0.21)), rotor.solve(design.at(mu=0.21), start=solution)
         assert warm.passes < cold.passes
         assert_allclose(warm.power.total, cold.power.total, rtol=1e-8)
@@ -165,9 +167,7 @@ class TestSolution:
         assert [line.get_label() for line in rotor.plot_power(table, other).lines] == ["linear:-12", "linear:-4"]
         pyplot.close("all")
 
-    def test_without_matplotlib_a_plot_names_the_remedy(
-        self, solution: rotor.Solution, monkeypatch: pytest.MonkeyPatch
-    ):
+    def test_plot_without_matplotlib_gives_the_remedy(self, solution: rotor.Solution, monkeypatch: pytest.MonkeyPatch):
         monkeypatch.setitem(sys.modules, "matplotlib.pyplot", None)
         with pytest.raises(ImportError, match=r"pip install 'rotor-explorer\[plots\]'"):
             solution.plot()
@@ -182,11 +182,11 @@ class TestSweep:
         assert_allclose(row["total_kw"], table[1].power.total / 1e3)
         assert len(table) == len(list(table)) == 2
 
-    def test_what_does_not_converge_has_no_power(self, design: rotor.Design):
+    def test_rows_that_do_not_converge_have_no_power(self, design: rotor.Design):
         table = rotor.sweep(design.at(mass_kg=11_000), [0.2, 0.5])
         assert [row[table.columns.index("total_kw")] is None for row in table.rows] == [False, True]
 
-    def test_dataframe_or_a_sentence(self, design: rotor.Design, monkeypatch: pytest.MonkeyPatch):
+    def test_dataframe_or_an_error_without_pandas(self, design: rotor.Design, monkeypatch: pytest.MonkeyPatch):
         table = rotor.sweep(design, [0.2])
 
         class Pandas:
@@ -273,7 +273,7 @@ print(json.dumps([names, solved, [name for name in ("threads", "environment") if
 """
 
 
-def test_importing_changes_nothing_and_a_solve_puts_the_threads_back():
+def test_import_does_not_change_blas_threads_and_solve_restores_them():
     """BLAS threads, warning filters, signal handlers, environment, logging, NumPy's and Python's own settings.
 
     Nor does it load the page's server.
@@ -282,7 +282,7 @@ def test_importing_changes_nothing_and_a_solve_puts_the_threads_back():
     assert json.loads(done.stdout) == [[], True, []]
 
 
-def test_threads_that_solve_together_put_the_setting_back():
+def test_concurrent_solves_restore_the_setting():
     """The limit belongs to the process: the last computation to end restores it, whatever their order."""
     with threadpool_limits(limits=2, user_api="blas"):
         before = [one["num_threads"] for one in threadpool_info()]

@@ -11,7 +11,7 @@ from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, find_ac
 from rotor.actuator.harmonic import DynamicTwist, dynamic_twist, with_harmonic
 from rotor.actuator.installation import InstalledActuator, install
 from rotor.actuator.optimum import SMOOTH_DIVISIONS, STATIONS, ConditionPair, twisted
-from rotor.actuator.placement import BladeKind, Host, Placement
+from rotor.actuator.section import BladeKind, Host, Placement
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.design.design import Design

@@ -17,7 +17,7 @@ from explorer.theme.colours import NOW, colour_map
 from explorer.workers.tasks import MapTask
 from rotor.arrays import Array
 from rotor.optimisation.concepts import Parameter
-from rotor.optimisation.preconditioner import BAND as _BAND
+from rotor.optimisation.descent import BAND as _BAND
 
 CONTOURS = (0.005, 0.01, 0.02, 0.04, 0.08)
 """Power above the least, as parts of it, at which lines are drawn."""

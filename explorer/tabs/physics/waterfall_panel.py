@@ -9,7 +9,7 @@ from explorer.tabs.physics.waterfall_view import alone_table, waterfall_chart
 from explorer.text import readout
 from explorer.text.units import SI, UNITS, Units
 from rotor.aero.switches import SWITCHES, with_switches
-from rotor.analysis.waterfall import WaterfallStep, switch_off_steps, switch_on_steps
+from rotor.analysis.series import WaterfallStep, switch_off_steps, switch_on_steps
 from rotor.design.design import Design
 from rotor.trim.solution import Solution
 

@@ -6,7 +6,7 @@ from html import escape
 from explorer.text.units import SI, Units, number
 from explorer.theme.colours import PARTS
 from rotor.aero.switches import SWITCHES
-from rotor.analysis.waterfall import WaterfallStep
+from rotor.analysis.series import WaterfallStep
 
 WIDTH = 312
 """[px] of the drawing; the panel scales it."""

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
-from rotor.study.results import Results, read_results
-from rotor.study.store import ABOUT
+from rotor.study.results import ABOUT, Results, read_results
 
 _DEPTH = 3
 _MOST_FOLDERS = 3000

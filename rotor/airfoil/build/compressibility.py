@@ -1,6 +1,6 @@
 """From a low-speed polar to high subsonic Mach numbers, where XFOIL has no shocks.
 
-Native XFOIL stands up to Mach 0.4. Above, its Mach 0.3 polar is taken on by textbook steps:
+XFOIL is used directly up to Mach 0.4. Above, its Mach 0.3 polar is extended by textbook corrections:
 Prandtl-Glauert lift, a smooth cap on lift, drag of the lost leading-edge suction, Korn-Lock wave drag.
 Three constants were read off public SC1095 tables (NASA CR-166309 deck, UMD RANS), so agreement of the
 result with those tables is calibration, not evidence: the cap, KORN_KAPPA, and LIFT_DIVERGENCE_MACH
@@ -14,14 +14,14 @@ from scipy.interpolate import PchipInterpolator
 
 from rotor.arrays import Array
 
-NATIVE_MACH_LIMIT = 0.4  # Up to here XFOIL is used as it is: against RANS its drag is the better one.
-BASE_MACH = 0.3  # The polar that is taken on to higher Mach.
-LIFT_DIVERGENCE_MACH = 0.75  # The lift slope grows no more above: Prandtl-Glauert would go to infinity.
+NATIVE_MACH_LIMIT = 0.4  # Up to here XFOIL is used directly: compared with RANS, its drag is the better one.
+BASE_MACH = 0.3  # The polar that is extended to higher Mach.
+LIFT_DIVERGENCE_MACH = 0.75  # The lift slope is constant above: Prandtl-Glauert would go to infinity.
 KORN_KAPPA = 0.86  # Technology factor of Korn's relation, fitted to the CR-166309 SC1095 deck.
 LINEAR_RISE_FROM = 0.2  # M - M_cr beyond which the wave drag rises linearly; the quartic is far too steep at M 0.9.
 FRICTION_REYNOLDS_POWER = -0.16  # Of tripped XFOIL cd at fixed Mach; Reynolds is proportional to Mach here.
 CAP_SHARPNESS = 8.0  # Exponent of the smooth cap above Mach 0.4; takes 1 % off at 75 % of the cap.
-NATIVE_CAP_SHARPNESS = 16.0  # The same up to Mach 0.4, where what lies well below the cap is to be left alone.
+NATIVE_CAP_SHARPNESS = 16.0  # The same up to Mach 0.4, where lift well below the cap must not change.
 
 # Largest lift coefficient of SC1095 against Mach: own tripped XFOIL to 0.4, then as read off RANS and deck.
 _CAP_MACH = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0)
@@ -30,7 +30,7 @@ _CAP_CL = (1.45, 1.45, 1.52, 1.50, 1.43, 1.10, 1.00, 0.93, 0.91, 0.91)
 
 @dataclass(frozen=True)
 class SectionTraits:
-    """What the corrections need to know of a section.
+    """Section parameters of the corrections.
 
     `thickness` is t/c [-]; `cap_ratio` multiplies the SC1095 cap; `cap_native` says whether XFOIL's own
     lift is capped below Mach 0.4 too; `negative_ratio` is the cap at negative lift over that at positive;
@@ -50,7 +50,7 @@ def lift_cap(mach: float, traits: SectionTraits) -> float:
 
 
 def smooth_cap(cl: Array, upper: float, lower: float, sharpness: float = CAP_SHARPNESS) -> Array:
-    """`cl` held between -`lower` and `upper` without a corner: x / (1 + |x/cap|^n)^(1/n), n = `sharpness`."""
+    """`cl` limited smoothly to -`lower`..`upper`: x / (1 + |x/cap|^n)^(1/n), n = `sharpness`."""
     cap = np.where(cl >= 0.0, upper, lower)
     return np.asarray(cl / (1.0 + np.abs(cl / cap) ** sharpness) ** (1.0 / sharpness), dtype=np.float64)
 
@@ -78,7 +78,7 @@ def with_lost_suction(alpha: Array, potential_cl: Array, cl: Array, cd: Array) -
 
     `alpha` [rad], below 90 deg. Attached flow tilts the normal force forward by the suction; lost lift has
     none. With no suction left the force is normal to the chord, so that pressure drag (all above the least
-    `cd`) can be no more than cl tan(alpha); where the polar itself has more, it stays.
+    `cd`) can be no more than cl tan(alpha); where the polar itself has more, its value is kept.
     """
     lean = np.tan(np.abs(alpha))
     pressure = cd - np.min(cd)
@@ -90,7 +90,7 @@ def corrected_polar(
     mach: float, alpha: Array, cl: Array, cd: Array, cm: Array, traits: SectionTraits,
     base: float = BASE_MACH,
 ) -> tuple[Array, Array, Array]:  # fmt: skip
-    """(cl, cd, cm) at a `mach` where the polar itself ends, from the polar at `base`; `alpha` [rad] within +-0.5."""
+    """(cl, cd, cm) at a `mach` beyond the polars, from the polar at `base`; `alpha` [rad] within +-0.5."""
     growth = prandtl_glauert(mach, base)
     cap = lift_cap(mach, traits)
     lifted = smooth_cap(cl * growth, cap, cap * traits.negative_ratio)
@@ -106,7 +106,7 @@ def corrected_polar(
 def capped_polar(
     mach: float, alpha: Array, cl: Array, cd: Array, cm: Array, traits: SectionTraits
 ) -> tuple[Array, Array, Array]:
-    """(cl, cd, cm) of a native polar, its positive lift capped where XFOIL's own maximum is not believed."""
+    """(cl, cd, cm) of a native polar, its positive lift capped where XFOIL's own maximum is too high."""
     if not traits.cap_native:
         return cl, cd, cm
     held = np.where(cl > 0.0, smooth_cap(cl, lift_cap(mach, traits), 1.0, NATIVE_CAP_SHARPNESS), cl)

@@ -1,8 +1,8 @@
-"""From coordinates and raw XFOIL polars to the C81 deck that ships, and the check of a rebuilt deck.
+"""From coordinates and raw XFOIL polars to the shipped C81 deck, and the check of a rebuilt deck.
 
 Polars (trip at 5 % chord, Reynolds number of the section's own chord) at Mach 0.1 to 0.4; gaps closed;
-`compressibility` beyond the fastest polar; the closed form beyond stall; rounded C81 deck. Below the slowest polar it
-repeats. Mach 0.95 and 1.0 use the same formulas and are extrapolation.
+`compressibility` beyond the fastest polar; the closed form beyond stall; rounded C81 deck. Below the slowest polar the
+deck repeats it. Mach 0.95 and 1.0 use the same formulas and are extrapolation.
 """
 
 from collections.abc import Callable, Sequence
@@ -21,7 +21,7 @@ from rotor.arrays import Array
 
 Columns = tuple[Array, Array, Array]
 
-USED_ALPHA_DEG = 16.0  # Beyond, XFOIL jumps between separated branches; values are held there and blended away.
+USED_ALPHA_DEG = 16.0  # Beyond, XFOIL jumps between separated branches; values are constant there and blended out.
 DECK_MACH = np.array([0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0])
 
 
@@ -37,8 +37,8 @@ def deck_alpha_deg() -> Array:
 def assemble_deck(title: str, polars: Sequence[Polar], traits: SectionTraits) -> C81Deck:
     """The deck of one section from its polars, rounded as the C81 text rounds it.
 
-    Up to the fastest polar the polars stand as they are, linear in between in Mach; beyond it the one nearest to
-    Mach 0.3 is taken on by `compressibility`.
+    Up to the fastest polar the polars are used directly, linear between them in Mach; beyond it the one nearest to
+    Mach 0.3 is extended by `compressibility`.
     """
     ordered = sorted(polars, key=lambda polar: polar.mach)
     base = min(ordered, key=lambda polar: abs(polar.mach - BASE_MACH))
@@ -64,7 +64,7 @@ def assemble_deck(title: str, polars: Sequence[Polar], traits: SectionTraits) ->
 
 
 def _between(ordered: Sequence[Polar], mach: float, alpha_deg: Array) -> Columns:
-    """The polars at a Mach number: the one that has it, or linear between its neighbours; held at the ends."""
+    """The polars at a Mach number: the polar of that Mach, or linear between its neighbours; constant outside."""
     slower = max((p for p in ordered if p.mach <= mach + 1e-9), key=lambda p: p.mach, default=ordered[0])
     faster = min((p for p in ordered if p.mach >= mach - 1e-9), key=lambda p: p.mach, default=ordered[-1])
     if faster.mach - slower.mach < 1e-6:
@@ -76,20 +76,20 @@ def _between(ordered: Sequence[Polar], mach: float, alpha_deg: Array) -> Columns
 
 
 def _at(polar: Polar, alpha_deg: Array) -> Columns:
-    """A polar at `alpha_deg`: gaps bridged monotonically, values held beyond USED_ALPHA_DEG."""
+    """A polar at `alpha_deg`: gaps interpolated monotonically, values constant beyond USED_ALPHA_DEG."""
     where = np.clip(alpha_deg, max(polar.alpha_deg[0], -USED_ALPHA_DEG), min(polar.alpha_deg[-1], USED_ALPHA_DEG))
     cl, log_cd, cm = (
         np.asarray(PchipInterpolator(polar.alpha_deg, y)(where)) for y in (polar.cl, np.log(polar.cd), polar.cm)
     )
-    # Fully separated, the force stays normal to the chord: its drag leans on with tan(alpha).
+    # Fully separated, the force stays normal to the chord: its drag grows with tan(alpha).
     beyond = np.deg2rad(np.maximum(np.abs(alpha_deg), USED_ALPHA_DEG))
     return cl, np.exp(log_cd) * np.tan(beyond) / np.tan(np.deg2rad(USED_ALPHA_DEG)), cm
 
 
 def _drag_grows_to_broadside(alpha_deg: Array, cd: Array) -> Array:
-    """`cd` of one Mach made to grow outward from its least value to +-90 deg.
+    """`cd` of one Mach, made monotone from its least value outward to +-90 deg.
 
-    The closed form knows no Mach number, so that above Mach 0.8 the blend would fall into it.
+    The closed form does not depend on Mach, so above Mach 0.8 the blend into it would lower the drag.
     """
     out = cd.copy()
     best = int(np.argmin(np.where(np.abs(alpha_deg) < 16.0, cd, np.inf)))
@@ -119,8 +119,8 @@ class Recipe:
 RECIPES = {
     # t/c measured on the coordinates. negative_ratio: XFOIL's own |cl_min| / cl_max at Mach 0.3. Chord 0.527 m.
     "sc1095": Recipe("SC1095 XFOIL TRIP5 WRAP", 12.27e6, SectionTraits(thickness=0.095, negative_ratio=0.80)),
-    # No public R8 table exists to check against. XFOIL's cl_max (1.96 at M 0.3, growing with Mach) is not
-    # believed; a neural network trained on XFOIL gives R8 1.09-1.10 times the SC1095 value at M 0.3-0.5.
+    # No public R8 table exists to check against. XFOIL's cl_max (1.96 at M 0.3, growing with Mach) is
+    # too high; a neural network trained on XFOIL gives R8 1.09-1.10 times the SC1095 value at M 0.3-0.5.
     # Its negative_ratio is a rounded guess near XFOIL's 0.42: negative stall moves with the paneling anyway.
     "sc1094r8": Recipe(
         "SC1094R8 XFOIL TRIP5 WRAP",
@@ -147,7 +147,7 @@ class Difference:
     cd_at: str
 
     def within(self, cl_tolerance: float, cd_tolerance: float) -> bool:
-        """True when both are inside their tolerance."""
+        """True when both are within their tolerances."""
         return self.cl <= cl_tolerance and self.cd <= cd_tolerance
 
 
@@ -158,7 +158,7 @@ def check_name(name: str) -> None:
 
 
 def run_trip_polars(name: str, report: Callable[[str], None]) -> PolarSet:
-    """Run XFOIL for the deck of `name`; minutes at worst."""
+    """Run XFOIL for the deck of `name`; takes up to minutes."""
     check_name(name)
     contour, per_mach = load_contour(name), RECIPES[name].reynolds_per_mach
     header = (
@@ -194,7 +194,7 @@ def make_deck(name: str, polars: PolarSet) -> C81Deck:
 
 
 def compare_decks(new: C81Deck, old: C81Deck) -> Difference:
-    """Largest differences of `new` from `old`; a ValueError when their knots differ."""
+    """Largest differences of `new` from `old`; raises ValueError when their knots differ."""
     for a, b in ((new.cl, old.cl), (new.cd, old.cd)):
         if a.values.shape != b.values.shape or np.any(a.alpha_deg != b.alpha_deg) or np.any(a.mach != b.mach):
             raise ValueError("the decks have different angles or Machs: rebuild the shipped one")

@@ -1,6 +1,6 @@
 """Pressure and friction around a section at one angle of attack, as XFOIL computes them and as files.
 
-XFOIL's Cp comes out of CPWR, the surface points and the skin friction out of DUMP, in the same order: upper trailing
+XFOIL writes Cp with CPWR, and the surface points and skin friction with DUMP, in the same order: upper trailing
 edge forward around the nose to the lower trailing edge.
 """
 
@@ -24,7 +24,7 @@ class PressureCase:
     """One section in one flow."""
 
     section: str
-    """A bundled outline, or `naca23015`, which XFOIL makes itself."""
+    """A bundled outline, or `naca23015`, which XFOIL generates."""
     alpha_deg: float
     mach: float
     reynolds: float
@@ -32,18 +32,18 @@ class PressureCase:
 
     @property
     def file(self) -> str:
-        """Where its result is shipped, below `assets`."""
+        """Path of the shipped result below `assets`."""
         return f"airfoils/{self.section}_alpha{self.alpha_deg:g}.pressure.csv"
 
 
 PRESSURE_CASES = tuple(PressureCase(name, 3.0, 0.3, 3.68e6, 9.0) for name in ("naca23015", "sc1095", "sc1094r8"))
-"""α 3° stands in the document for the SC sections; Mach, Reynolds number and transition are our assumptions
+"""The document gives α 3° for the SC sections; Mach, Reynolds number and transition are our assumptions
 throughout."""
 
 
 @dataclass(frozen=True, eq=False)
 class Pressure:
-    """Pressure and friction around a section; arrays run as in `Contour`."""
+    """Pressure and friction around a section; arrays are ordered as in `Contour`."""
 
     case: PressureCase
     cl: float
@@ -83,7 +83,7 @@ class Pressure:
 
 
 def run_pressure(case: PressureCase) -> Pressure:
-    """Run XFOIL; XfoilError with one sentence when it is missing or did not converge."""
+    """Run XFOIL; raises XfoilError with one sentence when it is missing or does not converge."""
     require_xfoil()
     inputs: dict[str, str] = {}
     if case.section.startswith("naca"):
@@ -109,7 +109,7 @@ def run_pressure(case: PressureCase) -> Pressure:
 
 
 def write_pressure(path: Path, pressure: Pressure) -> None:
-    """Write a result as CSV below a header that says how it was made."""
+    """Write a result as CSV below a header that records how it was made."""
     case = pressure.case
     lines = [
         f"# {case.section}, XFOIL 6.99 (Drela), alpha {case.alpha_deg:g} deg, Mach {case.mach:g}, Re "
@@ -125,7 +125,7 @@ def write_pressure(path: Path, pressure: Pressure) -> None:
 
 
 def read_pressure(case: PressureCase) -> Pressure:
-    """The shipped result; ValueError when the file is damaged."""
+    """The shipped result. Raises ValueError when the file is damaged."""
     text = asset_path(case.file).read_text(encoding="utf-8")
     found = re.search(r"^# cl (\S+), cd (\S+), cm (\S+)$", text, re.MULTILINE)
     body = [line for line in text.splitlines() if line and not line.startswith("#")]

@@ -21,10 +21,10 @@ import numpy as np
 from rotor.airfoil.contour import Contour
 from rotor.airfoil.polars import Array, Polar
 
-# gfortran's run-time calls this to switch the traps on; an empty one in front of it leaves them off.
+# gfortran's run-time calls this to switch the traps on; an empty one, loaded first, leaves them off.
 _TRAP_SHIM = "void _gfortran_set_fpe(int mask) { (void)mask; }\n"
-_CPU_LIMIT = 8  # s of processor time, the same on a busy machine; a healthy sweep takes 1 to 4 s, a hung one spins on.
-_TIME_LIMIT = 120.0  # s of the clock, for one that waits instead.
+_CPU_LIMIT = 8  # s of processor time, the same on a busy machine; a normal sweep takes 1 to 4 s; a hung one never ends.
+_TIME_LIMIT = 120.0  # s of wall-clock time, for a process that waits without using the processor.
 _LIMITED = ("sh", "-c", f'ulimit -t {_CPU_LIMIT} && exec "$@"', "sh")
 _PANELINGS = ((160, 100), (200, 200), (240, 300), (180, 300), (220, 300))  # (panels, iterations), in this order.
 
@@ -50,7 +50,7 @@ class XfoilCase:
 
 
 def require_xfoil() -> None:
-    """Raise `XfoilMissing` with a remedy when the xfoil program, or a way to run it headless, is absent."""
+    """Raise `XfoilMissing` with a remedy when the xfoil program, or a way to run it without a screen, is absent."""
     if shutil.which("xfoil") is None:
         raise XfoilMissing(
             "xfoil was not found: the bundled decks serve at run time, only rebuilding polars needs it; "
@@ -100,16 +100,17 @@ def _sweep(
     written, clean = run_commands(commands, {"section.dat": f"{contour.name}\n{body}\n"}, ("polar.txt",))
     rows = _parse(written["polar.txt"]) if "polar.txt" in written else {}
     if not clean and rows:
-        rows.popitem()  # The last row of a crashed or killed run may be cut or a NaN about to spread.
+        rows.popitem()  # The last row of a crashed or killed run may be truncated, or NaN.
     return rows
 
 
 def run_commands(
     commands: Sequence[str], inputs: Mapping[str, str], outputs: Sequence[str]
 ) -> tuple[dict[str, str], bool]:
-    """One XFOIL process without a screen: files to put beside it, and the text of those it wrote.
+    """Run one XFOIL process without a screen, starting in its top menu.
 
-    False beside them when it crashed or had to be killed. Starts in XFOIL's top menu.
+    `inputs` are written to its folder first. Returns the texts of those `outputs` that it wrote, and False if it
+    crashed or was killed.
     """
     shim = _shim_folder()
     if shim is not None:
@@ -174,9 +175,9 @@ def run_polar(
     alpha_deg: Array,
     report: Callable[[str], None] = lambda _message: None,
 ) -> Polar:
-    """Polar of `contour` at the uniformly spaced angles `alpha_deg` [deg]; what never converges is left out.
+    """Polar of `contour` at the uniformly spaced angles `alpha_deg` [deg]; angles that never converge are left out.
 
-    The first paneling gives all it can, marching outward from zero both ways; the next ones only fill gaps.
+    The first paneling marches outward from zero in both directions; the others only fill its gaps.
     """
     require_xfoil()
     step = float(alpha_deg[1] - alpha_deg[0])
@@ -189,7 +190,7 @@ def run_polar(
         sweeps = [(0.0, max(wanted)), (0.0, min(wanted))] if attempt == 0 else _gaps(missing, step)
         for inner, outer in sweeps:
             outward = np.sign(outer) if outer else 1.0
-            lead = 0.0 if attempt == 0 else outward * min(abs(inner), 2.0)  # A run-up from where it converges.
+            lead = 0.0 if attempt == 0 else outward * min(abs(inner), 2.0)  # Starts where it converges.
             found = _sweep(contour, case, inner - lead, outer, outward * step, panels, iterations)
             for alpha, row in found.items():
                 rows.setdefault(alpha, row)

@@ -1,10 +1,205 @@
-"""The concepts by name."""
+"""The twist concepts by name.
 
+Families with one smooth curve (thesis §4.1.1, §4.1.2, free form) and with straight segments (§4.1.3–4.1.5).
+"""
+
+import math
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
-from rotor.optimisation.concepts.concept import Concept, restrict
-from rotor.optimisation.concepts.families import FreeFormConcept, LinearConcept, QuadraticConcept, SegmentsConcept
+import numpy as np
+
+from rotor.arrays import Array
+from rotor.design.blade import with_airfoils
+from rotor.design.design import Design
+from rotor.design.twist import (
+    REFERENCE_RADIUS,
+    LinearTwist,
+    PiecewiseLinearTwist,
+    QuadraticTwist,
+    SplineTwist,
+    TwistLaw,
+    spline_basis,
+)
+from rotor.optimisation.concepts.concept import Concept, Handle, Parameter, Values, restrict
+
+STEEPEST, FLATTEST = math.radians(-30.0), math.radians(10.0)
+"""Default bounds of a twist rate [rad/R]: beyond them blades stall at the root or carry negative lift at the tip."""
+
+
+@dataclass(frozen=True)
+class LinearConcept:
+    """One rate from root to tip."""
+
+    name = "linear"
+    title = "Linear"
+    explanation = "One rate from root to tip."
+    parameters = (Parameter("rate", "Rate", "rad/R", STEEPEST, FLATTEST),)
+    handles = (Handle("rate", "tilt", 0.0, 1.0),)
+    rate_rows = ((1.0,),)
+
+    def twist(self, values: Values) -> TwistLaw:
+        return LinearTwist(float(values[0]))
+
+    def slopes(self, values: Values, r: Array) -> Array:
+        del values
+        return (r - REFERENCE_RADIUS)[None]
+
+    def apply(self, design: Design, values: Values) -> Design:
+        return replace(design, twist=self.twist(values))
+
+
+@dataclass(frozen=True)
+class QuadraticConcept:
+    """A parabola: its second-order coefficient a and the difference from root to tip."""
+
+    name = "quadratic"
+    title = "Quadratic"
+    explanation = "A parabola: its curvature, and the twist from root to tip."
+    parameters = (
+        Parameter("curvature", "Curvature a", "rad/R²", math.radians(-40.0), math.radians(40.0)),
+        Parameter("difference", "Root to tip", "rad", STEEPEST, FLATTEST),
+    )
+    handles = (Handle("curvature", "bend", 0.0, 1.0), Handle("difference", "tilt", 0.0, 1.0))
+    rate_rows = ((-1.0, 1.0), (1.0, 1.0))
+    """θ' = 2 a r + (D − a) at the centre and at the tip; linear between."""
+
+    def twist(self, values: Values) -> TwistLaw:
+        return QuadraticTwist(float(values[0]), float(values[1]))
+
+    def slopes(self, values: Values, r: Array) -> Array:
+        del values
+        line = r - REFERENCE_RADIUS
+        return np.stack([r**2 - REFERENCE_RADIUS**2 - line, line])
+
+    def apply(self, design: Design, values: Values) -> Design:
+        return replace(design, twist=self.twist(values))
+
+
+_LOOSE_STEEPEST, _LOOSE_FLATTEST = math.radians(-40.0), math.radians(30.0)
+
+
+@dataclass(frozen=True)
+class FreeFormConcept:
+    """A cubic spline through seven angles, that at 0.75 R being zero: the envelope of the others.
+
+    It rounds off kinks, so a law of straight segments may be slightly better.
+    """
+
+    name = "free-form"
+    title = "Free form"
+    explanation = "A smooth curve through seven points, the bound for any smooth shape."
+    knots: tuple[float, ...] = (0.13, 0.30, 0.46, 0.61, REFERENCE_RADIUS, 0.88, 1.0)
+    """r/R; one is at 0.75, where every law is zero."""
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        return tuple(
+            Parameter(
+                f"twist_{round(100 * knot):03d}",
+                f"Twist at {knot:.2f} R",
+                "rad",
+                *sorted((_LOOSE_STEEPEST * (knot - REFERENCE_RADIUS), _LOOSE_FLATTEST * (knot - REFERENCE_RADIUS))),
+            )
+            for knot in self.knots
+            if knot != REFERENCE_RADIUS
+        )
+
+    @property
+    def handles(self) -> tuple[Handle, ...]:
+        reach = {k: (self.knots[max(k - 1, 0)], self.knots[min(k + 1, len(self.knots) - 1)]) for k in self._free}
+        return tuple(
+            Handle(parameter.name, "lift", self.knots[k], max(self.knots[k] - reach[k][0], reach[k][1] - self.knots[k]))
+            for parameter, k in zip(self.parameters, self._free, strict=True)
+        )
+
+    @property
+    def rate_rows(self) -> tuple[tuple[float, ...], ...]:
+        between = [0.5 * (a + b) for a, b in zip(self.knots, self.knots[1:], strict=False)]
+        stations = sorted((*self.knots, *between))
+        rates = spline_basis(self.knots, stations, derivative=1)[:, self._free]
+        return tuple(tuple(row) for row in rates.tolist())
+
+    def twist(self, values: Values) -> TwistLaw:
+        angles = [0.0] * len(self.knots)
+        for k, value in zip(self._free, values, strict=True):
+            angles[k] = float(value)
+        return SplineTwist(self.knots, tuple(angles))
+
+    def slopes(self, values: Values, r: Array) -> Array:
+        del values
+        return (spline_basis(self.knots, r) - spline_basis(self.knots, REFERENCE_RADIUS))[:, self._free].T
+
+    def apply(self, design: Design, values: Values) -> Design:
+        return replace(design, twist=self.twist(values))
+
+    @property
+    def _free(self) -> list[int]:
+        return [k for k, knot in enumerate(self.knots) if knot != REFERENCE_RADIUS]
+
+
+@dataclass(frozen=True)
+class SegmentsConcept:
+    """Straight segments, continuous at their breaks. Values: the rates root to tip, then the breaks."""
+
+    name: str
+    title: str
+    explanation: str
+    segments: tuple[tuple[str, str], ...]
+    """Name and title of each segment, root to tip."""
+    breaks: tuple[tuple[str, str, float, float], ...]
+    """Name, title, low and high of each break, r/R."""
+    airfoils: tuple[str, ...] = ()
+    """A section for each segment; empty: the design's own."""
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        rates = (
+            Parameter(f"{name}_rate", f"{title} rate", "rad/R", STEEPEST, FLATTEST) for name, title in self.segments
+        )
+        return (*rates, *(Parameter(name, title, "R", low, high) for name, title, low, high in self.breaks))
+
+    @property
+    def handles(self) -> tuple[Handle, ...]:
+        middles = [0.5 * (low + high) for _, _, low, high in self.breaks]
+        ends = (0.0, *middles, 1.0)
+        tilts = (Handle(f"{name}_rate", "tilt", ends[k], ends[k + 1]) for k, (name, _) in enumerate(self.segments))
+        return (*tilts, *(Handle(name, "slide", low, high) for name, _, low, high in self.breaks))
+
+    @property
+    def rate_rows(self) -> tuple[tuple[float, ...], ...]:
+        n = len(self.parameters)
+        return tuple(tuple(float(k == i) for k in range(n)) for i in range(len(self.segments)))
+
+    def twist(self, values: Values) -> TwistLaw:
+        n = len(self.segments)
+        return PiecewiseLinearTwist(tuple(float(v) for v in values[:n]), tuple(float(v) for v in values[n:]))
+
+    def slopes(self, values: Values, r: Array) -> Array:
+        """By a rate: the length of its segment between 0.75 R and r; by a break: the jump of rate there, for r beyond.
+
+        On the break itself the slope is that from inboard.
+        """
+        n = len(self.segments)
+        rates, breaks = values[:n], values[n:]
+        ends = (0.0, *breaks, 1.0)
+        out = np.empty((len(values), len(r)))
+        for k in range(n):
+            out[k] = np.clip(r, ends[k], ends[k + 1]) - min(max(REFERENCE_RADIUS, ends[k]), ends[k + 1])
+        for k, place in enumerate(breaks):
+            out[n + k] = (rates[k] - rates[k + 1]) * ((r > place) - float(place < REFERENCE_RADIUS))
+        return out
+
+    def apply(self, design: Design, values: Values) -> Design:
+        law = self.twist(values)
+        rotor = design.rotor
+        if self.airfoils:
+            places = tuple(float(value) for value in values[len(self.segments) :])
+            # SC1095 by whichever data the design has it: the document's polynomials, or the decks.
+            own = {span.section.partition("-")[0]: span.section for span in rotor.blade.spans}
+            rotor = with_airfoils(rotor, [own.get(name, name) for name in self.airfoils], places)
+        return replace(design, twist=law, rotor=rotor)
+
 
 DIVISIONS = (0.4, 0.5, 0.6, 0.7)
 """The divisions of the document's two-segment blades (thesis §4.1.3)."""

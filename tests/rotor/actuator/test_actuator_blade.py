@@ -11,11 +11,15 @@ from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.electrical import capacitance, drive, harmonic_drive
 from rotor.actuator.harmonic import dynamic_twist
 from rotor.actuator.installation import InstalledActuator, addition, balance_mass, install
-from rotor.actuator.limits import limits
-from rotor.actuator.loads import ELEMENTS, bend, fibre_strain
-from rotor.actuator.placement import Host, Placement, default_placement
-from rotor.dynamics.structure import BladeStructure, uh60a_structure
-from rotor.dynamics.torsion_beam import torsion_beam, torsion_frequency, twist_under_moment
+from rotor.actuator.limits import ELEMENTS, bend, fibre_strain, limits
+from rotor.actuator.section import Host, Placement, default_placement
+from rotor.dynamics.structure import (
+    BladeStructure,
+    torsion_beam,
+    torsion_frequency,
+    twist_under_moment,
+    uh60a_structure,
+)
 from rotor.files.make_design import make_design, uh60a_rotor
 from rotor.trim.solve import solve
 
@@ -49,7 +53,7 @@ def test_rotating_twist_closed_form(gj: float):
 
 
 @pytest.mark.parametrize(("host", "taken"), [(Host(), 0.07), (Host("new", 0.5), 0.13)])
-def test_what_rotation_takes_off_the_twist(host: Host, taken: float):
+def test_rotation_reduces_the_twist(host: Host, taken: float):
     """The shares that docs/theory.md §17 states, by trapeze effect and propeller moment, with two plies."""
     installed = mfc(2, host)
     low, high = (installed.beam.r[-1] * end for end in installed.placement.span)
@@ -59,7 +63,7 @@ def test_what_rotation_takes_off_the_twist(host: Host, taken: float):
     assert_allclose(share, taken, atol=0.006)
 
 
-def test_still_twist_is_moment_over_stiffness():
+def test_twist_without_rotation_is_moment_over_stiffness():
     beam = torsion_beam(uniform(), 0.0)
     assert_allclose(twist_under_moment(beam, np.full(240, 400.0))[-1], 400.0 / 7e4 * 6.0, rtol=1e-10)
 
@@ -70,7 +74,7 @@ def test_torsion_frequency_closed_form():
     assert_allclose(torsion_frequency(torsion_beam(uniform(), SPEED)), omega / SPEED, rtol=1e-4)
 
 
-def test_forced_twist_grows_as_a_single_mode():
+def test_forced_twist_is_that_of_a_single_mode():
     """Near its first mode the blade answers as 1/(1 − (n/ν)²), of which that mode holds 8/π² (modal series)."""
     beam = torsion_beam(uniform(2e4), SPEED)
     nu = torsion_frequency(beam)
@@ -79,7 +83,7 @@ def test_forced_twist_grows_as_a_single_mode():
     assert_allclose(moving / still, 8.0 / math.pi**2 / (1.0 - 0.81) + 1.0 - 8.0 / math.pi**2, rtol=0.03)
 
 
-def test_trapeze_stiffens():
+def test_trapeze_effect_stiffens_the_blade():
     """GJ_e = GJ + F_c k_A²: with k_A² a constant share of a nearly constant pull the twist falls by that share."""
     still, stiff = (
         twist_under_moment(torsion_beam(uniform(gyration=k), SPEED), np.full(240, 400.0))[-1] for k in (0.0, 0.01)
@@ -88,7 +92,7 @@ def test_trapeze_stiffens():
     assert_allclose(still / stiff - 1.0, 0.01 * pull.mean() / 7e4, rtol=0.15)
 
 
-def test_blade_frequencies_against_the_published():
+def test_blade_frequencies_agree_with_published_values():
     """Indicative: 22.4 Hz (5.2/rev) digitised from a fan plot; 5.29/rev of a clamped beam with Davis' numbers."""
     structure = uh60a_structure()
     assert_allclose(torsion_frequency(torsion_beam(structure, SPEED)), 5.29, rtol=0.03)
@@ -137,7 +141,7 @@ def test_worked_example(kind: str, share: float, plies: int, tip: float, mass: f
     assert installed.attainable < math.radians(tip) * 1.01
 
 
-def test_four_degrees_take_870_newton_metres():
+def test_four_degrees_need_870_newton_metres():
     """GJ θ' over the active span: 4° over 5.61 m is 868 N·m, 30 J."""
     installed = mfc(2)
     length = (0.9292 - 0.2433) * 8.1788
@@ -163,7 +167,7 @@ def test_segments_add_up():
     assert_allclose(parts.limit(1.0), whole.attainable, rtol=0.01)
 
 
-def test_stiffness_comes_at_the_price_of_twist():
+def test_stiffer_blades_twist_less():
     """Fixed ply: tip twist ∝ plies at first, then less; half the GJ doubles it."""
     one, two, four = (mfc(n).attainable for n in (1, 2, 4))
     assert 1.0 < two / one < 2.0
@@ -172,7 +176,7 @@ def test_stiffness_comes_at_the_price_of_twist():
     assert 1.75 < ratio < 2.0
 
 
-def test_dynamic_answer():
+def test_dynamic_twist_amplitude():
     """2/rev of a blade at 4.6/rev: half the range, times about 1/(1 − (2/4.6)²); heat cannot follow."""
     installed = mfc(2)
     made = dynamic_twist(installed, 2)
@@ -253,7 +257,7 @@ def broken(installed: InstalledActuator, swing: float = 1.0) -> set[str]:
     return {limit.name for limit in limits(installed, (swing,)) if not limit.ok}
 
 
-def test_limits_speak():
+def test_exceeded_limits_have_a_sentence():
     assert "voltage" in broken(mfc(1), 1.2)
     assert "voltage" not in broken(mfc(1), 1.0)
     assert "temperature" in broken(mfc(1))

@@ -26,7 +26,7 @@ def ply(id: str) -> PiezoPly:
     return found
 
 
-def test_mfc_sheet_agrees_with_itself():
+def test_mfc_data_are_consistent():
     """The maker also gives 900 N and 150 µm for a patch of 85 × 57 mm, 48.8 kJ/m³ and 0.16 g/cm²."""
     mfc = ply("MFC_P1")
     strain = mfc.swing[0]
@@ -57,7 +57,7 @@ def test_strain_is_coefficient_times_field(sheet: PiezoPly):
     assert_allclose(sheet.swing[1], sheet.d_across * field, rtol=0.06)
 
 
-def test_interdigitated_works_along_continuous_across():
+def test_interdigitated_electrodes_use_d33_continuous_ones_d31():
     """d33 stretches at positive voltage, d31 shrinks; P1 strains 3.5 times as far as P2 over the range."""
     p1, p2 = ply("MFC_P1"), ply("MFC_P2")
     assert free_strain(p1, 100.0)[0] > 0.0 > free_strain(p2, 100.0)[0]
@@ -67,7 +67,7 @@ def test_interdigitated_works_along_continuous_across():
     assert_allclose([curve.field[0], curve.field[-1]], [-1e6, 3e6], rtol=1e-12)
 
 
-def test_sheet_stretches_along_and_shrinks_across():
+def test_sheet_extends_along_and_contracts_across_the_fibres():
     """1000 V on MFC P1: 0.9 ppm/V along, −0.4 of it across."""
     width, height = np.ptp(deformed_sheet(ply("MFC_P1"), 1000.0), axis=0) - 1.0
     assert_allclose([width, height], [900e-6, -360e-6], rtol=1e-9)
@@ -89,14 +89,14 @@ def test_field_between_electrodes():
     assert_allclose(flux[(finger.x > 0.2) & (finger.x < 0.8)], flux[columns // 2], rtol=0.02)
 
 
-def test_recalled_numbers_are_warned_about():
+def test_recalled_numbers_have_a_caveat():
     warnings = find_actuator("AFC").provenance.warnings("AFC")
     assert any("recalled" in warning and "e1" in warning for warning in warnings)
     assert "electrode gap" in " ".join(ply("MFC_P2").provenance.warnings("MFC_P2"))
     assert not any("recalled" in w for w in find_actuator("MFC_P1").provenance.warnings("MFC_P1"))
 
 
-def test_grades_in_the_file_are_the_grades_in_the_lists():
+def test_grades_of_the_file_are_those_of_the_lists():
     """Every number of the table is followed by its grade; R and A ones are those that the program warns about."""
     text = asset_path("actuators.toml").read_text(encoding="utf-8")
     for row, block in zip(tomllib.loads(text)["ply"], text.split("[[ply]]")[1:], strict=True):
@@ -112,7 +112,7 @@ def test_grades_in_the_file_are_the_grades_in_the_lists():
         assert marked["A"] == set(row["assumed"]), row["id"]
 
 
-def test_unknown_actuator_names_the_known():
+def test_error_for_an_unknown_actuator_lists_the_known_ones():
     with pytest.raises(ValueError, match=r"'MFC' is not known: use one of MFC_P1"):
         find_actuator("MFC")
 

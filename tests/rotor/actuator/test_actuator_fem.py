@@ -7,15 +7,22 @@ from section_fem import Stiffness, analyse, closed_wall, with_web
 from test_actuator_section import DIAGONAL, METAL, blade, ply
 
 from rotor.actuator.catalogue import PiezoPly
-from rotor.actuator.placement import Placement, default_placement
-from rotor.actuator.section import SectionSpec, active_section, passive_skin, skin, web_line
+from rotor.actuator.section import (
+    Placement,
+    SectionSpec,
+    active_section,
+    default_placement,
+    passive_skin,
+    skin,
+    web_line,
+)
 from rotor.dynamics.structure import glass
 from rotor.dynamics.thin_wall import Layer, Material, Panel, build_section, induced_twist_rate, torsional_stiffness
 
 NOTHING = Material("nothing", 1e5, 1e5, 0.3, 1e5 / 2.6, 1.0)
 
 
-def test_elements_of_a_round_tube():
+def test_finite_elements_of_a_round_tube():
     """GJ = Gπ/2(ro⁴ − ri⁴) and θ' = γ0/R for a tube whose wall wants to shear: the oracle is right."""
     turn = np.linspace(0.0, 2.0 * np.pi, 81)[:-1]
     radius, t, strain = 0.05, 0.002, 5e-4
@@ -50,7 +57,7 @@ def box_by_elements(spec: SectionSpec, sheet: PiezoPly, placement: Placement, wh
     ("share", "plies"),
     [(0.5, 2), pytest.param(1.0, 1, marks=pytest.mark.slow), pytest.param(0.25, 2, marks=pytest.mark.slow)],
 )
-def test_torsion_of_the_box_by_elements(share: float, plies: int):
+def test_torsion_of_the_box_by_finite_elements(share: float, plies: int):
     """Figure 5.10's stand-in. Plies in the middle of the wall, as the thin-walled model has them: 2 %."""
     spec, placement = blade("new", share), default_placement(plies)
     section = active_section(spec, ply("MFC_P1"), placement)
@@ -70,7 +77,7 @@ def test_plies_outside_a_thick_wall_twist_more():
     assert 1.0 < gains[0] < 1.05 < gains[1] < 1.2
 
 
-def test_two_cells_by_elements():
+def test_two_cells_by_finite_elements():
     """Metal spar, an aft box a third as stiff, a ply over both: GJ 1.5 %, twist rate 7 % (the ply lies outside)."""
     spec, web, wall = blade("new", 1.0), 0.4, 0.002
     soft = Material("soft", 20e9, 20e9, 0.3, 20e9 / 2.6, 2000.0)

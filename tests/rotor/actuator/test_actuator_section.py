@@ -7,10 +7,12 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.actuator.catalogue import PiezoPly, find_actuator
-from rotor.actuator.placement import Host, Placement, default_placement
 from rotor.actuator.section import (
+    Host,
+    Placement,
     SectionSpec,
     active_section,
+    default_placement,
     passive_section,
     section_spec,
 )
@@ -46,7 +48,7 @@ def ply(id: str) -> PiezoPly:
 # Laminate
 
 
-def test_rotation_by_the_textbook():
+def test_rotated_stiffness_agrees_with_the_textbook():
     """Q̄16, Q̄26, Q̄66 written out (Jones, eq. 2.85), at an angle of no symmetry."""
     q, angle = reduced_stiffness(ply("MFC_P1").material), 0.4
     (q11, q12, _), (_, q22, _), (_, _, q66) = q
@@ -72,13 +74,13 @@ def test_blocked_shear_flow_of_one_ply(id: str, expected: float):
     assert_allclose(blocked_shear_flow(sheet.layer(1, -DIAGONAL)), -flow, rtol=1e-12)
 
 
-def test_an_isotropic_patch_makes_no_shear():
+def test_an_isotropic_patch_induces_no_shear():
     """Why a plain PZT sheet cannot twist a blade, at any angle."""
     for angle in (0.3, DIAGONAL, 1.2):
         assert_allclose(blocked_shear_flow(ply("PZT5H").layer(1, angle)), 0.0, atol=1e-9)
 
 
-def test_free_wall_takes_its_free_strain():
+def test_a_free_wall_has_its_free_strain():
     """A wall of one layer, not held, strains by the layer's own free strain: stiffness · strain = actuation."""
     layer = ply("MFC_P1").layer(2, 0.6)
     wall = wall_of((layer,))
@@ -197,7 +199,7 @@ def test_worked_example(kind: str, share: float, plies: int, stiffness: float, m
     ("id", "stiffness", "moment"),
     [("MFC_P2", 72357.0, -31.49), ("PZT5H_strips", 74883.9, -32.34), ("AFC", 70847.6, 32.76), ("PZT5H", 74883.9, 0.0)],
 )
-def test_worked_example_of_the_weak(id: str, stiffness: float, moment: float):
+def test_worked_example_of_weak_actuators(id: str, stiffness: float, moment: float):
     section = active_section(blade("retrofit", 1.0), ply(id), default_placement(1))
     assert_allclose(torsional_stiffness(section), stiffness, rtol=0.01)
     assert_allclose(actuation_moment(section), moment, rtol=0.05, atol=1e-6)
@@ -210,7 +212,7 @@ def test_worked_example_of_placement(chord: tuple[float, float], moment: float):
     assert_allclose(actuation_moment(section), moment, rtol=0.05)
 
 
-def test_twist_goes_with_sin_2phi_nearly():
+def test_twist_is_nearly_proportional_to_sin_2phi():
     """45° twists most; 20° and 70° clearly less; mirrored angles twist the other way."""
 
     def moment(angle: float) -> float:
@@ -222,6 +224,6 @@ def test_twist_goes_with_sin_2phi_nearly():
     assert_allclose(moment(-DIAGONAL), -best, rtol=1e-9)
 
 
-def test_plies_alone_stiffer_than_the_blade_is_refused():
+def test_plies_stiffer_than_the_blade_are_refused():
     with pytest.raises(ValueError, match="plies alone are stiffer"):
         active_section(blade("new", 0.1), ply("MFC_P1"), Placement(chord=(0.0, 0.8), plies=12))

@@ -16,7 +16,7 @@ from rotor.actuator.installation import install
 from rotor.actuator.limits import limits
 from rotor.actuator.optimum import STATIONS, ConditionPair, baseline, best_actuated, twisted
 from rotor.actuator.pictures import section_picture, twist_comparison, twist_under_voltage
-from rotor.actuator.placement import Host, default_placement
+from rotor.actuator.section import Host, default_placement
 from rotor.actuator.tables import table_5_1, verdict_table
 from rotor.actuator.verdict import Verdict, change_limit, headline, judge, verdict_sentence
 from rotor.files.make_design import make_design
@@ -79,7 +79,7 @@ def test_reached_against_brute_force():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("concept", CONCEPTS)
-def test_moving_beats_fixed_before_it_is_carried(concept: str):
+def test_variable_twist_is_better_than_fixed_before_added_mass(concept: str):
     judged = verdict(concept=concept)
     assert judged.gross_saving > 0.0
     assert judged.baseline.ideal_saving > 0.0
@@ -87,7 +87,7 @@ def test_moving_beats_fixed_before_it_is_carried(concept: str):
 
 
 @pytest.mark.slow
-def test_more_reach_saves_more():
+def test_more_attainable_twist_saves_more_power():
     linear = find_concept("linear")
     installed = verdict().installed
     powers = [best_actuated(pair(), linear, installed, derating=share).power for share in (0.0, 0.1, 0.3, 1.0)]
@@ -117,7 +117,7 @@ def test_mass_costs_induced_power():
     assert 1.0 < cost / (1.5 * induced * share) < 1.6
 
 
-def test_retrofit_is_held_against_the_flown_twist():
+def test_a_retrofit_is_compared_with_the_flown_twist():
     judged = verdict(kind="retrofit")
     flown = np.mean([solve(design).power.total for design in pair().designs()])
     assert_allclose(judged.reference_power, flown, rtol=1e-9)
@@ -132,7 +132,7 @@ def test_required_twist_by_hand():
     assert judged.feasible == (judged.required <= judged.attainable)
 
 
-def test_sentence_says_what_the_numbers_say():
+def test_the_sentence_agrees_with_the_numbers():
     judged = verdict(kind="retrofit")
     assert "cannot supply" in verdict_sentence(judged)
     assert verdict_sentence(judged).startswith("No net benefit: costs ")
@@ -175,6 +175,7 @@ def test_headlines():
 
 
 def test_limits_say_what_they_found():
+def test_limits_give_value_and_bound():
     """Kept or broken, one sentence holds; a sheet that cannot shear is not asked for millions of volts."""
     rotor = pair().design.rotor
     thick = install(find_actuator("MFC_P1"), default_placement(1), Host(), rotor)
@@ -190,7 +191,7 @@ def test_limits_say_what_they_found():
 
 
 @pytest.mark.slow
-def test_thesis_preset_asks_for_more():
+def test_the_thesis_preset_requires_more_twist():
     """The document's optima lie farther apart (−13.5° in hover, −4…−8° fast): no ply reaches that on this blade."""
     base = baseline(pair("thesis"), find_concept("linear"))
     (hover,), (fast,) = (best.values for best in base.best)
@@ -274,14 +275,14 @@ def test_a_table_as_json(capsys: pytest.CaptureFixture[str]):
 
 
 @pytest.mark.slow
-def test_tubes_are_counted_by_segment():
+def test_one_tube_per_segment():
     """Two tubes in one segment, two in each of two."""
     linear, two = (verdict("SMA_tube", concept) for concept in ("linear", "two-segment"))
     assert "(2 tubes, new blade" in verdict_sentence(linear)
     assert "(2 tubes a segment, new blade" in verdict_sentence(two)
 
 
-def test_nothing_trims_is_exit_1(capsys: pytest.CaptureFixture[str]):
+def test_exit_code_is_1_if_nothing_trims(capsys: pytest.CaptureFixture[str]):
     assert main(["actuator", "--json", "--mass-kg", "20000", "--altitude-m", "4000"]) == 1
     answer = json.loads(capsys.readouterr().out)
     assert list(answer) == KEYS
@@ -314,7 +315,7 @@ def test_bad_input_is_exit_2(arguments: list[str], words: str, capsys: pytest.Ca
     assert words in err
 
 
-def test_reached_twist_can_be_flown_again():
+def test_the_attainable_twist_can_be_solved_as_a_design():
     """The SPEC of a reached twist is read by every other command, and takes the same power."""
     solution = verdict().optimum.solutions[1]
     spec = solution.design.twist.spec()

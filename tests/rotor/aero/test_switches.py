@@ -21,7 +21,7 @@ from rotor.aero.sums import slopes
 from rotor.aero.switches import SWITCHES, no_effect, parse_switches, switched_off, with_switches
 from rotor.aero.trim_state import TrimState
 from rotor.airfoil.sections import load_installed
-from rotor.analysis.waterfall import PARTS, switch_on_steps, waterfall
+from rotor.analysis.series import PARTS, switch_on_steps, waterfall
 from rotor.assets import asset_path
 from rotor.design.design import Design
 from rotor.design.twist import TableTwist

@@ -37,7 +37,7 @@ def test_thickness_is_the_published_one(name: str, thickness: float, place: floa
 
 
 @pytest.mark.parametrize("name", SECTION_NAMES)
-def test_outline_runs_over_the_top_first_and_keeps_its_gap(name: str) -> None:
+def test_outline_starts_on_the_upper_side_and_keeps_its_gap(name: str) -> None:
     points = load_contour(name).points
     assert points[3, 1] > points[-4, 1]
     gap = {"naca0012": 0.00252, "naca63a015": 0.00064}.get(name, 0.0034)  # The formula's 0.252 % for 12 %; Report 903.
@@ -68,7 +68,7 @@ def test_resampling_keeps_the_shape(name: str, n: int) -> None:
     assert_allclose(area(again.points), area(contour.points), rtol=0.01 * (41 / n) ** 2 + given)
 
 
-def test_sections_blend_point_by_point() -> None:
+def test_resampled_sections_correspond_point_by_point() -> None:
     one, two = (resample(load_contour(name), 81).points for name in ("sc1095", "sc1094r8"))
     assert np.abs(one - two).max() < 0.03, "corresponding points lie near each other"
     half = 0.5 * (one + two)

@@ -41,7 +41,7 @@ SURVEY = {
 
 @pytest.mark.parametrize("name", tuple(SURVEY))
 @pytest.mark.parametrize("row", [0, 1])
-def test_attached_flow_is_the_surveys(name: str, row: int) -> None:
+def test_attached_flow_agrees_with_published_xfoil_runs(name: str, row: int) -> None:
     mach, slope, zero, cl4, cl8, cd0, cd4, cd8 = SURVEY[name][row]
     table = load_section(name)
     at = table(np.deg2rad([0.0, 4.0, 8.0]), mach)
@@ -64,7 +64,7 @@ def test_attached_flow_is_the_surveys(name: str, row: int) -> None:
         (0.5, 0.631, (0.0090, 0.0101, 0.0288)),
     ],
 )
-def test_near_to_rans_in_attached_flow(mach: float, cl4: float, cd: tuple[float, ...]) -> None:
+def test_attached_flow_is_close_to_rans(mach: float, cl4: float, cd: tuple[float, ...]) -> None:
     at = load_section("sc1095")(np.deg2rad([0.0, 4.0, 8.0]), mach)
     assert_allclose(at.cl[1], cl4, rtol=0.04)  # XFOIL's slope is 3-4 % above RANS
     assert_allclose(at.cd, cd, rtol=0.20)  # fully turbulent RANS is 12-18 % above a 5 % trip
@@ -89,14 +89,14 @@ def test_calibration_to_the_public_deck_holds(
     assert_allclose(at.cd, cd, atol=cd_tolerance)
 
 
-def test_drag_divergence_is_where_the_public_deck_has_it() -> None:
+def test_drag_divergence_agrees_with_the_public_deck() -> None:
     # About 0.75 at 0 deg and 0.71 at 2 deg; its Mach grid of 0.1 leaves 0.03. kappa was fitted to it.
     table = load_section("sc1095")
     assert_allclose(table.drag_divergence_mach(np.deg2rad([0.0, 2.0])), [0.75, 0.71], atol=0.03)
 
 
 @pytest.mark.parametrize("name", DECKS)
-def test_far_from_stall_it_is_the_measured_naca_0012(name: str) -> None:
+def test_beyond_stall_it_agrees_with_the_measured_naca_0012(name: str) -> None:
     table = load_section(name)
     # TN 3361: cl(175 deg) = -0.54; cd between 0.02 (180) and 0.09 (174) backwards; the fit's rms: 0.023 and 0.014.
     assert_allclose(table(np.deg2rad([175.0, -175.0]), 0.2).cl, [-0.54, 0.54], atol=0.03)
@@ -121,7 +121,7 @@ def test_far_from_stall_it_is_the_measured_naca_0012(name: str) -> None:
         (0.8, 0.395, 0.603, 0.82, 0.0137, 0.0575),
     ],
 )
-def test_naca_0012_is_near_to_the_public_table(
+def test_naca_0012_is_close_to_the_public_table(
     mach: float, cl2: float, cl4: float, cl_max: float, cd0: float, cd4: float
 ) -> None:
     table = load_section("naca0012")
@@ -133,7 +133,7 @@ def test_naca_0012_is_near_to_the_public_table(
     assert_allclose(at.cd[[0, 2]], [cd0, cd4], rtol=0.25, atol=0.0065 if mach == 0.8 else 0.0)
 
 
-def test_symmetric_sections_are_symmetric_as_far_as_xfoil_is() -> None:
+def test_symmetric_sections_are_as_symmetric_as_xfoil() -> None:
     alpha = np.deg2rad(np.arange(0.0, 10.0, 0.5))
     for name in ("naca0012", "naca63a015"):
         table = load_section(name)
@@ -143,7 +143,7 @@ def test_symmetric_sections_are_symmetric_as_far_as_xfoil_is() -> None:
             assert_allclose(down.cd, up.cd, rtol=0.03)
 
 
-def test_wrap_is_odd_in_lift_and_even_in_drag_and_closes() -> None:
+def test_closed_form_is_odd_in_lift_even_in_drag_and_periodic() -> None:
     alpha = np.linspace(0.4, np.pi, 200)
     cl, cd, cm = wrap_coefficients(alpha)
     cl_, cd_, cm_ = wrap_coefficients(-alpha)
@@ -154,7 +154,7 @@ def test_wrap_is_odd_in_lift_and_even_in_drag_and_closes() -> None:
     assert cd.min() > 0.0
 
 
-def test_blend_has_no_corner() -> None:
+def test_blend_is_smooth() -> None:
     assert_allclose(blend_weight(np.deg2rad([0.0, 16.0, 21.0, -21.0, 26.0, 180.0])), [0, 0, 0.5, 0.5, 1, 1], atol=1e-15)
     h = 1e-6
     for edge in (16.0, 26.0):
@@ -177,7 +177,7 @@ def test_prandtl_glauert_by_hand() -> None:
     assert prandtl_glauert(0.75) == prandtl_glauert(0.95)
 
 
-def test_cap_leaves_small_lift_alone_and_is_never_passed() -> None:
+def test_cap_does_not_change_small_lift_and_is_never_exceeded() -> None:
     cl = np.array([0.3, -0.3, 1.1, 5.0, -5.0])
     held = smooth_cap(cl, 1.1, 0.8)
     assert_allclose(held[:2], cl[:2], rtol=1e-4)  # (0.3/0.8)^8 / 8 = 5e-5
@@ -203,7 +203,7 @@ def test_without_any_suction_the_force_is_normal_to_the_chord() -> None:
     assert_allclose(all_lost[1], 0.008 + 0.9 * np.tan(alpha[1]), rtol=1e-12)
 
 
-def test_r8_as_installed_lifts_nearly_as_sc1095() -> None:
+def test_lift_of_the_installed_r8_is_close_to_that_of_the_sc1095() -> None:
     """The droop exists so that both sections have about the same zero-lift angle in blade axes (-0.6 and -0.7 deg)."""
     r8, plain = load_installed("sc1094r8"), load_installed("sc1095")
     assert_allclose(np.rad2deg(r8.incidence_offset), 1.0, rtol=1e-12)
@@ -223,7 +223,7 @@ def test_r8_stalls_later_but_not_implausibly() -> None:
 
 
 @pytest.mark.parametrize("name", DECKS)
-def test_deck_rebuilt_from_the_raw_polars_is_the_deck(name: str) -> None:
+def test_deck_rebuilt_from_the_raw_polars_is_the_shipped_deck(name: str) -> None:
     shipped = read_c81(asset_path(f"airfoils/{name}.c81"))
     rebuilt = make_deck(name, read_polars(asset_path(f"airfoils/{name}_trip5.polars.csv")))
     found = compare_decks(rebuilt, shipped)
@@ -250,7 +250,7 @@ def test_polar_files_round_trip(tmp_path: Path) -> None:
         read_polars(tmp_path / "bad.csv")
 
 
-def test_verify_would_notice_a_change() -> None:
+def test_verify_detects_a_change() -> None:
     shipped = read_c81(asset_path("airfoils/sc1095.c81"))
     values = shipped.cl.values.copy()
     values[shipped.cl.alpha_deg == 5.0, 4] += 0.02
@@ -262,7 +262,7 @@ def test_verify_would_notice_a_change() -> None:
         make_deck("sc1095", PolarSet((), ()))
 
 
-def test_deck_angles_suit_grid_and_header() -> None:
+def test_deck_angles_fit_grid_and_header() -> None:
     alpha = deck_alpha_deg()
     assert alpha.size <= 99
     assert_allclose(alpha * 2.0, np.round(alpha * 2.0), atol=0)
@@ -273,7 +273,7 @@ def test_deck_angles_suit_grid_and_header() -> None:
 @pytest.mark.slow
 @pytest.mark.xfoil
 @pytest.mark.parametrize("name", tuple(RECIPES))
-def test_xfoil_gives_the_deck_again(name: str) -> None:
+def test_xfoil_reproduces_the_deck(name: str) -> None:
     try:
         require_xfoil()
     except XfoilMissing as missing:

@@ -27,7 +27,7 @@ SURVEY = (
 )
 
 
-def test_error_against_order_is_the_surveys() -> None:
+def test_error_against_order_agrees_with_published_values() -> None:
     short = {e.order: e for e in fit_error_study(thesis_polar(), (-10.0, 15.0))}
     longer = {e.order: e for e in fit_error_study(thesis_polar(), (-10.0, 20.0))}
     assert sorted(short) == list(range(1, 17))
@@ -37,7 +37,7 @@ def test_error_against_order_is_the_surveys() -> None:
         assert_allclose([short[order].cd_rms, longer[order].cd_rms], [cd_short, cd_long], rtol=0.03, atol=1e-5)
 
 
-def test_errors_fall_with_order_and_ten_and_twelve_are_knees() -> None:
+def test_errors_decrease_with_order_to_knees_at_ten_and_twelve() -> None:
     study = fit_error_study(thesis_polar(), (-10.0, 20.0))
     cl, cd = np.array([e.cl_rms for e in study]), np.array([e.cd_rms for e in study])
     assert np.all(np.diff(cl) <= 1e-12)  # least squares on nested bases
@@ -46,7 +46,7 @@ def test_errors_fall_with_order_and_ten_and_twelve_are_knees() -> None:
     assert cl[10] > 0.98 * cl[9], "order 11 gains nothing"
 
 
-def test_fit_passes_a_known_polynomial_through() -> None:
+def test_fit_recovers_a_known_polynomial() -> None:
     polar = thesis_polar()
     alpha = np.deg2rad(polar.alpha_deg)
     exact = 0.1 + 6.0 * alpha - 20.0 * alpha**3
@@ -57,7 +57,7 @@ def test_fit_passes_a_known_polynomial_through() -> None:
     assert_allclose(cd, 0.01 + x**2, atol=1e-12)
 
 
-def test_held_and_flagged_outside_the_fit() -> None:
+def test_constant_and_flagged_outside_the_fit() -> None:
     section = polynomial_section()
     low, high = section.fit_range
     assert_allclose(np.rad2deg([low, high]), [-10.0, 15.0], rtol=1e-12)
@@ -91,7 +91,7 @@ def test_table_follows_the_polynomial_within_the_fit() -> None:
     assert table.fit_range == section.fit_range
 
 
-def test_one_mach_number_for_all() -> None:
+def test_the_table_does_not_depend_on_mach() -> None:
     table = polynomial_table()
     at = table(np.deg2rad([[0.0], [8.0], [170.0]]), np.linspace(0.0, 1.0, 7))
     assert_allclose(at.cl, at.cl[:, :1] * np.ones(7), atol=0)
@@ -100,7 +100,7 @@ def test_one_mach_number_for_all() -> None:
 
 @pytest.mark.parametrize("pitch_deg", [-12.0, -4.0, 3.0, 9.0, 25.0])
 @pytest.mark.parametrize("u_p", [-0.06, 0.02, 0.09])
-def test_reverse_flow_is_the_documents(pitch_deg: float, u_p: float) -> None:
+def test_reverse_flow_is_that_of_the_document(pitch_deg: float, u_p: float) -> None:
     """Loads by the document's recipe, arctan and changed sign of drag where U_T <= 0, against atan2 and our table."""
     section, table = polynomial_section(), polynomial_table()
     theta, u_t = np.deg2rad(pitch_deg), -0.15

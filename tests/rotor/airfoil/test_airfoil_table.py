@@ -52,7 +52,7 @@ def test_value_and_slopes_agree_from_both_sides_of_every_grid_line(name: str) ->
 
 
 @pytest.mark.parametrize("name", DECKS)
-def test_mach_is_held_outside_the_data_without_a_corner(name: str) -> None:
+def test_values_are_constant_and_smooth_outside_the_mach_range(name: str) -> None:
     table = load_section(name)
     alpha = np.deg2rad([-5.0, 0.0, 7.0, 100.0])
     for outside, edge in ((-0.3, 0.0), (1.7, table.mach_limit)):
@@ -62,7 +62,7 @@ def test_mach_is_held_outside_the_data_without_a_corner(name: str) -> None:
         assert_allclose(table(alpha, edge).cd_mach, 0.0, rtol=0, atol=1e-9)
 
 
-def test_data_that_end_early_are_held_from_there() -> None:
+def test_values_are_constant_beyond_the_last_mach_of_the_data() -> None:
     deck = read_c81(asset_path("airfoils/sc1095.c81"))
     shorter = [C81Block(b.mach[:-2], b.alpha_deg, b.values[:, :-2]) for b in (deck.cl, deck.cd, deck.cm)]
     table = table_from_deck("short", "test", type(deck)("short", *shorter))
@@ -93,9 +93,7 @@ def test_derivatives_agree_with_central_differences(name: str) -> None:
     alpha=st.floats(-20.0, 20.0, allow_nan=False),
     mach=st.floats(-1.0, 3.0, allow_nan=False),
 )
-def test_everywhere_finite_with_positive_drag_and_a_full_turn_changes_nothing(
-    name: str, alpha: float, mach: float
-) -> None:
+def test_values_are_finite_and_periodic_and_drag_is_positive(name: str, alpha: float, mach: float) -> None:
     table = load_section(name)
     at, turned = table(alpha, mach), table(alpha + 2.0 * np.pi, mach)
     assert all(np.isfinite(v) for v in (at.cl, at.cd, at.cl_alpha, at.cd_alpha, at.cl_mach, at.cd_mach))
@@ -106,7 +104,7 @@ def test_everywhere_finite_with_positive_drag_and_a_full_turn_changes_nothing(
 
 
 @pytest.mark.parametrize("name", DECKS)
-def test_values_do_not_leave_the_deck(name: str) -> None:
+def test_values_stay_within_the_range_of_the_deck(name: str) -> None:
     """Monotone slopes: between knots the surface stays within the corners of its deck cell, up to the cross terms."""
     table = load_section(name)
     deck = read_c81(asset_path(f"airfoils/{name}.c81"))
@@ -127,7 +125,7 @@ def test_shapes_broadcast() -> None:
     assert table(0.1, 0.3).cl.shape == ()
 
 
-def test_layout_is_what_the_kernel_reads() -> None:
+def test_layout_is_that_of_the_kernel() -> None:
     table = load_section("sc1094r8")
     assert table.coefficients.shape == (720, 20, 2, 4, 4)
     assert table.coefficients.dtype == np.float64
@@ -138,7 +136,7 @@ def test_layout_is_what_the_kernel_reads() -> None:
 
 
 @pytest.mark.parametrize("name", DECKS)
-def test_stall_angles_lie_where_the_lift_curve_bends(name: str) -> None:
+def test_stall_angles_are_at_the_bend_of_the_lift_curve(name: str) -> None:
     table = load_section(name)
     negative, positive = table.stall_alpha(np.linspace(0.1, 0.9, 9))
     assert np.all(np.rad2deg(positive) > 3.0)
@@ -159,7 +157,7 @@ def test_tables_compare_and_hash_by_identity() -> None:
         load_section("naca0006")
 
 
-def test_knots_off_the_grid_are_refused() -> None:
+def test_knots_that_are_not_on_the_grid_are_refused() -> None:
     alpha, values = np.array([-180.0, 0.25, 180.0]), np.full((3, 2), 0.1)
     with pytest.raises(ValueError, match=r"multiple of 0\.5 deg"):
         bicubic_coefficients(C81Block(np.array([0.0, 0.5]), alpha, values))
@@ -170,7 +168,7 @@ def test_knots_off_the_grid_are_refused() -> None:
         bicubic_coefficients(C81Block(np.array([0.0, 0.5]), alpha + 1.0, values))
 
 
-def test_a_table_is_ready_quickly() -> None:
+def test_a_table_is_built_quickly() -> None:
     start = time.perf_counter()
     table_from_deck("again", "test", read_c81(asset_path("airfoils/sc1095.c81")))
     # About 20 ms on one core; the limit of 60 ms is the page's budget, times five for a loaded machine.

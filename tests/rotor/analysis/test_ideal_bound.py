@@ -20,7 +20,7 @@ def rows(path: Path) -> list[dict[str, str]]:
 
 
 @pytest.mark.slow
-def test_the_command_makes_the_asset(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+def test_the_command_reproduces_the_asset(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     path = tmp_path / "bound.csv"
     assert main(["ideal", "--mu", "0.3", "--mass-kg", "8322.4", "--csv", str(path)]) == 0
     capsys.readouterr()
@@ -35,14 +35,14 @@ def test_too_slow_is_one_sentence(capsys: pytest.CaptureFixture[str]):
     assert "too low" in capsys.readouterr().err
 
 
-def test_more_freedom_never_costs():
+def test_more_freedom_never_increases_the_bound():
     bound = find_bound(make_design(mu=0.2))
     assert 1.0 < bound.any_circulation < bound.lift_limited < bound.steady_twist < bound.linear_twist
 
 
 @pytest.mark.parametrize("inflow", ["dynamic-wake", pytest.param("vortex-wake", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("mu", [0.1, 0.2, 0.3])
-def test_no_blade_of_ours_is_below_the_bound(inflow: str, mu: float):
+def test_no_trimmed_blade_is_below_the_bound(inflow: str, mu: float):
     design = make_design(mu=mu, twist="linear:-14")
     solution = solve(replace(design, models=replace(design.models, inflow=inflow))).require()
     factor = ideal_factor(mu, solution.ct)
@@ -50,7 +50,7 @@ def test_no_blade_of_ours_is_below_the_bound(inflow: str, mu: float):
     assert solution.induced_power_factor > factor
 
 
-def test_ends_of_the_table():
+def test_bound_at_the_ends_of_the_table():
     assert ideal_factor(0.0, 0.0065) == 1.0
     assert ideal_factor(0.42, 0.0065) is None
     factor = ideal_factor(0.2, 0.006509)

@@ -95,7 +95,7 @@ def test_bound_makes_the_thrust_without_moments_and_within_the_lift_limit(chord:
         assert lift.max() <= 1.2 + 1e-6
 
 
-def test_no_neighbour_is_cheaper():
+def test_no_neighbouring_circulation_needs_less_power():
     """Random loads of the same family with the same thrust and moments cost more."""
     wake, thrust = condition("0.2")
     best = least_induced_power(COARSE, wake, thrust, 3)
@@ -135,7 +135,7 @@ def test_bounds_are_ordered():
     assert bent <= straight <= given
 
 
-def test_impossible_lift_limit_says_so():
+def test_an_impossible_lift_limit_is_reported():
     wake, thrust = condition("0.3")
     with pytest.raises(ValueError, match="allow a higher"):
         least_induced_power(COARSE, wake, thrust, 2, chord=BLADE.chord, cl_range=(-0.1, 0.2))

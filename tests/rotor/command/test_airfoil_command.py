@@ -27,7 +27,7 @@ def test_verify_from_the_bundled_polars_agrees(name: str, capsys: pytest.Capture
     assert "agrees with the bundled deck" in capsys.readouterr().out
 
 
-def test_verify_says_when_it_differs(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+def test_verify_reports_differences(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.setattr(command, "CL_TOLERANCE", -1.0)
     assert run("verify", "sc1095", "--from-polars") == 1
     assert "DIFFERS" in capsys.readouterr().out
@@ -87,7 +87,7 @@ POLAR_TEXT = """
 """
 
 
-def test_only_sound_rows_of_a_polar_file_are_taken() -> None:
+def test_damaged_rows_of_a_polar_file_are_dropped() -> None:
     parse = xfoil._parse  # pyright: ignore[reportPrivateUsage]
     assert parse(POLAR_TEXT) == {0.0: (0.0888, 0.00828, -0.0144), 1.5: (0.2727, 0.0084, -0.015)}
     assert parse("nothing here") == {}

@@ -10,7 +10,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.__main__ import main
-from rotor.command.sweep import COLUMNS
+from rotor.analysis.series import COLUMNS
 from rotor.files.ranges import parse_range
 
 KEYS = [
@@ -53,7 +53,7 @@ def test_hover_and_speed(capsys: pytest.CaptureFixture[str]):
     assert_allclose(knots["speed_m_s"], 90 * 1852 / 3600, rtol=1e-12)
 
 
-def test_flags_reach_the_physics(capsys: pytest.CaptureFixture[str]):
+def test_flags_set_the_models(capsys: pytest.CaptureFixture[str]):
     base = solved(capsys, "--mu", "0.2")
     for flags in (["--preset", "thesis"], ["--inflow", "uniform"], ["--mass-kg", "7000"], ["--altitude-m", "2000"]):
         assert solved(capsys, "--mu", "0.2", *flags)["power_w"]["total"] != base["power_w"]["total"]
@@ -132,7 +132,7 @@ def test_readable_report(capsys: pytest.CaptureFixture[str]):
         assert words in out
 
 
-def test_as_a_program():
+def test_python_m_rotor():
     """`python -m rotor` from a shell: exit code and clean stderr."""
     done = subprocess.run(
         [sys.executable, "-W", "error", "-m", "rotor", "solve", "--mu", "0.2", "--json"], capture_output=True, text=True

@@ -63,7 +63,7 @@ def test_optimum_of_two_airfoils_can_be_solved(capsys: pytest.CaptureFixture[str
     assert_allclose(json.loads(out)["power_w"]["total"], answer["power_w"], rtol=1e-7)
 
 
-def test_optimise_for_a_reader(capsys: pytest.CaptureFixture[str]):
+def test_optimise_text(capsys: pytest.CaptureFixture[str]):
     code, out, err = run(capsys, "optimise", "--mu", "0.2", "--starts", "1")
     assert (code, err) == (0, "")
     assert "°/R" in out
@@ -71,7 +71,7 @@ def test_optimise_for_a_reader(capsys: pytest.CaptureFixture[str]):
     assert "saving " in out
 
 
-def test_flags_reach_the_search(capsys: pytest.CaptureFixture[str], tmp_path: Path):
+def test_flags_set_the_search(capsys: pytest.CaptureFixture[str], tmp_path: Path):
     mission = tmp_path / "mission.csv"
     mission.write_text("mu,hours\n0,1\n0.3,1\n")
     base = ("optimise", "--mu", "0.2", "--starts", "1", "--no-band", "--json")
@@ -186,7 +186,7 @@ def test_ctrl_c_prints_the_best_so_far(capsys: pytest.CaptureFixture[str], monke
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="signals of POSIX")
 @pytest.mark.parametrize("processes", ["1", "2"])
-def test_ctrl_c_on_a_schedule_keeps_what_is_found(processes: str, tmp_path: Path):
+def test_ctrl_c_on_a_schedule_keeps_the_results_so_far(processes: str, tmp_path: Path):
     found = tmp_path / "found.jsonl"
     started = subprocess.Popen(
         [

@@ -13,7 +13,7 @@ from rotor.__main__ import main
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.harmonic import phase_sweep
 from rotor.actuator.installation import install
-from rotor.actuator.placement import Host, default_placement
+from rotor.actuator.section import Host, default_placement
 from rotor.aero.elements import build_problem, evaluate_elements
 from rotor.aero.sums import slopes
 from rotor.design.active_twist import ActiveTwist, Harmonic
@@ -42,7 +42,7 @@ def test_energy_identity(inflow: str, per_rev: int):
     assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-8)
 
 
-def test_even_once_per_revolution_is_cyclic():
+def test_uniform_once_per_revolution_twist_is_cyclic_pitch():
     """1/rev of the whole blade is what the swashplate does: the trim takes it back, and nothing else changes."""
     design = make_design(mu=0.25)
     plain = solve(design).require()
@@ -54,7 +54,7 @@ def test_even_once_per_revolution_is_cyclic():
     assert_allclose(np.array(cyclic) + shift, [plain.controls.cyclic_1c, plain.controls.cyclic_1s], atol=1e-9)
 
 
-def test_nothing_added_changes_nothing():
+def test_zero_active_twist_changes_nothing():
     design = make_design(mu=0.2)
     assert solve(turning(design, Harmonic(2, 0.0))).power.total == solve(design).power.total
 
@@ -66,7 +66,7 @@ def test_field_by_hand():
     assert_allclose(field, [[0.0, 0.0, 0.0], [0.0, 0.01, -0.01], [0.0, 0.02, -0.02]], atol=1e-15)
 
 
-def test_exact_jacobian_is_not_disturbed():
+def test_the_jacobian_is_still_exact():
     """Newton needs no more passes, and the Jacobian agrees with differences of the residuals."""
     design = turning(make_design(mu=0.25), Harmonic(2, DEGREE))
     problem = build_problem(replace(design, models=replace(design.models, inflow="pitt-peters")))

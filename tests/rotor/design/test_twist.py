@@ -17,8 +17,8 @@ from rotor.design.twist import (
     QuadraticTwist,
     TwistLaw,
     ideal_tip_pitch,
+    parse_twist,
 )
-from rotor.design.twist_spec import parse_twist
 from rotor.files.make_design import make_design, uh60a_twist
 
 R = np.linspace(0.13, 1.0, 88)
@@ -76,7 +76,7 @@ def test_ideal_is_hyperbolic():
     assert_allclose((law(R) + 0.11 / 0.75) * R, 0.11, rtol=1e-13)
 
 
-def test_ideal_without_number_is_for_hover_at_this_weight():
+def test_ideal_twist_without_a_number_is_for_hover_at_the_weight():
     light, heavy = (make_design(twist="ideal", mass_kg=mass).twist for mass in (5000.0, 11000.0))
     assert isinstance(light, IdealTwist)
     assert isinstance(heavy, IdealTwist)
@@ -153,7 +153,7 @@ def test_bad_tables_are_one_sentence(tmp_path: Path, text: str, words: str):
     assert "\n" not in str(caught.value)
 
 
-def test_own_classes_equal_their_specs():
+def test_twist_laws_equal_their_specs():
     assert parse("linear:-8") == LinearTwist(math.radians(-8.0))
     assert parse("quadratic:6,-14") == QuadraticTwist(math.radians(6.0), math.radians(-14.0))
 

@@ -27,7 +27,7 @@ def somewhere(concept: Concept, seed: int = 3) -> np.ndarray:
 
 
 @EVERY
-def test_slopes_are_those_of_the_law(concept: Concept):
+def test_slopes_agree_with_the_law(concept: Concept):
     values, step = somewhere(concept), 1e-6
     measured = [
         (concept.twist(values + step * e)(R) - concept.twist(values - step * e)(R)) / (2 * step)
@@ -37,7 +37,7 @@ def test_slopes_are_those_of_the_law(concept: Concept):
 
 
 @EVERY
-def test_law_is_zero_at_three_quarters_and_survives_its_spec(concept: Concept):
+def test_law_is_zero_at_three_quarters_and_round_trips_as_spec(concept: Concept):
     law = concept.twist(somewhere(concept))
     assert_allclose(law(0.75), 0.0, atol=1e-15)
     back = parse_twist(law.spec(), builtin=law)
@@ -46,7 +46,7 @@ def test_law_is_zero_at_three_quarters_and_survives_its_spec(concept: Concept):
 
 
 @EVERY
-def test_rates_are_those_of_the_law(concept: Concept):
+def test_rates_agree_with_the_law(concept: Concept):
     """The steepest and the flattest rate that the rows give bound the law's own."""
     values = somewhere(concept, seed=11)
     rates = np.array(concept.rate_rows) @ values
@@ -58,14 +58,14 @@ def test_rates_are_those_of_the_law(concept: Concept):
 
 
 @EVERY
-def test_nearest_finds_its_own_law(concept: Concept):
+def test_nearest_recovers_a_law_of_the_concept(concept: Concept):
     law = concept.twist(somewhere(concept))
     found = nearest(concept, law)
     assert_allclose(concept.twist(found)(R), law(R), atol=2e-4)
 
 
 @EVERY
-def test_every_parameter_has_a_picture_bounds_and_a_label(concept: Concept):
+def test_every_parameter_has_a_handle_bounds_and_a_label(concept: Concept):
     assert [handle.parameter for handle in concept.handles] == [parameter.name for parameter in concept.parameters]
     for parameter in concept.parameters:
         assert parameter.low < parameter.high
@@ -75,20 +75,20 @@ def test_every_parameter_has_a_picture_bounds_and_a_label(concept: Concept):
     assert pickle.loads(pickle.dumps(concept)) == concept
 
 
-def test_spline_holds_linear_and_quadratic_laws():
+def test_the_spline_contains_linear_and_quadratic_laws():
     knots = (0.13, 0.3, 0.46, 0.61, 0.75, 0.88, 1.0)
     for law in (LinearTwist(-0.2), QuadraticTwist(0.1, -0.25)):
         assert_allclose(SplineTwist(knots, tuple(law(knots).tolist()))(R), law(R), atol=1e-14)
 
 
-def test_slope_by_a_break_is_the_jump_of_rate_beyond_it():
+def test_derivative_by_a_break_is_the_jump_of_rate_outboard_of_it():
     """Hand calculation: rates −4 and −20 °/R, break 0.8: a step db outward lifts the tip by 16° db."""
     values = [math.radians(-4.0), math.radians(-20.0), 0.8]
     by_break = find_concept("two-segment-free").slopes(values, np.array([0.5, 0.79, 0.81, 1.0]))[2]
     assert_allclose(np.degrees(by_break), [0.0, 0.0, 16.0, 16.0], atol=1e-12)
 
 
-def test_two_airfoils_change_the_blade_and_survive_a_design_file(tmp_path: Path):
+def test_two_airfoils_change_the_blade_and_are_kept_in_a_design_file(tmp_path: Path):
     concept = find_concept("two-segment-two-airfoils", [0.6])
     design = concept.apply(make_design(mu=0.25), [math.radians(-8.0), math.radians(-14.0)])
     assert airfoils_spec(design.rotor) == "sc1094r8,sc1095@0.6"
@@ -100,12 +100,12 @@ def test_two_airfoils_change_the_blade_and_survive_a_design_file(tmp_path: Path)
     assert airfoils_spec(thesis.rotor) == "sc1094r8,sc1095-thesis@0.6"
 
 
-def test_a_design_file_without_change_names_no_airfoils(tmp_path: Path):
+def test_a_design_file_without_airfoil_change_names_no_airfoils(tmp_path: Path):
     make_design().save(tmp_path / "design.json")
     assert "airfoils" not in (tmp_path / "design.json").read_text()
 
 
-def test_restricting_holds_parameters():
+def test_restricted_parameters_are_fixed():
     free = find_concept("two-segment-free")
     held = restrict(free, {"inboard_rate": -0.1})
     assert [parameter.name for parameter in held.parameters] == ["outboard_rate", "division"]
@@ -115,7 +115,7 @@ def test_restricting_holds_parameters():
     assert find_concept("three-segment", [0.3, 0.5]).twist([0.0, -0.1, -0.2]).spec().endswith("@0.3,0.5")
 
 
-def test_a_change_on_top_of_a_law_that_stays():
+def test_a_change_added_to_a_fixed_law():
     design = make_design()
     concept = on_top(CONCEPTS["two-segment-two-airfoils"], design.twist)
     values = [math.radians(-2.0), math.radians(1.0)]

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor.design.aircraft import FlightCondition
 from rotor.design.design import Design
-from rotor.design.flight import FlightCondition
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.limits import stalled_share
@@ -53,7 +53,7 @@ def test_hover_and_cruise():
         hover_and_cruise(design, 1.5, 0.3)
 
 
-def test_what_does_not_trim_has_no_power():
+def test_a_design_that_does_not_trim_has_no_power():
     """No zero, no NaN: None, and the sentence of the condition that failed."""
     design = small(0.2)
     conditions = (WeightedCondition(design.condition), WeightedCondition(FlightCondition(0.0, 20000.0, 4000.0)))
@@ -81,7 +81,7 @@ def test_stalled_share_has_exact_slopes(preset: str, mu: float):
     assert_allclose(exact, measured, atol=2e-5 * max(np.abs(exact).max(), 1e-3), rtol=0.0)
 
 
-def test_stalled_share_is_near_the_counted_area():
+def test_stalled_share_is_close_to_the_counted_area():
     """Both see the same cells; the smooth one differs by what is within half a degree of stall."""
     for mu in (0.3, 0.35, 0.38):
         solution = solve(make_design(mu=mu, twist="linear:-4"))

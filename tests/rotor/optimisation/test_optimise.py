@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.analysis.sweep import sweep
+from rotor.analysis.series import sweep
+from rotor.design.aircraft import FlightCondition
 from rotor.design.design import Design
-from rotor.design.flight import FlightCondition
 from rotor.design.twist import LinearTwist
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS, find_concept
@@ -50,7 +50,7 @@ def grid_powers(design: Design, concept_name: str, *axes: np.ndarray) -> np.ndar
 
 @pytest.mark.slow
 @pytest.mark.parametrize("mu", [0.0, 0.2, 0.35])
-def test_grid_finds_nothing_better_in_one_variable(mu: float):
+def test_no_grid_point_is_better_in_one_variable(mu: float):
     design = small(mu)
     rates = np.radians(np.arange(-30.0, 10.1, 2.0))
     powers = grid_powers(design, "linear", rates)
@@ -66,7 +66,7 @@ def test_grid_finds_nothing_better_in_one_variable(mu: float):
 
 
 @pytest.mark.slow
-def test_grid_finds_nothing_better_in_two_variables():
+def test_no_grid_point_is_better_in_two_variables():
     design = small(0.25)
     axis = np.radians(np.arange(-30.0, 10.1, 4.0))
     powers = grid_powers(design, "two-segment", axis, axis)
@@ -78,7 +78,7 @@ def test_grid_finds_nothing_better_in_two_variables():
 
 @pytest.mark.slow
 @pytest.mark.parametrize("mu", [0.0, 0.1, 0.2, 0.3, 0.35])
-def test_fine_grid_finds_nothing_better(mu: float):
+def test_no_point_of_a_fine_grid_is_better(mu: float):
     design = make_design(mu=mu)
     rates = np.radians(np.arange(-30.0, 10.01, 0.1))
     powers = grid_powers(design, "linear", rates)
@@ -133,7 +133,7 @@ def same(a: Optimum, b: Optimum) -> bool:
 
 
 @pytest.mark.slow
-def test_seed_decides_everything():
+def test_the_same_seed_gives_the_same_search():
     search = Search(small(0.2), CONCEPTS["two-segment"], starts=3, seed=4)
     assert same(run_search(search), run_search(pickle.loads(pickle.dumps(search))))
     other = run_search(replace(search, seed=5))
@@ -144,7 +144,7 @@ def test_seed_decides_everything():
 
 
 @pytest.mark.slow
-def test_many_starts_end_in_one_minimum_and_richer_concepts_do_better():
+def test_many_starts_reach_one_minimum_and_more_parameters_do_better():
     design = small(0.25)
     powers = {}
     for name in ("linear", "quadratic", "two-segment", "two-segment-free", "free-form"):
@@ -158,7 +158,7 @@ def test_many_starts_end_in_one_minimum_and_richer_concepts_do_better():
     assert powers["free-form"] <= powers["two-segment-free"] * (1 + 3e-4)  # A kink it can only round off.
 
 
-def test_bounds_rate_and_change_limits_hold():
+def test_bounds_rate_and_change_limits_are_kept():
     design = small(0.25, "linear:-8")
     for limits, active in (
         (Limits(bounds=(("rate", -6 * DEGREE, 2 * DEGREE),)), "rate low"),
@@ -176,7 +176,7 @@ def test_bounds_rate_and_change_limits_hold():
     assert math.degrees(band.low) >= -8.0 - 2.0 / 0.8696 - 0.01
 
 
-def test_rate_limit_holds_on_every_segment_and_along_a_spline():
+def test_rate_limit_is_kept_on_every_segment_and_along_a_spline():
     design = small(0.1)
     limits = Limits(rate=(-15 * DEGREE, -5 * DEGREE))
     for name in ("three-segment", "free-form"):
@@ -200,7 +200,7 @@ def test_change_limit_may_vary_along_the_blade():
     assert 0.9 < np.abs(np.degrees(change)).max() <= 1.01
 
 
-def test_stalled_area_limit_holds():
+def test_stalled_area_limit_is_kept():
     """At µ 0.36 the best linear twist leaves more of the disk stalled than the limit; the limit costs power."""
     design = small(0.36)
     free = run_search(Search(design, CONCEPTS["two-segment"], starts=2, band=False))
@@ -214,7 +214,7 @@ def test_stalled_area_limit_holds():
     assert held.best.power > free.best.power
 
 
-def test_progress_tells_every_evaluation_and_the_best_never_rises():
+def test_progress_reports_every_evaluation_and_the_best_never_increases():
     heard: list[Progress] = []
     found = run_search(Search(small(0.2), CONCEPTS["two-segment"], starts=3), heard.append)
     assert found.best is not None
@@ -238,7 +238,7 @@ def test_stopping_keeps_the_best_so_far(after: int):
     assert "Stopped" in found.message
 
 
-def test_stopping_before_anything_is_known():
+def test_stopping_before_the_first_result():
     found = run_search(Search(small(0.2), CONCEPTS["linear"]), None, lambda: True)
     assert (found.status, found.best, found.minima, found.saving) == (SearchStatus.STOPPED, None, (), None)
 
@@ -253,7 +253,7 @@ def test_the_optimum_has_the_power_that_solve_gives():
     assert found.design.twist.spec() == found.best.twist
 
 
-def test_what_cannot_fly_is_said_and_not_invented():
+def test_a_design_that_cannot_trim_is_reported():
     design = replace(small(0.2), condition=FlightCondition(0.0, 20000.0, 4000.0))
     found = run_search(Search(design, CONCEPTS["linear"], starts=2))
     assert found.status is SearchStatus.NOT_CONVERGED
@@ -261,14 +261,14 @@ def test_what_cannot_fly_is_said_and_not_invented():
     assert "No starting point has a trim" in found.message
 
 
-def test_limits_that_nothing_keeps_are_said():
+def test_limits_that_no_blade_can_keep_are_reported():
     found = run_search(Search(small(0.36), CONCEPTS["linear"], limits=Limits(stalled=1e-4), starts=1))
     assert found.status is SearchStatus.NOT_CONVERGED
     assert "limits" in found.message
 
 
 @pytest.mark.slow
-def test_near_the_edge_of_flight_starts_that_do_not_trim_are_survived():
+def test_starts_that_do_not_trim_do_not_end_the_search():
     """At µ 0.4 and 9.3 t strong untwist does not trim: the search goes round it."""
     design = replace(small(0.4), condition=FlightCondition(0.4, 9300.0))
     found = run_search(Search(design, CONCEPTS["linear"], starts=4, band=False))
@@ -278,7 +278,7 @@ def test_near_the_edge_of_flight_starts_that_do_not_trim_are_survived():
     assert found.best.power <= best * (1 + 1e-5)
 
 
-def test_mission_optimum_lies_between_those_of_its_legs():
+def test_mission_optimum_is_between_those_of_its_conditions():
     design = small(0.2)
     conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in (0.1, 0.3))
     concept = CONCEPTS["linear"]

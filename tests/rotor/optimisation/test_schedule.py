@@ -47,14 +47,14 @@ def power(schedule: Schedule, condition: int | None, name: str) -> float:
     return found.best.power
 
 
-def test_it_is_complete(made: Schedule):
+def test_a_schedule_is_complete(made: Schedule):
     assert made.complete
     assert made.converged
     assert [cell.condition for cell in made.cells[:4]] == [0] * 4
     assert made.cells[-1].condition is None
 
 
-def test_moving_is_never_worse_than_the_best_fixed_blade(made: Schedule):
+def test_variable_twist_is_never_worse_than_the_best_fixed_blade(made: Schedule):
     for name in NAMES:
         worth = made.worth(name)
         assert worth is not None
@@ -67,7 +67,7 @@ def test_moving_is_never_worse_than_the_best_fixed_blade(made: Schedule):
             assert power(made, condition, name) <= solve(design).power.total * (1 + 1e-6)
 
 
-def test_richer_concepts_are_never_worse(made: Schedule):
+def test_concepts_with_more_parameters_are_never_worse(made: Schedule):
     for condition in (0, 1, 2, None):
         for poor, rich in (
             ("linear", "quadratic"),
@@ -79,7 +79,7 @@ def test_richer_concepts_are_never_worse(made: Schedule):
         assert power(made, condition, "free-form") <= min(power(made, condition, name) for name in NAMES) * (1 + 3e-4)
 
 
-def test_worth_is_the_mean_by_hours(made: Schedule):
+def test_saving_is_the_mean_by_hours(made: Schedule):
     """Hand calculation with the hours 1, 2, 1."""
     worth = made.worth("linear")
     assert worth is not None
@@ -87,7 +87,7 @@ def test_worth_is_the_mean_by_hours(made: Schedule):
     assert_allclose(worth.moving, (powers[0] + 2 * powers[1] + powers[2]) / 4, rtol=1e-12)
 
 
-def test_one_condition_makes_moving_worthless():
+def test_variable_twist_saves_nothing_with_one_condition():
     alone = run_plan(plan("linear", ratios=(0.2,), hours=(1.0,)))
     worth = alone.worth("linear")
     assert worth is not None
@@ -95,7 +95,7 @@ def test_one_condition_makes_moving_worthless():
 
 
 @pytest.mark.slow
-def test_two_processes_find_the_same():
+def test_two_processes_give_the_same_result():
     twin = plan("linear", ratios=(0.1, 0.15, 0.2, 0.25, 0.3), hours=(1.0,) * 5)
     heard: list[Cell] = []
     here, there = run_plan(twin), run_plan(twin, keep=heard.append, processes=2)
@@ -107,7 +107,7 @@ def test_two_processes_find_the_same():
 
 
 @pytest.mark.slow
-def test_what_is_found_survives_a_stop_and_is_not_sought_again(tmp_path: Path):
+def test_results_are_kept_after_a_stop_and_not_computed_again(tmp_path: Path):
     path, whole = tmp_path / "found.jsonl", plan("linear", "two-segment")
     heard: list[Cell] = []
     keep = open_cells(path, whole)
@@ -138,7 +138,7 @@ def test_what_is_found_survives_a_stop_and_is_not_sought_again(tmp_path: Path):
 
 
 @pytest.mark.slow
-def test_a_lost_worker_is_said_and_what_it_found_is_kept():
+def test_a_lost_worker_is_reported_and_its_results_are_kept():
     killed: list[int] = []
 
     def kill(cell: Cell) -> None:
@@ -154,7 +154,7 @@ def test_a_lost_worker_is_said_and_what_it_found_is_kept():
     assert schedule.cells
 
 
-def test_a_file_of_another_plan_is_refused(tmp_path: Path):
+def test_a_file_of_another_schedule_is_refused(tmp_path: Path):
     path = tmp_path / "found.jsonl"
     open_cells(path, plan("linear"))
     with pytest.raises(ValueError, match="made with other flags"):
@@ -165,7 +165,7 @@ def test_a_file_of_another_plan_is_refused(tmp_path: Path):
     assert read_cells(tmp_path / "none.jsonl", plan("linear")) == []
 
 
-def test_a_leg_that_cannot_be_flown_is_not_hidden():
+def test_a_condition_that_cannot_trim_is_reported():
     design = small()
     conditions = (
         WeightedCondition(design.condition),

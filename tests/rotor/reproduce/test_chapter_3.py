@@ -8,7 +8,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.reproduce import Agreement, Report
-from rotor.reproduce.grids import convergence_order
+from rotor.reproduce.disk_figures import convergence_order
 from rotor.reproduce.report import ReportTable
 from rotor.reproduce.twist_effect import crossings
 
@@ -182,7 +182,7 @@ def test_figure_3_15(report: Make):
     assert set(column(one.tables[0], "best")) <= FIVE
 
 
-def test_crossings_are_where_powers_meet():
+def test_crossings_are_at_equal_power():
     """Between −4° and −8° on the thesis' rotor; the two costs cross once at low speed."""
     found = crossings("thesis", -4, -8, (0.075, 0.105, 0.135))
     assert len(found) == 1

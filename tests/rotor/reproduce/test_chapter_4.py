@@ -5,7 +5,7 @@ from collections.abc import Callable
 import pytest
 
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.reproduce import Agreement, Report, flown_blade
+from rotor.reproduce import Agreement, Report
 from rotor.reproduce import comparison as side_by_side
 from rotor.reproduce import optimum_twist as figures
 from rotor.reproduce.optima import CONCEPTS, QUICK, best
@@ -32,7 +32,7 @@ def check(one: Report, concept: str, variants: tuple[str, ...] = EVERY_VARIANT) 
                 assert found.power_kw <= best(name, "linear", mu, QUICK).power_kw * (1.0 + 1e-5)
 
 
-def test_every_inflow_model_stands_in_both_presets():
+def test_both_presets_have_every_inflow_model():
     """The four with pictures of their own are among them; in hover the model makes no difference and is not asked."""
     assert {choices(name) for name in EVERY_VARIANT} == {(preset, name) for preset in PRESETS for name in INFLOW_MODELS}
     assert set(VARIANTS) < set(EVERY_VARIANT)
@@ -65,7 +65,7 @@ def test_figure_4_1_every_inflow():
                 assert best(name, "linear", 0.0, QUICK).values[0] < best(name, "linear", 0.15, QUICK).values[0]
 
 
-def test_figure_4_1_steady_decrease_with_the_wake():
+def test_figure_4_1_decreases_steadily_with_the_wake():
     """The thesis' idea on its own rotor: with a wake that answers, the optimum falls steadily with speed."""
     rates = [best("thesis-wake", "linear", mu, QUICK).values[0] for mu in QUICK.speeds]
     assert rates[0] < rates[1] - 2.0 < rates[2] - 4.0
@@ -128,14 +128,14 @@ def test_figure_4_11(report: Make):
 
 def test_figure_4_12():
     """Moving three segments saves, but little: nothing near the distance to any data."""
-    numbers = flown_blade.figure_4_12(QUICK, ("flight",)).numbers
+    numbers = side_by_side.figure_4_12(QUICK, ("flight",)).numbers
     assert 0.0 < numbers["flight_least_saving"] <= numbers["flight_largest_saving"] < 0.05
 
 
 @pytest.mark.slow
 def test_figure_4_12_every_inflow():
     """With any model; the one that answers without wake losses (local momentum) sees most."""
-    numbers = flown_blade.figure_4_12(QUICK).numbers
+    numbers = side_by_side.figure_4_12(QUICK).numbers
     for name in EVERY_VARIANT:
         assert 0.0 < numbers[f"{name}_least_saving"] <= numbers[f"{name}_largest_saving"] < 0.10
 

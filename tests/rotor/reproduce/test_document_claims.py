@@ -62,12 +62,12 @@ def test_best_of_five_twists(preset: str):
         assert power_kw(preset, 0, 0.35) > 1.05 * power_kw(preset, best(preset, 0.35), 0.35)
 
 
-def test_hover_wants_more_twist_than_forward_flight():
+def test_hover_optimum_has_more_twist_than_forward_flight():
     """Thesis p. 3 and §3.3: increasing twist in hover, decreasing it at high speed."""
     assert best("thesis", 0.0) < best("thesis", 0.1) < best("thesis", 0.35) + 1
 
 
-def test_fast_flight_needs_more_power_than_the_bucket():
+def test_fast_flight_needs_more_power_than_the_minimum():
     for preset in PRESETS:
         powers = [power_kw(preset, -16, mu) for mu in (0.0, 0.15, 0.35)]
         assert powers[1] < powers[0]

@@ -32,7 +32,7 @@ def test_values_by_hand():
     assert_allclose(shown_values(BY_EQUATION["§3.2"])[1], 0.0065, rtol=2e-3)
 
 
-def test_linear_inflow_cannot_see_twist_and_the_wake_can():
+def test_linear_inflow_does_not_respond_to_twist_and_the_wake_does():
     printed, ours = shown_values(BY_EQUATION["3.4 and abstract"])
     assert printed < 1.0 < 10.0 < ours
 

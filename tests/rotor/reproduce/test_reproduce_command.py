@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from rotor.__main__ import main
-from rotor.reproduce import pictures
+from rotor.reproduce import page as pictures
 from rotor.reproduce.catalogue import ENTRIES, find_entry, searches_of
 from rotor.reproduce.optima import FULL, best
 from rotor.reproduce.report import PlotPanel, curve, typographic
@@ -21,7 +21,7 @@ WANTED = {
 }  # fmt: skip
 
 
-def test_every_figure_of_the_contents_is_there():
+def test_every_figure_of_the_contents_is_in_the_catalogue():
     assert {entry.number for entry in ENTRIES} >= WANTED
 
 
@@ -43,7 +43,7 @@ def test_one_figure(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     assert all(len(row) == len(rows[0]) for row in rows)
 
 
-def test_figures_come_once_and_in_the_documents_order(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+def test_figures_are_in_the_order_of_the_document_without_repeats(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     assert find_entry("Figure 3.11") is find_entry("3.11")
     asked = ["--figure", "table 5.1", "--figure", "Table 3.2", "--figure", "table 5.1", "--figure", "table 3.1"]
     assert main(["reproduce", str(tmp_path), *asked]) == 0
@@ -54,7 +54,7 @@ def test_figures_come_once_and_in_the_documents_order(tmp_path: Path, capsys: py
     assert "3 rebuilt: agrees 2, no reference 1." in page
 
 
-def test_one_legend_serves_panels_that_name_the_same():
+def test_panels_with_the_same_curves_share_one_legend():
     def panel(count: int, last: str = "−16°") -> PlotPanel:
         return PlotPanel("x", "y", tuple(curve(last if k == count - 1 else f"{k}", [0.0], [0.0]) for k in range(count)))
 
@@ -64,7 +64,7 @@ def test_one_legend_serves_panels_that_name_the_same():
     assert not pictures.same_key((panel(2), panel(2)))
 
 
-def test_without_matplotlib_tables_still_come(
+def test_tables_are_written_without_matplotlib(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ):
     monkeypatch.setattr(pictures.importlib.util, "find_spec", lambda name: None)
@@ -88,7 +88,7 @@ def test_chapter_5_is_drawn(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
         assert (tmp_path / "figure-5_3.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_what_other_processes_find_is_not_computed_again():
+def test_results_of_other_processes_are_not_computed_again():
     """Only what is not known is asked for; every answer is heard of once."""
     asked: list[float] = []
 
@@ -106,7 +106,7 @@ def test_what_other_processes_find_is_not_computed_again():
     assert pickle.loads(pickle.dumps(best)) is best
 
 
-def test_each_figure_of_chapter_4_asks_for_what_it_shows():
+def test_each_figure_of_chapter_4_names_the_searches_it_needs():
     """Worked off before it is made, so that nothing is left for one process alone."""
     for entry in ENTRIES:
         if entry.number.startswith("4.") and entry.slow:
@@ -115,12 +115,12 @@ def test_each_figure_of_chapter_4_asks_for_what_it_shows():
     assert sum(map(len, searches_of([find_entry("4.1")]))) == len(EVERY_VARIANT) * len(FULL.speeds)
 
 
-def test_processes_out_of_range_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+def test_error_for_processes_out_of_range_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     assert main(["reproduce", str(tmp_path), "--processes", "0"]) == 2
     assert capsys.readouterr().err.count("\n") == 1
 
 
-def test_unknown_figure_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+def test_error_for_an_unknown_figure_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     assert main(["reproduce", str(tmp_path), "--figure", "9.9"]) == 2
     told = capsys.readouterr().err
     assert told.count("\n") == 1

@@ -34,12 +34,12 @@ def still_true(made: TrustRow) -> None:
         assert abs(made.error - shipped.error) <= shipped.allowed, f"{key}: {shipped.error} → {made.error}"
 
 
-def test_the_page_is_made_of_the_shipped_rows():
+def test_the_page_is_generated_from_the_shipped_rows():
     made = page(trust_rows(), sensitivity_rows())
     assert (DOCS / "validation.md").read_text(encoding="utf-8") == made, "copy validation.md of a --trust run to docs/"
 
 
-def test_every_link_of_the_pages_leads_somewhere():
+def test_every_link_of_the_pages_has_a_target():
     """Theory, trust page and README point at files that are there."""
     for text in (*DOCS.glob("*.md"), DOCS.parent / "README.md"):
         links = re.findall(r"\]\(([^)#]+)", text.read_text(encoding="utf-8"))
@@ -64,14 +64,14 @@ def test_every_kind_has_rows():
 
 
 @pytest.mark.slow
-def test_fast_rows_still_hold():
+def test_fast_rows_are_reproduced():
     for make in FAST:
         for row in make():
             still_true(row)
 
 
 @pytest.mark.slow
-def test_verdicts_still_hold(report: Callable[[str], Report]):
+def test_verdicts_are_reproduced(report: Callable[[str], Report]):
     """What became of the thesis' statements; chapter 4 makes none that can be judged."""
     shown = {row.what: row.shown for row in trust_rows() if row.kind == "document"}
     for entry in ENTRIES:
@@ -81,20 +81,20 @@ def test_verdicts_still_hold(report: Callable[[str], Report]):
     assert len(shown) == len(ENTRIES)
 
 
-def test_public_code_rows_still_hold():
+def test_public_code_rows_are_reproduced():
     assert have("dynbem") or have("wisdem"), "pip install 'rotor-explorer[test]'"
     for row in public_codes():
         still_true(row)
 
 
 @pytest.mark.slow
-def test_rows_between_theories_still_hold():
+def test_rows_between_theories_are_reproduced():
     for row in between_theories():
         still_true(row)
 
 
 @pytest.mark.slow
-def test_sensitivities_still_hold():
+def test_sensitivities_are_reproduced():
     """Angles to 0.3°, a tenth of the bands they lie in; savings to a tenth of a per cent of power."""
     for made, shipped in zip(sensitivity(), sensitivity_rows(), strict=True):
         assert (made.change, made.mu) == (shipped.change, shipped.mu)
@@ -103,7 +103,7 @@ def test_sensitivities_still_hold():
         assert made.low_deg <= made.optimum_deg <= made.high_deg
 
 
-def test_lift_slope_beside_the_public_deck():
+def test_lift_slope_compared_with_the_public_deck():
     """12–14 % steeper than the deck of CR-166309 (assets/airfoils/CITATION.md says so)."""
     for name, published in LIFT_SLOPE.items():
         table = load_section(name)

@@ -17,17 +17,15 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from rotor.__main__ import main
 from rotor.assets import asset_path
-from rotor.command.progress import interruptible
+from rotor.command.common import interruptible
 from rotor.files.make_design import make_design
 from rotor.study import cluster
-from rotor.study.axes import Axis, Sample, StudyPoints
 from rotor.study.chunks import FinishedChunk, StudyProvenance, evaluate_chunk, evaluate_points
 from rotor.study.findings import best_row, effects, robust_best
-from rotor.study.results import Results, read_file, read_results
-from rotor.study.store import Store, StoreError
-from rotor.study.study import default_chunk
+from rotor.study.point import WarmStarts
+from rotor.study.results import Results, Store, StoreError, read_file, read_results
+from rotor.study.study import Axis, Sample, StudyPoints, default_chunk
 from rotor.study.study_file import StudyFile, parse_study, read_study
-from rotor.study.warm_starts import WarmStarts
 from rotor.trim.solve import solve
 
 WHENCE = StudyProvenance("0.0", None, "0")
@@ -35,7 +33,7 @@ COARSE = '[models]\ninflow = "pitt-peters"\nelements = 12\nazimuths = 24\n'
 SMALL = 'chunk = 4\n[axes]\nmu = [0.1, 0.2, 0.3]\nrate_deg = [-16, -8]\n[fixed]\nconcept = "linear"\n' + COARSE
 
 
-def test_neighbours_differ_by_one_step_and_every_point_comes_once():
+def test_neighbours_differ_by_one_step_and_every_point_occurs_once():
     axes = (Axis("mu", (0.0, 0.1, 0.2, 0.3)), Axis("mass_kg", (1.0, 2.0)), Axis("inflow", ("a", "b", "c")))
     places = StudyPoints(axes, Sample("sobol", 5, 0, (("altitude_m", 0.0, 100.0),)))
     points = places.at(0, places.count)
@@ -51,7 +49,7 @@ def test_neighbours_differ_by_one_step_and_every_point_comes_once():
     assert sum(a["inflow"] != b["inflow"] for a, b in pairwise(points)) == 2  # Texts are slowest.
 
 
-def test_a_study_of_a_billion_points_costs_no_memory():
+def test_a_study_of_a_billion_points_needs_no_memory():
     axis = tuple(float(k) for k in range(1000))
     places = StudyPoints((Axis("mu", axis), Axis("mass_kg", axis), Axis("altitude_m", axis)), None)
     assert places.count == 10**9
@@ -59,7 +57,7 @@ def test_a_study_of_a_billion_points_costs_no_memory():
 
 
 @pytest.mark.parametrize("method", ["sobol", "latin-hypercube"])
-def test_samples_fill_their_ranges_and_walk_in_small_steps(method: Any):
+def test_samples_fill_their_ranges_and_are_ordered_in_small_steps(method: Any):
     places = StudyPoints((), Sample(method, 500, 3, (("mu", 0.1, 0.3), ("mass_kg", 6000.0, 9000.0))))
     points = np.array([[point["mu"], point["mass_kg"]] for point in places.at(0, 500)])
     unit = (points - [0.1, 6000.0]) / [0.2, 3000.0]
@@ -166,11 +164,11 @@ def test_bad_flags_are_one_line(arguments: list[str], words: str, capsys: pytest
 
 
 @pytest.mark.parametrize("path", sorted(asset_path("studies").glob("*.toml")), ids=lambda path: path.name)
-def test_packaged_studies_are_good(path: Path):
+def test_packaged_studies_are_valid(path: Path):
     assert read_study(path.name).study == read_study(path).study
 
 
-def test_rows_are_what_single_trims_answer():
+def test_rows_agree_with_single_trims():
     study = parse_study(SMALL)
     for row in evaluate_points(study, 0, study.count):
         design = make_design(twist=f"linear:{row['rate_deg']:g}", mu=row["mu"])
@@ -181,7 +179,7 @@ def test_rows_are_what_single_trims_answer():
         assert_allclose(row["collective_deg"], math.degrees(alone.controls.collective), rtol=1e-7)
 
 
-def test_a_rotor_and_a_table_of_the_users_own_travel_with_the_study(tmp_path: Path):
+def test_a_users_rotor_and_table_are_part_of_the_study(tmp_path: Path):
     """A worker has none of the user's files, so that all they say is in the study."""
     (tmp_path / "mine.toml").write_text(asset_path("r22.toml").read_text(encoding="utf-8"), encoding="utf-8")
     (tmp_path / "twist.csv").write_text("0.1, 5\n1, -5\n")
@@ -197,7 +195,7 @@ def test_a_rotor_and_a_table_of_the_users_own_travel_with_the_study(tmp_path: Pa
     assert rows[0]["twist"] == "points:5,-5@0.1,1"
 
 
-def test_an_optimum_says_what_it_found():
+def test_the_row_of_an_optimum_has_its_results():
     text = '[axes]\nmu = [0.2]\n[fixed]\nconcept = "two-segment"\ndivision = 0.6\n[optimum]\nstarts = 1\n' + COARSE
     (row,) = evaluate_points(parse_study(text), 0, 1)
     assert row["status"] == "converged"
@@ -208,7 +206,7 @@ def test_an_optimum_says_what_it_found():
     assert row["saving_percent"] > 0.0
 
 
-def test_a_failed_point_is_a_row_with_its_sentence(monkeypatch: pytest.MonkeyPatch):
+def test_a_failed_point_is_a_row_with_a_message(monkeypatch: pytest.MonkeyPatch):
     heavy = parse_study("[axes]\nmass_kg = [8000, 30000]\n[fixed]\nmu = 0\naltitude_m = 4000\n" + COARSE)
     rows = evaluate_points(heavy, 0, 2)
     assert [row["status"] for row in rows] == ["converged", "not-converged"]
@@ -227,7 +225,7 @@ def test_a_failed_point_is_a_row_with_its_sentence(monkeypatch: pytest.MonkeyPat
     assert (row["status"], row["message"]) == ("error", "ZeroDivisionError: division by zero")
 
 
-def test_a_guess_follows_what_is_linear():
+def test_a_guess_is_exact_for_linear_variation():
     """Trims on a plane: the model made of four of them meets the fifth, where the nearest alone misses."""
     solution = solve(replace(make_design(), models=replace(make_design().models, inflow="uniform")))
     memory = WarmStarts({"mu": (0.0, 1.0), "mass_kg": (0.0, 2000.0)})
@@ -258,7 +256,7 @@ def done(monkeypatch: pytest.MonkeyPatch) -> Callable[[Store, int], FinishedChun
     return lambda store, chunk: evaluate_chunk(store.study, chunk, WHENCE)
 
 
-def test_a_folder_goes_on_where_it_was(tmp_path: Path, done: Callable[[Store, int], FinishedChunk]):
+def test_a_study_continues_from_its_folder(tmp_path: Path, done: Callable[[Store, int], FinishedChunk]):
     store = stored(tmp_path / "out")
     with pytest.raises(ValueError, match="another run writes"):
         stored(tmp_path / "out")
@@ -282,7 +280,7 @@ def test_a_folder_goes_on_where_it_was(tmp_path: Path, done: Callable[[Store, in
         stored(tmp_path / "mine")
 
 
-def test_a_full_disk_is_one_sentence_and_keeps_what_is_there(
+def test_a_full_disk_is_reported_and_finished_chunks_are_kept(
     tmp_path: Path, done: Callable[[Store, int], FinishedChunk], monkeypatch: pytest.MonkeyPatch
 ):
     store = stored(tmp_path / "out")
@@ -292,14 +290,14 @@ def test_a_full_disk_is_one_sentence_and_keeps_what_is_there(
     def full(handle: int) -> None:
         raise OSError(errno.ENOSPC, "No space left on device")
 
-    monkeypatch.setattr("rotor.study.store.os.fsync", full)
+    monkeypatch.setattr("rotor.study.results.os.fsync", full)
     with pytest.raises(StoreError, match=r"No space left on device\).*finished chunks are kept"):
         store.keep(1, content)
     assert store.missing() == [1]
     assert not list(store.folder.glob(".*.part"))
 
 
-def test_what_is_done_first_is_spread_over_the_study(tmp_path: Path):
+def test_first_chunks_are_spread_over_the_study(tmp_path: Path):
     store = stored(tmp_path / "out", SMALL.replace("[0.1, 0.2, 0.3]", '"0.1:0.299:0.001"'))
     left = store.missing()
     assert sorted(left) == list(range(100))
@@ -307,7 +305,7 @@ def test_what_is_done_first_is_spread_over_the_study(tmp_path: Path):
     assert left == store.missing()
 
 
-def test_files_say_units_and_whence_they_came(tmp_path: Path, done: Callable[[Store, int], FinishedChunk]):
+def test_files_have_units_and_provenance(tmp_path: Path, done: Callable[[Store, int], FinishedChunk]):
     parquet: Any = importlib.import_module("pyarrow.parquet")
     store = stored(tmp_path / "out")
     for chunk in range(2):
@@ -370,7 +368,7 @@ def test_best_and_robust_best_by_hand():
     assert (robust.designs, robust.dropped, robust.least_mean.cases) == (3, 1, 2)
 
 
-def test_effects_share_the_variance_as_the_formula_says():
+def test_effects_share_the_variance_by_the_formula():
     """f = 3x + y on a full grid: Var x-part : Var y-part = 9 : 1, no free parameter left for z."""
     grid = np.array(np.meshgrid([0.0, 1.0], [0.0, 1.0], [0.0, 1.0], indexing="ij")).reshape(3, -1)
     results = results_of(x=grid[0], y=grid[1], z=grid[2], power_total_w=3.0 * grid[0] + grid[1])
@@ -382,7 +380,7 @@ def test_effects_share_the_variance_as_the_formula_says():
     assert_allclose(fine.share, 0.99, atol=1e-3)  # Tenths see all but 1/100 of a straight line's variance.
 
 
-def test_a_short_sample_is_not_taken_for_an_effect():
+def test_a_small_sample_is_not_reported_as_an_effect():
     """Power depends on x alone; with a level for each of sixteen points y would have all of the variance as well."""
     x, y = np.random.default_rng(0).random((2, 16))
     results = results_of(x=x, y=y, power_total_w=x)
@@ -392,7 +390,7 @@ def test_a_short_sample_is_not_taken_for_an_effect():
     assert found["y"] < 0.2
 
 
-def test_a_file_that_is_no_result_or_unpacks_to_much_is_one_sentence():
+def test_error_for_a_file_without_results_or_too_large_is_one_sentence():
     parquet: Any = importlib.import_module("pyarrow.parquet")
     arrow: Any = importlib.import_module("pyarrow")
     about = {"format": "rotor-explorer study", "axes": "[]", "given": "{}", "units": "{}", "models": "{}"}
@@ -417,7 +415,7 @@ def test_a_file_that_is_no_result_or_unpacks_to_much_is_one_sentence():
             read_file(content, "small.parquet")
 
 
-def test_without_the_packages_it_says_how_to_get_them(monkeypatch: pytest.MonkeyPatch):
+def test_missing_packages_are_reported_with_the_install_command(monkeypatch: pytest.MonkeyPatch):
     def missing(name: str) -> Any:
         raise ImportError(name)
 
@@ -426,7 +424,7 @@ def test_without_the_packages_it_says_how_to_get_them(monkeypatch: pytest.Monkey
         cluster.need_packages()
 
 
-def test_one_ctrl_c_handed_on_twice_is_one():
+def test_one_ctrl_c_received_twice_counts_once():
     with interruptible() as stop:
         signal.raise_signal(signal.SIGINT)
         signal.raise_signal(signal.SIGINT)

@@ -129,7 +129,7 @@ def workers_of(folder: Path) -> set[str]:
     return {parquet.read_metadata(path).metadata[b"worker"].decode() for path in folder.glob("chunk-*.parquet")}
 
 
-def test_two_workers_answer_as_one_process_does(cluster: Cluster, tmp_path: Path):
+def test_two_workers_give_the_results_of_one_process(cluster: Cluster, tmp_path: Path):
     file, out = study_file(tmp_path), tmp_path / "out"
     done = subprocess.run(
         command(file, out, "--scheduler", cluster.address), cwd=ROOT, capture_output=True, text=True, timeout=PATIENCE
@@ -140,7 +140,7 @@ def test_two_workers_answer_as_one_process_does(cluster: Cluster, tmp_path: Path
     assert len(workers_of(out)) == 2
 
 
-def test_a_worker_killed_midway_loses_nothing(cluster: Cluster, tmp_path: Path, start: Callable[..., Any]):
+def test_no_results_are_lost_with_a_killed_worker(cluster: Cluster, tmp_path: Path, start: Callable[..., Any]):
     file, out = study_file(tmp_path), tmp_path / "out"
     run = start(*command(file, out, "--scheduler", cluster.address), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     until(lambda: len(workers_of(out)) == 2, run)
@@ -151,7 +151,7 @@ def test_a_worker_killed_midway_loses_nothing(cluster: Cluster, tmp_path: Path, 
     same_as_serial(file, read_results(out))
 
 
-def test_the_whole_run_killed_goes_on_where_it_was(tmp_path: Path, start: Callable[..., Any]):
+def test_a_killed_run_continues_from_its_folder(tmp_path: Path, start: Callable[..., Any]):
     """SIGKILL, then the same command on the cluster that it makes itself: no finished chunk is done again."""
     file, out = study_file(tmp_path), tmp_path / "out"
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
@@ -169,7 +169,7 @@ def test_the_whole_run_killed_goes_on_where_it_was(tmp_path: Path, start: Callab
     same_as_serial(file, read_results(out))
 
 
-def test_ctrl_c_leaves_a_usable_result(tmp_path: Path, start: Callable[..., Any]):
+def test_ctrl_c_leaves_usable_results(tmp_path: Path, start: Callable[..., Any]):
     """The whole process group has it, as from a terminal; what is there is shown, and nothing is left running."""
     file, out = study_file(tmp_path), tmp_path / "out"
     run = start(*command(file, out), stdout=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -194,7 +194,7 @@ def group_lives(group: int) -> bool:
     return True
 
 
-def test_a_cluster_beside_it_is_not_in_its_way(tmp_path: Path):
+def test_another_cluster_on_the_machine_does_not_interfere(tmp_path: Path):
     """Whoever else has Dask's usual port: nothing is said of it."""
     file = tmp_path / "two.toml"
     file.write_text(STUDY.replace('"6000:9000:100"', "[7000]").replace('"0.05:0.34:0.01"', "[0.2]"), encoding="utf-8")
@@ -212,7 +212,7 @@ def test_a_cluster_beside_it_is_not_in_its_way(tmp_path: Path):
     assert (done.returncode, done.stderr) == (0, "")
 
 
-def test_nobody_at_the_address_is_one_sentence(tmp_path: Path):
+def test_error_without_a_scheduler_at_the_address_is_one_sentence(tmp_path: Path):
     address = "tcp://127.0.0.1:9"
     done = subprocess.run(
         command(study_file(tmp_path), tmp_path / "out", "--scheduler", address),
@@ -224,7 +224,7 @@ def test_nobody_at_the_address_is_one_sentence(tmp_path: Path):
     assert "dask scheduler" in done.stderr
 
 
-def test_a_scheduler_that_goes_away_is_one_sentence(cluster: Cluster, tmp_path: Path, start: Callable[..., Any]):
+def test_error_for_a_lost_scheduler_is_one_sentence(cluster: Cluster, tmp_path: Path, start: Callable[..., Any]):
     """The scheduler dies under way: what is finished stays, and the command says so."""
     file, out = study_file(tmp_path), tmp_path / "out"
     run = start(*command(file, out, "--scheduler", cluster.address), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)

@@ -8,8 +8,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor.aero.inflow import INFLOW_MODELS
+from rotor.design.aircraft import FlightCondition
 from rotor.design.design import Design
-from rotor.design.flight import FlightCondition
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.objective import QUANTITIES, Objective, WeightedCondition, at_condition, measure

@@ -1,0 +1,198 @@
+"""Commands that print a table: `sweep`, `waterfall` and `ideal`.
+
+`sweep`: one or more twists over advance ratio. `waterfall`: power of each physical effect, switched on one after
+another. `ideal`: the least induced power over all circulations and over all steady twists.
+"""
+
+import argparse
+import json
+import math
+import sys
+from typing import Any
+
+from tqdm import tqdm
+
+from rotor.analysis.ideal_bound import Bound, find_bound
+from rotor.analysis.series import COLUMNS as SWEEP_COLUMNS
+from rotor.analysis.series import PARTS, Waterfall, WaterfallStep, sweep, waterfall
+from rotor.assets import SHIPPED_ROTORS
+from rotor.command.common import add_command, add_design_arguments, add_rotor_argument, design_from, finite, write_table
+from rotor.files.make_design import make_design
+from rotor.files.ranges import parse_range
+from rotor.files.rotor_file import find_aircraft
+
+
+def add_sweep(commands: Any) -> None:
+    """Register `sweep`."""
+    parser = add_command(commands, "sweep", "power of one or more twists over advance ratio")
+    parser.add_argument("--mu", required=True, metavar="A:B:STEP", help="for example 0.05:0.40:0.05; 0 is hover")
+    add_design_arguments(parser, one_twist=False)
+    parser.add_argument("--csv", metavar="FILE", help="write the table to a file as well")
+    parser.set_defaults(run=run_sweep)
+
+
+def run_sweep(args: argparse.Namespace) -> int:
+    """0 when every point converged, else 1."""
+    advance_ratios = parse_range(args.mu)
+    specs: list[str | None] = list(args.twist) if args.twist else [None]
+    designs = [design_from(args, spec, mu) for spec in specs for mu in advance_ratios]  # Bad input is reported first.
+    rows: list[tuple[str, ...]] = []
+    converged = True
+    longest = max(len(design.twist.spec()) for design in designs)
+    widths = (max(22, longest + 2), 7, 10, 14, 10, 15, 12, 12, 13, 8)
+    print("".join(f"{name:<{width}}" for name, width in zip(SWEEP_COLUMNS, widths, strict=False)))
+    for design in designs[:: len(advance_ratios)]:
+        table = sweep(design, advance_ratios)
+        converged = converged and all(solution.converged for solution in table)
+        for cells in table.rows:
+            row = tuple(_text(name, cell) for name, cell in zip(SWEEP_COLUMNS, cells, strict=True))
+            rows.append(row)
+            print("".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=False)).rstrip())
+    if args.csv:
+        write_table(args.csv, [SWEEP_COLUMNS, *rows])
+    return 0 if converged else 1
+
+
+def _text(name: str, cell: float | str | None) -> str:
+    """A cell as printed: powers and speeds with fixed digits, nothing where there is no value."""
+    if cell is None or isinstance(cell, str):
+        return cell or ""
+    return f"{cell:.4g}" if name == "mu" else f"{cell:.1f}" if name == "speed_kt" else f"{cell:.2f}"
+
+
+def add_waterfall(commands: Any) -> None:
+    """Register `waterfall`."""
+    parser = add_command(commands, "waterfall", "power of tip loss, flapping, reverse flow …, one after another")
+    parser.add_argument("--mu", type=finite, metavar="MU", help="advance ratio (default 0.2); 0 is hover")
+    add_design_arguments(parser, one_twist=True)
+    parser.add_argument("--json", action="store_true", help="machine-readable output")
+    parser.set_defaults(run=run_waterfall)
+
+
+def run_waterfall(args: argparse.Namespace) -> int:
+    """0 when every step converged, else 1."""
+    design = design_from(args, args.twist, args.mu)
+    found = waterfall(design)
+    print(json.dumps(waterfall_record(found), indent=2, allow_nan=False) if args.json else waterfall_report(found))
+    return 0 if found.converged else 1
+
+
+def waterfall_record(found: Waterfall) -> dict[str, Any]:
+    """The JSON; values of a step that did not trim are null."""
+    design = found.full.design
+    return {
+        "status": "converged" if found.converged else "not-converged",
+        "mu": design.condition.advance_ratio,
+        "preset": design.preset,
+        "inflow": design.models.inflow if not design.hovering else design.models.hover_inflow,
+        "twist": design.twist.spec(),
+        "steps": [_step_record(step) for step in found.steps],
+        "each_alone_off": [_step_record(step) for step in found.alone],
+    }
+
+
+def _step_record(step: WaterfallStep) -> dict[str, Any]:
+    return {
+        "switch": step.switch.flag if step.switch else None,
+        "total_w": step.power,
+        "change_w": step.change,
+        "hub_moment_n_m": step.solution.hub_moment.size if step.solution.converged else None,
+        "note": step.note or ("" if step.solution.converged else step.solution.message),
+    }
+
+
+def waterfall_report(found: Waterfall) -> str:
+    """The same as two tables."""
+    design = found.full.design
+    heading = f"{'kW':<18}{'total':>9}{'change':>9}" + "".join(f"{part:>10}" for part in PARTS)
+    return "\n".join(
+        [
+            f"{design.rotor.name}, preset {design.preset}, twist {design.twist.spec()}, "
+            f"µ {design.condition.advance_ratio:.4g}",
+            "",
+            "Switched on one after another",
+            heading,
+            *(_step_line(step) for step in found.steps),
+            "",
+            "Each effect removed on its own",
+            heading,
+            *(_step_line(step) for step in found.alone),
+        ]
+    )
+
+
+def _step_line(step: WaterfallStep) -> str:
+    note = f"   {step.note}" if step.note else ""
+    if step.power is None:
+        return f"{step.title:<18}{step.solution.message}"
+    start = f"{step.title:<18}{step.power / 1e3:9.1f}"
+    if step.change is None or step.added is None:
+        power = step.solution.power
+        return f"{start}{'':9}" + "".join(f"{getattr(power, part) / 1e3:10.1f}" for part in PARTS)
+    changes = "".join(f"{_kilowatts(step.change[part]):+10.1f}" for part in PARTS)
+    return f"{start}{_kilowatts(step.added):+9.1f}{changes}{note}"
+
+
+def _kilowatts(power: float) -> float:
+    """Kilowatts rounded as printed, without negative zero."""
+    return round(power / 1e3, 1) + 0.0
+
+
+_IDEAL_COLUMNS = (
+    "mu", "mass_kg", "ct", "lambda0", "glauert_kw", "any_circulation", "lift_limited", "steady_twist", "linear_twist",
+    "linear_deg",
+)  # fmt: skip
+
+_EXPLANATION = (
+    "# Least induced power over C_T λ0 (momentum theory, glauert_kw) of the {rotor} at sea level: any circulation;\n"
+    "# any within section lift −0.6…1.2; any steady twist; the best linear twist and its rate. Vortex lattice, rigid\n"
+    "# helical wake, zero hub moments, linear aerodynamics.\n"
+    "# Made by: python -m rotor ideal --mu A:B:STEP --mass-kg LIST --csv FILE{flag}\n"
+)
+
+
+def add_ideal(commands: Any) -> None:
+    """Register `ideal`."""
+    parser = add_command(commands, "ideal", "least induced power over all circulations and over all steady twists")
+    parser.add_argument(
+        "--mu", required=True, metavar="A:B:STEP", help="advance ratios above 0, for example 0.1:0.4:0.1"
+    )
+    parser.add_argument(
+        "--mass-kg", metavar="LIST", help="aircraft masses, as 5000,8322.4 (default: the reference mass)"
+    )
+    add_rotor_argument(parser)
+    parser.add_argument("--csv", metavar="FILE", help="write the table to a file as well")
+    parser.set_defaults(run=run_ideal)
+
+
+def run_ideal(args: argparse.Namespace) -> int:
+    """0; bad input is for the caller."""
+    craft = find_aircraft(args.rotor or SHIPPED_ROTORS[0])
+    speeds = parse_range(args.mu)
+    masses = parse_range(args.mass_kg) if args.mass_kg else [craft.mass]
+    if min(speeds) < 0.02:
+        raise ValueError(f"advance ratio {min(speeds):g} is too low for a skewed wake: start at 0.02 or more")
+    designs = [make_design(rotor=craft, mu=mu, mass_kg=mass) for mu in speeds for mass in masses]
+    rows: list[tuple[str, ...]] = []
+    print("".join(f"{name:>16}" for name in _IDEAL_COLUMNS))
+    for design in tqdm(designs, disable=not sys.stderr.isatty(), leave=False):
+        bound = find_bound(design)
+        rows.append(_ideal_row(design.condition.mass, bound, bound.ct * bound.lambda0 * design.power_unit))
+        print("".join(f"{cell:>16}" for cell in rows[-1]))
+    if args.csv:
+        flag = f" --rotor {args.rotor}" if args.rotor else ""
+        write_table(args.csv, [_IDEAL_COLUMNS, *rows], _EXPLANATION.format(rotor=craft.name, flag=flag))
+    return 0
+
+
+def _ideal_row(mass: float, bound: Bound, glauert: float) -> tuple[str, ...]:
+    factors = (bound.any_circulation, bound.lift_limited, bound.steady_twist, bound.linear_twist)
+    return (
+        f"{bound.mu:.4g}",
+        f"{mass:.6g}",
+        f"{bound.ct:.6f}",
+        f"{bound.lambda0:.6f}",
+        f"{glauert / 1e3:.2f}",
+        *(f"{factor:.4f}" for factor in factors),
+        f"{math.degrees(bound.linear_rate):.2f}",
+    )
