@@ -8,14 +8,15 @@ from functools import partial
 import viser
 
 from explorer.connection import ClientConnection
-from explorer.hosting import memory, viser_compat
+from explorer.hosting import limits as memory
+from explorer.hosting import viser_compat
 from explorer.hosting.allowed_hosts import AllowedHosts
 from explorer.hosting.limits import ServerLimits
 from explorer.hosting.request_filter import RequestFilter
 from explorer.hosting.seats import SeatQueue
 from explorer.hosting.served_page import with_loading_screen
 from explorer.interface import SharedServices
-from explorer.overlay.assets import frame_html
+from explorer.overlay.bridge import frame_html
 from explorer.session import Session
 from explorer.sharing.presentation import Presentations
 from explorer.state import OPENING, Inputs

@@ -188,7 +188,7 @@ class TabContext:
     pin: Callable[[Inputs | None], None] = lambda inputs: None
     """Pin these inputs as A; None removes the pin."""
     bind_command: Callable[[str, Callable[[], None]], None] = lambda name, action: None
-    """Give a command of `explorer.tabs.keys.names` its action: from then on it is in the palette and has its key."""
+    """Give a command of `explorer.tabs.keys` its action: from then on it is in the palette and has its key."""
 
 
 class Tab(Protocol):

@@ -27,29 +27,28 @@ from explorer.sharing import share
 from explorer.sharing.address import Address
 from explorer.sharing.view_code import VIEW, view_from
 from explorer.state import Inputs, ViewState, with_optimum
+from explorer.tabs.actuator.cut import fit_cut
 from explorer.tabs.actuator.panel import ActuatorPanel
-from explorer.tabs.actuator.view import fit_cut
 from explorer.tabs.controls import DesignControls
 from explorer.tabs.display import Display
 from explorer.tabs.export_panel import ExportPanel, ExportSources
 from explorer.tabs.file_panel import FilePanel
 from explorer.tabs.history.panel import HistoryPanel
-from explorer.tabs.keys.commands import Actions, bind_commands
-from explorer.tabs.keys.keyboard import Keyboard
+from explorer.tabs.keys import Actions, Keyboard, bind_commands
 from explorer.tabs.layout import MODES, Layout, Sections
 from explorer.tabs.lecture.panel import LecturePanel
 from explorer.tabs.lecture.presence import Presence, PresentationHooks
 from explorer.tabs.optimise.map_panel import MapPanel
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.tabs.optimise.schedule_panel import SchedulePanel
-from explorer.tabs.optimise.sensitivity_panel import SensitivityPanel
-from explorer.tabs.physics.waterfall_panel import WaterfallPanel
+from explorer.tabs.optimise.sensitivity import SensitivityPanel
 from explorer.tabs.probe.panel import ProbePanel
 from explorer.tabs.results import ResultsPanel
-from explorer.tabs.rotors.menu import RotorUpload
+from explorer.tabs.rotors import RotorUpload
 from explorer.tabs.settings_panel import SettingsPanel
 from explorer.tabs.studies.panel import StudiesPanel
 from explorer.tabs.top_bar import TopBar
+from explorer.tabs.waterfall import WaterfallPanel
 from explorer.text.units import UNITS
 from explorer.theme import style_sheet as style
 from rotor.design.design import Design

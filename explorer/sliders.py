@@ -3,7 +3,7 @@
 import math
 from dataclasses import dataclass
 
-from explorer.rotor_choice import mass_range
+from explorer.state import mass_range
 from explorer.text.units import AVIATION, POUND, SI, Unit, Units
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.aircraft import Aircraft

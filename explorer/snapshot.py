@@ -3,8 +3,7 @@
 from dataclasses import dataclass, replace
 
 from explorer.interface import TabContext
-from explorer.rotor_choice import OWN
-from explorer.state import Inputs, ViewState
+from explorer.state import OWN, Inputs, ViewState
 
 
 @dataclass(frozen=True)

@@ -1,11 +1,11 @@
-"""What is on the sliders and what is shown, as values; degrees, tonnes and knots end here."""
+"""The rotors of the menu, the sliders and what is shown, as values; degrees, tonnes and knots end here."""
 
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
+from functools import cache
 from itertools import pairwise
 
-from explorer.rotor_choice import OWN, reference_mass_t
 from rotor.aero.switches import SWITCHES
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.aircraft import Aircraft
@@ -15,6 +15,34 @@ from rotor.design.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, Qu
 from rotor.files.make_design import change_airfoils, make_design
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.units import KNOT
+
+OWN = "own"
+"""Name in `Inputs` of the user's own rotor."""
+_LIGHTEST, _HEAVIEST = 0.6, 1.32
+"""Ends of the weight slider over the rotor's reference mass."""
+
+
+@cache
+def menu_titles(own: Aircraft | None) -> dict[str, str]:
+    """The menu: name in `Inputs` → title; the user's own rotor comes last."""
+    titles = {name: shipped_aircraft(name).name for name in SHIPPED_ROTORS}
+    return titles if own is None else {**titles, OWN: f"{own.name} (own)"}
+
+
+def mass_range(aircraft: Aircraft) -> tuple[float, float, float]:
+    """Lowest, highest and step of the weight slider [t], round numbers about the reference mass."""
+    tonnes = aircraft.mass / 1e3
+    step = 0.05 if tonnes > 3.0 else 0.01 if tonnes > 1.0 else 0.005
+    low, high = (round(share * tonnes / step) for share in (_LIGHTEST, _HEAVIEST))
+    return round(max(low * step, 0.1), 4), round(high * step, 4), step
+
+
+def reference_mass_t(aircraft: Aircraft) -> float:
+    """The reference mass [t], rounded, within the range of the weight slider."""
+    low, high, _ = mass_range(aircraft)
+    tonnes = aircraft.mass / 1e3
+    return min(max(round(tonnes, 2 if tonnes > 1.0 else 3), low), high)
+
 
 PRESET_TITLES = {"flight": "Best available", "thesis": "Thesis (as stated)"}
 

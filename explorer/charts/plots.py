@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from explorer.picture.stall_region import stall_angles
+from explorer.picture.polar import stall_angles
 from explorer.text.units import KILOWATT, Unit
 from rotor.arrays import Array
 from rotor.design.design import Design

@@ -13,8 +13,7 @@ from trimesh.visual.texture import TextureVisuals
 
 from explorer.export.provenance import PROGRAM
 from explorer.picture.blade_mesh import BladeShape, Detail, blade_shape, blade_vertices
-from explorer.picture.moving_blades import blade_twists
-from explorer.picture.poses import Pose, blade_pose, rotor_pose
+from explorer.picture.poses import Pose, blade_pose, blade_twists, rotor_pose
 from explorer.picture.rotor_head import mast, rotor_head
 from explorer.picture.solids import Faces
 from explorer.theme import colours

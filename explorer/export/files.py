@@ -7,14 +7,13 @@ from dataclasses import dataclass
 from explorer.charts.plots import Range
 from explorer.charts.power_curve import PowerCurves
 from explorer.export.blade import blade_stl, rotor_glb
-from explorer.export.provenance import file_stem
+from explorer.export.provenance import blade_csv, disk_csv, file_stem, power_csv
 from explorer.export.report.contents import DesignReport, ReportEntry, report_of
 from explorer.export.report.document import report_html
 from explorer.export.sheet import DiskContent, Paper
-from explorer.export.tables import blade_csv, disk_csv, power_csv
 from explorer.interface import SessionState
 from explorer.picture.fields import FIELDS
-from explorer.scene.embedded_viewer import EmbeddedViewer
+from explorer.scene.still_scene import EmbeddedViewer
 from explorer.state import baseline_title
 from explorer.undo import KeptDesign
 from rotor.trim.solution import Solution

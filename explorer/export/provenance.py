@@ -1,14 +1,25 @@
-"""Where a file comes from: the design, the models, the versions; and a name for it that says what is in it."""
+"""Where an exported file comes from, and solutions as CSV tables with units."""
 
+import csv
+import io
+import math
 import platform
 import re
+from collections.abc import Sequence
+from dataclasses import fields
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 
+import numpy as np
+
+from explorer.charts import plots
+from explorer.charts.plots import SWEEP, PowerCurve
 from explorer.text.design_words import inflow_words, physics_words
+from rotor.arrays import Array
 from rotor.assets import commit
 from rotor.design.design import Design
-from rotor.trim.solution import Solution
+from rotor.trim.solution import DiskFields, Solution
+from rotor.units import KNOT
 
 PROGRAM = "rotor explorer"
 _SHOWN = {"rotor-explorer": PROGRAM, "viser": "viser", "numpy": "NumPy", "scipy": "SciPy", "numba": "Numba"}
@@ -64,3 +75,109 @@ def file_stem(design: Design, *parts: str) -> str:
     words = [design.rotor.name, design.twist.spec(), speed, *parts]
     safe = (re.sub(r"[^a-z0-9.+-]+", "_", word.lower()).strip("_.") for word in words)
     return "-".join(word[:60] for word in safe if word)
+
+
+_ANGLES = {"theta", "alpha", "stall_margin"}
+"""Fields in radians that are written in degrees."""
+_MEANINGS = {
+    "theta": "pitch with twist",
+    "u_t": "in-plane velocity across the blade over tip speed",
+    "u_p": "velocity down through the blade over tip speed",
+    "induced": "induced inflow over tip speed",
+    "inflow": "total inflow over tip speed",
+    "alpha": "angle of attack at the blade's reference line",
+    "mach": "section Mach number",
+    "cl": "section lift coefficient",
+    "cd": "section drag coefficient",
+    "cd_mach": "change of cd with Mach number; 0.1 marks drag divergence",
+    "stall_margin": "margin to the stall angle; 90 in reverse flow",
+    "dct": "dCT/dr of all blades, smeared",
+    "dcq": "dCQ/dr / r of all blades, smeared",
+}
+
+
+def disk_csv(solution: Solution) -> bytes:
+    """Every field over the disk, a row for each element and azimuth, and loads in SI beside the coefficients."""
+    disk, design = solution.disk, solution.design
+    rotor = design.rotor
+    r, psi = np.meshgrid(disk.r, np.degrees(disk.psi), indexing="ij")
+    columns: list[tuple[str, Array]] = [("r/R [-]", r), ("psi [deg]", psi)]
+    for name in _disk_fields(disk):
+        values = getattr(disk, name)
+        angle = name in _ANGLES
+        columns.append((f"{name} [{'deg' if angle else '-'}]", np.degrees(values) if angle else values))
+    per_blade = design.thrust_unit / (rotor.blades * rotor.radius)
+    columns += [
+        ("thrust per blade [N/m]", disk.dct * per_blade),
+        ("power per blade [W/m]", disk.r[:, None] * disk.dcq * per_blade * rotor.tip_speed),
+    ]
+    notes = [
+        f"{len(disk.r)} elements of width dr/R = {disk.dr:.9g} about r; {len(disk.psi)} azimuths",
+        "psi = 0 over the tail, 90 on the advancing side",
+        *(f"{name}: {_MEANINGS[name]}" for name in _disk_fields(disk) if name in _MEANINGS),
+    ]
+    return _table(solution, notes, columns)
+
+
+def blade_csv(solution: Solution, reference: Design, azimuth_deg: float) -> bytes:
+    """The charts along the blade: twist, angle of attack with its stall angles, lift coefficient.
+
+    `reference`: what the page compares with, A or the baseline.
+    """
+    disk, design = solution.disk, solution.design
+    lower, upper, alpha = plots.angles_along(solution, azimuth_deg)
+    columns = [
+        ("r/R [-]", disk.r),
+        ("chord [m]", design.rotor.blade.chord(disk.r)),
+        ("twist [deg]", np.degrees(design.twist(disk.r))),
+        ("reference twist [deg]", np.degrees(reference.twist(disk.r))),
+        ("alpha [deg]", alpha),
+        ("stall below [deg]", lower),
+        ("stall above [deg]", upper),
+        ("cl [-]", plots.lift_plot(solution, azimuth_deg).data[1]),
+    ]
+    notes = [
+        f"at azimuth {azimuth_deg:g} deg; angles are empty in reverse flow",
+        f"reference: {reference.twist.spec()}, {condition_line(reference)}",
+    ]
+    return _table(solution, notes, columns)
+
+
+def power_csv(solution: Solution, reference: Design, curve: PowerCurve) -> bytes:
+    """Total power over advance ratio: this design, what the page compares it with, and the bound of an ideal lift."""
+    mu = np.array(SWEEP)
+    columns = [
+        ("mu [-]", mu),
+        ("speed [m/s]", mu * solution.design.rotor.tip_speed),
+        ("speed [kt]", mu * solution.design.rotor.tip_speed / KNOT),
+        ("total power [kW]", curve.design),
+        ("reference power [kW]", curve.reference),
+        ("power with ideal lift [kW]", curve.ideal),
+    ]
+    notes = [
+        f"reference: {reference.twist.spec()}, {condition_line(reference)}",
+        "mu = 0 is hover, with another inflow model; empty where there is no trim",
+        "ideal lift: the least induced power of any circulation with this lift",
+    ]
+    return _table(solution, notes, columns)
+
+
+def _disk_fields(disk: DiskFields) -> list[str]:
+    """Names of the fields of shape (elements, azimuths)."""
+    shape = (len(disk.r), len(disk.psi))
+    return [one.name for one in fields(disk) if np.shape(getattr(disk, one.name)) == shape]
+
+
+def _table(solution: Solution, notes: Sequence[str], columns: Sequence[tuple[str, Array]]) -> bytes:
+    text = io.StringIO()
+    text.writelines(f"# {line}\n" for line in (*provenance_lines(solution), *notes))
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow([name for name, _ in columns])
+    table = np.stack([np.asarray(values, dtype=float).ravel() for _, values in columns], axis=1)
+    writer.writerows([_number(value) for value in row] for row in table.tolist())
+    return text.getvalue().encode("utf-8")
+
+
+def _number(value: float) -> str:
+    """Nine digits; empty for NaN."""
+    return f"{value + 0.0:.9g}" if math.isfinite(value) else ""

@@ -1,15 +1,35 @@
-"""State from Python to the frame of one browser, and what is pressed in the frame to Python."""
+"""The overlay of the page: its HTML, CSS and JavaScript, and the messages between it and the server."""
 
 import json
 import logging
 import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from functools import cache
+from pathlib import Path
 from typing import Any
 
 import viser
 
 from explorer.hosting import viser_compat
+
+_FOLDER = Path(__file__).parent
+STYLES = ("frame.css", "panels.css")
+SCRIPTS = ("frame.js", "cards.js", "charts.js", "inset.js")
+"""In the order in which they run: the first defines what the others use."""
+
+
+@cache
+def frame_html() -> str:
+    """Style sheets, skeleton and scripts of the frame, to stand at the beginning of the body."""
+    styles = "".join(f"<style>{_text(name)}</style>" for name in STYLES)
+    scripts = "".join(f"<script>{_text(name)}</script>" for name in SCRIPTS)
+    return f"{styles}{_text('frame.html')}{scripts}"
+
+
+def _text(name: str) -> str:
+    return (_FOLDER / name).read_text(encoding="utf-8")
+
 
 _log = logging.getLogger(__name__)
 

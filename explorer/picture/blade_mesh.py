@@ -1,4 +1,4 @@
-"""The blade lofted from its true sections and planform, its ghost, and lines in the rotor plane. Metres."""
+"""Section outlines in blade axes: a drooped or stretched section lies in the blade as it is built."""
 
 import math
 from dataclasses import dataclass
@@ -7,11 +7,25 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import ArrayLike
 
-from explorer.picture.section_outline import blade_axes_outline
 from explorer.picture.solids import Faces
+from rotor.airfoil.contour import resample
+from rotor.airfoil.sections import Section
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.design.twist import TwistLaw
+
+
+@lru_cache(maxsize=32)
+def blade_axes_outline(section: Section, points: int) -> Array:
+    """The outline about the quarter chord, y to the leading edge and z up, in reference chords; shape (points, 2).
+
+    Starts at the upper trailing edge and runs over the nose.
+    """
+    outline = resample(section.outline, points).points
+    y, z = 0.25 - outline[:, 0], outline[:, 1]
+    cos, sin = np.cos(section.incidence_offset), np.sin(section.incidence_offset)
+    return section.chord_ratio * np.stack((y * cos + z * sin, z * cos - y * sin), axis=1)
+
 
 _SHANK_RADIUS = 0.16
 """A plausible round root shank, in reference chords; the flown cuff's own shape is not in the data."""

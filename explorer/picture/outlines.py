@@ -6,9 +6,8 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from explorer.picture.polar import PolarGrid, polar_grid
+from explorer.picture.polar import PolarGrid, polar_grid, stall_margin
 from explorer.picture.regions import divergence_margin
-from explorer.picture.stall_region import stall_margin
 from rotor.arrays import Array
 from rotor.trim.solution import Solution
 

@@ -10,14 +10,12 @@ from explorer.picture import disk_image
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.picture.fields import FIELDS, Field
 from explorer.picture.lettering import label_masks
-from explorer.picture.moving_blades import blade_twists
 from explorer.picture.png import encode_png
-from explorer.picture.polar import polar_grid
-from explorer.picture.poses import Pose, airframe_pose, blade_pose, rotor_pose, tip_path_pose
+from explorer.picture.polar import polar_grid, refined
+from explorer.picture.poses import Pose, airframe_pose, blade_pose, blade_twists, rotor_pose, tip_path_pose
 from explorer.picture.regions import NO_MARKS, Marks, region_codes, region_labels
 from explorer.picture.rotor_head import size
 from explorer.picture.scene_theme import DiskInk, scene_theme
-from explorer.picture.stall_region import refined
 from explorer.state import ViewState
 from explorer.theme import colours
 from rotor.arrays import Array

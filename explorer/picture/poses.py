@@ -1,13 +1,17 @@
-"""Where things stand: blade poses from the trim, as quaternions (w, x, y, z) and positions."""
+"""Where things stand: poses from the trim as quaternions (w, x, y, z) and positions, and the twist of each blade."""
 
 import math
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from explorer.picture.airframe import SHAFT_FORWARD
 from rotor.aero.trim_state import TrimState
 from rotor.arrays import Array
+from rotor.design.active_twist import ActiveTwist
+from rotor.design.design import Design
+from rotor.design.twist import TwistLaw
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,3 +76,27 @@ def tip_path_pose(controls: TrimState, drop: float) -> Pose:
     """
     tilt = compose(about(1, -controls.flap_1c), about(0, controls.flap_1s))
     return Pose(tilt, rotate(tilt, np.array([0.0, 0.0, -drop])))
+
+
+@dataclass(frozen=True)
+class TwistAt:
+    """A law with the active twist of one azimuth on top; not zero at 0.75 R."""
+
+    law: TwistLaw
+    active: ActiveTwist
+    psi: float
+
+    def __call__(self, r: ArrayLike) -> Array:
+        stations = np.atleast_1d(np.asarray(r, dtype=float))
+        made: Array = self.law(stations) + self.active(stations, np.array([self.psi]))[:, 0]
+        return made
+
+    def spec(self) -> str:
+        return self.law.spec()
+
+
+def blade_twists(design: Design, azimuths: tuple[float, ...]) -> tuple[TwistLaw, ...]:
+    """The twist of each blade [azimuths in rad]; empty when one shape does for all."""
+    if design.active_twist is None or design.hovering:
+        return ()
+    return tuple(TwistAt(design.twist, design.active_twist, psi) for psi in azimuths)

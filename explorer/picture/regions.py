@@ -10,8 +10,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from explorer.picture.fields import filled
-from explorer.picture.polar import PolarGrid, Single, polar_grid
-from explorer.picture.stall_region import refined
+from explorer.picture.polar import PolarGrid, Single, polar_grid, refined
 from rotor.trim.solution import Solution
 
 Bytes = NDArray[np.uint8]

@@ -11,9 +11,8 @@ import viser
 
 from explorer.interface import RangeDisplay
 from explorer.picture.camera_views import View, reader
-from explorer.picture.difference import shown_field
 from explorer.picture.disk_image import AT_REST, MOVING
-from explorer.picture.fields import FIELDS, TRIM, Field, fitted_range, keeps_range, over_range
+from explorer.picture.fields import FIELDS, TRIM, Field, fitted_range, keeps_range, over_range, shown_field
 from explorer.picture.picture import disk_png, field_values, make_picture, turned_blades
 from explorer.picture.scene_theme import scene_theme
 from explorer.scene.camera import FittedCamera

@@ -9,7 +9,7 @@ import viser
 
 from explorer.sliders import SLIDERS, meant, shown, slider
 from explorer.state import INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs, preset_inflow, with_rotor
-from explorer.tabs import worth
+from explorer.tabs import power_card as worth
 from explorer.text import readout
 from explorer.text.glossary import hint
 from explorer.text.units import SI, Units

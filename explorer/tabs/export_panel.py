@@ -19,8 +19,7 @@ from explorer.export.files import File
 from explorer.export.sheet import LARGEST, SIZES, SMALLEST, DiskContent, Paper, disk_sheet, shown, view_sheet, window
 from explorer.hosting import viser_compat
 from explorer.interface import SessionState, TabContext
-from explorer.picture.difference import shown_field
-from explorer.picture.fields import FIELDS, Field
+from explorer.picture.fields import FIELDS, Field, shown_field
 from explorer.picture.png import encode_rgba
 from explorer.scene.camera import FittedCamera
 from explorer.scene.still_scene import make_stage

@@ -8,11 +8,10 @@ from explorer.charts.plots import PowerCurve
 from explorer.interface import SessionState
 from explorer.overlay.bridge import Bridge
 from explorer.picture.blade_inset import inset
-from explorer.tabs.chart_strip import ChartStrip
+from explorer.tabs.charts import ChartStrip
 from explorer.tabs.layout import Layout
-from explorer.tabs.power_card import PowerCard, against
+from explorer.tabs.power_card import PowerCard, SliderWorth, against
 from explorer.tabs.twist_curve import TwistCurveEditor
-from explorer.tabs.worth import SliderWorth
 from explorer.text import comparison as ab_readout
 from explorer.text import readout
 from explorer.text.status import status_panel, trust_page

@@ -5,8 +5,7 @@ from collections.abc import Callable
 from explorer.interface import SessionState, TabContext
 from explorer.overlay.bridge import Bridge
 from explorer.pinned import Order, Pinboard, Pinned
-from explorer.rotor_choice import menu_titles
-from explorer.state import Inputs
+from explorer.state import Inputs, menu_titles
 from explorer.tabs.layout import Layout
 from explorer.text.units import SI, UNITS
 from rotor.design.design import Design

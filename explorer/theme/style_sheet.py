@@ -109,7 +109,7 @@ div:has(> [data-dock-area]) { margin-top: 0 !important; }
 .rx-keys kbd { display: inline-block; min-width: 20px; margin-left: 3px; padding: 0 5px; text-align: center;
   font: inherit; font-size: 11.5px; border: 1px solid rgba(128,128,128,.45); border-radius: 4px;
   background: rgba(128,128,128,.10); }
-/* A text field that only clicks write to: see explorer/charts/clicks.py. */
+/* A text field that only clicks write to: see explorer/charts/svg.py. */
 div:has(> .rx-bridge), div:has(> .rx-bridge) + div { display: none !important; }
 .rx-lecture { font-size: 14px; line-height: 1.4; padding-bottom: 4px; }
 .rx-lecture h3 { margin: 2px 0 4px; font-size: 18px; line-height: 1.2; white-space: normal; }

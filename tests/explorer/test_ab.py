@@ -10,8 +10,7 @@ from numpy.testing import assert_allclose
 from PIL import Image
 
 from explorer.charts import plots
-from explorer.picture.difference import difference, shown_field
-from explorer.picture.fields import FIELDS, fitted_range
+from explorer.picture.fields import FIELDS, difference, fitted_range, shown_field
 from explorer.picture.picture import disk_png, field_values
 from explorer.picture.polar import polar_grid
 from explorer.pinned import Pinboard, Pinned, act

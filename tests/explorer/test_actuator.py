@@ -15,14 +15,13 @@ from explorer.charts.plots import Plot
 from explorer.picture.camera_views import FIELD_OF_VIEW
 from explorer.picture.picture import make_picture
 from explorer.state import ViewState, baseline_of
+from explorer.tabs.actuator import controls as actuator_plots
+from explorer.tabs.actuator import controls as actuator_table
 from explorer.tabs.actuator import cut as actuator_cut
-from explorer.tabs.actuator import plots as actuator_plots
+from explorer.tabs.actuator import cut as actuator_view
 from explorer.tabs.actuator import readout as actuator_readout
 from explorer.tabs.actuator import study as actuator_study
-from explorer.tabs.actuator import table as actuator_table
-from explorer.tabs.actuator import view as actuator_view
-from explorer.tabs.actuator.picture import cut_picture, share_colour, voltage_shares
-from explorer.tabs.actuator.section import section_svg
+from explorer.tabs.actuator.picture import cut_picture, section_svg, share_colour, voltage_shares
 from explorer.tabs.actuator.state import (
     CONCEPTS,
     MOST_SEGMENTS,

@@ -14,10 +14,9 @@ from explorer.picture.airframe import airframe
 from explorer.picture.blade_inset import inset
 from explorer.picture.fields import FIELDS, fitted_range, keeps_range, over_range
 from explorer.picture.picture import disk_png, field_values
-from explorer.picture.polar import polar_grid
+from explorer.picture.polar import angle_of_attack, polar_grid, refined, stall_margin
 from explorer.picture.regions import NO_MARKS, MarkedRegion, Marks, RegionLabel, region_codes, region_labels
 from explorer.picture.scene_theme import DARK, LIGHT
-from explorer.picture.stall_region import angle_of_attack, refined, stall_margin
 from explorer.picture.wake import inflow_arrows, tip_vortices
 from rotor.design.twist import LinearTwist, PiecewiseLinearTwist
 from rotor.files.make_design import make_design

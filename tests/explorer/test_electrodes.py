@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from explorer.tabs.actuator import electrodes_picture as picture
+from explorer.tabs.actuator import electrodes as picture
 from rotor.actuator.catalogue import PiezoPly, actuators
 
 SHEETS = [one for one in actuators().values() if isinstance(one, PiezoPly)]

@@ -9,7 +9,7 @@ import pytest
 from numpy.testing import assert_allclose
 
 from explorer.charts.plots import SWEEP, PowerCurve
-from explorer.export.tables import blade_csv, disk_csv, power_csv
+from explorer.export.provenance import blade_csv, disk_csv, power_csv
 from explorer.state import Inputs, baseline_of
 from rotor.trim.solve import solve
 

@@ -8,9 +8,7 @@ import pytest
 import viser
 from viser import _messages
 
-from explorer.tabs.keys.in_page import dialog_script, page_script
-from explorer.tabs.keys.keyboard import Keyboard
-from explorer.tabs.keys.names import CTRL, CTRL_SHIFT, KEYS, SHIFT, keys_help, leads
+from explorer.tabs.keys import CTRL, CTRL_SHIFT, KEYS, SHIFT, Keyboard, dialog_script, keys_help, leads, page_script
 
 TAKEN_BY_THE_CAMERA = set("WASDQE")
 TAKEN_BY_BROWSERS = (

@@ -12,9 +12,8 @@ from explorer.picture.fields import FIELDS
 from explorer.sharing.address import Address, parameter, with_parameter
 from explorer.sharing.presentation import Presentations, PresentedView, follow_name, new_secret
 from explorer.state import Inputs, ViewState, baseline_of
-from explorer.tabs.keys.names import KEYS
-from explorer.tabs.lecture.cases import CASES
-from explorer.tabs.lecture.steps import STEPS, LectureStep, beside, view_of
+from explorer.tabs.keys import KEYS
+from explorer.tabs.lecture.steps import CASES, STEPS, LectureStep, beside, view_of
 from explorer.text.units import AVIATION
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve

@@ -14,14 +14,15 @@ from PIL import Image
 from explorer.charts.plots import Plot
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.state import baseline_of
-from explorer.tabs.chart_strip import race_chart
-from explorer.tabs.optimise import mission, power_map, schedule_view, sensitivity
+from explorer.tabs.charts import race_chart
+from explorer.tabs.optimise import map_panel as power_map
+from explorer.tabs.optimise import schedule_view, sensitivity
+from explorer.tabs.optimise import search_request as mission
 from explorer.tabs.optimise import text as search_text
-from explorer.tabs.optimise.concept_picture import concept_picture
 from explorer.tabs.optimise.map_panel import default_axes
-from explorer.tabs.optimise.race import race_of
-from explorer.tabs.optimise.run import SearchRun
+from explorer.tabs.optimise.run import SearchRun, race_of
 from explorer.tabs.optimise.search_request import OBJECTIVES, SearchRequest
+from explorer.tabs.optimise.text import concept_picture
 from explorer.text.units import SI
 from explorer.workers.job import JobEnded, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.tasks import FixedPowers, MapLevel, MapTask, ScheduleTask, SearchTask

@@ -14,9 +14,8 @@ from explorer.picture.camera_views import FIELD_OF_VIEW, Camera, View, fit
 from explorer.picture.fields import FIELDS, filled, fitted_range, reverse_flow, tick_text, ticks
 from explorer.picture.outlines import contour, reverse_flow_segments, stall_segments
 from explorer.picture.picture import DISK_DROP, disk_png, field_values, make_picture
-from explorer.picture.polar import PolarGrid, polar_grid
+from explorer.picture.polar import PolarGrid, polar_grid, stall_margin
 from explorer.picture.poses import about, blade_pose, compose, rotate, tip_path_pose
-from explorer.picture.stall_region import stall_margin
 from explorer.state import ViewState
 from explorer.theme.colours import VOID, colour_map, greyed
 from rotor.files.make_design import make_design

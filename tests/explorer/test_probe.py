@@ -12,12 +12,11 @@ from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
 from explorer.charts import svg
-from explorer.picture.pick import pick
+from explorer.picture.camera_views import pick
 from explorer.picture.picture import DISK_DROP
 from explorer.picture.poses import compose, rotate, rotor_pose, tip_path_pose
-from explorer.tabs.probe.drawing import drawing
 from explorer.tabs.probe.element import FlowRegion, probe
-from explorer.tabs.probe.readout import probe_panel
+from explorer.tabs.probe.readout import drawing, probe_panel
 from rotor.design.design import FLIGHT_MODELS
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution

@@ -7,16 +7,16 @@ from typing import Any
 import pytest
 
 from explorer.state import Inputs
-from explorer.tabs.optimise import mission
-from explorer.tabs.optimise.race import (
+from explorer.tabs.optimise import search_request as mission
+from explorer.tabs.optimise.run import (
     Race,
     RaceStart,
+    SearchRun,
     counting,
     falling_power,
     inputs_at,
     race_of,
 )
-from explorer.tabs.optimise.run import SearchRun
 from explorer.tabs.optimise.search_request import SearchRequest
 from rotor.files.make_design import make_design
 from rotor.optimisation.search import Progress, run_search

@@ -29,8 +29,7 @@ from explorer.picture import disk_image
 from explorer.picture.disk_image import SIZE
 from explorer.picture.fields import FIELDS
 from explorer.picture.picture import disk_png
-from explorer.scene.embedded_viewer import EmbeddedViewer, embedded_viewer
-from explorer.scene.still_scene import make_stage
+from explorer.scene.still_scene import EmbeddedViewer, embedded_viewer, make_stage
 from explorer.state import Inputs, ViewState, baseline_of
 from rotor.design.design import Design
 from rotor.trim.solution import Status

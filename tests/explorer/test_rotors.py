@@ -11,10 +11,20 @@ from test_rotor_file import GOOD, polar_file
 
 from explorer.picture.picture import turned_blades
 from explorer.pinned import Pinboard, Pinned
-from explorer.rotor_choice import OWN, mass_range, menu_titles, reference_mass_t
 from explorer.sharing import share
-from explorer.state import Inputs, ViewState, baseline_of, inputs_of, with_optimum, with_rotor
-from explorer.tabs.rotors.uploaded_files import SUFFIXES, UploadedFiles
+from explorer.state import (
+    OWN,
+    Inputs,
+    ViewState,
+    baseline_of,
+    inputs_of,
+    mass_range,
+    menu_titles,
+    reference_mass_t,
+    with_optimum,
+    with_rotor,
+)
+from explorer.tabs.rotors import SUFFIXES, UploadedFiles
 from explorer.text.design_words import twist_name
 from explorer.text.readout import ideal_line, power_panel
 from rotor.airfoil.polars import read_polars

@@ -7,8 +7,13 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from explorer.tabs.optimise.schedule_flight import ScheduleFlight, flown_legs, largest_change_deg, twist_between
-from explorer.tabs.optimise.schedule_view import PlanProgress
+from explorer.tabs.optimise.schedule_view import (
+    PlanProgress,
+    ScheduleFlight,
+    flown_legs,
+    largest_change_deg,
+    twist_between,
+)
 from rotor.design.twist import (
     IdealTwist,
     LinearTwist,

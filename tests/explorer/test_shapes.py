@@ -8,7 +8,7 @@ import trimesh
 from numpy.testing import assert_allclose
 
 from explorer.picture import blade_mesh
-from explorer.picture.section_outline import blade_axes_outline
+from explorer.picture.blade_mesh import blade_axes_outline
 from rotor.airfoil.contour import load_contour, thickness_and_camber
 from rotor.airfoil.sections import load_installed
 from rotor.design.twist import LinearTwist, PiecewiseLinearTwist

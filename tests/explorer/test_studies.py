@@ -10,11 +10,9 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
 
-from explorer.charts.clicks import charts_write_to
+from explorer.charts.svg import charts_write_to
 from explorer.tabs.studies import charts as study_charts
-from explorer.tabs.studies.panel import StudiesPanel
-from explorer.tabs.studies.readout import numbers, point_line, summary
-from explorer.tabs.studies.results import find_studies, open_study
+from explorer.tabs.studies.panel import StudiesPanel, find_studies, numbers, open_study, point_line, summary
 from rotor.assets import package_version
 from rotor.study.chunks import StudyProvenance, evaluate_chunk
 from rotor.study.findings import HoverCruisePairs, cruise_speeds, hover_cruise_pairs

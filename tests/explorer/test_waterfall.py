@@ -10,8 +10,7 @@ import viser
 
 from explorer.interface import SessionState
 from explorer.state import Inputs, ViewState
-from explorer.tabs.physics.waterfall_panel import WaterfallPanel
-from explorer.tabs.physics.waterfall_view import alone_table, waterfall_chart
+from explorer.tabs.waterfall import WaterfallPanel, alone_table, waterfall_chart
 from explorer.text.units import AVIATION, HORSEPOWER, KILOWATT, SI
 from rotor.aero.switches import SWITCHES
 from rotor.analysis.series import Waterfall, WaterfallStep, waterfall

@@ -9,7 +9,7 @@ from explorer.export.report import figures, tables
 from explorer.export.report.contents import DesignReport, colours_of
 from explorer.export.report.style import SCRIPT, SHEET
 from explorer.picture.fields import FIELDS
-from explorer.scene.embedded_viewer import EmbeddedViewer
+from explorer.scene.still_scene import EmbeddedViewer
 from explorer.text.design_words import active_words, flight_words, model_words, title_words
 from explorer.text.readout import PART_TITLES
 from explorer.text.status import tiny

@@ -1,26 +1,138 @@
-"""The widgets of the Actuator tab, made once: what is set, and the places for what follows."""
+"""The widgets of Actuate, the table of actuators and the chart of required against attainable twist."""
 
+import math
 from collections.abc import Callable
+from html import escape
 from typing import Any
 
+import numpy as np
 import viser
 
-from explorer.tabs.actuator import plots, readout, table
-from explorer.tabs.actuator.electrodes_panel import ElectrodesPanel
+from explorer.charts.plots import Plot, Range, held_range
+from explorer.tabs.actuator import readout
+from explorer.tabs.actuator.electrodes import ElectrodesPanel
 from explorer.tabs.actuator.state import (
     BLADES,
     CONCEPTS,
     HARMONICS,
     MOST_SEGMENTS,
     ActuatorInputs,
+    Question,
     drive_of,
 )
-from explorer.tabs.chart_panel import Chart, line
+from explorer.tabs.actuator.study import Findings, Outcome
+from explorer.tabs.charts import Chart, line
 from explorer.text.glossary import hint
+from explorer.text.units import number
 from explorer.theme.colours import BASELINE, NOW, THIS
-from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube, find_actuator
+from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators, find_actuator
 from rotor.actuator.installation import InstalledActuator
+from rotor.actuator.pictures import twist_comparison
+from rotor.actuator.verdict import Verdict, verdict_sentence
 from rotor.optimisation.concepts import find_concept
+
+
+def table_panel(findings: Findings, question: Question) -> str:
+    """All actuators on this blade for this question, one row each."""
+    asked = findings.question
+    known = dict(findings.others)
+    # Rows are about the same question whatever actuator is chosen now.
+    if asked is None or (asked.pair, asked.concept, asked.placement, asked.host, asked.share) != (
+        question.pair, question.concept, question.placement, question.host, question.share,
+    ):  # fmt: skip
+        known = {}
+    rows = "".join(_row(id, known.get(id), id == question.actuator) for id in actuators())
+    head = "<tr><th>Actuator</th><th>available °</th><th>derated °</th><th>kg</th><th>net kW</th><th>verdict</th></tr>"
+    first, second = question.pair.advance_ratios
+    return (
+        f'<div class="rx" data-explorer="actuator-table"><table class="rxa-table">{head}{rows}</table>'
+        f'<div class="rx-dim rx-small">µ {first:g} ↔ {second:g}, {escape(question.host.label)}, half the time each. '
+        "▲: some data from memory, not verified. Hover over a verdict for the full text.</div></div>"
+    )
+
+
+def _row(id: str, outcome: Outcome | None, chosen: bool) -> str:
+    actuator = find_actuator(id)
+    care = (
+        ' <span title="some data from memory, not verified" class="rxa-bad">▲</span>'
+        if actuator.provenance.recalled
+        else ""
+    )
+    name = f'<td title="{escape(actuator.name)}">{escape(short_name(id))}{care}</td>'
+    look = ' class="rxa-chosen"' if chosen else ""
+    if outcome is None:
+        return f'<tr{look}>{name}<td class="rx-num rx-dim" colspan="5">computing…</td></tr>'
+    if isinstance(outcome, str):
+        why = f'<td class="rx-num rxa-bad" colspan="5" title="{escape(outcome)}">cannot be built</td>'
+        return f"<tr{look}>{name}{why}</tr>"
+    words, kind = short_verdict(outcome)
+    cells = (
+        number(math.degrees(outcome.attainable), 1),
+        number(math.degrees(outcome.attainable_derated), 1),
+        number(outcome.installed.masses.aircraft),
+        number(1e-3 * outcome.net_saving, 1, sign=True),
+    )
+    numbers = "".join(f'<td class="rx-num">{cell}</td>' for cell in cells)
+    why = escape(verdict_sentence(outcome))
+    return f'<tr{look}>{name}{numbers}<td class="rx-num {kind}" title="{why}">{words}</td></tr>'
+
+
+def short_verdict(verdict: Verdict) -> tuple[str, str]:
+    """A few words, and the class that colours them."""
+    if verdict.pays:
+        return "net benefit", "rx-less"
+    if not verdict.feasible:
+        return "too weak", "rxa-bad"
+    if verdict.net_saving <= 0.0:
+        return "net cost", "rxa-bad"
+    return "cannot be built", "rxa-bad"
+
+
+def short_name(id: str) -> str:
+    return id.replace("_", " ")
+
+
+def actuator_titles() -> dict[str, str]:
+    """Of the menu, by id."""
+    return {id: f"{short_name(id)}: {_kind(actuator)}" for id, actuator in actuators().items()}
+
+
+def _kind(actuator: Actuator) -> str:
+    if isinstance(actuator, PiezoPly):
+        return "d33 fibres" if actuator.electrodes == "interdigitated" else "d31 sheet"
+    return "heated tube" if isinstance(actuator, TorqueTube) else "passive"
+
+
+_STATIONS = 61
+
+
+def reach_plot(
+    inputs: ActuatorInputs, installed: InstalledActuator, verdict: Verdict | None, root: float, previous: Range | None
+) -> Plot:
+    """Series: attainable, attainable as counted, required, used by the best twist within reach, now [°].
+
+    Changes from the cut-out outwards; attainable is drawn on the side that is asked for.
+    """
+    r = np.linspace(root, 1.0, _STATIONS)
+    limit = installed.limit(r) - installed.limit(root)
+    now = inputs.change(installed, r) - inputs.change(installed, root)
+    none = np.full(_STATIONS, np.nan)
+    required, used = none, none
+    if verdict is not None:
+        curves = twist_comparison(verdict, _STATIONS)
+        required, used = curves.required, curves.attained
+        if required[np.argmax(np.abs(required))] < 0.0:
+            limit = -limit
+    series = tuple(np.degrees(values) for values in (limit, inputs.share * limit, required, used, now))
+    seen = np.concatenate([values[np.isfinite(values)] for values in series])
+    return Plot((r, *series), held_range(previous, min(0.0, float(seen.min())), max(0.2, float(seen.max()))))
+
+
+def blank() -> Plot:
+    """An empty chart, on a range that no answer has."""
+    none = np.full(2, np.nan)
+    return Plot((np.array([0.13, 1.0]), *(none,) * 5), (-1e-3, 1e-3))
+
 
 FLY = ("At rest", "At first µ", "At second µ")
 _USED = "#2f9e44"
@@ -32,7 +144,7 @@ class ActuatorControls:
     def __init__(self, gui: viser.GuiApi, moved: Callable[[bool], None]) -> None:
         """`moved`: something changed, by a hand or not."""
         self._moved = moved
-        self._titles = table.actuator_titles()
+        self._titles = actuator_titles()
         self._concepts = {name: find_concept(name).title for name in CONCEPTS}
         start = ActuatorInputs()
         watched = self._watched
@@ -95,7 +207,7 @@ class ActuatorControls:
                 line("used", _USED, 1.5),
                 line("now", THIS),
             ),
-            plots.blank(),
+            blank(),
             (0.1, 1.02),
         )
         self.segments = gui.add_html("")

@@ -5,11 +5,11 @@ from typing import Any
 
 import viser
 
-from explorer.tabs.actuator import plots, readout, table
+from explorer.tabs.actuator import controls as plots
+from explorer.tabs.actuator import controls as table
+from explorer.tabs.actuator import readout
 from explorer.tabs.actuator.controls import FLY, ActuatorControls
-from explorer.tabs.actuator.picture import cut_picture, voltage_shares
-from explorer.tabs.actuator.scene import CutScene
-from explorer.tabs.actuator.section import section_svg
+from explorer.tabs.actuator.picture import CutScene, cut_picture, section_svg, voltage_shares
 from explorer.tabs.actuator.state import MOST_SEGMENTS, ActuatorInputs, Question, question_of
 from explorer.tabs.actuator.study import CachedVerdicts, VerdictWorker
 from explorer.workers import solver

@@ -6,7 +6,7 @@ from html import escape
 
 import numpy as np
 
-from explorer.charts.clicks import write_to
+from explorer.charts.svg import write_to
 from explorer.state import Inputs
 from explorer.text.design_words import flight_name, twist_name
 from explorer.text.units import SI, Units

@@ -11,7 +11,7 @@ from explorer.overlay.bridge import Bridge
 from explorer.pinned import same_but_flight
 from explorer.snapshot import PageSnapshot
 from explorer.state import Inputs
-from explorer.tabs.lecture import cases
+from explorer.tabs.lecture import steps as cases
 from explorer.tabs.lecture import steps as lecture
 from explorer.tabs.lecture.presence import Presence
 from explorer.tabs.lecture.steps import STEPS

@@ -12,10 +12,9 @@ from explorer.interface import TabContext
 from explorer.overlay.bridge import Bridge
 from explorer.state import baseline_of, baseline_title, with_optimum
 from explorer.tabs.optimise import text
-from explorer.tabs.optimise.concept_picture import concept_picture
-from explorer.tabs.optimise.race import Race, race_of
-from explorer.tabs.optimise.run import FRAME, TRACES, SearchRun
+from explorer.tabs.optimise.run import FRAME, TRACES, Race, SearchRun, race_of
 from explorer.tabs.optimise.search_request import OBJECTIVES, SearchRequest
+from explorer.tabs.optimise.text import concept_picture
 from explorer.text.glossary import hint
 from explorer.text.units import UNITS, number
 from explorer.workers.job import Job, JobEvent, JobProgress

@@ -8,10 +8,10 @@ import viser
 from explorer.interface import TabContext
 from explorer.overlay.bridge import Bridge
 from explorer.state import with_optimum
-from explorer.tabs.chart_panel import Chart, line
-from explorer.tabs.optimise import mission, schedule_view
-from explorer.tabs.optimise.schedule_flight import ScheduleFlight
-from explorer.tabs.optimise.schedule_view import LEGS, PlanProgress
+from explorer.tabs.charts import Chart, line
+from explorer.tabs.optimise import schedule_view
+from explorer.tabs.optimise import search_request as mission
+from explorer.tabs.optimise.schedule_view import LEGS, PlanProgress, ScheduleFlight
 from explorer.tabs.optimise.search_request import SearchRequest
 from explorer.text.glossary import hint
 from explorer.text.units import UNITS

@@ -1,14 +1,19 @@
-"""Where to twist: the change of power by pitch along the blade, as a chart and as colours on the blade."""
+"""Where to twist: the change of power by pitch along the blade, as a chart and as colours on the reference blade."""
 
 import math
 from functools import lru_cache
 
 import numpy as np
+import viser
 from numpy.typing import NDArray
 
 from explorer.charts.plots import Plot, Range, held_range
-from explorer.picture.blade_mesh import BladeShape, blade_vertices
-from explorer.theme.colours import colour_map
+from explorer.interface import SessionState, TabContext
+from explorer.picture.blade_mesh import BladeShape, blade_shape, blade_vertices
+from explorer.scene.overlays import Strip
+from explorer.tabs.charts import AB_KEY, Chart, Key, line, pinned_line
+from explorer.text.glossary import hint
+from explorer.theme.colours import BASELINE, THIS, colour_map
 from rotor.design.twist import TwistLaw
 from rotor.trim.adjoint import Adjoint, PitchGradient, power_along
 from rotor.trim.solution import Solution
@@ -84,3 +89,59 @@ def explanation(plot: Plot) -> str:
 
 def _box(text: str) -> str:
     return f'<div class="rx rx-dim rx-small rx-where" data-explorer="sensitivity">{text}</div>'
+
+
+_HEIGHT = 220
+_WORDS = (
+    '<div class="rx rx-dim rx-small rx-found">Power sensitivity to local pitch, with the rotor retrimmed: '
+    "positive where more pitch costs power, negative where it saves.</div>"
+)
+_INDUCED = ("induced", BASELINE, True)
+_KEY: Key = (("total", THIS), _INDUCED)
+
+
+class SensitivityPanel:
+    """One session's."""
+
+    def __init__(self, gui: viser.GuiApi, strip: Strip, context: TabContext) -> None:
+        self._strip = strip
+        self._shown: tuple[Solution, Solution | None, bool, float] | None = None
+        gui.add_html(_WORDS)
+        self._chart = Chart(
+            gui,
+            "dP/dθ [kW/° per r/R]",
+            _KEY,
+            "radius r/R",
+            (line("zero", BASELINE, 0.7), line("induced", BASELINE, 1.5, (5, 3)), pinned_line(), line("total", THIS)),
+            blank_sensitivity(),
+            (0.1, 1.02),
+            _HEIGHT,
+            name="chart_sensitivity",
+        )
+        self._words = gui.add_html("")
+        self._paint = gui.add_checkbox("Paint blade", False, hint=hint("paint"))
+        self._paint.on_update(lambda _: context.wake())
+
+    def show(self, state: SessionState) -> None:
+        """Follow a converged solution."""
+        solution, exaggeration, paint = state.solution, state.view.exaggeration, self._paint.value
+        wanted = (solution, state.pinned, paint, exaggeration)
+        if self._shown == wanted:
+            return
+        plot = sensitivity_plot(solution, self._chart.y_range, state.pinned)
+        self._chart.show(plot, _KEY if state.pinned is None else (*AB_KEY, _INDUCED))
+        self._words.content = explanation(plot)
+        if paint:
+            shape = blade_shape(solution.design.rotor)
+            self._strip.show(*strip(shape, solution.design.twist, exaggeration, plot))
+        else:
+            self._strip.hide()
+        self._shown = wanted
+
+    def show_failure(self) -> None:
+        """The answer no longer holds."""
+        self._shown = None
+        self._strip.hide()
+
+    def stop(self) -> None:
+        """Nothing runs on."""

@@ -1,8 +1,14 @@
-"""The Studies tab: open the result of a study, look at it in charts, and take a point of it onto the sliders."""
+"""Open the result of a study, look at it in charts, and take a point of it onto the sliders."""
 
+import json
 import logging
+import math
+import os
 import threading
 from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass
+from functools import lru_cache
 from html import escape
 from importlib.util import find_spec
 from pathlib import Path
@@ -10,18 +16,121 @@ from typing import Any
 
 import viser
 
-from explorer.charts.clicks import charts_write_to
+from explorer.charts.svg import charts_write_to
 from explorer.hosting import viser_compat
 from explorer.interface import SessionState, TabContext
 from explorer.sharing import share
 from explorer.state import inputs_of
+from explorer.tabs.studies import charts
 from explorer.tabs.studies import charts as study_charts
-from explorer.tabs.studies.readout import numbers, point_line, problem_line, summary
-from explorer.tabs.studies.results import FoundStudy, find_studies, open_study
 from explorer.text.glossary import hint
+from explorer.text.units import number
 from rotor.assets import asset_path
 from rotor.study.findings import best_row, cruise_speeds, hover_cruise_pairs
-from rotor.study.results import Results, design_of_row, read_file
+from rotor.study.results import ABOUT, Results, design_of_row, read_file, read_results
+
+_DEPTH = 3
+_MOST_FOLDERS = 3000
+"""Looked into: a home folder must not hold the page up."""
+
+
+@dataclass(frozen=True)
+class FoundStudy:
+    """One result."""
+
+    path: Path
+    title: str
+
+    def label(self, root: Path) -> str:
+        """As the menu shows it."""
+        return os.path.relpath(self.path, root)
+
+
+def find_studies(root: Path) -> tuple[FoundStudy, ...]:
+    """Folders that hold a study, at most so deep beneath `root`, which itself may be one; in order of their names."""
+    found: list[FoundStudy] = []
+    looked, level = 0, [root]
+    for _ in range(_DEPTH + 1):
+        below: list[Path] = []
+        for folder in level:
+            looked += 1
+            if looked > _MOST_FOLDERS:
+                break
+            if (folder / ABOUT).is_file():
+                found.append(FoundStudy(folder, _title(folder)))
+                continue  # A study has nothing beneath it.
+            with suppress(OSError):
+                below += [one for one in sorted(folder.iterdir()) if one.is_dir() and one.name[0] not in "._"]
+        level = below
+    return tuple(sorted(found, key=lambda one: one.path))
+
+
+def open_study(path: Path) -> Results:
+    """The results in a folder, as far as they are there; read once for all pages. ValueError with one sentence."""
+    chunks = [one.stat().st_mtime_ns for one in path.glob("chunk-*.parquet")]
+    return _read(path, len(chunks), max(chunks, default=0))
+
+
+@lru_cache(maxsize=3)
+def _read(path: Path, chunks: int, newest: int) -> Results:
+    del chunks, newest  # They only tell a study that has gone on from what was read of it before.
+    return read_results(path, texts=False)
+
+
+def _title(folder: Path) -> str:
+    try:
+        return str(json.loads((folder / ABOUT).read_text(encoding="utf-8"))["title"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return ""
+
+
+def summary(results: Results) -> str:
+    """What was opened: title, points, failures, how many are drawn."""
+    failed = results.rows - int(results.good.sum())
+    words = [f"{number(results.rows)} of {number(results.points)} points"]
+    if failed:
+        words.append(f"{number(failed)} failed")
+    if results.rows - failed > charts.MOST_POINTS:
+        words.append(f"{number(charts.MOST_POINTS)} drawn")
+    return f"{results.about.get('title', '')}: {', '.join(words)}."
+
+
+def numbers(results: Results) -> str:
+    """The numbers of the available points."""
+    points = results.columns["point"]
+    gaps = ", some not computed yet" if points[-1] - points[0] >= results.rows else ""
+    return f"{points[0]:.0f}…{points[-1]:.0f}{gaps}"
+
+
+def point_line(results: Results, row: int | None, heading: str) -> str:
+    """A small table of a point: power, and the value of every axis."""
+    if row is None:
+        return ""
+    names = [
+        name for name in dict.fromkeys(("power_total_w", "hover_power_w", *results.axes)) if name in results.columns
+    ]
+    cells = "".join(_line(results, name, row) for name in names)
+    head = f"<b>{escape(heading)}: point {results.columns['point'][row]:.0f}</b>"
+    return f'<div class="rx rx-small" data-explorer="study-point">{head}<table>{cells}</table></div>'
+
+
+def _blank(results: Results, name: str, row: int) -> bool:
+    return results.numeric(name) and not math.isfinite(results.columns[name][row])
+
+
+def problem_line(sentence: str) -> str:
+    """Why the requested point cannot be shown."""
+    return f'<div class="rx rx-small rx-broken" data-explorer="study-point">{escape(sentence)}</div>'
+
+
+def _line(results: Results, name: str, row: int) -> str:
+    value = (
+        charts.plain(charts.shown(results, name)[row])
+        if results.numeric(name)
+        else escape(str(results.columns[name][row]))
+    )
+    return f'<tr><td>{escape(charts.title(results, name))}</td><td class="rx-num">{value}</td></tr>'
+
 
 _log = logging.getLogger(__name__)
 

@@ -4,7 +4,7 @@ import threading
 
 import pytest
 
-from explorer.hosting import memory
+from explorer.hosting import limits as memory
 from explorer.hosting.limits import LARGEST_FILE, RateLimit, RateLimiter, refuse_upload
 
 

@@ -174,7 +174,6 @@ def test_headlines():
     )
 
 
-def test_limits_say_what_they_found():
 def test_limits_give_value_and_bound():
     """Kept or broken, one sentence holds; a sheet that cannot shear is not asked for millions of volts."""
     rotor = pair().design.rotor

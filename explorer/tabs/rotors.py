@@ -1,7 +1,13 @@
-"""The files of a rotor as a user brings them, one after another and in any order; no widgets."""
+"""The menu of rotors, and the user's own rotor file with its section files."""
 
 from dataclasses import dataclass, field
+from typing import Any
 
+import viser
+
+from explorer.interface import TabContext
+from explorer.state import OWN, with_rotor
+from explorer.text.glossary import hint
 from rotor.airfoil.c81 import parse_c81
 from rotor.airfoil.contour import parse_contour
 from rotor.airfoil.polars import parse_polar_file
@@ -83,3 +89,29 @@ def _check(name: str, suffix: str, text: str) -> None:
 def _is_file(word: str) -> bool:
     """Whether an `outline` names a file rather than a known section."""
     return word.lower().endswith(SUFFIXES)
+
+
+class RotorUpload:
+    """The files of one session, and what they lead to."""
+
+    def __init__(self, gui: viser.GuiApi, context: TabContext) -> None:
+        self._context, self._files = context, UploadedFiles()
+        button = gui.add_upload_button(
+            "Load rotor file …",
+            icon=viser.Icon.UPLOAD,
+            color="gray",
+            mime_type=",".join(SUFFIXES),
+            hint=hint("rotor_file"),
+        )
+        button.on_upload(self._taken)
+
+    def _taken(self, event: viser.GuiEvent[Any]) -> None:
+        file = event.target.value
+        try:
+            arrival = self._files.take(file.name, file.content)
+            if arrival.aircraft is not None:
+                self._context.set_inputs(with_rotor(self._context.inputs(), OWN, arrival.aircraft))
+        except ValueError as error:
+            self._context.notify("Not loaded", str(error))
+            return
+        self._context.notify("Rotor" if arrival.aircraft else "Kept", arrival.sentence)

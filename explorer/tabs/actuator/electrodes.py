@@ -1,16 +1,18 @@
-"""Electrodes, field and free strain of the chosen actuator: chart data, pictures and words of the folder."""
+"""Electrodes, field and free strain of the chosen actuator: chart data, pictures, words, and their folder."""
 
 import base64
 from functools import lru_cache
 from html import escape
 
 import numpy as np
+import viser
 
 from explorer.charts.plots import Plot, held_range
 from explorer.picture.png import encode_png
+from explorer.tabs.charts import Chart, line, points
 from explorer.text.units import number
-from explorer.theme.colours import colour_map
-from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
+from explorer.theme.colours import BASELINE, IDEAL, NOW, THIS, colour_map
+from rotor.actuator.catalogue import Actuator, PiezoPly, actuators, find_actuator
 from rotor.actuator.electrical import electric_field, field_map, free_strain, thermal_coefficients
 from rotor.arrays import Array
 
@@ -170,3 +172,44 @@ def _sheet(id: str) -> PiezoPly:
     found = find_actuator(id)
     assert isinstance(found, PiezoPly)
     return found
+
+
+class ElectrodesPanel:
+    """Written only when actuator or voltage change: a dragged twist costs nothing here."""
+
+    def __init__(self, gui: viser.GuiApi) -> None:
+        self._shown: tuple[Actuator, tuple[float, ...]] | None = None
+        self._folder = gui.add_folder("Electrodes", expand_by_default=False)
+        with self._folder:
+            self._chart = Chart(
+                gui,
+                "Strain [µε] over V",
+                (("this sheet", THIS), ("α·V", IDEAL), ("other kind", BASELINE)),
+                "voltage [V]",
+                (
+                    line("other electrodes, along", BASELINE, 2.0),
+                    line("across the fibres", THIS, 1.0),
+                    line("along the fibres", THIS, 2.5),
+                    line("along, by α = d/ΔES", IDEAL, 1.5, (5, 4)),
+                    points("now", NOW, 8),
+                ),
+                blank(),
+                (-1.0, 1.0),
+                height=118,
+            )
+            self._field = gui.add_html("")
+            self._ranges = gui.add_html("")
+
+    def show(self, actuator: Actuator, volts: tuple[float, ...]) -> None:
+        """Follow the chosen actuator; `volts` of each segment. What has no electrodes has no folder."""
+        if self._shown == (actuator, volts):
+            return
+        before, self._shown = self._shown, (actuator, volts)
+        if before is None or before[0] != actuator:
+            self._folder.visible = isinstance(actuator, PiezoPly)
+            if isinstance(actuator, PiezoPly):
+                self._field.content = field_panel(actuator)
+        if not isinstance(actuator, PiezoPly):
+            return
+        self._ranges.content = ranges_panel(actuator, volts)
+        self._chart.show(strain_plot(actuator, volts, self._chart.y_range))

@@ -1,0 +1,283 @@
+"""Keyboard: every command of the page with its title and key, the palette, and what the page does for them."""
+
+import json
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+from functools import partial
+from html import escape
+from typing import Any
+
+import viser
+
+from explorer.hosting import viser_compat
+from explorer.interface import TabContext
+from explorer.picture.camera_views import View
+from explorer.picture.fields import FIELDS
+from explorer.tabs.lecture.steps import FLIGHTS
+from explorer.text.units import UNITS
+
+SHIFT, CTRL, CTRL_SHIFT = "shift", "cmd/ctrl", "cmd/ctrl+shift"
+COARSE = 10
+"""Steps that Shift and an arrow, or Page up and down, move a slider or the probe at once."""
+
+_SHOWN = {
+    "arrowup": "↑", "arrowdown": "↓", "arrowleft": "←", "arrowright": "→", "space": "Space",
+    "pageup": "Page up", "pagedown": "Page down", "shift": "Shift", "cmd/ctrl": "Ctrl",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Key:
+    """A command of the palette."""
+
+    group: str
+    title: str
+    key: str = ""
+    """As the page names it; empty: in the palette only."""
+    modifier: str = ""
+    """`SHIFT`, `CTRL`, `CTRL_SHIFT`, or empty."""
+
+    @property
+    def parts(self) -> tuple[str, ...]:
+        """The keys to press together, as they are printed on a keyboard."""
+        if not self.key:
+            return ()
+        # A question mark is typed with Shift, which it need not be told.
+        held = () if self.key == "?" or not self.modifier else self.modifier.split("+")
+        return tuple(_SHOWN.get(part, part) for part in (*held, self.key))
+
+
+_DESIGN, _FLIGHT, _VIEW, _PROBE, _PAGE = "Design", "Flight", "View", "Blade and probe", "Page"
+KEYS: dict[str, Key] = {
+    "undo": Key(_DESIGN, "Undo", "Z", CTRL),
+    "redo": Key(_DESIGN, "Redo", "Z", CTRL_SHIFT),
+    "keep": Key(_DESIGN, "Keep this design (bookmark)", "M"),
+    "optimise": Key(_DESIGN, "Optimise, or stop", "O"),
+    "pin": Key(_DESIGN, "Pin as A, or unpin", "P"),
+    "swap": Key(_DESIGN, "Swap A and B"),
+    "back": Key(_DESIGN, "Back to A"),
+    "reset": Key(_DESIGN, "Reset design", "R"),
+    "check": Key(_DESIGN, "Check with the vortex wake", "V"),
+    "hover": Key(_FLIGHT, "Hover", "H"),
+    "mu_015": Key(_FLIGHT, "Advance ratio 0.15", "J"),
+    "mu_024": Key(_FLIGHT, "Advance ratio 0.24", "K"),
+    "mu_037": Key(_FLIGHT, "Advance ratio 0.37", "L"),
+    "view_3d": Key(_VIEW, "View: 3D", "1"),
+    "view_top": Key(_VIEW, "View: from above", "2"),
+    "view_blade": Key(_VIEW, "View: reference blade", "3"),
+    "view_side": Key(_VIEW, "View: advancing side", "4"),
+    "field_next": Key(_VIEW, "Next quantity on the disk", "F"),
+    "field_previous": Key(_VIEW, "Previous quantity on the disk", "F", SHIFT),
+    "rescale": Key(_VIEW, "Fit colour range to the data", "C"),
+    "rescale_default": Key(_VIEW, "Default colour range", "C", SHIFT),
+    "units": Key(_VIEW, "SI or aviation units", "U"),
+    "dark": Key(_VIEW, "Dark or light page", "N"),
+    "play": Key(_PROBE, "Play or pause the rotor", "space"),
+    "probe_out": Key(_PROBE, "Probe one step outboard", "arrowup"),
+    "probe_in": Key(_PROBE, "Probe one step inboard", "arrowdown"),
+    "probe_on": Key(_PROBE, "Probe one step forward in azimuth", "arrowright"),
+    "probe_back": Key(_PROBE, "Probe one step back in azimuth", "arrowleft"),
+    "probe_far_out": Key(_PROBE, "Probe ten steps outboard", "arrowup", SHIFT),
+    "probe_far_in": Key(_PROBE, "Probe ten steps inboard", "arrowdown", SHIFT),
+    "probe_far_on": Key(_PROBE, "Probe ten steps forward in azimuth", "arrowright", SHIFT),
+    "probe_far_back": Key(_PROBE, "Probe ten steps back in azimuth", "arrowleft", SHIFT),
+    "probe_hide": Key(_PROBE, "Show or hide the probe on the disk", "B"),
+    "lecture": Key(_PAGE, "Lecture mode", "T"),
+    "lecture_next": Key(_PAGE, "Next step of the lecture", "pagedown"),
+    "lecture_previous": Key(_PAGE, "Previous step of the lecture", "pageup"),
+    "share": Key(_PAGE, "Copy a link to this design", "Y"),
+    "export": Key(_PAGE, "Export", "X"),
+    "keys": Key(_PAGE, "Keys", "?", SHIFT),
+}
+"""In the order of the palette and of the list."""
+
+
+def leads(name: str) -> bool:
+    """Whether a command is the presenter's while the page follows one: it moves the design, the disk or the lecture."""
+    return KEYS[name].group in (_DESIGN, _FLIGHT) or name.startswith(("field", "lecture"))
+
+
+_ALWAYS = (
+    ("Sliders", "One step", ("←", "→")),
+    ("Sliders", "Ten steps", ("Shift", "←", "→")),
+    ("Sliders", "Ten steps", ("Page up", "Page down")),
+    ("Sliders", "To either end", ("Home", "End")),
+    ("Camera", "Orbit, pan, zoom", ("mouse left", "right", "wheel")),
+    ("Camera", "Fly", ("W", "A", "S", "D", "Q", "E")),
+    (_PAGE, "Find a command", ("Ctrl", "K")),
+    (_PAGE, "Leave a field, so that keys work", ("Esc",)),
+)
+"""What works without being a command."""
+
+
+def keys_help(bound: Iterable[str]) -> str:
+    """The list of keys, by group, of the commands that this page has; as HTML."""
+    known = set(bound)
+    groups: dict[str, list[str]] = {}
+    for name, key in KEYS.items():
+        if name in known and key.key:
+            groups.setdefault(key.group, []).append(_row(key.title, key.parts))
+    for group, title, parts in _ALWAYS:
+        groups.setdefault(group, []).append(_row(title, parts))
+    lists = "".join(f"<section><h4>{escape(group)}</h4>{''.join(rows)}</section>" for group, rows in groups.items())
+    return f'<div class="rx rx-keys" data-explorer="keys">{lists}</div>'
+
+
+def _row(title: str, parts: tuple[str, ...]) -> str:
+    caps = "".join(f"<kbd>{escape(part)}</kbd>" for part in parts)
+    return f'<div class="rx-line"><span>{escape(title)}</span><span>{caps}</span></div>'
+
+
+_SCRIPT = """(() => {
+  if (window.__rotorKeys) return;
+  window.__rotorKeys = true;
+  const arrows = new Set(['ArrowUp', 'ArrowDown', 'ArrowLeft', 'ArrowRight']);
+  const pages = {PageUp: 'ArrowUp', PageDown: 'ArrowDown'};
+  const on = (target, selector) => target instanceof Element && target.closest(selector);
+  const number = target => on(target, 'input[inputmode=decimal], input[inputmode=numeric]');
+
+  // Shift and an arrow, Page up, Page down: so many single steps, each after the page has taken the one before.
+  window.addEventListener('keydown', async event => {
+    if (!event.isTrusted || event.ctrlKey || event.metaKey || event.altKey) return;
+    const key = pages[event.key] ?? (event.shiftKey && arrows.has(event.key) ? event.key : null);
+    const field = number(event.target);
+    if (!key || !(on(event.target, '[role=slider]') || field)) return;
+    if (field && (key === 'ArrowLeft' || key === 'ArrowRight')) return;  // There they select text.
+    event.preventDefault();
+    event.stopPropagation();
+    for (let step = 0; step < COARSE; step++) {
+      event.target.dispatchEvent(new KeyboardEvent('keydown', {key, bubbles: true, cancelable: true}));
+      event.target.dispatchEvent(new KeyboardEvent('keyup', {key, bubbles: true}));
+      await new Promise(done => setTimeout(done));
+    }
+  }, true);
+
+  // A key that a widget uses is the widget's alone; this is reached after the widget and before the page's own keys.
+  document.body.addEventListener('keydown', event => {
+    const widget = '[role=slider], [role=tab], [role=option], [role=listbox], [role=menu], [role=separator], input';
+    const moves = arrows.has(event.key) || event.key in pages;
+    const presses = event.key === ' ' || event.key === 'Enter';
+    const pressed = 'button:not([role=tab]), a, summary, input';
+    if ((moves && on(event.target, widget)) || (presses && on(event.target, pressed))) event.stopPropagation();
+  });
+
+  // Arrows step the probe; viser would turn the camera with them too. Commands listen here, its camera further out.
+  document.documentElement.addEventListener('keydown', event => {
+    if (arrows.has(event.key) || event.ctrlKey || event.metaKey) event.stopPropagation();
+  });
+
+  // A box that was clicked, or a field that was left with Escape, does not keep the keyboard to itself.
+  window.addEventListener('click', event => {
+    if (event.detail > 0 && on(event.target, 'input[type=checkbox], label')) setTimeout(() => {
+      if (document.activeElement?.type === 'checkbox') document.activeElement.blur();
+    });
+  });
+  window.addEventListener('keydown', event => {
+    if (event.key === 'Escape' && on(event.target, 'input')) event.target.blur();
+  });
+})();"""
+
+
+def page_script(coarse: int) -> str:
+    """JavaScript to run once in a page; `coarse` is how many steps make a coarse one."""
+    return _SCRIPT.replace("COARSE", str(coarse))
+
+
+_DIALOG = """(() => {
+  const before = document.querySelector('dialog.rx-dialog');
+  if (before) return before.close();
+  const dialog = document.createElement('dialog');
+  dialog.className = 'rx-dialog';
+  dialog.innerHTML = CONTENT;
+  dialog.addEventListener('close', () => dialog.remove());
+  dialog.addEventListener('click', event => { if (event.target === dialog) dialog.close(); });
+  document.body.append(dialog);
+  dialog.showModal();
+})();"""
+
+
+def dialog_script(content: str) -> str:
+    """JavaScript that lays HTML of ours over the page until Escape or a click beside it; a second time closes it."""
+    return _DIALOG.replace("CONTENT", json.dumps(content))
+
+
+class Keyboard:
+    """Commands as they are bound. Actions run on the pool's threads and must only say what is wanted."""
+
+    def __init__(self, client: viser.ClientHandle) -> None:
+        self._client = client
+        self._commands: dict[str, viser.CommandHandle] = {}
+        self._held = False
+        viser_compat.run_in_page(client, page_script(COARSE))
+        self.bind("keys", self.show)
+
+    def bind(self, name: str, action: Callable[[], None]) -> None:
+        """Give the command `name` of `KEYS` its action; the palette and the list of keys have it from then on.
+
+        KeyError for a name that is none, ValueError for one that has its action already.
+        """
+        key = KEYS[name]
+        if name in self._commands:
+            raise ValueError(f"the command {name!r} has its action already: choose another name")
+        hotkey: Any = key.key or None
+        modifier: Any = key.modifier or None
+        command = self._client.gui.add_command(key.title, hotkey=hotkey, modifier=modifier)
+        command.on_trigger(lambda _: None if self._held and leads(name) else action())
+        self._commands[name] = command
+
+    def hold(self, held: bool) -> None:
+        """Leave to a presenter what is the presenter's, or give it back."""
+        self._held = held
+
+    def show(self) -> None:
+        """The list of keys, over the page; shown a second time it goes."""
+        viser_compat.run_in_page(self._client, dialog_script(keys_help(self._commands)))
+
+
+SPEEDS = dict(zip(("hover", "mu_015", "mu_024", "mu_037"), FLIGHTS.values(), strict=True))
+"""Advance ratios of the flight presets, by command."""
+VIEWS: dict[str, View] = {"view_3d": "3d", "view_top": "top", "view_blade": "blade", "view_side": "side"}
+
+
+@dataclass(frozen=True)
+class Actions:
+    """What the session's parts can do at once."""
+
+    look: Callable[[View], None]
+    colours: Callable[[str], None]
+    """"Rescale" or "Default"."""
+    check: Callable[[], None]
+    reset: Callable[[], None]
+    search: Callable[[], None]
+    """Start the optimiser, or stop it."""
+
+
+def bind_commands(context: TabContext, actions: Actions) -> None:
+    """Give the commands of the page their actions."""
+    for name, mu in SPEEDS.items():
+        context.bind_command(name, partial(_fly, context, mu))
+    for name, view in VIEWS.items():
+        context.bind_command(name, partial(actions.look, view))
+    context.bind_command("field_next", partial(_show_field, context, 1))
+    context.bind_command("field_previous", partial(_show_field, context, -1))
+    context.bind_command("rescale", partial(actions.colours, "Rescale"))
+    context.bind_command("rescale_default", partial(actions.colours, "Default"))
+    context.bind_command("dark", lambda: context.set_view(replace(context.view(), dark=not context.view().dark)))
+    context.bind_command("units", partial(_change_units, context))
+    context.bind_command("check", actions.check)
+    context.bind_command("reset", actions.reset)
+    context.bind_command("optimise", actions.search)
+
+
+def _fly(context: TabContext, mu: float) -> None:
+    context.set_inputs(replace(context.inputs(), advance_ratio=mu))
+
+
+def _change_units(context: TabContext) -> None:
+    view, titles = context.view(), tuple(UNITS)
+    context.set_view(replace(view, units=titles[(titles.index(view.units) + 1) % len(titles)]))
+
+
+def _show_field(context: TabContext, step: int) -> None:
+    titles, view = tuple(FIELDS), context.view()
+    context.set_view(replace(view, field=titles[(titles.index(view.field) + step) % len(titles)]))

@@ -1,1 +1,0 @@
-"""Every command of the page, its key, and what the page must do for them."""

@@ -1,1 +1,0 @@
-"""The menu of rotors and the files of one's own."""
