@@ -8,6 +8,7 @@ import sys
 import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -244,7 +245,7 @@ class TestScene:
         )
         scene.show(one)
         scene.show_beside(uh60a_rotor("flight"), other, np.array([0.0, 10.0, 0.0]))
-        handles = server.scene._handle_from_node_name
+        handles: dict[str, Any] = dict(server.scene._handle_from_node_name)
         assert handles["/rotor"].position[1] - handles["/compared"].position[1] == 20.0
         assert handles["/compared"].visible
         assert not handles["/airframe"].visible
@@ -260,9 +261,9 @@ class TestScene:
     def test_a_dark_page_recolours_what_is_there(self, server: viser.ViserServer):
         scene = Scene(server.scene, uh60a_rotor("flight"), LIGHT)
         names = set(server.scene._handle_from_node_name)
-        words = server.scene._handle_from_node_name["/rotor/disk/words"]._data
+        words = cast(Any, server.scene._handle_from_node_name["/rotor/disk/words"])._data
         scene.set_theme(DARK)
-        handles = server.scene._handle_from_node_name
+        handles: dict[str, Any] = dict(server.scene._handle_from_node_name)
         assert set(handles) == names
         assert tuple(handles["/airframe/body"].color) == DARK.body
         assert tuple(handles["/rotor/blade_1"].color) == DARK.blade
