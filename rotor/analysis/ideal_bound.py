@@ -173,12 +173,12 @@ def _minimise_within(form: Array, equations: Array, wanted: Array, bounds: Array
     scale = float(np.abs(gaps).max())
     system = np.concatenate([sides, gaps[:, None] / scale], axis=1).T
     size = np.linalg.norm(system[:-1], axis=0)
-    wish = np.zeros(len(system))
-    wish[-1] = 1.0
-    weights, left = nnls(system / size, wish, maxiter=20 * len(system))
+    target = np.zeros(len(system))
+    target[-1] = 1.0
+    weights, left = nnls(system / size, target, maxiter=20 * len(system))
     if left < 1e-9:
         raise ValueError("no circulation within the lift limit makes this thrust without moments: allow a higher C_l")
-    residual = system / size @ weights - wish
+    residual = system / size @ weights - target
     return particular - along @ residual[:-1] / residual[-1] * scale
 
 

@@ -1,4 +1,4 @@
-"""The public API: what a notebook says, what it is told for wrong arguments, and what importing leaves alone."""
+"""The public API: the notebook example, errors for wrong arguments, and no side effects of importing."""
 
 import json
 import math
@@ -37,7 +37,7 @@ rotor.load_rotor("mine.toml"); rotor.load_design("a.json"); solution.save("a.jso
 solution.plot("alpha"), rotor.plot_power(rotor.sweep(design, mu=[.1, .2, .3]))
 import explorer; page = explorer.show(design, browser=False)
 """
-"""The page is told not to open a browser; otherwise what a user types."""
+"""As a user types it, except that the page opens no browser."""
 
 
 @pytest.fixture(scope="module")
@@ -190,7 +190,7 @@ class TestSweep:
         table = rotor.sweep(design, [0.2])
 
         class Pandas:
-            """Takes the place of pandas, which the tests do without."""
+            """Replaces pandas, which the tests do not need."""
 
             @staticmethod
             def DataFrame(rows: list, columns: list) -> tuple:

@@ -75,7 +75,7 @@ def test_torsion_frequency_closed_form():
 
 
 def test_forced_twist_is_that_of_a_single_mode():
-    """Near its first mode the blade answers as 1/(1 − (n/ν)²), of which that mode holds 8/π² (modal series)."""
+    """Near its first mode the response is 1/(1 − (n/ν)²), times the 8/π² of that mode (modal series)."""
     beam = torsion_beam(uniform(2e4), SPEED)
     nu = torsion_frequency(beam)
     moment = np.full(240, 100.0)
@@ -84,7 +84,7 @@ def test_forced_twist_is_that_of_a_single_mode():
 
 
 def test_trapeze_effect_stiffens_the_blade():
-    """GJ_e = GJ + F_c k_A²: with k_A² a constant share of a nearly constant pull the twist falls by that share."""
+    """GJ_e = GJ + F_c k_A²: k_A² is a constant share of a nearly constant pull, so twist is reduced by that share."""
     still, stiff = (
         twist_under_moment(torsion_beam(uniform(gyration=k), SPEED), np.full(240, 400.0))[-1] for k in (0.0, 0.01)
     )
@@ -152,7 +152,7 @@ def test_four_degrees_need_870_newton_metres():
 
 
 def test_one_tube_of_shape_memory():
-    """395 N·m on the flown blade: 4° take about 2.2 tubes."""
+    """395 N·m on the flown blade: 4° need about 2.2 tubes."""
     installed = install(find_actuator("SMA_tube"), default_placement(1), Host("new", 1.0), uh60a_rotor("flight"))
     assert_allclose(math.radians(4.0) / installed.attainable, 2.2, rtol=0.10)
 
@@ -187,7 +187,7 @@ def test_dynamic_twist_amplitude():
 
 
 def test_resonance_is_one_sentence():
-    """An undamped blade driven at its own frequency twists without end: no number is given."""
+    """The twist of an undamped blade is unbounded at resonance: no number is given."""
     soft = mfc(5, Host("new", 0.2))
     assert_allclose(soft.frequency, 2.0, atol=0.1)
     with pytest.raises(ValueError, match=r"2/rev is too close .* choose another harmonic"):
@@ -199,7 +199,7 @@ def test_resonance_is_one_sentence():
 
 
 def test_flap_bending_of_a_string_is_small():
-    """A hinged chain under its own pull takes load without bending."""
+    """A hinged chain under centrifugal force carries load without bending."""
     load = np.full(ELEMENTS + 1, 100.0)
     r = np.array([3.0])
     stiff = replace(uniform(), flap_stiffness=(1e9, 1e9))
@@ -208,7 +208,7 @@ def test_flap_bending_of_a_string_is_small():
 
 
 def test_flap_bending_without_pull_to_relieve_it():
-    """Very stiff and hinged: rigid rotation Ω²Iβ takes the moment; what is left bends it, M(r) by statics."""
+    """Very stiff and hinged: rigid rotation Ω²Iβ balances the moment; the rest bends the blade, M(r) by statics."""
     stiff = replace(uniform(), flap_stiffness=(1e10, 1e10))
     load = np.full(ELEMENTS + 1, 100.0)
     x = np.linspace(0.0, 6.0, 2001)
@@ -221,7 +221,7 @@ def test_flap_bending_without_pull_to_relieve_it():
 
 
 def test_fibre_strain_from_pull():
-    """½ F_c/EA (1 − ν) at 45°: 750 µε at 2 m with the axial stiffness of the section, before plies weigh on it."""
+    """½ F_c/EA (1 − ν) at 45°: 750 µε at 2 m with the axial stiffness of the section, before plies are added."""
     installed = mfc(1)
     strain = fibre_strain(installed)
     assert_allclose(strain.centrifugal[0], 0.5 * 285e3 / 1.33e8 * (1.0 - 0.31), rtol=0.25)
@@ -234,7 +234,7 @@ def test_fibre_strain_from_pull():
 
 
 def test_nose_weight():
-    """(x − 0.25)/0.23 of what lies behind the quarter chord: about 11 kg for 14.6 kg at 0.425 c."""
+    """(x − 0.25)/0.23 of the mass behind the quarter chord: about 11 kg for 14.6 kg at 0.425 c."""
     assert_allclose(balance_mass(14.6, 0.425), 11.1, rtol=0.01)
     assert balance_mass(14.6, 0.25) == 0.0
 

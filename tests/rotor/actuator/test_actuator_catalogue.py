@@ -58,7 +58,7 @@ def test_strain_is_coefficient_times_field(sheet: PiezoPly):
 
 
 def test_interdigitated_electrodes_use_d33_continuous_ones_d31():
-    """d33 stretches at positive voltage, d31 shrinks; P1 strains 3.5 times as far as P2 over the range."""
+    """d33 extends at positive voltage, d31 contracts; P1 strains 3.5 times as much as P2 over the range."""
     p1, p2 = ply("MFC_P1"), ply("MFC_P2")
     assert free_strain(p1, 100.0)[0] > 0.0 > free_strain(p2, 100.0)[0]
     assert_allclose(abs(p1.swing[0] / p2.swing[0]), 1800.0 / 504.0, rtol=1e-12)
@@ -74,7 +74,7 @@ def test_sheet_extends_along_and_contracts_across_the_fibres():
 
 
 def test_field_between_electrodes():
-    """Plates: even. Fingers: deep in the sheet the field is weaker than V/gap, at their edges much stronger."""
+    """Uniform between plates. Between fingers it is below V/gap deep in the sheet and much higher at their edges."""
     even = field_map(ply("PZT5H"), points=21)
     assert_allclose(even.strength, 1.0, rtol=1e-12)
     finger = field_map(ply("MFC_P1"), points=41, sweeps=1500)

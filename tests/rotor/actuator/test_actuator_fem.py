@@ -1,4 +1,4 @@
-"""The thin-walled section against finite elements without thin-wall assumptions: what figure 5.10 is about."""
+"""The thin-walled section against finite elements without thin-wall assumptions, as in figure 5.10."""
 
 import numpy as np
 import pytest
@@ -23,7 +23,7 @@ NOTHING = Material("nothing", 1e5, 1e5, 0.3, 1e5 / 2.6, 1.0)
 
 
 def test_finite_elements_of_a_round_tube():
-    """GJ = Gπ/2(ro⁴ − ri⁴) and θ' = γ0/R for a tube whose wall wants to shear: the oracle is right."""
+    """GJ = Gπ/2(ro⁴ − ri⁴) and θ' = γ0/R for a tube under shear actuation: verifies the finite elements."""
     turn = np.linspace(0.0, 2.0 * np.pi, 81)[:-1]
     radius, t, strain = 0.05, 0.002, 5e-4
     line = radius * np.column_stack([np.cos(turn), np.sin(turn)])
@@ -58,7 +58,7 @@ def box_by_elements(spec: SectionSpec, sheet: PiezoPly, placement: Placement, wh
     [(0.5, 2), pytest.param(1.0, 1, marks=pytest.mark.slow), pytest.param(0.25, 2, marks=pytest.mark.slow)],
 )
 def test_torsion_of_the_box_by_finite_elements(share: float, plies: int):
-    """Figure 5.10's stand-in. Plies in the middle of the wall, as the thin-walled model has them: 2 %."""
+    """As figure 5.10. Plies in the middle of the wall, as the thin-walled model has them: 2 %."""
     spec, placement = blade("new", share), default_placement(plies)
     section = active_section(spec, ply("MFC_P1"), placement)
     answer = box_by_elements(spec, ply("MFC_P1"), placement, "middle")

@@ -75,13 +75,13 @@ def test_blocked_shear_flow_of_one_ply(id: str, expected: float):
 
 
 def test_an_isotropic_patch_induces_no_shear():
-    """Why a plain PZT sheet cannot twist a blade, at any angle."""
+    """A plain PZT sheet cannot twist a blade, at any angle."""
     for angle in (0.3, DIAGONAL, 1.2):
         assert_allclose(blocked_shear_flow(ply("PZT5H").layer(1, angle)), 0.0, atol=1e-9)
 
 
 def test_a_free_wall_has_its_free_strain():
-    """A wall of one layer, not held, strains by the layer's own free strain: stiffness · strain = actuation."""
+    """A free wall of one layer has the free strain of the layer: stiffness · strain = actuation."""
     layer = ply("MFC_P1").layer(2, 0.6)
     wall = wall_of((layer,))
     free = free_strain_in_wall_axes(layer)
@@ -146,7 +146,7 @@ def test_web_between_equal_cells_carries_nothing():
 
 
 def test_reciprocity():
-    """Maxwell: the extension that a torque makes equals the twist that a force makes."""
+    """Maxwell: the extension due to a torque equals the twist due to a force."""
     section = active_section(section_spec(uh60a_structure(), Host()), ply("MFC_P1"), default_placement(4))
     by_torque, by_force = respond(section, torque=1.0), respond(section, force=1.0)
     assert_allclose(by_torque.extension, by_force.twist_rate, rtol=1e-6)
@@ -188,7 +188,7 @@ WORKED = [
 
 @pytest.mark.parametrize(("kind", "share", "plies", "stiffness", "moment", "rate"), WORKED)
 def test_worked_example(kind: str, share: float, plies: int, stiffness: float, moment: float, rate: float):
-    """Indicative, 5 %: another person's code with its own guesses of the passive walls."""
+    """Indicative, 5 %: an independent code with its own assumptions for the passive walls."""
     section = active_section(blade(kind, share), ply("MFC_P1"), default_placement(plies))
     assert_allclose(torsional_stiffness(section), stiffness, rtol=0.01)
     assert_allclose(actuation_moment(section), moment, rtol=0.05)

@@ -1,4 +1,4 @@
-"""Would it pay: required and attainable twist, net saving, the sentence, and the command."""
+"""Net benefit: required and attainable twist, net saving, the sentence, and the command."""
 
 import json
 import math
@@ -59,7 +59,7 @@ def test_baseline_against_the_optimiser():
 
 @pytest.mark.slow
 def test_reached_against_brute_force():
-    """Linear jig and one swing on a grid: nothing on it is better, and the neighbours are barely worse."""
+    """Linear jig and one swing on a grid: no grid point is better, and the neighbours are hardly worse."""
     judged = verdict()
     shapes = np.interp(STATIONS, judged.installed.r, judged.installed.shapes[0])
     jig = judged.optimum.values[0]
@@ -175,7 +175,7 @@ def test_headlines():
 
 
 def test_limits_give_value_and_bound():
-    """Kept or broken, one sentence holds; a sheet that cannot shear is not asked for millions of volts."""
+    """One sentence for a limit met or exceeded; no voltage is given for a sheet that cannot shear."""
     rotor = pair().design.rotor
     thick = install(find_actuator("MFC_P1"), default_placement(1), Host(), rotor)
     said = {limit.name: limit for limit in limits(thick, (0.5,))}
@@ -191,7 +191,7 @@ def test_limits_give_value_and_bound():
 
 @pytest.mark.slow
 def test_the_thesis_preset_requires_more_twist():
-    """The document's optima lie farther apart (−13.5° in hover, −4…−8° fast): no ply reaches that on this blade."""
+    """The document's optima differ more (−13.5° in hover, −4…−8° fast): no ply attains that on this blade."""
     base = baseline(pair("thesis"), find_concept("linear"))
     (hover,), (fast,) = (best.values for best in base.best)
     assert -17.0 < math.degrees(hover) < -12.0
@@ -201,7 +201,7 @@ def test_the_thesis_preset_requires_more_twist():
 
 
 def test_limit_for_the_optimiser():
-    """The optimiser's change limit from the actuator: from a blade twisted too much it goes back all the way it can."""
+    """The optimiser's change limit from the actuator: from a blade with too much twist the full change is used."""
     judged = verdict()
     design = pair().designs()[1]
     reference = find_concept("linear").twist([math.radians(-20.0)])
@@ -315,7 +315,7 @@ def test_bad_input_is_exit_2(arguments: list[str], words: str, capsys: pytest.Ca
 
 
 def test_the_attainable_twist_can_be_solved_as_a_design():
-    """The SPEC of a reached twist is read by every other command, and takes the same power."""
+    """The SPEC of an attainable twist can be used in every other command, and gives the same power."""
     solution = verdict().optimum.solutions[1]
     spec = solution.design.twist.spec()
     again = make_design(twist=spec, mu=0.3, models=solution.design.models)

@@ -1,4 +1,4 @@
-"""The bundled decks against numbers from outside: XFOIL runs by others' hands, RANS, NACA TN 3361, textbook limits."""
+"""The bundled decks against numbers from outside: published XFOIL runs, RANS, NACA TN 3361, textbook limits."""
 
 from pathlib import Path
 

@@ -1,4 +1,4 @@
-"""The run-time table: reproduces its deck, C1 across every grid line, exact derivatives, sane over all input."""
+"""The run-time table: reproduces its deck, C1 across every grid line, exact derivatives, finite over all input."""
 
 import time
 

@@ -1,4 +1,4 @@
-"""Our power beside public UH-60A data (`assets/comparison.toml`). Labels as there; nothing is fitted. Run with -s."""
+"""Our power and public UH-60A data (`assets/comparison.toml`). Labels as there; nothing is fitted. Run with -s."""
 
 import tomllib
 from dataclasses import replace
@@ -34,7 +34,7 @@ def test_hover_points():
 
 
 def test_forward_curve_is_indicative():
-    """Beside a *model* curve (indicative): main-rotor power over speed. The bucket must lie where theirs does."""
+    """Against a *model* curve (indicative): main-rotor power over speed, with its minimum at the same speed."""
     forward = DATA["forward"]
     assert forward["kind"].startswith("indicative")
     ours = []

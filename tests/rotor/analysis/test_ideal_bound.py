@@ -1,4 +1,4 @@
-"""The ideal bound: the shipped table is what the command makes, and no rotor of ours is below it."""
+"""The ideal bound: the command reproduces the shipped table, and no trimmed rotor is below it."""
 
 import csv
 from dataclasses import replace

@@ -1,4 +1,4 @@
-"""The least induced power: an independent program's table, and what makes a minimum a minimum."""
+"""The least induced power: an independent program's table, and conditions of a minimum."""
 
 import math
 
@@ -37,7 +37,7 @@ def over_glauert(result: InducedPower, mu: str) -> float:
 
 
 def compare(lattice: Lattice, mu: str) -> tuple[list[float], list[float]]:
-    """Our bounds beside the table's."""
+    """Our bounds and those of the table."""
     wake, thrust = condition(mu)
     r, row = lattice.r, ROWS[mu]
     linear = r - 0.75
@@ -96,7 +96,7 @@ def test_bound_makes_the_thrust_without_moments_and_within_the_lift_limit(chord:
 
 
 def test_no_neighbouring_circulation_needs_less_power():
-    """Random loads of the same family with the same thrust and moments cost more."""
+    """Random loads of the same family with the same thrust and moments need more power."""
     wake, thrust = condition("0.2")
     best = least_induced_power(COARSE, wake, thrust, 3)
     u_t = np.maximum(COARSE.tangential(wake.mu_x), 0.0)
@@ -123,7 +123,7 @@ def test_no_neighbouring_circulation_needs_less_power():
 
 
 def test_bounds_are_ordered():
-    """More freedom never costs power: harmonics, then no lift limit; any twist beats straight twist beats −16°."""
+    """More freedom never needs more power: harmonics, no lift limit; free twist, linear twist, −16°."""
     wake, thrust = condition("0.25")
     free = [least_induced_power(COARSE, wake, thrust, h).coefficient for h in (8, 4, 2, 1)]
     assert free == sorted(free)

@@ -1,4 +1,4 @@
-"""`python -m rotor airfoil`, and the XFOIL runner's manners when XFOIL is absent or writes nonsense."""
+"""`python -m rotor airfoil`, and errors when XFOIL is missing or writes damaged files."""
 
 import argparse
 import json
@@ -113,7 +113,7 @@ def test_one_real_polar_is_close_to_thin_airfoil_theory() -> None:
 
 
 def test_xfoil_that_crashes_is_an_error_not_a_polar(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A stand-in for XFOIL that dies by a signal, as Debian's does with its graphics off."""
+    """Replaces XFOIL by a program that is killed by a signal, as Debian's does with its graphics off."""
     for name, body in (("xfoil", "kill -FPE $$"), ("xvfb-run", "exit 136")):
         (tmp_path / name).write_text(f"#!/bin/sh\n{body}\n", encoding="utf-8")
         (tmp_path / name).chmod(0o755)

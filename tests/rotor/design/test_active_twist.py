@@ -43,7 +43,7 @@ def test_energy_identity(inflow: str, per_rev: int):
 
 
 def test_uniform_once_per_revolution_twist_is_cyclic_pitch():
-    """1/rev of the whole blade is what the swashplate does: the trim takes it back, and nothing else changes."""
+    """Uniform 1/rev twist equals cyclic pitch: the trim cancels it, and nothing else changes."""
     design = make_design(mu=0.25)
     plain = solve(design).require()
     turned = turning(design, Harmonic(1, 2.0 * DEGREE, 0.5), stations=(0.0, 1.0), shape=(1.0, 1.0))
@@ -60,14 +60,14 @@ def test_zero_active_twist_changes_nothing():
 
 
 def test_field_by_hand():
-    """shape(r) A cos(nψ − φ): half-way out at half the tip's, nose-up most at ψ = φ/n."""
+    """shape(r) A cos(nψ − φ): half the tip's amplitude half-way out, largest nose-up at ψ = φ/n."""
     act = ActiveTwist((Harmonic(2, 0.02, math.pi / 2.0),), stations=(0.2, 1.0), shape=(0.0, 1.0))
     field = act(np.array([0.1, 0.6, 1.0]), np.array([0.0, math.pi / 4.0, 3.0 * math.pi / 4.0]))
     assert_allclose(field, [[0.0, 0.0, 0.0], [0.0, 0.01, -0.01], [0.0, 0.02, -0.02]], atol=1e-15)
 
 
 def test_the_jacobian_is_still_exact():
-    """Newton needs no more passes, and the Jacobian agrees with differences of the residuals."""
+    """Newton needs no more iterations, and the Jacobian agrees with differences of the residuals."""
     design = turning(make_design(mu=0.25), Harmonic(2, DEGREE))
     problem = build_problem(replace(design, models=replace(design.models, inflow="pitt-peters")))
     done = newton(problem, first_guess(problem))
@@ -99,7 +99,7 @@ def test_twice_per_revolution_saves_power_at_high_speed():
 
 @pytest.mark.slow
 def test_the_saving_grows_with_speed():
-    """Net of its mass 2/rev loses at low speed and gains at high speed, as the literature has it."""
+    """Net of its mass 2/rev loses at low speed and gains at high speed, as published."""
     installed = install(find_actuator("MFC_P1_HT"), default_placement(1), Host(), make_design().rotor)
     slow, fast = (phase_sweep(make_design(mu=mu), installed, 2) for mu in (0.15, 0.35))
     assert slow.net_saving is not None

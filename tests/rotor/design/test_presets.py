@@ -1,4 +1,4 @@
-"""The UH-60A data as loaded, beside the document's tables and published values; design files."""
+"""The loaded UH-60A data against the document's tables and published values; design files."""
 
 import json
 import math

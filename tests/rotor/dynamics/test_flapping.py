@@ -61,7 +61,7 @@ def march(problem: Problem, state: TrimState, revolutions: int) -> np.ndarray:
 
 @pytest.mark.parametrize(("preset", "mu"), [("flight", 0.15), ("thesis", 0.15), ("thesis", 0.3)])
 def test_ode_agrees_with_harmonic_balance(preset: str, mu: float):
-    """First harmonics of the marched motion against the balance: what differs is the neglected 2/rev and up."""
+    """First harmonics of the marched motion against the balance: the difference is the neglected 2/rev and higher."""
     problem, state = trimmed(preset, mu)
     beta = march(problem, state, revolutions=12)
     psi = np.linspace(0.0, 2.0 * math.pi, 73)[:-1]

@@ -54,7 +54,7 @@ def test_hover_and_cruise():
 
 
 def test_a_design_that_does_not_trim_has_no_power():
-    """No zero, no NaN: None, and the sentence of the condition that failed."""
+    """None, not zero or NaN, with the message of the condition that failed."""
     design = small(0.2)
     conditions = (WeightedCondition(design.condition), WeightedCondition(FlightCondition(0.0, 20000.0, 4000.0)))
     made = measure(Objective("total", conditions), design)
@@ -82,7 +82,7 @@ def test_stalled_share_has_exact_slopes(preset: str, mu: float):
 
 
 def test_stalled_share_is_close_to_the_counted_area():
-    """Both see the same cells; the smooth one differs by what is within half a degree of stall."""
+    """Both see the same cells; the smooth one differs by the cells within half a degree of stall."""
     for mu in (0.3, 0.35, 0.38):
         solution = solve(make_design(mu=mu, twist="linear:-4"))
         share, _ = stalled_share(Adjoint(solution))

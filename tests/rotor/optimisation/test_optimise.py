@@ -113,7 +113,7 @@ def test_band_in_one_variable_is_where_the_power_is_a_thousandth_higher():
 
 @pytest.mark.slow
 def test_band_in_two_variables_on_a_grid():
-    """Along one parameter the other is free: the grid's points inside the band reach as far, to a grid step."""
+    """The other parameter is free: grid points inside the band extend as far, to a grid step."""
     design = small(0.3)
     found = run_search(Search(design, CONCEPTS["two-segment"], starts=2))
     assert found.best is not None
@@ -269,7 +269,7 @@ def test_limits_that_no_blade_can_keep_are_reported():
 
 @pytest.mark.slow
 def test_starts_that_do_not_trim_do_not_end_the_search():
-    """At µ 0.4 and 9.3 t strong untwist does not trim: the search goes round it."""
+    """At µ 0.4 and 9.3 t strong untwist does not trim: the search avoids it."""
     design = replace(small(0.4), condition=FlightCondition(0.4, 9300.0))
     found = run_search(Search(design, CONCEPTS["linear"], starts=4, band=False))
     best = min((one.power.total for one in (solve(replace(design, twist=LinearTwist(k * DEGREE)))

@@ -1,4 +1,4 @@
-"""Schedules: what must hold whatever the numbers, processes, and files to go on from."""
+"""Schedules: properties of every schedule, processes, and files to continue from."""
 
 import math
 import multiprocessing
@@ -182,7 +182,7 @@ def test_a_condition_that_cannot_trim_is_reported():
 
 @pytest.mark.slow
 def test_fifteen_conditions_all_concepts_two_processes():
-    """The whole of it on the full grid; what moving is worth stays within what a moving blade could at most gain."""
+    """The full grid; the saving from variable twist is within its upper bound."""
     design = make_design()
     ratios = (0.0, *(0.05 + 0.025 * k for k in range(1, 15)))
     conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in ratios)

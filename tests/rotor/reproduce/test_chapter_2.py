@@ -14,7 +14,7 @@ Make = Callable[[str], Report]
 
 
 def test_figure_2_3(report: Make):
-    """The arrows carry the lift XFOIL reports: to its four printed digits of cl."""
+    """The arrows sum to the lift of XFOIL, to its four printed digits of cl."""
     numbers = report("2.3").numbers
     assert_allclose(numbers["cl_integrated"], numbers["cl"], atol=5e-4)
     assert 0.3 < numbers["cl"] < 2.0 * math.pi * math.radians(3.0 + 1.7) / math.sqrt(1.0 - 0.3**2) * 1.1

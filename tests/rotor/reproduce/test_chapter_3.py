@@ -1,4 +1,4 @@
-"""The statements behind the figures and tables of chapter 3, as the thesis makes them or as our numbers refuse
+"""The statements behind the figures and tables of chapter 3, as the thesis makes them, or as our numbers contradict
 them."""
 
 from collections.abc import Callable
@@ -53,21 +53,21 @@ def test_figure_3_4(report: Make):
 
 
 def test_figure_3_5(report: Make):
-    """The lift fit holds inside its range, and only there: free, it is absurd at 30°."""
+    """The lift fit is accurate only inside its range: extrapolated, it is wrong at 30°."""
     one = report("3.5")
     assert one.verdict is Agreement.AGREES
     assert abs(one.numbers["unheld_at_30"]) > 100.0
 
 
 def test_figure_3_6(report: Make):
-    """The drag fit: a few per cent where the blade flies, absurd (even negative) outside."""
+    """The drag fit: a few per cent in the flight range, wrong (even negative) outside."""
     numbers = report("3.6").numbers
     assert numbers["attached_rms"] < 0.03
     assert numbers["unheld_at_30"] < 0.0
 
 
 def test_figure_3_7(report: Make):
-    """Hover power settles with elements, with an order between 1 and the midpoint rule's 2 and a half."""
+    """Hover power converges with elements, with an order between 1 and the midpoint rule's 2 and a half."""
     one = report("3.7")
     for preset in ("thesis", "flight"):
         assert one.numbers[f"{preset}_error_at_40"] < 5e-3
@@ -77,7 +77,7 @@ def test_figure_3_7(report: Make):
 
 
 def test_figure_3_8(report: Make):
-    """So does power in forward flight."""
+    """Power in forward flight converges with elements."""
     one = report("3.8")
     for preset in ("thesis", "flight"):
         assert one.numbers[f"{preset}_error_at_40"] < 5e-3
@@ -107,7 +107,7 @@ def test_table_3_2(report: Make):
 
 
 def test_tail_rotor(report: Make):
-    """About 5 %, but no constant: most in hover, falling with speed."""
+    """About 5 %, but not constant: largest in hover, decreasing with speed."""
     numbers = report("tail rotor").numbers
     assert_allclose(numbers["mean"], 0.05, atol=0.01)
     shares = column(report("tail rotor").tables[0], "share_percent")
@@ -115,7 +115,7 @@ def test_tail_rotor(report: Make):
 
 
 def test_figure_3_10(report: Make):
-    """A bucket between hover and fast flight; within 15 % of a public model's curve; below the hover points. "
+    """Minimum power between hover and fast flight; within 15 % of a public model's curve; below the hover points. "
     "Indicative."""
     one = report("3.10")
     assert one.verdict is Agreement.INDICATIVE
@@ -144,7 +144,7 @@ def test_figure_3_11(report: Make):
 
 @pytest.mark.slow
 def test_figure_3_12(report: Make):
-    """Low speed likes strong twist, once the wake answers; with linear inflow by a tenth of a per cent only."""
+    """Strong twist is better at low speed if the wake responds to loading; with linear inflow by only 0.1 %."""
     made = report("3.12")
     numbers = made.numbers
     assert made.verdict is Agreement.DIFFERS
@@ -165,7 +165,7 @@ def test_figure_3_13(report: Make):
 
 @pytest.mark.slow
 def test_figure_3_14(report: Make):
-    """−4° wins at µ 0.35 on the thesis' rotor with either inflow, not in the flight preset, nor once trimmed by "
+    """−4° is best at µ 0.35 on the thesis' rotor with either inflow, not in the flight preset, nor once trimmed by "
     "cyclic."""
     numbers = report("3.14").numbers
     assert numbers["thesis_best"] == numbers["thesis-wake_best"] == -4.0
@@ -175,7 +175,7 @@ def test_figure_3_14(report: Make):
 
 @pytest.mark.slow
 def test_figure_3_15(report: Make):
-    """Linear inflow leaves the five within a few per cent; a wake that answers spreads them more."""
+    """Linear inflow leaves the five within a few per cent; a wake that responds to loading spreads them more."""
     one = report("3.15")
     assert one.verdict is Agreement.ALONE
     assert one.numbers["thesis_spread"] < 0.03 < 0.05 < one.numbers["thesis-wake_spread"]

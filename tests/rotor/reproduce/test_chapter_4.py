@@ -1,4 +1,4 @@
-"""Chapter 4: no number of the thesis is known, so what is tested is what any optimum must satisfy."""
+"""Chapter 4: no number of the thesis is known, so the tests are conditions of any optimum."""
 
 from collections.abc import Callable
 
@@ -17,7 +17,7 @@ Make = Callable[[str], Report]
 
 
 def check(one: Report, concept: str, variants: tuple[str, ...] = EVERY_VARIANT) -> None:
-    """Stands alone; converged; the band holds the optimum; never worse than the baseline, nor than one linear twist."""
+    """No reference; converged; optimum within its band; never worse than the baseline or one linear twist."""
     assert one.verdict is Agreement.ALONE
     long = next(table for table in one.tables if table.name == "optimum")
     assert {row[:2] for row in long.rows} == {choices(name) for name in variants}
@@ -33,7 +33,7 @@ def check(one: Report, concept: str, variants: tuple[str, ...] = EVERY_VARIANT) 
 
 
 def test_both_presets_have_every_inflow_model():
-    """The four with pictures of their own are among them; in hover the model makes no difference and is not asked."""
+    """Includes the four with their own figures; in hover the model has no effect and is not used."""
     assert {choices(name) for name in EVERY_VARIANT} == {(preset, name) for preset in PRESETS for name in INFLOW_MODELS}
     assert set(VARIANTS) < set(EVERY_VARIANT)
     for name in EVERY_VARIANT:
@@ -46,7 +46,7 @@ def test_both_presets_have_every_inflow_model():
 
 @pytest.mark.slow
 def test_figure_4_1():
-    """One linear twist: much in hover, less in flight, in every variant."""
+    """One linear twist: large in hover, smaller in forward flight, in every variant."""
     check(figures.figure_4_1(QUICK, VARIANTS), "linear", VARIANTS)
     for name in VARIANTS:
         assert best(name, "linear", 0.0, QUICK).values[0] < best(name, "linear", 0.15, QUICK).values[0]
@@ -54,7 +54,7 @@ def test_figure_4_1():
 
 @pytest.mark.slow
 def test_figure_4_1_every_inflow():
-    """The same with every model; the linear ones agree, and those that answer see more to gain."""
+    """The same with every model; the linear ones agree, and those that respond to loading give a larger saving."""
     check(figures.figure_4_1(QUICK), "linear")
     for preset in PRESETS:
         flat = [best(with_inflow(preset, name), "linear", 0.15, QUICK) for name in LINEAR]
@@ -66,7 +66,7 @@ def test_figure_4_1_every_inflow():
 
 
 def test_figure_4_1_decreases_steadily_with_the_wake():
-    """The thesis' idea on its own rotor: with a wake that answers, the optimum falls steadily with speed."""
+    """The thesis' idea on its own rotor: with a wake that responds to loading, optimum twist decreases with speed."""
     rates = [best("thesis-wake", "linear", mu, QUICK).values[0] for mu in QUICK.speeds]
     assert rates[0] < rates[1] - 2.0 < rates[2] - 4.0
 
@@ -127,14 +127,14 @@ def test_figure_4_11(report: Make):
 
 
 def test_figure_4_12():
-    """Moving three segments saves, but little: nothing near the distance to any data."""
+    """Variable twist of three segments saves little: much less than the difference from any data."""
     numbers = side_by_side.figure_4_12(QUICK, ("flight",)).numbers
     assert 0.0 < numbers["flight_least_saving"] <= numbers["flight_largest_saving"] < 0.05
 
 
 @pytest.mark.slow
 def test_figure_4_12_every_inflow():
-    """With any model; the one that answers without wake losses (local momentum) sees most."""
+    """With any model; the one without wake losses (local momentum) gives the largest saving."""
     numbers = side_by_side.figure_4_12(QUICK).numbers
     for name in EVERY_VARIANT:
         assert 0.0 < numbers[f"{name}_least_saving"] <= numbers[f"{name}_largest_saving"] < 0.10
@@ -142,7 +142,7 @@ def test_figure_4_12_every_inflow():
 
 @pytest.mark.slow
 def test_figure_4_13():
-    """Richer concepts never save less; beyond one linear twist they save under a per cent."""
+    """More parameters never save less; beyond one linear twist they save under a per cent."""
     numbers = side_by_side.figure_4_13(QUICK).numbers
     for name in EVERY_VARIANT:
         assert 0.0 <= numbers[f"{name}_three_over_linear"] < 0.01
@@ -152,7 +152,7 @@ def test_figure_4_13():
 
 @pytest.mark.slow
 def test_table_4_1():
-    """A moving blade cannot be worse than the best fixed one, and a fixed one takes part of every saving."""
+    """Variable twist is never worse than the best fixed blade, and a fixed blade has part of every saving."""
     numbers = side_by_side.table_4_1(QUICK).numbers
     for name in EVERY_VARIANT:
         assert numbers[f"{name}_fixed"] >= 0.0

@@ -1,4 +1,4 @@
-"""Chapter 5: its numbers are not known to us, so what is tested is what any piezoelectric sheet and blade must do."""
+"""Chapter 5: its numbers are not known to us, so the tests are conditions of any piezoelectric sheet and blade."""
 
 from collections.abc import Callable
 
@@ -14,7 +14,7 @@ Make = Callable[[str], Report]
 
 
 def alone(report: Make, number: str) -> Report:
-    """Nothing is compared with numbers that we do not have."""
+    """No comparison without reference numbers."""
     one = report(number)
     assert one.verdict is Agreement.ALONE
     assert one.tables
@@ -22,7 +22,7 @@ def alone(report: Make, number: str) -> Report:
 
 
 def test_figure_5_2(report: Make):
-    """d33: longer and thinner at positive voltage. d31: shorter both ways. At 45° it is the difference that shears."""
+    """d33: longer and thinner at positive voltage. d31: shorter both ways. At 45° the difference gives shear."""
     numbers = alone(report, "5.2").numbers
     assert numbers["MFC_P1_along_1"] > 0.0 > numbers["MFC_P1_across_1"]
     assert numbers["MFC_P2_along_1"] < 0.0
@@ -32,21 +32,21 @@ def test_figure_5_2(report: Make):
 
 
 def test_figure_5_3(report: Make):
-    """Fingers lay the field along the fibres, plates across them."""
+    """The field is along the fibres between fingers, across them between plates."""
     numbers = alone(report, "5.3").numbers
     assert numbers["MFC_P1_along_share"] > 0.99
     assert numbers["MFC_P2_along_share"] < 0.01
 
 
 def test_figure_5_4(report: Make):
-    """Halfway between fingers the field is weaker than V/gap, for its lines bulge; between plates it is V/gap."""
+    """Halfway between fingers the field is weaker than V/gap, because its lines bulge; between plates it is V/gap."""
     numbers = alone(report, "5.4").numbers
     assert 0.6 * numbers["MFC_P1_mean"] < numbers["MFC_P1_middle"] < numbers["MFC_P1_mean"]
     assert numbers["MFC_P2_middle"] == pytest.approx(numbers["MFC_P2_mean"])
 
 
 def test_figure_5_5(report: Make):
-    """Interdigitated electrodes strain the same fibres some three to four times as far: 1800 against 500 ppm."""
+    """Interdigitated electrodes strain the same fibres three to four times as much: 1800 against 500 ppm."""
     numbers = alone(report, "5.5").numbers
     assert 3.0 < numbers["MFC_P1"] / numbers["MFC_P2"] < 4.0
     assert numbers["MFC_P1"] == max(numbers.values())
@@ -98,7 +98,7 @@ def test_table_5_1(report: Make):
 
 @pytest.mark.slow
 def test_table_5_2(report: Make):
-    """Nothing pays that needs more than it saves; what is reached never saves more than a free twist of the best
+    """No net benefit if it needs more than it saves; attainable twist never saves more than a free twist of the best
     concept and the change of the blade together."""
     one = alone(report, "table 5.2")
     table = one.tables[0]

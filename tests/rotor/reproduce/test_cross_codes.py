@@ -1,4 +1,4 @@
-"""Beside independent public codes, in one run, with the same controls and section data."""
+"""Comparison with independent public codes, with the same controls and section data."""
 
 import pytest
 
@@ -6,7 +6,7 @@ from rotor.reproduce.cross_codes import beside_ccblade, beside_dynbem
 
 
 def test_dynbem_pitt_peters_forward_flight():
-    """Same states, same blade: what is left is how the two treat the reverse-flow region, which grows with µ²."""
+    """Same states, same blade: the remaining difference is the reverse-flow region, which grows with µ²."""
     pytest.importorskip("dynbem")
     for one, allowed in zip(beside_dynbem(), (1e-3, 2e-3, 1e-2), strict=True):
         assert abs(one.thrust) < allowed, one

@@ -1,4 +1,4 @@
-"""Every misprint shows what it says, by lines that run."""
+"""The lines of every misprint run and show the difference."""
 
 import math
 from pathlib import Path
@@ -21,7 +21,7 @@ def test_the_two_values_differ(one: Misprint):
 
 
 def test_values_by_hand():
-    """What the right formula must give: 2λ², 2λ³, σC_d0/8, 15π/32, V/ΩR."""
+    """Values of the correct formula: 2λ², 2λ³, σC_d0/8, 15π/32, V/ΩR."""
     assert_allclose(shown_values(BY_EQUATION["2.26"])[1], 2 * 0.05**2, rtol=1e-6)
     assert_allclose(shown_values(BY_EQUATION["2.27"])[1], 2 * 0.05**3, rtol=1e-6)
     assert_allclose(shown_values(BY_EQUATION["2.32"])[1], 15 * math.pi / 32)

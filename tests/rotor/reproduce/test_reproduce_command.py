@@ -70,8 +70,8 @@ def test_tables_are_written_without_matplotlib(
     monkeypatch.setattr(pictures.importlib.util, "find_spec", lambda name: None)
     assert main(["reproduce", str(tmp_path), "--figure", "table 3.2"]) == 0
     assert main(["reproduce", str(tmp_path), "--figure", "2.6"]) == 0
-    told = capsys.readouterr()
-    assert "pip install 'rotor-explorer[plots]'" in told.err
+    output = capsys.readouterr()
+    assert "pip install 'rotor-explorer[plots]'" in output.err
     assert not list(tmp_path.glob("*.svg"))
     assert (tmp_path / "figure-2_6.csv").is_file()
     assert "matplotlib is not installed" in (tmp_path / "index.html").read_text(encoding="utf-8")
@@ -89,7 +89,7 @@ def test_chapter_5_is_drawn(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
 
 
 def test_results_of_other_processes_are_not_computed_again():
-    """Only what is not known is asked for; every answer is heard of once."""
+    """Only unknown results are computed; each is reported once."""
     asked: list[float] = []
 
     def slow_square(x: float) -> float:
@@ -107,7 +107,7 @@ def test_results_of_other_processes_are_not_computed_again():
 
 
 def test_each_figure_of_chapter_4_names_the_searches_it_needs():
-    """Worked off before it is made, so that nothing is left for one process alone."""
+    """All searches are done before the report, so none is left for a single process."""
     for entry in ENTRIES:
         if entry.number.startswith("4.") and entry.slow:
             calls = {call for group in searches_of([entry]) for call in group}
@@ -122,10 +122,10 @@ def test_error_for_processes_out_of_range_is_one_line(tmp_path: Path, capsys: py
 
 def test_error_for_an_unknown_figure_is_one_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     assert main(["reproduce", str(tmp_path), "--figure", "9.9"]) == 2
-    told = capsys.readouterr().err
-    assert told.count("\n") == 1
-    assert "9.9" in told
-    assert "3.11" in told
+    output = capsys.readouterr().err
+    assert output.count("\n") == 1
+    assert "9.9" in output
+    assert "3.11" in output
 
 
 def test_typographic_minus():

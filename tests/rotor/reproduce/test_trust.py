@@ -1,4 +1,4 @@
-"""The trust page cannot rot: its rows are made again, its tests exist, its text is that of the rows."""
+"""The trust page stays current: its rows are recomputed, its tests exist, its text is that of the rows."""
 
 import ast
 import math
@@ -22,7 +22,7 @@ SHIPPED = {(row.kind, row.what, row.against): row for row in trust_rows()}
 
 
 def still_true(made: TrustRow) -> None:
-    """A row made now against the shipped one: a bound must hold, a number must not have moved beyond its tolerance."""
+    """A recomputed row against the shipped one: bounds must hold, numbers must agree within their tolerance."""
     key = (made.kind, made.what, made.against)
     assert key in SHIPPED, f"{key} is not in assets/trust.csv: python -m rotor reproduce OUT --trust"
     shipped = SHIPPED[key]
@@ -40,7 +40,7 @@ def test_the_page_is_generated_from_the_shipped_rows():
 
 
 def test_every_link_of_the_pages_has_a_target():
-    """Theory, trust page and README point at files that are there."""
+    """Links of theory, trust page and README point to existing files."""
     for text in (*DOCS.glob("*.md"), DOCS.parent / "README.md"):
         links = re.findall(r"\]\(([^)#]+)", text.read_text(encoding="utf-8"))
         missing = [link for link in links if "://" not in link and not (text.parent / link).exists()]
@@ -72,7 +72,7 @@ def test_fast_rows_are_reproduced():
 
 @pytest.mark.slow
 def test_verdicts_are_reproduced(report: Callable[[str], Report]):
-    """What became of the thesis' statements; chapter 4 makes none that can be judged."""
+    """Verdicts on the thesis' statements; none of chapter 4 can be judged."""
     shown = {row.what: row.shown for row in trust_rows() if row.kind == "document"}
     for entry in ENTRIES:
         if not entry.slow:
@@ -95,7 +95,7 @@ def test_rows_between_theories_are_reproduced():
 
 @pytest.mark.slow
 def test_sensitivities_are_reproduced():
-    """Angles to 0.3°, a tenth of the bands they lie in; savings to a tenth of a per cent of power."""
+    """Angles to 0.3°, a tenth of their bands; savings to a tenth of a per cent of power."""
     for made, shipped in zip(sensitivity(), sensitivity_rows(), strict=True):
         assert (made.change, made.mu) == (shipped.change, shipped.mu)
         assert_allclose(made.optimum_deg, shipped.optimum_deg, atol=0.3)

@@ -1,4 +1,4 @@
-"""Studies: the file, the order of points, what a point leaves as a row, the folder, and what is read from it."""
+"""Studies: the file, the order of points, rows, the folder, and reading its results."""
 
 import errno
 import importlib
@@ -180,7 +180,7 @@ def test_rows_agree_with_single_trims():
 
 
 def test_a_users_rotor_and_table_are_part_of_the_study(tmp_path: Path):
-    """A worker has none of the user's files, so that all they say is in the study."""
+    """A worker has none of the user's files, so their contents are in the study."""
     (tmp_path / "mine.toml").write_text(asset_path("r22.toml").read_text(encoding="utf-8"), encoding="utf-8")
     (tmp_path / "twist.csv").write_text("0.1, 5\n1, -5\n")
     text = f'[axes]\nrotor = ["mine.toml", "s61"]\n[fixed]\ntwist = "table:{tmp_path}/twist.csv"\n' + COARSE
@@ -226,7 +226,7 @@ def test_a_failed_point_is_a_row_with_a_message(monkeypatch: pytest.MonkeyPatch)
 
 
 def test_a_guess_is_exact_for_linear_variation():
-    """Trims on a plane: the model made of four of them meets the fifth, where the nearest alone misses."""
+    """Trims on a plane: the model from four of them gives the fifth exactly; the nearest alone does not."""
     solution = solve(replace(make_design(), models=replace(make_design().models, inflow="uniform")))
     memory = WarmStarts({"mu": (0.0, 1.0), "mass_kg": (0.0, 2000.0)})
 

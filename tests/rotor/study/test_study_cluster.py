@@ -1,4 +1,4 @@
-"""Studies on real Dask processes, started as a user starts them: on loopback, killed without warning, gone on with."""
+"""Studies on real Dask processes, started as by a user: on loopback, killed without warning, and continued."""
 
 import importlib
 import json
@@ -27,7 +27,7 @@ pytestmark = pytest.mark.slow
 ROOT = Path(__file__).parent.parent.parent.parent
 DASK = Path(sys.executable).with_name("dask")
 PATIENCE = 240.0
-"""[s] for anything, on a machine busy with other things."""
+"""Time limit of every step [s], on a busy machine."""
 
 STUDY = """
 title = "Small trims"
@@ -57,7 +57,7 @@ class Cluster:
 
 @pytest.fixture
 def start() -> "Iterator[Callable[..., subprocess.Popen[bytes]]]":
-    """Start a program that ends with the test, however that ends."""
+    """Start a program; it is stopped when the test ends."""
     running: list[subprocess.Popen[Any]] = []
 
     def begin(*command: str | Path, **more: Any) -> "subprocess.Popen[Any]":
@@ -77,11 +77,11 @@ def start() -> "Iterator[Callable[..., subprocess.Popen[bytes]]]":
 def cluster(start: Callable[..., Any], tmp_path: Path) -> Cluster:
     """`dask scheduler` and two `dask worker` commands, as docs/scale.md says."""
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    told = tmp_path / "scheduler.json"
+    address_file = tmp_path / "scheduler.json"
     local = ("--host", "127.0.0.1", "--port", "0", "--no-dashboard")
-    scheduler = start(DASK, "scheduler", *local, "--scheduler-file", told, **quiet)
-    until(lambda: told.exists() and told.stat().st_size > 0)
-    cluster = Cluster(json.loads(told.read_text())["address"], scheduler)
+    scheduler = start(DASK, "scheduler", *local, "--scheduler-file", address_file, **quiet)
+    until(lambda: address_file.exists() and address_file.stat().st_size > 0)
+    cluster = Cluster(json.loads(address_file.read_text())["address"], scheduler)
     for _ in range(2):
         one = ("--nthreads", "1", "--no-nanny", "--no-dashboard", "--local-directory", tmp_path / "scratch")
         cluster.workers.append(start(DASK, "worker", cluster.address, *one, **quiet))
@@ -89,7 +89,7 @@ def cluster(start: Callable[..., Any], tmp_path: Path) -> Cluster:
 
 
 def until(true: Callable[[], bool], run: "subprocess.Popen[bytes] | None" = None) -> None:
-    """Wait, but not for a run that has ended."""
+    """Wait; fail if the run has ended."""
     begin = time.monotonic()
     while not true():
         assert time.monotonic() - begin < PATIENCE, "waited too long"
@@ -113,7 +113,7 @@ def command(file: Path, out: Path, *more: str) -> list[str]:
 
 
 def same_as_serial(file: Path, results: Results) -> None:
-    """All rows, and the numbers of one process that works the chunks off one after the other."""
+    """All rows, and the numbers of one process that computes the chunks in turn."""
     study = read_study(file).study
     assert_array_equal(results.columns["point"], np.arange(study.count))
     assert results.good.all()
@@ -152,7 +152,7 @@ def test_no_results_are_lost_with_a_killed_worker(cluster: Cluster, tmp_path: Pa
 
 
 def test_a_killed_run_continues_from_its_folder(tmp_path: Path, start: Callable[..., Any]):
-    """SIGKILL, then the same command on the cluster that it makes itself: no finished chunk is done again."""
+    """SIGKILL, then the same command on its own cluster: no finished chunk is computed again."""
     file, out = study_file(tmp_path), tmp_path / "out"
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
     run = start(*command(file, out), **quiet)
@@ -170,7 +170,7 @@ def test_a_killed_run_continues_from_its_folder(tmp_path: Path, start: Callable[
 
 
 def test_ctrl_c_leaves_usable_results(tmp_path: Path, start: Callable[..., Any]):
-    """The whole process group has it, as from a terminal; what is there is shown, and nothing is left running."""
+    """Sent to the process group, as from a terminal; results so far are shown, and no process is left."""
     file, out = study_file(tmp_path), tmp_path / "out"
     run = start(*command(file, out), stdout=subprocess.PIPE, stderr=subprocess.PIPE)
     until(lambda: len(files(out)) >= 5, run)
@@ -195,7 +195,7 @@ def group_lives(group: int) -> bool:
 
 
 def test_another_cluster_on_the_machine_does_not_interfere(tmp_path: Path):
-    """Whoever else has Dask's usual port: nothing is said of it."""
+    """Another program has Dask's default port: no message about it."""
     file = tmp_path / "two.toml"
     file.write_text(STUDY.replace('"6000:9000:100"', "[7000]").replace('"0.05:0.34:0.01"', "[0.2]"), encoding="utf-8")
     with socket.socket() as taken:
@@ -225,7 +225,7 @@ def test_error_without_a_scheduler_at_the_address_is_one_sentence(tmp_path: Path
 
 
 def test_error_for_a_lost_scheduler_is_one_sentence(cluster: Cluster, tmp_path: Path, start: Callable[..., Any]):
-    """The scheduler dies under way: what is finished stays, and the command says so."""
+    """The scheduler is killed during a run: finished chunks are kept, and the command reports it."""
     file, out = study_file(tmp_path), tmp_path / "out"
     run = start(*command(file, out, "--scheduler", cluster.address), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     until(lambda: len(files(out)) >= 5, run)
