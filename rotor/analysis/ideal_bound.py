@@ -52,7 +52,7 @@ class InducedPower:
     coefficient: float
     """C_Pi"""
     amounts: Array
-    """How much of each shape or control; what they are, the function says."""
+    """Amplitudes of the shapes or controls of the function that returns this."""
 
 
 def least_induced_power(
@@ -190,7 +190,7 @@ def _evaluate(lattice: Lattice, wake: Wake, circulation: Array, amounts: Array) 
 
 
 LIFT_LIMIT = (-0.6, 1.2)
-"""Section lift coefficients a blade can have, for the bound that knows stall."""
+"""Range of section lift coefficients, for the bound limited by stall."""
 TWIST_SHAPES = 6
 """Chebyshev polynomials over the span: more change the least power of any steady twist by less than 0.1 %."""
 
@@ -249,7 +249,7 @@ def find_bound(design: Design) -> Bound:
 
 
 TABLE_ROTOR = "uh60a"
-"""The shipped table is of this rotor; another's bound takes `python -m rotor ideal --rotor`."""
+"""The shipped table is of this rotor; for another rotor run `python -m rotor ideal --rotor`."""
 
 
 def ideal_factor(mu: float, ct: float, rotor: str = TABLE_ROTOR) -> float | None:

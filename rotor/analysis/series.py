@@ -168,7 +168,7 @@ class WaterfallStep:
 
 
 def switch_on_steps(design: Design, order: Sequence[str] = tuple(SWITCHES)) -> Iterator[WaterfallStep]:
-    """The steps of the waterfall, each trimmed when it is asked for. The design's own switches do not matter.
+    """The steps of the waterfall, each trimmed when requested. The design's own switches have no effect.
 
     A step that does not trim is skipped: the next is compared with the last that did.
     """

@@ -164,7 +164,7 @@ def measure() -> tuple[dict[str, float], list[str]]:
 
 @dataclass(frozen=True, eq=False)
 class _Cases:
-    """Designs over speed, their solutions, and what one step of a dragged slider makes of them."""
+    """Designs over speed, their solutions, and the designs one slider step away."""
 
     designs: list[Design]
     nearby: list[Design]

@@ -195,11 +195,11 @@ class Aircraft:
         }
 
     def rotor_for(self, preset: str) -> Rotor:
-        """The rotor of a preset: `thesis` takes the document's where there is one, else the rotor as built."""
+        """The rotor of a preset: for `thesis` the document's rotor if there is one, else the rotor as built."""
         return self.stated.rotor if preset == "thesis" and self.stated else self.rotor
 
     def twist_for(self, preset: str) -> TwistLaw:
-        """The baseline twist of a preset: `thesis` takes the document's where there is one, else the built-in twist."""
+        """The baseline twist of a preset: for `thesis` the document's if there is one, else the built-in twist."""
         return self.stated.twist if preset == "thesis" and self.stated else self.rotor.builtin_twist
 
     def twist_title(self, preset: str) -> str:

@@ -100,7 +100,7 @@ def make_design(
 
 
 def change_airfoils(rotor: Rotor, spec: str) -> Rotor:
-    """The rotor with the airfoils of a SPEC (`parse_airfoils`); ValueError also for a section not held."""
+    """The rotor with the airfoils of a SPEC (`parse_airfoils`). Raises ValueError for an unknown SPEC or section."""
     changed = parse_airfoils(rotor, spec)
     for span in changed.blade.spans:
         changed.blade.installed(span.section)

@@ -60,7 +60,7 @@ class TomlTable:
         return value
 
     def numbers(self, key: str, default: Any = REQUIRED, *, low: float = -math.inf, high: float = math.inf) -> Any:
-        """A list of numbers within low…high, as a tuple; one number stands for a list of one."""
+        """A list of numbers within low…high, as a tuple; one number is read as a list of one."""
         value = self._take(key, default, f"add {key} = […]")
         if value is default:
             return value
@@ -83,7 +83,7 @@ class TomlTable:
         return value
 
     def strings(self, key: str) -> tuple[str, ...]:
-        """A list of texts, at least one; one text stands for a list of one."""
+        """A list of texts, at least one; one text is read as a list of one."""
         value = self._take(key, REQUIRED, f'add {key} = ["…"]')
         items = cast(list[Any], value if isinstance(value, list) else [value])
         if not items or not all(isinstance(item, str) and item for item in items):

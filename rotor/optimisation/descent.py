@@ -156,7 +156,7 @@ class Descent:
     """Where a descent ended."""
 
     end: Evaluation | None
-    """The best feasible point on the way; None when there was none."""
+    """The best feasible point evaluated; None when there was none."""
     settled: bool
     """Whether it converged."""
 

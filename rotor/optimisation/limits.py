@@ -33,7 +33,7 @@ class ChangeLimit:
     stations: tuple[float, ...]
     """r/R, ascending."""
     largest: tuple[float, ...]
-    """Largest change of pitch relative to the root there [rad]; linear between, held beyond."""
+    """Largest change of pitch relative to the root there [rad]; linear between, constant beyond."""
 
     def __post_init__(self) -> None:
         if len(self.stations) != len(self.largest) or not self.stations or min(self.largest) < 0.0:

@@ -81,7 +81,7 @@ class Measured:
     by_pitch: Array | None
     """∂power/∂θ of each element's pitch [W/rad], (elements,)."""
     stalled: tuple[float, ...]
-    """Smooth stalled share of the disk (0…1), one per condition; empty unless asked for."""
+    """Smooth stalled share of the disk (0…1), one per condition; empty unless requested."""
     stalled_by_pitch: Array | None
     """[1/rad], (conditions, elements)"""
     solutions: tuple[Solution, ...]

@@ -82,7 +82,7 @@ class Optimum:
     minima: tuple[Minimum, ...]
     """All local minima found, the best first."""
     band: tuple[Band, ...]
-    """One per parameter, within 0.1 % of the least power; empty when not asked for, or not reached."""
+    """One per parameter, within 0.1 % of the least power; empty when not requested, or not found."""
     baseline_power: float | None
     """Of the design given, by the same objective [W]; None when it does not trim."""
     evaluations: int

@@ -150,7 +150,7 @@ def title_of(one: PiezoPly) -> str:
 
 
 def _electrodes(one: PiezoPly, x: Array, z: Array) -> tuple[Curve, ...]:
-    """Where metal lies on the faces of the cut."""
+    """Outlines of the electrodes on the faces of the section."""
     length, top = float(x[-1]), float(z[-1])
     half = 0.5 * FINGER * length
     ends = [(0.0, half), (length - half, length)] if one.electrodes == "interdigitated" else [(0.0, length)]

@@ -110,7 +110,7 @@ def tail_rotor() -> Report:
 
 
 def figure_3_10() -> Report:
-    """Power over advance ratio beside what is publicly known of the UH-60A."""
+    """Power over advance ratio, with public data of the UH-60A."""
     total = {name: [solved(name, _twist(name), mu).require().power.total / 1e3 for mu in SPEEDS] for name in _NAMES}
     rotor_speeds, theirs, ours = _beside_model_curve()
     hover_ct, hover_cp, hover_ours = _beside_hover_points()

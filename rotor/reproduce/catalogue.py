@@ -13,20 +13,19 @@ from rotor.reproduce import (
     sections,
     twist_effect,
 )
-from rotor.reproduce.optima import CONCEPTS, FULL, best_fixed, searches
 from rotor.reproduce.report import Report
-from rotor.reproduce.runs import EVERY_VARIANT, Call, choices
+from rotor.reproduce.runs import CONCEPTS, EVERY_VARIANT, FULL, Call, best_fixed, choices, searches
 
 
 @dataclass(frozen=True)
 class CatalogueEntry:
-    """One figure or table and what makes it."""
+    """One figure or table and the function that makes it."""
 
     number: str
     make: Callable[[], Report]
     chapter: str
     needs: Callable[[str], Sequence[Call]] | None = None
-    """The searches it rests on, of one variant."""
+    """The searches it needs, of one variant."""
 
     @property
     def slow(self) -> bool:
@@ -120,7 +119,7 @@ def find_entry(number: str) -> CatalogueEntry:
 
 
 def searches_of(entries: Sequence[CatalogueEntry]) -> list[list[Call]]:
-    """All that the entries rest on, a list a variant, the slowest inflow model first."""
+    """All searches that the entries need, one list per variant, the slowest inflow model first."""
     order = sorted(EVERY_VARIANT, key=lambda name: choices(name)[1] != "vortex-wake")
     return [
         list(dict.fromkeys(call for entry in entries if entry.needs is not None for call in entry.needs(name)))

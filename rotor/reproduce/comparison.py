@@ -14,10 +14,21 @@ from rotor.files.make_design import make_design, uh60a_rotor, uh60a_twist
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.search import Search, run_search
 from rotor.reproduce.aircraft import HORSEPOWER_KW, public_data
-from rotor.reproduce.optima import CONCEPTS, FULL, Scope, best, best_fixed
 from rotor.reproduce.optimum_twist import NOTE, SHORT, UNKNOWN, Variants, by_model, model_panels, spread
 from rotor.reproduce.report import Agreement, Curve, PlotPanel, Report, ReportTable, curve, judged, table
-from rotor.reproduce.runs import EVERY_VARIANT, VARIANT_TITLES, VARIANTS, CachedFunction, choices, variant
+from rotor.reproduce.runs import (
+    CONCEPTS,
+    EVERY_VARIANT,
+    FULL,
+    VARIANT_TITLES,
+    VARIANTS,
+    CachedFunction,
+    Scope,
+    best,
+    best_fixed,
+    choices,
+    variant,
+)
 from rotor.trim.solve import solve
 from rotor.units import KNOT
 
@@ -56,7 +67,7 @@ def figure_4_9() -> Report:
 
 
 def figure_4_11() -> Report:
-    """The flown twist beside −16°."""
+    """The flown twist and −16°."""
     law = uh60a_twist()
     r = np.linspace(0.2, 1.0, 321)
     angle = np.degrees(law(r))
@@ -132,7 +143,7 @@ def three_segment_rows(name: str, scope: Scope) -> tuple[SpeedRow, ...]:
 
 
 def figure_4_12(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Report:
-    """Three segments beside public data."""
+    """Three segments and public data."""
     found = {name: three_segment_rows(name, scope) for name in variants}
     savings = {name: [row.saving for row in found[name]] for name in variants}
     own = [name for name in VARIANTS if name in variants]

@@ -4,9 +4,19 @@ import math
 from collections.abc import Callable, Sequence
 
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.reproduce.optima import CONCEPTS, FULL, ConceptOptimum, Scope, best
 from rotor.reproduce.report import Agreement, Curve, PlotPanel, Report, ReportTable, TableCell, curve, table
-from rotor.reproduce.runs import EVERY_VARIANT, PRESETS, VARIANT_TITLES, VARIANTS, choices
+from rotor.reproduce.runs import (
+    CONCEPTS,
+    EVERY_VARIANT,
+    FULL,
+    PRESETS,
+    VARIANT_TITLES,
+    VARIANTS,
+    ConceptOptimum,
+    Scope,
+    best,
+    choices,
+)
 
 LINEAR = tuple(name for name, model in INFLOW_MODELS.items() if not model.load_dependent)
 """Models that do not respond to the load distribution; their results coincide."""

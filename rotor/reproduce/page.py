@@ -60,7 +60,7 @@ FEW = 3
 MOST = 5
 """Names on one line of a legend below."""
 MANY = 14
-"""Curves, bands included, from which the legend stands beside the panel."""
+"""Number of curves, bands included, from which the legend is drawn beside the panel."""
 
 
 def can_draw() -> bool:
@@ -333,7 +333,7 @@ def write_csv(path: Path, report: Report, one: ReportTable) -> None:
 
 
 def shown(cell: TableCell) -> str:
-    """Six digits are more than any of it is worth."""
+    """A cell as text: numbers with six significant digits, more than the accuracy of any."""
     return cell if isinstance(cell, str) else f"{cell:.6g}"
 
 

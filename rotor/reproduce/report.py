@@ -163,7 +163,7 @@ def table(name: str, columns: Sequence[str], rows: Iterable[Sequence[TableCell]]
 
 
 def typographic(text: str) -> str:
-    """A minus sign where a hyphen stands before a number."""
+    """Replace a hyphen before a number by a minus sign."""
     return re.sub(r"(?<![\w.\-])-(?=\d)", "−", text)
 
 

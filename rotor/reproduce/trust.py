@@ -1,7 +1,7 @@
 """How far to trust the numbers: rows of text and one error each, for the page and for docs/validation.md.
 
 The rows are made by runs (`python -m rotor reproduce OUT --trust`) and shipped as assets/trust.csv and
-assets/sensitivity.csv; a test makes them again and compares, so that they cannot rot.
+assets/sensitivity.csv; a test recomputes and compares them, so they stay current.
 """
 
 from dataclasses import dataclass, fields
@@ -19,7 +19,7 @@ KINDS: dict[Kind, str] = {
     "indicative": "Indicative: against another model, or data of unclear origin",
     "document": "Statements of the thesis (python -m rotor reproduce)",
 }
-"""What each kind of row is worth."""
+"""Titles of the kinds of rows."""
 
 
 @dataclass(frozen=True)
@@ -32,11 +32,11 @@ class TrustRow:
     shown: str
     """The error or verdict as people read it."""
     error: float | None
-    """As a number; fractions, degrees or kilowatts as `shown` says. None for a verdict."""
+    """As a number; fractions, degrees or kilowatts in the unit of `shown`. None for a verdict."""
     allowed: float
     """How far `error` may move before the row is out of date; for an identity, the bound that `error` stays below."""
     test: str
-    """The test that holds it: file::function below tests/."""
+    """The test that verifies it: file::function below tests/."""
     note: str = ""
 
     @property
@@ -47,7 +47,7 @@ class TrustRow:
 
 @dataclass(frozen=True)
 class SensitivityRow:
-    """How the best linear twist and its worth move with one choice."""
+    """Change of the best linear twist and its saving with one choice."""
 
     change: str
     mu: float

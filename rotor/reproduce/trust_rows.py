@@ -258,7 +258,7 @@ def indicative() -> Iterator[TrustRow]:
 
 
 def public_codes() -> Iterator[TrustRow]:
-    """Beside dynbem and CCBlade; only those that are installed."""
+    """Rows against dynbem and CCBlade, if installed."""
     test = "rotor/reproduce/test_cross_codes.py::test_dynbem_pitt_peters_forward_flight"
     for one in beside_dynbem() if have("dynbem") else ():
         note = f"Thrust {100 * one.thrust:+.2f} %. {one.detail}. {DYNBEM_DIFFERENCES}"

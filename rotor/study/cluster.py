@@ -53,7 +53,7 @@ def need_packages() -> None:
 
 @contextmanager
 def connected(address: str | None, workers: int | None) -> Generator[Any]:
-    """A Dask client of the cluster at `address`, or of a temporary one here. ValueError if none answers."""
+    """A Dask client of the cluster at `address`, or of a temporary one here. ValueError without a cluster there."""
     distributed: Any = importlib.import_module("distributed")
     logging.getLogger("distributed").setLevel(logging.CRITICAL)  # Errors are reported by this package.
     if address is not None:

@@ -147,7 +147,7 @@ class HoverCruisePairs:
 
 
 def cruise_speeds(results: Results) -> tuple[float, ...]:
-    """Advance ratios for which there may be pairs: those beside hover on the axis, or all where hover is a column."""
+    """Advance ratios that may have pairs: those on an axis that also has hover, or all where hover is a column."""
     speeds: list[float] = np.unique(results.columns["mu"][results.good]).tolist()
     if _has_hover(results):
         return tuple(speeds)

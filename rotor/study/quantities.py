@@ -20,7 +20,7 @@ class Quantity:
     kind: Kind
     unit: str
     section: QuantitySection
-    """The section of the study file that holds it; as an axis it stands in [axes]."""
+    """The section of the study file that holds it; as an axis it is in [axes]."""
     whole: bool = False
     """Whether a number of it is a whole one."""
 
@@ -61,7 +61,7 @@ _WIDER: dict[str, Concept] = {
     "two-segment-two-airfoils": TWO_AIRFOILS,
     "three-segment": THREE_SEGMENT_FREE,
 }
-"""Concepts with breaks held, and the same with breaks that a study can set."""
+"""Concepts with fixed breaks, and the same with breaks that a study can set."""
 
 
 def concept_with_breaks(name: str, given: dict[str, float]) -> tuple[Concept, dict[str, float]]:

@@ -27,11 +27,11 @@ from rotor.study.study import Study
 from rotor.study.study_file import StudyFile
 
 ABOUT, SOURCE = "_study.json", "_study.toml"
-"""What the folder holds, for people and programs; a copy of the study file."""
+"""The description of the folder, and a copy of the study file."""
 
 
 def sha256(text: str) -> str:
-    """Of a study file's text."""
+    """SHA-256 of a study file's text, as hexadecimal digits."""
     return hashlib.sha256(text.encode()).hexdigest()
 
 
@@ -120,7 +120,7 @@ class Store:
 
 
 def read_about(folder: str | Path) -> dict[str, Any]:
-    """What a folder's `_study.json` says; ValueError where it is none of ours."""
+    """The contents of a folder's `_study.json`; ValueError if no study wrote it."""
     path = Path(folder) / ABOUT
     try:
         about: Any = json.loads(path.read_text(encoding="utf-8"))

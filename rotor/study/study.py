@@ -220,7 +220,7 @@ class Study:
 
     @property
     def fingerprint(self) -> str:
-        """The same for studies whose points have the same answers."""
+        """Equal for studies whose points have the same results."""
         return fingerprint((self.points, sorted(self.given), self.optimum, self.chunk, self.aircraft))
 
 
@@ -240,7 +240,7 @@ def check_uncertain(uncertain: tuple[str, ...], axes: tuple[str, ...], sampled: 
 
 
 def default_chunk(count: int, *, search: bool) -> int:
-    """Points a chunk unless the file says otherwise: seconds of work, files that a folder can hold.
+    """Default number of points per chunk: seconds of work, and not too many files in a folder.
 
     A trim takes some 5 ms, an optimum some 0.3 s; a chunk starts cold, and is what a lost worker or a Ctrl-C costs.
     """
@@ -310,7 +310,7 @@ _SEARCH = (
 
 
 def columns_of(study: Study) -> tuple[Column, ...]:
-    """All columns of a study's table: point, status, the condition, what the study sets or finds, the answer."""
+    """All columns of a study's table: point, status, condition, values set or found, results."""
     known = {column.name for column in (*_HEAD, *_CONDITION)}
     own = tuple(
         Column(name, "number" if QUANTITIES[name].kind == "number" else "text", QUANTITIES[name].unit)

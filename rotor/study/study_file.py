@@ -72,7 +72,7 @@ class Document:
         return section in self._content
 
     def wrong(self, section: str, key: str, sentence: str) -> ValueError:
-        """The error that says a sentence about a key, with its line."""
+        """The error for a key: the sentence with file and line."""
         line = self._line(section, key)
         return ValueError(f"study file {self._name!r}{f' line {line}' if line else ''}: {sentence}")
 

@@ -275,7 +275,7 @@ CONCEPTS: dict[str, Concept] = {
 
 
 def find_concept(name: str, division: Sequence[float] | None = None) -> Concept:
-    """The concept of that name, its breaks held at `division` (r/R) where one is given.
+    """The concept of that name, its breaks fixed at `division` (r/R) if given.
 
     Raises ValueError with one sentence that names the value and the remedy.
     """

@@ -8,9 +8,8 @@ from rotor.aero.inflow import INFLOW_MODELS
 from rotor.reproduce import Agreement, Report
 from rotor.reproduce import comparison as side_by_side
 from rotor.reproduce import optimum_twist as figures
-from rotor.reproduce.optima import CONCEPTS, QUICK, best
 from rotor.reproduce.optimum_twist import LINEAR
-from rotor.reproduce.runs import EVERY_VARIANT, PRESETS, VARIANTS, choices, variant, with_inflow
+from rotor.reproduce.runs import CONCEPTS, EVERY_VARIANT, PRESETS, QUICK, VARIANTS, best, choices, variant, with_inflow
 from rotor.trim.solve import solve
 
 Make = Callable[[str], Report]

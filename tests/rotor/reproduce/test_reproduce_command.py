@@ -10,9 +10,8 @@ import pytest
 from rotor.__main__ import main
 from rotor.reproduce import page as pictures
 from rotor.reproduce.catalogue import ENTRIES, find_entry, searches_of
-from rotor.reproduce.optima import FULL, best
 from rotor.reproduce.report import PlotPanel, curve, typographic
-from rotor.reproduce.runs import EVERY_VARIANT, CachedFunction, compute_ahead
+from rotor.reproduce.runs import EVERY_VARIANT, FULL, CachedFunction, best, compute_ahead
 
 WANTED = {
     "2.3", "2.4", "2.6", "2.7", "2.8", "table 3.1", "table 3.2", "tail rotor", "table 4.1",
