@@ -173,3 +173,10 @@ def test_commits_are_checked_by_the_same_ruff():
     used = re.findall(r"ruff==([\w.]+)", (ROOT / ".pre-commit-config.yaml").read_text(encoding="utf-8"))
     assert used
     assert set(used) == {pinned[1]}
+
+
+MOST_MODULES = 290
+
+
+def test_the_packages_stay_small():
+    assert len(sources("rotor")) + len(sources("explorer")) <= MOST_MODULES
