@@ -395,7 +395,8 @@ class Page:
         if cut:
             self.camera.aim_with(partial(fit_cut, self._radius))
         else:
-            self.camera.aim("3d")
+            self.camera.aim(self._view)
+        self._show_views()
 
     def _look(self, view: View) -> None:
         self.actuator.leave_cut()
@@ -405,7 +406,7 @@ class Page:
         self._callbacks.wake()
 
     def _show_views(self) -> None:
-        self.bridge.set(views={"all": VIEWS, "now": self._view})
+        self.bridge.set(views={"all": VIEWS, "now": "" if self.actuator.shown.value else self._view})
 
     def _check(self) -> None:
         self.results.check()

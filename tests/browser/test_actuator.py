@@ -99,7 +99,7 @@ def test_the_cut_takes_the_place_of_the_rotor_and_follows_the_voltage(watched: W
     watched.press("Voltage", "End")
     watched.until_changed(lambda: watched.text("actuator-now"), now)
     watched.until_changed(lambda: watched.node("/cut/part_0"), skin)
-    watched.page.locator("[data-do=view][data-value=top]").click()
+    watched.page.locator("[data-do=view][data-value=disk]").click()
     watched.until_changed(lambda: seen(watched, "/rotor"), False)
     watched.until_changed(lambda: seen(watched, "/cut"), True)
 

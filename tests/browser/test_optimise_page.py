@@ -121,7 +121,7 @@ def test_a_replay_goes_back_to_the_start_and_discard_leaves_the_sliders(page: tu
     watched.page.keyboard.press("Home")
     watched.page.wait_for_function(
         """power => document.querySelector('[data-explorer="total-power"]').innerText === power
-            && document.querySelector('[data-explorer="frame"]').innerText.includes('began from')""",
+            && document.querySelector('[data-explorer="frame"]').innerText.includes('starting design')""",
         arg=before,
         timeout=WAIT,
     )

@@ -258,6 +258,18 @@ class TestMap:
         assert svg.find("image") is not None
         assert "Fixed: Inboard rate" in power_map.legend(drawn)
 
+    def test_the_colour_bar_has_the_colours_of_the_picture(self):
+        bar = ET.fromstring(power_map.colour_bar())
+        left, width = (float(bar.findall("rect")[0].get(name) or "") for name in ("x", "width"))
+        stops = [stop.get("stop-color") or "" for stop in bar.iter("stop")]
+        for mark in bar.findall("g/text")[1:-1]:  # Without 0, which is within the band, and the caption.
+            excess = float(mark.text or "") / 100.0
+            place = (float(mark.get("x") or "") - left) / width
+            shown = np.array([int(part) for part in stops[round(24 * place)][4:-1].split(",")])
+            powers = 1.0 + 1.02 * excess * np.linspace(0.0, 1.0, 5)[:, None] * np.ones(5)  # Beyond the white line.
+            drawn = np.array(Image.open(io.BytesIO(power_map.picture(powers))).convert("RGBA"), dtype=float)
+            assert np.abs(drawn[0, 5, :3] - shown).max() < 16
+
     def test_designs_that_do_not_trim_are_left_blank(self):
         powers = np.full((5, 5), 1e6) + np.arange(5.0)
         powers[4, 4] = math.nan

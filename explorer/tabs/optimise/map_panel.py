@@ -3,6 +3,7 @@
 import base64
 import math
 from dataclasses import dataclass
+from functools import cache
 from html import escape
 
 import numpy as np
@@ -18,7 +19,7 @@ from explorer.state import with_optimum
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.text.glossary import hint
 from explorer.text.units import SI, UNITS, Units, number
-from explorer.theme.colours import NOW, colour_map
+from explorer.theme.colours import NOW, colour_map, css
 from explorer.workers.job import Job, JobEnded, JobEvent, JobFailed, JobProgress
 from explorer.workers.pool import PoolClient
 from explorer.workers.tasks import MapLevel, MapTask
@@ -192,12 +193,32 @@ def legend(drawn: Map, units: Units = SI) -> str:
         for k, (p, value) in enumerate(zip(drawn.task.concept.parameters, drawn.task.values, strict=True))
         if k not in drawn.task.axes
     ]
-    lines = ", ".join(f"{100 * part:g}" for part in CONTOURS)
     return (
         '<div class="rx rx-small" data-explorer="map-legend">'
         f"<div>★ {units.watts(power, 1)} at {', '.join(best)}</div>"
-        f'<div class="rx-dim">Outline: {100 * _BAND:g} % above. Lines: {lines} %.</div>'
+        f'<div class="rx-dim">White outline: within {100 * _BAND:g} % of the least.</div>'
         f'<div class="rx-dim">{"Fixed: " + escape(", ".join(held)) + "." if held else ""}</div></div>'
+    )
+
+
+@cache
+def colour_bar() -> str:
+    """SVG: the colours of power above the least, with the contour lines at their places [%]."""
+    colours = colour_map("sequential", 25)
+    stops = "".join(f'<stop offset="{k / 24:.3f}" stop-color="{css(rgb)}"/>' for k, rgb in enumerate(colours))
+    marks = []
+    for part in (0.0, *CONTOURS):
+        x = _LEFT + math.sqrt(part / _SCALE) * _W
+        line = f'<path d="M{x:.1f},2 v9" stroke="#fff" opacity=".8"/>' if 0.0 < part < _SCALE else ""
+        marks.append(f'{line}<text x="{x:.1f}" y="22" text-anchor="middle">{100 * part:g}</text>')
+    return (
+        '<svg viewBox="0 0 300 38" width="100%" class="rx-map" data-explorer="map-colours" role="img" '
+        'aria-label="colours: power above the least, 0 to 8 %">'
+        f'<defs><linearGradient id="rx-map-colours">{stops}</linearGradient></defs>'
+        f'<rect x="{_LEFT}" y="2" width="{_W}" height="9" rx="2" fill="url(#rx-map-colours)"/>'
+        f'<g font-size="10.5" fill="currentColor">{"".join(marks)}'
+        f'<text x="{_LEFT + _W / 2}" y="35" text-anchor="middle" opacity=".7">'
+        "power above the least [%]</text></g></svg>"
     )
 
 
@@ -290,7 +311,7 @@ class MapPanel:
         seen = (id(drawn), here, exact, units)
         if seen != self._drawn:
             self._drawn = seen
-            self._picture.content = f'<div class="rx">{title(drawn)}{drawing(drawn, here, exact)}</div>'
+            self._picture.content = f'<div class="rx">{title(drawn)}{drawing(drawn, here, exact)}{colour_bar()}</div>'
             self._legend.content = legend(drawn, units)
             self._point.visible = True
 
