@@ -183,6 +183,9 @@ def test_the_page_goes_on_when_its_worker_is_killed(page: tuple[Watched, Session
     watched.until_changed(lambda: watched.text("speed"), speed)
     watched.mode("optimise")
     watched.choose("Concept", "Linear")
+    watched.row("Starting points").get_by_role("slider").focus()
+    watched.page.keyboard.press("Home")  # One is enough to show that a new worker answers.
+    watched.until_changed(lambda: session.page.optimise.request().starts, 16)
     press(watched, "Optimise")
     until(watched, "done")
     assert watched.complaints == []
