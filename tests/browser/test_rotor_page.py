@@ -70,6 +70,9 @@ def test_optimise_works_on_another_rotor(watched: Watched):
     choose(watched, "Robinson R22")
     shown(watched, "provenance", "NACA 63-015A")
     watched.mode("optimise")
+    watched.row("Starting points").get_by_role("slider").focus()
+    watched.page.keyboard.press("Home")  # One is enough here.
+    watched.page.wait_for_timeout(150)
     watched.page.locator("[data-dock-region=right]").get_by_role("button", name="Optimise", exact=True).click()
     watched.page.wait_for_selector('[data-explorer="search"][data-kind="done"]', timeout=6 * WAIT)
     assert "Robinson R22 twist" in watched.page.inner_text("body")
