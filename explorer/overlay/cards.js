@@ -42,7 +42,7 @@
     }
     if (menu.value !== now.field) menu.value = now.field;
     menu.disabled = now.held;
-    part('unit').textContent = now.unit;
+    part('unit').textContent = now.unit.replace(/^, /, '');  // What follows a unit stands alone where there is none.
     const ticks = now.ticks.map(([at, word]) => `<span style="left:${at}%">${text(word)}</span>`).join('');
     part('scale').className = now.faded ? 'rxf-faded' : '';
     part('scale').innerHTML = `<div class="rxf-grad" title="Triangles: values beyond the range"><i style="background:${now.colours[0]};visibility:${now.beyond[0] ? 'visible' : 'hidden'}"></i><i style="background:linear-gradient(90deg,${now.colours.join()})"></i><i style="background:${now.colours.at(-1)};visibility:${now.beyond[1] ? 'visible' : 'hidden'}"></i></div>

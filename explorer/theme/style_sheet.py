@@ -149,23 +149,29 @@ div:has(> .rx-bridge), div:has(> .rx-bridge) + div { display: none !important; }
 """
 
 BIG = """
-html { font-size: 16.5px !important; }
-#rx { font-size: 15px; }
-#rx .rxf-modes button, #rx .rxf-tools button, .rxf-head, .rxf-head b { font-size: 14.5px; }
-.rxf-since small, .rxf-sub, .rxf-why { font-size: 14.5px; }
-#rx .rxf-chip, .rxf-parts dl, .rxf-field, #rx .rxf-legend button { font-size: 13px; }
-.rxf-total { font-size: 46px; }
-#rx svg text, .rxp-curve svg text { font-size: 12.5px; }
-.rxp-title { font-size: 19px; }
-.rxp-head, .rxp-head span, .rxp-worth { font-size: 13px; }
-:root { --mantine-scale: 1.2; }
-.rx, .rx-status, .rx-heading, .rx-legend, .rx-scale, .rx-kappa, .rx-speed, .rx-check { font-size: 15.5px; }
-.rx-status { height: 92px; }
-.rx-sentence { min-height: 92px; }
-.rx-small { font-size: 14px; }
-.rx-total { font-size: 38px; }
-.rx-change { font-size: 23px; }
-.rx-lecture { font-size: 18px; }
-.rx-lecture h3 { font-size: 24px; }
+html:root { font-size: 16.5px !important; --mantine-scale: 1.2; }
+html:root {
+  #rx { font-size: 15px; }
+  #rx .rxf-modes button, #rx .rxf-tools button, .rxf-head, .rxf-head b { font-size: 14.5px; }
+  .rxf-since small, .rxf-sub, .rxf-why { font-size: 14.5px; }
+  #rx .rxf-chip, .rxf-parts dl, .rxf-field, #rx .rxf-legend button { font-size: 13px; }
+  #rx svg text, .rxp-curve svg text { font-size: 12.5px; }
+  .rxp-title { font-size: 19px; }
+  .rxp-head, .rxp-head span, .rxp-worth { font-size: 13px; }
+  .rx, .rx-status, .rx-heading, .rx-legend, .rx-scale, .rx-kappa, .rx-speed, .rx-check { font-size: 15.5px; }
+  .rx-status { height: 92px; }
+  .rx-sentence { min-height: 92px; }
+  .rx-small { font-size: 14px; }
+  .rx-total { font-size: 38px; }
+  .rx-change { font-size: 23px; }
+  .rx-lecture { font-size: 18px; }
+  .rx-lecture h3 { font-size: 24px; }
+}
+@media (min-width: 1100px) { html:root {
+  .rxf-total { font-size: 46px; }
+  .rxf-caption h2 { font-size: 26px; }
+  .rxf-caption p { font-size: 18px; }
+  .rxf-figures b { font-size: 48px; }
+} }
 """
-"""Laid over the sheet for those who sit at the back."""
+"""Added to the sheet for those who sit at the back. `html:root` outweighs the frame's own sheets, which come later."""

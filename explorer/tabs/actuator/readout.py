@@ -30,9 +30,10 @@ SHEET = """<style>
 .rxa-bad { color: #d9480f; }
 [data-mantine-color-scheme=dark] .rxa-bad { color: #ff922b; }
 .rxa-table { font-size: 11.5px; }
-.rxa-table th { font-weight: 500; text-align: right; opacity: .7; padding: 0 0 2px; }
+.rxa-table th { font-weight: 500; text-align: right; vertical-align: bottom; opacity: .7; padding: 0 0 2px;
+  white-space: normal; line-height: 1.2; }
 .rxa-table th:first-child, .rxa-table td:first-child { text-align: left; }
-.rxa-table th + th, .rxa-table td + td { padding-left: 8px !important; }
+.rxa-table th + th, .rxa-table td + td { padding-left: 6px !important; }
 .rxa-table td { border-top: 1px solid rgba(128,128,128,.18); padding: 1.5px 0; }
 .rxa-chosen td { font-weight: 650; }
 .rxa-bars { display: grid; grid-template-columns: auto 1fr auto; gap: 2px 8px; align-items: center; font-size: 11.5px; }
