@@ -27,7 +27,7 @@ from tests.tools.soak import wire
 from tests.tools.soak.visitor import Visitor
 
 Result = TypeVar("Result")
-INNER, OUTER = "Inner [°/R]", "Outer [°/R]"
+INNER, OUTER = "Inboard ±", "Outboard ±"
 
 
 @pytest.fixture(scope="module")
@@ -178,7 +178,7 @@ class TestStrangers:
                 await visitor.move("Twist concept", value)
                 await asyncio.sleep(0.01)
                 await visitor.move("Adv. ratio µ", 0.2)
-                await visitor.move("Twist concept", "Two segments")
+                await visitor.move("Twist concept", "As built, changed")
                 await still_served(visitor)
             await visitor.until(lambda: visitor.text("status") == "converged")
             await visitor.close()

@@ -10,14 +10,14 @@ from functools import cache
 import numpy as np
 
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
-from explorer.state import Inputs
+from explorer.state import OPENING, Inputs, ViewState
 from rotor.trim.solve import solve
 from tests.tools.soak.figures import Visit
 from tests.tools.soak.visitor import Visitor
 
-SLIDER, NAME = "Inner [°/R]", "two_inner"
+SLIDER, NAME = "Inboard ±", "built_inner"
 """The slider that is dragged, and the field of `Inputs` behind it."""
-_LOW, _HIGH, _STEP = -20.0, 4.0, 0.1
+_LOW, _HIGH, _STEP = -10.0, 10.0, 0.1
 _DRAG = 3.0
 """[s] from taking the slider to letting it go."""
 _PATIENCE = 30.0
@@ -33,7 +33,7 @@ class Dragger:
         self.visitor = Visitor(self._seen)
         self._name = name
         self._random = random.Random(seed)
-        self._value = Inputs().two_inner
+        self._value = OPENING.built_inner
         self._asked: dict[bytes, list[int]] = {_vertices(self._value): []}
         """Numbers of the edits that asked for a blade, by its vertices."""
         self._times: list[float] = []
@@ -126,7 +126,9 @@ class Dragger:
 def _vertices(value: float) -> bytes:
     """What the page is sent as the blade of a slider's value."""
     design = _inputs(value).design()
-    return blade_vertices(blade_shape(design.rotor), design.twist).astype(np.float32).tobytes()
+    return (
+        blade_vertices(blade_shape(design.rotor), design.twist, ViewState().exaggeration).astype(np.float32).tobytes()
+    )
 
 
 @cache
@@ -135,7 +137,7 @@ def _power_kw(value: float) -> float:
 
 
 def _inputs(value: float) -> Inputs:
-    return replace(Inputs(), **{NAME: value})
+    return replace(OPENING, **{NAME: value})
 
 
 def _kilowatts(text: str) -> float:

@@ -135,6 +135,9 @@ class Visitor:
                 self.widgets.setdefault(message["uuid"], {}).update(message["updates"])
             case "GuiRemoveMessage":
                 self.widgets.pop(message["uuid"], None)
+            case "MeshMessage" if message["name"] == BLADE:
+                self.blade = bytes(message["props"]["vertices"])
+                self._seen(self.blade)
             case "SceneNodeUpdateMessage" if message["name"] == BLADE and "vertices" in message["updates"]:
                 self.blade = bytes(message["updates"]["vertices"])
                 self._seen(self.blade)
