@@ -81,6 +81,8 @@ def test_the_lecture_is_the_scene_a_caption_and_three_numbers(browser: "Browser"
     caption = page.locator(".rxf-caption").evaluate("e => e.getBoundingClientRect().toJSON()")
     assert scene["left"] == 0
     assert scene["right"] == size[0]  # Full-bleed.
+    assert scene["height"] > 0.3 * size[1]
+    assert page.locator(".rxf-caption").evaluate("e => e.scrollWidth <= e.clientWidth")
     assert caption["top"] >= scene["bottom"] - 1
     assert caption["bottom"] <= size[1] + 1
     for panel in ("[data-dock-region]", ".rxf-strip", ".rxf-power"):

@@ -183,7 +183,7 @@ class ElectrodesPanel:
         with self._folder:
             self._chart = Chart(
                 gui,
-                "Strain [µε] over V",
+                "Strain [µε]",
                 (("this sheet", THIS), ("α·V", IDEAL), ("other kind", BASELINE)),
                 "voltage [V]",
                 (
