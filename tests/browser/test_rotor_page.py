@@ -44,6 +44,8 @@ def choose(watched: Watched, rotor: str) -> None:
 
 def load(watched: Watched, file: Path) -> None:
     """As a user picks a file."""
+    watched.drawer("open")
+    watched.section("Files")
     with watched.page.expect_file_chooser() as chooser:
         watched.page.get_by_role("button", name="Load rotor file").click()
     chooser.value.set_files(file)
@@ -75,7 +77,7 @@ def test_optimise_works_on_another_rotor(watched: Watched):
     watched.page.wait_for_timeout(150)
     watched.page.locator("[data-dock-region=right]").get_by_role("button", name="Optimise", exact=True).click()
     watched.page.wait_for_selector('[data-explorer="search"][data-kind="done"]', timeout=6 * WAIT)
-    assert "Robinson R22 twist" in watched.page.inner_text("body")
+    assert "Robinson R22 as built" in watched.page.inner_text("body")
     assert float(watched.text("best").split()[0]) < 100.0  # [kW]
     assert watched.complaints == []
 
@@ -83,11 +85,11 @@ def test_optimise_works_on_another_rotor(watched: Watched):
 def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     text = asset_path("r22.toml").read_text(encoding="utf-8").replace("Robinson R22", "Mine")
     file = tmp_path / "mine.toml"
-    watched.drawer("open")
-    watched.section("Files")
     file.write_text(text.replace("radius_m = 3.8354", "radius_m = -3.8"), encoding="utf-8")
     load(watched, file)
     watched.page.wait_for_selector("text=mine.toml, line 14: radius_m is -3.8, outside", timeout=WAIT)
+    watched.drawer("trust")
+    watched.page.wait_for_selector('[data-explorer="provenance"]', timeout=WAIT)
     assert "SC1095" in watched.text("provenance")  # Nothing is lost.
     file.write_text(text, encoding="utf-8")  # Mended, under the same name.
     load(watched, file)
@@ -100,12 +102,15 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     deck = tmp_path / "own.c81"
     deck.write_text(asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8"), encoding="utf-8")
     load(watched, deck)
+    watched.drawer("trust")
     shown(watched, "provenance", "own")
     watched.at_rest(lambda: watched.text("status"), rest=4.0)  # What can wait is computed with it too.
     assert watched.page.locator('[data-explorer="status"]').get_attribute("data-kind") == "converged"
     watched.page.wait_for_function("() => location.search.includes('d=own')", timeout=WAIT)
     power, address = watched.text("total-power"), watched.page.url
     watched.page.reload()  # No address holds it: the page itself does.
+    watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
+    watched.drawer("trust")
     shown(watched, "provenance", "own")
     shown(watched, "total-power", power)
     assert watched.page.locator(".rxf-rotor option:checked").inner_text() == "Mine (own)"

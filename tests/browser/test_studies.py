@@ -73,7 +73,9 @@ def test_a_click_on_a_point_puts_it_on_the_sliders(page: tuple[Watched, Session]
     assert dots.count() == 12  # Blades: each a pair of hover and cruise.
     before = watched.text("total-power")
     dots.last.click(force=True)
-    tab.wait_for_function("() => document.querySelector('[data-explorer=study-point]')?.innerText.startsWith('Taken')")
+    tab.wait_for_function(
+        "() => document.querySelector('[data-explorer=study-point]')?.innerText.startsWith('Applied')"
+    )
     row = int(watched.text("study-point").split("point ")[1].split()[0])
     results = read_results(studies / "blades")
     inputs = session.page.controls.inputs()
