@@ -105,7 +105,7 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     watched.drawer("trust")
     shown(watched, "provenance", "own")
     watched.at_rest(lambda: watched.text("status"), rest=4.0)  # What can wait is computed with it too.
-    assert watched.page.locator('[data-explorer="status"]').get_attribute("data-kind") == "converged"
+    assert watched.page.locator('.rxf-chip[data-explorer="status"]').get_attribute("data-kind") == "converged"
     watched.page.wait_for_function("() => location.search.includes('d=own')", timeout=WAIT)
     power, address = watched.text("total-power"), watched.page.url
     watched.page.reload()  # No address holds it: the page itself does.

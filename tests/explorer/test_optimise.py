@@ -125,6 +125,7 @@ class TestSearchRun:
         assert not run.under_way
         assert "Stopped, nothing found yet" in search_text.standing(run)
         assert search_text.found(run) == ""
+        assert {start.legend(SI) for start in race_of(run).starts} == {f"Start {k}: not run" for k in range(1, 7)}
 
     def test_a_broken_process_keeps_the_best(self, run: SearchRun):
         broken = SearchRun(run.search)

@@ -198,7 +198,7 @@ class Playback:
         return frames[min(self.cursor, last)]
 
 
-StartState = Literal["waiting", "running", "finished"]
+StartState = Literal["waiting", "running", "finished", "not run"]
 
 
 @dataclass(frozen=True)
@@ -279,11 +279,14 @@ def race_of(run: SearchRun) -> Race:
     traces = [tuple(trace) for trace in run.traces]
     current = run.progress.start if run.progress is not None else -1
     searching = run.under_way and (run.progress is None or run.progress.phase != "band")
+    cut_short = run.state in ("stopped", "late", "broken") and (run.progress is None or run.progress.phase != "band")
     bests = [tuple(accumulate(trace, min)) for trace in traces]
     least = min((best[-1] for best in bests if best), default=None)
     starts: list[RaceStart] = []
     for k, (trace, best) in enumerate(zip(traces, bests, strict=True)):
         state: StartState = "finished" if k < current or not searching else "running" if k == current else "waiting"
+        if cut_short and k > current:
+            state = "not run"
         gap = best[-1] - least if best and least is not None else None
         starts.append(RaceStart(k + 1, trace, best, state, gap))
     tried = run.optimum.evaluations if run.optimum is not None else run.progress.evaluation if run.progress else 0
