@@ -48,7 +48,8 @@ def until(watched: Watched, kind: str) -> str:
 def saved(watched: Watched, button: str, folder: Path) -> Path:
     """What a button downloads."""
     with watched.page.expect_download(timeout=WAIT) as download:
-        watched.page.get_by_role("button", name=button, exact=True).click()
+        drawer = watched.page.locator("[data-dock-region=left]")
+        drawer.get_by_role("button", name=button, exact=True).click()
     path = folder / download.value.suggested_filename
     download.value.save_as(path)
     assert download.value.suggested_filename in until(watched, "done")
@@ -116,14 +117,14 @@ def test_text_is_shown_copied_and_has_the_power_of_the_page(watched: Watched):
     assert command is not None
     assert command.inner_text().strip() == "python -m rotor solve --mu 0.41 --twist linear:-16 --mass-kg 8320"
     assert page.evaluate("navigator.clipboard.readText()").strip() == command.inner_text().strip()
-    page.get_by_role("button", name="Close", exact=True).click()
+    page.get_by_role("dialog").get_by_role("button", name="Close", exact=True).click()
     page.wait_for_selector('[data-explorer="code"]', state="detached")
     page.get_by_role("button", name="Python", exact=True).click()
     page.wait_for_selector('[data-explorer="code"]', timeout=WAIT)
     names: dict[str, Any] = {}
     exec(compile(page.evaluate("navigator.clipboard.readText()"), "copied", "exec"), names)
     assert names["solution"].power.total == pytest.approx(power, rel=1e-9)
-    page.get_by_role("button", name="Close", exact=True).click()
+    page.get_by_role("dialog").get_by_role("button", name="Close", exact=True).click()
 
 
 def test_the_report_opens_without_a_server_and_asks_for_nothing(watched: Watched, tmp_path: Path):
