@@ -203,8 +203,10 @@ class StudiesPanel:
 
     def look(self) -> None:
         """Find the results there are now."""
-        found = {one.label(self._root): one for one in find_studies(self._root)}
-        found |= {f"Shipped: {one.title}": one for one in find_studies(asset_path("studies"))}
+        shipped = {one.path.resolve(): one for one in find_studies(asset_path("studies"))}
+        own = [one for one in find_studies(self._root) if one.path.resolve() not in shipped]
+        found = {one.label(self._root): one for one in own}
+        found |= {f"Shipped: {one.title}": one for one in shipped.values()}
         self._found = found
         kept = self._menu.value if self._menu.value in found else _NONE
         self._menu.options = (_NONE, *found)
