@@ -93,7 +93,7 @@ class Visitor:
         power = self.frame.get("power")
         if power is not None and part in ("status", "total-power"):
             kind = power["status"]["kind"]
-            return f"{power['total']} {power['unit']}" if part == "total-power" else _CARD_KINDS.get(kind, kind)
+            return f"{power['total']} {power['unit']}" if part == "total-power" else str(_CARD_KINDS.get(kind, kind))
         for widget in self.widgets.values():
             content = widget.get("content")
             if isinstance(content, str) and part in content:
