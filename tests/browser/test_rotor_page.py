@@ -104,7 +104,9 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     load(watched, deck)
     watched.drawer("trust")
     shown(watched, "provenance", "own")
-    watched.at_rest(lambda: watched.text("status"), rest=4.0)  # What can wait is computed with it too.
+    # What can wait is computed with it too; after the power curve the page is given what its address cannot hold.
+    kept = "() => JSON.parse(sessionStorage.getItem('rx-kept') ?? '{}').d?.includes('own.c81')"
+    watched.page.wait_for_function(kept, timeout=2 * WAIT)
     assert watched.page.locator('.rxf-chip[data-explorer="status"]').get_attribute("data-kind") == "converged"
     watched.page.wait_for_function("() => location.search.includes('d=own')", timeout=WAIT)
     power, address = watched.text("total-power"), watched.page.url
