@@ -104,7 +104,7 @@ CONTROLS: dict[str, Term] = {
     "leg": Term("Advance ratio and hours of one mission leg; 0 hours: not flown.", section=13),
     "schedule": Term("Finds the best twist of each leg, and the best fixed blade for all of them.", section=13),
     "schedule_stop": Term("Stops and keeps the results so far."),
-    "schedule_result": Term("Puts the best fixed blade on the sliders, or saves the table."),
+    "schedule_result": Term("Puts the best fixed blade on the sliders, flies the schedule, or saves the table."),
     "cut": Term("Shows one blade cut open in place of the rotor."),
     "magnified": Term("Exaggerates the deformation of the cut blade; the numbers stay true."),
     "voltage": Term("Per cent of the positive or, below zero, of the negative end of the voltage range."),

@@ -124,8 +124,8 @@ def verdict(progress: PlanProgress, units: Units = SI) -> str:
     saved = worth.baseline - worth.fixed
     return (
         f'<table><tr><td>Best fixed blade saves</td><td class="rx-num">{units.watts(saved, 1)}</td>'
-        f'<td class="rx-num" style="width:26%">{number(100.0 * saved / worth.baseline, 2)} %</td></tr>'
-        "<tr><td><b>Additional saving from variable twist</b></td>"
+        f'<td class="rx-num" style="width:20%">{number(100.0 * saved / worth.baseline, 2)} %</td></tr>'
+        '<tr><td style="white-space:normal"><b>Additional saving from variable twist</b></td>'
         f'<td class="rx-num"><b>{units.watts(worth.gain, 1)}</b></td>'
         f'<td class="rx-num"><b>{number(100.0 * worth.share, 2)} %</b></td></tr></table>'
     )
