@@ -118,6 +118,14 @@ _CARDS = """() => {
 }"""
 
 
+# The buttons of the bar that leave the window, and what leaves the card of the field.
+_OUTSIDE = """() => [
+  ...[...document.querySelectorAll('.rxf-bar button')].filter(e => e.getBoundingClientRect().right > innerWidth + 1),
+  ...[...document.querySelectorAll('.rxf-field button')].filter(e => e.getBoundingClientRect().right >
+    e.closest('.rxf-field').getBoundingClientRect().right + 1),
+].filter(e => e.checkVisibility()).map(e => e.ariaLabel || e.innerText)"""
+
+
 @pytest.mark.parametrize("size", [(1920, 1080), (1500, 940), (1280, 720), (768, 1024), (390, 844)])
 def test_no_two_cards_meet(browser: "Browser", app: App, size: tuple[int, int]):
     watched = opened(browser, app.address, size=size)
@@ -130,6 +138,10 @@ def test_no_two_cards_meet(browser: "Browser", app: App, size: tuple[int, int]):
     watched.page.evaluate("() => RX.send('knot', ['2', [1.0, 6.0]])")
     watched.page.wait_for_function("() => RX.state.power.since", timeout=WAIT)
     assert watched.page.evaluate(_CARDS) == []
+    watched.page.get_by_role("button", name="Pin A").click()
+    watched.page.wait_for_function("() => RX.state.bar.pinned", timeout=WAIT)
+    assert watched.page.evaluate(_CARDS) == []
+    assert watched.page.evaluate(_OUTSIDE) == []
     watched.close()
 
 

@@ -61,7 +61,7 @@ def test_the_lecture_sets_the_page_and_says_what_is_seen(browser: "Browser", app
     watched.close()
 
 
-@pytest.mark.parametrize("size", [(1500, 940), (1024, 768), (390, 844)])
+@pytest.mark.parametrize("size", [(1500, 940), (1024, 768), (768, 1024), (390, 844)])
 def test_the_lecture_is_the_scene_a_caption_and_three_numbers(browser: "Browser", app: App, size: tuple[int, int]):
     watched = opened(browser, app.address, size=size)
     page = watched.page
