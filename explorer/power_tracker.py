@@ -47,6 +47,8 @@ class PowerTracker:
 
         `pause`: the longest rest of the inputs [s] since the last call, as `explorer.undo.Pauses` measures it.
         """
+        if self._inputs is not None and inputs.aircraft != self._inputs.aircraft:
+            self.reset()  # Another rotor: its power is no change of this one's.
         if self._inputs is None:
             self._inputs, self._power = inputs, power
             return None

@@ -84,3 +84,11 @@ def test_reset_forgets():
     tracker.reset()
     assert tracker.change is None
     assert tracker.solved(at(-12.0), 840e3, 0.0) is None
+
+
+def test_another_rotor_is_no_change_of_power():
+    tracker = PowerTracker()
+    tracker.solved(START, 850e3, 0.0)
+    tracker.solved(at(-9.0), 847e3, 60.0)
+    assert tracker.solved(replace(at(-9.0), rotor="r22", mass_t=0.6), 74e3, 60.0) is None
+    assert tracker.solved(replace(at(-9.5), rotor="r22", mass_t=0.6), 73e3, 60.0) == -1e3
