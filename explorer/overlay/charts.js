@@ -67,6 +67,9 @@
       const arrow = one.way ? `<i data-way="${one.way}" style="left:${one.way === 'up' ? start : start - length}px;width:${length}px"></i>` : '';
       place.innerHTML = `${arrow}<span>${one.way ? `<b>${text(one.saving)}</b> ${text(one.unit)}` : text(one.saving)}</span>`;
       place.title = one.sentence;
+      // The number stands on the right, or on the left where the thumb is that far right.
+      const number = place.lastElementChild, end = one.way === 'up' ? start + length + 8 : start;
+      place.toggleAttribute('data-left', Boolean(one.way) && end > own.width - number.offsetWidth);
     }
   });
 

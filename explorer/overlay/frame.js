@@ -74,12 +74,17 @@
     if (event.target.matches('select, input') || (event.target.matches('button') && (event.key === ' ' || event.key === 'Enter'))) event.stopPropagation();
   });
   document.addEventListener('keydown', event => {
-    if (event.key !== 'Escape') return;
+    // In a field, Escape leaves the field and no more.
+    if (event.key !== 'Escape' || event.target.matches?.('input:not([type=range], [type=checkbox])')) return;
     if (!part('menu').hidden) part('menu').hidden = true;
     else if (state.bar?.drawer && !document.querySelector('dialog[open]')) RX.send('drawer', '');
   });
 
   function toggle(name) {
+    if (name === 'rail' && state.bar?.drawer) {  // In a narrow window one of the two has room.
+      RX.send('drawer', '');
+      if (page.dataset.rail === 'open') return;
+    }
     if (page.dataset[name] === 'open') delete page.dataset[name]; else page.dataset[name] = 'open';
     root.querySelector(`[data-page=${name}]`).ariaExpanded = String(page.dataset[name] === 'open');
     window.dispatchEvent(new Event('resize'));
@@ -106,6 +111,7 @@
     pin.toggleAttribute('data-on', Boolean(bar.pinned));
     pin.querySelector('span').textContent = bar.pinned ? 'A pinned ▾' : 'Pin A';
     pin.ariaLabel = bar.pinned ? `A is ${bar.pinned.title}` : 'Pin A';
+    page.toggleAttribute('data-drawer', Boolean(bar.drawer));
     for (const button of root.querySelectorAll('.rxf-tools [data-do=drawer]')) button.ariaExpanded = String(button.dataset.value === bar.drawer);
     if (!part('menu').hidden && bar.pinned) pinMenu(pin, true);
   });

@@ -50,12 +50,11 @@ div:has(> [data-dock-area]) { margin-top: 0 !important; }
 .rx-fit { overflow: hidden; text-overflow: ellipsis; }
 .rx-pinned { padding-bottom: 4px; }
 .rx-grid { display: grid; grid-template-columns: 1fr 1fr; column-gap: 18px; padding-top: 4px; padding-bottom: 5px; }
-.rx-status { margin: 4px 10px 2px; padding: 5px 8px; height: 72px; overflow-y: auto; border-radius: 4px;
+.rx-status { margin: 4px 10px 2px; padding: 5px 8px; min-height: 32px; border-radius: 4px;
   font-size: 12px; line-height: 1.32; background: rgba(128,128,128,.10); }
 .rx-reserved { border-radius: 4px; background: rgba(128,128,128,.06); }
-.rx-status.rx-problem { padding: 0; overflow: visible; background: none; position: relative; }
-.rx-sentence { position: absolute; z-index: 3; inset: 0 0 auto; min-height: 72px; padding: 5px 8px; border-radius: 4px;
-  background: #c92a2a; color: #fff; }
+.rx-status.rx-problem { padding: 0; background: none; }
+.rx-sentence { padding: 5px 8px; border-radius: 4px; background: #c92a2a; color: #fff; }
 .rx-good { color: #0ca678; }
 .rx-care { display: flex; gap: 6px; }
 .rx-care > span:first-child { color: #e67700; }
@@ -159,8 +158,6 @@ html:root {
   .rxp-title { font-size: 19px; }
   .rxp-head, .rxp-head span, .rxp-worth { font-size: 13px; }
   .rx, .rx-status, .rx-heading, .rx-legend, .rx-scale, .rx-kappa, .rx-speed, .rx-check { font-size: 15.5px; }
-  .rx-status { height: 92px; }
-  .rx-sentence { min-height: 92px; }
   .rx-small { font-size: 14px; }
   .rx-total { font-size: 38px; }
   .rx-change { font-size: 23px; }
