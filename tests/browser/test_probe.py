@@ -116,7 +116,7 @@ def test_sliders_step_finely_and_coarsely_and_their_number_follows(watched: Watc
 
 def test_play_turns_the_blades_alone_and_ends_with_pause(watched: Watched):
     page = watched.page
-    disk = watched.node("/rotor/disk/field")
+    disk = watched.at_rest(lambda: watched.node("/rotor/disk/field"))  # The fine picture comes last.
     alpha, blade = watched.text("probe-alpha"), pose(watched, "/rotor/blade_0")
     page.keyboard.press("Space")
     page.get_by_role("button", name="Stop the rotor").wait_for(timeout=WAIT)
@@ -160,12 +160,12 @@ def test_views_have_keys(watched: Watched, key: str, view: View):
 def test_the_view_along_the_blade_rides_with_it(watched: Watched):
     page = watched.page
     page.keyboard.press("3")
-    page.wait_for_timeout(500)
-    before = eye(watched)
-    page.keyboard.press("Shift+ArrowRight")
-    page.keyboard.press("Shift+ArrowRight")
-    page.wait_for_timeout(700)
-    after = eye(watched)
+    before = watched.at_rest(lambda: eye(watched).round(3).tolist())
+    psi = number(watched, "Azimuth")
+    for _ in range(2):
+        page.keyboard.press("Shift+ArrowRight")
+        psi = watched.until_changed(lambda: number(watched, "Azimuth"), psi)
+    after = watched.at_rest(lambda: eye(watched).round(3).tolist())
     assert after[2] == pytest.approx(before[2], abs=0.05)
     turned = math.degrees(math.atan2(after[1], after[0]) - math.atan2(before[1], before[0])) % 360
     assert turned == pytest.approx(20.0, abs=1.0)
