@@ -29,7 +29,8 @@ SHEET = """<style>
 .rxa-limits > div > span:first-child { flex: none; width: 11px; font-weight: 700; }
 .rxa-bad { color: #d9480f; }
 [data-mantine-color-scheme=dark] .rxa-bad { color: #ff922b; }
-.rxa-table { font-size: 11.5px; }
+.rxa-table { font-size: 10.5px; table-layout: auto; }
+.rx .rxa-table :is(td, th) { padding-left: 3px; padding-right: 0; letter-spacing: -.01em; }
 .rxa-table th { font-weight: 500; text-align: right; vertical-align: bottom; opacity: .7; padding: 0 0 2px;
   white-space: normal; line-height: 1.2; }
 .rxa-table th:first-child, .rxa-table td:first-child { text-align: left; }
