@@ -42,7 +42,8 @@ def table_panel(findings: Findings, question: Question) -> str:
     ):  # fmt: skip
         known = {}
     rows = "".join(_row(id, known.get(id), id == question.actuator) for id in actuators())
-    head = "<tr><th>Actuator</th><th>avail.<br>°</th><th>derated<br>°</th><th>kg</th><th>net<br>kW</th><th>verdict</th></tr>"
+    titles = ("Actuator", "avail.<br>°", "derated<br>°", "kg", "net<br>kW", "verdict")
+    head = f"<tr>{''.join(f'<th>{title}</th>' for title in titles)}</tr>"
     first, second = question.pair.advance_ratios
     return (
         f'<div class="rx" data-explorer="actuator-table"><table class="rxa-table">{head}{rows}</table>'
