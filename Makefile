@@ -10,9 +10,10 @@ BIN   := $(VENV)/bin
 READY := $(VENV)/.ready
 DEV   := $(VENV)/.ready-dev
 WARM  := $(VENV)/.warm
+NONE  := || [ $$? -eq 5 ] # Chosen by ARGS, there may be none of a kind.
 PIP   := $(BIN)/python -m pip --disable-pip-version-check --no-input --quiet
 
-.PHONY: help run test slow check-all lint format bench release browser setup setup-dev clean
+.PHONY: help run test test-code test-page slow slow-code slow-page check-all lint format bench docs release pictures browser setup setup-dev clean
 .DELETE_ON_ERROR:
 
 help:                 ## list these targets
@@ -21,13 +22,24 @@ help:                 ## list these targets
 run: $(WARM)          ## start the explorer; ARGS are handed on, e.g. make run PORT=8090 ARGS=--no-browser
 	@exec $(BIN)/python -m explorer --host $(HOST) --port $(PORT) $(ARGS)
 
-test: setup-dev browser ## run all tests but the slow ones, browser included
-	$(BIN)/python -m pytest -m 'not slow and not crosscheck' $(ARGS)
+# Without a browser on all cores; the page by itself, for its tests wait for what a busy machine draws late.
+test: test-code test-page ## run all tests but the slow ones, browser included
 
-slow: setup-dev browser ## run the slow tests: built wheel, rebuilt section data, long studies
-	$(BIN)/python -m pytest -m slow $(ARGS)
+test-code: setup-dev
+	$(BIN)/python -m pytest $(ARGS) $(NONE)
 
-check-all: lint test slow ## everything CI checks
+test-page: setup-dev browser
+	$(BIN)/python -m pytest -n 0 -m 'browser and not slow' $(ARGS) $(NONE)
+
+slow: slow-code slow-page ## run the slow tests: built wheel, rebuilt section data, long studies
+
+slow-code: setup-dev
+	$(BIN)/python -m pytest -m 'slow and not browser' $(ARGS) $(NONE)
+
+slow-page: setup-dev browser
+	$(BIN)/python -m pytest -n 0 -m 'slow and browser' $(ARGS) $(NONE)
+
+check-all: lint docs test slow ## everything CI checks
 
 lint: setup-dev       ## formatting, lint and types
 	$(BIN)/ruff format --check .
@@ -41,11 +53,19 @@ format: setup-dev     ## repair formatting and lint
 bench: setup-dev      ## time the solver beside its baselines
 	$(BIN)/python -m rotor bench $(ARGS)
 
-release: setup-dev    ## build dist/*.whl and dist/*.tar.gz, and use the wheel in a clean environment
+docs: setup-dev       ## build the documentation site into dist/docs; it opens from disk
+	@rm -rf dist/docs dist/.doctrees docs/_made
+	$(BIN)/python -m sphinx -W --keep-going -q -b html -d dist/.doctrees docs dist/docs
+	@echo "dist/docs/index.html"
+
+release: setup-dev    ## the checklist of a release: build twice, licences, the wheel alone on every Python here, changelog
 	$(BIN)/python -m tests.tools.release --out dist
 
+pictures: setup-dev browser ## take the pictures in docs/images anew
+	$(BIN)/python -m tests.tools.pictures
+
 clean:                ## remove what the other targets made
-	rm -rf $(VENV) dist artefacts .pytest_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) dist artefacts docs/_made .pytest_cache .ruff_cache .hypothesis
 	find rotor explorer tests -name __pycache__ -type d -prune -exec rm -rf {} +
 
 setup: $(READY)

@@ -1,9 +1,7 @@
 """`python -m explorer`: start the page, print its address, open a browser where there is one."""
 
 import argparse
-import signal
 import sys
-import threading
 import warnings
 import webbrowser
 from collections.abc import Sequence
@@ -11,35 +9,49 @@ from pathlib import Path
 
 from explorer.hosting.allowed_hosts import host_name
 from explorer.hosting.limits import SESSIONS, SLEEP_AFTER
+from rotor import __version__
+from rotor.terminal import OneLineParser, StopSignal, run_command
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Exit code 0 after Ctrl-C, 2 for bad input; that of its own command for `report`."""
+    """Exit code 0 after Ctrl-C, 2 for bad input; that of their own for `report`, `demo` and `blade`."""
     given = list(sys.argv[1:] if arguments is None else arguments)
     if given[:1] == ["report"]:
         from explorer.export.report.command import main as report
 
         return report(given[1:])
-    options = _parser().parse_args(given)
-    try:
-        return _run(options)
-    except KeyboardInterrupt:
-        print()
-        return 0
+    if given[:1] == ["blade"]:
+        from explorer.export.blade import main as blade
+
+        return blade(given[1:])
+    if given[:1] == ["demo"]:
+        from explorer.export.demo import main as demo
+
+        return demo(given[1:])
+
+    def run() -> int:
+        try:
+            return _run(_parser().parse_args(given))
+        except KeyboardInterrupt:
+            print()
+            return 0
+
+    return run_command("explorer", run)
 
 
 def _run(options: argparse.Namespace) -> int:
     from explorer.app import App, PortBusy
     from explorer.hosting.allowed_hosts import is_loopback, warning
     from explorer.hosting.limits import ServerLimits
+    from explorer.hosting.log_limit import limit_log
     from explorer.state import OPENING, inputs_of
     from rotor.blas_threads import keep_one_blas_thread
     from rotor.files.design_file import load_design
 
     keep_one_blas_thread()
-
+    limit_log()
     try:
-        start = inputs_of(load_design(options.design)) if options.design else OPENING
+        start = inputs_of(load_design(options.design)) if options.design is not None else OPENING
         limits = ServerLimits(
             sessions=options.max_sessions,
             sleep_after=60.0 * options.sleep_after,
@@ -47,9 +59,8 @@ def _run(options: argparse.Namespace) -> int:
             studies=Path(options.studies),
         )
         app = App(options.host, options.port, start, limits)
-    except (ValueError, FileNotFoundError, PortBusy) as error:
-        print(f"explorer: {error}", file=sys.stderr)
-        return 2
+    except PortBusy as error:
+        raise ValueError(str(error)) from None
     try:
         if not is_loopback(options.host):
             print(warning(options.host), file=sys.stderr, flush=True)
@@ -58,20 +69,22 @@ def _run(options: argparse.Namespace) -> int:
             _open_browser(app.address)
         # A browser may leave in the middle of an update.
         warnings.filterwarnings("ignore", message="Queued a .* on a closed connection")
-        signal.signal(signal.SIGTERM, signal.default_int_handler)  # A service manager's stop ends like Ctrl-C.
+        stop = StopSignal()
         app.settle()
-        threading.Event().wait()
+        stop.wait()
     finally:
         app.stop()
     return 0
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = OneLineParser(
         prog="python -m explorer",
         description="Explore helicopter blade twist in a browser.",
-        epilog="python -m explorer report: designs side by side as an HTML file; it has its own --help.",
+        epilog="Others with their own --help: python -m explorer report (designs side by side as an HTML file), demo "
+        "(the rotor in a sweep of twist and speed as an HTML file), blade (shapes for CAD).",
     )
+    parser.add_argument("--version", action="version", version=f"rotor-explorer {__version__}")
     parser.add_argument("--host", default="127.0.0.1", help="address to listen on (default: this machine only)")
     parser.add_argument("--port", type=_port, default=8080, help="port to listen on (default 8080)")
     parser.add_argument("--design", metavar="FILE", help="design file (JSON) to start from")

@@ -2,6 +2,7 @@
 
 import logging
 import socket
+import sys
 import threading
 from functools import partial
 
@@ -25,6 +26,8 @@ from explorer.workers.newest_wins import IdleTimeout
 from explorer.workers.pool import Pool
 
 _log = logging.getLogger(__name__)
+_SWITCH = 1e-3
+"""[s] after which a thread that computes lets another run: what sends frames must not wait 5 ms behind it."""
 
 
 class PortBusy(RuntimeError):
@@ -36,6 +39,7 @@ class App:
 
     def __init__(self, host: str, port: int, start: Inputs | None = None, limits: ServerLimits | None = None) -> None:
         _check_free(host, port)
+        sys.setswitchinterval(_SWITCH)
         self._start = start or OPENING
         self._limits = limits or ServerLimits()
         self._connections: dict[int, ClientConnection] = {}
@@ -50,6 +54,7 @@ class App:
         request_filter = RequestFilter(hosts, self._limits.connections, page, self._limits.frame_ancestors)
         self.server = viser_compat.quiet_server(host, port, "Rotor explorer", request_filter)
         viser_compat.remove_share_tunnel(self.server)
+        viser_compat.log_failed_callbacks()
         self.server.on_client_connect(self._connected)
         self.server.on_client_disconnect(self._disconnected)
         threading.Thread(target=self._warm, name="warm-up", daemon=True).start()

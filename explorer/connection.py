@@ -1,6 +1,7 @@
 """The connection of one browser: it waits or gets a session, and ends."""
 
 import threading
+import time
 from collections.abc import Callable
 
 import viser
@@ -11,6 +12,8 @@ from explorer.theme import style_sheet as style
 
 FIRST = 0.6
 """[s] the page stays blank for its first solution. After that it says that the solution is on its way."""
+_TELL_EVERY = 10.0
+"""[s] between two sentences about values that no page of ours sends."""
 MakeSession = Callable[[viser.ClientHandle, viser_compat.PageFacts], Session]
 
 
@@ -24,6 +27,7 @@ class ClientConnection:
         self._waiting: WaitingPage | None = None
         self._session: Session | None = None
         self._gone = False
+        self._told = -_TELL_EVERY
 
     def ask(self) -> None:
         """Ask the browser for its address and theme; blocks up to some seconds."""
@@ -48,6 +52,7 @@ class ClientConnection:
                 self._waiting.close()
                 self._waiting = None
             viser_compat.guard_uploads(self.client, self._refused)
+            viser_compat.guard_values(self.client, self._ignored)
             with viser_compat.at_once(self.client):
                 self._session = make(self.client, self._facts)
                 self._session.start()
@@ -65,6 +70,13 @@ class ClientConnection:
             session, self._session = self._session, None
         if session is not None:
             session.stop()
+
+    def _ignored(self, sentence: str) -> None:
+        """A value was refused; a flood of them is told once in a while."""
+        now = time.monotonic()
+        if now - self._told > _TELL_EVERY:
+            self._told = now
+            self.client.add_notification("Ignored", sentence, color="red", auto_close_seconds=10)
 
     def _refused(self, sentence: str) -> None:
         self.client.add_notification("File refused", sentence, color="red", auto_close_seconds=10)

@@ -5,6 +5,7 @@ it, so the station turns by that angle relative to its neighbours. Sliding a div
 """
 
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -23,9 +24,13 @@ _DECIDED = 0.015
 _ALONG = 1.7
 """A drag slides a division when it goes this many times as far along the blade as across it."""
 _NEAR = 0.12
-"""A drag along the blade moves a division that is no further away [R]."""
+"""A drag along the blade moves the nearest division within this distance [R]."""
 _GAP = 0.02
 """Least distance of two divisions [R]."""
+DETENT = 0.35
+"""Half the width of the hold at the best angle of the grabbed station [°]."""
+_FARTHEST = 12.0
+"""A best angle further away than this [°] is not foreseen."""
 PIECES = {
     "linear": (("linear",), ()),
     "builtin": (("built_inner", "built_outer"), ("built_division",)),
@@ -90,8 +95,13 @@ def nearest_station(inputs: Inputs, r: float) -> Station | None:
 
 def turned(inputs: Inputs, station: Station, degrees: float) -> Inputs:
     """The inputs with a station turned nose up relative to its neighbours, as far as the sliders go."""
+    return _stepped(inputs, turn_slopes(inputs, station), degrees)
+
+
+def turn_slopes(inputs: Inputs, station: Station) -> dict[str, float]:
+    """By how much each input moves for a degree that a station is turned nose up."""
     if inputs.law == "quadratic":
-        return _turned_quadratic(inputs, station, degrees)
+        return _quadratic_slopes(inputs, station)
     rates = PIECES[inputs.law][0]
     places = [one.r for one in stations(inputs)]
     # Degrees per radius that a degree of this station means for the piece inboard of it and the one outboard.
@@ -100,18 +110,26 @@ def turned(inputs: Inputs, station: Station, degrees: float) -> Inputs:
         slopes[rates[station.index - 1]] = 1.0 / (places[station.index] - places[station.index - 1])
     if station.index < len(rates):
         slopes[rates[station.index]] = -1.0 / (places[station.index + 1] - places[station.index])
-    return _stepped(inputs, slopes, degrees)
+    return slopes
 
 
-def _turned_quadratic(inputs: Inputs, station: Station, degrees: float) -> Inputs:
+def place_of(inputs: Inputs, station: Station) -> str:
+    """A station and its twist, in words."""
+    twist = LAWS[inputs.law].make(inputs)
+    law = inputs.design().twist if isinstance(twist, str) else twist
+    angle = math.degrees(float(law(np.array([station.r]))[0]))
+    return f"{station.title} {station.r:.2f} R · θ {angle:+.1f}°".replace("-", "−")
+
+
+def _quadratic_slopes(inputs: Inputs, station: Station) -> dict[str, float]:
     """The ends change the twist from root to tip; the middle bends the blade away from its chord line."""
     root = inputs.aircraft.rotor_for(inputs.preset).blade.root_cutout
     if station.index == 1:
         # A parabola lies a quarter of its coefficient times the square of its span below its chord.
-        return _stepped(inputs, {"quadratic_curvature": -4.0 / (1.0 - root) ** 2}, degrees)
+        return {"quadratic_curvature": -4.0 / (1.0 - root) ** 2}
     # The slider holds the difference over the whole radius, of which the blade covers a part.
     slope = 1.0 / (1.0 - root)
-    return _stepped(inputs, {"quadratic_difference": slope if station.index else -slope}, degrees)
+    return {"quadratic_difference": slope if station.index else -slope}
 
 
 def _stepped(inputs: Inputs, slopes: dict[str, float], degrees: float) -> Inputs:
@@ -174,23 +192,68 @@ class Grab:
         near = self.station.division is not None and (shift or abs(self.station.r - self.r) < _NEAR)
         return replace(self, slides=near and (shift or abs(move.along) > _ALONG * abs(move.across)))
 
-    def moved(self, move: Movement) -> Inputs:
-        """The inputs that the drag has led to."""
+    def moved(self, move: Movement, best: float | None = None) -> Inputs:
+        """The inputs that the drag has led to; `best`: a turn [°] at which the station is held for a while."""
         if self.slides is None:
             return self.before
         if self.slides:
             return slid(self.inputs, self.station, self.station.r + move.along)
-        return turned(self.inputs, self.station, DEGREES_PER_RADIUS * move.across)
+        degrees = DEGREES_PER_RADIUS * move.across
+        held = best is not None and abs(degrees - best) < DETENT
+        return turned(self.inputs, self.station, best if best is not None and held else degrees)
+
+    def turn_to(self, inputs: Inputs) -> float | None:
+        """By how much the station has been turned in `inputs` [°]; None where they have another law."""
+        if inputs.law != self.inputs.law:
+            return None
+        name, slope = next(iter(turn_slopes(self.inputs, self.station).items()))
+        return (getattr(inputs, name) - getattr(self.inputs, name)) / slope
+
+    def power_slope(self, by_input: Mapping[str, float]) -> float | None:
+        """Change of power for a degree of turn, from that by each input; None where one is missing."""
+        slopes = turn_slopes(self.inputs, self.station)
+        if not slopes.keys() <= by_input.keys():
+            return None
+        return sum(slope * by_input[name] for name, slope in slopes.items())
 
     def place(self, inputs: Inputs) -> str:
         """Where the hand is, in words: the station and its twist, or the division's place."""
         if self.slides and self.station.division is not None:
             return f"division {getattr(inputs, self.station.division):.2f} R"
-        twist = LAWS[inputs.law].make(inputs)
-        law = inputs.design().twist if isinstance(twist, str) else twist
-        angle = math.degrees(float(law(np.array([self.station.r]))[0]))
-        words = f"{self.station.title} {self.station.r:.2f} R · θ {angle:+.1f}°"
-        return words.replace("-", "−")
+        return place_of(inputs, self.station)
+
+
+@dataclass(frozen=True)
+class BestTurn:
+    """The turn of least power of one station, foreseen from the exact slope of power at the turns seen so far."""
+
+    seen: tuple[tuple[float, float], ...] = ()
+    """Turn [°] and slope of power by it, the latest last."""
+
+    def with_slope(self, turn: float, slope: float) -> "BestTurn":
+        """The same with one more turn seen."""
+        others = tuple(one for one in self.seen if abs(one[0] - turn) > 1e-6)
+        return BestTurn((*others, (turn, slope))[-40:])
+
+    @property
+    def turn(self) -> float | None:
+        """[°]; None while it is not known, or no minimum is near."""
+        if len(self.seen) < 2:
+            return None
+        now = self.seen[-1][0]
+        below = [one for one in self.seen if one[1] < 0.0]
+        above = [one for one in self.seen if one[1] >= 0.0]
+        if below and above:
+            # Between the two closest turns on either side of the minimum.
+            pair = min(((a, b) for a in below for b in above), key=lambda two: abs(two[0][0] - two[1][0]))
+        else:
+            near = sorted(self.seen, key=lambda one: abs(one[1]))
+            pair = near[0], next((one for one in near[1:] if abs(one[0] - near[0][0]) > 0.15), near[1])
+        (t1, s1), (t2, s2) = pair
+        if not (s2 - s1) * (t2 - t1) > 0.0:
+            return None  # Power does not curve upward: no minimum is this way.
+        best = t1 - s1 * (t2 - t1) / (s2 - s1)
+        return best if abs(best - now) < _FARTHEST else None
 
 
 def begin(inputs: Inputs, r: float, shift: bool = False) -> Grab | None:

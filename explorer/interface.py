@@ -137,6 +137,10 @@ class SessionPage(Protocol):
         """Draw the 3D picture and send it. Nothing else belongs here: it is the delay that the user feels."""
         ...
 
+    def show_settling(self, state: SessionState) -> None:
+        """Update the numbers beside the hand for a wake that is not in equilibrium yet."""
+        ...
+
     def show_azimuth(self, state: SessionState) -> None:
         """Only the azimuth of the reference blade changed."""
         ...
@@ -151,6 +155,10 @@ class SessionPage(Protocol):
 
     def follow(self, reading: Reading, state: SessionState) -> None:
         """Update all other tabs; skipped while the sliders move faster than the page can follow."""
+        ...
+
+    def settle(self, state: SessionState) -> None:
+        """Nothing moves: draw finely, and keep what must survive a reload."""
         ...
 
     def rest(self, state: SessionState, stop: Callable[[], bool]) -> None:

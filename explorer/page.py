@@ -23,8 +23,9 @@ from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
 from explorer.scene.grab import BladeGrab
 from explorer.scene.overlays import Strip, ghost_of
-from explorer.sharing import share
+from explorer.sharing import share, stored_history
 from explorer.sharing.address import Address
+from explorer.sharing.presentation import PRESENT
 from explorer.sharing.view_code import VIEW, view_from
 from explorer.state import Inputs, ViewState, with_optimum
 from explorer.tabs.actuator.cut import fit_cut
@@ -53,6 +54,7 @@ from explorer.text.units import UNITS
 from explorer.theme import style_sheet as style
 from rotor.design.design import Design
 from rotor.trim.solution import Solution
+from rotor.user_input import brief
 
 _BRAND = (37, 99, 235)
 VIEWS: tuple[tuple[View, str], ...] = (("3d", "Aircraft"), ("disk", "Disk"), ("blade", "Blade"), ("side", "Side"))
@@ -82,12 +84,13 @@ class Page:
         gui.set_panel_label("Rotor explorer")
         set_style(client, style.SHEET)  # Before the first widget.
         self.bridge = bridge = Bridge(client)
-        self._presence = Presence(client, shared.presentations, address)
+        self._presence = Presence(client, shared.presentations, address, facts.kept.get(PRESENT, ""))
         self.layout = layout = Layout(client, bridge)
         self.top = TopBar(bridge, layout, callbacks.wake)
         self.display = Display(bridge, replace(view, dark=facts.dark), callbacks.wake, callbacks.azimuth_changed)
         with layout.in_mode("explore"):
             self.controls = DesignControls(gui, start, callbacks.wake)
+            self.controls.stand.state = callbacks.state
         self._start, self._touched, self._held, self._pause = start, False, False, 0.0
         self._view: View = "3d"
         rotor = start.aircraft.rotor_for(start.preset)
@@ -111,28 +114,30 @@ class Page:
             tasks = Sections(gui, bridge, "task", ("Search", "Map", "Schedule"))
             with tasks["Search"]:
                 self.optimise = OptimisePanel(
-                    gui, bridge, shared.pool, context, lambda design: self.schedule.legs(design)
+                    gui, bridge, shared.pool, context, lambda design: self.schedule.legs(design), self._search_changed
                 )
             with tasks["Map"]:
                 self.map = MapPanel(gui, shared.pool, context, self.optimise)
             with tasks["Schedule"]:
                 self.schedule = SchedulePanel(gui, bridge, shared.pool, context, self.optimise.request)
         with layout.in_mode("actuate"):
-            self.actuator = ActuatorPanel(client, shared.pool, callbacks.wake, self._fly)
+            self.actuator = ActuatorPanel(client, bridge, shared.pool, callbacks.wake, self._fly)
             self._actuator_inputs = self.actuator.inputs()
         self.results = ResultsPanel(gui, bridge, layout)
         with layout.in_drawer("details"):
             self.waterfall = WaterfallPanel(gui, self.controls.show_costs)
         with layout.in_drawer("twist"):
-            sensitivity = SensitivityPanel(gui, Strip(client.scene), context)
+            self.sensitivity = SensitivityPanel(gui, Strip(client.scene), context, lambda: layout.drawer == "twist")
         with layout.in_drawer("probe"):
-            self.probe = ProbePanel(client, context, self._set_playing, lambda: self._open("probe"))
+            self.probe = ProbePanel(
+                client, bridge, context, self._set_playing, lambda: self._open("probe"), lambda: self.display.turn_rate
+            )
         with layout.in_drawer("open"):
             opened = Sections(gui, bridge, "opened", ("Studies", "Files", "History"))
             with opened["Studies"]:
                 studies = StudiesPanel(client, context, shared.studies)
             with opened["History"]:
-                self.history = HistoryPanel(gui, context, start)
+                self.history = HistoryPanel(client, context, start, facts.kept.get(stored_history.NAME))
         with opened["Files"]:
             RotorUpload(gui, context)
         with layout.in_drawer("share"):
@@ -143,7 +148,7 @@ class Page:
             self.lecture = LecturePanel(gui, bridge, context, self._presence, self._set_stage)
         with layout.in_drawer("settings"):
             settings = SettingsPanel(gui, self.display, self._enlarge)
-        followers: tuple[Tab, ...] = (self.top, self.probe, sensitivity, self.waterfall, studies, settings)
+        followers: tuple[Tab, ...] = (self.top, self.probe, self.sensitivity, self.waterfall, studies, settings)
         self.tabs = (*followers, self.history, self.file, export, self.lecture, self._presence)
         """Everything that only follows."""
         self.camera = self.scene.camera = FittedCamera(client, rotor.radius)
@@ -198,14 +203,21 @@ class Page:
         self._radius = solution.design.rotor.radius
         self.camera.resize(self._radius)
         self.scene.draw(solution, reading.view, ghost, frame.pinned)
+        self.bridge.set(arc=None if reading.previewed else self.grab.arc(solution, reading.view))
         self.camera.ride(math.radians(reading.view.azimuth_deg))
         # Only at harmonics does the cut blade turn with the marked one.
         if self._actuator_in_frame and (not frame.only_azimuth or self._actuator_inputs.per_rev):
             self._show_actuator(reading, solution)
 
+    def show_settling(self, state: SessionState) -> None:
+        """Power and twist beside the hand, of a wake that is not in equilibrium yet."""
+        self.results.show_settling(state, self._pause)
+        self._show_hand(state)
+
     def show_azimuth(self, state: SessionState) -> None:
         """Only the azimuth of the reference blade changed."""
         self.results.turn(state)
+        self.sensitivity.show(state)
         self.probe.show(state)
 
     def show_results(self, reading: Reading, state: SessionState) -> None:
@@ -228,14 +240,22 @@ class Page:
             tab.show(state)
         self.file.follow(state)
 
-    def rest(self, state: SessionState, stop: Callable[[], bool]) -> None:
-        """What can wait: the fine picture, the address, the waterfall, what the page keeps of an own rotor."""
+    def settle(self, state: SessionState) -> None:
+        """The fine picture, the address, and what the page keeps of an own rotor and of the steps.
+
+        It comes before the power curve: an early reload must find it.
+        """
         self.scene.settle()
         self.file.follow(state)
+        self.file.keep()
+        self.history.store()
+
+    def rest(self, state: SessionState, stop: Callable[[], bool]) -> None:
+        """What can wait: also the worth of flight sliders, and the waterfall."""
+        self.settle(state)
+        self.history.rest(stop)
         self.results.rest(stop)
         self.waterfall.climb(stop)
-        if not stop():
-            self.file.keep()
 
     def show_failure(self, failure: Failure) -> None:
         """The last converged picture stays, grey, beneath the sentence."""
@@ -249,7 +269,7 @@ class Page:
 
     def show_error(self, sentence: str) -> None:
         """An update failed with an exception."""
-        self.results.problem(sentence)
+        self.results.problem(brief(sentence))
 
     @property
     def _actuator_in_frame(self) -> bool:
@@ -261,6 +281,7 @@ class Page:
 
     def _refresh(self, reading: Reading) -> None:
         """What follows the widgets themselves: visible sliders, units, dark page, and the tabs of long work."""
+        self.controls.follow(_on_sliders(reading))
         self.controls.refresh(reading.inputs, UNITS[reading.view.units])
         if reading.view.dark != self._dark:
             self._dark = reading.view.dark
@@ -268,7 +289,6 @@ class Page:
         self.top.show_design(reading.inputs, self.history.steps)
         self._touched = self._touched or reading.inputs != self._start
         self._prompt()
-        self.controls.follow(_on_sliders(reading))
         self.optimise.refresh(reading.sliders)
         self.map.refresh(reading.sliders)
         self.schedule.refresh()
@@ -289,6 +309,7 @@ class Page:
         bridge.on("undo", lambda _: self._step(self.history.undo))
         bridge.on("redo", lambda _: self._step(self.history.redo))
         bridge.on("view", lambda name: self._look(name))
+        bridge.on("covered", lambda ends: self.camera.leave_free(float(ends[0]), float(ends[1])))
         bridge.on("colours", self._colour)
         bridge.on("play", lambda _: self.probe.toggle())
         self.results.curve.bind(context, lambda: not self._held)
@@ -312,17 +333,20 @@ class Page:
         tracker = self.results.card.tracker
         if held:
             tracker.grab()
+            if (state := self.context.state()) is not None:
+                self.grab.learn(state.inputs, self.results.worth.slopes)
         else:
             tracker.release()
-            self.bridge.set(hand=None)
+            self.bridge.set(hand=None, arc=None)
+        self.camera.hold(held)
         self.history.grab(held)
         self._callbacks.wake()
 
     def _show_hand(self, state: SessionState) -> None:
-        """Power and its change beside the pointer, while the blade is held."""
-        hand, place = self.results.card.hand(UNITS[state.view.units]), self.grab.place
-        if hand is not None and place:
-            self.bridge.set(hand={**hand, "place": place})
+        """Power and its change beside the pointer, while the blade or its twist curve is held."""
+        self.grab.learn(state.inputs, self.results.worth.slopes)
+        hand, place = self.results.card.hand(UNITS[state.view.units]), self.grab.place or self.results.curve.place
+        self.bridge.set(hand={**hand, "place": place} if hand is not None and place else None)
 
     def _prompt(self) -> None:
         """What to do first, until something was done."""
@@ -353,6 +377,10 @@ class Page:
         self._set_mode("optimise")
         self.optimise.begin()
 
+    def _search_changed(self) -> None:
+        """A search begins, or its design was taken or left: no change since a grab that came before counts."""
+        self.results.card.forget()
+
     def _toggle_drawer(self, name: str) -> None:
         self.layout.show_drawer(name)
         self.top.refresh()
@@ -372,7 +400,7 @@ class Page:
         self._client.send_file_download(name, content, save_immediately=True)
 
     def _notify(self, title: str, sentence: str) -> None:
-        self._client.add_notification(title, sentence, auto_close_seconds=6)
+        self._client.add_notification(title, brief(sentence), auto_close_seconds=6)
 
     def _enlarge(self, big: bool) -> None:
         """Big type in wider panels, or both as usual."""
@@ -419,7 +447,10 @@ class Page:
         self._callbacks.wake()
 
     def _reset(self) -> None:
+        """The design the page began with; what is shown in its place, a preview or a flight, ends."""
         self.results.card.forget()
+        self.schedule.land()
+        self.optimise.withdraw()
         self.actuator.rest()
         self.controls.reset()
 

@@ -14,7 +14,9 @@ from rotor.trim.solve import solve
 
 Order = Literal["pin", "unpin", "swap", "back"]
 FLIGHT = ("advance_ratio", "mass_t", "altitude_m")
-"""The inputs of the flight condition; the others are the aircraft and the models."""
+"""The numbers of the flight condition."""
+CONDITION = (*FLIGHT, "stand")
+"""The inputs of the condition; the others are the aircraft and the models."""
 _NO_TRIM = "The design on the sliders has no trim: move a slider back first. Only a trimmed design can be A."
 _DRIVEN = "The voltage of the actuator is unchanged: set it under Actuate."
 
@@ -47,7 +49,10 @@ class Pinned:
 
     def design(self, present: Design) -> Design:
         """A's blade and models in the flight condition of the present design."""
-        return replace(self.solution.design, condition=present.condition)
+        own = self.solution.design
+        tested = own.condition.stand is not None, present.condition.stand is not None
+        trim = present.models.trim if any(tested) else own.models.trim
+        return replace(own, condition=present.condition, models=replace(own.models, trim=trim))
 
     def sliders(self, present: Inputs, along: bool) -> Inputs:
         """The slider positions that mean A: in the present flight when it flies along, else in its own.
@@ -56,12 +61,12 @@ class Pinned:
         """
         if not along or self.inputs.aircraft != present.aircraft:
             return self.inputs
-        return replace(self.inputs, **{name: getattr(present, name) for name in FLIGHT})
+        return replace(self.inputs, **{name: getattr(present, name) for name in CONDITION})
 
 
 def same_but_flight(one: Inputs, other: Inputs) -> bool:
     """Whether two inputs mean the same blade, computed in the same way."""
-    return replace(one, **{name: getattr(other, name) for name in FLIGHT}) == other
+    return replace(one, **{name: getattr(other, name) for name in CONDITION}) == other
 
 
 @dataclass(frozen=True, eq=False)

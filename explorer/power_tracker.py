@@ -51,7 +51,9 @@ class PowerTracker:
             self.reset()  # Another rotor: its power is no change of this one's.
         if self._inputs is None:
             self._inputs, self._power = inputs, power
-            return None
+            if self._held:  # Grabbed before the new design had a power: it counts from the first one known.
+                self._reference = power
+            return self.change
         moved = differing(self._inputs, inputs)
         if moved and not self._held and (pause >= PAUSE or not moved <= self._moving):
             self._reference, self._moving = self._power, moved

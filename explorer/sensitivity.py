@@ -133,10 +133,11 @@ def flight_sensitivities(
 
     One-sided where one neighbour does not trim or lies outside the permitted range; a slider without a trimmed
     neighbour is left out, and so is the advance ratio in hover, which another model computes. `superseded` is asked
-    before every trim; once it says yes the sliders so far are returned.
+    before every trim; once it says yes the sliders so far are returned. On a test stand only the advance ratio counts.
     """
     found: dict[str, SliderSensitivity] = {}
-    for name in FLIGHT:
+    tested = solution.design.condition.stand is not None
+    for name in FLIGHT[:1] if tested else FLIGHT:
         if name == "advance_ratio" and solution.design.hovering:
             continue
         points = [(0.0, solution.power.total)]

@@ -6,14 +6,15 @@ A slider step takes these steps; `_update` is the path, the page implements `exp
 2. `NewestWins` runs `_update` on the session's thread when its turn comes; wakes in between need only one more run.
 3. read: `page.read` turns the widgets into `Inputs` and `ViewState`.
 4. read: `Inputs.design`, the actuator and the search that is shown turn them into a `Design`.
-5. solve: `rotor.trim.solve` trims the design, starting from the last converged solution.
+5. solve: `rotor.trim.solve` trims the design, starting from the last converged solution. A free wake in hover is
+   shown after one Newton step, as settling, before it is solved.
 6. solve: the A/B buttons act. If that moves the sliders, a further update follows and this one ends.
 7. draw: `picture.make_picture` makes arrays of the solution: blades, disk image, outlines.
 8. draw: `scene` assigns them to viser's handles and flushes. The frame is on its way.
 9. follow: the baseline and A are solved and complete the `SessionState`.
 10. follow: `page.show_results` updates status, numbers, charts and the panels of long work.
 11. follow: `page.follow` updates all other tabs.
-12. follow: the power curve is swept. `page.rest` then updates what can wait until nothing moves.
+12. follow: once nothing moves, `page.settle` draws finely; the power curve is swept; `page.rest` does what can wait.
 """
 
 import logging
@@ -23,18 +24,22 @@ from dataclasses import replace
 
 import viser
 
+from explorer.charts.measured import set_shown
 from explorer.charts.power_curve import PowerCurves
 from explorer.hosting.viser_compat import PageFacts
 from explorer.interface import Failure, Frame, Reading, SessionCallbacks, SessionPage, SessionState, SharedServices
 from explorer.page import Page
 from explorer.state import Inputs, baseline_of, with_optimum
 from explorer.workers import solver
-from explorer.workers.newest_wins import IdleTimeout, NewestWins
+from explorer.workers.newest_wins import IdleTimeout, NewestWins, Superseded
 from rotor.blas_threads import one_blas_thread
+from rotor.trim.options import DEFAULT_OPTIONS
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
 _log = logging.getLogger(__name__)
+_STILL = 0.06
+"""[s] without a change after which nothing is dragged: a drag changes something every 50 ms."""
 
 
 class Session:
@@ -85,7 +90,9 @@ class Session:
         """One slider step; `superseded` gives way to the frames of other pages, then says whether to stop."""
         everything, self._all_changed = self._all_changed, False
         reading = self._read()
-        solution = self._solve(reading)
+        if self._preview(reading, everything) and self._overtaken():
+            return
+        solution = self._solve(reading, superseded)
         if solution is not None:
             self._draw(reading, solution, everything)
             self._follow(reading, solution, everything, superseded)
@@ -103,13 +110,38 @@ class Session:
         preview = page.preview(sliders) if design == sliders else None
         return Reading(inputs, view, sliders, preview or design, preview is not None)
 
-    def _solve(self, reading: Reading) -> Solution | None:
+    def _preview(self, reading: Reading, everything: bool) -> bool:
+        """Show one Newton step of a free wake, at once, while it settles; whether that was possible."""
+        design, before = reading.design, self._good
+        if design is None or before is None or before.wake is None or before.design == design:
+            return False
+        if not design.hovering or (before.design.rotor, before.design.models) != (design.rotor, design.models):
+            return False
+        found = solve(design, before, replace(DEFAULT_OPTIONS, preview=True))
+        if not found.converged:
+            return False
+        if found.settled:
+            self._latest = found
+            return False
+        self._good = found  # The next step of a drag begins here.
+        self._page.show_frame(Frame(reading, found, None, only_azimuth=not everything))
+        baseline = self._baseline.solve(baseline_of(design))
+        pinned = self._page.solve_pinned(design, True)
+        self._page.show_settling(SessionState(reading.inputs, reading.view, found, baseline, pinned, self._page.pin))
+        return True
+
+    def _solve(self, reading: Reading, superseded: Callable[[], bool]) -> Solution | None:
         """Design → converged solution; None if there is none, or if the sliders were moved meanwhile."""
         design = reading.design
         if design is None:
             self._latest = None
         elif self._latest is None or self._latest.design != design:
-            self._latest = solve(design, self._good)
+            pause = superseded.pause if isinstance(superseded, Superseded) else None
+            options = replace(DEFAULT_OPTIONS, stop=lambda: superseded() and self._all_changed, pause=pause)
+            found = solve(design, self._good, options)
+            if not found.converged and self._overtaken():
+                return None  # Perhaps stopped on its way; the next update solves what is on the sliders now.
+            self._latest = found
         solution = self._latest
         inputs = with_optimum(reading.inputs, design) if design and reading.previewed else reading.inputs
         if self._page.pin_or_swap(inputs, solution):
@@ -148,7 +180,13 @@ class Session:
         if not self._overtaken():
             page.follow(reading, state)
         self._shown.set()
-        if self._curves.sweep(design, state.reference.design, stop, show_power):
+        self._worker.pause(_STILL)
+        if not stop():
+            page.settle(state)
+        elif self._curves.recent:
+            return
+        # On a test stand measured points take the place of power over µ.
+        if set_shown(solution) is not None or self._curves.sweep(design, state.reference.design, stop, show_power):
             page.rest(state, stop)
 
     def _show_failure(self, failure: Failure) -> None:

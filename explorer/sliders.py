@@ -1,7 +1,7 @@
 """The sliders of the Design tab: what each can hold, and how weight and altitude read in other units."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from explorer.state import mass_range
 from explorer.text.units import AVIATION, POUND, SI, Unit, Units
@@ -68,6 +68,8 @@ def slider(name: str, units: Units, aircraft: Aircraft = _FIRST) -> Slider:
     """As it is shown in these units, for this aircraft."""
     if name == "mass_t":
         return _weight(aircraft, units)
+    if name == "advance_ratio" and aircraft.isolated:
+        return replace(SLIDERS[name], high=0.75)
     return _AVIATION[name] if units is AVIATION and name in _AVIATION else SLIDERS[name]
 
 

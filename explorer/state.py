@@ -5,12 +5,15 @@ from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import cache
 from itertools import pairwise
+from typing import Any
 
+from explorer.stand import StandInputs, stand_of, tested
+from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES
-from rotor.assets import SHIPPED_ROTORS
+from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.design.aircraft import Aircraft
 from rotor.design.blade import airfoils_spec
-from rotor.design.design import FLIGHT_MODELS, THESIS_MODELS, Design
+from rotor.design.design import FLIGHT_MODELS, Design, preset_models
 from rotor.design.twist import IdealTwist, LinearTwist, PiecewiseLinearTwist, QuadraticTwist, SumTwist, TwistLaw
 from rotor.files.make_design import change_airfoils, make_design
 from rotor.files.rotor_file import shipped_aircraft
@@ -24,14 +27,16 @@ _LIGHTEST, _HEAVIEST = 0.6, 1.32
 
 @cache
 def menu_titles(own: Aircraft | None) -> dict[str, str]:
-    """The menu: name in `Inputs` → title; the user's own rotor comes last."""
-    titles = {name: shipped_aircraft(name).name for name in SHIPPED_ROTORS}
+    """The menu: name in `Inputs` → title; rotors that were tested on a stand follow, the user's own comes last."""
+    titles = {name: shipped_aircraft(name).name for name in (*SHIPPED_ROTORS, *MEASURED_ROTORS)}
     return titles if own is None else {**titles, OWN: f"{own.name} (own)"}
 
 
 def mass_range(aircraft: Aircraft) -> tuple[float, float, float]:
     """Lowest, highest and step of the weight slider [t], round numbers about the reference mass."""
     tonnes = aircraft.mass / 1e3
+    if aircraft.isolated:
+        return 0.0, 2.0 * tonnes, tonnes / 50.0  # A rotor alone carries no weight.
     step = 0.05 if tonnes > 3.0 else 0.01 if tonnes > 1.0 else 0.005
     low, high = (round(share * tonnes / step) for share in (_LIGHTEST, _HEAVIEST))
     return round(max(low * step, 0.1), 4), round(high * step, 4), step
@@ -41,10 +46,18 @@ def reference_mass_t(aircraft: Aircraft) -> float:
     """The reference mass [t], rounded, within the range of the weight slider."""
     low, high, _ = mass_range(aircraft)
     tonnes = aircraft.mass / 1e3
+    if aircraft.isolated:
+        return round(tonnes, 9)  # As its slider is read.
     return min(max(round(tonnes, 2 if tonnes > 1.0 else 3), low), high)
 
 
 PRESET_TITLES = {"flight": "Best available", "thesis": "Thesis (as stated)"}
+INFLOW_MENUS = {
+    "inflow": {name: model.title for name, model in INFLOW_MODELS.items()},
+    "hover_inflow": {"annulus": "Annulus balance", "free-wake": "Free wake", "closed-form": "Closed form"},
+    "low_speed": {"wake": "Forward wake at any speed", "hover": "Passes over to hover"},
+}
+"""Inputs that choose the inflow: name → title of each choice."""
 
 
 @dataclass(frozen=True)
@@ -75,13 +88,23 @@ class Inputs:
     advance_ratio: float = 0.2
     mass_t: float = 8.32
     altitude_m: float = 0.0
+    stand: StandInputs | None = None
+    """The test of the rotor alone, in place of mass and altitude; None in flight."""
     inflow: str = FLIGHT_MODELS.inflow
+    hover_inflow: str = FLIGHT_MODELS.hover_inflow
+    low_speed: str = FLIGHT_MODELS.low_speed
     flapping: bool = True
     tip_loss: bool = True
     hub_loss: bool = True
     reverse_flow: bool = True
     compressibility: bool = True
+    surface_drag: bool = True
+    swept_tip: bool = True
+    radial_friction: bool = True
+    elastic_twist: bool = True
+    swirl: bool = True
     fuselage: bool = True
+    download: bool = True
     given: TwistLaw | None = None
     """A twist from a design file that none of the laws holds."""
     found: TwistLaw | None = None
@@ -100,15 +123,17 @@ class Inputs:
 
     def design(self) -> Design:
         """The design these inputs mean; ValueError with one sentence for inputs that mean none."""
-        models = FLIGHT_MODELS if self.preset == "flight" else THESIS_MODELS
+        models = preset_models(self.preset)
         design = make_design(
             preset=self.preset,
             rotor=self.aircraft,
             twist=self.twist(),
             mu=self.advance_ratio,
-            mass_kg=1e3 * self.mass_t,
+            mass_kg=None if self.aircraft.isolated else 1e3 * self.mass_t,
             altitude_m=self.altitude_m,
-            models=replace(models, inflow=self.inflow, **{name: getattr(self, name) for name in SWITCHES}),
+            models=replace(models, **{name: getattr(self, name) for name in (*INFLOW_MENUS, *SWITCHES)}),
+            trim=None if self.stand is None else self.stand.trim,
+            stand=None if self.stand is None else self.stand.stand(),
         )
         if self.law in NOT_ALWAYS and self.airfoils:
             design = replace(design, rotor=change_airfoils(design.rotor, self.airfoils))
@@ -213,10 +238,10 @@ def inputs_of(design: Design) -> Inputs:
         own_rotor=None if design.aircraft.key else design.aircraft,
         preset=design.preset,
         advance_ratio=design.condition.advance_ratio,
-        mass_t=design.condition.mass / 1e3,
+        mass_t=reference_mass_t(design.aircraft) if design.aircraft.isolated else design.condition.mass / 1e3,
         altitude_m=design.condition.altitude,
-        inflow=design.models.inflow,
-        **{name: getattr(design.models, name) for name in SWITCHES},
+        stand=stand_of(design),
+        **{name: getattr(design.models, name) for name in (*INFLOW_MENUS, *SWITCHES)},
     )
     twist, airfoils = design.twist, _own_airfoils(design)
     if not airfoils and twist == design.rotor.builtin_twist:
@@ -226,10 +251,19 @@ def inputs_of(design: Design) -> Inputs:
 
 
 def with_rotor(inputs: Inputs, name: str, own: Aircraft | None = None) -> Inputs:
-    """The same flight with another rotor as it is built, at its own reference mass; `own`: one newly brought."""
+    """The same flight with another rotor as it is built, at its own reference mass; `own`: one newly brought.
+
+    A rotor without an airframe begins on the test stand, in a condition in which it was measured if it was.
+    """
     changed = replace(inputs, rotor=name, own_rotor=own or inputs.own_rotor)
     mass = reference_mass_t(changed.aircraft)
     plain = {"built_inner": 0.0, "built_outer": 0.0, "built_division": 0.5}
+    mu, stand = inputs.advance_ratio, None
+    if changed.aircraft.isolated:
+        mu, stand = tested(changed.aircraft)
+    elif inputs.stand is not None:
+        mu = OPENING.advance_ratio
+    changed = replace(changed, advance_ratio=mu, stand=stand)
     return replace(changed, law="builtin", mass_t=mass, given=None, found=None, airfoils="", **plain)
 
 
@@ -274,9 +308,10 @@ def _builtin_twist(inputs: Inputs) -> TwistLaw:
     return inputs.aircraft.rotor_for(inputs.preset).builtin_twist
 
 
-def preset_inflow(preset: str) -> str:
-    """The inflow model a preset brings."""
-    return (FLIGHT_MODELS if preset == "flight" else THESIS_MODELS).inflow
+def preset_inflow(preset: str) -> dict[str, Any]:
+    """What a preset brings for each of `INFLOW_MENUS`."""
+    models = preset_models(preset)
+    return {name: getattr(models, name) for name in INFLOW_MENUS}
 
 
 def baseline_of(design: Design) -> Design:

@@ -43,7 +43,7 @@ class TourInstant:
 
 _BUILT = Inputs(law="builtin")
 _LINEAR = Inputs(law="linear", linear=-8.0)
-_TWO = Inputs(law="two", two_inner=-13.1, two_outer=-13.1, two_division=0.7, advance_ratio=0.3)
+_TWO = Inputs(law="two", two_inner=-10.6, two_outer=-10.6, two_division=0.7, advance_ratio=0.3)
 
 STOPS: tuple[TourStop, ...] = (
     TourStop(
@@ -61,9 +61,9 @@ STOPS: tuple[TourStop, ...] = (
     ),
     TourStop(
         10.0,
-        "Forward flight has its optimum near −12°, and it is flat: 4° more cost less than one per cent.",
-        replace(_LINEAR, linear=-12.0, advance_ratio=0.25),
-        replace(_LINEAR, linear=-16.0, advance_ratio=0.25),
+        "Forward flight has its optimum near −10° of jig twist, and it is flat: 4° more cost less than one per cent.",
+        replace(_LINEAR, linear=-10.5, advance_ratio=0.25),
+        replace(_LINEAR, linear=-14.5, advance_ratio=0.25),
         "Induced inflow λi",
     ),
     TourStop(
@@ -76,7 +76,7 @@ STOPS: tuple[TourStop, ...] = (
         10.0,
         "Two segments can do better than one: Optimise finds their rates and where they meet.",
         _TWO,
-        replace(_TWO, two_inner=-7.9, two_outer=-16.7),
+        replace(_TWO, two_inner=-4.0, two_outer=-15.6),
         "Thrust dT/dr",
     ),
     TourStop(

@@ -4,23 +4,22 @@ import sys
 
 from rotor.blas_threads import keep_one_blas_thread
 from rotor.command.parser import build_parser
+from rotor.terminal import run_command
 
 
 def main(argv: list[str] | None = None) -> int:
     """Run one command; bad input gives one line on stderr."""
     keep_one_blas_thread()
-    try:
-        args = build_parser().parse_args(argv)
+
+    def run() -> int:
+        parser = build_parser()
+        if not (sys.argv[1:] if argv is None else argv):
+            parser.print_help()
+            return 0
+        args = parser.parse_args(argv)
         return args.run(args)
-    except (ValueError, FileNotFoundError) as error:
-        print(f"rotor: {error}", file=sys.stderr)
-        return 2
-    except BrokenPipeError:  # The reader of a pipe has seen enough.
-        sys.stderr.close()
-        return 0
-    except KeyboardInterrupt:
-        print("rotor: stopped", file=sys.stderr)
-        return 130
+
+    return run_command("rotor", run)
 
 
 if __name__ == "__main__":

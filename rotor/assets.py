@@ -12,6 +12,17 @@ from pathlib import Path
 SHIPPED_ROTORS = ("uh60a", "r22", "s61")
 """Names of the shipped rotors, each in `assets/<name>.toml`. The first is the default."""
 
+MEASURED_ROTORS = (
+    "xv15",
+    "pca2",
+    "knight-hefner-3",
+    "knight-hefner-4",
+    "castles-gray",
+    "castles-gray-twisted",
+    "2mrts",
+)
+"""Names of the shipped rotors that were tested on a stand, each in `assets/rotors/<name>.toml`."""
+
 _PACKAGED = Path(__file__).parent / "_assets"
 _CHECKOUT_ROOT = Path(__file__).parent.parent
 _CHECKOUT = _CHECKOUT_ROOT / "assets"

@@ -57,3 +57,20 @@ def test_its_page_starts_answers_and_stops(installed: Path, tmp_path: Path):
 
 def test_it_runs_a_study(installed: Path, tmp_path: Path):
     assert "3 points" in release.study(installed, tmp_path)
+
+
+@pytest.mark.parametrize("notebook", sorted((ROOT / "docs" / "notebooks").glob("*.py")), ids=lambda path: path.stem)
+def test_it_runs_the_notebooks(notebook: Path, installed: Path, tmp_path: Path):
+    """Figures included; the last cell starts the page, which ends with the script."""
+    assert release.run(installed, str(notebook), cwd=tmp_path)
+
+
+def test_the_first_example_of_the_documentation_runs(installed: Path, tmp_path: Path):
+    assert 0.4e6 < float(release.run(installed, "-c", release.first_example(), cwd=tmp_path)) < 2.0e6
+
+
+def test_a_second_build_gives_the_same_bytes(installed: Path, tmp_path: Path):
+    first = release.digests(installed.parent.parent.parent)
+    release.build(tmp_path)
+    assert len(first) == 2
+    assert release.digests(tmp_path) == first

@@ -11,12 +11,11 @@ from explorer.text.units import KILOWATT, Unit
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.trim.solution import Solution
-from rotor.trim.validity import LOW_SPEED
 
 Range = tuple[float, float]
 
-SWEEP = (0.0, *(round(LOW_SPEED + 0.025 * k, 3) for k in range(16)))
-"""Advance ratios of the power curve: hover, then from where the forward inflow is valid."""
+SWEEP = tuple(round(0.025 * k, 3) for k in range(19))
+"""Advance ratios of the power curve."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,18 +31,20 @@ class Plot:
 
 @dataclass(frozen=True, eq=False)
 class PowerCurve:
-    """Total power [kW] over `SWEEP` of this design and its reference; NaN where a point did not converge."""
+    """Total power [kW] over `SWEEP` of this design and its reference; NaN where there is no trim or no valid inflow."""
 
     design: Array
     reference: Array
     """A when one is pinned, else the baseline."""
     ideal: Array
     """This design's power with the least induced power that any circulation could have."""
+    current: bool = True
+    """Whether `design` has been swept; else it is the curve of the design before it."""
 
     def in_unit(self, unit: Unit) -> "PowerCurve":
         """The curve in a unit other than kW."""
         factor = KILOWATT.size / unit.size
-        return PowerCurve(factor * self.design, factor * self.reference, factor * self.ideal)
+        return PowerCurve(factor * self.design, factor * self.reference, factor * self.ideal, self.current)
 
 
 def held_range(previous: Range | None, low: float, high: float) -> Range:
@@ -63,7 +64,7 @@ def held_range(previous: Range | None, low: float, high: float) -> Range:
 def power_plot(curve: PowerCurve, mu: float, power: float | None, previous: Range | None, pinned: bool = False) -> Plot:
     """Series: ideal for this lift; baseline, A, this design; hover points of these three; the present point.
 
-    Hover and forward flight are two models, so the line starts at µ 0.075 and hover stands alone. `pinned`: the
+    Where forward flight does not pass over to hover, hover is a point and the line starts at µ 0.075. `pinned`: the
     reference of the curve is A, which takes the baseline's place.
     """
     x = _with_point(mu)
@@ -90,10 +91,8 @@ def _with_point(mu: float) -> Array:
 
 
 def _line(x: Array, values: Array) -> Array:
-    """A curve over `SWEEP` at x, where the forward inflow is valid."""
-    y = np.interp(x, np.array(SWEEP[1:]), values[1:], left=math.nan, right=math.nan)
-    y[x < LOW_SPEED] = math.nan
-    return y
+    """A curve over `SWEEP` at x, with its gaps."""
+    return np.interp(x, np.array(SWEEP), values, left=math.nan, right=math.nan)
 
 
 def _single(x: Array, at: float, value: float) -> Array:
@@ -192,7 +191,7 @@ def _range_of(series: Sequence[Array], previous: Range | None, floor: float | No
 def blank() -> tuple[Plot, Plot, Plot, Plot, Plot]:
     """Empty charts for a page that waits for its first solution: power, B − A, twist, α, Cl.
 
-    Their ranges are none that an answer has, so that the first answer makes the page build each chart anew: viser's
+    No answer has their ranges, so that the first one makes the page build each chart anew: viser's
     charts start with no width, and one that is fed while it gets its width would stay without axis numbers.
     """
     none = np.full(2, np.nan)

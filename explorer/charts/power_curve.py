@@ -13,8 +13,10 @@ from explorer.text.readout import ideal_induced
 from explorer.workers.scheduler import SCHEDULER
 from rotor.arrays import Array
 from rotor.design.design import Design
+from rotor.trim.low_speed import passes_over
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
+from rotor.trim.validity import LOW_SPEED
 
 PATIENCE = 0.6
 """A curve older than this [s] is swept coarsely even while a slider moves, so that it follows a long drag."""
@@ -35,14 +37,20 @@ class PowerCurves:
         """Curves swept coarsely, to be swept again once there is time."""
         self._last: tuple[Design | None, float] = (None, -math.inf)
 
+    @property
+    def recent(self) -> bool:
+        """Whether the last sweep is so fresh that the next can wait until a drag ends."""
+        return time.monotonic() - self._last[1] < PATIENCE
+
     def known(self, design: Design, reference: Design) -> PowerCurve:
         """The curves of a design and of its reference; until the design is swept, the curve before it."""
         blank = np.full((2, len(SWEEP)), math.nan)
         last = self._last[0]
         alike = last is not None and last.aircraft == design.aircraft
         before = self._curves.get(last, blank) if last is not None and alike else blank
-        total, ideal = self._curves.get(_family(design), before)
-        return PowerCurve(total, self._curves.get(_family(reference), blank)[0], ideal)
+        family = _family(design)
+        total, ideal = self._curves.get(family, before)
+        return PowerCurve(total, self._curves.get(_family(reference), blank)[0], ideal, family in self._curves)
 
     def sweep(
         self,
@@ -55,7 +63,7 @@ class PowerCurves:
 
         `known`: called after each of the two.
         """
-        patient = time.monotonic() - self._last[1] < PATIENCE
+        patient = self.recent
         for family in (_family(design), _family(reference)):
             if family not in self._curves or family in self._coarse:
                 values, coarse = self._swept(family, superseded, patient)
@@ -80,13 +88,18 @@ class PowerCurves:
                 coarse = True
             if lost == (1 if coarse else 2):
                 break  # Faster flight does not trim either, and each failed trim takes long.
-            if coarse and k > 0 and (k - 1) % 3:
+            if (coarse and k % 3 and k != 1) or (0.0 < mu < LOW_SPEED and not passes_over(family)):
                 continue
-            point = solve(family.at(mu=mu), start)
+            try:
+                design = family.at(mu=mu)
+            except ValueError:  # A free rotor in hover.
+                continue
+            point = solve(design, start)
             lost = 0 if point.converged else lost + 1
             if point.converged:
                 start, values[:, k] = point, _powers(point)
-        return np.stack([_bridged(row) for row in values]) if coarse else values, coarse
+        first = 0 if passes_over(family) else 1
+        return np.stack([_bridged(row, first) for row in values]) if coarse else values, coarse
 
     def _keep(self, family: Design, values: Array, coarse: bool) -> None:
         if len(self._curves) >= _KEPT:
@@ -96,20 +109,23 @@ class PowerCurves:
 
 
 def _family(design: Design) -> Design:
-    return replace(design, condition=replace(design.condition, advance_ratio=0.0))
+    """The same design for every advance ratio; a test may not know hover, so there it is another one."""
+    any_speed = 0.0 if design.condition.stand is None else 0.2
+    return replace(design, condition=replace(design.condition, advance_ratio=any_speed))
 
 
 def _powers(point: Solution) -> tuple[float, float]:
-    """Total power, and total power with the least induced power at this lift [kW]."""
-    total, ideal = point.power.total / 1e3, ideal_induced(point)
+    """Total power, and total power with the least induced power at this lift [kW], which is NaN at low speed."""
+    total, slow = point.power.total / 1e3, 0.0 < point.design.condition.advance_ratio < LOW_SPEED
+    ideal = None if slow else ideal_induced(point)
     return total, math.nan if ideal is None else total - (point.power.induced - ideal) / 1e3
 
 
-def _bridged(values: Array) -> Array:
-    """Fill the points left out of a coarse sweep by a smooth line between those of forward flight."""
+def _bridged(values: Array, first: int) -> Array:
+    """Fill the points left out of a coarse sweep by a smooth line, from `first` on."""
     k = np.arange(len(values))
-    have = np.isfinite(values) & (k > 0)
+    have = np.isfinite(values) & (k >= first)
     if have.sum() < 2:
         return values
     line = PchipInterpolator(k[have], values[have], extrapolate=False)
-    return np.where(k > 0, line(k), values)
+    return np.where(k >= first, line(k), values)

@@ -15,10 +15,10 @@ from explorer.text.units import KILOWATT, SI, Units, number
 from rotor.arrays import Array
 from rotor.trim.adjoint import PitchGradient
 from rotor.trim.solution import Solution
-from rotor.trim.validity import LOW_SPEED
 
-Role = Literal["this", "reference", "limit", "saving"]
-"""What a line stands for; the page chooses its colour."""
+Role = Literal["this", "reference", "limit", "saving", "earlier", "flown"]
+"""What a line stands for; the page chooses its colour.
+`earlier`: of the design before this one; `flown`: with elastic twist."""
 
 _SHOWN_QUANTILE = 0.93
 """Share of the stations whose sensitivity fits the axis: the tip's spike would flatten all others."""
@@ -45,6 +45,18 @@ class StripDot:
     """`hover`, or empty for the present condition."""
 
 
+@dataclass(frozen=True)
+class StripMark:
+    """One measured point with its scatter."""
+
+    x: float
+    y: float
+    error: float
+    """Scatter of y, up and down."""
+    words: str
+    """Measured value, ours and the error."""
+
+
 @dataclass(frozen=True, eq=False)
 class StripChart:
     """One chart, ready to draw."""
@@ -56,6 +68,7 @@ class StripChart:
     y_range: Range
     lines: tuple[StripLine, ...]
     dots: tuple[StripDot, ...] = ()
+    marks: tuple[StripMark, ...] = ()
     value: str = ""
     """The number to remember, in the corner."""
     note: str = ""
@@ -68,6 +81,11 @@ class StripChart:
     @property
     def y_ticks(self) -> list[float]:
         return round_ticks(*self.y_range, 4)
+
+    def _seen(self, line: StripLine) -> bool:
+        """Whether most of a line lies within the axis: a limit of which only crumbs do says nothing."""
+        low, high = self.y_range
+        return bool(np.mean((line.y >= low) & (line.y <= high)) > 0.5)
 
     def as_dict(self) -> dict[str, Any]:
         """The chart as JSON can hold it, rounded to what a pixel shows."""
@@ -83,9 +101,19 @@ class StripChart:
             "lines": [
                 {"x": _plain(line.x, 4), "y": _plain(line.y, digits), "role": line.role, "filled": line.filled}
                 for line in self.lines
+                if line.role != "limit" or self._seen(line)
             ],
             "dots": [
                 {"x": dot.x, "y": round(dot.y, digits), "label": dot.label} for dot in self.dots if math.isfinite(dot.y)
+            ],
+            "marks": [
+                {
+                    "x": round(mark.x, 5),
+                    "y": round(mark.y, digits),
+                    "error": round(mark.error, digits + 1),
+                    "words": mark.words,
+                }
+                for mark in self.marks
             ],
             "value": self.value,
             "note": self.note,
@@ -111,7 +139,6 @@ def power_change_chart(
     unit = units.power[0]
     apart = (curve.design - curve.reference) * (KILOWATT.size / unit.size)
     mus = np.array(SWEEP)
-    flying = mus >= LOW_SPEED
     now = math.nan if change is None else unit.of(change)
     seen = [value for value in (*apart[mus <= max(0.4, mu)], now, 0.0) if math.isfinite(value)]
     return StripChart(
@@ -119,9 +146,33 @@ def power_change_chart(
         unit=f"{unit.symbol} vs. {reference}",
         x_range=(0.0, SWEEP[-1]),
         y_range=held_range(previous, min(-2.0, *seen), max(2.0, *seen)),
-        lines=(StripLine(mus[flying], apart[flying], "saving", filled=True),),
-        dots=(StripDot(0.0, float(apart[0]), "hover"), StripDot(mu, now, "")),
+        lines=(StripLine(mus, apart, "saving" if curve.current else "earlier", filled=curve.current),),
+        dots=(*([StripDot(0.0, float(apart[0]), "hover")] if curve.current else []), StripDot(mu, now, "")),
         value="" if change is None else f"{number(now, 1 if abs(now) < 9.95 else 0, sign=True)} {unit.symbol}",
+    )
+
+
+def total_power_chart(
+    curve: PowerCurve, mu: float, total: float | None, units: Units = SI, held: Range | None = None
+) -> StripChart:
+    """Total power over µ of a design that is its own reference; hover and the present condition are dots.
+
+    `curve`: in kW over `SWEEP`. `total`: at the present condition [W], None without trim. `held`: the axis before.
+    """
+    unit = units.power[0]
+    power = curve.in_unit(unit).design
+    mus, now = np.array(SWEEP), math.nan if total is None else unit.of(total)
+    seen = [value for value in (*power[mus <= max(0.4, mu)], now) if math.isfinite(value)]
+    least = int(np.nanargmin(np.where(mus > 0.0, power, math.inf)))
+    known = curve.current and math.isfinite(power[least])
+    return StripChart(
+        title="Power over µ",
+        unit=unit.symbol,
+        x_range=(0.0, SWEEP[-1]),
+        y_range=held_range(held, 0.0, max(seen, default=math.nan)),
+        lines=(StripLine(mus, power, "saving" if curve.current else "earlier"),),
+        dots=(*([StripDot(0.0, float(power[0]), "hover")] if curve.current else []), StripDot(mu, now, "")),
+        value=f"least near µ {mus[least]:.2f}" if known else "",
     )
 
 
@@ -144,7 +195,7 @@ def alpha_chart(
     value, note = _margin(r, np.minimum(upper - alpha, alpha - lower))
     return StripChart(
         title="Angle of attack",
-        unit=f"° along the blade, ψ {azimuth_deg:.0f}°",
+        unit=f"° at ψ {azimuth_deg:.0f}°",
         x_range=(0.1, 1.0),
         y_range=held_range(previous, min(low, -2.0), max(high, 14.0)),
         lines=tuple(lines),
@@ -165,11 +216,12 @@ def lift_chart(solution: Solution, reference: Solution | None, previous: Range |
     peak = float(solution.disk.r[np.argmax(lift)])
     return StripChart(
         title="Lift",
-        unit="kN/m per blade, mean of a revolution",
+        unit="kN/m per blade",
         x_range=(0.1, 1.0),
         y_range=held_range(previous, min(0.0, low), high),
         lines=tuple(lines),
         value=f"peak at {peak:.2f} R",
+        note="Mean over azimuth.",
     )
 
 
@@ -190,9 +242,10 @@ def where_to_twist_chart(gradient: PitchGradient, units: Units = SI, previous: R
     reach = max(1.0, 1.25 * float(np.quantile(np.abs(density), _SHOWN_QUANTILE)))
     y_range = held_range(previous, -reach, reach)
     outside = int(np.argmax(np.maximum(density - y_range[1], y_range[0] - density)))
-    note = ""
+    value = note = ""
     if not y_range[0] <= density[outside] <= y_range[1]:
         height = number(float(density[outside]), 0, sign=True)
+        value = f"{height} at {gradient.r[outside]:.2f} R"
         note = f"Off the chart: {height} at {gradient.r[outside]:.2f} R."
     return StripChart(
         title="Where to twist",
@@ -200,6 +253,7 @@ def where_to_twist_chart(gradient: PitchGradient, units: Units = SI, previous: R
         x_range=(0.1, 1.0),
         y_range=y_range,
         lines=(StripLine(gradient.r, density, "saving", filled=True),),
+        value=value,
         note=note,
     )
 

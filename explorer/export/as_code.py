@@ -138,16 +138,30 @@ def _flags(design: Design) -> list[str]:
     words = [f"--rotor {design.aircraft.key}"] if design.aircraft.key not in ("", SHIPPED_ROTORS[0]) else []
     words += [f"--preset {design.preset}"] if design.preset != "flight" else []
     words.append("--hover" if design.hovering else f"--mu {_plain(condition.advance_ratio)}")
-    words += [f"--twist {shlex.quote(exact_spec(design.twist))}", f"--mass-kg {_plain(condition.mass)}"]
+    words.append(f"--twist {shlex.quote(exact_spec(design.twist))}")
+    if condition.stand is None:
+        words.append(f"--mass-kg {_plain(condition.mass)}")
+    else:
+        words.append(f"--trim {design.models.trim}")
+        words += [
+            f"--{_FLAGS.get(key, key.replace('_', '-'))} {value}" for key, value in condition.stand.record().items()
+        ]
     if condition.altitude:
         words.append(f"--altitude-m {_plain(condition.altitude)}")
-    if design.models.inflow != plain.models.inflow:
-        words.append(f"--inflow {design.models.inflow}")
+    inflow = "hover_inflow" if design.hovering else "inflow"
+    if getattr(design.models, inflow) != getattr(plain.models, inflow):
+        words.append(f"--inflow {getattr(design.models, inflow)}")
+    if design.models.low_speed != plain.models.low_speed:
+        words.append(f"--low-speed {design.models.low_speed}")
     off = switched_off(design.models)
     if off:
         words.append(f"--off {','.join(switch.flag for switch in off)}")
     airfoils = airfoils_spec(design.rotor) if design.rotor != plain.rotor else None
     return [*words, f"--airfoils {shlex.quote(airfoils)}"] if airfoils else words
+
+
+_FLAGS = {"density_kg_m3": "density"}
+"""Flags of the test stand that are not called as the keys of its record."""
 
 
 def _is_read_as(flags: list[str], design: Design) -> bool:
@@ -189,6 +203,12 @@ def _aircraft(design: Design, writer: PythonWriter) -> list[str]:
     return [f"rotor=read_aircraft({writer.value(files.main)}, {{{texts}}})"]
 
 
+def _test(design: Design) -> dict[str, Any]:
+    """The arguments of `make_design` for a test stand; none in flight."""
+    stand = design.condition.stand
+    return {} if stand is None else {"trim": design.models.trim, "stand": stand.record()}
+
+
 def as_python(design: Design) -> str:
     """A script that makes the design with `rotor`'s own names, solves it, and prints power by parts and caveats.
 
@@ -203,6 +223,7 @@ def as_python(design: Design) -> str:
         mu=condition.advance_ratio,
         mass_kg=condition.mass,
         altitude_m=condition.altitude,
+        **_test(design),
     )
     spec = exact_spec(design.twist)
     # A SPEC is easier to read; it is used where it is exact and needs no file.
@@ -214,6 +235,7 @@ def as_python(design: Design) -> str:
         f"mu={float(condition.advance_ratio)!r}",
         f"mass_kg={float(condition.mass)!r}",
         f"altitude_m={float(condition.altitude)!r}",
+        *(f"{name}={value!r}" for name, value in _test(design).items()),
     ]
     made = writer.call("make_design", arguments)
     changed = writer.changes("design", replace(start, twist=design.twist), design)

@@ -1,9 +1,18 @@
-"""The blade as STL for printing and CAD, and the rotor as GLB: closed surfaces in metres.
+"""The blade as STL and as section curves for printing and CAD, and the rotor as GLB: closed surfaces in metres.
 
-Finer than the blade on the page, with a section wherever the twist has a kink, and never exaggerated.
+Finer than the blade on the page, with a section wherever the twist has a kink, and never exaggerated. The jig shape has
+the twist law alone; the flown shape also has what elasticity and an active twist add at one azimuth.
+`python -m explorer blade` writes both. STEP is left to the CAD program: the permissive libraries that write it bring a
+whole geometry kernel, and every CAD program lofts curves.
 """
 
+import argparse
+import csv
+import io
 import math
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
 from typing import cast
 
 import numpy as np
@@ -11,16 +20,20 @@ import trimesh
 from trimesh.visual.material import PBRMaterial
 from trimesh.visual.texture import TextureVisuals
 
-from explorer.export.provenance import PROGRAM
+from explorer.export.provenance import PROGRAM, file_stem
 from explorer.picture.blade_mesh import BladeShape, Detail, blade_shape, blade_vertices
-from explorer.picture.poses import Pose, blade_pose, blade_twists, rotor_pose
+from explorer.picture.poses import Pose, blade_pose, blade_twists, flown_twist, follows_azimuth, rotor_pose
 from explorer.picture.rotor_head import mast, rotor_head
 from explorer.picture.solids import Faces
 from explorer.theme import colours
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import PiecewiseLinearTwist, SumTwist, TableTwist, TwistLaw
+from rotor.files.design_file import load_design
+from rotor.files.make_design import make_design
+from rotor.terminal import run_command
 from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
 
 POINTS, STATIONS = 97, 121
 """Round a section, and from root cut-out to tip: a chord is met to 0.1 mm, the file has 1.3 MB."""
@@ -47,8 +60,41 @@ def blade_stl(design: Design, psi: float | None = None) -> bytes:
     return header.encode("ascii", "replace")[:_HEADER].ljust(_HEADER) + body[_HEADER:]
 
 
+def section_curves(design: Design, psi: float | None = None) -> bytes:
+    """The blade's sections as closed curves, CSV: one curve after another from the hinge to the tip, points in metres.
+
+    Axes as in `blade_mesh`. The first point of a curve is repeated at its end; all curves begin at the trailing edge
+    and have as many points, so that a loft through them does not twist.
+    """
+    shape, vertices = _loft(design, psi)
+    count = len(shape.r)
+    curves = vertices[: count * POINTS].reshape(count, POINTS, 3) + np.array([_hinge(design), 0.0, 0.0])
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(("section", "r_over_R", "x_m", "y_m", "z_m"))
+    for k, (r, curve) in enumerate(zip(shape.r.tolist(), curves, strict=True)):
+        for x, y, z in [*curve.tolist(), curve[0].tolist()]:
+            writer.writerow((k, f"{r:.6g}", f"{x:.6f}", f"{y:.6f}", f"{z:.6f}"))
+    return text.getvalue().encode("ascii")
+
+
+def flown_design(solution: Solution, psi: float) -> Design:
+    """The design with the twist of the blade in flight at `psi` [rad] as its law: active and elastic twist included.
+
+    As every law it is zero at 0.75 R: what elasticity does there is left to the pitch.
+    """
+    design, elastic = solution.design, solution.disk.elastic_twist
+    turning = blade_twists(design, (psi,))
+    law = turning[0] if turning else design.twist
+    if elastic is not None:
+        grid = solution.disk.psi
+        at = np.array([np.interp(psi, grid, row, period=2.0 * math.pi) for row in elastic])
+        law = SumTwist(law, TableTwist(tuple(solution.disk.r.tolist()), tuple(at.tolist()), "elastic"))
+    return replace(design, twist=law, active_twist=None)
+
+
 def rotor_scene(solution: Solution, azimuth_deg: float) -> trimesh.Scene:
-    """Blades, hub and mast in trim, as on the page, y up; the blades share one mesh unless each is twisted apart."""
+    """Blades as flown, hub and mast, as on the page, y up; blades share one mesh unless twist follows the azimuth."""
     design, controls = solution.design, solution.controls
     scene = trimesh.Scene()
     body = _Z_UP @ _matrix(rotor_pose(controls))
@@ -56,12 +102,12 @@ def rotor_scene(solution: Solution, azimuth_deg: float) -> trimesh.Scene:
         scene.add_geometry(_painted(mesh.vertices, mesh.faces, colours.HUB), name, name, transform=body)
     step = 2.0 * math.pi / design.rotor.blades
     azimuths = tuple(math.radians(azimuth_deg) + k * step for k in range(design.rotor.blades))
-    active = bool(blade_twists(design, azimuths))
+    differ = follows_azimuth(solution)
     for k, psi in enumerate(azimuths):
         shared = "blade" if k else "marked_blade"
-        name = f"blade_{k + 1}" if active else shared
+        name = f"blade_{k + 1}" if differ else shared
         if name not in scene.geometry:
-            shape, vertices = _loft(design, psi if active else None)
+            shape, vertices = _loft(design, psi, flown_twist(solution, psi))
             colour = colours.BLADE if k else colours.MARKED_BLADE
             scene.geometry[name] = _painted(vertices, shape.faces, colour)
         place = body @ _matrix(blade_pose(controls, psi, _hinge(design)))
@@ -87,13 +133,13 @@ def kinks(law: TwistLaw) -> tuple[float, ...]:
             return ()
 
 
-def _loft(design: Design, psi: float | None) -> tuple[BladeShape, Array]:
-    """In the blade's own axes, from its hinge."""
+def _loft(design: Design, psi: float | None, flown: TwistLaw | None = None) -> tuple[BladeShape, Array]:
+    """In the blade's own axes, from its hinge; `flown`: a twist in place of the design's."""
     active = design.active_twist.stations if design.active_twist is not None and psi is not None else ()
     places = tuple(sorted({*kinks(design.twist), *active}))
     shape = blade_shape(design.rotor, Detail(POINTS, STATIONS, places))
     turning = blade_twists(design, (psi,)) if psi is not None else ()
-    return shape, blade_vertices(shape, turning[0] if turning else design.twist)
+    return shape, blade_vertices(shape, flown or (turning[0] if turning else design.twist))
 
 
 def _hinge(design: Design) -> float:
@@ -112,3 +158,43 @@ def _matrix(pose: Pose) -> Array:
     matrix = trimesh.transformations.quaternion_matrix(pose.wxyz)
     matrix[:3, 3] = pose.position
     return np.asarray(matrix, dtype=np.float64)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """0 when all files are written, 1 when the design does not trim, 2 for bad input."""
+    return run_command("explorer blade", lambda: _run(_parser().parse_args(arguments)))
+
+
+def _run(options: argparse.Namespace) -> int:
+    jig = load_design(options.design) if options.design else make_design()
+    shapes = {"jig": jig}
+    if jig.rotor.blade.structure is not None or jig.active_twist is not None:
+        elastic = jig.rotor.blade.structure is not None
+        solution = solve(replace(jig, models=replace(jig.models, elastic_twist=elastic)))
+        if not solution.converged:
+            raise ValueError(f"there is no flown shape: {solution.message}")
+        shapes[f"flown-psi{options.psi:g}"] = flown_design(solution, math.radians(options.psi))
+    folder = Path(options.out)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for name, design in shapes.items():
+            stem = folder / file_stem(jig, "blade", name)
+            for path, content in ((f"{stem}.stl", blade_stl(design)), (f"{stem}.csv", section_curves(design))):
+                Path(path).write_bytes(content)
+                print(f"{path}: {len(content) / 1e6:.1f} MB")
+    except OSError as error:
+        raise ValueError(f"cannot write to {str(folder)!r} ({error.strerror}): give a folder") from None
+    if len(shapes) == 1:
+        print("The rotor file states no torsional stiffness, so the flown shape is the jig shape.")
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="python -m explorer blade",
+        description="One blade for CAD, in metres, in jig shape and as flown: STL, and section curves to loft as CSV.",
+    )
+    parser.add_argument("--design", metavar="FILE", help="design file (JSON); default the UH-60A at µ = 0.2")
+    parser.add_argument("--psi", type=float, default=90.0, metavar="DEG", help="azimuth as flown (default 90)")
+    parser.add_argument("--out", default=".", metavar="DIR", help="folder (default: this one)")
+    return parser

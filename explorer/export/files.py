@@ -2,19 +2,22 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from explorer.charts.plots import Range
 from explorer.charts.power_curve import PowerCurves
-from explorer.export.blade import blade_stl, rotor_glb
+from explorer.export.blade import blade_stl, flown_design, rotor_glb
 from explorer.export.provenance import blade_csv, disk_csv, file_stem, power_csv
 from explorer.export.report.contents import DesignReport, ReportEntry, report_of
 from explorer.export.report.document import report_html
 from explorer.export.sheet import DiskContent, Paper
 from explorer.interface import SessionState
 from explorer.picture.fields import FIELDS
-from explorer.scene.still_scene import EmbeddedViewer
+from explorer.scene.still_scene import EmbeddedViewer, scene_page
 from explorer.state import baseline_title
+from explorer.text.design_words import flight_words, title_words
+from explorer.text.readout import fineness
+from explorer.text.units import UNITS
 from explorer.undo import KeptDesign
 from rotor.trim.solution import Solution
 
@@ -33,12 +36,17 @@ class File:
         return f"{count / 1e6:.1f} MB" if count >= 1e6 else f"{max(count / 1e3, 1.0):.0f} kB"
 
 
-def blade_file(state: SessionState) -> File:
-    """One blade as STL; with active twist the marked blade at its azimuth."""
-    design, azimuth = state.solution.design, state.view.azimuth_deg
-    active = design.active_twist is not None and not design.hovering
-    parts = ("blade", f"psi{azimuth:.0f}") if active else ("blade",)
-    return File(f"{file_stem(design, *parts)}.stl", blade_stl(design, math.radians(azimuth) if active else None))
+def jig_file(state: SessionState) -> File:
+    """One blade in jig shape as STL, for manufacture."""
+    design = state.solution.design
+    return File(f"{file_stem(design, 'blade', 'jig')}.stl", blade_stl(design))
+
+
+def flown_file(state: SessionState) -> File:
+    """The reference blade as flown at its azimuth as STL."""
+    solution, azimuth = state.solution, state.view.azimuth_deg
+    name = file_stem(solution.design, "blade", "flown", f"psi{azimuth:.0f}")
+    return File(f"{name}.stl", blade_stl(flown_design(solution, math.radians(azimuth))))
 
 
 def rotor_file(state: SessionState) -> File:
@@ -84,6 +92,17 @@ def session_report(state: SessionState, kept: Sequence[KeptDesign], colour_range
     return report_of(
         reference, entries, state.view, {state.view.field: colour_range}, own_section=state.pin is not None
     )
+
+
+def scene_file(state: SessionState, colour_range: Range) -> File:
+    """The rotor in trim as one HTML page to be turned with the mouse, without a server."""
+    solution, view = state.solution, replace(state.view, difference=False)
+    design, units = solution.design, UNITS[view.units]
+    powers = units.watts(solution.power.total, fineness(solution.power))
+    line = f"{powers} · {flight_words(design, units)} · {view.field} on the disk"
+    times = f" · twist exaggeration × {view.exaggeration:g}" if view.exaggeration != 1.0 else ""
+    page = scene_page(solution, view, colour_range, title_words(design), line + times)
+    return File(f"{file_stem(design, 'scene')}.html", page.encode("utf-8"))
 
 
 def report_file(report: DesignReport, stage: EmbeddedViewer | None, curves: PowerCurves) -> File:

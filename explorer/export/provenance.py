@@ -14,6 +14,7 @@ import numpy as np
 
 from explorer.charts import plots
 from explorer.charts.plots import SWEEP, PowerCurve
+from explorer.picture.poses import flown_twist
 from explorer.text.design_words import inflow_words, physics_words
 from rotor.arrays import Array
 from rotor.assets import commit
@@ -45,6 +46,8 @@ def condition_line(design: Design) -> str:
     """Advance ratio, mass and altitude in one line."""
     condition = design.condition
     speed = "hover" if design.hovering else f"advance ratio {condition.advance_ratio:g}"
+    if condition.stand is not None:
+        return f"{speed}, {design.models.trim}: {condition.stand}"
     return f"{speed}, {condition.mass:.0f} kg, {condition.altitude:.0f} m"
 
 
@@ -77,7 +80,7 @@ def file_stem(design: Design, *parts: str) -> str:
     return "-".join(word[:60] for word in safe if word)
 
 
-_ANGLES = {"theta", "alpha", "stall_margin"}
+_ANGLES = {"theta", "alpha", "stall_margin", "elastic_twist"}
 """Fields in radians that are written in degrees."""
 _MEANINGS = {
     "theta": "pitch with twist",
@@ -92,6 +95,7 @@ _MEANINGS = {
     "cd_mach": "change of cd with Mach number; 0.1 marks drag divergence",
     "stall_margin": "margin to the stall angle; 90 in reverse flow",
     "dct": "dCT/dr of all blades, smeared",
+    "elastic_twist": "elastic twist, part of theta",
     "dcq": "dCQ/dr / r of all blades, smeared",
 }
 
@@ -120,7 +124,7 @@ def disk_csv(solution: Solution) -> bytes:
 
 
 def blade_csv(solution: Solution, reference: Design, azimuth_deg: float) -> bytes:
-    """The charts along the blade: twist, angle of attack with its stall angles, lift coefficient.
+    """The charts along the blade: jig and flown twist, angle of attack with its stall angles, lift coefficient.
 
     `reference`: what the page compares with, A or the baseline.
     """
@@ -129,8 +133,9 @@ def blade_csv(solution: Solution, reference: Design, azimuth_deg: float) -> byte
     columns = [
         ("r/R [-]", disk.r),
         ("chord [m]", design.rotor.blade.chord(disk.r)),
-        ("twist [deg]", np.degrees(design.twist(disk.r))),
-        ("reference twist [deg]", np.degrees(reference.twist(disk.r))),
+        ("jig twist [deg]", np.degrees(design.twist(disk.r))),
+        ("flown twist [deg]", np.degrees(flown_twist(solution, math.radians(azimuth_deg))(disk.r))),
+        ("reference jig twist [deg]", np.degrees(reference.twist(disk.r))),
         ("alpha [deg]", alpha),
         ("stall below [deg]", lower),
         ("stall above [deg]", upper),
@@ -156,7 +161,7 @@ def power_csv(solution: Solution, reference: Design, curve: PowerCurve) -> bytes
     ]
     notes = [
         f"reference: {reference.twist.spec()}, {condition_line(reference)}",
-        "mu = 0 is hover, with another inflow model; empty where there is no trim",
+        "mu = 0 is hover; empty where there is no trim or no valid inflow",
         "ideal lift: the least induced power of any circulation with this lift",
     ]
     return _table(solution, notes, columns)

@@ -12,6 +12,7 @@ from explorer.export.provenance import PROGRAM, versions
 from explorer.picture.fields import FIELDS, Field
 from explorer.state import ViewState
 from explorer.text.design_words import active_words, flight_words, model_words, title_words
+from explorer.text.readout import part_titles
 from explorer.text.units import SI, UNITS, Units
 from explorer.theme.colours import PARTS
 from rotor.trim.solution import Solution
@@ -65,7 +66,6 @@ _INK = {False: "#212529", True: "#e9ecef"}
 _FONT = "system-ui, -apple-system, 'Segoe UI', 'DejaVu Sans', Helvetica, Arial, sans-serif"
 _INDENT = "\u2003 "
 """Indent as wide as the sign of a caveat."""
-_TITLES = {"induced": "Induced", "profile": "Profile", "parasite": "Parasite", "tail": "Tail rotor"}
 
 
 @dataclass(frozen=True, eq=False)
@@ -193,7 +193,8 @@ def _heading(solution: Solution, shown: DiskContent, x: float, y: float, wide: f
 def _power(solution: Solution, units: Units, x: float, y: float, wide: float, u: float) -> str:
     """Total power, and its parts as a bar and as text."""
     power = solution.power
-    values = {name: max(getattr(power, name), 0.0) for name in PARTS}
+    titles = part_titles(solution.design)
+    values = {name: max(getattr(power, name), 0.0) for name in titles}
     total = max(sum(values.values()), 1.0)
     bars, words, at, columns = [], [], x, 2 if wide > 40 * u else 1
     for k, (name, value) in enumerate(values.items()):
@@ -205,8 +206,7 @@ def _power(solution: Solution, units: Units, x: float, y: float, wide: float, u:
         column, row = x + (k % columns) * wide / 2, y + (7.0 + 2.9 * (k // columns)) * u
         words.append(
             f'<rect x="{column:.1f}" y="{row - 1.5 * u:.1f}" width="{1.5 * u:.1f}" height="{1.5 * u:.1f}" '
-            f'fill="{PARTS[name]}"/>'
-            + svg.text(column + 2.4 * u, row, f"{_TITLES[name]} {units.watts(value)}", 1.9 * u)
+            f'fill="{PARTS[name]}"/>' + svg.text(column + 2.4 * u, row, f"{titles[name]} {units.watts(value)}", 1.9 * u)
         )
     beside = (x + wide, y) if columns > 1 else (x, y - 4.6 * u)
     return (

@@ -4,8 +4,12 @@ import contextlib
 import ctypes
 import gc
 import threading
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
+
+from rotor.user_input import brief
 
 _PAUSE = 5.0
 """[s] after a page has gone, so that pages that leave together are collected once."""
@@ -129,6 +133,39 @@ def refuse_upload(name: str, size: int, parts: int, under_way: int, accepts: str
     if size < 0 or not 0 <= parts <= _PARTS:
         return f"{shown} comes in {parts} parts: {_PARTS} are allowed."
     return None
+
+
+LONGEST_TEXT = 20_000
+"""Characters of a text field."""
+
+
+def accepted_value(value: Any, current: Any, *, choices: Sequence[str] = (), low: Any = None, high: Any = None) -> Any:
+    """What a widget takes of a value that its page sent; ValueError with one sentence for what no page of ours sends.
+
+    `current`: its present value, which has the type of every other. A number is brought between `low` and `high`,
+    which may have changed while it was on its way.
+    """
+    if isinstance(current, bool) or current is None:
+        fits = isinstance(value, bool)
+    elif isinstance(current, str):
+        fits = isinstance(value, str) and len(value) <= LONGEST_TEXT and (not choices or value in choices)
+    elif isinstance(current, (int, float)):
+        fits = _is_number(value)
+        if fits and low is not None and high is not None:
+            value = min(max(value, low), high)
+    else:
+        fits = isinstance(value, (list, tuple)) and len(value) == len(current) and all(map(_is_number, value))
+    if not fits:
+        raise ValueError(f"A field of this page cannot hold {brief(repr(value))[:LONGEST_SHOWN]}: it stays as it was.")
+    return value
+
+
+LONGEST_SHOWN = 60
+"""Characters of a refused value that its sentence repeats."""
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < 1e15
 
 
 def _is_accepted(name: str, accepts: str) -> bool:

@@ -9,6 +9,7 @@ from collections.abc import Awaitable, Callable
 from dataclasses import dataclass
 from typing import Any
 
+from websockets import http11
 from websockets.asyncio.server import ServerConnection
 from websockets.datastructures import Headers, MultipleValuesError
 from websockets.exceptions import ConnectionClosed
@@ -87,12 +88,30 @@ class RequestFilter:
         return process_request
 
 
+LONGEST_HEAD = 2**16
+"""[bytes] of a request's head. websockets would drop a connection whose address has 8192, without an answer."""
+http11.MAX_LINE_LENGTH = LONGEST_HEAD
+_TOO_LONG = "This address is too long: ask for a shorter link, or for the design as a file."
+
+
 class RateLimitedConnection(ServerConnection):
     """A connection that is closed when it sends more than it may."""
 
     def __init__(self, *positional: Any, **named: Any) -> None:
         super().__init__(*positional, **named)
+        self._head = 0
         self._limiter = RateLimiter(time.monotonic())
+
+    def data_received(self, data: bytes) -> None:
+        """Bytes of the request or, once it is answered, of messages."""
+        if self.request is None:
+            self._head += len(data)
+            if self._head > LONGEST_HEAD:
+                if not self.transport.is_closing():
+                    self.transport.write(_plain(http.HTTPStatus.REQUEST_URI_TOO_LONG, _TOO_LONG).serialize())
+                    self.transport.close()
+                return
+        super().data_received(data)
 
     async def recv(self, decode: bool | None = None) -> Any:
         """The next message, counted."""

@@ -1,8 +1,10 @@
 """Every use of viser's private parts. Each has a test, and viser is pinned because of them."""
 
+import asyncio
 import contextlib
 import io
 import json
+import logging
 import secrets
 import threading
 import time
@@ -13,18 +15,50 @@ from typing import Any
 
 import viser
 import websockets.asyncio.server
-from viser import _messages
+from viser import _gui_api, _messages, _viser
+from viser.infra import _infra
+from viser.infra._async_message_buffer import AsyncMessageBuffer
 
-from explorer.hosting.limits import refuse_upload
+from explorer.hosting.limits import accepted_value, refuse_upload
 from explorer.hosting.request_filter import RequestFilter
 
 _starting, _silent = threading.Lock(), threading.Lock()
+_log = logging.getLogger(__name__)
 _SHEET = "rx-sheet"
 """Identity of our style sheet in the page."""
 _KEPT = "rx-kept"
 """Where the page keeps what it is given."""
 _ONE_PIECE = 4096
 """Messages; a page has some five hundred to begin with."""
+
+
+class _ThreadedEvent(asyncio.Event):
+    """An event that any thread may set. asyncio's own, set by a thread while the loop waits for it, can fail there with
+    "deque mutated during iteration": viser sets it for every message, and the update that sent the message was lost."""
+
+    def __init__(self, loop: asyncio.AbstractEventLoop) -> None:
+        super().__init__()
+        self._own_loop = loop
+
+    def set(self) -> None:
+        """Wakes those who wait only on the thread of the loop; viser sets it there once more after each message."""
+        self._value = True
+        with contextlib.suppress(RuntimeError):  # No loop runs on this thread.
+            if asyncio.get_running_loop() is self._own_loop:
+                for waiter in tuple(self._waiters):
+                    if not waiter.done():
+                        waiter.set_result(True)
+
+
+class ThreadedBuffer(AsyncMessageBuffer):
+    """viser's queue of messages, with events that any thread may set."""
+
+    def __init__(self, *arguments: Any, **options: Any) -> None:
+        super().__init__(*arguments, **options)
+        self.message_event, self.flush_event = _ThreadedEvent(self.event_loop), _ThreadedEvent(self.event_loop)
+
+
+setattr(_infra, "AsyncMessageBuffer", ThreadedBuffer)  # noqa: B010 - its module does not export it
 
 
 def quiet_server(host: str, port: int, label: str, request_filter: RequestFilter | None = None) -> viser.ViserServer:
@@ -63,6 +97,17 @@ def _filtered_by(request_filter: RequestFilter) -> Iterator[None]:
         raise RuntimeError(
             "The server started without its request filter: this viser starts its server in another way."
         )
+
+
+def log_failed_callbacks() -> None:
+    """Log callbacks that fail, which viser prints: a log can be limited, see `log_limit`."""
+    for module in (_gui_api, _viser):
+        setattr(module, "print_threadpool_errors", _log_failure)  # noqa: B010 - not of the module's type
+
+
+def _log_failure(done: Any) -> None:
+    if not done.cancelled() and (error := done.exception()) is not None:
+        _log.error("a callback failed", exc_info=error)
 
 
 def client_html() -> str:
@@ -118,6 +163,38 @@ def guard_uploads(client: viser.ClientHandle, tell: Callable[[str], None]) -> No
     connection.register_handler(_messages.FileTransferStartUpload, started)
     connection.unregister_handler(_messages.FileTransferPart, more)
     connection.register_handler(_messages.FileTransferPart, continued)
+
+
+def guard_values(client: viser.ClientHandle, tell: Callable[[str], None]) -> None:
+    """Let widgets take only values that they can hold; `tell` is called with the sentence when one is refused.
+
+    viser assigns whatever comes, also to other properties, and calls the callbacks with it.
+    """
+    gui, connection = client.gui, client._websock_connection
+    assign = gui._handle_gui_updates
+
+    async def checked(client_id: Any, message: _messages.GuiUpdateMessage) -> None:
+        handle: Any = gui._gui_input_handle_from_uuid.get(message.uuid)
+        if handle is None:
+            return
+        props = handle._impl.props
+        try:
+            if set(message.updates) != {"value"}:
+                raise ValueError("This page sent more than a value: that is ignored.")
+            message.updates["value"] = accepted_value(
+                message.updates["value"],
+                handle._impl.value,
+                choices=getattr(props, "options", ()),
+                low=getattr(props, "min", None),
+                high=getattr(props, "max", None),
+            )
+        except ValueError as error:
+            tell(str(error))
+            return
+        await assign(client_id, message)
+
+    connection.unregister_handler(_messages.GuiUpdateMessage, assign)
+    connection.register_handler(_messages.GuiUpdateMessage, checked)
 
 
 def set_png(handle: viser.ImageHandle, png: bytes) -> None:

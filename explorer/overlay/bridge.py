@@ -15,7 +15,7 @@ from explorer.hosting import viser_compat
 
 _FOLDER = Path(__file__).parent
 STYLES = ("frame.css", "panels.css")
-SCRIPTS = ("frame.js", "cards.js", "charts.js", "inset.js")
+SCRIPTS = ("frame.js", "cards.js", "charts.js", "inset.js", "spoken.js")
 """In the order in which they run: the first defines what the others use."""
 
 

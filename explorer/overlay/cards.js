@@ -17,8 +17,8 @@
       ${now.problem ? `<div class="rxf-problem" data-explorer="problem" role="alert">${text(now.problem)}</div>` : `<div class="rxf-change"><div class="rxf-since rxf-num" data-explorer="since">${since}</div>
       <div class="rxf-why rxf-num" data-explorer="why" title="${text(now.why)}">${text(now.why)}</div></div>`}
       <div class="rxf-rule"></div>
-      <div class="rxf-parts" data-do="drawer" data-value="details" title="Power and trim in detail"><div>${bar}</div><dl>${key}</dl></div>
-      <button class="rxf-chip" data-do="drawer" data-value="trust" data-explorer="status" data-kind="${now.status.kind === 'care' ? 'converged' : now.status.kind}" data-tone="${now.status.kind}" title="${text(now.status.title)}">${text(now.status.words)}</button>`;
+      <div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details" aria-label="Power and trim in detail: ${now.parts.map(one => `${text(one.name)} ${text(one.value)}`).join(', ')}" title="Power and trim in detail"><div>${bar}</div><dl>${key}</dl></div>
+      <button class="rxf-chip" data-do="drawer" data-value="trust" data-explorer="status" data-kind="${now.status.kind === 'care' ? 'converged' : now.status.kind}" data-tone="${now.status.kind}" title="${text(now.status.title)}"><span>${text(now.status.words)}${now.status.measured ? `<small data-explorer="validated">${text(now.status.measured)}</small>` : ''}</span></button>`;
     const chip = place.querySelector('.rxf-chip');
     if (now.status.kind === 'care') chip.style.cssText = 'background:var(--rx-warn);color:var(--rx-warn-ink)';
     if (now.problem) RX.say(now.problem);
@@ -57,10 +57,12 @@
   });
 
   RX.paint('turn', now => {
-    const slider = document.querySelector('.rxf-turn input'), button = document.querySelector('.rxf-turn button');
+    const slider = document.querySelector('.rxf-turn input'), button = document.querySelector('.rxf-turn [data-do=play]'), pace = document.querySelector('.rxf-turn [data-do=pace]');
     if (document.activeElement !== slider || now.playing) slider.value = now.psi;
     slider.disabled = now.held;
     document.querySelector('.rxf-turn output').textContent = `ψ ${Math.round(now.psi)}°`;
+    pace.textContent = now.pace;
+    pace.ariaLabel = `Speed of the turning rotor: ${now.pace}`;
     const wanted = now.playing ? 'pause' : 'play';
     if (button.dataset.icon !== wanted) {
       button.dataset.icon = wanted;

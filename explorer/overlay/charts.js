@@ -2,8 +2,8 @@
 (() => {
   const {text, part} = RX;
   const digits = value => (value < 0 ? '−' : '') + Math.abs(value).toLocaleString('en', {maximumFractionDigits: 3, useGrouping: false});
-  const COLOURS = {this: 'var(--rx-blade)', saving: 'var(--rx-accent)', limit: 'var(--rx-stall)', reference: 'var(--rx-ghost)', pinned: 'var(--rx-pinned)'};
-  const DASHES = {reference: '4 3', pinned: '6 3', limit: '3 3'}, WIDTHS = {this: 2.1, saving: 2, reference: 1.5, pinned: 1.7, limit: 1.3};
+  const COLOURS = {earlier: 'var(--rx-ghost)', this: 'var(--rx-blade)', saving: 'var(--rx-accent)', flown: 'var(--rx-accent)', limit: 'var(--rx-stall)', reference: 'var(--rx-ghost)', pinned: 'var(--rx-pinned)'};
+  const DASHES = {reference: '4 3', pinned: '6 3', limit: '3 3'}, WIDTHS = {earlier: 1.6, this: 2.1, flown: 1.7, saving: 2, reference: 1.5, pinned: 1.7, limit: 1.3};
   const role = (line, one) => line.colour ? null : line.role === 'reference' && one.pinned ? 'pinned' : line.role;
 
   function frameOf(one, width, height, left = 32, bottom = 17) {
@@ -33,23 +33,27 @@
     const fill = line.filled ? `<path d="${path}L${place.X(last)} ${place.Y(0)}L${place.X(first)} ${place.Y(0)}Z" fill="${stroke}" opacity=".1"/>` : '';
     return `${fill}<path d="${path}" fill="none" stroke="${stroke}" stroke-width="${line.width ?? WIDTHS[kind] ?? 2}" stroke-linejoin="round" ${DASHES[kind] ? `stroke-dasharray="${DASHES[kind]}"` : ''}/>`;
   }
+  // Where a chart is so narrow that its heading would be cut.
+  const SHORT = {race: 'Race', power: 'Power', alpha: 'α', worth: 'Twist'};
   let clips = 0;
   function chart(element, one) {
-    const width = Math.max(element.clientWidth - 32, 60), height = Math.max(element.clientHeight - 38, 40), place = frameOf(one, width, height), clip = `rxc${clips++ % 64}`;
+    const width = Math.max(element.clientWidth - 32, 60), height = Math.max(element.clientHeight - 38, 40), place = frameOf(one, width, height, 12 + 6.2 * Math.max(3, ...one.y_ticks.map(v => digits(v).length))), clip = `rxc${clips++ % 64}`;
     const dots = one.dots.map(dot => `<circle cx="${place.X(dot.x).toFixed(1)}" cy="${place.Y(Math.max(one.y_range[0], Math.min(one.y_range[1], dot.y))).toFixed(1)}" r="${dot.label ? 3.5 : 4.5}" fill="${dot.label ? COLOURS.saving : COLOURS.this}" stroke="var(--rx-paper)" stroke-width="2"><title>${text(dot.label || 'now')}</title></circle>`).join('');
+    const marks = (one.marks ?? []).map(mark => `<g data-mark><title>${text(mark.words)}</title><path d="M${place.X(mark.x).toFixed(1)} ${place.Y(mark.y + mark.error).toFixed(1)}V${place.Y(mark.y - mark.error).toFixed(1)}" stroke="var(--rx-ink)" stroke-width="1.2" opacity=".55"/><circle cx="${place.X(mark.x).toFixed(1)}" cy="${place.Y(mark.y).toFixed(1)}" r="2.6" fill="var(--rx-paper)" stroke="var(--rx-ink)" stroke-width="1.2"/></g>`).join('');
     const key = (one.key ?? []).map(([name, shade]) => `<span class="rxf-legend-line" style="--c:${shade}"><i></i>${text(name)}</span>`).join('');
     element.title = one.note ?? '';
-    element.toggleAttribute('data-wide', Boolean(one.wide));
     element.toggleAttribute('data-faded', Boolean(one.faded));
-    element.innerHTML = `<div class="rxf-head"><b>${text(one.title)}</b><span class="rxf-dim">${text(one.unit)}</span>${key}<span class="rxf-num ${one.kind ? `rxf-${one.kind}` : ''}">${text(one.value)}</span></div>
-      <svg viewBox="0 0 ${width} ${height}" role="img" aria-label="${text(`${one.title}, ${one.unit}. ${one.value}. ${one.note ?? ''}`)}"><clipPath id="${clip}"><rect x="${place.left}" y="${place.top - 4}" width="${place.right - place.left + 6}" height="${place.base - place.top + 8}"/></clipPath>
-      ${axes(one, place, height)}<g clip-path="url(#${clip})">${one.lines.map(line => curve(line, place, one)).join('')}${dots}</g></svg>`;
+    const tight = element.toggleAttribute('data-tight', width < 260), title = tight && SHORT[one.name] || one.title, unit = tight ? one.unit.replace(/ over designs tried|^both /, '') : one.unit;
+    element.innerHTML = `<div class="rxf-head"><b>${text(title)}</b><span class="rxf-dim">${text(unit)}</span>${key}<span class="rxf-num ${one.kind ? `rxf-${one.kind}` : ''}">${text(one.value)}</span></div>
+      <svg viewBox="0 0 ${width} ${height}" role="img" aria-label="${text(`${one.title}, ${one.unit}. ${one.value}. ${one.note ?? ''}`)}"><clipPath id="${clip}"><rect x="${place.left}" y="${place.top - 1}" width="${place.right - place.left + 2}" height="${place.base - place.top + 2}"/></clipPath>
+      ${axes(one, place, height)}<g clip-path="url(#${clip})">${one.lines.map(line => curve(line, place, one)).join('')}${marks}</g>${dots}</svg>`;
   }
   RX.paint('strip', all => {
     const strip = part('strip');
     while (strip.children.length > all.length) strip.lastChild.remove();
     while (strip.children.length < all.length) strip.append(Object.assign(document.createElement('div'), {className: 'rxf-chart'}));
     if (strip.offsetParent === null && !strip.offsetHeight) return;
+    all.forEach((one, k) => strip.children[k].toggleAttribute('data-wide', Boolean(one?.wide)));  // Before any is measured.
     all.forEach((one, k) => { if (one) { strip.children[k].dataset.name = one.name; chart(strip.children[k], one); } });
   });
 
@@ -64,7 +68,8 @@
       const row = place.parentElement?.previousElementSibling?.querySelector('.mantine-Slider-root')?.getBoundingClientRect(), own = place.getBoundingClientRect();
       const track = row && row.width ? [row.left - own.left, row.width] : [76, 166];
       const start = track[0] + one.at * track[1], length = 8 + 34 * Math.min(one.size, 1);
-      const arrow = one.way ? `<i data-way="${one.way}" style="left:${one.way === 'up' ? start : start - length}px;width:${length}px"></i>` : '';
+      const possible = one.way === 'up' ? one.at < .999 : one.at > .001;  // No arrow beyond the end of the slider.
+      const arrow = one.way && possible ? `<i data-way="${one.way}" style="left:${one.way === 'up' ? start : start - length}px;width:${length}px"></i>` : '';
       place.innerHTML = `${arrow}<span>${one.way ? `<b>${text(one.saving)}</b> ${text(one.unit)}` : text(one.saving)}</span>`;
       place.title = one.sentence;
       // The number stands on the right, or on the left where the thumb is that far right.
@@ -72,6 +77,32 @@
       place.toggleAttribute('data-left', Boolean(one.way) && end > own.width - number.offsetWidth);
     }
   });
+
+  // Between the least and the greatest flown twist over azimuth.
+  function bandOf(now, frame) {
+    const xs = now.lines[now.lines.length - 1].x, edge = ys => ys.map((y, k) => `${frame.X(xs[k]).toFixed(1)} ${frame.Y(y).toFixed(1)}`);
+    return now.band ? `<path d="M${[...edge(now.band.low), ...edge(now.band.high).reverse()].join('L')}Z" fill="${COLOURS.flown}" opacity=".22" data-band/>` : '';
+  }
+  const MEANT = {jig: 'As built; the sliders set it', flown: 'Jig and elastic twist: mean over azimuth, shaded from least to greatest'};
+  // One row, in the corner where it covers none of the curves, or least of them; it stays there while it can.
+  const WORDS = {jig: [['jig, set by the sliders', 138]], flown: [['jig', 44], ['flown, band over azimuth', 150]]};
+  let corner = 0;
+  function keyOf(now, frame) {
+    const words = WORDS[now.key.length > 1 ? 'flown' : 'jig'], wide = words.reduce((sum, [, w]) => sum + w, 0);
+    const edges = now.band ? [now.band.low, now.band.high].map(y => ({x: now.lines.at(-1).x, y})) : [];
+    const points = [...now.lines, ...edges].flatMap(line => line.x.map((x, k) => [frame.X(x), frame.Y(line.y[k])]));
+    const corners = [frame.top, frame.base - 16].flatMap(top => [frame.right - wide, frame.left + 4].map(left => ({left, top})));
+    for (const one of corners) one.met = points.filter(([x, y]) => x > one.left - 4 && x < one.left + wide && y > one.top - 3 && y < one.top + 16).length;
+    const free = corners.reduce((best, one, k) => one.met < corners[best].met ? k : best, 0), met = corners[corner].met;
+    if (met > corners[free].met + 6 || (met && !corners[free].met)) corner = free;
+    let {left, top} = corners[corner];
+    return now.key.map(([name, kind], k) => {
+      const at = left;
+      left += words[k][1];
+      return `<g data-key="${name}"><title>${MEANT[name]}</title><path d="M${at + 3} ${top + 6}h14" stroke="${COLOURS[kind]}" stroke-width="2.2"/>
+      <text x="${at + 21}" y="${top + 9.5}" style="paint-order:stroke;stroke:var(--rx-paper);stroke-width:3px">${words[k][0]}</text></g>`;
+    }).join('');
+  }
 
   // The twist curve: its handles are dragged, or moved by arrow keys.
   let held = null, sent = 0, waiting = null, pressed = null;
@@ -89,7 +120,7 @@
       const focus = document.activeElement?.dataset?.knot;
       const width = place.offsetWidth, height = place.offsetHeight, frame = frameOf(now, width, height, 30);
       const knots = now.knots.map(k => `<circle cx="${frame.X(k.r).toFixed(1)}" cy="${frame.Y(k.theta).toFixed(1)}" r="5" tabindex="0" role="slider" data-knot="${k.name}" aria-label="${text(k.title)}" aria-valuenow="${k.theta}" aria-valuetext="${digits(k.theta)}° at ${digits(k.r)} R"><title>${text(k.title)}</title></circle>`).join('');
-      place.innerHTML = `<svg viewBox="0 0 ${width} ${height}" role="group" aria-label="Twist curve">${axes(now, frame, height)}${now.lines.map(line => curve(line, frame, now)).join('')}${knots}</svg>`;
+      place.innerHTML = `<svg viewBox="0 0 ${width} ${height}" role="group" aria-label="Twist curve">${axes(now, frame, height)}${bandOf(now, frame)}${keyOf(now, frame)}${now.lines.map(line => curve(line, frame, now)).join('')}${knots}</svg>`;
       place.frame = frame;
       if (focus) place.querySelector(`[data-knot="${focus}"]`)?.focus();
     }
@@ -111,7 +142,8 @@
     const theta = y1 - (event.clientY - box.top - frame.top) / (frame.base - frame.top) * (y1 - y0);
     tell(held.name, [r, theta]);
   });
-  addEventListener('pointerup', () => { if (held) { const {name} = held; held = null; setTimeout(() => RX.send('knot', [name, 'end']), 70); } });
+  for (const end of ['pointerup', 'pointercancel'])
+    addEventListener(end, () => { if (held) { const {name} = held; held = null; setTimeout(() => RX.send('knot', [name, 'end']), 70); } });
   document.addEventListener('keydown', event => {
     const knot = event.target instanceof Element && event.target.closest('[data-knot]');
     const step = knot && {ArrowUp: [0, .1], ArrowDown: [0, -.1], ArrowLeft: [-.01, 0], ArrowRight: [.01, 0]}[event.key];

@@ -89,7 +89,11 @@
     root.querySelector(`[data-page=${name}]`).ariaExpanded = String(page.dataset[name] === 'open');
     window.dispatchEvent(new Event('resize'));
   }
-  if (innerWidth <= 700) page.dataset.rail = 'open';
+  function openRail(open) {
+    if (open) page.dataset.rail = 'open'; else delete page.dataset.rail;
+    root.querySelector('[data-page=rail]').ariaExpanded = String(open);
+  }
+  if (innerWidth <= 700) openRail(true);
 
   function mark(mode) {
     for (const button of root.querySelectorAll('.rxf-modes button')) button.setAttribute('aria-current', String(button.dataset.value === mode));
@@ -146,9 +150,10 @@
   });
   RX.paint('lecture', step => {
     const place = part('caption');
+    if (step && !page.hasAttribute('data-lecture')) openRail(false);  // Full-bleed, until the controls are asked for.
     page.toggleAttribute('data-lecture', Boolean(step));
     place.hidden = !step;
-    if (!step) { page.style.removeProperty('--rx-caption'); window.dispatchEvent(new Event('resize')); return; }
+    if (!step) { page.style.removeProperty('--rx-caption'); place.style.minHeight = ''; openRail(innerWidth <= 700); window.dispatchEvent(new Event('resize')); return; }
     const figures = step.figures.map(([title, value, kind]) => `<div><b class="${kind ? `rxf-${kind}` : ''}">${RX.text(value)}</b><span>${RX.text(title)}</span></div>`).join('');
     const dots = Array.from({length: step.of}, (_, k) => `<i ${k === step.at ? 'data-here' : ''}></i>`).join('');
     const buttons = step.held ? '' : `<button data-do="lecture" data-value="back">Back</button><button data-do="lecture" data-value="again">Reset this step</button>
@@ -156,7 +161,10 @@
     place.innerHTML = `<div data-explorer="lecture" data-step="${step.at + 1}"><h2>${RX.text(step.title)}</h2><p>${RX.text(step.watch)}</p>
       <p><span data-explorer="said">${RX.text(step.said)}</span></p><p>${RX.text(step.todo)}</p></div>
       <div class="rxf-figures">${figures}</div><div class="rxf-steps">${dots}<span class="rxf-push"></span>${buttons}</div>`;
-    page.style.setProperty('--rx-caption', `${place.offsetHeight}px`);
+    // It grows to what a step needs and stays: with a caption that changed its height the scene would jump.
+    const height = place.offsetHeight;
+    if (innerWidth > 1100) place.style.minHeight = `${height}px`;
+    page.style.setProperty('--rx-caption', `${height}px`);
   });
 
   // The power at the hand, while something is dragged in the scene.
@@ -171,6 +179,71 @@
     follow();
   });
 
+  // Which fractions of the canvas cards cover along its width, so that the camera shows its subject between them. The
+  // card of power grows with its sentence: it counts with its usual height, or the scene would move with every change.
+  let telling = 0;
+  function tellCover() {
+    clearTimeout(telling);
+    telling = setTimeout(() => {
+      const stage = root.querySelector('.rxf-stage').getBoundingClientRect(), seen = name => root.querySelector(name).getClientRects()[0];
+      if (!stage.height) return;
+      const wide = ['.rxf-inset', '.rxf-field'].map(seen).filter(box => box && box.width > 0.28 * stage.width);
+      const low = wide.filter(box => box.top > stage.top + stage.height / 3), high = [seen('.rxf-notice'), ...wide.filter(box => !low.includes(box))];
+      const above = Math.max(seen('.rxf-power') ? (stage.width > 470 ? 118 : 70) : 0, ...high.map(box => (box?.bottom ?? stage.top) - stage.top));
+      const below = low.length ? stage.bottom - Math.min(...low.map(box => box.top)) : 0;
+      RX.send('covered', RX.covered = [above / stage.height, below / stage.height]);
+    }, 120);
+  }
+  for (const name of ['.rxf-inset', '.rxf-field', '.rxf-notice']) new ResizeObserver(tellCover).observe(root.querySelector(name));
+
+  // The arc at the station in the hand: from where it was, past where it would be best, to where it is.
+  let drawn = '';
+  function arc(client, box) {
+    const now = state.arc, place = part('arc'), node = now && client.nodeRefFromName?.[now.node];
+    if (!node || !client.camera) {
+      if (drawn) place.innerHTML = drawn = '';
+      return;
+    }
+    const pixel = (degrees, times = 1) => {
+      const angle = degrees * Math.PI / 180, r = times * now.radius;
+      const at = node.position.clone().set(now.x, r * Math.cos(angle), r * Math.sin(angle)).applyMatrix4(node.matrixWorld).project(client.camera);
+      return [((at.x + 1) / 2 * box.width).toFixed(1), ((1 - at.y) / 2 * box.height).toFixed(1)];
+    };
+    const path = (from, to) => 'M' + Array.from({length: 25}, (_, k) => pixel(from + (to - from) * k / 24).join(' ')).join('L');
+    const ray = (degrees, inner, outer) => `M${pixel(degrees, inner).join(' ')}L${pixel(degrees, outer).join(' ')}`;
+    const reach = Math.max(26, 1.35 * Math.abs(now.to - now.from), now.best === null ? 0 : Math.abs(now.best - now.from) + 6);
+    // A tick for each degree of the real blade.
+    const count = Math.floor(reach / now.times), ticks = Array.from({length: 2 * count + 1}, (_, k) => ray(now.from + (k - count) * now.times, 1, (k - count) % 5 ? 1.05 : 1.1)).join('');
+    const line = (d, colour, width, more = '') => `<path d="${d}" fill="none" stroke="var(--rx-paper)" stroke-width="${width + 3}" opacity=".7"/><path d="${d}" fill="none" stroke="${colour}" stroke-width="${width}" stroke-linecap="round" ${more}/>`;
+    const best = now.best === null ? '' : line(ray(now.best, .9, 1.12), 'var(--rx-good)', now.held ? 5 : 3);
+    const [x, y] = pixel(now.to, 1.24), [bx, by] = now.best === null ? [0, 0] : pixel(now.best, 1.24);
+    const words = (left, top, content, colour) => `<text x="${left}" y="${top}" text-anchor="middle" style="fill:${colour};font-size:13px;font-weight:650;paint-order:stroke;stroke:var(--rx-paper);stroke-width:4px">${RX.text(content)}</text>`;
+    const apart = now.best !== null && Math.hypot(x - bx, y - by) > 34;
+    const html = line(path(now.from - reach, now.from + reach), 'var(--rx-faint)', 1.5, 'stroke-dasharray="1 5"')
+      + line(ticks, 'var(--rx-faint)', 1.2) + line(ray(now.from, .2, 1.04), 'var(--rx-ghost)', 1.6)
+      + line(path(now.from, now.to), 'var(--rx-blade)', 4) + line(ray(now.to, .2, 1.04), 'var(--rx-blade)', 2) + best
+      + words(x, y, now.words, 'var(--rx-blade)') + (now.held ? words(x, +y + 15, 'least power', 'var(--rx-good)') : apart ? words(bx, by, 'best', 'var(--rx-good)') : '');
+    if (html !== drawn) place.innerHTML = drawn = html;
+  }
+
+  // Words at points of the scene; each of these parts of the state is a list of them.
+  const LABELS = ['cut_labels', 'probe_label'];
+  let labels = [];
+  for (const name of LABELS) RX.paint(name, () => {
+    labels = LABELS.flatMap(one => state[one] ?? []);
+    part('labels').innerHTML = labels.map(one => `<span class="rxf-label rxf-num">${RX.text(one.text)}</span>`).join('');
+  });
+  function placeLabels(client, box) {
+    labels.forEach((one, k) => {
+      const node = client.nodeRefFromName?.[one.node], label = part('labels').children[k];
+      if (!node || !client.camera || !label) return;
+      const at = node.position.clone().set(...one.at).applyMatrix4(node.matrixWorld).project(client.camera);
+      const left = (at.x + 1) / 2 * box.width - label.offsetWidth / 2, top = (1 - at.y) / 2 * box.height - label.offsetHeight;
+      label.style.visibility = at.z < 1 && Math.abs(at.x) < 1 && Math.abs(at.y) < 1 ? 'visible' : 'hidden';
+      label.style.transform = `translate(${Math.max(4, Math.min(left, box.width - label.offsetWidth - 4)).toFixed(1)}px, ${Math.max(4, top).toFixed(1)}px)`;
+    });
+  }
+
   // Where the canvas is: cards follow it; and the prompt follows a node of the scene.
   let place = '';
   function look() {
@@ -183,7 +256,10 @@
       for (const [name, value] of [['--rx-x', box.left], ['--rx-y', box.top], ['--rx-w', box.width], ['--rx-h', box.height]]) page.style.setProperty(name, `${value}px`);
       for (let e = canvas.parentElement; e && e.id !== 'root'; e = e.parentElement) if (/background-color/.test(e.getAttribute('style') ?? '')) e.classList.add('rxf-ground');
       RX.again('inset', 'strip', 'twist');
+      tellCover();
     }
+    arc(client, box);
+    if (labels.length) placeLabels(client, box);
     const words = state.prompt, node = words && client.nodeRefFromName?.[words.node];
     if (!node || !client.camera) return;
     const at = node.position.clone().set(...words.at).applyMatrix4(node.matrixWorld).project(client.camera), prompt = part('prompt');

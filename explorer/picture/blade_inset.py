@@ -1,4 +1,4 @@
-"""The blade seen end-on: its true sections at eight stations, the baseline behind them, and the angles, as numbers."""
+"""The blade seen end-on: its true sections at eight stations, a ghost behind them, and the angles, as numbers."""
 
 from functools import lru_cache
 from typing import Any
@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from explorer.picture.blade_mesh import section_ring
 from rotor.design.blade import Rotor
-from rotor.design.twist import TwistLaw
+from rotor.design.twist import REFERENCE_RADIUS, TwistLaw
 
 _SPANWISE = (0.01, 0.16, 0.31, 0.46, 0.61, 0.76, 0.905, 1.0)
 """Places of the sections from root cut-out to tip: one before the bend of the UH-60A's tip, one at its end."""
@@ -19,17 +19,21 @@ _OUTLINE_POINTS = 25
 def inset(rotor: Rotor, twist: TwistLaw, ghost: TwistLaw | None, exaggeration: float) -> dict[str, Any]:
     """Everything the page's inset is drawn from, ready for JSON; about 4 kB.
 
-    `r`: stations along the edges; `theta` and `ghost`: true twist there [°], the latter None without a baseline.
+    `r`: stations along the edges; `theta` and `ghost`: true twist there [°], the latter None without a ghost.
+    `datum` and `ghost_datum`: that at 0.75 R, about which it is exaggerated.
     `cuts`: eight sections, each with `r`, `outline` (points [forward, up] about the quarter chord, in reference
     chords), `theta` and `ghost` [°]. `times`: the exaggeration to draw the angles with.
     """
     r, cuts = _places(rotor)
+    datum = np.array([REFERENCE_RADIUS])
     edges, angles = _degrees(twist, r), _degrees(twist, cuts)
     behind = None if ghost is None else _degrees(ghost, r)
     other = [None] * len(cuts) if ghost is None else _degrees(ghost, cuts)
     return {
         "times": exaggeration,
         "r": [round(float(at), 4) for at in r],
+        "datum": _degrees(twist, datum)[0],
+        "ghost_datum": 0.0 if ghost is None else _degrees(ghost, datum)[0],
         "theta": edges,
         "ghost": behind,
         "cuts": [

@@ -5,14 +5,14 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from explorer.picture.solids import Faces
 from rotor.airfoil.contour import resample
 from rotor.airfoil.sections import Section
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
-from rotor.design.twist import TwistLaw
+from rotor.design.twist import REFERENCE_RADIUS, TwistLaw
 
 
 @lru_cache(maxsize=32)
@@ -67,7 +67,13 @@ class BladeShape:
     def pitch(self, twist: TwistLaw, exaggeration: float) -> Array:
         """Drawn twist of each ring [rad]; the shank keeps the root's."""
         lifting = np.maximum(self.r, self.r[_SHANK_RINGS])
-        return np.asarray(exaggeration * twist(lifting), dtype=np.float64)
+        return drawn_pitch(twist, lifting, exaggeration)
+
+
+def drawn_pitch(twist: TwistLaw, r: ArrayLike, exaggeration: float) -> Array:
+    """Twist at r/R as it is drawn [rad]: true at 0.75 R, larger relative to it."""
+    datum = float(twist([REFERENCE_RADIUS])[0])
+    return np.asarray(datum + exaggeration * (twist(r) - datum), dtype=np.float64)
 
 
 def swept_back(rotor: Rotor, r: ArrayLike) -> Array:
@@ -113,7 +119,7 @@ def section_ring(rotor: Rotor, r: float, points: int) -> Array:
 def blade_vertices(shape: BladeShape, twist: TwistLaw, exaggeration: float = 1.0) -> Array:
     """The twisted blade's vertices, shape (n, 3); only these change when the twist does.
 
-    `exaggeration` multiplies the twist about its zero at 0.75 R.
+    `exaggeration` multiplies the twist relative to that at 0.75 R.
     """
     return _with_ends(_turned(shape, shape.pitch(twist, exaggeration)))
 
@@ -148,6 +154,16 @@ def ghost_segments(rotor: Rotor, ghost: TwistLaw, twist: TwistLaw, exaggeration:
     along = rings[:, [0, points // 2]]
     lengthwise = np.stack((along[:-1], along[1:]), axis=2)[both]
     return np.concatenate((around.reshape(-1, 2, 3), lengthwise.reshape(-1, 2, 3)))
+
+
+def edge_pairs(shape: BladeShape) -> NDArray[np.uint32]:
+    """Leading and trailing edge outside the root cut-out and the section at the tip: pairs of vertices, (n, 2)."""
+    rings, points = shape.rings.shape[:2]
+    starts = np.arange(_SHANK_RINGS, rings) * points
+    along = [starts + corner for corner in (0, points // 2)]
+    around = (rings - 1) * points + np.arange(points)
+    pairs = [*(np.stack((edge[:-1], edge[1:]), 1) for edge in along), np.stack((around, np.roll(around, -1)), 1)]
+    return np.concatenate(pairs).astype(np.uint32)
 
 
 def _turned(shape: BladeShape, angle: Array) -> Array:

@@ -46,11 +46,15 @@ class _Stand:
 
 
 _STANDS = {
-    "3d": _Stand(math.radians(34.0), math.radians(24.0), (0.9, 0.3, -2.35), 33.5, 1.6),
+    "3d": _Stand(math.radians(34.0), math.radians(24.0), (0.9, 0.3, -2.35), 33.5, 1.4),
     "disk": _Stand(math.radians(0.02), math.radians(46.0), (1.0, 0.0, -2.0), 48.0, 1.05),
 }
-BESIDE = 1.66
-"""How many times as far the camera stands from two rotors side by side."""
+_APART = 1.32
+"""Half the distance between the hubs of two rotors side by side, in radii."""
+LETTER_SIZE = 0.34
+"""Edge of the letters A and B beside such rotors, in radii."""
+_LETTER_AT = (1.30, -0.45, 0.0)
+"""From the hub, in radii."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,8 +64,28 @@ class Camera:
     look_at: Array
 
 
-USUALLY_COVERED = 0.27
-"""Fraction of the canvas, from below, that cards cover on a screen of 1500 × 940 pixels."""
+@dataclass(frozen=True)
+class Cover:
+    """Fractions of the canvas's height that cards cover along its whole width, from above and from below."""
+
+    above: float = 0.16
+    """The usual ones are those of a screen of 1500 × 940 pixels."""
+    below: float = 0.27
+
+    @property
+    def free(self) -> float:
+        """What is left between them."""
+        return 1.0 - self.above - self.below
+
+    @property
+    def lift(self) -> float:
+        """How far above the middle of the canvas the middle of the free part lies."""
+        return 0.5 * (self.below - self.above)
+
+
+USUAL_COVER = Cover()
+UNCOVERED = Cover(0.04, 0.04)
+"""A margin: for pictures without cards."""
 
 
 def fit(
@@ -70,27 +94,57 @@ def fit(
     aspect: float,
     azimuth: float = 0.0,
     tilt: float = _USUAL_TILT,
-    covered: float = USUALLY_COVERED,
+    cover: Cover = USUAL_COVER,
+    beside: bool = False,
 ) -> Camera:
-    """The camera of a view, as close as its subject, words included, allows.
+    """The camera of a view, as close as its subject, words included, allows between the cards.
 
     `aspect`: canvas width over height. `azimuth`: ψ [rad] of the reference blade, for "blade". `tilt`: of the shaft
-    [rad]. `covered`: fraction of the canvas that cards cover from below. In "disk" and "top" the nose is up and the
-    advancing side right; in "side" the nose is right.
+    [rad]. `cover`: what cards hide of the canvas. `beside`: two rotors stand side by side. In "disk" and "top" the nose
+    is up and the advancing side right; in "side" the nose is right.
     """
     if view == "blade":
         cos, sin = math.cos(azimuth - _BEHIND), math.sin(azimuth - _BEHIND)
         backward = np.array([cos * math.cos(_ABOVE), sin * math.cos(_ABOVE), math.sin(_ABOVE)])
-        return framed(_blade(radius, azimuth), backward, aspect)
+        return between_cards(framed(_blade(radius, azimuth), backward, aspect / cover.free), cover)
+    if beside:
+        return between_cards(framed(_two_outlines(radius), _backward(view, tilt), aspect / cover.free), cover)
     if view in _STANDS:
-        return _above_cards(_standing(_STANDS[view], radius / _DRAWN_FOR, aspect, tilt), covered)
-    elevation = _ELEVATION[view]
-    aside = np.array([0.0, 1.0, 0.0]) if view == "side" else np.array([1.0, 0.0, 0.0])
-    backward = math.cos(elevation) * aside + np.array([0.0, 0.0, math.sin(elevation)])
+        return _standing(_STANDS[view], radius / _DRAWN_FOR, aspect, _backward(view, tilt), cover)
     points = _outline(radius)
     if view == "side":  # The airframe, coning and tilt need height where the disk has none.
-        points = np.concatenate((points, radius * np.array([[0.0, 0.0, -0.5], [1.35, 0.0, -0.2], [1.0, 0.0, 0.2]])))
-    return framed(points, backward, aspect)
+        points = np.concatenate((points, radius * np.array([[0.0, 0.0, -0.5], [1.45, 0.0, -0.2], [1.0, 0.0, 0.2]])))
+    return between_cards(framed(points, _backward(view, tilt), aspect / cover.free), cover)
+
+
+def _backward(view: View, tilt: float) -> Array:
+    """From the rotor towards the camera, a unit vector."""
+    stand = _STANDS.get(view)
+    if stand is None:
+        elevation, azimuth = _ELEVATION[view], math.radians(90.0) if view == "side" else 0.0
+    else:
+        elevation, azimuth = stand.elevation + _FOLLOWS_TILT * (tilt - _USUAL_TILT), stand.azimuth
+    level = math.cos(elevation)
+    return np.array([math.cos(azimuth) * level, math.sin(azimuth) * level, math.sin(elevation)])
+
+
+def apart(radius: float) -> Array:
+    """Where the right one of two rotors side by side stands [m], across the usual line of sight; the left at its −."""
+    across = math.radians(90.0) + _STANDS["3d"].azimuth
+    return _APART * radius * np.array([math.cos(across), math.sin(across), 0.0])
+
+
+def letter_place(radius: float) -> Array:
+    """Where the letter of one of two rotors lies, from its hub [m]."""
+    return radius * np.array(_LETTER_AT)
+
+
+def _two_outlines(radius: float) -> Array:
+    """The rims of two rotors side by side, with their words and letters."""
+    edge = 0.5 * LETTER_SIZE * radius
+    corners = np.array([[x, y, 0.0] for x in (-edge, edge) for y in (-edge, edge)])
+    one = np.concatenate((_outline(radius), letter_place(radius) + corners))
+    return np.concatenate((one - apart(radius), one + apart(radius)))
 
 
 def reader(view: View) -> tuple[float, float]:
@@ -99,12 +153,31 @@ def reader(view: View) -> tuple[float, float]:
     return stand.azimuth, min(0.85 / math.sin(stand.elevation), 2.2)
 
 
-def _standing(stand: _Stand, size: float, aspect: float, tilt: float) -> Camera:
-    elevation = stand.elevation + _FOLLOWS_TILT * (tilt - _USUAL_TILT)
-    level = math.cos(elevation)
-    backward = np.array([math.cos(stand.azimuth) * level, math.sin(stand.azimuth) * level, math.sin(elevation)])
+def _standing(stand: _Stand, size: float, aspect: float, backward: Array, cover: Cover) -> Camera:
+    """The composition in the free part of the canvas, where its middle and its share of the height are as usual."""
+    higher = USUAL_COVER.free / cover.free
+    # Coming nearer blows up the near side, tail and all: only half the way.
+    further = max(stand.aspect / max(aspect, 0.2), higher if higher > 1.0 else math.sqrt(higher))
     look_at = size * np.array(stand.look_at)
-    return Camera(look_at + size * stand.distance * max(1.0, stand.aspect / max(aspect, 0.2)) * backward, look_at)
+    camera = Camera(look_at + size * stand.distance * further * backward, look_at)
+    return _lifted(camera, cover.lift - USUAL_COVER.lift / further)
+
+
+def _lifted(camera: Camera, lift: float) -> Camera:
+    """What the camera shows, higher on the canvas by this fraction of its height."""
+    sight = camera.position - camera.look_at
+    distance = float(np.linalg.norm(sight))
+    backward = sight / distance
+    up = np.array([0.0, 0.0, 1.0]) - backward[2] * backward
+    height = 2.0 * distance * math.tan(FIELD_OF_VIEW / 2.0)
+    lower = lift * height * up / np.linalg.norm(up)
+    return Camera(camera.position - lower, camera.look_at - lower)
+
+
+def between_cards(camera: Camera, cover: Cover) -> Camera:
+    """From a camera that fills a canvas as high as the free part to one that fills that part of the whole canvas."""
+    sight = (camera.position - camera.look_at) / cover.free
+    return _lifted(Camera(camera.look_at + sight, camera.look_at), cover.lift)
 
 
 def framed(points: Array, backward: Array, aspect: float, margin: float = _MARGIN) -> Camera:
@@ -133,18 +206,6 @@ def _outline(radius: float) -> Array:
     """The rim with the words round it."""
     psi = np.linspace(0.0, 2.0 * math.pi, 73)
     return 1.2 * radius * np.stack((np.cos(psi), np.sin(psi), np.zeros_like(psi)), axis=1)
-
-
-def _above_cards(camera: Camera, covered: float) -> Camera:
-    """The same composition in the part of the canvas that is free, where cards cover more of it than usual."""
-    if covered <= USUALLY_COVERED:
-        return camera
-    sight = (camera.position - camera.look_at) * (1.0 - USUALLY_COVERED) / (1.0 - covered)
-    backward = sight / np.linalg.norm(sight)
-    up = np.array([0.0, 0.0, 1.0]) - backward[2] * backward
-    height = 2.0 * float(np.linalg.norm(sight)) * math.tan(FIELD_OF_VIEW / 2.0)
-    lower = 0.5 * (covered - USUALLY_COVERED) * height * up / np.linalg.norm(up)
-    return Camera(camera.look_at - lower + sight, camera.look_at - lower)
 
 
 def _blade(radius: float, azimuth: float) -> Array:

@@ -29,7 +29,7 @@ class Field:
     void_in_reverse_flow: bool = False
     """Whether the quantity loses its meaning where the flow comes from the trailing edge."""
     absent: Callable[[Solution, PolarGrid], NDArray[np.bool_]] | None = None
-    """Where else there is none of it, on the polar grid."""
+    """Where else the quantity is not defined, on the polar grid."""
     note: str = ""
     """What follows the unit in the label."""
 
@@ -108,18 +108,30 @@ def _stall_margin_deg(solution: Solution, grid: PolarGrid) -> Array:
     return np.degrees(refined(solution, grid).margin).astype(np.float64)
 
 
+def _elastic_deg(solution: Solution, grid: PolarGrid) -> Array:
+    elastic = solution.disk.elastic_twist
+    if elastic is None:
+        return np.zeros((len(grid.r), len(grid.psi)))
+    return np.degrees(grid.refine(elastic))
+
+
+def _rigid(solution: Solution, grid: PolarGrid) -> NDArray[np.bool_]:
+    return np.full((len(grid.r), len(grid.psi)), solution.disk.elastic_twist is None)
+
+
 FIELDS: dict[str, Field] = {
     field.title: field
     for field in (
         Field("Angle of attack", "°", -4.0, 10.0, "sequential", _alpha_deg, void_in_reverse_flow=True),
         Field("Induced inflow λi", "", -0.08, 0.08, "diverging", _induced),
-        Field("Total inflow λ", "", -0.12, 0.12, "diverging", _inflow),
+        Field("Total inflow λ", "", 0.0, 0.12, "sequential", _inflow),
         Field("Mach number", "", 0.0, 0.9, "sequential", _mach),
         Field("Lift coefficient", "", -0.4, 1.4, "sequential", _cl),
-        Field("M²cn", "", -0.25, 0.25, "diverging", _m2cn),
+        Field("M²cn", "", -0.05, 0.25, "sequential", _m2cn),
         Field("Thrust dT/dr", "kN/m per blade", -1.0, 7.0, "sequential", _thrust),
         Field("Power dP/dr", "kW/m per blade", -20.0, 100.0, "sequential", _power),
         Field("Stall margin", "°", -12.0, 12.0, "margin", _stall_margin_deg, void_in_reverse_flow=True),
+        Field("Elastic twist", "°", -5.0, 5.0, "diverging", _elastic_deg, absent=_rigid),
     )
 }
 """By title, in the order of the menu."""

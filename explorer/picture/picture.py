@@ -12,7 +12,15 @@ from explorer.picture.fields import FIELDS, Field
 from explorer.picture.lettering import label_masks
 from explorer.picture.png import encode_png
 from explorer.picture.polar import polar_grid, refined
-from explorer.picture.poses import Pose, airframe_pose, blade_pose, blade_twists, rotor_pose, tip_path_pose
+from explorer.picture.poses import (
+    Pose,
+    airframe_pose,
+    blade_pose,
+    flown_twist,
+    follows_azimuth,
+    rotor_pose,
+    tip_path_pose,
+)
 from explorer.picture.regions import NO_MARKS, Marks, region_codes, region_labels
 from explorer.picture.rotor_head import size
 from explorer.picture.scene_theme import DiskInk, scene_theme
@@ -51,7 +59,7 @@ class Blades:
     poses: tuple[Pose, ...]
     """The reference blade first."""
     shapes: tuple[Array, ...]
-    """Vertices blade by blade where twist follows the azimuth; empty when all are alike."""
+    """Vertices blade by blade where twist follows the azimuth; empty when all are drawn alike."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +71,7 @@ class Picture:
     disk: Pose
     blades: Blades
     blade_vertices: Array
-    """Shape (n, 3); the same for every blade, unless `blades` says otherwise."""
+    """Of the reference blade as flown, shape (n, 3); the same for every blade, unless `blades` says otherwise."""
     blade_faces: NDArray[np.uint32]
     """Shape (m, 3); changes only with the rotor."""
     png: bytes
@@ -76,17 +84,20 @@ def disk_drop(rotor: Rotor) -> float:
     return DISK_DROP * size(rotor.radius)
 
 
-def turned_blades(solution: Solution, view: ViewState) -> Blades:
-    """The blades with the reference blade at the view's azimuth."""
+def turned_blades(solution: Solution, view: ViewState, each: bool = True) -> Blades:
+    """The blades with the reference blade at the view's azimuth; `each`: with a shape for each, where they differ."""
     rotor = solution.design.rotor
     first, step = math.radians(view.azimuth_deg), 2.0 * math.pi / rotor.blades
     azimuths = tuple(first + k * step for k in range(rotor.blades))
     hinge = rotor.blade.flap_hinge * rotor.radius
-    twists = blade_twists(solution.design, azimuths)
+    shape = blade_shape(rotor)
+    differ = each and follows_azimuth(solution)
     return Blades(
         azimuth=first,
         poses=tuple(blade_pose(solution.controls, psi, hinge) for psi in azimuths),
-        shapes=tuple(blade_vertices(blade_shape(rotor), twist, view.exaggeration) for twist in twists),
+        shapes=tuple(
+            blade_vertices(shape, flown_twist(solution, psi), view.exaggeration) for psi in azimuths if differ
+        ),
     )
 
 
@@ -100,7 +111,8 @@ def make_picture(
 ) -> Picture:
     """The frame for a converged solution. `field`: on the disk, where it is not just that of the view.
 
-    `pixels`: along each edge of the disk's picture. `reader`: whom its labels face.
+    `pixels`: along each edge of the disk's picture; the small one of a moving page bends the reference blade alone.
+    `reader`: whom its labels face.
     """
     rotor, controls = solution.design.rotor, solution.controls
     shape = blade_shape(rotor)
@@ -108,8 +120,8 @@ def make_picture(
         rotor=rotor_pose(controls),
         airframe=airframe_pose(controls),
         disk=tip_path_pose(controls, disk_drop(rotor)),
-        blades=turned_blades(solution, view),
-        blade_vertices=blade_vertices(shape, solution.design.twist, view.exaggeration),
+        blades=turned_blades(solution, view, each=pixels != disk_image.MOVING),
+        blade_vertices=blade_vertices(shape, flown_twist(solution, math.radians(view.azimuth_deg)), view.exaggeration),
         blade_faces=shape.faces,
         png=page_disk_png(solution, field or FIELDS[view.field], colour_range, view, pixels, reader),
         png_size=pixels,

@@ -47,6 +47,12 @@ class PolarGrid:
         return self.along.astype(np.float32), self.around.astype(np.float32)
 
 
+@one_blas_thread()
+def product(along: Single, field: Single, around: Single) -> Single:
+    """A field of the solver's grid between two matrices, such as those of a `PolarGrid`."""
+    return np.matmul(along, np.matmul(field, around, dtype=np.float32), dtype=np.float32)
+
+
 def polar_grid(disk: DiskFields, radii: int, azimuths: int, ends: tuple[float, float] | None = None) -> PolarGrid:
     """The grid of `radii` × `azimuths` points over `disk`; kept for the next frame.
 

@@ -4,13 +4,14 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
 from explorer.picture.fields import filled
-from explorer.picture.polar import PolarGrid, Single, polar_grid, refined
+from explorer.picture.polar import PolarGrid, Single, polar_grid, product, refined
 from rotor.trim.solution import Solution
 
 Bytes = NDArray[np.uint8]
@@ -93,23 +94,35 @@ def region_codes(solution: Solution, grid: PolarGrid, marks: Marks, half_width: 
         codes[(margin < 0.0) & clear] = MarkedRegion.STALLED
         codes[_line(grid, margin, 0.8 * half_width) & clear] = MarkedRegion.STALL_RIM
     if marks.drag_divergence:
-        # Dashes also where the line runs along a radius.
-        dash = (grid.psi * (_DASHES / (2.0 * math.pi)) + 0.5 * _DASHES / math.pi * grid.r[:, None]) % 1.0 < _DASH_SHARE
         line = _line(grid, divergence_margin(solution, grid), half_width)
-        codes[line & dash & clear & (grid.r[:, None] < 0.995)] = MarkedRegion.DASH
+        codes[line & _dashes(grid) & clear] = MarkedRegion.DASH
     if marks.reverse_flow:
         codes[flow.u_t < 0.0] = MarkedRegion.REVERSE
         codes[_line(grid, flow.u_t, 0.9 * half_width)] = MarkedRegion.REVERSE_RIM
     return codes
 
 
+@lru_cache(maxsize=4)
+def _dashes(grid: PolarGrid) -> NDArray[np.bool_]:
+    """Where a dashed line is drawn, also where it runs along a radius; not at the very tip."""
+    dash = (grid.psi * (_DASHES / (2.0 * math.pi)) + 0.5 * _DASHES / math.pi * grid.r[:, None]) % 1.0 < _DASH_SHARE
+    return dash & (grid.r[:, None] < 0.995)
+
+
 def divergence_margin(solution: Solution, grid: PolarGrid) -> Single:
     """∂C_d/∂M less the value that marks drag divergence, smoothed on the solver's grid; positive beyond it."""
     slope = filled(solution.disk, np.clip(solution.disk.cd_mach, -_SLOPE_LIMIT, _SLOPE_LIMIT))
+    along, around = _smoothing(grid)
+    return product(along, slope.astype(np.float32), around) - np.float32(DRAG_DIVERGENCE)
+
+
+@lru_cache(maxsize=4)
+def _smoothing(grid: PolarGrid) -> tuple[Single, Single]:
+    """Smoothing on the solver's grid and interpolation in one: the matrices from the left and from the right."""
     along, around = _SMOOTHING
-    smooth = ndimage.gaussian_filter1d(slope, along, axis=0, mode="nearest", truncate=3.0)
-    smooth = ndimage.gaussian_filter1d(smooth, around, axis=1, mode="wrap", truncate=3.0)
-    return grid.refine_all((smooth,))[0] - np.float32(DRAG_DIVERGENCE)
+    rows = ndimage.gaussian_filter1d(np.eye(grid.along.shape[1]), along, axis=0, mode="nearest", truncate=3.0)
+    columns = ndimage.gaussian_filter1d(np.eye(grid.around.shape[0]), around, axis=1, mode="wrap", truncate=3.0)
+    return (grid.along @ rows).astype(np.float32), (columns @ grid.around).astype(np.float32)
 
 
 def _line(grid: PolarGrid, values: Single, half_width: float) -> NDArray[np.bool_]:
@@ -196,7 +209,7 @@ def _divergence_label(
 ) -> list[RegionLabel]:
     """Inboard of the line on the advancing side, where it stands clear of the reference blade."""
     beyond = (divergence_margin(solution, grid) > 0.0) & clear
-    column = int(np.argmin(np.abs(grid.psi - math.radians(105.0))))
+    column = int(np.argmin(np.abs(grid.psi - math.radians(122.0))))
     outside = np.flatnonzero(~beyond[:, column])
     if not len(outside) or not 0.45 < grid.r[outside[-1]] < 0.97:
         return []

@@ -2,15 +2,22 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 
+from rotor.aero.free_wake.filaments import WakeFilaments
 from rotor.arrays import Array
 from rotor.trim.solution import Solution
 
 _TURNS = 0.8
-"""Length of a drawn vortex, in turns of the rotor."""
+"""Length of a drawn vortex, in turns of the rotor, but for those of a free wake."""
 _POINTS = 59
+_AGES, _COLUMNS = 21, 12
+"""Ages, and azimuths at which a vortex left, for which its path is computed."""
+_WIDTH = 0.25
+"""Part of the radius over which the inflow at a tip vortex is averaged."""
 _CONTRACTION, _CONTRACTS_WITHIN = 0.22, 2.2
 """In hover the wake contracts towards 0.78 R (Landgrebe, 1972), by a factor e within this age [rad]."""
 _ARROW_RADII = (0.3, 0.5, 0.7, 0.9)
@@ -21,24 +28,90 @@ _HEAD = 0.28
 """Length of an arrow's head, as a fraction of the arrow."""
 
 
-def tip_vortices(solution: Solution, azimuths: Sequence[float]) -> tuple[Array, Array]:
-    """Segments of the vortices behind tips at `azimuths` [rad], shape (n, 2, 3), and the age 0…1 of each end, (n, 2).
+@dataclass(frozen=True)
+class TipVortexPath:
+    """Where the air goes that left a tip: with the stream, and down with the inflow that it meets. All in radii.
 
-    A rigid skewed helix: what left a tip at ψ − ζ has since drifted with the stream and the mean inflow. It contracts
-    in hover, and less the faster the rotor flies.
+    `radius` and `sink` are at equally spaced ages from 0 to the end, linear between.
     """
-    controls, rotor = solution.controls, solution.design.rotor
-    mu = solution.design.condition.advance_ratio
-    along, down = mu * math.cos(controls.shaft_tilt), mu * math.sin(controls.shaft_tilt) + controls.lambda0
-    age = np.linspace(0.0, 2.0 * math.pi * _TURNS, _POINTS)
-    hovering = abs(down) / max(math.hypot(along, down), 1e-9)
-    r = 1.0 - hovering * _CONTRACTION * (1.0 - np.exp(-age / _CONTRACTS_WITHIN))
+
+    along: float
+    """Drift aft per radian of age."""
+    turns: float
+    """Age at the end, in turns of the rotor."""
+    points: int
+    """Drawn along one vortex."""
+    radius: list[float]
+    """Distance from the shaft, before the drift, (ages,)."""
+    sink: list[list[float]]
+    """How far it is below the tip that it left, (azimuths at which it left, equally spaced from 0; ages)."""
+
+    @property
+    def age(self) -> Array:
+        """ζ of each drawn point [rad]."""
+        return 2.0 * math.pi * self.turns * np.linspace(0.0, 1.0, self.points)
+
+    def at(self, left: Array, age: Array) -> tuple[Array, Array]:
+        """Radius and sink of what left the tip at azimuths `left` [rad] at an age [rad]; of one shape."""
+        radius, sink = np.array(self.radius), np.array(self.sink)
+        place = age / (2.0 * math.pi * self.turns) * (len(radius) - 1)
+        column = left / (2.0 * math.pi) * len(sink)
+        k = np.clip(place.astype(int), 0, len(radius) - 2)
+        j = np.floor(column).astype(int)
+        u, v, ahead, behind = place - k, column - j, (j + 1) % len(sink), j % len(sink)
+        depth = (1.0 - v) * ((1.0 - u) * sink[behind, k] + u * sink[behind, k + 1])
+        depth = depth + v * ((1.0 - u) * sink[ahead, k] + u * sink[ahead, k + 1])
+        return (1.0 - u) * radius[k] + u * radius[k + 1], depth
+
+
+def tip_vortex_path(solution: Solution) -> TipVortexPath:
+    """The vortices of a solution: those of its own free wake, else those that its inflow carries away.
+
+    The inflow is averaged over a quarter of the radius, which is about what a tip vortex takes part in.
+    """
+    if solution.wake is not None:
+        return _free_path(solution.wake)
+    disk, controls, mu = solution.disk, solution.controls, solution.design.condition.advance_ratio
+    along, axial = mu * math.cos(controls.shaft_tilt), mu * math.sin(controls.shaft_tilt)
+    down = axial + controls.lambda0
+    narrowing = abs(down) / max(math.hypot(along, down), 1e-9) * _CONTRACTION
+    age = np.linspace(0.0, 2.0 * math.pi * _TURNS, _AGES)
+    radius = 1.0 - narrowing * (1.0 - np.exp(-age / _CONTRACTS_WITHIN))
+    left = 2.0 * math.pi / _COLUMNS * np.arange(_COLUMNS)[:, None]
+    x, y = radius * np.cos(left) + along * age, radius * np.sin(left)
+    width = max(1, round(_WIDTH / disk.dr))
+    smooth = sliding_window_view(disk.induced, width, axis=0).mean(axis=-1)
+    r = disk.r[: len(smooth)] + 0.5 * (width - 1) * disk.dr
+    row = np.clip(np.rint((np.hypot(x, y) - r[0]) / disk.dr).astype(int), 0, len(r) - 1)
+    psi = np.arctan2(y, x) - disk.psi[0]
+    column = np.rint(psi / (2.0 * math.pi) * len(disk.psi)).astype(int) % len(disk.psi)
+    speed = axial + smooth[row, column]
+    steps = 0.5 * (speed[:, 1:] + speed[:, :-1]) * (age[1] - age[0])
+    sink = np.concatenate([np.zeros((_COLUMNS, 1)), np.cumsum(steps, axis=1)], axis=1)
+    return TipVortexPath(along, _TURNS, _POINTS, radius.round(5).tolist(), sink.round(5).tolist())
+
+
+def _free_path(wake: WakeFilaments) -> TipVortexPath:
+    """The free turns of a tip vortex in hover, as the wake settled."""
+    layout = wake.state.layout
+    tip = wake.tip_vortices[0, : layout.free + 1]
+    radius, sink = np.hypot(tip[:, 0], tip[:, 1]), tip[0, 2] - tip[:, 2]
+    points = round(_POINTS * layout.turns / _TURNS)
+    return TipVortexPath(0.0, layout.turns, points, radius.round(5).tolist(), [sink.round(5).tolist()])
+
+
+def tip_vortices(solution: Solution, azimuths: Sequence[float]) -> tuple[Array, Array]:
+    """Segments of the vortices behind tips at `azimuths` [rad], (n, 2, 3), and the age 0…1 of each end, (n, 2)."""
+    controls, rotor, path = solution.controls, solution.design.rotor, tip_vortex_path(solution)
+    age = path.age
     hinge = rotor.blade.flap_hinge
     lines = []
     for psi in azimuths:
         left = psi - age
+        r, sink = path.at(left, age)
         flap = controls.coning + controls.flap_1c * np.cos(left) + controls.flap_1s * np.sin(left)
-        points = np.stack((r * np.cos(left) + along * age, r * np.sin(left), (1.0 - hinge) * flap - down * age), axis=1)
+        x, z = r * np.cos(left) + path.along * age, (1.0 - hinge) * flap - sink
+        points = np.stack((x, r * np.sin(left), z), axis=1)
         lines.append(np.stack((points[:-1], points[1:]), axis=1))
     ages = np.stack((age[:-1], age[1:]), axis=1) / age[-1]
     return rotor.radius * np.concatenate(lines), np.tile(ages, (len(lines), 1))

@@ -3,20 +3,19 @@
 import math
 import time
 from collections.abc import Callable
-from dataclasses import replace
 from functools import partial
 
 import numpy as np
 import viser
 
-from explorer.picture.camera_views import BESIDE, FIELD_OF_VIEW, Camera, View, fit
+from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, USUAL_COVER, Camera, Cover, View, between_cards, fit
 
 _SETTLES = 1.5
 """While the page lays itself out [s], camera messages still tell of older positions."""
-_CARDS = 200
-"""Height of the cards along the lower edge of the canvas, with their margins [px]."""
 _MOST_COVERED = 0.45
 """On a lower canvas the scene goes on behind the cards: there is no room beside them."""
+_LEAST_COVER = 1e-3
+"""A smaller change of what cards cover does not move the camera."""
 _LEAST_TILT = math.radians(0.2)
 """A smaller change of the shaft tilt does not move the camera."""
 _TAKEN = 0.3
@@ -33,10 +32,14 @@ class FittedCamera:
         """None while something else than the rotor is looked at."""
         self._azimuth = 0.0
         self._tilt = math.radians(3.0)
-        self._beside = 1.0
-        """How many times as far the camera stands as from one rotor."""
+        self._cover = USUAL_COVER
+        self._beside = False
+        """Whether two rotors stand side by side."""
         self._fit: Callable[[float], Camera] = partial(self._fitted, "3d")
         self._following = True
+        self._held = False
+        self._wanted: tuple[float, bool] | None = None
+        """What `follow` was told while the camera was held."""
         self._put: tuple[np.ndarray, tuple[int, int], float] | None = None
         client.camera.fov = FIELD_OF_VIEW
         client.camera.near = 2.0  # A far near plane keeps the depth resolution that words on the disk need.
@@ -47,14 +50,8 @@ class FittedCamera:
         self._view = view
         self._aim(partial(self._fitted, view))
 
-    def _fitted(self, view: View, aspect: float) -> Camera:
-        height = max(self._client.camera.image_height, _CARDS / _MOST_COVERED)
-        # Two rotors side by side are low: they leave the cards their room anyway.
-        covered = _CARDS / height if self._beside == 1.0 else 0.0
-        camera = fit(view, self._radius, aspect, self._azimuth, self._tilt, covered)
-        if view == "blade":
-            return camera
-        return replace(camera, position=camera.look_at + self._beside * (camera.position - camera.look_at))
+    def _fitted(self, view: View, aspect: float, cover: Cover | None = None) -> Camera:
+        return fit(view, self._radius, aspect, self._azimuth, self._tilt, cover or self._cover, self._beside)
 
     def resize(self, radius: float) -> None:
         """The rotor is of another radius [m] now: fit it anew, unless something else is looked at."""
@@ -74,26 +71,48 @@ class FittedCamera:
 
     def follow(self, tilt: float, beside: bool) -> None:
         """Go with the shaft tilt [rad], and stand back for a second rotor, until the user takes over."""
-        far = BESIDE if beside else 1.0
-        if abs(tilt - self._tilt) < _LEAST_TILT and far == self._beside:
+        if self._held:
+            self._wanted = tilt, beside
             return
-        self._tilt, self._beside = tilt, far
+        if abs(tilt - self._tilt) < _LEAST_TILT and beside == self._beside:
+            return
+        self._tilt, self._beside = tilt, beside
         if self._view is not None and self._view != "blade" and self._following:
             self.aim(self._view)
 
+    def leave_free(self, above: float, below: float) -> None:
+        """Cards cover these fractions of the canvas from above and from below; follow, until the user takes over."""
+        cover = Cover(min(max(above, 0.0), _MOST_COVERED), min(max(below, 0.0), _MOST_COVERED))
+        if abs(cover.above - self._cover.above) + abs(cover.below - self._cover.below) < _LEAST_COVER:
+            return
+        self._cover = cover
+        if self._following and self._put is not None and not self._held:
+            self._aim(self._fit)
+
+    def hold(self, held: bool) -> None:
+        """Stand still while the blade is in the user's hand; what was to be followed meanwhile is followed then."""
+        self._held = held
+        wanted, self._wanted = self._wanted, None
+        if not held and wanted is not None:
+            self.follow(*wanted)
+
     def pictured(self, aspect: float) -> tuple[np.ndarray, np.ndarray, float]:
-        """Orientation wxyz, position [m] and vertical field of view [rad] that show at `aspect` what the page shows."""
+        """Orientation wxyz, position [m] and vertical field of view [rad] that show at `aspect` what the page shows.
+
+        A picture has no cards.
+        """
         camera = self._client.camera
         if self._following:
-            return camera.wxyz, self._fit(aspect).position, camera.fov
+            shown = self._fit(aspect) if self._view is None else self._fitted(self._view, aspect, UNCOVERED)
+            return camera.wxyz, shown.position, camera.fov
         # A narrower picture takes in more height, so that nothing at the sides is lost.
         wider = max(1.0, camera.aspect / aspect)
         return camera.wxyz, camera.position, 2.0 * math.atan(wider * math.tan(camera.fov / 2.0))
 
     def aim_with(self, fitted: Callable[[float], Camera]) -> None:
-        """The same for any other subject: `fitted` finds the camera for a canvas's width over height."""
+        """The same for any other subject: `fitted` finds the camera for a width over height without cards."""
         self._view = None
-        self._aim(fitted)
+        self._aim(lambda aspect: between_cards(fitted(aspect / self._cover.free), self._cover))
 
     def _aim(self, fitted: Callable[[float], Camera]) -> None:
         camera = self._client.camera

@@ -3,14 +3,12 @@
 While something moves, the disk is small and only the reference blade is bent. `settle` draws the rest.
 """
 
-import math
 from dataclasses import dataclass, replace
 
-import numpy as np
 import viser
 
 from explorer.interface import RangeDisplay
-from explorer.picture.camera_views import View, reader
+from explorer.picture.camera_views import View, apart, reader
 from explorer.picture.disk_image import AT_REST, MOVING
 from explorer.picture.fields import FIELDS, TRIM, Field, fitted_range, keeps_range, over_range, shown_field
 from explorer.picture.picture import disk_png, field_values, make_picture, turned_blades
@@ -24,8 +22,6 @@ from rotor.design.blade import Rotor
 from rotor.trim.solution import Solution
 
 Range = tuple[float, float]
-_APART = 1.32
-"""Half the distance between the hubs of two rotors side by side, in radii."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +33,7 @@ class _Drawn:
     """Where the disk shows the difference to it, or it stands beside."""
     view: ViewState
     colour_range: Range
-    ghost: OtherBlade | None
+    ghost: OtherBlade
     look: View
     """The camera's: labels on the disk face it."""
 
@@ -88,7 +84,10 @@ class SceneController:
             with self._client.atomic():
                 self.scene.rotor.turn(blades, still=not self._page.playing)
                 self._page.turn(blades.azimuth)
-                self._air.hide_vortices()
+                if blades.shapes:
+                    self._ghost.show(ghost, solution, view, at_rest=not self._page.playing)
+                if not self._page.playing:  # Else the page moves them.
+                    self._air.hide_vortices()
             self._client.flush()
             self._drawn, self._settled = wanted, False
             return
@@ -97,8 +96,9 @@ class SceneController:
         with self._client.atomic():
             self._set_theme(view)
             self.scene.fit(solution.design.rotor)
+            self.scene.set_alone(solution.design.condition.stand is not None)
             self.scene.show(picture, everything=first, still=not self._page.playing)
-            self._ghost.show(ghost, solution.design.twist, view.exaggeration, at_rest=False)
+            self._ghost.show(ghost, solution, view, at_rest=False)
             self._page.move(solution)
         self._client.flush()  # The frame goes out now; read-outs and charts follow while it is drawn.
         self._display.show_range(field, colour_range, faded=False)
@@ -127,9 +127,9 @@ class SceneController:
         other = None if beside is None else make_picture(beside, view, drawn.colour_range, field, AT_REST, towards)
         with self._client.atomic():
             self.scene.show(picture, still=not self._page.playing)
-            self._ghost.show(drawn.ghost, solution.design.twist, view.exaggeration, at_rest=True)
+            self._ghost.show(drawn.ghost, solution, view, at_rest=True)
             self._air.show(solution, view, scene_theme(view.dark))
-            if self._page.playing or beside is not None:
+            if beside is not None:
                 self._air.hide_vortices()
             if beside is None or other is None:
                 self.scene.hide_beside()
@@ -199,9 +199,3 @@ class SceneController:
 def _field(view: ViewState, pinned: Solution | None) -> Field:
     """What the disk shows: B − A where wanted, but not while A stands beside B."""
     return FIELDS[view.field] if view.beside else shown_field(view, pinned)
-
-
-def apart(radius: float) -> np.ndarray:
-    """Where the right one of two rotors side by side stands [m], across the usual line of sight."""
-    across = math.radians(90.0 + 34.0)
-    return _APART * radius * np.array([math.cos(across), math.sin(across), 0.0])

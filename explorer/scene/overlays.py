@@ -11,6 +11,7 @@ import viser
 from numpy.typing import NDArray
 
 from explorer.picture.blade_mesh import blade_shape, blade_vertices, ghost_segments, ghost_vertices
+from explorer.picture.poses import flown_twist, with_elastic_twist
 from explorer.picture.scene_theme import SceneTheme
 from explorer.picture.solids import Mesh
 from explorer.picture.wake import inflow_arrows, tip_vortices
@@ -23,7 +24,7 @@ from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
 from rotor.trim.solution import Solution
 
-_BLADE = f"{ROTOR}/blade_0"
+_BLADE, VORTICES = f"{ROTOR}/blade_0", f"{ROTOR}/vortices"
 _LEAST = math.radians(0.25)
 """A ghost is drawn where its twist differs by about this [rad]."""
 _OPACITY = 0.38
@@ -35,8 +36,21 @@ class OtherBlade:
 
     rotor: Rotor
     twist: TwistLaw
+    """As built."""
     colour: colours.Rgb | None
     """None: the grey of the page's theme."""
+
+
+def ghost_twist(solution: Solution, other: TwistLaw, psi: float) -> TwistLaw | None:
+    """The twist of the ghost of a blade whose jig twist is `other`, at ψ [rad]; None: there is nothing to compare.
+
+    It has the elastic twist of this solution, so that only the change of jig twist tells the two apart. A blade with
+    the same jig twist leaves the ghost to the jig shape of this one.
+    """
+    jig = solution.design.twist
+    if other != jig:
+        return with_elastic_twist(other, solution, psi)
+    return None if solution.disk.elastic_twist is None else jig
 
 
 def ghost_of(begun: Design | None, pinned: Pinned | None) -> OtherBlade | None:
@@ -72,20 +86,25 @@ class Ghost:
     def set_theme(self, theme: SceneTheme) -> None:
         self._theme = theme
 
-    def show(self, other: OtherBlade | None, twist: TwistLaw, exaggeration: float, at_rest: bool) -> None:
-        """Show the ghost of another blade where its twist is not `twist`; None hides it."""
-        seen = other is not None and other.twist != twist
-        self._surface.visible = seen
-        self._lines.visible = seen and at_rest
-        if other is None or not seen:
+    def show(self, other: OtherBlade, solution: Solution, view: ViewState, at_rest: bool) -> None:
+        """Show the ghost of another blade, or of the jig shape, where it differs from the reference blade as flown."""
+        psi, exaggeration = math.radians(view.azimuth_deg), view.exaggeration
+        ghost = ghost_twist(solution, other.twist, psi)
+        # Of the own jig shape only the edges: its surface cuts the flown one at small angles and would speckle it.
+        self._surface.visible = ghost is not None and other.twist != solution.design.twist
+        self._lines.visible = ghost is not None and at_rest
+        if ghost is None:
             return
-        shape = blade_shape(other.rotor)
-        vertices = ghost_vertices(shape, other.twist, twist, exaggeration, _LEAST)
-        set_mesh(self._surface, Mesh(vertices, shape.faces))
-        colour = other.colour or self._theme.ghost
+        twist = flown_twist(solution, psi)
+        differs = other.twist != solution.design.twist
+        if differs:
+            shape = blade_shape(other.rotor)
+            vertices = ghost_vertices(shape, ghost, twist, exaggeration, _LEAST)
+            set_mesh(self._surface, Mesh(vertices, shape.faces))
+        colour = other.colour if other.colour is not None and differs else self._theme.ghost
         self._surface.color = colour
         if at_rest:
-            segments = ghost_segments(other.rotor, other.twist, twist, exaggeration, _LEAST).astype(np.float32)
+            segments = ghost_segments(other.rotor, ghost, twist, exaggeration, _LEAST).astype(np.float32)
             self._lines.visible = len(segments) > 0
             if len(segments):
                 dark: colours.Rgb = (colour[0] // 2, colour[1] // 2, colour[2] // 2)
@@ -98,10 +117,8 @@ class AirLines:
     def __init__(self, api: viser.SceneApi) -> None:
         nothing, black = np.zeros((1, 2, 3), dtype=np.float32), np.zeros((1, 2, 3), dtype=np.uint8)
         self._vortices, self._arrows = (
-            api.add_line_segments(
-                f"{ROTOR}/{name}", nothing, black, thickness=width, thickness_units="screen", visible=False
-            )
-            for name, width in (("vortices", 1.7), ("inflow", 1.5))
+            api.add_line_segments(name, nothing, black, thickness=width, thickness_units="screen", visible=False)
+            for name, width in ((VORTICES, 1.7), (f"{ROTOR}/inflow", 1.5))
         )
 
     def show(self, solution: Solution, view: ViewState, theme: SceneTheme) -> None:

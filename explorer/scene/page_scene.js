@@ -2,7 +2,7 @@
 (() => {
   if (window.rotorScene) return;
   const viewer = () => window.__viserMutable;
-  let surfaces = {}, motion = null, heard = null, mark = null, rate = 0, psi = 0, before = 0;
+  let surfaces = {}, motion = null, heard = null, mark = null, rate = 0, psi = 0, before = 0, stepped = 0;
 
   // Pictures seen from a low angle stay sharp with anisotropic filtering, which a graphics card gives for nothing.
   const hardware = () => {
@@ -49,11 +49,41 @@
       place(`${motion.root}/blade_${k}`, angle, harmonic(motion.flap, angle), harmonic(motion.pitch, angle), motion.hinge);
     }
     place(`${motion.root}/head`, at, 0, 0, 0);
+    trail(at);
     viewer().requestRender?.();
   };
 
+  // Tip vortices are moved point by point: behind a flying rotor they do not turn as a whole.
+  const trail = at => {
+    const node = viewer().nodeRefFromName[motion.vortices], {along, turns, points, radius, sink} = motion.path;
+    const last = radius.length - 1, end = 2 * Math.PI * turns;
+    node?.traverse?.(part => {
+      const data = part.geometry?.attributes?.instanceStart?.data;
+      if (data?.array?.length !== 6 * motion.blades * (points - 1)) return;
+      let k = 0;
+      for (let blade = 0; blade < motion.blades; blade++) {
+        let before = null;
+        for (let j = 0; j < points; j++) {
+          const age = end * j / (points - 1), left = at + 2 * Math.PI * blade / motion.blades - age;
+          const i = Math.min(Math.floor(last * age / end), last - 1), u = last * age / end - i;
+          const place = left / (2 * Math.PI) * sink.length, column = Math.floor(place), v = place - column;
+          const of = n => { const row = sink[((n % sink.length) + sink.length) % sink.length]; return (1 - u) * row[i] + u * row[i + 1]; };
+          const r = (1 - u) * radius[i] + u * radius[i + 1], depth = (1 - v) * of(column) + v * of(column + 1);
+          const here = [
+            motion.radius * (r * Math.cos(left) + along * age), motion.radius * r * Math.sin(left),
+            (motion.radius - motion.hinge) * harmonic(motion.flap, left) - motion.radius * depth,
+          ];
+          if (before) { data.array.set(before, k); data.array.set(here, k + 3); k += 6; }
+          before = here;
+        }
+      }
+      data.needsUpdate = true;
+    });
+  };
+
   // The server says ten or twenty times a second where the reference blade is; in between the page goes on at that rate
-  // and closes what is left between the two. Whoever asked for less motion sees the rotor at rest in steps of 30°.
+  // and closes what is left between the two. Whoever asked for less motion sees the rotor at rest in steps of 30° or more,
+  // at most two a second.
   const calm = matchMedia('(prefers-reduced-motion: reduce)');
   const near = angle => angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
   const step = now => {
@@ -64,8 +94,9 @@
     before = now;
     const aim = heard.psi + rate * Math.min((now - heard.at) / 1000, 0.3);
     if (calm.matches) {
-      if (Math.abs(near(aim - psi)) < Math.PI / 6) return;
+      if (Math.abs(near(aim - psi)) < Math.PI / 6 || now - stepped < 500) return;
       psi = aim;
+      stepped = now;
     } else psi += rate * passed + near(aim - psi - rate * passed) * Math.min(1, 5 * passed);
     show(psi);
   };

@@ -1,22 +1,28 @@
 """What the page itself does for the scene: gloss of surfaces, and turning the rotor smoothly at the screen's own rate.
 
+Tip vortices turn with the rotor: the page moves their points, by the formula of `explorer.picture.wake`.
+
 It leans on private names of viser's client (`__viserMutable`: nodeRefFromName, nodePoseData, requestRender); each has a
 browser test.
 """
 
 import json
 import math
+from dataclasses import asdict
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 import viser
 
 from explorer.hosting.viser_compat import run_in_page
+from explorer.picture.wake import tip_vortex_path
+from explorer.scene.overlays import VORTICES
 from explorer.scene.scene import ROTOR
 from rotor.trim.solution import Solution
 
-TURN_RATE = math.radians(54.0)
-"""[rad/s] at which a played rotor turns: slow enough to follow flapping and pitching of one blade."""
+TURN_RATES = {"slow": math.radians(18.0), "normal": math.radians(54.0), "fast": math.radians(162.0)}
+"""[rad/s] at which a played rotor turns; at the normal one flapping and pitching of one blade can be followed."""
 SURFACES = {
     f"{ROTOR}/blade_0": {"roughness": 0.55},
     **{f"{ROTOR}/blade_{k}": {"roughness": 0.42} for k in range(1, 8)},
@@ -29,8 +35,24 @@ SURFACES = {
 
 
 @cache
-def _script() -> str:
+def scene_script() -> str:
+    """The script that defines `rotorScene` in the page."""
     return Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
+
+
+def motion_of(solution: Solution) -> dict[str, Any]:
+    """What `rotorScene.move` needs: how blades flap and pitch, and where the tip vortices go."""
+    rotor, controls = solution.design.rotor, solution.controls
+    return {
+        "root": ROTOR,
+        "blades": rotor.blades,
+        "hinge": rotor.blade.flap_hinge * rotor.radius,
+        "flap": [controls.coning, controls.flap_1c, controls.flap_1s],
+        "pitch": [controls.collective, controls.cyclic_1c, controls.cyclic_1s],
+        "radius": rotor.radius,
+        "vortices": VORTICES,
+        "path": asdict(tip_vortex_path(solution)),
+    }
 
 
 class PageScene:
@@ -40,23 +62,14 @@ class PageScene:
         self._client = client
         self.playing = False
         """Whether the page moves the blades."""
-        self._motion = ""
-        run_in_page(client, f"{_script()};rotorScene.dress({json.dumps(SURFACES)})")
+        self._motion: Solution | None = None
+        run_in_page(client, f"{scene_script()};rotorScene.dress({json.dumps(SURFACES)})")
 
     def move(self, solution: Solution) -> None:
         """How the blades flap and pitch from now on; sent at once only while the rotor turns."""
-        rotor, controls = solution.design.rotor, solution.controls
-        self._motion = json.dumps(
-            {
-                "root": ROTOR,
-                "blades": rotor.blades,
-                "hinge": rotor.blade.flap_hinge * rotor.radius,
-                "flap": [controls.coning, controls.flap_1c, controls.flap_1s],
-                "pitch": [controls.collective, controls.cyclic_1c, controls.cyclic_1s],
-            }
-        )
+        self._motion = solution
         if self.playing:
-            run_in_page(self._client, f"rotorScene.move({self._motion})")
+            self._send(solution)
 
     def turn(self, azimuth: float) -> None:
         """The reference blade is at ψ [rad] now; the page goes on from here until it hears again."""
@@ -65,7 +78,13 @@ class PageScene:
 
     def play(self, playing: bool) -> None:
         """Let the page move the blades, or leave them to the scene again."""
-        if playing == self.playing or not self._motion:
+        if playing == self.playing or self._motion is None:
             return
         self.playing = playing
-        run_in_page(self._client, f"rotorScene.move({self._motion})" if playing else "rotorScene.stop()")
+        if playing:
+            self._send(self._motion)
+        else:
+            run_in_page(self._client, "rotorScene.stop()")
+
+    def _send(self, solution: Solution) -> None:
+        run_in_page(self._client, f"rotorScene.move({json.dumps(motion_of(solution))})")

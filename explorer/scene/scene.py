@@ -8,6 +8,7 @@ import viser
 from explorer.hosting import viser_compat
 from explorer.picture.airframe import airframe
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
+from explorer.picture.camera_views import LETTER_SIZE, letter_place
 from explorer.picture.disk_image import half_width
 from explorer.picture.lettering import (
     REACH,
@@ -88,20 +89,24 @@ class RotorNodes:
         """
         self.frame.wxyz = picture.rotor.wxyz
         place(self._disk, picture.disk)
-        if not picture.blades.shapes:
-            for handle in self._blades[: len(picture.blades.poses) if everything else 1]:
-                set_mesh(handle, Mesh(picture.blade_vertices, picture.blade_faces))
-        self.turn(picture.blades, still)
+        count = len(picture.blades.poses)
+        shapes = picture.blades.shapes or (picture.blade_vertices,) * count
+        for handle, shape in zip(self._blades, shapes[: count if everything else 1], strict=False):
+            set_mesh(handle, Mesh(shape, picture.blade_faces))
+        self._pose(picture.blades, still)
         self.show_disk(picture.png, picture.png_size)
 
     def turn(self, blades: Blades, still: bool = True) -> None:
-        """Move the blades and the head, and nothing else; `still`: False while the page itself moves them."""
+        """Move, twist and untwist the blades, move the head; `still`: False while the page itself moves them."""
+        self._pose(blades, still)
+        for handle, shape in zip(self._blades, blades.shapes, strict=False):
+            handle.vertices = shape.astype(np.float32)
+
+    def _pose(self, blades: Blades, still: bool) -> None:
         if still:
             self._head.wxyz = about(2, blades.azimuth)
             for handle, pose in zip(self._blades, blades.poses, strict=False):
                 place(handle, pose)
-        for handle, shape in zip(self._blades, blades.shapes, strict=False):
-            handle.vertices = shape.astype(np.float32)
 
     def show_disk(self, png: bytes, pixels: int) -> None:
         """Another picture of the disk, `pixels` along each edge."""
@@ -142,7 +147,7 @@ class Scene:
         self._dark_parts = solid(api, "/airframe/dark", craft.dark, theme.dark_parts)
         self.rotor = RotorNodes(api, ROTOR, rotor, theme)
         self._compared: RotorNodes | None = None
-        self._beside = False
+        self._beside = self._alone = False
         self._letters: list[viser.ImageHandle] = []
         self._light_up()
         self._fit_airframe(rotor)
@@ -182,6 +187,12 @@ class Scene:
         """Whether the rotor is in the scene, or makes room for something else."""
         self._seen = seen
         self._set_visible()
+
+    def set_alone(self, alone: bool) -> None:
+        """Whether the rotor is tested alone, without an airframe."""
+        if alone != self._alone:
+            self._alone = alone
+            self._set_visible()
 
     def set_close(self, close: bool) -> None:
         """Whether one blade is looked at from near: airframe, shadow and words make room."""
@@ -233,14 +244,14 @@ class Scene:
                 viser_compat.set_png(handle, tinted_png(letter_mask(text), self._theme.lettering))
                 self._letters.append(handle)
         for handle, side in zip(self._letters, (-1.0, 1.0), strict=True):
-            handle.render_width = handle.render_height = 0.34 * radius
-            handle.position = side * offset + np.array([1.30 * radius, -0.45 * radius, 0.0])
+            handle.render_width = handle.render_height = LETTER_SIZE * radius
+            handle.position = side * offset + letter_place(radius)
 
     def _set_visible(self) -> None:
         self.rotor.frame.visible = self._seen
         self.rotor.words.visible = not self._close
         for handle in (self._airframe, self._shadow):
-            handle.visible = self._seen and not self._beside and not self._close
+            handle.visible = self._seen and not (self._beside or self._close or self._alone)
         for handle in (*self._letters, *([self._compared.frame] if self._compared else [])):
             handle.visible = self._seen and self._beside
 
@@ -270,6 +281,8 @@ def picture_plane(api: viser.SceneApi, name: str, position: tuple[float, float, 
 
 
 def place(handle: viser.SceneNodeHandle, pose: Pose) -> None:
-    """Move a node within its parent."""
-    handle.wxyz = pose.wxyz
-    handle.position = pose.position
+    """Move a node within its parent; what stays is not assigned: viser takes ten times as long to see that."""
+    if (handle.wxyz != pose.wxyz).any():
+        handle.wxyz = pose.wxyz
+    if (handle.position != pose.position).any():
+        handle.position = pose.position

@@ -1,16 +1,21 @@
 """Rotors recorded as scenes, and viser's viewer embedded to show them without a server."""
 
 import json
+import math
 import re
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from html import escape
+
+import numpy as np
 
 from explorer.hosting import viser_compat
-from explorer.picture.camera_views import FIELD_OF_VIEW, fit
-from explorer.picture.picture import make_picture
+from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, fit
+from explorer.picture.picture import make_picture, turned_blades
 from explorer.picture.scene_theme import scene_theme
-from explorer.scene.scene import Scene
+from explorer.scene.scene import ROTOR, Scene
 from explorer.state import ViewState
+from rotor.arrays import Array
 from rotor.trim.solution import Solution
 
 _SEAMS = re.compile(
@@ -52,27 +57,74 @@ def _parts(page: str) -> dict[str, str]:
     return found.groupdict()
 
 
+_TITLE = r"<title>[^<]*</title>"
 _ASPECT = 16.0 / 9.0
 """Of the window that the camera is fitted to."""
 _PIXELS = 640
 """Along each edge of the disk's picture: a file should be small."""
 
 
+def scene_page(solution: Solution, view: ViewState, colour_range: tuple[float, float], title: str, line: str) -> str:
+    """The rotor of a converged solution as one HTML page that opens without a server: turn it with the mouse.
+
+    `title` and `line`: what stands over the scene.
+    """
+    viewer = make_stage([solution], view, colour_range)
+    page = viewer.before + viewer.scenes[0] + viewer.between + ("true" if view.dark else "false") + viewer.after
+    ink, ground = ("#e8ecf3", "#151b24d0") if view.dark else ("#18212f", "#ffffffd0")
+    look = "position:fixed;left:16px;top:14px;z-index:40;padding:10px 16px;border-radius:12px;pointer-events:none;"
+    look += f"background:{ground};color:{ink};font:13px/1.4 system-ui,sans-serif"
+    caption = (
+        f'<div data-explorer="caption" style="{look}"><b style="font-size:17px">{escape(title)}</b><br>'
+        f"{escape(line)}</div>"
+    )
+    if not re.search(_TITLE, page) or page.count("</body>") != 1:
+        raise ValueError("viser's viewer is not laid out as it was: there is no 3D file until it is adapted.")
+    page = re.sub(_TITLE, lambda _: f"<title>{escape(title)}</title>", page, count=1)
+    return page.replace("</body>", f"{caption}</body>")
+
+
 def make_stage(solutions: Sequence[Solution], view: ViewState, colour_range: tuple[float, float]) -> EmbeddedViewer:
     """The rotors of converged solutions as the page shows them, their cameras fitted."""
-    return embedded_viewer([_still(solution, view, colour_range) for solution in solutions])
+    return embedded_viewer([still_page(solution, view, colour_range) for solution in solutions])
 
 
-def _still(solution: Solution, view: ViewState, colour_range: tuple[float, float]) -> str:
-    """One as a page of its own; from a server that nobody else sees, for only servers can record."""
+JIG_EDGES = f"{ROTOR}/blade_0/ghost"
+"""Node with the edges of the jig shape, in the axes of the reference blade."""
+
+
+def still_page(
+    solution: Solution,
+    view: ViewState,
+    colour_range: tuple[float, float],
+    covered: float = 0.0,
+    edges: Array | None = None,
+) -> str:
+    """One as a page of its own; from a server that nobody else sees, for only servers can record.
+
+    `covered`: the part of the window's width, on the right, that a panel will cover. `edges`: lines of the jig shape,
+    (n, 2, 3) [m], drawn at `JIG_EDGES`.
+    """
     server = viser_compat.quiet_server("127.0.0.1", 0, "still")
     try:
-        camera = fit("3d", solution.design.rotor.radius, _ASPECT)
-        server.initial_camera.position = camera.position
-        server.initial_camera.look_at = camera.look_at
+        camera = fit("3d", solution.design.rotor.radius, _ASPECT * (1.0 - covered), cover=UNCOVERED)
+        sight = np.subtract(camera.look_at, camera.position)
+        right = np.cross(sight, (0.0, 0.0, 1.0))
+        half_width = np.linalg.norm(sight) * math.tan(0.5 * FIELD_OF_VIEW) * _ASPECT
+        aside = covered * half_width * right / np.linalg.norm(right)
+        server.initial_camera.position = np.add(camera.position, aside)
+        server.initial_camera.look_at = np.add(camera.look_at, aside)
         server.initial_camera.fov = FIELD_OF_VIEW
         scene = Scene(server.scene, solution.design.rotor, scene_theme(view.dark))
-        scene.show(make_picture(solution, view, colour_range, pixels=_PIXELS))
+        picture = make_picture(solution, view, colour_range, pixels=_PIXELS)
+        # A file should be small: elastic twist alone is drawn with one shape for all, that of the reference blade.
+        blades = turned_blades(solution, view, each=solution.design.active_twist is not None)
+        scene.show(replace(picture, blades=blades))
+        if edges is not None:
+            colours = np.full(edges.shape, 60, dtype=np.uint8)
+            server.scene.add_line_segments(
+                JIG_EDGES, edges.astype(np.float32), colours, thickness=1.4, thickness_units="screen"
+            )
         return server.scene.as_html()
     finally:
         viser_compat.quiet_stop(server)

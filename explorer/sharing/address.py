@@ -7,6 +7,8 @@ from collections.abc import Callable
 from typing import TypeVar
 from urllib.parse import parse_qsl, quote
 
+from rotor.user_input import refusing
+
 _PLAIN = ":;,@/="
 """Characters that are not escaped, so that a design in the address can be read."""
 
@@ -47,8 +49,11 @@ class Address:
     ) -> _Part:
         """The meaning of a name's value; `usual` where there is none or a bad one. Problems are added under `title`."""
         value = self[name]
+        if value is None:
+            return usual
         try:
-            return usual if value is None else meaning(value)
+            with refusing(f"What the address holds as {name!r}", "ask for a new link"):
+                return meaning(value)
         except ValueError as error:
             problems.append((title, str(error)))
             return usual

@@ -12,7 +12,9 @@ from explorer.state import Inputs, ViewState
 _log = logging.getLogger(__name__)
 
 PRESENT, FOLLOW = "present", "follow"
-"""Names in the page's address: the secret of the presenter, and the name given to followers."""
+"""The presenter's secret among the texts that its page keeps, and the name of followers in their address.
+
+The secret never stands in an address, because addresses are shared."""
 
 Point = tuple[float, float, float]
 """[m]"""

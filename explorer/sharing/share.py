@@ -13,6 +13,7 @@ from explorer.text.units import SI
 from rotor.design.design import Design
 from rotor.files.design_file import design_from_record, parse_design
 from rotor.files.make_design import make_design
+from rotor.user_input import refusing
 
 VERSION = 1
 DESIGN = "d"
@@ -50,6 +51,11 @@ def code_of(design: Design) -> str:
 
 def design_from(code: str) -> Design:
     """The design of a text; ValueError with one sentence for an invalid one."""
+    with refusing("The design in the address", "ask for a new link"):
+        return _design_from(code)
+
+
+def _design_from(code: str) -> Design:
     version, _, rest = code.strip().partition(";")
     if version != str(VERSION) or not rest:
         raise ValueError(f"The design in the address, {cut(code)!r}, is not of version {VERSION}: ask for a new link.")
@@ -77,11 +83,11 @@ def inputs_from(code: str, kept: str | None = None) -> Inputs:
 
     `kept`: the design file that the page has where the text is `KEPT`.
     """
-    if code != KEPT:
-        return within(inputs_of(design_from(code)))
-    if kept is None:
+    if code == KEPT and kept is None:
         raise ValueError("Its rotor is the sender's own and is not in the link: ask for the design file.")
-    return within(inputs_of(parse_design(kept.encode(), "of this page")))
+    with refusing("The design in the address", "ask for a new link"):
+        design = parse_design(kept.encode(), "of this page") if code == KEPT and kept else design_from(code)
+        return within(inputs_of(design))
 
 
 def within(inputs: Inputs) -> Inputs:
@@ -121,7 +127,7 @@ def _word(value: object) -> str:
 def _value(word: str) -> object:
     try:
         return json.loads(word)
-    except json.JSONDecodeError:
+    except ValueError:  # Also an integer of thousands of digits.
         return word
 
 

@@ -1,10 +1,12 @@
 """The live charts: uplots made once and then only given data, and the strip below the scene."""
 
+from collections.abc import Callable
 from typing import Any
 
 import viser
 from viser import uplot
 
+from explorer.charts.measured import MeasuredChart
 from explorer.charts.plots import Plot, PowerCurve, Range
 from explorer.charts.strip import (
     StripChart,
@@ -12,6 +14,7 @@ from explorer.charts.strip import (
     lift_chart,
     power_change_chart,
     round_ticks,
+    total_power_chart,
     where_to_twist_chart,
 )
 from explorer.interface import SessionState
@@ -22,6 +25,7 @@ from explorer.text import readout
 from explorer.text.units import UNITS, Units
 from explorer.theme.colours import BASELINE, IDEAL, LIMIT, NOW, PINNED, PINNED_DASH, START_COLOURS, THIS, css
 from rotor.trim.adjoint import PitchGradient
+from rotor.trim.solution import Solution
 
 _HEIGHT = 94
 _GRID = uplot.Axis_Grid(show=True, width=1)
@@ -169,6 +173,8 @@ class Charts:
 
 _BESIDE_RACE = ("power", "lift")
 _ORDER = ("power", "alpha", "lift", "worth")
+_MEASURED = "measured"
+"""Takes the place of power over µ on a test stand, for a rotor that was measured."""
 
 
 class ChartStrip:
@@ -179,7 +185,10 @@ class ChartStrip:
         self._charts: dict[str, StripChart] = {}
         self._kinds: dict[str, str] = {}
         self._faded = self._pinned = False
+        self._plain = False
+        """Whether power over µ shows the power itself."""
         self._race: dict[str, Any] | None = None
+        self._measured = MeasuredChart()
 
     def show(self, state: SessionState, gradient: PitchGradient | None) -> None:
         """Follow a converged state; `gradient`: of its power by pitch, None where there is none."""
@@ -190,7 +199,26 @@ class ChartStrip:
         self._charts["lift"] = lift_chart(state.solution, state.reference, self._held("lift"))
         if gradient is not None:
             self._charts["worth"] = where_to_twist_chart(gradient, UNITS[state.view.units], self._held("worth"))
+        else:
+            self._charts.pop("worth", None)
+        self._show_measured(state.solution)
         self._send()
+
+    def rest(self, state: SessionState, superseded: Callable[[], bool]) -> None:
+        """The page rests: trim at the measured points of this rotor, where it is on a test stand."""
+
+        def shown() -> None:
+            self._show_measured(state.solution)
+            self._send()
+
+        self._measured.rest(state.solution, superseded, shown)
+
+    def _show_measured(self, solution: Solution) -> None:
+        chart = self._measured.chart(solution, self._held(_MEASURED))
+        if chart is None:
+            self._charts.pop(_MEASURED, None)
+        else:
+            self._charts[_MEASURED] = chart
 
     def turn(self, state: SessionState) -> None:
         """The reference blade is elsewhere."""
@@ -200,14 +228,26 @@ class ChartStrip:
         self._send()
 
     def show_power(self, state: SessionState, curve: PowerCurve, failed: bool = False) -> None:
-        """Change of power over µ, once the sweep has arrived; `failed`: the present inputs have no solution."""
+        """Change of power over µ, once the sweep has arrived; the power itself where the design is its own reference.
+
+        `failed`: the present inputs have no solution.
+        """
         change = None
         if not failed and state.reference.converged:
             change = state.solution.power.total - state.reference.power.total
+        # A preview, such as the flight of a schedule, is elsewhere than the sliders.
+        mu = state.solution.design.condition.advance_ratio
         self._kinds["power"] = "" if change is None or abs(change) < 500.0 else "good" if change < 0.0 else "bad"
-        name, units = against(state.solution.design, state.pinned is not None), UNITS[state.view.units]
-        chart = power_change_chart(curve, state.inputs.advance_ratio, change, name, units, self._held("power"))
-        self._charts["power"] = chart
+        design, units = state.solution.design, UNITS[state.view.units]
+        name = against(design, state.pinned is not None).removeprefix(f"{design.aircraft.name} ")
+        plain = design == state.reference.design
+        held = self._held("power") if plain == self._plain else None
+        self._plain = plain
+        self._charts["power"] = (
+            total_power_chart(curve, mu, None if failed else state.solution.power.total, units, held)
+            if plain
+            else power_change_chart(curve, mu, change, name, units, held)
+        )
         self._send()
 
     def show_race(self, race: Race | None, units: Units) -> None:
@@ -226,6 +266,10 @@ class ChartStrip:
         chart = self._charts.get(name)
         return None if chart is None else chart.y_range
 
+    def _names(self) -> tuple[str, ...]:
+        names = _ORDER if self._race is None else _BESIDE_RACE
+        return (_MEASURED, *names[1:]) if _MEASURED in self._charts else names
+
     def _send(self) -> None:
         charts: list[dict[str, Any]] = [
             {
@@ -235,7 +279,7 @@ class ChartStrip:
                 "pinned": self._pinned,
                 "faded": self._faded,
             }
-            for name in (_ORDER if self._race is None else _BESIDE_RACE)
+            for name in self._names()
             if name in self._charts
         ]
         self._bridge.set(strip=charts if self._race is None else [self._race, *charts])

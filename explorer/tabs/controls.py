@@ -3,13 +3,15 @@
 import threading
 import time
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from typing import Any, Protocol
 
 import viser
 
 from explorer.sliders import SLIDERS, meant, shown, slider
-from explorer.state import INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs, preset_inflow, with_rotor
+from explorer.state import INFLOW_MENUS, INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs, preset_inflow, with_rotor
 from explorer.tabs import power_card as worth
+from explorer.tabs.stand_controls import StandControls
 from explorer.text import readout
 from explorer.text.glossary import hint
 from explorer.text.units import SI, Units
@@ -53,12 +55,11 @@ class DesignControls:
         self._following = False
         self.pauses = Pauses()
         self._laws = _laws_of(start)
-        self._inflows = {name: model.title for name, model in INFLOW_MODELS.items()}
         self._units = SI
         """Of the mass and altitude sliders now."""
         self._worths: dict[str, viser.GuiHtmlHandle] = {}
         gui.add_html(
-            '<div class="rxp-head">TWIST<span>slopes in °/R</span></div><div class="rxp-curve" data-curve></div>'
+            '<div class="rxp-head">JIG TWIST<span>slopes in °/R</span></div><div class="rxp-curve" data-curve></div>'
         )
         self._law = gui.add_dropdown(
             "Twist concept", tuple(self._laws.values()), initial_value=self._laws[start.law], hint=hint("law")
@@ -66,17 +67,24 @@ class DesignControls:
         self._inputs["law"] = self._watched(self._law)
         self._sliders(gui, tuple(name for law in LAWS.values() for name in law.inputs))
         self._speed = gui.add_html(_flight_heading(0.0, SI))
-        self._sliders(gui, ("advance_ratio", "mass_t", "altitude_m"))
+        self.stand = StandControls(
+            gui,
+            start,
+            self._hand_moved,
+            self.inputs,
+            self.set_inputs,
+            lambda: self._sliders(gui, ("advance_ratio", "mass_t", "altitude_m")),
+        )
         with gui.add_folder("Model", expand_by_default=False):
             titles = tuple(PRESET_TITLES.values())
             preset = gui.add_dropdown("Preset", titles, initial_value=PRESET_TITLES[start.preset], hint=hint("preset"))
             self._inputs["preset"] = self._watched(preset)
-            titles = tuple(self._inflows.values())
-            inflow = gui.add_dropdown("Inflow", titles, initial_value=self._inflows[start.inflow], hint=hint("inflow"))
-            self._inputs["inflow"] = self._watched(inflow)
+            self._inflow_menu(gui, "inflow", "Inflow")
             self._explanation = gui.add_html("")
             self._infinite = gui.add_checkbox("Infinite blades", start.inflow == INFINITE, hint=hint("infinite"))
             self._infinite.on_update(self._infinite_changed)
+            self._inflow_menu(gui, "hover_inflow", "Inflow in hover")
+            self._inflow_menu(gui, "low_speed", "At low speed")
             self._costs: dict[str, viser.GuiHtmlHandle] = {}
             for name, switch in SWITCHES.items():
                 box = gui.add_checkbox(switch.title, getattr(start, name), hint=hint(name))
@@ -93,10 +101,10 @@ class DesignControls:
             if self._own is not None:
                 return self._own
             values = {name: self._read(name, handle.value) for name, handle in self._inputs.items()}
-            special = self._special
+            special = replace(self._special, stand=self.stand.stand)
         values["law"] = _key(self._laws, values["law"])
         values["preset"] = _key(PRESET_TITLES, values["preset"])
-        values["inflow"] = _key(self._inflows, values["inflow"])
+        values |= {name: _key(titles, values[name]) for name, titles in INFLOW_MENUS.items()}
         held = {name: getattr(special, name) for name in _HELD}
         return Inputs(**values, **held)
 
@@ -107,7 +115,7 @@ class DesignControls:
     def hold(self, held: bool) -> None:
         """Take the widgets from the user, or give them back."""
         own = (self._infinite, self.reset_button, self.optimise_button)
-        for handle in (*self._inputs.values(), *own):
+        for handle in (*self._inputs.values(), *self.stand.handles, *own):
             handle.disabled = held
 
     def set_inputs(self, inputs: Inputs) -> None:
@@ -136,8 +144,10 @@ class DesignControls:
         self._laws = _laws_of(inputs)
         if self._law.options != tuple(self._laws.values()):
             self._law.options = tuple(self._laws.values())
-        self._fit_mass(inputs)
-        titles = {"law": self._laws, "preset": PRESET_TITLES, "inflow": self._inflows}
+        self._fit("mass_t", inputs)
+        self._fit("advance_ratio", inputs)
+        self.stand.place(inputs)
+        titles = {"law": self._laws, "preset": PRESET_TITLES, **INFLOW_MENUS}
         for name in INPUT_NAMES:
             if name in self._inputs:
                 value = getattr(inputs, name)
@@ -148,12 +158,22 @@ class DesignControls:
     def refresh(self, inputs: Inputs, units: Units) -> None:
         """Bring everything that only follows the widgets into line: which sliders show, speed, units, explanations."""
         self._change_units(units)
+        with self._moving:
+            shown_law = inputs.law if self._own is None else self._special.law
         for key, law in LAWS.items():
             for name in law.inputs:
-                shown_now = key == inputs.law
+                shown_now = key == shown_law
                 if self._inputs[name].visible != shown_now:
                     self._inputs[name].visible = self._worths[name].visible = shown_now
-        self._speed.content = _flight_heading(inputs.advance_ratio * inputs.aircraft.rotor.tip_speed, units)
+        for name in ("mass_t", "altitude_m"):
+            in_flight = inputs.stand is None
+            if self._inputs[name].visible != in_flight:
+                self._inputs[name].visible = self._worths[name].visible = in_flight
+        if self._own is None:
+            self.stand.show_measured(inputs)
+        self._speed.content = _flight_heading(
+            inputs.advance_ratio * inputs.aircraft.rotor.tip_speed, units, inputs.stand is not None
+        )
         self._explanation.content = readout.explanation(INFLOW_MODELS[inputs.inflow].explanation)
         self._infinite.visible = inputs.inflow in (FOUR, INFINITE)
         self._infinite.value = inputs.inflow == INFINITE
@@ -193,6 +213,13 @@ class DesignControls:
             self._inputs[name] = self._watched(handle)
             self._worths[name] = gui.add_html(worth.place(name), visible=shown_first)
 
+    def _inflow_menu(self, gui: viser.GuiApi, name: str, label: str) -> None:
+        titles = INFLOW_MENUS[name]
+        menu = gui.add_dropdown(
+            label, tuple(titles.values()), initial_value=titles[getattr(self._start, name)], hint=hint(name)
+        )
+        self._inputs[name] = self._watched(menu)
+
     def _watched(self, handle: Any) -> Any:
         handle.on_update(lambda event: self._moved(event.client is not None))
         return handle
@@ -205,39 +232,43 @@ class DesignControls:
         self.pauses.moved(time.monotonic())
         self._changed()
 
+    def _hand_moved(self) -> None:
+        self._moved(True)
+
     def _preset_changed(self, event: viser.GuiEvent[Any]) -> None:
         if event.client is not None:  # Not when the reset button moved it.
-            self._inputs["inflow"].value = self._inflows[preset_inflow(self.inputs().preset)]
+            for name, value in preset_inflow(self.inputs().preset).items():
+                self._inputs[name].value = INFLOW_MENUS[name][value]
 
     def choose_rotor(self, name: str) -> None:
         """Another rotor of the menu, as it is built."""
         self.pauses.moved(time.monotonic())
         self.set_inputs(with_rotor(self.inputs(), name))
 
-    def _fit_mass(self, inputs: Inputs) -> None:
-        """The weight slider about the rotor's own reference mass."""
-        handle: Any = self._inputs["mass_t"]
-        form = slider("mass_t", self._units, inputs.aircraft)
+    def _fit(self, name: str, inputs: Inputs) -> None:
+        """A slider whose ends depend on the rotor: weight about its own reference mass, speed as it can be tested."""
+        handle: Any = self._inputs[name]
+        form = slider(name, self._units, inputs.aircraft)
         if (handle.min, handle.max) != (form.low, form.high):
             # In an order that never leaves the value outside its ends.
             handle.min, handle.max = min(form.low, handle.min), max(form.high, handle.max)
             handle.step, handle.precision = form.step, form.digits
-            handle.value = shown("mass_t", inputs.mass_t, self._units)
+            handle.value = shown(name, getattr(inputs, name), self._units)
             handle.min, handle.max = form.low, form.high
 
     def _infinite_changed(self, event: viser.GuiEvent[Any]) -> None:
         if event.client is not None:  # Not when the menu moved it.
-            self._inputs["inflow"].value = self._inflows[INFINITE if event.target.value else FOUR]
+            self._inputs["inflow"].value = INFLOW_MENUS["inflow"][INFINITE if event.target.value else FOUR]
 
 
-def _flight_heading(speed: float, units: Units) -> str:
+def _flight_heading(speed: float, units: Units, tested: bool = False) -> str:
     """The heading of the flight sliders with the airspeed [m/s] as each reader reads it."""
-    words = units.airspeed(speed)
-    return f'<div class="rxp-head" data-ruled>FLIGHT<span class="rx-num" data-explorer="speed">{words}</span></div>'
+    words, title = units.airspeed(speed), "TEST STAND" if tested else "FLIGHT"
+    return f'<div class="rxp-head" data-ruled>{title}<span class="rx-num" data-explorer="speed">{words}</span></div>'
 
 
 _LAW_INPUTS = frozenset(name for law in LAWS.values() for name in law.inputs)
-_HELD = ("rotor", "own_rotor", "given", "found", "airfoils")
+_HELD = ("stand", "rotor", "own_rotor", "given", "found", "airfoils")
 """Inputs that no slider moves by itself: a menu or a file brings them, with others."""
 
 

@@ -8,6 +8,7 @@ from typing import Any
 from explorer.interface import SessionState
 from explorer.overlay.bridge import Bridge
 from explorer.picture.fields import FIELDS, Field, tick_text, ticks
+from explorer.scene.page_scene import TURN_RATES
 from explorer.state import ViewState
 from explorer.text.units import number
 from explorer.theme.colours import colour_map, css
@@ -32,7 +33,7 @@ class Display:
         self._awaited = start.difference
         """B − A is to be shown as soon as there is an A."""
         self._allowed = self._held = self._playing = self._fitted = self._faded = False
-        self._stalled = ""
+        self._pace, self._stalled = "normal", ""
         self._range: tuple[Field, tuple[float, float]] | None = None
         self._beyond = (False, False)
         bridge.on("field", lambda title: self._change(field=title) if title in FIELDS else None)
@@ -40,11 +41,17 @@ class Display:
         bridge.on("difference", lambda way: self._change(difference=way == "on" and self._allowed))
         bridge.on("azimuth", self._turn_by_hand)
         bridge.on("times", lambda _: self._next_times())
+        bridge.on("pace", lambda _: self._next_pace())
         self._show_turn()
 
     def view(self) -> ViewState:
         """What is shown now."""
         return self._view
+
+    @property
+    def turn_rate(self) -> float:
+        """At which the rotor turns by itself [rad/s]."""
+        return TURN_RATES[self._pace]
 
     def set_view(self, view: ViewState) -> None:
         """Show this."""
@@ -87,7 +94,7 @@ class Display:
     def show(self, state: SessionState) -> None:
         """How much of the disk is stalled."""
         share = 100.0 * state.solution.stalled_area
-        self._stalled = f"{number(share)} %" if share >= 0.5 else ""
+        self._stalled = f"{number(share, 1)} %" if share >= 0.05 else ""
         self._show_field()
 
     def allow_difference(self, allowed: bool) -> None:
@@ -118,12 +125,24 @@ class Display:
         later = [times for times in TIMES if times > self._view.exaggeration]
         self._change(exaggeration=later[0] if later else TIMES[0])
 
+    def _next_pace(self) -> None:
+        paces = list(TURN_RATES)
+        self._pace = paces[(paces.index(self._pace) + 1) % len(paces)]
+        self._show_turn()
+
     def _turn_by_hand(self, azimuth_deg: float) -> None:
         if not self._held:
             self.turn(float(azimuth_deg))
 
     def _show_turn(self) -> None:
-        self._bridge.set(turn={"psi": self._view.azimuth_deg, "playing": self._playing, "held": self._held})
+        self._bridge.set(
+            turn={
+                "psi": self._view.azimuth_deg,
+                "playing": self._playing,
+                "pace": self._pace,
+                "held": self._held,
+            }
+        )
 
     def _show_field(self) -> None:
         if self._range is None:

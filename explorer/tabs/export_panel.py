@@ -31,7 +31,7 @@ _OWN = "Own size"
 _DISK, _VIEW = "Disk", "3D view"
 _PATIENCE = 90.0
 """[s] for the page to draw; browsers that draw in software take some."""
-_SHAPES = {"Blade STL": files.blade_file, "Rotor GLB": files.rotor_file}
+_SHAPES = {"Jig STL": files.jig_file, "Flown STL": files.flown_file, "Rotor GLB": files.rotor_file}
 
 
 @dataclass(frozen=True)
@@ -70,6 +70,9 @@ class ExportPanel:
             )
             self._clear = gui.add_checkbox("Transparent", False, hint=hint("export_clear"))
             pictures = gui.add_button_group("Save as", ("PNG", "SVG"), hint=hint("export_kind"))
+            scene = gui.add_button(
+                "3D scene as one file", icon=viser.Icon.CUBE, color="gray", hint=hint("export_scene")
+            )
             report = gui.add_button(
                 "Report of this session", icon=viser.Icon.REPORT, color="gray", hint=hint("export_report")
             )
@@ -80,6 +83,7 @@ class ExportPanel:
         tables.on_click(self._table_clicked)
         self._size.on_update(lambda _: self._size_changed())
         pictures.on_click(lambda event: self._picture(event.target.value))
+        scene.on_click(lambda _: self._save(self._scene))
         report.on_click(lambda _: self._do("the report", self._report))
         texts.on_click(self._text_clicked)
         context.bind_command("export", open_drawer)
@@ -157,6 +161,9 @@ class ExportPanel:
     def _draw(self, drawing: str, paper: Paper, name: str) -> str:
         made = viser_compat.save_picture(self._client, drawing, (paper.width, paper.height), name, _PATIENCE)
         return f"{name}, {made / 1e3:.0f} kB"
+
+    def _scene(self, state: SessionState) -> File:
+        return files.scene_file(state, self._sources.colour_range(FIELDS[state.view.field]))
 
     def _report(self, state: SessionState) -> str:
         view = replace(state.view, difference=False)

@@ -15,6 +15,7 @@ from explorer.state import inputs_of
 from explorer.text.glossary import hint
 from rotor.design.design import Design
 from rotor.files.design_file import parse_design
+from rotor.user_input import refusing, shorten
 
 MOST_BYTES = 1_000_000
 """A design file may have; written ones have a thousand."""
@@ -118,14 +119,16 @@ class FilePanel:
 
     def _loaded(self, event: viser.GuiEvent[Any]) -> None:
         file = event.target.value
+        name = shorten(file.name)
         try:
             if len(file.content) > MOST_BYTES:
-                raise ValueError(f"{file.name} has {len(file.content)} bytes: a design file has at most {MOST_BYTES}.")
-            design = parse_design(file.content, file.name)
-            inputs = share.within(inputs_of(design))
+                raise ValueError(f"{name} has {len(file.content)} bytes: a design file has at most {MOST_BYTES}.")
+            with refusing(f"design file {name!r}", "check its values"):
+                design = parse_design(file.content, name)
+                inputs = share.within(inputs_of(design))
         except ValueError as error:
             self._context.notify("Not loaded", str(error))
             return
         self._context.set_inputs(inputs)
         more = " Its active twist is ignored: set it under Actuate." if design.active_twist else ""
-        self._context.notify("Loaded", f"{file.name} is on the sliders.{more}")
+        self._context.notify("Loaded", f"{name} is on the sliders.{more}")

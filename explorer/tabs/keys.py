@@ -214,7 +214,7 @@ class Keyboard:
     def bind(self, name: str, action: Callable[[], None]) -> None:
         """Give the command `name` of `KEYS` its action; the palette and the list of keys have it from then on.
 
-        KeyError for a name that is none, ValueError for one that has its action already.
+        KeyError for an unknown name, ValueError for one that has its action already.
         """
         key = KEYS[name]
         if name in self._commands:

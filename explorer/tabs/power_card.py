@@ -9,11 +9,11 @@ from explorer.power_tracker import PowerTracker
 from explorer.sensitivity import SliderSensitivity, flight_sensitivities, natural_step, twist_sensitivities
 from explorer.sliders import SLIDERS, slider
 from explorer.state import baseline_of
-from explorer.text.readout import PART_TITLES, fineness, ideal_induced
+from explorer.text.readout import fineness, ideal_induced, part_titles
 from explorer.text.status import cautions
 from explorer.text.units import UNITS, Units, number
+from explorer.text.validated import validated
 from explorer.text.why import why
-from explorer.theme.colours import PARTS
 from rotor.design.design import Design
 from rotor.trim.adjoint import PitchGradient
 from rotor.trim.solution import Solution
@@ -41,6 +41,11 @@ class SliderWorth:
         self._twist = twist_sensitivities(state.inputs, gradient) if gradient is not None and own else {}
         self._flight = {}
         self._send(state)
+
+    @property
+    def slopes(self) -> dict[str, float]:
+        """Change of power for a unit of each twist slider [W]."""
+        return {name: one.slope for name, one in self._twist.items()}
 
     def rest(self, state: SessionState, superseded: Callable[[], bool]) -> None:
         """Compute what the flight sliders are worth, unless newer input comes."""
@@ -105,7 +110,8 @@ class PowerCard:
         solution, units = state.solution, UNITS[state.view.units]
         self.tracker.solved(state.inputs, solution.power.total, pause)
         if self.tracker.reference != self._counted_from:
-            self._counted_from, self._before = self.tracker.reference, self._last
+            first = self.tracker.reference == solution.power.total
+            self._counted_from, self._before = self.tracker.reference, solution if first else self._last
         self._last = solution
         self._content = {
             **_numbers(state, units),
@@ -176,13 +182,13 @@ def _numbers(state: SessionState, units: Units) -> dict[str, Any]:
     percent = 100.0 * (power.total / reference.total - 1.0) if reference is not None and reference.total > 0.0 else None
     unit, digits = units.power[0], fineness(power)
     parts = []
-    for name in PARTS:
+    for name, words in part_titles(solution.design).items():
         value = getattr(power, name)
         apart = None if reference is None else value - getattr(reference, name)
-        title = f"{PART_TITLES[name]} power {units.watts(value, digits)}"
+        title = f"{words} power {units.watts(value, digits)}"
         parts.append(
             {
-                "name": PART_TITLES[name].removesuffix(" rotor"),
+                "name": words.removesuffix(" rotor"),
                 "value": number(unit.of(value), digits),
                 "share": round(value / power.total, 5) if power.total > 0.0 else 0.0,
                 "title": title if apart is None else f"{title}, {units.watts(apart, digits, sign=True)} vs. reference",
@@ -202,15 +208,22 @@ def _numbers(state: SessionState, units: Units) -> dict[str, Any]:
 
 
 def _status(state: SessionState) -> dict[str, str]:
-    """The chip: trimmed, or what to read with care."""
+    """The chip: trimmed, or what to read with care, and how well this rotor is validated in this region."""
     reasons = cautions(state.solution, state.pinned)
     stalled = state.solution.stalled_area
+    record = validated(state.solution)
+    if not state.solution.settled:
+        title = "One Newton step of the free wake: the settled number follows."
+        return {"kind": "waiting", "words": "settling", "measured": record.words, "title": title}
+    title = " ".join([*reasons, record.sentence])
     if stalled >= _STALLED:
-        return {"kind": "care", "words": f"{number(100.0 * stalled, 1)} % of disk stalled", "title": " ".join(reasons)}
-    if reasons:
+        words = f"{number(100.0 * stalled, 1)} % of disk stalled"
+    elif reasons:
         words = "read with care" if len(reasons) == 1 else f"{len(reasons)} cautions"
-        return {"kind": "care", "words": words, "title": " ".join(reasons)}
-    return {"kind": "converged", "words": "trimmed", "title": f"{state.solution.message} Click: how far to trust it."}
+    else:
+        title = f"{state.solution.message} {record.sentence} Click: how far to trust it."
+        return {"kind": "converged", "words": "trimmed", "measured": record.words, "title": title}
+    return {"kind": "care", "words": words, "measured": record.words, "title": title}
 
 
 def _kind(change: float, total: float) -> str:

@@ -1,5 +1,6 @@
 """What follows a solution on the frame and in the drawer of power and trim."""
 
+import math
 from collections.abc import Callable
 
 import viser
@@ -8,6 +9,8 @@ from explorer.charts.plots import PowerCurve
 from explorer.interface import SessionState
 from explorer.overlay.bridge import Bridge
 from explorer.picture.blade_inset import inset
+from explorer.picture.poses import flown_twist, follows_azimuth
+from explorer.scene.overlays import ghost_twist
 from explorer.tabs.charts import ChartStrip
 from explorer.tabs.layout import Layout
 from explorer.tabs.power_card import PowerCard, SliderWorth, against
@@ -60,8 +63,16 @@ class ResultsPanel:
             self._power.content, self._trim.content = _numbers(state)
         self._compare(state.solution, UNITS[state.view.units])
 
+    def show_settling(self, state: SessionState, pause: float) -> None:
+        """What follows a hand while a free wake settles."""
+        self.card.show(state, pause)
+        self._show_inset(state)
+        self.curve.show(state)
+
     def turn(self, state: SessionState) -> None:
         """The reference blade is elsewhere: what is drawn along it follows."""
+        if follows_azimuth(state.solution):
+            self._show_inset(state)
         self.strip.turn(state)
 
     def show_power(self, state: SessionState, curve: PowerCurve, lost: bool = False) -> None:
@@ -72,6 +83,7 @@ class ResultsPanel:
         """The page rests: compute what can wait."""
         if self._state is not None:
             self.worth.rest(self._state, superseded)
+            self.strip.rest(self._state, superseded)
 
     def problem(self, sentence: str) -> None:
         """Keep the last converged numbers, greyed, with the sentence that says why there are none."""
@@ -92,13 +104,29 @@ class ResultsPanel:
         return SI if self._state is None else UNITS[self._state.view.units]
 
     def _show_inset(self, state: SessionState) -> None:
-        design, reference = state.solution.design, state.reference.design
-        ghost = reference.twist if design.rotor.radius == reference.rotor.radius else None
+        solution, psi = state.solution, math.radians(state.view.azimuth_deg)
+        design, reference = solution.design, state.reference.design
+        elastic, changed = solution.elastic is not None, reference.twist != design.twist
+        same_size = design.rotor.radius == reference.rotor.radius
+        ghost = ghost_twist(solution, reference.twist, psi) if same_size or not changed else None
         name = against(design, state.pinned is not None).removeprefix(f"{design.aircraft.name} ")
-        shown = inset(design.rotor, design.twist, ghost, state.view.exaggeration)
-        self._bridge.set(inset={**shown, "ghost_name": name})
+        names = {
+            "name": f"flown, ψ {state.view.azimuth_deg:.0f}°" if follows_azimuth(solution) else "flown",
+            "name_hint": "Jig twist and elastic twist, at the azimuth of the reference blade.",
+            "ghost_name": name if changed else "jig",
+            "ghost_hint": "The ghost has the same elastic twist: only the change of jig twist is seen."
+            if changed
+            else "The blade as built, without the loads of flight.",
+        }
+        if not elastic:
+            plain = {"name": "this blade", "name_hint": "The blade is rigid in torsion here."}
+            names |= {**plain, "ghost_name": name, "ghost_hint": ""}
+        shown = inset(design.rotor, flown_twist(solution, psi), ghost, state.view.exaggeration)
+        self._bridge.set(inset={**shown, **names})
 
     def _gradient_of(self, solution: Solution) -> PitchGradient | None:
+        if solution.design.models.trim == "free-rotor":
+            return None  # Its shaft takes no power, whatever the twist.
         if self._gradient is None or self._gradient[0] is not solution:
             self._gradient = solution, power_gradient(solution)
         return self._gradient[1]

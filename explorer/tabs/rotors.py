@@ -15,6 +15,7 @@ from rotor.airfoil.wrap import on_run_time_grid
 from rotor.design.aircraft import Aircraft
 from rotor.files.rotor_file import LARGEST_FILE, named_files, read_aircraft
 from rotor.files.toml_table import read_toml
+from rotor.user_input import refusing, shorten
 
 SUFFIXES = (".toml", ".c81", ".txt", ".csv", ".pol", ".dat")
 """Rotor file; C81 deck; polars; outline."""
@@ -108,9 +109,10 @@ class RotorUpload:
     def _taken(self, event: viser.GuiEvent[Any]) -> None:
         file = event.target.value
         try:
-            arrival = self._files.take(file.name, file.content)
-            if arrival.aircraft is not None:
-                self._context.set_inputs(with_rotor(self._context.inputs(), OWN, arrival.aircraft))
+            with refusing(f"{shorten(file.name)!r}", "check its values, see docs/rotor_file.md"):
+                arrival = self._files.take(file.name, file.content)
+                if arrival.aircraft is not None:
+                    self._context.set_inputs(with_rotor(self._context.inputs(), OWN, arrival.aircraft))
         except ValueError as error:
             self._context.notify("Not loaded", str(error))
             return

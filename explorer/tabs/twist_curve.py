@@ -1,4 +1,4 @@
-"""The twist curve of the rail with its handles, and what dragging a handle does to the inputs."""
+"""The twist curves of the rail, jig and flown: handles on the jig curve, and what dragging one does to the inputs."""
 
 import math
 from collections.abc import Callable
@@ -7,13 +7,15 @@ from typing import Any
 import numpy as np
 
 from explorer.charts.strip import StripChart, StripLine
-from explorer.grab import slid, stations, turned
+from explorer.grab import place_of, slid, stations, turned
 from explorer.interface import SessionState, TabContext
 from explorer.overlay.bridge import Bridge
 from explorer.power_tracker import PowerTracker
 from explorer.state import Inputs
+from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.design.twist import REFERENCE_RADIUS as DATUM
+from rotor.trim.solution import Solution
 
 _POINTS = 70
 _LEAST_RESPONSE = 0.15
@@ -29,6 +31,7 @@ class TwistCurveEditor:
         self._bridge, self._tracker = bridge, tracker
         self._held: Inputs | None = None
         """The inputs when a handle was taken."""
+        self._place = ""
         self._range: tuple[float, float] | None = None
 
     def bind(self, context: TabContext, free: Callable[[], bool]) -> None:
@@ -37,16 +40,22 @@ class TwistCurveEditor:
         def act(value: list[Any]) -> None:
             name, change = value
             if change == "start":
-                self._held = context.inputs()
+                self._held, self._place = context.inputs(), ""
                 self._tracker.grab()
             elif change == "end":
                 self._held = None
                 self._tracker.release()
+                self._bridge.set(hand=None)
                 context.wake()
             elif free():
                 self._move(context, name, float(change[0]), float(change[1]))
 
         self._bridge.on("knot", act)
+
+    @property
+    def place(self) -> str:
+        """The handle that is held, in words; empty while none is."""
+        return self._place if self._held is not None else ""
 
     def _move(self, context: TabContext, name: str, r: float, theta: float) -> None:
         start = self._held or context.inputs()
@@ -58,24 +67,37 @@ class TwistCurveEditor:
         # The curve is drawn about 0.75 R, which may turn as well: so much more that the handle meets the pointer.
         response = after - before if abs(after - before) > _LEAST_RESPONSE else 1.0
         inputs = turned(start, station, (theta - before) / response)
-        context.set_inputs(inputs if station.division is None else slid(inputs, station, r))
+        moved = inputs if station.division is None else slid(inputs, station, r)
+        if self._held is not None:
+            self._place = place_of(moved, stations(moved)[station.index])
+        context.set_inputs(moved)
 
     def show(self, state: SessionState) -> None:
-        """Draw this design over what it is compared with, as the pitch less that at 0.75 R."""
+        """Draw the jig twist over what it is compared with, as the pitch less that at 0.75 R, and the flown twist."""
         design = state.solution.design
         root = design.rotor.blade.root_cutout
         r = np.linspace(root, 1.0, _POINTS)
         own, other = shown_twist(design)(r), shown_twist(state.reference.design)(r)
-        axis = self._axis(float(min(own.min(), other.min())), float(max(own.max(), other.max())))
-        lines = (StripLine(r, other, "reference"), StripLine(r, own, "this"))
-        chart = StripChart("Twist", "°", (0.1, 1.03), axis, lines).as_dict()
+        flown = flown_band(state.solution, r)
+        seen = np.concatenate((own, other, *(flown or ())))
+        axis = self._axis(float(seen.min()), float(seen.max()))
+        lines = [StripLine(r, other, "reference"), StripLine(r, own, "this")]
+        key, band = [["jig", "this"]], None
+        if flown is not None:
+            mean, low, high = flown
+            lines.insert(1, StripLine(r, mean, "flown"))
+            key.append(["flown", "flown"])
+            band = {name: [round(float(y), 2) for y in values] for name, values in (("low", low), ("high", high))}
+        chart = StripChart("Twist", "°", (0.1, 1.03), axis, tuple(lines)).as_dict()
         twist = shown_twist(design)
         movable = stations(state.inputs) if design.twist == state.inputs.design().twist else ()
         handles = [
             {"name": str(k.index), "title": k.title, "r": k.r, "theta": round(float(twist(np.array([k.r]))[0]), 2)}
             for k in movable
         ]
-        self._bridge.set(twist={**chart, "pinned": state.pinned is not None, "knots": handles})
+        self._bridge.set(
+            twist={**chart, "pinned": state.pinned is not None, "knots": handles, "key": key, "band": band}
+        )
 
     def _axis(self, low: float, high: float) -> tuple[float, float]:
         """Room for what is shown; held while it fits and is not far too large."""
@@ -85,6 +107,20 @@ class TwistCurveEditor:
         middle, half = 0.5 * (low + high), max(0.5 * (high - low) + 2.0, 0.5 * _LEAST_SPAN)
         self._range = (float(math.floor(middle - half)), float(math.ceil(middle + half)))
         return self._range
+
+
+def flown_band(solution: Solution, r: Array) -> tuple[Array, Array, Array] | None:
+    """Flown twist [°] at r/R, jig and elastic: mean, least and greatest over azimuth; None for a rigid blade.
+
+    Relative to the jig twist at 0.75 R, as the jig curve, so that the two are apart by the elastic twist.
+    """
+    elastic = solution.disk.elastic_twist
+    if elastic is None:
+        return None
+    jig, stations = shown_twist(solution.design)(r), solution.disk.r
+    ends = (elastic.mean(axis=1), elastic.min(axis=1), elastic.max(axis=1))
+    mean, low, high = (jig + np.degrees(np.interp(r, stations, angles)) for angles in ends)
+    return mean, low, high
 
 
 def shown_twist(design: Design) -> Callable[[Any], Any]:

@@ -19,6 +19,8 @@ WIDTH = 312
 _BAR_LEFT, _BAR_RIGHT = 98.0, 258.0
 _ROW, _BAR_HEIGHT = 31.0, 11.0
 _MORE, _LESS = "#d9480f", "#0ca678"
+_LONG_NOTE = 38
+"""Characters of a note that fit between the left ends of the bars and the right edge."""
 _THINNEST = 1.6
 """[px] of a bar that stands for next to nothing."""
 
@@ -60,12 +62,19 @@ def _row(step: WaterfallStep, y: float, top: float, units: Units) -> str:
     bar = "" if step.note else _rect(left, y + 2, width, colour)
     link = f'<line x1="{before:.1f}" x2="{before:.1f}" y1="{y - 12:.1f}" y2="{y + 13:.1f}" class="rx-w-link"/>'
     title = f"<title>{escape(_spoken(step, units))}</title>"
-    beneath = _words(_BAR_LEFT, y + 24, step.note, "rx-w-note") if step.note else _patches(change, y, units)
+    beneath = _note(step.note, y) if step.note else _patches(change, y, units)
     shown = number(unit.of(added), 1, sign=True)
     return (
         f"<g>{title}{link}{_words(0, y + 11, step.title)}{bar}"
         f"{_words(WIDTH, y + 11, shown, 'rx-w-number')}{beneath}</g>"
     )
+
+
+def _note(note: str, y: float) -> str:
+    """A note below its row, from the bars on; one too long for that ends at the right edge."""
+    if len(note) > _LONG_NOTE:
+        return _words(WIDTH, y + 24, note, "rx-w-note rx-w-number")
+    return _words(_BAR_LEFT, y + 24, note, "rx-w-note")
 
 
 def _whole(name: str, step: WaterfallStep, y: float, top: float, units: Units) -> str:
@@ -126,7 +135,7 @@ def alone_table(steps: Sequence[WaterfallStep], units: Units = SI) -> str:
         if step.change is None or step.added is None:
             rows.append(f'{name}<td colspan="3" class="rx-num rx-broken">has no trim</td></tr>')
         elif step.note:
-            rows.append(f'{name}<td colspan="3" class="rx-num rx-dim rx-small">{escape(step.note)}</td></tr>')
+            rows.append(f'{name}<td colspan="3" class="rx-num rx-dim rx-small rx-wraps">{escape(step.note)}</td></tr>')
         else:
             values = (step.added, step.change["induced"], step.change["profile"])
             cells = "".join(f'<td class="rx-num">{number(unit.of(value), 1, sign=True)}</td>' for value in values)

@@ -6,13 +6,13 @@ from html import escape
 
 from explorer.text.glossary import tip
 from explorer.text.readout import (
-    PART_TITLES,
     bar,
     dash,
     direction,
     fineness,
     ideal_induced,
     ideal_line,
+    part_titles,
     total_line,
 )
 from explorer.text.units import SI, Units, number
@@ -34,7 +34,10 @@ def power_panel(solution: Solution, pinned: Solution, units: Units = SI) -> str:
         f"vs. {_name('A')}, {units.watts(reference.total)}" if reference else f"{_name('A')}: no trim at this condition"
     )
     ideal = ideal_induced(solution)
-    rows = [_row(PART_TITLES[name], power, reference, lambda p, n=name: getattr(p, n), units, name) for name in PARTS]
+    rows = [
+        _row(title, power, reference, lambda p, n=name: getattr(p, n), units, name)
+        for name, title in part_titles(solution.design, pinned.design).items()
+    ]
     rows.append(_row("Total", power, reference, lambda p: p.total, units))
     symbol = units.power[0].symbol
     head = _cells(symbol, (_name("A"), _name("B"), f"Δ {symbol}", "Δ %"), "rx-dim rx-small")
@@ -66,6 +69,8 @@ def trim_panel(solution: Solution, pinned: Solution) -> str:
         efficiency,
         ("rev. [%]", "reverse_flow_area", lambda s: per_cent * s.reverse_flow_area, 1),
         ("stall [%]", "stalled_area", lambda s: per_cent * s.stalled_area, 1),
+        ("φ tip [°]", "elastic_tip", lambda s: degrees(float(s.elastic.tip.mean())) if s.elastic else None, 2),
+        ("link [kN]", "pitch_link", lambda s: float(s.elastic.pitch_link_load.mean()) / 1e3 if s.elastic else None, 2),
     )
     head = f'<div class="rx-four rx-dim rx-small"><span></span><span>{_name("A")}</span><span>{_name("B")}</span></div>'
     cells = [head, head]

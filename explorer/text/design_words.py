@@ -2,11 +2,12 @@
 
 import math
 
+from explorer.stand import TRIM_TITLES, StandInputs, stand_of
 from explorer.state import LAWS, PRESET_TITLES, Inputs
 from explorer.text.units import METRE_PER_SECOND, SI, TONNE, Units, number
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, switched_off
-from rotor.assets import SHIPPED_ROTORS
+from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.design.active_twist import ActiveTwist
 from rotor.design.design import Design
 from rotor.design.twist import (
@@ -52,7 +53,7 @@ def twist_words(law: TwistLaw) -> str:
         case SumTwist(base, change):
             later = twist_words(change)
             return f"{twist_words(base)}, plus {later[:1].lower()}{later[1:]}"
-        case TableTwist(name=name) if name in SHIPPED_ROTORS:
+        case TableTwist(name=name) if name in (*SHIPPED_ROTORS, *MEASURED_ROTORS):
             return f"{shipped_aircraft(name).name} twist as built"
         case TableTwist(name="builtin"):
             return "Twist as built"
@@ -79,8 +80,24 @@ def flight_words(design: Design, units: Units = SI) -> str:
     condition = design.condition
     speeds = " · ".join(unit.text(design.airspeed) for unit in units.speed if unit is not METRE_PER_SECOND)
     where = "Hover" if design.hovering else f"µ {number(condition.advance_ratio, 3)} · {speeds}"
+    if (stand := stand_of(design)) is not None:
+        return f"{where} · {stand_words(stand)}"
     mass = units.mass.text(condition.mass, 2 if units.mass is TONNE else 0)
     return f"{where} · {mass} · {units.altitude.text(condition.altitude)}"
+
+
+def stand_words(stand: StandInputs) -> str:
+    """A test in one line: what is given, without what the standard atmosphere sets."""
+    trim = TRIM_TITLES[stand.trim].partition(": ")[2]
+    load = {"ct_over_sigma": f"CT/σ {stand.value:.4g}", "thrust_n": f"{stand.value:.5g} N"}
+    words = [trim, load.get(stand.load, f"collective {number(stand.value, 2)}°")]
+    if stand.shaft_tilt_deg is not None and stand.trim != "free-rotor":
+        words.append(f"tilt {number(stand.shaft_tilt_deg, 1)}°")
+    if stand.flapping == "free" and (stand.cyclic_1c_deg or stand.cyclic_1s_deg):
+        words.append(f"cyclic {number(stand.cyclic_1c_deg, 1)}°, {number(stand.cyclic_1s_deg, 1)}°")
+    words += [f"tip Mach {stand.tip_mach:.4g}"] if stand.tip_mach is not None else []
+    words += [f"{stand.density:.4g} kg/m³"] if stand.density is not None else []
+    return ", ".join(words)
 
 
 def model_words(design: Design) -> str:
@@ -92,7 +109,8 @@ def model_words(design: Design) -> str:
 def inflow_words(design: Design) -> str:
     """The inflow model in use: that of hover, or that of forward flight."""
     if design.hovering:
-        return "annulus balance" if design.models.hover_inflow == "annulus" else "closed form, eq. (3.3)"
+        words = {"annulus": "annulus balance", "closed-form": "closed form, eq. (3.3)", "free-wake": "free wake"}
+        return words[design.models.hover_inflow]
     return INFLOW_MODELS[design.models.inflow].title
 
 
@@ -118,9 +136,11 @@ def twist_name(inputs: Inputs) -> str:
 def flight_name(inputs: Inputs, units: Units = SI) -> str:
     """The flight condition: `µ 0.25, 8.32 t`, altitude above sea level, and the effects switched off."""
     speed = f"µ {inputs.advance_ratio:g}" if inputs.advance_ratio else "hover"
+    off = "".join(f", no {switch.title.lower()}" for name, switch in SWITCHES.items() if not getattr(inputs, name))
+    if inputs.stand is not None:
+        return f"{speed}, {stand_words(inputs.stand)}{off}"
     high = f", {units.altitude.text(inputs.altitude_m)}" if inputs.altitude_m else ""
     mass = f"{inputs.mass_t:g} t" if units is SI else units.mass.text(1e3 * inputs.mass_t)
-    off = "".join(f", no {switch.title.lower()}" for name, switch in SWITCHES.items() if not getattr(inputs, name))
     return f"{speed}, {mass}{high}{off}"
 
 

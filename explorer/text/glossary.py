@@ -38,7 +38,7 @@ _SOURCES = {
 
 CONTROLS: dict[str, Term] = {
     "view": Term("Fits into the window: the rotor, its plan view, the reference blade, or the advancing side."),
-    "law": Term("How pitch varies along the blade; a uniform change of pitch is collective.", section=4),
+    "law": Term("How jig twist, that of the blade as built, varies along it; uniform pitch is collective.", section=4),
     "linear": Term(_RATE, section=4),
     "quadratic_curvature": Term("Second-order coefficient of the twist; 0 gives linear twist.", section=4),
     "quadratic_difference": Term("Twist at the tip minus twist at the centre of rotation.", section=4),
@@ -52,6 +52,21 @@ CONTROLS: dict[str, Term] = {
     "altitude_m": Term(
         "Pressure altitude in the standard atmosphere: it sets air density and speed of sound.", section=2
     ),
+    "trim": Term(
+        "Flight: weight and drag are carried. Test stand: wind tunnel, rotor without torque, or given controls."
+    ),
+    "measured_test": Term("Tests in which this rotor was measured; choose one to set its conditions."),
+    "measured_point": Term("The measured points of this test; choose one to set its conditions."),
+    "stand_load": Term("What is given: thrust over ρA(ΩR)²σ, thrust, or the pitch at 0.75 R."),
+    "stand_flapping": Term("First-harmonic flapping kept at zero by cyclic, or left to the blades at given cyclic."),
+    "shaft_tilt_deg": Term("Tilt of the shaft, positive forward."),
+    "ct_over_sigma": Term("Blade loading CT/σ: thrust over ρA(ΩR)²σ."),
+    "thrust_n": Term("Thrust along the shaft."),
+    "collective_deg": Term("Pitch at 0.75 R."),
+    "cyclic_1c_deg": Term("Given cyclic θ1c, cosine part; the blades flap freely."),
+    "cyclic_1s_deg": Term("Given cyclic θ1s, sine part; the blades flap freely."),
+    "tip_mach": Term("Tip speed over the speed of sound of the test."),
+    "density": Term("Air density of the test."),
     "field": Term("Quantity on the disk.", section=8),
     "difference": Term("The quantity of this design minus that of the pinned design A."),
     "colours": Term("The colour range is held while you drag; fit it to the data here."),
@@ -61,13 +76,23 @@ CONTROLS: dict[str, Term] = {
     "azimuth_deg": Term(
         "Azimuth of the reference blade (red): 0° over the tail, 90° on the advancing side.", section=1
     ),
-    "exaggeration": Term("Exaggerates the twist of the drawn blades; the numbers stay true."),
+    "exaggeration": Term(
+        "Exaggerates the twist of the drawn blades relative to 0.75 R; numbers stay true. Blades are drawn as flown."
+    ),
     "rotor": Term("The helicopter: its blades, sections, rotor speed and mass, as built.", section=4),
     "rotor_file": Term(
         "Your own rotor: a TOML file (docs/rotor_file.md), with the decks, polars and outlines that it names."
     ),
     "preset": Term("Model choices of the source document, or the best available; each can be changed.", section=15),
     "inflow": Term("How the inflow through the disk depends on speed and load distribution.", ("3.4",)),
+    "hover_inflow": Term(
+        "Hover: momentum balance of each annulus, a free wake of each blade with its tip vortices, or one equation.",
+        ("3.3",),
+    ),
+    "low_speed": Term(
+        "Whether the forward wake passes over to the hover model as the speed falls to zero, or holds at any speed.",
+        section=9,
+    ),
     "infinite": Term(
         "The same wake averaged over time, as for infinitely many blades: the rotor of most textbooks.", section=9
     ),
@@ -84,7 +109,7 @@ CONTROLS: dict[str, Term] = {
     "dark": Term("Light text on a dark page."),
     "reset": Term("Returns to the design that the page opened with."),
     "paint": Term("Blue: more pitch here saves power; rust: it costs power.", section=13),
-    "search_concept": Term("Family of twist laws to search, from a single rate to a free form.", section=13),
+    "search_concept": Term("Family of jig-twist laws to search, from a single rate to a free form.", section=13),
     "objective": Term("Power to minimise: at this condition, in hover and cruise, or over the mission.", section=13),
     "hover_share": Term("Share of the time in hover; the rest is flown at the present condition."),
     "search_division": Term("Radius where the segments of the concept meet, as a fraction of R.", section=4),
@@ -93,19 +118,19 @@ CONTROLS: dict[str, Term] = {
     "stalled_limit": Term("Largest permitted stalled part of the disk.", section=13),
     "limit_change": Term("Limits the change of twist, for example to the reach of an actuator.", section=13),
     "change_limit": Term("Largest permitted change from the present twist, root to tip."),
-    "optimise": Term("Finds the twist of least power; the blade previews the best so far.", section=13),
+    "optimise": Term("Finds the jig twist of least power; the blade previews the best so far.", section=13),
     "stop": Term("Stops the search and keeps the best so far."),
     "replay": Term("The successive best designs of the search."),
     "search_result": Term("Puts the optimum on the sliders, discards it, or replays the search."),
     "map_across": Term("Twist parameter along the horizontal axis of the map.", section=13),
     "map_up": Term("Twist parameter along the vertical axis of the map.", section=13),
-    "map_draw": Term("Power over two twist parameters; every point is a trimmed design.", section=13),
+    "map_draw": Term("Power over two parameters of jig twist; every point is a trimmed design.", section=13),
     "map_point": Term("Click the map, or type x and y, to move the design there."),
     "leg": Term("Advance ratio and hours of one mission leg; 0 hours: not flown.", section=13),
-    "schedule": Term("Finds the best twist of each leg, and the best fixed blade for all of them.", section=13),
+    "schedule": Term("Finds the best jig twist of each leg, and the best fixed blade for all of them.", section=13),
     "schedule_stop": Term("Stops and keeps the results so far."),
     "schedule_result": Term("Puts the best fixed blade on the sliders, flies the schedule, or saves the table."),
-    "cut": Term("Shows one blade cut open in place of the rotor."),
+    "cut": Term("Shows one blade cut open in place of the rotor, as flown; the ghost is the blade without voltage."),
     "magnified": Term("Exaggerates the deformation of the cut blade; the numbers stay true."),
     "voltage": Term("Per cent of the positive or, below zero, of the negative end of the voltage range."),
     "fly": Term("Flies one of the two conditions of the verdict, with its voltages and advance ratio."),
@@ -120,14 +145,17 @@ CONTROLS: dict[str, Term] = {
     "actuator_concept": Term("Twist concept whose optimum at each speed the actuator should reach.", section=13),
     "pair": Term("The two advance ratios between which the twist changes."),
     "harmonic": Term("Cycles of active twist per revolution; none in hover."),
-    "amplitude": Term("Amplitude of the harmonic twist, as a share of half the voltage range."),
-    "phase": Term("Phase of the harmonic twist: the tip is most nose-up at ψ = phase/harmonic."),
+    "amplitude": Term("Amplitude of the harmonic voltage, as a share of half the voltage range."),
+    "phase": Term("Phase of the harmonic voltage, highest at ψ = phase/harmonic. An elastic blade follows later."),
     "keep": Term("Bookmarks this design (M), to return to it or to compare with it."),
     "take": Term("Step of the history to return to; a click on the strip sets it."),
     "link": Term("Copies the address of the page, which contains the whole design."),
     "save": Term("Saves the design as a file for the command line and for people."),
     "load": Term("Loads a design file (JSON); an invalid one is rejected with the reason."),
-    "export_shape": Term("One blade, or the trimmed rotor, as closed surfaces in metres, without exaggeration."),
+    "export_shape": Term(
+        "One blade in jig shape, for manufacture, or as flown at its azimuth, or the trimmed rotor: closed surfaces in "
+        "metres, without exaggeration."
+    ),
     "export_table": Term(
         "Every quantity over the disk, the blade at the present azimuth, or power over µ, with units."
     ),
@@ -138,6 +166,7 @@ CONTROLS: dict[str, Term] = {
     "export_own": Term("Width and height [px], 300 to 4096; aspect ratio at most 2.5."),
     "export_clear": Term("Transparent background, for slides."),
     "export_kind": Term("Pixels, or a vector drawing of the disk."),
+    "export_scene": Term("The 3D scene as one HTML file that opens without a server and can be turned."),
     "export_report": Term("This design, A and all bookmarks in one file that opens without a server."),
     "export_text": Term("A script or a command that reproduces the power of this design to the last digit."),
     "close": Term("Closes this window."),
@@ -170,10 +199,11 @@ READOUTS: dict[str, Term] = {
     "induced": Term("Σ λi dFz: power to make lift.", section=12),
     "profile": Term("Σ U dD: power dissipated by the drag of the blade sections.", ("3.15",)),
     "parasite": Term("D·V: power to overcome fuselage drag.", ("3.19",)),
+    "propulsive": Term("Propulsive force times airspeed; negative where the stream drives the rotor.", section=12),
     "tail": Term("Power of the tail rotor, which balances the torque.", section=12),
     "kappa": Term(
-        "κ: induced power relative to uniform loading, C_T λ0. "
-        "Ideal: the least of any circulation with the same lift and C_l ≤ 1.2.",
+        "κ: induced power relative to uniform loading, C_T λ0. Ideal: the least of any circulation of four blades in a "
+        "rigid wake with the same lift, C_l ≤ 1.2, none in reverse flow; in hover momentum theory.",
         ("2.30",),
     ),
     "vortex_check": Term("The same design with a rigid helical vortex wake, and the difference from it.", section=9),
@@ -195,10 +225,18 @@ READOUTS: dict[str, Term] = {
     "speed": Term("Airspeed V = µΩR.", section=1),
     "status": Term("Convergence of the trim, caveats, and the models used.", section=11),
     "chart_power": Term(
-        "Total power over advance ratio; hover is a separate point because it uses another inflow model.", section=12
+        "Total power over advance ratio; with linear inflow, not valid below µ 0.075, hover is a separate point.",
+        section=12,
     ),
     "chart_apart": Term("Total power of B minus that of A over advance ratio.", section=12),
-    "chart_twist": Term("Twist along the blade; zero at 0.75 R.", section=4),
+    "elastic_tip": Term(
+        "Elastic twist of the tip, mean over azimuth. Flown twist = jig twist + elastic twist.",
+        section=10,
+    ),
+    "elastic_wave": Term("Elastic twist of the tip: amplitude of its 1/rev part.", section=10),
+    "pitch_link": Term("Force of one pitch link, mean over azimuth; positive where it holds the nose up.", section=10),
+    "pitch_link_wave": Term("Force of one pitch link: half of peak to peak.", section=10),
+    "chart_twist": Term("Jig twist along the blade; zero at 0.75 R.", section=4),
     "chart_alpha": Term(
         "Angle of attack along the reference blade, and its stall limits; gaps: reverse flow.", section=8
     ),
@@ -211,12 +249,23 @@ READOUTS: dict[str, Term] = {
     "probe_u_p": Term("Perpendicular velocity, down through the disk: inflow, flapping and coning.", ("3.6",)),
     "probe_induced": Term("Downward velocity induced by the wake.", section=9),
     "probe_theta": Term("Local pitch: collective, cyclic and twist.", section=1),
+    "probe_jig": Term("Twist as built, zero at 0.75 R: what the sliders set.", section=4),
+    "probe_elastic": Term("By how much the blade twists here under its loads; part of the pitch.", section=10),
     "probe_phi": Term("Inflow angle φ = atan2(U_P, U_T); near 180° in reverse flow.", section=8),
     "probe_margin": Term("Margin to the stall angle of the section at this Mach number.", section=5),
     "probe_section": Term("Source of the section coefficients.", section=5),
     "probe_mach": Term("Resultant velocity over the speed of sound.", section=8),
     "probe_cl": Term("Section lift coefficient at this α and Mach number.", section=5),
     "probe_cd": Term("Section drag coefficient at this α and Mach number.", section=5),
+    "probe_cm": Term("Section moment coefficient about the quarter chord, nose-up positive.", section=5),
+    "probe_moment": Term(
+        "Moment of one blade about its quarter chord, per metre of span; nose-up positive.", section=5
+    ),
+    "probe_public": Term(
+        "Published coefficients of this section nearest to this Mach number and α, and the section data at the same "
+        "point.",
+        section=5,
+    ),
     "probe_ratio": Term("Lift over drag of the section.", section=5),
     "probe_m2cn": Term("M²c_n: normal force per unit span over ½γp c, the usual measure of airloads.", section=8),
     "probe_drag": Term("Drag of one blade per metre of span, along the local flow.", ("3.8",)),
@@ -225,7 +274,10 @@ READOUTS: dict[str, Term] = {
     ),
     "probe_torque": Term("Torque of one blade per metre of span, about the shaft.", ("2.18", "3.10")),
     "probe_power": Term("Torque times rotor speed; negative where the flow drives the blade.", section=12),
-    "chart_lift_curve": Term("Lift curve of the section at this Mach number, and the present point on it.", section=5),
+    "chart_lift_curve": Term(
+        "Lift curve of the section at this Mach number, the present point on it, and public data within 0.05 of Mach.",
+        section=5,
+    ),
     "chart_sensitivity": Term("Power sensitivity to local pitch along the blade, retrimmed.", section=13),
 }
 

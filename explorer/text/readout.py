@@ -3,21 +3,36 @@
 import math
 from html import escape
 
+import numpy as np
+
 from explorer.state import baseline_title
 from explorer.text.glossary import tip
 from explorer.text.units import BLANK, SI, Units, number
 from explorer.theme.colours import PARTS
-from rotor.analysis.ideal_bound import TABLE_ROTOR, ideal_factor
+from rotor.analysis.ideal_bound import ideal_factor, not_bounded
+from rotor.design.design import Design
 from rotor.trim.solution import PowerBudget, Solution
 
 PART_TITLES = {"induced": "Induced", "profile": "Profile", "parasite": "Parasite", "tail": "Tail rotor"}
+_ON_A_STAND = {"induced": "Induced", "profile": "Profile", "parasite": "Propulsive"}
+_MEANT = {"Propulsive": "propulsive"}
+"""Names in the glossary of titles that mean something else than their part in flight."""
+
+
+def part_titles(*designs: Design) -> dict[str, str]:
+    """The parts of power and their titles; a rotor on a test stand has no fuselage and no tail rotor."""
+    tested = [design.condition.stand is not None for design in designs]
+    if all(tested):
+        return _ON_A_STAND
+    return {**PART_TITLES, "parasite": "Parasite, propulsive"} if any(tested) else PART_TITLES
 
 
 def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI) -> str:
     """Total power with its change, the bar of parts, and the table of parts."""
     power = solution.power
     reference = baseline.power if baseline is not None and baseline.converged else None
-    rows = "".join(_row(name, power, reference, units) for name in PARTS)
+    titles = part_titles(solution.design)
+    rows = "".join(_row(name, title, power, reference, units) for name, title in titles.items())
     ideal = ideal_induced(solution)
     return (
         f'<div class="rx" data-explorer="power">{total_line(power, reference, units)}'
@@ -38,8 +53,10 @@ def total_line(power: PowerBudget, reference: PowerBudget | None, units: Units) 
 
 
 def ideal_induced(solution: Solution) -> float | None:
-    """The least induced power [W] of any circulation at this lift; None where the bound has not converged."""
+    """The least induced power [W] of any circulation at this lift; None where the bound does not hold or converge."""
     design = solution.design
+    if not_bounded(design):
+        return None
     factor = ideal_factor(design.condition.advance_ratio, solution.ct, design.aircraft.key)
     if factor is None or not math.isfinite(solution.ct):
         return None
@@ -49,11 +66,12 @@ def ideal_induced(solution: Solution) -> float | None:
 def ideal_line(solution: Solution, ideal: float | None, units: Units = SI) -> str:
     """κ and its ideal bound."""
     kappa = f'κ = Pi/(CT·λ0) <b data-explorer="kappa">{number(solution.induced_power_factor, 2)}</b>'
-    known = solution.design.aircraft.key == TABLE_ROTOR
-    bound = "ideal: not converged above µ 0.40" if known else "ideal: not computed for this rotor"
+    bound = f"ideal: {not_bounded(solution.design)}"
     if ideal is not None:
         unit = solution.ct * solution.controls.lambda0 * solution.design.power_unit
         bound = f'<i class="rx-mark"></i> ideal <b>{units.watts(ideal)}</b>, κ {number(ideal / unit, 2)}'
+        if solution.design.hovering:
+            bound += " (momentum theory)"
     return f'<div class="rx-line rx-dim rx-kappa"{tip("kappa")}><span>{kappa}</span><span>{bound}</span></div>'
 
 
@@ -105,12 +123,13 @@ def fineness(power: PowerBudget) -> int:
     return 1 if power.total < 2e5 else 0
 
 
-def _row(name: str, power: PowerBudget, reference: PowerBudget | None, units: Units) -> str:
+def _row(name: str, title: str, power: PowerBudget, reference: PowerBudget | None, units: Units) -> str:
     value = getattr(power, name)
     share = 100.0 * value / power.total if power.total > 0.0 else None
     apart = None if reference is None else value - getattr(reference, name)
     return (
-        f'<tr{tip(name)}><td><span class="rx-patch" style="background:{PARTS[name]}"></span>{PART_TITLES[name]}</td>'
+        f"<tr{tip(_MEANT.get(title, name))}><td>"
+        f'<span class="rx-patch" style="background:{PARTS[name]}"></span>{title}</td>'
         f'<td class="rx-num">{units.watts(value, fineness(power))}</td>'
         f'<td class="rx-num rx-dim" style="width:19%">{number(share)} %</td>'
         f'<td class="rx-num rx-dim" style="width:25%">{units.watts(apart, fineness(power), sign=True)}</td></tr>'
@@ -134,12 +153,27 @@ def trim_panel(solution: Solution) -> str:
         efficiency,
         ("reverse_flow_area", "Reverse flow", f"{number(100.0 * solution.reverse_flow_area, 1)} %"),
         ("stalled_area", "Stalled area", f"{number(100.0 * solution.stalled_area, 1)} %"),
+        *_elastic(solution),
     )
     cells = "".join(
         f'<div class="rx-line"{tip(key)}><span class="rx-dim">{name}</span><span class="rx-num">{value}</span></div>'
         for key, name, value in entries
     )
     return f'<div class="rx rx-grid" data-explorer="trim">{cells}</div>'
+
+
+def _elastic(solution: Solution) -> tuple[tuple[str, str, str], ...]:
+    """Elastic twist of the tip: mean and 1/rev amplitude. Load of one pitch link: mean and half of peak to peak."""
+    elastic = solution.elastic
+    if elastic is None:
+        return ("elastic_tip", "Elastic tip", "rigid"), ("pitch_link", "Pitch link", BLANK)
+    load = elastic.pitch_link_load / 1e3
+    return (
+        ("elastic_tip", "Elastic tip", _deg(float(elastic.tip.mean()))),
+        ("elastic_wave", "Elastic 1/rev", _deg(elastic.first_harmonic)),
+        ("pitch_link", "Pitch link", f"{number(float(load.mean()), 2)} kN"),
+        ("pitch_link_wave", "Pitch link ±", f"{number(0.5 * float(np.ptp(load)), 2)} kN"),
+    )
 
 
 def _deg(angle: float, digits: int = 2) -> str:

@@ -8,6 +8,7 @@ from itertools import groupby
 from explorer.text.design_words import inflow_words, physics_words
 from explorer.text.glossary import tip
 from explorer.text.units import number
+from explorer.text.validated import validated
 from rotor.reproduce.report import typographic
 from rotor.reproduce.trust import KINDS, SensitivityRow, TrustRow, sensitivity_rows, trust_rows
 from rotor.trim.solution import Solution
@@ -32,7 +33,14 @@ def status_panel(solution: Solution | None, problem: str | None = None, pinned: 
     )
     detail = f"Force residual < {tiny(solution.residual)} <i>W</i>, {solution.passes} iterations."
     text = f'<div><span class="rx-good">●</span> {escape(solution.message)} {detail}</div>'
-    return _status("converged", text + caveats + provenance(solution))
+    return _status("converged", text + caveats + _measurement(solution) + provenance(solution))
+
+
+def _measurement(solution: Solution) -> str:
+    """How well this rotor is validated in this region."""
+    return (
+        f'<div class="rx-small" data-explorer="measurement">{escape(typographic(validated(solution).sentence))}</div>'
+    )
 
 
 def cautions(solution: Solution, pinned: Solution | None) -> list[str]:
@@ -83,6 +91,12 @@ def section_title(section: str) -> str:
         "sc1095-thesis": "SC1095 polynomials",
         "naca0012": "NACA 0012",
         "naca63a015": "NACA 63-015A",
+        "naca64935": "NACA 64-935",
+        "naca64528": "NACA 64-528",
+        "naca64118": "NACA 64-118",
+        "naca64208": "NACA 64-208",
+        "naca0015re242k": "NACA 0015",
+        "goe429": "Göttingen 429",
     }
     return titles.get(section, section)
 
@@ -111,7 +125,7 @@ def trust_page() -> str:
 def _trust_row(row: TrustRow) -> str:
     hint = escape(". ".join(part.rstrip(".") for part in (row.note, row.test) if part), quote=True)
     return (
-        f'<div class="rx-trust-row" title="{hint}"><span>{escape(row.what)} '
+        f'<div class="rx-trust-row" title="{hint}"><span>{escape(typographic(row.what))} '
         f'<span class="rx-dim">{escape(typographic(row.against))}</span></span>'
         f"<b>{escape(typographic(row.shown))}</b></div>"
     )

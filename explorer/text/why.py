@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from explorer.text.readout import part_titles
 from explorer.text.units import SI, Units, number
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, no_effect
@@ -16,7 +17,6 @@ from rotor.arrays import Array, Booleans
 from rotor.design.design import Design
 from rotor.trim.solution import Solution
 
-_PARTS = {"induced": "induced", "profile": "profile", "parasite": "parasite", "tail": "tail rotor"}
 _SMALL_PART = 0.08
 """A part that changed less than this share of the largest change is left out."""
 _MOVED = 3e-4
@@ -95,7 +95,9 @@ def _cause(before: Solution, after: Solution) -> str:
 
 def _rotor_causes(a: Design, b: Design) -> list[str]:
     if a.rotor != b.rotor:
-        return ["other blade sections" if a.rotor.blade.spans != b.rotor.blade.spans else "another rotor"]
+        if a.rotor.blade.spans != b.rotor.blade.spans:
+            return ["other blade sections"]
+        return ["actuators in the blade" if (a.active_twist is None) != (b.active_twist is None) else "another blade"]
     return []
 
 
@@ -116,6 +118,9 @@ def _flight_causes(a: Design, b: Design) -> list[str]:
     if old.advance_ratio != new.advance_ratio:
         way = "faster" if new.advance_ratio > old.advance_ratio else "slower"
         causes.append("hover" if b.hovering else f"{way} (µ {new.advance_ratio:g})")
+    if old.stand != new.stand:
+        causes.append(_test_cause(b) if old.stand is None or new.stand is None else "another test")
+        return causes
     if old.mass != new.mass:
         percent = 100.0 * (new.mass / old.mass - 1.0)
         causes.append(f"{number(abs(percent), _digits(percent))} % {'more' if percent > 0.0 else 'less'} weight")
@@ -125,15 +130,20 @@ def _flight_causes(a: Design, b: Design) -> list[str]:
     return causes
 
 
+def _test_cause(design: Design) -> str:
+    return "flight instead of a test" if design.condition.stand is None else "the rotor alone, on a test stand"
+
+
 def _changed_parts(before: Solution, after: Solution, units: Units) -> list[str]:
     """At most three parts of power that changed, the largest change first, the unit behind the first."""
     unit = units.power[0]
-    changes = {name: unit.of(getattr(after.power, name) - getattr(before.power, name)) for name in _PARTS}
+    titles = part_titles(before.design, after.design)
+    changes = {name: unit.of(getattr(after.power, name) - getattr(before.power, name)) for name in titles}
     largest = max(abs(change) for change in changes.values())
     digits = _digits(largest)
     shown = max(_SMALL_PART * largest, 0.5 * 10.0**-digits)
     order = sorted((name for name in changes if abs(changes[name]) >= shown), key=lambda name: -abs(changes[name]))
-    texts = [f"{_PARTS[name]} {number(changes[name], digits, sign=True)}" for name in order[:3]]
+    texts = [f"{titles[name].lower()} {number(changes[name], digits, sign=True)}" for name in order[:3]]
     return [f"{texts[0]} {unit.symbol}", *texts[1:]] if texts else []
 
 

@@ -127,5 +127,7 @@ def _bytes(srgb: Array) -> Rgb:
 
 
 _STARTS = 16
-START_COLOURS: tuple[Rgb, ...] = tuple(_sequential(_STARTS + 4)[2 + 7 * k % _STARTS] for k in range(_STARTS))
-"""Of the starts of a search, in steps that keep a few of them apart."""
+START_COLOURS: tuple[Rgb, ...] = tuple(
+    _bytes(_srgb((0.52, 0.70, 0.61)[k % 3], 0.13, (255.0 + 137.5 * k) % 360.0)) for k in range(_STARTS)
+)
+"""Of the starts of a search: neighbours differ in hue and in lightness, on a light page and a dark one."""

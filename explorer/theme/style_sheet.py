@@ -61,7 +61,7 @@ div:has(> [data-dock-area]) { margin-top: 0 !important; }
 .rx-faded { opacity: .35; }
 .rx-speed { text-align: right; margin-top: -4px; padding-bottom: 5px; font-size: 12px; }
 .rx-explain { height: 36px; }
-.rx-heading { padding-top: 3px; margin-bottom: -9px; font-size: 12px; gap: 10px; }
+.rx-heading { padding-top: 3px; margin-bottom: -2px; font-size: 12px; gap: 10px; }
 .rx-heading > :first-child { font-weight: 600; margin-right: auto; }
 .rx-dash { display: inline-block; width: 12px; height: 3px; vertical-align: middle; margin-right: 4px; }
 .rx-dashed { background: repeating-linear-gradient(90deg, currentColor 0 5px, transparent 5px 7px); }
@@ -123,11 +123,12 @@ div:has(> .rx-bridge), div:has(> .rx-bridge) + div { display: none !important; }
 .rx-take { cursor: pointer; }
 .rx-kept-table td { padding: 3px 4px 3px 0; border-top: 1px solid rgba(128,128,128,.18); vertical-align: middle; }
 .rx-kept { overflow: hidden; text-overflow: ellipsis; max-width: 130px; }
+.rx .rx-wraps { white-space: normal; }
 .rx-waterfall svg { display: block; }
 .rx-w { font-size: 12px; fill: currentColor; }
 .rx-w-strong { font-weight: 600; }
 .rx-w-number { text-anchor: end; font-variant-numeric: tabular-nums; }
-.rx-w-note { font-size: 10.5px; fill: var(--mantine-color-dimmed); stroke: var(--mantine-color-body); stroke-width: 3;
+.rx-w-note { font-size: 10.5px; fill: var(--mantine-color-dimmed); stroke: var(--rx-paper); stroke-width: 3;
   paint-order: stroke; }
 .rx-w-bad { fill: #d9480f; }
 .rx-w-link { stroke: currentColor; stroke-opacity: .35; stroke-width: 1; stroke-dasharray: 2 2; }
@@ -153,6 +154,8 @@ html:root {
   #rx { font-size: 15px; }
   #rx .rxf-modes button, #rx .rxf-tools button, .rxf-head, .rxf-head b { font-size: 14.5px; }
   .rxf-since small, .rxf-sub, .rxf-why { font-size: 14.5px; }
+  .rxf-change { min-width: 208px; }
+  [data-dock-region] [class*=Flex-root] > [style*="flex-shrink: 0"] { width: 118px !important; }
   #rx .rxf-chip, .rxf-parts dl, .rxf-field, #rx .rxf-legend button { font-size: 13px; }
   #rx svg text, .rxp-curve svg text { font-size: 12.5px; }
   .rxp-title { font-size: 19px; }
@@ -166,9 +169,9 @@ html:root {
 }
 @media (min-width: 1100px) { html:root {
   .rxf-total { font-size: 46px; }
-  .rxf-caption h2 { font-size: 26px; }
-  .rxf-caption p { font-size: 18px; }
-  .rxf-figures b { font-size: 48px; }
+  .rxf-caption h2 { font-size: 29px; }
+  .rxf-caption p { font-size: 19.5px; }
+  .rxf-figures b { font-size: clamp(44px, 4vw, 64px); }
 } }
 """
 """Added to the sheet for those who sit at the back. `html:root` outweighs the frame's own sheets, which come later."""

@@ -23,6 +23,22 @@ class IdleTimeout:
     """Called before the update that ends the sleep."""
 
 
+class Superseded:
+    """What an update calls between its steps."""
+
+    def __init__(self, worker: "NewestWins", turn: Turn) -> None:
+        self._worker, self._turn = worker, turn
+
+    def __call__(self) -> bool:
+        """Let the frames of other pages go first; whether a newer update is wanted."""
+        return not self._turn.give_way(lambda: self._worker.superseded) or self._worker.superseded
+
+    def pause(self) -> None:
+        """Let them go first in the middle of a step that must come to its end, if that step is a long one."""
+        if self._turn.long:
+            self._turn.give_way(lambda: self._worker.stopped)
+
+
 class NewestWins:
     """Runs `update` once after every `wake`; one further run answers all wakes that come while it runs."""
 
@@ -40,6 +56,8 @@ class NewestWins:
         self._scheduler = scheduler
         self._wanted = threading.Event()
         self._stopped = False
+        self._turn: Turn | None = None
+        """Of the update that runs now."""
         self._thread = threading.Thread(target=self._loop, name=name, daemon=True)
 
     def start(self) -> None:
@@ -57,12 +75,29 @@ class NewestWins:
             self._thread.join(timeout)
 
     @property
+    def stopped(self) -> bool:
+        """Whether the page has gone."""
+        return self._stopped
+
+    @property
     def superseded(self) -> bool:
         """Whether a newer update is wanted."""
         return self._stopped or self._wanted.is_set()
 
-    def _superseded_after(self, turn: Turn) -> Callable[[], bool]:
-        return lambda: not turn.give_way(lambda: self.superseded) or self.superseded
+    def pause(self, seconds: float) -> None:
+        """Within an update: leave the turn to others until a newer update is wanted, at most so long.
+
+        What can wait then does not stand in the way of the next step of a drag. Nor does the wait for another turn,
+        which may be long where other pages compute: a newer update ends it.
+        """
+        if self._turn is not None:
+            self._turn.leave()
+        self._wanted.wait(seconds)
+        if self._turn is not None:
+            self._turn.give_way(lambda: self.superseded)
+
+    def _superseded_after(self, turn: Turn) -> "Superseded":
+        return Superseded(self, turn)
 
     def _rest(self) -> None:
         """Wait until an update is wanted."""
@@ -84,6 +119,7 @@ class NewestWins:
                     self._wanted.clear()
                     if self._stopped:
                         return
+                    self._turn = turn
                     self._update(self._superseded_after(turn))
             except Exception as error:  # The session must survive whatever one update does.
                 if not self._stopped:

@@ -36,6 +36,8 @@ _GRACE = 3.0
 """[s] after a stop until a process that goes on is killed."""
 _LOOK = 2.0
 """[s] between the checks of an idle thread whether its process still lives."""
+_POLL = 0.05
+"""[s] between the questions whether a result is still awaited."""
 _START = 60.0
 """[s] a new process may take to import and compile."""
 
@@ -176,6 +178,30 @@ class PoolClient:
 
     def submit(self, task: Task, on_event: Callable[[JobEvent], None], limit: float = 60.0, urgency: int = 0) -> Job:
         return self._pool.submit(task, on_event, limit, urgency, self)
+
+    def result(
+        self, task: Task, superseded: Callable[[], bool], urgency: int, found: Callable[[Any], None] = lambda _: None
+    ) -> JobEnded | JobFailed | None:
+        """Waits for the end of a task; None when superseded first.
+
+        `found` is called with the result, also of a task that ran on after it was superseded. The thread that waits
+        must not hold a turn that pages need to compute.
+        """
+        over, ends = threading.Event(), list[JobEnded | JobFailed]()
+
+        def on_event(news: JobEvent) -> None:
+            if isinstance(news, JobEnded | JobFailed):
+                if isinstance(news, JobEnded) and news.result is not None:
+                    found(news.result)
+                ends.append(news)
+                over.set()
+
+        job = self.submit(task, on_event, urgency=urgency)
+        while not over.wait(_POLL):
+            if superseded():
+                self.abandon(job)
+                return None
+        return ends[0]
 
 
 class WorkerThread(threading.Thread):

@@ -7,6 +7,7 @@ each of them. Scheduled, an update runs through, and no page gets its second bef
 
 import os
 import threading
+import time
 from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -15,6 +16,9 @@ _LOOK = 0.02
 """[s] between checks whether work that waits behind frames is still wanted."""
 _FRAMES_IN_A_ROW = 4
 """Frames after which work that waits behind them has its turn: a crowd delays it but does not starve it."""
+SLICE = 0.03
+"""[s] of processor time that one step may take before it gives way in the middle: several times that of an ordinary
+trim. If ordinary trims gave way too, all pages would be half done and none drawn."""
 
 
 class FairScheduler:
@@ -30,13 +34,13 @@ class FairScheduler:
     @contextmanager
     def take(self) -> "Iterator[Turn]":
         """Wait for a turn, in the order of calls, and hold it to the end of the block."""
-        turn = Turn(self)
         self._wait(self._ask(self._frames), lambda: False)
+        turn = Turn(self)
         try:
             yield turn
         finally:
             if turn.held:
-                self._pass_on()
+                self.pass_on()
 
     @property
     def waiting(self) -> int:
@@ -47,7 +51,7 @@ class FairScheduler:
         """Pass the turn, if held, to waiting frames and wait for one after them; False if it became unwanted."""
         mine = self._ask(self._behind)
         if held:
-            self._pass_on()
+            self.pass_on()
         return self._wait(mine, unwanted)
 
     def _ask(self, queue: deque[threading.Event]) -> threading.Event:
@@ -71,7 +75,8 @@ class FairScheduler:
             return False
         return True
 
-    def _pass_on(self) -> None:
+    def pass_on(self) -> None:
+        """A turn has ended: the next one begins."""
         with self._lock:
             if self._frames and not (self._behind and self._in_a_row >= _FRAMES_IN_A_ROW):
                 self._in_a_row += 1
@@ -89,6 +94,13 @@ class Turn:
     def __init__(self, scheduler: FairScheduler) -> None:
         self._scheduler = scheduler
         self.held = True
+        self._since = time.thread_time()
+
+    def leave(self) -> None:
+        """Pass the turn on; `give_way` waits for another."""
+        if self.held:
+            self.held = False
+            self._scheduler.pass_on()
 
     def give_way(self, unwanted: Callable[[], bool]) -> bool:
         """Let waiting frames go first; called between two steps of work that can wait.
@@ -97,7 +109,13 @@ class Turn:
         """
         if not self.held or self._scheduler.waiting:
             self.held = self._scheduler.behind(self.held, unwanted)
+            self._since = time.thread_time()
         return self.held
+
+    @property
+    def long(self) -> bool:
+        """Whether its thread has computed for more than a slice of time, or it is not held."""
+        return not self.held or time.thread_time() - self._since > SLICE
 
 
 SCHEDULER = FairScheduler(min(os.cpu_count() or 1, 2))

@@ -9,6 +9,7 @@ from typing import Any, Literal
 
 from rotor.assets import asset_path
 from rotor.dynamics.thin_wall import Layer, Material
+from rotor.user_input import did_you_mean
 
 Electrodes = Literal["interdigitated", "continuous"]
 
@@ -135,7 +136,8 @@ def find_actuator(id: str) -> Actuator:
     """One actuator; ValueError names the known ones."""
     known = actuators()
     if id not in known:
-        raise ValueError(f"actuator {id!r} is not known: use one of {', '.join(known)}")
+        hint = did_you_mean(id, known) or ":"
+        raise ValueError(f"actuator {id!r} is not known{hint} use one of {', '.join(known)}")
     return known[id]
 
 

@@ -1,14 +1,18 @@
 """Harmonic active twist (1/rev, 2/rev): attainable amplitude and its effect on power.
 
-The amplitude is half the voltage range; the blade responds dynamically in torsion, 1/(1 − (n/ν)²) near its first mode.
+The amplitude is half the voltage range. A rigid trim is given the twist of the rotating blade in vacuum, 1/(1 − (n/ν)²)
+near its first mode, without damping. An elastic trim is given the twist of the blade at rest, the moment of the plies;
+it finds amplitude and phase itself, with inertia, tension and air (`rotor.aero.elastic`).
 Use an inflow model that responds to the load distribution (dynamic wake).
 
+No measured power of a rotor with active twist was to be had; published savings are computed, or of model rotors.
 """
 
 import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from rotor.actuator.catalogue import PiezoPly
 from rotor.actuator.electrical import harmonic_drive
@@ -17,7 +21,7 @@ from rotor.actuator.verdict import with_actuator_mass
 from rotor.arrays import Array
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
-from rotor.dynamics.structure import twist_under_moment
+from rotor.dynamics.torsion import twist_under_moment
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -34,22 +38,31 @@ class DynamicTwist:
 
     per_rev: int
     amplitude: float
-    """At the tip [rad], half of peak to peak, with the dynamic response of the blade."""
+    """At the tip [rad], half of peak to peak, with the dynamic response of the blade in vacuum; at rest for an elastic
+    trim, which finds the response."""
     static: float
     """The same without it."""
     stations: tuple[float, ...]
     shape: tuple[float, ...]
     """Over the tip's."""
+    at_rest: float = 0.0
+    """Amplitude at the tip of the blade at rest [rad], and its shape: what an elastic trim is given."""
+    rest_shape: tuple[float, ...] = (0.0, 1.0)
+    installed: InstalledActuator | None = None
 
 
-def dynamic_twist(installed: InstalledActuator, per_rev: int, *, derated: bool = False) -> DynamicTwist:
+def dynamic_twist(
+    installed: InstalledActuator, per_rev: int, *, derated: bool = False, elastic: bool = False
+) -> DynamicTwist:
     """Amplitude and shape at a harmonic; zero for actuators that cannot follow (heat, rotor speed).
 
-    Undamped: ValueError with one sentence at resonance.
+    `elastic`: for an elastic trim, which finds the dynamic response itself, damped by the air; amplitude and shape are
+    then those of the blade at rest, and no harmonic is refused. Otherwise undamped: ValueError with one sentence at
+    resonance.
     """
     if not isinstance(installed.actuator, PiezoPly):
         return DynamicTwist(per_rev, 0.0, 0.0, (0.0, 1.0), (0.0, 1.0))
-    if abs(per_rev - installed.frequency) < RESONANCE_MARGIN:
+    if not elastic and abs(per_rev - installed.frequency) < RESONANCE_MARGIN:
         raise ValueError(
             f"{per_rev}/rev is too close to the first torsion frequency of {installed.frequency:.2f}/rev, where only "
             "damping limits the twist and none is modelled: choose another harmonic, stiffness or number of plies"
@@ -58,13 +71,25 @@ def dynamic_twist(installed: InstalledActuator, per_rev: int, *, derated: bool =
     share = np.diff(np.clip(installed.beam.r, low, high)) / np.diff(installed.beam.r)
     moment = 0.5 * installed.moment * share * (installed.derating if derated else 1.0)
     static = twist_under_moment(installed.beam, moment)
-    moving = twist_under_moment(installed.beam, moment, per_rev=float(per_rev))
     stations = np.linspace(0.0, 1.0, SHAPE_STATIONS)
-    relative: Array = moving / moving[-1]
-    shape = np.interp(stations, installed.r, relative)
+    still: Array = 0.5 * installed.rest_shapes.sum(axis=0) * (installed.derating if derated else 1.0)
+    moving = still if elastic else twist_under_moment(installed.beam, moment, per_rev=float(per_rev))
     return DynamicTwist(
-        per_rev, abs(float(moving[-1])), abs(float(static[-1])), tuple(stations.tolist()), tuple(shape.tolist())
+        per_rev=per_rev,
+        amplitude=abs(float(moving[-1])),
+        static=abs(float(static[-1])),
+        stations=tuple(stations.tolist()),
+        shape=_over_the_tip(stations, installed.r, moving),
+        at_rest=abs(float(still[-1])),
+        rest_shape=_over_the_tip(stations, installed.r, still),
+        installed=installed,
     )
+
+
+def _over_the_tip(stations: Array, r: Array, twist: Array) -> tuple[float, ...]:
+    """Twist at the stations over that of the tip."""
+    tip = float(twist[-1])
+    return tuple(float(value) / tip for value in np.interp(stations, r, twist))
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,9 +102,11 @@ class PhaseSweep:
     phases: Array
     """[rad], (phases,)."""
     power: Array
-    """Change of total power relative to no active twist [W], (phases,); phases that did not trim are left out."""
+    """Change of total power relative to `off` [W], (phases,); phases that did not trim are left out."""
     still: Solution
-    """Without active twist."""
+    """Without the actuator."""
+    off: Solution
+    """With its plies on the blade, not driven: the other stiffness of an elastic blade moves power by itself."""
     best: Solution
     """The least power found, amplitude and phase by the installed bowl."""
     drive_loss: float
@@ -93,36 +120,56 @@ class PhaseSweep:
         return self.still.power.total - self.best.power.total
 
     @property
+    def wave_saving(self) -> float:
+        """Against the same blade, not driven [W]."""
+        return self.off.power.total - self.best.power.total
+
+    @property
     def net_saving(self) -> float | None:
-        """The same after mass and losses [W]."""
+        """Against no actuator, after mass and losses [W]."""
         return None if self.net_power is None else self.still.power.total - self.net_power
 
+    @property
+    def response(self) -> tuple[float, float]:
+        """Amplitude and phase of the tip's twist at this harmonic in `best` [rad]."""
+        return tip_response(self.best, self.dynamic.per_rev)
 
-def phase_sweep(design: Design, installed: InstalledActuator, per_rev: int, *, derated: bool = False) -> PhaseSweep:
+
+def phase_sweep(
+    design: Design,
+    installed: InstalledActuator,
+    per_rev: int,
+    *,
+    reference: Design | None = None,
+    derated: bool = False,
+) -> PhaseSweep:
     """Sweep the phase at full amplitude, then try the minimum of a quadratic in amplitude and phase.
 
     The voltage swings about the middle of its range, so no steady change is left; the twist law is that of the middle.
-    Raises RuntimeError when the design does not trim without active twist.
+    `reference`: the blade without the actuator that savings count from, `design` unless given.
+    Raises RuntimeError when a design does not trim without active twist.
     """
-    made = dynamic_twist(installed, per_rev, derated=derated)
-    still = solve(replace(design, active_twist=None)).require()
+    made = dynamic_twist(installed, per_rev, derated=derated, elastic=design.elastic)
+    plain = replace(design, active_twist=None)
+    still = solve(reference or plain).require()
+    off = solve(installed.on(plain)).require()
     phases: list[float] = []
     changes: list[float] = []
-    best, least = still, 0.0
+    best, least = off, 0.0
     for k in range(PHASES if made.amplitude else 0):
         phase = 2.0 * math.pi * k / PHASES
-        turned = solve(with_harmonic(design, made, 1.0, phase), still)
+        turned = solve(with_harmonic(design, made, 1.0, phase), off)
         if not turned.converged:
             continue
         phases.append(phase)
-        changes.append(turned.power.total - still.power.total)
+        changes.append(turned.power.total - off.power.total)
         if changes[-1] < least:
             best, least = turned, changes[-1]
-    share = 1.0 if best is not still else 0.0
+    share = 1.0 if best is not off else 0.0
     for amplitude, phase in _bowl(phases, changes):
-        turned = solve(with_harmonic(design, made, amplitude, phase), still)
-        if turned.converged and turned.power.total - still.power.total < least:
-            best, least, share = turned, turned.power.total - still.power.total, amplitude
+        turned = solve(with_harmonic(design, made, amplitude, phase), off)
+        if turned.converged and turned.power.total - off.power.total < least:
+            best, least, share = turned, turned.power.total - off.power.total, amplitude
     loss = installed.masses.blades * harmonic_drive(installed, per_rev, share, installed.beam.angular_speed).loss
     heavy = solve(with_actuator_mass(best.design, installed))
     return PhaseSweep(
@@ -131,16 +178,98 @@ def phase_sweep(design: Design, installed: InstalledActuator, per_rev: int, *, d
         phases=np.array(phases),
         power=np.array(changes),
         still=still,
+        off=off,
         best=best,
         drive_loss=loss,
-        net_power=heavy.power.total + loss if heavy.converged else None,
+        net_power=heavy.power.total + loss + _pitching(heavy) - _pitching(still) if heavy.converged else None,
     )
 
 
+@dataclass(frozen=True, eq=False)
+class PowerMap:
+    """Change of power over amplitude and phase of one harmonic; between the trims by interpolation.
+
+    In phase by the Fourier series through the trims, in amplitude by the polynomial through them and through zero.
+    """
+
+    per_rev: int
+    shares: Array
+    """Fractions of the full amplitude that were trimmed, ascending, (shares,); no further than every phase trims."""
+    phases: Array
+    """[rad], evenly spaced over a revolution, (phases,)."""
+    changes: Array
+    """Change of total power relative to the same blade, not driven [W], (shares, phases)."""
+
+    def change(self, share: ArrayLike, phase: ArrayLike) -> Array:
+        """Change of power [W] at a fraction of the amplitude and a phase [rad], which broadcast."""
+        at, angle = np.broadcast_arrays(np.asarray(share, dtype=float), np.asarray(phase, dtype=float))
+        count = len(self.phases)
+        series = np.fft.rfft(self.changes, axis=1) / count
+        orders: Array = np.arange(count // 2 + 1, dtype=float)
+        double = np.where((orders == 0) | (2 * orders == count), 1.0, 2.0)
+        waves = double * np.exp(1j * orders * angle[..., None])
+        rings = (waves[..., None, :] * series).real.sum(axis=-1)
+        powers = np.arange(1, len(self.shares) + 1)
+        weights = np.linalg.inv(self.shares[:, None] ** powers)
+        return (at[..., None] ** powers * (rings @ weights.T)).sum(axis=-1)
+
+    def limit(self, phase: float) -> float:
+        """The fraction beyond which more amplitude costs power at this phase; the largest trimmed where none does."""
+        fine = np.linspace(0.0, float(self.shares[-1]), 401)
+        return float(fine[self.change(fine, phase).argmin()])
+
+    def best(self) -> tuple[float, float, float]:
+        """Fraction, phase [rad] and change [W] of least power."""
+        shares, phases = np.linspace(0.0, float(self.shares[-1]), 81), np.linspace(0.0, 2.0 * math.pi, 145)
+        found = self.change(shares[:, None], phases)
+        k, j = np.unravel_index(int(found.argmin()), found.shape)
+        return float(shares[k]), float(phases[j]) % (2.0 * math.pi), float(found[k, j])
+
+
+MAP_SHARES = (1.0 / 3.0, 2.0 / 3.0, 1.0)
+
+
+def power_map(design: Design, made: DynamicTwist) -> PowerMap:
+    """Trim every amplitude and phase of a harmonic. RuntimeError with one sentence where too few of them trim."""
+    off = solve(with_harmonic(design, made, 0.0, 0.0)).require()
+    phases = 2.0 * math.pi * np.arange(PHASES) / PHASES
+    rings: list[list[float]] = []
+    for share in MAP_SHARES:
+        turned = [solve(with_harmonic(design, made, share, phase), off) for phase in phases.tolist()]
+        if not all(solution.converged for solution in turned):
+            break
+        rings.append([solution.power.total - off.power.total for solution in turned])
+    if len(rings) < 2:
+        raise RuntimeError(
+            f"Two thirds of the amplitude at {made.per_rev}/rev do not trim at every phase: lower the speed, the mass "
+            "or the number of plies."
+        )
+    return PowerMap(made.per_rev, np.array(MAP_SHARES[: len(rings)]), phases, np.array(rings))
+
+
+def _pitching(solution: Solution) -> float:
+    """Power that pitch links and plies put into an elastic blade [W]."""
+    return solution.elastic.control_power if solution.elastic is not None else 0.0
+
+
 def with_harmonic(design: Design, made: DynamicTwist, share: float, phase: float) -> Design:
-    """The design with a share of the actuator's amplitude at a phase [rad]."""
+    """The design with a share of the actuator's amplitude at a phase [rad], on the blade that the plies stiffen."""
+    if design.elastic and made.installed is not None:
+        harmonic = Harmonic(made.per_rev, share * made.at_rest, phase)
+        active = ActiveTwist((harmonic,), made.stations, made.rest_shape)
+        return made.installed.on(replace(design, active_twist=active))
     harmonic = Harmonic(made.per_rev, share * made.amplitude, phase)
     return replace(design, active_twist=ActiveTwist((harmonic,), made.stations, made.shape))
+
+
+def tip_response(solution: Solution, per_rev: int) -> tuple[float, float]:
+    """Amplitude and phase [rad] of the tip's twist at a harmonic, elastic and active: most nose-up at ψ = phase/n."""
+    design, psi = solution.design, solution.disk.psi
+    tip = solution.elastic.tip if solution.elastic is not None else np.zeros_like(psi)
+    if design.active_twist is not None:
+        tip = tip + design.active_twist(np.ones(1), psi)[0]
+    wave = 2.0 * np.mean(tip * np.exp(1j * per_rev * psi))
+    return float(abs(wave)), float(np.angle(wave))
 
 
 def _bowl(phases: list[float], changes: list[float]) -> list[tuple[float, float]]:

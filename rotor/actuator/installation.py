@@ -1,6 +1,6 @@
 """An actuator installed on a blade: moment, twist along the span by segment, added mass, torsion frequency."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -10,17 +10,18 @@ from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, deratin
 from rotor.actuator.section import Host, Placement, SectionSpec, active_section, section_spec, skin
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
-from rotor.dynamics.structure import (
+from rotor.design.design import Design
+from rotor.design.structure import BladeStructure
+from rotor.dynamics.structure import BendingStructure, structure_data, uh60a_structure, uh60a_torsion
+from rotor.dynamics.thin_wall import induced_twist_rate, torsional_stiffness
+from rotor.dynamics.torsion import (
     Addition,
-    BladeStructure,
     TorsionBeam,
-    structure_data,
+    stiffer_blade,
     torsion_beam,
     torsion_frequency,
     twist_under_moment,
-    uh60a_structure,
 )
-from rotor.dynamics.thin_wall import induced_twist_rate, torsional_stiffness
 
 
 @dataclass(frozen=True)
@@ -69,7 +70,7 @@ def mass_breakdown(actuator: Actuator, placement: Placement, blades: int, skin_a
 
 
 def addition(
-    masses: MassBreakdown, placement: Placement, structure: BladeStructure, stiffness: float, *, balance: bool = True
+    masses: MassBreakdown, placement: Placement, structure: BendingStructure, stiffness: float, *, balance: bool = True
 ) -> Addition:
     """Mass per length, torsional inertia about the balance axis, and stiffness added over the active span."""
     limits = structure_data()["limits"]
@@ -107,6 +108,10 @@ class InstalledActuator:
     """Nodes, r/R, (nodes,)."""
     shapes: Array
     """Twist of each segment alone [rad], zero at the pitch bearing, (segments, nodes)."""
+    rest_shapes: Array
+    """The same of the blade at rest: what is added to the twist of an elastic blade, whose trim finds the rest."""
+    blade: BladeStructure
+    """The blade in torsion with the actuator's stiffness, inertia and mass."""
     frequency: float
     """First torsion [per rev]."""
 
@@ -123,6 +128,17 @@ class InstalledActuator:
     @property
     def derating(self) -> float:
         return derating(self.actuator)
+
+    def shapes_in(self, design: Design) -> Array:
+        """Twist of each segment that the design's twist law gains [rad], (segments, nodes)."""
+        return self.rest_shapes if design.elastic else self.shapes
+
+    def on(self, design: Design) -> Design:
+        """The design with the stiffness and inertia of this blade, where it is elastic."""
+        if not design.elastic:
+            return design
+        rotor = design.rotor
+        return replace(design, rotor=replace(rotor, blade=replace(rotor.blade, structure=self.blade)))
 
     def change(self, swings: ArrayLike, r: ArrayLike) -> Array:
         """Twist at r/R for each segment's swing (−1…1 of its whole range) [rad], zero at the pitch bearing."""
@@ -152,11 +168,16 @@ def install(actuator: Actuator, placement: Placement, host: Host, rotor: Rotor) 
     elif not isinstance(actuator, ExtensionTwist):
         moment = placement.plies * actuator.torque
     added = addition(masses, placement, structure, stiffness - spec.stiffness)
-    beam = torsion_beam(structure, rotor.angular_speed, scale=host.stiffness, addition=added)
+    beam, still = (
+        torsion_beam(structure, speed, scale=host.stiffness, addition=added) for speed in (rotor.angular_speed, 0.0)
+    )
     if isinstance(actuator, ExtensionTwist):
-        shapes = _along_the_blade(actuator, beam)
+        shapes = rest_shapes = _along_the_blade(actuator, beam)
     else:
-        shapes = np.stack([_segment_shape(beam, structure, span, moment) for span in placement.segments])
+        shapes, rest_shapes = (
+            np.stack([_segment_shape(one, structure, span, moment) for span in placement.segments])
+            for one in (beam, still)
+        )
     return InstalledActuator(
         actuator=actuator,
         placement=placement,
@@ -171,11 +192,13 @@ def install(actuator: Actuator, placement: Placement, host: Host, rotor: Rotor) 
         beam=beam,
         r=beam.r / structure.radius,
         shapes=shapes,
+        rest_shapes=rest_shapes,
+        blade=stiffer_blade(uh60a_torsion(rotor.radius), host.stiffness, added),
         frequency=torsion_frequency(beam),
     )
 
 
-def _segment_shape(beam: TorsionBeam, structure: BladeStructure, span: tuple[float, float], moment: float) -> Array:
+def _segment_shape(beam: TorsionBeam, structure: BendingStructure, span: tuple[float, float], moment: float) -> Array:
     low, high = (structure.radius * end for end in span)
     edges = np.clip(beam.r, low, high)
     share = np.diff(edges) / np.diff(beam.r)  # Part of each element that is active.

@@ -16,13 +16,14 @@ import numpy as np
 from rotor.actuator.catalogue import ExtensionTwist, PiezoPly, TorqueTube
 from rotor.actuator.installation import InstalledActuator
 from rotor.arrays import Array
-from rotor.dynamics.structure import BladeStructure, added_pull, structure_data, uh60a_structure
+from rotor.dynamics.structure import BendingStructure, structure_data, uh60a_structure
+from rotor.dynamics.torsion import added_pull
 from rotor.trim.solution import Solution
 
 ELEMENTS = 60
 
 
-def unbalanced_load(solution: Solution, structure: BladeStructure) -> tuple[Array, Array]:
+def unbalanced_load(solution: Solution, structure: BendingStructure) -> tuple[Array, Array]:
     """Radii [m] and load per length that the rigid flapping blade leaves [N/m], (elements,), (elements, azimuths)."""
     design, disk, controls = solution.design, solution.disk, solution.controls
     rotor = design.rotor
@@ -33,7 +34,7 @@ def unbalanced_load(solution: Solution, structure: BladeStructure) -> tuple[Arra
     return r, lift - structure.at(r, structure.mass_per_length)[:, None] * rotor.angular_speed**2 * motion
 
 
-def elastic_flap_moment(solution: Solution, structure: BladeStructure, r: Array) -> Array:
+def elastic_flap_moment(solution: Solution, structure: BendingStructure, r: Array) -> Array:
     """EI w'' at r [m] over azimuth [N m], (stations, azimuths)."""
     rotor = solution.design.rotor
     hinge = max(rotor.blade.flap_hinge * rotor.radius, structure.clamp)
@@ -44,13 +45,13 @@ def elastic_flap_moment(solution: Solution, structure: BladeStructure, r: Array)
     return _moment(structure, nodes, deflection, r)
 
 
-def bend(structure: BladeStructure, angular_speed: float, load: Array, r: Array, hinge: float) -> Array:
+def bend(structure: BendingStructure, angular_speed: float, load: Array, r: Array, hinge: float) -> Array:
     """EI w'' at r [m] under a steady load per length given at ELEMENTS + 1 even nodes from the hinge [N m]."""
     nodes = np.linspace(hinge, structure.radius, ELEMENTS + 1)
     return _moment(structure, nodes, _deflect(structure, angular_speed, nodes, load[:, None]), r)[:, 0]
 
 
-def _deflect(structure: BladeStructure, angular_speed: float, nodes: Array, load: Array) -> Array:
+def _deflect(structure: BendingStructure, angular_speed: float, nodes: Array, load: Array) -> Array:
     """(w, w') at the nodes, (2 nodes, cases)."""
     n = len(nodes)
     stiffness, force = np.zeros((2 * n, 2 * n)), np.zeros((2 * n, load.shape[1]))
@@ -68,7 +69,7 @@ def _deflect(structure: BladeStructure, angular_speed: float, nodes: Array, load
     return out
 
 
-def _moment(structure: BladeStructure, nodes: Array, deflection: Array, r: Array) -> Array:
+def _moment(structure: BendingStructure, nodes: Array, deflection: Array, r: Array) -> Array:
     """From the curvature in the middle of each element, where cubic elements are best."""
     h = nodes[1] - nodes[0]
     turn = deflection[1::2]

@@ -4,7 +4,8 @@ With an actuator the optimum is sought among the twists it can make,
 
     θ_k(r) = θ_jig(p; r) + s Σ_j v_kj φ_j(r),   k = from, to,
 
-with φ_j the twist of segment j over its whole voltage range, rotating, and s the derating. A new blade chooses its jig
+with φ_j the twist of segment j over its whole voltage range and s the derating: of the blade at rest where the trim is
+elastic, which finds what rotation and air make of it, else of the rotating blade. A new blade chooses its jig
 twist p within the concept, so only differences of v matter. A retrofit keeps its twist, so its voltages count from
 zero. SLSQP with exact gradients minimises the mean power of the two conditions, weighted by their shares of time.
 """
@@ -142,12 +143,15 @@ class _Task:
         derating: float,
         orientation: float,
     ) -> None:
-        self.designs, self.shares, self.concept = designs, shares, concept
+        self.designs = tuple(installed.on(design) for design in designs) if installed else designs
+        self.shares, self.concept = shares, concept
         self.trims: list[Solution | None] = [None] * len(designs)
         self.segments = len(installed.shapes) if installed else 0
         self.shapes = np.zeros((0, len(STATIONS)))
         if installed:
-            self.shapes = derating * (_on_stations(STATIONS, installed) - _on_stations(REFERENCE, installed))
+            shapes = installed.shapes_in(designs[0])
+            at, reference = (interpolate_columns(r, installed.r, shapes.T).T for r in (STATIONS, REFERENCE))
+            self.shapes = derating * (at - reference)
         self.bounds = self._jig_bounds() + self._swing_bounds(installed, orientation)
         self.low = np.array([low for low, _ in self.bounds])
         self.span = np.array([high - low for low, high in self.bounds])
@@ -222,11 +226,6 @@ class _Task:
 
     def _law(self, jig: TwistLaw, swings: Array) -> TwistLaw:
         return twisted(jig, swings @ self.shapes) if self.segments and np.any(swings) else jig
-
-
-def _on_stations(stations: Array, installed: InstalledActuator) -> Array:
-    """Twist of each segment at r/R, (segments, stations)."""
-    return interpolate_columns(stations, installed.r, installed.shapes.T).T
 
 
 def twisted(jig: TwistLaw, change: Array) -> TwistLaw:

@@ -17,7 +17,7 @@ from scipy.optimize import brentq
 from rotor.actuator.catalogue import PiezoPly
 from rotor.airfoil.contour import leading_edge_index, load_contour, resample
 from rotor.arrays import Array
-from rotor.dynamics.structure import BladeStructure, glass, structure_data, titanium
+from rotor.dynamics.structure import BendingStructure, glass, structure_data, titanium
 from rotor.dynamics.thin_wall import Layer, Panel, WallSection, build_section, torsional_stiffness
 
 BladeKind = Literal["retrofit", "new"]
@@ -210,6 +210,6 @@ def _sides(name: str) -> tuple[Array, Array]:
     return fine.points[nose::-1], fine.points[nose:]
 
 
-def section_spec(structure: BladeStructure, host: Host) -> SectionSpec:
+def section_spec(structure: BendingStructure, host: Host) -> SectionSpec:
     """The section of a blade, calibrated on its GJ times the host's share."""
     return SectionSpec(host, structure.chord, host.stiffness * structure.section_stiffness)

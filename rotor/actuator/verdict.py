@@ -36,6 +36,9 @@ class Verdict:
     """The best twist within the actuator's range, at both conditions."""
     reference_power: float
     """Power of the reference blade: twist as built for a retrofit, else the concept's best fixed blade."""
+    resting: TwistOptimum
+    """The blade with the actuator's stiffness and inertia but no voltage: twist as built for a retrofit, else the best
+    fixed jig twist. An elastic blade that is softer or stiffer flies with another twist, before anything is driven."""
     net_power: float
     """Power at these twists with the actuator's mass on board and its drive power."""
     drive: Drive
@@ -80,8 +83,18 @@ class Verdict:
 
     @property
     def gross_saving(self) -> float:
-        """Saving before the actuator's mass is counted [W]."""
+        """Saving before the actuator's mass is counted [W]: of the twist, less the cost of the stiffness."""
         return self.reference_power - self.optimum.power
+
+    @property
+    def stiffness_cost(self) -> float:
+        """Power that the other stiffness and inertia of an elastic blade cost with no voltage [W]."""
+        return self.resting.power - self.reference_power
+
+    @property
+    def twist_saving(self) -> float:
+        """Saving of the change of twist on the same blade with no voltage [W], before the actuator's mass."""
+        return self.resting.power - self.optimum.power
 
     @property
     def ideal_saving(self) -> float:
@@ -116,10 +129,17 @@ class Verdict:
 
     @property
     def actuator_off(self) -> Design:
-        """The design at the second condition with the actuator off, the start of a harmonic sweep."""
-        base = self.baseline
-        design = base.pair.designs()[1]
-        return design if self.installed.host.kind == "retrofit" else base.concept.apply(design, base.fixed.values)
+        """The second condition with the actuator on the blade, not driven and without its mass: a sweep starts here."""
+        return self.installed.on(self._fixed(self.resting))
+
+    @property
+    def without_actuator(self) -> Design:
+        """The second condition of the reference blade."""
+        return self._fixed(self.baseline.fixed)
+
+    def _fixed(self, jig: TwistOptimum) -> Design:
+        design = self.baseline.pair.designs()[1]
+        return design if self.installed.host.kind == "retrofit" else self.baseline.concept.apply(design, jig.values)
 
 
 def judge(
@@ -143,11 +163,14 @@ def judge(
     divisions = () if isinstance(actuator, ExtensionTwist) else base.divisions
     installed = install(actuator, replace(placement, divisions=divisions), host, rotor)
     share = counted if counted is not None else installed.derating if derated else 1.0
-    reached = best_actuated(pair, base.concept, installed, derating=share, starts=[base.fixed.values])
-    required = base.segment_changes(divisions)
-    reference = base.fixed.power
+    resting = base.fixed
     if host.kind == "retrofit":
-        reference = _mean_power(pair, pair.designs())
+        resting = TwistOptimum((), (), (), _mean_power(pair, pair.designs()))
+    reference = resting.power
+    if pair.design.elastic:
+        resting = best_actuated(pair, base.concept, installed, derating=0.0, starts=[base.fixed.values])
+    reached = best_actuated(pair, base.concept, installed, derating=share, starts=[resting.values])
+    required = base.segment_changes(divisions)
     swing = tuple(float(b - a) for a, b in zip(*reached.swings, strict=True))
     driven = drive(installed, swing)
     heavy = tuple(with_actuator_mass(solution.design, installed) for solution in reached.solutions)
@@ -159,6 +182,7 @@ def judge(
         required_segments=required,
         optimum=reached,
         reference_power=reference,
+        resting=resting,
         net_power=_mean_power(pair, heavy) + driven.hold_power,
         drive=driven,
         limits=limits(installed, asked, reached.solutions[-1]),
@@ -177,7 +201,7 @@ def holding_caveats(actuator: Actuator) -> tuple[str, ...]:
 
 
 def with_actuator_mass(design: Design, installed: InstalledActuator) -> Design:
-    """The design with the actuator's mass in the aircraft, and on the flapping blades."""
+    """The design with the actuator's mass in the aircraft and on the blades, and an elastic blade's new stiffness."""
     blade, rotor, added = design.rotor.blade, design.rotor, installed.added
     hinge = blade.flap_hinge * rotor.radius
     inner, outer = (end - hinge for end in added.span)
@@ -188,7 +212,7 @@ def with_actuator_mass(design: Design, installed: InstalledActuator) -> Design:
         flap_inertia=blade.flap_inertia + added.mass_per_length * (outer**3 - inner**3) / 3.0,
     )
     condition = replace(design.condition, mass=design.condition.mass + installed.masses.aircraft)
-    return replace(design, rotor=replace(rotor, blade=heavier), condition=condition)
+    return installed.on(replace(design, rotor=replace(rotor, blade=heavier), condition=condition))
 
 
 def change_limit(
@@ -236,6 +260,8 @@ def _mean_power(pair: ConditionPair, designs: tuple[Design, ...]) -> float:
 
 SMALL = 1.0
 """Powers below this are printed as nothing [W]."""
+PRINTED = 50.0
+"""Least power that shows in kilowatts with one decimal [W]."""
 
 
 def headline(verdict: Verdict) -> str:
@@ -277,16 +303,26 @@ def _reach(verdict: Verdict) -> str:
 
 
 def _savings(verdict: Verdict) -> str:
-    """Before mass and drive, after them, and what unlimited variable twist would save from the same blade."""
-    gross, cost = verdict.gross_saving, verdict.gross_saving - verdict.net_saving
+    """Of stiffness and of twist, the cost of mass and drive, and what unlimited variable twist would save."""
+    cost = verdict.gross_saving - verdict.net_saving
     concept, mass = verdict.baseline.concept.name, verdict.installed.masses.aircraft
-    change = "saves nothing" if abs(gross) < SMALL else f"saves {kw(gross)}" if gross > 0.0 else f"costs {kw(-gross)}"
+    stiffness = ""
+    if abs(verdict.stiffness_cost) >= PRINTED:
+        other = "softer" if verdict.installed.host.stiffness < 1.0 else "stiffer"
+        stiffness = f"With no voltage the {other} elastic blade {_change(-verdict.stiffness_cost)}. "
     text = (
-        f"Within its reach the change of twist {change}; carrying {mass:.0f} kg and its drive cost {kw(cost)}. "
+        f"{stiffness}Within its reach the change of twist {_change(verdict.twist_saving)}; "
+        f"carrying {mass:.0f} kg and its drive cost {kw(cost)}. "
         f"Unlimited variable twist ({concept}) would save {kw(verdict.ideal_saving)}"
     )
     fixed = verdict.ideal_saving - verdict.baseline.ideal_saving
     return f"{text}, {kw(fixed)} of it with the best fixed twist." if abs(fixed) >= SMALL else f"{text}."
+
+
+def _change(saving: float) -> str:
+    if abs(saving) < SMALL:
+        return "saves nothing"
+    return f"saves {kw(saving)}" if saving > 0.0 else f"costs {kw(-saving)}"
 
 
 def count(verdict: Verdict) -> str:

@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotor.airfoil.bicubic import MACH_STEP, N_MACH
-from rotor.airfoil.polynomial import THESIS_NAME, polynomial_section
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
 
@@ -38,6 +37,9 @@ class Disk:
     """Angle by which the chord lines of the two are nose-down of the blade's reference line [rad], (elements, 2)."""
     tables: Array
     """Section coefficients, (sections, α cells, Mach cells, 2, 4, 4)."""
+    cos_sweep: Array
+    """Cosine and sine of the sweep of the quarter chord, (elements,): of the Mach number normal to it."""
+    sin_sweep: Array
     stall: Array
     """Stall angles about the section's own chord [rad] at the table's Mach nodes, (sections, 2, nodes): negative end,
     positive end."""
@@ -53,10 +55,18 @@ class Disk:
 
 
 @lru_cache(maxsize=16)
-def build_disk(rotor: Rotor, elements: int, azimuths: int, only_mach: float | None = None) -> Disk:
+def build_disk(
+    rotor: Rotor,
+    elements: int,
+    azimuths: int,
+    only_mach: float | None = None,
+    swept: bool = True,
+    surface: bool = True,
+) -> Disk:
     """The rotor on a grid of equally wide elements and evenly spaced azimuths.
 
     `only_mach`: section data are those of that Mach number everywhere; None: of the local Mach number.
+    `swept`, `surface`: whether the sweep of the tip and the drag of the real surface count.
     """
     blade = rotor.blade
     dr = (1.0 - blade.root_cutout) / elements
@@ -79,6 +89,10 @@ def build_disk(rotor: Rotor, elements: int, azimuths: int, only_mach: float | No
         ratio[i] = (1.0 - blend) * installed[pair[0]].chord_ratio + blend * installed[pair[1]].chord_ratio
     half_solidity = rotor.blades * blade.chord(r) * ratio / (2.0 * math.pi * rotor.radius)
     mach = MACH_STEP * np.arange(N_MACH + 1)
+    sweep = blade.sweep(r, rotor.radius) if swept else np.zeros(elements)
+    coefficients = np.stack([table.coefficients for table in tables])
+    if surface:
+        coefficients[:, :, :, 1] *= blade.surface_drag
     return Disk(
         r=r,
         dr=dr,
@@ -91,8 +105,10 @@ def build_disk(rotor: Rotor, elements: int, azimuths: int, only_mach: float | No
         section=section,
         weight=weight,
         offset=offset,
-        tables=np.stack([table.coefficients for table in tables]),
+        tables=coefficients,
+        cos_sweep=np.cos(sweep),
+        sin_sweep=np.sin(sweep),
         stall=np.stack([table.stall_alpha(mach) for table in tables]),
         mach_limit=min(table.mach_limit for table in tables),
-        fit_range=polynomial_section().fit_range if THESIS_NAME in names else None,
+        fit_range=next((table.fit_range for table in tables if table.fit_range is not None), None),
     )

@@ -8,13 +8,16 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from rotor.aero import kernel
 from rotor.aero.disk import Disk, build_disk
+from rotor.aero.elastic import BladeTorsion, TorsionState, air_moments, build_torsion, highest_harmonic
 from rotor.aero.inflow import InflowModel, Wake, inflow_model
 from rotor.aero.inflow.interface import InflowResponse
 from rotor.aero.losses import loss_factor
 from rotor.aero.momentum import glauert_inflow
+from rotor.aero.radial_flow import RadialFriction, radial_friction, skin_friction
 from rotor.aero.trim_state import TrimState
 from rotor.arrays import Array, Booleans
 from rotor.design.design import Design
@@ -27,8 +30,13 @@ Lift is within 5 % of incompressible there (Prandtl–Glauert), and far from dra
 LOSS_AZIMUTHS = 24
 """Azimuths over which the loss factor is averaged; 24 agree with 360 to 1e-4 in F (tested)."""
 
+FREE_ROTOR_DRAG = 0.011
+"""Mean section drag coefficient for a first estimate of a free rotor's shaft tilt."""
+
 _LOSS_PSI = 2.0 * np.pi * np.arange(LOSS_AZIMUTHS) / LOSS_AZIMUTHS
 _NO_LOAD = np.zeros((0, 0))
+_RIGID = np.zeros((0, 0)), np.zeros((0, 0)), np.zeros((0, 0))
+"""Shapes, coordinates around the azimuth and their rates of a blade without torsion modes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,42 +54,115 @@ class Problem:
     flap: FlapDynamics
     tip_mach: float
     weight: float
-    """C_W"""
+    """C_W; on a test stand the C_T given, or an estimate where the collective is given."""
+    scale: float
+    """What residuals are measured by: C_W, and on a test stand C_T, at least 0.02 σ."""
     drag: float
     """Fuselage drag over ρA(ΩR)²."""
     inflow: InflowModel
+    friction: float
+    """c_f for the flow along the blade; 0 where it is left out."""
     unloaded: Booleans | None
     """Elements that carry no load, (elements, azimuths): the reverse-flow region r < −µ sin ψ, where it is switched
     off. Its border is drawn with µ, not µ cos α, so that it stays fixed during the trim and derivatives stay exact."""
+    torsion: BladeTorsion | None
+    """The blade in torsion; None for a rigid blade."""
+    active_rates: tuple[Array, Array]
+    """First and second derivative of θ_act by ψ, shaped as `active`."""
+    given_torsion: Array
+    """Residual of the torsion equations by the twist of the blade as built and by active twist alone, scaled to
+    radians, (modes, functions)."""
+    added_swirl: Array | float = 0.0
+    """What is added to the swirl of momentum theory, (elements,)."""
 
 
 def build_problem(design: Design) -> Problem:
     """The design on its grid."""
     rotor, condition, models = design.rotor, design.condition, design.models
     drag = design.drag / design.thrust_unit
-    disk = build_disk(rotor, models.elements, models.azimuths, None if models.compressibility else LOW_MACH)
+    disk = build_disk(
+        rotor,
+        models.elements,
+        models.azimuths,
+        None if models.compressibility else LOW_MACH,
+        models.has("swept_tip"),
+        models.has("surface_drag"),
+    )
+    wake = expected_wake(design, drag)
+    download = design.fuselage.hover_download if models.has("download") and condition.stand is None else 0.0
+    weight = design.weight_coefficient
+    if download:
+        weight *= 1.0 + download * (wake.axial / wake.speed) ** 2
     inflow = inflow_model(models.inflow)
     if not models.tip_loss:
         inflow = inflow.without_tip_loss()
+    twist = design.twist(disk.r)
+    active = design.active_twist if not design.hovering else None
+    still = np.zeros((1, 1))
+    active_field, *rates = [active(disk.r, disk.psi, order) if active else still for order in range(3)]
+    torsion = None
+    if models.has("elastic_twist") and rotor.blade.structure is not None:
+        torsion = build_torsion(
+            rotor,
+            disk,
+            condition.density,
+            None if models.compressibility else LOW_MACH,
+            models.has("swept_tip"),
+            highest_harmonic(active),
+        )
     return Problem(
         design=design,
         disk=disk,
         loss_disk=replace(disk, psi=_LOSS_PSI, cos=np.cos(_LOSS_PSI), sin=np.sin(_LOSS_PSI)),
-        twist=design.twist(disk.r),
-        active=design.active_twist(disk.r, disk.psi) if design.active_twist else np.zeros((1, 1)),
+        twist=twist,
+        active=active_field,
         flap=flap_dynamics(rotor, condition.density, blade_weight=models.blade_weight),
-        tip_mach=rotor.tip_speed / condition.sound_speed,
-        weight=design.weight_coefficient,
+        tip_mach=design.tip_mach,
+        weight=weight,
+        scale=weight if condition.stand is None else max(weight, 0.02 * rotor.solidity),
         drag=drag,
-        inflow=inflow.with_wake_geometry(expected_wake(design, drag)),
+        inflow=inflow.with_wake_geometry(wake),
+        friction=skin_friction(_reynolds(design)) if models.has("radial_friction") else 0.0,
         unloaded=None if models.reverse_flow else disk.r[:, None] + condition.advance_ratio * disk.sin < 0.0,
+        torsion=torsion,
+        active_rates=(rates[0], rates[1]),
+        given_torsion=np.zeros(0)
+        if torsion is None
+        else _given_torsion(torsion, twist, active_field if active else None, rates[1]),
     )
 
 
+def _given_torsion(torsion: BladeTorsion, twist: Array, active: Array | None, acceleration: Array) -> Array:
+    """Tension on the built-in and the active twist, and the inertia of the latter, (modes, functions)."""
+    shapes = torsion.shapes
+    found = np.zeros((len(torsion.gain), len(shapes.waves)))
+    found[:, 0] = torsion.tension @ twist
+    if active is not None:
+        found += shapes.harmonics(torsion.tension @ active)
+        found += shapes.project(torsion.inertia[:, None] * acceleration)
+    return torsion.gain[:, None] * found
+
+
+def _reynolds(design: Design) -> float:
+    """Reynolds number of the chord at 0.75 R in hover."""
+    condition, rotor = design.condition, design.rotor
+    return condition.density * 0.75 * rotor.tip_speed * rotor.reference_chord / condition.viscosity
+
+
 def expected_wake(design: Design, drag: float) -> Wake:
-    """The wake of momentum theory when the disk is normal to the resultant of weight and drag (a coefficient)."""
+    """The wake of momentum theory when the disk is normal to the resultant of weight and drag (a coefficient).
+
+    On a test stand: at the shaft tilt given. A free rotor's that is not given follows from its drag-to-lift ratio,
+    µ tan α = −C_P/C_T with C_P = σ C_d0/8 (1 + 4.65 µ²) + C_T²/2µ.
+    """
     weight, mu = design.weight_coefficient, design.condition.advance_ratio
     tilt = math.atan2(drag, weight)
+    stand = design.condition.stand
+    if stand is not None:
+        tilt = stand.tilt
+        if stand.shaft_tilt is None and design.models.trim == "free-rotor":
+            profile = design.rotor.solidity * FREE_ROTOR_DRAG / 8.0 * (1.0 + 4.65 * mu**2)
+            tilt = -math.atan2(profile + weight**2 / (2.0 * mu), mu * weight)
     mu_x, mu_z = mu * math.cos(tilt), mu * math.sin(tilt)
     return Wake(mu_x, mu_z, glauert_inflow(math.hypot(weight, drag), mu_x, mu_z)[0])
 
@@ -108,7 +189,13 @@ class BladeElements:
     beta: Array
     """β(ψ), (azimuths,)."""
     loads: Array
-    """As `kernel.element_loads` returns."""
+    """As `kernel.element_loads` returns, with the friction of radial flow in F_x."""
+    swirl: Array
+    """Swirl of the air in the disk, over ΩR, in the direction of rotation: U_T is less by it, (elements,)."""
+    friction: RadialFriction | None
+    """Of the flow along the blade; None where it is left out, and in hover."""
+    torsion: TorsionState | None = None
+    """Elastic twist and moments of the air; None for a rigid blade."""
 
 
 def wake_at(problem: Problem, state: TrimState) -> Wake:
@@ -117,12 +204,15 @@ def wake_at(problem: Problem, state: TrimState) -> Wake:
     return Wake(mu * math.cos(tilt), mu * math.sin(tilt), state.lambda0)
 
 
-def evaluate_elements(problem: Problem, state: TrimState, induced: Array | None = None) -> BladeElements:
+def evaluate_elements(
+    problem: Problem, state: TrimState, induced: Array | None = None, elastic: Array | None = None
+) -> BladeElements:
     """Velocities of eqs. (3.5), (3.6) and the loads they cause.
 
-    U_T = r + µ_x sin ψ; U_P = µ_z + λ_i + (r − e) β' + µ_x β cos ψ. Where the models leave out the axial flow of the
-    tilted disk, as (3.6) prints it, µ_z is absent; λ_i is then still skewed by the tilt, eq. (2.31). A load-dependent
-    inflow model needs a trial field `induced`, (elements, azimuths); its response gives the field for those loads.
+    U_T = r − u + µ_x sin ψ with the swirl u; U_P = µ_z + λ_i + (r − e) β' + µ_x β cos ψ. Where the models leave out
+    the axial flow of the tilted disk, as (3.6) prints it, µ_z is absent; λ_i is then still skewed by the tilt, eq.
+    (2.31). A load-dependent inflow model needs a trial field `induced`, (elements, azimuths); its response gives the
+    field for those loads. `elastic`: trial coordinates of the elastic twist, (modes, functions); none: untwisted.
     """
     disk, models = problem.disk, problem.design.models
     cos, sin = disk.cos, disk.sin
@@ -139,20 +229,73 @@ def evaluate_elements(problem: Problem, state: TrimState, induced: Array | None 
 
     beta = state.coning + state.flap_1c * cos + state.flap_1s * sin
     beta_rate = state.flap_1s * cos - state.flap_1c * sin
-    theta = (problem.twist + state.collective)[:, None] + (state.cyclic_1c * cos + state.cyclic_1s * sin)
-    theta += problem.active
-    u_t = disk.r[:, None] + flow.mu_x * sin
-    u_p = induced + (disk.r - problem.flap.hinge)[:, None] * beta_rate + (flow.mu_z + flow.mu_x * beta * cos)
+    swirl, _ = swirl_of(disk.r, flow.lambda0 * flow.axial if models.has("swirl") else 0.0)
+    swirl = swirl + problem.added_swirl
+    coordinates: Array | None = None
+    radial, waves, rates = _RIGID
+    if problem.torsion is not None:
+        coordinates = elastic if elastic is not None else np.zeros_like(problem.given_torsion)
+        shapes = problem.torsion.shapes
+        radial, waves, rates = shapes.radial, coordinates @ shapes.waves, coordinates @ shapes.rates
+    theta, u_t, u_p, elastic_twist, rate = kernel.velocities(
+        problem.twist + state.collective,
+        state.cyclic_1c * cos + state.cyclic_1s * sin,
+        disk.r - swirl,
+        flow.mu_x * sin,
+        disk.r - problem.flap.hinge,
+        beta_rate,
+        flow.mu_z + flow.mu_x * beta * cos,
+        induced,
+        radial,
+        waves,
+        rates,
+        state.cyclic_1s * cos - state.cyclic_1c * sin,
+    )
+    if problem.active.size > 1:
+        theta += problem.active
+        rate += problem.active_rates[0]
     loads = kernel.element_loads(
-        theta, u_t, u_p, loss, problem.tip_mach,
-        disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables,
+        theta, u_t, u_p, flow.mu_x * cos, loss, problem.tip_mach,
+        disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables, disk.cos_sweep, disk.sin_sweep,
     )  # fmt: skip
+    friction = None
+    if problem.friction:
+        friction = radial_friction(disk, flow.mu_x, problem.friction)
+        if problem.unloaded is not None:
+            friction = RadialFriction(
+                *(
+                    np.where(problem.unloaded, 0.0, field)
+                    for field in (friction.fx, friction.radial, friction.fx_slope, friction.radial_slope)
+                )
+            )
+        loads[kernel.FX] += friction.fx
     if problem.unloaded is not None:
         loads[: kernel.ALPHA, problem.unloaded] = 0.0
         loads[kernel.CL :, problem.unloaded] = 0.0
     if response is None:
         response = problem.inflow.respond(disk, wake, loads[kernel.FZ])
-    return BladeElements(state, flow, theta, u_t, u_p, induced, response, loss, loss_slopes, beta, loads)
+    torsion = None
+    if problem.torsion is not None and coordinates is not None:
+        moments = air_moments(problem.torsion, disk, problem.tip_mach, u_t, u_p, flow.mu_x * cos, rate, loads)
+        if problem.unloaded is not None:
+            moments[:, problem.unloaded] = 0.0
+        torsion = TorsionState(coordinates, elastic_twist, rate, moments)
+    return BladeElements(
+        state, flow, theta, u_t, u_p, induced, response, loss, loss_slopes, beta, loads, swirl, friction, torsion
+    )
+
+
+def swirl_of(r: Array, product: ArrayLike) -> tuple[Array, Array]:
+    """Swirl in the disk over ΩR and its slope by `product` = λ_i λ, the induced times the total axial flow; shape of r.
+
+    The air leaves turning with the rotor: torque and thrust of an annulus give u = λ_i λ/r at the disk, half of what is
+    far below (Johnson, Helicopter Theory, §2-3; Glauert 1935). u = q r/(r² + q) with q = λ_i λ is the same for r² ≫ q
+    and stays below r at the centre. In forward flight λ_i is the mean inflow λ0 and λ is µ_z + λ0, and the swirl all
+    but disappears.
+    """
+    q = np.asarray(product, dtype=float)
+    below = r * r + q
+    return q * r / below, r**3 / below**2
 
 
 def by_tilt_and_lambda0(by_wake: Array, mu_x: float, mu_z: float) -> Array:

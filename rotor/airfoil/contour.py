@@ -74,7 +74,10 @@ def _five_digit(digits: str, x: Array) -> tuple[Array, Array]:
     return k1 / 6.0 * camber, k1 / 6.0 * slope
 
 
-SECTION_NAMES = ("sc1095", "sc1094r8", "naca0012", "naca63a015")
+SECTION_NAMES = (
+    "sc1095", "sc1094r8", "naca0012", "naca63a015", "naca64208", "naca64118", "naca64528", "naca64935", "goe429",
+    "naca0015re242k",
+)  # fmt: skip
 
 
 @dataclass(frozen=True, eq=False)

@@ -90,7 +90,7 @@ def parse_polar_file(name: str, text: str) -> tuple[Polar, ...]:
     Raises ValueError with one sentence that names file, line and remedy.
     """
     if COLUMNS in text:
-        return parse_polars(text, name).polars
+        return tuple(_checked(name, polar) for polar in parse_polars(text, name).polars)
     lines = text.splitlines()
     dashes = next((k for k, line in enumerate(lines) if re.match(r"\s*-{4,}[\s-]+$", line)), None)
     if dashes is None or dashes == 0:
@@ -122,17 +122,38 @@ def parse_polar_file(name: str, text: str) -> tuple[Polar, ...]:
         if not (np.isfinite([alpha, cl, cd, cm]).all() and cd > 0.0 and abs(cl) < 5.0 and abs(alpha) <= 180.0):
             raise ValueError(f"{name}, line {number}: cl {cl:g}, cd {cd:g} at {alpha:g} deg cannot be: remove the row")
         rows[alpha] = (cl, cd, cm)
-    if not 8 <= len(rows) <= _MOST_ANGLES:
-        raise ValueError(f"{name} holds {len(rows)} angles: give 8…{_MOST_ANGLES}, for example ASEQ -10 16 0.5")
-    if not 0.0 <= mach < 1.0:
-        raise ValueError(f"{name}: Mach {mach:g} is outside 0…1: run XFOIL again with MACH below 1")
     angles = sorted(rows)
     values = np.array([rows[angle] for angle in angles], dtype=np.float64)
-    return (Polar(mach, reynolds, np.array(angles), values[:, 0], values[:, 1], values[:, 2]),)
+    return (_checked(name, Polar(mach, reynolds, np.array(angles), *(values.T if angles else np.empty((3, 0))))),)
+
+
+def _checked(name: str, polar: Polar) -> Polar:
+    """The polar; ValueError with one sentence for one that is not a section's."""
+    alpha, cl = polar.alpha_deg, polar.cl
+    if not 8 <= len(alpha) <= _MOST_ANGLES:
+        raise ValueError(f"{name} holds {len(alpha)} angles: give 8…{_MOST_ANGLES}, for example ASEQ -10 16 0.5")
+    if not 0.0 <= polar.mach < 1.0:
+        raise ValueError(f"{name}: Mach {polar.mach:g} is outside 0…1: run XFOIL again with MACH below 1")
+    if np.any(np.diff(alpha) <= 0.0):
+        raise ValueError(f"{name} holds an angle twice at Mach {polar.mach:g}: keep one row of each")
+    if np.abs(alpha).max() > 180.0 or np.abs(cl).max() > 5.0:
+        raise ValueError(
+            f"{name} holds angles beyond ±180 deg or cl beyond ±5 at Mach {polar.mach:g}: correct the rows"
+        )
+    near = np.abs(alpha) < 8.0
+    if np.any(near) and cl[near].max() - cl[near].min() < 0.1:
+        raise ValueError(
+            f"{name}: cl stays within {cl[near].min():g}…{cl[near].max():g} between −8 and 8 deg: give a polar whose "
+            "lift rises with the angle"
+        )
+    return polar
 
 
 def _value(name: str, head: str, pattern: str, what: str) -> float:
     found = re.search(pattern, head)
     if found is None:
         raise ValueError(f"{name} does not say {what!r} above its columns: keep the heading that XFOIL writes")
-    return float(found[1].replace(" ", ""))
+    try:
+        return float(found[1].replace(" ", ""))
+    except ValueError:
+        raise ValueError(f"{name} has {found[0]!r} above its columns: keep the heading that XFOIL writes") from None

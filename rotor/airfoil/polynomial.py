@@ -9,6 +9,7 @@ order-12 power basis would have a condition number of 2e15.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Literal
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -24,6 +25,42 @@ THESIS_NAME = "sc1095-thesis"
 LIFT_ORDER = 10  # document, fig. 3.3
 DRAG_ORDER = 12  # document, fig. 3.4
 FIT_RANGE_DEG = (-10.0, 15.0)  # our choice: within 0.5 % of the interpolated polar in rotor power
+
+
+@dataclass(frozen=True)
+class PolynomialReading:
+    """What the document leaves open of its polynomials: transition, Mach number and range of the fit.
+
+    The default is the reading of the `thesis` preset; the others serve to show what the choice decides.
+    """
+
+    transition: Literal["free", "tripped"] = "free"
+    mach: float = 0.3
+    range_deg: tuple[float, float] = FIT_RANGE_DEG
+
+    @property
+    def name(self) -> str:
+        """Name of its section, for example `sc1095-thesis:tripped:0.4:-10:18`."""
+        if self == PolynomialReading():
+            return THESIS_NAME
+        return f"{THESIS_NAME}:{self.transition}:{self.mach:g}:{self.range_deg[0]:g}:{self.range_deg[1]:g}"
+
+
+def parse_reading(name: str) -> PolynomialReading:
+    """The reading of a section name; ValueError for an unknown name."""
+    if name == THESIS_NAME:
+        return PolynomialReading()
+    head, *fields = name.split(":")
+    try:
+        transition, mach, low, high = fields
+        reading = PolynomialReading(
+            "free" if transition == "free" else "tripped", float(mach), (float(low), float(high))
+        )
+    except ValueError:
+        reading = None
+    if head != THESIS_NAME or reading is None or reading.name != name:
+        raise ValueError(f"no polynomials named {name!r}: write for example {THESIS_NAME}:tripped:0.4:-10:18")
+    return reading
 
 
 def _series_at(t: Array, series: Array) -> Array:
@@ -63,9 +100,20 @@ class PolynomialSection:
         return _series_at(t, cl) * scale, _series_at(t, cd) * scale
 
 
-def thesis_polar() -> Polar:
-    """The bundled XFOIL polar behind the fit: SC1095, M 0.3, Re 3.68e6, Ncrit 9, every 0.25 deg."""
-    return read_polars(asset_path("airfoils/sc1095_ncrit9.polars.csv")).polars[0]
+def thesis_polar(reading: PolynomialReading = PolynomialReading()) -> Polar:
+    """The bundled XFOIL polar behind the fit: SC1095, M 0.3, Re 3.68e6, Ncrit 9, every 0.25 deg.
+
+    Another reading may take transition at 5 % chord and Mach 0.1, 0.2, 0.3 or 0.4, every 0.5 deg.
+    """
+    file = "sc1095_ncrit9" if reading.transition == "free" else "sc1095_trip5"
+    polars = read_polars(asset_path(f"airfoils/{file}.polars.csv")).polars
+    for polar in polars:
+        if abs(polar.mach - reading.mach) < 1e-9:
+            return polar
+    raise ValueError(
+        f"no {reading.transition} polar of SC1095 at Mach {reading.mach:g}: "
+        f"choose one of {', '.join(f'{polar.mach:g}' for polar in polars)}"
+    )
 
 
 def _within(polar: Polar, range_deg: tuple[float, float]) -> tuple[Array, Array, Array]:
@@ -117,10 +165,10 @@ def fit_error_study(
     return tuple(out)
 
 
-@lru_cache(maxsize=1)
-def polynomial_section() -> PolynomialSection:
-    """The fit with the document's orders to the bundled polar."""
-    return fit_polynomials(thesis_polar())
+@lru_cache(maxsize=16)
+def polynomial_section(reading: PolynomialReading = PolynomialReading()) -> PolynomialSection:
+    """The fit with the document's orders to the bundled polar of a reading."""
+    return fit_polynomials(thesis_polar(reading), range_deg=reading.range_deg)
 
 
 def document_angle(alpha: Array) -> tuple[Array, Array]:
@@ -145,14 +193,14 @@ def _cubic_cells(value: Array, slope: Array) -> Array:
     )
 
 
-@lru_cache(maxsize=1)
-def polynomial_table() -> SectionTable:
+@lru_cache(maxsize=16)
+def polynomial_table(reading: PolynomialReading = PolynomialReading()) -> SectionTable:
     """The document's section on the common grid, the same at every Mach, with its treatment of reverse flow.
 
     Cubic per half-degree cell with the polynomial's own slopes: within 1e-4 of it. By the document's
     definition it jumps at +-90 deg, and its slope where the fit ends.
     """
-    section = polynomial_section()
+    section = polynomial_section(reading)
     edges = -np.pi + (np.arange(N_ALPHA)[:, None] + np.array([0.0, 1.0])) * ALPHA_STEP
     middle = edges.mean(axis=1, keepdims=True)  # Determines on which side of a jump a whole cell lies.
     turn = document_angle(middle)[0] - middle
@@ -164,5 +212,11 @@ def polynomial_table() -> SectionTable:
     out = np.zeros((2, N_ALPHA, N_MACH, 4, 4))
     out[0, :, :, :, 0] = _cubic_cells(sign * cl, sign * cl_slope * ALPHA_STEP)[:, None, :]
     out[1, :, :, :, 0] = _cubic_cells(cd, cd_slope * ALPHA_STEP)[:, None, :]
-    source = "polynomials of order 10 and 12 over -10..15 deg on own XFOIL polar: SC1095, M 0.3, Re 3.68e6, Ncrit 9"
-    return make_table(THESIS_NAME, source, stack_coefficients(out[0], out[1]), 1.0, section.fit_range)
+    polar = thesis_polar(reading)
+    low, high = reading.range_deg
+    transition = "Ncrit 9" if reading.transition == "free" else "tripped at 5 % chord"
+    source = (
+        f"polynomials of order {LIFT_ORDER} and {DRAG_ORDER} over {low:g}..{high:g} deg on own XFOIL polar: SC1095, "
+        f"M {polar.mach:g}, Re {polar.reynolds / 1e6:.2f}e6, {transition}"
+    )
+    return make_table(reading.name, source, stack_coefficients(out[0], out[1]), 1.0, section.fit_range)

@@ -8,7 +8,7 @@ the lift reaches a plateau without a maximum. On curves with a peak this is 0.3 
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from rotor.airfoil.bicubic import (
     ALPHA_STEP,
@@ -23,6 +23,10 @@ from rotor.airfoil.c81 import C81Deck
 from rotor.arrays import Array
 
 SLOPE_FRACTION = 0.25
+_LEAST_SLOPE = 0.5
+"""[1/rad] of lift about zero lift. A flat plate has 6.3, and transonic data have 2 or more."""
+_ZERO_LIFT = np.deg2rad(6.0)
+"""Largest step of Newton's method; zero lift itself is searched within twice this angle."""
 SEARCH_OUTWARD = np.deg2rad(np.arange(20, 301) / 10.0)  # From zero lift: 2 deg, where flow is attached, to 30 deg.
 
 
@@ -65,7 +69,8 @@ class SectionTable:
     v = mach / MACH_STEP - j in [0, 1]; k = 0 is cl, k = 1 is cd. Beyond `mach_limit`, the last Mach of
     the data, values are constant. `alpha_stall_positive`, `alpha_stall_negative` [rad], shape (N_MACH + 1,), are
     the stall angles at the grid's Machs, as `rotor.airfoil.section_table` defines them. `fit_range` [rad] is where a
-    polynomial section was fitted and None for a deck. Compares and hashes by identity.
+    polynomial section was fitted and None for a deck. `moment_coefficients`, shape (N_ALPHA, N_MACH, 4, 4), is the
+    moment about the quarter chord in the same form, None where the source has none. Compares and hashes by identity.
     """
 
     name: str
@@ -75,6 +80,7 @@ class SectionTable:
     alpha_stall_positive: Array
     alpha_stall_negative: Array
     fit_range: tuple[float, float] | None = None
+    moment_coefficients: Array | None = None
 
     def __post_init__(self) -> None:
         assert self.coefficients.shape == (N_ALPHA, N_MACH, 2, 4, 4)
@@ -82,14 +88,8 @@ class SectionTable:
         assert self.alpha_stall_positive.shape == self.alpha_stall_negative.shape == (N_MACH + 1,)
 
     def __call__(self, alpha: ArrayLike, mach: ArrayLike) -> SectionCoefficients:
-        """Coefficients at `alpha` [rad, any turn] and `mach` (constant outside 0..mach_limit), broadcast together."""
-        a, m = np.broadcast_arrays(np.asarray(alpha, dtype=np.float64), np.asarray(mach, dtype=np.float64))
-        turn = np.mod((a + np.pi) / ALPHA_STEP, N_ALPHA)
-        i = np.minimum(turn.astype(np.intp), N_ALPHA - 1)
-        inside = (m >= 0.0) & (m <= self.mach_limit)
-        place = np.clip(m, 0.0, self.mach_limit) / MACH_STEP
-        j = np.minimum(place.astype(np.intp), N_MACH - 1)
-        u, v = turn - i, place - j
+        """Coefficients at `alpha` [rad, any turn] and `mach` (held outside 0..mach_limit), broadcast together."""
+        i, j, u, v, inside = self._cells(alpha, mach)
         cell = self.coefficients[i, j]  # (..., 2, 4, 4)
         us = np.stack((np.ones_like(u), u, u * u, u * u * u), axis=-1)
         vs = np.stack((np.ones_like(v), v, v * v, v * v * v), axis=-1)
@@ -103,6 +103,27 @@ class SectionTable:
             value[..., 0], value[..., 1], by_alpha[..., 0], by_alpha[..., 1], by_mach[..., 0], by_mach[..., 1]
         )
 
+    def moment(self, alpha: ArrayLike, mach: ArrayLike) -> Array | None:
+        """C_m about the quarter chord, nose-up positive, at the same arguments; None where the source has no moment."""
+        if self.moment_coefficients is None:
+            return None
+        i, j, u, v, _ = self._cells(alpha, mach)
+        us = np.stack((np.ones_like(u), u, u * u, u * u * u), axis=-1)
+        vs = np.stack((np.ones_like(v), v, v * v, v * v * v), axis=-1)
+        return np.asarray(np.einsum("...ab,...a,...b->...", self.moment_coefficients[i, j], us, vs))
+
+    def _cells(
+        self, alpha: ArrayLike, mach: ArrayLike
+    ) -> tuple[NDArray[np.intp], NDArray[np.intp], Array, Array, NDArray[np.bool_]]:
+        """Cell indices, places within the cell, and whether the Mach number is inside the data."""
+        a, m = np.broadcast_arrays(np.asarray(alpha, dtype=np.float64), np.asarray(mach, dtype=np.float64))
+        turn = np.mod((a + np.pi) / ALPHA_STEP, N_ALPHA)
+        i = np.minimum(turn.astype(np.intp), N_ALPHA - 1)
+        inside = (m >= 0.0) & (m <= self.mach_limit)
+        place = np.clip(m, 0.0, self.mach_limit) / MACH_STEP
+        j = np.minimum(place.astype(np.intp), N_MACH - 1)
+        return i, j, turn - i, place - j, inside
+
     def held_at(self, mach: float) -> "SectionTable":
         """The coefficients of one Mach number (0 to below 1) at every Mach number: zero Mach slope, no Mach limit."""
         place = min(mach, self.mach_limit) / MACH_STEP
@@ -110,9 +131,19 @@ class SectionTable:
         along = self.coefficients[:, j] @ (place - j) ** np.arange(4)  # (alpha cells, 2, 4)
         flat = np.zeros_like(self.coefficients)
         flat[..., 0] = along[:, None]
+        moment = self.moment_coefficients
+        if moment is not None:
+            along_moment = moment[:, j] @ (place - j) ** np.arange(4)  # (alpha cells, 4)
+            moment = np.zeros_like(moment)
+            moment[..., 0] = along_moment[:, None]
         negative, positive = (np.full(N_MACH + 1, float(angle)) for angle in self.stall_alpha(mach))
         return replace(
-            self, coefficients=flat, mach_limit=np.inf, alpha_stall_negative=negative, alpha_stall_positive=positive
+            self,
+            coefficients=flat,
+            mach_limit=np.inf,
+            alpha_stall_negative=negative,
+            alpha_stall_positive=positive,
+            moment_coefficients=moment,
         )
 
     def stall_alpha(self, mach: ArrayLike) -> tuple[Array, Array]:
@@ -122,13 +153,14 @@ class SectionTable:
         return np.asarray(negative), np.asarray(np.interp(m, mach_nodes(), self.alpha_stall_positive))
 
     def zero_lift_alpha(self, mach: ArrayLike) -> Array:
-        """Zero-lift angle of attack [rad] at `mach`, within -6..6 deg: Newton's method from the sampled crossing."""
+        """Zero-lift angle of attack [rad] at `mach`, within -12..12 deg: Newton's method from the sampled crossing."""
         m = np.asarray(mach, dtype=np.float64)
         sample = np.deg2rad(np.linspace(-6.0, 6.0, 25))
         alpha = sample[np.argmin(np.abs(self(sample, m[..., None]).cl), axis=-1)]
         for _ in range(4):
             here = self(alpha, m)
-            alpha = alpha - here.cl / here.cl_alpha
+            step = here.cl / np.where(here.cl_alpha > _LEAST_SLOPE, here.cl_alpha, np.inf)  # None at a peak.
+            alpha = np.clip(alpha - np.clip(step, -_ZERO_LIFT, _ZERO_LIFT), -2.0 * _ZERO_LIFT, 2.0 * _ZERO_LIFT)
         return np.asarray(alpha)
 
     def lift_slope(self, mach: ArrayLike) -> Array:
@@ -162,7 +194,27 @@ def make_table(
     return replace(bare, alpha_stall_negative=found[0], alpha_stall_positive=found[1])
 
 
+def _check_lift(table: SectionTable) -> None:
+    """ValueError with one sentence for lift that does not rise through zero near zero angle of attack."""
+    mach = mach_nodes()[mach_nodes() <= table.mach_limit + 1e-9]
+    zero, slope = table.zero_lift_alpha(mach), table.lift_slope(mach)
+    lift = table(zero, mach).cl
+    bad = ~((slope >= _LEAST_SLOPE) & (np.abs(lift) < 1e-3))
+    if bad.any():
+        at = int(np.argmax(bad))
+        raise ValueError(
+            f"{table.name}: at Mach {mach[at]:g} the lift does not rise through zero within ±12 deg "
+            f"(cl {lift[at]:.3g}, slope {slope[at]:.3g} per rad at {np.rad2deg(zero[at]):.1f} deg): check it"
+        )
+
+
 def table_from_deck(name: str, source: str, deck: C81Deck) -> SectionTable:
     """The run-time table of `deck`; constant beyond the lower of its two last Machs (lift, drag)."""
     coefficients = stack_coefficients(bicubic_coefficients(deck.cl), bicubic_coefficients(deck.cd))
-    return make_table(name, source, coefficients, float(min(deck.cl.mach[-1], deck.cd.mach[-1])))
+    table = make_table(name, source, coefficients, float(min(deck.cl.mach[-1], deck.cd.mach[-1])))
+    _check_lift(table)
+    try:
+        moment = bicubic_coefficients(deck.cm)
+    except ValueError:  # A user's deck may have its moments elsewhere than on the grid, or hardly any.
+        return table
+    return replace(table, moment_coefficients=moment)

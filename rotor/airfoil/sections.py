@@ -11,24 +11,31 @@ import numpy as np
 
 from rotor.airfoil.c81 import parse_c81, read_c81
 from rotor.airfoil.contour import SECTION_NAMES, Contour, load_contour, parse_contour
-from rotor.airfoil.polynomial import THESIS_NAME, polynomial_table
+from rotor.airfoil.polynomial import THESIS_NAME, parse_reading, polynomial_table
 from rotor.airfoil.section_table import SectionTable, table_from_deck
 from rotor.airfoil.wrap import on_run_time_grid
 from rotor.assets import asset_path
+from rotor.user_input import did_you_mean
 
 TABLE_NAMES = (*SECTION_NAMES, THESIS_NAME)
 
+_TUNNEL_SOURCE = (
+    "XFOIL 6.99 tripped at 5 % chord; levels, shocks and moments from public tunnel-derived data; wrapped to ±180 deg"
+)
+_MEASURED = "measured by Knight and Hefner (NACA TN 626) at Re 242 000; wrapped to +-180 deg by this project"
 _SOURCE = "XFOIL 6.99 tripped at 5 % chord, Re of its own rotor, compressibility and +-180 deg wrap by this project"
 
 
 @lru_cache(maxsize=16)
 def load_section(name: str) -> SectionTable:
     """The bundled table of `name`, one of `TABLE_NAMES`; read once and cached; takes about 20 ms."""
-    if name == THESIS_NAME:
-        return polynomial_table()
+    if name.startswith(THESIS_NAME):
+        return polynomial_table(parse_reading(name))
     if name not in SECTION_NAMES:
-        raise ValueError(f"no section named {name!r}: choose one of {', '.join(TABLE_NAMES)}")
-    return table_from_deck(name, _SOURCE, read_c81(asset_path(f"airfoils/{name}.c81")))
+        hint = did_you_mean(name, TABLE_NAMES) or ":"
+        raise ValueError(f"no section named {name!r}{hint} choose one of {', '.join(TABLE_NAMES)}")
+    source = _TUNNEL_SOURCE if name.startswith("sc109") else _MEASURED if name == "naca0015re242k" else _SOURCE
+    return table_from_deck(name, source, read_c81(asset_path(f"airfoils/{name}.c81")))
 
 
 # The UIUC outline `sc1095r8`, the R8 in SC1095 axes, has its chord line 0.997 deg nose-down and 1.010 times
@@ -72,7 +79,7 @@ class OwnSection:
 def load_installed(name: str) -> Section:
     """The bundled section `name` (`sc1095`, `sc1094r8`, `naca0012`, …) with its installation."""
     table = load_section(name)
-    outline = load_contour("sc1095" if name == THESIS_NAME else name)
+    outline = load_contour("sc1095" if name.startswith(THESIS_NAME) else name)
     if name == "sc1094r8":
         return Section(name, table, float(np.deg2rad(_R8_DROOP_DEG)), _R8_CHORD_RATIO, outline)
     return Section(name, table, 0.0, 1.0, outline)

@@ -57,6 +57,7 @@ def blend(alpha: Array, cl: Array, cd: Array, cm: Array) -> tuple[Array, Array, 
     return (1.0 - weight) * cl + weight * far_cl, np.exp(log_cd), (1.0 - weight) * cm + weight * far_cm
 
 
+_LARGEST = 5.0
 _LEAST_RANGE_DEG = 8.0
 """A deck must at least cover −8…8°: no formula can replace data within it."""
 
@@ -64,22 +65,32 @@ _LEAST_RANGE_DEG = 8.0
 def on_run_time_grid(deck: C81Deck) -> C81Deck:
     """The deck with lift and drag on the run-time grid over ±180°; the same values where its knots already fit.
 
-    Raises ValueError with one sentence for a deck that covers too little.
+    Raises ValueError with one sentence for a deck whose lift or drag covers too little. A moment that covers too
+    little stays as it is.
     """
-    return C81Deck(deck.title, _block(deck.title, deck.cl, 0), _block(deck.title, deck.cd, 1), deck.cm)
+    try:
+        moment = _block(deck.title, deck.cm, 2)
+    except ValueError:
+        moment = deck.cm
+    return C81Deck(deck.title, _block(deck.title, deck.cl, 0), _block(deck.title, deck.cd, 1), moment)
 
 
 def _block(title: str, block: C81Block, kind: int) -> C81Block:
     alpha, mach, values = block.alpha_deg, block.mach, block.values
     if alpha[0] > -_LEAST_RANGE_DEG or alpha[-1] < _LEAST_RANGE_DEG:
         raise ValueError(
-            f"{title}: {'cl' if kind == 0 else 'cd'} covers {alpha[0]:g}…{alpha[-1]:g} deg: "
+            f"{title}: {('cl', 'cd', 'cm')[kind]} covers {alpha[0]:g}…{alpha[-1]:g} deg: "
             f"give at least −{_LEAST_RANGE_DEG:g}…{_LEAST_RANGE_DEG:g} deg"
         )
     if mach[0] < 0.0 or mach[-1] > 1.5 or alpha[0] < -180.0 - 1e-9 or alpha[-1] > 180.0 + 1e-9:
         raise ValueError(
             f"{title}: angles {alpha[0]:g}…{alpha[-1]:g} deg at Mach {mach[0]:g}…{mach[-1]:g}: "
             "keep angles within ±180 deg and Mach within 0…1.5"
+        )
+    largest = float(np.abs(values).max())
+    if kind < 2 and largest > _LARGEST:
+        raise ValueError(
+            f"{title}: {('cl', 'cd')[kind]} reaches {largest:g}, more than any section has: check the digits"
         )
     on_angles = np.all(np.abs(alpha * 2.0 - np.round(alpha * 2.0)) < 1e-9)
     closed = abs(alpha[0] + 180.0) < 1e-9 and abs(alpha[-1] - 180.0) < 1e-9
@@ -109,7 +120,7 @@ def _whole_circle(alpha: Array, values: Array, kind: int) -> tuple[Array, Array]
     t: Array = np.clip((np.abs(nodes) - edge) / fade, 0.0, 1.0)
     weight: Array = (t * t * (3.0 - 2.0 * t))[:, None]
     far = wrap_coefficients(np.deg2rad(nodes).astype(np.float64))[kind][:, None]
-    if kind == 0:
+    if kind != 1:
         return nodes, (1.0 - weight) * own + weight * far
     # In the logarithm, so that drag stays positive. Short of 20 deg the closed form is too low, even negative.
     return nodes, np.exp((1.0 - weight) * np.log(own) + weight * np.log(np.maximum(far, own.min())))

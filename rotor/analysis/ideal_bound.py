@@ -68,7 +68,7 @@ def least_induced_power(
 
     Γ = max(U_T, 0) × √(1 − r²) × Chebyshev(r) × harmonics 0 … H: smooth, and no lift in reverse flow. Without that
     window the panels there make the power's form indefinite and the "least" a saddle. At µ 0.3 reverse-flow lift would
-    lower the bound by 4–5 %; with more harmonics or higher µ it has not settled there.
+    lower the bound by 4–5 %; with more harmonics or higher µ it has not converged there.
     """
     u_t = np.maximum(lattice.tangential(wake.mu_x), 0.0)
     shapes = _smooth_shapes(lattice, harmonics)
@@ -248,15 +248,39 @@ def find_bound(design: Design) -> Bound:
     )
 
 
+BOUNDED_INFLOWS = ("dynamic-wake", "vortex-wake")
+"""Inflow models of a finite number of blades in their own wake."""
 TABLE_ROTOR = "uh60a"
 """The shipped table is of this rotor; for another rotor run `python -m rotor ideal --rotor`."""
+
+
+def not_bounded(design: Design) -> str:
+    """Why the bound says nothing about this design's induced power, as a clause; empty where it holds.
+
+    It is that of a finite number of flapping blades in their own rigid wake. A prescribed inflow, the sector model and
+    infinitely many blades can have less induced power than any circulation of real blades. In hover it is momentum
+    theory, which bounds the annuli too.
+    """
+    models = design.models
+    if design.aircraft.key != TABLE_ROTOR:
+        return "not computed for this rotor"
+    if not design.hovering:
+        if models.inflow not in BOUNDED_INFLOWS:
+            return "does not bound this inflow"
+        if not models.tip_loss:
+            return "does not bound infinitely many blades"
+        if not models.flapping:
+            return "does not bound rigid blades"
+    if not 0.0 <= design.condition.advance_ratio <= float(_table()[0][-1]):
+        return "not converged above µ 0.40"
+    return ""
 
 
 def ideal_factor(mu: float, ct: float, rotor: str = TABLE_ROTOR) -> float | None:
     """κ of any circulation within the lift limit, from the shipped table (`python -m rotor ideal`) of the UH-60A.
 
     Linear between the table's advance ratios and C_T, held beyond its C_T; 1 in hover, where an even load is ideal.
-    None beyond its fastest, 0.40: there reverse-flow lift decides and the bound has not settled. None for any other
+    None beyond its fastest, 0.40: there reverse-flow lift decides and the bound has not converged. None for any other
     `rotor` by name: its blade number, root and chord make another bound.
     """
     speeds, thrusts, factors = _table()

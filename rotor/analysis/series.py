@@ -57,6 +57,10 @@ class SweepTable:
         """One row per solution; None where a solution that did not converge has no power."""
         return tuple(_row(solution) for solution in self.solutions)
 
+    def to_dict(self) -> dict[str, list[float | str | None]]:
+        """The columns by name: what `pandas.DataFrame`, `polars.DataFrame` and `pyarrow.table` read as it is."""
+        return {name: [row[k] for row in self.rows] for k, name in enumerate(COLUMNS)}
+
     def to_dataframe(self) -> Any:
         """The table as a pandas DataFrame; ImportError with the remedy where pandas is missing."""
         try:

@@ -11,7 +11,7 @@ from rotor.actuator.harmonic import PhaseSweep, phase_sweep
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.section import BladeKind, Host, Placement, default_placement
 from rotor.actuator.tables import ActuatorTable, table_5_1, table_5_2
-from rotor.actuator.verdict import Verdict, judge, verdict_sentence
+from rotor.actuator.verdict import PRINTED, Verdict, judge, verdict_sentence
 from rotor.command.common import add_command, add_design_arguments, design_from, finite
 from rotor.design.active_twist import Harmonic
 from rotor.dynamics.structure import check_blade
@@ -77,7 +77,13 @@ def run(args: argparse.Namespace) -> int:
         verdict = judge(actuator, pair, concept, placement, host, derated=args.derated)
         turned = None
         if args.harmonic is not None:
-            turned = phase_sweep(verdict.actuator_off, verdict.installed, args.harmonic, derated=args.derated)
+            turned = phase_sweep(
+                verdict.actuator_off,
+                verdict.installed,
+                args.harmonic,
+                reference=verdict.without_actuator,
+                derated=args.derated,
+            )
     except RuntimeError as error:
         print(json.dumps(failure(args, str(error)), indent=2) if args.json else f"not converged: {error}")
         return 1
@@ -116,6 +122,8 @@ def record(verdict: Verdict, turned: PhaseSweep | None = None) -> dict[str, Any]
             "per_rev": turned.dynamic.per_rev,
             "amplitude_deg": math.degrees(turned.dynamic.amplitude),
             "used_share": turned.share,
+            "tip_amplitude_deg": math.degrees(turned.response[0]),
+            "tip_phase_deg": math.degrees(turned.response[1]),
             "gross_saving_w": turned.gross_saving,
             "net_saving_w": turned.net_saving,
         }
@@ -173,11 +181,16 @@ def report(verdict: Verdict, turned: PhaseSweep | None = None) -> str:
         lines += ["", f"{turned.dynamic.per_rev}/rev: this actuator is too slow"]
     elif turned is not None:
         left = "no trim with" if turned.net_saving is None else f"{turned.net_saving / 1e3:.1f} kW with"
+        elastic = turned.off.elastic is not None
+        at_rest = f" at rest (in flight {math.degrees(turned.response[0]):.2f}°)" if elastic else ""
+        cost = turned.wave_saving - turned.gross_saving
+        softer = f", while the other stiffness costs {cost / 1e3:.1f} kW" if abs(cost) >= PRINTED else ""
         lines += [
             "",
             f"{turned.dynamic.per_rev}/rev at µ {base.pair.advance_ratios[1]:g}: up to "
-            f"±{math.degrees(turned.dynamic.amplitude):.2f}°, {100 * turned.share:.0f} % used, saves "
-            f"{turned.gross_saving / 1e3:.1f} kW; {left} its mass and losses",
+            f"±{math.degrees(turned.dynamic.amplitude):.2f}°{at_rest}, {100 * turned.share:.0f} % used, saves "
+            f"{turned.wave_saving / 1e3:.1f} kW{softer}; {left} its mass and losses. Not validated: no measured power "
+            "benefit of active twist was found.",
         ]
     lines += ["", *(f"{'met     ' if limit.ok else 'EXCEEDED'} {limit.sentence}" for limit in verdict.limits)]
     return "\n".join([*lines, *(f"caveat: {caveat}" for caveat in verdict.caveats)])

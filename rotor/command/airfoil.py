@@ -33,6 +33,8 @@ def add_parser(subparsers: Any) -> None:
     )
     parser.add_argument("--out", metavar="DIR", help="build: where to write (default: the bundled data)")
     parser.add_argument("--json", action="store_true", help="show: one JSON object instead of a table")
+    parser.add_argument("--mach", type=float, metavar="M", help="show: one point, with --alpha")
+    parser.add_argument("--alpha", type=float, metavar="DEG", help="show: angle of attack of that point [deg]")
     parser.set_defaults(run=run)
 
 
@@ -43,6 +45,8 @@ def run(args: argparse.Namespace) -> int:
             return _build(args.name, args.from_polars, args.out)
         if args.action == "verify":
             return _verify(args.name, args.from_polars)
+        if args.mach is not None or args.alpha is not None:
+            return _point(args.name, args.mach, args.alpha, args.json)
         return _show(args.name, args.json)
     except XfoilError as error:
         raise ValueError(str(error)) from None
@@ -55,7 +59,7 @@ def _progress(message: str) -> None:
 
 
 def _polar_file(name: str) -> str:
-    return f"{name}_trip5.polars.csv"
+    return f"{name}_{RECIPES[name].polars}.polars.csv"
 
 
 def _build(name: str, from_polars: bool, out: str | None) -> int:
@@ -95,6 +99,29 @@ def _verify(name: str, from_polars: bool) -> int:
     return 0 if good else 1
 
 
+def _point(name: str, mach: float | None, alpha: float | None, as_json: bool) -> int:
+    """Lift, drag and moment at one Mach number and angle of attack about the section's own chord line."""
+    if mach is None or alpha is None:
+        raise ValueError("a point needs both --mach and --alpha: give the missing one")
+    table = load_installed(name).table
+    if not 0.0 <= mach <= table.mach_limit:
+        raise ValueError(f"--mach {mach:g} is outside the data of {name}, 0…{table.mach_limit:g}: choose within them")
+    if not -180.0 <= alpha <= 180.0:
+        raise ValueError(f"--alpha {alpha:g} is outside −180…180 deg: choose within them")
+    here, moment = table(np.deg2rad(alpha), mach), table.moment(np.deg2rad(alpha), mach)
+    answer = {
+        "cl": round(float(here.cl), 5),
+        "cd": round(float(here.cd), 6),
+        "cm": None if moment is None else round(float(moment), 5),
+    }
+    if as_json:
+        print(json.dumps(answer))
+        return 0
+    print(f"{name}, Mach {mach:g}, {alpha:g} deg: cl {answer['cl']:.4f}, cd {answer['cd']:.5f}, ", end="")
+    print("no moment in its source" if moment is None else f"cm {answer['cm']:+.4f}")
+    return 0
+
+
 def _show(name: str, as_json: bool) -> int:
     section = load_installed(name)
     table = section.table
@@ -113,6 +140,9 @@ def _show(name: str, as_json: bool) -> int:
         "cd_at_0_deg": table(0.0, mach).cd,
         "cd_at_4_deg": table(np.deg2rad(4.0), mach).cd,
     }
+    moment = table.moment(0.0, mach)
+    if moment is not None:
+        columns["cm_at_0_deg"] = moment
     divergence = {f"{a:g}": round(float(table.drag_divergence_mach(np.deg2rad(a))), 3) for a in (0.0, 2.0, 4.0)}
     if as_json:
         answer = {
@@ -131,8 +161,20 @@ def _show(name: str, as_json: bool) -> int:
         f"data to Mach {table.mach_limit:g}; chord line {np.rad2deg(section.incidence_offset):g} deg nose-down of, "
         f"and chord {section.chord_ratio:g} times, those of SC1095"
     )
-    heads = ("Mach", "cl_alpha/deg", "alpha0 deg", "stall- deg", "stall+ deg", "cl max", "cl(4)", "cd(0)", "cd(4)")
-    decimals = (2, 4, 2, 1, 1, 3, 3, 4, 4)
+    heads = (
+        "Mach",
+        "cl_alpha/deg",
+        "alpha0 deg",
+        "stall- deg",
+        "stall+ deg",
+        "cl max",
+        "cl(4)",
+        "cd(0)",
+        "cd(4)",
+        "cm(0)",
+    )
+    decimals = (2, 4, 2, 1, 1, 3, 3, 4, 4, 4)
+    heads, decimals = heads[: len(columns)], decimals[: len(columns)]
     print("  ".join(f"{head:>12}" for head in heads))
     for row in zip(*columns.values(), strict=True):
         print("  ".join(f"{value:12.{d}f}" for value, d in zip(row, decimals, strict=True)))

@@ -17,15 +17,18 @@ from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.installation import install
 from rotor.actuator.section import Host, default_placement
 from rotor.actuator.verdict import change_limit
-from rotor.aero.inflow import inflow_model
-from rotor.aero.switches import parse_switches
-from rotor.assets import SHIPPED_ROTORS
-from rotor.design.design import Design
+from rotor.aero.inflow import INFLOW_MODELS
+from rotor.aero.switches import SWITCHES, parse_switches
+from rotor.airfoil.sections import TABLE_NAMES
+from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
+from rotor.design.design import HOVER_INFLOWS, LOW_SPEEDS, TRIMS, Design
+from rotor.design.stand import LOAD_KEYS
 from rotor.files.design_file import load_design
 from rotor.files.make_design import change_airfoils, make_design
 from rotor.files.rotor_file import find_aircraft
 from rotor.optimisation.concepts import CONCEPTS, Concept
 from rotor.optimisation.search import ChangeLimit, Limits, even_change_limit
+from rotor.user_input import did_you_mean
 
 
 def add_command(commands: Any, name: str, words: str, description: str = "") -> argparse.ArgumentParser:
@@ -42,20 +45,78 @@ def add_design_arguments(parser: argparse.ArgumentParser, *, one_twist: bool) ->
     add_rotor_argument(parser)
     parser.add_argument("--twist", metavar="SPEC", nargs=None if one_twist else "+", help=twist)
     parser.add_argument("--preset", metavar="NAME", help="flight (default): best available; thesis: as printed")
-    parser.add_argument("--inflow", metavar="NAME", help="forward-flight inflow model, for example pitt-peters")
+    parser.add_argument(
+        "--inflow", metavar="NAME",
+        help=f"forward-flight inflow model: {' | '.join(INFLOW_MODELS)}; or that of hover: {' | '.join(HOVER_INFLOWS)}",
+    )  # fmt: skip
+    parser.add_argument(
+        "--low-speed", choices=LOW_SPEEDS,
+        help="hover (flight): the inflow model passes over to that of hover near µ = 0; wake (thesis): it does not",
+    )  # fmt: skip
     parser.add_argument(
         "--mass-kg", type=finite, metavar="KG", help="aircraft mass (default: the rotor's reference mass)"
     )
     parser.add_argument("--altitude-m", type=finite, metavar="M", help="pressure altitude (default 0)")
-    parser.add_argument("--airfoils", metavar="SPEC", help="sections root to tip, e.g. sc1094r8,sc1095@0.5")
-    parser.add_argument("--off", metavar="NAMES", help="switch off physical effects, e.g. tip-loss,reverse-flow")
+    parser.add_argument(
+        "--airfoils", metavar="SPEC",
+        help=f"sections root to tip, e.g. sc1094r8,sc1095@0.5, of {', '.join(TABLE_NAMES)}",
+    )  # fmt: skip
+    parser.add_argument(
+        "--off", metavar="NAMES",
+        help=f"switch off physical effects, separated by commas: {', '.join(one.flag for one in SWITCHES.values())}",
+    )  # fmt: skip
     parser.add_argument("--case", metavar="FILE", help="design file (JSON); other flags override it")
+    stand = parser.add_argument_group("test stand")
+    stand.add_argument("--trim", metavar="NAME", help=f"{' | '.join(TRIMS)} (the last three: a rotor on a test stand)")
+    for flag, unit, words in _STAND_FLAGS:
+        stand.add_argument(flag, type=finite, metavar=unit, help=words)
+    stand.add_argument("--flapping", choices=("trimmed", "free"), help="by cyclic (default in a wind tunnel), or free")
+
+
+_STAND_FLAGS = (
+    ("--shaft-tilt-deg", "DEG", "tilt of the shaft, positive forward (default 0; a free rotor finds its own)"),
+    ("--ct-over-sigma", "C", "blade loading"),
+    ("--thrust-n", "N", "thrust along the shaft"),
+    ("--collective-deg", "DEG", "pitch at 0.75 R"),
+    ("--cyclic-1c-deg", "DEG", "given cyclic, with free flapping"),
+    ("--cyclic-1s-deg", "DEG", "the same, sine part"),
+    ("--tip-mach", "M", "tip speed over the speed of sound"),
+    ("--density", "RHO", "air density, kg/m³"),
+)
+
+
+def _stand_from(args: argparse.Namespace, base: Design | None) -> tuple[str | None, dict[str, Any] | None]:
+    """Trim and test stand of the flags, on top of those of a design file."""
+    before = base.condition.stand if base and not args.rotor else None
+    trim: str | None = args.trim or (base.models.trim if base and before else None)
+    given = {flag[2:].replace("-", "_"): getattr(args, flag[2:].replace("-", "_")) for flag, _, _ in _STAND_FLAGS}
+    given = {
+        "density_kg_m3" if key == "density" else key: value for key, value in given.items() if value is not None
+    } | ({"flapping": args.flapping} if args.flapping else {})
+    if trim in ("propulsive", "thrust") or (trim is None and given and not _isolated(args, base)):
+        if given:
+            raise ValueError(
+                f"{next(iter(given))} belongs to a test stand: add --trim wind-tunnel, free-rotor or controls"
+            )
+        return trim, None
+    record = before.record() if before and args.trim in (None, base.models.trim if base else None) else {}
+    if any(key in given for key in LOAD_KEYS):
+        record = {key: value for key, value in record.items() if key not in LOAD_KEYS}
+    record |= given
+    return trim, record or None
+
+
+def _isolated(args: argparse.Namespace, base: Design | None) -> bool:
+    craft = find_aircraft(args.rotor) if args.rotor else base.aircraft if base else None
+    return craft is not None and craft.isolated
 
 
 def add_rotor_argument(parser: argparse.ArgumentParser) -> None:
     """`--rotor`."""
     parser.add_argument(
-        "--rotor", metavar="NAME|FILE", help=f"{', '.join(SHIPPED_ROTORS)} or a rotor file (docs/rotor_file.md)"
+        "--rotor",
+        metavar="NAME|FILE",
+        help=f"{', '.join((*SHIPPED_ROTORS, *MEASURED_ROTORS))} or a rotor file (docs/rotor_file.md)",
     )
 
 
@@ -63,7 +124,10 @@ def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: floa
     """The design that the flags describe, on top of a design file where one is given."""
     base = load_design(args.case) if args.case else None
     blade = base if base and not (args.preset or args.rotor) else None  # Another rotor or preset has its own blade.
+    trim, stand = _stand_from(args, base)
     design = make_design(
+        trim=trim,
+        stand=stand,
         preset=args.preset or (base.preset if base else "flight"),
         rotor=find_aircraft(args.rotor) if args.rotor else base.aircraft if base else SHIPPED_ROTORS[0],
         twist=twist or (blade.twist if blade else None),
@@ -76,8 +140,9 @@ def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: floa
     if advance_ratio is None:
         advance_ratio = base.condition.advance_ratio if base else 0.2
     if args.inflow:
-        inflow_model(args.inflow)
-        design = replace(design, models=replace(design.models, inflow=args.inflow))
+        design = with_inflow(design, args.inflow)
+    if args.low_speed:
+        design = replace(design, models=replace(design.models, low_speed=args.low_speed))
     if args.off is not None:
         off = parse_switches(args.off)
         design = replace(design, models=replace(design.models, **dict.fromkeys(off, False)))
@@ -86,6 +151,17 @@ def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: floa
     if args.airfoils:
         design = replace(design, rotor=change_airfoils(design.rotor, args.airfoils))
     return design.at(mu=advance_ratio)
+
+
+def with_inflow(design: Design, name: str) -> Design:
+    """The design with an inflow model by name, of forward flight or of hover; ValueError for an unknown name."""
+    if name in HOVER_INFLOWS:
+        return replace(design, models=replace(design.models, hover_inflow=name))
+    if name not in INFLOW_MODELS:
+        known = (*INFLOW_MODELS, *HOVER_INFLOWS)
+        hint = did_you_mean(name, known) or ":"
+        raise ValueError(f"inflow model {name!r} is not known{hint} use one of {', '.join(known)}")
+    return replace(design, models=replace(design.models, inflow=name))
 
 
 def write_table(path: str, rows: Iterable[Iterable[str]], heading: str = "") -> None:

@@ -2,7 +2,8 @@
 
 import argparse
 import json
-from dataclasses import replace
+import math
+from dataclasses import dataclass, replace
 from typing import Any
 
 from rotor.command.common import (
@@ -21,7 +22,7 @@ from rotor.command.common import (
 from rotor.design.blade import airfoils_spec
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, find_concept, on_top
-from rotor.optimisation.objective import Objective, at_condition, hover_and_cruise, read_mission
+from rotor.optimisation.objective import Objective, at_condition, hover_and_cruise, measure, read_mission
 from rotor.optimisation.search import STARTS, Minimum, Optimum, Progress, Search, SearchStatus, run_search
 from rotor.units import KNOT
 
@@ -43,7 +44,7 @@ def add_parser(commands: Any) -> None:
     add_design_arguments(parser, one_twist=True)
     add_search_arguments(parser, STARTS)
     parser.add_argument(
-        "--no-band", dest="band", action="store_false", help="do not compute the 0.1 % band of each parameter"
+        "--no-band", dest="band", action="store_false", help="do not compute the 0.1 %% band of each parameter"
     )
     parser.add_argument("--json", action="store_true", help="machine-readable output")
     parser.set_defaults(run=run)
@@ -57,10 +58,11 @@ def run(args: argparse.Namespace) -> int:
     concept = find_concept(args.concept, parse_division(args.division))
     if args.on_top:
         concept = on_top(concept, design.twist)
+    objective = _objective(args, design)
     search = Search(
         design=design,
         concept=concept,
-        objective=_objective(args, design),
+        objective=objective,
         limits=limits_from(args, design, (concept,)),
         starts=args.starts,
         seed=args.seed,
@@ -68,8 +70,33 @@ def run(args: argparse.Namespace) -> int:
     )
     with interruptible() as stop, bar(None, " designs") as advance:
         optimum = run_search(search, lambda progress: advance(_words(progress)), stop)
-    print(json.dumps(record(optimum, concept), indent=2, allow_nan=False) if args.json else report(optimum, concept))
+    beside = _beside(design, objective, optimum)
+    print(
+        json.dumps(record(optimum, concept, beside), indent=2, allow_nan=False)
+        if args.json
+        else report(optimum, concept, beside)
+    )
     return {SearchStatus.CONVERGED: 0, SearchStatus.NOT_CONVERGED: 1, SearchStatus.STOPPED: STOPPED}[optimum.status]
+
+
+@dataclass(frozen=True)
+class _Beside:
+    """What belongs beside the answer of a search."""
+
+    caveats: tuple[str, ...] = ()
+    """Of the best design."""
+    same_airfoils: float | None = None
+    """Objective of the starting twist on the airfoils of the best design [W]; None where the airfoils are the same."""
+
+
+def _beside(design: Design, objective: Objective, optimum: Optimum) -> _Beside:
+    if optimum.best is None:
+        return _Beside()
+    solutions = measure(objective, optimum.design, gradient=False).solutions
+    caveats = dict.fromkeys(caveat.sentence for solution in solutions for caveat in solution.caveats)
+    changed = optimum.design.rotor.blade.spans != design.rotor.blade.spans
+    start = replace(design, rotor=optimum.design.rotor)
+    return _Beside(tuple(caveats), measure(objective, start, gradient=False).power if changed else None)
 
 
 def _objective(args: argparse.Namespace, design: Design) -> Objective:
@@ -100,7 +127,7 @@ def named(concept: Concept, values: tuple[float, ...]) -> dict[str, float]:
     }
 
 
-def record(optimum: Optimum, concept: Concept) -> dict[str, Any]:
+def record(optimum: Optimum, concept: Concept, beside: _Beside) -> dict[str, Any]:
     """The JSON of `optimise --json`; values not found are null."""
     best = optimum.best
     by_name = {parameter.name: parameter for parameter in concept.parameters}
@@ -127,6 +154,8 @@ def record(optimum: Optimum, concept: Concept) -> dict[str, Any]:
         "airfoils": airfoils_spec(optimum.design.rotor),
         "starts": optimum.starts,
         "seed": optimum.seed,
+        "same_airfoils_power_w": beside.same_airfoils,
+        "caveats": list(beside.caveats),
     }
 
 
@@ -140,7 +169,12 @@ def _minimum(one: Minimum, concept: Concept) -> dict[str, Any]:
     }
 
 
-def report(optimum: Optimum, concept: Concept) -> str:
+def digits_of_band(width: float) -> int:
+    """Decimals that show a tenth of a band's width, at most 3: more would be noise on a flat optimum."""
+    return min(max(math.ceil(1.0 - math.log10(width)), 0), 3) if width > 0.0 else 3
+
+
+def report(optimum: Optimum, concept: Concept, beside: _Beside) -> str:
     """The same as text."""
     best = optimum.best
     lines = [f"{concept.title}: {optimum.status.value}. {optimum.message}"]
@@ -148,10 +182,12 @@ def report(optimum: Optimum, concept: Concept) -> str:
         return "\n".join(lines)
     bands = {band.parameter: band for band in optimum.band}
     for parameter, value in zip(concept.parameters, best.parameters, strict=True):
-        line = f"{parameter.title:<20}{parameter.shown(value):9.2f} {parameter.shown_unit}"
-        if parameter.name in bands:
-            band = bands[parameter.name]
-            line += f"   {parameter.shown(band.low):.2f} to {parameter.shown(band.high):.2f} within 0.1 % of the power"
+        band = bands.get(parameter.name)
+        low, high = (parameter.shown(band.low), parameter.shown(band.high)) if band else (0.0, 1.0)
+        digits = digits_of_band(high - low)
+        line = f"{parameter.title:<20}{parameter.shown(value):9.{digits}f} {parameter.shown_unit}"
+        if band:
+            line += f"   {low:.{digits}f} to {high:.{digits}f} within 0.1 % of the power"
         lines.append(line)
     lines.append(f"twist {best.twist}")
     airfoils = airfoils_spec(optimum.design.rotor)
@@ -162,7 +198,11 @@ def report(optimum: Optimum, concept: Concept) -> str:
     )
     if optimum.baseline_power is not None and optimum.saving is not None:
         lines.append(f"starting design {optimum.baseline_power / 1e3:.2f} kW, saving {100 * optimum.saving:.2f} %")
+    if beside.same_airfoils is not None:
+        saving = 100.0 * (1.0 - best.power / beside.same_airfoils)
+        lines.append(f"starting twist on these airfoils {beside.same_airfoils / 1e3:.2f} kW, saving {saving:.2f} %")
     for other in optimum.minima[1:]:
         lines.append(f"local minimum: {other.power / 1e3:.2f} kW with {other.twist}")
     lines.append(f"{optimum.evaluations} designs in {optimum.elapsed:.2f} s")
+    lines += [f"caveat: {caveat}" for caveat in beside.caveats]
     return "\n".join(lines)

@@ -2,16 +2,10 @@
 
 import argparse
 from functools import partial
-from typing import NoReturn
 
-from rotor.command import actuator, airfoil, bench, optimise, reproduce, schedule, solve, study, tables
-
-
-class OneLineParser(argparse.ArgumentParser):
-    """Reports errors in one line, like the rest of this program."""
-
-    def error(self, message: str) -> NoReturn:
-        raise ValueError(f"{message}; see {self.prog} --help")
+from rotor import __version__
+from rotor.command import actuator, airfoil, bench, optimise, reproduce, schedule, solve, study, tables, validate
+from rotor.terminal import OneLineParser
 
 
 def build_parser() -> argparse.ArgumentParser:
@@ -24,6 +18,7 @@ def build_parser() -> argparse.ArgumentParser:
             argparse.HelpFormatter, indent_increment=1
         ),  # Every name has its help on the same line.
     )
+    parser.add_argument("--version", action="version", version=f"rotor-explorer {__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=OneLineParser)
     for add in (
         solve.add_parser,
@@ -35,6 +30,7 @@ def build_parser() -> argparse.ArgumentParser:
         tables.add_ideal,
         actuator.add_parser,
         reproduce.add_parser,
+        validate.add_parser,
         airfoil.add_parser,
         bench.add_parser,
     ):

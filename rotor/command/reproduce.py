@@ -4,12 +4,12 @@ import argparse
 import os
 import sys
 import time
-from pathlib import Path
 from typing import Any
 
 from tqdm import tqdm
 
 from rotor.command.common import STOPPED, add_command, bar, interruptible
+from rotor.user_input import make_folder
 
 
 def add_parser(commands: Any) -> None:
@@ -30,7 +30,7 @@ def run(args: argparse.Namespace) -> int:
     """0, or 130 when interrupted."""
     # Here, because no other command needs the catalogue.
     from rotor.reproduce.catalogue import ENTRIES, CatalogueEntry, find_entry, searches_of
-    from rotor.reproduce.page import NO_PICTURES, can_draw, write_all, write_report
+    from rotor.reproduce.page import NO_PICTURES, can_draw, write_all, write_report, written
     from rotor.reproduce.report import Report, typographic
     from rotor.reproduce.runs import compute_ahead
     from rotor.reproduce.trust_page import write_trust
@@ -42,30 +42,32 @@ def run(args: argparse.Namespace) -> int:
         raise ValueError(f"{processes} processes are outside 1…64: give one a core")
     wanted = [find_entry(number) for number in args.figure or ()]
     entries = [entry for entry in ENTRIES if entry in wanted] if wanted else list(ENTRIES)  # In the thesis' order.
-    folder = Path(args.out)
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise ValueError(f"cannot make the folder {args.out!r} ({error.strerror}): give a writable one") from None
+    folder = make_folder(args.out)
     begin = time.perf_counter()
     made: list[tuple[CatalogueEntry, Report]] = []
     pictures = can_draw()
 
     def make(wanted: list[CatalogueEntry]) -> None:
         for entry in tqdm(wanted, disable=not sys.stderr.isatty(), leave=False, unit="figure"):
-            report = entry.make()
-            write_report(report, folder, pictures=pictures)
+            report = written.known.pop((entry.number, folder, pictures), None)
+            if report is None:
+                report = entry.make()
+                write_report(report, folder, pictures=pictures)
             made.append((entry, report))
             tqdm.write(f"{report.title:<14}{report.verdict.value:<14}{typographic(report.ours)}")
 
-    make([entry for entry in entries if not entry.slow])
+    fast = [entry for entry in entries if not entry.slow]
     groups = searches_of(entries)
     count = sum(map(len, groups))
     stopped = False
     if count:
         print(f"{count} searches for the optima of chapter 4, in {processes} processes", file=sys.stderr)
-        with interruptible() as stop, bar(count, "search") as advance:
-            stopped = compute_ahead(groups, processes, advance, stop)
+        # Figures without searches come first: a page that is stopped has them, and each takes a second at most.
+        figures = [[(written, (entry.number, folder, pictures))] for entry in fast]
+        with interruptible() as stop, bar(count + len(figures), "step") as advance:
+            stopped = compute_ahead([*figures, *groups], processes, advance, stop)
+        fast = [entry for entry in fast if (entry.number, folder, pictures) in written.known]
+    make(fast)
     if not stopped:
         make([entry for entry in entries if entry.slow])
     made.sort(key=lambda pair: entries.index(pair[0]))

@@ -27,6 +27,7 @@ from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
 from rotor.optimisation.objective import QUANTITIES, WeightedCondition, read_mission
 from rotor.optimisation.schedule import Cell, Plan, Schedule, open_cells, read_cells, run_plan
 from rotor.optimisation.search import Optimum
+from rotor.user_input import check_writable
 
 DEFAULT_CONCEPTS = ("linear", "two-segment", "three-segment", "free-form")
 DEFAULT_MU = "0:0.35:0.05"
@@ -60,6 +61,8 @@ def run(args: argparse.Namespace) -> int:
     processes = args.processes if args.processes is not None else min(os.cpu_count() or 1, 4)
     if not 1 <= processes <= 64:
         raise ValueError(f"{processes} processes are outside 1…64: give one a core")
+    if args.csv:
+        check_writable(args.csv)
     found = read_cells(args.resume, plan) if args.resume else []
     keep = open_cells(args.resume, plan) if args.resume else None
     total = len(plan.concepts) * (len(plan.conditions) + 1)

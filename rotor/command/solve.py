@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 from rotor.command.common import add_command, add_design_arguments, design_from, finite
+from rotor.design.design import Design
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.units import KNOT
@@ -30,18 +31,43 @@ def run(args: argparse.Namespace) -> int:
     if args.speed_kt is not None:
         design = design_from(args, args.twist, args.speed_kt * KNOT / design.rotor.tip_speed)
     solution = solve(design)
-    print(json.dumps(solution.to_dict(), indent=2, allow_nan=False) if args.json else report(solution))
+    worth = twist_worth(solution)
+    if args.json:
+        record = {**solution.to_dict(), "twist_worth_percent": worth}
+        print(json.dumps(record, indent=2, allow_nan=False))
+    else:
+        print(report(solution, worth))
     return 0 if solution.converged else 1
 
 
-def report(solution: Solution) -> str:
-    """The same as text."""
+def _load(design: Design) -> str:
+    """What the rotor carries: weight at an altitude, or the inputs of a test."""
+    condition = design.condition
+    if condition.stand is None:
+        return f"{condition.mass:.1f} kg, {condition.altitude:.0f} m"
+    return f"{design.models.trim}: {condition.stand}"
+
+
+def twist_worth(solution: Solution) -> dict[str, float] | None:
+    """Change of main-rotor power from the blade as built [%], and its band over roll-ups; free wake in hover only."""
+    design = solution.design
+    if solution.wake is None or not solution.converged or design.twist == design.rotor.builtin_twist:
+        return None
+    built = solve(design.with_twist("builtin"))
+    band = solution.worth_band(built)
+    if band is None:
+        return None
+    change = solution.power.main_rotor / built.power.main_rotor - 1.0
+    return {"change": 100.0 * change, "low": 100.0 * band[0], "high": 100.0 * band[1]}
+
+
+def report(solution: Solution, worth: dict[str, float] | None = None) -> str:
+    """The same as text; `worth` as `twist_worth` gives it."""
     design, controls = solution.design, solution.controls
     inflow = design.models.hover_inflow if design.hovering else design.models.inflow
     lines = [
         f"{design.rotor.name}, preset {design.preset}, twist {design.twist.spec()}, inflow {inflow}",
-        f"µ {design.condition.advance_ratio:.4f} ({design.airspeed / KNOT:.1f} kt), {design.condition.mass:.1f} kg, "
-        f"{design.condition.altitude:.0f} m",
+        f"µ {design.condition.advance_ratio:.4f} ({design.airspeed / KNOT:.1f} kt), {_load(design)}",
         f"{solution.status.value}: {solution.message}",
     ]
     if design.active_twist is not None:
@@ -61,11 +87,28 @@ def report(solution: Solution) -> str:
             "total": power.total, "main rotor": power.main_rotor, "induced": power.induced,
             "profile": power.profile, "parasite": power.parasite, "tail rotor": power.tail,
         }  # fmt: skip
+        if design.condition.stand is not None:
+            kw = {
+                "shaft": power.shaft, "induced": power.induced, "profile": power.profile,
+                "propulsive": power.parasite,
+            }  # fmt: skip
         lines += ["", *(f"{name:<12}{value / 1e3:10.1f} kW" for name, value in kw.items())]
+        if solution.power_band is not None:
+            low, high = (100.0 * change for change in solution.power_band)
+            lines += [f"main rotor {low:+.1f} to {high:+.1f} % with other roll-ups and a finer grid of the free wake"]
+        if worth is not None:
+            lines += [
+                f"main rotor {worth['change']:+.1f} % from the twist as built, {worth['low']:+.1f} to "
+                f"{worth['high']:+.1f} % if both have another roll-up"
+            ]
         lines += ["", *(f"{name:<12}{math.degrees(value) + 0.0:10.2f} °" for name, value in degrees.items())]
         merit = solution.figure_of_merit
         lines += ["", f"κ = P_i/(C_T λ0) {solution.induced_power_factor:.3f}"]
         lines += [f"C_T/σ {solution.ct_over_sigma:.4f} (σ {design.rotor.solidity:.4f})"]
+        if design.condition.stand is not None:
+            lift, drag = solution.lift_and_drag
+            lines += [f"C_Q/σ {solution.cq / design.rotor.solidity:.6f}, torque {solution.torque:.1f} N m"]
+            lines += [f"lift {lift:.1f} N, drag {drag:.1f} N (wind axes)"]
         lines += (
             [f"figure of merit {merit:.3f}"] if merit is not None else [f"L/D_e {solution.lift_to_drag or 0.0:.2f}"]
         )

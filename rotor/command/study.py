@@ -1,4 +1,4 @@
-"""`study`: runs a study file on Dask; `study show`: best point, robust best design, sensitivities, failures."""
+"""`study`: runs a study file on all cores or on Dask; `study show`: best points, effects, failures."""
 
 import argparse
 import json
@@ -167,11 +167,11 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("file", metavar="FILE.toml", help="study file, a shipped example (two_segment.toml), or show")
     parser.add_argument("folder", metavar="DIR", nargs="?", help="with show: the --out DIR of a study")
     parser.add_argument(
-        "--scheduler", metavar="tcp://HOST:PORT", help="address of a running Dask cluster (default: start one here)"
+        "--scheduler",
+        metavar="tcp://HOST:PORT",
+        help="address of a running Dask cluster (default: the cores of this machine)",
     )
-    parser.add_argument(
-        "--workers", type=int, metavar="N", help="processes of the cluster started here (default: one per core)"
-    )
+    parser.add_argument("--workers", type=int, metavar="N", help="processes on this machine (default: one per core)")
     parser.add_argument("--out", metavar="DIR", help="results folder (default: the file's name); resumed if it exists")
     parser.add_argument(
         "--dry-run", action="store_true", help="check the file and estimate the time, without running it"
@@ -198,10 +198,10 @@ def run(args: argparse.Namespace) -> int:
     if args.workers is not None and not 1 <= args.workers <= 1024:
         raise ValueError(f"{args.workers} workers are outside 1…1024: use one per core")
     if args.workers is not None and args.scheduler:
-        raise ValueError("--workers is for the cluster started here: omit it, or omit --scheduler")
+        raise ValueError("--workers is for the processes of this machine: omit it, or omit --scheduler")
     if args.dry_run:
         return _dry_run(file)
-    need_packages()
+    need_packages(cluster=args.scheduler is not None)
     provenance = StudyProvenance(package_version(), commit(), sha256(file.text))
     store = Store(args.out or Path(file.path).stem, file, provenance)
     try:

@@ -20,6 +20,7 @@ from rotor.command.common import add_command, add_design_arguments, add_rotor_ar
 from rotor.files.make_design import make_design
 from rotor.files.ranges import parse_range
 from rotor.files.rotor_file import find_aircraft
+from rotor.user_input import check_writable
 
 
 def add_sweep(commands: Any) -> None:
@@ -36,6 +37,8 @@ def run_sweep(args: argparse.Namespace) -> int:
     advance_ratios = parse_range(args.mu)
     specs: list[str | None] = list(args.twist) if args.twist else [None]
     designs = [design_from(args, spec, mu) for spec in specs for mu in advance_ratios]  # Bad input is reported first.
+    if args.csv:
+        check_writable(args.csv)
     rows: list[tuple[str, ...]] = []
     converged = True
     longest = max(len(design.twist.spec()) for design in designs)
@@ -173,6 +176,8 @@ def run_ideal(args: argparse.Namespace) -> int:
     if min(speeds) < 0.02:
         raise ValueError(f"advance ratio {min(speeds):g} is too low for a skewed wake: start at 0.02 or more")
     designs = [make_design(rotor=craft, mu=mu, mass_kg=mass) for mu in speeds for mass in masses]
+    if args.csv:
+        check_writable(args.csv)
     rows: list[tuple[str, ...]] = []
     print("".join(f"{name:>16}" for name in _IDEAL_COLUMNS))
     for design in tqdm(designs, disable=not sys.stderr.isatty(), leave=False):

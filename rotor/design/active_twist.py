@@ -45,11 +45,12 @@ class ActiveTwist:
         if any(low >= high for low, high in pairwise(self.stations)):
             raise ValueError(f"active-twist stations {list(self.stations)} must ascend: sort them")
 
-    def __call__(self, r: Array, psi: Array) -> Array:
-        """[rad], (elements, azimuths)."""
+    def __call__(self, r: Array, psi: Array, derivative: int = 0) -> Array:
+        """θ_act or its derivatives by ψ [rad], (elements, azimuths)."""
         wave = np.zeros_like(psi)
         for harmonic in self.harmonics:
-            wave = wave + harmonic.amplitude * np.cos(harmonic.per_rev * psi - harmonic.phase)
+            size = harmonic.amplitude * harmonic.per_rev**derivative
+            wave = wave + size * np.cos(harmonic.per_rev * psi - harmonic.phase + 0.5 * math.pi * derivative)
         return np.outer(np.interp(r, self.stations, self.shape), wave)
 
 

@@ -10,6 +10,7 @@ from numbers import Real
 from typing import Any, Literal
 
 from rotor.design.blade import Rotor
+from rotor.design.stand import Stand
 from rotor.design.twist import TwistLaw
 from rotor.units import GRAVITY, KNOT
 
@@ -24,9 +25,13 @@ GAS_CONSTANT = 287.05287
 RATIO_OF_SPECIFIC_HEATS = 1.4
 
 
+LEAST_MASS = 100.0
+"""[kg] of an aircraft."""
+
+
 @dataclass(frozen=True)
 class FlightCondition:
-    """Steady level flight, or hover when the advance ratio is zero."""
+    """Steady level flight, or a test of the rotor alone; hover when the advance ratio is zero."""
 
     advance_ratio: float
     """µ = V/(ΩR)."""
@@ -38,10 +43,13 @@ class FlightCondition:
     """Given longitudinal flapping β1c [rad], negative when the disk tilts back; used where cyclic trims flapping."""
     flap_1s: float = 0.0
     """Given lateral flapping β1s [rad]."""
+    stand: Stand | None = None
+    """The inputs of a test of the rotor alone, which has neither weight nor drag to balance; None in flight."""
 
     def __post_init__(self) -> None:
-        _check("advance ratio", self.advance_ratio, 0.0, 0.6, "")
-        _check("mass", self.mass, 100.0, 50_000.0, " kg")
+        _check("advance ratio", self.advance_ratio, 0.0, 0.6 if self.stand is None else 0.75, "")
+        if self.stand is None:
+            _check("mass", self.mass, LEAST_MASS, 50_000.0, " kg")
         _check("altitude", self.altitude, -500.0, 8_000.0, " m")
         _check("flap_1c", self.flap_1c, -0.3, 0.3, " rad")
         _check("flap_1s", self.flap_1s, -0.3, 0.3, " rad")
@@ -53,7 +61,9 @@ class FlightCondition:
 
     @property
     def density(self) -> float:
-        """Air density [kg/m³], standard atmosphere."""
+        """Air density [kg/m³], standard atmosphere unless a test gives it."""
+        if self.stand is not None and self.stand.density is not None:
+            return self.stand.density
         exponent = GRAVITY / (GAS_CONSTANT * LAPSE_RATE) - 1.0
         return SEA_LEVEL_DENSITY * self._temperature_ratio**exponent
 
@@ -61,6 +71,12 @@ class FlightCondition:
     def sound_speed(self) -> float:
         """[m/s], standard atmosphere."""
         return math.sqrt(RATIO_OF_SPECIFIC_HEATS * GAS_CONSTANT * SEA_LEVEL_TEMPERATURE * self._temperature_ratio)
+
+    @property
+    def viscosity(self) -> float:
+        """Dynamic viscosity [Pa s], Sutherland's law with the constants of ISO 2533."""
+        temperature = SEA_LEVEL_TEMPERATURE * self._temperature_ratio
+        return 1.458e-6 * temperature**1.5 / (temperature + 110.4)
 
     @property
     def _temperature_ratio(self) -> float:
@@ -73,6 +89,8 @@ class Fuselage:
 
     drag_area: float
     """Equivalent flat-plate area f [m²]."""
+    hover_download: float = 0.0
+    """Force of the rotor's wake on the airframe in hover, as a part of the weight."""
 
     def drag(self, density: float, speed: float) -> float:
         """[N] at air density [kg/m³] and airspeed [m/s]."""
@@ -83,7 +101,10 @@ def number(name: str, value: object, example: str) -> float:
     """The value as a float; TypeError with one sentence when it is not a real number."""
     if isinstance(value, bool) or not isinstance(value, Real):
         raise TypeError(f"{name} is {value!r}, not a number: write for example {name}={example}")
-    return float(value)
+    try:
+        return float(value)
+    except OverflowError:
+        raise ValueError(f"{name} has hundreds of digits: write for example {name}={example}") from None
 
 
 def advance_ratio(
@@ -138,8 +159,9 @@ class TailRotor:
     """[1/rad]"""
 
 
-Hub = Literal["articulated", "teetering", "teetering-with-coning-hinges"]
-HUBS: tuple[Hub, ...] = ("articulated", "teetering", "teetering-with-coning-hinges")
+Hub = Literal["articulated", "teetering", "teetering-with-coning-hinges", "gimballed"]
+HUBS: tuple[Hub, ...] = ("articulated", "teetering", "teetering-with-coning-hinges", "gimballed")
+"""`gimballed`: three or more blades on one joint at the shaft; the hub tilts as a whole and fixes the coning."""
 
 
 @dataclass(frozen=True)
@@ -181,6 +203,8 @@ class Aircraft:
     """Files of a user's own aircraft; None for a shipped one."""
     remarks: tuple[str, ...] = ()
     """Assumptions made when the files were read, in sentences."""
+    isolated: bool = False
+    """Whether the file is of a rotor alone, without an airframe, to be tested on a stand."""
 
     def __repr__(self) -> str:
         return f"Aircraft({self.name}, {self.mass:.0f} kg, drag area {self.fuselage.drag_area:.3g} m², {self.rotor})"

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from rotor.airfoil.sections import OwnSection, Section, install_own, load_installed
 from rotor.arrays import Array
+from rotor.design.structure import BladeStructure
 from rotor.design.twist import TwistLaw
 
 
@@ -49,8 +50,16 @@ class Blade:
     """First mass moment about the flap hinge [kg m]."""
     mass: float
     """[kg]"""
+    tip_sweep: float = 0.0
+    """Sweep of the tip [rad], positive aft."""
+    tip_sweep_start: float = 1.0
+    """r/R where the swept tip begins."""
+    surface_drag: float = 1.0
+    """Drag of the real surface over that of the section data."""
     own_sections: tuple[OwnSection, ...] = ()
     """Section data supplied by the user, which spans may name as well as the bundled ones."""
+    structure: BladeStructure | None = None
+    """Torsional stiffness, inertia and mass; None where unknown: the blade is then rigid in torsion."""
 
     def __post_init__(self) -> None:
         if len(self.chord_stations) != len(self.chords) or not self.chords:
@@ -59,12 +68,26 @@ class Blade:
             raise ValueError("a blade needs at least one section span: add one with start, end and section")
         if not 0.0 < self.root_cutout < 0.9:
             raise ValueError(f"root cut-out {self.root_cutout:g} is outside 0…0.9: give it as a fraction of the radius")
+        if not (abs(self.tip_sweep) <= 1.05 and 0.3 <= self.tip_sweep_start <= 1.0):
+            raise ValueError(
+                f"tip sweep {math.degrees(self.tip_sweep):g}° from {self.tip_sweep_start:g} R: "
+                "give −60…60° from 0.3…1 R"
+            )
         if min(self.flap_inertia, self.mass, *self.chords) <= 0.0:
             raise ValueError("blade chord, mass and flap inertia must be positive: check the rotor file")
 
     def chord(self, r: ArrayLike) -> Array:
         """Reference chord [m] at r = y/R."""
         return np.interp(np.asarray(r, dtype=float), self.chord_stations, self.chords)
+
+    def sweep(self, r: ArrayLike, radius: float) -> Array:
+        """Sweep of the quarter chord [rad] as the flow sees it: over one chord, centred on the kink, it grows smoothly.
+
+        Isobars do not kink with the planform. `radius` is R [m].
+        """
+        width = float(self.chord(self.tip_sweep_start)) / radius
+        t = np.clip((np.asarray(r, dtype=float) - self.tip_sweep_start) / width + 0.5, 0.0, 1.0)
+        return self.tip_sweep * t * t * (3.0 - 2.0 * t)
 
     def installed(self, name: str) -> Section:
         """The section `name` with table and outline, the user's or a bundled one; ValueError for an unknown name."""
@@ -95,6 +118,8 @@ class Rotor:
     reference_chord: float
     """Chord [m] on which the quoted solidity is based."""
     builtin_twist: TwistLaw
+    precone: float | None = None
+    """Coning angle that the hub fixes [rad], as a gimbal or a teetering bar does; None: the blades cone freely."""
 
     def __post_init__(self) -> None:
         if self.blades < 2 or self.radius <= 0.0 or self.angular_speed <= 0.0:
@@ -134,9 +159,11 @@ def with_airfoils(rotor: Rotor, sections: Sequence[str], breaks: Sequence[float]
     """The rotor with other sections, root to tip, that change at `breaks` (r/R) without a blend."""
     ends = (rotor.blade.root_cutout, *breaks, 1.0)
     if len(breaks) != len(sections) - 1 or any(low >= high for low, high in pairwise(ends)):
+        given = ", ".join(f"{one:g}" for one in breaks)
         raise ValueError(
-            f"{len(sections)} airfoils with changes at {list(breaks)}: give one ascending r/R between each two, "
-            f"beyond the root cut-out {rotor.blade.root_cutout:g}"
+            f"{len(sections)} airfoils with {f'changes at {given}' if breaks else 'no change'}: give one ascending r/R "
+            f"between each two, beyond the root cut-out {rotor.blade.root_cutout:g}, for example "
+            "sc1094r8,sc1095@0.5"
         )
     spans = tuple(Span(low, high, name) for (low, high), name in zip(pairwise(ends), sections, strict=True))
     return replace(rotor, blade=replace(rotor.blade, spans=spans))

@@ -7,6 +7,7 @@ models, and `thesis`, those that the document states.
 
 import hashlib
 import json
+import math
 from dataclasses import dataclass, fields, is_dataclass, replace
 from pathlib import Path
 from typing import Any, Literal, cast
@@ -14,7 +15,9 @@ from typing import Any, Literal, cast
 from rotor.design.active_twist import ActiveTwist, active_twist_record
 from rotor.design.aircraft import Aircraft, FlightCondition, Fuselage, TailRotor, advance_ratio, number
 from rotor.design.blade import Rotor, airfoils_spec
+from rotor.design.stand import STAND_TRIMS, Stand, StandTrim
 from rotor.design.twist import TwistLaw, ideal_tip_pitch, inline_spec, parse_twist
+from rotor.user_input import write_whole
 
 
 def fingerprint(value: object) -> str:
@@ -35,12 +38,20 @@ def _text(value: Any) -> str:
     return repr(value)
 
 
-HoverInflow = Literal["annulus", "closed-form"]
-Trim = Literal["propulsive", "thrust"]
+HoverInflow = Literal["annulus", "closed-form", "free-wake"]
+HOVER_INFLOWS: tuple[HoverInflow, ...] = ("annulus", "closed-form", "free-wake")
+LowSpeed = Literal["wake", "hover"]
+LOW_SPEEDS: tuple[LowSpeed, ...] = ("wake", "hover")
+FlightTrim = Literal["propulsive", "thrust"]
+TRIMS: tuple[FlightTrim | StandTrim, ...] = ("propulsive", "thrust", *STAND_TRIMS)
 
 FORMAT = "rotor-explorer design"
 """Of design files."""
 VERSION = 2
+
+
+BEYOND_DOCUMENT = ("elastic_twist", "surface_drag", "swept_tip", "radial_friction", "swirl", "download")
+"""Switches of `Models` for losses that the document does not have."""
 
 
 @dataclass(frozen=True)
@@ -50,10 +61,11 @@ class Models:
     inflow: str
     """Forward-flight inflow model by name, one of `rotor.aero.inflow.INFLOW_MODELS`."""
     hover_inflow: HoverInflow
-    """`annulus`: balance with the real Cl(α); `closed-form`: eq. (3.3)."""
-    trim: Trim
+    """`annulus`: balance with the real Cl(α); `closed-form`: eq. (3.3); `free-wake`: vortex filaments of each blade."""
+    trim: FlightTrim | StandTrim
     """`propulsive`: weight, drag and first-harmonic flapping by collective, cyclic and shaft tilt;
-    `thrust`: the resultant of weight and drag by collective, free flapping, no cyclic."""
+    `thrust`: the resultant of weight and drag by collective, free flapping, no cyclic. Those of a rotor on a test
+    stand, which need `FlightCondition.stand`: see `rotor.design.stand`."""
     disk_axial_flow: bool
     """Whether the tilted shaft sees µ sin α through the disk (absent from eq. 3.6 as printed)."""
     blade_weight: bool
@@ -72,10 +84,31 @@ class Models:
     """Whether section data depend on the Mach number. Off: data at Mach 0.3 everywhere."""
     fuselage: bool = True
     """Whether the airframe has drag, eq. (3.19). Off: drag area 0."""
+    swirl: bool = True
+    """Whether the rotor turns the air it works in. Off: the air in the disk moves along the shaft only."""
+    swept_tip: bool = True
+    """Whether a swept tip sees the Mach number normal to its quarter chord. Off: as if straight."""
+    radial_friction: bool = True
+    """Whether air that flows along the blade rubs on it. Off: friction of the flow across the blade only."""
+    download: bool = True
+    """Whether the rotor's wake presses on the fuselage. Off: thrust carries the weight alone."""
+    surface_drag: bool = True
+    """Whether drag is multiplied by the rotor file's factor for the surface of its blades. Off: section data alone."""
+    elastic_twist: bool = True
+    """Whether the blade twists under its loads. Off: rigid in torsion."""
+    low_speed: LowSpeed = "wake"
+    """`wake`: the inflow model of forward flight at any speed; `hover`: it passes over to the hover model as the speed
+    falls to zero."""
+    document_losses: bool = False
+    """Only losses the document knows: whatever the switches of `BEYOND_DOCUMENT` say."""
     elements: int = 40
     """Blade elements, equally wide (eq. 3.14)."""
     azimuths: int = 120
     """Azimuth stations."""
+
+    def has(self, name: str) -> bool:
+        """Whether one of the switches is on and belongs to these models."""
+        return bool(getattr(self, name)) and not (self.document_losses and name in BEYOND_DOCUMENT)
 
     def __post_init__(self) -> None:
         if not 4 <= self.elements <= 1000:
@@ -100,13 +133,34 @@ class Design:
     active_twist: ActiveTwist | None = None
     """Twist as a function of azimuth, added to the twist law in forward flight."""
 
+    def __post_init__(self) -> None:
+        trim, stand = self.models.trim, self.condition.stand
+        if (trim in STAND_TRIMS) != (stand is not None):
+            raise ValueError(
+                f"trim {trim!r} {'needs' if stand is None else 'does not use'} the inputs of a test stand: "
+                f"{'give them' if stand is None else 'leave them out'}, or choose another trim"
+            )
+        if stand is None:
+            return
+        if not self.models.disk_axial_flow:
+            raise ValueError(f"trim {trim!r} needs the axial flow of the tilted disk: use the preset flight")
+        if trim == "free-rotor" and self.hovering:
+            raise ValueError("a free rotor needs wind to turn it: give an advance ratio above 0")
+        if trim == "controls" and (stand.collective is None or stand.flapping != "free"):
+            raise ValueError("trim 'controls' needs a collective and free flapping: give both, or trim 'wind-tunnel'")
+        if self.hovering and (stand.cyclic_1c or stand.cyclic_1s):
+            raise ValueError("in hover the rotor is balanced annulus by annulus, without cyclic: leave cyclic out")
+
     def __repr__(self) -> str:
         condition = self.condition
         speed = "hover" if self.hovering else f"mu={condition.advance_ratio:.4g}"
         inflow = self.models.hover_inflow if self.hovering else self.models.inflow
+        load = f"{condition.mass:.0f} kg, {condition.altitude:.0f} m"
+        if condition.stand is not None:
+            load = f"{self.models.trim}: {condition.stand}"
         return (
-            f"Design({self.aircraft.name}, twist {self.twist.spec()}, {speed}, {condition.mass:.0f} kg, "
-            f"{condition.altitude:.0f} m, preset {self.preset}, inflow {inflow})"
+            f"Design({self.aircraft.name}, twist {self.twist.spec()}, {speed}, {load}, "
+            f"preset {self.preset}, inflow {inflow})"
         )
 
     def at(
@@ -150,6 +204,7 @@ class Design:
         changed = self.rotor != self.aircraft.rotor_for(self.preset)
         airfoils = airfoils_spec(self.rotor) if changed else None
         switches = [field.name for field in fields(Models) if field.default is True]
+        preset = preset_models(self.preset)
         return {
             "format": FORMAT,
             "version": VERSION,
@@ -160,14 +215,20 @@ class Design:
             "mass_kg": self.condition.mass,
             "altitude_m": self.condition.altitude,
             "inflow": self.models.inflow,
+            **({} if self.models.hover_inflow == preset.hover_inflow else {"hover_inflow": self.models.hover_inflow}),
+            **({} if self.models.low_speed == preset.low_speed else {"low_speed": self.models.low_speed}),
             **{name: getattr(self.models, name) for name in switches},
             **({"airfoils": airfoils} if airfoils else {}),
             **({"active_twist": active_twist_record(self.active_twist)} if self.active_twist else {}),
+            **({} if self.condition.stand is None else self._stand_record(self.condition.stand)),
         }
+
+    def _stand_record(self, stand: Stand) -> dict[str, Any]:
+        return {"trim": self.models.trim, "stand": stand.record()}
 
     def save(self, path: str | Path) -> None:
         """Write a design file, which `load_design` reads."""
-        Path(path).write_text(json.dumps(self.to_dict(), indent=2) + "\n", encoding="utf-8")
+        write_whole(path, json.dumps(self.to_dict(), indent=2) + "\n")
 
     @property
     def airspeed(self) -> float:
@@ -176,10 +237,15 @@ class Design:
 
     @property
     def drag(self) -> float:
-        """Drag of the airframe [N], eq. (3.19); 0 where the models leave it out."""
-        if not self.models.fuselage:
+        """Drag of the airframe [N], eq. (3.19); 0 where the models leave it out, and on a test stand."""
+        if not self.models.fuselage or self.condition.stand is not None:
             return 0.0
         return self.fuselage.drag(self.condition.density, self.airspeed)
+
+    @property
+    def elastic(self) -> bool:
+        """Whether the blade twists under its loads: switched on, and its structure known."""
+        return self.models.has("elastic_twist") and self.rotor.blade.structure is not None
 
     @property
     def hovering(self) -> bool:
@@ -187,8 +253,36 @@ class Design:
 
     @property
     def weight_coefficient(self) -> float:
-        """C_W = W/(ρ A (ΩR)²)"""
-        return self.condition.weight / self.thrust_unit
+        """C_W = W/(ρ A (ΩR)²); on a test stand the thrust coefficient given, or where the collective is given what
+        blade element theory expects of an untwisted blade."""
+        stand = self.condition.stand
+        if stand is None:
+            return self.condition.weight / self.thrust_unit
+        if stand.ct_over_sigma is not None:
+            return stand.ct_over_sigma * self.rotor.solidity
+        return (
+            self._estimated_thrust(stand.collective)
+            if stand.collective is not None
+            else ((stand.thrust or 0.0) / self.thrust_unit)
+        )
+
+    def _estimated_thrust(self, collective: float) -> float:
+        """C_T = ½σa(θ(1 + 3/2 µ²)/3 − λ/2) with a = 5.9 and λ = √(C_T/2) or C_T/2µ, never below 0.02 σ."""
+        sigma, mu = self.rotor.solidity, self.condition.advance_ratio
+        ct = 0.0
+        for _ in range(20):
+            inflow = ct / (2.0 * math.hypot(mu, math.sqrt(ct / 2.0))) if ct > 0.0 else 0.0
+            free = 0.5 * 5.9 * sigma * (collective * (1.0 + 1.5 * mu**2) / 3.0 - 0.5 * inflow)
+            ct = 0.5 * (ct + max(free, 0.02 * sigma))
+        return ct
+
+    @property
+    def tip_mach(self) -> float:
+        """ΩR over the speed of sound."""
+        stand = self.condition.stand
+        if stand is not None and stand.tip_mach is not None:
+            return stand.tip_mach
+        return self.rotor.tip_speed / self.condition.sound_speed
 
     @property
     def thrust_unit(self) -> float:
@@ -210,6 +304,7 @@ FLIGHT_MODELS = Models(
     disk_axial_flow=True,
     blade_weight=True,
     tail_rotor_solved=True,
+    low_speed="hover",
 )
 THESIS_MODELS = Models(
     inflow="pitt-peters-15pi/23",
@@ -218,7 +313,14 @@ THESIS_MODELS = Models(
     disk_axial_flow=False,
     blade_weight=False,
     tail_rotor_solved=False,
+    document_losses=True,
 )
+
+
+def preset_models(preset: str) -> Models:
+    """The models that a preset names; ValueError for a preset that does not exist."""
+    check_preset(preset)
+    return THESIS_MODELS if preset == "thesis" else FLIGHT_MODELS
 
 
 def check_preset(preset: str) -> None:

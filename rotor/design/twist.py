@@ -20,6 +20,7 @@ from scipy.interpolate import CubicSpline
 
 from rotor.arrays import Array
 from rotor.assets import SHIPPED_ROTORS, asset_path
+from rotor.user_input import read_text, refusing
 
 REFERENCE_RADIUS = 0.75
 """r/R where every twist law is zero."""
@@ -218,6 +219,8 @@ _LAWS = ("linear", "quadratic", "segments", "spline", "points", "ideal", "builti
 _PLUS = re.compile(rf"\+(?=(?:{'|'.join(_LAWS)})\b)")
 """Between the laws of a sum, not the plus sign of a number or of a file's name."""
 _NUMBER = re.compile(r"([-+−]?\d*\.?\d+)\s*°?")
+_MOST_LAWS, _MOST_ROWS = 20, 1000
+"""Laws of a sum, which is evaluated law by law within each other, and numbers of one law."""
 
 
 def parse_twist(spec: str, *, builtin: TwistLaw | None = None, ideal_tip_pitch: float | None = None) -> TwistLaw:
@@ -234,6 +237,10 @@ def parse_twist(spec: str, *, builtin: TwistLaw | None = None, ideal_tip_pitch: 
         remedy = f'write "linear:{spec}"' if isinstance(spec, int | float) else 'write a text such as "linear:-12"'
         raise TypeError(f"twist {spec!r} is not a twist: {remedy} (degrees per radius), or pass a twist law")
     first, *others = _PLUS.split(spec.strip())
+    if len(others) >= _MOST_LAWS:
+        raise ValueError(f"twist adds {len(others) + 1} laws: give at most {_MOST_LAWS}")
+    if spec.count(",") > 2 * _MOST_ROWS:
+        raise ValueError(f"twist has {spec.count(',') + 1} numbers: give at most {_MOST_ROWS} stations")
     if others:
         law = parse_twist(first, builtin=builtin, ideal_tip_pitch=ideal_tip_pitch)
         for other in others:
@@ -311,12 +318,12 @@ def inline_spec(law: TwistLaw) -> str:
             return law.spec()
 
 
+@refusing("twist table", "give a two-column file (r/R, degrees)")
 def read_twist_table(path: Path) -> TableTwist:
     """Read a two-column text table, r/R and twist in degrees; `#` starts a comment, commas or blanks separate."""
-    if not path.is_file():
-        raise ValueError(f"twist table {str(path)!r} does not exist: give the path of a two-column file (r/R, degrees)")
+    text = read_text(path, "twist table", "give the path of a two-column file (r/R, degrees)")
     rows: list[tuple[float, float]] = []
-    for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+    for number, line in enumerate(text.splitlines(), start=1):
         items = line.partition("#")[0].replace(",", " ").split()
         if not items:
             continue
@@ -333,6 +340,8 @@ def read_twist_table(path: Path) -> TableTwist:
                 f"twist table {str(path)!r} line {number} has r/R {r:g} and {angle:g}°: keep r/R in 0…1, twist in ±60°"
             )
         rows.append((r, math.radians(angle)))
+    if len(rows) > _MOST_ROWS:
+        raise ValueError(f"twist table {str(path)!r} has {len(rows)} rows: give at most {_MOST_ROWS}")
     return TableTwist(tuple(r for r, _ in rows), tuple(a for _, a in rows), name=f"table:{path}")
 
 

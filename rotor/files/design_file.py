@@ -13,10 +13,13 @@ from rotor.aero.switches import SWITCHES
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.active_twist import read_active_twist
 from rotor.design.aircraft import Aircraft
-from rotor.design.design import FORMAT, VERSION, Design
+from rotor.design.design import FORMAT, HOVER_INFLOWS, LOW_SPEEDS, VERSION, Design
 from rotor.files.make_design import change_airfoils, make_design
 from rotor.files.rotor_file import LARGEST_FILE, find_aircraft, read_aircraft, shipped_aircraft
+from rotor.user_input import read_bytes, refusing, shorten
 
+_LARGEST_NUMBER = 1e12
+"""No quantity of a design is larger; JSON has integers of any length. NaN is refused with the range of its quantity."""
 READS = (1, VERSION)
 """Version 1 had no `rotor`: its designs are of the UH-60A."""
 
@@ -30,9 +33,13 @@ _KEYS = (
     "mass_kg",
     "altitude_m",
     "inflow",
+    "hover_inflow",
+    "low_speed",
     *SWITCHES,
     "airfoils",
     "active_twist",
+    "trim",
+    "stand",
     "solution",
 )
 """`solution` holds the results that `Solution.save` adds; they are not read back."""
@@ -73,6 +80,11 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False) -> Design
         )
     preset = _text(record, "preset", "flight")
     twist = _text(record, "twist", "")
+    stand = record.get("stand")
+    if not isinstance(stand, dict | None):
+        raise ValueError(
+            f'design file key \'stand\' is {stand!r}: write {{"shaft_tilt_deg": 5, "ct_over_sigma": 0.08}}'
+        )
     design = make_design(
         preset=preset,
         rotor=read_rotor_record(record.get("rotor", SHIPPED_ROTORS[0]), paths=paths),
@@ -80,12 +92,22 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False) -> Design
         mu=_number(record, "advance_ratio", 0.2),
         mass_kg=_number(record, "mass_kg", None),
         altitude_m=_number(record, "altitude_m", 0.0),
+        trim=_text(record, "trim", "") or None,
+        stand=cast(dict[str, Any] | None, stand),
     )
     inflow = _text(record, "inflow", design.models.inflow)
     inflow_model(inflow)
+    hover_inflow = _text(record, "hover_inflow", design.models.hover_inflow)
+    if hover_inflow not in HOVER_INFLOWS:
+        raise ValueError(f"hover inflow {hover_inflow!r} is not known: use one of {', '.join(HOVER_INFLOWS)}")
+    low_speed = _text(record, "low_speed", design.models.low_speed)
+    if low_speed not in LOW_SPEEDS:
+        raise ValueError(f"low speed {low_speed!r} is not known: use one of {', '.join(LOW_SPEEDS)}")
     models = replace(
         design.models,
         inflow=inflow,
+        hover_inflow=hover_inflow,
+        low_speed=low_speed,
         **{name: _flag(record, name, getattr(design.models, name)) for name in SWITCHES},
     )
     airfoils = _text(record, "airfoils", "")
@@ -96,22 +118,22 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False) -> Design
 
 def load_design(path: str | Path) -> Design:
     """Read a design file; ValueError with one sentence when it cannot be used."""
-    path = Path(path)
-    try:
-        content = path.read_bytes()
-    except FileNotFoundError:
-        raise ValueError(f"design file {str(path)!r} does not exist: give the path of a JSON design file") from None
-    except OSError as error:
-        raise ValueError(f"design file {str(path)!r} cannot be read ({error}): give a JSON design file") from None
-    return _named(_record(content, str(path)), str(path), paths=True)
+    name, remedy = shorten(str(path)), "give the path of a JSON design file"
+    content = read_bytes(path, "design file", remedy)
+    with refusing(f"design file {name!r}", remedy):
+        return _named(_record(content, name), name, paths=True)
 
 
 def parse_design(content: bytes, name: str) -> Design:
     """The same for the content of an uploaded file, which may not name files of this machine."""
-    record = _record(content, name)
-    if "table:" in str(record.get("twist", "")):
-        raise ValueError(f"design file {name!r} names a twist table of another machine: write its rows as points:…@…")
-    return _named(record, name)
+    name = shorten(name)
+    with refusing(f"design file {name!r}", "give a JSON design file"):
+        record = _record(content, name)
+        if "table:" in str(record.get("twist", "")):
+            raise ValueError(
+                f"design file {name!r} names a twist table of another machine: write its rows as points:…@…"
+            )
+        return _named(record, name)
 
 
 def _named(record: dict[str, Any], name: str, *, paths: bool = False) -> Design:
@@ -127,6 +149,8 @@ def _record(content: bytes, name: str) -> dict[str, Any]:
         record = json.loads(content.decode("utf-8"))
     except (UnicodeDecodeError, json.JSONDecodeError) as error:
         raise ValueError(f"design file {name!r} cannot be read ({error}): give a JSON design file") from None
+    except ValueError:
+        raise ValueError(f"design file {name!r} holds an integer of thousands of digits: check the values") from None
     if not isinstance(record, dict):
         raise ValueError(f'design file {name!r} is not a JSON object: write {{"twist": "linear:-8", …}}')
     return cast(dict[str, Any], record)
@@ -134,7 +158,9 @@ def _record(content: bytes, name: str) -> dict[str, Any]:
 
 def _number(record: dict[str, Any], key: str, default: Any) -> Any:
     value = record.get(key, default)
-    if value is default or (isinstance(value, (int, float)) and not isinstance(value, bool)):
+    if value is default:
+        return value
+    if isinstance(value, (int, float)) and not isinstance(value, bool) and not abs(value) >= _LARGEST_NUMBER:
         return value
     raise ValueError(f"design file key {key!r} is {value!r}: give a number")
 

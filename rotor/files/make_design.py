@@ -1,17 +1,20 @@
 """A design from names: preset, aircraft, twist SPEC."""
 
 import tomllib
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import cache
 from typing import Any
 
 from rotor.aero.inflow import inflow_model
-from rotor.assets import SHIPPED_ROTORS, asset_path
+from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS, asset_path
 from rotor.design.aircraft import Aircraft, FlightCondition, advance_ratio, number
 from rotor.design.blade import Rotor, parse_airfoils
-from rotor.design.design import FLIGHT_MODELS, THESIS_MODELS, Design, Models, check_preset
+from rotor.design.design import TRIMS, Design, Models, check_preset, preset_models
+from rotor.design.stand import STAND_TRIMS, Stand, read_stand
 from rotor.design.twist import TwistLaw
-from rotor.files.rotor_file import shipped_aircraft
+from rotor.files.rotor_file import ISOLATED_LOADING, shipped_aircraft
+from rotor.user_input import did_you_mean
 
 ADVANCE_RATIO = 0.2
 """Of a design whose speed is not given."""
@@ -52,6 +55,8 @@ def make_design(
     preset: str = "flight",
     inflow: str | None = None,
     models: Models | None = None,
+    trim: str | None = None,
+    stand: Stand | Mapping[str, Any] | None = None,
 ) -> Design:
     """A design from names and numbers; left out, it is the UH-60A with its built-in twist at µ = 0.2.
 
@@ -63,28 +68,36 @@ def make_design(
     preset: `flight`, the best models available, or `thesis`, those of the source document. On a rotor other than the
         UH-60A `thesis` means the document's models with that rotor's own sections, planform, hinge and twist.
     inflow: forward-flight inflow model by name, in place of the preset's. models: all model choices at once.
+    trim: `propulsive` or `thrust` in flight; `wind-tunnel`, `free-rotor` or `controls` on a test stand.
+    stand: the inputs of the test, a `Stand`, or a mapping such as {"shaft_tilt_deg": 5, "ct_over_sigma": 0.08}; its
+        keys: `rotor.design.stand.STAND_KEYS`. A rotor without an airframe is in a wind tunnel at C_T/σ 0.07 by default.
 
     Raises TypeError or ValueError with one sentence that names the value and the remedy.
     """
     check_preset(preset)
     if isinstance(rotor, str):
-        if rotor not in SHIPPED_ROTORS:
-            names = ", ".join(SHIPPED_ROTORS)
-            raise ValueError(f'rotor {rotor!r} is not known: use {names}, or rotor.load_rotor("mine.toml")')
+        if rotor not in (*SHIPPED_ROTORS, *MEASURED_ROTORS):
+            known = (*SHIPPED_ROTORS, *MEASURED_ROTORS)
+            hint = did_you_mean(rotor, known) or ":"
+            raise ValueError(
+                f'rotor {rotor!r} is not known{hint} use {", ".join(known)}, or rotor.load_rotor("mine.toml")'
+            )
         rotor = shipped_aircraft(rotor)
     elif not isinstance(rotor, Aircraft):  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass anything
         raise TypeError(f'rotor {rotor!r} is not a rotor: use a name such as "uh60a", or rotor.load_rotor("mine.toml")')
     blades = rotor.rotor_for(preset)
     if models is None:
-        models = FLIGHT_MODELS if preset == "flight" else THESIS_MODELS
+        models = preset_models(preset)
     if inflow is not None:
         inflow_model(inflow)
         models = replace(models, inflow=inflow)
+    models, stand = _test(rotor, models, trim, stand)
     speed = advance_ratio(blades.tip_speed, mu, speed_kt, hover)
     condition = FlightCondition(
         ADVANCE_RATIO if speed is None else speed,
         rotor.mass if mass_kg is None else number("mass_kg", mass_kg, "8000"),
         number("altitude_m", altitude_m, "1500"),
+        stand=stand,
     )
     design = Design(
         preset=preset,
@@ -97,6 +110,22 @@ def make_design(
         models=models,
     )
     return design if twist is None else design.with_twist(twist)
+
+
+def _test(
+    aircraft: Aircraft, models: Models, trim: str | None, stand: Stand | Mapping[str, Any] | None
+) -> tuple[Models, Stand | None]:
+    """The models with the trim asked for, and the test stand that goes with it."""
+    if trim is None:
+        tested = stand is not None or aircraft.isolated
+        trim = models.trim if models.trim in STAND_TRIMS or not tested else STAND_TRIMS[0]
+    if trim not in TRIMS:
+        raise ValueError(f"trim {trim!r} is not known: use one of {', '.join(TRIMS)}")
+    if stand is None and aircraft.isolated and trim in STAND_TRIMS[:2]:
+        stand = {"ct_over_sigma": ISOLATED_LOADING}
+    if stand is not None and not isinstance(stand, Stand):
+        stand = read_stand(stand, trim)
+    return (models if trim == models.trim else replace(models, trim=trim)), stand
 
 
 def change_airfoils(rotor: Rotor, spec: str) -> Rotor:

@@ -13,12 +13,25 @@ from pathlib import Path
 from typing import Any, cast
 
 from rotor.airfoil.sections import TABLE_NAMES, OwnSection
-from rotor.assets import SHIPPED_ROTORS, asset_path
-from rotor.design.aircraft import HUBS, Aircraft, Fuselage, Hub, RotorFiles, Stated, TailRotor
+from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS, asset_path
+from rotor.design.aircraft import (
+    HUBS,
+    SEA_LEVEL_DENSITY,
+    Aircraft,
+    Fuselage,
+    Hub,
+    RotorFiles,
+    Stated,
+    TailRotor,
+)
 from rotor.design.blade import Blade, Rotor, Span
+from rotor.design.structure import BladeStructure
 from rotor.design.twist import LinearTwist, TableTwist, TwistLaw
+from rotor.dynamics.structure import KNOWN_BLADE, uh60a_torsion
 from rotor.files.section_file import read_section
 from rotor.files.toml_table import TomlTable, read_toml
+from rotor.units import GRAVITY
+from rotor.user_input import did_you_mean, is_file, read_text, refusing, shorten
 
 BAILEY_POLAR = (0.0087, -0.0216, 0.4)
 """c_d = δ0 + δ1 α + δ2 α² of Bailey, NACA Report 716 (1941): used for tail rotors without a polar."""
@@ -64,25 +77,44 @@ def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraf
     rotor = _rotor(name, rotor_table, flown or rotor_table, own, key or "builtin", hub)
     stated = _stated(name, rotor_table, rotor, own, hub)
     tail = top.table("tail_rotor", None)
-    airframe = top.table("airframe")
+    airframe = top.table("airframe", None)
     aircraft = Aircraft(
         name=name,
         rotor=rotor,
-        fuselage=Fuselage(airframe.number("drag_area_m2", low=0.0, high=50.0, unit="m²")),
-        mass=airframe.number("mass_kg", low=100.0, high=50_000.0, unit="kg"),
+        fuselage=_fuselage(airframe) if airframe else Fuselage(0.0),
+        mass=airframe.number("mass_kg", low=100.0, high=50_000.0, unit="kg") if airframe else _carried(rotor),
         tail_rotor=_tail_rotor(tail) if tail else None,
         hub=hub,
         stated=stated,
         key=key,
         files=None if key else RotorFiles(main, tuple(sorted(used.items()))),
         remarks=tuple(remarks),
+        isolated=airframe is None,
     )
     if flown:
         flown.finish()
-    airframe.finish()
+    if airframe:
+        airframe.finish()
     rotor_table.finish()
     top.finish()
     return aircraft
+
+
+ISOLATED_LOADING = 0.07
+"""C_T/σ that a rotor without an airframe carries unless a test says otherwise."""
+
+
+def _fuselage(airframe: TomlTable) -> Fuselage:
+    return Fuselage(
+        airframe.number("drag_area_m2", low=0.0, high=50.0, unit="m²"),
+        airframe.number("hover_download", 0.0, low=0.0, high=0.3),
+    )
+
+
+def _carried(rotor: Rotor) -> float:
+    """Mass [kg] that a rotor carries at `ISOLATED_LOADING` and sea level."""
+    thrust = ISOLATED_LOADING * rotor.solidity * SEA_LEVEL_DENSITY * rotor.disk_area * rotor.tip_speed**2
+    return thrust / GRAVITY
 
 
 def _rotor(
@@ -90,10 +122,17 @@ def _rotor(
 ) -> Rotor:
     radius = main.number("radius_m", low=0.1, high=30.0, unit="m")
     blades = main.count("blades", low=2, high=12)
-    if hub != "articulated" and blades != 2:
+    if hub.startswith("teetering") and blades != 2:
         raise main.fail(
             "hub", f"hub is {hub!r} with {blades} blades: a teetering hub has two blades, so write articulated"
         )
+    if hub == "gimballed" and blades < 3:
+        raise main.fail("hub", f"hub is {hub!r} with {blades} blades: with two blades write teetering")
+    precone = None
+    if hub == "gimballed" or main.has("precone_deg"):
+        precone = math.radians(main.number("precone_deg", 0.0, low=-10.0, high=20.0, unit="°"))
+    if precone is not None and hub not in ("gimballed", "teetering"):
+        raise main.fail("precone_deg", f"precone_deg on a hub that is {hub!r}: its blades cone freely, so leave it out")
     blade = _blade(main, given, radius, own, hub)
     chord = float(blade.chord(0.75))
     return Rotor(
@@ -104,6 +143,7 @@ def _rotor(
         angular_speed=_angular_speed(main, radius),
         reference_chord=main.number("reference_chord_m", chord, low=0.005, high=3.0, unit="m"),
         builtin_twist=_twist(given, twist_name),
+        precone=precone,
     )
 
 
@@ -134,7 +174,7 @@ def _blade(main: TomlTable, given: TomlTable, radius: float, own: tuple[OwnSecti
     if hub != "articulated" and hinge:
         raise given.fail(
             "flap_hinge_m",
-            f"flap_hinge_m is {hinge:g} on a {hub} hub: a teetering hub has its hinge at the shaft, so write 0",
+            f"flap_hinge_m is {hinge:g} on a {hub} hub, which has its hinge at the shaft: write 0",
         )
     chords = given.numbers("chord_m", low=0.005, high=3.0)
     stations = given.numbers("chord_r", (root, 1.0) if len(chords) == 1 else (), low=0.0, high=1.0)
@@ -142,6 +182,7 @@ def _blade(main: TomlTable, given: TomlTable, radius: float, own: tuple[OwnSecti
         chords = chords * len(stations)
     _ascending(given, "chord_r", stations, "chord_m", chords)
     mass, inertia, moment = _masses(given, radius - hinge)
+    sweep = given.number("tip_sweep_deg", 0.0, low=-60.0, high=60.0, unit="°")
     return Blade(
         root_cutout=root,
         chord_stations=stations,
@@ -151,8 +192,42 @@ def _blade(main: TomlTable, given: TomlTable, radius: float, own: tuple[OwnSecti
         flap_inertia=inertia,
         flap_static_moment=moment,
         mass=mass,
+        tip_sweep=math.radians(sweep),
+        tip_sweep_start=given.number("tip_sweep_start_r", *(() if sweep else (1.0,)), low=0.3, high=1.0, unit="r/R"),
+        surface_drag=given.number("surface_drag", 1.0, low=0.5, high=3.0),
         own_sections=own,
+        structure=_structure(given, radius, hinge),
     )
+
+
+def _structure(given: TomlTable, radius: float, hinge: float) -> BladeStructure | None:
+    """The table `structure`, or the shipped structure that a text names; None where the file has neither."""
+    if not given.has("structure"):
+        return None
+    if isinstance(given.values["structure"], str):
+        given.string("structure", choices=(KNOWN_BLADE,))
+        return uh60a_torsion(radius)
+    table: TomlTable = given.table("structure")
+    stations = table.numbers("r_m", low=0.0, high=30.0)
+    columns = {
+        key: table.numbers(key, low=low, high=high)
+        for key, low, high in (("gj_nm2", 1e-3, 1e9), ("mass_kg_m", 1e-3, 1e4), ("torsional_inertia_kg_m", 1e-9, 1e3))
+    }
+    for key, values in columns.items():
+        _ascending(table, "r_m", stations, key, values)
+    structure = BladeStructure(
+        radius=radius,
+        stations=stations,
+        torsional_stiffness=columns["gj_nm2"],
+        mass_per_length=columns["mass_kg_m"],
+        torsional_inertia=columns["torsional_inertia_kg_m"],
+        tension_gyration=table.number("tension_gyration_m2", 0.0, low=0.0, high=1.0, unit="m²"),
+        clamp=table.number("clamp_m", hinge, low=0.0, high=0.5 * radius, unit="m"),
+        control_stiffness=table.number("control_stiffness_nm_rad", low=1e-3, high=1e12, unit="N m/rad"),
+        pitch_horn=table.number("pitch_horn_m", low=1e-3, high=2.0, unit="m"),
+    )
+    table.finish()
+    return structure
 
 
 def _masses(given: TomlTable, length: float) -> tuple[float, float, float]:
@@ -247,18 +322,21 @@ def _own_sections(
 
 @cache
 def shipped_aircraft(name: str) -> Aircraft:
-    """A shipped aircraft; ValueError for any other name."""
-    if name not in SHIPPED_ROTORS:
+    """A shipped aircraft, or a shipped rotor of a test; ValueError for any other name."""
+    known = (*SHIPPED_ROTORS, *MEASURED_ROTORS)
+    if name not in known:
+        hint = did_you_mean(name, known) or ":"
         raise ValueError(
-            f"rotor {name!r} is not known: use {', '.join(SHIPPED_ROTORS)}, or the path of a rotor file (.toml)"
+            f"rotor {name!r} is not known{hint} use {', '.join(known)}, or the path of a rotor file (.toml)"
         )
     file = f"{name}.toml"
-    return read_aircraft(file, {file: asset_path(file).read_text(encoding="utf-8")}, key=name)
+    path = asset_path(file if name in SHIPPED_ROTORS else f"rotors/{file}")
+    return read_aircraft(file, {file: path.read_text(encoding="utf-8")}, key=name)
 
 
 def find_aircraft(name: str) -> Aircraft:
     """The aircraft of a shipped rotor's name or of the path of a rotor file; ValueError with one sentence otherwise."""
-    if name in SHIPPED_ROTORS or not ("." in name or "/" in name or Path(name).exists()):
+    if name in (*SHIPPED_ROTORS, *MEASURED_ROTORS) or not ("." in name or "/" in name or is_file(name)):
         return shipped_aircraft(name)
     return load_rotor(name)
 
@@ -269,22 +347,20 @@ def load_rotor(path: str | Path) -> Aircraft:
     Raises ValueError with one sentence that names file, line and remedy.
     """
     path = Path(path)
-    texts = {path.name: read_text(path)}
+    with refusing(f"rotor file {shorten(path.name)!r}", "check its values, see docs/rotor_file.md"):
+        return _load(path)
+
+
+def _load(path: Path) -> Aircraft:
+    texts = {path.name: _read(path)}
     top = read_toml(path.name, texts[path.name])
     for name in named_files(top):
         beside = path.parent / name
-        if beside.is_file():
-            texts[name] = read_text(beside)
+        if is_file(beside):
+            texts[name] = _read(beside)
     return read_aircraft(path.name, texts)
 
 
-def read_text(path: Path) -> str:
-    """The text of a file; ValueError where it cannot be read."""
-    try:
-        if path.stat().st_size > LARGEST_FILE:
-            raise ValueError(f"{path.name} has {path.stat().st_size / 1e6:.1f} MB: a rotor's files have 2 MB at most")
-        return path.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        raise ValueError(f"rotor file {str(path)!r} does not exist: give a shipped rotor's name or a path") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise ValueError(f"{path.name} cannot be read as text ({error}): save it as UTF-8") from None
+def _read(path: Path) -> str:
+    remedy = "give a shipped rotor's name, or a UTF-8 text file of 2 MB at most"
+    return read_text(path, "rotor file", remedy, LARGEST_FILE)

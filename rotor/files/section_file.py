@@ -5,7 +5,7 @@ import re
 from collections.abc import Mapping
 from itertools import pairwise
 
-from rotor.airfoil.build.compressibility import NATIVE_MACH_LIMIT, SectionTraits
+from rotor.airfoil.build.compressibility import INCOMPRESSIBLE_MACH, NATIVE_MACH_LIMIT, SectionTraits
 from rotor.airfoil.build.decks import assemble_deck
 from rotor.airfoil.c81 import format_c81
 from rotor.airfoil.contour import SECTION_NAMES, is_naca, load_contour, parse_contour, thickness_and_camber
@@ -97,6 +97,8 @@ def _deck_of(table: TomlTable, name: str, polars: list[Polar], thickness: float,
         f"Section {name} is built from polars at Mach {listed} over {low:g}…{high:g}°{above}, "
         "and from a closed form beyond stall."
     )
+    if machs[0] <= INCOMPRESSIBLE_MACH and len(machs) == 1:
+        remarks.append(f"The polar of {name} is incompressible: friction keeps its Reynolds number at every Mach.")
     if machs[-1] > NATIVE_MACH_LIMIT + 1e-9:
         remarks.append(
             f"The polars of {name} above Mach {NATIVE_MACH_LIMIT:g} are used as given; XFOIL does not model shocks."

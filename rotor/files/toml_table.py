@@ -46,7 +46,7 @@ class TomlTable:
             return value
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             raise self.fail(key, f"{key} is {value!r}, not a number: write for example {key} = {max(low, 1.0):g}")
-        self._within(key, float(value), low, high, unit)
+        self._within(key, _real(value), low, high, unit)
         return float(value)
 
     def count(self, key: str, default: Any = REQUIRED, *, low: int, high: int) -> Any:
@@ -56,7 +56,7 @@ class TomlTable:
             return value
         if isinstance(value, bool) or not isinstance(value, int):
             raise self.fail(key, f"{key} is {value!r}, not a whole number: write for example {key} = {low}")
-        self._within(key, value, low, high, "")
+        self._within(key, _real(value), low, high, "")
         return value
 
     def numbers(self, key: str, default: Any = REQUIRED, *, low: float = -math.inf, high: float = math.inf) -> Any:
@@ -68,7 +68,7 @@ class TomlTable:
         for item in items:
             if isinstance(item, bool) or not isinstance(item, (int, float)):
                 raise self.fail(key, f"{key} holds {item!r}, not a number: write for example {key} = [0.2, 1.0]")
-            self._within(key, float(item), low, high, "")
+            self._within(key, _real(item), low, high, "")
         return tuple(float(item) for item in items)
 
     def string(self, key: str, default: Any = REQUIRED, *, choices: Sequence[str] = ()) -> Any:
@@ -135,6 +135,14 @@ class TomlTable:
             )
 
 
+def _real(value: int | float) -> float:
+    """The number as a float; infinity for integers beyond them, which TOML allows."""
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf
+
+
 def read_toml(file: str, text: str) -> TomlTable:
     """The file's top table; ValueError with line and remedy for text that is not TOML."""
     try:
@@ -146,6 +154,10 @@ def read_toml(file: str, text: str) -> TomlTable:
         reason = what[: found.start()] if found else what
         place = f", line {line}" if line else ", at its end" if found else ""
         raise ValueError(f"{file}{place}: this is not TOML ({reason}): write key = value, texts in quotes") from None
+    except RecursionError:
+        raise ValueError(f"{file}: this is not a file of this program (too many brackets): write key = value") from None
+    except ValueError:
+        raise ValueError(f"{file}: an integer has thousands of digits: check the values") from None
 
 
 def find_line(text: str, path: tuple[str, ...], key: str | None, index: int = 0) -> int | None:

@@ -130,15 +130,19 @@ def stalled_share(adjoint: Adjoint) -> tuple[float, Array]:
     x = np.clip(elements.u_t / REVERSE_WIDTH, 0.0, 1.0)
     window, window_slope = x * x * (3.0 - 2.0 * x), 6.0 * x * (1.0 - x) / REVERSE_WIDTH
 
-    # α = θ − atan2(U_P, U_T), M = U·M_tip.
+    # α = θ − atan2(U_P, U_T).
     square = elements.u_t**2 + elements.u_p**2 + 1e-30
     over_t, over_p = elements.u_t / square, elements.u_p / square
-    mach = elements.loads[kernel.MACH]
+    # Normal to the sweep: M² = M_tip² ((U_T cos Λ − U_R sin Λ)² + U_P²).
+    cos, sin = disk.cos_sweep[:, None], disk.sin_sweep[:, None]
+    normal = elements.u_t * cos - elements.flow.mu_x * disk.cos * sin
+    scale = problem.tip_mach**2 / elements.loads[kernel.MACH]
     slope = ring * window * by_margin
     weights = Weights(
         theta=slope * by_alpha,
-        u_t=slope * (by_alpha * over_p + by_mach * mach * over_t) + ring * window_slope * counted,
-        u_p=slope * (-by_alpha * over_t + by_mach * mach * over_p),
+        u_t=slope * (by_alpha * over_p + by_mach * scale * normal * cos) + ring * window_slope * counted,
+        u_p=slope * (-by_alpha * over_t + by_mach * scale * elements.u_p),
+        u_r=slope * by_mach * scale * -normal * sin,
     )
     return float((ring * window * counted).sum()), adjoint.by_pitch(weights)
 

@@ -17,6 +17,7 @@ from rotor.trim.adjoint import Adjoint, power_along
 from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
+from rotor.user_input import read_text, refusing
 
 Quantity = Literal["total", "induced"]
 QUANTITIES: tuple[Quantity, ...] = ("total", "induced")
@@ -55,7 +56,12 @@ class Objective:
 
 
 def at_condition(design: Design, quantity: Quantity = "total") -> Objective:
-    """Power at the design's own flight condition."""
+    """Power at the design's own flight condition.
+
+    Raises ValueError for the total power of a free rotor, which is zero.
+    """
+    if design.models.trim == "free-rotor" and quantity == "total":
+        raise ValueError("a free rotor takes no power from its shaft: use the objective induced, or trim wind-tunnel")
     return Objective(quantity, (WeightedCondition(design.condition),))
 
 
@@ -137,6 +143,7 @@ def measure(
 COLUMNS = ("mu", "mass_kg", "altitude_m", "hours")
 
 
+@refusing("mission", f"give a CSV file with {', '.join(COLUMNS)}")
 def read_mission(path: str | Path, design: Design) -> tuple[WeightedCondition, ...]:
     """Flight conditions of a CSV table with the columns mu, mass_kg, altitude_m, hours; `#` starts a comment.
 
@@ -144,12 +151,7 @@ def read_mission(path: str | Path, design: Design) -> tuple[WeightedCondition, .
     sentence that names file, line and remedy.
     """
     path = Path(path)
-    try:
-        text = path.read_text(encoding="utf-8")
-    except FileNotFoundError:
-        raise ValueError(f"mission {str(path)!r} does not exist: give a CSV file with {', '.join(COLUMNS)}") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise ValueError(f"mission {str(path)!r} cannot be read ({error}): give a CSV text file") from None
+    text = read_text(path, "mission", f"give a CSV file with {', '.join(COLUMNS)}")
     numbered = [(number, line.partition("#")[0].strip()) for number, line in enumerate(text.splitlines(), start=1)]
     rows = [(number, next(csv.reader([line]))) for number, line in numbered if line]
     if not rows:

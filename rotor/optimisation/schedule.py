@@ -7,6 +7,7 @@ JSON per optimum, to resume an interrupted run.
 """
 
 import json
+import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -17,6 +18,7 @@ from rotor.optimisation.concepts import Concept, nearest
 from rotor.optimisation.objective import Objective, Quantity, WeightedCondition
 from rotor.optimisation.processes import WorkerLost, Workers
 from rotor.optimisation.search import Limits, Minimum, Optimum, Search, SearchStatus, run_search
+from rotor.user_input import read_text
 
 CHUNK = 4
 """Neighbouring conditions computed together."""
@@ -228,6 +230,8 @@ def _guesses(
 
 
 FORMAT = "rotor-explorer schedule"
+_LARGEST = 256 * 2**20
+"""[bytes] of a file of cells."""
 
 
 def read_cells(path: str | Path, plan: Plan) -> list[Cell]:
@@ -236,12 +240,12 @@ def read_cells(path: str | Path, plan: Plan) -> list[Cell]:
     A last line cut short by a crash is left out. Raises ValueError for a file of another plan, or of something else.
     """
     path = Path(path)
-    if not path.exists():
+    if str(path) and not os.path.exists(path):  # noqa: PTH110 - Path.exists raises for names that are too long.
         return []
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        lines = read_text(path, "schedule file", "give another file", _LARGEST).splitlines()
         heading: Any = json.loads(lines[0]) if lines else None
-    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
+    except (json.JSONDecodeError, RecursionError) as error:
         raise ValueError(f"schedule file {str(path)!r} cannot be read ({error}): give another file") from None
     if not isinstance(heading, dict) or cast(dict[str, Any], heading).get("format") != FORMAT:
         raise ValueError(f"{str(path)!r} is not a schedule file: give another file, or a new one")

@@ -7,8 +7,7 @@ import numpy as np
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.electrical import FieldMap, deformed_sheet, field_map, strain_curve, thermal_coefficients
 from rotor.arrays import Array
-from rotor.reproduce.optimum_twist import UNKNOWN
-from rotor.reproduce.report import Agreement, Curve, FieldPanel, PlotPanel, Report, curve, floats, table
+from rotor.reproduce.report import Agreement, Curve, FieldPanel, PlotPanel, Report, caption_only, curve, floats, table
 
 PAIR = ("MFC_P1", "MFC_P2")
 """The same fibres with interdigitated and with continuous electrodes."""
@@ -63,7 +62,7 @@ def figure_5_2() -> Report:
         kind="figure",
         caption="A free piezoelectric sheet at rest and at both ends of its voltage range, strains × "
         f"{EXAGGERATE:.0f}; right, one whose fibres lie at 45° to the span.",
-        statement=UNKNOWN,
+        statement=caption_only("Figure 5.2"),
         ours=f"At {high:.0f} V MFC P1 grows by {PPM * numbers['MFC_P1_along_1']:.0f} µε along its fibres and shrinks "
         f"by {-PPM * numbers['MFC_P1_across_1']:.0f} µε across; laid at 45° it shears by "
         f"{PPM * shear / EXAGGERATE:.0f} µε, which twists the blade. MFC P2 shrinks in both directions and hardly "
@@ -135,7 +134,7 @@ def _cut(number: str, what: str, caption: str, because: str) -> Report:
         number=number,
         kind="figure",
         caption=caption,
-        statement=UNKNOWN,
+        statement=caption_only(f"Figure {number}"),
         ours=ours,
         verdict=Agreement.ALONE,
         because=because,
@@ -206,7 +205,7 @@ def figure_5_5() -> Report:
         kind="figure",
         caption="Free strain along the fibres over the whole voltage range, against voltage and against field: "
         "interdigitated (d33) and continuous electrodes (d31).",
-        statement=UNKNOWN,
+        statement=caption_only("Figure 5.5"),
         ours="Peak to peak: "
         + ", ".join(f"{id.replace('_', ' ')} {PPM * value:.0f} µε" for id, value in numbers.items())
         + f". The same fibres strain {ratio:.1f} times as much with interdigitated electrodes.",
@@ -218,6 +217,7 @@ def figure_5_5() -> Report:
             PlotPanel("field [kV/mm]", "free strain along [µε]", tuple(by_field)),
         ),
         numbers=numbers,
+        legend_below=True,
     )
 
 
@@ -233,7 +233,7 @@ def figure_5_6() -> Report:
         kind="figure",
         caption="Macro fibre composite P1: strain over its voltage range between the low and the high end of the "
         "maker's figures, and by the thermal analogy α = d/ΔES (a volt acts like a kelvin).",
-        statement=UNKNOWN,
+        statement=caption_only("Figure 5.6"),
         ours=f"α {1e6 * alpha:.2f}·10⁻⁶ per volt along and {1e6 * across:.2f}·10⁻⁶ across; measured "
         f"{1e6 * one.low_swing * per_volt:.2f} to {1e6 * per_volt:.2f}·10⁻⁶ along, over "
         f"{one.voltage_range[0]:.0f}…{one.voltage_range[1]:.0f} V.",
@@ -277,7 +277,7 @@ def figure_5_7() -> Report:
         number="5.7",
         kind="figure",
         caption="Field between the electrodes, V/ΔES, over the voltage range of each sheet.",
-        statement=UNKNOWN,
+        statement=caption_only("Figure 5.7"),
         ours="; ".join(
             f"{one.id.replace('_', ' ')} {numbers[f'{one.id}_low']:.2f}…{numbers[f'{one.id}_high']:.2f} kV/mm over "
             f"{MM * one.electrode_gap:.2g} mm"
@@ -292,4 +292,5 @@ def figure_5_7() -> Report:
         ),
         panels=(PlotPanel("voltage [V]", "field [kV/mm]", tuple(curves)),),
         numbers=numbers,
+        legend_below=True,
     )

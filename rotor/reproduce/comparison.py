@@ -4,8 +4,10 @@ Figures 4.9, 4.11, 4.12: planform and twist of the UH-60A blade; the best three-
 Figure 4.13 and Table 4.1: all concepts side by side, and how much of their saving a fixed blade would have.
 """
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -14,8 +16,8 @@ from rotor.files.make_design import make_design, uh60a_rotor, uh60a_twist
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.search import Search, run_search
 from rotor.reproduce.aircraft import HORSEPOWER_KW, public_data
-from rotor.reproduce.optimum_twist import NOTE, SHORT, UNKNOWN, Variants, by_model, model_panels, spread
-from rotor.reproduce.report import Agreement, Curve, PlotPanel, Report, ReportTable, curve, judged, table
+from rotor.reproduce.optimum_twist import NOTE, SHORT, Variants, by_model, model_panels, spread
+from rotor.reproduce.report import Agreement, Curve, PlotPanel, Report, ReportTable, caption_only, curve, judged, table
 from rotor.reproduce.runs import (
     CONCEPTS,
     EVERY_VARIANT,
@@ -27,6 +29,7 @@ from rotor.reproduce.runs import (
     best,
     best_fixed,
     choices,
+    comparable_kw,
     variant,
 )
 from rotor.trim.solve import solve
@@ -39,30 +42,41 @@ def figure_4_9() -> Report:
     blade = rotor.blade
     curves: list[Curve] = []
     rows: list[tuple[str | float, ...]] = []
-    for span in blade.spans:
-        ratio = load_installed(span.section).chord_ratio
-        chord = float(blade.chord(0.5 * (span.start + span.end))) * ratio / rotor.radius
-        rows.append((span.section, span.start, span.end, chord * rotor.radius))
-        x = (span.start, span.end, span.end, span.start, span.start)
-        front, back = 0.25 * chord, -0.75 * chord
-        colour = 0 if span.section == "sc1095" else 1
-        label = span.section.upper() if span.section not in [str(row[0]) for row in rows[:-1]] else ""
-        curves.append(curve(label, x, (front, front, back, back, front), colour=colour))
+    titles = {"sc1095": "SC1095", "sc1094r8": "SC1094 R8", "blended": "blended"}
+    blends = [(inner.end, outer.start) for inner, outer in pairwise(blade.spans) if inner.end < outer.start]
+    for section, start, end in (*((one.section, one.start, one.end) for one in blade.spans),
+                                *(("blended", *ends) for ends in blends)):  # fmt: skip
+        ratio = 1.0 if section == "blended" else load_installed(section).chord_ratio
+        chord = float(blade.chord(0.5 * (start + end))) * ratio / rotor.radius
+        kink = [blade.tip_sweep_start] if start < blade.tip_sweep_start < end else []
+        along = np.array([start, *kink, end])
+        swept = -np.maximum(along - blade.tip_sweep_start, 0.0) * math.tan(blade.tip_sweep)
+        outline = np.concatenate([swept + 0.25 * chord, (swept - 0.75 * chord)[::-1]])
+        label = "" if section in [row[0] for row in rows] else titles[section]
+        rows.append((section, start, end, chord * rotor.radius))
+        colour = {"sc1095": 0, "sc1094r8": 1}.get(section, 7)
+        curves.append(curve(label, (*along, *along[::-1], start), (*outline, outline[0]), "fill", colour=colour))
     shares = {name: sum(float(r[2]) - float(r[1]) for r in rows if r[0] == name) for name in ("sc1095", "sc1094r8")}
     return Report(
         number="4.9",
         kind="figure",
-        caption="Planform of the UH-60A blade in the flight preset: sections, chord, root cut-out; the 20° "
-        "sweep of the tip and the trailing-edge tab are not modelled.",
-        statement=UNKNOWN,
+        caption="Planform of the UH-60A blade in the flight preset: sections, chord, root cut-out and swept tip; above "
+        "to scale, below with the chord enlarged. The trailing-edge tab is left out.",
+        statement=caption_only("Figure 4.9"),
         ours=f"SC1095 over {100 * shares['sc1095']:.0f} % of the radius, SC1094 R8 over "
         f"{100 * shares['sc1094r8']:.0f} %, "
-        "blended between.",
+        "blended between; "
+        f"the tip is swept by {math.degrees(blade.tip_sweep):.0f}° from {blade.tip_sweep_start:.3f} R.",
         verdict=Agreement.ALONE,
         because="Numbers and sources: assets/uh60a.toml.",
         tables=(table("spans", ("section", "start_r", "end_r", "chord_m"), rows),),
-        panels=(PlotPanel("r/R", "from the quarter chord, over R", tuple(curves), equal=True),),
-        numbers=shares,
+        panels=(
+            PlotPanel("", "", tuple(replace(one, label="") for one in curves), equal=True, drawing=True),
+            PlotPanel("r/R", "x/R", tuple(curves)),
+        ),
+        numbers={**shares, "sweep_deg": math.degrees(blade.tip_sweep)},
+        stacked=True,
+        legend_below=True,
     )
 
 
@@ -162,7 +176,7 @@ def figure_4_12(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Repo
         caption="Main-rotor power of the flown twist and of the best three-segment blade at each speed, beside a "
         "public model curve of the UH-60A (7257.5 kg, 1600 m; indicative, not flight test). Below it, the saving with "
         f"every inflow model. {NOTE}",
-        statement=UNKNOWN,
+        statement=caption_only("Figure 4.12"),
         ours=f"Relative to the built-in twist the best three segments save {ranges} of main-rotor power; at µ "
         f"{speeds.speeds[place]:.2f} {spread(percent, variants, place, ' %')}.",
         verdict=Agreement.ALONE,
@@ -204,6 +218,12 @@ def _panel(name: str, rows: Sequence[SpeedRow], *, named: bool) -> PlotPanel:
     return PlotPanel("advance ratio µ", "main-rotor power [kW]", tuple(curves), title=VARIANT_TITLES[name])
 
 
+_SAME_BASELINE = (
+    " Two airfoils in the thesis preset: the gain of the second airfoil, found with decks, on top of the two segments "
+    "with polynomials; so every concept has the same baseline."
+)
+
+
 def figure_4_13(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Report:
     """All concepts side by side."""
     panels: list[PlotPanel] = []
@@ -231,8 +251,9 @@ def figure_4_13(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Repo
         number="4.13",
         kind="figure",
         caption="Saving of total power by each concept at its optimum for each speed, relative to a fixed linear "
-        "−16°. Below it, with every inflow model: what one linear twist saves, and what three segments add to it.",
-        statement=UNKNOWN,
+        f"−16°.{_SAME_BASELINE} Below it, with every inflow model: what one linear twist saves, and what three "
+        "segments add to it.",
+        statement=caption_only("Figure 4.13"),
         ours="Three segments save more than one linear twist by at most "
         + ", ".join(f"{largest[name]:.2f} % ({SHORT[name]})" for name in VARIANTS)
         + f"; {max(largest.values()):.2f} % with any inflow model.",
@@ -284,8 +305,8 @@ def table_4_1(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Report
         kind="table",
         caption="Reduction of total power between a fixed linear −16° and each concept, mean over the speeds and speed "
         "by speed, with every inflow model; and the part of it that the best fixed linear blade would give "
-        "(equal time at every speed).",
-        statement=UNKNOWN,
+        f"(equal time at every speed).{_SAME_BASELINE}",
+        statement=caption_only("Table 4.1"),
         ours="; ".join(words[name] for name in VARIANTS)
         + f". With every inflow model it is at most {100 * most:.1f} %.",
         verdict=Agreement.ALONE,
@@ -306,7 +327,8 @@ def table_4_1(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Report
 
 
 def _percent(name: str, concept: str, mu: float, scope: Scope) -> float:
-    return 100.0 * best(name, concept, mu, scope).saving
+    baseline = best(name, "linear", mu, scope).baseline_kw
+    return 100.0 * (1.0 - comparable_kw(name, concept, mu, scope) / baseline)
 
 
 def _mean_savings(scope: Scope, variants: Variants) -> ReportTable:
@@ -315,10 +337,10 @@ def _mean_savings(scope: Scope, variants: Variants) -> ReportTable:
     for name in variants:
         row: list[float] = []
         for concept in CONCEPTS:
-            found = [best(name, concept, mu, scope) for mu in scope.speeds]
-            row.append(100.0 * (1.0 - sum(one.power_kw for one in found) / sum(one.baseline_kw for one in found)))
+            baseline = sum(best(name, "linear", mu, scope).baseline_kw for mu in scope.speeds)
+            row.append(100.0 * (1.0 - sum(comparable_kw(name, concept, mu, scope) for mu in scope.speeds) / baseline))
         rows.append((*choices(name), *row))
-    return table("mean_saving_percent", ("preset", "inflow", *CONCEPTS), rows)
+    return table("mean_saving_percent", ("preset", "inflow", *CONCEPTS), rows, shown=True)
 
 
 def _savings_table(scope: Scope, variants: Variants) -> ReportTable:

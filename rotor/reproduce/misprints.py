@@ -142,6 +142,13 @@ MISPRINTS: tuple[Misprint, ...] = (
         "design.condition.mass / design.thrust_unit, design.condition.weight / design.thrust_unit",
     ),
     Misprint(
+        "§3.3", "27", "omission", "twist of −13.5°, −16° without a unit",
+        "Degrees per radius here; the caption of figure 4.3 says root to tip, over which a blade from 0.1304 R turns "
+        "0.87 times that. Shown: what −16° is per radius, read so and read as root to tip.",
+        "rate, root = -16.0, make_design(preset='thesis').rotor.blade.root_cutout",
+        "rate, rate / (1 - root)", "°/R",
+    ),
+    Misprint(
         "throughout", "", "misprint", "advanced ratio", "Advance ratio: µ = V/(ΩR). Shown: 90 kt, with and without ΩR.",
         "speed, tip = 90 * 1852 / 3600, 27.0 * 8.1788",
         "speed, speed / tip",

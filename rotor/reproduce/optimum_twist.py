@@ -4,7 +4,17 @@ import math
 from collections.abc import Callable, Sequence
 
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.reproduce.report import Agreement, Curve, PlotPanel, Report, ReportTable, TableCell, curve, table
+from rotor.reproduce.report import (
+    Agreement,
+    Curve,
+    PlotPanel,
+    Report,
+    ReportTable,
+    TableCell,
+    caption_only,
+    curve,
+    table,
+)
 from rotor.reproduce.runs import (
     CONCEPTS,
     EVERY_VARIANT,
@@ -89,7 +99,6 @@ def spread(value: Value, variants: Sequence[str], place: int, unit: str = "°") 
     return ", ".join(f"{found} {kind}" for found, kind in words if found)
 
 
-UNKNOWN = "Only the caption is known; the numbers of the thesis are not."
 SHORT = {
     "thesis": "thesis",
     "thesis-wake": "thesis + wake",
@@ -163,6 +172,8 @@ def figure_4_10(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Repo
     )  # fmt: skip
 
 
+BOUND_DEG = 30.0
+"""Of every rate in the search [°/R]."""
 _TWO = ("inboard_rate_deg", "outboard_rate_deg")
 
 
@@ -196,17 +207,33 @@ def _figure(
         kind="figure",
         caption=f"Twist of least total power over speed: {title}. Shaded: within 0.1 % of that power, the other "
         f"parameters re-optimised.{note} Below it, every inflow model in both presets. {NOTE}",
-        statement=UNKNOWN,
+        statement=caption_only(f"Figure {number}"),
         ours=f"{words}. {_across_models(found, shown, scope)}",
         verdict=Agreement.ALONE,
         because=f"The optimum is flat (up to {widest:.0f}° of twist for 0.1 % of power): read the band, not the line. "
         "With linear inflow only profile power moves it; with a model that responds to loading, induced power does too."
+        + _on_bound(found, shown)
         + ("" if settled else " Not every search converged; see the table."),
         tables=(*_by_model(found, shown, scope), _table(found, shown)),
         panels=tuple(_panel(name, found[name], shown) for name in VARIANTS),
         companion=_companion(found, shown, scope),
         numbers=numbers,
     )
+
+
+def _on_bound(found: "_Found", shown: Sequence[str]) -> str:
+    """Names the optima that lie on the bound of the search, where the true optimum may lie beyond."""
+    rates = [key for key in shown if key.endswith("rate_deg")]
+    places = [
+        f"{_word(key)} at {'hover' if one.mu == 0.0 else f'µ {one.mu:g}'} ({SHORT[name]})"
+        for name in VARIANTS
+        for one in found[name]
+        for key in rates
+        if abs(_value(one, key)) > BOUND_DEG - 0.05
+    ]
+    if not places:
+        return ""
+    return f" On the bound of the search, {BOUND_DEG:g}° per radius, and so not optima: {', '.join(places)}."
 
 
 _Found = dict[str, list[ConceptOptimum]]

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from rotor.arrays import Array
-from rotor.reproduce.catalogue import CatalogueEntry
+from rotor.reproduce.catalogue import CatalogueEntry, find_entry
 from rotor.reproduce.misprints import write_misprints
 from rotor.reproduce.report import (
     Agreement,
@@ -30,6 +30,7 @@ from rotor.reproduce.report import (
     TableCell,
     typographic,
 )
+from rotor.reproduce.runs import CachedFunction
 
 PALETTE = ("#0b5fa5", "#d1495b", "#2a9d5c", "#e08e00", "#7a4fb3", "#1aa6b7", "#8c5a3c", "#555555")
 NO_PICTURES = (
@@ -42,7 +43,8 @@ _STYLE = {
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.grid": True,
-    "grid.color": "#dddddd",
+    "grid.color": "#aaaaaa",
+    "grid.alpha": 0.4,
     "grid.linewidth": 0.6,
     "axes.edgecolor": "#888888",
     "axes.titlesize": 9.0,
@@ -57,8 +59,6 @@ _WIDTH, _HEIGHT = 4.2, 3.2
 """Inches of one panel."""
 FEW = 3
 """Curves for whose names there is room in a panel."""
-MOST = 5
-"""Names on one line of a legend below."""
 MANY = 14
 """Number of curves, bands included, from which the legend is drawn beside the panel."""
 
@@ -71,7 +71,8 @@ def can_draw() -> bool:
 def draw(report: Report, folder: Path) -> None:
     """Write `stem.svg` and `stem.png` for each picture of the report; nothing for a report without panels."""
     for stem, panels in pictures_of(report):
-        _draw_picture(stem, panels, folder, legend_below=panels is report.companion or same_key(panels))
+        below = report.legend_below or panels is report.companion or same_key(panels)
+        _draw_picture(stem, panels, folder, legend_below=below, stacked=report.stacked)
 
 
 def pictures_of(report: Report) -> tuple[tuple[str, tuple[AnyPanel, ...]], ...]:
@@ -86,14 +87,18 @@ def same_key(panels: tuple[AnyPanel, ...]) -> bool:
     return len(keys) == len(panels) > 1 and len(set(keys)) == 1 and len(keys[0]) > FEW
 
 
-def _draw_picture(stem: str, panels: tuple[AnyPanel, ...], folder: Path, *, legend_below: bool) -> None:
+def _draw_picture(stem: str, panels: tuple[AnyPanel, ...], folder: Path, *, legend_below: bool, stacked: bool) -> None:
     matplotlib: Any = importlib.import_module("matplotlib")
     figure_module: Any = importlib.import_module("matplotlib.figure")
     count = len(panels)
-    across = count if count <= 3 else 2
+    across = 1 if stacked else count if count <= 3 else 3 if count % 3 == 0 else 2
     down = math.ceil(count / across)
+    # A single picture and stacked ones have the width of two panels, so that their text is not enlarged on the page.
+    width, height = (2 * _WIDTH, 0.55 * _HEIGHT) if stacked else (_WIDTH * across, _HEIGHT)
+    if count == 1:
+        width, height = (1.5 * _WIDTH, 1.25 * _HEIGHT)
     with matplotlib.rc_context(_STYLE):
-        figure: Any = figure_module.Figure(figsize=(_WIDTH * across, _HEIGHT * down), layout="constrained")
+        figure: Any = figure_module.Figure(figsize=(width, height * down), layout="constrained")
         axes: Any = figure.subplots(down, across, squeeze=False)
         for k, panel in enumerate(panels):
             place = axes[k // across][k % across]
@@ -106,12 +111,14 @@ def _draw_picture(stem: str, panels: tuple[AnyPanel, ...], folder: Path, *, lege
         if legend_below:
             pairs = [pair for place in axes.flat for pair in zip(*place.get_legend_handles_labels(), strict=True)]
             key = {label: handle for handle, label in pairs}
-            figure.legend(
-                key.values(), key.keys(), loc="outside lower center", ncols=3 if len(key) > MOST else len(key)
-            )
+            room = 0.6 + 0.065 * max(map(len, key))  # Inches that one name takes.
+            fit = max(1, min(len(key), int(width / room)))
+            lines = math.ceil(len(key) / fit)
+            figure.legend(key.values(), key.keys(), loc="outside lower center", ncols=math.ceil(len(key) / lines))
         for k in range(count, down * across):
             axes[k // across][k % across].axis("off")
-        figure.savefig(folder / f"{stem}.svg", metadata={"Date": None})
+        # Transparent: the page has a dark form.
+        figure.savefig(folder / f"{stem}.svg", metadata={"Date": None}, transparent=True)
         figure.savefig(folder / f"{stem}.png", dpi=130)
 
 
@@ -139,6 +146,15 @@ def _draw_panel(axes: Any, panel: PlotPanel, *, legend: bool) -> None:
             "both": {"marker": "o", "markersize": 3},
         }[one.style]
         axes.plot(one.x, one.y, color=colour, label=typographic(one.label) or None, **look)
+    for one in panel.arrows:
+        colour = PALETTE[one.colour % len(PALETTE)]
+        look = {"arrowstyle": "-|>", "color": colour, "linewidth": 1.4, "shrinkA": 0, "shrinkB": 0}
+        axes.annotate("", one.end, one.start, arrowprops=look)
+        axes.plot(*zip(one.start, one.end, strict=True), linestyle="none")  # Annotations do not widen the axes.
+    for one in panel.notes:
+        axes.text(one.x, one.y, typographic(one.text), ha=one.align, va="center", fontsize=8.5, color="#333333")
+    if panel.drawing:
+        axes.axis("off")
     axes.set_xlabel(panel.x_label)
     axes.set_ylabel(panel.y_label)
     if panel.title:
@@ -201,31 +217,59 @@ def _draw_disk(figure: Any, axes: Any, panel: DiskPanel) -> None:
     axes.set_title(panel.title, pad=14)
 
 
+LONG = 60
+"""Letters of a cell from which a table holds sentences."""
 ROWS = 60
 """Rows of a table shown on the page; the CSV has them all."""
-NOT_REBUILT = (
-    ("2.1, 2.2, 2.5, 2.9", "drawings of other books"),
-    ("5.1", "a drawing of what active twist control is"),
-)
 COLOURS = {
     Agreement.AGREES: "#1d7a46",
     Agreement.DIFFERS: "#b3452c",
     Agreement.ALONE: "#5b6770",
+    Agreement.LOADED: "#5b6770",
     Agreement.INDICATIVE: "#9a6b00",
 }
 _CSS = """
-body{font:15px/1.5 system-ui,sans-serif;color:#1c2429;background:#f6f7f8;margin:0}
+:root{color-scheme:light dark;--ink:#1c2429;--soft:#5b6770;--page:#f6f7f8;--card:#fff;--line:#dde2e6;--link:#0b5fa5}
+body{font:15px/1.5 system-ui,sans-serif;color:var(--ink);background:var(--page);margin:0}
 main{max-width:1080px;margin:0 auto;padding:24px 20px 80px}
-h1{font-size:26px;margin:8px 0}h2{font-size:19px;margin:38px 0 10px;border-bottom:1px solid #ccd3d8;padding-bottom:4px}
-article{background:#fff;border:1px solid #dde2e6;border-radius:8px;padding:16px 20px;margin:14px 0}
+h1{font-size:26px;margin:8px 0}
+h2{font-size:19px;margin:38px 0 10px;border-bottom:1px solid var(--line);padding-bottom:4px}
+article{background:var(--card);border:1px solid var(--line);border-radius:8px;padding:16px 20px;margin:14px 0}
 h3{font-size:16px;margin:0 0 6px;display:flex;gap:12px;align-items:baseline}
 .chip{color:#fff;font-size:12px;border-radius:10px;padding:1px 9px;font-weight:600;white-space:nowrap}
-dl{display:grid;grid-template-columns:110px 1fr;gap:4px 14px;margin:10px 0}dt{color:#5b6770}dd{margin:0}
+dl{display:grid;grid-template-columns:110px 1fr;gap:4px 14px;margin:10px 0}dt{color:var(--soft)}dd{margin:0}
 img{max-width:100%;height:auto;display:block;margin:8px auto}
-table{border-collapse:collapse;font-size:13px}td,th{padding:2px 10px;text-align:right;border-bottom:1px solid #e6eaed}
-td:first-child,th:first-child{text-align:left}details{margin-top:6px}summary{cursor:pointer;color:#0b5fa5}
-.scroll{overflow-x:auto}.scroll td,.scroll th{white-space:nowrap}a{color:#0b5fa5}.small{font-size:13px;color:#5b6770}
-.toc{width:100%}.toc td{text-align:left;vertical-align:top}.toc td:first-child{white-space:nowrap}
+table{border-collapse:collapse;font-size:13px}
+td,th{padding:2px 10px;text-align:right;border-bottom:1px solid var(--line);vertical-align:top}
+td:first-child,th:first-child{text-align:left}details{margin-top:6px}summary{cursor:pointer;color:var(--link)}
+.scroll{overflow-x:auto}.scroll td,.scroll th{white-space:nowrap}a{color:var(--link)}
+.small{font-size:13px;color:var(--soft)}
+.shown{overflow-x:auto;margin:10px 0}.shown td,.shown th{text-align:left;padding:3px 8px;font-size:12.5px}
+.shown th{font-weight:600;color:var(--soft)}
+.yes{color:#1d7a46;font-weight:600}.shown td{white-space:nowrap}.shown.text td{white-space:normal}
+.talk main{max-width:1240px;padding-bottom:20px}.talk details{display:none}
+.talk article{display:grid;grid-template-columns:7fr 5fr;column-gap:24px;align-items:start}
+.talk h3,.talk h3+div,.talk .files{grid-column:1/-1}.talk img{grid-column:1;grid-row:3/5}
+.talk .shown,.talk dl{grid-column:2}.talk .shown td{white-space:normal}
+.talk dl{grid-template-columns:1fr;font-size:14px}.talk dl dd{margin-bottom:4px}
+.toc{width:100%}.toc td{text-align:left}.toc td:first-child{white-space:nowrap}
+@media(prefers-color-scheme:dark){
+.yes{color:#63c58d}
+:root{--ink:#dfe5e9;--soft:#9aa7b0;--page:#12171a;--card:#1a2126;--line:#303a41;--link:#6db3ee}
+img{filter:invert(1) hue-rotate(180deg)}
+img.field{filter:none;background:#fff;border-radius:6px;padding:6px}.chip{filter:brightness(.9)}}
+@media(max-width:600px){dl{grid-template-columns:1fr}dt{margin-top:4px}article{padding:12px}}
+@media print{
+:root{color-scheme:light;--ink:#000;--soft:#444;--page:#fff;--card:#fff;--line:#ccc;--link:#000}
+body{font-size:10.5pt}main{max-width:none;padding:0}img,img.field{filter:none;break-inside:avoid;max-height:7.6cm;padding:0}
+article{border:0;border-top:1px solid var(--line);border-radius:0;padding:8px 0;break-inside:avoid}
+dl{font-size:9pt;line-height:1.35;gap:2px 12px;margin:6px 0}img.tall{max-height:13cm}.talk img{max-height:none}
+h2,h3{break-after:avoid}h3+div{break-after:avoid}dl,tr{break-inside:avoid}
+article>details,.files,.talk p{display:none}
+.talk{page:talk}.talk body{line-height:1.3;font-size:9.5pt}.talk h1{font-size:16pt;margin:0}.talk article{padding:4px 0}
+.talk dl{font-size:8.5pt;gap:1px 0;margin:4px 0;break-inside:auto}
+.chip{print-color-adjust:exact}.shown td,.shown th{font-size:7pt;padding:1px 3px;white-space:normal}}
+@page{margin:12mm}@page talk{size:A4 landscape;margin:9mm}
 """
 
 
@@ -235,8 +279,7 @@ def write_page(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path, *, p
     for chapter, group in groupby(made, key=lambda pair: pair[0].chapter):
         parts.append(f"<h2>{escape(chapter)}</h2>")
         parts += [_article(report, folder, pictures=pictures) for _, report in group]
-    rest = "".join(f"<li>{escape(number)}: {escape(why)}</li>" for number, why in NOT_REBUILT)
-    parts.append(f"<h2>Not rebuilt</h2><ul>{rest}</ul></main></html>\n")
+    parts.append("</main></html>\n")
     path = folder / "index.html"
     path.write_text("\n".join(parts), encoding="utf-8")
     return path
@@ -245,6 +288,34 @@ def write_page(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path, *, p
 def escape(text: str) -> str:
     """Text for the page."""
     return escape_html(typographic(text))
+
+
+TALK = "today.html"
+"""One page to show in a lecture."""
+
+
+def write_talk(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path, *, pictures: bool) -> None:
+    """Write the last chapter as a page of its own, where it was made."""
+    report = _talk_of(made)
+    if report is not None:
+        parts = (
+            _opening("What the thesis would have found", "talk"),
+            '<p class=small><a href="index.html">The thesis, rebuilt</a></p><h1>What the thesis would have found</h1>',
+            f"{_article(report, folder, pictures=pictures)}</main></html>\n",
+        )
+        (folder / TALK).write_text("\n".join(parts), encoding="utf-8")
+
+
+def _talk_of(made: Sequence[tuple[CatalogueEntry, Report]]) -> Report | None:
+    return next((report for entry, report in made if entry.number == "today"), None)
+
+
+def _opening(title: str, kind: str = "") -> str:
+    return (
+        f'<!doctype html><html lang="en" class="{kind}"><meta charset="utf-8"><title>{escape(title)}</title>'
+        '<meta name="viewport" content="width=device-width,initial-scale=1">'
+        f"<style>{_CSS}</style><main>"
+    )
 
 
 def _head(made: Sequence[tuple[CatalogueEntry, Report]], pictures: bool) -> str:
@@ -256,16 +327,15 @@ def _head(made: Sequence[tuple[CatalogueEntry, Report]], pictures: bool) -> str:
         for _, report in made
     )
     without = "" if pictures else f"<p><b>{escape(NO_PICTURES)}</b></p>"
+    talk = f' <a href="{TALK}">Its main results then and now, on one page</a>.' if _talk_of(made) else ""
     return (
-        '<!doctype html><html lang="en"><meta charset="utf-8"><title>The thesis, rebuilt</title>'
-        '<meta name="viewport" content="width=device-width,initial-scale=1">'
-        f"<style>{_CSS}</style><main><h1>The thesis, rebuilt</h1>"
+        f"{_opening('The thesis, rebuilt')}<h1>The thesis, rebuilt</h1>"
         "<p>Figures and tables of M. Lonoce, <i>Helicopter Blade Twist Optimization in Forward Flight</i> (MSc thesis, "
         "Instituto Superior Técnico, 2016), computed anew. Captions are ours; no picture is taken from there. "
         "<b>thesis</b> is the model as printed, <b>flight</b> the best available, <b>thesis-wake</b> the thesis preset "
         "with a wake that responds to loading. The text is available up to figure 3.15; of chapters 4 to 6 only "
         f'the captions.</p><p>{len(made)} rebuilt: {summary}. <a href="misprints.html">'
-        f"What the thesis omits or misprints</a>.</p>{without}"
+        f"What the thesis omits or misprints</a>.{talk}</p>{without}"
         f"<details open><summary>Contents</summary><table class=toc>{rows}</table></details>"
     )
 
@@ -273,41 +343,68 @@ def _head(made: Sequence[tuple[CatalogueEntry, Report]], pictures: bool) -> str:
 def _article(report: Report, folder: Path, *, pictures: bool) -> str:
     image = ""
     files = [_csv_link(report, one) for one in report.tables]
-    for stem, _ in pictures_of(report) if pictures else ():
+    for stem, panels in pictures_of(report) if pictures else ():
         data = base64.b64encode((folder / f"{stem}.svg").read_bytes()).decode("ascii")
-        image += f'<img alt="{escape(report.title)}" src="data:image/svg+xml;base64,{data}">'
+        # Colours of a field keep their order in the dark; in print a picture of three rows and more is higher.
+        field = any(not isinstance(panel, PlotPanel) for panel in panels)
+        kind = "field" if field else "tall" if len(panels) > 4 and len(panels) % 3 else "plot"
+        image += f'<img class={kind} alt="{escape(report.title)}" src="data:image/svg+xml;base64,{data}">'
         which = " every inflow" if stem != report.stem else ""
         files += [f'<a href="{stem}.{end}">{end.upper()}{which}</a>' for end in ("svg", "png")]
-    tables = "".join(_details(one) for one in report.tables)
+    tables = "".join(_details(one) for one in report.tables if not one.shown)
+    result = "".join(f'<div class="{_shown_as(one)}">{_rows(one)}</div>' for one in report.tables if one.shown)
     return (
         f'<article id="{report.stem}"><h3>{escape(report.title)} {_chip(report.verdict)}</h3>'
-        f"<div>{escape(report.caption)}</div>{image}<dl><dt>The thesis</dt><dd>{escape(report.statement)}</dd>"
+        f"<div>{escape(report.caption)}</div>{image}{result}<dl><dt>The thesis</dt><dd>{escape(report.statement)}</dd>"
         f"<dt>Ours</dt><dd>{escape(report.ours)}</dd>"
         f"<dt>{escape(report.verdict.value.capitalize())}</dt><dd>{escape(report.because)}</dd></dl>"
-        f"<div class=small>{' · '.join(files)}</div>{tables}</article>"
+        f"<div class='small files'>{' · '.join(files)}</div>{tables}</article>"
     )
 
 
 def _csv_link(report: Report, one: ReportTable) -> str:
     name = f"{report.stem}.csv" if len(report.tables) == 1 else f"{report.stem}-{one.name}.csv"
-    return f'<a href="{name}">CSV {escape(one.name)}</a>'
+    return f'<a href="{name}">CSV {escape(one.name.replace("_", " "))}</a>'
 
 
 def _details(one: ReportTable) -> str:
-    head = "".join(f"<th>{escape(column)}</th>" for column in one.columns)
-    body = "".join(
-        "<tr>" + "".join(f"<td>{escape(c) if isinstance(c, str) else f'{c:.5g}'}</td>" for c in row) + "</tr>"
-        for row in one.rows[:ROWS]
-    )
     left = f"<p class=small>{len(one.rows) - ROWS} more rows in the CSV.</p>" if len(one.rows) > ROWS else ""
     return (
-        f"<details><summary>{escape(one.name)}</summary><div class=scroll><table><tr>{head}</tr>{body}</table></div>"
+        f"<details><summary>{escape(one.name.replace('_', ' '))}</summary><div class=scroll>{_rows(one)}</div>"
         f"{left}</details>"
     )
 
 
+def _rows(one: ReportTable) -> str:
+    """The first rows of a table, for the page."""
+    head = "".join(f"<th>{escape(column)}</th>" for column in one.columns)
+    body = "".join("<tr>" + "".join(_cell(cell) for cell in row) + "</tr>" for row in one.rows[:ROWS])
+    return f"<table><tr>{head}</tr>{body}</table>"
+
+
+def _cell(cell: TableCell) -> str:
+    if not isinstance(cell, str):
+        return f"<td>{cell:.5g}</td>"
+    kind = " class=yes" if cell.startswith("yes ") else ""
+    return f"<td{kind}>{escape(cell)}</td>"
+
+
+def _shown_as(one: ReportTable) -> str:
+    """Class of an open table: sentences may be broken into lines, numbers not."""
+    longest = max(len(cell) for row in one.rows for cell in row if isinstance(cell, str))
+    return "shown text" if longest > LONG else "shown"
+
+
 def _chip(verdict: Agreement) -> str:
     return f'<span class=chip style="background:{COLOURS[verdict]}">{verdict.value}</span>'
+
+
+@CachedFunction
+def written(number: str, folder: Path, pictures: bool) -> Report:
+    """The report of an entry, its files written to the folder; for another process."""
+    report = find_entry(number).make()
+    write_report(report, folder, pictures=pictures)
+    return report
 
 
 def write_report(report: Report, folder: Path, *, pictures: bool) -> None:
@@ -338,6 +435,7 @@ def shown(cell: TableCell) -> str:
 
 
 def write_all(made: Sequence[tuple[CatalogueEntry, Report]], folder: Path) -> Path:
-    """The page `index.html` with everything made, and the page of misprints."""
+    """The page `index.html` with everything made, the page of misprints and the page for a lecture."""
     write_misprints(folder)
+    write_talk(made, folder, pictures=can_draw())
     return write_page(made, folder, pictures=can_draw())

@@ -12,6 +12,35 @@ from numpy.typing import ArrayLike
 
 CurveStyle = Literal["line", "thin", "points", "dashed", "both", "band", "fill"]
 TableCell = str | float | int
+TOLERANCE = 1e-3
+"""Part of the power by which a twist that the thesis calls the best may exceed our least: the band of every optimum."""
+_CAPTIONS = {
+    "Figure 4.1": "Linear twist, only one section",
+    "Figure 4.2": "Parameter a, quadratic twist",
+    "Figure 4.3": "Root tip difference, quadratic twist",
+    "Figure 4.4": "Two sections with linear twist, 40 – 60",
+    "Figure 4.5": "Two sections with linear twist, 50 – 50",
+    "Figure 4.6": "Two sections with linear twist, 60 – 40",
+    "Figure 4.7": "Two sections with linear twist, 70 – 30",
+    "Figure 4.8": "Two sections, two airfoils and linear twist, 50 – 50",
+    "Figure 4.9": "Blade planform UH-60A",
+    "Figure 4.10": "Three sections with linear twist",
+    "Figure 4.12": "Comparison of flight test data and three linear segments",
+    "Figure 4.13": "Twist behaviours compared",
+    "Table 4.1": "Reduction of power between fixed linear twist and simulations",
+    "Figure 5.2": "Piezoelectric deformation",
+    "Figure 5.3": "Continuous and interdigitated electrode",
+    "Figure 5.4": "Continuous and interdigitated electrode, electric field",
+    "Figure 5.5": "Free strain compared",
+    "Figure 5.6": "Micro fibre composite actuator",
+    "Figure 5.7": "Electric field compared",
+    "Figure 5.8": "Blade model with black box",
+    "Figure 5.9": "Airfoil with actuators",
+    "Figure 5.10": "Torsion angle of the thermal analysis",
+    "Table 5.1": "Actuator properties",
+    "Table 5.2": "Actuators and concepts compared",
+}
+"""What the lists of figures and tables of the thesis name, where its chapters are not available."""
 
 
 class Agreement(Enum):
@@ -19,8 +48,10 @@ class Agreement(Enum):
 
     AGREES = "agrees"
     DIFFERS = "differs"
-    ALONE = "no reference"
-    """The number of the thesis is not known, or there is no statement to test."""
+    ALONE = "stands alone"
+    """Nothing was compared: the number of the thesis is not known, or there is no statement to test."""
+    LOADED = "as loaded"
+    """The numbers of the thesis are our input."""
     INDICATIVE = "indicative"
     """Compared with data of unclear origin or with another model: no verdict."""
 
@@ -40,6 +71,25 @@ class Curve:
 
 
 @dataclass(frozen=True)
+class Arrow:
+    """An arrow of a drawing, in the units of its axes."""
+
+    start: tuple[float, float]
+    end: tuple[float, float]
+    colour: int
+
+
+@dataclass(frozen=True)
+class Note:
+    """Text in a drawing, vertically centred on its place."""
+
+    text: str
+    x: float
+    y: float
+    align: Literal["left", "center", "right"] = "center"
+
+
+@dataclass(frozen=True)
 class PlotPanel:
     """One pair of axes."""
 
@@ -52,6 +102,10 @@ class PlotPanel:
     equal: bool = False
     """Same scale on both axes, for outlines."""
     y_limits: tuple[float, float] | None = None
+    arrows: tuple[Arrow, ...] = ()
+    notes: tuple[Note, ...] = ()
+    drawing: bool = False
+    """Without axes."""
 
 
 @dataclass(frozen=True)
@@ -102,6 +156,8 @@ class ReportTable:
     """Short: part of the file name when a figure has several."""
     columns: tuple[str, ...]
     rows: tuple[tuple[TableCell, ...], ...]
+    shown: bool = False
+    """Whether the page shows it open, as the result itself."""
 
 
 @dataclass(frozen=True)
@@ -126,6 +182,10 @@ class Report:
     """Panels of a second figure."""
     numbers: Mapping[str, float] = field(default_factory=dict[str, float])
     """Numbers that decide the verdict, by name."""
+    legend_below: bool = False
+    """Whether the names stand below the figure, where no corner of it is free."""
+    stacked: bool = False
+    """Whether the panels lie below each other, each over the whole width."""
 
     @property
     def title(self) -> str:
@@ -157,14 +217,26 @@ def floats(values: ArrayLike) -> tuple[float, ...]:
     return tuple(float(value) for value in np.asarray(values, dtype=float).ravel())
 
 
-def table(name: str, columns: Sequence[str], rows: Iterable[Sequence[TableCell]]) -> ReportTable:
+def table(
+    name: str, columns: Sequence[str], rows: Iterable[Sequence[TableCell]], *, shown: bool = False
+) -> ReportTable:
     """A table from any rows; numpy numbers become plain ones."""
-    return ReportTable(name, tuple(columns), tuple(tuple(_plain(cell) for cell in row) for row in rows))
+    return ReportTable(name, tuple(columns), tuple(tuple(_plain(cell) for cell in row) for row in rows), shown)
 
 
 def typographic(text: str) -> str:
     """Replace a hyphen before a number by a minus sign."""
     return re.sub(r"(?<![\w.\-])-(?=\d)", "−", text)
+
+
+def caption_only(title: str) -> str:
+    """The statement of a figure or table of which only the caption is known."""
+    return f"{_CAPTIONS[title]}. Only this caption is known; the numbers of the thesis are not."
+
+
+def best_within_tolerance(costs: Iterable[float]) -> Agreement:
+    """Whether a twist that the thesis calls the best costs at most `TOLERANCE` of our least power, at every speed."""
+    return judged(max(costs) <= TOLERANCE)
 
 
 def judged(agrees: bool) -> Agreement:

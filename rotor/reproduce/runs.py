@@ -127,6 +127,17 @@ def choices(name: str) -> tuple[str, str]:
     return preset.partition("-")[0], inflow or _INFLOW[name]
 
 
+REPRESENTATIVE = {"thesis": "thesis", "flight": FLIGHT_LINEAR}
+"""The variant of each preset that stands for all models which do not respond to loading; their optima coincide."""
+
+
+def linear_twin(name: str) -> str | None:
+    """The representative of a variant with linear inflow; None for itself and for models that respond to loading."""
+    preset, inflow = choices(name)
+    own = REPRESENTATIVE[preset]
+    return None if INFLOW_MODELS[inflow].load_dependent or name == own else own
+
+
 EVERY_VARIANT = tuple(with_inflow(preset, inflow) for preset in PRESETS for inflow in INFLOW_MODELS)
 """Both presets with every inflow model."""
 
@@ -186,8 +197,8 @@ class ConceptOptimum:
     values: tuple[float, ...]
     """In degrees where angular."""
     band: tuple[tuple[float, float], ...]
-    """Low and high of each within 0.1 % of the least power, the others following; degrees where angular. NaN where the
-    search did not find it."""
+    """Low and high of each within 0.1 % of the least power, the others following; degrees where angular. NaN where it
+    was not measured."""
     twist: str
     """SPEC"""
     power_kw: float
@@ -217,6 +228,12 @@ CONCEPTS: dict[str, tuple[str, Callable[[], Concept]]] = {
     "three": ("three linear sections", lambda: find_concept("three-segment")),
 }
 """The thesis' concepts: title, and the concept."""
+SC1095_DECKS = "two 50-50, SC1095 deck"
+"""The two-segment blade beside which the `thesis` preset sees two airfoils: the R8 exists as a deck only."""
+
+
+def _family(concept: str) -> Concept:
+    return find_concept("two-segment", (0.5,)) if concept == SC1095_DECKS else CONCEPTS[concept][1]()
 
 
 @CachedFunction
@@ -225,26 +242,41 @@ def best(name: str, concept: str, mu: float, scope: Scope) -> ConceptOptimum:
     preset = choices(name)[0]
     if mu == 0.0 and name != preset:  # Hover balances its annuli, whatever the model of forward flight.
         return replace(best(preset, concept, mu, scope), variant=name)
-    family = CONCEPTS[concept][1]()
+    family = _family(concept)
     design = variant(name, twist=BASELINE, mu=mu)
-    if concept == "two airfoils" and design.preset == "thesis":
+    if concept in ("two airfoils", SC1095_DECKS) and design.preset == "thesis":
         # The R8 exists as a deck only; its baseline is then the SC1095 deck, so that sections are compared, not polars.
         # Hover by eq. (3.3) knows one lift curve for the whole blade, so the annulus balance takes its place.
         models = replace(design.models, hover_inflow="annulus")
         design = replace(design, rotor=with_airfoils(design.rotor, ("sc1095",), ()), models=models)
-    guesses: list[tuple[float, ...]] = []
     speeds = scope.speeds
     place = speeds.index(mu) if mu in speeds else 0
     neighbour = [speeds[place - 1]] if place > 0 else []
     near = [best(name, concept, slower, scope).twist for slower in neighbour]
-    if concept != "linear":
+    twin = linear_twin(name)
+    if twin is not None:
+        # Its optimum lies within the band of the representative's, so the band is not measured again.
+        near = [best(twin, concept, mu, scope).twist, *near]
+    elif concept != "linear":
         near.append(best(name, "linear", mu, scope).twist)
-    for spec in near:
-        guesses.append(nearest(family, parse_twist(spec, builtin=design.twist)))
-    # One start more than the guesses: begun right at the optimum, a search sees too little to measure its band.
-    starts = max(scope.starts if not neighbour else 1, len(guesses) + 1)
-    found = run_search(Search(design, family, starts=starts, guesses=tuple(guesses)))
+    guesses = tuple(nearest(family, parse_twist(spec, builtin=design.twist)) for spec in near)
+    # Two starts at least: begun right at the optimum, a search sees too little to measure its band.
+    starts = max(2 if neighbour or twin else scope.starts, len(guesses))
+    found = run_search(Search(design, family, starts=starts, guesses=guesses, band=twin is None))
     return _record(name, concept, mu, family, found)
+
+
+def comparable_kw(name: str, concept: str, mu: float, scope: Scope) -> float:
+    """Total power of a concept on the baseline and section data of all others [kW].
+
+    In the `thesis` preset two airfoils are computed with decks. What the second airfoil gains there, as a part of
+    power, is taken off the two-segment blade with the document's polynomials.
+    """
+    found = best(name, concept, mu, scope)
+    if concept != "two airfoils" or choices(name)[0] != "thesis":
+        return found.power_kw
+    decks, polynomials = best(name, SC1095_DECKS, mu, scope), best(name, "two 50-50", mu, scope)
+    return polynomials.power_kw * found.power_kw / decks.power_kw
 
 
 @dataclass(frozen=True)
@@ -276,6 +308,8 @@ def best_fixed(name: str, scope: Scope) -> FixedBlade:
 def searches(concepts: Sequence[str], name: str, scope: Scope) -> list[Call]:
     """The calls of `best` for these concepts, in the order that lets each start from its neighbours."""
     wanted = dict.fromkeys(("linear", *concepts))
+    if {"two airfoils", "two 50-50"} <= set(wanted) and choices(name)[0] == "thesis":
+        wanted[SC1095_DECKS] = None
     return [(best, (name, concept, mu, scope)) for concept in wanted for mu in scope.speeds]
 
 

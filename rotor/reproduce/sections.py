@@ -1,5 +1,7 @@
 """Figures 2.3, 2.4, 3.1–3.6: pressure and forces around sections from XFOIL; polynomial fits of lift and drag."""
 
+from collections.abc import Sequence
+
 import numpy as np
 from numpy.polynomial.chebyshev import chebval
 
@@ -16,7 +18,7 @@ from rotor.airfoil.polynomial import (
     thesis_polar,
 )
 from rotor.assets import asset_path
-from rotor.reproduce.report import PlotPanel, Report, ReportTable, curve, judged, table
+from rotor.reproduce.report import Agreement, PlotPanel, Report, ReportTable, curve, judged, table
 
 TITLES = {"naca23015": "NACA 23015", "sc1095": "SC1095", "sc1094r8": "SC1094 R8"}
 SHIFT = 0.02
@@ -61,8 +63,9 @@ def figure_2_4() -> Report:
         statement="XFOIL gives how the pressure coefficient changes over the top and the bottom of a section (p. 9).",
         ours=f"Least Cp {pressure.cp[peak]:.2f} at {100 * pressure.x[peak]:.0f} % chord on the upper side; largest "
         f"{stagnation:.3f}, where isentropic flow at rest has {expected:.3f}.",
-        verdict=judged(good),
-        because="The stagnation pressure is that of compressible flow, and suction sits on the upper side.",
+        verdict=Agreement.ALONE if good else Agreement.DIFFERS,
+        because="Nothing to compare with. The stagnation pressure is that of compressible flow, and suction sits on "
+        "the upper side.",
         tables=(_table(pressure),),
         panels=(
             PlotPanel(
@@ -104,7 +107,7 @@ def _forces(number: str, section: str, statement: str) -> Report:
         ours=f"cl {pressure.cl:.3f}, cd {pressure.cd:.5f}, cm {pressure.cm:.3f}; the arrows add up to cl "
         f"{integrated:.3f} "
         f"({round(100 * gap, 2) + 0.0:+.2f} %). {beside[0]}".rstrip(),
-        verdict=judged(abs(gap) < 5e-3),
+        verdict=Agreement.ALONE if abs(gap) < 5e-3 else Agreement.DIFFERS,
         because="The arrows integrate to XFOIL's lift, which verifies order, sign and scale, not XFOIL; the thesis "
         "gives no number to compare.",
         tables=(_table(pressure),),
@@ -203,7 +206,8 @@ def _error(number: str, which: str, chosen: int) -> Report:
         }
     spread = _spread(which)
     share = numbers["at_-10_15"] / spread
-    knee = numbers["last_step_-10_20"] > numbers["next_step_-10_20"]
+    knee = knee_of([(one.order, _rms(one, which)) for one in studies[RANGES[0]]])
+    enough = next(one.order for one in studies[RANGES[0]] if _rms(one, which) < GOOD * spread)
     rows = [
         (one.order, *(_rms(studies[pair][k], which) for pair in RANGES)) for k, one in enumerate(studies[RANGES[0]])
     ]
@@ -214,6 +218,10 @@ def _error(number: str, which: str, chosen: int) -> Report:
         tuple(
             curve(f"α {low:g}…{high:g}°", [r[0] for r in rows], [r[k + 1] for r in rows], "both")
             for k, (low, high) in enumerate(RANGES)
+        )
+        + tuple(
+            curve(f"{words} {order}", (order, order), (min(r[1] for r in rows), max(r[2] for r in rows)), "dashed")
+            for words, order in (("thesis: order", chosen), ("our knee: order", knee))
         ),
         log="y",
     )
@@ -229,13 +237,21 @@ def _error(number: str, which: str, chosen: int) -> Report:
         f"{chosen - 2} "
         f"gains a factor {numbers['last_step_-10_20']:.2f}, the step to order {chosen + 2} another "
         f"{numbers['next_step_-10_20']:.2f}.",
-        verdict=judged(share < GOOD),
-        because=("It is the knee over −10…20°" if knee else "It is not a sharp knee")
-        + ", but there is no plateau: a higher order always helps slightly, because stall is a kink.",
+        verdict=judged(knee == chosen),
+        because=f"Our knee over −10…15° is at order {knee}, and the error is below {100 * GOOD:.0f} % of the spread "
+        f"from order {enough} on. There is no plateau: a higher order always helps slightly, because stall is a kink.",
         tables=(table("error", ("order", *(f"rms_{low:g}_{high:g}_deg" for low, high in RANGES)), rows),),
         panels=(panel,),
-        numbers={**numbers, "share_of_spread": share},
+        numbers={**numbers, "share_of_spread": share, "knee": knee, "enough": enough},
     )
+
+
+def knee_of(points: Sequence[tuple[int, float]]) -> int:
+    """The order whose error lies furthest below the straight line between first and last, in log10 of the error."""
+    order = np.array([point[0] for point in points], dtype=np.float64)
+    error = np.log10([point[1] for point in points])
+    line = error[0] + (error[-1] - error[0]) * (order - order[0]) / (order[-1] - order[0])
+    return int(order[int(np.argmax(line - error))])
 
 
 def _fit(number: str, which: str, order: int) -> Report:

@@ -13,7 +13,7 @@ from functools import cache
 from typing import Any
 
 from rotor.assets import package_version
-from rotor.design.design import FLIGHT_MODELS, THESIS_MODELS
+from rotor.design.design import preset_models
 from rotor.study.point import Row, WarmStarts, evaluate
 from rotor.study.quantities import QUANTITIES, Value
 from rotor.study.study import Column, Study, columns_of
@@ -119,7 +119,7 @@ def _models(study: Study) -> dict[str, Value]:
     given = {name: value for name, value in study.given if QUANTITIES[name].section == "models"}
     if "preset" in study.axis_names:
         return given
-    models = asdict(THESIS_MODELS if given.get("preset") == "thesis" else FLIGHT_MODELS)
+    models = asdict(preset_models(str(given.get("preset", "flight"))))
     return {name: value for name, value in models.items() if name not in study.axis_names} | given
 
 

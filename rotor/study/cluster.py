@@ -1,4 +1,4 @@
-"""Runs chunks on Dask: on an embedded cluster with one process per core, or on a running one by its address.
+"""Runs chunks in processes of this machine, one per core, or on a running Dask cluster by its address.
 
 Only a window of chunks is submitted at a time, so that a million points do not flood the scheduler. A chunk whose
 worker is lost is submitted again.
@@ -8,7 +8,6 @@ import importlib
 import logging
 import os
 import queue
-import signal
 import time
 from collections.abc import Callable, Generator, Sequence
 from contextlib import contextmanager
@@ -16,9 +15,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from rotor.study.chunks import FinishedChunk, StudyProvenance, VersionMismatch, evaluate_chunk
+from rotor.study.local_processes import LocalProcesses
 from rotor.study.study import Study
 
-INSTALL_HINT = "studies need Dask, distributed and pyarrow: pip install 'rotor-explorer[study]'"
+INSTALL_HINT = "studies need pyarrow, on a cluster Dask too: pip install 'rotor-explorer[study]'"
 _AHEAD = 2
 """Submitted chunks per thread of a worker: one running, one waiting."""
 _LOOK = 0.2
@@ -42,10 +42,10 @@ class ChunkRun:
     """Chunks that repeatedly stopped their workers."""
 
 
-def need_packages() -> None:
-    """ValueError with the remedy where the packages of studies are missing."""
+def need_packages(cluster: bool = False) -> None:
+    """ValueError with the remedy where the packages of studies are missing; `cluster`: also those of Dask."""
     try:
-        for name in ("dask", "distributed", "pyarrow"):
+        for name in ("pyarrow", *(("dask", "distributed") if cluster else ())):
             importlib.import_module(name)
     except ImportError:
         raise ValueError(INSTALL_HINT) from None
@@ -53,41 +53,30 @@ def need_packages() -> None:
 
 @contextmanager
 def connected(address: str | None, workers: int | None) -> Generator[Any]:
-    """A Dask client of the cluster at `address`, or of a temporary one here. ValueError without a cluster there."""
+    """A Dask client of the cluster at `address`, or processes of this machine. ValueError without a cluster there.
+
+    A cluster at a tls:// address is reached with the certificates of Dask's own configuration.
+    """
+    if address is None:
+        processes = LocalProcesses(workers or os.cpu_count() or 1)
+        try:
+            yield processes
+        finally:
+            processes.close()
+        return
     distributed: Any = importlib.import_module("distributed")
     logging.getLogger("distributed").setLevel(logging.CRITICAL)  # Errors are reported by this package.
-    if address is not None:
-        try:
-            client = distributed.Client(address, timeout="10s", set_as_default=False)
-        except (OSError, ValueError, TimeoutError) as error:
-            raise ValueError(
-                f"no Dask scheduler answers at {address!r} ({type(error).__name__}): start one with `dask scheduler`, "
-                "and give the tcp://host:port that it prints"
-            ) from None
-        try:
-            yield client
-        finally:
-            client.close(timeout=5)
-        return
-    # Processes started while Ctrl-C is ignored keep ignoring it; only this process handles it.
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
     try:
-        cluster = distributed.LocalCluster(
-            n_workers=workers or os.cpu_count() or 1,
-            threads_per_worker=1,
-            host="127.0.0.1",
-            dashboard_address="127.0.0.1:0",  # The default port 8787 may be in use.
-            scheduler_kwargs={"dashboard": False},
-            silence_logs=logging.CRITICAL,
-        )
-        client = distributed.Client(cluster, set_as_default=False)
-    finally:
-        signal.signal(signal.SIGINT, before)
+        client = distributed.Client(address, timeout="10s", set_as_default=False)
+    except (OSError, ValueError, TimeoutError) as error:
+        raise ValueError(
+            f"no Dask scheduler answers at {address!r} ({type(error).__name__}): start one with `dask scheduler`, "
+            "and give the tcp://host:port that it prints"
+        ) from None
     try:
         yield client
     finally:
         client.close(timeout=5)
-        cluster.close(timeout=10)
 
 
 def run_chunks(
@@ -159,7 +148,7 @@ _GONE = "the Dask scheduler is gone: finished chunks are kept; run the same comm
 
 def _judge(error: BaseException, chunk: int) -> None:
     """Ignore the loss of workers, after which a chunk is retried; raise every other error."""
-    if type(error).__name__ == "KilledWorker":
+    if type(error).__name__ in ("KilledWorker", "BrokenProcessPool"):
         return
     if isinstance(error, VersionMismatch):
         raise error

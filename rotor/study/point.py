@@ -23,7 +23,8 @@ from rotor.aero.trim_state import STATE_NAMES, TrimState
 from rotor.arrays import Array
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.aircraft import Aircraft
-from rotor.design.design import FLIGHT_MODELS, THESIS_MODELS, Design, check_preset
+from rotor.design.design import Design, check_preset, preset_models
+from rotor.design.stand import STAND_KEYS
 from rotor.files.make_design import change_airfoils, make_design
 from rotor.optimisation.concepts import Concept, restrict
 from rotor.optimisation.objective import at_condition, hover_and_cruise
@@ -54,7 +55,8 @@ class WarmStarts:
         self._key: tuple[object, ...] = ()
         self._places: list[Array] = []
         self._trims: list[Array] = []
-        self._shape = (0, 0)
+        self._shape: tuple[int, int] = (0, 0)
+        self._modes: int = 0
         self.concept = ""
         """The concept of the last optimum, and its parameters."""
         self.optimum: tuple[float, ...] = ()
@@ -68,8 +70,10 @@ class WarmStarts:
         vector = self._trims[order[0]].copy()
         for weight, other in zip(_weights(steps[order]), order[1:], strict=True):
             vector += weight * (self._trims[other] - self._trims[order[0]])
-        n = len(STATE_NAMES)
-        return Guess(TrimState.from_array(vector[:n]), vector[n:].reshape(self._shape))
+        n, points = len(STATE_NAMES), self._shape[0] * self._shape[1]
+        state, induced, elastic = np.split(vector, [n, n + points])
+        twist = elastic.reshape(self._modes, -1) if self._modes else None
+        return Guess(TrimState.from_array(state), induced.reshape(self._shape), twist)
 
     def keep(self, values: Mapping[str, Value], solution: Solution) -> None:
         """Remember a trim; one that did not converge teaches nothing."""
@@ -78,11 +82,14 @@ class WarmStarts:
         key = self._kind(values, solution.design.hovering)
         left = guess_of(solution)
         assert left.induced is not None
-        if key != self._key or left.induced.shape != self._shape:
-            self._key, self._shape = key, left.induced.shape
+        elastic = left.elastic if left.elastic is not None else np.zeros((0, 0))
+        vector = np.concatenate([left.state.array(), left.induced.ravel(), elastic.ravel()])
+        layout = key, left.induced.shape, len(elastic)
+        if layout != (self._key, self._shape, self._modes) or (self._trims and len(vector) != len(self._trims[0])):
+            self._key, self._shape, self._modes = layout
             self._places, self._trims = [], []
         self._places.append(self._place(values))
-        self._trims.append(np.concatenate([left.state.array(), left.induced.ravel()]))
+        self._trims.append(vector)
         del self._places[:-_KEPT], self._trims[:-_KEPT]
 
     def _kind(self, values: Mapping[str, Value], hovering: bool) -> tuple[object, ...]:
@@ -124,13 +131,14 @@ def design_of(values: Values, aircraft: Mapping[str, Aircraft]) -> Design:
     """
     preset = str(values.get("preset", "flight"))
     check_preset(preset)
-    models = FLIGHT_MODELS if preset == "flight" else THESIS_MODELS
+    models = preset_models(preset)
     changed: dict[str, Any] = {name: values[name] for name in ("inflow", *SWITCHES) if name in values}
     if "inflow" in changed:
         inflow_model(str(changed["inflow"]))
     for name in ("elements", "azimuths"):
         if name in values:
             changed[name] = int(cast(float, values[name]))
+    stand = {key: values[f"stand_{key}"] for key in STAND_KEYS if f"stand_{key}" in values}
     rotor = str(values.get("rotor", SHIPPED_ROTORS[0]))
     design = make_design(
         preset=preset,
@@ -140,6 +148,8 @@ def design_of(values: Values, aircraft: Mapping[str, Aircraft]) -> Design:
         mass_kg=float(values["mass_kg"]) if "mass_kg" in values else None,
         altitude_m=float(values.get("altitude_m", 0.0)),
         models=replace(models, **changed) if changed else models,
+        trim=str(values["trim"]) if "trim" in values else None,
+        stand=stand or None,
     )
     if "speed_kt" in values:
         if "mu" in values:

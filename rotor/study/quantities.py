@@ -4,8 +4,10 @@ from dataclasses import dataclass
 from typing import Literal
 
 from rotor.aero.switches import SWITCHES
+from rotor.design.stand import STAND_KEYS
 from rotor.optimisation.concepts import CONCEPTS, Concept
 from rotor.optimisation.concepts.catalogue import THREE_SEGMENT_FREE, TWO_AIRFOILS, TWO_SEGMENT_FREE
+from rotor.user_input import did_you_mean
 
 Value = float | str | bool
 Kind = Literal["number", "text", "flag"]
@@ -29,6 +31,14 @@ _PARAMETERS = [parameter for concept in CONCEPTS.values() for parameter in conce
 _LABELS = {parameter.label for parameter in _PARAMETERS}
 
 
+_KIND: dict[str, tuple[Kind, str]] = {
+    "flapping": ("text", ""),
+    "thrust_n": ("number", "N"),
+    "density_kg_m3": ("number", "kg/m³"),
+    **{key: ("number", "°") for key in STAND_KEYS if key.endswith("_deg")},
+}
+
+
 def _all() -> dict[str, Quantity]:
     plain = [
         Quantity("rotor", "text", "", "fixed"),
@@ -40,6 +50,8 @@ def _all() -> dict[str, Quantity]:
         Quantity("airfoils", "text", "", "fixed"),
         Quantity("concept", "text", "", "fixed"),
         Quantity("hover_share", "number", "", "fixed"),
+        *(Quantity(f"stand_{key}", *_KIND.get(key, ("number", "")), "fixed") for key in STAND_KEYS),
+        Quantity("trim", "text", "", "models"),
         Quantity("preset", "text", "", "models"),
         Quantity("inflow", "text", "", "models"),
         *(Quantity(name, "flag", "", "models") for name in SWITCHES),
@@ -54,7 +66,7 @@ QUANTITIES: dict[str, Quantity] = _all()
 """By name; the parameters of all twist concepts are among them, angles in degrees with names that end in _deg."""
 
 PLAIN = tuple(name for name in QUANTITIES if name not in _LABELS)
-"""Those that are no parameter of a concept."""
+"""Quantities that do not belong to a concept."""
 
 _WIDER: dict[str, Concept] = {
     "two-segment": TWO_SEGMENT_FREE,
@@ -70,7 +82,8 @@ def concept_with_breaks(name: str, given: dict[str, float]) -> tuple[Concept, di
     Raises ValueError for a concept or a parameter that there is not.
     """
     if name not in CONCEPTS:
-        raise ValueError(f"concept {name!r} is not known: use one of {', '.join(CONCEPTS)}")
+        hint = did_you_mean(name, CONCEPTS) or ":"
+        raise ValueError(f"concept {name!r} is not known{hint} use one of {', '.join(CONCEPTS)}")
     concept = CONCEPTS[name]
     if name in _WIDER and any(label not in [one.label for one in concept.parameters] for label in given):
         concept = _WIDER[name]

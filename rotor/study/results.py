@@ -25,6 +25,7 @@ from rotor.study.point import design_of
 from rotor.study.quantities import PLAIN, QUANTITIES, Value, concept_with_breaks
 from rotor.study.study import Study
 from rotor.study.study_file import StudyFile
+from rotor.user_input import is_file, make_folder, read_bytes, refusing, shorten
 
 ABOUT, SOURCE = "_study.json", "_study.toml"
 """The description of the folder, and a copy of the study file."""
@@ -46,7 +47,7 @@ class Store:
         """Begin or continue a folder. ValueError for one that belongs to another study, or that somebody writes to."""
         self.folder, self.study = Path(folder), file.study
         try:
-            self.folder.mkdir(parents=True, exist_ok=True)
+            make_folder(self.folder)
             known = read_about(self.folder) if (self.folder / ABOUT).exists() else None
             if known is None and any(self.folder.iterdir()):
                 raise ValueError(f"folder {str(folder)!r} holds other files: give a new one with --out DIR")
@@ -122,12 +123,11 @@ class Store:
 def read_about(folder: str | Path) -> dict[str, Any]:
     """The contents of a folder's `_study.json`; ValueError if no study wrote it."""
     path = Path(folder) / ABOUT
-    try:
-        about: Any = json.loads(path.read_text(encoding="utf-8"))
-    except (FileNotFoundError, NotADirectoryError):
-        raise ValueError(f"{str(folder)!r} holds no study: give the --out DIR of a study") from None
-    except (OSError, UnicodeDecodeError, json.JSONDecodeError) as error:
-        raise ValueError(f"{str(path)!r} cannot be read ({error}): give the --out DIR of a study") from None
+    if not is_file(path):
+        raise ValueError(f"{shorten(str(folder))!r} holds no study: give the --out DIR of a study")
+    remedy = "give the --out DIR of a study"
+    with refusing(f"{shorten(str(path))!r}", remedy):
+        about: Any = json.loads(read_bytes(path, "description", remedy))
     if not isinstance(about, dict) or about.get("format") != "rotor-explorer study":  # pyright: ignore[reportUnknownMemberType]
         raise ValueError(f"{str(path)!r} is not a study of this program: give the --out DIR of a study")
     return about  # pyright: ignore[reportUnknownVariableType]
@@ -277,6 +277,8 @@ def read_file(content: bytes, name: str) -> Results:
             )
         names = _wanted(file.schema_arrow, axes, texts=False)
         table = parquet.read_table(arrow.BufferReader(content), columns=names, read_dictionary=names)
+    except MemoryError:  # One of Arrow's exceptions too.
+        raise
     except (OSError, arrow.ArrowException) as error:
         raise ValueError(f"{name!r} is not a Parquet file ({error}): give a chunk-….parquet of a study") from None
     return Results(said, axes, columns_from(table))

@@ -31,6 +31,7 @@ from rotor.study.study import (
     columns_of,
     default_chunk,
 )
+from rotor.user_input import is_file, read_text, refusing, shorten
 
 SECTIONS: dict[str, tuple[str, ...]] = {
     "": ("title", "chunk"),
@@ -335,7 +336,7 @@ class StudyFile:
 def read_study(path: str | Path) -> StudyFile:
     """Read a study file, or one that comes with the package by its name. ValueError with one sentence."""
     path = Path(path)
-    if not path.exists() and path.parent == Path() and path.name:
+    if 0 < len(path.name) < 200 and path.parent == Path() and not is_file(path):
         try:
             path = asset_path(f"studies/{path.name}")
         except FileNotFoundError:
@@ -343,13 +344,10 @@ def read_study(path: str | Path) -> StudyFile:
             raise ValueError(
                 f"study file {path.name!r} does not exist: give a TOML file, or an example of the package: {examples}"
             ) from None
-    try:
-        text = path.read_text(encoding="utf-8-sig")  # Notepad writes a byte-order mark.
-    except FileNotFoundError:
-        raise ValueError(f"study file {str(path)!r} does not exist: give the path of a TOML file") from None
-    except (OSError, UnicodeDecodeError) as error:
-        raise ValueError(f"study file {str(path)!r} cannot be read ({error}): give a TOML text file") from None
-    return StudyFile(parse_study(text, str(path)), text, str(path))
+    remedy = "give the path of a TOML file"
+    text = read_text(path, "study file", remedy)
+    with refusing(f"study file {shorten(str(path))!r}", remedy):
+        return StudyFile(parse_study(text, str(path)), text, str(path))
 
 
 def parse_study(text: str, name: str = "study.toml") -> Study:

@@ -1,7 +1,8 @@
 """The exact gradient of power by the pitch at every blade station: one linear solve for any number of stations.
 
-The trim makes the residuals R(x, d, λ) zero, and the inflow is λ = A d + b. For a measure P, with a = J⁻ᵀ ∂P/∂x, the
-weights w = ∂P/∂F − a·∂R/∂F on the loads, and the part u = Aᵀ(I − K Aᵀ)⁻¹(K w_z + ∂F_x/∂λ w_x + ∂P/∂λ) of the inflow,
+The trim makes the residuals R(x, d, λ) zero, and the inflow is λ = A d + b. For an elastic blade R and x include the
+torsion equations and their coordinates. For a measure P, with a = J⁻ᵀ ∂P/∂x, the weights w = ∂P/∂F − a·∂R/∂F on the
+loads, and the part u = Aᵀ(I − K Aᵀ)⁻¹(K w_z + ∂F_x/∂λ w_x + ∂P/∂λ) of the inflow,
 
     dP/dθ(r) = Σ_ψ [ (w_z + u) ∂F_z/∂θ + w_x ∂F_x/∂θ + ∂P/∂θ ].
 
@@ -10,20 +11,23 @@ The chain rule then gives the gradient by any twist parameter: dP/dp = Σ_r dP/d
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from rotor.aero import kernel
-from rotor.aero.elements import BladeElements, Problem, build_problem, evaluate_elements
-from rotor.aero.inflow.interface import InflowFeedback
-from rotor.aero.sums import Slopes, integrate_transposed, slopes, velocity_slopes
+from rotor.aero.elements import BladeElements, Problem, evaluate_elements
+from rotor.aero.free_wake.system import WakeState
+from rotor.aero.sums import N_SUMS, Slopes, integrate_transposed, swirl_slope, velocity_slopes
+from rotor.aero.torsion_balance import pitch_slope
 from rotor.arrays import Array
 from rotor.blas_threads import one_blas_thread
-from rotor.trim.equations import combine_sums, jacobian, unknowns_of
+from rotor.trim.equations import combine_sums, unknowns_of
 from rotor.trim.forward import guess_of
-from rotor.trim.hover import Annuli
-from rotor.trim.newton import inflow_feedback
+from rotor.trim.hover import Annuli, AnnulusSlopes
+from rotor.trim.hover_wake import LineWeights, WakeAdjoint
+from rotor.trim.low_speed import HoverMatched, trim_problem
+from rotor.trim.newton import KEPT, Derivatives, KeptTrim, differentiate
 from rotor.trim.power import tail_power
 from rotor.trim.solution import Solution
 
@@ -67,6 +71,68 @@ class Weights:
     """By U_T."""
     u_p: Array | float = 0.0
     """By U_P."""
+    u_r: Array | float = 0.0
+    """By U_R, the flow along the blade."""
+    swirl: Array | float = 0.0
+    """By the swirl at the same velocities."""
+    tilt: float = 0.0
+    """By the shaft tilt at the same loads and velocities."""
+
+
+class HoverAdjoint:
+    """The linearised balance of a hovering rotor: annuli, or a free wake."""
+
+    def __init__(self, problem: Problem, collective: float, elastic: Array | None, wake: WakeState | None) -> None:
+        """elastic: coordinates of the elastic twist, (modes, functions); wake: the unknowns of a free wake."""
+        self.problem = problem
+        self._annuli: tuple[Array, AnnulusSlopes | None] | None = None
+        self._wake: WakeAdjoint | None = None
+        if wake is not None:
+            self._wake = WakeAdjoint(problem, wake, elastic[:, 0] if elastic is not None else None)
+            self.elements: BladeElements = self._wake.elements
+            return
+        annuli = Annuli(problem)
+        if elastic is not None:
+            annuli.elastic = elastic[:, 0]
+        self.elements, response, twisting = annuli.at(collective)
+        self._annuli = response, twisting
+
+    def by_pitch(self, weights: Weights) -> Array:
+        """∂(measure)/∂θ of each element's pitch, the balance following, (elements,)."""
+        if self._wake is not None:
+            return self._with_free_wake(weights, self._wake)
+        assert self._annuli is not None
+        return self._in_hover(weights, *self._annuli)
+
+    def _with_free_wake(self, weights: Weights, wake: WakeAdjoint) -> Array:
+        shape = self.problem.disk.shape
+        fields = (weights.fz, weights.fx, weights.inflow, weights.u_t, weights.u_p, weights.swirl, weights.theta)
+        return wake.by_pitch(LineWeights(*(np.broadcast_to(field, shape).sum(axis=1) for field in fields)))
+
+    def _in_hover(self, weights: Weights, annuli: Array, slopes: AnnulusSlopes | None) -> Array:
+        """Annuli are independent but for the collective that keeps the thrust, and the twist of an elastic blade.
+
+        `annuli`: ∂λ/∂θ of each.
+        """
+        loads, inflow = self.elements.loads, annuli[:, None]
+        turning = Annuli(self.problem).swirl(self.elements.induced[:, 0])[1][:, None] * inflow
+        fz = loads[kernel.FZ_THETA] + loads[kernel.FZ_UP] * inflow - loads[kernel.FZ_UT] * turning
+        fx = loads[kernel.FX_THETA] + loads[kernel.FX_UP] * inflow - loads[kernel.FX_UT] * turning
+        measure = weights.fz * fz + weights.fx * fx + (weights.inflow + weights.u_p) * inflow + weights.theta
+        measure = measure + (weights.swirl - weights.u_t) * turning
+        thrust = fz.sum(axis=1)
+        by_pitch = np.broadcast_to(measure, fz.shape).sum(axis=1)
+        stand = self.problem.design.condition.stand
+        given = stand is not None and stand.collective is not None
+        torsion = self.problem.torsion
+        if slopes is None or torsion is None:
+            return by_pitch if given else by_pitch - by_pitch.sum() / thrust.sum() * thrust
+        by_unknown: Array = slopes.columns @ by_pitch
+        adjoint: Array = np.zeros(len(by_unknown))
+        free = slice(1 if given else 0, None)  # With the collective given, the thrust follows the pitch.
+        adjoint[free] = np.linalg.solve(slopes.matrix[free, free].T, by_unknown[free])
+        balance = slopes.torsion + torsion.gain[:, None] * torsion.tension
+        return by_pitch - adjoint[0] * slopes.thrust - adjoint[1:] @ balance
 
 
 class Adjoint:
@@ -76,36 +142,47 @@ class Adjoint:
         """Raises RuntimeError with the solution's sentence when it is not converged."""
         solution.require()
         self.solution = solution
-        self.problem: Problem = build_problem(solution.design)
-        self._annuli: Array | None = None
-        if solution.design.hovering:
-            with one_blas_thread():
-                self.elements, self._annuli = Annuli(self.problem).at(solution.controls.collective)
-        else:
-            guess = guess_of(solution)
-            with one_blas_thread():
-                self.elements: BladeElements = evaluate_elements(self.problem, guess.state, guess.induced)
+        self.problem: Problem = trim_problem(solution.design)
+        self._hover: HoverAdjoint | None = None
+        self._kept = KEPT.of(solution.disk.induced)
+        guess = guess_of(solution)
+        with one_blas_thread():
+            if solution.design.hovering:
+                wake = solution.wake and solution.wake.state
+                self._hover = HoverAdjoint(self.problem, guess.state.collective, guess.elastic, wake)
+                self.elements: BladeElements = self._hover.elements
+            elif self._kept is not None and self._kept.elements is not None:
+                self.elements = self._kept.elements
+            else:
+                self.elements = evaluate_elements(self.problem, guess.state, guess.induced, guess.elastic)
 
     def by_pitch(self, weights: Weights) -> Array:
         """∂(measure)/∂θ of each element's pitch, trim and inflow following, (elements,)."""
         with one_blas_thread():
-            return self._forward(weights) if self._annuli is None else self._in_hover(weights, self._annuli)
+            return self._forward(weights) if self._hover is None else self._hover.by_pitch(weights)
 
     @cached_property
-    def _linear(self) -> tuple[Slopes, InflowFeedback | None, Array]:
-        """Derivatives by the unknowns, the feedback of the inflow, and the Jacobian of the trim."""
-        problem, elements = self.problem, self.elements
-        feedback = inflow_feedback(problem, elements)
-        by_unknown = slopes(problem, elements, unknowns_of(problem.design.models), feedback)
-        return by_unknown, feedback, jacobian(problem, elements, by_unknown)
+    def _linear(self) -> tuple[Slopes, Derivatives]:
+        """Exact derivatives at the trim, kept also for the next trim that starts from it."""
+        kept = self._kept
+        if kept is not None and kept.slopes is not None and kept.derivatives is not None:
+            return kept.slopes, kept.derivatives
+        found, derivatives = differentiate(self.problem, self.elements, unknowns_of(self.problem.design))
+        KEPT.keep(KeptTrim(self.solution.disk.induced, derivatives, self.elements, found))
+        return found, derivatives
 
     def _forward(self, weights: Weights) -> Array:
         problem, elements, loads = self.problem, self.elements, self.elements.loads
-        by_unknown, feedback, matrix = self._linear
-        measure = _dot(by_unknown.fz, weights.fz) + _dot(by_unknown.fx, weights.fx)
+        by_unknown, derivatives = self._linear
+        trims = len(by_unknown.unknowns)
+        measure = np.zeros(len(derivatives.jacobian))
+        measure[:trims] = _dot(by_unknown.fz, weights.fz) + _dot(by_unknown.fx, weights.fx)
         by_inflow = weights.inflow + weights.u_p
-        if by_unknown.inflow is not None:
-            measure += _dot(by_unknown.inflow, by_inflow)
+        if by_unknown.prescribed is not None:
+            measure[:trims] += _dot(by_unknown.prescribed, by_inflow)
+        if by_unknown.answer is not None:
+            source = weights.fz * loads[kernel.FZ_UP] + weights.fx * loads[kernel.FX_UP] + by_inflow
+            measure += by_unknown.answer.integrate(source[None])[0]
         disk = problem.disk
         pitch = {"collective": np.ones_like(disk.cos), "cyclic_1c": disk.cos, "cyclic_1s": disk.sin}
         for k, unknown in enumerate(by_unknown.unknowns):
@@ -114,24 +191,61 @@ class Adjoint:
             else:
                 u_t, u_p = velocity_slopes(problem, elements, unknown)
                 measure[k] += float(np.sum(weights.u_t * u_t + weights.u_p * u_p))
+                measure[k] += float(np.sum(weights.swirl * swirl_slope(problem, elements, unknown)))
+                if unknown == "shaft_tilt" and problem.design.models.disk_axial_flow:
+                    measure[k] += weights.tilt - elements.flow.mu_z * float(np.sum(weights.u_r * disk.cos))
 
-        adjoint = np.linalg.solve(matrix.T, measure)
-        trim_fz, trim_fx = integrate_transposed(problem, elements, adjoint @ combine_sums(problem, elements, np.eye(5)))
+        if problem.torsion is not None:
+            twisting = weights.fz * loads[kernel.FZ_THETA] + weights.fx * loads[kernel.FX_THETA] + weights.theta
+            measure[trims:] += problem.torsion.shapes.gather(twisting).ravel()
+        adjoint = np.linalg.solve(derivatives.jacobian.T, measure)
+        trim_fz, trim_fx = integrate_transposed(
+            problem, elements, adjoint[:trims] @ combine_sums(problem, elements, np.eye(N_SUMS))
+        )
         fz, fx = weights.fz - trim_fz, weights.fx - trim_fx
-        if feedback is not None and elements.response is not None:
-            source = loads[kernel.FZ_UP] * fz + loads[kernel.FX_UP] * fx + by_inflow
-            fz = fz + elements.response.apply_transposed(feedback.solve_transposed(source))
-        return (fz * loads[kernel.FZ_THETA] + fx * loads[kernel.FX_THETA] + weights.theta).sum(axis=1)
+        moment, pitching, tension = 0.0, 0.0, 0.0
+        if problem.torsion is not None:
+            modal = problem.torsion.gain[:, None] * adjoint[trims:].reshape(problem.given_torsion.shape)
+            moment = problem.torsion.shapes.project_transposed(modal)
+            pitching = moment * pitch_slope(problem.torsion, elements)
+            tension = -modal[:, 0] @ problem.torsion.tension
+        on_inflow = self._on_inflow(fz, fx, moment, by_inflow)
+        if on_inflow is not None and elements.response is not None:
+            fz = fz + elements.response.apply_transposed(on_inflow)
+        direct = fz * loads[kernel.FZ_THETA] + fx * loads[kernel.FX_THETA] + weights.theta + pitching
+        found = direct.sum(axis=1) + tension
+        if on_inflow is None or not isinstance(problem.inflow, HoverMatched):
+            return found
+        on_swirl = weights.swirl - weights.u_t - fz * loads[kernel.FZ_UT] - fx * loads[kernel.FX_UT]
+        if elements.torsion is not None:
+            on_swirl = on_swirl - elements.torsion.moments[kernel.M_UT] * moment
+        return found + self._by_difference(problem.inflow, on_inflow, on_swirl)
 
-    def _in_hover(self, weights: Weights, annuli: Array) -> Array:
-        """Annuli are independent but for the collective that keeps the thrust. `annuli`: ∂λ/∂θ of each."""
-        loads, inflow = self.elements.loads, annuli[:, None]
-        fz = loads[kernel.FZ_THETA] + loads[kernel.FZ_UP] * inflow
-        fx = loads[kernel.FX_THETA] + loads[kernel.FX_UP] * inflow
-        measure = weights.fz * fz + weights.fx * fx + (weights.inflow + weights.u_p) * inflow + weights.theta
-        thrust = fz.sum(axis=1)
-        by_pitch = np.broadcast_to(measure, fz.shape).sum(axis=1)
-        return by_pitch - by_pitch.sum() / thrust.sum() * thrust
+    def _on_inflow(self, fz: Array | float, fx: Array | float, moment: Array | float, by_inflow: Any) -> Array | None:
+        """Derivative by an inflow added to every element, its feedback included, (elements, azimuths).
+
+        None where the inflow does not depend on the load.
+        """
+        elements, feedback = self.elements, self._linear[1].feedback
+        if feedback is None or elements.response is None:
+            return None
+        source = elements.loads[kernel.FZ_UP] * fz + elements.loads[kernel.FX_UP] * fx + by_inflow
+        if elements.torsion is not None:
+            source = source + elements.torsion.moments[kernel.M_UP] * moment
+        return feedback.solve_transposed(source)
+
+    def _by_difference(self, inflow: HoverMatched, on_inflow: Array, on_swirl: Array) -> Array:
+        """The part of the gradient through the hovering rotor, whose inflow is carried over to low speed."""
+        difference, share = inflow.difference, inflow.share
+        fz, by_inflow, by_swirl = difference.by_hover(share * on_inflow.sum(axis=1), share * on_swirl.sum(axis=1))
+        torsion = difference.elements.torsion
+        hovering = HoverAdjoint(
+            difference.problem,
+            difference.elements.state.collective,
+            torsion.coordinates if torsion is not None else None,
+            difference.wake,
+        )
+        return hovering.by_pitch(Weights(fz=fz, inflow=by_inflow, swirl=by_swirl))
 
 
 def power_gradient(solution: Solution, objective: Objective = "total") -> PitchGradient:
@@ -145,24 +259,48 @@ def power_gradient(solution: Solution, objective: Objective = "total") -> PitchG
 def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradient:
     """The same from an adjoint that is used for other measures as well.
 
-    Main-rotor power is Σ (λ_i dF_z + U dD) + D·V, and U dD = U_T dF_x − U_P dF_z.
+    Main-rotor power is Σ (λ_i dF_z + u dF_x + U dD) + D·V, and U dD = U_T dF_x − U_P dF_z + U_R dF_r.
+    Raises RuntimeError for the total power of a free rotor, which is zero.
     """
     problem, elements = adjoint.problem, adjoint.elements
     cell = problem.disk.dr / len(problem.disk.psi)
     fz, fx = elements.loads[kernel.FZ], elements.loads[kernel.FX]
-    if objective == "induced":
-        weights, gain = Weights(fz=cell * elements.induced, inflow=cell * fz), 1.0
+    on_stand = problem.design.condition.stand is not None
+    if problem.design.models.trim == "free-rotor" and objective == "total":
+        raise RuntimeError(
+            "A free rotor takes no power from its shaft, so shaft power has no gradient: use the objective induced, or "
+            "trim wind-tunnel."
+        )
+    if on_stand and objective == "total":  # The mount takes any force: power is the shaft's, Σ r dF_x.
+        weights = Weights(fx=cell * problem.disk.r[:, None] + 0.0 * fx)
+        gain = 1.0
+    elif objective == "induced":
+        weights = Weights(
+            fz=cell * elements.induced, fx=cell * elements.swirl[:, None] + 0.0 * fx, inflow=cell * fz, swirl=cell * fx
+        )
+        gain = 1.0
     else:
         weights = Weights(
             fz=cell * (elements.induced - elements.u_p),
-            fx=cell * elements.u_t,
+            fx=cell * (elements.u_t + elements.swirl[:, None]),
             inflow=cell * fz,
             u_t=cell * fx,
             u_p=-cell * fz,
+            swirl=cell * fx,
+            tilt=-cell * elements.flow.mu_z * _radial_dissipation_slope(adjoint),
         )
         gain = _tail_gain(adjoint.solution)
     by_element = adjoint.by_pitch(weights) * gain * problem.design.power_unit
     return PitchGradient(problem.disk.r, problem.disk.dr, by_element)
+
+
+def _radial_dissipation_slope(adjoint: Adjoint) -> float:
+    """Slope of Σ U_R dF_r by µ_x."""
+    elements, disk = adjoint.elements, adjoint.problem.disk
+    if elements.friction is None:
+        return 0.0
+    friction = elements.friction
+    return float((disk.cos * (friction.radial + elements.flow.mu_x * friction.radial_slope)).sum())
 
 
 def _tail_gain(solution: Solution) -> float:

@@ -1,103 +1,238 @@
 """The equations of equilibrium in forward flight, and their exact Jacobian.
 
+A trim is data: the quantities it solves for and, one for each, the equations that have to be met. Every equation is a
+weighted sum of the sums over the disk (thrust, H-force, flap moments, torque) plus a term of the trim state alone, in
+units of C_T, so that its exact derivatives follow from those of the sums.
+
 `propulsive` (flight preset): collective, cyclic, shaft tilt and coning so that the vertical force carries the weight,
 the forward force the drag, and the first-harmonic flapping has its given value. `thrust` (thesis preset): collective
 and free flapping so that the thrust is the resultant of weight and drag; no cyclic. In both λ0 closes eq. (2.30) with
 the axial flow of the tilted disk. Rigid blades have neither flapping nor cyclic among their unknowns: collective, λ0
 and, where drag is balanced, the shaft tilt remain, and the hub carries the moments.
+
+On a test stand (`rotor.design.stand`) no force is balanced. `wind-tunnel`: the collective gives the thrust, or is
+given. `free-rotor`: the shaft tilt takes the torque away. `controls`: flapping and inflow are all that remain. Flapping
+is free, or trimmed by cyclic. A hub that fixes the coning leaves it out of the unknowns.
 """
 
 import math
-from dataclasses import replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cache
 
 import numpy as np
 
 from rotor.aero.elements import BladeElements, Problem
-from rotor.aero.sums import Slopes, disk_sums
+from rotor.aero.sums import N_SUMS, Slopes, SumName, disk_sums, sum_index
 from rotor.aero.trim_state import TrimState, Unknown
 from rotor.arrays import Array
-from rotor.design.design import Models
+from rotor.design.design import Design
 
-UNKNOWNS: dict[str, tuple[Unknown, ...]] = {
-    "propulsive": ("collective", "shaft_tilt", "coning", "cyclic_1c", "cyclic_1s", "lambda0"),
-    "thrust": ("collective", "coning", "flap_1c", "flap_1s", "lambda0"),
+
+@dataclass(frozen=True)
+class Equation:
+    """One equation at a trim state: weights · sums + rest = 0, in units of C_T."""
+
+    weights: Mapping[SumName, float]
+    """Weights on the sums over the disk."""
+    rest: float = 0.0
+    """Part that does not depend on the loads."""
+    slopes: Mapping[Unknown, float] = field(default_factory=dict[Unknown, float])
+    """∂rest by the unknowns."""
+    by_tilt: Mapping[SumName, float] = field(default_factory=dict[SumName, float])
+    """∂weights by the shaft tilt."""
+
+
+Row = Callable[[Problem, BladeElements], Equation]
+
+
+def vertical_force(problem: Problem, elements: BladeElements) -> Equation:
+    """Thrust and H-force carry the weight: C_T cos α + C_H sin α = C_W."""
+    cos, sin = math.cos(elements.state.shaft_tilt), math.sin(elements.state.shaft_tilt)
+    return Equation({"thrust": cos, "drag": sin}, -problem.weight, by_tilt={"thrust": -sin, "drag": cos})
+
+
+def forward_force(problem: Problem, elements: BladeElements) -> Equation:
+    """Thrust and H-force pull the airframe's drag: C_T sin α − C_H cos α = D."""
+    cos, sin = math.cos(elements.state.shaft_tilt), math.sin(elements.state.shaft_tilt)
+    return Equation({"thrust": sin, "drag": -cos}, -problem.drag, by_tilt={"thrust": cos, "drag": sin})
+
+
+def given_thrust(problem: Problem, elements: BladeElements) -> Equation:
+    """The thrust along the shaft is the resultant of weight and drag, or the one given on a test stand."""
+    del elements
+    return Equation({"thrust": 1.0}, -math.hypot(problem.weight, problem.drag))
+
+
+def no_torque(problem: Problem, elements: BladeElements) -> Equation:
+    """The air turns the rotor: C_Q = 0."""
+    del problem, elements
+    return Equation({"torque": 1.0})
+
+
+def coning_moment(problem: Problem, elements: BladeElements) -> Equation:
+    """The mean flap moment carries coning and the blade's weight: ν² β0 + weight = Γ M0."""
+    flap = problem.flap
+    stiffness = flap.frequency_squared / flap.load_gain
+    rest = -(flap.weight + flap.frequency_squared * elements.state.coning) / flap.load_gain
+    return Equation({"moment": 1.0}, rest, {"coning": -stiffness})
+
+
+def flap_moment_1c(problem: Problem, elements: BladeElements) -> Equation:
+    """The cosine part of the flap moment: (ν² − 1) β1c = Γ M1c."""
+    stiffness = (problem.flap.frequency_squared - 1.0) / problem.flap.load_gain
+    return Equation({"moment_1c": 1.0}, -stiffness * elements.state.flap_1c, {"flap_1c": -stiffness})
+
+
+def flap_moment_1s(problem: Problem, elements: BladeElements) -> Equation:
+    """The sine part of the flap moment: (ν² − 1) β1s = Γ M1s."""
+    stiffness = (problem.flap.frequency_squared - 1.0) / problem.flap.load_gain
+    return Equation({"moment_1s": 1.0}, -stiffness * elements.state.flap_1s, {"flap_1s": -stiffness})
+
+
+def momentum(problem: Problem, elements: BladeElements) -> Equation:
+    """Mean inflow of momentum theory, eq. (2.30): 2 λ0 V = C_T with V = √(µ_x² + (µ_z + λ0)²)."""
+    flow = elements.flow
+    slopes: dict[Unknown, float] = {"lambda0": 2.0 * (flow.speed + flow.lambda0 * flow.axial / flow.speed)}
+    if problem.design.models.disk_axial_flow:  # V ∂V = µ_x λ0, since µ_x dµ_x + µ_z dµ_z = 0.
+        slopes["shaft_tilt"] = 2.0 * flow.lambda0**2 * flow.mu_x / flow.speed
+    return Equation({"thrust": -1.0}, 2.0 * flow.lambda0 * flow.speed, slopes)
+
+
+@dataclass(frozen=True)
+class Trim:
+    """A way to trim: as many equations as unknowns."""
+
+    unknowns: tuple[Unknown, ...]
+    """The quantities solved for; all others keep their given values."""
+    rows: tuple[Row, ...]
+
+    def __post_init__(self) -> None:
+        if len(self.unknowns) != len(self.rows):
+            raise ValueError(f"{len(self.unknowns)} unknowns with {len(self.rows)} equations: give one for each")
+
+
+_FORCES: dict[str, tuple[tuple[Unknown, ...], tuple[Row, ...]]] = {
+    "propulsive": (("collective", "shaft_tilt"), (vertical_force, forward_force)),
+    "thrust": (("collective",), (given_thrust,)),
+    "wind-tunnel": (("collective",), (given_thrust,)),
+    "free-rotor": (("shaft_tilt", "collective"), (no_torque, given_thrust)),
+    "controls": ((), ()),
 }
-"""The quantities that each trim solves for."""
-
-_ZERO_WHEN_RIGID: tuple[Unknown, ...] = ("coning", "cyclic_1c", "cyclic_1s", "flap_1c", "flap_1s")
-"""Rigid blades do not flap, and no cyclic keeps the rotor from rolling."""
+"""Unknowns and equations of each trim beside flapping and inflow; with the collective given it is no unknown."""
 
 
-def unknowns_of(models: Models) -> tuple[Unknown, ...]:
-    """The quantities that these models solve for, in the order of `UNKNOWNS`."""
-    chosen = UNKNOWNS[models.trim]
-    return chosen if models.flapping else tuple(name for name in chosen if name not in _ZERO_WHEN_RIGID)
+def trim_of(design: Design) -> Trim:
+    """The unknowns and equations that a design solves."""
+    models, stand = design.models, design.condition.stand
+    given = stand is not None and stand.collective is not None
+    return _trim(models.trim, given, models.flapping, design.rotor.precone is None, _cyclic_trims(design))
+
+
+@cache
+def _trim(name: str, given_collective: bool, flapping: bool, coning: bool, cyclic: bool) -> Trim:
+    forces, rows = _FORCES[name]
+    unknowns: list[Unknown] = list(forces)
+    if given_collective and "collective" in unknowns:
+        unknowns.remove("collective")
+        rows = tuple(row for row in rows if row is not given_thrust)
+    if flapping:  # Rigid blades do not flap, and no cyclic keeps the rotor from rolling.
+        if coning:
+            unknowns.append("coning")
+            rows = (*rows, coning_moment)
+        angles: tuple[Unknown, ...] = ("cyclic_1c", "cyclic_1s") if cyclic else ("flap_1c", "flap_1s")
+        unknowns += angles
+        rows = (*rows, flap_moment_1c, flap_moment_1s)
+    return Trim((*unknowns, "lambda0"), (*rows, momentum))
+
+
+def _cyclic_trims(design: Design) -> bool:
+    """Whether cyclic keeps the first-harmonic flapping at its given value, or the blades flap freely."""
+    stand = design.condition.stand
+    return design.models.trim == "propulsive" if stand is None else stand.flapping == "trimmed"
+
+
+def unknowns_of(design: Design) -> tuple[Unknown, ...]:
+    """The quantities that a design solves for, in the order of the columns of `jacobian`."""
+    return trim_of(design).unknowns
 
 
 def with_given_values(problem: Problem, start: TrimState) -> TrimState:
     """The start with every quantity that is not solved for at its given value."""
-    state, condition, models = start, problem.design.condition, problem.design.models
+    state, design = start, problem.design
+    condition, models, stand = design.condition, design.models, design.condition.stand
     if not models.flapping:
-        state = replace(state, **dict.fromkeys(_ZERO_WHEN_RIGID, 0.0))
-    elif models.trim == "propulsive":
+        state = replace(state, coning=0.0, cyclic_1c=0.0, cyclic_1s=0.0, flap_1c=0.0, flap_1s=0.0)
+    elif _cyclic_trims(design):
         state = replace(state, flap_1c=condition.flap_1c, flap_1s=condition.flap_1s)
+    elif stand is not None:
+        state = replace(state, cyclic_1c=stand.cyclic_1c, cyclic_1s=stand.cyclic_1s)
     else:
         state = replace(state, cyclic_1c=0.0, cyclic_1s=0.0)
+    if models.flapping and design.rotor.precone is not None:
+        state = replace(state, coning=design.rotor.precone)
     if models.trim == "thrust":
         state = replace(state, shaft_tilt=math.atan2(problem.drag, problem.weight))
+    if stand is not None:
+        if models.trim != "free-rotor":
+            state = replace(state, shaft_tilt=stand.tilt)
+        if stand.collective is not None:
+            state = replace(state, collective=stand.collective)
     return replace(state, lambda0=max(state.lambda0, 1e-4))
 
 
+@dataclass(frozen=True, eq=False)
+class Balance:
+    """How far the forces are from balance."""
+
+    error: Array
+    """Residual of each trim equation in units of C_T, (equations,)."""
+    weights: Array
+    """On the sums over the disk, (equations, sums)."""
+
+
+def balance(problem: Problem, elements: BladeElements) -> Balance:
+    """The residuals, and how they depend on the sums."""
+    equations = _equations(problem, elements)
+    weights = _weights(equations)
+    rest = np.array([equation.rest for equation in equations])
+    return Balance(rest + weights @ disk_sums(problem, elements).array, weights)
+
+
 def residuals(problem: Problem, elements: BladeElements) -> Array:
-    """Residual of each trim equation in units of C_T, (unknowns,): forces, flapping, momentum."""
-    total = disk_sums(problem, elements)
-    state, flap = elements.state, problem.flap
-    spring = flap.frequency_squared
-    flapping = [
-        total.moment[0] - (flap.weight + spring * state.coning) / flap.load_gain,
-        total.moment[1] - (spring - 1.0) * state.flap_1c / flap.load_gain,
-        total.moment[2] - (spring - 1.0) * state.flap_1s / flap.load_gain,
-    ]
-    if not problem.design.models.flapping:
-        flapping = []
-    momentum = 2.0 * elements.flow.lambda0 * elements.flow.speed - total.thrust
-    if problem.design.models.trim == "propulsive":
-        cos, sin = math.cos(state.shaft_tilt), math.sin(state.shaft_tilt)
-        vertical = total.thrust * cos + total.drag * sin - problem.weight
-        forward = total.thrust * sin - total.drag * cos - problem.drag
-        return np.array([vertical, forward, *flapping, momentum])
-    return np.array([total.thrust - math.hypot(problem.weight, problem.drag), *flapping, momentum])
+    """Residual of each trim equation in units of C_T, (equations,)."""
+    return balance(problem, elements).error
 
 
 def jacobian(problem: Problem, elements: BladeElements, slopes: Slopes) -> Array:
-    """Exact derivatives of `residuals` by the unknowns, (residuals, unknowns)."""
-    matrix = combine_sums(problem, elements, slopes.sums)
-    state, flap, flow = elements.state, problem.flap, elements.flow
-    spring = flap.frequency_squared
+    """Exact derivatives of `residuals` by the unknowns, (equations, unknowns)."""
+    equations = _equations(problem, elements)
+    matrix = _weights(equations) @ slopes.sums
     column = {unknown: k for k, unknown in enumerate(slopes.unknowns)}
-    first = len(matrix) - 4  # Rows: the force balance or balances, three of flapping, momentum.
-    for row, (name, stiffness) in enumerate((("coning", spring), ("flap_1c", spring - 1.0), ("flap_1s", spring - 1.0))):
-        if name in column:
-            matrix[first + row, column[name]] -= stiffness / flap.load_gain
-    # d(2λ0 V) with V = √(µ_x² + (µ_z + λ0)²); by the tilt V ∂V = µ_x λ0, since µ_x dµ_x + µ_z dµ_z = 0.
-    matrix[-1, column["lambda0"]] += 2.0 * (flow.speed + flow.lambda0 * flow.axial / flow.speed)
+    for row, equation in zip(matrix, equations, strict=True):
+        for unknown, slope in equation.slopes.items():
+            if unknown in column:
+                row[column[unknown]] += slope
     if "shaft_tilt" in column:
-        tilt = column["shaft_tilt"]
-        if problem.design.models.disk_axial_flow:
-            matrix[-1, tilt] += 2.0 * flow.lambda0**2 * flow.mu_x / flow.speed
-        cos, sin = math.cos(state.shaft_tilt), math.sin(state.shaft_tilt)
-        total = disk_sums(problem, elements)
-        matrix[0, tilt] += -total.thrust * sin + total.drag * cos
-        matrix[1, tilt] += total.thrust * cos + total.drag * sin
+        sums = disk_sums(problem, elements).array
+        for row, equation in zip(matrix, equations, strict=True):
+            row[column["shaft_tilt"]] += sum(w * sums[sum_index(name)] for name, w in equation.by_tilt.items())
     return matrix
 
 
 def combine_sums(problem: Problem, elements: BladeElements, sums: Array) -> Array:
-    """The part of the residuals that is linear in the sums over the disk, for columns of sums, (residuals, columns)."""
-    thrust, drag, *moments = sums
-    if not problem.design.models.flapping:
-        moments = []
-    if problem.design.models.trim == "thrust":
-        return np.stack([thrust, *moments, -thrust])
-    cos, sin = math.cos(elements.state.shaft_tilt), math.sin(elements.state.shaft_tilt)
-    return np.stack([thrust * cos + drag * sin, thrust * sin - drag * cos, *moments, -thrust])
+    """The part of the residuals that is linear in the sums over the disk, for columns of sums, (equations, columns)."""
+    return _weights(_equations(problem, elements)) @ sums
+
+
+def _equations(problem: Problem, elements: BladeElements) -> list[Equation]:
+    return [row(problem, elements) for row in trim_of(problem.design).rows]
+
+
+def _weights(equations: list[Equation]) -> Array:
+    """(equations, sums)"""
+    weights = np.zeros((len(equations), N_SUMS))
+    for row, equation in zip(weights, equations, strict=True):
+        for name, weight in equation.weights.items():
+            row[sum_index(name)] = weight
+    return weights

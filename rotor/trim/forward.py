@@ -4,10 +4,13 @@ import math
 from dataclasses import replace
 
 from rotor.aero.elements import Problem, build_problem, expected_wake
+from rotor.aero.sums import disk_sums
 from rotor.aero.trim_state import TrimState
-from rotor.design.aircraft import FlightCondition
+from rotor.design.aircraft import LEAST_MASS, FlightCondition
 from rotor.design.design import Design
-from rotor.trim.newton import Guess, TrimResult, newton
+from rotor.design.stand import LARGEST_CT_OVER_SIGMA, Stand
+from rotor.trim.equations import unknowns_of
+from rotor.trim.newton import KEPT, Guess, TrimResult, coordinates_of, newton
 from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
 from rotor.trim.solution import Solution
 
@@ -19,16 +22,44 @@ def trim(problem: Problem, start: Guess | None = None, options: SolverOptions = 
     """
     passes = 0
     best: TrimResult | None = None
-    for guess in (start, first_guess(problem)):
-        if guess is None:
+    for guess in (start, *first_guesses(problem)):
+        if guess is None or (best is not None and options.asked_to_stop):
             continue
         result = newton(problem, guess, options)
         passes += result.passes
-        if result.converged:
+        if result.converged and not _hangs_under_its_wake(problem, result):
             return replace(result, passes=passes)
+        result = replace(result, converged=False)
         best = result if best is None or result.residual < best.residual else best
     assert best is not None
+    if options.asked_to_stop:
+        return replace(best, passes=passes, reached=0.0)
     return _continue(problem, best, passes, options)
+
+
+def trim_along(problem: Problem, options: SolverOptions = DEFAULT_OPTIONS) -> TrimResult | None:
+    """The trim that belongs to those of easier conditions, whatever Newton's method finds; None where none is reached.
+
+    Beyond the largest lift a rotor balances the same weight once more, deep in stall and at a multiple of the power.
+    Continuation stays on the branch of attached flow, on which rotors fly.
+    """
+    hopeless = TrimResult(newton(problem, first_guess(problem), replace(options, max_passes=1)).elements, 1.0, False, 1)
+    found = _continue(problem, hopeless, 1, options)
+    return found if found.converged else None
+
+
+def first_guesses(problem: Problem) -> list[Guess]:
+    """States from which the iteration begins, one after another: a free rotor has more than one equilibrium."""
+    guess = first_guess(problem)
+    if problem.design.models.trim != "free-rotor":
+        return [guess]
+    tilt = guess.state.shaft_tilt
+    return [Guess(replace(guess.state, shaft_tilt=share * tilt)) for share in (1.0, 0.5, 1.7, 3.0)]
+
+
+def _hangs_under_its_wake(problem: Problem, result: TrimResult) -> bool:
+    """Whether a free rotor with given collective was found at the equilibrium with negative thrust."""
+    return problem.design.models.trim == "free-rotor" and disk_sums(problem, result.elements).thrust < 0.0
 
 
 def first_guess(problem: Problem) -> Guess:
@@ -46,7 +77,12 @@ def first_guess(problem: Problem) -> Guess:
         coning=coning,
         lambda0=wake.lambda0,
     )
-    if design.models.trim == "propulsive":
+    stand = design.condition.stand
+    if stand is not None:
+        state = replace(state, shaft_tilt=math.atan2(wake.mu_z, wake.mu_x))
+    if stand is not None and stand.collective is not None:
+        state = replace(state, collective=stand.collective)
+    if "cyclic_1c" in unknowns_of(design):
         cyclic = {"cyclic_1s": -8.0 / 3.0 * mu * collective, "cyclic_1c": 4.0 / 3.0 * mu * coning}
         return Guess(replace(state, **cyclic, flap_1c=design.condition.flap_1c, flap_1s=design.condition.flap_1s))
     return Guess(replace(state, flap_1c=-8.0 / 3.0 * mu * collective, flap_1s=-4.0 / 3.0 * mu * coning))
@@ -54,7 +90,10 @@ def first_guess(problem: Problem) -> Guess:
 
 def guess_of(earlier: Solution) -> Guess:
     """The trim of an earlier solution, as a start."""
-    return Guess(earlier.controls, earlier.disk.induced)
+    elastic, kept = earlier.elastic, KEPT.of(earlier.disk.induced)
+    return Guess(
+        earlier.controls, earlier.disk.induced, elastic.coordinates if elastic else None, kept and kept.derivatives
+    )
 
 
 def _easier(design: Design, t: float) -> Design:
@@ -67,13 +106,30 @@ def easier_condition(design: Design, t: float) -> FlightCondition:
     condition = design.condition
     speed = condition.advance_ratio
     easy_speed = min(max(speed, 0.08), 0.2)
+    if condition.stand is not None:
+        return replace(
+            condition,
+            advance_ratio=easy_speed + t * (speed - easy_speed),
+            stand=_easier_stand(condition.stand, design, t),
+        )
     blade_loading = design.weight_coefficient / design.rotor.solidity
-    easy_mass = min(condition.mass, 0.045 * condition.mass / max(blade_loading, 1e-9))
+    easy_mass = min(condition.mass, max(0.045 * condition.mass / max(blade_loading, 1e-9), LEAST_MASS))
     return replace(
         condition,
         advance_ratio=easy_speed + t * (speed - easy_speed),
         mass=easy_mass + t * (condition.mass - easy_mass),
     )
+
+
+def _easier_stand(stand: Stand, design: Design, t: float) -> Stand:
+    """The stand on the way from a light rotor with little tilt (t = 0) to the wanted one (t = 1)."""
+    if stand.shaft_tilt is not None and design.models.trim != "free-rotor":
+        stand = replace(stand, shaft_tilt=stand.shaft_tilt * (0.3 + 0.7 * t))
+    if stand.collective is not None:
+        return stand
+    wanted = min(design.weight_coefficient / design.rotor.solidity, LARGEST_CT_OVER_SIGMA)
+    easy = min(wanted, 0.045)
+    return replace(stand, thrust=None, ct_over_sigma=easy + t * (wanted - easy))
 
 
 def _continue(problem: Problem, best: TrimResult, passes: int, options: SolverOptions) -> TrimResult:
@@ -89,15 +145,17 @@ def _continue(problem: Problem, best: TrimResult, passes: int, options: SolverOp
     for _ in range(options.continuation_steps):
         if t >= 1.0 or step < options.smallest_continuation_step:
             break
+        if passes >= options.most_passes or options.asked_to_stop:
+            break
         ahead = min(1.0, t + step)
         near = problem if ahead == 1.0 else build_problem(_easier(design, ahead))
         state = latest[1].state
         if before is not None:  # Along the secant through the last two trims.
             guess, last = state.array(), before[1].state.array()
             state = TrimState.from_array(guess + (guess - last) * (ahead - t) / (t - before[0]))
-        result = newton(near, Guess(state, latest[1].induced), options)
+        result = newton(near, Guess(state, latest[1].induced, coordinates_of(latest[1])), options)
         passes += result.passes
-        if result.converged:
+        if result.converged and not _hangs_under_its_wake(near, result):
             before, latest, t = latest, (ahead, result.elements), ahead
             step *= 1.7
         else:

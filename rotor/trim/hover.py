@@ -15,7 +15,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rotor.aero import kernel
-from rotor.aero.elements import BladeElements, Problem
+from rotor.aero.elastic import TorsionState, air_moments
+from rotor.aero.elements import BladeElements, Problem, swirl_of
 from rotor.aero.inflow import Wake
 from rotor.aero.losses import loss_factor
 from rotor.aero.trim_state import TrimState
@@ -85,62 +86,169 @@ class HoverResult:
     """C_T over C_W."""
 
 
-def hover(problem: Problem, start: float | None = None, options: SolverOptions = DEFAULT_OPTIONS) -> HoverResult:
-    """Collective for a thrust equal to the weight; Newton with a bracket, from an optional collective [rad]."""
+def hover(
+    problem: Problem,
+    start: float | None = None,
+    options: SolverOptions = DEFAULT_OPTIONS,
+    elastic: Array | None = None,
+) -> HoverResult:
+    """Collective for a thrust equal to the weight; Newton with a bracket, from an optional collective [rad].
+
+    On a test stand the thrust is the one given; with the collective given only the elastic twist is to be found. An
+    elastic blade twists with every step; `elastic`: coordinates of its twist to begin with, (modes, functions).
+    """
     annuli = Annuli(problem)
+    if elastic is not None and len(elastic) == len(annuli.elastic):
+        annuli.elastic = elastic[:, 0].copy()
+    stand = problem.design.condition.stand
+    if stand is not None and stand.collective is not None:
+        thrust, _ = annuli.thrust(stand.collective)
+        for _ in range(20):
+            if annuli.torsion_error <= options.torsion_tolerance:
+                break
+            annuli.twist_with(0.0)
+            thrust, _ = annuli.thrust(stand.collective)
+        elements = annuli.over_disk(stand.collective, thrust)
+        return HoverResult(elements, 0.0, annuli.torsion_error <= options.accepted_hover, annuli.passes, 1.0)
     low, high = -0.3, _LARGEST_COLLECTIVE
     solidity = problem.design.rotor.solidity
     theta0 = (
         start if start is not None else 6.0 * problem.weight / (solidity * 5.9) + 1.5 * math.sqrt(problem.weight / 2)
     )
-    best = (math.inf, theta0)
-    capped = False
+    best, twist_of_best = (math.inf, theta0), annuli.elastic
     for _ in range(60):
         thrust, slope = annuli.thrust(theta0)
         error = thrust - problem.weight
-        if abs(error) < best[0]:
-            best = abs(error), theta0
-        if abs(error) <= options.hover_tolerance * problem.weight or high - low < 1e-14:
+        size = max(abs(error) / problem.scale, annuli.torsion_error)
+        if size < best[0]:
+            best, twist_of_best = (size, theta0), annuli.elastic
+        balanced = abs(error) <= options.hover_tolerance * problem.scale
+        if (balanced and annuli.torsion_error <= options.torsion_tolerance) or high - low < 1e-14:
             break
+        margin = 5.0 * annuli.torsion_error  # The twist still moves by about this much, and the balance with it.
         if error < 0.0 and slope > 0.0:
-            low = theta0
+            low = max(low, theta0 - margin)
         else:
-            high = theta0
-            capped = capped or error > 0.0
+            high = min(high, theta0 + margin)
         step = -error / slope if slope > 0.0 else math.inf
-        theta0 = theta0 + min(max(step, -0.1), 0.1) if math.isfinite(step) else 0.5 * (low + high)
-        if not low < theta0 < high:
-            theta0 = 0.5 * (low + high)
+        ahead = theta0 + min(max(step, -0.1), 0.1) if math.isfinite(step) else 0.5 * (low + high)
+        if not low < ahead < high:
+            ahead = 0.5 * (low + high)
+        annuli.twist_with(ahead - theta0)
+        theta0 = ahead
+    annuli.elastic = twist_of_best
     thrust, _ = annuli.thrust(best[1])
-    residual = abs(thrust - problem.weight) / problem.weight
+    residual = abs(thrust - problem.weight) / problem.scale
     return HoverResult(
         elements=annuli.over_disk(best[1], thrust),
         residual=residual,
-        converged=residual <= options.accepted_hover,
+        converged=max(residual, annuli.torsion_error) <= options.accepted_hover,
         passes=annuli.passes,
-        reached=thrust / problem.weight,
+        reached=thrust / problem.scale,
     )
 
 
+def steady_coning(problem: Problem, loads: Array) -> float:
+    """β0 of a hovering rotor under loads (rows, elements)."""
+    if not problem.design.models.flapping:
+        return 0.0
+    if problem.design.rotor.precone is not None:
+        return problem.design.rotor.precone
+    moment = float(((problem.disk.r - problem.flap.hinge) * loads[kernel.FZ]).sum() * problem.disk.dr)
+    return (problem.flap.load_gain * moment - problem.flap.weight) / problem.flap.frequency_squared
+
+
+def steady_moments(problem: Problem, loads: Array, u_t: Array, inflow: Array) -> Array:
+    """Moments of the air on an elastic hovering blade with derivatives, (rows, elements).
+
+    loads (rows, elements); u_t, inflow (elements,) over ΩR.
+    """
+    assert problem.torsion is not None
+    still = np.zeros_like(u_t)[:, None]
+    return air_moments(
+        problem.torsion, problem.disk, problem.tip_mach, u_t[:, None], inflow[:, None], np.zeros(1), still,
+        np.ascontiguousarray(loads[:, :, None]),
+    )[:, :, 0]  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class AnnulusSlopes:
+    """Derivatives of the annuli by the pitch of each element, inflow included, and by the elastic coordinates."""
+
+    thrust: Array
+    """∂C_T by the pitch of each element, (elements,)."""
+    torsion: Array
+    """∂(torsion residual) by the same, (modes, elements)."""
+    shapes: Array
+    """Φ_k, (modes, elements)."""
+    own: Array
+    """∂(torsion residual) by the elastic coordinates at the same pitch, (modes, modes)."""
+
+    @property
+    def matrix(self) -> Array:
+        """∂(thrust, torsion residual) by (collective, elastic coordinates), (1 + modes, 1 + modes)."""
+        rows = np.concatenate([self.thrust[None], self.torsion])
+        matrix = np.asarray(rows @ self.columns.T, dtype=np.float64)
+        matrix[1:, 1:] += self.own
+        return matrix
+
+    @property
+    def columns(self) -> Array:
+        """∂θ of each element by (collective, elastic coordinates), (1 + modes, elements)."""
+        return np.concatenate([np.ones((1, len(self.thrust))), self.shapes])
+
+
 class Annuli:
-    """The annuli at a collective; the last inflow is the next start."""
+    """The annuli at a collective and an elastic twist; the last inflow is the next start."""
 
     def __init__(self, problem: Problem) -> None:
         self.problem = problem
         self.passes = 0
         disk = problem.disk
-        self.inflow = np.full_like(disk.r, math.sqrt(problem.weight / 2.0))
+        self.inflow = np.full_like(disk.r, math.sqrt(problem.scale / 2.0))
         self.ones = np.ones_like(disk.r)
         self.lift_slope, self.zero_lift = lift_curve(problem)
+        self.elastic: Array = np.zeros(len(problem.given_torsion))
+        """Steady elastic twist of each mode [rad], (modes,); empty for a rigid blade."""
+        self._residual: Array = self.elastic
+        self._slopes: AnnulusSlopes | None = None
+
+    @property
+    def torsion_error(self) -> float:
+        """Largest residual of the torsion equations at the last `thrust` [rad]; 0 for a rigid blade."""
+        return float(np.abs(self._residual).max(initial=0.0))
+
+    def pitch(self, theta0: float) -> Array:
+        """θ of each element, (elements,)."""
+        torsion = self.problem.torsion
+        pitch = self.problem.twist + theta0
+        return pitch if torsion is None else pitch + torsion.shapes.radial.T @ self.elastic
 
     def loads(self, theta0: float, inflow: Array) -> Array:
         """Section loads with derivatives, (rows, elements)."""
         problem, disk = self.problem, self.problem.disk
         self.passes += 1
+        u_t = disk.r - self.swirl(inflow)[0]
         return kernel.element_loads(
-            (problem.twist + theta0)[:, None], disk.r[:, None], inflow[:, None], self.ones, problem.tip_mach,
-            disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables,
+            self.pitch(theta0)[:, None], u_t[:, None], inflow[:, None], np.zeros(1), self.ones, problem.tip_mach,
+            disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables, disk.cos_sweep, disk.sin_sweep,
         )[:, :, 0]  # fmt: skip
+
+    def moments(self, loads: Array, inflow: Array) -> Array:
+        """Moments of the air with derivatives, (rows, elements), of an elastic blade."""
+        return steady_moments(self.problem, loads, self.problem.disk.r - self.swirl(inflow)[0], inflow)
+
+    def swirl(self, inflow: Array) -> tuple[Array, Array]:
+        """Swirl of each annulus over ΩR and its slope by λ, (elements,)."""
+        if not self.problem.design.models.has("swirl"):
+            return np.zeros_like(inflow), np.zeros_like(inflow)
+        swirl, slope = swirl_of(self.problem.disk.r, inflow * inflow)
+        return swirl, 2.0 * inflow * slope
+
+    def by_inflow(self, loads: Array, inflow: Array, fz_or_fx: int) -> Array:
+        """∂F_z or ∂F_x by λ at the same pitch: through U_P, and through the swirl in U_T."""
+        by_t, by_p = (kernel.FZ_UT, kernel.FZ_UP) if fz_or_fx == kernel.FZ else (kernel.FX_UT, kernel.FX_UP)
+        return loads[by_p] - loads[by_t] * self.swirl(inflow)[1]
 
     def momentum(self, inflow: Array) -> tuple[Array, Array]:
         """4Fλ|λ|r and its slope by λ."""
@@ -155,10 +263,10 @@ class Annuli:
         """Lift of the momentum balance, and its slopes by pitch and by λ."""
         if self.problem.design.models.hover_inflow == "annulus":
             loads = self.loads(theta0, inflow)
-            return loads[kernel.FZ], loads[kernel.FZ_THETA], loads[kernel.FZ_UP]
+            return loads[kernel.FZ], loads[kernel.FZ_THETA], self.by_inflow(loads, inflow, kernel.FZ)
         disk = self.problem.disk
         gain = disk.half_solidity * self.lift_slope
-        pitch = self.problem.twist + theta0 - self.zero_lift
+        pitch = self.pitch(theta0) - self.zero_lift
         return gain * (pitch * disk.r**2 - inflow * disk.r), gain * disk.r**2, -gain * disk.r
 
     def solve(self, theta0: float) -> tuple[Array, Array]:
@@ -183,18 +291,62 @@ class Annuli:
         return inflow, by_pitch / np.maximum(slope, 1e-12)
 
     def thrust(self, theta0: float) -> tuple[float, float]:
-        """C_T and ∂C_T/∂θ0, the change of inflow included."""
+        """C_T and ∂C_T/∂θ0, the change of inflow and of elastic twist included."""
         inflow, response = self.solve(theta0)
         loads = self.loads(theta0, inflow)
         dr = self.problem.disk.dr
-        slope = loads[kernel.FZ_THETA] + loads[kernel.FZ_UP] * response
-        return float(loads[kernel.FZ].sum() * dr), float(slope.sum() * dr)
+        slope = loads[kernel.FZ_THETA] + self.by_inflow(loads, inflow, kernel.FZ) * response
+        thrust, by_collective = float(loads[kernel.FZ].sum() * dr), float(slope.sum() * dr)
+        if self.problem.torsion is None:
+            return thrust, by_collective
+        self._residual, self._slopes = self._torsion(theta0, loads, slope * dr, response)
+        matrix = self._slopes.matrix
+        error, twisting = np.linalg.solve(matrix[1:, 1:], np.stack([self._residual, matrix[1:, 0]], axis=1)).T
+        return thrust - float(matrix[0, 1:] @ error), by_collective - float(matrix[0, 1:] @ twisting)
 
-    def at(self, theta0: float) -> tuple[BladeElements, Array]:
-        """The whole disk at a collective, and ∂λ/∂θ of each annulus, (elements,)."""
+    def twist_with(self, step: float) -> None:
+        """Newton's step of the elastic twist that goes with a step of the collective."""
+        if self._slopes is not None:
+            matrix = self._slopes.matrix
+            self.elastic = self.elastic - np.linalg.solve(matrix[1:, 1:], self._residual + matrix[1:, 0] * step)
+
+    def _torsion(
+        self, theta0: float, loads: Array, thrust_slope: Array, response: Array
+    ) -> tuple[Array, AnnulusSlopes]:
+        """Residual of the torsion equations, (modes,), and the derivatives by pitch."""
+        problem, torsion = self.problem, self.problem.torsion
+        assert torsion is not None
+        dr, theta, arm = problem.disk.dr, self.pitch(theta0), problem.disk.r - problem.flap.hinge
+        moments = self.moments(loads, self.inflow)
+        modal = torsion.gain[:, None] * torsion.shapes.radial * dr
+        air = moments[kernel.M_THETA] + (moments[kernel.M_UP] - moments[kernel.M_UT] * self._turning()) * response
+        lifted = torsion.gain * torsion.modal(torsion.tip_mass)
+        hinged = problem.design.models.flapping and problem.design.rotor.precone is None
+        gain = problem.flap.load_gain / problem.flap.frequency_squared if hinged else 0.0
+        residual = (
+            self.elastic
+            - modal @ (moments[kernel.MOMENT] - 0.5 * torsion.inertia * np.sin(2.0 * theta))
+            - torsion.gain * (torsion.coupling @ self.elastic)
+            - lifted * self.coning(loads)
+            + problem.given_torsion[:, 0]
+        )
+        by_pitch = -modal * (air - torsion.inertia * np.cos(2.0 * theta)) - gain * np.outer(lifted, arm * thrust_slope)
+        own = np.eye(len(self.elastic)) - torsion.gain[:, None] * torsion.coupling
+        return residual, AnnulusSlopes(thrust_slope, by_pitch, torsion.shapes.radial, own)
+
+    def _turning(self) -> Array:
+        """∂(swirl)/∂λ of each annulus, (elements,)."""
+        return self.swirl(self.inflow)[1]
+
+    def coning(self, loads: Array) -> float:
+        """β0 under loads (rows, elements)."""
+        return steady_coning(self.problem, loads)
+
+    def at(self, theta0: float) -> tuple[BladeElements, Array, AnnulusSlopes | None]:
+        """The whole disk at a collective, ∂λ/∂θ of each annulus, (elements,), and the slopes of an elastic blade."""
         _, response = self.solve(theta0)
         thrust, _ = self.thrust(theta0)
-        return self.over_disk(theta0, thrust), response
+        return self.over_disk(theta0, thrust), response, self._slopes
 
     def over_disk(self, theta0: float, thrust: float) -> BladeElements:
         """The hovering rotor as blade elements over the whole disk."""
@@ -205,15 +357,20 @@ class Annuli:
             return np.repeat(values[:, None], shape[1], axis=1)
 
         induced = everywhere(self.inflow)
-        theta = everywhere(problem.twist + theta0)
-        u_t = everywhere(disk.r)
-        loads = np.repeat(self.loads(theta0, self.inflow)[:, :, None], shape[1], axis=2)
-        moment = float(((disk.r - problem.flap.hinge) * loads[kernel.FZ, :, 0]).sum() * disk.dr)
-        coning = (problem.flap.load_gain * moment - problem.flap.weight) / problem.flap.frequency_squared
-        if not problem.design.models.flapping:
-            coning = 0.0
+        theta = everywhere(self.pitch(theta0))
+        swirl = self.swirl(self.inflow)[0]
+        u_t = everywhere(disk.r - swirl)
+        section_loads = self.loads(theta0, self.inflow)
+        loads = np.repeat(section_loads[:, :, None], shape[1], axis=2)
+        coning = self.coning(section_loads)
         state = TrimState(collective=theta0, coning=coning, lambda0=math.sqrt(max(thrust, 0.0) / 2.0))
+        torsion = None
+        if problem.torsion is not None:
+            coordinates = np.zeros_like(problem.given_torsion)
+            coordinates[:, 0] = self.elastic
+            moments = np.repeat(self.moments(section_loads, self.inflow)[:, :, None], shape[1], axis=2)
+            torsion = TorsionState(coordinates, problem.torsion.shapes.field(coordinates), np.zeros(shape), moments)
         return BladeElements(
             state, Wake(0.0, 0.0, state.lambda0), theta, u_t, induced, induced, None,
-            self.ones, np.zeros((2, shape[0])), np.full(shape[1], coning), loads,
+            self.ones, np.zeros((2, shape[0])), np.full(shape[1], coning), loads, swirl, None, torsion,
         )  # fmt: skip

@@ -1,24 +1,54 @@
-"""Newton's method on the exact Jacobian, for trim unknowns and induced inflow together."""
+"""Newton's method on the exact Jacobian, for trim unknowns, elastic twist and induced inflow together.
+
+The derivatives of the last few trims are kept. A trim that starts from one of them takes its first steps with these,
+which are nearly its own after the step of a slider, and the gradient of power needs the same ones. The residual has to
+meet the same tolerance, whatever the derivatives of the steps.
+"""
 
 import math
+import threading
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem, evaluate_elements, wake_at
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.inflow.interface import InflowFeedback
+from rotor.aero.inflow.interface import InflowColumns, InflowFeedback
 from rotor.aero.sums import Slopes, integrate, slopes
+from rotor.aero.torsion_balance import torsion_by_inflow, torsion_residual, torsion_slopes
 from rotor.aero.trim_state import TrimState, Unknown
 from rotor.arrays import Array
-from rotor.trim.equations import combine_sums, jacobian, residuals, unknowns_of, with_given_values
+from rotor.trim.equations import Balance, balance, combine_sums, jacobian, unknowns_of, with_given_values
 from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
 
 _MOST_SLOW_STEPS = 4
 """Steps that hardly reduce the residual before the iteration ends."""
+
+
+@dataclass(frozen=True, eq=False)
+class Derivatives:
+    """Exact derivatives at an iterate, as far as steps need them."""
+
+    unknowns: tuple[Unknown, ...]
+    jacobian: Array
+    """Of the trim equations, then of the torsion equations, by the unknowns and the elastic coordinates."""
+    feedback: InflowFeedback | None
+    answer: InflowColumns | None
+    """∂λ_i by the unknowns and the elastic coordinates; None for a model that does not depend on the load."""
+    shape: tuple[int, int]
+    """(elements, azimuths)"""
+
+    def serve(self, problem: Problem, unknowns: tuple[Unknown, ...]) -> bool:
+        """Whether steps can be made with them: whether they are for these unknowns on this grid."""
+        return (
+            self.unknowns == unknowns
+            and len(self.jacobian) == len(unknowns) + problem.given_torsion.size
+            and self.shape == problem.disk.shape
+            and (self.feedback is not None) == problem.inflow.load_dependent
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,6 +57,10 @@ class Guess:
 
     state: TrimState
     induced: Array | None = None
+    elastic: Array | None = None
+    """Coordinates of the elastic twist, (modes, functions)."""
+    derivatives: Derivatives | None = None
+    """Those at or near an earlier trim, for the first steps."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,12 +69,61 @@ class TrimResult:
 
     elements: BladeElements
     residual: float
-    """Largest residual over C_W."""
+    """Largest residual over `Problem.scale`."""
     converged: bool
     passes: int
     """Evaluations of the blade elements."""
     reached: float = 1.0
     """How far continuation from an easier condition came (1: all the way)."""
+    derivatives: Derivatives | None = None
+    """Those of the last step, where they reduced the residual so much that they are near those of the trim."""
+
+
+@dataclass(frozen=True, eq=False)
+class KeptTrim:
+    """What is known of a trim beside its solution."""
+
+    induced: Array
+    """The array of the solution's inflow."""
+    derivatives: Derivatives | None
+    """At the trim or near it, 0.5 MB."""
+    elements: BladeElements | None
+    """1.3 MB; None once other trims have followed."""
+    slopes: Slopes | None = None
+    """Those at the trim, where they have been evaluated; the derivatives are then exact."""
+
+
+class KeptTrims:
+    """The trims used last, known by the array of their inflow."""
+
+    def __init__(self, most: int = 64, whole: int = 4) -> None:
+        """most: trims kept; whole: with their blade elements."""
+        self._most, self._whole = most, whole
+        self._lock = threading.Lock()
+        self._kept: dict[int, KeptTrim] = {}
+        """By the identity of the array, which lives as long as the trim is kept; the one used last at the end."""
+
+    def of(self, induced: Array) -> KeptTrim | None:
+        """The trim with this very array; None where it is not kept."""
+        with self._lock:
+            kept = self._kept.pop(id(induced), None)
+            if kept is not None:
+                self._kept[id(induced)] = kept
+            return kept
+
+    def keep(self, kept: KeptTrim) -> None:
+        """Keep a trim, in the place of the one that was used longest ago."""
+        with self._lock:
+            self._kept.pop(id(kept.induced), None)
+            self._kept[id(kept.induced)] = kept
+            while len(self._kept) > self._most:
+                del self._kept[next(iter(self._kept))]
+            whole = [key for key, one in self._kept.items() if one.elements is not None]
+            for key in whole[: -self._whole]:
+                self._kept[key] = replace(self._kept[key], elements=None, slopes=None)
+
+
+KEPT = KeptTrims()
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,56 +131,60 @@ class _Iterate:
     """The blade elements at a trial state, with the residual of every equation."""
 
     elements: BladeElements
-    error: Array
+    balance: Balance
     inflow_error: Array | None
     """The model's response less the trial field; None for a model that does not depend on the load."""
+    torsion_error: Array
+    """Residual of the torsion equations [rad], (columns,); none for a rigid blade."""
     size: float
     """Largest residual over its tolerance: at most 1 when all equations are met."""
 
 
-@dataclass(frozen=True, eq=False)
-class _Derivatives:
-    """Exact derivatives at an iterate."""
-
-    slopes: Slopes
-    jacobian: Array
-    feedback: InflowFeedback | None
-
-
 def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTIONS) -> TrimResult:
-    """Newton's method on trim unknowns and inflow together, with a step limit and backtracking.
+    """Newton's method on trim unknowns, elastic twist and inflow together, with a step limit and backtracking.
 
-    Eliminating the inflow by the model's own feedback leaves a system of the trim unknowns only. For a load-dependent
-    model the derivatives are kept over several steps, because they cost more than an evaluation.
+    Eliminating the inflow by the model's own feedback leaves a system of the trim unknowns and, for an elastic blade,
+    its torsion coordinates. For a load-dependent model the derivatives are kept over several steps, because they cost
+    more than an evaluation; the first steps are made with those of the start, if it has any.
     """
-    unknowns = unknowns_of(problem.design.models)
+    unknowns = unknowns_of(problem.design)
     limits = np.array([options.inflow_step if name == "lambda0" else options.angle_step for name in unknowns])
+    shape = problem.given_torsion.shape
+    limits = np.concatenate([limits, np.full(problem.given_torsion.size, options.angle_step)])
+    elastic = start.elastic if start.elastic is not None and start.elastic.shape == shape else np.zeros(shape)
     state = with_given_values(problem, start.state)
     induced = start.induced
     if problem.inflow.load_dependent and (induced is None or induced.shape != problem.disk.shape):
         induced = _prescribed_start(problem, state)
-    point = _evaluate(problem, state, induced, options)
+    point = _evaluate(problem, state, induced, elastic, options)
     passes, slow_steps = 1, 0
-    derivatives: _Derivatives | None = None
+    derivatives = start.derivatives
+    if derivatives is not None and not derivatives.serve(problem, unknowns):
+        derivatives = None
+    latest, serving = derivatives, False
     while point.size > 1.0 and passes < options.max_passes and slow_steps < _MOST_SLOW_STEPS:
         fresh = derivatives is None
         if derivatives is None:
-            derivatives = _differentiate(problem, point.elements, unknowns)
+            if options.pause is not None:
+                options.pause()
+            latest = derivatives = differentiate(problem, point.elements, unknowns)[1]
         step, inflow_step = _step(problem, point, derivatives)
         if step is None:
             break
         step *= min(1.0, float((limits / np.maximum(np.abs(step), 1e-12)).min()))
         fraction = 1.0
         while True:
-            state = point.elements.state.moved(unknowns, fraction * step)
+            state = point.elements.state.moved(unknowns, fraction * step[: len(unknowns)])
             induced = None
             if point.inflow_error is not None:
                 induced = point.elements.induced + fraction * inflow_step(step)
-            trial = _evaluate(problem, state, induced, options)
+            elastic = coordinates_of(point.elements) + fraction * step[len(unknowns) :].reshape(shape)
+            trial = _evaluate(problem, state, induced, elastic, options)
             passes += 1
             if trial.size < point.size or not fresh or fraction < 0.2 or passes >= options.max_passes:
                 break
             fraction *= 0.5
+        serving = trial.size <= options.kept_ratio * point.size
         if trial.size > options.refresh_ratio * point.size or not problem.inflow.load_dependent:
             derivatives = None
         if trial.size >= point.size and not fresh:
@@ -105,29 +192,60 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
         slow_steps = slow_steps + 1 if trial.size > 0.9 * point.size else 0
         if trial.size < point.size or slow_steps < _MOST_SLOW_STEPS:
             point = trial
-    residual, difference = float(np.abs(point.error).max()) / problem.weight, 0.0
+    residual, difference = float(np.abs(point.balance.error).max()) / problem.scale, 0.0
+    twisting = float(np.abs(point.torsion_error).max()) if problem.torsion is not None else 0.0
     if point.inflow_error is not None:
-        difference = float(np.abs(point.inflow_error).max()) / abs(point.elements.flow.lambda0)
-    accepted = residual <= options.accepted_residual and difference <= options.accepted_inflow
-    return TrimResult(point.elements, residual, point.size <= 1.0 or accepted, passes)
+        difference = float(np.abs(point.inflow_error).max()) / _inflow_scale(problem, point.elements)
+    accepted = max(residual, twisting) <= options.accepted_residual and difference <= options.accepted_inflow
+    converged = point.size <= 1.0 or accepted
+    return TrimResult(point.elements, residual, converged, passes, derivatives=latest if serving else None)
 
 
-def _evaluate(problem: Problem, state: TrimState, induced: Array | None, options: SolverOptions) -> _Iterate:
-    elements = evaluate_elements(problem, state, induced)
-    error = residuals(problem, elements)
-    size = float(np.abs(error).max()) / (problem.weight * options.residual_tolerance)
+def coordinates_of(elements: BladeElements) -> Array:
+    """Coordinates of the elastic twist, (modes, functions); empty for a rigid blade."""
+    return elements.torsion.coordinates if elements.torsion is not None else np.zeros(0)
+
+
+def _evaluate(
+    problem: Problem, state: TrimState, induced: Array | None, elastic: Array, options: SolverOptions
+) -> _Iterate:
+    elements = evaluate_elements(problem, state, induced, elastic)
+    forces = balance(problem, elements)
+    size = float(np.abs(forces.error).max()) / (problem.scale * options.residual_tolerance)
+    torsion_error = elastic
+    if problem.torsion is not None:
+        torsion_error = torsion_residual(problem, elements).ravel()
+        size = max(size, float(np.abs(torsion_error).max()) / options.torsion_tolerance)
     inflow_error = None
     if problem.inflow.load_dependent and elements.response is not None:
         inflow_error = elements.response.induced - elements.induced
-        tolerance = abs(elements.flow.lambda0) * options.inflow_tolerance
+        tolerance = _inflow_scale(problem, elements) * options.inflow_tolerance
         size = max(size, float(np.abs(inflow_error).max()) / tolerance)
-    return _Iterate(elements, error, inflow_error, size if math.isfinite(size) else math.inf)
+    return _Iterate(elements, forces, inflow_error, torsion_error, size if math.isfinite(size) else math.inf)
 
 
-def _differentiate(problem: Problem, elements: BladeElements, unknowns: tuple[Unknown, ...]) -> _Derivatives:
+def _inflow_scale(problem: Problem, elements: BladeElements) -> float:
+    """What differences of inflow are measured by: |λ0|, at least a small part of hover's."""
+    return max(abs(elements.flow.lambda0), 0.02 * math.sqrt(problem.scale / 2.0))
+
+
+def differentiate(
+    problem: Problem, elements: BladeElements, unknowns: tuple[Unknown, ...]
+) -> tuple[Slopes, Derivatives]:
+    """Exact derivatives at these elements by the trim unknowns and the elastic coordinates."""
     feedback = inflow_feedback(problem, elements)
-    by_unknown = slopes(problem, elements, unknowns, feedback)
-    return _Derivatives(by_unknown, jacobian(problem, elements, by_unknown), feedback)
+    found = slopes(problem, elements, unknowns, feedback)
+    matrix = full_jacobian(problem, elements, found)
+    return found, Derivatives(unknowns, matrix, feedback, found.answer, problem.disk.shape)
+
+
+def full_jacobian(problem: Problem, elements: BladeElements, by_unknown: Slopes) -> Array:
+    """Derivatives of all equations by all unknowns: those of the trim first, then those of torsion."""
+    matrix = jacobian(problem, elements, by_unknown)
+    if problem.torsion is None:
+        return matrix
+    across = combine_sums(problem, elements, by_unknown.torsion_sums)
+    return np.vstack([np.hstack([matrix, across]), torsion_slopes(problem, elements, by_unknown)])
 
 
 def inflow_feedback(problem: Problem, elements: BladeElements) -> InflowFeedback | None:
@@ -137,26 +255,27 @@ def inflow_feedback(problem: Problem, elements: BladeElements) -> InflowFeedback
     return elements.response.feedback(elements.loads[kernel.FZ_UP])
 
 
-def _step(
-    problem: Problem, point: _Iterate, derivatives: _Derivatives
-) -> tuple[Array | None, Callable[[Array], Array]]:
+def _step(problem: Problem, point: _Iterate, derivatives: Derivatives) -> tuple[Array | None, Callable[[Array], Array]]:
     """The Newton step of the trim unknowns, and the step of λ_i that goes with a (shortened) step of theirs."""
-    error, inflow_change = point.error, None
+    error, torsion_error, inflow_change = point.balance.error, point.torsion_error, None
     if point.inflow_error is not None and derivatives.feedback is not None:
         inflow_change = derivatives.feedback.solve(point.inflow_error[None])
         loads = point.elements.loads
         change = integrate(
             problem, point.elements, loads[kernel.FZ_UP] * inflow_change, loads[kernel.FX_UP] * inflow_change
         )
-        error = error + combine_sums(problem, point.elements, change)[:, 0]
+        error = error + point.balance.weights @ change[:, 0]
+        if problem.torsion is not None:
+            torsion_error = torsion_error + torsion_by_inflow(problem, point.elements, inflow_change[0])
     step: Array | None = None
     with suppress(np.linalg.LinAlgError):
-        step = np.asarray(np.linalg.solve(derivatives.jacobian, -error), dtype=np.float64)
+        right = -np.concatenate([error, torsion_error])
+        step = np.asarray(np.linalg.solve(derivatives.jacobian, right), dtype=np.float64)
 
     def inflow_step(taken: Array) -> Array:
         assert inflow_change is not None
-        assert derivatives.slopes.inflow is not None
-        return inflow_change[0] + np.tensordot(taken, derivatives.slopes.inflow, axes=1)
+        assert derivatives.answer is not None
+        return inflow_change[0] + derivatives.answer.field(taken)
 
     return step, inflow_step
 

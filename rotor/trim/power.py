@@ -1,10 +1,18 @@
 """Main-rotor power by parts, tail-rotor power, hub moment, and the textbook closed form of profile power.
 
-Induced Σ λ_i dF_z, profile Σ U dD (dissipation), parasite D·V. With periodic flapping and forces in balance their sum
-is the shaft power Σ Ωy dF_x (3.10), (3.13) as an identity of the discretised equations: from U_T dF_x = U_P dF_z + U dD
-and r = U_T − µ_x sin ψ,
+Induced Σ (λ_i dF_z + u dF_x) with the swirl u, profile Σ U dD (dissipation, friction of the flow along the blade
+included), parasite D·V. With periodic flapping and forces in balance their sum is the shaft power Σ Ωy dF_x (3.10),
+(3.13) as an identity of the discretised equations: from U_T dF_x + U_R dF_r = U_P dF_z + U dD and
+r = U_T + u − µ_x sin ψ,
 
-    P_shaft = Σ (λ_i dF_z + U dD) + µ_z C_T − µ_x C_H,    and    µ_z T − µ_x H = D·V.
+    P_shaft = Σ (λ_i dF_z + u dF_x + U dD) + µ_z C_T − µ_x C_H,    and    µ_z T − µ_x H = D·V.
+
+On a test stand nothing balances the rotor's forces, and µ_z T − µ_x H is the power with which it pulls against its
+mount, negative where it drags; it takes the place of D·V.
+
+The twist of an elastic blade changes the angle of attack only, so the identity holds with it as without. What the air
+takes from blades through their rate of pitch, −Σ dC_M θ', is not in it, for rigid blades neither: below 0.1 % of power,
+and `ElasticTwist.control_power` states it.
 
 Without the axial flow of the tilted disk (3.6 as printed) the torque lacks D·V and more, so there the sum of parts *is*
 the power.
@@ -17,6 +25,7 @@ import numpy as np
 from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem
 from rotor.aero.momentum import glauert_inflow
+from rotor.aero.sums import disk_sums
 from rotor.arrays import Array
 from rotor.design.aircraft import FIXED_SHARE, TailRotor
 from rotor.design.design import Design
@@ -29,20 +38,35 @@ def power_budget(problem: Problem, elements: BladeElements) -> PowerBudget:
     unit = design.power_unit * disk.dr / len(disk.psi)
     cubed: Array = np.hypot(elements.u_t, elements.u_p) ** 3 * loads[kernel.CD]
     dissipation: Array = disk.half_solidity @ cubed
-    induced = float((elements.induced * loads[kernel.FZ]).sum()) * unit
+    turning = elements.swirl[:, None] * loads[kernel.FX]
+    induced = float((elements.induced * loads[kernel.FZ] + turning).sum()) * unit
     profile = float(dissipation.sum()) * unit
+    if elements.friction is not None:
+        along = elements.flow.mu_x * disk.cos
+        profile += float((elements.u_t * elements.friction.fx + along * elements.friction.radial).sum()) * unit
     parasite = problem.drag * design.condition.advance_ratio * design.power_unit
+    if design.condition.stand is not None:
+        parasite = -wind_forces(problem, elements)[1] * design.condition.advance_ratio * design.power_unit
     shaft = float((disk.r @ loads[kernel.FX]).sum()) * unit
     main = induced + profile + parasite
     tail, _ = tail_power(design, main)
     return PowerBudget(induced=induced, profile=profile, parasite=parasite, tail=tail, shaft=shaft)
 
 
+def wind_forces(problem: Problem, elements: BladeElements) -> tuple[float, float]:
+    """Lift and drag of the rotor over ρA(ΩR)², normal to the wind and along it (drag positive aft)."""
+    total, tilt = disk_sums(problem, elements), elements.state.shaft_tilt
+    cos, sin = math.cos(tilt), math.sin(tilt)
+    return total.thrust * cos + total.drag * sin, total.drag * cos - total.thrust * sin
+
+
 def tail_power(design: Design, main: float) -> tuple[float, float]:
     """Tail-rotor power [W] for a main-rotor power [W], and its slope: solved, or the document's fixed share.
 
-    The share is also used where the aircraft has no tail rotor, or an unknown one.
+    The share is also used where the aircraft has no tail rotor, or an unknown one. A test stand has none.
     """
+    if design.condition.stand is not None:
+        return 0.0, 0.0
     if design.tail_rotor is None or not design.models.tail_rotor_solved:
         return FIXED_SHARE * main, FIXED_SHARE
     speed = design.rotor.angular_speed

@@ -1,20 +1,30 @@
-"""What a solve returns: status and sentence, trim, fields over the disk, power by parts."""
+"""What a solve returns: status and sentence, trim, fields over the disk, power by parts.
+
+One file, because they are the parts of one value: records, texts and bands are made of the same fields, and whoever
+reads a result finds here what each number means.
+"""
 
 import json
 import math
 from dataclasses import dataclass
 from enum import Enum
+from functools import cached_property
 from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
 
+from rotor.aero.elements import Problem, build_problem
+from rotor.aero.free_wake.filaments import WakeFilaments
+from rotor.aero.free_wake.system import WakeState
 from rotor.aero.switches import switched_off
 from rotor.aero.trim_state import TrimState
 from rotor.arrays import Array
 from rotor.design.active_twist import active_twist_record
 from rotor.design.design import Design
 from rotor.plots import plot_disk
+from rotor.trim.hover_wake import FINER_GRID, flown_torques, torque_changes
+from rotor.user_input import write_whole
 
 
 class Status(Enum):
@@ -67,6 +77,56 @@ class DiskFields:
     """dC_T/dr of the whole rotor as if smeared."""
     dcq: Array
     """dC_Q/dr over r: in-plane force opposing rotation, of the whole rotor as if smeared; dC_P/dr = r·dcq."""
+    elastic_twist: Array | None = None
+    """φ, by which the blade twists under its loads [rad], contained in `theta`; None for a rigid blade."""
+
+
+@dataclass(frozen=True, eq=False)
+class ElasticTwist:
+    """The elastic twist of the blade and the load that it puts on the controls."""
+
+    coordinates: Array
+    """Amplitude of every torsion mode in the harmonics 1, cos ψ, sin ψ, cos 2ψ, … [rad], (modes, harmonics)."""
+    shapes: Array
+    """The modes at the elements, 1 at the tip, (modes, elements)."""
+    frequencies: Array
+    """Of the modes [per rev], (modes,)."""
+    tip: Array
+    """φ at the tip [rad], (azimuths,)."""
+    along_blade: Array
+    """Mean of φ around the disk [rad], (elements,): flown twist less jig twist."""
+    control_moment: Array
+    """Moment of the control system on one blade [N m], nose up, (azimuths,)."""
+    pitch_link_load: Array
+    """Force of one pitch link [N], (azimuths,), positive where it holds the nose up."""
+    control_power: float
+    """Power [W] that pitch links and actuators put into the pitching blades, in all; not part of `PowerBudget`."""
+
+    @property
+    def first_harmonic(self) -> float:
+        """Amplitude of the 1/rev part of `tip` [rad]."""
+        return float(np.hypot(*self.coordinates[:, 1:3].sum(axis=0)))
+
+    def record(self) -> dict[str, Any]:
+        """For `solve --json`; the amplitude of the pitch-link load is half of peak to peak."""
+        load = self.pitch_link_load
+        return {
+            "elastic_twist_deg": {
+                "mean_tip": math.degrees(float(self.tip.mean())),
+                "amplitude_1_tip": math.degrees(self.first_harmonic),
+                "min_tip": math.degrees(float(self.tip.min())),
+                "max_tip": math.degrees(float(self.tip.max())),
+            },
+            "torsion_frequencies_per_rev": self.frequencies.tolist(),
+            "pitch_link_load_n": {"mean": float(load.mean()), "amplitude": 0.5 * float(np.ptp(load))},
+        }
+
+
+_RIGID: dict[str, Any] = {
+    "elastic_twist_deg": None,
+    "torsion_frequencies_per_rev": None,
+    "pitch_link_load_n": None,
+}
 
 
 @dataclass(frozen=True)
@@ -120,6 +180,8 @@ class Solution:
     """Power by parts of the last iterate, converged or not; `power` is the same for a converged solution only."""
     hub_moment: HubMoment
     ct: float
+    lift_and_drag: tuple[float, float]
+    """Force of the rotor normal to the wind and along it [N]; drag positive aft."""
     cp: float
     """Main-rotor power over ρA(ΩR)³, eq. (2.12)."""
     reverse_flow_area: float
@@ -132,6 +194,12 @@ class Solution:
     """Blade-element passes used."""
     elapsed: float
     """[s]"""
+    elastic: ElasticTwist | None = None
+    """None for a blade that is rigid in torsion."""
+    settled: bool = True
+    """False for a preview: one Newton step towards a free wake, not its equilibrium."""
+    wake: WakeFilaments | None = None
+    """The vortex filaments of a free wake; None for the other inflow models."""
 
     def __repr__(self) -> str:
         state = f"{self.status.value}: {self.message}"
@@ -163,6 +231,16 @@ class Solution:
         return self.ct / self.design.rotor.solidity
 
     @property
+    def cq(self) -> float:
+        """C_Q of the shaft's torque over ρA(ΩR)²R."""
+        return self.last_power.shaft / self.design.power_unit
+
+    @property
+    def torque(self) -> float:
+        """Of the shaft [N m]."""
+        return self.last_power.shaft / self.design.rotor.angular_speed
+
+    @property
     def figure_of_merit(self) -> float | None:
         """Ideal over actual main-rotor power, hover only."""
         if not self.design.hovering or self.cp <= 0.0:
@@ -176,11 +254,48 @@ class Solution:
 
     @property
     def lift_to_drag(self) -> float | None:
-        """Rotor L/D_e = W V/(P_induced + P_profile), forward flight only."""
+        """Rotor L/D_e = W V/(P_induced + P_profile), on a test stand with the lift for W; forward flight only."""
         rotor_power = self.last_power.induced + self.last_power.profile
         if self.design.hovering or rotor_power <= 0.0:
             return None
-        return self.design.condition.weight * self.design.airspeed / rotor_power
+        weight = self.design.condition.weight if self.design.condition.stand is None else self.lift_and_drag[0]
+        return weight * self.design.airspeed / rotor_power
+
+    @cached_property
+    def power_band(self) -> tuple[float, float] | None:
+        """Lowest and highest change of main-rotor power with other roll-ups and a finer grid of a free wake, as parts.
+
+        The changes (`rotor.trim.hover_wake.torque_changes`, to first order) are not added up: the band reaches to the
+        largest of them, and downward by `FINER_GRID` more. None without a free wake, and where it has not settled.
+        """
+        if not self._in_free_wake:
+            return None
+        changes = torque_changes(*self._wake_arguments)
+        return min(0.0, *changes) + FINER_GRID, max(0.0, *changes)
+
+    def worth_band(self, other: "Solution") -> tuple[float, float] | None:
+        """Lowest and highest main-rotor power less that of `other`, as a part of the latter, over roll-ups.
+
+        Both rotors are flown with each of `rotor.trim.hover_wake.other_roll_ups` (about a second), so that what a
+        roll-up adds to both cancels; one with which a wake does not settle is left out. None unless both hover with a
+        settled free wake.
+        """
+        if not (self._in_free_wake and other._in_free_wake):
+            return None
+        ratios = flown_torques(*self._wake_arguments) / flown_torques(*other._wake_arguments)
+        ratios = ratios[np.isfinite(ratios)] * (self.design.power_unit / other.design.power_unit)
+        worth = self.power.main_rotor / other.power.main_rotor
+        return float(min(worth, *ratios)) - 1.0, float(max(worth, *ratios)) - 1.0
+
+    @property
+    def _in_free_wake(self) -> bool:
+        return self.wake is not None and self.converged and self.settled
+
+    @property
+    def _wake_arguments(self) -> tuple[Problem, WakeState, Array | None]:
+        assert self.wake is not None
+        elastic = self.elastic.coordinates[:, 0] if self.elastic is not None else None
+        return build_problem(self.design), self.wake.state, elastic
 
     def require(self) -> "Solution":
         """This solution, or RuntimeError with its sentence when it did not converge."""
@@ -203,6 +318,11 @@ class Solution:
             "ct": self.ct,
             "cp": self.cp,
             "ct_over_sigma": self.ct_over_sigma,
+            "cq": self.cq,
+            "cq_over_sigma": self.cq / design.rotor.solidity,
+            "shaft_torque_nm": self.torque,
+            "rotor_lift_n": self.lift_and_drag[0],
+            "rotor_drag_n": self.lift_and_drag[1],
             "collective_deg": math.degrees(controls.collective),
             "cyclic_1c_deg": math.degrees(controls.cyclic_1c),
             "cyclic_1s_deg": math.degrees(controls.cyclic_1s),
@@ -213,6 +333,7 @@ class Solution:
             "lambda0": controls.lambda0,
             "reverse_flow_area_percent": 100.0 * self.reverse_flow_area,
             "stalled_area_percent": 100.0 * self.stalled_area,
+            **(self.elastic.record() if self.elastic else _RIGID),
         }
         return {
             "status": self.status.value,
@@ -223,11 +344,23 @@ class Solution:
             "preset": design.preset,
             "inflow": design.models.inflow if not design.hovering else design.models.hover_inflow,
             "twist": design.twist.spec(),
+            **self._test(),
             **({} if design.active_twist is None else {"active_twist": active_twist_record(design.active_twist)}),
             **self._switches(),
             **(values if self.converged else _emptied(values)),
+            "settled": self.settled,
+            "power_band_percent": self._band_percent(),
             "elapsed_ms": 1e3 * self.elapsed,
         }
+
+    def _band_percent(self) -> dict[str, float] | None:
+        band = self.power_band
+        return None if band is None else {"low": 100.0 * band[0], "high": 100.0 * band[1]}
+
+    def _test(self) -> dict[str, Any]:
+        """Trim and inputs of a test; nothing in flight."""
+        stand = self.design.condition.stand
+        return {} if stand is None else {"trim": self.design.models.trim, "stand": stand.record()}
 
     def _switches(self) -> dict[str, Any]:
         """What is switched off, and the hub moment, which is then not zero; nothing for the full model."""
@@ -243,7 +376,7 @@ class Solution:
     def save(self, path: str | Path) -> None:
         """Write the design and, under `solution`, its results as JSON; `load_design` reads the design back."""
         record = {**self.design.to_dict(), "solution": self.to_dict()}
-        Path(path).write_text(json.dumps(record, indent=2, allow_nan=False) + "\n", encoding="utf-8")
+        write_whole(path, json.dumps(record, indent=2, allow_nan=False) + "\n")
 
     def plot(self, field: str = "alpha", ax: Any = None) -> Any:
         """Draw a field of `disk` over the disk seen from above, nose up; returns the matplotlib axes.
@@ -255,7 +388,10 @@ class Solution:
             raise ValueError(f"field {field!r} is not known: use one of {', '.join(DISK_LABELS)}")
         disk = self.require().disk
         label, scale = DISK_LABELS[field]
-        return plot_disk(disk.r, disk.psi, scale * getattr(disk, field), label, ax)
+        values: Array | None = getattr(disk, field)
+        if values is None:
+            raise ValueError(f"this blade is rigid, so it has no field {field!r}: choose another field")
+        return plot_disk(disk.r, disk.psi, scale * values, label, ax)
 
 
 def _emptied(values: dict[str, Any]) -> dict[str, Any]:
@@ -279,5 +415,6 @@ DISK_LABELS: dict[str, tuple[str, float]] = {
     "cd": ("Drag coefficient", 1.0),
     "dct": ("Thrust loading dC_T/dr", 1.0),
     "dcq": ("In-plane loading dC_H/dr", 1.0),
+    "elastic_twist": ("Elastic twist [°]", _DEGREES),
 }
 """Fields that `Solution.plot` draws: label, and factor from SI to the unit of the label."""

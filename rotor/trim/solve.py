@@ -2,37 +2,75 @@
 
 import math
 import time
+from dataclasses import replace
 
 from rotor.aero import kernel
-from rotor.aero.elements import BladeElements, Problem, build_problem
+from rotor.aero.elements import BladeElements, Problem
 from rotor.aero.sums import disk_sums
+from rotor.aero.torsion_balance import control_moment, control_work
 from rotor.blas_threads import one_blas_thread
 from rotor.design.design import Design, require_design
-from rotor.trim.forward import guess_of, trim
+from rotor.trim.forward import guess_of, trim, trim_along
 from rotor.trim.hover import HoverResult, hover
-from rotor.trim.newton import Guess, TrimResult
+from rotor.trim.hover_wake import HoverWakeResult, hover_wake
+from rotor.trim.low_speed import trim_problem
+from rotor.trim.newton import KEPT, Guess, KeptTrim, TrimResult
 from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
-from rotor.trim.power import hub_moment, power_budget
-from rotor.trim.solution import DiskFields, Solution, Status
-from rotor.trim.validity import caveats, failure_sentence
+from rotor.trim.power import hub_moment, power_budget, wind_forces
+from rotor.trim.solution import DiskFields, ElasticTwist, Solution, Status
+from rotor.trim.validity import caveats, failure_sentence, implausible
+
+SUSPECT_STALL = 0.25
+"""Part of the disk. Trims of attached flow end at about this share; those beyond the largest lift have 0.4 or more."""
 
 
 @one_blas_thread()
 def solve(design: Design, start: Solution | Guess | None = None, options: SolverOptions = DEFAULT_OPTIONS) -> Solution:
     """Trim the design; `start` is any earlier solution, or a guess, from which the iteration begins.
 
-    Always returns: a design that does not trim comes back with `Status.NOT_CONVERGED` and one sentence.
+    Returns for every design: one that does not trim comes back with `Status.NOT_CONVERGED` and one sentence. Among
+    several trims of a design the one of least power is meant. TypeError for a design or a start of another type.
     """
     begin = time.perf_counter()
     if not isinstance(start, Solution | Guess | None):  # pyright: ignore[reportUnnecessaryIsInstance]
         raise TypeError(f"start is {start!r:.80}: give an earlier solution or leave it out")
-    problem = build_problem(require_design(design))
+    problem = trim_problem(require_design(design))
     guess = _guess(design, start) if isinstance(start, Solution) else start
-    if design.hovering:
-        result: HoverResult | TrimResult = hover(problem, guess.state.collective if guess else None, options)
+    if design.hovering and design.models.hover_inflow == "free-wake":
+        wake = start.wake if isinstance(start, Solution) and start.converged else None
+        result: HoverResult | HoverWakeResult | TrimResult = hover_wake(
+            problem, wake and wake.state, options, guess and guess.elastic
+        )
+    elif design.hovering:
+        result = (
+            hover(problem, guess.state.collective, options, guess.elastic) if guess else hover(problem, None, options)
+        )
     else:
         result = trim(problem, guess, options)
-    return _assemble(problem, result, begin)
+    solution = _assemble(problem, result, begin)
+    if isinstance(result, TrimResult) and result.converged:
+        KEPT.keep(KeptTrim(result.elements.induced, result.derivatives, result.elements))
+    if _may_be_of_another_branch(solution, result) and not options.asked_to_stop:
+        other = trim_along(problem, options)
+        if other is not None:
+            return _least(solution, _assemble(problem, replace(other, passes=result.passes + other.passes), begin))
+    return solution
+
+
+def _may_be_of_another_branch(solution: Solution, result: HoverResult | HoverWakeResult | TrimResult) -> bool:
+    """Whether forward flight closes with so much stall, or so implausibly, that it may not be the trim of least power.
+
+    Free of charge for every other design.
+    """
+    flight = not solution.design.hovering and solution.design.condition.stand is None
+    return flight and result.converged and (solution.stalled_area > SUSPECT_STALL or not solution.converged)
+
+
+def _least(one: Solution, other: Solution) -> Solution:
+    """That of two solutions which converged with the lesser power."""
+    if not one.converged or not other.converged:
+        return other if other.converged else one
+    return other if other.power.total < one.power.total else one
 
 
 def _guess(design: Design, earlier: Solution) -> Guess | None:
@@ -42,16 +80,23 @@ def _guess(design: Design, earlier: Solution) -> Guess | None:
     return guess_of(earlier)
 
 
-def _assemble(problem: Problem, result: HoverResult | TrimResult, begin: float) -> Solution:
+def _assemble(problem: Problem, result: HoverResult | HoverWakeResult | TrimResult, begin: float) -> Solution:
     design, elements = problem.design, result.elements
     total = disk_sums(problem, elements)
     fields = _fields(problem, elements)
     power = power_budget(problem, elements)
     moment = hub_moment(problem, elements)
+    lift, drag = wind_forces(problem, elements)
     area = _areas(problem, fields)
     converged = result.converged
-    message = "Trimmed." if converged else failure_sentence(design, result.reached, area["stalled"])
-    if converged and not 0.0 < power.main_rotor < math.inf:
+    wake = result if isinstance(result, HoverWakeResult) else None
+    message = "Trimmed."
+    if not converged:
+        message = wake.message if wake is not None else ""
+        message = message or failure_sentence(design, result.reached, area["stalled"])
+    if converged and (refused := implausible(problem, elements)):
+        converged, message = False, refused
+    if converged and design.condition.stand is None and not 0.0 < power.main_rotor < math.inf:
         converged = False
         message = (
             f"Not trimmed: the trim found needs {power.main_rotor / 1e3:.0f} kW, impossible in level flight; "
@@ -61,18 +106,40 @@ def _assemble(problem: Problem, result: HoverResult | TrimResult, begin: float) 
         design=design,
         status=Status.CONVERGED if converged else Status.NOT_CONVERGED,
         message=message,
-        caveats=caveats(problem, elements, area["stalled"], moment) if converged else (),
+        caveats=caveats(problem, elements, fields.stall_margin, area["stalled"], moment) if converged else (),
         controls=elements.state,
         disk=fields,
         last_power=power,
         hub_moment=moment,
         ct=total.thrust,
+        lift_and_drag=(lift * design.thrust_unit, drag * design.thrust_unit),
         cp=power.main_rotor / design.power_unit,
         reverse_flow_area=area["reverse"],
         stalled_area=area["stalled"],
         residual=result.residual,
         passes=result.passes,
         elapsed=time.perf_counter() - begin,
+        elastic=_elastic(problem, elements),
+        settled=wake is None or wake.settled,
+        wake=wake and wake.wake,
+    )
+
+
+def _elastic(problem: Problem, elements: BladeElements) -> ElasticTwist | None:
+    structure = problem.design.rotor.blade.structure
+    if problem.torsion is None or elements.torsion is None or structure is None:
+        return None
+    coordinates, shapes = elements.torsion.coordinates, problem.torsion.shapes
+    moment = control_moment(problem, elements)
+    return ElasticTwist(
+        coordinates=coordinates,
+        shapes=shapes.radial,
+        frequencies=problem.torsion.frequency,
+        tip=coordinates.sum(axis=0) @ shapes.waves,
+        along_blade=elements.torsion.twist.mean(axis=1),
+        control_moment=moment,
+        pitch_link_load=moment / structure.pitch_horn,
+        control_power=control_work(problem, elements) * problem.design.power_unit,
     )
 
 
@@ -97,6 +164,7 @@ def _fields(problem: Problem, elements: BladeElements) -> DiskFields:
         ),
         dct=loads[kernel.FZ],
         dcq=loads[kernel.FX],
+        elastic_twist=elements.torsion.twist if elements.torsion is not None else None,
     )
 
 

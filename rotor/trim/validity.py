@@ -2,12 +2,19 @@
 
 import math
 
+import numpy as np
+
 from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem
+from rotor.aero.sums import disk_sums
 from rotor.aero.switches import switched_off
+from rotor.airfoil.polynomial import THESIS_NAME
+from rotor.arrays import Array
 from rotor.design.aircraft import FIXED_SHARE
 from rotor.design.design import Design
+from rotor.design.stand import Stand
 from rotor.trim.forward import easier_condition
+from rotor.trim.low_speed import HoverMatched, hover_share
 from rotor.trim.solution import Caveat, HubMoment
 
 LOW_SPEED = 0.075
@@ -16,12 +23,27 @@ LOWEST_SPEED = 0.05
 """Below it the dynamic wake has not been compared with a vortex wake; a real wake rolls up there."""
 HIGH_SPEED = 0.40
 """Above it reverse flow and unsteady stall dominate, and quasi-steady section data no longer suffice."""
+HOVER_CAUTION = 0.12
+"""C_T/σ in hover from which maximum lift decides, and with it the least certain part of the section data."""
+HOVER_LIMIT = 0.17
+"""Largest C_T/σ: every blade element at its maximum lift, as tests show (Prouty, Helicopter Performance, Stability, and
+Control, 1986, figure 5.2; Bousman, NASA TM-2000-209601, is quoted with 0.18 for SC1095 at tip Mach 0.65)."""
+LARGEST_FLAPPING = math.radians(20.0)
+"""Coning and flapping, whose equations are those of small angles."""
+LARGEST_CONTROL = math.radians(35.0)
+"""Collective at 0.75 R and cyclic: no rotor's controls reach further."""
+LARGEST_TILT = math.radians(40.0)
+"""Shaft tilt: beyond it the rotor flies as a propeller."""
+LARGEST_BUILT_TWIST = math.radians(25.0)
+"""Root to tip, with a margin: the UH-60A has 18° nominal. Only tiltrotor blades, propellers in cruise, have more."""
 STALL_SHARE = 0.02
 """Stalled part of the disk above which dynamic stall would change the results."""
 
 
-def caveats(problem: Problem, elements: BladeElements, stalled: float, moment: HubMoment) -> tuple[Caveat, ...]:
-    """The limits of validity that a converged solution exceeds."""
+def caveats(
+    problem: Problem, elements: BladeElements, stall_margin: Array, stalled: float, moment: HubMoment
+) -> tuple[Caveat, ...]:
+    """The limits of validity that a converged solution exceeds; `stall_margin` [rad] by (radius, azimuth)."""
     design, disk = problem.design, problem.disk
     mu = design.condition.advance_ratio
     found: list[Caveat] = []
@@ -31,12 +53,22 @@ def caveats(problem: Problem, elements: BladeElements, stalled: float, moment: H
 
     for remark in design.aircraft.remarks:
         add("rotor-file", remark)
-    if design.aircraft.hub == "teetering":
+    if design.aircraft.hub == "teetering" and design.rotor.precone is None:
         add(
             "teetering",
             "A teetering hub has built-in coning; here the blades cone as if each were hinged at the shaft.",
         )
-    if design.tail_rotor is None and design.models.tail_rotor_solved:
+    root = design.rotor.blade.root_cutout
+    if design.twist != design.rotor.builtin_twist:
+        ends = design.twist(np.array([root, 1.0]))
+        change = float(ends[1] - ends[0])
+        if abs(change) > LARGEST_BUILT_TWIST:
+            add(
+                "twist-beyond-built",
+                f"The blade twists by {math.degrees(change):.0f}° from root to tip; helicopter blades are built with "
+                "about 20° or less. Read the result as an extrapolation.",
+            )
+    if design.tail_rotor is None and design.models.tail_rotor_solved and design.condition.stand is None:
         add(
             "no-tail-rotor",
             f"The rotor file has no tail rotor: {100.0 * FIXED_SHARE:.0f} % of main-rotor power is used instead.",
@@ -45,6 +77,12 @@ def caveats(problem: Problem, elements: BladeElements, stalled: float, moment: H
         add(
             "thesis-models",
             f"The document does not treat the {design.aircraft.name}: these are its models with this rotor's blade.",
+        )
+    if design.models.has("elastic_twist") and design.rotor.blade.structure is None:
+        add(
+            "no-blade-structure",
+            "The rotor file has no blade structure: the blade is rigid in torsion here, though real blades twist by "
+            "degrees in flight.",
         )
     off = switched_off(design.models)
     if off:
@@ -66,10 +104,39 @@ def caveats(problem: Problem, elements: BladeElements, stalled: float, moment: H
             "low-speed-inflow",
             f"No skewed-wake model is validated below advance ratio {LOWEST_SPEED:g}; this is {mu:.3f}.",
         )
+    if hover_share(design) and not isinstance(problem.inflow, HoverMatched):
+        add(
+            "low-speed-not-matched",
+            "The hover model has no answer at this weight, so the inflow does not pass over to hover at low speed.",
+        )
     if mu > HIGH_SPEED:
         add(
             "high-speed",
-            f"Above advance ratio {HIGH_SPEED:.2f} quasi-steady sections and rigid blades are a rough approximation.",
+            f"Above advance ratio {HIGH_SPEED:.2f} quasi-steady sections and blades that do not bend are a rough "
+            "approximation.",
+        )
+    if design.hovering and design.models.hover_inflow == "free-wake":
+        add(
+            "free-wake-band",
+            "Power with the free wake depends on how the tip vortex rolls up, by some 4 %, and the effect of twist is "
+            "overstated beyond -16° or so.",
+        )
+        cell = disk.dr / len(disk.psi)
+        thrust, least = disk_sums(problem, elements).thrust, elements.state.lambda0
+        turning = elements.swirl[:, None] * elements.loads[kernel.FX]
+        induced = float((elements.induced * elements.loads[kernel.FZ] + turning).sum()) * cell
+        if induced < thrust * least:
+            add(
+                "free-wake-below-ideal",
+                f"Induced power is {100.0 * (1.0 - induced / (thrust * least)):.0f} % below the least of momentum "
+                "theory: the roll-up model of the free wake fails here. Take hover inflow annulus.",
+            )
+    loading = disk_sums(problem, elements).thrust / design.rotor.solidity
+    if design.hovering and loading > HOVER_CAUTION:
+        add(
+            "blade-loading",
+            f"C_T/σ {loading:.3f} in hover is above {HOVER_CAUTION:g}: maximum lift decides here, and power comes out "
+            f"too low. {_nearest_to_stall(stall_margin, disk.r)}",
         )
     if stalled > STALL_SHARE:
         add(
@@ -82,6 +149,12 @@ def caveats(problem: Problem, elements: BladeElements, stalled: float, moment: H
             add(
                 "no-compressibility",
                 f"The section polar holds for one Mach number (0.3); the tip reaches Mach {top_mach:.2f}.",
+            )
+        if any(not span.section.startswith(THESIS_NAME) for span in design.rotor.blade.spans):
+            add(
+                "mixed-section-data",
+                f"Part of the blade has the polynomials {THESIS_NAME} of one Mach number and free transition, the rest "
+                "tables with Mach number: their difference is one of data, not of airfoils.",
             )
         clamped = _outside_fit(problem, elements, disk.fit_range)
         if clamped > 0.0:
@@ -97,6 +170,14 @@ def caveats(problem: Problem, elements: BladeElements, stalled: float, moment: H
     return tuple(found)
 
 
+def _nearest_to_stall(margin: Array, r: Array) -> str:
+    """The element of a hovering blade that is nearest to stall, or furthest beyond it."""
+    least = margin.min(axis=1)
+    at = int(least.argmin())
+    side = "below" if least[at] >= 0.0 else "above"
+    return f"At {r[at]:.2f} R the blade is {abs(math.degrees(least[at])):.1f}° {side} its stall angle."
+
+
 def _rigid(moment: HubMoment) -> str:
     side = "retreating" if moment.roll >= 0.0 else "advancing"
     nose = "up" if moment.pitch >= 0.0 else "down"
@@ -106,9 +187,46 @@ def _rigid(moment: HubMoment) -> str:
     )
 
 
+def implausible(problem: Problem, elements: BladeElements) -> str:
+    """Why a trim that closes is refused all the same, as a sentence; empty where nothing speaks against it."""
+    state, design = elements.state, problem.design
+    lighter = "lower the mass, the altitude or the speed"
+    checks = (
+        ("coning", state.coning, LARGEST_FLAPPING, "check the blade's mass and flap inertia, or lower the mass"),
+        ("flapping", math.hypot(state.flap_1c, state.flap_1s), LARGEST_FLAPPING, lighter),
+        ("collective", state.collective, LARGEST_CONTROL, lighter),
+        ("cyclic", math.hypot(state.cyclic_1c, state.cyclic_1s), LARGEST_CONTROL, lighter),
+        ("shaft tilt", state.shaft_tilt, LARGEST_TILT, "raise the mass, or lower the speed or the drag area"),
+        ("elastic twist", _largest_twist(elements), LARGEST_FLAPPING, "stiffen the blade, or lower the mass"),
+    )
+    for name, value, largest, remedy in checks:
+        if not abs(value) <= largest:
+            return (
+                f"Not trimmed: the forces balance at a {name} of {math.degrees(value):,.0f}°, beyond "
+                f"±{math.degrees(largest):.0f}°, where these equations no longer hold: {remedy}."
+            )
+    loading = disk_sums(problem, elements).thrust / design.rotor.solidity
+    if design.hovering and loading > HOVER_LIMIT:
+        return (
+            f"Not trimmed: hover needs C_T/σ {loading:.3f}, and rotors have reached about {HOVER_LIMIT:g} with every "
+            "blade element at its maximum lift: lower the mass or the altitude."
+        )
+    return ""
+
+
+def _largest_twist(elements: BladeElements) -> float:
+    """Elastic twist of the largest size [rad]; 0 for a rigid blade."""
+    if elements.torsion is None:
+        return 0.0
+    twist = elements.torsion.twist
+    return float(twist.flat[np.abs(twist).argmax()])
+
+
 def failure_sentence(design: Design, reached: float, stalled: float) -> str:
     """Why a design did not trim, and the remedy."""
     condition = design.condition
+    if condition.stand is not None:
+        return _stand_failure(design, condition.stand, reached, stalled)
     share = f" {100.0 * stalled:.0f} % of the disk is stalled in the last attempt." if stalled > STALL_SHARE else ""
     if design.hovering:
         return (
@@ -126,6 +244,24 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
         f"{condition.advance_ratio:.3f} is beyond this rotor.{how_far}{share} "
         f"Lower the mass, the altitude or the speed{'' if design.models.flapping else ', or let the blades flap'}."
     )
+
+
+def _stand_failure(design: Design, stand: Stand, reached: float, stalled: float) -> str:
+    """Why a rotor on a test stand did not trim."""
+    share = f" {100.0 * stalled:.0f} % of the disk is stalled in the last attempt." if stalled > STALL_SHARE else ""
+    mu = design.condition.advance_ratio
+    what = f"the rotor on the stand has no equilibrium at advance ratio {mu:.3f}"
+    if stand.collective is not None:
+        return (
+            f"Not trimmed: {what} with collective {math.degrees(stand.collective):.2f}° and positive thrust.{share} "
+            "Change the collective or the advance ratio."
+        )
+    wanted = design.weight_coefficient / design.rotor.solidity
+    how_far = ""
+    if 0.0 < reached < 1.0 and not design.hovering:  # In hover it is the share of the thrust.
+        near = easier_condition(design, reached).stand
+        how_far = f" The nearest trim found is at C_T/σ {near.ct_over_sigma:.4f}." if near is not None else ""
+    return f"Not trimmed: {what} with C_T/σ {wanted:.4f}.{how_far}{share} Lower the thrust or the advance ratio."
 
 
 def _outside_fit(problem: Problem, elements: BladeElements, fit_range: tuple[float, float]) -> float:

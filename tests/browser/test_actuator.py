@@ -72,7 +72,7 @@ def test_voltage_twists_the_blades_and_moves_power(watched: Watched):
     watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)
     assert re.search(r"\+\d\.\d\d°", changed)
     assert re.search(r"[−+]\d+\.\d kW of power", changed)
-    assert watched.text("change") != "0.0 %"
+    watched.until(lambda: watched.text("change") != "0.0 %")
 
 
 def test_another_actuator_gets_another_verdict(watched: Watched):
@@ -86,7 +86,7 @@ def test_another_actuator_gets_another_verdict(watched: Watched):
             ?.innerText.includes('Active fibre composite')""",
         timeout=VERDICT,
     )
-    assert "recalled" in watched.text("limits")
+    watched.until(lambda: "recalled" in watched.text("limits"))
     watched.choose("Actuator", "MFC P1: d33 fibres")
 
 
@@ -95,6 +95,8 @@ def test_the_cut_takes_the_place_of_the_rotor_and_follows_the_voltage(watched: W
     switch.click()
     watched.until_changed(lambda: seen(watched, "/rotor"), True)
     watched.page.wait_for_function("() => window.__viserSceneTree.getState()['/cut/part_0'] !== undefined")
+    labels = watched.page.locator('[data-explorer="labels"]')
+    labels.get_by_text("spar web").wait_for(timeout=VERDICT)
     skin, now = watched.node("/cut/part_0"), watched.text("actuator-now")
     watched.press("Voltage", "End")
     watched.until_changed(lambda: watched.text("actuator-now"), now)
@@ -102,6 +104,26 @@ def test_the_cut_takes_the_place_of_the_rotor_and_follows_the_voltage(watched: W
     watched.page.locator("[data-do=view][data-value=disk]").click()
     watched.until_changed(lambda: seen(watched, "/rotor"), False)
     watched.until_changed(lambda: seen(watched, "/cut"), True)
+    watched.page.wait_for_function("() => RX.state.cut_labels.length === 0", timeout=VERDICT)
+    watched.until(lambda: labels.inner_text() == "")
+
+
+def test_the_sweep_of_the_harmonic_follows_its_sliders(watched: Watched):
+    """Power over amplitude and phase, with the limit; the sentence follows the phase at once."""
+    watched.mode("explore")
+    watched.type("Adv. ratio", 0.3)
+    watched.mode("actuate")
+    watched.choose("Harmonic", "2/rev")
+    watched.page.wait_for_function(
+        """() => document.querySelector('[data-explorer="swept"]')?.innerText.includes('At this phase')""",
+        timeout=VERDICT,
+    )
+    said = watched.text("swept")
+    assert re.search(r"Least power: \d+ % at \d+°: −\d", said)
+    watched.type("Phase", 180)
+    assert "At this phase more twist saves more" in watched.until_changed(lambda: watched.text("swept"), said)
+    watched.until(lambda: "flown, with the elastic twist" in watched.text("actuator-now"))
+    watched.choose("Harmonic", "Off")
 
 
 @for_people

@@ -13,7 +13,9 @@ from PIL import Image
 from watched import WAIT, Watched, opened, painted
 
 from explorer.app import App
+from explorer.export.demo import demo_html
 from explorer.state import Inputs
+from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
 
 if TYPE_CHECKING:
@@ -58,7 +60,7 @@ def saved(watched: Watched, button: str, folder: Path) -> Path:
 
 def test_shapes_are_closed_and_to_scale(watched: Watched, tmp_path: Path):
     design = START.design()
-    blade = trimesh.load_mesh(saved(watched, "Blade STL", tmp_path))
+    blade = trimesh.load_mesh(saved(watched, "Jig STL", tmp_path))
     assert isinstance(blade, trimesh.Trimesh)
     assert blade.is_watertight
     assert blade.volume > 0.0
@@ -68,7 +70,7 @@ def test_shapes_are_closed_and_to_scale(watched: Watched, tmp_path: Path):
     assert len([name for name in scene.graph.nodes_geometry if name.startswith("blade")]) == design.rotor.blades
 
 
-@pytest.mark.parametrize(("button", "rows"), [("Disk", 40 * 120), ("Blade", 40), ("Power", 17)])
+@pytest.mark.parametrize(("button", "rows"), [("Disk", 40 * 120), ("Blade", 40), ("Power", 19)])
 def test_tables_are_read_back(watched: Watched, tmp_path: Path, button: str, rows: int):
     text = saved(watched, button, tmp_path).read_text(encoding="utf-8")
     lines = [line for line in text.splitlines() if not line.startswith("#")]
@@ -150,6 +152,25 @@ def test_the_report_opens_without_a_server_and_asks_for_nothing(watched: Watched
     report.page.close()
 
 
+def test_the_3d_scene_opens_from_the_disk(watched: Watched, tmp_path: Path):
+    shown = watched.text("total-power")
+    path = saved(watched, "3D scene as one file", tmp_path)
+    assert path.stat().st_size < 3_000_000
+    scene = Watched(watched.page.context.new_page())
+    asked: list[str] = []
+    scene.page.on("request", lambda request: asked.append(request.url))
+    scene.page.goto(path.as_uri())
+    blade = "() => window.__viserSceneTree?.getState()['/rotor/blade_0']?.message.props.vertices.byteLength > 10000"
+    scene.page.wait_for_function(blade, timeout=WAIT)
+    assert shown in scene.text("caption")
+    assert "µ 0.41" in scene.text("caption")
+    assert "linear" in scene.page.title().lower()
+    scene.page.wait_for_timeout(1000)
+    assert [url for url in asked if not url.startswith(("file:", "blob:", "data:", "about:"))] == []
+    assert scene.complaints == []
+    scene.page.close()
+
+
 def test_the_key_brings_the_folder_before_the_eyes(watched: Watched):
     watched.page.keyboard.press("Escape")
     watched.page.wait_for_selector('[data-explorer="export"]', state="detached", timeout=WAIT)
@@ -182,3 +203,32 @@ def test_screenshots_of_report_and_pictures(browser: "Browser", app: App, artefa
     assert not re.search(r"\b(NaN|nan|inf|undefined)\b", report.page.inner_text("body"))
     assert watched.complaints == report.complaints == []
     watched.close()
+
+
+def test_the_demo_follows_its_sliders_from_the_disk(browser: "Browser", tmp_path: Path):
+    """Opened as a file: the red blade, the disk and the power change with the twist, and nothing is asked of a host."""
+    (tmp_path / "demo.html").write_text(demo_html(make_design(), (-12.0, 0.0), (0.2,)), encoding="utf-8")
+    page = browser.new_page()
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(request.url))
+    page.goto((tmp_path / "demo.html").as_uri())
+    page.wait_for_selector("#demo[data-ready=true]", timeout=WAIT)
+    tip = """() => { let found; window.__viserMutable.nodeRefFromName['/rotor/blade_0'].traverse(part => {
+        const {position, instanceStart} = part.geometry?.attributes ?? {};
+        if (part.isMesh && !instanceStart) found = Array.from(position.array); }); return found; }"""
+    jig = """() => { let found; window.__viserMutable.nodeRefFromName['/rotor/blade_0/ghost'].traverse(part => {
+        found ??= part.geometry?.attributes?.instanceStart?.data.array.slice(); }); return Array.from(found); }"""
+    before, jig_before, power = page.evaluate(tip), page.evaluate(jig), page.inner_text("#demo-total")
+    page.locator("#demo-twist").press("ArrowRight")
+    page.wait_for_function("power => document.getElementById('demo-total').textContent !== power", arg=power)
+    after, jig_after = page.evaluate(tip), page.evaluate(jig)
+    assert np.max(np.abs(np.subtract(after, before))) > 0.05  # [m]
+    assert np.max(np.abs(np.subtract(jig_after, jig_before))) > 0.05
+    # Untwisted as built, the tip lies level; in flight the air turns it nose-down.
+    levels, flown = (np.reshape(points, (-1, 3)) for points in (jig_after, after))
+    tips = [points[points[:, 0] > points[:, 0].max() - 1e-3] for points in (levels, flown)]
+    built, flying = (tip[tip[:, 1].argmax(), 2] - tip[tip[:, 1].argmin(), 2] for tip in tips)
+    assert flying < built - 0.01  # Of a chord of 0.53 m.
+    assert page.inner_text("#demo-total") == f"{solve(make_design(twist='linear:0', mu=0.2)).power.total / 1e3:.0f} kW"
+    assert [url for url in asked if not url.startswith(("file:", "data:", "blob:"))] == []
+    page.close()

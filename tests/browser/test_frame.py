@@ -47,7 +47,7 @@ def test_it_opens_as_built_with_one_prompt_that_the_first_edit_ends(browser: "Br
     assert watched.text("prompt") == "Drag the twist"
     watched.press("Outboard", "ArrowRight", 3)
     watched.page.wait_for_selector('[data-explorer="prompt"]', state="hidden", timeout=WAIT)
-    assert re.fullmatch(r"[+−]?\d+ kW since grabbed", watched.text("since"))
+    watched.until(lambda: re.fullmatch(r"[+−]?\d+ kW since grabbed", watched.text("since")))
     watched.page.get_by_role("button", name="Undo").click()
     watched.page.wait_for_function("() => RX.state.power.change === '0.0 %'", timeout=WAIT)
     assert watched.page.locator('[data-explorer="prompt"]').is_hidden()
@@ -60,7 +60,7 @@ def test_each_mode_has_its_own_rail(watched: Watched):
         watched.mode(mode)
         rail.get_by_text(mark).first.wait_for(timeout=WAIT)
         assert watched.page.locator(".rxf-modes [aria-current=true]").inner_text().lower() == mode
-    assert rail.get_by_text("Objective").count() == 0
+    rail.get_by_text("Objective").wait_for(state="detached", timeout=WAIT)
 
 
 @pytest.mark.parametrize("name", DRAWERS)
@@ -96,7 +96,10 @@ def test_the_twist_curve_is_dragged_and_the_tag_of_power_follows(watched: Watche
         page.mouse.move(x, y - 3 * step)
         page.wait_for_timeout(60)
     watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)  # While the button is down.
+    page.wait_for_function("() => RX.state.hand?.place.startsWith('tip 1.00 R')", timeout=WAIT)
+    page.wait_for_selector(".rxf-tag[data-on]", state="attached", timeout=WAIT)
     page.mouse.up()
+    page.wait_for_function("() => RX.state.hand === null", timeout=WAIT)
     watched.until_changed(lambda: watched.text("total-power"), before)
     outer = watched.row("Outboard").locator("input:not([type=hidden])").last
     assert 2.0 < float(watched.at_rest(outer.input_value)) < 20.0  # Up is nose-up: less washout.
@@ -212,3 +215,33 @@ def test_on_a_phone_power_is_read_and_twist_is_dragged(browser: "Browser", app: 
     watched.until_changed(lambda: watched.text("total-power"), before)
     assert page.evaluate("() => document.documentElement.scrollWidth") <= 390
     watched.close()
+
+
+def test_jig_and_flown_twist_are_told_apart_and_the_blade_untwists_as_it_turns(watched: Watched):
+    """Two curves with their key and a band; handles on the jig curve; the inset flown, with the jig as its ghost."""
+    page = watched.page
+    words = " ".join(page.locator("[data-curve] [data-key] text").all_text_contents())
+    assert words == "jig flown, band over azimuth"
+    assert page.locator("[data-curve] [data-band]").count() == 1
+    knots = page.evaluate("() => RX.state.twist.knots.map(k => k.theta)")
+    jig = page.evaluate("() => { const own = RX.state.twist.lines.at(-1); return [own.y[0], own.y.at(-1)]; }")
+    assert knots[0] == pytest.approx(jig[0], abs=0.1)
+    assert knots[-1] == pytest.approx(jig[1], abs=0.1)
+    assert page.evaluate("() => RX.state.inset.name") == "flown, ψ 65°"
+    assert page.evaluate("() => RX.state.inset.ghost_name") == "jig"
+    before = page.evaluate("() => RX.state.inset.cuts.at(-1).theta")
+    page.evaluate("() => RX.send('azimuth', 245)")
+    page.wait_for_function(f"() => Math.abs(RX.state.inset.cuts.at(-1).theta - {before}) > 0.3", timeout=WAIT)
+    page.evaluate("() => RX.send('azimuth', 65)")
+    page.wait_for_function("() => RX.state.inset.name === 'flown, ψ 65°'", timeout=WAIT)
+
+
+def test_a_rigid_blade_has_one_curve(watched: Watched):
+    page = watched.page
+    page.get_by_text("Model", exact=True).click()
+    page.get_by_label("Elastic twist").click()
+    page.wait_for_function("() => RX.state.twist.band === null && RX.state.inset.name === 'this blade'", timeout=WAIT)
+    page.wait_for_function("() => !document.querySelector('[data-curve] [data-band]')", timeout=WAIT)
+    watched.reset()
+    page.wait_for_function("() => RX.state.twist.band !== null", timeout=WAIT)
+    page.get_by_text("Model", exact=True).click()

@@ -44,7 +44,9 @@ def page(shared: tuple[Watched, Session]) -> tuple[Watched, Session]:
     """The shared page on its first design, no search under way, on the Optimise tab."""
     watched, session = shared
     watched.reset()
-    watched.page.wait_for_timeout(300)
+    watched.until(lambda: session.page.controls.inputs() == START)
+    watched.page.wait_for_function("() => RX.state.notice === null", timeout=WAIT)
+    watched.at_rest(lambda: watched.text("total-power"), 0.4)
     watched.mode("optimise")
     watched.section("Search")
     return watched, session
@@ -87,30 +89,29 @@ def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tu
     watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)
     assert session.page.controls.inputs().law == law
     run = run_of(session)
-    assert "Previewing optimum" in watched.text("notice")
+    watched.page.wait_for_function("() => RX.state.notice?.text.startsWith('Previewing optimum')", timeout=WAIT)
     watched.mode("explore")
     shown = with_optimum(session.page.controls.inputs(), run.frames[-1].design)
-    assert float(watched.row("Inboard").locator("input:not([type=hidden])").last.input_value()) == pytest.approx(
-        shown.two_inner, abs=0.06
-    )
+    inboard = watched.row("Inboard").locator("input:not([type=hidden])").last
+    watched.until(lambda: float(inboard.input_value()) == pytest.approx(shown.two_inner, abs=0.06))
     watched.mode("optimise")
     watched.page.wait_for_function(f"() => document.body.innerText.includes('design {run.frames[-1].evaluation}')")
     press(watched, "Apply")
-    watched.page.wait_for_timeout(600)
+    watched.page.wait_for_function("() => RX.state.notice === null", timeout=WAIT)
+    watched.until(lambda: session.page.controls.inputs().two_inner == pytest.approx(shown.two_inner))
     design = session.page.controls.inputs().design()
     assert session.page.controls.inputs().law == "two"
     power = solve(design).power.total
     assert power == pytest.approx(run.optimum.best.power, rel=1e-6)
     assert power < run.start_power
-    assert watched.text("total-power").startswith(f"{power / 1e3:.0f}")
-    assert watched.page.evaluate("() => RX.state.notice === null")
+    watched.until(lambda: watched.text("total-power").startswith(f"{power / 1e3:.0f}"))
     assert watched.complaints == []
 
 
 def test_a_replay_goes_back_to_the_start_and_discard_leaves_the_sliders(page: tuple[Watched, Session]):
     watched, session = page
     inputs = session.page.controls.inputs()
-    before = watched.text("total-power")
+    before = watched.at_rest(lambda: watched.text("total-power"), 0.6)
     watched.choose("Concept", "Linear")
     press(watched, "Optimise")
     until(watched, "done")
@@ -126,9 +127,23 @@ def test_a_replay_goes_back_to_the_start_and_discard_leaves_the_sliders(page: tu
         timeout=WAIT,
     )
     press(watched, "Discard")
-    watched.page.wait_for_timeout(400)
+    watched.page.get_by_role("button", name="Apply", exact=True).wait_for(state="detached", timeout=WAIT)
+    watched.says("total-power", before)
     assert session.page.controls.inputs() == inputs
-    assert watched.page.get_by_role("button", name="Apply", exact=True).count() == 0
+
+
+def test_reset_design_discards_a_preview(page: tuple[Watched, Session]):
+    watched, session = page
+    before = watched.text("total-power")
+    watched.choose("Concept", "Linear")
+    press(watched, "Optimise")
+    until(watched, "done")
+    watched.page.wait_for_function("() => RX.state.notice?.text.startsWith('Previewing optimum')", timeout=WAIT)
+    watched.until(lambda: watched.text("total-power") != before)
+    watched.reset()
+    watched.page.wait_for_function("() => RX.state.notice === null", timeout=WAIT)
+    watched.says("total-power", before)
+    assert session.page.controls.inputs() == START
 
 
 def test_stop_answers_within_three_tenths_of_a_second_and_keeps_the_best(page: tuple[Watched, Session]):
@@ -160,7 +175,7 @@ def test_stop_answers_within_three_tenths_of_a_second_and_keeps_the_best(page: t
     assert run.best is not None
     assert solve(run.best.design).power.total == pytest.approx(run.best.power, rel=1e-6)
     press(watched, "Apply")
-    watched.page.wait_for_timeout(400)
+    watched.until(lambda: session.page.controls.inputs() != START)
     assert solve(session.page.controls.inputs().design()).power.total == pytest.approx(run.frames[-1].power, rel=1e-6)
 
 
@@ -231,7 +246,7 @@ def test_a_click_on_the_map_takes_the_point(page: tuple[Watched, Session]):
     box = watched.page.locator("svg.rx-map image").bounding_box()
     assert box is not None
     watched.page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.5 * box["height"])
-    watched.page.wait_for_timeout(700)
+    watched.until(lambda: session.page.controls.inputs() != START)
     inputs = session.page.controls.inputs()
     assert inputs.law == "two"
     assert inputs.two_division == pytest.approx(0.585, abs=0.01)
@@ -245,7 +260,7 @@ def test_a_schedule_can_be_saved(page: tuple[Watched, Session], tmp_path: Path):
     watched.choose("Concept", "Linear")
     watched.row("Starting points").get_by_role("slider").focus()
     watched.page.keyboard.press("Home")
-    watched.page.wait_for_timeout(150)
+    watched.until(lambda: session.page.optimise.request().starts == 1)
     watched.section("Schedule")
     press(watched, "Compute schedule")
     watched.page.wait_for_selector('[data-explorer="schedule-state"][data-kind="done"]', timeout=WAIT)

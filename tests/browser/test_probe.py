@@ -12,7 +12,7 @@ import pytest
 from watched import WAIT, Watched, for_people, opened, painted
 
 from explorer.app import App
-from explorer.picture.camera_views import FIELD_OF_VIEW, View, fit
+from explorer.picture.camera_views import FIELD_OF_VIEW, Cover, View, fit
 from explorer.state import Inputs
 from rotor.files.make_design import uh60a_rotor
 
@@ -53,17 +53,24 @@ def eye(watched: Watched) -> np.ndarray:
     return np.array([-z, -x, y])  # three.js has y up; the session's world is turned against it.
 
 
-def click_disk(watched: Watched, r: float, psi_deg: float) -> None:
-    """Click where the plan shows (r, ψ)."""
+def _cover(watched: Watched) -> Cover:
+    """What cards cover of the canvas, as the page says."""
+    above, below = watched.page.evaluate("() => RX.covered")
+    return Cover(min(above, 0.45), min(below, 0.45))
+
+
+def click_disk(watched: Watched, r: float, psi_deg: float) -> tuple[float, float]:
+    """Click where the plan shows (r, ψ); the pixel of it."""
     box = watched.page.locator("canvas").first.bounding_box()
     assert box is not None
-    camera = fit("top", RADIUS, box["width"] / box["height"])
+    camera = fit("top", RADIUS, box["width"] / box["height"], cover=_cover(watched))
     scale = 0.5 * box["height"] / math.tan(FIELD_OF_VIEW / 2.0)
     psi = math.radians(psi_deg)
     x, y = RADIUS * r * math.sin(psi), -RADIUS * r * math.cos(psi) + float(camera.look_at[0])
     depth = float(camera.position[2])
     place = box["x"] + box["width"] / 2 + scale * x / depth, box["y"] + box["height"] / 2 - scale * y / depth
     watched.page.mouse.click(*place)
+    return place
 
 
 def test_a_click_on_the_disk_sets_the_probe_and_shows_it(watched: Watched):
@@ -72,15 +79,25 @@ def test_a_click_on_the_disk_sets_the_probe_and_shows_it(watched: Watched):
     page.keyboard.press("2")
     watched.at_rest(lambda: eye(watched).round(2).tolist())
     blade = pose(watched, "/rotor/blade_0")
-    click_disk(watched, 0.6, 300.0)
+    place = click_disk(watched, 0.6, 300.0)
     watched.until_changed(lambda: pose(watched, "/rotor/blade_0"), blade)
     page.wait_for_function(
         "() => document.querySelector('[data-explorer=probe-place]').innerText.includes('retreating')"
     )
-    assert number(watched, "Radius r/R") == pytest.approx(0.6, abs=0.02)
-    assert number(watched, "Azimuth") == pytest.approx(300.0, abs=2.0)
-    assert seen(watched, "/rotor/disk/probe")
+    watched.until(lambda: number(watched, "Radius r/R") == pytest.approx(0.6, abs=0.02))
+    watched.until(lambda: number(watched, "Azimuth") == pytest.approx(300.0, abs=2.0))
+    watched.until(lambda: seen(watched, "/rotor/disk/probe"))
     assert watched.text("probe-alpha").startswith("α")
+    label = page.locator('[data-explorer="labels"]').get_by_text("α")
+    label.wait_for(timeout=WAIT)
+
+    def beside_the_place() -> bool:
+        box = label.bounding_box()
+        assert box is not None
+        apart = box["x"] + box["width"] / 2 - place[0], box["y"] + box["height"] - place[1]
+        return abs(apart[0]) < 40 and -60 < apart[1] < 20
+
+    watched.until(beside_the_place)
 
 
 def test_arrow_keys_step_the_probe_and_leave_the_camera_alone(watched: Watched):
@@ -90,9 +107,8 @@ def test_arrow_keys_step_the_probe_and_leave_the_camera_alone(watched: Watched):
     for key in ("ArrowUp", "Shift+ArrowUp", "ArrowRight", "Shift+ArrowLeft"):
         page.keyboard.press(key)
         page.wait_for_timeout(150)
-    page.wait_for_function(f"() => document.querySelector('[data-explorer=probe-place]') && {r} > 0")
-    assert number(watched, "Radius r/R") == pytest.approx(r + 0.11, abs=1e-9)
-    assert number(watched, "Azimuth") == pytest.approx((psi + 1 - 10) % 360, abs=1e-9)
+    watched.until(lambda: number(watched, "Radius r/R") == pytest.approx(r + 0.11, abs=1e-9))
+    watched.until(lambda: number(watched, "Azimuth") == pytest.approx((psi + 1 - 10) % 360, abs=1e-9))
     np.testing.assert_allclose(eye(watched), camera, atol=1e-6)
 
 
@@ -104,12 +120,13 @@ def test_sliders_step_finely_and_coarsely_and_their_number_follows(watched: Watc
         slider.focus()
         page.keyboard.press(key)
         wanted = round(min(max(before + change, 0.0), 0.45), 3)
-        watched.until_changed(lambda wanted=wanted: float(field.input_value()) == wanted, before=False)
-        assert float(slider.get_attribute("aria-valuenow") or "nan") == wanted
+        watched.until(lambda wanted=wanted: float(field.input_value()) == wanted)
+        watched.until(lambda wanted=wanted: float(slider.get_attribute("aria-valuenow") or "nan") == wanted)
     field.focus()
+    typed = field.input_value()
     page.keyboard.press("ArrowUp")
-    page.wait_for_timeout(300)
-    assert float(slider.get_attribute("aria-valuenow") or "nan") == float(field.input_value())
+    watched.until(lambda: field.input_value() != typed)
+    watched.until(lambda: float(slider.get_attribute("aria-valuenow") or "nan") == float(field.input_value()))
     page.keyboard.press("Escape")
     assert page.evaluate("() => document.activeElement.tagName") != "INPUT"
 
@@ -124,20 +141,19 @@ def test_play_turns_the_blades_alone_and_ends_with_pause(watched: Watched):
         blade = watched.until_changed(lambda: pose(watched, "/rotor/blade_0"), blade)
     watched.until_changed(lambda: watched.text("probe-alpha"), alpha)
     page.keyboard.press("Space")
-    page.wait_for_timeout(500)
-    stands = pose(watched, "/rotor/blade_0")
-    page.wait_for_timeout(300)
-    assert pose(watched, "/rotor/blade_0") == stands
+    page.get_by_role("button", name="Turn the rotor").wait_for(timeout=WAIT)
+    watched.at_rest(lambda: pose(watched, "/rotor/blade_0"))
     assert watched.node("/rotor/disk/field") == disk
-    assert not [thread.name for thread in threading.enumerate() if thread.name.startswith("play-")]
+    watched.until(lambda: not [one.name for one in threading.enumerate() if one.name.startswith("play-")])
 
 
 def test_the_blade_stops_for_the_hand_that_takes_it(watched: Watched):
     page = watched.page
     page.keyboard.press("Space")
-    page.wait_for_timeout(400)
+    page.get_by_role("button", name="Stop the rotor").wait_for(timeout=WAIT)
+    radius = number(watched, "Radius r/R")
     page.keyboard.press("ArrowUp")  # The radius alone: it plays on.
-    page.wait_for_timeout(300)
+    watched.until(lambda: number(watched, "Radius r/R") != radius)
     assert page.get_by_role("button", name="Stop the rotor").count()
     page.keyboard.press("Shift+ArrowRight")
     page.get_by_role("button", name="Turn the rotor").wait_for(timeout=WAIT)
@@ -149,26 +165,32 @@ def test_views_have_keys(watched: Watched, key: str, view: View):
     box = page.locator("canvas").first.bounding_box()
     assert box is not None
     page.keyboard.press(key)
-    place = np.array(watched.at_rest(lambda: eye(watched).round(3).tolist()))
-    drawn: float = page.evaluate("() => window.__viserMutable.canvas.height")  # What viser tells of the canvas.
-    covered = min(200.0 / drawn, 0.45)
-    wanted = fit(view, RADIUS, box["width"] / box["height"], covered=covered).position
-    np.testing.assert_allclose(np.linalg.norm(place), np.linalg.norm(wanted), rtol=0.02)
-    np.testing.assert_allclose(place[2], wanted[2], rtol=0.03)
+
+    def there() -> bool:
+        place, wanted = eye(watched), fit(view, RADIUS, box["width"] / box["height"], cover=_cover(watched)).position
+        away = np.linalg.norm(place) / np.linalg.norm(wanted) - 1.0
+        return bool(abs(away) < 0.02 and np.isclose(place[2], wanted[2], rtol=0.03))
+
+    watched.until(there)
 
 
 def test_the_view_along_the_blade_rides_with_it(watched: Watched):
     page = watched.page
+    elsewhere = eye(watched).round(3).tolist()
     page.keyboard.press("3")
+    watched.until_changed(lambda: eye(watched).round(3).tolist(), elsewhere)
     before = watched.at_rest(lambda: eye(watched).round(3).tolist())
     psi = number(watched, "Azimuth")
     for _ in range(2):
         page.keyboard.press("Shift+ArrowRight")
         psi = watched.until_changed(lambda: number(watched, "Azimuth"), psi)
-    after = watched.at_rest(lambda: eye(watched).round(3).tolist())
-    assert after[2] == pytest.approx(before[2], abs=0.05)
-    turned = math.degrees(math.atan2(after[1], after[0]) - math.atan2(before[1], before[0])) % 360
-    assert turned == pytest.approx(20.0, abs=1.0)
+
+    def turned() -> float:
+        now = eye(watched)
+        return math.degrees(math.atan2(now[1], now[0]) - math.atan2(before[1], before[0])) % 360
+
+    watched.until(lambda: turned() == pytest.approx(20.0, abs=1.0))
+    assert eye(watched)[2] == pytest.approx(before[2], abs=0.05)
     page.keyboard.press("1")
 
 
@@ -197,7 +219,7 @@ def test_a_sentence_in_red_dims_the_probe_and_stops_play(watched: Watched):
     watched.choose("Twist concept", "Three segments")
     watched.type("Division 2", 0.3)
     page.wait_for_selector(".rx-faded [data-explorer=probe]", timeout=WAIT)
-    assert page.get_by_role("button", name="Turn the rotor").count()
+    page.get_by_role("button", name="Turn the rotor").wait_for(timeout=WAIT)
     watched.reset()
     page.wait_for_selector(".rx-faded [data-explorer=probe]", state="detached", timeout=WAIT)
 

@@ -128,6 +128,12 @@ def test_outlives_its_server(context: "BrowserContext", artefacts: Path):
         page.wait_for_function(_OPEN, timeout=WAIT)
         set_field(page, "Inboard", "-11.5")
         page.wait_for_function("() => location.search.includes('-11.5')", timeout=WAIT)
+        page.wait_for_function("() => !document.querySelector('[data-do=undo]').disabled", timeout=WAIT)
+        page.keyboard.press("Escape")  # In a field of numbers, keys are the field's own.
+        page.keyboard.press("m")
+        page.wait_for_function(
+            "() => JSON.parse(sessionStorage['rx-kept'] ?? '{}').steps?.includes('bookmarks\":[\"1')"
+        )
         power = page.locator("[data-explorer=total-power]").first.inner_text()
     page.wait_for_selector("#rx-gone", timeout=WAIT)
     page.screenshot(path=artefacts / "server-gone.png")
@@ -137,6 +143,13 @@ def test_outlives_its_server(context: "BrowserContext", artefacts: Path):
         assert field(page, "Inboard") == "-11.5"
         same = "power => document.querySelector('[data-explorer=total-power]').innerText === power"
         page.wait_for_function(same, arg=power, timeout=WAIT)
+        page.locator("[data-do=drawer][data-value=open]").click()
+        page.get_by_role("button", name="History").click()
+        page.locator("[data-explorer=kept]").wait_for(timeout=WAIT)
+        page.get_by_role("button", name="Undo").click()
+        page.wait_for_function("() => !location.search.includes('-11.5')", timeout=WAIT)
+        page.get_by_role("button", name="Redo").click()
+        page.wait_for_function("() => location.search.includes('-11.5')", timeout=WAIT)
 
 
 @contextmanager

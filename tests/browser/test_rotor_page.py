@@ -68,13 +68,13 @@ def test_a_two_bladed_rotor_and_back(watched: Watched):
     assert watched.complaints == []
 
 
-def test_optimise_works_on_another_rotor(watched: Watched):
+def test_optimise_works_on_another_rotor(watched: Watched, app: App):
     choose(watched, "Robinson R22")
     shown(watched, "provenance", "NACA 63-015A")
     watched.mode("optimise")
     watched.row("Starting points").get_by_role("slider").focus()
     watched.page.keyboard.press("Home")  # One is enough here.
-    watched.page.wait_for_timeout(150)
+    watched.until(lambda: app.sessions[-1].page.optimise.request().starts == 1)
     watched.page.locator("[data-dock-region=right]").get_by_role("button", name="Optimise", exact=True).click()
     watched.page.wait_for_selector('[data-explorer="search"][data-kind="done"]', timeout=6 * WAIT)
     assert "Robinson R22 as built" in watched.page.inner_text("body")
@@ -104,7 +104,7 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     load(watched, deck)
     watched.drawer("trust")
     shown(watched, "provenance", "own")
-    # What can wait is computed with it too; after the power curve the page is given what its address cannot hold.
+    # Once it rests, the page is given what its address cannot hold.
     kept = "() => JSON.parse(sessionStorage.getItem('rx-kept') ?? '{}').d?.includes('own.c81')"
     watched.page.wait_for_function(kept, timeout=2 * WAIT)
     assert watched.page.locator('.rxf-chip[data-explorer="status"]').get_attribute("data-kind") == "converged"

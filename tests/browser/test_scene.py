@@ -5,11 +5,14 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 import pytest
 from watched import WAIT, Watched, opened
 
 from explorer.app import App
+from explorer.picture.wake import tip_vortices
 from explorer.state import Inputs
+from rotor.trim.solve import solve
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -26,6 +29,15 @@ ON_SCREEN = """r => {
 """Pixel of a point of the reference blade, so far from its hinge [m]."""
 _PASSIVE = "Unable to preventDefault inside passive event listener"
 """What the browser says of viser's own listener when a node is dragged."""
+VORTEX = """() => {
+    let first = null;
+    window.__viserMutable.nodeRefFromName['/rotor/vortices']?.traverse(part => {
+        const data = part.visible && part.geometry?.attributes?.instanceStart?.data;
+        if (data) first = Array.from(data.array.slice(0, 3));
+    });
+    return first;
+}"""
+"""Where the first tip vortex begins [m]."""
 AZIMUTH = """() => {
     const hinge = window.__viserMutable.nodeRefFromName['/rotor/blade_0'].position;
     return Math.atan2(hinge.y, hinge.x);
@@ -43,7 +55,8 @@ def shared(browser: "Browser", app: App) -> Iterator[Watched]:
 @pytest.fixture
 def watched(shared: Watched) -> Iterator[Watched]:
     shared.reset()
-    shared.page.wait_for_timeout(1500)
+    shared.until(lambda: [value(shared, label) for label in ("Inboard", "Outboard", "Division")] == [-14.0, -8.0, 0.5])
+    shared.at_rest(lambda: shared.page.evaluate("() => window.__viserMutable.camera.position.toArray()"))
     yield shared
     assert [said for said in shared.complaints if _PASSIVE not in said] == []
 
@@ -70,12 +83,20 @@ def test_dragging_the_tip_up_turns_it_and_one_undo_takes_it_back(watched: Watche
     x, y = page.evaluate(ON_SCREEN, 7.2)
     drag(watched, (x, y), (x, y - 80.0))
     page.wait_for_function("() => RX.state.hand?.place.startsWith('tip')", timeout=WAIT)
+    # While it is held, the camera stands still, and an arc shows the turn and the turn of least power.
+    assert page.evaluate("() => window.__viserMutable.camera.position.toArray()") == pytest.approx(camera, abs=1e-6)
+    turned = "RX.state.arc?.best !== null && RX.state.arc.to > RX.state.arc.from"
+    page.wait_for_function(f"() => {turned} && RX.part('arc').childElementCount > 4", timeout=WAIT)
+    arc = page.evaluate("() => RX.state.arc")
+    assert arc["to"] > arc["from"] > arc["best"]  # Turned up from −8 °/R, away from the optimum.
+    assert arc["words"].startswith("+")
     page.mouse.up()
-    page.wait_for_function("() => RX.state.hand === null", timeout=WAIT)
+    page.wait_for_function("() => RX.state.hand === null && RX.state.arc === null", timeout=WAIT)
+    page.wait_for_function("() => !RX.part('arc').childElementCount", timeout=WAIT)
     outer = watched.at_rest(lambda: value(watched, "Outboard"))
     assert outer > -7.0
     assert value(watched, "Inboard") == -14.0
-    # The drag does not orbit the camera, which would move it by metres; it only follows the shaft tilt.
+    # Released, the camera follows the shaft tilt; an orbit would have moved it by metres.
     assert page.evaluate("() => window.__viserMutable.camera.position.toArray()") == pytest.approx(camera, abs=0.4)
     page.evaluate("() => RX.send('undo', '')")
     watched.until_changed(lambda: value(watched, "Outboard"), outer)
@@ -86,6 +107,7 @@ def test_dragging_along_the_blade_moves_the_division(watched: Watched):
     start, end = (tuple(watched.page.evaluate(ON_SCREEN, r)) for r in (3.75, 4.6))
     drag(watched, start, end)
     watched.page.mouse.up()
+    watched.until(lambda: value(watched, "Division") != 0.5)
     moved = watched.at_rest(lambda: value(watched, "Division"))
     assert moved == pytest.approx(0.5 + (4.6 - 3.75) / 8.18, abs=0.04)
     assert (value(watched, "Inboard"), value(watched, "Outboard")) == (-14.0, -8.0)
@@ -96,16 +118,29 @@ def test_play_turns_the_blades_smoothly_and_they_come_to_rest_where_the_view_has
     still = page.evaluate(AZIMUTH)
     page.evaluate("() => RX.send('play', '')")
     page.wait_for_function(f"still => Math.abs(({AZIMUTH})() - still) > 0.3", arg=still, timeout=WAIT)
-    steps = page.evaluate(
-        f"""async () => {{
-            const seen = [];
-            for (let k = 0; k < 40; k++) {{ await new Promise(requestAnimationFrame); seen.push(({AZIMUTH})()); }}
-            return seen;
-        }}"""
-    )
-    forward = [math.remainder(b - a, 2 * math.pi) for a, b in pairwise(steps)]
-    assert sum(step > 0.0 for step in forward) > 20  # Nearly every frame moves it on, not 20 a second.
-    assert min(forward) > -0.05
+
+    def smooth() -> bool:
+        """Nearly every frame moves it on, not 20 a second, and never back."""
+        seen = page.evaluate(
+            f"""async () => {{
+                const seen = [];
+                for (let k = 0; k < 40; k++) {{
+                    await new Promise(requestAnimationFrame);
+                    seen.push(({AZIMUTH})());
+                }}
+                return seen;
+            }}"""
+        )
+        steps = [math.remainder(b - a, 2 * math.pi) for a, b in pairwise(seen)]
+        return sum(step > 0.0 for step in steps) > 20 and min(steps) > -0.05
+
+    watched.until(smooth)
+    # Tip vortices turn with it: each begins at the tip of its blade.
+    page.wait_for_function(f"() => ({VORTEX})()", timeout=WAIT)
+    tip, turned = page.evaluate(f"() => [({VORTEX})(), rotorScene.psi]")
+    solution = solve(START.design())
+    expected = tip_vortices(solution, [turned])[0][0, 0]
+    np.testing.assert_allclose(tip, expected, atol=0.02)
     page.evaluate("() => RX.send('play', '')")
     page.wait_for_function("() => !RX.state.turn.playing", timeout=WAIT)
     shown = watched.at_rest(lambda: round(page.evaluate(AZIMUTH), 3))
@@ -125,3 +160,14 @@ def test_the_scene_dresses_its_surfaces(watched: Watched):
         }""",
         timeout=WAIT,
     )
+
+
+def test_the_speed_of_play_is_chosen_beside_the_button(watched: Watched):
+    button = watched.page.locator(".rxf-turn [data-do=pace]")
+    names = []
+    for _ in range(3):
+        names.append(button.inner_text())
+        assert button.get_attribute("aria-label") == f"Speed of the turning rotor: {names[-1]}"
+        button.click()
+        watched.until_changed(button.inner_text, names[-1])
+    assert names == ["normal", "fast", "slow"]

@@ -30,19 +30,19 @@ def shown_kw(watched: Watched) -> str:
 
 def test_undo_redo_and_history(browser: "Browser", app: App):
     watched = opened(browser, app.address)
-    page, begun = watched.page, shown_kw(watched)
+    page, begun = watched.page, watched.text("total-power")
     watched.type("Inboard", -14.4)
     design_in_address(watched, "segments:-14.4,-8@0.5")
     watched.type("Adv. ratio", 0.22)
     design_in_address(watched, "mu=0.22")
-    last = watched.until_changed(lambda: shown_kw(watched), begun)
+    watched.until(lambda: watched.text("total-power") != begun)
     page.keyboard.press("Escape")  # In a field of numbers, keys are the field's own.
     page.keyboard.press("Control+z")
     page.wait_for_function("() => !location.search.includes('mu=')", timeout=WAIT)
     assert "segments:-14.4" in page.url
     page.keyboard.press("Control+z")
     design_in_address(watched, "segments:-14,-8@0.5")
-    assert watched.until_changed(lambda: shown_kw(watched), last) == begun
+    watched.says("total-power", begun)
     page.keyboard.press("Control+Shift+z")
     page.keyboard.press("Control+Shift+z")
     design_in_address(watched, "mu=0.22")
@@ -71,7 +71,7 @@ def test_the_address_is_the_design(browser: "Browser", app: App):
     watched.press("Rate", "ArrowLeft", 3)
     design_in_address(watched, "linear:-9.8;mu=0.3")
     assert "fixedDpr=0.5" in watched.page.url
-    shown = shown_kw(watched)
+    shown = watched.at_rest(lambda: shown_kw(watched))
     watched.show("Mach number")
     watched.page.locator("[data-do=region][data-value=stall]").click()
     design_in_address(watched, "&v=1;field=mach;stall=off")
@@ -82,7 +82,7 @@ def test_the_address_is_the_design(browser: "Browser", app: App):
     assert shown_kw(watched) == shown
     watched.page.wait_for_function("() => RX.state.bar.pinned", timeout=WAIT)
     assert watched.page.locator(".rxf-field select").input_value() == "Mach number"
-    assert watched.page.locator("[data-do=region][data-value=stall]").get_attribute("aria-pressed") == "false"
+    watched.page.wait_for_selector("[data-do=region][data-value=stall][aria-pressed=false]", timeout=WAIT)
     watched.close()
 
 

@@ -15,6 +15,7 @@ from rotor.assets import package_version
 from rotor.study.chunks import StudyProvenance, evaluate_chunk
 from rotor.study.results import Store, read_results
 from rotor.study.study_file import StudyFile, parse_study
+from tests.rotor.study.test_study_of_elastic_blades import STUDY
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -22,22 +23,8 @@ if TYPE_CHECKING:
 pytestmark = pytest.mark.browser
 WAIT = 30_000
 """[ms]; far more than it takes, for machines with other things to do."""
-
-STUDY = """
-title = "Blades in hover and cruise"
-chunk = 100
-[axes]
-mu = [0, 0.15, 0.3]
-inboard_rate_deg = [-16, -8, 0]
-outboard_rate_deg = [-16, -8]
-division = [0.4, 0.6]
-[fixed]
-concept = "two-segment"
-[models]
-inflow = "pitt-peters"
-elements = 16
-azimuths = 48
-"""
+DRAWN = "document.querySelector('.js-plotly-plot').calcdata.reduce((count, trace) => count + trace.length, 0)"
+"""Points of the chart, those beyond its axes included."""
 
 
 @pytest.fixture(scope="module")
@@ -70,7 +57,7 @@ def test_a_click_on_a_point_puts_it_on_the_sliders(page: tuple[Watched, Session]
     assert "36 of 36 points" in watched.text("study-state")
     dots = tab.locator(".js-plotly-plot .points path")
     dots.first.wait_for(timeout=WAIT)
-    assert dots.count() == 12  # Blades: each a pair of hover and cruise.
+    assert tab.evaluate(DRAWN) == 12  # Blades: each a pair of hover and cruise.
     before = watched.text("total-power")
     dots.last.click(force=True)
     tab.wait_for_function(
@@ -93,9 +80,9 @@ def test_other_charts_and_a_point_by_its_number(page: tuple[Watched, Session], a
     tab = watched.page
     watched.choose("Chart", "Scatter")
     watched.choose("Horizontal", "division r/R")
-    tab.wait_for_function("() => document.querySelectorAll('.js-plotly-plot .points path').length >= 36")
+    tab.wait_for_function(f"() => {DRAWN} >= 36")
     watched.choose("Chart", "Hover against cruise")
-    tab.wait_for_function("() => document.querySelectorAll('.js-plotly-plot .points path').length == 13")
+    tab.wait_for_function(f"() => {DRAWN} == 13")
     watched.choose("Chart", "Scatter")  # Whose axes have all points on them again.
     tab.wait_for_function("() => document.querySelector('.js-plotly-plot')._fullLayout.yaxis.range[0] > 100")
     watched.choose("Chart", "Parallel coordinates")

@@ -90,6 +90,18 @@ class Watched:
             self.page.wait_for_timeout(100)
         raise AssertionError(f"nothing changed: still {before!r:.200}")
 
+    def until(self, condition: Callable[[], Any]) -> None:
+        """Wait until something holds, on the page or in the server."""
+        self.until_changed(lambda: bool(condition()), False)
+
+    def says(self, part: str, text: str) -> None:
+        """Wait until a part of the page says exactly this."""
+        self.page.wait_for_function(
+            "([part, text]) => document.querySelector(`[data-explorer='${part}']`)?.innerText.trim() === text",
+            arg=[part, text],
+            timeout=WAIT,
+        )
+
     def at_rest(self, read: Callable[[], Any], rest: float = 1.2) -> Any:
         """What is read once it has stayed the same so long [s]: a busy machine is still answering the last key."""
         now, since = read(), time.monotonic()
@@ -117,10 +129,9 @@ class Watched:
 
     def quiet(self) -> None:
         """Close viser's remark on drawing in software, which only headless browsers see."""
-        close = self.page.locator("[class*=otification] button")
-        if close.count():
-            close.first.click()
-            self.page.wait_for_timeout(400)
+        # In one call: the page itself closes it after some seconds, perhaps just when it is looked for.
+        self.page.evaluate("() => document.querySelector('[class*=otification] button')?.click()")
+        self.page.wait_for_timeout(400)
 
 
 def opened(browser: "Browser", address: str, query: str = COARSE, size: tuple[int, int] = SMALL) -> Watched:

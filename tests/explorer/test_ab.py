@@ -238,8 +238,7 @@ class TestCharts:
 
     def test_difference_over_the_advance_ratio(self):
         x, zero, apart, hover, now = plots.apart_plot(self.curve(), 0.21, -12.0, None).data
-        assert_allclose(apart[x >= 0.075], -10.0)
-        assert np.isnan(apart[x < 0.075]).all()
+        assert_allclose(apart, -10.0)
         assert hover[x == 0.0] == -10.0
         assert now[x == 0.21] == -12.0
         assert not zero.any()
@@ -280,7 +279,9 @@ class TestDisk:
     def test_other_elements_and_azimuths_meet_on_one_grid(self, along: Solution, b: Solution):
         fine = solve(replace(along.design, models=replace(QUICK, elements=40, azimuths=72)))
         field, grid = FIELDS["Mach number"], polar_grid(b.disk, 60, 90)
-        outboard = grid.r > 0.4  # Further in, Mach has a kink round the reverse flow, which no two grids see alike.
+        # Further in, Mach has a kink round the reverse flow, and further out the sweep of the tip bends it within an
+        # element: no two grids see these alike.
+        outboard = (grid.r > 0.4) & (grid.r < 0.85)
         coarse_apart, fine_apart = (difference(field, one).sample(b, grid)[outboard] for one in (along, fine))
         assert_allclose(fine_apart, coarse_apart, atol=1e-3)
 

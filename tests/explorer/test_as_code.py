@@ -15,7 +15,7 @@ from typing import Any
 import pytest
 
 from explorer.export.as_code import CASE_FILE, as_command_line, as_python, degrees, exact_spec
-from explorer.state import Inputs
+from explorer.state import Inputs, preset_inflow
 from rotor.__main__ import main
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
@@ -28,7 +28,9 @@ SPLINE = SplineTwist((0.13, 0.4, 0.75, 1.0), (0.1234567891234, 0.05, -0.01, -1.0
 DESIGNS = {
     "sliders": Inputs().design(),
     "hover, ideal": Inputs(law="ideal", advance_ratio=0.0).design(),
-    "thesis, high": Inputs(preset="thesis", inflow="pitt-peters-15pi/23", law="three", altitude_m=1500.0).design(),
+    "free wake": Inputs(advance_ratio=0.0, hover_inflow="free-wake").design(),
+    "forward wake alone": Inputs(advance_ratio=0.05, low_speed="wake").design(),
+    "thesis, high": Inputs(preset="thesis", law="three", altitude_m=1500.0, **preset_inflow("thesis")).design(),
     "other inflow": Inputs(law="quadratic", inflow="pitt-peters", mass_t=7.35).design(),
     "built-in": Inputs(law="builtin", advance_ratio=0.3).design(),
     "found": Inputs(law="found", found=SPLINE, airfoils="sc1094r8,sc1095@0.5").design(),

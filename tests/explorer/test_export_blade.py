@@ -3,16 +3,30 @@
 import io
 import math
 from dataclasses import replace
+from itertools import pairwise
+from pathlib import Path
 
 import numpy as np
+import pyarrow.csv
 import pytest
 import trimesh
 from numpy.testing import assert_allclose
 
-from explorer.export.blade import blade_mesh, blade_stl, kinks, rotor_glb
+from explorer.__main__ import main
+from explorer.export.blade import (
+    POINTS,
+    blade_mesh,
+    blade_stl,
+    flown_design,
+    kinks,
+    rotor_glb,
+    section_curves,
+)
+from explorer.export.files import flown_file, jig_file
 from explorer.export.provenance import file_stem
+from explorer.interface import SessionState
 from explorer.picture.blade_mesh import swept_back
-from explorer.state import Inputs
+from explorer.state import Inputs, ViewState
 from rotor.airfoil.sections import load_installed
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
@@ -118,7 +132,7 @@ def test_the_rotor_has_its_blades_hub_and_mast_in_metres_with_y_up():
     rotor = DESIGN.rotor
     nodes = set(scene.graph.nodes_geometry)
     assert nodes == {"hub", "mast", *(f"blade_{k + 1}" for k in range(rotor.blades))}
-    assert set(scene.geometry) == {"hub", "mast", "blade", "marked_blade"}  # Three blades are one mesh, placed thrice.
+    assert len(scene.geometry) == 2 + rotor.blades  # As flown: each blade has its own elastic twist.
     # Marked blade at ψ 60°: its tip lies a radius away, aft (+x) and to starboard (−z where y is up).
     matrix, name = scene.graph["blade_1"]
     blade = scene.geometry[name]
@@ -133,6 +147,31 @@ def test_the_rotor_has_its_blades_hub_and_mast_in_metres_with_y_up():
         assert isinstance(geometry, trimesh.Trimesh)
         geometry.merge_vertices(merge_norm=True, merge_tex=True)
         assert geometry.is_watertight
+
+
+def test_rigid_blades_are_one_mesh_placed_thrice():
+    design = Inputs(elastic_twist=False).design()
+    assert set(scene_of(design).geometry) == {"hub", "mast", "blade", "marked_blade"}
+
+
+def test_the_files_of_the_page_are_the_jig_and_the_flown_blade():
+    """The tip is turned by the elastic twist there less that at 0.75 R, where the pitch of a shape is zero."""
+    solution = solve(Inputs(advance_ratio=0.3).design()).require()
+    state = SessionState(Inputs(advance_ratio=0.3), ViewState(azimuth_deg=90.0), solution, solution, None)
+    jig, flown = jig_file(state), flown_file(state)
+    assert "jig" in jig.name
+    assert "flown-psi90" in flown.name
+    elastic = solution.disk.elastic_twist
+    assert elastic is not None
+    at_90 = elastic[:, 30]  # Of 120 azimuths.
+    expected = float(at_90[-1]) - float(np.interp(0.75, solution.disk.r, at_90))
+    angles = []
+    for file in (jig, flown):
+        mesh = trimesh.load_mesh(io.BytesIO(file.content), file_type="stl")
+        tip = mesh.vertices[mesh.vertices[:, 0] > mesh.vertices[:, 0].max() - 1e-4]
+        nose, tail = tip[tip[:, 1].argmax()], tip[tip[:, 1].argmin()]
+        angles.append(math.atan2(nose[2] - tail[2], nose[1] - tail[1]))
+    assert angles[1] - angles[0] == pytest.approx(expected, abs=2e-3)
 
 
 def test_blades_of_an_active_twist_each_have_their_own_mesh():
@@ -157,3 +196,54 @@ def test_file_names_hold_nothing_that_a_system_refuses():
     stem = file_stem(make_design(twist="segments:-14,-8@0.5"), "disk", "Angle of attack")
     assert stem == "uh-60a-segments_-14_-8_0.5-mu0.200-disk-angle_of_attack"
     assert len(file_stem(replace(DESIGN, twist=LAWS[4]))) < 120
+
+
+def curves_of(content: bytes) -> dict[float, np.ndarray]:
+    """Closed curves (points, 3) [m] by r/R, read by a library that knows nothing of us."""
+    table = pyarrow.csv.read_csv(io.BytesIO(content)).to_pydict()
+    points = np.stack([table[name] for name in ("x_m", "y_m", "z_m")], axis=1)
+    sections = np.array(table["section"])
+    return {table["r_over_R"][np.argmax(sections == k)]: points[sections == k] for k in np.unique(sections)}
+
+
+def test_section_curves_lie_on_the_blade_of_the_mesh():
+    """Closed, as many points in each, and where a plane cuts the mesh between two of them the outline is in between."""
+    curves = curves_of(section_curves(DESIGN))
+    mesh, radius = blade_mesh(DESIGN), DESIGN.rotor.radius
+    stations = sorted(curves)
+    assert stations[0] == pytest.approx(DESIGN.rotor.blade.flap_hinge, rel=1e-5)
+    assert stations[-1] == 1.0
+    for r, curve in curves.items():
+        assert curve.shape == (POINTS + 1, 3)
+        assert_allclose(curve[0], curve[-1])
+        assert_allclose(curve[:, 0], r * radius, atol=1e-4)
+    for low, high in list(pairwise(stations))[20::25]:
+        middle = 0.5 * (curves[low] + curves[high])[:, 1:]
+        assert_allclose(reach(cut(mesh, 0.5 * (low + high))), reach(middle), atol=2e-4)
+
+
+def test_the_flown_shape_is_the_jig_shape_turned_by_the_elastic_twist():
+    """At two azimuths, against the twist in the solution, both counted from 0.75 R."""
+    jig = replace(DESIGN, models=replace(DESIGN.models, elastic_twist=True))
+    solution = solve(jig)
+    elastic, disk = solution.disk.elastic_twist, solution.disk
+    assert elastic is not None
+    straight = cut(blade_mesh(replace(jig, twist=PLAIN)), 0.9)
+    for column in (25, 70):
+        psi = float(disk.psi[column])
+        change = np.interp((0.9, 0.75), disk.r, elastic[:, column])
+        angle = float(jig.twist(0.9)) + change[0] - change[1]
+        assert abs(change[0] - change[1]) > math.radians(0.05)
+        assert_allclose(reach(cut(blade_mesh(flown_design(solution, psi)), 0.9)), reach(straight, angle), atol=3e-4)
+
+
+def test_the_command_writes_both_shapes(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    assert main(["blade", "--out", str(tmp_path), "--psi", "270"]) == 0
+    names = sorted(path.name for path in tmp_path.iterdir())
+    assert [name.partition("-blade-")[2] for name in names] == [
+        "flown-psi270.csv",
+        "flown-psi270.stl",
+        "jig.csv",
+        "jig.stl",
+    ]
+    assert capsys.readouterr().out.count("MB") == 4

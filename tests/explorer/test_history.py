@@ -8,8 +8,10 @@ from hypothesis import strategies as st
 
 from explorer.sharing.address import parameter, with_parameter
 from explorer.sharing.share import LONGEST, code_of, design_from, inputs_from
+from explorer.sharing.stored_history import StoredHistory, read_history
 from explorer.state import Inputs
 from explorer.undo import PAUSE, STEPS, History, Pauses
+from rotor.design.aircraft import RotorFiles
 from rotor.design.twist import TableTwist
 from rotor.files.make_design import make_design
 
@@ -120,6 +122,43 @@ def positions(draw: st.DrawFn) -> Inputs:
     )
 
 
+class TestStoredHistory:
+    STEPS = tuple(replace(START, two_inner=-12.0 - k) for k in range(4))
+    TEXT = StoredHistory(STEPS[:2], STEPS[2], STEPS[3:], (STEPS[1],)).text()
+
+    def test_a_reload_finds_the_same_steps(self):
+        assert read_history(self.TEXT, self.STEPS[2]) == StoredHistory(
+            self.STEPS[:2], self.STEPS[2], self.STEPS[3:], (self.STEPS[1],)
+        )
+
+    def test_a_link_opened_in_the_same_window_is_the_next_step(self):
+        link = Inputs(law="linear", linear=-9.0)
+        found = read_history(self.TEXT, link)
+        assert (found.past, found.present, found.future) == (self.STEPS[:3], link, ())
+        assert found.bookmarks == (self.STEPS[1],)
+
+    @pytest.mark.parametrize(
+        "text", [None, "", "{", "[]", "7", '{"past":7}', '{"past":[[]],"present":{}}', "[" * 10_000]
+    )
+    def test_what_cannot_be_read_is_no_history(self, text: str | None):
+        assert read_history(text, START) == StoredHistory(present=START)
+
+    def test_a_code_that_cannot_be_read_is_left_out(self):
+        text = self.TEXT.replace("segments:-13,-8@0.5", "segments:-13,-8@0.5;wings=2")
+        assert read_history(text, self.STEPS[2]).past == self.STEPS[:1]
+
+    def test_the_newest_fifty_are_kept(self):
+        steps = tuple(replace(START, mass_t=round(6.0 + 0.05 * k, 2)) for k in range(80))
+        text = StoredHistory(steps, START).text()
+        assert len(text) < 6_000
+        assert read_history(text, START).past == steps[-50:]
+
+    def test_a_rotor_of_ones_own_is_left_out(self):
+        own_rotor = replace(Inputs(rotor="r22").aircraft, key="", files=RotorFiles("a.toml", ()))
+        own = replace(START, law="builtin", rotor="own", own_rotor=own_rotor)
+        assert read_history(StoredHistory((START, own), START).text(), START).past == (START,)
+
+
 class TestShare:
     @given(positions())
     def test_address_and_back(self, inputs: Inputs):
@@ -157,7 +196,7 @@ class TestShare:
             ("1;uh60a+table:/etc/passwd", "a file on the machine"),
             ("1;linear:-8;mu", "not of the form key=value"),
             ("1;linear:-8;mu=fast", "give a number"),
-            ("1;linear:-8;mu=NaN", "advance ratio nan"),
+            ("1;linear:-8;mu=NaN", "advance ratio nan is outside 0…0.6: choose a value inside"),
             ("1;linear:-8;wings=2", "unknown key 'wings'"),
             ("1;linear:-8;inflow=magic", "magic"),
             ("1;bent:3", "is not known"),
@@ -171,3 +210,20 @@ class TestShare:
             inputs_from(code)
         assert sentence in str(caught.value)
         assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("code", "expected"),
+    [
+        ("1;segments:-14,-8@0.5;mass=8320", {"law": "two", "two_inner": -14.0, "two_outer": -8.0}),
+        ("1;linear:-12.5;mu=0.31;mass=8320;inflow=drees", {"law": "linear", "advance_ratio": 0.31, "inflow": "drees"}),
+        ("1;segments:-16,-12,-6@0.4,0.75;mass=9100;alt=1500", {"law": "three", "mass_t": 9.1, "altitude_m": 1500.0}),
+        ("1;linear:-16;preset=thesis;mu=0;mass=8320;inflow=dynamic-wake", {"preset": "thesis", "advance_ratio": 0.0}),
+        ("1;segments:-14,-8@0.5;mass=8320;tip_loss=false;hub_loss=false", {"tip_loss": False, "hub_loss": False}),
+        ("1;uh60a;mass=8320;inflow=vortex-wake", {"law": "builtin", "inflow": "vortex-wake"}),
+    ],
+)
+def test_a_link_written_by_the_first_version_still_opens(code: str, expected: dict[str, object]):
+    """The texts are those that the first version of the page wrote into its address."""
+    inputs = inputs_from(code)
+    assert {name: getattr(inputs, name) for name in expected} == expected

@@ -58,7 +58,7 @@ class TestClaims:
         assert abs(twisted.power.induced - flat.power.induced) < 1e3
         assert flat.power.profile - twisted.power.profile > 10e3
         parts = twisted.power
-        assert parts.induced > max(parts.profile, parts.parasite)
+        assert 0.3 < parts.induced / parts.total < 0.4
 
     def test_a_wake_sees_it(self):
         flat, twisted = both("A wake that responds to loading")
@@ -88,7 +88,7 @@ class TestClaims:
     def test_two_segments_save_tenths_of_a_per_cent(self):
         straight, two = both("What two segments add")
         assert 0.001 < 1.0 - two.power.total / straight.power.total < 0.01
-        for rate in (-11.0, -15.0):  # A is the best straight blade, and degrees matter little.
+        for rate in (-8.5, -12.5):  # A is the best straight blade, and degrees matter little.
             other = solved(Inputs(law="linear", linear=rate, advance_ratio=0.3)).power.total
             assert straight.power.total < other < 1.003 * straight.power.total
 

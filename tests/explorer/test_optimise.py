@@ -259,6 +259,17 @@ class TestMap:
         assert svg.find("image") is not None
         assert "Fixed: Inboard rate" in power_map.legend(drawn)
 
+    def test_the_example_beside_the_field_is_the_best_point(self, levels: tuple[MapTask, list[MapLevel]]):
+        task, told = levels
+        drawn = power_map.Map(task, np.array(told[-1].powers, dtype=float))
+        example = power_map.least_text(drawn)
+        assert f"such as {example}." in power_map.legend(drawn)
+        x, y, _ = drawn.least
+        for axis, place in zip(task.axes, (x, y), strict=True):
+            parameter = task.concept.parameters[axis]
+            typed = (power_map.point_of(example, drawn)[axis] - parameter.low) / (parameter.high - parameter.low)
+            assert typed == pytest.approx(place, abs=2e-3)
+
     def test_the_colour_bar_has_the_colours_of_the_picture(self):
         bar = ET.fromstring(power_map.colour_bar())
         left, width = (float(bar.findall("rect")[0].get(name) or "") for name in ("x", "width"))

@@ -55,7 +55,8 @@ def fetch(address: str, **headers: str) -> tuple[int, bytes, dict[str, str]]:
         with urllib.request.urlopen(request, timeout=10) as answer:
             return answer.status, answer.read(), dict(answer.headers)
     except urllib.error.HTTPError as error:
-        return error.code, error.read(), dict(error.headers)
+        with error:
+            return error.code, error.read(), dict(error.headers)
 
 
 def test_a_browser_that_has_the_page_is_not_sent_it_again(address: str):

@@ -92,3 +92,15 @@ def test_another_rotor_is_no_change_of_power():
     tracker.solved(at(-9.0), 847e3, 60.0)
     assert tracker.solved(replace(at(-9.0), rotor="r22", mass_t=0.6), 74e3, 60.0) is None
     assert tracker.solved(replace(at(-9.5), rotor="r22", mass_t=0.6), 73e3, 60.0) == -1e3
+
+
+def test_a_grab_before_the_new_design_has_a_power_counts_from_its_first():
+    """Reset, then a handle taken at once: the change is counted, not lost for as long as it is held."""
+    tracker = PowerTracker()
+    tracker.solved(START, 850e3, 0.0)
+    tracker.reset()
+    tracker.grab()
+    assert tracker.solved(START, 850e3, 0.0) == 0.0
+    assert tracker.solved(at(-9.0), 847e3, DRAG) == -3e3
+    tracker.release()
+    assert tracker.change == -3e3

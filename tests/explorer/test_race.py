@@ -82,6 +82,11 @@ class TestRace:
         assert race.starts[2].gap is None
         assert race.starts[2].legend() == "Start 3: waiting"
 
+    def test_a_start_that_is_behind_by_less_than_the_last_digit_is_equal(self):
+        """Neither "+0.0 kW" nor a zero that looks like a lead."""
+        for gap in (0.3, 49.0):
+            assert RaceStart(2, (844.6e3,), (844.6e3,), "finished", gap).legend() == "Start 2: equal"
+
     def test_the_legend_names_the_leader_and_the_gaps(self):
         starts = (
             RaceStart(1, (850e3, 845e3), (850e3, 845e3), "finished", 400.0),

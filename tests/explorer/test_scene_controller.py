@@ -12,9 +12,12 @@ import pytest
 import viser
 
 from explorer.hosting import viser_compat
+from explorer.picture.blade_mesh import blade_shape, blade_vertices, ghost_segments
+from explorer.picture.camera_views import apart
 from explorer.picture.disk_image import AT_REST, MOVING
 from explorer.picture.fields import FIELDS, Field
-from explorer.scene.controller import SceneController, apart
+from explorer.picture.poses import flown_twist
+from explorer.scene.controller import SceneController
 from explorer.scene.overlays import OtherBlade
 from explorer.state import ViewState
 from rotor.design.twist import LinearTwist
@@ -98,7 +101,9 @@ class TestCoarseAndFine:
         assert np.array_equal(page["/rotor/blade_2"].vertices, before)
         assert not np.array_equal(page["/rotor/blade_0"].vertices, before)
         page.controller.settle()
-        assert np.array_equal(page["/rotor/blade_2"].vertices, page["/rotor/blade_0"].vertices)
+        opposite = flown_twist(changed, math.radians(VIEW.azimuth_deg + 180.0))
+        expected = blade_vertices(blade_shape(ROTOR), opposite, VIEW.exaggeration)
+        np.testing.assert_allclose(page["/rotor/blade_2"].vertices, expected, atol=1e-5)
 
     def test_a_turned_blade_leaves_the_disk_alone(self, page: Page, built: Solution):
         page.controller.draw(built, VIEW, None)
@@ -129,9 +134,31 @@ class TestLook:
         assert pictures[0] != pictures[1]
 
 
+def rigid(solution: Solution) -> Solution:
+    design = solution.design
+    return solve(replace(design, models=replace(design.models, elastic_twist=False))).require()
+
+
 class TestGhost:
-    def test_the_blade_as_built_stands_behind_a_changed_one(self, page: Page, built: Solution, changed: Solution):
+    def test_an_unchanged_blade_is_seen_against_its_own_jig_shape(self, page: Page, built: Solution):
+        """By its edges alone: its surface would cut the flown one at small angles."""
         page.controller.draw(built, VIEW, None)
+        page.controller.settle()
+        assert page["/rotor/blade_0/ghost"].visible
+        assert not page["/rotor/blade_0/other"].visible
+        flown = flown_twist(built, math.radians(VIEW.azimuth_deg))
+        edges = ghost_segments(ROTOR, ROTOR.builtin_twist, flown, VIEW.exaggeration, math.radians(0.25))
+        np.testing.assert_allclose(page["/rotor/blade_0/ghost"].points, edges, atol=1e-5)
+
+    def test_it_turns_with_the_elastic_twist_of_the_blade(self, page: Page, changed: Solution):
+        """The jig shape stands still in the blade's axes; another blade has the elastic twist of each azimuth."""
+        page.controller.draw(changed, VIEW, None)
+        before = np.array(page["/rotor/blade_0/other"].vertices)
+        page.controller.draw(changed, replace(VIEW, azimuth_deg=270.0), None)
+        assert np.abs(page["/rotor/blade_0/other"].vertices - before).max() > 0.01
+
+    def test_the_blade_as_built_stands_behind_a_changed_one(self, page: Page, built: Solution, changed: Solution):
+        page.controller.draw(rigid(built), VIEW, None)
         assert not page["/rotor/blade_0/other"].visible
         page.controller.draw(changed, VIEW, None)
         assert page["/rotor/blade_0/other"].visible
@@ -141,7 +168,7 @@ class TestGhost:
 
     def test_another_blade_can_take_its_place(self, page: Page, changed: Solution):
         other = OtherBlade(ROTOR, changed.design.twist, (255, 176, 0))
-        page.controller.draw(changed, VIEW, other)
+        page.controller.draw(rigid(changed), VIEW, other)
         assert not page["/rotor/blade_0/other"].visible  # The same twist: nothing to tell apart.
         page.controller.draw(changed, VIEW, replace(other, twist=LinearTwist(-0.3)))
         assert page["/rotor/blade_0/other"].visible
@@ -209,7 +236,7 @@ class TestPlay:
         page.controller.draw(built, replace(VIEW, azimuth_deg=90.0), None)
         assert np.array_equal(page["/rotor/blade_0"].wxyz, before)
         assert page.scripts[-1] == f"rotorScene.turn({math.pi / 2:.4f})"
-        assert not page["/rotor/vortices"].visible
+        assert page["/rotor/vortices"].visible  # The page moves them too.
         page.controller.play(False)
         assert page.scripts[-1] == "rotorScene.stop()"
         assert not np.array_equal(page["/rotor/blade_0"].wxyz, before)

@@ -7,8 +7,10 @@ from typing import Any
 import pytest
 
 from explorer import session as session_module
+from explorer.charts import power_curve
 from explorer.hosting.viser_compat import PageFacts
 from explorer.interface import Failure, Frame, SessionState
+from explorer.page import Page
 from explorer.session import Session
 from explorer.state import Inputs, ViewState
 from rotor.design.design import Design
@@ -148,3 +150,54 @@ def test_frame_goes_out_when_newer_input_waits(session: Session):
     session._update(lambda: True)
     assert page.calls[:4] == ["pin_or_swap", "show_frame", "solve_pinned", "show_results"]
     assert "follow" not in page.calls
+
+
+def test_the_page_settles_before_the_power_curve(session: Session, monkeypatch: pytest.MonkeyPatch):
+    """A page that is loaded again early must find its own rotor, and need not wait for a fine picture."""
+    page: Any = session.page
+    monkeypatch.setattr(session._curves, "sweep", lambda *_: page.calls.append("sweep") or True)
+    update(session)
+    assert page.calls[-3:] == ["settle", "sweep", "rest"]
+
+
+def test_a_drag_waits_neither_for_the_fine_picture_nor_for_a_recent_curve(
+    session: Session, monkeypatch: pytest.MonkeyPatch
+):
+    monkeypatch.setattr(power_curve, "PATIENCE", 600.0)
+    update(session)
+    page: Any = session.page
+    page.calls.clear()
+    page.read = lambda: (session._wake(), (page.inputs, page.view))[1]
+    session._update(lambda: True)
+    assert page.calls[-1] == "show_power"
+
+
+def test_a_free_wake_is_shown_while_it_settles(session: Session, monkeypatch: pytest.MonkeyPatch):
+    page: Any = session.page
+    monkeypatch.setattr(session._curves, "sweep", lambda *_: False)
+    page.inputs = replace(Inputs(), advance_ratio=0.0, hover_inflow="free-wake", elastic_twist=False)
+    assert update(session).calls[:3] == ["read", "pin_or_swap", "show_frame"]
+    page.inputs = replace(page.inputs, two_inner=page.inputs.two_inner - 0.5)
+    shown = ["read", "show_frame", "solve_pinned", "show_settling", "pin_or_swap", "show_frame"]
+    assert update(session).calls[:6] == shown
+    assert [frame.solution.settled for frame in page.frames[-2:]] == [False, True]
+    page.inputs = replace(page.inputs, two_inner=page.inputs.two_inner - 0.5)
+    page.calls.clear()
+    page.read = lambda: (session._wake(), (page.inputs, page.view))[1]
+    session._update(lambda: True)  # The slider has moved on: the next preview is worth more than this wake at rest.
+    assert page.calls == ["show_frame", "solve_pinned", "show_settling"]
+    assert not page.frames[-1].solution.settled
+
+
+def test_what_settles_is_the_picture_the_address_and_what_the_page_keeps():
+    called: list[str] = []
+    part = SimpleNamespace(
+        settle=lambda: called.append("picture"),
+        follow=lambda _: called.append("address"),
+        keep=lambda: called.append("kept"),
+        store=lambda: called.append("steps"),
+    )
+    page: Any = SimpleNamespace(scene=part, file=part, history=part)
+    state: Any = None
+    Page.settle(page, state)
+    assert called == ["picture", "address", "kept", "steps"]

@@ -16,6 +16,7 @@ from explorer.charts.strip import (
     lift_per_metre,
     power_change_chart,
     round_ticks,
+    total_power_chart,
     where_to_twist_chart,
 )
 from explorer.text.units import AVIATION
@@ -46,10 +47,10 @@ class TestPowerChange:
         reference = 900.0 + 2000.0 * mu
         return PowerCurve(reference + slope * mu, reference, np.full(len(mu), math.nan))
 
-    def test_the_line_is_the_difference_and_hover_stands_alone(self):
+    def test_the_line_is_the_difference_and_hover_is_marked(self):
         chart = power_change_chart(self.curve(-50.0), 0.2, -10e3, "UH-60A as built")
         assert chart.unit == "kW vs. UH-60A as built"
-        assert chart.lines[0].x[0] > 0.0
+        assert chart.lines[0].x[0] == 0.0
         assert_allclose(chart.lines[0].y, -50.0 * chart.lines[0].x, atol=1e-9)
         assert [(dot.x, dot.label) for dot in chart.dots] == [(0.0, "hover"), (0.2, "")]
         assert chart.value == "−10 kW"
@@ -71,6 +72,27 @@ class TestPowerChange:
         assert chart.as_dict()["lines"][0]["y"][-1] is None
         assert len(chart.as_dict()["dots"]) == 1
         assert chart.value == ""
+
+    def test_a_design_that_is_its_own_reference_shows_its_power(self):
+        """A line at zero would say nothing: the bucket does, and where it is deepest."""
+        curve = self.curve(0.0)
+        curve.design[:] = 700.0 + 8000.0 * (np.array(SWEEP) - 0.15) ** 2
+        chart = total_power_chart(curve, 0.2, 720e3)
+        assert (chart.unit, chart.value) == ("kW", "least near µ 0.15")
+        assert_allclose(chart.lines[0].y, 700.0 + 8000.0 * (chart.lines[0].x - 0.15) ** 2)
+        assert [(dot.x, dot.y, dot.label) for dot in chart.dots] == [(0.0, curve.design[0], "hover"), (0.2, 720.0, "")]
+        assert chart.y_range[0] == 0.0
+
+    def test_inputs_without_trim_leave_the_curve_without_its_dot(self):
+        chart = total_power_chart(self.curve(0.0), 0.2, None)
+        assert [dot["label"] for dot in chart.as_dict()["dots"]] == ["hover"]
+
+    def test_a_power_not_swept_yet_is_its_dot_alone(self):
+        curve = self.curve(0.0)
+        curve.design[:] = math.nan
+        chart = total_power_chart(curve, 0.2, 720e3, AVIATION)
+        assert chart.value == ""
+        assert chart.as_dict()["dots"][-1]["y"] == pytest.approx(720e3 / 745.699872, abs=0.1)
 
     def test_aviation_units(self):
         chart = power_change_chart(self.curve(-50.0), 0.2, -10e3, "A", AVIATION)
@@ -124,7 +146,10 @@ class TestWhereToTwist:
         assert_allclose(chart.lines[0].y, gradient.density * math.pi / 180.0 / 1e3)
 
     def test_the_spike_at_the_tip_is_clipped_and_said(self, built: Solution):
-        gradient = power_gradient(built)
+        """Without elastic twist, which takes the spike from the UH-60A as built."""
+        design = built.design
+        rigid = replace(design, models=replace(design.models, elastic_twist=False))
+        gradient = power_gradient(solve(rigid))
         chart = where_to_twist_chart(gradient)
         values = chart.lines[0].y
         outside = (values > chart.y_range[1]) | (values < chart.y_range[0])
@@ -152,7 +177,8 @@ def test_ticks_are_few_round_and_inside(low: float, high: float):
 
 
 def test_every_chart_is_plain_json_without_nan(built: Solution, linear: Solution):
-    curve = PowerCurve(*(np.full(len(SWEEP), value) for value in (850.0, 860.0, math.nan)))
+    design, reference, ideal = (np.full(len(SWEEP), value) for value in (850.0, 860.0, math.nan))
+    curve = PowerCurve(design, reference, ideal)
     charts = (
         power_change_chart(curve, 0.2, -10e3, "A"),
         alpha_chart(built, linear, 270.0),

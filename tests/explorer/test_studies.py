@@ -2,6 +2,7 @@
 
 import json
 import math
+import os
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -223,3 +224,17 @@ def test_what_is_said_of_a_point_is_escaped(trims: tuple[Path, Results]):
     _, results = trims
     assert "&lt;b&gt;" in point_line(results, 0, "<b>")
     assert "'Point no.'" in charts_write_to("Point no.")
+
+
+def test_folders_that_cannot_be_read_are_passed_over(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """As lost+found of a disk, for a service without rights."""
+    (tmp_path / "lost").mkdir()
+    real = os.stat
+
+    def stat(path: Any, *rest: Any, **more: Any) -> Any:
+        if "lost/_" in str(path):
+            raise PermissionError(13, "Permission denied", str(path))
+        return real(path, *rest, **more)
+
+    monkeypatch.setattr(os, "stat", stat)
+    assert find_studies(tmp_path) == ()

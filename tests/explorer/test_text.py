@@ -16,6 +16,7 @@ from explorer.state import LAWS, Inputs, baseline_of, baseline_title, inputs_of,
 from explorer.text import readout
 from explorer.text.status import provenance, status_panel
 from explorer.text.units import number
+from explorer.text.why import why
 from explorer.workers.newest_wins import NewestWins
 from explorer.workers.solver import with_vortex_wake
 from rotor.aero.switches import SWITCHES, switched_off
@@ -35,7 +36,7 @@ class TestInputs:
     @pytest.mark.parametrize("law", [law for law in LAWS if law != "given"])
     @pytest.mark.parametrize("preset", PRESETS)
     def test_every_law_makes_a_design_and_comes_back(self, law: str, preset: str):
-        inputs = Inputs(preset=preset, law=law, inflow=preset_inflow(preset))
+        inputs = Inputs(preset=preset, law=law, **preset_inflow(preset))
         design = inputs.design()
         again = inputs_of(design).design()
         assert again.twist.spec() == design.twist.spec()
@@ -167,14 +168,16 @@ class TestReadout:
 
 class TestPlots:
     def curve(self) -> plots.PowerCurve:
+        """With linear inflow, which is not valid at low speed."""
         values = np.linspace(900.0, 2000.0, len(plots.SWEEP))
+        values[1:3] = np.nan
         return plots.PowerCurve(values, values + 10.0, values - 50.0)
 
-    def test_hover_stands_alone(self):
-        """No line between µ 0 and 0.075: two models, and neither is trusted between."""
+    def test_where_there_is_no_valid_inflow_hover_stands_alone(self):
+        """No line between µ 0 and 0.075."""
         plot = plots.power_plot(self.curve(), 0.05, 1000.0, None)
         x, ideal, _, _, line, _, _, hover, now = plot.data
-        assert np.isnan(line[x < 0.075]).all()
+        assert np.isnan(line[(x > 0.0) & (x < 0.075)]).all()
         assert np.isfinite(line[x >= 0.075]).all()
         assert (ideal[x >= 0.075] < line[x >= 0.075]).all()
         assert np.isfinite(hover).tolist() == (x == 0.0).tolist()
@@ -231,6 +234,14 @@ class TestPowerCurves:
         known = curves.known(design, baseline_of(design))
         assert_allclose(known.design[k], solve(design).power.total / 1e3, rtol=1e-6)
         assert_allclose(known.reference[k], solve(baseline_of(design)).power.total / 1e3, rtol=1e-6)
+        assert (np.diff(known.design[:6]) < 0.0).all()  # From hover, without a gap.
+
+    def test_linear_inflow_has_a_gap_beside_hover(self):
+        design = Inputs(law="linear", linear=-8.0, inflow="drees").design()
+        curves = PowerCurves(haste=math.inf)
+        curves.sweep(design, design, lambda: True)
+        known = np.isfinite(curves.known(design, design).design)
+        assert known.tolist() == [mu == 0.0 or mu >= 0.075 for mu in plots.SWEEP]
 
     @pytest.mark.slow
     def test_speed_does_not_make_a_new_curve(self):
@@ -256,10 +267,11 @@ class TestPowerCurves:
         assert asked[-2:] == [0.225, 0.3]
         curves.sweep(design, design, lambda: False)
         assert asked[-3:] == [0.25, 0.275, 0.3]
-        assert np.isfinite(curves.known(design, design).design[1:9]).all()
-        assert np.isnan(curves.known(design, design).design[9:]).all()
+        assert np.isfinite(curves.known(design, design).design[:11]).all()
+        assert np.isnan(curves.known(design, design).design[11:]).all()
 
-    def test_a_drag_never_starves_the_curve_but_gives_way_to_input(self):
+    def test_a_drag_never_starves_the_curve_but_gives_way_to_input(self, monkeypatch: pytest.MonkeyPatch):
+        monkeypatch.setattr("explorer.charts.power_curve.PATIENCE", math.inf)  # A busy machine sweeps more slowly.
         curves = PowerCurves(haste=math.inf)
         design = Inputs(law="linear", linear=-8.0).design()
         assert curves.sweep(design, baseline_of(design), lambda: True)  # Old enough: swept coarsely.
@@ -349,3 +361,17 @@ class TestLatestWins:
         assert done.wait(5.0)
         worker.stop()
         assert [str(error) for error in errors] == ["broken"]
+
+
+def test_a_test_stand_has_no_fuselage_and_no_tail_rotor():
+    stand = make_design(rotor="xv15", mu=0.17, stand={"ct_over_sigma": 0.08, "shaft_tilt_deg": 15.0})
+    flight = make_design()
+    assert list(readout.part_titles(stand).values()) == ["Induced", "Profile", "Propulsive"]
+    assert list(readout.part_titles(flight).values()) == ["Induced", "Profile", "Parasite", "Tail rotor"]
+    assert readout.part_titles(flight, stand)["parasite"] == "Parasite, propulsive"
+    solution = solve(stand)
+    assert solution.power.tail == 0.0
+    html = readout.power_panel(solution, None)
+    assert "Propulsive force times airspeed" in html
+    assert "Parasite" not in html
+    assert "propulsive" in why(solution, solve(replace(stand, condition=replace(stand.condition, advance_ratio=0.3))))

@@ -80,7 +80,8 @@ def test_searches_and_history_in_horsepower(solution: Solution):
 
 
 def test_curves_change_with_the_unit():
-    curve = plots.PowerCurve(*(np.linspace(500.0, 900.0, len(plots.SWEEP)) for _ in range(3)))
+    power = np.linspace(500.0, 900.0, len(plots.SWEEP))
+    curve = plots.PowerCurve(power, power, power)
     assert curve.in_unit(HORSEPOWER).design[0] == pytest.approx(500.0 / 0.745699872)
 
 

@@ -70,6 +70,14 @@ class TestDrawing:
         assert "no drag in hover" in waterfall_chart(steps.steps)
         assert "hover is the same at every azimuth" in alone_table(steps.alone)
 
+    def test_a_long_note_ends_at_the_right_edge(self, found: Waterfall):
+        """From the bars on it would leave the drawer, which then scrolls sideways."""
+        short, long = "no drag in hover", "no blade element is in reverse flow at this speed"
+        steps = (found.steps[0], *(replace(found.steps[1], note=note) for note in (short, long)))
+        drawn = waterfall_chart(steps)
+        assert re.search(rf'<text x="98.0" y="[\d.]+" class="rx-w rx-w-note">{short}', drawn)
+        assert re.search(rf'<text x="312.0" y="[\d.]+" class="rx-w rx-w-note rx-w-number">{long}', drawn)
+
     def test_a_step_that_does_not_trim_is_named(self, found: Waterfall):
         lost = replace(found.steps[1].solution, status=Status.NOT_CONVERGED, message="Too <heavy>.")
         steps = (found.steps[0], replace(found.steps[1], solution=lost))

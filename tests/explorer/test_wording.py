@@ -37,7 +37,7 @@ INSTEAD = {
 
 
 def shown_texts(path: Path) -> Iterator[str]:
-    """String constants of a file that are no docstrings."""
+    """String constants of a file, without its docstrings."""
     tree = ast.parse(path.read_text(encoding="utf-8"))
     silent = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
     for node in ast.walk(tree):

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import matplotlib
+import pyarrow
 import pytest
 from matplotlib import pyplot
 from numpy.testing import assert_allclose
@@ -57,6 +58,7 @@ def failed(design: rotor.Design) -> rotor.Solution:
     return found
 
 
+@pytest.mark.slow
 def test_the_notebook_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.chdir(tmp_path)
     Path("mine.toml").write_bytes(asset_path("r22.toml").read_bytes())
@@ -186,6 +188,15 @@ class TestSweep:
         table = rotor.sweep(design.at(mass_kg=11_000), [0.2, 0.5])
         assert [row[table.columns.index("total_kw")] is None for row in table.rows] == [False, True]
 
+    def test_columns_are_a_table_to_other_libraries(self, design: rotor.Design):
+        """Numbers are numbers, and a power that does not exist is null."""
+        table = rotor.sweep(design.at(mass_kg=11_000), [0.2, 0.5])
+        read = pyarrow.table(table.to_dict())
+        assert tuple(read.column_names) == table.columns
+        assert str(read.schema.field("total_kw").type) == str(read.schema.field("mu").type) == "double"
+        assert read.column("total_kw").null_count == 1
+        assert read.column("total_kw")[0].as_py() == table[0].power.total / 1e3
+
     def test_dataframe_or_an_error_without_pandas(self, design: rotor.Design, monkeypatch: pytest.MonkeyPatch):
         table = rotor.sweep(design, [0.2])
 
@@ -215,7 +226,7 @@ WRONG = {
     "rotor.make_design(hover='yes')": (TypeError, "hover is 'yes': write hover=True"),
     "rotor.make_design(mass_kg='8 t')": (TypeError, "mass_kg is '8 t', not a number"),
     "rotor.make_design(mass_kg=8)": (ValueError, "mass 8 kg is outside 100…50000 kg"),
-    "rotor.make_design(rotor='bell')": (ValueError, "rotor 'bell' is not known: use uh60a, r22, s61, or rotor.load"),
+    "rotor.make_design(rotor='bell')": (ValueError, "rotor 'bell' is not known: use uh60a, r22, s61, xv15, pca2"),
     "rotor.make_design(rotor=60)": (TypeError, "rotor 60 is not a rotor"),
     "rotor.make_design(preset='best')": (ValueError, "preset 'best' is not known: use flight or thesis"),
     "rotor.make_design(inflow='free')": (ValueError, "inflow model 'free' is not known: use one of uniform"),
@@ -273,6 +284,7 @@ print(json.dumps([names, solved, [name for name in ("threads", "environment") if
 """
 
 
+@pytest.mark.slow
 def test_import_does_not_change_blas_threads_and_solve_restores_them():
     """BLAS threads, warning filters, signal handlers, environment, logging, NumPy's and Python's own settings.
 

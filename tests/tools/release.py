@@ -1,19 +1,25 @@
-"""Build sdist and wheel, install the wheel in a clean environment, and use it there: `make release`.
+"""The checklist of a release as a command: `make release`.
 
-`tests/test_wheel.py` does the same without the network, on the packages of the environment that runs the tests.
+It builds sdist and wheel twice and compares the bytes, installs the wheel alone into a clean environment for every
+Python from 3.11 to 3.14 on this machine and uses it there (trim, page, study, the documentation's first example), lists
+the licences of all dependencies, and reads version and changelog. Each item is printed with what was found; the exit
+code is 1 if one is not met. `tests/test_wheel.py` does the same for one Python without the network.
 """
 
 import argparse
+import hashlib
 import json
 import os
 import re
+import shutil
 import signal
 import subprocess
 import sys
 import sysconfig
 import tempfile
+import tomllib
 import urllib.request
-import venv
+from collections.abc import Iterator
 from pathlib import Path
 
 ROOT = Path(__file__).parent.parent.parent
@@ -26,8 +32,26 @@ twist = "linear:-10"
 _PURELIB = "import sysconfig; print(sysconfig.get_path('purelib'))"
 
 
+PYTHONS = ("3.11", "3.12", "3.13", "3.14")
+_LICENCES = """
+import importlib.metadata as m, json
+print(json.dumps([[d.name, d.version, d.metadata.get("License-Expression") or "; ".join(
+    c.rpartition(" :: ")[2] for c in d.metadata.get_all("Classifier", []) if c.startswith("License ::"))
+    or (d.metadata.get("License") or "").strip().partition("\\n")[0]] for d in m.distributions()]))
+"""
+_FOREIGN = re.compile(r"\b(A?GPL|GNU (Affero )?General Public)", re.IGNORECASE)
+"""Licences that would bind whoever passes the program on; the Lesser GPL and exceptions for linking do not."""
+
+
 def build(folder: Path) -> Path:
-    """Build the sdist from the checkout and the wheel from the sdist, so that neither lacks a file."""
+    """Build the sdist from the checkout and the wheel from the sdist, so that neither lacks a file.
+
+    Times in both are those of the last commit, so that a second build gives the same bytes.
+    """
+    command = ("git", "log", "-1", "--format=%ct")
+    found = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
+    if not found.returncode:
+        os.environ["SOURCE_DATE_EPOCH"] = found.stdout.strip()
     _do(sys.executable, "-m", "hatchling", "build", "--target", "sdist", "--directory", str(folder), cwd=ROOT)
     (sdist,) = folder.glob("*.tar.gz")
     pip = (sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check")
@@ -36,12 +60,32 @@ def build(folder: Path) -> Path:
     return wheel
 
 
-def install(wheel: Path, folder: Path, *, borrow: bool) -> Path:
+def digests(folder: Path) -> dict[str, str]:
+    """SHA-256 of the sdist and the wheel in a folder, by name."""
+    made = (*folder.glob("*.whl"), *folder.glob("*.tar.gz"))
+    return {path.name: hashlib.sha256(path.read_bytes()).hexdigest() for path in made}
+
+
+def find_python(version: str) -> str | None:
+    """An interpreter of a version, for example 3.12: on the path, or one of pyenv's."""
+    own = ".".join(str(number) for number in sys.version_info[:2])
+    if version == own:
+        return sys.executable
+    places = [*Path.home().glob(f".pyenv/versions/{version}*/bin/python"), shutil.which(f"python{version}")]
+    code = "import sys; print('.'.join(map(str, sys.version_info[:2])))"
+    for place in filter(None, places):  # One that is on the path may be a shim that leads nowhere.
+        found = subprocess.run([place, "-c", code], capture_output=True, text=True)
+        if found.stdout.strip() == version:
+            return str(place)
+    return None
+
+
+def install(wheel: Path, folder: Path, *, borrow: bool, interpreter: str = sys.executable) -> Path:
     """The Python of a fresh environment with the wheel in it.
 
     Its dependencies are installed, or with `borrow` taken from the environment that runs this.
     """
-    venv.create(folder, with_pip=True)
+    _do(interpreter, "-m", "venv", str(folder), cwd=folder.parent)
     python = folder / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
     pip = (str(python), "-m", "pip", "--quiet", "--disable-pip-version-check", "install")
     if not borrow:
@@ -97,25 +141,100 @@ def study(python: Path, cwd: Path) -> str:
     return run(python, "-m", "rotor", "study", "show", "small", cwd=cwd)
 
 
+def first_example() -> str:
+    """The first Python example of the documentation's start page."""
+    found = re.search(r"```python\n(.*?)```", (ROOT / "docs" / "index.md").read_text(encoding="utf-8"), re.DOTALL)
+    if found is None:
+        raise RuntimeError("docs/index.md has no Python example")
+    return found[1]
+
+
+def licences(python: Path, cwd: Path) -> list[tuple[str, str, str]]:
+    """Name, version and licence of everything installed beside the wheel; the licence is empty where none is stated."""
+    rows = [(name, version, licence) for name, version, licence in json.loads(run(python, "-c", _LICENCES, cwd=cwd))]
+    return sorted(row for row in rows if row[0] not in ("rotor-explorer", "pip", "setuptools"))
+
+
+def unfit(rows: list[tuple[str, str, str]]) -> list[str]:
+    """Names of packages whose licence is not stated, or would bind whoever passes the program on."""
+    return [
+        name
+        for name, _, licence in rows
+        if not licence or (_FOREIGN.search(licence) and not re.search("lesser|exception", licence, re.IGNORECASE))
+    ]
+
+
+def version_faults(pyproject: str, changelog: str, others: dict[str, str]) -> list[str]:
+    """What is wrong with version and changelog, in sentences. `others`: texts that must not repeat the version."""
+    version = tomllib.loads(pyproject)["project"]["version"]
+    sections = re.split(r"^## \[(.*?)\].*$", changelog, flags=re.MULTILINE)
+    titles, bodies = sections[1::2], sections[2::2]
+    faults = [f"{name} repeats the version {version}" for name, text in others.items() if version in text]
+    if "Unreleased" in titles and bodies[titles.index("Unreleased")].strip():
+        faults.append("CHANGELOG.md has entries under Unreleased: give them the version and a date")
+    newest = next((title for title in titles if title != "Unreleased"), None)
+    if newest != version:
+        faults.append(f"the newest version in CHANGELOG.md is {newest}, in pyproject.toml {version}")
+    return faults
+
+
+def items(folder: Path) -> Iterator[tuple[str, str]]:
+    """Each item of the checklist with what is wrong; empty when it is met."""
+    texts = {
+        name: (ROOT / name).read_text(encoding="utf-8")
+        for name in ("pyproject.toml", "CHANGELOG.md", "CITATION.cff", "rotor/__init__.py", "explorer/__init__.py")
+    }
+    faults = version_faults(texts.pop("pyproject.toml"), texts.pop("CHANGELOG.md"), texts)
+    yield "version in one place, changelog", "; ".join(faults)
+    wheel = build(folder)
+    with tempfile.TemporaryDirectory() as name:
+        place = Path(name)
+        build(place)
+        yield "two builds give the same bytes", "" if digests(place) == digests(folder) else "sdist or wheel differ"
+        for version in PYTHONS:
+            interpreter = find_python(version)
+            if interpreter is None:
+                yield f"wheel alone on Python {version}", "not tried: no such interpreter on this machine"
+                continue
+            try:
+                python = install(wheel, place / version, borrow=False, interpreter=interpreter)
+                power, page = solve(python, place)["power_w"]["total"], fetch_page(python, place)
+                example = run(python, "-c", first_example(), cwd=place).strip()
+                found = study(python, place).splitlines()[0]
+                shutil.rmtree(place / "small")
+                used = f"{power / 1e3:.1f} kW; page of {len(page)} characters; {found}; first example: {example}"
+                print(f"    {used}", flush=True)
+                yield f"wheel alone on Python {version}: trim, page, study, first example", ""
+            except (RuntimeError, subprocess.CalledProcessError, OSError, ValueError) as error:
+                yield f"wheel alone on Python {version}", str(error)
+                continue
+            if version == PYTHONS[0]:
+                rows = licences(python, place)
+                lines = (f"{name:28}{number:16}{licence or 'not stated'}" for name, number, licence in rows)
+                (folder / "licences.txt").write_text("\n".join(lines) + "\n", encoding="utf-8")
+                wrong = unfit(rows)
+                yield (
+                    f"licences of {len(rows)} dependencies, in licences.txt",
+                    f"see {', '.join(wrong)}" if wrong else "",
+                )
+            shutil.rmtree(place / version)
+
+
 def main() -> int:
-    """Build into `--out`, then try the wheel."""
-    parser = argparse.ArgumentParser(description="Build sdist and wheel, and use the wheel in a clean environment.")
+    """Build into `--out` and go through the list; 1 if an item is not met."""
+    parser = argparse.ArgumentParser(description="The checklist of a release: build, compare, install, use.")
     parser.add_argument("--out", type=Path, default=ROOT / "dist", help="folder for sdist and wheel (default dist)")
     folder = parser.parse_args().out.resolve()
     folder.mkdir(parents=True, exist_ok=True)
     for old in (*folder.glob("*.whl"), *folder.glob("*.tar.gz")):
         old.unlink()
-    wheel = build(folder)
-    with tempfile.TemporaryDirectory() as name:
-        place = Path(name)
-        python = install(wheel, place / "venv", borrow=False)
-        power = solve(python, place)["power_w"]["total"]
-        print(f"solve: {power / 1e3:.1f} kW")
-        print(f"page: {len(fetch_page(python, place))} characters")
-        print(study(python, place))
+    failed = 0
+    for title, wrong in items(folder):
+        failed += bool(wrong)
+        print(f"{'OPEN' if wrong else 'met ':5}{title}{f': {wrong}' if wrong else ''}", flush=True)
     for made in sorted((*folder.glob("*.whl"), *folder.glob("*.tar.gz"))):
         print(f"{made.stat().st_size / 1e6:8.2f} MB  {made.name}")
-    return 0
+    return int(failed > 0)
 
 
 def _do(*command: str, cwd: Path) -> None:

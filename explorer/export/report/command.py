@@ -11,18 +11,19 @@ from explorer.picture.fields import FIELDS
 from explorer.scene.still_scene import make_stage
 from explorer.state import ViewState, baseline_of, baseline_title
 from rotor.files.design_file import load_design
+from rotor.terminal import run_command
 from rotor.trim.solve import solve
+from rotor.user_input import write_whole
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """0 when the report is written, 1 when a design does not trim, 2 for bad input."""
-    options = _parser().parse_args(arguments)
-    try:
-        entries = [ReportEntry(Path(file).stem, solve(load_design(file))) for file in options.designs]
-        view = ViewState(field=options.field)
-    except (ValueError, FileNotFoundError) as error:
-        print(f"explorer report: {error}", file=sys.stderr)
-        return 2
+    return run_command("explorer report", lambda: _run(_parser().parse_args(arguments)))
+
+
+def _run(options: argparse.Namespace) -> int:
+    entries = [ReportEntry(Path(file).stem, solve(load_design(file))) for file in options.designs]
+    view = ViewState(field=options.field)
     first = entries[0].solution.design
     try:
         report = report_of(ReportEntry(baseline_title(first), solve(baseline_of(first))), entries, view)
@@ -31,7 +32,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return 1
     stage = make_stage([entry.solution for entry in report.shown], view, report.colour_range(FIELDS[view.field]))
     try:
-        Path(options.out).write_text(report_html(report, stage), encoding="utf-8")
+        write_whole(options.out, report_html(report, stage))
     except OSError as error:
         print(
             f"explorer report: cannot write {options.out!r} ({error.strerror}): give a writable file", file=sys.stderr

@@ -11,7 +11,7 @@ from explorer.export.report.style import SCRIPT, SHEET
 from explorer.picture.fields import FIELDS
 from explorer.scene.still_scene import EmbeddedViewer
 from explorer.text.design_words import active_words, flight_words, model_words, title_words
-from explorer.text.readout import PART_TITLES
+from explorer.text.readout import part_titles
 from explorer.text.status import tiny
 from explorer.theme.colours import PARTS
 from rotor.trim.solution import Solution
@@ -49,9 +49,8 @@ def _glance(report: DesignReport) -> str:
     """A card for each design: power, its change, its parts."""
     colours = colours_of(report)
     cards = "".join(_card(report, k, colour) for k, colour in enumerate(colours))
-    parts = "".join(
-        f'<span><i style="background:{colour}"></i>{PART_TITLES[name]}</span>' for name, colour in PARTS.items()
-    )
+    titles = part_titles(*(entry.solution.design for entry in report.all))
+    parts = "".join(f'<span><i style="background:{PARTS[name]}"></i>{title}</span>' for name, title in titles.items())
     return f'<section class="glance"><div class="cards">{cards}</div><p class="parts">{parts}</p></section>'
 
 
@@ -142,7 +141,7 @@ def _foot() -> str:
         "<footer><h2>Validity</h2><p>Every design here is trimmed: thrust balances weight and drag, and "
         "power by parts adds up to it. Forward-flight power is <b>indicative</b>: a model against other models, not "
         "against a measurement. Hover power was compared with digitised measurements of incomplete provenance and is "
-        "2 to 12 % below them. Not modelled: bending and torsion of the blade, dynamic stall, wake distortion, "
-        "fuselage interference. Twist optima are flat: compare powers, not angles.</p>"
+        "between 3 % above and 9 % below them. Not modelled: bending of the blade, dynamic stall, wake "
+        "distortion, fuselage interference. Twist optima are flat: compare powers, not angles.</p>"
         f"<table class='versions'>{rows}</table></footer>"
     )

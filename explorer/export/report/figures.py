@@ -43,13 +43,13 @@ def overview(report: DesignReport, curves: PowerCurves) -> str:
     charts = [
         line_chart(
             "Power over advance ratio",
-            "advance ratio µ; hover is a separate point, another inflow model",
+            "advance ratio µ; hover as a point",
             f"total power [{report.units.power[0].symbol}]",
             power,
             (-0.01, 0.46),
             plots.held_range(None, 0.0, top),
         ),
-        line_chart("Twist along the blade", "r/R", "twist [°], zero at 0.75 R", twist, (0.1, 1.01)),
+        line_chart("Jig twist along the blade", "r/R", "twist [°], zero at 0.75 R", twist, (0.1, 1.01)),
         line_chart("Load along the blade", "r/R", "dT/dr, mean over azimuth [kN/m]", load, (0.1, 1.01)),
     ]
     changes = [trace for entry, colour in pairs for trace in _change(report, entry, colour, curves)]
@@ -68,7 +68,7 @@ def overview(report: DesignReport, curves: PowerCurves) -> str:
 
 
 def _power(report: DesignReport, entry: ReportEntry, colour: str, curves: PowerCurves) -> list[Trace]:
-    """Curve from where forward inflow is trusted, hover as a point, the present condition as a point."""
+    """Curve over advance ratio, hover as a point, the present condition as a point."""
     design = entry.solution.design
     curves.sweep(design, report.reference.solution.design, lambda: False)
     curve, mu = curves.known(design, report.reference.solution.design), np.array(SWEEP)
@@ -106,9 +106,10 @@ def _change(report: DesignReport, entry: ReportEntry, colour: str, curves: Power
 
 
 def _smooth(values: Array) -> tuple[Array, Array]:
-    """Values at the advance ratios of `SWEEP` as a smooth line through those of forward flight that are known."""
+    """Values at the advance ratios of `SWEEP` as a smooth line through those known; without hover beside a gap."""
     mu = np.array(SWEEP)
-    known = np.isfinite(values) & (mu > 0.0)
+    known = np.isfinite(values)
+    known[0] &= known[1]
     if known.sum() < 2:
         return mu[1:], values[1:]
     line = np.linspace(mu[known].min(), mu[known].max(), 120)

@@ -7,9 +7,10 @@ from html import escape
 import numpy as np
 
 from explorer.export.report.contents import DesignReport, ReportEntry
+from explorer.stand import stand_of
 from explorer.state import PRESET_TITLES
-from explorer.text.design_words import inflow_words, physics_words, twist_words
-from explorer.text.readout import PART_TITLES, ideal_induced
+from explorer.text.design_words import inflow_words, physics_words, stand_words, twist_words
+from explorer.text.readout import ideal_induced, part_titles
 from explorer.text.status import section_title
 from explorer.text.units import FOOT, KILOGRAM, METRE, POUND, SI, TONNE, Units, number
 from explorer.theme.colours import PARTS
@@ -63,7 +64,7 @@ def comparison(report: DesignReport) -> str:
                 f'<i style="background:{PARTS[name]}"></i>{title}',
                 compared(_part(name)),
             )
-            for name, title in PART_TITLES.items()
+            for name, title in part_titles(*(entry.solution.design for entry in report.all)).items()
         ),
         _row("Induced factor κ", [number(e.solution.induced_power_factor, 3) for e in report.all]),
         _row("Efficiency", [_efficiency(e.solution) for e in report.all]),
@@ -76,6 +77,17 @@ def comparison(report: DesignReport) -> str:
     )
 
 
+def _load(design: Design) -> list[tuple[str, str]]:
+    """What the rotor carries and where, or the test."""
+    condition, stand = design.condition, stand_of(design)
+    if stand is not None:
+        return [("Test stand", stand_words(stand))]
+    return [
+        ("Mass", f"{KILOGRAM.text(condition.mass, 1)} · {POUND.text(condition.mass)}"),
+        ("Pressure altitude", f"{METRE.text(condition.altitude)} · {FOOT.text(condition.altitude)}"),
+    ]
+
+
 def conditions(solution: Solution) -> str:
     """Flight condition, rotor and models."""
     design = solution.design
@@ -83,8 +95,7 @@ def conditions(solution: Solution) -> str:
     rows = [
         ("Advance ratio µ", number(condition.advance_ratio, 3)),
         ("Airspeed", SI.airspeed(design.airspeed)),
-        ("Mass", f"{KILOGRAM.text(condition.mass, 1)} · {POUND.text(condition.mass)}"),
-        ("Pressure altitude", f"{METRE.text(condition.altitude)} · {FOOT.text(condition.altitude)}"),
+        *_load(design),
         ("Air density", f"{number(condition.density, 4)} kg/m³"),
         ("Radius, tip speed", f"{number(rotor.radius, 3)} m, {number(rotor.tip_speed, 1)} m/s"),
         ("Blades, solidity", f"{rotor.blades}, {number(rotor.solidity, 4)}"),
@@ -103,7 +114,7 @@ def parts(report: DesignReport, entry: ReportEntry) -> str:
     ideal = ideal_induced(entry.solution)
     rows = [
         (f'<i style="background:{PARTS[name]}"></i>{title}', _share(getattr(power, name), power.total, units))
-        for name, title in PART_TITLES.items()
+        for name, title in part_titles(entry.solution.design).items()
     ]
     rows += [
         ("Main rotor", units.watts(power.main_rotor, 1)),
@@ -196,6 +207,8 @@ def _speed(design: Design, units: Units) -> str:
 
 
 def _weight(design: Design, units: Units) -> str:
+    if (stand := stand_of(design)) is not None:
+        return stand_words(stand)
     mass = units.mass.text(design.condition.mass, 2 if units.mass is TONNE else 0)
     return f"{mass}<br><small>{units.altitude.text(design.condition.altitude)}</small>"
 

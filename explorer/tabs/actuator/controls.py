@@ -21,10 +21,11 @@ from explorer.tabs.actuator.state import (
     drive_of,
 )
 from explorer.tabs.actuator.study import Findings, Outcome
-from explorer.tabs.charts import Chart, line
+from explorer.tabs.actuator.sweep import amplitude_plot, phase_plot
+from explorer.tabs.charts import Chart, line, points
 from explorer.text.glossary import hint
 from explorer.text.units import number
-from explorer.theme.colours import BASELINE, NOW, THIS
+from explorer.theme.colours import BASELINE, LIMIT, NOW, THIS
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly, TorqueTube, actuators, find_actuator
 from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.pictures import twist_comparison
@@ -218,11 +219,38 @@ class ActuatorControls:
             self.table = gui.add_html("")
         self.electrodes = ElectrodesPanel(gui)
         with gui.add_folder("Harmonic active twist"):
+            gui.add_html(readout.unmeasured())
             self._per_rev = watched(gui.add_dropdown("Harmonic", tuple(HARMONICS), hint=hint("harmonic")))
             self._amplitude = watched(
                 gui.add_slider("Amplitude [%]", 0.0, 100.0, 1.0, start.amplitude, hint=hint("amplitude"))
             )
             self._phase = watched(gui.add_slider("Phase [°]", 0.0, 360.0, 5.0, start.phase, hint=hint("phase")))
+            self.swept = gui.add_html("")
+            key = (("full", BASELINE, True), ("as set", NOW), ("now", THIS))
+            self.over_phase = Chart(
+                gui,
+                "ΔkW over phase [°]",
+                key,
+                "phase [°]",
+                (line("full amplitude", BASELINE, 1.5, (5, 3)), line("this amplitude", NOW), points("now", THIS, 8.0)),
+                phase_plot(None, start, None),
+                (0.0, 360.0),
+            )
+            key = (("best", BASELINE, True), ("as set", NOW), ("limit", LIMIT))
+            self.over_amplitude = Chart(
+                gui,
+                "ΔkW over amplitude [%]",
+                key,
+                "amplitude [%]",
+                (
+                    line("best phase", BASELINE, 1.5, (5, 3)),
+                    line("this phase", NOW),
+                    points("limit", LIMIT, 9.0),
+                    points("now", THIS, 8.0),
+                ),
+                amplitude_plot(None, start, None),
+                (0.0, 100.0),
+            )
 
     def inputs(self) -> ActuatorInputs:
         """What the widgets mean now."""
@@ -262,7 +290,10 @@ class ActuatorControls:
         self._chord.label = "Chord {:.2f}–{:.2f}".format(*inputs.chord)
         self._pair.label = "µ {:.2f} – {:.2f}".format(*inputs.advance_ratios)
         self._stiffness.visible = inputs.blade == "new"
-        self._amplitude.visible = self._phase.visible = inputs.per_rev > 0
+        turning = inputs.per_rev > 0
+        self._amplitude.visible = self._phase.visible = self.swept.visible = turning
+        for chart in (self.over_phase, self.over_amplitude):
+            chart.set_visible(turning)
 
     def rest(self) -> None:
         """Nothing driven."""

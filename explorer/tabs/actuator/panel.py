@@ -5,15 +5,18 @@ from typing import Any
 
 import viser
 
+from explorer.overlay.bridge import Bridge
 from explorer.tabs.actuator import controls as plots
 from explorer.tabs.actuator import controls as table
 from explorer.tabs.actuator import readout
 from explorer.tabs.actuator.controls import FLY, ActuatorControls
-from explorer.tabs.actuator.picture import CutScene, cut_picture, section_svg, voltage_shares
+from explorer.tabs.actuator.picture import CutScene, cut_picture, flown_twist, section_svg, voltage_shares
 from explorer.tabs.actuator.state import MOST_SEGMENTS, ActuatorInputs, Question, question_of
 from explorer.tabs.actuator.study import CachedVerdicts, VerdictWorker
+from explorer.tabs.actuator.sweep import SweepWorker, amplitude_plot, phase_plot, sweep_sentence, sweep_task
 from explorer.workers import solver
 from explorer.workers.pool import PoolClient
+from rotor.actuator.harmonic import PowerMap
 from rotor.actuator.installation import InstalledActuator
 from rotor.design.design import Design
 from rotor.dynamics.structure import KNOWN_BLADE, check_blade
@@ -25,15 +28,21 @@ class ActuatorPanel:
     """Widgets, cut blade and background study; everything but `inputs` happens on the session's worker."""
 
     def __init__(
-        self, client: viser.ClientHandle, pool: PoolClient, changed: Callable[[], None], fly: Callable[[float], None]
+        self,
+        client: viser.ClientHandle,
+        bridge: Bridge,
+        pool: PoolClient,
+        changed: Callable[[], None],
+        fly: Callable[[float], None],
     ) -> None:
         """`changed`: something moved. `fly`: set the page's advance ratio."""
         self._changed = changed
         self._fly = fly
         self._client = client
         self._touched = False
-        self._cut = CutScene(client.scene)
+        self._cut = CutScene(client.scene, bridge)
         self._study = VerdictWorker(CachedVerdicts(pool), changed, f"study-{client.client_id}")
+        self._sweep = SweepWorker(pool, changed, f"sweep-{client.client_id}")
         self._rest = solver.BaselineCache()
         self._told: dict[str, str] = {}
         self._drawn: tuple[object, ...] | None = None
@@ -46,9 +55,11 @@ class ActuatorPanel:
 
     def start(self) -> None:
         self._study.start()
+        self._sweep.start()
 
     def stop(self) -> None:
         self._study.stop()
+        self._sweep.stop()
 
     def show(self, inputs: ActuatorInputs, design: Design, solution: Solution, psi: float) -> None:
         """Everything that follows: `design` is without the actuator's twist, `solution` with it."""
@@ -57,7 +68,7 @@ class ActuatorPanel:
                 self._controls.arrange(inputs, inputs.installed(uh60a_rotor(design.preset)))
             check_blade(design.aircraft)
             installed = inputs.installed(design.rotor)
-            inputs.turning(installed)  # Resonance speaks here.
+            inputs.turning(installed, design.elastic)  # Resonance of a rigid trim speaks here.
             question = question_of(inputs, design)
         except ValueError as error:
             self._cut.hide()
@@ -65,10 +76,11 @@ class ActuatorPanel:
             self.show_failure(str(error))
             return
         self._controls.arrange(inputs, installed)
-        self._draw(inputs, installed, design, psi)
         rest = self._rest.solve(design) if inputs.driven else None
+        self._draw(inputs, installed, design, psi, solution, rest or solution)
         change = solution.power.total - rest.power.total if rest is not None and rest.converged else None
-        self._tell("now", self._controls.now, readout.now_panel(inputs, installed, change))
+        self._tell("now", self._controls.now, readout.now_panel(inputs, installed, change, solution))
+        self._show_sweep(inputs, design)
         self._tell("section", self._controls.section, section_svg(installed, voltage_shares(inputs, installed, psi)))
         self._controls.electrodes.show(installed.actuator, inputs.volts(installed))
         self._tell("bar", self._controls.bar, readout.voltage_bar(installed.actuator))
@@ -77,6 +89,19 @@ class ActuatorPanel:
         self._study.ask(question, wanted=self._touched, stirred=now != self._before)
         self._before = now
         self._judge(inputs, installed, question, design.rotor.blade.root_cutout)
+
+    def _show_sweep(self, inputs: ActuatorInputs, design: Design) -> None:
+        task = sweep_task(inputs, design)
+        found = self._sweep.ask(task)
+        if not inputs.per_rev:
+            return
+        self._tell("swept", self._controls.swept, readout.sweep_panel(sweep_sentence(found, inputs, design)))
+        drawn = found if isinstance(found, PowerMap) else None
+        for chart, plot in (
+            (self._controls.over_phase, phase_plot),
+            (self._controls.over_amplitude, amplitude_plot),
+        ):
+            chart.show(plot(drawn, inputs, chart.y_range if drawn is not None else None))
 
     def show_failure(self, problem: str) -> None:
         """There is no such design: the sentence in place of the verdict, all else as it was."""
@@ -102,16 +127,25 @@ class ActuatorPanel:
         tell("table", places.table, table.table_panel(findings, question))
         places.chart.show(plots.reach_plot(inputs, installed, verdict, root, places.chart.y_range))
 
-    def _draw(self, inputs: ActuatorInputs, installed: InstalledActuator, design: Design, psi: float) -> None:
+    def _draw(
+        self,
+        inputs: ActuatorInputs,
+        installed: InstalledActuator,
+        design: Design,
+        psi: float,
+        solution: Solution,
+        rest: Solution,
+    ) -> None:
         if not inputs.shown:
             self._cut.hide()
             self._drawn = None
             return
-        frame = (inputs, design.rotor, design.twist, psi if inputs.per_rev else 0.0)
+        turning = inputs.per_rev > 0 or design.elastic
+        frame = (inputs, solution.design, psi if turning else 0.0)
         if frame == self._drawn:
             return
         self._drawn = frame
-        picture = cut_picture(inputs, installed, design, psi)
+        picture = cut_picture(inputs, installed, design, psi, flown_twist(solution, rest, psi))
         with self._client.atomic():
             self._cut.show(picture)
         self._client.flush()

@@ -9,6 +9,7 @@ from html import escape
 import numpy as np
 import viser
 
+from explorer.overlay.bridge import Bridge
 from explorer.picture.solids import Mesh
 from explorer.tabs.actuator import cut as actuator_cut
 from explorer.tabs.actuator.state import ActuatorInputs
@@ -20,6 +21,7 @@ from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.pictures import Part, section_picture
 from rotor.arrays import Array
 from rotor.design.design import Design
+from rotor.trim.solution import Solution
 
 WALLS: dict[str, colours.Rgb] = {"spar": (70, 76, 86), "skin": (104, 106, 104), "web": (58, 64, 74)}
 """Dark albedos, for the page's lights bleach."""
@@ -43,17 +45,51 @@ class CutPicture:
     """Text and where it stands [m]."""
 
 
-def cut_picture(inputs: ActuatorInputs, installed: InstalledActuator, design: Design, psi: float) -> CutPicture:
-    """The blade at azimuth `psi` [rad], the actuator's part of its twist magnified; `design` is without actuator."""
+@dataclass(frozen=True, eq=False)
+class FlownTwist:
+    """Twist of an elastic blade at one azimuth [rad], (stations,)."""
+
+    r: Array
+    still: Array
+    """Elastic twist without voltage."""
+    moved: Array
+    """What voltage changes: twist of the plies and what the blade answers, zero at the root."""
+
+
+def flown_twist(solution: Solution, rest: Solution, psi: float) -> FlownTwist | None:
+    """From trims with and without the actuator; None for a rigid blade."""
+    driven, alone = solution.disk.elastic_twist, rest.disk.elastic_twist
+    if driven is None or alone is None:
+        return None
+    r, design = solution.disk.r, solution.design
+    at = int(np.abs(np.angle(np.exp(1j * (solution.disk.psi - psi)))).argmin())
+    moved = driven[:, at] - alone[:, at] + design.twist(r) - rest.design.twist(r)
+    if design.active_twist is not None:
+        moved = moved + design.active_twist(r, np.array([psi]))[:, 0]
+    return FlownTwist(r, alone[:, at], moved - moved[0])
+
+
+def cut_picture(
+    inputs: ActuatorInputs, installed: InstalledActuator, design: Design, psi: float, flown: FlownTwist | None = None
+) -> CutPicture:
+    """The blade at azimuth `psi` [rad], the actuator's part of its twist magnified; `design` is without actuator.
+
+    With `flown` solid and ghost have their elastic twist; the ghost is the blade without voltage.
+    """
     rotor = design.rotor
     cut = actuator_cut.cut_blade(installed, rotor)
 
     def still(r: Array) -> Array:
-        return design.twist(np.maximum(r, rotor.blade.root_cutout))
+        jig = design.twist(np.maximum(r, rotor.blade.root_cutout))
+        return jig if flown is None else jig + np.interp(r, flown.r, flown.still)
+
+    def moved(r: Array) -> Array:
+        if flown is not None:
+            return np.interp(r, flown.r, flown.moved)
+        return inputs.change(installed, r) + inputs.harmonic_twist(installed, psi, r)
 
     def twist(r: Array) -> Array:
-        moved = inputs.change(installed, r) + inputs.harmonic_twist(installed, psi, r)
-        return still(r) + inputs.magnified * moved
+        return still(r) + inputs.magnified * moved(r)
 
     shares = voltage_shares(inputs, installed, psi)
     solids = [
@@ -71,7 +107,7 @@ def cut_picture(inputs: ActuatorInputs, installed: InstalledActuator, design: De
         solids=tuple(solids),
         ghost=actuator_cut.ghost_segments(cut, still(cut.edge_r)),
         leads=actuator_cut.lead_segments(cut, rotor, edge_twist),
-        labels=_labels(inputs, installed, cut, twist),
+        labels=_labels(inputs, installed, cut, twist, float(moved(np.ones(1))[0])),
     )
 
 
@@ -110,14 +146,18 @@ def drive_text(inputs: ActuatorInputs, installed: InstalledActuator, segment: in
 
 
 def _labels(
-    inputs: ActuatorInputs, installed: InstalledActuator, cut: actuator_cut.Cut, twist: Callable[[Array], Array]
+    inputs: ActuatorInputs,
+    installed: InstalledActuator,
+    cut: actuator_cut.Cut,
+    twist: Callable[[Array], Array],
+    moved: float,
 ) -> tuple[tuple[str, Array], ...]:
     def at(r: float, y: float, z: float) -> Array:
         return actuator_cut.anchor(cut, r, y, z, float(twist(np.array([r]))[0]))
 
     labels = [("drive electronics", at(0.5 * (cut.box[0] + 0.12), -0.01, 0.2))]
     window = cut.windows[0]
-    tip = math.degrees(float(inputs.change(installed, 1.0)))
+    tip = math.degrees(moved)
     if round(tip, 2):
         labels.append((f"tip {number(tip, 2, sign=True)}°, drawn × {inputs.magnified:g}", at(0.80, -0.50, -0.05)))
     labels.append(("spar web", at(0.5 * sum(window), -0.02, 0.13)))
@@ -214,11 +254,11 @@ _NOTHING = np.zeros((1, 2, 3), dtype=np.float32)
 class CutScene:
     """Under its own frame, which is seen or not."""
 
-    def __init__(self, api: viser.SceneApi) -> None:
-        self._api = api
+    def __init__(self, api: viser.SceneApi, bridge: Bridge) -> None:
+        """`bridge`: of the frame, which draws the labels."""
+        self._api, self._bridge = api, bridge
         self._frame = api.add_frame("/cut", show_axes=False, visible=False)
         self._solids: list[viser.MeshHandle] = []
-        self._labels: list[viser.LabelHandle] = []
         self._ghost = self._line("ghost", GHOST, 1.6)
         self._leads = self._line("leads", LEAD, 2.4)
 
@@ -247,16 +287,12 @@ class CutScene:
             handle.visible = len(segments) > 0
             if len(segments):
                 handle.points = segments.astype(np.float32)
-        for k, (text, position) in enumerate(picture.labels):
-            if k == len(self._labels):
-                self._labels.append(self._api.add_label(f"/cut/label_{k}", text, anchor="bottom-center"))
-            label = self._labels[k]
-            label.text, label.position, label.visible = text, position, True
-        for label in self._labels[len(picture.labels) :]:
-            label.visible = False
+        labels = [{"text": text, "node": "/cut", "at": np.round(at, 3).tolist()} for text, at in picture.labels]
+        self._bridge.set(cut_labels=labels)
 
     def hide(self) -> None:
         self._frame.visible = False
+        self._bridge.set(cut_labels=[])
 
     def _line(self, name: str, colour: tuple[int, int, int], pixels: float) -> viser.LineSegmentsHandle:
         return self._api.add_line_segments(

@@ -11,10 +11,12 @@ from explorer.tabs.actuator.study import Findings
 from explorer.text.units import number
 from explorer.theme.colours import css
 from rotor.actuator.catalogue import Actuator, ExtensionTwist, PiezoPly
+from rotor.actuator.harmonic import tip_response
 from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.limits import Limit
 from rotor.actuator.verdict import Verdict, headline, verdict_sentence
 from rotor.reproduce.report import typographic
+from rotor.trim.solution import Solution
 
 SHEET = """<style>
 .rxa-now { display: flex; align-items: baseline; gap: 8px; white-space: nowrap; }
@@ -68,8 +70,16 @@ def voltage_bar(actuator: Actuator) -> str:
     )
 
 
-def now_panel(inputs: ActuatorInputs, installed: InstalledActuator, change_w: float | None) -> str:
-    """What the sliders make of the blade at this moment, and what that does to power."""
+def sweep_panel(sentence: str) -> str:
+    """Least power over amplitude and phase, and where more twist costs."""
+    return f'<div class="rx rx-small" data-explorer="swept">{escape(sentence)}</div>'
+
+
+def now_panel(
+    inputs: ActuatorInputs, installed: InstalledActuator, change_w: float | None, solution: Solution | None = None
+) -> str:
+    """What the sliders make of the blade at this moment, and what that does to power. `solution` with the actuator."""
+    elastic = solution is not None and solution.elastic is not None
     tip = math.degrees(float(inputs.change(installed, 1.0)))
     if not inputs.driven:
         power = '<span class="rx-dim">at rest: no change to the design</span>'
@@ -80,12 +90,18 @@ def now_panel(inputs: ActuatorInputs, installed: InstalledActuator, change_w: fl
         power = f'<span class="rx-push{kind}"><b>{number(1e-3 * change_w, 1, sign=True)} kW</b> of power</span>'
     drives = " · ".join(drive_text(inputs, installed, k) for k in range(len(installed.shapes)))
     lines = [f'<div class="rx-dim rx-small">tip relative to root, now: {drives}</div>']
-    made = inputs.turning(installed)
+    made = inputs.turning(installed, elastic)
     if made is not None:
         half = math.degrees(made.amplitude)
         if half:
             used = number(0.01 * inputs.amplitude * half, 2)
             text = f"and ±{used}° of {number(half, 2)}° at {inputs.per_rev}/rev, as the blades turn"
+            if elastic and solution is not None:
+                flown = math.degrees(tip_response(solution, inputs.per_rev)[0])
+                text = (
+                    f"and ±{used}° of {number(half, 2)}° at {inputs.per_rev}/rev on a blade at rest; flown, with the "
+                    f"elastic twist, ±{number(flown, 2)}°"
+                )
         else:
             text = f"cannot respond at {inputs.per_rev}/rev"
         lines.append(f'<div class="rx-dim rx-small">{text}</div>')
@@ -95,6 +111,14 @@ def now_panel(inputs: ActuatorInputs, installed: InstalledActuator, change_w: fl
     return (
         '<div class="rx" data-explorer="actuator-now"><div class="rxa-now">'
         f'<b data-explorer="actuator-twist">{number(tip, 2, sign=True)}°</b>{power}</div>{"".join(lines)}</div>'
+    )
+
+
+def unmeasured() -> str:
+    """What is known of the benefit of active twist from tests."""
+    return (
+        '<div class="rx rx-dim rx-small" data-explorer="unmeasured">Not validated: we found no measured power benefit '
+        "of active twist. Published savings are computed.</div>"
     )
 
 

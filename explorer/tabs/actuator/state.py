@@ -95,15 +95,20 @@ class ActuatorInputs:
         """The steady twist that the actuator adds at r/R, as counted on [rad]."""
         return self.share * installed.change(self.swings(installed), r)
 
-    def turning(self, installed: InstalledActuator) -> DynamicTwist | None:
-        """What the whole range makes at the chosen harmonic, as counted on."""
+    def turning(self, installed: InstalledActuator, elastic: bool = False) -> DynamicTwist | None:
+        """What the whole range makes at the chosen harmonic, as counted on; at rest for an elastic trim."""
         if not self.per_rev:
             return None
-        made = dynamic_twist(installed, self.per_rev)
-        return replace(made, amplitude=self.share * made.amplitude, static=self.share * made.static)
+        made = dynamic_twist(installed, self.per_rev, elastic=elastic)
+        return replace(
+            made,
+            amplitude=self.share * made.amplitude,
+            static=self.share * made.static,
+            at_rest=self.share * made.at_rest,
+        )
 
     def harmonic_twist(self, installed: InstalledActuator, psi: float, r: ArrayLike) -> Array:
-        """The part that follows the azimuth, at one azimuth [rad]."""
+        """The part of a rigid trim that follows the azimuth, at one azimuth [rad]."""
         made = self.turning(installed)
         stations = np.asarray(r, dtype=float)
         if made is None:
@@ -117,8 +122,12 @@ class ActuatorInputs:
             return design
         installed = self.installed(design.rotor)
         if any(self.swings(installed)):
-            design = replace(design, twist=twisted(design.twist, self.change(installed, STATIONS)))
-        made = self.turning(installed)
+            shapes = installed.shapes_in(design)
+            steady = self.share * np.asarray(self.swings(installed)) @ shapes
+            design = installed.on(
+                replace(design, twist=twisted(design.twist, np.interp(STATIONS, installed.r, steady)))
+            )
+        made = self.turning(installed, design.elastic)
         if made is not None and made.amplitude > 0.0 and self.amplitude > 0.0:
             design = with_harmonic(design, made, 0.01 * self.amplitude, math.radians(self.phase))
         return design

@@ -11,9 +11,10 @@ from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 from explorer.tabs.actuator.state import Question
-from explorer.workers.job import JobEnded, JobEvent, JobFailed
+from explorer.workers.job import JobFailed
 from explorer.workers.newest_wins import NewestWins
 from explorer.workers.pool import PoolClient
+from explorer.workers.scheduler import FairScheduler
 from rotor.actuator.catalogue import actuators, find_actuator
 from rotor.actuator.verdict import Verdict, judge
 from rotor.optimisation.concepts import find_concept
@@ -86,7 +87,8 @@ def lean(verdict: Verdict) -> Verdict:
     first, second = (replace(best, solutions=()) for best in base.best)
     fixed = replace(base.fixed, solutions=())
     base = replace(base, best=(first, second), fixed=fixed)
-    return replace(verdict, baseline=base, optimum=replace(verdict.optimum, solutions=()))
+    resting, optimum = (replace(twists, solutions=()) for twists in (verdict.resting, verdict.optimum))
+    return replace(verdict, baseline=base, resting=resting, optimum=optimum)
 
 
 class VerdictSource(Protocol):
@@ -108,27 +110,12 @@ class CachedVerdicts:
         known = _recall(task)
         if known is not None:
             return known
-        over, heard = threading.Event(), [""]
-
-        def on_event(news: JobEvent) -> None:
-            match news:
-                case JobEnded(result) if result is not None:
-                    _remember(task, result)
-                    over.set()
-                case JobEnded():
-                    over.set()
-                case JobFailed(message):
-                    heard[0] = message
-                    over.set()
-                case _:
-                    pass
-
-        job = self._pool.submit(task, on_event, urgency=URGENCY)
-        while not over.wait(_LOOK):
-            if superseded():
-                self._pool.abandon(job)
-                return None
-        return _recall(task) or heard[0] or "The verdict was stopped: change any setting to try again."
+        end = self._pool.result(task, superseded, URGENCY, lambda outcome: _remember(task, outcome))
+        if end is None:
+            return None
+        if isinstance(end, JobFailed):
+            return end.message
+        return end.result or "The verdict was stopped: change any setting to try again."
 
 
 _lock = threading.Lock()
@@ -156,7 +143,8 @@ class VerdictWorker:
         self._question: Question | None = None
         self._wanted = False
         self._last = time.monotonic()
-        self._worker = NewestWins(self._round, self._failed, name)
+        # A turn of its own: this thread only waits, and would keep the pages from theirs while it does.
+        self._worker = NewestWins(self._round, self._failed, name, scheduler=FairScheduler(1))
         self.findings = Findings()
 
     def start(self) -> None:

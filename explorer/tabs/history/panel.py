@@ -1,10 +1,14 @@
 """Undo, redo, the strip of steps and the kept designs of one session."""
 
 import threading
+from collections.abc import Callable
 
 import viser
 
+from explorer.hosting import viser_compat
 from explorer.interface import SessionState, TabContext
+from explorer.sharing import stored_history
+from explorer.sharing.stored_history import StoredHistory
 from explorer.state import Inputs
 from explorer.tabs.history import strip as view
 from explorer.tabs.history.strip import FIELD, MOST_KEPT
@@ -12,17 +16,24 @@ from explorer.text.glossary import hint
 from explorer.text.units import UNITS
 from explorer.undo import History, KeptDesign
 from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
 
 
 class HistoryPanel:
     """One session's. Buttons act at once, on any thread; steps are taken on the session's worker."""
 
-    def __init__(self, gui: viser.GuiApi, context: TabContext, start: Inputs) -> None:
-        self._context = context
+    def __init__(self, client: viser.ClientHandle, context: TabContext, start: Inputs, stored: str | None) -> None:
+        """`stored`: the history as the page kept it over a reload; None where it has none."""
+        self._client, self._context = client, context
+        gui = client.gui
         self._lock = threading.RLock()
-        self._history = History(start)
+        before = stored_history.read_history(stored, start)
+        self._history = History(start, list(before.past), list(reversed(before.future)))
+        self._stored = stored
         self._powers: dict[Inputs, float] = {}
         self._kept: list[KeptDesign] = []
+        self._waiting = list(before.bookmarks)
+        """Kept designs of before a reload, to be solved once the page rests."""
         self._drawn: object = None
         with gui.add_folder("History"):
             self._strip = gui.add_html("")
@@ -72,6 +83,28 @@ class HistoryPanel:
             others = [item for item in self._kept if item.inputs != state.inputs]
             self._kept = [*others, KeptDesign(state.inputs, state.solution)][-MOST_KEPT:]
         self._context.wake()
+
+    def store(self) -> None:
+        """Give the page the history to keep, now that it rests; a reload or a restart of the server restores it."""
+        with self._lock:
+            history, bookmarks = self._history, (*self._waiting, *(item.inputs for item in self._kept))
+            future = tuple(reversed(history.future))
+            text = StoredHistory(tuple(history.past), history.present, future, bookmarks).text()
+        if text != self._stored:
+            self._stored = text
+            viser_compat.keep_in_page(self._client, stored_history.NAME, text)
+
+    def rest(self, stop: Callable[[], bool]) -> None:
+        """Solve the designs that were kept before a reload, until `stop`."""
+        while self._waiting and not stop():
+            inputs = self._waiting[-1]
+            solution = solve(inputs.design())
+            with self._lock:
+                self._waiting.pop()
+                if solution.converged and all(item.inputs != inputs for item in self._kept):
+                    self._kept = [KeptDesign(inputs, solution), *self._kept][-MOST_KEPT:]
+            if (state := self._context.state()) is not None:
+                self.show(state)
 
     @property
     def kept(self) -> tuple[KeptDesign, ...]:

@@ -42,10 +42,13 @@ class PresentationHooks:
 class Presence:
     """Above the tabs: a banner while it presents or follows. Publishing happens on the session's worker."""
 
-    def __init__(self, client: viser.ClientHandle, presentations: Presentations, address: Address) -> None:
-        """The page's address says whether it follows or presents."""
+    def __init__(
+        self, client: viser.ClientHandle, presentations: Presentations, address: Address, secret: str = ""
+    ) -> None:
+        """The page's address says whom it follows; `secret` is what the page kept where it presents."""
         self._client, self._presentations, self._address = client, presentations, address
-        self._secret = (address[PRESENT] or "")[:_LONGEST]
+        self._secret = secret[:_LONGEST]
+        address[PRESENT] = None  # Earlier versions kept the secret there, so it came with every link.
         self._name = "" if self._secret else (address[FOLLOW] or "")[:_LONGEST]
         self._lock, self._publishing = threading.Lock(), threading.Lock()
         self._context: TabContext | None = None
@@ -76,12 +79,12 @@ class Presence:
         return bool(self._secret)
 
     def present(self) -> None:
-        """Begin to present; the link of followers goes into the clipboard. The own address remembers it."""
+        """Begin to present; the link of followers goes into the clipboard. The page keeps the secret over a reload."""
         if self._name:
             self.leave()
         if not self._secret:
             self._secret = new_secret()
-            self._address[PRESENT] = self._secret
+            viser_compat.keep_in_page(self._client, PRESENT, self._secret)
         self._presentations.watch(self._secret, self._announce)
         self._publish()
         viser_compat.copy_text(self._client, f"new URL('{self._link}', location.href).href")
@@ -93,7 +96,7 @@ class Presence:
         if self._secret:
             self._presentations.end(self._secret)
             self._secret = ""
-            self._address[PRESENT] = None
+            viser_compat.keep_in_page(self._client, PRESENT, "")
             self._say("")
 
     def leave(self) -> None:

@@ -161,6 +161,12 @@ def _script(x: Parameter, y: Parameter) -> str:
     return "const b=this.getBoundingClientRect();" + write_to(FIELD, f"{across}+' '+{up}")
 
 
+def least_text(drawn: Map) -> str:
+    """The best grid point as it is typed into the text field."""
+    places = zip(drawn.parameters, drawn.least[:2], strict=True)
+    return " ".join(f"{p.shown(p.low + at * (p.high - p.low)):.{_digits(p)}f}" for p, at in places)
+
+
 def _digits(parameter: Parameter) -> int:
     return 1 if parameter.angular else 3
 
@@ -196,6 +202,7 @@ def legend(drawn: Map, units: Units = SI) -> str:
     return (
         '<div class="rx rx-small" data-explorer="map-legend">'
         f"<div>★ {units.watts(power, 1)} at {', '.join(best)}</div>"
+        f'<div class="rx-dim">Click the map, or type x and y, such as {least_text(drawn)}.</div>'
         f'<div class="rx-dim">White outline: within {100 * _BAND:g} % of the least.</div>'
         f'<div class="rx-dim">{"Fixed: " + escape(", ".join(held)) + "." if held else ""}</div></div>'
     )

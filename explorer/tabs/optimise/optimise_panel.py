@@ -38,9 +38,11 @@ class OptimisePanel:
         pool: PoolClient,
         context: TabContext,
         legs: Callable[[Design], tuple[WeightedCondition, ...]],
+        changed: Callable[[], None],
     ) -> None:
-        """`legs`: of the mission, for a design."""
+        """`legs`: of the mission, for a design. `changed`: a search begins, or its design was taken or left."""
         self._bridge, self._pool, self._context, self.legs = bridge, pool, context, legs
+        self._changed = changed
         self._beginning = threading.Lock()
         self._job: Job | None = None
         self._run: SearchRun | None = None
@@ -116,6 +118,7 @@ class OptimisePanel:
                 self._context.wake()
                 return
             self._problem, self._offered = "", True
+            self._changed()
             reference, title = self._reference(design)
             run = self._run = SearchRun(search, title)
         self._job = self._pool.submit(SearchTask(search, reference), lambda news: self._on_event(run, news), TIME_LIMIT)
@@ -135,6 +138,14 @@ class OptimisePanel:
         if run is not None and job is not None and run.under_way:
             run.stopping()
             self._pool.stop(job)
+            self._context.wake()
+
+    def withdraw(self) -> None:
+        """Show the sliders again: stop the search under way, and discard what was previewed."""
+        self.halt()
+        if self._offered:
+            self._offered = False
+            self._changed()
             self._context.wake()
 
     def toggle(self) -> None:
@@ -227,9 +238,9 @@ class OptimisePanel:
         best, units = run.best, UNITS[self._context.view().units]
         words = "" if best is None else f": {units.watts(best.power)}"
         if best is not None and run.start_power:
-            words += f", {number(100.0 * (best.power / run.start_power - 1.0), 1, sign=True)} %"
+            words += f", {number(100.0 * (best.power / run.start_power - 1.0), 1, sign=True)}\u00a0%"
         if run.under_way:
-            return {"text": f"Searching{words}", "actions": [("halt", "Stop")]}
+            return {"text": f"Searching{words or ' …'}", "actions": [("halt", "Stop")]}
         if len(run.frames) < 2:
             return None
         return {"text": f"Previewing optimum{words}", "actions": [("apply", "Apply"), ("discard", "Discard")]}
@@ -245,6 +256,7 @@ class OptimisePanel:
         if run is None or run.under_way or not run.frames:
             return
         self._offered = False
+        self._changed()
         if take:
             here = run.matches(self._context.inputs().design())
             frame = run.chosen if here else run.frames[-1]

@@ -221,10 +221,12 @@ class RaceStart:
         return self.gap == 0.0
 
     def legend(self, units: Units = SI) -> str:
-        """Its line in the legend: `Start 3: leads`, `Start 1: +0.4 kW`, `Start 6: waiting`."""
+        """Its line in the legend: `Start 3: leads`, `Start 2: equal`, `Start 1: +0.4 kW`, `Start 6: waiting`."""
         if self.gap is None:
             return f"Start {self.start}: {'no trim' if self.state == 'finished' else self.state}"
-        return f"Start {self.start}: {'leads' if self.leads else units.watts(self.gap, 1, sign=True)}"
+        behind = units.watts(self.gap, 1, sign=True)
+        # As printed: what is less than the last digit is no difference.
+        return f"Start {self.start}: {'leads' if self.leads else behind if behind.startswith('+') else 'equal'}"
 
 
 @dataclass(frozen=True)

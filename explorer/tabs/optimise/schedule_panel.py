@@ -101,7 +101,7 @@ class SchedulePanel:
         self._verdict.on_click(self._judge)
 
     def legs(self, design: Design) -> tuple[WeightedCondition, ...]:
-        """The mission's legs; ValueError with one sentence for a mission that is none."""
+        """The mission's legs; ValueError with one sentence for an invalid mission."""
         return mission.legs(design, [mission.MissionRow(*(float(x) for x in row.value)) for row in self._rows])
 
     def begin(self) -> None:
@@ -171,7 +171,8 @@ class SchedulePanel:
         if flight is None:
             return None
         numbers = flight.at(self._time).numbers(UNITS[self._context.view().units])
-        return {"text": " · ".join(f"{caption} {value}" for caption, value in numbers), "actions": [("land", "Stop")]}
+        text = " · ".join(f"{caption} {value}" for caption, value in numbers)
+        return {"text": text[:1].upper() + text[1:], "actions": [("land", "Stop")]}
 
     def _fly_on(self, seconds: float) -> None:
         """A step of the clock."""

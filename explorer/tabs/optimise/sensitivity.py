@@ -1,6 +1,7 @@
 """Where to twist: the change of power by pitch along the blade, as a chart and as colours on the reference blade."""
 
 import math
+from collections.abc import Callable
 from functools import lru_cache
 
 import numpy as np
@@ -10,6 +11,7 @@ from numpy.typing import NDArray
 from explorer.charts.plots import Plot, Range, held_range
 from explorer.interface import SessionState, TabContext
 from explorer.picture.blade_mesh import BladeShape, blade_shape, blade_vertices
+from explorer.picture.poses import flown_twist, follows_azimuth
 from explorer.scene.overlays import Strip
 from explorer.tabs.charts import AB_KEY, Chart, Key, line, pinned_line
 from explorer.text.glossary import hint
@@ -47,7 +49,7 @@ def _of_pinned(solution: Solution) -> PitchGradient:
 
 
 def blank_sensitivity() -> Plot:
-    """The chart before the first answer; its range is none that an answer has."""
+    """The chart before the first answer; no answer has its range."""
     none = np.full(2, np.nan)
     return Plot((np.array([0.13, 1.0]), none, none, none, none), (-1e-3, 1e-3))
 
@@ -103,9 +105,10 @@ _KEY: Key = (("total", THIS), _INDUCED)
 class SensitivityPanel:
     """One session's."""
 
-    def __init__(self, gui: viser.GuiApi, strip: Strip, context: TabContext) -> None:
-        self._strip = strip
-        self._shown: tuple[Solution, Solution | None, bool, float] | None = None
+    def __init__(self, gui: viser.GuiApi, strip: Strip, context: TabContext, opened: Callable[[], bool]) -> None:
+        """`opened`: whether the chart is on the page; it costs an adjoint of its own."""
+        self._strip, self._opened = strip, opened
+        self._shown: tuple[Solution, Solution | None, bool, float, float] | None = None
         gui.add_html(_WORDS)
         self._chart = Chart(
             gui,
@@ -125,15 +128,20 @@ class SensitivityPanel:
     def show(self, state: SessionState) -> None:
         """Follow a converged solution."""
         solution, exaggeration, paint = state.solution, state.view.exaggeration, self._paint.value
-        wanted = (solution, state.pinned, paint, exaggeration)
+        turning = paint and follows_azimuth(solution)  # The paint lies on the blade as flown.
+        wanted = (solution, state.pinned, paint, exaggeration, state.view.azimuth_deg if turning else 0.0)
         if self._shown == wanted:
+            return
+        if not (paint or self._opened()):
+            self.show_failure()  # What stands here is no longer this solution's.
             return
         plot = sensitivity_plot(solution, self._chart.y_range, state.pinned)
         self._chart.show(plot, _KEY if state.pinned is None else (*AB_KEY, _INDUCED))
         self._words.content = explanation(plot)
         if paint:
             shape = blade_shape(solution.design.rotor)
-            self._strip.show(*strip(shape, solution.design.twist, exaggeration, plot))
+            twist = flown_twist(solution, math.radians(state.view.azimuth_deg))
+            self._strip.show(*strip(shape, twist, exaggeration, plot))
         else:
             self._strip.hide()
         self._shown = wanted

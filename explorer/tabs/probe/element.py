@@ -37,6 +37,21 @@ class Blend:
         pair = ((self.inner, 1.0 - self.weight), (self.outer, self.weight))
         return tuple((section, share) for section, share in pair if share > 0.0)
 
+    @property
+    def main(self) -> Section:
+        """The one with the larger share."""
+        return self.inner if self.weight < 0.5 else self.outer
+
+    def moment(self, alpha: float, mach: float) -> float | None:
+        """C_m at an angle of attack [rad] about the blade's reference line; None where a section has no moment."""
+        total = 0.0
+        for section, share in self.installed():
+            one = section.table.moment(alpha - section.incidence_offset, mach)
+            if one is None:
+                return None
+            total += share * float(one)
+        return total
+
     def stall_angles(self, mach: float) -> tuple[float, float]:
         """Negative and positive stall angle [rad] about the blade's reference line."""
         ends = [(s.table.stall_alpha(mach), s.incidence_offset, share) for s, share in self.installed()]
@@ -66,6 +81,10 @@ class Probe:
     section: Blend
     theta: float
     """Pitch with twist."""
+    jig: float
+    """Twist as built."""
+    elastic: float | None
+    """Elastic twist; None for a rigid blade."""
     phi: float
     """Inflow angle atan2(U_P, U_T): near π where the flow comes from the trailing edge."""
     alpha: float
@@ -81,6 +100,10 @@ class Probe:
     """Where the section data are read: the same, unless compressibility is switched off."""
     cl: float
     cd: float
+    cm: float | None
+    """About the quarter chord, nose-up positive; None where the section data have no moment."""
+    moment: float | None
+    """The same as a load [N m per m]."""
     lift: float
     """Normal to the flow, tip and root loss taken off [N/m]."""
     drag: float
@@ -150,15 +173,22 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
     section = Blend(rotor.blade.installed(inner), rotor.blade.installed(outer), weight)
     mach = max(mach, 0.0)
     table_mach = mach if design.models.compressibility else LOW_MACH
+    alpha = math.pi - (math.pi - theta + phi) % (2.0 * math.pi)
+    chord = float(rotor.blade.chord(r)) * sum(share * s.chord_ratio for s, share in section.installed())
+    cm = section.moment(alpha, table_mach)
+    idle = u_t < 0.0 and not design.models.reverse_flow
+    pressure = 0.5 * design.condition.density * (u_t**2 + u_p**2) * speed**2
     return Probe(
         r=r,
         psi=psi,
         radius=r * rotor.radius,
-        chord=float(rotor.blade.chord(r)) * sum(share * s.chord_ratio for s, share in section.installed()),
+        chord=chord,
         section=section,
         theta=theta,
+        jig=float(design.twist([r])[0]),
+        elastic=None if disk.elastic_twist is None else at.reaching(disk.elastic_twist),
         phi=phi,
-        alpha=math.pi - (math.pi - theta + phi) % (2.0 * math.pi),
+        alpha=alpha,
         u_t=speed * u_t,
         u_p=speed * u_p,
         induced=speed * at.reaching(disk.induced),
@@ -166,6 +196,8 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
         table_mach=table_mach,
         cl=at.held(disk.cl),
         cd=at.held(disk.cd),
+        cm=None if idle else cm,
+        moment=None if cm is None or idle else pressure * chord**2 * cm,
         lift=thrust * math.cos(phi) + pull * math.sin(phi),
         drag=pull * math.cos(phi) - thrust * math.sin(phi),
         thrust=thrust,
@@ -173,7 +205,7 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
         power=pull * r * speed,
         stall=section.stall_angles(table_mach),
         cd_mach=at.held(disk.cd_mach),
-        idle=u_t < 0.0 and not design.models.reverse_flow,
+        idle=idle,
     )
 
 

@@ -10,11 +10,12 @@ import numpy as np
 import viser
 
 from explorer.interface import SessionState, TabContext
-from explorer.picture.blade_mesh import circle_segments
+from explorer.overlay.bridge import Bridge
+from explorer.picture.blade_mesh import circle_segments, drawn_pitch
 from explorer.picture.camera_views import pick
 from explorer.picture.picture import LINE_LIFT
-from explorer.picture.poses import about, blade_twists
-from explorer.scene.page_scene import TURN_RATE
+from explorer.picture.poses import about, flown_twist
+from explorer.scene.page_scene import TURN_RATES
 from explorer.tabs.keys import COARSE
 from explorer.tabs.probe.element import Probe, probe
 from explorer.tabs.probe.readout import outline, probe_panel
@@ -40,14 +41,14 @@ _WIDER = 1.12
 class Cursor:
     """Handles made once; a step of the probe only turns and shifts them, except on the blade."""
 
-    def __init__(self, api: viser.SceneApi) -> None:
+    def __init__(self, api: viser.SceneApi, bridge: Bridge) -> None:
+        self._bridge = bridge
         self._rotor: Rotor | None = None
         self._turned = api.add_frame(_DISK, show_axes=False, visible=False)
         self._at = api.add_frame(f"{_DISK}/at", show_axes=False)
         some = circle_segments(0.1, 8)
         self._ray = self._cased(api, f"{_DISK}/ray", some, 1.2, 2.8)
         self._ring = self._cased(api, f"{_DISK}/at/ring", some, 2.2, 5.0)
-        self._label = api.add_label(f"{_DISK}/at/label", "", position=(0.0, 0.0, 0.4), anchor="bottom-left")
         self._section = self._cased(api, _BLADE, some, 2.2, 5.0)
         for handle in self._section:
             handle.visible = False
@@ -59,7 +60,8 @@ class Cursor:
         self._turned.visible = True
         self._turned.wxyz = about(2, probe.psi)
         self._at.position = np.array([probe.radius, 0.0, 0.0])
-        self._label.text = f"α {number(math.degrees(probe.alpha), 1)}°"
+        words = f"α {number(math.degrees(probe.alpha), 1)}°"
+        self._bridge.set(probe_label=[{"text": words, "node": f"{_DISK}/at", "at": [0.0, 0.0, 0.4]}])
         wanted = None if pitch is None else (rotor, probe.r, pitch)
         if wanted == self._drawn:
             return
@@ -71,6 +73,7 @@ class Cursor:
 
     def hide(self) -> None:
         self._turned.visible, self._drawn = False, None
+        self._bridge.set(probe_label=[])
         for handle in self._section:
             handle.visible = False
 
@@ -132,17 +135,22 @@ class ProbePanel:
     def __init__(
         self,
         client: viser.ClientHandle,
+        bridge: Bridge,
         context: TabContext,
         playing: Callable[[bool], None],
         opened: Callable[[], None],
+        turn_rate: Callable[[], float] = lambda: TURN_RATES["normal"],
     ) -> None:
-        """`playing`: hears whether the rotor turns by itself. `opened`: a click on the disk wants the probe shown."""
-        self._playing, self._open = playing, opened
+        """`playing`: hears whether the rotor turns by itself. `opened`: a click on the disk wants the probe shown.
+
+        `turn_rate`: of the rotor while it plays [rad/s].
+        """
+        self._playing, self._open, self._turn_rate = playing, opened, turn_rate
         self._client, self._context = client, context
         self._seen = True
         self._drawn: tuple[Solution, _ProbePoint, float | None] | None = None
         self._html = ""
-        self._cursor = Cursor(client.scene)
+        self._cursor = Cursor(client.scene, bridge)
         self._player = Player(self._walk, f"play-{client.client_id}")
         self._hand = threading.Lock()
         """Held by whoever turns the blade: the clock or the user."""
@@ -230,7 +238,7 @@ class ProbePanel:
         if (self._walked is not None and now != self._walked) or self._left <= 0.0:
             self._pause()  # The user has taken the blade, or gone.
             return
-        self._walked = (now + math.degrees(TURN_RATE) * seconds) % 360.0
+        self._walked = (now + math.degrees(self._turn_rate()) * seconds) % 360.0
         self._context.set_azimuth(self._walked)
 
     def _place(self) -> _ProbePoint:
@@ -292,6 +300,5 @@ def _innermost(rotor: Rotor) -> float:
 
 def _drawn_pitch(state: SessionState, here: Probe) -> float:
     """Twist of the reference blade at the probe as it is drawn [rad]: in the blade's own axes, exaggerated."""
-    design = state.solution.design
-    twist = (*blade_twists(design, (math.radians(state.view.azimuth_deg),)), design.twist)[0]
-    return state.view.exaggeration * float(twist([here.r])[0])
+    twist = flown_twist(state.solution, math.radians(state.view.azimuth_deg))
+    return float(drawn_pitch(twist, [here.r], state.view.exaggeration)[0])

@@ -10,10 +10,11 @@ from explorer.charts import svg
 from explorer.charts.svg import Point
 from explorer.picture.blade_mesh import blade_axes_outline
 from explorer.tabs.probe.element import Blend, FlowRegion, Probe
+from explorer.tabs.probe.section_data import lift_curve, public_table
 from explorer.text.glossary import tip
 from explorer.text.status import section_title
 from explorer.text.units import number
-from explorer.theme.colours import LIMIT, NOW, THIS
+from explorer.theme.colours import NOW, THIS
 from rotor.arrays import Array
 from rotor.trim.solution import Solution
 
@@ -223,8 +224,6 @@ _CHIPS = {
     FlowRegion.REVERSE: "back",
     FlowRegion.DIVERGED: "bad",
 }
-_WIDTH, _HEIGHT = 312.0, 96.0
-_LEFT, _RIGHT, _TOP, _BOTTOM = 26.0, 300.0, 6.0, 80.0
 
 
 def probe_panel(probe: Probe, solution: Solution, opened: bool = False) -> str:
@@ -236,7 +235,7 @@ def probe_panel(probe: Probe, solution: Solution, opened: bool = False) -> str:
     picture, scales = drawing(probe, fastest, strongest, opened)
     return (
         f'<div class="rx rx-probe" data-explorer="probe">{_head(probe)}{picture}{_key(scales)}{_table(probe)}'
-        f"{lift_curve(probe)}</div>"
+        f"{lift_curve(probe)}{public_table(probe)}</div>"
     )
 
 
@@ -292,10 +291,14 @@ def _table(probe: Probe) -> str:
         ("probe_ratio", "C<sub>l</sub>/C<sub>d</sub>", number(efficiency, 1)),
         ("probe_phi", "Inflow φ", _deg(probe.phi)),
         ("probe_m2cn", "M²c<sub>n</sub>", number(probe.m2cn, 3)),
+        ("probe_moment", "Pitching moment", "–" if probe.moment is None else f"{number(probe.moment)} N m/m"),
+        ("probe_cm", "C<sub>m</sub>", "–" if probe.cm is None else number(probe.cm, 3)),
         ("probe_margin", "Stall margin", "–" if margin is None else _deg(margin, 1)),
         ("probe_drag", "Drag", f"{number(probe.drag)} N/m"),
         ("probe_thrust", "Thrust", f"{number(probe.thrust / 1e3, 2)} kN/m"),
         ("probe_torque", "Torque", f"{number(probe.torque / 1e3, 2)} kN m/m"),
+        ("probe_jig", "Jig twist", _deg(probe.jig)),
+        ("probe_elastic", "Elastic twist", "–" if probe.elastic is None else _deg(probe.elastic)),
         ("probe_section", "Section", escape(sections_of(probe.section))),
         ("probe_power", "Power", f"{number(probe.power / 1e3, 1)} kW/m"),
     )
@@ -304,48 +307,6 @@ def _table(probe: Probe) -> str:
         for key, name, value in entries
     )
     return f'<div class="rx-grid">{cells}</div>'
-
-
-def lift_curve(probe: Probe) -> str:
-    """C_l over α of this section at this Mach number, both stall angles, and where the element is."""
-    degrees = math.degrees(probe.alpha)
-    low, high, step = (-15.0, 20.0, 5.0) if -15.0 < degrees < 20.0 else (-180.0, 180.0, 60.0)
-    alpha = np.linspace(low, high, 91)
-    curve = probe.section.lift_curve(np.radians(alpha), probe.table_mach)
-    bottom, top = min(-1.0, float(curve.min()), probe.cl), max(1.6, float(curve.max()), probe.cl)
-
-    def x(value: float) -> float:
-        return _LEFT + (value - low) / (high - low) * (_RIGHT - _LEFT)
-
-    def y(value: float) -> float:
-        return _BOTTOM - (value - bottom) / (top - bottom) * (_BOTTOM - _TOP)
-
-    marks = []
-    for tick in np.arange(low, high + 0.1, step):
-        marks.append(svg.line((x(tick), _BOTTOM), (x(tick), _BOTTOM + 3.0), width=0.8))
-        if tick % (2.0 * step) == 0.0:
-            marks.append(svg.tick((x(tick), _HEIGHT - 4.0), f"{number(tick)}°", "middle"))
-    for tick in (-1.0, 0.0, 1.0):
-        style = 'opacity=".5"' if tick == 0.0 else 'opacity=".18"'
-        marks.append(svg.line((_LEFT, y(tick)), (_RIGHT, y(tick)), width=0.8, style=style))
-        marks.append(svg.tick((_LEFT - 5.0, y(tick) + 3.5), number(tick), "end"))
-    for angle in probe.stall:
-        end = math.degrees(angle)
-        if low < end < high:
-            marks.append(svg.line((x(end), _TOP), (x(end), _BOTTOM), LIMIT, 1.2, 'stroke-dasharray="4 3"'))
-    path = " ".join(f"{x(a):.1f},{y(cl):.1f}" for a, cl in zip(alpha.tolist(), curve.tolist(), strict=True))
-    marks.append(f'<polyline points="{path}" fill="none" stroke="{LIFT}" stroke-width="1.8"/>')
-    here = x(degrees), y(probe.cl)
-    marks.append(svg.line((here[0], _BOTTOM), here, ALPHA, 1.0))
-    if not probe.idle:
-        marks.append(f'<circle cx="{here[0]:.1f}" cy="{here[1]:.1f}" r="4" fill="{NOW}" stroke="{svg.BODY}"/>')
-    return (
-        f'<div class="rx-line rx-probe-title"{tip("chart_lift_curve")}><span><b>Lift curve</b></span>'
-        f'<span class="rx-dim">C<sub>l</sub> over α at Mach {number(probe.table_mach, 2)}</span>'
-        f'<span><span class="rx-dash" style="background:{LIMIT}"></span>stall</span></div>'
-        f'<svg viewBox="0 0 {_WIDTH:g} {_HEIGHT:g}" width="100%" role="img" '
-        f'aria-label="Lift coefficient over angle of attack">{"".join(marks)}</svg>'
-    )
 
 
 def _deg(angle: float, digits: int = 2) -> str:

@@ -26,8 +26,10 @@ from explorer.tabs.studies import charts as study_charts
 from explorer.text.glossary import hint
 from explorer.text.units import number
 from rotor.assets import asset_path
+from rotor.study.bounded_reading import read_bounded
 from rotor.study.findings import best_row, cruise_speeds, hover_cruise_pairs
-from rotor.study.results import ABOUT, Results, design_of_row, read_file, read_results
+from rotor.study.results import ABOUT, Results, design_of_row, read_results
+from rotor.user_input import brief, is_file
 
 _DEPTH = 3
 _MOST_FOLDERS = 3000
@@ -56,7 +58,7 @@ def find_studies(root: Path) -> tuple[FoundStudy, ...]:
             looked += 1
             if looked > _MOST_FOLDERS:
                 break
-            if (folder / ABOUT).is_file():
+            if is_file(folder / ABOUT):
                 found.append(FoundStudy(folder, _title(folder)))
                 continue  # A study has nothing beneath it.
             with suppress(OSError):
@@ -230,11 +232,11 @@ class StudiesPanel:
                         self._show(results)
             except ValueError as error:
                 if asked == self._asked:
-                    self._say(str(error), "problem")
+                    self._say(brief(error), "problem")
             except Exception as error:  # A file in a state that nobody foresaw must leave the tab alive.
                 _log.exception("a study could not be shown")
                 if asked == self._asked:
-                    self._say(f"{name} cannot be shown ({error}): choose another result.", "problem")
+                    self._say(brief(f"{name} cannot be shown ({error}): choose another result."), "problem")
 
         threading.Thread(target=evaluate_points, name="studies", daemon=True).start()
 
@@ -258,7 +260,7 @@ class StudiesPanel:
             self.open(lambda: open_study(found.path), found.path.name)
 
     def _uploaded(self, file: viser.UploadedFile) -> None:
-        self.open(lambda: read_file(file.content, file.name), file.name)
+        self.open(lambda: read_bounded(file.content, file.name), file.name)
 
     def _show(self, results: Results) -> None:
         """A new result: offer what can be drawn of it, and draw."""

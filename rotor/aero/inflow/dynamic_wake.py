@@ -5,13 +5,14 @@ W projects the load on the states, T is the theory's periodic solution for a giv
 """
 
 from dataclasses import dataclass, replace
+from functools import cache, cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lu_factor, lu_solve
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import InflowFeedback, Wake
+from rotor.aero.inflow.interface import HarmonicShapes, InflowFeedback, Wake
 from rotor.aero.inflow.peters_he import FlowParameters, families, flow_parameters
 from rotor.aero.inflow.wake_projection import Projection, build_projection
 from rotor.aero.losses import tip_factor
@@ -42,14 +43,22 @@ class DynamicWake:
 
     @classmethod
     def of(cls, blades: int, order: int = 8, *, infinite_blades: bool = False, tip: bool = True) -> "DynamicWake":
-        """The wake nearest to `order` that satisfies the truncation rule k = S/N_b.
+        """The wake with at most `order` that satisfies the truncation rule k = S/N_b, but not below ¾ of `order`.
 
         The rule is empirical: with it the optimum twist at µ 0.2 is −12.5, −11.4, −11.2, −11.2° for S = 4, 8, 12, 16;
-        without it −9.3° (S 8, k 1). Beyond S = 12 the neglected swirl makes the result worse.
+        without it −9.3° (S 8, k 1).
+
+        Induced power does not settle with the order: it grows with each blade harmonic k, for any number of blades. The
+        theory's load is normal to the disk, so it has a part along the relative wind, which leaves a sheet of slowed
+        air behind the blade. The more harmonics, the thinner the sheet and the more of it at the blade: each harmonic
+        adds (µ_z + λ0) d/(2 r U_T²) to the inflow, 1 to 4 % of induced power. The lift of a real blade is normal to
+        its wind and leaves none. Two harmonics agree best with a vortex lattice, for three, four and five blades.
         """
         if infinite_blades:
             return cls(blades, order, 0, tip)
-        harmonics = max(1, round(order / blades))
+        harmonics = order // blades
+        if harmonics * blades < 0.75 * order:
+            harmonics += 1
         return cls(blades, blades * harmonics, harmonics)
 
     @property
@@ -74,10 +83,14 @@ class DynamicWake:
 
 @dataclass(frozen=True, eq=False)
 class _FamilyResponse:
-    """T of the cosines or of the sines. States of a family are (rotor harmonics 1 + 2k, modes)."""
+    """T of the cosines or of the sines. States of a family are (rotor harmonics 1 + 2k, modes).
 
-    blocks: tuple[Array, ...]
-    """Steady (modes, modes), then for each q cosine and sine together, (2 modes, 2 modes)."""
+    a = ½ L (V + iqM L)⁻¹ τ for the amplitudes a = x_c − i x_s of a load τ = p_c − i p_s with cos qψ and sin qψ. [L]⁻¹,
+    singular for edgewise flight, is never formed.
+    """
+
+    influence: Array
+    """L"""
     influence_slope: Array
     """∂L/∂X"""
     flow: Array
@@ -86,25 +99,57 @@ class _FamilyResponse:
     rate: Array
     """±qM: d/dψ of a pair of cosine and sine amplitudes times M, (1 + 2k, modes)."""
     swap: NDArray[np.int64]
+    mass: Array
+    """Diagonal of M."""
+    harmonics: Array
+    """q"""
 
     @classmethod
     def solve(
         cls, model: DynamicWake, which: int, flow: FlowParameters, harmonics: tuple[int, ...]
     ) -> "_FamilyResponse":
-        """a = ½ L (V + iqML)⁻¹ τ: [L]⁻¹, singular for edgewise flight, is never formed."""
+        """At these parameters of the flow."""
         family = families(model.order)[which]
         influence, slope = family.influence(flow.half_skew)
         diagonal = np.where(family.uniform > 0.0, flow.speed, flow.mass_flow)
-        blocks: list[Array] = [0.5 * influence / diagonal]
-        for q in harmonics:
-            system = np.diag(diagonal) + 1j * q * (family.mass[:, None] * influence)
-            solved = np.linalg.solve(system.T, 0.5 * influence.T).T
-            # a = x_c − i x_s for λ ∝ x_c cos qψ + x_s sin qψ, and the loads likewise.
-            real, imaginary = solved.real.astype(float), solved.imag.astype(float)
-            blocks.append(np.block([[real, imaginary], [-imaginary, real]]))
-        signed = np.array([0.0] + [s * q for q in harmonics for s in (1.0, -1.0)])
-        swap = np.array([0] + [2 * k + s for k in range(len(harmonics)) for s in (2, 1)], dtype=np.int64)
-        return cls(tuple(blocks), slope, diagonal, family.uniform, signed[:, None] * family.mass, swap)
+        waves, swap = _pairing(harmonics)
+        rate = waves[:, None] * family.mass
+        return cls(influence, slope, diagonal, family.uniform, rate, swap, family.mass, waves[1::2])
+
+    @cached_property
+    def systems(self) -> NDArray[np.complex128]:
+        """V + iqM L for each q, (k, modes, modes)."""
+        systems: NDArray[np.complex128] = np.zeros((len(self.harmonics), *self.influence.shape), np.complex128)
+        systems.imag = self.harmonics[:, None, None] * (self.mass[:, None] * self.influence)
+        diagonal = np.arange(len(self.flow))
+        systems[:, diagonal, diagonal] += self.flow
+        return systems
+
+    def respond(self, p: Array) -> Array:
+        """T p of one load, (states of the family,)."""
+        loads = p.reshape(self.rate.shape)
+        out = np.empty_like(loads)
+        out[0] = 0.5 * self.influence @ (loads[0] / self.flow)
+        if len(self.harmonics):
+            pairs = loads[1::2] - 1j * loads[2::2]
+            amplitudes = 0.5 * np.linalg.solve(self.systems, pairs[..., None])[..., 0] @ self.influence.T
+            out[1::2], out[2::2] = amplitudes.real, -amplitudes.imag
+        return out.ravel()
+
+    @cached_property
+    def blocks(self) -> tuple[Array, ...]:
+        """T: steady (modes, modes), then for each q cosine and sine together, (2 modes, 2 modes)."""
+        modes = len(self.flow)
+        half = 0.5 * self.influence
+        blocks: list[Array] = [half / self.flow]
+        for system in self.systems:
+            solved = np.asarray(np.linalg.solve(system.T, half.T), dtype=np.complex128).T
+            block = np.empty((2 * modes, 2 * modes))
+            block[:modes, :modes] = block[modes:, modes:] = solved.real
+            block[:modes, modes:] = solved.imag
+            np.negative(solved.imag, out=block[modes:, :modes])
+            blocks.append(block)
+        return tuple(blocks)
 
     def apply(self, p: Array, *, transposed: bool = False) -> Array:
         """T p or Tᵀ p along the first axis, (states of the family, …)."""
@@ -131,6 +176,13 @@ class _FamilyResponse:
         return out
 
 
+@cache
+def _pairing(harmonics: tuple[int, ...]) -> tuple[Array, NDArray[np.int64]]:
+    """0, then q and −q of every pair of cosine and sine; and the place of the other of each pair."""
+    signed = np.array([0.0] + [s * q for q in harmonics for s in (1.0, -1.0)])
+    return signed, np.array([0] + [2 * k + s for k in range(len(harmonics)) for s in (2, 1)], dtype=np.int64)
+
+
 @dataclass(frozen=True, eq=False)
 class WakeOperator:
     """A for one wake on one grid. Fields are (elements, azimuths), states (225,) for S = 8, k = 2."""
@@ -145,7 +197,11 @@ class WakeOperator:
 
     def states(self, d: Array) -> Array:
         """x = T W d: the wake's states under a load or a stack of loads, (…, states)."""
-        return self.transfer(self.projection.loads(d).T).T
+        p = self.projection.loads(d)
+        if p.ndim > 1:
+            return self.transfer(p.T).T
+        split = self._split
+        return np.concatenate([self.families[0].respond(p[:split]), self.families[1].respond(p[split:])])
 
     def field(self, x: Array) -> Array:
         """λ_i = C x/F, (…, states) → (…, elements, azimuths)."""
@@ -169,17 +225,24 @@ class WakeOperator:
 
     def induced_by_wake(self, d: Array) -> Array:
         """∂λ_i by (µ_x, µ_z, λ0) at fixed load, (3, elements, azimuths)."""
-        out = self.field(self.states_by_wake(d))
-        if np.any(self.factor_slope):
-            out[1:] -= self.induced(d) * (self.factor_slope / self.factor)[:, None]
+        out, beyond = self.field(self.states_by_wake(d)), self.beyond_states(d)
+        if beyond is not None:
+            out[1:] += beyond
         return out
 
-    def feedback(self, slope: Array) -> "DynamicWakeFeedback":
-        """The feedback for a pointwise slope K = ∂d/∂λ_i, negative where more inflow reduces the lift."""
+    def beyond_states(self, d: Array) -> Array | None:
+        """The part of ∂λ_i/∂(µ_z + λ0) through F, (elements, azimuths); None where F does not follow the wake."""
+        if not np.any(self.factor_slope):
+            return None
+        return self.induced(d) * (-self.factor_slope / self.factor)[:, None]
+
+    def feedback(self, slope: Array, load: Array) -> "DynamicWakeFeedback":
+        """The feedback for a pointwise slope K = ∂d/∂λ_i, negative where more inflow reduces the lift, at a load."""
         reduced = self.projection.reduced(slope / self.factor[:, None])
         system = -self.transfer(reduced)
-        system[np.diag_indices_from(system)] += 1.0
-        return DynamicWakeFeedback(self, slope, lu_factor(system, overwrite_a=True, check_finite=False))
+        system.ravel()[:: len(system) + 1] += 1.0
+        # Of the transpose, which is what LAPACK sees in these rows without copying them.
+        return DynamicWakeFeedback(self, slope, load, lu_factor(system.T, overwrite_a=True, check_finite=False))
 
     def transfer(self, p: Array, *, transposed: bool = False) -> Array:
         """T p or Tᵀ p along the first axis: loads on the states → states."""
@@ -200,11 +263,14 @@ class DynamicWakeFeedback:
 
     operator: WakeOperator
     slope: Array
+    load: Array
+    """The load at which the wake changes."""
     lu: tuple[Array, NDArray[np.int32]]
+    """Factors of (I − T W (K/F) C)ᵀ."""
 
     def solve_states(self, x: Array) -> Array:
         """(I − T W (K/F) C)⁻¹ x, (states,) or (states, n): the feedback in terms of the states."""
-        return lu_solve(self.lu, x, check_finite=False)
+        return lu_solve(self.lu, x, trans=1, check_finite=False)
 
     def solve(self, fields: Array) -> Array:
         """λ with λ − A (K λ) = fields, for a field or a stack of fields, (…, elements, azimuths)."""
@@ -214,8 +280,51 @@ class DynamicWakeFeedback:
         """v with v − K Aᵀ v = field."""
         operator, projection = self.operator, self.operator.projection
         back = projection.field_transposed(field / operator.factor[:, None])
-        back = lu_solve(self.lu, back, trans=1, check_finite=False)
+        back = lu_solve(self.lu, back, check_finite=False)
         return field + self.slope * projection.loads_transposed(operator.transfer(back, transposed=True))
+
+    def answer_columns(self, loads: Array, wake: Array, slope: Array, shapes: HarmonicShapes | None) -> "StateColumns":
+        """As `ColumnFeedback`: the states under every change, x = (I − T W (K/F) C)⁻¹ (T W load + ∂x/∂wake)."""
+        operator, projection = self.operator, self.operator.projection
+        beyond, shares = operator.beyond_states(self.load), wake[:, 1] + wake[:, 2]
+        if beyond is not None:
+            loads = loads + shares[:, None, None] * (self.slope * beyond)
+        states = operator.transfer(projection.loads(loads).T) + operator.states_by_wake(self.load).T @ wake.T
+        if shapes is not None:
+            own = projection.load_factor[:, None] * projection.against(slope, shapes)
+            states = np.hstack([states, operator.transfer(own)])
+            shares = np.concatenate([shares, np.zeros(shapes.columns)])
+        return StateColumns(operator, self.solve_states(states), beyond, shares)
+
+
+@dataclass(frozen=True, eq=False)
+class StateColumns:
+    """The inflow that answers several changes, in terms of the wake's states."""
+
+    operator: WakeOperator
+    states: Array
+    """(states, columns)"""
+    beyond: Array | None
+    """What no state can hold, (elements, azimuths), see `WakeOperator.beyond_states`."""
+    shares: Array
+    """How much of it is in each column, (columns,)."""
+
+    def field(self, coefficients: Array) -> Array:
+        """As `InflowColumns`."""
+        out = self.operator.field(self.states @ coefficients)
+        return out if self.beyond is None else out + float(self.shares @ coefficients) * self.beyond
+
+    def integrate(self, fields: Array) -> Array:
+        """As `InflowColumns`."""
+        out = self.operator.projection.field_transposed(fields / self.operator.factor[:, None]) @ self.states
+        return out if self.beyond is None else out + np.outer(np.tensordot(fields, self.beyond, 2), self.shares)
+
+    def project(self, slope: Array, shapes: HarmonicShapes) -> Array:
+        """As `InflowColumns`."""
+        projection = self.operator.projection
+        rows = projection.field_factor[:, None] * projection.against(slope / self.operator.factor[:, None], shapes)
+        out = np.tile(shapes.scale, len(shapes.radial))[:, None] * (rows.T @ self.states)
+        return out if self.beyond is None else out + np.outer(shapes.project(slope * self.beyond), self.shares)
 
 
 @dataclass(frozen=True)
@@ -271,7 +380,7 @@ class DynamicWakeResponse:
 
     def feedback(self, slope: Array) -> InflowFeedback:
         """(I − A diag K)⁻¹ through one factorisation of the wake's states."""
-        return self._operator.feedback(slope)
+        return self._operator.feedback(slope, self._load)
 
 
 DYNAMIC_WAKES = (

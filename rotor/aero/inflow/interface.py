@@ -9,10 +9,12 @@ Fields are (elements, azimuths); d = dC_T/dr of the whole rotor as if smeared; s
 
 import math
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, runtime_checkable
+
+import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.arrays import Array
+from rotor.arrays import Array, Integers
 
 
 @dataclass(frozen=True)
@@ -45,6 +47,137 @@ class InflowFeedback(Protocol):
     def solve_transposed(self, field: Array) -> Array:
         """v with v − K Aᵀ v = field."""
         ...
+
+
+@dataclass(frozen=True, eq=False)
+class HarmonicShapes:
+    """Fields Φ_k(r) cos hψ and Φ_k(r) sin hψ: every shape along the blade with every harmonic around the disk.
+
+    Columns are ordered by shape, then by harmonic: 1, cos ψ, sin ψ, cos 2ψ, …
+    """
+
+    radial: Array
+    """Φ_k, (shapes, elements)."""
+    waves: Array
+    """(functions, azimuths), functions = 1 + 2·highest."""
+    rates: Array
+    """Their derivatives by ψ."""
+    wave: Integers
+    """h of each function, (functions,)."""
+    parity: Integers
+    """0 for a cosine, 1 for a sine, (functions,)."""
+    dr: float
+
+    @classmethod
+    def on(cls, disk: Disk, radial: Array, highest: int) -> "HarmonicShapes":
+        """The harmonics 0 … `highest` with shapes given at the elements."""
+        wave = np.array([0] + [h for h in range(1, highest + 1) for _ in (0, 1)], dtype=np.int64)
+        parity = np.array([0] + [0, 1] * highest, dtype=np.int64)
+        phase = np.outer(wave, disk.psi)
+        waves = np.where(parity[:, None] == 0, np.cos(phase), np.sin(phase))
+        rates: Array = wave[:, None] * np.where(parity[:, None] == 0, -np.sin(phase), np.cos(phase)).astype(np.float64)
+        return cls(radial, waves, rates, wave, parity, disk.dr)
+
+    @property
+    def columns(self) -> int:
+        return len(self.radial) * len(self.waves)
+
+    @property
+    def scale(self) -> Array:
+        """Factors that turn a mean with a function into the amplitude of its harmonic: 1, 2, 2, …, (functions,)."""
+        return np.where(self.wave == 0, 1.0, 2.0)
+
+    def field(self, coordinates: Array) -> Array:
+        """Σ q Φ_k H_h of coordinates (shapes, functions), (elements, azimuths)."""
+        return self.radial.T @ (coordinates @ self.waves)
+
+    def rate(self, coordinates: Array) -> Array:
+        """The derivative of `field` by ψ."""
+        return self.radial.T @ (coordinates @ self.rates)
+
+    def gather(self, fields: Array) -> Array:
+        """Σ over the grid of a field times every column, (…, elements, azimuths) → (…, shapes, functions)."""
+        return self.radial @ fields @ self.waves.T
+
+    def gather_rates(self, fields: Array) -> Array:
+        """The same with the derivatives of the columns by ψ."""
+        return self.radial @ fields @ self.rates.T
+
+    def harmonics(self, around: Array) -> Array:
+        """Fourier amplitudes of functions of azimuth, (…, azimuths) → (…, functions)."""
+        return around @ self.waves.T * (self.scale / self.waves.shape[1])
+
+    def project(self, fields: Array) -> Array:
+        """Harmonics of ∫ Φ_k f dr, (…, elements, azimuths) → (…, shapes, functions)."""
+        return self.gather(fields) * (self.scale * self.dr / self.waves.shape[1])
+
+    def project_transposed(self, weights: Array) -> Array:
+        """Transpose of `project`: weights (shapes, functions) → (elements, azimuths)."""
+        return self.field(weights * (self.scale * self.dr / self.waves.shape[1]))
+
+
+class InflowColumns(Protocol):
+    """The inflow that answers a unit of each of several changes, the feedback through the load included."""
+
+    def field(self, coefficients: Array) -> Array:
+        """λ_i of a combination of the columns, (columns,) → (elements, azimuths)."""
+        ...
+
+    def integrate(self, fields: Array) -> Array:
+        """Σ over the grid of fields times λ_i of every column, (n, elements, azimuths) → (n, columns)."""
+        ...
+
+    def project(self, slope: Array, shapes: HarmonicShapes) -> Array:
+        """`HarmonicShapes.project` of slope · λ_i of every column, (shapes × functions, columns)."""
+        ...
+
+
+@runtime_checkable
+class ColumnFeedback(Protocol):
+    """A feedback that answers many changes at once, without a field for each."""
+
+    def answer_columns(self, loads: Array, wake: Array, slope: Array, shapes: HarmonicShapes | None) -> InflowColumns:
+        """λ with λ − A (K λ) = A load + ∂λ/∂wake · change of the wake, for every change.
+
+        The first changes have the loads given, (changes, elements, azimuths), and change (µ_x, µ_z, λ0) by `wake`,
+        (changes, 3). Those of every column of `shapes` follow, with the load slope · column.
+        """
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class FieldColumns:
+    """The answer of any inflow model, as a field for every column."""
+
+    fields: Array
+    """(columns, elements, azimuths)"""
+
+    @classmethod
+    def of(
+        cls,
+        response: "InflowResponse",
+        feedback: InflowFeedback,
+        loads: Array,
+        wake: Array,
+        slope: Array,
+        shapes: HarmonicShapes | None,
+    ) -> "FieldColumns":
+        """As `ColumnFeedback.answer_columns`."""
+        fields = response.apply(loads) + np.tensordot(wake, response.by_wake, 1)
+        if shapes is not None:
+            columns = shapes.radial[:, None, :, None] * shapes.waves[None, :, None, :] * slope
+            fields = np.concatenate([fields, response.apply(columns.reshape(-1, *slope.shape))])
+        return cls(feedback.solve(fields))
+
+    def field(self, coefficients: Array) -> Array:
+        return np.tensordot(coefficients, self.fields, axes=1)
+
+    def integrate(self, fields: Array) -> Array:
+        return np.tensordot(fields, self.fields, axes=((1, 2), (1, 2)))
+
+    def project(self, slope: Array, shapes: HarmonicShapes) -> Array:
+        projected = shapes.project(slope * self.fields)
+        return projected.reshape(len(self.fields), -1).T
 
 
 class InflowResponse(Protocol):

@@ -93,9 +93,14 @@ def _zero(wake: Wake) -> Gradient:
 
 
 def _half_skew(wake: Wake) -> Gradient:
-    """tan(χ/2) = µ_x/(V + µ_z + λ0), regular from hover to edgewise flight."""
-    total = wake.speed + wake.axial
-    return wake.mu_x / total, wake.axial / (wake.speed * total), -wake.mu_x / (wake.speed * total)
+    """tan(χ/2) = µ_x/(V + |µ_z + λ0|), regular from hover to edgewise flight and on to upflow.
+
+    In upflow the wake is above the disk, the mirror image of one below with the same angle, and induces the same.
+    """
+    size = abs(wake.axial)
+    total = wake.speed + size
+    slope = wake.mu_x / (wake.speed * total)
+    return wake.mu_x / total, size / (wake.speed * total), -math.copysign(slope, wake.axial)
 
 
 def _scaled_half_skew(gain: float) -> Callable[[Wake], Gradient]:

@@ -8,7 +8,8 @@ With states α (cosines) and β (sines) and loads τ, λ_i = Σ φ_j^r (α_j^r c
 
 Sources: Peters, Boyd & He, J. AHS 34(4), 1989; Peters & He, J. Aircraft 32(2), 1995. Written from memory and checked
 against tables, closed forms of the actuator disk and identities (see the tests).
-The wake leaves downwards: valid for µ_z + λ0 > 0, so 0 ≤ χ < 90°.
+The skew χ is that of |µ_z + λ0|: in upflow the wake above the disk is the mirror image of one below, and induces the
+same. The mass flow keeps the sign of the flow.
 """
 
 import math
@@ -135,7 +136,7 @@ class FlowParameters:
     """The parameters of the matrices, with slopes by (µ_x, µ_z, λ0), each (3,)."""
 
     half_skew: float
-    """X = tan(χ/2) = µ_x/(V_T + µ_z + λ0), regular from hover to edgewise flight."""
+    """X = tan(χ/2) = µ_x/(V_T + |µ_z + λ0|), regular from hover to edgewise flight and on to upflow."""
     speed: float
     """V_T = √(µ_x² + (µ_z + λ0)²): the flow parameter of the mode (0, 1)."""
     mass_flow: float
@@ -147,10 +148,10 @@ class FlowParameters:
 def flow_parameters(wake: Wake) -> FlowParameters:
     """X, V_T, V̄ of a wake and their exact slopes."""
     mu, axial, speed = wake.mu_x, wake.axial, wake.speed
-    total = speed + axial
+    total = speed + abs(axial)
     mixed = mu**2 + (axial + wake.lambda0) * axial
     mass_flow = mixed / speed
-    x_mu, x_axial = axial / (speed * total), -mu / (speed * total)
+    x_mu, x_axial = abs(axial) / (speed * total), -math.copysign(mu / (speed * total), axial)
     v_mu, v_axial = mu / speed, axial / speed
     m_mu = 2.0 * mu / speed - mass_flow * v_mu / speed
     m_axial = (2.0 * axial + wake.lambda0) / speed - mass_flow * v_axial / speed

@@ -7,7 +7,7 @@ by straight lines along the blade, so that λ_i = B A Γ(d) is one linear map on
 """
 
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -96,6 +96,20 @@ class _Influence:
     matrix: Array
     """Downwash of the lattice per load on it, (points, points)."""
 
+    @cached_property
+    def by_slope(self) -> "_SlopeMap":
+        """What the feedback of any slope needs."""
+        grids = self.grids
+        across = np.einsum("pi,iq->pqi", grids.inward, grids.outward)
+        pairs = np.nonzero(across.any(axis=-1))
+        panels, azimuths = len(grids.inward), len(grids.around)
+        return _SlopeMap(
+            pairs=(pairs[0].tolist(), pairs[1].tolist()),
+            across=across[pairs],
+            around=np.einsum("aj,jb->jab", grids.around, grids.back).reshape(-1, azimuths * azimuths),
+            matrix=np.ascontiguousarray(self.matrix.reshape(-1, panels, azimuths).transpose(1, 0, 2)),
+        )
+
     def gather(self, fields: Array) -> Array:
         """Disk to lattice, (…, points)."""
         return (self.grids.inward @ fields @ self.grids.around.T).reshape(*fields.shape[:-2], -1)
@@ -112,6 +126,20 @@ class _Influence:
 
     def _square(self, points: Array) -> Array:
         return points.reshape(*points.shape[:-1], len(self.grids.inward), len(self.grids.around))
+
+
+@dataclass(frozen=True, eq=False)
+class _SlopeMap:
+    """Interpolations and influence, arranged to assemble A diag K on the lattice."""
+
+    pairs: tuple[list[int], list[int]]
+    """Panels that interpolation to the elements and back joins."""
+    across: Array
+    """Of each pair, by element, (pairs, elements)."""
+    around: Array
+    """Of each two azimuths of the lattice, by azimuth of the disk, (azimuths, pairs of azimuths)."""
+    matrix: Array
+    """The influence by panel that sends, (panels, points, azimuths)."""
 
 
 class VortexWakeResponse:
@@ -132,14 +160,16 @@ class VortexWakeResponse:
 
     def feedback(self, slope: Array) -> InflowFeedback:
         """(I − A diag K)⁻¹ through one factorisation of the lattice's size."""
-        grids = self._influence.grids
-        # Gather · diag(K) · spread, assembled from the separable interpolations.
-        across = np.einsum("pi,iq->piq", grids.inward, grids.outward)
-        around = np.einsum("aj,jb->jab", grids.around, grids.back)
-        reduced = np.tensordot(np.tensordot(across, slope, (1, 0)), around, (2, 0))
-        size = len(grids.inward) * len(grids.around)
-        square = reduced.transpose(0, 2, 1, 3).reshape(size, size)
-        return _LatticeFeedback(self._influence, slope, lu_factor(np.eye(size) - self._influence.matrix @ square))
+        lattice = self._influence.by_slope
+        panels, points, azimuths = lattice.matrix.shape
+        # Matrix · gather · diag(K) · spread; interpolation along the blade joins neighbouring panels only.
+        joined = (lattice.across @ slope @ lattice.around).reshape(-1, azimuths, azimuths)
+        product = np.zeros((panels, points, azimuths))
+        for p, q, block in zip(*lattice.pairs, joined, strict=True):
+            product[q] -= lattice.matrix[p] @ block
+        system = product.transpose(1, 0, 2).reshape(points, points)
+        system.flat[:: points + 1] += 1.0
+        return _LatticeFeedback(self._influence, slope, lu_factor(system, overwrite_a=True, check_finite=False))
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,11 +9,12 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-import numba  # pyright: ignore[reportMissingTypeStubs]
 import numpy as np
 
+from rotor.aero.inflow.interface import HarmonicShapes
 from rotor.aero.inflow.peters_he import mode_set, radial_functions
 from rotor.arrays import Array, Integers
+from rotor.compiled import compiled
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,12 +25,10 @@ class Projection:
     """Element centres, (elements,)."""
     radial: Array
     """φ of the modes, (modes, elements)."""
-    azimuthal: Array
-    """All products cos mψ or sin mψ times blade harmonic, (functions, azimuths)."""
+    waves: Array
+    """cos pψ, then sin pψ, p = 0 … S + q_max, (waves, azimuths): each azimuthal function of a state is a sum of two."""
     mode: Integers
     """Row of `radial` of each state, (states,)."""
-    function: Integers
-    """Row of `azimuthal` of each state, (states,)."""
     load_factor: Array
     """Weight of d in the load on a state, (states,): ½ for m = 0, else 1."""
     field_factor: Array
@@ -72,12 +71,15 @@ class Projection:
         return self._analyse(f) * self.field_factor
 
     def _analyse(self, field: Array) -> Array:
-        return (self.radial @ field @ self.azimuthal.T)[..., self.mode, self.function]
+        spectrum = self.radial @ (field @ self.waves.T)
+        shape = (-1, *spectrum.shape[-2:])
+        states = _collect(spectrum.reshape(shape), self.mode, self.parity, self.wave, self.share)
+        return states.reshape(*field.shape[:-2], self.states)
 
     def _synthesise(self, x: Array) -> Array:
-        spread = np.zeros((*x.shape[:-1], len(self.radial), len(self.azimuthal)))
-        spread[..., self.mode, self.function] = x
-        return self.radial.T @ (spread @ self.azimuthal)
+        modes, waves = len(self.radial), len(self.waves)
+        spectrum = _spread(x.reshape(-1, self.states), self.mode, self.parity, self.wave, self.share, modes, waves)
+        return (self.radial.T @ spectrum.reshape(*x.shape[:-1], modes, waves)) @ self.waves
 
     def reduced(self, slope: Array) -> Array:
         """W diag(K) C for a pointwise slope K(r, ψ), (elements, azimuths) → (states, states).
@@ -86,17 +88,55 @@ class Projection:
         alone: sums over r for every pair of modes, then a look-up for every pair of states.
         """
         spectrum = self.pairs @ (slope @ self.spectrum.T)
-        symmetric = _assemble(spectrum, self.mode, self.parity, self.wave, self.share, self.spectrum.shape[0] // 2)
-        return self.load_factor[:, None] * symmetric * self.field_factor
+        return _assemble(
+            spectrum, self.mode, self.parity, self.wave, self.share, self.spectrum.shape[0] // 2,
+            self.load_factor, self.field_factor,
+        )  # fmt: skip
+
+    def against(self, slope: Array, shapes: HarmonicShapes) -> Array:
+        """⟨∫ state · slope · column dr⟩ for every state and every column of `shapes`, (states, columns).
+
+        As `reduced`: only the Fourier coefficients of the slope enter. The factors of load or field are left out.
+        """
+        pairs = self.radial[:, None] * shapes.radial * shapes.dr
+        spectrum = pairs @ (slope @ self.spectrum.T)
+        return _assemble_columns(
+            spectrum, self.mode, self.parity, self.wave, self.share, shapes.wave, shapes.parity,
+            self.spectrum.shape[0] // 2,
+        )  # fmt: skip
 
 
-def _compile(function: Any) -> Any:
-    return numba.njit(cache=True, nogil=True)(function)  # pyright: ignore[reportUnknownVariableType, reportUnknownMemberType]
+_compile = compiled()
 
 
 @_compile
-def _assemble(spectrum: Any, mode: Any, parity: Any, wave: Any, share: Any, sines: int) -> Any:
-    """Σ over waves of products of azimuthal functions, (states, states), symmetric.
+def _collect(spectrum: Any, mode: Any, parity: Any, wave: Any, share: Any) -> Any:
+    """Sums with every state from those with every mode and wave, (n, modes, waves) → (n, states)."""
+    n, states, sines = len(spectrum), len(mode), spectrum.shape[2] // 2
+    out = np.empty((n, states))
+    for k in range(n):
+        for a in range(states):
+            row, first = spectrum[k, mode[a]], parity[a] * sines
+            out[k, a] = share[a, 0] * row[first + wave[a, 0]] + share[a, 1] * row[first + wave[a, 1]]
+    return out
+
+
+@_compile
+def _spread(x: Any, mode: Any, parity: Any, wave: Any, share: Any, modes: int, waves: int) -> Any:
+    """Coefficients of every mode and wave from those of the states, (n, states) → (n, modes, waves)."""
+    n, states, sines = len(x), len(mode), waves // 2
+    out = np.zeros((n, modes, waves))
+    for k in range(n):
+        for a in range(states):
+            row, first = out[k, mode[a]], parity[a] * sines
+            row[first + wave[a, 0]] += share[a, 0] * x[k, a]
+            row[first + wave[a, 1]] += share[a, 1] * x[k, a]
+    return out
+
+
+@_compile
+def _assemble(spectrum: Any, mode: Any, parity: Any, wave: Any, share: Any, sines: int, rows: Any, columns: Any) -> Any:
+    """Σ over waves of products of azimuthal functions times factors of rows and columns, (states, states).
 
     cos p cos s and sin p sin s are ½[cos(p − s) ± cos(p + s)]; sin p cos s is ½[sin(p + s) + sin(p − s)].
     """
@@ -118,8 +158,34 @@ def _assemble(spectrum: Any, mode: Any, parity: Any, wave: Any, share: Any, sine
                         p, s = (wave[a, u], wave[b, v]) if parity[a] == 1 else (wave[b, v], wave[a, u])
                         near = row[sines + p - s] if p >= s else -row[sines + s - p]
                         total += weight * (row[sines + p + s] + near)
-            out[a, b] = total
-            out[b, a] = total
+            out[a, b] = rows[a] * total * columns[b]
+            out[b, a] = rows[b] * total * columns[a]
+    return out
+
+
+@_compile
+def _assemble_columns(
+    spectrum: Any, mode: Any, parity: Any, wave: Any, share: Any, own_wave: Any, own_parity: Any, sines: int
+) -> Any:
+    """Σ over waves of products of azimuthal functions and harmonics, (states, shapes × harmonics)."""
+    n, shapes, functions = len(mode), spectrum.shape[1], len(own_wave)
+    out = np.empty((n, shapes * functions))
+    for a in range(n):
+        for k in range(shapes):
+            row = spectrum[mode[a], k]
+            for c in range(functions):
+                total = 0.0
+                for u in range(2):
+                    weight = 0.5 * share[a, u]
+                    if parity[a] == own_parity[c]:
+                        p, s = wave[a, u], own_wave[c]
+                        far = row[p + s] if parity[a] == 0 else -row[p + s]
+                        total += weight * (row[abs(p - s)] + far)
+                    else:
+                        p, s = (wave[a, u], own_wave[c]) if parity[a] == 1 else (own_wave[c], wave[a, u])
+                        near = row[sines + p - s] if p >= s else -row[sines + s - p]
+                        total += weight * (row[sines + p + s] + near)
+                out[a, k * functions + c] = total
     return out
 
 
@@ -145,8 +211,6 @@ def build_projection(order: int, blades: int, harmonics: int, root: float, eleme
     rotor = [(0, 0)] + [(q, kind) for q in waves for kind in (0, 1)]
     places = [(m, 0) for m in range(order + 1)] + [(m, 1) for m in range(1, order + 1)]
     products = [_product(*place, *own) for place in places for own in rotor]
-    azimuthal = np.stack([(np.sin if odd else np.cos)(np.outer(wave, psi)).T @ part for odd, wave, part in products])
-
     index = [
         (modes.index((m, n)), places.index((m, kind)) * len(rotor) + h, 0.5 if m == 0 else 1.0, 1.0 if h == 0 else 2.0)
         for kind in (0, 1)
@@ -158,9 +222,8 @@ def build_projection(order: int, blades: int, harmonics: int, root: float, eleme
     return Projection(
         r=r,
         radial=radial,
-        azimuthal=azimuthal,
+        waves=np.concatenate([np.cos(phase[: highest + 1]), np.sin(phase[: highest + 1])]),
         mode=np.array([entry[0] for entry in index], dtype=np.int64),
-        function=np.array([entry[1] for entry in index], dtype=np.int64),
         load_factor=np.array([entry[2] for entry in index]),
         field_factor=np.array([entry[3] for entry in index]),
         cell=dr / azimuths,

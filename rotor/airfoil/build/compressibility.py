@@ -15,6 +15,7 @@ from scipy.interpolate import PchipInterpolator
 from rotor.arrays import Array
 
 NATIVE_MACH_LIMIT = 0.4  # Up to here XFOIL is used directly: compared with RANS, its drag is the better one.
+INCOMPRESSIBLE_MACH = 0.05  # Up to here a polar's Mach number says nothing about its Reynolds number.
 BASE_MACH = 0.3  # The polar that is extended to higher Mach.
 LIFT_DIVERGENCE_MACH = 0.75  # The lift slope is constant above: Prandtl-Glauert would go to infinity.
 KORN_KAPPA = 0.86  # Technology factor of Korn's relation, fitted to the CR-166309 SC1095 deck.
@@ -94,7 +95,9 @@ def corrected_polar(
     growth = prandtl_glauert(mach, base)
     cap = lift_cap(mach, traits)
     lifted = smooth_cap(cl * growth, cap, cap * traits.negative_ratio)
-    friction = float(np.min(cd)) * (1.0 - (mach / base) ** FRICTION_REYNOLDS_POWER)
+    # A polar at Mach 0 is incompressible, not of a rotor at rest: its Reynolds number is the one meant.
+    reynolds_ratio = mach / base if base > INCOMPRESSIBLE_MACH else 1.0
+    friction = float(np.min(cd)) * (1.0 - reynolds_ratio**FRICTION_REYNOLDS_POWER)
     drag = (
         with_lost_suction(alpha, cl * growth, lifted, cd)
         - friction

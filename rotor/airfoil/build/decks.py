@@ -7,17 +7,20 @@ deck repeats it. Mach 0.95 and 1.0 use the same formulas and are extrapolation.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
 from rotor.airfoil.build.compressibility import BASE_MACH, SectionTraits, capped_polar, corrected_polar
-from rotor.airfoil.build.xfoil import XfoilCase, run_polar
+from rotor.airfoil.build.tunnel import TunnelTraits, tunnel_polar
+from rotor.airfoil.build.xfoil import XfoilCase, XfoilError, run_polar
 from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81
 from rotor.airfoil.contour import load_contour
 from rotor.airfoil.polars import Polar, PolarSet
 from rotor.airfoil.wrap import BLEND_END_DEG, blend
 from rotor.arrays import Array
+from rotor.user_input import did_you_mean
 
 Columns = tuple[Array, Array, Array]
 
@@ -34,11 +37,11 @@ def deck_alpha_deg() -> Array:
     return np.concatenate((-far, near, far[::-1]))
 
 
-def assemble_deck(title: str, polars: Sequence[Polar], traits: SectionTraits) -> C81Deck:
+def assemble_deck(title: str, polars: Sequence[Polar], traits: SectionTraits | TunnelTraits) -> C81Deck:
     """The deck of one section from its polars, rounded as the C81 text rounds it.
 
-    Up to the fastest polar the polars are used directly, linear between them in Mach; beyond it the one nearest to
-    Mach 0.3 is extended by `compressibility`.
+    Up to the fastest polar the polars stand as they are, linear in between in Mach; beyond it the one nearest to
+    Mach 0.3 is taken on by `compressibility`. With `TunnelTraits` all of them pass through `tunnel`.
     """
     ordered = sorted(polars, key=lambda polar: polar.mach)
     base = min(ordered, key=lambda polar: abs(polar.mach - BASE_MACH))
@@ -47,10 +50,14 @@ def assemble_deck(title: str, polars: Sequence[Polar], traits: SectionTraits) ->
     near = np.abs(alpha_deg) < BLEND_END_DEG
     columns: list[Columns] = []
     for mach in DECK_MACH:
-        if mach <= ordered[-1].mach + 1e-9:
-            inner = capped_polar(float(mach), alpha[near], *_between(ordered, float(mach), alpha_deg[near]), traits)
+        native = mach <= ordered[-1].mach + 1e-9
+        here = _between(ordered, float(mach), alpha_deg[near]) if native else _at(base, alpha_deg[near])
+        if isinstance(traits, TunnelTraits):
+            inner = tunnel_polar(float(mach), alpha[near], *here, traits, float(mach) if native else base.mach)
+        elif native:
+            inner = capped_polar(float(mach), alpha[near], *here, traits)
         else:
-            inner = corrected_polar(float(mach), alpha[near], *_at(base, alpha_deg[near]), traits, base.mach)
+            inner = corrected_polar(float(mach), alpha[near], *here, traits, base.mach)
         full = [np.ones_like(alpha) for _ in range(3)]
         for whole, part in zip(full, inner, strict=True):
             whole[near] = part
@@ -113,19 +120,52 @@ class Recipe:
 
     title: str
     reynolds_per_mach: float
-    traits: SectionTraits
+    traits: SectionTraits | TunnelTraits
+    machs: tuple[float, ...] = NATIVE_MACHS
+    """Mach numbers of its polars."""
+    polars: Literal["trip5", "measured"] = "trip5"
+    """Computed by XFOIL with a trip at 5 % chord, or measured; part of the name of the file."""
+    lowest_alpha_deg: float = float(POLAR_ALPHA_DEG[0])
+    """Angle at which the computed polars begin [deg]."""
+    lowest_reason: str = ""
+    """Why they begin later than the others, for the head of the file."""
+
+
+def _six_series(thickness: float) -> SectionTraits:
+    """Cap of the NACA 0012, Korn's factor of the textbook: of sections without a public table."""
+    return SectionTraits(thickness=thickness, cap_ratio=0.90, korn=0.87)
 
 
 RECIPES = {
-    # t/c measured on the coordinates. negative_ratio: XFOIL's own |cl_min| / cl_max at Mach 0.3. Chord 0.527 m.
-    "sc1095": Recipe("SC1095 XFOIL TRIP5 WRAP", 12.27e6, SectionTraits(thickness=0.095, negative_ratio=0.80)),
-    # No public R8 table exists to check against. XFOIL's cl_max (1.96 at M 0.3, growing with Mach) is
-    # too high; a neural network trained on XFOIL gives R8 1.09-1.10 times the SC1095 value at M 0.3-0.5.
-    # Its negative_ratio is a rounded guess near XFOIL's 0.42: negative stall moves with the paneling anyway.
-    "sc1094r8": Recipe(
-        "SC1094R8 XFOIL TRIP5 WRAP",
+    # Onset and centre: as in `tunnel`. Zero lift −0.65 deg: midway between XFOIL (−0.72) and the polar of NASA TM-86719
+    # (−0.58). Negative cap: XFOIL's own, 0.9 at Mach 0.3.
+    "sc1095": Recipe(
+        "SC1095 XFOIL TUNNEL LEVEL WRAP",
         12.27e6,
-        SectionTraits(thickness=0.094, cap_ratio=1.10, cap_native=True, negative_ratio=0.45),
+        TunnelTraits(
+            onset=0.849,
+            centre_deg=-0.23,
+            zero_lift_shift_deg=0.07,
+            cap_ratio=1.0,
+            negative_cap=0.9,
+            reynolds_per_mach=12.27e6,
+        ),
+    ),
+    # The R8 deck of the same flight simulation is the only public table. Onset and centre: its drag divergence at 0, 2
+    # and 4 deg. Zero lift −1.48 deg: midway between XFOIL (−1.60) and the deck (−1.37, mean to Mach 0.5). Cap: the
+    # deck's largest lift over that of SC1095, 1.50/1.25 at Mach 0.3, 1.32/1.17 at Mach 0.4, not all of it. Negative
+    # cap: the deck.
+    "sc1094r8": Recipe(
+        "SC1094R8 XFOIL TUNNEL LEVEL",
+        12.27e6,
+        TunnelTraits(
+            onset=0.809,
+            centre_deg=0.4,
+            zero_lift_shift_deg=0.12,
+            cap_ratio=1.10,
+            negative_cap=0.62,
+            reynolds_per_mach=12.27e6,
+        ),
     ),
     # The S-61's chord, 0.464 m. Cap and Korn's factor read off the public NACA 0012 C81 table (CITATION.md).
     "naca0012": Recipe("NACA0012 XFOIL TRIP5 WRAP", 10.80e6, SectionTraits(thickness=0.12, cap_ratio=0.90, korn=0.87)),
@@ -134,6 +174,21 @@ RECIPES = {
     "naca63a015": Recipe(
         "NACA63A015 XFOIL TRIP5 WRAP", 4.40e6, SectionTraits(thickness=0.15, cap_ratio=0.90, korn=0.87)
     ),
+    # The XV-15's chord, 0.356 m, root to tip. Cap and Korn's factor as for the 63-015A; no table was read off.
+    "naca64208": Recipe("NACA64-208 XFOIL TRIP5 WRAP", 8.28e6, _six_series(0.08)),
+    "naca64118": Recipe("NACA64-118 XFOIL TRIP5 WRAP", 8.28e6, _six_series(0.18)),
+    "naca64528": Recipe("NACA64-528 XFOIL TRIP5 WRAP", 8.28e6, _six_series(0.28)),
+    "naca64935": Recipe(
+        "NACA64-935 XFOIL TRIP5 WRAP",
+        8.28e6,
+        _six_series(0.35),
+        lowest_alpha_deg=-4.0,
+        lowest_reason="the lower side separates and lift rises again",
+    ),
+    # The PCA-2's outer chord, 0.559 m; its tip stays below Mach 0.5.
+    "goe429": Recipe("GOETTINGEN 429 XFOIL TRIP5", 13.0e6, _six_series(0.114)),
+    # Knight and Hefner's model rotor, whose polar they measured at the Reynolds number of its tip.
+    "naca0015re242k": Recipe("NACA0015 RE 242000 MEASURED", 1.21e6, _six_series(0.15), (0.2,), "measured"),
 }
 
 
@@ -154,22 +209,27 @@ class Difference:
 def check_name(name: str) -> None:
     """ValueError unless `name` is a section this project can build."""
     if name not in RECIPES:
-        raise ValueError(f"no section named {name!r}: choose one of {', '.join(RECIPES)}")
+        hint = did_you_mean(name, RECIPES) or ":"
+        raise ValueError(f"no section named {name!r}{hint} choose one of {', '.join(RECIPES)}")
 
 
 def run_trip_polars(name: str, report: Callable[[str], None]) -> PolarSet:
-    """Run XFOIL for the deck of `name`; takes up to minutes."""
+    """Run XFOIL for the deck of `name` at every angle of its recipe; takes up to minutes."""
     check_name(name)
-    contour, per_mach = load_contour(name), RECIPES[name].reynolds_per_mach
+    if RECIPES[name].polars == "measured":
+        raise XfoilError(f"the polar of {name} was measured: add --from-polars")
+    contour, recipe = load_contour(name), RECIPES[name]
+    per_mach, lowest = recipe.reynolds_per_mach, recipe.lowest_alpha_deg
+    below = f", and those below {lowest:g} deg, where {recipe.lowest_reason}" if recipe.lowest_reason else ""
     header = (
         f"{name}: polars computed with XFOIL 6.99 by this project from the coordinates in {name}.contour",
         f"transition fixed at {TRIP:g} chord on both sides, Ncrit 9, Re = {per_mach:.4g} * Mach",
-        "angles where no paneling converged are left out",
+        f"angles where no paneling converged are left out{below}",
     )
     polars: list[Polar] = []
     for mach in NATIVE_MACHS:
         case = XfoilCase(mach, per_mach * mach, 9.0, TRIP)
-        polars.append(run_polar(contour, case, POLAR_ALPHA_DEG, report))
+        polars.append(run_polar(contour, case, POLAR_ALPHA_DEG[lowest <= POLAR_ALPHA_DEG], report))
     return PolarSet(header, tuple(polars))
 
 
@@ -187,10 +247,11 @@ def make_deck(name: str, polars: PolarSet) -> C81Deck:
     """The deck of `name` from its raw polars, rounded as the C81 text rounds it."""
     check_name(name)
     by_mach = {round(p.mach, 3): p for p in polars.polars}
-    missing = [m for m in NATIVE_MACHS if m not in by_mach]
+    machs = RECIPES[name].machs
+    missing = [m for m in machs if m not in by_mach]
     if missing:
         raise ValueError(f"the polars of {name} lack Mach {missing[0]:g}: run `python -m rotor airfoil build {name}`")
-    return assemble_deck(RECIPES[name].title, [by_mach[m] for m in NATIVE_MACHS], RECIPES[name].traits)
+    return assemble_deck(RECIPES[name].title, [by_mach[m] for m in machs], RECIPES[name].traits)
 
 
 def compare_decks(new: C81Deck, old: C81Deck) -> Difference:

@@ -22,6 +22,7 @@ from rotor.design.twist import (
     spline_basis,
 )
 from rotor.optimisation.concepts.concept import Concept, Handle, Parameter, Values, restrict
+from rotor.user_input import did_you_mean
 
 STEEPEST, FLATTEST = math.radians(-30.0), math.radians(10.0)
 """Default bounds of a twist rate [rad/R]: beyond them blades stall at the root or carry negative lift at the tip."""
@@ -280,7 +281,8 @@ def find_concept(name: str, division: Sequence[float] | None = None) -> Concept:
     Raises ValueError with one sentence that names the value and the remedy.
     """
     if name not in CONCEPTS:
-        raise ValueError(f"concept {name!r} is not known: use one of {', '.join(CONCEPTS)}")
+        hint = did_you_mean(name, CONCEPTS) or ":"
+        raise ValueError(f"concept {name!r} is not known{hint} use one of {', '.join(CONCEPTS)}")
     if division is None:
         return CONCEPTS[name]
     if name in ("two-segment", "two-segment-two-airfoils") and len(division) == 1:

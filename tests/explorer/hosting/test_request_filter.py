@@ -79,7 +79,8 @@ def page(app: App, host: str) -> tuple[int, str, dict[str, str]]:
         with urllib.request.urlopen(request, timeout=10) as answer:
             return answer.status, answer.read().decode(), dict(answer.headers)
     except urllib.error.HTTPError as error:
-        return error.code, error.read().decode(), dict(error.headers)
+        with error:
+            return error.code, error.read().decode(), dict(error.headers)
 
 
 class TestAllowedHosts:

@@ -48,6 +48,18 @@ class Count:
 
 
 @dataclass(frozen=True)
+class Marking:
+    """Makes a file when it begins, and returns 7 a while later."""
+
+    file: Path
+
+    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> int:
+        self.file.touch()
+        time.sleep(0.2)
+        return 7
+
+
+@dataclass(frozen=True)
 class Deaf:
     """Never asks whether to stop."""
 
@@ -255,6 +267,19 @@ def test_nobody_hears_of_a_job_whose_browser_left(pool: Pool):
     _, other = submit(pool, Count(1))
     other.until(JobEnded)
     assert len(heard) == known
+
+
+def test_a_result_can_be_waited_for_and_comes_later_when_superseded(pool: Pool, tmp_path: Path):
+    page, found = pool.share(), list[int]()
+    assert page.result(Count(2), lambda: False, 0, found.append) == JobEnded(2)
+    failed = page.result(Failing(), lambda: False, 0, found.append)
+    assert isinstance(failed, JobFailed)
+    assert "a value that nobody wants" in failed.message
+    begun = tmp_path / "begun"
+    assert page.result(Marking(begun), begun.exists, 0, found.append) is None
+    _, after = submit(pool, Count(1))
+    after.until(JobEnded)
+    assert found == [2, 7]
 
 
 @pytest.mark.slow

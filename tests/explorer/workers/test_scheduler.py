@@ -3,8 +3,8 @@
 import threading
 import time
 
-from explorer.workers.newest_wins import IdleTimeout, NewestWins
-from explorer.workers.scheduler import FairScheduler
+from explorer.workers.newest_wins import IdleTimeout, NewestWins, Superseded
+from explorer.workers.scheduler import SLICE, FairScheduler
 
 
 class TestScheduler:
@@ -172,3 +172,93 @@ class TestWorker:
             time.sleep(0.002)
         worker.stop()
         assert events[:3] == ["sleep", "wake", "update"]
+
+    def test_a_pause_lets_others_work_and_ends_with_a_change(self):
+        turns, waited, ran = FairScheduler(1), threading.Event(), threading.Event()
+        lengths: list[float] = []
+
+        def job(_: object) -> None:
+            begin = time.monotonic()
+            worker.pause(0.02 if waited.is_set() else 5.0)
+            lengths.append(time.monotonic() - begin)
+            waited.set()
+
+        worker = NewestWins(job, print, "w", scheduler=turns)
+        other = NewestWins(lambda _: ran.set(), print, "o", scheduler=turns)
+        worker.start()
+        other.start()
+        worker.wake()
+        time.sleep(0.05)
+        other.wake()
+        assert ran.wait(2.0)  # Though there is one turn, and the first worker is within its update.
+        worker.wake()
+        assert waited.wait(2.0)
+        for _ in range(200):
+            if len(lengths) == 2:
+                break
+            time.sleep(0.01)
+        worker.stop()
+        other.stop()
+        assert lengths[0] < 2.0
+        assert lengths[1] >= 0.02
+
+
+def test_a_pause_ends_with_a_change_though_no_turn_is_free():
+    """Another page keeps the only turn: a drag must not wait for it within the update that the drag makes void."""
+    scheduler, paused, ended = FairScheduler(1), threading.Event(), threading.Event()
+
+    def update(_: object) -> None:
+        paused.set()
+        worker.pause(0.01)
+        ended.set()
+
+    worker = NewestWins(update, print, "w", scheduler=scheduler)
+    worker.start()
+    worker.wake()
+    assert paused.wait(10.0)
+    with scheduler.take():
+        time.sleep(0.05)
+        assert not ended.is_set()
+        worker.wake()
+        assert ended.wait(2.0)
+    worker.stop()
+
+
+def compute(seconds: float) -> None:
+    """Use that much of this thread's processor time."""
+    begun = time.thread_time()
+    while time.thread_time() - begun <= seconds:
+        pass
+
+
+def test_a_long_step_gives_way_and_comes_to_its_end():
+    """With one turn, a frame that asks in the middle of a long step is served at a pause after the first slice."""
+    scheduler, order = FairScheduler(1), list[str]()
+    asked, ended = threading.Event(), threading.Event()
+
+    def long(superseded: Superseded) -> None:
+        order.append("begin")
+        asked.set()
+        while scheduler.waiting == 0:
+            time.sleep(0.001)
+        superseded.pause()
+        order.append("more")
+        compute(SLICE)
+        superseded.pause()
+        order.append("end")
+        ended.set()
+
+    def quick(_: Superseded) -> None:
+        order.append("frame")
+
+    slow = NewestWins(long, lambda error: None, "slow", scheduler=scheduler)  # pyright: ignore[reportArgumentType]
+    fast = NewestWins(quick, lambda error: None, "fast", scheduler=scheduler)  # pyright: ignore[reportArgumentType]
+    for worker in (slow, fast):
+        worker.start()
+    slow.wake()
+    assert asked.wait(10.0)
+    fast.wake()
+    assert ended.wait(10.0)
+    assert order == ["begin", "more", "frame", "end"]
+    for worker in (slow, fast):
+        worker.stop()

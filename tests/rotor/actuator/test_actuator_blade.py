@@ -13,25 +13,21 @@ from rotor.actuator.harmonic import dynamic_twist
 from rotor.actuator.installation import InstalledActuator, addition, balance_mass, install
 from rotor.actuator.limits import ELEMENTS, bend, fibre_strain, limits
 from rotor.actuator.section import Host, Placement, default_placement
-from rotor.dynamics.structure import (
-    BladeStructure,
-    torsion_beam,
-    torsion_frequency,
-    twist_under_moment,
-    uh60a_structure,
-)
+from rotor.dynamics.structure import BendingStructure, uh60a_structure
+from rotor.dynamics.torsion import torsion_beam, torsion_frequency, twist_under_moment
 from rotor.files.make_design import make_design, uh60a_rotor
 from rotor.trim.solve import solve
 
 SPEED = 27.0
 
 
-def uniform(gj: float = 7e4, inertia: float = 0.15, length: float = 6.0, gyration: float = 0.0) -> BladeStructure:
+def uniform(gj: float = 7e4, inertia: float = 0.15, length: float = 6.0, gyration: float = 0.0) -> BendingStructure:
     two = (0.0, length)
-    return BladeStructure(
+    return BendingStructure(
         radius=length, chord=0.5, clamp=0.0, stations=two, torsional_stiffness=(gj, gj), mass_per_length=(10.0, 10.0),
         torsional_inertia=(inertia, inertia), flap_stiffness=(9e4, 9e4), lag_stiffness=(2e6, 2e6),
         axial_stiffness=1.3e8, tension_gyration=gyration, section_stiffness=gj, reference_mass=60.0,
+        control_stiffness=1e5, pitch_horn=0.2,
     )  # fmt: skip
 
 

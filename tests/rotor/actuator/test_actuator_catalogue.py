@@ -113,7 +113,7 @@ def test_grades_of_the_file_are_those_of_the_lists():
 
 
 def test_error_for_an_unknown_actuator_lists_the_known_ones():
-    with pytest.raises(ValueError, match=r"'MFC' is not known: use one of MFC_P1"):
+    with pytest.raises(ValueError, match=r"'MFC' is not known; did you mean 'MFC_P.'\? use one of MFC_P1"):
         find_actuator("MFC")
 
 

@@ -9,13 +9,14 @@ from numpy.testing import assert_allclose
 
 from rotor.aero import kernel
 from rotor.aero.elements import Problem, build_problem, evaluate_elements
-from rotor.aero.sums import disk_sums, slopes
+from rotor.aero.sums import N_SUMS, disk_sums, integrate, integrate_transposed, slopes, weighted_loads
+from rotor.aero.torsion_balance import torsion_residual
 from rotor.aero.trim_state import TrimState
 from rotor.airfoil.sections import load_installed
 from rotor.files.make_design import make_design
-from rotor.trim.equations import UNKNOWNS, jacobian, residuals
+from rotor.trim.equations import jacobian, residuals, unknowns_of
 from rotor.trim.forward import first_guess
-from rotor.trim.newton import newton
+from rotor.trim.newton import coordinates_of, full_jacobian, newton
 
 STATE = TrimState(0.17, 0.03, -0.09, 0.08, 0.06, -0.02, 0.01, 0.012)
 
@@ -40,7 +41,8 @@ def test_velocities_and_loads_by_the_formulas(preset: str):
     beta = beta0 + b1c * np.cos(psi) + b1s * np.sin(psi)
     beta_rate = -b1c * np.sin(psi) + b1s * np.cos(psi)
     hinge = p.design.rotor.blade.flap_hinge
-    u_t = r + mu_x * np.sin(psi)
+    turning = STATE.lambda0 * (mu_z + STATE.lambda0) if axial else 0.0
+    u_t = r - turning * r / (r * r + turning) + mu_x * np.sin(psi)
     u_p = mu_z + elements.induced + (r - hinge) * beta_rate + mu_x * beta * np.cos(psi)
     assert_allclose(elements.u_t, u_t, rtol=1e-14, atol=1e-15)
     assert_allclose(elements.u_p, u_p, rtol=1e-12, atol=1e-15)
@@ -56,12 +58,17 @@ def test_velocities_and_loads_by_the_formulas(preset: str):
     alpha = theta - phi
     speed = np.hypot(u_t, u_p)
     blade = p.design.rotor.blade
+    along = mu_x * np.cos(psi[0])
+    reynolds = 0.75 * 27.0 * 8.1788 * 0.5273 * 1.225 / 1.789e-5  # Viscosity at 15 °C: ISO 2533.
+    friction = 0.91 / math.log10(reynolds) ** 2.58 if axial else 0.0
     for i in (0, 12, 22, 33, 39):
         inner, outer, weight = blade.section_at(float(disk.r[i]))
         parts = []
         for name in (inner, outer):
             section = load_installed(name)
-            at = section.table(alpha[i] - section.incidence_offset, speed[i] * p.tip_mach)
+            sweep = math.radians(20.0) if axial and disk.r[i] > 0.965 else 0.0  # Half a chord beyond the kink.
+            normal = np.hypot(u_t[i] * math.cos(sweep) - along * math.sin(sweep), u_p[i])
+            at = section.table(alpha[i] - section.incidence_offset, normal * p.tip_mach)
             parts.append((at.cl, at.cd))
         cl = (1.0 - weight) * parts[0][0] + weight * parts[1][0]
         cd = (1.0 - weight) * parts[0][1] + weight * parts[1][1]
@@ -70,7 +77,10 @@ def test_velocities_and_loads_by_the_formulas(preset: str):
         assert_allclose(loads[kernel.CL], cl, rtol=1e-9, atol=1e-10)
         assert_allclose(loads[kernel.CD], cd, rtol=1e-9, atol=1e-10)
         assert_allclose(loads[kernel.FZ], lift * np.cos(phi[i]) - drag * np.sin(phi[i]), rtol=1e-9, atol=1e-12)
-        assert_allclose(loads[kernel.FX], lift * np.sin(phi[i]) + drag * np.cos(phi[i]), rtol=1e-9, atol=1e-12)
+        across = disk.r[i] + mu_x * np.sin(psi[0])
+        rubbing = friction * disk.half_solidity[i] * (np.hypot(across, along) - np.abs(across)) * across
+        expected = lift * np.sin(phi[i]) + drag * np.cos(phi[i]) + rubbing
+        assert_allclose(loads[kernel.FX], expected, rtol=1e-9, atol=1e-4 * np.abs(rubbing).max() + 1e-12)
 
 
 def test_chord_ratio_and_droop_of_the_r8():
@@ -85,23 +95,29 @@ def test_chord_ratio_and_droop_of_the_r8():
     assert blended.any()
 
 
-@pytest.mark.parametrize("row", [0, 1, 2])
+@pytest.mark.parametrize("row", [0, 1, 2, 3])
 def test_pointwise_derivatives(row: int):
-    """∂F_z, ∂F_x by θ, U_T, U_P against central differences, everywhere on the disk."""
+    """∂F_z, ∂F_x by θ, U_T, U_P, U_R against central differences, everywhere on the disk."""
     p = problem()
     elements = evaluate_elements(p, STATE)
     disk = p.disk
-    fields = [elements.theta, elements.u_t, elements.u_p]
+    fields = [elements.theta, elements.u_t, elements.u_p, elements.flow.mu_x * disk.cos]
     h = 1e-6
 
     def loads(shift: float):
         moved = [f + shift * (k == row) for k, f in enumerate(fields)]
         return kernel.element_loads(
-            *moved, elements.loss, p.tip_mach, disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables
-        )
+            *moved, elements.loss, p.tip_mach, disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables,
+            disk.cos_sweep, disk.sin_sweep,
+        )  # fmt: skip
 
     ahead, behind = loads(h), loads(-h)
-    rows = [(kernel.FZ_THETA, kernel.FX_THETA), (kernel.FZ_UT, kernel.FX_UT), (kernel.FZ_UP, kernel.FX_UP)][row]
+    rows = [
+        (kernel.FZ_THETA, kernel.FX_THETA),
+        (kernel.FZ_UT, kernel.FX_UT),
+        (kernel.FZ_UP, kernel.FX_UP),
+        (kernel.FZ_UR, kernel.FX_UR),
+    ][row]
     for value, slope in ((kernel.FZ, rows[0]), (kernel.FX, rows[1])):
         difference = (ahead[value] - behind[value]) / (2.0 * h)
         scale = np.abs(difference).max()
@@ -124,7 +140,7 @@ def test_pointwise_derivatives(row: int):
 def test_trim_jacobian(preset: str, models: dict[str, object], mu: float):
     """The exact Jacobian of the trim residual against central differences."""
     p = problem(preset, mu, **models)
-    unknowns = UNKNOWNS[p.design.models.trim]
+    unknowns = unknowns_of(p.design)
     state = STATE
     if preset == "thesis" or models.get("trim") == "thrust":
         state = replace(STATE, shaft_tilt=math.atan2(p.drag, p.weight))
@@ -141,18 +157,32 @@ def test_trim_jacobian(preset: str, models: dict[str, object], mu: float):
 def test_newton_converges_quadratically():
     """Near the root each residual is of the order of the last one squared: the mark of an exact Jacobian."""
     p = problem(mu=0.2)
-    unknowns = UNKNOWNS["propulsive"]
-    state = newton(p, first_guess(p)).elements.state.moved(unknowns, np.full(len(unknowns), 2e-3))
+    unknowns = unknowns_of(p.design)
+    trimmed, count = newton(p, first_guess(p)).elements, len(unknowns)
+    state, twist = trimmed.state.moved(unknowns, np.full(count, 2e-3)), coordinates_of(trimmed)
     sizes = []
     for _ in range(4):
-        elements = evaluate_elements(p, state)
-        error = residuals(p, elements)
-        sizes.append(np.abs(error).max() / p.weight)
-        matrix = jacobian(p, elements, slopes(p, elements, unknowns, None))
-        state = state.moved(unknowns, np.asarray(np.linalg.solve(matrix, -error), dtype=float))
+        elements = evaluate_elements(p, state, None, twist)
+        balance = torsion_residual(p, elements)
+        error = np.concatenate([residuals(p, elements), balance.ravel()])
+        sizes.append(np.abs(error[:count]).max() / p.weight)
+        matrix = full_jacobian(p, elements, slopes(p, elements, unknowns, None))
+        step = np.asarray(np.linalg.solve(matrix, -error), dtype=float)
+        state, twist = state.moved(unknowns, step[:count]), twist + step[count:].reshape(twist.shape)
     assert sizes[1] < sizes[0] ** 2
     assert sizes[2] < sizes[1] ** 2
     assert sizes[3] < 1e-13
+
+
+def test_the_sums_are_those_over_the_elements():
+    """The compiled sums against the contributions of all elements, and against their transpose."""
+    p = problem(mu=0.2)
+    elements = evaluate_elements(p, STATE)
+    fz, fx = elements.loads[kernel.FZ], elements.loads[kernel.FX]
+    sums = integrate(p, elements, np.stack([fx, fz]), np.stack([fz, fx]))[:, 1]
+    assert_allclose(weighted_loads(p, elements, fz, fx).sum(axis=(1, 2)), sums, rtol=1e-12)
+    by_fz, by_fx = integrate_transposed(p, elements, np.eye(N_SUMS))
+    assert_allclose((by_fz * fz + by_fx * fx).sum(axis=(1, 2)), sums, rtol=1e-12)
 
 
 def test_loss_average_over_azimuth_is_settled():

@@ -10,11 +10,13 @@ from inflow_tables import table
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from rotor.aero.inflow.dynamic_wake import DynamicWake, WakeOperator
-from rotor.aero.inflow.interface import Wake
+from rotor.aero.disk import build_disk
+from rotor.aero.inflow.dynamic_wake import DynamicWake, DynamicWakeResponse, WakeOperator
+from rotor.aero.inflow.interface import ColumnFeedback, FieldColumns, HarmonicShapes, Wake
 from rotor.aero.inflow.peters_he import families, flow_parameters, radial_functions
 from rotor.aero.losses import tip_factor
 from rotor.aero.momentum import glauert_inflow
+from rotor.files.make_design import make_design
 
 ROOT, ELEMENTS, AZIMUTHS = 0.13, 12, 42
 R = DynamicWake().on(ROOT, ELEMENTS, AZIMUTHS).r
@@ -77,7 +79,7 @@ def test_transposes(model: DynamicWake):
 def test_feedback_is_solved_exactly(model: DynamicWake):
     response = respond(model)
     slope, f, g = -0.3 * np.abs(noise(7)), noise(8), noise(9)
-    loop = response.feedback(slope)
+    loop = response.feedback(slope, f)
     inflow = loop.solve(f)
     assert_allclose(inflow - response.induced(slope * inflow), f, rtol=0, atol=1e-12)
     v = loop.solve_transposed(g)
@@ -86,6 +88,30 @@ def test_feedback_is_solved_exactly(model: DynamicWake):
     # Inflow that the states can hold: the same loop without leaving them.
     x = np.random.default_rng(10).normal(size=response.projection.states)
     assert_allclose(loop.solve(response.field(x)), response.field(loop.solve_states(x)), rtol=0, atol=1e-10)
+
+
+def test_states_of_one_load_and_of_many(model: DynamicWake):
+    """One load by the factors of the wake's equations, many by the matrix made of them."""
+    response = respond(model)
+    loads = np.stack([noise(13), noise(14)])
+    assert_allclose(response.states(loads)[1], response.states(loads[1]), rtol=0, atol=1e-13)
+
+
+def test_many_changes_are_answered_as_each_with_its_field(model: DynamicWake):
+    """Loads, changes of the wake and twist by two shapes with three harmonics each."""
+    disk = build_disk(make_design().rotor, ELEMENTS, AZIMUTHS)
+    shapes = HarmonicShapes.on(disk, np.stack([disk.r, disk.r**2]), 1)
+    response = DynamicWakeResponse(model.operator(model.on(disk.root, ELEMENTS, AZIMUTHS), FORWARD), np.abs(noise(15)))
+    feedback = response.feedback(-0.3 * np.abs(noise(16)))
+    assert isinstance(feedback, ColumnFeedback)
+    wake = np.array([[0.0, 0.0, 0.0], [-0.1, 0.2, 0.0], [0.0, 0.0, 1.0]])
+    changes = np.stack([noise(17), noise(18), 0.0 * noise(19)]), wake, noise(20), shapes
+    by_states, by_fields = feedback.answer_columns(*changes), FieldColumns.of(response, feedback, *changes)
+    mix = np.random.default_rng(21).normal(size=9)
+    assert_allclose(by_states.field(mix), by_fields.field(mix), rtol=0, atol=1e-11)
+    weights, slope = np.stack([noise(22), noise(23)]), noise(24)
+    assert_allclose(by_states.integrate(weights), by_fields.integrate(weights), rtol=0, atol=1e-10)
+    assert_allclose(by_states.project(slope, shapes), by_fields.project(slope, shapes), rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize("wake", [FORWARD, Wake(0.35, 0.04, 0.011), Wake(0.02, 0.0, 0.055), Wake(0.0, 0.0, 0.057)])
@@ -215,10 +241,33 @@ def test_tip_factor():
     assert_allclose(slope, (above - below) / 2e-6, rtol=1e-6, atol=1e-8)
 
 
+def test_each_blade_harmonic_adds_the_part_of_the_load_along_the_wind():
+    """Axial flow, where the inflow at the blade grows by (µ_z + λ0) d/2r³ with each harmonic, for any blade number.
+
+    A smooth load away from its ends; the theory's own tip effect leaves a few tenths of that.
+    """
+    wake = Wake(0.0, 0.06, 0.03)
+    r = np.linspace(0.05 + 0.95 / 120, 1.0 - 0.95 / 120, 60)
+    load = np.repeat((0.02 * r**2 * np.sqrt(1.0 - r**2))[:, None], 120, axis=1)
+    inside = (r > 0.4) & (r < 0.75)
+    expected = wake.axial * load[:, 0] / (2.0 * r**3)
+    for blades in (3, 4):
+        fields = []
+        for harmonics in (2, 3, 4):
+            model = DynamicWake(blades, blades * harmonics, harmonics)
+            fields.append(model.operator(model.on(0.05, 60, 120), wake).induced(load)[:, 0])
+        growth = (fields[2] - fields[0]) / 2.0
+        assert 0.5 < growth[inside].mean() / expected[inside].mean() < 1.5
+
+
 def test_truncation_rule():
     assert DynamicWake.of(4) == DynamicWake(4, 8, 2)
     assert DynamicWake.of(5) == DynamicWake(5, 10, 2)
     assert DynamicWake.of(4, 4) == DynamicWake(4, 4, 1)
+    assert DynamicWake.of(2) == DynamicWake(2, 8, 4)
+    assert DynamicWake.of(3) == DynamicWake(3, 6, 2)
+    assert DynamicWake.of(3, 4) == DynamicWake(3, 3, 1)
+    assert DynamicWake.of(7) == DynamicWake(7, 7, 1)
     with pytest.raises(ValueError, match="do not match"):
         DynamicWake(4, 8, 1)
     with pytest.raises(ValueError, match="use more than 32"):

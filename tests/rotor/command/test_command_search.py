@@ -71,6 +71,23 @@ def test_optimise_text(capsys: pytest.CaptureFixture[str]):
     assert "saving " in out
 
 
+@pytest.mark.slow
+def test_two_airfoils_are_also_compared_on_their_own_sections(capsys: pytest.CaptureFixture[str]):
+    flags = ("--preset", "thesis", "--mu", "0.2", "--starts", "1", "--no-band", "--json")
+    code, out, _ = run(capsys, "optimise", "--concept", "two-segment-two-airfoils", *flags)
+    found = json.loads(out)
+    assert code == 0
+    assert any("not of airfoils" in one for one in found["caveats"])
+    _, out, _ = run(capsys, "optimise", *flags)
+    same = json.loads(out)
+    assert found["baseline_power_w"] == same["baseline_power_w"]  # That of all other concepts.
+    assert same["same_airfoils_power_w"] is None
+    thesis = ("--preset", "thesis", "--mu", "0.2", "--airfoils", found["airfoils"], "--json")
+    _, out, _ = run(capsys, "solve", *thesis)
+    assert_allclose(found["same_airfoils_power_w"], json.loads(out)["power_w"]["total"], rtol=1e-9)
+
+
+@pytest.mark.slow
 def test_flags_set_the_search(capsys: pytest.CaptureFixture[str], tmp_path: Path):
     mission = tmp_path / "mission.csv"
     mission.write_text("mu,hours\n0,1\n0.3,1\n")
@@ -114,7 +131,7 @@ def test_flags_set_the_search(capsys: pytest.CaptureFixture[str], tmp_path: Path
         (["optimise", "--mission", "nowhere.csv"], "does not exist"),
         (["optimise", "--mu", "0.9"], "0.9"),
         (["schedule", "--concept", "cubic"], "'cubic' is not known"),
-        (["schedule", "--mu", "0.3:0.1:0.1"], "not understood"),
+        (["schedule", "--mu", "0.3:0.1:0.1"], "write 0.3:0.1:-0.1 or 0.1:0.3:0.1"),
         (["schedule", "--mission", "nowhere.csv"], "does not exist"),
         (["schedule", "--processes", "0"], "0 processes"),
         (["solve", "--airfoils", "sc1095,nothing@0.5"], "'nothing'"),
@@ -138,6 +155,7 @@ def test_not_converged_is_exit_1_with_nulls(capsys: pytest.CaptureFixture[str]):
     assert (answer["status"], answer["twist"], answer["power_w"]) == ("not-converged", None, None)
 
 
+@pytest.mark.slow
 def test_schedule_json_and_csv(capsys: pytest.CaptureFixture[str], tmp_path: Path):
     table, found = tmp_path / "schedule.csv", tmp_path / "found.jsonl"
     arguments = (

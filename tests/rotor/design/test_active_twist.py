@@ -11,16 +11,17 @@ from numpy.testing import assert_allclose
 
 from rotor.__main__ import main
 from rotor.actuator.catalogue import find_actuator
-from rotor.actuator.harmonic import phase_sweep
+from rotor.actuator.harmonic import dynamic_twist, phase_sweep, power_map, tip_response, with_harmonic
 from rotor.actuator.installation import install
 from rotor.actuator.section import Host, default_placement
 from rotor.aero.elements import build_problem, evaluate_elements
 from rotor.aero.sums import slopes
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
+from rotor.design.stand import Stand
 from rotor.files.design_file import design_from_record, load_design
 from rotor.files.make_design import make_design
-from rotor.trim.equations import UNKNOWNS, jacobian
+from rotor.trim.equations import jacobian, unknowns_of
 from rotor.trim.forward import first_guess
 from rotor.trim.newton import newton
 from rotor.trim.solve import solve
@@ -74,7 +75,7 @@ def test_the_jacobian_is_still_exact():
     assert done.converged
     assert done.passes <= 6
     elements = evaluate_elements(problem, done.elements.state)
-    matrix = jacobian(problem, elements, slopes(problem, elements, UNKNOWNS["propulsive"], None))
+    matrix = jacobian(problem, elements, slopes(problem, elements, unknowns_of(problem.design), None))
     assert np.linalg.cond(matrix) < 1e6
 
 
@@ -95,6 +96,76 @@ def test_twice_per_revolution_saves_power_at_high_speed():
     assert swept.best.design.active_twist is not None
     assert swept.best.design.active_twist.harmonics[0].amplitude <= swept.dynamic.amplitude * (1.0 + 1e-12)
     assert swept.power.max() > 0.0  # The wrong phase costs.
+
+
+@pytest.mark.parametrize("per_rev", [1, 2, 3])
+def test_in_thin_air_the_trim_answers_the_plies_as_a_beam(per_rev: int):
+    """Tip amplitude against finite elements at that frequency, without air; stiff controls, straight tip."""
+    stand = Stand(collective=0.05, density=0.05, tip_mach=0.6)
+    design = make_design(mu=0.2, trim="wind-tunnel", stand=stand, inflow="pitt-peters")
+    design = replace(design, models=replace(design.models, swept_tip=False))
+    installed = install(find_actuator("MFC_P1"), default_placement(2), Host(), design.rotor)
+    installed = replace(installed, blade=replace(installed.blade, control_stiffness=1e9))
+    made = replace(dynamic_twist(installed, per_rev), installed=installed)
+
+    def wave(turned: Design) -> complex:
+        amplitude, phase = tip_response(solve(turned).require(), per_rev)
+        return complex(amplitude * np.exp(1j * phase))
+
+    moved = wave(with_harmonic(design, made, 1.0, 0.0)) - wave(installed.on(design))
+    assert abs(moved) == pytest.approx(made.amplitude, rel=0.01)
+    assert abs(np.degrees(np.angle(moved))) < 2.0
+
+
+def test_air_damps_and_stiffens_the_answer():
+    """At sea level the swept tip's lift holds the blade and the air delays it: the tip follows later and less."""
+    design = make_design(mu=0.2)
+    installed = install(find_actuator("MFC_P1"), default_placement(2), Host(), design.rotor)
+    made = dynamic_twist(installed, 3)
+    amplitude, phase = tip_response(solve(with_harmonic(design, made, 1.0, 0.0)).require(), 3)
+    assert amplitude < 0.9 * made.amplitude
+    assert 5.0 < math.degrees(phase) < 60.0
+
+
+def test_amplitude_and_phase_of_a_known_wave():
+    design = make_design(mu=0.2, preset="thesis")
+    active = replace(design, active_twist=ActiveTwist((Harmonic(2, 0.02, 0.7),)))
+    assert_allclose(tip_response(solve(active).require(), 2), (0.02, 0.7), rtol=1e-9)
+
+
+def test_resonance_is_flown_by_an_elastic_blade_and_refused_by_a_rigid_one():
+    """At 4/rev with first torsion at 4.04/rev the air holds the tip near its twist at rest; in vacuum nothing does."""
+    design = make_design(mu=0.2, inflow="pitt-peters")
+    installed = install(find_actuator("MFC_P1"), default_placement(2), Host("new", 0.8), design.rotor)
+    assert abs(installed.frequency - 4.0) < 0.05
+    with pytest.raises(ValueError, match="too close to the first torsion frequency"):
+        dynamic_twist(installed, 4)
+    made = dynamic_twist(installed, 4, elastic=True)
+    solution = solve(with_harmonic(design, made, 0.2, 0.0)).require()
+    assert 0.8 < tip_response(solution, 4)[0] / (0.2 * made.at_rest) < 1.6
+
+
+@pytest.mark.slow
+def test_the_map_of_power_is_that_of_trims_between_its_points():
+    """Amplitudes and phases off the grid; and where the map says that more twist costs, trims say so too."""
+    design = make_design(mu=0.2)
+    installed = install(find_actuator("MFC_P1"), default_placement(2), Host("new", 0.4), design.rotor)
+    made = dynamic_twist(installed, 2, elastic=True)
+    found = power_map(design, made)
+    off = solve(with_harmonic(design, made, 0.0, 0.0)).require().power.total
+
+    def trimmed(share: float, phase: float) -> float:
+        return solve(with_harmonic(design, made, share, phase)).require().power.total - off
+
+    scale = np.abs(found.changes).max()
+    for share, phase in ((0.15, 1.0), (0.5, 3.3), (0.9, 5.1)):
+        assert_allclose(found.change(share, phase), trimmed(share, phase), atol=0.005 * scale)
+    best, phase, change = found.best()
+    assert 0.1 < best < 0.9
+    assert_allclose(found.limit(phase), best, atol=0.02)
+    assert_allclose(trimmed(best, phase), change, atol=0.005 * scale)
+    assert trimmed(min(1.0, best + 0.2), phase) > trimmed(best, phase) < trimmed(best - 0.1, phase)
+    assert found.limit(phase + math.pi) == 0.0  # At the opposite phase every amplitude costs.
 
 
 @pytest.mark.slow

@@ -52,7 +52,7 @@ def test_every_number_has_a_source():
     text = asset_path("uh60a.toml").read_text(encoding="utf-8")
     for line in text.splitlines():
         if re.match(r"^\w+ = (?!\[$)", line) and not line.startswith(("name", "chord_r", "spans")):
-            assert re.search(r"#\s+[PSDX]\s", line), line
+            assert re.search(r"#\s+[PSDXA]\s", line), line
     assert uh60a_data()["airframe"]["drag_area_m2"] == 3.2646
 
 

@@ -19,7 +19,7 @@ from rotor.trim.newton import newton
 
 def trimmed(preset: str, mu: float) -> tuple[Problem, TrimState]:
     design = make_design(preset=preset, mu=mu, twist="linear:-10")
-    problem = build_problem(replace(design, models=replace(design.models, inflow="pitt-peters")))
+    problem = build_problem(replace(design, models=replace(design.models, inflow="pitt-peters", elastic_twist=False)))
     result = newton(problem, first_guess(problem))
     assert result.converged
     return problem, result.elements.state
@@ -41,11 +41,11 @@ def march(problem: Problem, state: TrimState, revolutions: int) -> np.ndarray:
         here = replace(disk, psi=np.array([psi]), cos=cos, sin=sin)
         induced = problem.inflow.respond(here, wake_at(problem, state), np.zeros((0, 0))).induced
         theta = (problem.twist + state.collective + state.cyclic_1c * cos + state.cyclic_1s * sin)[:, None]
-        u_t = (r + flow.mu_x * sin)[:, None]
+        u_t = (r - elements.swirl + flow.mu_x * sin)[:, None]
         u_p = induced + ((r - flap.hinge) * rate + flow.mu_z + flow.mu_x * beta * cos)[:, None]
         loads = kernel.element_loads(
-            theta, u_t, u_p, elements.loss, problem.tip_mach,
-            disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables,
+            theta, u_t, u_p, flow.mu_x * cos, elements.loss, problem.tip_mach,
+            disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables, disk.cos_sweep, disk.sin_sweep,
         )  # fmt: skip
         moment = float((r - flap.hinge) @ loads[kernel.FZ, :, 0]) * disk.dr
         return flap.load_gain * moment - flap.weight - flap.frequency_squared * beta

@@ -122,8 +122,8 @@ def test_without_tail_rotor_the_documents_share_is_used():
 def test_a_teetering_hub_has_a_caveat_about_coning():
     text = own("r22")["my.toml"].replace("teetering-with-coning-hinges", "teetering")
     solution = solve(make_design(rotor=read_aircraft("my.toml", {"my.toml": text})))
-    assert [one.name for one in solution.caveats] == ["teetering"]
-    assert solve(make_design(rotor="r22")).caveats == ()
+    assert [one.name for one in solution.caveats] == ["teetering", "no-blade-structure"]
+    assert [one.name for one in solve(make_design(rotor="r22")).caveats] == ["no-blade-structure"]
 
 
 @pytest.mark.parametrize("key", OTHERS)
@@ -191,7 +191,7 @@ def test_rotor_flag(capsys: pytest.CaptureFixture[str], tmp_path):
     assert named["power_w"] == read["power_w"]
     assert main(["sweep", "--rotor", "s61", "--mu", "0.1,0.2", "--preset", "thesis"]) == 0
     for words, says in (
-        (["--rotor", "r44"], "rotor 'r44' is not known: use uh60a, r22, s61, or the path of a rotor file"),
+        (["--rotor", "r44"], "rotor 'r44' is not known: use uh60a, r22, s61, xv15, pca2,"),
         (["--rotor", "none.toml"], "rotor file 'none.toml' does not exist"),
     ):
         assert main(["solve", *words]) == 2

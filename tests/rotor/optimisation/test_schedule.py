@@ -14,6 +14,7 @@ from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.objective import WeightedCondition
+from rotor.optimisation.results import Minimum
 from rotor.optimisation.schedule import Cell, Plan, Schedule, open_cells, read_cells, run_plan
 from rotor.optimisation.search import Limits, SearchStatus
 from rotor.trim.solve import solve
@@ -23,7 +24,7 @@ NAMES = ("linear", "quadratic", "two-segment", "free-form")
 
 def small() -> Design:
     design = make_design()
-    return replace(design, models=replace(design.models, elements=20, azimuths=48))
+    return replace(design, models=replace(design.models, inflow="uniform", elements=20, azimuths=48))
 
 
 def plan(*names: str, ratios: tuple[float, ...] = (0.0, 0.15, 0.3), hours: tuple[float, ...] = (1.0, 2.0, 1.0)) -> Plan:
@@ -94,6 +95,15 @@ def test_variable_twist_saves_nothing_with_one_condition():
     assert_allclose(worth.gain / worth.fixed, 0.0, atol=2e-6)
 
 
+def same(a: Minimum | None, b: Minimum | None) -> None:
+    """To rounding: what a process has computed before moves power by 3e-14 of itself."""
+    assert a is not None
+    assert b is not None
+    assert (a.starts, a.active) == (b.starts, b.active)
+    assert a.power == pytest.approx(b.power, rel=1e-12)
+    assert a.parameters == pytest.approx(b.parameters, rel=1e-9)
+
+
 @pytest.mark.slow
 def test_two_processes_give_the_same_result():
     twin = plan("linear", ratios=(0.1, 0.15, 0.2, 0.25, 0.3), hours=(1.0,) * 5)
@@ -103,7 +113,7 @@ def test_two_processes_give_the_same_result():
     assert len(heard) == len(there.cells) == len(here.cells)
     for a, b in zip(here.cells, there.cells, strict=True):
         assert (a.condition, a.concept) == (b.condition, b.concept)
-        assert a.optimum.best == b.optimum.best
+        same(a.optimum.best, b.optimum.best)
 
 
 @pytest.mark.slow
@@ -134,7 +144,7 @@ def test_results_are_kept_after_a_stop_and_not_computed_again(tmp_path: Path):
     assert len(again) == len(finished.cells) - len(found)
     assert len(read_cells(path, whole)) == len(finished.cells)
     for one, other in zip(finished.cells, run_plan(whole).cells, strict=True):
-        assert one.optimum.best == other.optimum.best
+        same(one.optimum.best, other.optimum.best)
 
 
 @pytest.mark.slow

@@ -43,6 +43,7 @@ def test_figure_2_6(report: Make):
     numbers = report("2.6").numbers
     assert numbers["spread_over_azimuth"] == 0.0
     assert_allclose(numbers["slope"], 1.0, rtol=1e-12)
+    assert report("2.6").verdict is Agreement.ALONE
 
 
 def test_figure_2_7(report: Make):

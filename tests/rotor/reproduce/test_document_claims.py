@@ -40,7 +40,7 @@ def test_hover_optimum_of_linear_twist(preset: str):
         f"the thesis' −13.5° costs {100 * cost:.2f} %"
     )
     assert -19.0 < rates[k] < -12.0
-    assert cost < 3e-3
+    assert cost < {"thesis": 3e-3, "flight": 6e-3}[preset]  # Drag rise by angle of attack wants more twist: −18°.
     assert power_kw(preset, 0, 0.0) > 1.05 * powers[k]
     assert (np.diff(powers[:k]) < 0.0).all()  # Past the optimum more twist costs again, as fig. 3.11 says.
 

@@ -43,7 +43,9 @@ def test_every_link_of_the_pages_has_a_target():
     """Links of theory, trust page and README point to existing files."""
     for text in (*DOCS.glob("*.md"), DOCS.parent / "README.md"):
         links = re.findall(r"\]\(([^)#]+)", text.read_text(encoding="utf-8"))
-        missing = [link for link in links if "://" not in link and not (text.parent / link).exists()]
+        # The site builds docs/_made/notebooks from docs/notebooks.
+        written = [link.removesuffix("/index").replace("_made/", "") if "_made/" in link else link for link in links]
+        missing = [link for link in written if "://" not in link and not (text.parent / link).exists()]
         assert not missing, f"{text.name}: {missing}"
 
 
@@ -104,8 +106,8 @@ def test_sensitivities_are_reproduced():
 
 
 def test_lift_slope_compared_with_the_public_deck():
-    """12–14 % steeper than the deck of CR-166309 (assets/airfoils/CITATION.md says so)."""
+    """Within 2 % of the deck of CR-166309: McCroskey's slope (assets/airfoils/CITATION.md)."""
     for name, published in LIFT_SLOPE.items():
         table = load_section(name)
         slope = float(table(math.radians(8.0), 0.3).cl - table(0.0, 0.3).cl) / math.radians(8.0)
-        assert 1.10 < slope / published < 1.15
+        assert 0.98 < slope / published < 1.03

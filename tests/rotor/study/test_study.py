@@ -195,13 +195,48 @@ def test_a_users_rotor_and_table_are_part_of_the_study(tmp_path: Path):
     assert rows[0]["twist"] == "points:5,-5@0.1,1"
 
 
+def test_a_rotor_on_a_test_stand_is_studied_over_the_inputs_of_its_test():
+    text = """
+[axes]
+stand_shaft_tilt_deg = [0, 15]
+[fixed]
+rotor = "xv15"
+mu = 0.15
+stand_ct_over_sigma = 0.075
+stand_tip_mach = 0.691
+[models]
+trim = "wind-tunnel"
+inflow = "uniform"
+"""
+    for row, tilt in zip(evaluate_points(parse_study(text), 0, 2), (0.0, 15.0), strict=True):
+        stand = {"shaft_tilt_deg": tilt, "ct_over_sigma": 0.075, "tip_mach": 0.691}
+        alone = solve(make_design(rotor="xv15", mu=0.15, trim="wind-tunnel", stand=stand, inflow="uniform"))
+        assert row["status"] == "converged"
+        assert_allclose(row["power_total_w"], alone.power.total, rtol=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("stand_ct_over_sigma = 0.9", "ct_over_sigma 0.9 is outside 0…0.25"),
+        ("stand_tip_mach = 0.6", "give one of thrust_n, ct_over_sigma and collective_deg"),
+        ("stand_tip_match = 0.6", "stand_tip_match"),
+    ],
+)
+def test_a_bad_test_in_a_study_is_one_sentence(line: str, words: str):
+    text = f'[axes]\nmu = [0.1, 0.2]\n[fixed]\nrotor = "xv15"\n{line}\n[models]\ntrim = "wind-tunnel"\n'
+    with pytest.raises(ValueError, match=words) as error:
+        parse_study(text)
+    assert "\n" not in str(error.value)
+
+
 def test_the_row_of_an_optimum_has_its_results():
     text = '[axes]\nmu = [0.2]\n[fixed]\nconcept = "two-segment"\ndivision = 0.6\n[optimum]\nstarts = 1\n' + COARSE
     (row,) = evaluate_points(parse_study(text), 0, 1)
     assert row["status"] == "converged"
     assert row["division"] == 0.6
     assert row["twist"].endswith("@0.6")
-    assert f"{row['inboard_rate_deg']:.4f}" in row["twist"]
+    assert f"{row['inboard_rate_deg']:.6f}" in row["twist"]
     assert_allclose(row["mean_power_w"], row["power_total_w"], rtol=1e-8)
     assert row["saving_percent"] > 0.0
 
@@ -242,6 +277,9 @@ def test_a_guess_is_exact_for_linear_variation():
     guess = memory.guess(at(0.17, 200.0), hovering=False)
     assert guess is not None
     assert_allclose(guess.state.collective, 0.1 + 0.2 * 0.17 + 1e-5 * 200.0, rtol=1e-3)
+    assert solution.elastic is not None
+    assert guess.elastic is not None
+    assert_allclose(guess.elastic, solution.elastic.coordinates, rtol=1e-12)  # All trims have the same.
     assert memory.guess(at(0.17, 200.0) | {"inflow": "drees"}, hovering=False) is None
     assert memory.guess(at(0.17, 200.0), hovering=True) is None
 

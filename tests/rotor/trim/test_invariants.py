@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor.design.structure import BladeStructure
 from rotor.design.twist import LinearTwist
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
@@ -15,7 +16,10 @@ from rotor.trim.solve import solve
 def test_scaling_at_fixed_mach_leaves_coefficients():
     """Twice the radius at half the speed of rotation, masses to match: all coefficients and angles stay."""
     design = make_design(mu=0.25)
-    rotor, blade = design.rotor, design.rotor.blade
+    rotor, blade, structure = design.rotor, design.rotor.blade, design.rotor.blade.structure
+    assert structure is not None
+    # Weight does not scale with a speed squared at fixed g, nor skin friction with the Reynolds number twice as large.
+    models = replace(design.models, blade_weight=False, radial_friction=False)
     big = replace(
         rotor,
         radius=2.0 * rotor.radius,
@@ -27,6 +31,17 @@ def test_scaling_at_fixed_mach_leaves_coefficients():
             flap_inertia=32.0 * blade.flap_inertia,
             flap_static_moment=16.0 * blade.flap_static_moment,
             mass=8.0 * blade.mass,
+            structure=BladeStructure(
+                radius=2.0 * structure.radius,
+                stations=tuple(2.0 * r for r in structure.stations),
+                torsional_stiffness=tuple(16.0 * gj for gj in structure.torsional_stiffness),
+                mass_per_length=tuple(4.0 * m for m in structure.mass_per_length),
+                torsional_inertia=tuple(16.0 * i for i in structure.torsional_inertia),
+                tension_gyration=4.0 * structure.tension_gyration,
+                clamp=2.0 * structure.clamp,
+                control_stiffness=8.0 * structure.control_stiffness,
+                pitch_horn=2.0 * structure.pitch_horn,
+            ),
         ),
     )
     scaled = replace(
@@ -34,14 +49,18 @@ def test_scaling_at_fixed_mach_leaves_coefficients():
         rotor=big,
         condition=replace(design.condition, mass=4.0 * design.condition.mass),
         fuselage=replace(design.fuselage, drag_area=4.0 * design.fuselage.drag_area),
-        models=replace(design.models, blade_weight=False),  # Weight does not scale with a speed squared at fixed g.
+        models=models,
     )
-    design = replace(design, models=replace(design.models, blade_weight=False))
+    design = replace(design, models=models)
     a, b = solve(design).require(), solve(scaled).require()
     assert_allclose(b.ct, a.ct, rtol=1e-9)
     assert_allclose(b.cp, a.cp, rtol=1e-8)
     for name in ("collective", "cyclic_1c", "cyclic_1s", "shaft_tilt", "coning", "lambda0"):
         assert_allclose(getattr(b.controls, name), getattr(a.controls, name), atol=1e-9)
+    assert a.elastic is not None
+    assert b.elastic is not None
+    assert_allclose(b.elastic.tip, a.elastic.tip, atol=1e-9)
+    assert_allclose(b.elastic.pitch_link_load, 4.0 * a.elastic.pitch_link_load, rtol=1e-7)
 
 
 def test_start_of_azimuth_does_not_matter():
@@ -75,7 +94,7 @@ def test_twist_offset_is_absorbed_by_collective():
 def test_low_speed_tends_to_symmetry(preset: str):
     """With no losses and uniform inflow, µ → 0 leaves no azimuthal dependence: hover's limit of the trim."""
     design = make_design(preset=preset, mu=1e-4, twist="linear:-8")
-    models = replace(design.models, inflow="uniform", tip_loss=False, hub_loss=False)
+    models = replace(design.models, inflow="uniform", tip_loss=False, hub_loss=False, swirl=False)
     solution = solve(replace(design, models=models)).require()
     assert np.ptp(solution.disk.dct, axis=1).max() < 2e-3 * solution.disk.dct.max()
     assert_allclose(solution.controls.lambda0, math.sqrt(solution.ct / 2.0), rtol=1e-4)
@@ -84,7 +103,7 @@ def test_low_speed_tends_to_symmetry(preset: str):
 def test_uniform_inflow_hover_limit_is_momentum_theory():
     """µ → 0, uniform inflow: induced power T v_h, within the 10⁻⁴ of µ²."""
     design = make_design(mu=1e-4)
-    models = replace(design.models, inflow="uniform", tip_loss=False, hub_loss=False)
+    models = replace(design.models, inflow="uniform", tip_loss=False, hub_loss=False, swirl=False)
     solution = solve(replace(design, models=models)).require()
     assert_allclose(solution.power.induced / design.power_unit, solution.ct**1.5 / math.sqrt(2.0), rtol=1e-4)
 
@@ -118,7 +137,9 @@ def test_azimuths_converge():
 def test_reverse_flow_area_is_the_circle():
     """The region r < −µ sin ψ is a circle of diameter µ, area µ²/4 of the disk; the cut-out's part is not blade."""
     design = make_design(mu=0.4)
-    fine = solve(replace(design, models=replace(design.models, inflow="uniform", elements=400, azimuths=720))).require()
+    fine = solve(
+        replace(design, models=replace(design.models, inflow="uniform", swirl=False, elements=400, azimuths=720))
+    ).require()
     mu_x = 0.4 * math.cos(fine.controls.shaft_tilt)
     r0 = design.rotor.blade.root_cutout
     psi = math.pi + (np.arange(20_000) + 0.5) * math.pi / 20_000

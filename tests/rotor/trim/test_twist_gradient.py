@@ -46,7 +46,7 @@ def check(design: Design, name: str, objective: Objective, *, every: bool = True
     centre = measure(objective, concept.apply(design, values), options=TIGHT)
     assert centre.by_pitch is not None
     exact = concept.slopes(values, centre.solutions[0].disk.r) @ centre.by_pitch * span
-    step = 8e-6
+    step = 4e-6  # Halving it from 8e-6 quarters the difference's own error, which was 7e-7.
 
     def power(direction: np.ndarray) -> float:
         changed = concept.apply(design, values + direction)
@@ -63,10 +63,16 @@ def check(design: Design, name: str, objective: Objective, *, every: bool = True
 
 @pytest.mark.parametrize("quantity", QUANTITIES)
 @pytest.mark.parametrize("inflow", INFLOW_MODELS)
-@pytest.mark.parametrize("name", CONCEPTS)
-def test_forward_flight(name: str, inflow: str, quantity):
+def test_forward_flight(inflow: str, quantity):
+    """The slope by the pitch of every element, which holds those of all concepts."""
     design = small("flight", inflow, 0.25)
-    check(design, name, at_condition(design, quantity), every=False)
+    check(design, "free-form", at_condition(design, quantity), every=False)
+
+
+@pytest.mark.parametrize("name", CONCEPTS)
+def test_concepts_in_forward_flight(name: str):
+    design = small("flight", None, 0.25)
+    check(design, name, at_condition(design), every=False)
 
 
 @pytest.mark.parametrize("quantity", QUANTITIES)

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 
-from tests.tools.soak.drag import Dragger
+from tests.tools.soak.drag import Dragger, expected
 from tests.tools.soak.figures import SoakReport, judge
 from tests.tools.soak.process import processor_seconds, resident_mb
 from tests.tools.soak.real import visit
@@ -56,6 +56,7 @@ def server(*options: str) -> Iterator[tuple[str, int]]:
 
 def soak(plan: Soak, tell: Callable[[str], None] = lambda line: None) -> SoakReport:
     """Run it; `tell` hears a line now and then. RuntimeError where there is no server, or no browser to be had."""
+    expected()
     with server("--max-sessions", str(plan.browsers + plan.real)) as (address, pid):
         try:
             return asyncio.run(_soak(plan, address, pid, tell))

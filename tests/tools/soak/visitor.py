@@ -35,9 +35,13 @@ _KIND = re.compile(r'data-kind="(\w+)"')
 class Visitor:
     """One connection, from `open` to `close`."""
 
-    def __init__(self, seen: Callable[[bytes], None] = lambda vertices: None) -> None:
+    def __init__(
+        self, seen: Callable[[bytes], None] = lambda vertices: None, query: str = "", kept: dict[str, str] | None = None
+    ) -> None:
         self._seen = seen
         """Called with the reference blade's vertices whenever a frame brings them."""
+        self._facts = {"dark": False, "query": query, "kept": kept or {}}
+        """What the page answers when it is asked; query: what follows the address, kept: texts the server gave it."""
         self._socket: ClientConnection | None = None
         self._reading: asyncio.Task[None] | None = None
         self._news = asyncio.Event()
@@ -142,8 +146,9 @@ class Visitor:
                 self.blade = bytes(message["updates"]["vertices"])
                 self._seen(self.blade)
             case "LocalStorageGetItemRequestMessage":
+                value = json.dumps(self._facts) if message["key"].startswith("facts-") else None
                 await self.send(
-                    "LocalStorageGetItemResponseMessage", value=None, error=None, request_uuid=message["request_uuid"]
+                    "LocalStorageGetItemResponseMessage", value=value, error=None, request_uuid=message["request_uuid"]
                 )
             case "NotificationShowMessage":
                 props = message.get("props", message)

@@ -1,0 +1,203 @@
+"""The documentation site: `make docs` builds it with Sphinx, warnings as errors, into `dist/docs`.
+
+Markdown is read by MyST, the notebooks are run by sphinx-gallery, formulas become MathML. Three directives run the
+program while the site is built, so that no page holds a typed result: `run` prints what a command prints, `picture`
+draws one of `pictures.py`, `commands` prints the help of every command. The built pages ask no other host for
+anything; the last step of the build checks that.
+"""
+
+import argparse
+import contextlib
+import io
+import os
+import re
+import shlex
+import sys
+import tempfile
+from pathlib import Path
+
+from docutils import nodes
+from latex2mathml.converter import convert
+from sphinx.application import Sphinx
+from sphinx.util.docutils import SphinxDirective
+from sphinx.writers.html5 import HTML5Translator
+
+HERE = Path(__file__).parent
+ROOT = HERE.parent
+sys.path[:0] = [str(ROOT), str(HERE)]
+os.environ["COLUMNS"] = "100"  # Width of the help of the commands.
+
+import pictures  # noqa: E402
+
+import rotor  # noqa: E402
+from explorer import __main__ as page_command  # noqa: E402
+from explorer.export import demo  # noqa: E402
+from explorer.export.report import command as report_command  # noqa: E402
+from rotor.__main__ import main as rotor_main  # noqa: E402
+from rotor.command.parser import build_parser  # noqa: E402
+
+project = "rotor-explorer"
+author = "rotor-explorer contributors"
+release = version = rotor.__version__
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx_gallery.gen_gallery"]
+exclude_patterns = ["notebooks", "_made/**/*.ipynb", "_made/**/*.py"]
+suppress_warnings = ["config.cache"]
+nitpicky = False
+default_role = "code"
+
+html_theme = "furo"
+html_title = "Rotor explorer"
+html_show_sourcelink = html_copy_source = False
+html_static_path = ["style"]
+html_css_files = ["site.css"]
+html_math_renderer = "mathml"
+templates_path = []
+
+myst_enable_extensions = ["dollarmath"]
+myst_heading_anchors = 3
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+autodoc_preserve_defaults = True
+add_module_names = False
+python_maximum_signature_line_length = 88
+
+sphinx_gallery_conf = {
+    "examples_dirs": "notebooks",
+    "gallery_dirs": "_made/notebooks",
+    "filename_pattern": r"/\d\d_",
+    "within_subsection_order": "FileNameSortKey",
+    "abort_on_example_error": True,
+    "capture_repr": (),
+    "download_all_examples": False,
+    "min_reported_time": 1e9,
+    "show_memory": False,
+    "show_signature": False,
+    "write_computation_times": False,
+}
+
+
+class Run(SphinxDirective):
+    """`run`: a command of the program and what it prints. With files in the body, one after a line `== NAME`."""
+
+    required_arguments = 1
+    final_argument_whitespace = True
+    has_content = True
+    folder = tempfile.TemporaryDirectory(prefix="rotor-docs-")
+    """Where the commands of all pages run; files of one remain for the next."""
+
+    def run(self) -> list[nodes.Node]:
+        command = self.arguments[0]
+        name = ""
+        for line in self.content:
+            if line.startswith("== "):
+                name = line[3:]
+                Path(self.folder.name, name).write_text("", encoding="utf-8")
+            else:
+                with Path(self.folder.name, name).open("a", encoding="utf-8") as file:
+                    file.write(f"{line}\n")
+        words = shlex.split(command)
+        if words[:3] != ["python", "-m", "rotor"]:
+            raise self.error(f"{command}: only python -m rotor is run here")
+        out = io.StringIO()
+        with contextlib.chdir(self.folder.name), contextlib.redirect_stdout(out):
+            code = rotor_main(words[3:])
+        if code != 0:
+            raise self.error(f"{command} ended with {code}")
+        text = f"$ {command}\n{out.getvalue().rstrip()}"
+        return [nodes.literal_block(text, text, language="text")]
+
+
+class Picture(SphinxDirective):
+    """`picture`: what a function of `pictures.py` draws, as HTML, with the body as its caption."""
+
+    required_arguments = 1
+    has_content = True
+
+    def run(self) -> list[nodes.Node]:
+        self.env.note_dependency(pictures.__file__)
+        drawn = nodes.raw("", f'<div class="drawn">{getattr(pictures, self.arguments[0])()}</div>', format="html")
+        return [drawn, *self.parse_content_to_nodes()]
+
+
+class Commands(SphinxDirective):
+    """`commands`: the help of every command, from the parsers themselves."""
+
+    def run(self) -> list[nodes.Node]:
+        (rotor_commands,) = (a for a in build_parser()._actions if isinstance(a, argparse._SubParsersAction))
+        out: list[nodes.Node] = []
+        for parser in (
+            *rotor_commands.choices.values(),
+            page_command._parser(),
+            report_command._parser(),
+            demo._parser(),
+        ):
+            text = parser.format_help()
+            title = parser.prog.removeprefix("python -m ")
+            section = nodes.section("", nodes.title(title, title), ids=[nodes.make_id(title)], names=[title])
+            section += nodes.literal_block(text, text, language="text")
+            out.append(section)
+        return out
+
+
+def as_restructured_text(_app: Sphinx, _what: str, _name: str, _value: object, _options: object, lines: list[str]):
+    """Docstrings are plain prose: indented blocks are code, `name: what it is` in a row of lines is a list."""
+    out: list[str] = []
+    for line in lines:
+        before = out[-1] if out else ""
+        indented, inside = line.startswith("    "), before.startswith(("    ", "- "))
+        if indented and not before:
+            out += ["::", ""] if not any(old.startswith("    ") for old in out[-2:]) else []
+        elif indented and inside and not before.startswith("    "):
+            line = f"  {line.strip()}"
+        elif indented and not inside:
+            line = line.strip()
+        elif re.match(r"[a-z_]+(, [a-z_]+)*: ", line) and (not before or before.startswith(("- ", "  "))):
+            line = f"- {line}"
+        elif line and inside and not indented and not line.startswith(" "):
+            line = f"  {line}" if before.startswith("- ") and re.match(r"- [a-z_]+(, [a-z_]+)*: ", before) else line
+        out.append(line)
+    lines[:] = out
+
+
+def source_links(_app: Sphinx, docname: str, content: list[str]):
+    """Links to folders of the source code lead to their first file, Markdown outside is a file like any other."""
+    content[0] = re.sub(r"\[`?([^\]`]+)`?\]\((\.\./[\w./]+\.md)\)", r"{download}`\1 <\2>`", content[0])
+    content[0] = re.sub(r"\]\((\.\./[\w./]+)/\)", r"](\1/__init__.py)", content[0])
+
+
+def included_links(_app: Sphinx, path: Path, _parent: str, content: list[str]):
+    """CONTRIBUTING and the like are written for the top folder."""
+    content[0] = re.sub(r"\]\(docs/([\w.]+)\)", r"](\1)", content[0])
+
+
+def mathml(self: HTML5Translator, node: nodes.math | nodes.math_block):
+    self.body.append(convert(node.astext(), display="block" if isinstance(node, nodes.math_block) else "inline"))
+    raise nodes.SkipNode
+
+
+ASKS = re.compile(r"""(?:\ssrc=|<link[^>]*\shref=|url\(|@import\s+)["']?(?:https?:)?//[^"')\s>]+""")
+
+
+def check_hosts(app: Sphinx, error: Exception | None):
+    """The site must open from a disk, without a network."""
+    if error is not None or app.builder.name != "html":
+        return
+    asks = [
+        f"{path.relative_to(app.outdir)}: {found[0]}"
+        for path in Path(app.outdir).rglob("*")
+        if path.suffix in (".html", ".css", ".js")
+        for found in ASKS.finditer(path.read_text(encoding="utf-8"))
+    ]
+    if asks:
+        raise RuntimeError("The pages ask other hosts: " + "; ".join(asks[:5]))
+
+
+def setup(app: Sphinx):
+    app.add_directive("run", Run)
+    app.add_directive("picture", Picture)
+    app.add_directive("commands", Commands)
+    app.add_html_math_renderer("mathml", inline_renderers=(mathml, None), block_renderers=(mathml, None))
+    app.connect("autodoc-process-docstring", as_restructured_text)
+    app.connect("source-read", source_links)
+    app.connect("include-read", included_links)
+    app.connect("build-finished", check_hosts)

@@ -1,0 +1,60 @@
+"""
+What twist for this mission?
+============================
+
+A mission is a list of flight conditions with hours. The twist that costs the least fuel is the one with the least
+mean power over these hours, not the one that is best in any of them.
+"""
+
+from dataclasses import replace
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import explorer
+import rotor
+from rotor.optimisation.concepts import find_concept
+from rotor.optimisation.objective import Objective, WeightedCondition
+from rotor.optimisation.search import Search, run_search
+
+design = rotor.make_design(mu=0.2)
+
+# %%
+# The mission: advance ratio and hours.
+
+hours = {0.0: 0.5, 0.2: 1.5, 0.3: 1.0}
+flights = [WeightedCondition(replace(design.condition, advance_ratio=mu), time) for mu, time in hours.items()]
+mission = run_search(Search(design, find_concept("linear"), Objective("total", tuple(flights)), starts=2, band=True))
+print(mission)
+
+# %%
+# The best linear twist of each condition alone, to compare with.
+
+alone = {mu: rotor.optimise(design.at(mu=mu), "linear", starts=2) for mu in hours}
+for mu, best in alone.items():
+    print(f"µ {mu:.1f}: {best.twist.spec():20s} {best.best.power / 1e3:7.1f} kW")
+print(f"mission: {mission.twist.spec()}, mean {mission.best.power / 1e3:.1f} kW")
+lost = sum(
+    time * (rotor.solve(mission.design.at(mu=mu)).power.total - alone[mu].best.power) for mu, time in hours.items()
+) / sum(hours.values())
+print(f"a blade that had the best twist in every condition would save another {lost / 1e3:.1f} kW")
+
+# %%
+# The optimum is flat: the range of twist within 0.1 % of the least power.
+
+(band,) = mission.band
+print(f"{np.degrees(band.low):.1f}° to {np.degrees(band.high):.1f}° cost less than 0.1 % more")
+
+rates = np.arange(-22.0, -3.9, 2.0)
+for mu in hours:
+    power = np.array([rotor.solve(design.at(mu=mu).with_twist(f"linear:{rate:g}")).power.total for rate in rates])
+    plt.plot(rates, 100.0 * (power / power.min() - 1.0), label=f"µ {mu:.1f}, {hours[mu]:.1f} h")
+plt.axvspan(np.degrees(band.low), np.degrees(band.high), alpha=0.2, label="mission, within 0.1 %")
+plt.xlabel("Linear twist [°]")
+plt.ylabel("Power above the least [%]")
+plt.legend()
+
+# %%
+# See it on the page.
+
+explorer.show(mission.design, browser=False)

@@ -1,0 +1,60 @@
+"""
+What does the blade's own elasticity do to the optimum?
+=======================================================
+
+A blade in flight twists under the moments of its sections, of its mass and of the centrifugal force. The twist that the
+air sees is the jig twist and this elastic twist together, so the best jig twist moves.
+"""
+
+from dataclasses import replace
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import explorer
+import rotor
+
+rigid = rotor.make_design(twist="linear:-12", mu=0.3)
+elastic = replace(rigid, models=replace(rigid.models, elastic_twist=True))
+
+# %%
+# The same jig twist, rigid and elastic.
+
+solutions = {"rigid": rotor.solve(rigid).require(), "elastic": rotor.solve(elastic).require()}
+for name, one in solutions.items():
+    print(f"{name:8s} {one.power.total / 1e3:7.1f} kW, collective {np.degrees(one.controls.collective):.2f}°")
+twist = solutions["elastic"].disk.elastic_twist
+tip = np.degrees(twist[-1])
+print(f"elastic twist at the tip: mean {tip.mean():.2f}°, from {tip.min():.2f}° to {tip.max():.2f}° in one revolution")
+
+# %%
+# Around the disk: the advancing blade twists down, or up, by its own moments.
+
+solutions["elastic"].plot("elastic_twist")
+
+# %%
+# Power over jig twist, and the best of each.
+
+rates = np.arange(-20.0, -3.9, 2.0)
+best = {}
+for name, design in (("rigid", rigid), ("elastic", elastic)):
+    power = np.array([rotor.solve(design.with_twist(f"linear:{rate:g}")).require().power.total for rate in rates])
+    fit = np.poly1d(np.polyfit(rates, power, 4))
+    fine = np.linspace(rates[0], rates[-1], 500)
+    best[name] = fine[np.argmin(fit(fine))]
+    print(f"{name:8s} least power {fit(best[name]) / 1e3:.1f} kW at a jig twist of {best[name]:.1f}°")
+    plt.plot(rates, power / 1e3, "o-", label=name)
+plt.xlabel("Linear jig twist [°]")
+plt.ylabel("Total power [kW]")
+plt.legend()
+
+# %%
+# What it costs to leave elasticity out: fly the rigid optimum as an elastic blade.
+
+flown = {name: elastic.with_twist(f"linear:{rate:.3f}") for name, rate in best.items()}
+powers = {name: rotor.solve(design).require().power.total for name, design in flown.items()}
+lost = powers["rigid"] - powers["elastic"]
+print(f"the optimum moves by {best['elastic'] - best['rigid']:+.1f}°; leaving that out costs {lost / 1e3:.2f} kW")
+
+# %%
+explorer.show(flown["elastic"], browser=False)

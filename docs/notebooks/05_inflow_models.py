@@ -1,0 +1,68 @@
+"""
+Which inflow model would mislead me?
+====================================
+
+All inflow models agree on the thrust. They differ in where over the disk the inflow is, and that is what decides the
+best twist. Which of them would send a designer the wrong way?
+"""
+
+import matplotlib.pyplot as plt
+import numpy as np
+
+import explorer
+import rotor
+from rotor.aero.inflow import INFLOW_MODELS
+
+design = rotor.make_design(twist="linear:-10", mu=0.2)
+reference = "dynamic-wake"
+names = [name for name in INFLOW_MODELS if not name.startswith("vortex")]
+print(names)
+
+# %%
+# The vortex wake is left out here only because it takes longer. First the induced power of one blade.
+
+solutions = {name: rotor.solve(rotor.make_design(twist="linear:-10", mu=0.2, inflow=name)) for name in names}
+for name, solution in solutions.items():
+    print(f"{name:28s} κ {solution.induced_power_factor:.3f}   total {solution.power.total / 1e3:7.1f} kW")
+
+# %%
+# Power over twist by each model. Most of the simple ones hold the shape of the inflow whatever the blade does.
+
+rates = np.arange(-20.0, -1.9, 3.0)
+curves = {
+    name: np.array([rotor.solve(one.design.with_twist(f"linear:{rate:g}")).power.total for rate in rates])
+    for name, one in solutions.items()
+}
+for name, power in curves.items():
+    plt.plot(rates, 100 * (power / power.min() - 1.0), label=name, linewidth=2.5 if name == reference else 1.2)
+plt.xlabel("Linear twist [°]")
+plt.ylabel("Power above its least [%]")
+plt.legend()
+
+# %%
+# Take each model's best twist and fly it with the dynamic wake, the reference here. What it costs is how far it misled.
+
+fine = np.linspace(rates[0], rates[-1], 200)
+wrong = {}
+cost = np.poly1d(np.polyfit(rates, curves[reference], 4))
+least = cost(fine).min()
+for name, power in curves.items():
+    best = fine[np.argmin(np.poly1d(np.polyfit(rates, power, 4))(fine))]
+    wrong[name] = 100 * (cost(best) / least - 1)
+    print(f"{name:28s} best twist {best:6.1f}°, flown with the dynamic wake {wrong[name]:.2f} % above the least")
+misled = max(wrong, key=lambda name: wrong[name])
+off = {name: 100 * (one.power.total / solutions[reference].power.total - 1) for name, one in solutions.items()}
+print(f"misleads most about twist: {misled}, by {wrong[misled]:.2f} % of the power")
+lowest = min(off, key=lambda name: off[name])
+print(f"misleads most about power itself: {lowest}, by {off[lowest]:+.1f} %")
+
+# %%
+# The inflow itself: what the models disagree about.
+
+_, axes = plt.subplots(1, 2, subplot_kw={"projection": "polar"}, figsize=(10, 4.5))
+for ax, name in zip(axes, (names[0], reference), strict=True):
+    solutions[name].plot("induced", ax=ax)
+    ax.set_title(name)
+
+# %%
+explorer.show(solutions[reference].design, browser=False)

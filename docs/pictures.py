@@ -1,0 +1,76 @@
+"""The drawings of the documentation, computed while the site is built; each function returns HTML with SVG in it."""
+
+from html import escape
+
+import numpy as np
+
+import rotor
+from explorer.charts.line_chart import Trace, line_chart
+from explorer.export.disk_drawing import HALF, bar_drawing, disk_drawing, key_entries
+from explorer.picture.fields import FIELDS
+from explorer.theme.colours import PARTS
+
+_COLOURS = ("#1c7ed6", "#e8590c", "#0ca678", "#9c36b5")
+
+
+def power_of_twist() -> str:
+    """Power by parts over linear twist, in hover and in fast flight."""
+    rates = np.arange(-20.0, 0.1, 2.0)
+    charts = []
+    for title, speed in (("Hover", 0.0), ("µ = 0.3", 0.3)):
+        design = rotor.make_design(mu=speed)
+        powers = [rotor.solve(design.with_twist(f"linear:{rate:g}")).power for rate in rates]
+        total = np.array([power.total for power in powers])
+        traces = [Trace("total", "currentColor", rates, 100.0 * (total / total.min() - 1.0), width=2.6)]
+        for part in ("induced", "profile"):
+            values = np.array([getattr(power, part) for power in powers])
+            traces.append(Trace(part, PARTS[part], rates, 100.0 * (values - values[-1]) / total.min(), "5 3"))
+        labels = "linear twist [°]", "change [% of the least power]"
+        charts.append(line_chart(title, *labels, traces, (-20.0, 0.0)))
+    return "".join(charts)
+
+
+def disk_in_fast_flight() -> str:
+    """Angle of attack and induced inflow at µ = 0.35, with the outlines of reverse flow and stall."""
+    solution = rotor.solve(rotor.make_design(mu=0.35))
+    return _disk(solution, "Angle of attack") + _disk(solution, "Induced inflow λi")
+
+
+def twist_and_stall() -> str:
+    """Angle of attack at µ = 0.35 with little and with much twist."""
+    design = rotor.make_design(mu=0.35)
+    return "".join(
+        _disk(rotor.solve(design.with_twist(f"linear:{rate}")), "Angle of attack", f"Twist {rate}°".replace("-", "−"))
+        for rate in (-4, -18)
+    )
+
+
+def shipped_rotors() -> str:
+    """Power over advance ratio of the shipped rotors, per weight."""
+    traces = []
+    for name, colour in zip(("uh60a", "r22", "s61"), _COLOURS, strict=False):
+        table = [
+            one for one in rotor.sweep(rotor.make_design(rotor=name), np.arange(0.08, 0.321, 0.04)) if one.converged
+        ]
+        speeds = np.array([one.design.condition.advance_ratio for one in table])
+        loading = np.array([one.power.total / one.design.condition.weight for one in table])
+        traces.append(Trace(table[0].design.rotor.name, colour, speeds, loading))
+    return line_chart("Power over weight", "advance ratio µ", "power over weight [W/N]", traces, (0.05, 0.35))
+
+
+def _disk(solution: rotor.Solution, field: str, title: str = "") -> str:
+    shown = FIELDS[field]
+    colour_range = shown.low, shown.high
+    name = f"bar-{abs(hash((solution.design, field))):x}"
+    key = "".join(
+        f'<span><svg width="14" height="8">{swatch}</svg> {escape(words)}</span>'
+        for words, swatch in key_entries(solution, shown)
+    )
+    drawn = disk_drawing(solution, shown, colour_range, 400, letters=10.0)
+    bar = bar_drawing(shown, colour_range, 200.0, name, 10.0)
+    return (
+        f"<figure><figcaption><b>{escape(title or shown.title)}</b>{key}</figcaption>"
+        f'<svg viewBox="{-HALF:g} {-HALF:g} {2 * HALF:g} {2 * HALF:g}" role="img" aria-label="{escape(shown.title)}">'
+        f'{drawn}</svg><svg class="bar-svg" viewBox="-14 0 228 40">{bar}'
+        "</svg></figure>"
+    )

@@ -1,0 +1,164 @@
+"""Measured points over our curve through the same conditions, as a chart of the strip."""
+
+import math
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from explorer.charts.plots import Range, held_range
+from explorer.charts.strip import StripChart, StripDot, StripLine, StripMark
+from explorer.text.units import number
+from explorer.text.validated import validated
+from rotor.design.aircraft import FlightCondition
+from rotor.design.design import Design
+from rotor.design.stand import Stand
+from rotor.trim.solution import Solution
+from rotor.validation.compare import ComparedPoint, Comparison, compare_point, design_at, quantity_of
+from rotor.validation.measured import MeasuredSet
+
+_AT_ONCE = ("cp", "cq_over_sigma", "cp_drag")
+"""Quantities that a solution has by itself; the others need further trims."""
+_KEPT = 20
+"""Curves remembered per session."""
+_PACE = 0.3
+"""[s] between two drawings of a curve that grows."""
+_MILLE = "×10³"
+_AXES = {
+    "ct": ("CT ×10³", 1e3),
+    "ct_over_sigma": ("CT/σ", 1.0),
+    "mu": ("µ", 1.0),
+}
+_QUANTITIES = {
+    "cp": ("CP over CT", "CP ×10³", 1e3),
+    "cq_over_sigma": ("CQ/σ over µ", "CQ/σ ×10³", 1e3),
+    "cp_drag": ("CP of the drag over µ", "CP ×10³", 1e3),
+    "cq_above_zero": ("CQ − CQ0 over CT", "CQ above zero ×10³", 1e3),
+    "change_percent": ("Effect of twist over CT", "% of CQ", 1.0),
+}
+"""Title, unit and factor of a measured quantity."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Known:
+    """What is known of one blade with one set of models."""
+
+    points: tuple[ComparedPoint, ...]
+    now: float
+    """The quantity of the present solution; NaN as long as it is not known."""
+
+
+class MeasuredChart:
+    """One session's: the points are trimmed while the page rests, and kept for each blade and its models."""
+
+    def __init__(self) -> None:
+        self._points: dict[tuple[str, Design], tuple[ComparedPoint, ...]] = {}
+        self._now: tuple[Solution, float] | None = None
+
+    def chart(self, solution: Solution, previous: Range | None = None) -> StripChart | None:
+        """The chart as far as it is known; None in flight, and for a rotor that was not measured."""
+        measured = set_shown(solution)
+        if measured is None:
+            return None
+        if measured.quantity in _AT_ONCE and (self._now is None or self._now[0] is not solution):
+            self._now = solution, quantity_of(measured.quantity, solution, measured)
+        now = self._now[1] if self._now is not None and self._now[0] is solution else math.nan
+        known = _Known(self._points.get(_key(measured, solution.design), ()), now)
+        return _drawn(measured, solution, known, previous)
+
+    def rest(self, solution: Solution, superseded: Callable[[], bool], shown: Callable[[], None]) -> None:
+        """Trim at every measured point, unless newer input comes; `shown`: called when there is more to draw."""
+        measured = set_shown(solution)
+        if measured is None:
+            return
+        if self._now is None or self._now[0] is not solution:
+            self._now = solution, quantity_of(measured.quantity, solution, measured)
+        key = _key(measured, solution.design)
+        points = list(self._points.get(key, ()))
+        if len(self._points) > _KEPT:
+            self._points.clear()
+        begun = time.monotonic()
+        for point in measured.points[len(points) :]:
+            if superseded():
+                return
+            points.append(compare_point(measured, point, key[1]))
+            self._points[key] = tuple(points)
+            if time.monotonic() - begun > _PACE:
+                begun = time.monotonic()
+                shown()
+        shown()
+
+
+def set_shown(solution: Solution) -> MeasuredSet | None:
+    """The measured set that belongs to a test; None in flight, and where nothing was measured."""
+    return None if solution.design.condition.stand is None else validated(solution).measured
+
+
+def _key(measured: MeasuredSet, design: Design) -> tuple[str, Design]:
+    """A set, and the design without its condition."""
+    any_test = FlightCondition(0.0, design.aircraft.mass, stand=Stand(ct_over_sigma=0.07))
+    return measured.name, replace(design, condition=any_test, models=replace(design.models, trim="wind-tunnel"))
+
+
+def _drawn(measured: MeasuredSet, solution: Solution, known: _Known, previous: Range | None) -> StripChart:
+    along = next(name for name in measured.given if len({point[name] for point in measured.points}) > 1)
+    title, unit, size = _QUANTITIES[measured.quantity]
+    axis, wide = _AXES.get(along, (along, 1.0))
+    places = [wide * point[along] for point in measured.points]
+    values = [size * point[measured.quantity] for point in measured.points]
+    scatter = [size * measured.scatter_of(point[measured.quantity]) for point in measured.points]
+    ours = [(wide * one.given[along], size * one.ours[measured.quantity]) for one in known.points if one.ours]
+    ours.sort()
+    x = wide * {"mu": solution.design.condition.advance_ratio, "ct": solution.ct}.get(along, solution.ct_over_sigma)
+    y = size * known.now
+    seen = [*values, *(value for _, value in ours), *([y] if math.isfinite(y) else [])]
+    low, high = min(places), max(places)
+    marks = tuple(
+        StripMark(place, value, error, _words(measured, k, known.points))
+        for k, (place, value, error) in enumerate(zip(places, values, scatter, strict=True))
+    )
+    value, note = _summary(measured, known.points, solution)
+    return StripChart(
+        title=title,
+        unit="both ×10³" if unit.endswith(_MILLE) and axis.endswith(_MILLE) else unit,
+        x_range=(min(0.0, low), max(high, min(x, 1.3 * high)) * 1.04),
+        y_range=held_range(previous, min(seen), max(seen)),
+        lines=(StripLine(np.array([a for a, _ in ours]), np.array([b for _, b in ours]), "saving"),),
+        dots=(StripDot(x, y, ""),),
+        marks=marks,
+        value=value,
+        note=note,
+    )
+
+
+def _words(measured: MeasuredSet, number_of_point: int, points: tuple[ComparedPoint, ...]) -> str:
+    """A measured point in words, with ours and the error where it is known."""
+    point = measured.points[number_of_point]
+    _, unit, size = _QUANTITIES[measured.quantity]
+    words = f"measured {size * point[measured.quantity]:.4g}"
+    if number_of_point >= len(points):
+        return f"{unit}: {words}"
+    one = points[number_of_point]
+    if one.ours is None or one.error_percent is None:
+        return f"{unit}: {words}; ours does not trim"
+    return (
+        f"{unit}: {words}, ours {size * one.ours[measured.quantity]:.4g}, {number(one.error_percent, 1, sign=True)} %"
+    )
+
+
+def _summary(measured: MeasuredSet, points: tuple[ComparedPoint, ...], solution: Solution) -> tuple[str, str]:
+    """For the corner, the error at the present point where that is a measured one, and the rms; then the source."""
+    source = f"Measured: {measured.report}."
+    condition = solution.design.condition
+    parts: list[str] = []
+    for point, compared in zip(measured.points, points, strict=False):
+        test = design_at(measured, point).condition
+        same = test.advance_ratio == condition.advance_ratio and test.stand == condition.stand
+        if same and compared.error_percent is not None:
+            parts.append(f"{number(compared.error_percent, 1, sign=True)} %")
+            break
+    errors = Comparison(measured, "", points) if len(points) == len(measured.points) else None
+    if errors is not None and errors.rms_percent is not None:
+        parts.append(f"rms {number(errors.rms_percent, 1)} %")
+    return ", ".join(parts), source

@@ -1,0 +1,214 @@
+"""`python -m explorer demo FILE`: the rotor as one HTML file without a server, in a computed sweep of twist and speed.
+
+The file is viser's viewer with the trimmed rotor in it, and `demo.html` on top: sliders, play, power, two charts. It
+asks no host for anything, so it opens from a disk or any static host.
+"""
+
+import argparse
+import base64
+import io
+import json
+import sys
+from collections.abc import Sequence
+from html import escape
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from PIL import Image
+from tqdm import tqdm
+
+from explorer.export.provenance import PROGRAM, versions
+from explorer.picture.blade_mesh import BladeShape, blade_shape, blade_vertices, edge_pairs
+from explorer.picture.fields import FIELDS
+from explorer.picture.picture import make_picture
+from explorer.picture.poses import flown_twist, follows_azimuth
+from explorer.scene.page_scene import SURFACES, TURN_RATES, motion_of, scene_script
+from explorer.scene.still_scene import JIG_EDGES, still_page
+from explorer.state import ViewState
+from explorer.text.readout import PART_TITLES
+from explorer.theme.colours import PARTS
+from rotor.arrays import Array
+from rotor.design.design import Design
+from rotor.design.twist import parse_twist
+from rotor.files.design_file import load_design
+from rotor.files.make_design import make_design
+from rotor.terminal import run_command
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+from rotor.units import KNOT
+
+TWISTS = tuple(float(rate) for rate in range(-20, 1))
+"""Linear twist [degrees per radius]."""
+SPEEDS = (0.0, *(round(0.05 + 0.025 * k, 3) for k in range(13)))
+"""Advance ratios: hover, then from where the dynamic wake is trusted up to 0.35."""
+OPENING = (-12.0, 0.2)
+"""Twist and advance ratio that the file opens on."""
+HARMONICS = 4
+"""Of the elastic twist in the trim."""
+UNTWISTED = parse_twist("linear:0")
+PIXELS = 400
+"""Along each edge of a picture of the disk."""
+
+
+def demo_html(
+    design: Design,
+    twists: Sequence[float] = TWISTS,
+    speeds: Sequence[float] = SPEEDS,
+    view: ViewState | None = None,
+    quiet: bool = True,
+) -> str:
+    """The file's text: the design with each linear twist [degrees per radius] at each advance ratio.
+
+    Raises ValueError when the design does not trim with the twist and speed in the middle, which the file opens on.
+    """
+    view = view or ViewState()
+    field = FIELDS[view.field]
+    colour_range = field.low, field.high
+    first = OPENING if OPENING[0] in twists and OPENING[1] in speeds else (twists[len(twists) // 2], speeds[-1])
+    opening = solve(_variant(design, *first))
+    if not opening.converged:
+        raise ValueError(
+            f"The design does not trim at µ {first[1]:g} with a linear twist of {first[0]:g}°: take another"
+        )
+    shape = blade_shape(design.rotor)
+    points: list[list[Any]] = []
+    with tqdm(total=len(twists) * len(speeds), disable=quiet, leave=False) as bar:
+        for speed in speeds:
+            row: list[Any] = []
+            start: Solution | None = None
+            for twist in twists:
+                solution = solve(_variant(design, twist, speed), start)
+                start = solution if solution.converged else start
+                row.append(_point(solution, shape, view, colour_range) if solution.converged else None)
+                bar.update()
+            points.append(row)
+    edges = edge_pairs(shape)
+    record = {
+        "twists": list(twists),
+        "speeds": list(speeds),
+        "knots": [speed * design.rotor.tip_speed / KNOT for speed in speeds],
+        "opening": [list(twists).index(first[0]), list(speeds).index(first[1])],
+        "points": points,
+        "shape": _packed(blade_vertices(shape, UNTWISTED)),
+        "rings": list(shape.rings.shape[:2]),
+        "jig": [_packed(shape.pitch(parse_twist(f"linear:{twist:g}"), view.exaggeration)) for twist in twists],
+        "faces": _packed(np.asarray(shape.faces)),
+        "edges": _packed(edges),
+        "ghost": JIG_EDGES,
+        "parts": [[name, PART_TITLES[name], colour] for name, colour in PARTS.items()],
+        "surfaces": SURFACES,
+        "rate": TURN_RATES["normal"],
+        "rotor": design.rotor.name,
+        "label": "jig twist" if opening.elastic is not None else "twist",
+        "note": f"{field.title} on the disk, {tick_range(colour_range)} {field.unit}. "
+        f"{_drawn(opening, view)} "
+        "Forward-flight power is indicative: a model, not a measurement. "
+        f"{PROGRAM} {versions()[PROGRAM]}",
+    }
+    jig = blade_vertices(shape, opening.design.twist, view.exaggeration)
+    page = still_page(
+        opening, view, colour_range, covered=0.29, edges=jig[edges] if opening.elastic is not None else None
+    )
+    front = Path(__file__).with_suffix(".html").read_text(encoding="utf-8")
+    data = json.dumps(record, separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+    front = front.replace("{{title}}", escape(f"{design.rotor.name}: twist and speed"))
+    front = front.replace("{{label}}", f"Linear {record['label']}")
+    front = front.replace("{{scene}}", scene_script()).replace("{{data}}", data)
+    body = page.rindex("</body>")
+    return page[:body] + front + page[body:]
+
+
+def tick_range(colour_range: tuple[float, float]) -> str:
+    """The ends of a colour scale in words."""
+    low, high = (f"{value:g}".replace("-", "−") for value in colour_range)
+    return f"{low} to {high}"
+
+
+def _variant(design: Design, twist: float, speed: float) -> Design:
+    return design.with_twist(f"linear:{twist:g}").at(mu=speed)
+
+
+def _drawn(opening: Solution, view: ViewState) -> str:
+    """What the blades of the file show."""
+    times = f"drawn {view.exaggeration:g} times as large"
+    if opening.elastic is None:
+        return f"Twist {times}."
+    return (
+        f"The sliders set jig twist. Blades as flown, with elastic twist; lines: jig shape of the red blade; {times}."
+    )
+
+
+def flown_pitch(solution: Solution, shape: BladeShape, exaggeration: float) -> Array:
+    """Drawn pitch of each ring in harmonics of azimuth 1, cos ψ, sin ψ, cos 2ψ, … [rad], (harmonics, rings).
+
+    The mean alone where the twist does not change around the disk.
+    """
+    active = solution.design.active_twist
+    highest = max((HARMONICS, *(one.per_rev for one in active.harmonics))) if active else HARMONICS
+    count = max(24, 4 * highest) if follows_azimuth(solution) else 1
+    psi = 2.0 * np.pi * np.arange(count) / count
+    pitch = np.array([shape.pitch(flown_twist(solution, float(at)), exaggeration) for at in psi])
+    waves = [np.ones_like(psi)]
+    for n in range(1, highest + 1) if count > 1 else ():
+        waves += [2.0 * np.cos(n * psi), 2.0 * np.sin(n * psi)]
+    return np.array(waves) @ pitch / count
+
+
+def _point(solution: Solution, shape: BladeShape, view: ViewState, colour_range: tuple[float, float]) -> dict[str, Any]:
+    """One trim: powers [kW], motion and pitch of the blades, poses, and the picture of the disk as WebP."""
+    picture = make_picture(solution, view, colour_range, pixels=PIXELS)
+    image = io.BytesIO()
+    Image.open(io.BytesIO(picture.png)).convert("RGBA").save(image, "WEBP", quality=80)
+    return {
+        "power": [round(getattr(solution.power, name) / 1e3, 2) for name in PARTS],
+        "motion": motion_of(solution),
+        "poses": [
+            [pose.wxyz.tolist(), pose.position.tolist()] for pose in (picture.rotor, picture.disk, picture.airframe)
+        ],
+        "flown": _packed(flown_pitch(solution, shape, view.exaggeration)),
+        "disk": base64.b64encode(image.getvalue()).decode("ascii"),
+        "stall": round(100.0 * solution.stalled_area, 1),
+    }
+
+
+def _packed(values: np.ndarray[Any, Any]) -> str:
+    """Vertices [m] as 32-bit floats, faces as 32-bit integers, base64."""
+    kind = np.float32 if values.dtype.kind == "f" else np.uint32
+    return base64.b64encode(values.astype(kind).tobytes()).decode("ascii")
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """0 when the file is written, 2 for bad input."""
+    return run_command("explorer demo", lambda: _run(_parser().parse_args(arguments)))
+
+
+def _run(options: argparse.Namespace) -> int:
+    target = Path(options.out)
+    if target.is_dir():
+        target /= "index.html"
+    design = load_design(options.design) if options.design else make_design()
+    text = demo_html(design, view=ViewState(field=options.field), quiet=not sys.stderr.isatty())
+    try:
+        target.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise ValueError(f"cannot write {str(target)!r} ({error.strerror}): give a writable file") from None
+    print(f"{target}: {len(TWISTS)} twists at {len(SPEEDS)} speeds, {target.stat().st_size / 1e6:.1f} MB")
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="python -m explorer demo",
+        description="One HTML file without a server: the rotor in 3D, in a computed sweep of twist and speed.",
+    )
+    parser.add_argument("out", metavar="FILE", help="where to write; in a folder, its index.html")
+    parser.add_argument("--design", metavar="FILE", help="design file (JSON); default the UH-60A")
+    parser.add_argument(
+        "--field",
+        default=ViewState.field,
+        choices=tuple(FIELDS),
+        metavar="NAME",
+        help=f"on the disk: {', '.join(FIELDS)}",
+    )
+    return parser

@@ -1,0 +1,187 @@
+"""The elastic twist of the rotating blade in the trim: modes along the blade, harmonics around the disk.
+
+The blade twists by φ(r, ψ) = Σ_k Φ_k(r) q_k(ψ), with the lowest rotating torsion modes Φ_k and q_k a Fourier series.
+With the pitch θ = θ_jig + θ_control + φ (and active twist) and the modal frequencies ν_k [per rev],
+
+    m_k (q_k'' + ν_k² q_k) = ∫ Φ_k [ dC_M/dr − j (θ_rigid'' + ½ sin 2θ − φ) + w β0 ] dr
+                             − ∫ Φ_k' F_c k_A² (θ_jig + θ_act)' dr
+
+in units of ρπR⁵Ω²/N_b, with j the torsional inertia, θ_rigid the pitch without φ, and w the mass of the swept tip
+times its offset and its radius: the centrifugal force of the coned mass behind the axis lifts the nose. The propeller
+moment is kept with its sine; ν_k² holds its linear part, hence + φ. Tension unwinds a twisted blade (last term).
+dC_M/dr is the moment of the air: `kernel.element_moments`. Active twist θ_act is what the actuator makes of a blade at
+rest: its moment is GJ θ_act', and φ is the rest of the answer. Source: Houbolt & Brooks, NACA TR 1346 (1958), without
+bending.
+
+Left out: coupling with bending in flap and lag, the reaction of the swept tip's mass on flapping (0.3 % of the flap
+moment), and that of first-harmonic flapping on it, which is zero for a hinge at the shaft.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+
+from rotor.aero import kernel
+from rotor.aero.disk import Disk
+from rotor.aero.inflow.interface import HarmonicShapes
+from rotor.airfoil.bicubic import N_ALPHA, N_MACH, bicubic_coefficients, mach_nodes
+from rotor.airfoil.c81 import C81Block
+from rotor.airfoil.section_table import SectionTable
+from rotor.arrays import Array
+from rotor.design.active_twist import ActiveTwist
+from rotor.design.blade import Rotor
+from rotor.dynamics.torsion import TorsionModes, blade_modes
+
+MODES = 2
+"""Torsion modes of the trim: power within 0.03 % and the mean twist of the tip within 0.03° of six modes (tested)."""
+HARMONICS = 4
+"""Highest harmonic of the elastic twist, unless active twist has a higher one."""
+_MOST_HARMONICS = 8
+
+
+@dataclass(frozen=True, eq=False)
+class BladeTorsion:
+    """Torsion of one blade on the grid of the disk; moments in units of ρπR⁵Ω²/N_b, per unit of r where distributed."""
+
+    modes: TorsionModes
+    frequency: Array
+    """ν_k [per rev], (modes,)."""
+    shapes: HarmonicShapes
+    gain: Array
+    """1/(m_k ν_k²): modal moment to radians, (modes,)."""
+    dynamic: Array
+    """1 − (h/ν_k)², (modes, functions)."""
+    inertia: Array
+    """j of each element, the root inboard of the lifting blade with the first, (elements,)."""
+    coupling: Array
+    """∫ Φ_k j Φ_l dr, (modes, modes)."""
+    tension: Array
+    """∫ Φ_k' F_c k_A² θ' dr of a twist given at the elements, (modes, elements)."""
+    own_tension: Array
+    """The same with a twist in the place of Φ_k, (elements, elements)."""
+    moment_gain: Array
+    """½σ c/R, (elements,)."""
+    damping: Array
+    """N_b (c/R)³/8, (elements,)."""
+    lag: Array
+    """Offset of the swept quarter chord behind the pitch axis, over R, (elements,)."""
+    tip_mass: Array
+    """w, (elements,)."""
+    tables: Array
+    """C_m, (sections, α cells, Mach cells, 4, 4)."""
+    moment_unit: float
+    """ρπR⁵Ω²/N_b [N m]."""
+
+    def modal(self, along: Array) -> Array:
+        """∫ Φ_k f dr of a distribution, (elements,) → (modes,)."""
+        return self.shapes.radial @ along * self.shapes.dr
+
+
+@dataclass(frozen=True, eq=False)
+class TorsionState:
+    """The elastic twist at a trim state and the moments of the air; fields are (elements, azimuths)."""
+
+    coordinates: Array
+    """q of every mode and harmonic [rad], (modes, functions)."""
+    twist: Array
+    """φ [rad]"""
+    rate: Array
+    """dθ/dψ of the whole pitch, cyclic and active twist included."""
+    moments: Array
+    """As `kernel.element_moments` returns."""
+
+
+REVERSE_FLOW_DEG = (165.0, 172.0)
+"""Angles of attack over which the moment passes from that of the section data to that of attached reverse flow."""
+
+
+@lru_cache(maxsize=32)
+def moment_table(table: SectionTable, only_mach: float | None) -> Array:
+    """C_m of a section about the quarter chord, (α cells, Mach cells, 4, 4); zero where its source has none.
+
+    Near ±180° the air attaches to the trailing edge first and its force acts at the three-quarter chord, half a chord
+    behind the axis: C_m = −½ C_n (thin-airfoil theory). Section data rarely resolve that.
+    """
+    if table.moment_coefficients is None:
+        return np.zeros((N_ALPHA, N_MACH, 4, 4))
+    held = table if only_mach is None else table.held_at(only_mach)
+    assert held.moment_coefficients is not None
+    degrees, mach = np.linspace(-180.0, 0.5 * N_ALPHA - 180.0, N_ALPHA + 1), mach_nodes()
+    alpha = np.deg2rad(degrees)[:, None]
+    flow, moment = held(alpha, mach), held.moment(alpha, mach)
+    assert moment is not None
+    start, end = REVERSE_FLOW_DEG
+    t = np.clip((np.abs(degrees) - start) / (end - start), 0.0, 1.0)[:, None]
+    share = t * t * (3.0 - 2.0 * t)
+    reversed_flow = -0.5 * (flow.cl * np.cos(alpha) + flow.cd * np.sin(alpha))
+    ends = C81Block(mach, degrees, (1.0 - share) * moment + share * reversed_flow)
+    cells = np.abs(degrees[:-1] + 0.25) > start
+    out = held.moment_coefficients.copy()
+    out[cells] = bicubic_coefficients(ends)[cells]
+    return out
+
+
+@lru_cache(maxsize=32)
+def build_torsion(
+    rotor: Rotor, disk: Disk, density: float, only_mach: float | None, swept: bool, highest: int
+) -> BladeTorsion:
+    """The torsion of the rotor's blade, which must have a structure, on a grid in air of a density [kg/m³]."""
+    blade, structure, radius = rotor.blade, rotor.blade.structure, rotor.radius
+    assert structure is not None
+    modes = blade_modes(structure, rotor.angular_speed, MODES)
+    shapes = HarmonicShapes.on(disk, modes.at(disk.r * radius), highest)
+    unit = density * math.pi * radius**5 / rotor.blades  # Times Ω² [N m].
+    frequency = modes.frequency / rotor.angular_speed
+    inertia = structure.at(disk.r * radius, structure.torsional_inertia) * radius / unit
+    root = 0.5 * (structure.clamp / radius + disk.root)
+    inner = float(structure.at(root * radius, structure.torsional_inertia)) * (disk.root * radius - structure.clamp)
+    inertia[0] += max(inner, 0.0) / (unit * disk.dr)
+    chord = disk.half_solidity * 2.0 * math.pi / rotor.blades
+    behind = np.maximum(disk.r - blade.tip_sweep_start, 0.0) * (math.tan(blade.tip_sweep) if swept else 0.0)
+    names = dict.fromkeys(span.section for span in blade.spans)  # In the order of `Disk.tables`.
+    mass = structure.at(disk.r * radius, structure.mass_per_length)
+    tension, own_tension = _tension(modes, disk, radius)
+    return BladeTorsion(
+        modes=modes,
+        frequency=frequency,
+        shapes=shapes,
+        gain=unit / (modes.inertia * frequency**2),
+        dynamic=1.0 - (shapes.wave / frequency[:, None]) ** 2,
+        inertia=inertia,
+        coupling=shapes.radial * inertia @ shapes.radial.T * disk.dr,
+        tension=tension / (unit * rotor.angular_speed**2),
+        own_tension=own_tension / (unit * rotor.angular_speed**2),
+        moment_gain=disk.half_solidity * chord,
+        damping=rotor.blades * chord**3 / 8.0,
+        lag=behind,
+        tip_mass=mass * behind * disk.r * radius**3 / unit,
+        tables=np.stack([moment_table(blade.installed(name).table, only_mach) for name in names]),
+        moment_unit=unit * rotor.angular_speed**2,
+    )
+
+
+def _tension(modes: TorsionModes, disk: Disk, radius: float) -> tuple[Array, Array]:
+    """∫ Φ' F_c k_A² θ' dr [N m/rad] for θ linear between element centres and constant beyond."""
+    length = np.diff(modes.r)
+    hats = np.stack([np.interp(modes.r, disk.r * radius, unit) for unit in np.eye(len(disk.r))])
+    hat_slopes, mode_slopes = np.diff(hats) / length, np.diff(modes.shape) / length
+    weight = modes.pull * length
+    return mode_slopes * weight @ hat_slopes.T, hat_slopes * weight @ hat_slopes.T
+
+
+def highest_harmonic(active: ActiveTwist | None) -> int:
+    """Harmonics of the elastic twist that a design needs."""
+    waves = [wave.per_rev for wave in active.harmonics] if active else []
+    return max([HARMONICS, *(wave for wave in waves if wave <= _MOST_HARMONICS)])
+
+
+def air_moments(
+    torsion: BladeTorsion, disk: Disk, tip_mach: float, u_t: Array, u_p: Array, u_r: Array, rate: Array, loads: Array
+) -> Array:
+    """Moments of the air with derivatives, as `kernel.element_moments` returns."""
+    return kernel.element_moments(
+        loads, u_t, u_p, u_r, rate, tip_mach, torsion.moment_gain, torsion.damping, torsion.lag,
+        disk.section, disk.weight, disk.offset, torsion.tables, disk.cos_sweep, disk.sin_sweep,
+    )  # fmt: skip

@@ -1,0 +1,335 @@
+"""Newton's method for the hovering rotor with its free wake: from a prescribed wake, or from an earlier one.
+
+A cold start takes the circulation of annulus momentum theory and Landgrebe's wake. Newton's method follows the wake in
+pseudo-time, whose step grows as the residual falls, first with half the azimuths and a wide core of the tip vortex.
+Where that fails it is run again with small steps, and then from an easier rotor: medium thrust, milder twist, or both,
+approached in steps. A warm start goes on with the factors of the last Jacobian as long as the residual falls. All ways
+end at the same equations with the same tolerance.
+"""
+
+import math
+from collections import deque
+from contextlib import suppress
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import lu_factor, lu_solve
+
+from rotor.aero import kernel
+from rotor.aero.elements import Problem
+from rotor.aero.free_wake.system import (
+    STEPS,
+    HoverSystem,
+    WakeEvaluation,
+    WakeLayout,
+    WakeState,
+    landgrebe_radius,
+    landgrebe_rates,
+    layout_of,
+)
+from rotor.arrays import Array
+
+TOLERANCE = 1e-10
+"""Largest residual: of lengths over R, of circulation over ΩR², of C_T."""
+_KEPT_RATIO = 0.7
+"""Factors are kept while a step leaves less than this part of the residual."""
+_LONGEST_STEPS = 0.15, 0.02, 0.1
+"""Largest change in a step: of a node over R, of Γ/ΩR², of the collective [rad]."""
+_STAGES = ((0.08, 3e-3, 1.0), (0.04, 1e-3, 4.0), (0.02, 1e-3, 8.0))
+"""With half the azimuths: what is added to the core of the tip vortex over R, the residual that suffices, and the
+first step of pseudo-time in radians of wake azimuth."""
+
+
+@dataclass(frozen=True, eq=False)
+class Settled:
+    """Where the iteration ended."""
+
+    system: HoverSystem
+    evaluation: WakeEvaluation
+    converged: bool
+    passes: int
+    """Evaluations of the equations."""
+
+
+@dataclass(frozen=True, eq=False)
+class Factors:
+    """A matrix in the product of its triangles."""
+
+    lu: tuple[Array, NDArray[np.int32]]
+
+    @classmethod
+    def of(cls, matrix: Array) -> "Factors":
+        return cls(lu_factor(matrix, check_finite=False))
+
+    def solve(self, right: Array, *, transposed: bool = False) -> Array:
+        """The solution of A x = b or of Aᵀ x = b."""
+        return lu_solve(self.lu, right, trans=1 if transposed else 0, check_finite=False)
+
+
+class KeptFactors:
+    """Factors of the Jacobians of the last few wakes: 3 MB each, so that only the latest are worth keeping."""
+
+    def __init__(self, most: int = 4) -> None:
+        self._kept: deque[tuple[WakeState, Factors]] = deque(maxlen=most)
+
+    def of(self, state: WakeState) -> Factors | None:
+        """The factors kept for this very state; None where there are none.
+
+        What is used is kept longest: all previews of a drag begin at the same wake.
+        """
+        for entry in list(self._kept):
+            if entry[0] is state:
+                with suppress(ValueError):  # Another thread has moved it.
+                    self._kept.remove(entry)
+                self._kept.append(entry)
+                return entry[1]
+        return None
+
+    def keep(self, state: WakeState, factors: Factors) -> None:
+        self._kept.append((state, factors))
+
+
+KEPT = KeptFactors()
+
+
+def settle(
+    problem: Problem, circulation: Array, collective: float, start: WakeState | None = None, *, compare: bool = True
+) -> Settled:
+    """The wake in equilibrium with the loads at the thrust of the problem.
+
+    circulation Γ/ΩR² (elements,) and collective [rad] begin a cold start; `start` is an earlier wake of one layout.
+    More than one wake may be in equilibrium: with one tip vortex below and another above the next blade, or with the
+    root stalled or not. Where that may be so, and with `compare`, the wake that follows from that of mild twist is
+    found too, and the one of less torque is returned, so that it does not depend on the start.
+    """
+    found = _any(problem, circulation, collective, start)
+    if not (compare and found.converged and _may_have_another(found)):
+        return found
+    other = _follow(problem, _easiest(problem), found.system.layout)
+    passes = found.passes + other.passes
+    chosen = other if other.converged and torque(other) < torque(found) else found
+    return replace(chosen, passes=passes)
+
+
+def _any(problem: Problem, circulation: Array, collective: float, start: WakeState | None) -> Settled:
+    """A wake in equilibrium: from an earlier one, from a prescribed one, or from that of an easier rotor."""
+    layout = layout_of(problem)
+    system = HoverSystem(problem, layout)
+    passes = 0
+    if start is not None and start.layout == layout:
+        found = warm(system, start)
+        passes += found.passes
+        if found.converged:
+            return found
+    coarse = HoverSystem(problem, layout_of(problem, STEPS // 2))
+    for haste in (1.0, 0.2):
+        found = cold(system, coarse, circulation, collective, haste)
+        passes += found.passes
+        if found.converged:
+            return replace(found, passes=passes)
+    found = _from_easier(problem, found)
+    return replace(found, passes=passes + found.passes)
+
+
+def _may_have_another(found: Settled) -> bool:
+    """Whether the tip vortex passes above the next blade, or a blade element is stalled."""
+    at, layout, disk = found.evaluation, found.system.layout, found.system.problem.disk
+    margins = kernel.stall_margins(
+        at.loads[kernel.ALPHA][:, None], at.loads[kernel.MACH][:, None], (disk.r - at.swirl)[:, None],
+        disk.section, disk.weight, disk.offset, disk.stall,
+    )  # fmt: skip
+    return float(at.height[-1, layout.steps // layout.blades]) > 0.0 or bool((margins < 0.0).any())
+
+
+def torque(found: Settled) -> float:
+    """∫ r dF_x, C_Q over the width of an element."""
+    return float(found.system.problem.disk.r @ found.evaluation.loads[kernel.FX])
+
+
+def preview(problem: Problem, start: WakeState) -> Settled | None:
+    """One Newton step from an earlier wake, with the factors kept for it if there are any; None where it leads astray.
+
+    The wake is close to its equilibrium, not in it.
+    """
+    if start.layout != layout_of(problem):
+        return None
+    factors = KEPT.of(start)
+    system = HoverSystem(problem, start.layout)
+    before = system.evaluate(start, slopes=factors is None)
+    if factors is None:
+        factors = _factorise(before, math.inf)
+        KEPT.keep(start, factors)
+    step = _limited(-factors.solve(before.residual), start.layout)
+    moved = WakeState(start.layout, start.values + step)
+    after = system.evaluate(moved, slopes=False)
+    if not after.error < max(before.error, TOLERANCE):
+        return None
+    KEPT.keep(moved, factors)
+    return Settled(system, after, after.error <= TOLERANCE, 2)
+
+
+def warm(system: HoverSystem, start: WakeState) -> Settled:
+    """Newton's method from an earlier wake with kept factors, made anew where the residual does not fall."""
+    factors = KEPT.of(start)
+    point = system.evaluate(start, slopes=factors is None)
+    passes, first = 1, point.error
+    while point.error > TOLERANCE and passes < 40:
+        fresh = factors is None
+        if factors is None:
+            if not point.jacobian.size:
+                point = system.evaluate(point.state)
+                passes += 1
+            factors = _factorise(point, math.inf)
+        step = _limited(-factors.solve(point.residual), system.layout)
+        trial = system.evaluate(WakeState(system.layout, point.state.values + step), slopes=False)
+        passes += 1
+        if not trial.error < 10.0 * max(point.error, 0.1 * first):
+            if fresh:
+                break
+            factors = None
+            continue
+        if trial.error > _KEPT_RATIO * point.error:
+            factors = None
+            if not fresh and trial.error > point.error:
+                continue
+        point = trial
+    converged = point.error <= TOLERANCE
+    if converged and factors is not None:
+        KEPT.keep(point.state, factors)
+    return Settled(system, point, converged, passes)
+
+
+def cold(system: HoverSystem, coarse: HoverSystem, circulation: Array, collective: float, haste: float) -> Settled:
+    """From a prescribed wake, with half the azimuths first; `haste` scales the steps of pseudo-time."""
+    passes = 0
+    state = _prescribed(coarse, circulation, collective)
+    for core, enough, pace in _STAGES:
+        found = _pseudo_time(coarse, state, core, enough, pace * haste)
+        state, passes = found.evaluation.state, passes + found.passes
+    start = _interpolated(state, coarse, system)
+    found = _pseudo_time(system, start, 0.0, TOLERANCE, 8.0 * haste)
+    return replace(found, passes=passes + found.passes)
+
+
+def _pseudo_time(
+    system: HoverSystem, state: WakeState, core: float, enough: float, pace: float, most: int = 40
+) -> Settled:
+    """Newton's method on (nodes − step of pseudo-time), which is Newton's own method as the step grows."""
+    point = system.evaluate(state, core)
+    passes = 1
+    factors = None
+    while point.error > enough and passes < most:
+        factors = _factorise(point, pace)
+        step = _limited(-factors.solve(point.residual), system.layout)
+        trial = system.evaluate(WakeState(system.layout, point.state.values + step), core)
+        passes += 1
+        if not trial.error <= 3.0 * point.error:
+            pace *= 0.25
+            if pace < 1e-3:
+                break
+            continue
+        pace = min(pace * min(max(1.5 * point.error / max(trial.error, 1e-30), 0.5), 4.0), 1e6)
+        point = trial
+    converged = point.error <= enough
+    if converged and enough <= TOLERANCE and factors is not None:
+        KEPT.keep(point.state, factors)
+    return Settled(system, point, converged, passes)
+
+
+def _from_easier(problem: Problem, failed: Settled) -> Settled:
+    """Follow the wake from an easier rotor to the one asked for: mild twist and medium thrust, or one of them alone."""
+    easiest, passes = _easiest(problem), 0
+    for easy in (easiest, replace(easiest, twist=problem.twist), replace(easiest, weight=problem.weight)):
+        found = _follow(problem, easy, failed.system.layout)
+        passes += found.passes
+        if found.converged:
+            return replace(found, passes=passes)
+    return replace(failed, passes=passes)
+
+
+def _easiest(problem: Problem) -> Problem:
+    """Medium thrust and mild linear twist."""
+    solidity = problem.design.rotor.solidity
+    medium = min(max(problem.weight, 0.06 * solidity), 0.09 * solidity)
+    return replace(problem, weight=medium, twist=math.radians(-12.0) * (problem.disk.r - 0.75))
+
+
+def _follow(problem: Problem, easy: Problem, layout: WakeLayout) -> Settled:
+    """From a cold start of the easy problem in steps that shrink where Newton's method fails."""
+
+    def between(t: float) -> Problem:
+        if t == 1.0:
+            return problem
+        weight = easy.weight + t * (problem.weight - easy.weight)
+        return replace(problem, weight=weight, twist=easy.twist + t * (problem.twist - easy.twist))
+
+    coarse = HoverSystem(easy, layout_of(easy, STEPS // 2))
+    found = cold(HoverSystem(easy, layout), coarse, *_uniform_start(easy), 1.0)
+    passes, t, step = found.passes, 0.0, 0.25
+    if not found.converged:
+        return found
+    state = found.evaluation.state
+    while t < 1.0 and step > 0.02 and passes < 150:
+        ahead = min(1.0, t + step)
+        found = warm(HoverSystem(between(ahead), layout), state)
+        passes += found.passes
+        if found.converged:
+            state, t, step = found.evaluation.state, ahead, 1.5 * step
+        else:
+            step *= 0.4
+    return replace(found, converged=found.converged and t == 1.0, passes=passes)
+
+
+def _uniform_start(problem: Problem) -> tuple[Array, float]:
+    """Circulation that gives the thrust evenly but for the tip, and a collective for it."""
+    disk = problem.disk
+    shape = np.sqrt(np.minimum(1.0, (1.0 - disk.r) / 0.06)) * np.minimum(1.0, (disk.r - disk.root) / 0.1)
+    circulation = shape * math.pi * problem.weight / (disk.blades * disk.dr * float(shape @ disk.r))
+    slope = problem.design.rotor.solidity * 5.9
+    return circulation, 6.0 * problem.weight / slope + 1.5 * math.sqrt(problem.weight / 2.0)
+
+
+def _prescribed(system: HoverSystem, circulation: Array, collective: float) -> WakeState:
+    """A wake from measured tip vortices, inboard filaments below; the circulation falls to zero at the tip."""
+    problem, layout = system.problem, system.layout
+    disk = problem.disk
+    circulation = circulation * np.sqrt(np.minimum(1.0, (1.0 - disk.r) / 0.06))
+    release = system.roll_up(circulation).release
+    age: Array = layout.step * np.arange(1, layout.free + 1, dtype=np.float64)
+    first = 2.0 * math.pi / layout.blades
+    k1, k2 = landgrebe_rates(problem.weight, problem.design.rotor.solidity, 0.0)
+    nodes = np.empty((layout.filaments, layout.free, 2))
+    nodes[..., 0] = release[:, None] * landgrebe_radius(age, problem.weight)
+    nodes[..., 1] = -1.5 * math.sqrt(problem.weight / 2.0) * age
+    nodes[-1, :, 1] = k1 * np.minimum(age, first) + k2 * np.maximum(age - first, 0.0)
+    return WakeState(layout, np.concatenate([nodes.ravel(), circulation, [collective]]))
+
+
+def _interpolated(state: WakeState, coarse: HoverSystem, fine: HoverSystem) -> WakeState:
+    """The same wake with the azimuths of another layout."""
+    layout = fine.layout
+    nodes = np.zeros((layout.filaments, coarse.layout.free + 1, 2))
+    nodes[:, 1:] = state.nodes
+    nodes[:, 0, 0] = fine.roll_up(state.circulation).release
+    ages = layout.step * np.arange(1, layout.free + 1)
+    known = coarse.layout.step * np.arange(coarse.layout.free + 1)
+    moved = np.array([[np.interp(ages, known, row[:, c]) for c in range(2)] for row in nodes])
+    values = np.concatenate([moved.transpose(0, 2, 1).ravel(), state.circulation, [state.collective]])
+    return WakeState(layout, values)
+
+
+def _factorise(point: WakeEvaluation, pace: float) -> Factors:
+    layout = point.state.layout
+    jacobian = point.jacobian.copy()
+    diagonal = np.arange(layout.geometry)
+    jacobian[diagonal, diagonal] += layout.step / pace
+    return Factors.of(jacobian)
+
+
+def _limited(step: Array, layout: WakeLayout) -> Array:
+    """The step, shortened so that no unknown moves further than `_LONGEST_STEPS`."""
+    sizes = np.abs(step)
+    parts = sizes[: layout.geometry].max(), sizes[layout.geometry : -1].max(), sizes[-1]
+    ratios = [limit / max(float(size), 1e-30) for limit, size in zip(_LONGEST_STEPS, parts, strict=True)]
+    return step * min(1.0, *ratios)

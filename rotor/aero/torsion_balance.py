@@ -1,0 +1,166 @@
+"""The balance of the blade in torsion: residual, exact derivatives, moment on the control system, and work.
+
+The residual of mode k and harmonic h is the elastic twist less what the loads of `rotor.aero.elastic` make of it, in
+radians. Its derivatives by the trim unknowns and by the elastic coordinates include the response of the inflow.
+"""
+
+import numpy as np
+
+from rotor.aero import kernel
+from rotor.aero.elastic import BladeTorsion, TorsionState
+from rotor.aero.elements import BladeElements, Problem
+from rotor.aero.sums import Slopes, velocity_slopes
+from rotor.aero.trim_state import Unknown
+from rotor.arrays import Array
+
+
+def torsion_of(problem: Problem, elements: BladeElements) -> tuple[BladeTorsion, TorsionState]:
+    """Both halves of an elastic blade."""
+    assert problem.torsion is not None
+    assert elements.torsion is not None
+    return problem.torsion, elements.torsion
+
+
+def torsion_residual(problem: Problem, elements: BladeElements) -> Array:
+    """Elastic twist less what the loads make of it [rad], (modes, functions)."""
+    torsion, blade = torsion_of(problem, elements)
+    shapes, state = torsion.shapes, elements.state
+    load = shapes.project(blade.moments[kernel.MOMENT] - 0.5 * torsion.inertia[:, None] * np.sin(2.0 * elements.theta))
+    load += torsion.coupling @ blade.coordinates
+    inertia = torsion.modal(torsion.inertia)
+    load[:, 0] += torsion.modal(torsion.tip_mass) * state.coning
+    load[:, 1] += inertia * state.cyclic_1c
+    load[:, 2] += inertia * state.cyclic_1s
+    return torsion.dynamic * blade.coordinates - torsion.gain[:, None] * load + problem.given_torsion
+
+
+def torsion_by_inflow(problem: Problem, elements: BladeElements, inflow: Array) -> Array:
+    """Change of `torsion_residual` with a change of λ_i, (columns,)."""
+    torsion, blade = torsion_of(problem, elements)
+    return -(torsion.gain[:, None] * torsion.shapes.project(blade.moments[kernel.M_UP] * inflow)).ravel()
+
+
+def torsion_slopes(problem: Problem, elements: BladeElements, by_unknown: Slopes) -> Array:
+    """∂(torsion residual) by the trim unknowns, then by the elastic coordinates, (columns, unknowns + columns)."""
+    torsion, blade = torsion_of(problem, elements)
+    shapes, moments, unknowns = torsion.shapes, blade.moments, by_unknown.unknowns
+    fields = moment_slopes(problem, elements, by_unknown)
+    pitching = pitch_slope(torsion, elements)
+    for k, unknown in enumerate(unknowns):
+        if unknown in ("collective", "cyclic_1c", "cyclic_1s"):
+            fields[k] += (pitching - moments[kernel.M_THETA]) * control_shape(problem, unknown)
+    load = shapes.project(fields)
+    inertia = torsion.modal(torsion.inertia)
+    for k, unknown in enumerate(unknowns):
+        if unknown in ("cyclic_1c", "cyclic_1s"):
+            load[k, :, 1 if unknown == "cyclic_1c" else 2] += inertia
+        if unknown == "coning":
+            load[k, :, 0] += torsion.modal(torsion.tip_mass)
+    by_trim = load.reshape(len(unknowns), shapes.columns).T
+
+    modes, functions = torsion.dynamic.shape
+    own = _between_columns(torsion, pitching, moments[kernel.M_RATE])
+    same = list(range(functions))
+    own.reshape(modes, functions, modes, functions)[:, same, :, same] += torsion.coupling
+    found = np.hstack([by_trim, own])
+    if by_unknown.answer is not None:
+        found += by_unknown.answer.project(moments[kernel.M_UP], shapes)
+    found *= -np.repeat(torsion.gain, functions)[:, None]
+    diagonal = np.arange(shapes.columns)
+    found[diagonal, len(unknowns) + diagonal] += torsion.dynamic.ravel()
+    return found
+
+
+def pitch_slope(torsion: BladeTorsion, elements: BladeElements) -> Array:
+    """∂(moment of the air and propeller moment)/∂θ, (elements, azimuths)."""
+    assert elements.torsion is not None
+    return elements.torsion.moments[kernel.M_THETA] - torsion.inertia[:, None] * np.cos(2.0 * elements.theta)
+
+
+def control_shape(problem: Problem, unknown: Unknown) -> Array | float:
+    """∂θ by collective or cyclic."""
+    disk = problem.disk
+    return {"collective": 1.0, "cyclic_1c": disk.cos, "cyclic_1s": disk.sin}[unknown]
+
+
+def control_rate(problem: Problem, unknown: Unknown) -> Array | float:
+    """∂θ' by collective or cyclic."""
+    disk = problem.disk
+    return {"collective": 0.0, "cyclic_1c": -disk.sin, "cyclic_1s": disk.cos}[unknown]
+
+
+def moment_slopes(problem: Problem, elements: BladeElements, by_unknown: Slopes) -> Array:
+    """∂(dC_M/dr of the air) by the trim unknowns, as `Slopes.fz` of F_z, (unknowns, elements, azimuths)."""
+    torsion, blade = torsion_of(problem, elements)
+    disk, loads, moments = problem.disk, elements.loads, blade.moments
+    out = np.empty((len(by_unknown.unknowns), *disk.shape))
+    for k, unknown in enumerate(by_unknown.unknowns):
+        if unknown in ("collective", "cyclic_1c", "cyclic_1s"):
+            np.multiply(moments[kernel.M_THETA], control_shape(problem, unknown), out=out[k])
+            if unknown != "collective":
+                out[k] += moments[kernel.M_RATE] * control_rate(problem, unknown)
+        else:
+            u_t, u_p = velocity_slopes(problem, elements, unknown)
+            np.multiply(moments[kernel.M_UP], u_p, out=out[k])
+            if unknown in ("shaft_tilt", "lambda0"):
+                out[k] += moments[kernel.M_UT] * u_t
+                lift = loads[kernel.LIFT] * elements.loss_slopes[0 if unknown == "shaft_tilt" else 1][:, None]
+                out[k] -= torsion.lag[:, None] * lift * elements.u_t
+            if unknown == "shaft_tilt" and problem.design.models.disk_axial_flow:
+                out[k] -= elements.flow.mu_z * moments[kernel.M_UR] * disk.cos
+        if by_unknown.prescribed is not None:
+            out[k] += moments[kernel.M_UP] * by_unknown.prescribed[k]
+    return out
+
+
+def _between_columns(torsion: BladeTorsion, by_theta: Array, by_rate: Array) -> Array:
+    """`HarmonicShapes.project` of by_theta · column + by_rate · its rate, (columns as rows, columns)."""
+    shapes = torsion.shapes
+    modes, functions, azimuths = len(shapes.radial), len(shapes.waves), shapes.waves.shape[1]
+    pairs = (shapes.radial[:, None] * shapes.radial).reshape(modes * modes, -1) * (shapes.dr / azimuths)
+    analysis = shapes.scale[:, None] * shapes.waves
+    theta, rate = pairs @ by_theta, pairs @ by_rate
+    blocks = (analysis * theta[:, None]) @ shapes.waves.T + (analysis * rate[:, None]) @ shapes.rates.T
+    return (
+        blocks.reshape(modes, modes, functions, functions)
+        .transpose(0, 2, 1, 3)
+        .reshape(modes * functions, modes * functions)
+    )
+
+
+def control_moment(problem: Problem, elements: BladeElements) -> Array:
+    """Moment of the control system on one blade [N m], nose up, (azimuths,): what balances all loads on the blade."""
+    torsion, _ = torsion_of(problem, elements)
+    return -torsion.moment_unit * problem.disk.dr * _loads(problem, elements).sum(axis=0)
+
+
+def _loads(problem: Problem, elements: BladeElements) -> Array:
+    """All moments per unit of r about the pitch axis, inertia included, (elements, azimuths)."""
+    torsion, blade = torsion_of(problem, elements)
+    disk, state, shapes = problem.disk, elements.state, torsion.shapes
+    second = -(shapes.wave**2)
+    acceleration = shapes.field(blade.coordinates * second) + problem.active_rates[1]
+    acceleration = acceleration - (state.cyclic_1c * disk.cos + state.cyclic_1s * disk.sin)
+    return (
+        blade.moments[kernel.MOMENT]
+        - torsion.inertia[:, None] * (acceleration + 0.5 * np.sin(2.0 * elements.theta))
+        + torsion.tip_mass[:, None] * state.coning
+    )
+
+
+def control_work(problem: Problem, elements: BladeElements) -> float:
+    """Power that pitch links and actuators put into the pitching blades, over ρA(ΩR)³.
+
+    The links take it from the shaft, because the swashplate does not move. Inertia, propeller moment, tension and
+    elasticity store energy and give it back, so once torsion is in balance it is what the air takes, −Σ dC_M θ'.
+    """
+    torsion, blade = torsion_of(problem, elements)
+    disk, state = problem.disk, elements.state
+    loads = _loads(problem, elements)
+    cyclic = state.cyclic_1s * disk.cos - state.cyclic_1c * disk.sin
+    work = -float((loads * (cyclic + problem.active_rates[0])).sum()) * disk.dr
+    if problem.active_rates[0].size > 1:
+        twist = problem.twist[:, None] + problem.active
+        modal = torsion.tension.T @ (blade.coordinates @ torsion.shapes.waves)
+        work += float(((torsion.own_tension @ twist + modal) * problem.active_rates[0]).sum())
+    return work / len(disk.psi)

@@ -1,0 +1,150 @@
+"""`validate`: our number beside every measured point of rotors that were tested."""
+
+import argparse
+import importlib
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from rotor.command.common import add_command
+from rotor.validation.compare import Comparison, compare
+from rotor.validation.inflow import SET as INFLOW_SET
+from rotor.validation.inflow import WHY, InflowAgreement, inflow_agreement
+from rotor.validation.measured import SETS, load_set
+
+_LABELS = {
+    "mu": "Advance ratio µ",
+    "ct": "C_T",
+    "ct_over_sigma": "C_T/σ",
+    "cp": "C_P",
+    "cq_over_sigma": "C_Q/σ",
+    "cp_drag": "C_P of the rotor's drag",
+    "cq_above_zero": "C_Q above that of zero thrust",
+    "change_percent": "Change of C_Q [%]",
+}
+
+
+def add_parser(commands: Any) -> None:
+    """Register the command."""
+    parser = add_command(commands, "validate", "compares with every measured point of rotors that were tested")
+    parser.add_argument("sets", nargs="*", metavar="SET", help=f"{', '.join((*SETS, INFLOW_SET))} (default: all)")
+    parser.add_argument(
+        "--inflow",
+        metavar="NAME",
+        help="inflow model (default: that of the preset flight)",
+    )
+    parser.add_argument("--json", action="store_true", help="machine-readable output")
+    parser.add_argument("--plot", metavar="DIR", help="also draw a picture of each set into this folder")
+    parser.set_defaults(run=run)
+
+
+def run(args: argparse.Namespace) -> int:
+    """0 when every point with a target trims, else 1; a missed target is a result, not a failure.
+
+    Of a set without a target every point counts.
+    """
+    names = args.sets or [*SETS, INFLOW_SET]
+    chosen = [load_set(name) for name in names if name != INFLOW_SET]
+    found: list[Comparison] = []
+    for measured in chosen:
+        comparison = compare(measured, args.inflow)
+        found.append(comparison)
+        if not args.json:
+            print(("" if len(found) == 1 else "\n") + report(comparison), flush=True)
+    inflow = list(inflow_agreement()) if INFLOW_SET in names else []
+    if args.json:
+        record = {"sets": [one.to_dict() for one in found], "inflow": [asdict(one) for one in inflow]}
+        print(json.dumps(record, indent=2, allow_nan=False))
+    elif inflow:
+        print(("\n" if found else "") + inflow_report(inflow))
+    if args.plot:
+        for comparison in found:
+            draw(comparison, Path(args.plot))
+    return 0 if all(point.ours is not None for one in found for point in one.judged) else 1
+
+
+def inflow_report(rows: list[InflowAgreement]) -> str:
+    """Measured inflow beside every model, as a table."""
+    lines = [
+        f"{INFLOW_SET}: inflow one chord above the disk of the NASA 2MRTS rotor, laser velocimeter; never fitted",
+        f"{'mu':>6}  {'model':<30}{'correlation':>12}{'rms':>9}{'mean':>9}{'measured':>10}",
+    ]
+    for row in rows:
+        correlation = "–" if row.correlation is None else f"{row.correlation:.2f}"
+        lines.append(
+            f"{row.mu:6.2f}  {row.model:<30}{correlation:>12}{row.rms:9.4f}{row.mean:9.4f}{row.measured_mean:10.4f}"
+        )
+    return "\n".join([*lines, WHY])
+
+
+def report(found: Comparison) -> str:
+    """The comparison as a table."""
+    measured, quantity = found.measured, found.measured.quantity
+    lines = [
+        f"{measured.name}: {measured.title}",
+        f"{measured.report}",
+        f"inflow {found.inflow}; never fitted",
+        "".join(f"{name:>15}" for name in (*measured.given, "measured", "ours", "error %")) + "  within scatter",
+    ]
+    for point in found.points:
+        cells = "".join(f"{point.given[name]:15.5g}" for name in measured.given)
+        if point.ours is None:
+            lines.append(f"{cells}{point.measured[quantity]:15.6g}  {point.message}")
+            continue
+        marks = "yes" if point.within_scatter else "no"
+        missed = "" if point.passed else ", misses the target"
+        aside = "" if point.judged or measured.indicative else " (no target here)"
+        lines.append(
+            f"{cells}{point.measured[quantity]:15.6g}{point.ours[quantity]:15.6g}{point.error_percent:+15.1f}"
+            f"  {marks}{missed}{aside}"
+        )
+    lines.append(verdict(found))
+    if lost := [point for point in found.points if point.ours is None]:
+        counted = sum(point in found.judged for point in lost)
+        where = f"{counted} of them with a target" if counted else "none of them with a target"
+        lines.append(f"{len(lost)} of {len(found.points)} points do not trim, {where}.")
+    if found.why_missed:
+        lines.append(found.why_missed)
+    return "\n".join(lines)
+
+
+def verdict(found: Comparison) -> str:
+    """Root mean square, worst error and target in one line."""
+    rms = "a point does not trim" if found.rms_percent is None else f"rms {found.rms_percent:.1f} %"
+    worst = "" if found.worst_percent is None else f", worst {found.worst_percent:+.1f} %"
+    target = "indicative, without a target"
+    if found.passed is not None:
+        target = f"target {found.measured.target}: {'met' if found.passed else 'missed'}"
+    return f"{rms}{worst}; {target}"
+
+
+def draw(found: Comparison, folder: Path) -> Path:
+    """Measured points with their scatter, and ours, as `SET.png`. ValueError where that cannot be done."""
+    try:
+        pictures: Any = importlib.import_module("matplotlib.figure")
+    except ModuleNotFoundError:
+        raise ValueError("--plot needs matplotlib: pip install 'rotor-explorer[plots]'") from None
+    measured, quantity = found.measured, found.measured.quantity
+    along = next(name for name in measured.given if len({point.given[name] for point in found.points}) > 1)
+    figure: Any = pictures.Figure(figsize=(7.0, 4.5), layout="constrained")
+    axes = figure.subplots()
+    values = [point.measured[quantity] for point in found.points]
+    axes.errorbar(
+        [point.given[along] for point in found.points], values, [measured.scatter_of(value) for value in values],
+        fmt="o", color="0.2", capsize=2, label="measured",
+    )  # fmt: skip
+    ours = [(point.given[along], point.ours[quantity]) for point in found.points if point.ours is not None]
+    if ours:
+        axes.plot(*zip(*ours, strict=True), "x", color="tab:blue", label=f"computed ({found.inflow})")
+    axes.set_xlabel(_LABELS.get(along, along))
+    axes.set_ylabel(_LABELS.get(quantity, quantity))
+    axes.set_title(f"{measured.title}\n{verdict(found)}", fontsize="medium")
+    axes.legend()
+    path = folder / f"{measured.name}.png"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        figure.savefig(path, dpi=120)
+    except OSError as error:
+        raise ValueError(f"cannot write {str(path)!r} ({error.strerror}): give a writable folder") from None
+    return path

@@ -1,0 +1,134 @@
+"""What both command lines share: errors as one line on stderr, and text that any terminal or pipe can take."""
+
+import argparse
+import codecs
+import contextlib
+import io
+import os
+import signal
+import sys
+import time
+from collections.abc import Callable
+from typing import Any, NoReturn, cast
+
+from rotor.user_input import brief, did_you_mean
+
+_ASCII = {
+    "−": "-", "–": "-", "…": "...", "≤": "<=", "≥": ">=", "≈": "~", "→": "->", "×": "x", "·": "*", "±": "+/-",
+    "°": " deg", "²": "^2", "³": "^3", "½": "1/2", "√": "sqrt", "∞": "inf", "µ": "mu", "μ": "mu", "α": "alpha",
+    "β": "beta", "δ": "delta", "Δ": "Delta", "θ": "theta", "κ": "kappa", "λ": "lambda", "π": "pi", "ρ": "rho",
+    "σ": "sigma", "φ": "phi", "ψ": "psi", "Ω": "Omega",
+}  # fmt: skip
+"""What stands for a character that an output cannot encode; any other becomes a question mark."""
+_ERRORS = "rotor-ascii"
+
+
+class OneLineParser(argparse.ArgumentParser):
+    """Reports errors in one line and suggests the nearest name for one that is not known."""
+
+    def parse_known_args(self, args: Any = None, namespace: Any = None) -> tuple[Any, list[str]]:  # pyright: ignore[reportIncompatibleMethodOverride]
+        """As argparse does it; a value that is given but empty is an error, not the default."""
+        found, rest = super().parse_known_args(args, namespace)
+        for name, value in vars(found).items():
+            items = cast(list[Any], value if isinstance(value, list) else [value])
+            if any(isinstance(one, str) and not one.strip() for one in items):
+                self.error(f"{name.replace('_', '-')} is empty: give a value, or leave it out")
+        for flag in rest:
+            if flag.startswith("--"):
+                name = flag.partition("=")[0]
+                self.error(f"{name} is not a flag of this command{did_you_mean(name, self._option_string_actions)}")
+        return found, rest
+
+    def _check_value(self, action: argparse.Action, value: Any) -> None:
+        if action.choices is not None and value not in action.choices:
+            known = [str(one) for one in action.choices]
+            what = "command" if action.dest == "command" else "value"
+            hint = did_you_mean(str(value), known) or ":"
+            raise argparse.ArgumentError(action, f"{str(value)!r} is not a known {what}{hint} use {', '.join(known)}")
+
+    def error(self, message: str) -> NoReturn:
+        """One sentence for `run_command`."""
+        raise ValueError(f"{message}; see {self.prog} --help")
+
+
+class StopSignal:
+    """Ctrl-C and a service manager's stop (SIGINT, SIGTERM): a KeyboardInterrupt at once, and remembered.
+
+    Python discards an exception that comes up in the callback of a weak reference or in a finalizer. A program that
+    only waits for the exception would then run on.
+    """
+
+    def __init__(self) -> None:
+        self._came = False
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, self._stop)
+
+    def _stop(self, number: int, frame: object) -> NoReturn:
+        del number, frame
+        self._came = True
+        raise KeyboardInterrupt
+
+    def wait(self) -> NoReturn:
+        """KeyboardInterrupt when a signal comes, or if one has come."""
+        while not self._came:
+            time.sleep(0.2)
+        raise KeyboardInterrupt
+
+
+def run_command(program: str, run: Callable[[], int]) -> int:
+    """The exit code of `run`. Bad input and an output that cannot be written give 2 and one line on stderr."""
+    make_encodable()
+    try:
+        code = run()
+        sys.stdout.flush()
+        return code
+    except BrokenPipeError:  # The reader of a pipe has seen enough.
+        _discard_output()
+        return 0
+    except KeyboardInterrupt:
+        _say(f"{program}: stopped")
+        return 130
+    except (ValueError, OverflowError) as error:
+        _say(f"{program}: {brief(error)}")
+    except RecursionError:
+        _say(f"{program}: the input is nested too deeply: simplify it")
+    except MemoryError:
+        _say(f"{program}: this needs more memory than there is: ask for less at once")
+    except OSError as error:
+        _say(f"{program}: {brief(_sentence(error))}")
+        _discard_output()
+    return 2
+
+
+def make_encodable() -> None:
+    """Write characters that stdout or stderr cannot encode, as in a pipe on Windows, in ASCII rather than fail."""
+    codecs.register_error(_ERRORS, _in_ascii)
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors=_ERRORS)
+
+
+def _in_ascii(error: UnicodeError) -> tuple[str, int]:
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    failed = error.object[error.start : error.end]
+    return "".join(_ASCII.get(letter, "?") for letter in failed), error.end
+
+
+def _sentence(error: OSError) -> str:
+    if error.filename is None:
+        return f"the output cannot be written ({error.strerror}): free the disk, or write elsewhere"
+    return f"{str(error.filename)!r} cannot be used ({error.strerror}): check the path"
+
+
+def _say(line: str) -> None:
+    with contextlib.suppress(OSError, ValueError):
+        print(line, file=sys.stderr, flush=True)
+
+
+def _discard_output() -> None:
+    """Python writes what is left in its buffers when it ends, and would fail once more."""
+    with contextlib.suppress(OSError, ValueError):
+        null = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(null, sys.stdout.fileno())
+        os.close(null)

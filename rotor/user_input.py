@@ -1,0 +1,161 @@
+"""Names and files that a user gives: files read within bounds and written where possible; errors in one sentence."""
+
+import difflib
+import errno
+import logging
+import os
+import re
+import stat
+import tempfile
+from collections.abc import Generator, Iterable
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+_log = logging.getLogger(__name__)
+
+LARGEST = 4 * 2**20
+"""[bytes] of a file that is read unless its reader allows another size; a deck has about 40 000."""
+_SENTENCE, _WORD = 400, 60
+"""Characters of a sentence, and of a long word or a value in it."""
+_SKIPPED = " … "
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """`; did you mean 'optimise'?`, or nothing where no known name is close."""
+    close = difflib.get_close_matches(name, list(known), n=1)
+    return f"; did you mean {close[0]!r}?" if close else ""
+
+
+def shorten(text: str, most: int = _WORD) -> str:
+    """The text in one line of at most `most` characters: its beginning and its end where it is longer."""
+    text = " ".join(text[: 20 * most].split() + text[-most:].split() if len(text) > 21 * most else text.split())
+    if len(text) <= most:
+        return text
+    end = (most - len(_SKIPPED)) // 3
+    return f"{text[: most - len(_SKIPPED) - end].rstrip()}{_SKIPPED}{text[len(text) - end :].lstrip()}"
+
+
+def brief(sentence: object) -> str:
+    """A message that may repeat an input at length, as one line without it: long words and the middle are left out."""
+    return shorten(re.sub(rf"\S{{{2 * _WORD},}}", lambda word: shorten(word[0]), str(sentence)), _SENTENCE)
+
+
+@contextmanager
+def refusing(what: str, remedy: str) -> Generator[None]:
+    """Turn every failure of the block into ValueError with one short sentence about `what`.
+
+    A reader checks its input itself and raises ValueError; this is for what no reader expects: nesting that exceeds the
+    recursion limit, integers of hundreds of digits, data that passes all checks and still cannot be used.
+    """
+    try:
+        yield
+    except ValueError as error:
+        raise ValueError(brief(error)) from None
+    except (RecursionError, MemoryError):
+        raise ValueError(f"{what} is nested too deeply or too large: {remedy}") from None
+    except Exception as error:
+        _log.debug("%s cannot be used", what, exc_info=True)
+        raise ValueError(brief(f"{what} cannot be used ({type(error).__name__}: {error}): {remedy}")) from None
+
+
+def read_bytes(path: str | Path, what: str, remedy: str, most: int = LARGEST) -> bytes:
+    """The content of a file, for example `what` "design file". Never waits, and never reads more than `most` bytes.
+
+    ValueError with one sentence for a missing file, for devices and pipes, and for a file that is too large.
+    """
+    name = repr(shorten(str(path)))
+    if not str(path).strip():
+        raise ValueError(f"{what} has an empty name: {remedy}")
+    try:
+        # Opening a pipe without a writer would wait for one.
+        handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+        with os.fdopen(handle, "rb") as file:
+            if not stat.S_ISREG(os.fstat(handle).st_mode):
+                raise ValueError(f"{what} {name} is a device or a pipe, not a file: save it as a file first")
+            content = file.read(most + 1)
+    except FileNotFoundError:
+        raise ValueError(f"{what} {name} does not exist: {remedy}") from None
+    except OSError as error:
+        reason = "the name is too long" if error.errno == errno.ENAMETOOLONG else error.strerror
+        raise ValueError(f"{what} {name} cannot be read ({reason}): {remedy}") from None
+    except ValueError as error:
+        if "null" in str(error):  # From os.open.
+            raise ValueError(f"{what} {name} cannot be read ({error}): {remedy}") from None
+        raise
+    if len(content) > most:
+        raise ValueError(f"{what} {name} has more than {most / 1e6:.1f} MB: {remedy}")
+    return content
+
+
+def read_text(path: str | Path, what: str, remedy: str, most: int = LARGEST) -> str:
+    """The same as text; a byte-order mark at the beginning, which Notepad writes, is left out."""
+    content = read_bytes(path, what, remedy, most)
+    try:
+        return content.decode("utf-8-sig").replace("\r\n", "\n")
+    except UnicodeDecodeError:
+        raise ValueError(f"{what} {shorten(str(path))!r} cannot be read (not UTF-8 text): {remedy}") from None
+
+
+def is_file(path: str | Path) -> bool:
+    """Whether there is a file, also for names that no file can have."""
+    return os.path.isfile(path)  # noqa: PTH113 - Path.is_file raises for names that are too long.
+
+
+def make_folder(path: str | Path) -> Path:
+    """A folder that can be written to, made where it is missing. Otherwise ValueError, and no folder is left behind."""
+    folder = Path(path)
+    missing = [one for one in (folder, *folder.parents) if not os.path.lexists(one)]
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryFile(dir=folder):
+            return folder
+    except (OSError, ValueError) as error:
+        for one in missing:  # From the innermost outward.
+            with suppress(OSError, ValueError):
+                one.rmdir()
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise ValueError(f"cannot write to {str(path)!r} ({reason}): give a writable folder") from None
+
+
+def check_writable(path: str | Path) -> None:
+    """ValueError for a file that cannot be written, before the work for it begins; leaves no file behind."""
+    there = os.path.lexists(path)
+    try:
+        with Path(path).open("a", encoding="utf-8"):
+            pass
+        if not there:
+            Path(path).unlink()
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else error
+        raise ValueError(f"cannot write {str(path)!r} ({reason}): give a writable file") from None
+
+
+def write_whole(path: str | Path, text: str) -> None:
+    """Write a text file completely or not at all: whoever is killed meanwhile leaves the earlier file. OSError if not.
+
+    What is not a file, as /dev/stdout, is written directly.
+    """
+    path = Path(os.path.realpath(path))
+    if path.exists() and not path.is_file():
+        path.write_text(text, encoding="utf-8")
+        return
+    handle, part = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name[:40]}.", suffix=".part")
+    try:
+        with os.fdopen(handle, "w", encoding="utf-8", newline="") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        mode = path.stat().st_mode & 0o777 if path.exists() else 0o666 & ~_umask()
+        Path(part).chmod(mode)
+        Path(part).replace(path)
+    except BaseException:
+        with suppress(OSError):
+            Path(part).unlink()
+        raise
+
+
+def _umask() -> int:
+    """Of this process; the system tells it only while it is set."""
+    mask = os.umask(0o077)
+    os.umask(mask)
+    return mask

@@ -1,0 +1,217 @@
+"""Trims a rotor at every measured point of a set and compares."""
+
+import math
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+from typing import Any, get_args
+
+from rotor.design.design import Design, HoverInflow
+from rotor.design.stand import Stand
+from rotor.files.make_design import make_design
+from rotor.files.rotor_file import shipped_aircraft
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+from rotor.validation.measured import MeasuredSet
+
+
+@dataclass(frozen=True)
+class ComparedPoint:
+    """One measured point with ours."""
+
+    given: dict[str, float]
+    measured: dict[str, float]
+    ours: dict[str, float] | None
+    """The same quantities as measured; None where our rotor does not trim."""
+    message: str
+    """Why it does not."""
+    error_percent: float | None
+    within_scatter: bool
+    judged: bool
+    """Whether a target is set for this point."""
+    passed: bool
+    """Whether ours is within the target; True where there is none."""
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """A set of measured points with ours."""
+
+    measured: MeasuredSet
+    inflow: str
+    points: tuple[ComparedPoint, ...]
+    chosen: bool = False
+    """Whether the inflow was asked for, and is not that of the preset."""
+
+    @property
+    def judged(self) -> tuple[ComparedPoint, ...]:
+        """Points with a target, or all where the set has none."""
+        return tuple(point for point in self.points if point.judged) or self.points
+
+    @cached_property
+    def rms_percent(self) -> float | None:
+        """Root mean square of the errors of the judged points; None where one of them does not trim."""
+        errors = [point.error_percent for point in self.judged]
+        known = [error for error in errors if error is not None]
+        return None if len(known) < len(errors) else math.sqrt(sum(error**2 for error in known) / len(known))
+
+    @property
+    def worst_percent(self) -> float | None:
+        """The error of the largest size among the judged points that trim."""
+        return max(
+            (point.error_percent for point in self.judged if point.error_percent is not None), key=abs, default=None
+        )
+
+    @property
+    def why_missed(self) -> str:
+        """Why the target is missed, which is known for the inflow of the preset."""
+        return self.measured.missed if self.passed is False and not self.chosen else ""
+
+    @property
+    def passed(self) -> bool | None:
+        """Whether all judged points are within the target; None where there is no target."""
+        return None if self.measured.indicative else all(point.passed for point in self.points)
+
+    def to_dict(self) -> dict[str, Any]:
+        """For `validate --json`."""
+        rows = self.measured
+        return {
+            "name": rows.name,
+            "title": rows.title,
+            "report": rows.report,
+            "rotor": rows.rotor,
+            "kind": rows.kind,
+            "inflow": self.inflow,
+            "quantity": rows.quantity,
+            "points": [
+                {
+                    "given": point.given,
+                    "measured": point.measured,
+                    "ours": point.ours,
+                    "error_percent": point.error_percent,
+                    "within_scatter": point.within_scatter,
+                    "judged": point.judged,
+                    **({"message": point.message} if point.message else {}),
+                }
+                for point in self.points
+            ],
+            "rms_percent": self.rms_percent,
+            "worst_percent": self.worst_percent,
+            "target": rows.target or None,
+            "passed": self.passed,
+            "note": rows.note,
+            "why_missed": self.why_missed,
+            "fitted": False,
+        }
+
+
+def compare(measured: MeasuredSet, inflow: str | None = None) -> Comparison:
+    """Trim at every point of a set; `inflow` in hover or in forward flight by name, by default that of `flight`."""
+    base = _base(measured, inflow)
+    points = tuple(compare_point(measured, point, base) for point in measured.points)
+    name = base.models.hover_inflow if measured.kind == "hover" else base.models.inflow
+    return Comparison(measured, name, points, chosen=inflow is not None)
+
+
+def compare_point(measured: MeasuredSet, point: dict[str, float], base: Design) -> ComparedPoint:
+    """Trim the blade and models of `base` at one point of a set of its rotor."""
+    given = {name: point[name] for name in measured.given}
+    found = {name: value for name, value in point.items() if name not in given}
+    solution = _trimmed(design_at(measured, point, base))
+    wanted, judged = found[measured.quantity], measured.is_judged(point)
+    if not solution.converged:
+        return ComparedPoint(given, found, None, solution.message, None, False, judged, not judged)
+    ours = {name: quantity_of(name, solution, measured) for name in found}
+    value = ours[measured.quantity]
+    return ComparedPoint(
+        given=given,
+        measured=found,
+        ours=ours,
+        message="",
+        error_percent=100.0 * (value / wanted - 1.0),
+        within_scatter=abs(value - wanted) <= measured.scatter_of(wanted),
+        judged=judged,
+        passed=not judged or measured.allows(wanted, value),
+    )
+
+
+def _base(measured: MeasuredSet, inflow: str | None) -> Design:
+    """The rotor of a set as built, with the models of `flight` and the inflow asked for."""
+    if measured.kind == "forward" or inflow is None:
+        return make_design(rotor=measured.rotor, inflow=inflow)
+    models = [name for name in get_args(HoverInflow) if name == inflow]
+    if not models:
+        raise ValueError(f"hover inflow {inflow!r} is not known: use one of {', '.join(get_args(HoverInflow))}")
+    base = make_design(rotor=measured.rotor)
+    return replace(base, models=replace(base.models, hover_inflow=models[0]))
+
+
+def design_at(measured: MeasuredSet, point: dict[str, float], base: Design | None = None) -> Design:
+    """The test of one point, with the blade and models of `base`; else the rotor as built with those of `flight`."""
+    stand = {key: point[key] for key in ("shaft_tilt_deg", "ct_over_sigma", "tip_mach") if key in point}
+    if measured.trim != "free-rotor" and "shaft_tilt_deg" not in measured.given:
+        stand.pop("shaft_tilt_deg", None)
+    if "ct" in point:
+        stand["ct_over_sigma"] = point["ct"] / shipped_aircraft(measured.rotor).rotor.solidity
+    design = make_design(rotor=measured.rotor, mu=point.get("mu", 0.0), trim=measured.trim, stand=stand)
+    if base is None:
+        return design
+    models = replace(base.models, trim=design.models.trim)
+    return replace(base, condition=replace(design.condition, mass=base.condition.mass), models=models)
+
+
+def _trimmed(design: Design) -> Solution:
+    """The trim; rigid wake helices of a free rotor are laid again along the tilt that it found."""
+    solution = solve(design)
+    stand = design.condition.stand
+    if design.models.trim != "free-rotor" or design.models.inflow != "vortex-wake" or stand is None:
+        return solution
+    if not solution.converged:
+        return solution
+    found = stand.record() | {"shaft_tilt_deg": math.degrees(solution.controls.shaft_tilt)}
+    return solve(
+        make_design(
+            rotor=design.aircraft,
+            mu=design.condition.advance_ratio,
+            trim=design.models.trim,
+            stand=found,
+            inflow=design.models.inflow,
+        )
+    )
+
+
+def quantity_of(name: str, solution: Solution, measured: MeasuredSet) -> float:
+    """One of our quantities under the name of a measured one, for a solution of the set's rotor."""
+    design = solution.design
+    match name:
+        case "cp":
+            return solution.cp
+        case "cq_over_sigma":
+            return solution.cq / design.rotor.solidity
+        case "cp_drag":
+            return solution.lift_and_drag[1] * design.airspeed / design.power_unit
+        case "cq_above_zero":
+            return solution.cq - _at_zero(design)
+        case "change_percent":
+            assert measured.against is not None
+            other = make_design(rotor=measured.against)
+            plain = solve(replace(other, condition=design.condition, models=design.models)).require()
+            return 100.0 * ((solution.cq - _at_zero(design)) / (plain.cq - _at_zero(plain.design)) - 1.0)
+        case "collective_deg":
+            return math.degrees(solution.controls.collective)
+        case "shaft_tilt_deg":
+            return math.degrees(solution.controls.shaft_tilt)
+        case _:
+            raise ValueError(f"measured quantity {name!r} is not known: check assets/measured/{measured.name}.toml")
+
+
+def _at_zero(design: Design) -> float:
+    """C_Q of a blade in hover at zero thrust, by annuli: hardly anything is induced there."""
+    stand = Stand(ct_over_sigma=0.0)
+    models = replace(design.models, hover_inflow="annulus", trim="wind-tunnel")
+    condition = replace(design.condition, advance_ratio=0.0, stand=stand)
+    return _torque(replace(design, condition=condition, models=models))
+
+
+@lru_cache(maxsize=16)
+def _torque(design: Design) -> float:
+    return solve(design).require().cq

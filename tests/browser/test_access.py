@@ -1,0 +1,187 @@
+"""Screen readers, the keyboard alone, and fingers: the page as used without a mouse."""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from chromium import DRAW_NOTHING
+from test_scene import ON_SCREEN
+from watched import WAIT, Watched, opened
+
+from explorer.app import App
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser, CDPSession
+
+pytestmark = pytest.mark.browser
+CONTROLS = {"button", "checkbox", "combobox", "link", "searchbox", "slider", "spinbutton", "switch", "tab", "textbox"}
+FOCUS = """() => {
+    const e = document.activeElement, style = getComputedStyle(e);
+    return e === document.body ? null : {
+        name: e.ariaLabel || e.innerText?.trim() || e.labels?.[0]?.textContent || '',
+        seen: parseFloat(style.outlineWidth) >= 2 && style.outlineStyle === 'solid' || e.matches('.rxp-curve circle'),
+        left: e.getBoundingClientRect().left, top: e.getBoundingClientRect().top,
+    };
+}"""
+
+
+@pytest.fixture(scope="module")
+def shared(browser: "Browser", app: App) -> Iterator[Watched]:
+    watched = opened(browser, app.address, size=(1500, 940))
+    watched.quiet()
+    yield watched
+    watched.close()
+
+
+@pytest.fixture
+def watched(shared: Watched) -> Iterator[Watched]:
+    shared.reset()
+    shared.page.evaluate("() => RX.send('drawer', '')")
+    shared.page.wait_for_function("() => RX.state.bar.drawer === '' && RX.state.power.change === '0.0 %'", timeout=WAIT)
+    yield shared
+    assert shared.complaints == []
+
+
+def spoken(watched: Watched) -> list[tuple[str, str]]:
+    """Role and name of every control, as a screen reader gets them."""
+    session = watched.page.context.new_cdp_session(watched.page)
+    nodes: list[dict[str, Any]] = session.send("Accessibility.getFullAXTree")["nodes"]
+    session.detach()
+    found = [
+        (node["role"]["value"], node.get("name", {}).get("value", "").strip()) for node in nodes if not node["ignored"]
+    ]
+    return [(role, name) for role, name in found if role in CONTROLS]
+
+
+def test_every_control_has_a_spoken_name(watched: Watched):
+    expected = {
+        "explore": ("slider", "Outboard ±"),
+        "optimise": ("slider", "Starting points"),
+        "actuate": ("slider", "Voltage [%]"),
+    }
+    for mode, one in expected.items():
+        watched.mode(mode)
+        listed = watched.at_rest(lambda: spoken(watched))
+        assert one in listed
+        assert [role for role, name in listed if not name] == [], mode
+    watched.mode("explore")
+    for drawer in ("open", "share", "settings", "probe", "lecture"):
+        watched.drawer(drawer)
+        listed = watched.at_rest(lambda: spoken(watched))
+        assert ("button", "Close") in listed
+        assert [role for role, name in listed if not name] == [], drawer
+
+
+def test_the_model_opens_by_key_and_its_controls_have_names(watched: Watched):
+    page = watched.page
+    head = page.locator("[data-dock-region=right] [role=button]", has_text="Model")
+    assert head.get_attribute("aria-expanded") == "false"
+    head.focus()
+    page.keyboard.press("Enter")
+    watched.until_changed(lambda: head.get_attribute("aria-expanded"), "false")
+    listed = watched.at_rest(lambda: spoken(watched))
+    assert "checkbox" in {role for role, _ in listed}
+    assert [role for role, name in listed if not name] == []
+    page.keyboard.press("Enter")
+    watched.until_changed(lambda: head.get_attribute("aria-expanded"), "true")
+
+
+def test_the_tab_key_walks_the_whole_page_with_visible_focus(watched: Watched):
+    page = watched.page
+    page.locator(".rxf-rotor").focus()
+    reached: list[dict[str, Any]] = []
+    for _ in range(90):
+        page.keyboard.press("Tab")
+        focus = page.evaluate(FOCUS)
+        if focus is None:
+            break  # Past the last control: back to the browser, so nothing held the focus.
+        reached.append(focus)
+    else:
+        pytest.fail(f"the focus never leaves the page: {reached[-3:]}")
+    assert [one for one in reached if not one["seen"]] == []
+    names = [one["name"] for one in reached]
+    order = ["Explore", "Settings", "Aircraft", "Turn the rotor", "tip", "Outboard ±", "Altitude [m]", "Model"]
+    assert [name for name in names if name in order] == [
+        "Explore",
+        "Settings",
+        "Aircraft",
+        "Turn the rotor",
+        "tip",
+        *["Outboard ±"] * 2,  # The slider and its number.
+        *["Altitude [m]"] * 2,
+        "Model",
+    ]
+
+
+def test_focus_stays_where_a_key_was_pressed(watched: Watched):
+    page = watched.page
+    page.locator("[data-do=view]", has_text="Disk").focus()
+    page.keyboard.press("Enter")
+    page.wait_for_selector("[data-do=view][aria-pressed=true] >> text=Disk", timeout=WAIT)
+    page.wait_for_function("() => document.activeElement.innerText === 'Disk'", timeout=WAIT)
+    page.locator("[data-do=view]", has_text="Aircraft").click()
+
+
+def test_a_drawer_opened_by_key_takes_the_focus_and_escape_gives_it_back(watched: Watched):
+    page = watched.page
+    page.get_by_role("button", name="Share").focus()
+    page.keyboard.press("Enter")
+    page.wait_for_function("() => document.activeElement.ariaLabel === 'Close'", timeout=WAIT)
+    page.keyboard.press("Escape")
+    page.wait_for_selector('[data-explorer="drawer"]', state="detached", timeout=WAIT)
+    page.wait_for_function("() => document.activeElement.dataset.value === 'share'", timeout=WAIT)
+
+
+def test_a_slider_moves_by_arrows(watched: Watched):
+    before = watched.text("total-power")
+    slider = watched.row("Outboard").get_by_role("slider")
+    watched.press("Outboard", "ArrowRight", 3)
+    watched.until_changed(lambda: watched.text("total-power"), before)
+    assert float(slider.get_attribute("aria-valuenow") or 0) > 0.0
+    assert watched.page.evaluate("() => document.activeElement.ariaLabel") == "Outboard ±"
+
+
+def swipe(session: "CDPSession", watched: Watched, start: tuple[float, float], way: tuple[float, float]) -> None:
+    """A finger set down, moved and lifted."""
+    for k in range(13):
+        point = {"x": start[0] + way[0] * k / 12, "y": start[1] + way[1] * k / 12}
+        session.send("Input.dispatchTouchEvent", {"type": "touchMove" if k else "touchStart", "touchPoints": [point]})
+        watched.page.wait_for_timeout(80 if k else 250)
+    watched.page.wait_for_timeout(500)
+    session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
+
+
+def test_a_finger_drags_slider_curve_and_blade_on_a_phone(browser: "Browser", app: App):
+    context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    context.add_init_script(DRAW_NOTHING)
+    watched = Watched(context.new_page())
+    watched.open(app.address)
+    page, session = watched.page, context.new_cdp_session(watched.page)
+    slider = watched.row("Outboard").get_by_role("slider")
+
+    def outer() -> float:
+        return float(slider.get_attribute("aria-valuenow") or "nan")
+
+    def middle_of(selector: Any) -> tuple[float, float]:
+        box = selector.bounding_box()
+        assert box is not None
+        return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+    slider.scroll_into_view_if_needed()
+    swipe(session, watched, middle_of(slider), (30.0, 2.0))
+    by_slider = watched.at_rest(outer)
+    assert 3.0 < by_slider < 12.0
+    knot = page.locator('[data-knot="2"]')
+    knot.scroll_into_view_if_needed()
+    swipe(session, watched, middle_of(knot), (0.0, 12.0))
+    by_curve = watched.at_rest(outer)
+    assert -20.0 <= by_curve < by_slider - 2.0
+    camera: Any = page.evaluate("() => window.__viserMutable.camera.position.toArray()")
+    x, y = page.evaluate(ON_SCREEN, 7.2)
+    swipe(session, watched, (x, y), (0.0, -30.0))
+    by_blade = watched.at_rest(outer)
+    assert by_blade > by_curve + 1.0  # The tip was turned up.
+    # The camera follows the shaft tilt; an orbit would have moved it by metres.
+    assert page.evaluate("() => window.__viserMutable.camera.position.toArray()") == pytest.approx(camera, abs=0.6)
+    watched.page.wait_for_function("() => RX.state.hand === null", timeout=WAIT)
+    watched.close()

@@ -1,0 +1,200 @@
+"""What stands where, at every size of window: nothing leaves its card or the window, nothing lies on another."""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import pytest
+from watched import WAIT, Watched, opened
+
+from explorer.app import App
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+pytestmark = pytest.mark.browser
+
+# What is seen beyond the left or right edge of the box it belongs to, by more than a pixel and a half.
+_LEAVES = """([outer, inner]) => {
+  const box = outer ? document.querySelector(outer).getBoundingClientRect() : {left: 0, right: innerWidth};
+  return [...document.querySelectorAll(inner)].filter(e => e.checkVisibility()).filter(e => {
+    const own = e.getBoundingClientRect();
+    return own.width && (own.right > box.right + 1.5 || own.left < box.left - 1.5);
+  }).map(e => e.ariaLabel || e.innerText || e.className);
+}"""
+
+# Pairs of these that meet, by more than a pixel each way.
+_MEET = """selectors => {
+  const all = selectors.flatMap(s => [...document.querySelectorAll(s)]).filter(e => e.checkVisibility());
+  const range = document.createRange();
+  const ink = e => { range.selectNodeContents(e); return range.getBoundingClientRect(); };
+  const boxes = all.map(e => [e, ink(e)]);
+  const wrong = [];
+  for (const [i, [a, p]] of boxes.entries()) for (const [b, q] of boxes.slice(i + 1)) {
+    const wide = Math.min(p.right, q.right) - Math.max(p.left, q.left);
+    const high = Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top);
+    if (wide > 1 && high > 1) wrong.push(`${a.innerText} meets ${b.innerText}`);
+  }
+  return wrong;
+}"""
+
+# What stands over the scene: no two cards meet, and none leaves the window.
+_CARDS = """() => {
+  const seen = [...document.querySelectorAll('.rxf-card, .rxf-notice, .rxf-bar, .rxf-strip')]
+    .filter(e => e.checkVisibility()).map(e => [e.className, e.getBoundingClientRect()])
+    .filter(([, r]) => r.width && r.height);
+  const wrong = [];
+  for (const [name, r] of seen)
+    if (r.left < -1 || r.right > innerWidth + 1 || r.top < -1 || r.bottom > innerHeight + 1)
+      wrong.push(`${name} leaves the window`);
+  for (let i = 0; i < seen.length; i++) for (let k = i + 1; k < seen.length; k++) {
+    const [a, p] = seen[i], [b, q] = seen[k];
+    const wide = Math.min(p.right, q.right) - Math.max(p.left, q.left);
+    const high = Math.min(p.bottom, q.bottom) - Math.max(p.top, q.top);
+    if (wide > 1 && high > 1) wrong.push(`${a} meets ${b}`);
+  }
+  return wrong;
+}"""
+
+
+# The buttons of the bar that leave the window, and what leaves the card of the field.
+_OUTSIDE = """() => [
+  ...[...document.querySelectorAll('.rxf-bar button')].filter(e => e.getBoundingClientRect().right > innerWidth + 1),
+  ...[...document.querySelectorAll('.rxf-field button')].filter(e => e.getBoundingClientRect().right >
+    e.closest('.rxf-field').getBoundingClientRect().right + 1),
+].filter(e => e.checkVisibility()).map(e => e.ariaLabel || e.innerText)"""
+
+# Charts whose drawing is not as wide as the place they have.
+_NARROW_CHARTS = """() => [...document.querySelectorAll('.rxf-chart')].filter(e => e.clientWidth)
+  .filter(e => Math.abs(e.querySelector('svg').viewBox.baseVal.width - Math.max(e.clientWidth - 32, 60)) > 1)
+  .map(e => e.dataset.name)"""
+
+_PARTS = ['[data-explorer="total-power"]', ".rxf-sub", ".rxf-since", ".rxf-why", ".rxf-parts dl", ".rxf-chip"]
+SIZES = [(1920, 1080), (1500, 940), (1280, 720), (1024, 768), (768, 1024), (390, 844)]
+
+
+@pytest.fixture(scope="module", params=SIZES, ids=lambda size: f"{size[0]}x{size[1]}")
+def sized(request: pytest.FixtureRequest, browser: "Browser", app: App) -> Iterator[tuple[Watched, tuple[int, int]]]:
+    """One page for each size: loading it is what takes the time."""
+    watched = opened(browser, app.address, size=request.param)
+    yield watched, request.param
+    watched.close()
+
+
+@pytest.fixture
+def watched(sized: tuple[Watched, tuple[int, int]]) -> Iterator[Watched]:
+    """The page as it opens."""
+    page = sized[0].page
+    page.evaluate("() => document.activeElement?.blur()")
+    page.keyboard.press("r")
+    page.wait_for_function("() => RX.state.power.change === '0.0 %' && RX.state.power.total.length < 4", timeout=WAIT)
+    yield sized[0]
+    assert sized[0].complaints == []
+
+
+def test_everything_has_its_place(watched: Watched):
+    page = watched.page
+    for field in ("Power dP/dr", "Thrust dT/dr"):  # Those with the longest units.
+        watched.show(field)
+        page.wait_for_function("field => RX.state.field.field === field", arg=field, timeout=WAIT)
+        assert page.evaluate(_LEAVES, [".rxf-field", ".rxf-field *"]) == []
+    page.evaluate("() => RX.send('knot', ['2', [1.0, 6.0]])")
+    page.wait_for_function("() => RX.state.power.since", timeout=WAIT)
+    long = {"value": "+1 903 kW", "words": "since grabbed", "kind": "bad"}
+    page.evaluate("since => RX.set({power: {...RX.state.power, total: '2 801', since}})", long)
+    page.wait_for_function(
+        """() => document.querySelector('.rxf-since').innerText.startsWith('+1 903')""", timeout=WAIT
+    )
+    assert page.evaluate(_MEET, _PARTS) == []
+    assert page.evaluate(_LEAVES, [".rxf-power", ".rxf-power *"]) == []
+    # A race takes two places of the strip and gives them back.
+    page.evaluate("() => { window.before = RX.state.strip; RX.set({strip: [{...before[0], wide: true}, before[1]]}); }")
+    page.wait_for_function("() => document.querySelectorAll('.rxf-chart').length !== 4", timeout=WAIT)
+    assert page.evaluate(_NARROW_CHARTS) == []
+    page.evaluate("() => RX.set({strip: window.before})")
+    page.wait_for_function("() => document.querySelectorAll('.rxf-chart').length >= 3", timeout=WAIT)
+    assert page.evaluate(_NARROW_CHARTS) == []
+
+
+def test_no_two_cards_meet(watched: Watched):
+    page = watched.page
+    for mode in ("optimise", "actuate", "explore"):
+        watched.mode(mode)
+        page.wait_for_function(f"() => ({_CARDS})().length === 0", timeout=WAIT)
+    page.evaluate("() => RX.send('knot', ['2', [1.0, 6.0]])")
+    page.wait_for_function("() => RX.state.power.since", timeout=WAIT)
+    assert page.evaluate(_CARDS) == []
+    page.get_by_role("button", name="Pin A").click()
+    page.wait_for_function("() => RX.state.bar.pinned", timeout=WAIT)
+    assert page.evaluate(_CARDS) == []
+    assert page.evaluate(_OUTSIDE) == []
+    page.evaluate("() => RX.send('pin', '')")
+    page.wait_for_function("() => !RX.state.bar.pinned", timeout=WAIT)
+
+
+def test_the_bar_of_a_preview_stays_on_the_stage(watched: Watched):
+    """The longest: that of a schedule in flight, also beside an open rail."""
+    page = watched.page
+    text = "Speed µ 0.10 · twist, root to tip −11.0° · saved vs. starting design 6.6 kW h"
+    page.evaluate("text => RX.set({notice: {text, actions: [['land', 'Stop'], ['apply', 'Apply']]}})", text)
+    page.wait_for_selector(".rxf-notice [data-do=apply]", timeout=WAIT)
+    toggle = page.get_by_role("button", name="Controls")
+    for _ in range(2 if toggle.is_visible() else 1):
+        page.wait_for_function(f"() => ({_LEAVES})(['.rxf-stage', '.rxf-notice, .rxf-notice *']).length === 0")
+        page.wait_for_function(f"() => ({_CARDS})().length === 0", timeout=WAIT)
+        if toggle.is_visible():
+            toggle.click()
+    page.evaluate("() => RX.set({notice: null})")
+    page.wait_for_selector(".rxf-notice", state="hidden", timeout=WAIT)
+
+
+def test_the_lecture_is_the_scene_a_caption_and_three_numbers(watched: Watched, sized: tuple[Watched, tuple[int, int]]):
+    page, size, rail = watched.page, sized[1], watched.page.locator("[data-dock-region=right]")
+    page.keyboard.press("t")
+    page.wait_for_selector('[data-explorer="lecture"][data-step="1"]', timeout=WAIT)
+    assert page.evaluate(_LEAVES, ["", ".rxf-bar *, .rxf-caption *, .rxf-stage > .rxf-card"]) == []
+    assert not rail.is_visible()
+    page.keyboard.press("PageDown")
+    page.wait_for_selector('[data-explorer="lecture"][data-step="2"]', timeout=WAIT)
+    page.wait_for_function("() => /\\d/.test(document.querySelector('[data-explorer=said]').innerText)", timeout=WAIT)
+    page.wait_for_function("() => RX.state.field.difference === true", timeout=WAIT)  # Wanted before there was an A.
+    page.wait_for_function("() => document.querySelectorAll('.rxf-figures b').length === 3", timeout=WAIT)
+    # In the middle of its first line each is what is seen there: nothing lies over it. One call: answers redraw it.
+    seen = """selector => { const e = document.querySelector(selector), box = e.getClientRects()[0];
+        const x = box?.x + box?.width / 2, y = box?.y + box?.height / 2;
+        return Boolean(box) && e.contains(document.elementFromPoint(x, y)); }"""
+    for part in ('[data-explorer="said"]', ".rxf-caption [data-value=next]"):
+        page.wait_for_function(seen, arg=part, timeout=WAIT)
+    scene = page.locator("canvas[data-engine]").evaluate("e => e.getBoundingClientRect().toJSON()")
+    caption = page.locator(".rxf-caption").evaluate("e => e.getBoundingClientRect().toJSON()")
+    assert scene["left"] == 0
+    assert scene["right"] == size[0]  # Full-bleed.
+    assert scene["height"] > 0.3 * size[1]
+    assert page.locator(".rxf-caption").evaluate("e => e.scrollWidth <= e.clientWidth")
+    assert caption["top"] >= scene["bottom"] - 1
+    assert caption["bottom"] <= size[1] + 1
+    assert page.evaluate(_CARDS) == []
+    for panel in ("[data-dock-region]", ".rxf-strip", ".rxf-power"):
+        assert not page.locator(panel).first.is_visible(), panel
+    _controls_come_and_go(watched)
+    page.get_by_role("button", name="End", exact=True).click()
+    page.wait_for_selector('[data-explorer="lecture"]', state="hidden", timeout=WAIT)
+    assert rail.is_visible() == (size[0] > 1100 or size[0] <= 700)
+
+
+def _controls_come_and_go(watched: Watched) -> None:
+    """Asked for in the lecture: the rail ends above the caption, and the scene beside it."""
+    page, rail = watched.page, watched.page.locator("[data-dock-region=right]")
+    page.get_by_role("button", name="Controls").click()
+    rail.wait_for(state="visible", timeout=WAIT)
+    page.wait_for_function(
+        """() => {
+            const rail = document.querySelector('[data-dock-region=right]').getBoundingClientRect();
+            const caption = document.querySelector('.rxf-caption').getBoundingClientRect();
+            const scene = document.querySelector('canvas').getBoundingClientRect();
+            return rail.right <= innerWidth + 1 && rail.bottom <= caption.top + 1
+                && (scene.right <= rail.left + 1 || scene.bottom <= rail.top + 1);
+        }""",
+        timeout=WAIT,
+    )
+    page.get_by_role("button", name="Controls").click()
+    rail.wait_for(state="hidden", timeout=WAIT)

@@ -1,0 +1,74 @@
+"""The test stand on the real page: beside flight, a measured rotor in its tests, and points over the curve."""
+
+from collections.abc import Iterator
+from typing import TYPE_CHECKING
+
+import pytest
+from watched import WAIT, Watched, for_people, opened, painted
+
+from explorer.app import App
+from explorer.state import Inputs
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from playwright.sync_api import Browser
+
+pytestmark = pytest.mark.browser
+START = Inputs(law="builtin")
+CHART = "() => RX.state.strip?.find(one => one.name === 'measured')"
+
+
+@pytest.fixture
+def watched(app: App, browser: "Browser") -> Iterator[Watched]:
+    watched = opened(browser, app.address)
+    yield watched
+    assert not watched.complaints
+    watched.close()
+
+
+def until(watched: Watched, condition: str) -> None:
+    watched.page.wait_for_function(condition, timeout=2 * WAIT)
+
+
+def test_a_flight_goes_on_in_the_wind_tunnel_and_comes_back(watched: Watched):
+    mass = watched.row("Mass")
+    flight = watched.text("total-power")
+    watched.choose("Flight or test", "Test stand: wind tunnel")
+    tested = watched.until_changed(lambda: watched.text("total-power"), flight)
+    mass.wait_for(state="hidden", timeout=WAIT)
+    watched.choose("Given", "Collective")
+    until(watched, "() => location.search.includes('collective_deg')")
+    watched.page.reload()
+    until(watched, "() => document.querySelector('[data-explorer=status][data-kind=converged]')")
+    watched.row("Collective").wait_for(timeout=WAIT)
+    reloaded = watched.text("total-power")
+    assert abs(float(reloaded.split()[0]) - float(tested.split()[0])) < 5.0
+    watched.choose("Flight or test", "Flight")
+    watched.until_changed(lambda: watched.text("total-power"), reloaded)
+    mass.wait_for(timeout=WAIT)
+
+
+def test_a_measured_rotor_offers_its_tests_and_draws_its_points(watched: Watched):
+    watched.page.locator(".rxf-rotor").select_option(label="XV-15 metal blade")
+    until(watched, f"() => ({CHART})()?.marks.length === 50")
+    watched.choose("Measured in", "Tunnel, 15° forward")
+    until(watched, f"() => ({CHART})()?.value.includes('rms 6.7 %')")
+    assert watched.page.locator("[data-name=measured] [data-mark]").count() == 4
+    until(watched, "() => document.querySelector('[data-explorer=validated]')?.innerText === 'measured: rms 6.7 %'")
+    watched.page.locator(".rxf-rotor").select_option(label="PCA-2 autogiro")
+    until(watched, f"() => ({CHART})()?.marks.length === 79")
+    until(watched, "() => document.querySelector('[data-explorer=total-power]').innerText.startsWith('0.0')")
+    watched.page.locator(".rxf-rotor").select_option(label="UH-60A")
+    until(watched, f"() => !({CHART})()")
+    watched.row("Mass").wait_for(timeout=WAIT)
+
+
+@for_people
+def test_pictures(app: App, browser: "Browser", artefacts: "Path", scheme: str, size: tuple[int, int]):
+    watched = painted(browser, app.address, scheme, size)
+    watched.page.locator(".rxf-rotor").select_option(label="XV-15 metal blade")
+    until(watched, f"() => ({CHART})()?.value.includes('rms')")
+    watched.page.wait_for_timeout(1500)
+    watched.page.screenshot(path=artefacts / f"stand-{scheme}-{size[0]}.png")
+    watched.close()

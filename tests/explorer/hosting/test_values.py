@@ -1,0 +1,126 @@
+"""What a page may put into its widgets, and links and files of any kind: a value or a sentence, never silence."""
+
+import asyncio
+import json
+import logging
+import math
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import pytest
+
+from explorer.app import App
+from explorer.hosting.limits import LONGEST_TEXT, accepted_value
+from explorer.sharing import share
+from explorer.sharing.address import Address
+from explorer.sharing.view_code import view_from
+from explorer.state import OPENING, ViewState
+from tests.tools.soak.visitor import Visitor
+
+DIGITS = "9" * 400
+
+
+@pytest.mark.parametrize(
+    ("value", "current", "limits"),
+    [
+        (math.nan, 1.0, {}), (math.inf, 1.0, {}), ("1", 1.0, {}), (True, 1.0, {}), (None, 1.0, {}), ([1], 1.0, {}),
+        ({}, 1, {}), (int(DIGITS), 1.0, {}), ("c", "a", {"choices": ("a", "b")}), (1, "a", {}), ("x", True, {}),
+        ("x" * (LONGEST_TEXT + 1), "a", {}), ((1.0,), (1.0, 2.0), {}), ((1.0, math.nan), (1.0, 2.0), {}),
+    ],
+)  # fmt: skip
+def test_a_value_that_a_widget_cannot_hold_is_refused(value: Any, current: Any, limits: dict[str, Any]):
+    with pytest.raises(ValueError, match="cannot hold") as refusal:
+        accepted_value(value, current, **limits)
+    assert len(str(refusal.value)) < 150
+
+
+def test_values_that_a_widget_can_hold_pass():
+    assert accepted_value(2, 1.0, low=0.0, high=5.0) == 2
+    assert accepted_value(9.0, 1.0, low=0.0, high=5.0) == 5.0
+    assert accepted_value("b", "a", choices=("a", "b")) == "b"
+    assert accepted_value(True, False) is True
+    assert accepted_value([1, 2.5], (0.0, 0.0)) == [1, 2.5]
+
+
+LINKS = [
+    "1;linear:-8;mass=" + DIGITS,
+    "1;linear:-8;mass=" + "9" * 5000,
+    "1;linear:-8;mass=NaN",
+    "1;linear:-8;mass=1e999",
+    "1;linear:-8;rotor=" + "[" * 1500,
+    "1;linear:-8;rotor=" + "[" * 800 + "]" * 800,
+    '1;linear:-8;rotor={"main":{}}',
+    "1;linear:-8;active_twist=" + DIGITS,
+    "1;" + "+".join(["ideal"] * 250),
+    "1;" + "x" * 7000,
+    "1;linear:-8;\0=1",
+    "own",
+]
+
+
+@pytest.mark.parametrize("code", LINKS, ids=lambda code: code[:24])
+def test_a_link_opens_the_page_with_a_sentence(code: str):
+    problems: list[tuple[str, str]] = []
+    address = Address("?d=" + code, lambda query: None)
+    assert address.read(share.DESIGN, share.inputs_from, OPENING, "Not the design", problems) == OPENING
+    ((_, sentence),) = problems
+    assert len(sentence) < 400
+    assert "9" * 100 not in sentence
+    with pytest.raises(ValueError, match=r"\w"):  # As A of a link, which is read elsewhere.
+        share.inputs_from(code)
+
+
+def test_any_failure_of_a_reader_leaves_the_page_standing():
+    def fail(code: str) -> ViewState:
+        raise ZeroDivisionError(code)
+
+    problems: list[tuple[str, str]] = []
+    assert Address("?v=1", lambda query: None).read("v", fail, ViewState(), "No", problems) == ViewState()
+    assert len(problems) == 1
+    with pytest.raises(ValueError, match="version"):
+        view_from("q" * 7000)
+
+
+@pytest.fixture
+def app() -> Iterator[App]:
+    app = App("127.0.0.1", 0)
+    yield app
+    app.stop()
+
+
+@pytest.mark.parametrize("length", [7_000, 20_000])
+def test_a_long_address_opens_the_page(app: App, length: int):
+    with urllib.request.urlopen(f"{app.address}/?d=1;{'x' * length}", timeout=10) as answer:
+        assert answer.status == 200
+
+
+def test_an_address_beyond_every_limit_gets_a_sentence(app: App):
+    with pytest.raises(urllib.error.HTTPError, match="414") as refusal:
+        urllib.request.urlopen(f"{app.address}/?d=1;{'x' * 200_000}", timeout=10)
+    with refusal.value as answer:
+        assert "shorter link" in answer.read().decode()
+
+
+def test_a_flood_of_bad_values_changes_nothing_and_writes_no_traceback(app: App, caplog: pytest.LogCaptureFixture):
+    async def flood() -> None:
+        async with asyncio.timeout(90.0):
+            visitor = Visitor()
+            await visitor.open(app.address)
+            await visitor.until(lambda: visitor.text("status") == "converged")
+            power = visitor.text("total-power")
+            for uuid, widget in list(visitor.widgets.items()):
+                await visitor.send("GuiUpdateMessage", uuid=uuid, updates={"max": math.nan})
+                if widget.get("label") in ("Inboard ±", "Outboard ±", "Law", "Inflow", "Preset"):
+                    for value in ("nan", math.nan, None, {}, [1.0], "x" * 100) * 20:
+                        await visitor.send("GuiUpdateMessage", uuid=uuid, updates={"value": value})
+            await visitor.until(lambda: visitor.text("status") == "converged" and visitor.text("total-power") == power)
+            assert visitor.gone is None
+            await visitor.close()
+
+    with caplog.at_level(logging.WARNING), ThreadPoolExecutor(1) as thread:
+        thread.submit(lambda: asyncio.run(flood())).result()
+    assert not [record for record in caplog.records if record.exc_info]
+    assert json.dumps([record.getMessage() for record in caplog.records]).count("failed") == 0

@@ -1,0 +1,48 @@
+"""The view of a client without a browser: how fast a played rotor turns."""
+
+import math
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from explorer.scene.page_scene import TURN_RATES
+from explorer.state import ViewState
+from explorer.tabs.display import Display
+from explorer.tabs.probe.panel import ProbePanel
+
+
+class FakeBridge:
+    """Keeps the actions and what is shown."""
+
+    def __init__(self) -> None:
+        self.actions: dict[str, Any] = {}
+        self.shown: dict[str, Any] = {}
+
+    def on(self, name: str, action: Any) -> None:
+        self.actions[name] = action
+
+    def set(self, **parts: Any) -> None:
+        self.shown.update(parts)
+
+
+def test_a_press_takes_the_next_speed():
+    bridge: Any = FakeBridge()
+    display = Display(bridge, ViewState(), lambda: None, lambda: None)
+    seen = []
+    for _ in range(4):
+        seen.append((bridge.shown["turn"]["pace"], display.turn_rate))
+        bridge.actions["pace"](None)
+    assert [name for name, _ in seen] == ["normal", "fast", "slow", "normal"]
+    assert seen[2][1] < seen[0][1] < seen[1][1]
+
+
+@pytest.mark.parametrize("pace", TURN_RATES)
+def test_the_blade_walks_at_the_chosen_rate(pace: str):
+    azimuths: list[float] = []
+    context = SimpleNamespace(view=lambda: ViewState(azimuth_deg=350.0), set_azimuth=azimuths.append)
+    panel: Any = SimpleNamespace(
+        _context=context, _left=600.0, _walked=350.0, _turn_rate=lambda: TURN_RATES[pace], _pause=lambda: None
+    )
+    ProbePanel._walk_on(panel, 0.2)
+    assert azimuths == [pytest.approx((350.0 + 0.2 * math.degrees(TURN_RATES[pace])) % 360.0)]

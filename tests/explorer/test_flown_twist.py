@@ -1,0 +1,198 @@
+"""Jig and flown twist on the page: shapes of the blades, ghost, inset, curves, field, probe and numbers."""
+
+import math
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from explorer.picture.blade_inset import inset
+from explorer.picture.blade_mesh import PAGE, blade_shape, blade_vertices, drawn_pitch
+from explorer.picture.disk_image import MOVING
+from explorer.picture.fields import FIELDS, fitted_range
+from explorer.picture.picture import field_values, make_picture, turned_blades
+from explorer.picture.polar import polar_grid
+from explorer.picture.poses import flown_twist, follows_azimuth
+from explorer.scene.overlays import ghost_twist
+from explorer.state import ViewState
+from explorer.tabs.probe.element import probe
+from explorer.tabs.twist_curve import flown_band, shown_twist
+from explorer.text.comparison import trim_panel as both_panel
+from explorer.text.readout import trim_panel
+from rotor.arrays import Array
+from rotor.design.twist import LinearTwist
+from rotor.files.make_design import make_design
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+FIELD = FIELDS["Elastic twist"]
+VIEW = ViewState()
+
+
+@pytest.fixture(scope="module")
+def fast() -> Solution:
+    return solve(make_design(mu=0.3)).require()
+
+
+@pytest.fixture(scope="module")
+def hover() -> Solution:
+    return solve(make_design(hover=True)).require()
+
+
+@pytest.fixture(scope="module")
+def rigid() -> Solution:
+    design = make_design(mu=0.3)
+    return solve(replace(design, models=replace(design.models, elastic_twist=False))).require()
+
+
+def ring_angles(vertices: Array) -> Array:
+    """Pitch of each ring of a blade [rad], from trailing edge to nose."""
+    rings = vertices[: -2 * PAGE.points - 2].reshape(-1, PAGE.points, 3)
+    nose, tail = rings[:, PAGE.points // 2], rings[:, 0]
+    return np.arctan2(nose[:, 2] - tail[:, 2], nose[:, 1] - tail[:, 1])
+
+
+class TestFlownTwist:
+    def test_it_is_the_pitch_that_the_air_meets_less_collective_and_cyclic(self, fast: Solution):
+        c, disk = fast.controls, fast.disk
+        for k in (0, 17, 60, 101):
+            psi = float(disk.psi[k])
+            pitch = c.collective + c.cyclic_1c * math.cos(psi) + c.cyclic_1s * math.sin(psi)
+            assert_allclose(pitch + flown_twist(fast, psi)(disk.r), disk.theta[:, k], atol=1e-12)
+
+    def test_between_two_azimuths_it_lies_between_them(self, fast: Solution):
+        step = float(fast.disk.psi[1] - fast.disk.psi[0])
+        first, middle, last = (float(flown_twist(fast, psi)([1.0])[0]) for psi in (0.0, 0.5 * step, step))
+        assert middle == pytest.approx(0.5 * (first + last))
+        assert float(flown_twist(fast, 2.0 * math.pi)([1.0])[0]) == pytest.approx(first)
+
+    def test_a_rigid_blade_flies_its_jig_twist(self, rigid: Solution):
+        assert flown_twist(rigid, 1.0) == rigid.design.twist
+        assert not follows_azimuth(rigid)
+
+    def test_in_hover_it_is_the_same_at_every_azimuth(self, hover: Solution):
+        assert not follows_azimuth(hover)
+        assert_allclose(flown_twist(hover, 0.3)(hover.disk.r), flown_twist(hover, 4.0)(hover.disk.r), atol=1e-15)
+        assert float(flown_twist(hover, 0.0)([1.0])[0]) < float(hover.design.twist([1.0])[0]) - math.radians(1.0)
+
+
+class TestBlades:
+    def test_untwist_with_azimuth_as_the_tip_does(self, fast: Solution):
+        """At true scale the drawn tip moves by what the solution says."""
+        blades = turned_blades(fast, replace(VIEW, azimuth_deg=90.0, exaggeration=1.0))
+        tips = [ring_angles(shape)[-1] for shape in blades.shapes]
+        elastic = fast.disk.elastic_twist
+        assert elastic is not None
+        outermost = np.interp((math.pi / 2, math.pi, 1.5 * math.pi), fast.disk.psi, elastic[-1])
+        assert np.ptp(outermost) > math.radians(0.5)
+        assert_allclose(np.subtract(tips[1:3], tips[0]), outermost[1:] - outermost[0], atol=2e-4)
+
+    def test_exaggeration_keeps_the_pitch_at_three_quarters_true(self, fast: Solution):
+        twist = flown_twist(fast, 1.0)
+        at = float(twist([0.75])[0])
+        assert abs(at) > math.radians(1.0)
+        assert drawn_pitch(twist, 0.75, 4.0)[0] == pytest.approx(at)
+        tip = float(twist([1.0])[0])
+        assert drawn_pitch(twist, 1.0, 4.0)[0] - at == pytest.approx(4.0 * (tip - at))
+
+    def test_only_the_reference_blade_is_bent_while_something_moves(self, fast: Solution):
+        moving = make_picture(fast, VIEW, (-4.0, 10.0), pixels=MOVING)
+        assert moving.blades.shapes == ()
+        still = turned_blades(fast, VIEW)
+        assert_allclose(moving.blade_vertices, still.shapes[0])
+        assert len(still.shapes) == 4
+
+    def test_one_shape_does_for_all_in_hover(self, hover: Solution):
+        assert turned_blades(hover, VIEW).shapes == ()
+        picture = make_picture(hover, VIEW, (-4.0, 10.0))
+        shape = blade_shape(hover.design.rotor)
+        assert_allclose(picture.blade_vertices, blade_vertices(shape, flown_twist(hover, 0.0), VIEW.exaggeration))
+
+
+class TestGhost:
+    def test_an_unchanged_blade_has_its_jig_shape_for_a_ghost(self, fast: Solution):
+        assert ghost_twist(fast, fast.design.twist, 1.0) == fast.design.twist
+
+    def test_another_blade_differs_by_its_jig_twist_alone(self, fast: Solution):
+        other, r = LinearTwist(-0.1), np.linspace(0.2, 1.0, 9)
+        ghost = ghost_twist(fast, other, 1.0)
+        assert ghost is not None
+        assert_allclose(flown_twist(fast, 1.0)(r) - ghost(r), fast.design.twist(r) - other(r), atol=1e-15)
+
+    def test_a_rigid_blade_has_no_ghost_of_itself(self, rigid: Solution):
+        assert ghost_twist(rigid, rigid.design.twist, 1.0) is None
+
+
+class TestInset:
+    def test_it_holds_the_flown_angles_and_those_at_three_quarters(self, fast: Solution):
+        twist = flown_twist(fast, 1.0)
+        made = inset(fast.design.rotor, twist, fast.design.twist, 4.0)
+        assert made["datum"] == pytest.approx(math.degrees(float(twist([0.75])[0])), abs=0.006)
+        assert made["ghost_datum"] == pytest.approx(0.0, abs=0.006)
+        tip = made["cuts"][-1]
+        assert tip["theta"] - tip["ghost"] == pytest.approx(
+            math.degrees(float(twist([1.0])[0] - fast.design.twist([1.0])[0])), abs=0.011
+        )
+
+
+class TestCurves:
+    def test_flown_less_jig_is_the_elastic_twist(self, fast: Solution):
+        r = fast.disk.r
+        band = flown_band(fast, r)
+        assert band is not None
+        assert fast.elastic is not None
+        mean, low, high = band
+        assert_allclose(mean - shown_twist(fast.design)(r), np.degrees(fast.elastic.along_blade), atol=1e-9)
+        assert (low < mean).all()
+        assert (mean < high).all()
+        assert high[-1] - low[-1] == pytest.approx(math.degrees(np.ptp(fast.elastic.tip)), abs=0.02)
+
+    def test_a_rigid_blade_has_one_curve(self, rigid: Solution):
+        assert flown_band(rigid, rigid.disk.r) is None
+
+
+class TestField:
+    def test_its_range_is_symmetric_and_holds_the_values(self, fast: Solution):
+        values = field_values(fast, FIELD)
+        low, high = fitted_range(FIELD, values)
+        assert low == -high
+        assert high >= np.quantile(np.abs(values), 0.99)
+        assert fast.elastic is not None
+        assert np.abs(values).max() == pytest.approx(math.degrees(np.abs(fast.elastic.tip).max()), abs=0.15)
+
+    def test_a_rigid_blade_leaves_the_disk_empty(self, rigid: Solution):
+        grid = polar_grid(rigid.disk, 40, 120)
+        void = FIELD.void(rigid, grid)
+        assert void is not None
+        assert void.all()
+        assert np.isfinite(FIELD.sample(rigid, grid)).all()
+        assert fitted_range(FIELD, field_values(rigid, FIELD)) == (FIELD.low, FIELD.high)
+
+
+class TestNumbers:
+    def test_the_probe_takes_pitch_apart(self, fast: Solution):
+        psi, c = math.radians(90.0), fast.controls
+        here = probe(fast, 0.8, psi)
+        assert here.elastic is not None
+        assert here.theta == pytest.approx(c.collective + c.cyclic_1s + here.jig + here.elastic, abs=2e-4)
+
+    def test_a_rigid_blade_has_no_elastic_twist(self, rigid: Solution):
+        assert probe(rigid, 0.8, 1.0).elastic is None
+        assert "rigid" in trim_panel(rigid)
+
+    def test_the_trim_lists_tip_twist_and_pitch_link_load(self, fast: Solution):
+        elastic = fast.elastic
+        assert elastic is not None
+        text = re.sub(r"<[^>]*>", " ", trim_panel(fast)).replace("−", "-")
+        for angle in (elastic.tip.mean(), elastic.first_harmonic):
+            assert f"{math.degrees(angle):.2f}°" in text
+        half = 0.5 * (elastic.pitch_link_load.max() - elastic.pitch_link_load.min())
+        for force in (elastic.pitch_link_load.mean(), half):
+            assert f"{force / 1e3:.2f} kN" in text
+
+    def test_both_designs_list_them(self, fast: Solution, rigid: Solution):
+        assert fast.elastic is not None
+        text = both_panel(fast, rigid).replace("−", "-")
+        assert f"<span>–</span><span>{math.degrees(fast.elastic.tip.mean()):.2f}</span>" in text

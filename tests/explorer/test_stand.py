@@ -1,0 +1,189 @@
+"""The test stand of the page: its inputs, links, measured conditions, the chart over measured points, and the chip."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+import viser
+
+from explorer.charts.measured import MeasuredChart
+from explorer.export.as_code import as_command_line, as_python
+from explorer.export.provenance import condition_line
+from explorer.pinned import Pinned
+from explorer.sharing.share import code_of, inputs_from
+from explorer.stand import LOAD_TITLES, TRIM_TITLES, StandInputs, load_of, measured_conditions, stand_like
+from explorer.state import OPENING, Inputs, with_rotor
+from explorer.tabs.controls import DesignControls
+from explorer.text.design_words import flight_name, flight_words
+from explorer.text.validated import row_of, validated
+from explorer.undo import History
+from rotor.assets import MEASURED_ROTORS
+from rotor.trim.solve import solve
+from rotor.validation.measured import SETS, load_set
+
+XV15 = next(one for one in measured_conditions("xv15") if one.test == "Tunnel, 15° forward")
+FORWARD = replace(with_rotor(OPENING, "xv15"), advance_ratio=XV15.advance_ratio, stand=XV15.stand)
+
+
+@pytest.mark.parametrize("name", MEASURED_ROTORS)
+def test_a_measured_rotor_begins_in_one_of_its_tests_and_its_link_says_so(name: str):
+    inputs = with_rotor(OPENING, name)
+    assert inputs.stand is not None
+    assert any((one.advance_ratio, one.stand) == (inputs.advance_ratio, inputs.stand)
+               for one in measured_conditions(name))  # fmt: skip
+    assert inputs_from(code_of(inputs.design())) == inputs
+    assert with_rotor(inputs, "uh60a").stand is None
+
+
+def test_every_measured_condition_survives_a_link_exactly():
+    for condition in measured_conditions("xv15")[::9]:
+        inputs = replace(FORWARD, advance_ratio=condition.advance_ratio, stand=condition.stand)
+        assert inputs_from(code_of(inputs.design())).design() == inputs.design()
+
+
+def test_a_link_from_before_the_test_stand_is_in_flight():
+    assert inputs_from("1;segments:-14,-8@0.5;mu=0.25;mass=9000").stand is None
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ('stand={"ct_over_sigma":0.9}', "outside 0…0.25"),
+        ('stand={"colective_deg":8}', "'colective_deg' is not known"),
+        ('trim=tunnel;stand={"ct_over_sigma":0.07}', "'tunnel' is not known"),
+        ("trim=free-rotor", "needs the inputs of a test stand"),
+        ('trim=free-rotor;mu=0;stand={"ct_over_sigma":0.07}', "needs wind"),
+    ],
+)
+def test_a_bad_test_in_a_link_is_one_sentence(words: str, said: str):
+    with pytest.raises(ValueError, match="The design in the address") as error:
+        inputs_from(f"1;linear:-8;{words}")
+    assert said in str(error.value)
+    assert "\n" not in str(error.value)
+
+
+def test_the_wind_tunnel_begins_with_what_the_flight_had():
+    flight = solve(Inputs(law="builtin", advance_ratio=0.2, download=False).design())
+    stand = stand_like(flight)
+    tested = solve(Inputs(law="builtin", advance_ratio=0.2, stand=stand).design())
+    assert tested.power.main_rotor == pytest.approx(flight.power.main_rotor, rel=0.02)
+    assert load_of(tested, "thrust_n") == pytest.approx(flight.ct * flight.design.thrust_unit, rel=2e-3)
+    held = solve(
+        replace(OPENING, stand=replace(stand, load="collective_deg", value=load_of(tested, "collective_deg"))).design()
+    )
+    assert held.ct_over_sigma == pytest.approx(stand.value, rel=5e-3)
+
+
+def test_given_controls_need_a_collective_and_free_blades():
+    stand = StandInputs().with_trim("controls", 7.5)
+    assert (stand.load, stand.value, stand.flapping) == ("collective_deg", 7.5, "free")
+    assert Inputs(stand=stand).design().models.trim == "controls"
+
+
+def test_a_change_of_the_test_is_one_step_of_undo():
+    history = History(FORWARD)
+    assert FORWARD.stand is not None
+    history.note(replace(FORWARD, stand=replace(FORWARD.stand, shaft_tilt_deg=10.0)), 2.0)
+    assert history.undo() == FORWARD
+
+
+def test_a_flies_along_into_a_test_and_back():
+    flight, tested = solve(OPENING.design()), solve(replace(OPENING, stand=StandInputs()).design())
+    assert Pinned(OPENING, flight).design(tested.design).models.trim == "wind-tunnel"
+    assert Pinned(replace(OPENING, stand=StandInputs()), tested).design(flight.design) == flight.design
+    assert Pinned(OPENING, flight).sliders(replace(OPENING, stand=StandInputs()), along=True).stand == StandInputs()
+
+
+def test_a_test_in_words_in_flags_and_in_python_is_the_same_test():
+    design = FORWARD.design()
+    assert flight_name(FORWARD) == "µ 0.125, wind tunnel, CT/σ 0.075, tilt 15.0°, tip Mach 0.691"
+    assert "wind tunnel" in flight_words(design)
+    assert "kg" not in condition_line(design)
+    command = as_command_line(design)
+    assert command.case is None
+    assert "--trim wind-tunnel" in command.command
+    assert "--mass-kg" not in command.command
+    scope: dict[str, Any] = {}
+    exec(as_python(design).partition("solution =")[0], scope)
+    assert scope["design"] == design
+
+
+class TestWidgets:
+    @pytest.fixture
+    def controls(self) -> Any:
+        server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+        yield DesignControls(server.gui, OPENING, lambda: None)
+        server.stop()
+
+    def test_choices_by_hand(self, controls: DesignControls):
+        panel = controls.stand
+
+        def choose(handler: Any, value: Any) -> None:
+            handler(SimpleNamespace(client="someone", target=SimpleNamespace(value=value)))
+
+        choose(panel._trim_chosen, TRIM_TITLES["wind-tunnel"])
+        assert controls.inputs().stand == StandInputs()
+        choose(panel._load_chosen, LOAD_TITLES["collective_deg"])
+        choose(panel._slid("collective_deg"), 6.5)
+        assert controls.inputs().stand == StandInputs(load="collective_deg", value=6.5)
+        choose(panel._trim_chosen, TRIM_TITLES["flight"])
+        assert controls.inputs().stand is None
+        controls.choose_rotor("xv15")
+        assert TRIM_TITLES["flight"] not in panel._trim.options
+        choose(panel._test_chosen, XV15.test)
+        assert controls.inputs().stand is not None
+        assert panel._point.visible
+        choose(panel._slid("shaft_tilt_deg"), 12.0)
+        controls.refresh(controls.inputs(), controls._units)
+        assert not panel._point.visible
+        controls.set_inputs(FORWARD)
+        assert controls.inputs() == FORWARD
+
+
+def test_the_chart_has_every_point_its_scatter_and_our_error():
+    solution, chart = solve(FORWARD.design()), MeasuredChart()
+    before = chart.chart(solution)
+    assert before is not None
+    assert len(before.marks) == 4
+    assert len(before.lines[0].x) == 0
+    drawn: list[bool] = []
+    chart.rest(solution, lambda: False, lambda: drawn.append(True))
+    after = chart.chart(solution)
+    assert drawn
+    assert after is not None
+    assert after.value.startswith("+")
+    assert "rms 6.7 %" in after.value
+    assert [mark.y for mark in after.marks] == pytest.approx([5.7, 5.95, 6.2, 6.65])
+    assert all(mark.error == pytest.approx(0.1) for mark in after.marks)
+    ours = dict(zip(after.lines[0].x, after.lines[0].y, strict=True))
+    assert ours[FORWARD.advance_ratio] == pytest.approx(after.dots[0].y, rel=1e-5)
+    assert "ours 6.0" in after.marks[0].words
+
+
+def test_no_points_are_drawn_in_flight_or_for_a_rotor_that_was_not_measured():
+    assert MeasuredChart().chart(solve(OPENING.design())) is None
+    assert MeasuredChart().chart(solve(with_rotor(OPENING, "r22").design())) is None
+
+
+@pytest.mark.parametrize("name", [name for name in SETS if load_set(name).against is None])
+def test_every_set_has_its_row_with_the_default_inflow(name: str):
+    measured = load_set(name)
+    row = row_of(measured, "annulus" if measured.kind == "hover" else "dynamic-wake")
+    assert row is not None
+    assert row.error is not None
+
+
+def test_the_chip_says_how_well_the_region_is_validated():
+    record = validated(solve(FORWARD.design()))
+    assert record.words == "measured: rms 6.7 %"
+    assert "missed" in record.sentence
+    assert validated(solve(replace(FORWARD, inflow="uniform").design())).words == "measured: rms 0.5 %"
+    assert validated(solve(replace(FORWARD, inflow="drees").design())).words == "not compared with this inflow"
+    assert "twist as built" in validated(solve(replace(FORWARD, law="linear", linear=-30.0).design())).sentence
+    fast = validated(solve(replace(FORWARD, advance_ratio=0.35).design()))
+    assert fast.words == "beyond what was measured"
+    assert "µ 0.35, compared 0.125…0.2" in fast.sentence
+    uh60a = validated(solve(OPENING.design()))
+    assert uh60a.words == "not measured here"
+    assert "in hover only" in uh60a.sentence

@@ -1,0 +1,151 @@
+"""Radial friction, swirl, swept tip and download against textbook closed forms and hand calculations."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor.aero.elements import build_problem, swirl_of
+from rotor.aero.losses import loss_factor
+from rotor.aero.radial_flow import radial_friction, skin_friction
+from rotor.aero.switches import no_effect, with_switches
+from rotor.design.design import BEYOND_DOCUMENT
+from rotor.files.make_design import make_design
+from rotor.trim.solve import solve
+
+
+def test_skin_friction_of_a_flat_plate():
+    """Schlichting, Boundary-Layer Theory, fig. 21.2: 0.0030 a side at Re 10⁷, 0.0045 at 10⁶ (Prandtl–Schlichting)."""
+    assert_allclose([skin_friction(1e7), skin_friction(1e6)], [0.0060, 0.0090], rtol=0.01)
+
+
+@pytest.mark.parametrize("mu", [0.1, 0.3, 0.5])
+def test_profile_power_and_drag_with_yawed_flow(mu: float):
+    """All drag friction: C_P0 = σc_d/8 (1 + 4.5µ² + 1.61µ^3.7), C_H = σc_d/8 (3µ + 1.98µ^2.7) (Johnson 1980)."""
+    design = make_design(mu=mu)
+    blade = replace(design.rotor.blade, root_cutout=0.001, spans=design.rotor.blade.spans[-1:])
+    design = replace(design, rotor=replace(design.rotor, blade=replace(blade, chord_stations=(0.0, 1.0))))
+    disk = build_problem(replace(design, models=replace(design.models, elements=400, azimuths=360))).disk
+    friction = radial_friction(disk, mu, 1.0)
+    across: np.ndarray = disk.r[:, None] + mu * disk.sin
+    cell = disk.dr / len(disk.psi)
+    section = disk.half_solidity[:, None] * np.abs(across) * across
+    power = ((section + friction.fx) * across + friction.radial * mu * disk.cos).sum() * cell
+    drag = ((section + friction.fx) * disk.sin + friction.radial * disk.cos).sum() * cell
+    unit = 2.0 * disk.half_solidity.mean() / 8.0
+    assert_allclose(power / unit, 1.0 + 4.5 * mu**2 + 1.61 * mu**3.7, rtol=0.01)
+    assert_allclose(drag / unit, 3.0 * mu + 1.98 * mu**2.7, rtol=0.02)
+
+
+def test_slopes_of_friction_by_advance_ratio():
+    disk = build_problem(make_design(mu=0.3)).disk
+    step = 1e-6
+    ahead, behind, here = (radial_friction(disk, 0.3 + s, 0.0065) for s in (step, -step, 0.0))
+    scale = np.abs(here.radial_slope).max()
+    for name in ("fx", "radial"):
+        difference = (getattr(ahead, name) - getattr(behind, name)) / (2.0 * step)
+        assert_allclose(getattr(here, f"{name}_slope"), difference, rtol=1e-6, atol=1e-6 * scale)
+
+
+def test_swirl_is_what_the_torque_gives_the_air():
+    """An annulus takes a torque 4 r² λ u when the air turns by u at the disk and 2u below: dC_Q = r dF_x."""
+    solution = solve(make_design(hover=True)).require()
+    disk = solution.disk
+    inflow = disk.induced[:, 0]
+    swirl = disk.r - disk.u_t[:, 0]
+    assert (swirl > 0.0).all()
+    middle = (disk.r > 0.3) & (disk.r < 0.9)
+    lifting = disk.dct[:, 0] * disk.u_p[:, 0] / disk.u_t[:, 0]  # The part of F_x that lift makes.
+    factor, _ = loss_factor(disk.r, inflow, 4, solution.design.rotor.blade.root_cutout)
+    turned = 4.0 * factor * disk.r**2 * inflow * swirl
+    error = 3.0 * inflow**2 / disk.r**2 + 0.01  # What the closed form leaves out, twice λ²/r² and the drag of U_P.
+    assert (np.abs(turned / (disk.r * lifting) - 1.0) < error)[middle].all()
+    assert (error[middle] < 0.12).all()
+
+
+def test_swirl_slope_and_limit():
+    r = np.array([0.05, 0.2, 0.9])
+    swirl, slope = swirl_of(r, 0.004)
+    assert_allclose(swirl_of(r, 1e-9)[0], 1e-9 / r, rtol=1e-5)
+    assert (swirl < r).all()
+    assert_allclose(slope, (swirl_of(r, 0.004 + 1e-8)[0] - swirl_of(r, 0.004 - 1e-8)[0]) / 2e-8, rtol=1e-6)
+
+
+def test_swirl_costs_hover_about_one_per_cent_and_cruise_hardly_anything():
+    """Swirl is about 1 % of hover power at helicopter disk loadings (Johnson 1980, §2-3) and fades with λ0 λ."""
+    for mu, low, high in ((0.0, 0.003, 0.012), (0.3, -0.001, 0.002)):
+        design = make_design(mu=mu)
+        with_it, without = (solve(d).require().power.total for d in (design, with_switches(design, ("swirl",))))
+        assert low < with_it / without - 1.0 < high
+
+
+def test_a_swept_tip_sees_the_flow_normal_to_its_quarter_chord():
+    """Over the nose U_T cos Λ + µ sin Λ, over the tail U_T cos Λ − µ sin Λ, abeam (1 + µ) r cos Λ."""
+    design = make_design(mu=0.3)
+    solution = solve(design).require()
+    problem = build_problem(design)
+    disk, cos, sin = solution.disk, math.cos(math.radians(20.0)), math.sin(math.radians(20.0))
+    mu = 0.3 * math.cos(solution.controls.shaft_tilt)
+    for azimuth, along in ((0, mu), (30, 0.0), (60, -mu), (90, 0.0)):
+        normal = math.hypot(disk.u_t[-1, azimuth] * cos - along * sin, disk.u_p[-1, azimuth])
+        assert_allclose(disk.mach[-1, azimuth], normal * problem.tip_mach, rtol=1e-12)
+        inboard = math.hypot(disk.u_t[20, azimuth], disk.u_p[20, azimuth])
+        assert_allclose(disk.mach[20, azimuth], inboard * problem.tip_mach, rtol=1e-12)
+
+
+def test_sweep_begins_smoothly_over_one_chord():
+    blade, radius = make_design().rotor.blade, make_design().rotor.radius
+    half = 0.5 * 0.5273 / 8.1788
+    sweep = np.degrees(blade.sweep([0.9286 - half, 0.9286, 0.9286 + half, 1.0], radius))
+    assert_allclose(sweep, [0.0, 10.0, 20.0, 20.0], atol=1e-9)
+
+
+def test_sweep_saves_power_where_the_advancing_tip_is_past_drag_divergence():
+    for mu, least, most in ((0.0, -1e-3, 3e-3), (0.3, 0.01, 0.04)):
+        design = make_design(mu=mu)
+        swept, straight = (solve(d).require().power.total for d in (design, with_switches(design, ("swept_tip",))))
+        assert least < 1.0 - swept / straight < most
+
+
+def test_download_is_the_stated_part_in_hover_and_fades_with_the_skew_of_the_wake():
+    """Thrust over weight less one: 3.5 % cos²χ, χ the skew of momentum theory's wake, so 45° leaves half."""
+    shares = [
+        build_problem(make_design(mu=mu)).weight / make_design(mu=mu).weight_coefficient - 1.0 for mu in (0.0, 0.1)
+    ]
+    assert_allclose(shares[0], 0.035, rtol=1e-12)
+    wake = math.sqrt(make_design().weight_coefficient / 2.0)  # λ_h; µ = λ gives χ = 45° where λ⁴·2 = λ_h⁴.
+    mu = wake / 2.0**0.25
+    design = replace(make_design(mu=mu), fuselage=replace(make_design().fuselage, drag_area=0.0))
+    assert_allclose(build_problem(design).weight / design.weight_coefficient - 1.0, 0.0175, rtol=1e-6)
+    assert 0.0 < shares[1] < 0.006
+
+
+def test_a_rough_surface_multiplies_profile_power_in_hover():
+    """All section drag 10 % up, thrust and inflow all but the same: profile power 10 % up."""
+    design = make_design(hover=True)
+    rough = replace(design, rotor=replace(design.rotor, blade=replace(design.rotor.blade, surface_drag=1.1)))
+    smooth, real, off = (solve(d).require().power for d in (design, rough, with_switches(rough, ("surface_drag",))))
+    assert_allclose(real.profile / smooth.profile, 1.1, rtol=2e-3)
+    assert off == smooth
+    assert no_effect(design, "surface_drag")
+    assert not no_effect(rough, "surface_drag")
+
+
+def test_the_document_has_none_of_them():
+    for mu in (0.0, 0.3):
+        design = make_design(preset="thesis", mu=mu)
+        on, off = solve(design).require(), solve(with_switches(design, BEYOND_DOCUMENT)).require()
+        assert on.power == off.power
+        for name in BEYOND_DOCUMENT:
+            assert no_effect(design, name) == "the document does not have it"
+
+
+def test_friction_reaches_the_torque_and_the_drag_of_the_rotor():
+    """With it P_shaft still is the sum of the parts, and F_x exceeds that of the section data."""
+    design = make_design(mu=0.35)
+    solution = solve(design).require()
+    assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-9)
+    problem = build_problem(design)
+    assert 0.006 < problem.friction < 0.007  # Re 6 million at 0.75 R.

@@ -1,0 +1,103 @@
+"""Kernels run wherever they are installed: without a writable folder, on a full disk, with damaged files."""
+
+import errno
+import importlib.util
+import re
+from pathlib import Path
+from typing import Any
+
+import numba
+import pytest
+from numba.core import caching
+
+import rotor
+from rotor.compiled import compiled
+
+SOURCE = """
+import numba
+from rotor.compiled import compiled
+
+def plain(x):
+    return x + 1.0
+
+@compiled(error_model="numpy")
+def kernel(x):
+    return x + 1.0
+"""
+
+
+def module(path: Path) -> Any:
+    """The module in a file, imported anew."""
+    spec = importlib.util.spec_from_file_location("kernels_of_a_test", path)
+    assert spec is not None
+    assert spec.loader is not None
+    made = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(made)
+    return made
+
+
+@pytest.fixture
+def source(tmp_path: Path) -> Path:
+    path = tmp_path / "kernels.py"
+    path.write_text(SOURCE, encoding="utf-8")
+    return path
+
+
+def hits(kernel: Any) -> int:
+    """How often compiled code was read from disk."""
+    return sum(kernel.stats.cache_hits.values())
+
+
+def test_compiled_code_is_kept(source: Path):
+    first = module(source).kernel
+    assert (first(1.0), hits(first)) == (2.0, 0)
+    second = module(source).kernel
+    assert (second(1.0), hits(second)) == (2.0, 1)
+
+
+@pytest.mark.parametrize("ending", ["nbi", "nbc"])
+@pytest.mark.parametrize("share", [0.0, 0.3, 0.97])
+def test_a_file_that_was_cut_short_is_written_again(source: Path, ending: str, share: float):
+    assert module(source).kernel(1.0) == 2.0
+    (kept,) = source.parent.rglob(f"*kernel*.{ending}")
+    kept.write_bytes(kept.read_bytes()[: int(share * kept.stat().st_size)])
+    damaged = module(source).kernel
+    assert (damaged(1.0), hits(damaged)) == (2.0, 0)
+    again = module(source).kernel
+    assert (again(1.0), hits(again)) == (2.0, 1)
+
+
+def test_without_a_folder_to_write_to_nothing_is_kept(source: Path, monkeypatch: pytest.MonkeyPatch):
+    monkeypatch.setattr(caching.CompileResultCacheImpl, "_locator_classes", [])
+    with pytest.raises(RuntimeError, match="no locator"):
+        numba.njit(cache=True)(module(source).plain)
+    kernel = module(source).kernel
+    assert (kernel(1.0), hits(kernel)) == (2.0, 0)
+
+
+@pytest.mark.parametrize("method", ["_save_data", "_save_index"])
+def test_on_a_full_disk_nothing_is_kept(source: Path, monkeypatch: pytest.MonkeyPatch, method: str):
+    def full(*_: object) -> None:
+        raise OSError(errno.ENOSPC, "No space left on device")
+
+    monkeypatch.setattr(caching.IndexDataCacheFile, method, full)
+    plain = numba.njit(cache=True)(module(source).plain)
+    with pytest.raises(OSError, match="No space"):
+        plain(1.0)
+    assert module(source).kernel(1.0) == 2.0
+    monkeypatch.undo()
+    assert module(source).kernel(1.0) == 2.0
+
+
+def test_a_function_without_a_file_is_compiled_too():
+    space: dict[str, Any] = {"compiled": compiled}
+    exec("@compiled()\ndef kernel(x):\n    return 2.0 * x", space)
+    assert space["kernel"](2.0) == 4.0
+
+
+def test_every_kernel_is_compiled_here():
+    """A kernel with numba's own cache ends the program at import where no folder can be written."""
+    home = Path(rotor.__file__).parent
+    imports = re.compile(r"^\s*(import|from) numba\b", re.MULTILINE)
+    users = [path.name for path in home.rglob("*.py") if imports.search(path.read_text(encoding="utf-8"))]
+    assert users == ["compiled.py"]

@@ -1,0 +1,103 @@
+"""The command line in pipes of other encodings, on full disks, and after Ctrl-C: one line and an exit code."""
+
+import contextlib
+import io
+import signal
+import sys
+from pathlib import Path
+
+import pytest
+
+from explorer.__main__ import main as explorer
+from rotor.__main__ import main
+from rotor.terminal import StopSignal, run_command
+
+
+def piped(monkeypatch: pytest.MonkeyPatch, encoding: str) -> tuple[io.BytesIO, io.BytesIO]:
+    """Output and errors as bytes, as a pipe of that encoding takes them."""
+    pipes = io.BytesIO(), io.BytesIO()
+    for name, pipe in zip(("stdout", "stderr"), pipes, strict=True):
+        monkeypatch.setattr(sys, name, io.TextIOWrapper(pipe, encoding=encoding, write_through=True))
+    return pipes
+
+
+@pytest.mark.parametrize("encoding", ["cp1252", "cp437", "cp932", "ascii", "latin-1", "utf-8"])
+def test_a_solution_is_printed_in_any_encoding(monkeypatch: pytest.MonkeyPatch, encoding: str):
+    """Windows gives a pipe the encoding of its region: cp1252 has neither κ nor ≤."""
+    out, err = piped(monkeypatch, encoding)
+    assert main(["solve", "--hover", "--preset", "thesis"]) == 0
+    text = out.getvalue().decode(encoding)
+    assert ("κ = P_i/(C_T λ0)" if encoding == "utf-8" else "P_i/(C_T ") in text
+    assert encoding != "cp1252" or "kappa = P_i/(C_T lambda0)" in text
+    assert "?" not in text
+    assert err.getvalue() == b""
+
+
+@pytest.mark.parametrize("encoding", ["cp1252", "ascii"])
+def test_errors_and_help_are_printed_in_any_encoding(monkeypatch: pytest.MonkeyPatch, encoding: str):
+    out, err = piped(monkeypatch, encoding)
+    assert main(["solve", "--twist", "linear:≤κ"]) == 2
+    assert err.getvalue().decode(encoding).startswith("rotor: twist")
+    with pytest.raises(SystemExit, match="0"):
+        main(["solve", "--help"])
+    with pytest.raises(SystemExit, match="0"):
+        explorer(["--help"])
+    assert b"--mass-kg" in out.getvalue()
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="this system has no /dev/full")
+@pytest.mark.parametrize("arguments", [["solve", "--hover"], ["solve", "--hover", "--json"]])
+def test_a_full_disk_is_one_line(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], arguments: list[str]
+):
+    with Path("/dev/full").open("w", encoding="utf-8") as full:
+        monkeypatch.setattr(sys, "stdout", full)
+        code = main(arguments)
+        print("what Python would write as it ends")
+    assert code == 2
+    assert capsys.readouterr().err == (
+        "rotor: the output cannot be written (No space left on device): free the disk, or write elsewhere\n"
+    )
+
+
+@pytest.mark.parametrize(
+    ("error", "code", "says"),
+    [
+        (ValueError("µ is 9: choose less"), 2, "rotor: µ is 9: choose less\n"),
+        (OverflowError("too large"), 2, "rotor: too large\n"),
+        (RecursionError(), 2, "rotor: the input is nested too deeply: simplify it\n"),
+        (MemoryError(), 2, "rotor: this needs more memory than there is: ask for less at once\n"),
+        (PermissionError(13, "Permission denied", "a.csv"), 2, "rotor: 'a.csv' cannot be used (Permission denied)"),
+        (KeyboardInterrupt(), 130, "rotor: stopped\n"),
+    ],
+)
+def test_failures_are_one_line(error: BaseException, code: int, says: str, capsys: pytest.CaptureFixture[str]):
+    def run() -> int:
+        raise error
+
+    assert run_command("rotor", run) == code
+    err = capsys.readouterr().err
+    assert err.startswith(says)
+    assert err.count("\n") == 1
+
+
+def test_errors_of_the_program_are_not_hidden():
+    def run() -> int:
+        raise AssertionError("a mistake of ours")
+
+    with pytest.raises(AssertionError):
+        run_command("rotor", run)
+
+
+def test_a_stop_whose_exception_is_lost_still_ends_the_program():
+    """Python prints and discards one that comes up while a weak reference is cleared."""
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    try:
+        stop = StopSignal()
+        with contextlib.suppress(KeyboardInterrupt):
+            signal.raise_signal(signal.SIGTERM)
+        with pytest.raises(KeyboardInterrupt):
+            stop.wait()
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

@@ -1,0 +1,253 @@
+"""Files and text of any kind become a value or one short sentence, at once."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from rotor.__main__ import main
+from rotor.design.twist import parse_twist, read_twist_table
+from rotor.files.design_file import load_design, parse_design
+from rotor.files.rotor_file import load_rotor
+from rotor.optimisation.objective import read_mission
+from rotor.study.study_file import read_study
+from rotor.user_input import brief, check_writable, make_folder, read_bytes, read_text, refusing, shorten, write_whole
+
+READERS = {
+    "design": load_design,
+    "rotor": load_rotor,
+    "study": read_study,
+    "mission": lambda path: read_mission(path, parse_design(b"{}", "a.json")),
+    "twist": read_twist_table,
+}
+DIGITS = "9" * 400
+
+
+def sentence_of(read, *arguments: object) -> str:
+    """The sentence of the refusal, which must come within a second and not repeat the input at length."""
+    begun = time.process_time()
+    with pytest.raises(ValueError, match=": ") as refusal:
+        read(*arguments)
+    assert time.process_time() - begun < 1.0
+    sentence = str(refusal.value)
+    assert len(sentence) <= 400
+    assert "\n" not in sentence
+    return sentence
+
+
+@pytest.mark.parametrize("reader", READERS)
+def test_devices_and_pipes_are_refused_without_waiting(reader: str, tmp_path: Path):
+    if not hasattr(os, "mkfifo"):
+        pytest.skip("this system has no named pipes")
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    for path in (pipe, Path("/dev/zero")):
+        assert "is a device or a pipe" in sentence_of(READERS[reader], path)
+
+
+@pytest.mark.parametrize("reader", READERS)
+@pytest.mark.parametrize("name", ["a" * 300, "a" * 300 + ".toml", "a/" * 3000 + "b.json", "a\0b.toml", "."])
+def test_names_that_no_file_can_have_are_refused(reader: str, name: str):
+    sentence_of(READERS[reader], Path(name))
+
+
+@pytest.mark.parametrize("reader", READERS)
+def test_a_file_that_is_too_large_is_refused_without_being_read(reader: str, tmp_path: Path):
+    path = tmp_path / "large"
+    with path.open("wb") as file:
+        file.truncate(2**40)  # A sparse file of a terabyte.
+    assert "has more than" in sentence_of(READERS[reader], path)
+
+
+DEEP = {
+    "design": ["[" * 100_000 + "]" * 100_000, '{"rotor":' * 1500 + "1" + "}" * 1500, f'{{"mass_kg": {DIGITS}}}'],
+    "rotor": ["a = " + "[" * 1500 + "]" * 1500, f'name = "a"\n[main_rotor]\nradius_m = {DIGITS}'],
+    "study": ["a = " + "[" * 1500 + "]" * 1500, f"[study]\ntitle = {DIGITS}"],
+    "mission": [f"mu\n{DIGITS}"],
+    "twist": ["0 0\n" * 300_000, f"0 {DIGITS}\n1 0"],
+}
+
+
+@pytest.mark.parametrize(("reader", "text"), [(name, text) for name, texts in DEEP.items() for text in texts])
+def test_deep_nesting_and_long_numbers_are_refused(reader: str, text: str, tmp_path: Path):
+    path = tmp_path / "deep"
+    path.write_text(text, encoding="utf-8")
+    assert "9" * 100 not in sentence_of(READERS[reader], path)
+
+
+@pytest.mark.parametrize("value", ["9" * 5000, DIGITS, "NaN", "Infinity", "-Infinity", "1e400"])
+def test_a_design_file_holds_finite_numbers(value: str):
+    sentence_of(parse_design, f'{{"mass_kg": {value}}}'.encode(), "a.json")
+
+
+@pytest.mark.parametrize(
+    "spec",
+    [
+        "+".join(["linear:-1"] * 2000),
+        "segments:" + ",".join(["1"] * 5000),
+        "spline:" + ",".join(["1"] * 5000),
+        "linear:" + DIGITS,
+        "x" * 7000,
+        "table:" + "x" * 7000,
+    ],
+)
+def test_a_twist_of_any_length_is_refused(spec: str):
+    with pytest.raises(ValueError, match=": ") as refusal:
+        parse_twist(spec)
+    assert len(brief(refusal.value)) <= 400
+
+
+def test_sums_of_a_few_laws_stay():
+    law = parse_twist("+".join(["linear:-1"] * 20))
+    assert law.spec().count("linear") == 20
+
+
+def test_a_byte_order_mark_and_windows_lines_are_read(tmp_path: Path):
+    path = tmp_path / "a.txt"
+    path.write_bytes(b"\xef\xbb\xbf0.2 1\r\n1.0 -3\r\n")
+    assert read_text(path, "table", "…") == "0.2 1\n1.0 -3\n"
+    assert read_twist_table(path).stations == (0.2, 1.0)
+
+
+def test_a_file_is_read_up_to_its_limit(tmp_path: Path):
+    path = tmp_path / "a"
+    path.write_bytes(b"12345")
+    assert read_bytes(path, "file", "…", most=5) == b"12345"
+    with pytest.raises(ValueError, match="has more than"):
+        read_bytes(path, "file", "…", most=4)
+
+
+def test_a_sentence_keeps_its_beginning_and_its_remedy():
+    sentence = brief(f"mass is {'9' * 5000}, not a mass: give a number")
+    assert sentence.startswith("mass is 999")
+    assert sentence.endswith("not a mass: give a number")
+    assert len(sentence) < 120
+    assert brief("a\nb" * 2000).count("\n") == 0
+    assert shorten("short") == "short"
+
+
+@pytest.mark.parametrize(
+    "error", [RecursionError(), MemoryError(), IndexError("x" * 999), ZeroDivisionError("by zero")]
+)
+def test_every_failure_becomes_a_sentence(error: Exception):
+    def read() -> None:
+        with refusing("file 'a'", "check its values"):
+            raise error
+
+    assert sentence_of(read).startswith("file 'a' ")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["solve", "--case", ""], ["solve", "--rotor", ""], ["solve", "--twist", " "], ["solve", "--preset", ""],
+        ["sweep", "--mu", "0.2", "--csv", ""], ["sweep", "--mu", "0.2", "--twist", "linear:-8", ""], ["study", ""],
+        ["solve", "--mu", DIGITS], ["solve", "--mass-kg", DIGITS], ["sweep", "--mu", DIGITS],
+        ["solve", "--case", "a" * 300], ["solve", "--rotor", "a" * 300], ["solve", "--rotor", "a\0b"],
+        ["solve", "--twist", "+".join(["linear:-1"] * 2000)], ["x" * 7000],
+    ],
+    ids=lambda arguments: " ".join(arguments)[:40],
+)  # fmt: skip
+def test_the_command_line_refuses_in_one_short_line(arguments: list[str], capsys: pytest.CaptureFixture[str]):
+    assert main(arguments) == 2
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith("rotor: ")
+    assert err.count("\n") == 1
+    assert len(err) <= 410
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ["sweep", "--mu", "0.1:0.3:0.01", "--csv"],
+        ["ideal", "--mu", "0.1:0.3:0.01", "--csv"],
+        ["schedule", "--concept", "all", "--csv"],
+    ],
+    ids=lambda arguments: arguments[0],
+)
+def test_a_file_that_cannot_be_written_is_reported_before_the_work(
+    arguments: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+):
+    begun = time.process_time()
+    assert main([*arguments, str(tmp_path / "none" / "a.csv")]) == 2
+    assert time.process_time() - begun < 2.0
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert "cannot write" in err
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_no_folder_is_left_where_nothing_can_be_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    def full(**_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr("rotor.user_input.tempfile.TemporaryFile", full)
+    with pytest.raises(ValueError, match="No space left"):
+        make_folder(tmp_path / "a" / "b")
+    assert list(tmp_path.iterdir()) == []
+    (tmp_path / "own").mkdir()
+    with pytest.raises(ValueError, match="No space left"):
+        make_folder(tmp_path / "own")
+    assert (tmp_path / "own").is_dir()
+    with pytest.raises(ValueError, match="cannot write"):
+        check_writable(tmp_path / "own")
+    with pytest.raises(ValueError, match="cannot write"):
+        make_folder("a" * 300)
+
+
+def test_a_file_that_can_be_written_stays_as_it_is(tmp_path: Path):
+    path = tmp_path / "a.csv"
+    check_writable(path)
+    assert not path.exists()
+    path.write_text("kept", encoding="utf-8")
+    check_writable(path)
+    assert path.read_text(encoding="utf-8") == "kept"
+    assert make_folder(tmp_path / "x" / "y").is_dir()
+
+
+_SAVING = """
+import sys
+from rotor.files.make_design import make_design
+design = make_design(mu=0.2)
+design.save(sys.argv[1])
+print("saved", flush=True)
+while True:
+    design.save(sys.argv[1])
+"""
+
+
+@pytest.mark.slow
+def test_a_save_that_is_killed_leaves_the_earlier_file(tmp_path: Path):
+    path = tmp_path / "design.json"
+    for pause in (0.01, 0.03, 0.1):
+        with subprocess.Popen([sys.executable, "-c", _SAVING, str(path)], stdout=subprocess.PIPE) as saving:
+            assert saving.stdout is not None
+            assert saving.stdout.readline() == b"saved\n"
+            time.sleep(pause)
+            saving.send_signal(signal.SIGKILL)
+        assert json.loads(path.read_text(encoding="utf-8"))["advance_ratio"] == 0.2
+
+
+def test_a_save_on_a_full_disk_leaves_the_earlier_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    path = tmp_path / "design.json"
+    write_whole(path, "earlier")
+    path.chmod(0o640)
+
+    def full(_: int) -> None:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(os, "fsync", full)
+    with pytest.raises(OSError, match="No space left"):
+        parse_design(b"{}", "a.json").save(path)
+    assert path.read_text(encoding="utf-8") == "earlier"
+    assert list(tmp_path.iterdir()) == [path]
+    monkeypatch.undo()
+    parse_design(b"{}", "a.json").save(path)
+    assert load_design(path) == parse_design(b"{}", "a.json")
+    assert path.stat().st_mode & 0o777 == 0o640

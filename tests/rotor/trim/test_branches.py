@@ -1,0 +1,149 @@
+"""Among the trims of one design the answer is that of least power, from a cold start and from any other."""
+
+import math
+import os
+import random
+import time
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import replace
+from multiprocessing import get_context
+
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor.aero.elements import build_problem
+from rotor.aero.inflow import INFLOW_MODELS
+from rotor.assets import SHIPPED_ROTORS
+from rotor.design.design import Design
+from rotor.files.make_design import make_design
+from rotor.trim.forward import first_guess
+from rotor.trim.newton import Guess, newton
+from rotor.trim.solve import SUSPECT_STALL, solve
+
+DEEP_STALL = make_design(
+    rotor="s61",
+    preset="thesis",
+    inflow="dynamic-wake-infinite-blades",
+    twist="linear:-14.142",
+    mu=0.25455,
+    mass_kg=9465,
+    altitude_m=3355,
+)
+DEEP_STALL = replace(DEEP_STALL, models=replace(DEEP_STALL.models, reverse_flow=False))
+"""C_W/σ 0.12: Newton's method from momentum theory ends deep in stall, at three times the power."""
+
+
+def at_mass(design: Design, mass: float) -> Design:
+    return replace(design, condition=replace(design.condition, mass=mass))
+
+
+def test_the_trim_of_least_power_is_found():
+    """The same as from a lighter rotor, whose mass is raised step by step."""
+    problem = build_problem(DEEP_STALL)
+    first = newton(problem, first_guess(problem))
+    assert first.converged
+    assert first.elements.state.collective > math.radians(10.0)  # The trap is still there.
+    cold = solve(DEEP_STALL)
+    heavier = None
+    for mass in (6000.0, 7500.0, 8500.0, 9000.0, 9465.0):
+        heavier = solve(at_mass(DEEP_STALL, mass), heavier)
+    assert heavier is not None
+    assert_allclose(cold.power.total, heavier.power.total, rtol=1e-6)
+    assert cold.stalled_area < SUSPECT_STALL
+
+
+def test_a_start_deep_in_stall_comes_back():
+    problem = build_problem(DEEP_STALL)
+    trap = newton(problem, first_guess(problem)).elements
+    warm = solve(DEEP_STALL, Guess(trap.state, trap.induced))
+    assert_allclose(warm.power.total, solve(DEEP_STALL).power.total, rtol=1e-6)
+
+
+def test_attached_flow_is_solved_without_a_further_pass(monkeypatch: pytest.MonkeyPatch):
+    def never(*_: object) -> None:
+        raise AssertionError("continuation was not needed")
+
+    monkeypatch.setattr("rotor.trim.solve.trim_along", never)
+    for mu in (0.1, 0.2, 0.3):
+        assert solve(make_design(mu=mu)).converged
+
+
+def any_design(seed: int) -> Design:
+    """A random design of the envelope, and a little beyond it."""
+    draw = random.Random(seed)
+    rotor, preset = draw.choice(SHIPPED_ROTORS[:3]), draw.choice(("flight", "thesis"))
+    mass = make_design(rotor=rotor).condition.mass
+    twist = draw.choice(
+        (f"linear:{draw.uniform(-20, 5):.3f}", f"segments:{draw.uniform(-20, 5):.3f},{draw.uniform(-20, 5):.3f}@0.5")
+    )
+    cheap = [name for name in INFLOW_MODELS if "wake" not in name or name == "dynamic-wake"]
+    return make_design(
+        rotor=rotor,
+        preset=preset,
+        twist=twist,
+        mu=draw.choice((0.0, draw.uniform(0.02, 0.4))),
+        mass_kg=mass * draw.uniform(0.5, 1.4),
+        altitude_m=draw.uniform(0.0, 4000.0),
+        inflow=draw.choice(cheap),
+    )
+
+
+def walked_to(design: Design) -> bool:
+    """Whether a refused design is trimmed by walking to it, from a lighter aircraft and from another µ.
+
+    A trim with most of the disk stalled does not count: polynomials, held beyond their range, have such trims, at
+    several times the power of any attached flow.
+    """
+    mass, mu = design.condition.mass, design.condition.advance_ratio
+    by_mass = [at_mass(design, max(part * mass, 100.0)) for part in (0.5, 0.6, 0.7, 0.8, 0.85, 0.9, 0.94, 0.97, 0.985)]
+    by_mu = [design.at(mu=mu + (0.15 - mu) * part) for part in (1.0, 0.8, 0.6, 0.45, 0.3, 0.2, 0.1, 0.05)]
+    for steps in (by_mass, by_mu if mu > 0.0 else []):
+        last = None
+        for step in (*steps, design):
+            last = solve(step, last)
+            if not last.converged:
+                break
+        if last is not None and last.converged and last.stalled_area < 0.5:
+            return True
+    return False
+
+
+def complaints(seed: int) -> tuple[bool, list[str]]:
+    """Whether one random design is trimmed, and what is wrong with the answer: nothing, as it should be."""
+    try:
+        design = any_design(seed)
+        cold = solve(design)
+        if not cold.converged:
+            found = [] if cold.message.startswith("Not trimmed") else [f"{seed}: {cold.message!r} is no reason"]
+            return False, [*found, f"{seed}: refused, but continuation trims it"] if walked_to(design) else found
+        found = list[str]()
+        if not math.isfinite(cold.power.total):
+            found.append(f"{seed}: power is {cold.power.total}")
+        near = solve(at_mass(design, max(0.98 * design.condition.mass, 100.0)), cold)
+        warm = solve(design, near)
+        if not warm.converged:
+            found.append(f"{seed}: warm start does not trim what a cold one does")
+        elif abs(warm.power.total / cold.power.total - 1.0) > 1e-6:
+            found.append(f"{seed}: warm {warm.power.total:.1f} W, cold {cold.power.total:.1f} W")
+        return True, found
+    except Exception as error:
+        return False, [f"{seed}: {type(error).__name__}: {error}"]
+
+
+@pytest.mark.slow
+def test_random_designs_trim_alike_from_anywhere_or_say_why_not():
+    """As many as fit into a minute; ROTOR_DESIGNS asks for a number, however long it takes, from ROTOR_FIRST_DESIGN."""
+    wanted, first = int(os.environ.get("ROTOR_DESIGNS", "0")), int(os.environ.get("ROTOR_FIRST_DESIGN", "0"))
+    begun, tried, trimmed = time.monotonic(), 0, 0
+    found: list[str] = []
+    with ProcessPoolExecutor(2, get_context("spawn")) as pool:
+        while tried < wanted or (not wanted and time.monotonic() - begun < 45.0):
+            for converged, wrong in pool.map(complaints, range(first + tried, first + tried + 100), chunksize=10):
+                trimmed += converged
+                found += wrong
+            tried += 100
+            print(
+                f"{tried} designs, {trimmed} trimmed, {len(found)} wrong, {time.monotonic() - begun:.0f} s", flush=True
+            )
+    assert tried >= 100
+    assert found == []

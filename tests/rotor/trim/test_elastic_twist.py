@@ -1,0 +1,375 @@
+"""The elastic twist in the trim: limits, time march, exact derivatives, energy, phase in flight, sizes."""
+
+import math
+import pickle
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.integrate import cumulative_trapezoid, solve_ivp
+
+from rotor.aero import elastic as elastic_module
+from rotor.aero import kernel
+from rotor.aero.elements import BladeElements, Problem, build_problem, evaluate_elements
+from rotor.aero.inflow import INFLOW_MODELS
+from rotor.aero.sums import slopes
+from rotor.aero.torsion_balance import torsion_residual
+from rotor.aero.trim_state import TrimState
+from rotor.design.active_twist import ActiveTwist, Harmonic
+from rotor.design.design import Design
+from rotor.design.twist import TableTwist
+from rotor.files.make_design import make_design
+from rotor.trim import newton as newton_module
+from rotor.trim.adjoint import power_gradient
+from rotor.trim.equations import residuals, unknowns_of
+from rotor.trim.forward import first_guess
+from rotor.trim.newton import KeptTrim, KeptTrims, differentiate, full_jacobian, inflow_feedback, newton
+from rotor.trim.options import SolverOptions
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-10, torsion_tolerance=1e-12)
+
+
+def design(mu: float, *, inflow: str | None = None, small: bool = False, on: bool = True, **changes: object) -> Design:
+    made = make_design(mu=mu, inflow=inflow) if inflow else make_design(mu=mu)
+    grid = {"elements": 16, "azimuths": 48} if small else {}
+    return replace(made, models=replace(made.models, elastic_twist=on, **grid, **changes))
+
+
+def flapping(made: Design) -> Design:
+    """With given flapping and active twist, so that every term of the equations is there."""
+    active = ActiveTwist((Harmonic(2, 0.02, 0.3),), (0.2, 0.9), (0.0, 1.0))
+    return replace(made, condition=replace(made.condition, flap_1c=-0.02, flap_1s=0.01), active_twist=active)
+
+
+def with_structure(made: Design, **changes: object) -> Design:
+    blade = made.rotor.blade
+    assert blade.structure is not None
+    structure = replace(blade.structure, **changes)
+    return replace(made, rotor=replace(made.rotor, blade=replace(blade, structure=structure)))
+
+
+@pytest.mark.parametrize("mu", [0.0, 0.25])
+def test_a_stiff_blade_is_the_rigid_one(mu: float):
+    """GJ and control stiffness × 10⁸: the rigid answer to 1e-8, and to rounding with the effect off."""
+    made = design(mu)
+    structure = made.rotor.blade.structure
+    assert structure is not None
+    stiff = with_structure(
+        made,
+        torsional_stiffness=tuple(1e8 * gj for gj in structure.torsional_stiffness),
+        control_stiffness=1e8 * structure.control_stiffness,
+    )
+    rigid, off = solve(design(mu, on=False)).require(), make_design(mu=mu)
+    off = replace(off, models=replace(off.models, elastic_twist=False))
+    bare = replace(off, rotor=replace(off.rotor, blade=replace(off.rotor.blade, structure=None)))
+    assert_allclose(solve(stiff).require().power.total, rigid.power.total, rtol=1e-8)
+    assert solve(off).power == rigid.power == solve(bare).power
+    assert rigid.elastic is None
+    assert rigid.disk.elastic_twist is None
+
+
+def test_the_document_has_no_elastic_blade():
+    made = make_design(preset="thesis", mu=0.2)
+    switched = replace(made, models=replace(made.models, elastic_twist=True))
+    assert solve(switched).power == solve(made).power
+
+
+def settled(problem: Problem, state: TrimState, coordinates: np.ndarray, induced: np.ndarray) -> BladeElements:
+    """The elements at a state with the inflow that answers their own load."""
+    elements = evaluate_elements(problem, state, induced, coordinates)
+    for _ in range(4 if problem.inflow.load_dependent else 0):
+        feedback = inflow_feedback(problem, elements)
+        assert feedback is not None
+        assert elements.response is not None
+        error = elements.response.induced - elements.induced
+        elements = evaluate_elements(problem, state, elements.induced + feedback.solve(error[None])[0], coordinates)
+    return elements
+
+
+def quick_models() -> list[str]:
+    return [name for name in INFLOW_MODELS if name != "vortex-wake"]
+
+
+@pytest.mark.parametrize("inflow", quick_models())
+def test_jacobian_and_energy(inflow: str):
+    """Along random directions against central differences; shaft power is the sum of the parts, to rounding.
+
+    What pitch links and plies put into the blades is what the air takes, −Σ dC_M θ': all else stores energy.
+    """
+    made = flapping(design(0.23, inflow=inflow, small=True))
+    problem = build_problem(made)
+    result = newton(problem, first_guess(problem), TIGHT)
+    assert result.converged
+    elements, unknowns = result.elements, unknowns_of(made)
+    assert elements.torsion is not None
+    coordinates = elements.torsion.coordinates
+    feedback = inflow_feedback(problem, elements)
+    exact = full_jacobian(problem, elements, slopes(problem, elements, unknowns, feedback))
+
+    def residual(step: np.ndarray) -> np.ndarray:
+        state = elements.state.moved(unknowns, step[: len(unknowns)])
+        twist = coordinates + step[len(unknowns) :].reshape(coordinates.shape)
+        here = settled(problem, state, twist, elements.induced)
+        return np.concatenate([residuals(problem, here), torsion_residual(problem, here).ravel()])
+
+    size = 1e-6
+    trims = len(unknowns)
+    for way in np.random.default_rng(7).standard_normal((6, len(exact))):
+        measured, expected = (residual(size * way) - residual(-size * way)) / (2.0 * size), exact @ way
+        for rows in (slice(0, trims), slice(trims, None)):
+            assert_allclose(measured[rows], expected[rows], atol=1e-7 * np.abs(expected[rows]).max())
+    taken = -(elements.torsion.moments[kernel.MOMENT] * elements.torsion.rate).mean(axis=1).sum() * problem.disk.dr
+    solution = solve(made, options=TIGHT).require()
+    assert solution.elastic is not None
+    assert abs(taken) * made.power_unit > 10.0
+    assert_allclose(solution.elastic.control_power, taken * made.power_unit, rtol=1e-6)
+    assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-9)
+
+
+@pytest.mark.parametrize("inflow", quick_models())
+def test_gradient_by_pitch(inflow: str):
+    check_gradient(flapping(design(0.23, inflow=inflow, small=True)))
+
+
+def test_gradient_in_hover():
+    check_gradient(design(0.0, small=True))
+
+
+def check_gradient(made: Design) -> None:
+    """dP/dθ(r) against differences, total and induced."""
+    solution = solve(made, options=TIGHT)
+    found = [power_gradient(solution), power_gradient(solution, "induced")]
+    r, twist = solution.disk.r, made.twist(solution.disk.r)
+    for k in (1, 12):
+        powers: list[np.ndarray] = []
+        for step in (2e-5, -2e-5):
+            changed = twist + step * np.eye(len(r))[k]
+            law = TableTwist(tuple(r.tolist()), tuple(changed.tolist()), name="changed")
+            power = solve(replace(made, twist=law), solution, TIGHT).require().power
+            powers.append(np.array([power.total, power.induced]))
+        measured = (powers[0] - powers[1]) / 4e-5
+        for value, gradient in zip(measured, found, strict=True):
+            scale = max(float(np.abs(gradient.by_element).max()), 1e-2 * solution.power.total)
+            assert_allclose(value, gradient.by_element[k], atol=1e-5 * scale)
+
+
+def test_static_twist_in_hover_by_integration():
+    """(GJ_e φ')' = −m with K_θ at the root, in SI, m from the solution's own flow; straight tip."""
+    made = design(0.0, swept_tip=False)
+    solution = solve(made).require()
+    assert solution.elastic is not None
+    structure, rotor, disk = made.rotor.blade.structure, made.rotor, solution.disk
+    assert structure is not None
+    metres, speed = disk.r * rotor.radius, rotor.angular_speed
+    flow = rotor.tip_speed * np.hypot(disk.u_t, disk.u_p)[:, 0]
+    blade = rotor.blade
+    coefficient = np.zeros(len(metres))
+    chord = np.zeros(len(metres))
+    for i, station in enumerate(disk.r):
+        inner, outer, blend = blade.section_at(float(station))
+        for name, share in ((inner, 1.0 - blend), (outer, blend)):
+            section = blade.installed(name)
+            moment = section.table.moment(disk.alpha[i, 0] - section.incidence_offset, disk.mach[i, 0])
+            assert moment is not None
+            coefficient[i] += share * float(moment)
+            chord[i] += share * section.chord_ratio * float(blade.chord(station))
+    air = 0.5 * made.condition.density * flow**2 * chord**2 * coefficient
+    inertia = structure.at(metres, structure.torsional_inertia)
+    propeller = -inertia * speed**2 * 0.5 * np.sin(2.0 * disk.theta[:, 0])
+    built = np.gradient(made.twist(disk.r), metres)
+
+    r = np.linspace(structure.clamp, rotor.radius, 4000)
+    pull = structure.centrifugal_force(r, speed) * structure.tension_gyration
+    load = np.where(r < made.rotor.blade.root_cutout * rotor.radius, 0.0, np.interp(r, metres, air + propeller))
+    twisted = np.where((r < metres[0]) | (r > metres[-1]), 0.0, np.interp(r, metres, built))
+    outboard = np.flip(cumulative_trapezoid(np.flip(load), -np.flip(r), initial=0))
+    slope = (outboard - pull * twisted) / (structure.at(r, structure.torsional_stiffness) + pull)
+    turned = outboard[0] / structure.control_stiffness + cumulative_trapezoid(slope, r, initial=0)
+    expected = np.interp(metres, r, turned)
+    # Two modes, and forty elements with the blade root taken as one: 2 % of the twist at the tip.
+    assert_allclose(solution.elastic.along_blade, expected, atol=0.02 * np.abs(expected).max())
+    assert_allclose(solution.elastic.control_moment.mean(), -outboard[0], rtol=0.02)
+
+
+@pytest.mark.slow
+def test_harmonic_balance_against_a_time_march():
+    """q'' + ν²q = loads at the instant's own φ and φ', by Runge–Kutta, controls and inflow as trimmed."""
+    made = design(0.3, inflow="pitt-peters", radial_friction=False)
+    problem = build_problem(made)
+    result = newton(problem, first_guess(problem))
+    assert result.converged
+    elements, torsion, disk = result.elements, problem.torsion, problem.disk
+    assert torsion is not None
+    assert elements.torsion is not None
+    state, shapes, modes = elements.state, torsion.shapes, len(torsion.gain)
+    tension = torsion.tension @ problem.twist
+
+    def acceleration(psi: float, y: np.ndarray) -> np.ndarray:
+        q, rate = y[:modes], y[modes:]
+        cos, sin = np.array([math.cos(psi)]), np.array([math.sin(psi)])
+        here = replace(disk, psi=np.array([psi]), cos=cos, sin=sin)
+        wake = elements.flow
+        induced = problem.inflow.respond(here, wake, np.zeros((0, 0))).induced
+        cyclic = state.cyclic_1c * cos + state.cyclic_1s * sin
+        theta = (problem.twist + state.collective + cyclic + q @ shapes.radial)[:, None]
+        pitching = (state.cyclic_1s * cos - state.cyclic_1c * sin + rate @ shapes.radial)[:, None]
+        u_t = (disk.r - elements.swirl + wake.mu_x * sin)[:, None]
+        u_p = induced + wake.mu_z + wake.mu_x * state.coning * cos
+        common = (disk.section, disk.weight, disk.offset)
+        sweep = (disk.cos_sweep, disk.sin_sweep)
+        loads = kernel.element_loads(
+            theta, u_t, u_p, wake.mu_x * cos, elements.loss, problem.tip_mach, disk.half_solidity, *common,
+            disk.tables, *sweep,
+        )  # fmt: skip
+        moments = kernel.element_moments(
+            loads, u_t, u_p, wake.mu_x * cos, pitching, problem.tip_mach, torsion.moment_gain, torsion.damping,
+            torsion.lag, *common, torsion.tables, *sweep,
+        )  # fmt: skip
+        along = moments[kernel.MOMENT, :, 0] - torsion.inertia * (0.5 * np.sin(2.0 * theta[:, 0]) - cyclic[0])
+        load = torsion.modal(along + torsion.tip_mass * state.coning) + torsion.coupling @ q - tension
+        return torsion.frequency**2 * (torsion.gain * load - q)
+
+    start = elements.torsion.coordinates @ shapes.waves[:, 0], elements.torsion.coordinates @ shapes.rates[:, 0]
+    turns = 10
+    span = (0.0, 2.0 * math.pi * turns)
+    marched = solve_ivp(
+        lambda psi, y: np.concatenate([y[modes:], acceleration(psi, y)]),
+        span,
+        np.concatenate(start),
+        t_eval=span[1] - 2.0 * math.pi + disk.psi[::4],
+        max_step=0.02,
+        rtol=1e-5,
+        atol=1e-7,
+    )
+    tip = marched.y[:modes].sum(axis=0)
+    trimmed = (elements.torsion.coordinates @ shapes.waves[:, ::4]).sum(axis=0)
+    assert_allclose(tip, trimmed, atol=math.radians(0.12))  # Harmonics above the fourth are the difference.
+
+
+def test_nose_down_in_the_second_quadrant_at_high_speed():
+    """Flight tests of the UH-60A at high speed: the moment of the tip and the pitch-link load are nose-down in the
+    second quadrant (T. H. Maier and W. G. Bousman, "An examination of the aerodynamic moment on rotor blade tips using
+    flight test data and analysis", 18th European Rotorcraft Forum, 1992, abstract)."""
+    elastic = solve(design(0.36)).require().elastic
+    assert elastic is not None
+    first, second, third, fourth = (float(part.mean()) for part in np.split(elastic.tip, 4))
+    assert second < min(first, third, fourth)
+    azimuth = np.degrees(2.0 * math.pi * int(elastic.tip.argmin()) / len(elastic.tip))
+    assert 90.0 < azimuth < 180.0
+    load = [float(part.mean()) for part in np.split(elastic.pitch_link_load, 4)]
+    assert max(load) == load[1]  # It holds the nose up.
+
+
+def test_sizes_of_the_elastic_twist():
+    """Bounds of our own answers: a change of sign, unit or data leaves them. No published size is claimed here."""
+    for mu, peak in ((0.3, (-5.5, -3.5)), (0.36, (-6.0, -4.0))):
+        elastic = solve(design(mu)).require().elastic
+        assert elastic is not None
+        record = elastic.record()["elastic_twist_deg"]
+        assert -3.5 < record["mean_tip"] < -2.0
+        assert 1.0 < record["amplitude_1_tip"] < 2.0
+        assert peak[0] < record["min_tip"] < peak[1]
+        azimuth = np.degrees(2.0 * math.pi * int(elastic.tip.argmin()) / len(elastic.tip))
+        assert 45.0 < azimuth < 180.0
+
+
+def test_two_modes_suffice(monkeypatch: pytest.MonkeyPatch):
+    """Power within 0.03 %, the tip within 0.1° and within 0.03° in the mean of six modes."""
+    few = solve(design(0.35)).require()
+    monkeypatch.setattr(elastic_module, "MODES", 6)
+    elastic_module.build_torsion.cache_clear()
+    many = solve(design(0.35)).require()
+    elastic_module.build_torsion.cache_clear()
+    assert few.elastic is not None
+    assert many.elastic is not None
+    assert_allclose(few.power.total, many.power.total, rtol=3e-4)
+    assert_allclose(few.elastic.tip, many.elastic.tip, atol=math.radians(0.1))
+    assert_allclose(few.elastic.tip.mean(), many.elastic.tip.mean(), atol=math.radians(0.03))
+
+
+def test_warm_and_cold_start_agree():
+    cold = solve(design(0.25)).require()
+    warm = solve(design(0.25), solve(design(0.248)).require()).require()
+    assert cold.elastic is not None
+    assert warm.elastic is not None
+    assert warm.passes <= cold.passes
+    assert_allclose(warm.elastic.tip, cold.elastic.tip, atol=1e-8)
+    assert_allclose(warm.power.total, cold.power.total, rtol=1e-8)
+
+
+def test_more_inertia_of_the_tip_mass_lifts_the_nose():
+    """Mass behind the axis of a coned blade is pulled down behind it: with a heavier swept tip the nose goes up."""
+    light = design(0.0)
+    structure = light.rotor.blade.structure
+    assert structure is not None
+    outside = np.array(structure.stations) > 0.93 * structure.radius
+    masses = tuple(np.where(outside, 2.0, 1.0) * np.array(structure.mass_per_length))
+    heavy = with_structure(light, mass_per_length=masses, tension_gyration=0.0)
+    light = with_structure(light, tension_gyration=0.0)
+    assert mean_tip(solve(heavy)) > mean_tip(solve(light))
+
+
+def test_tension_unwinds_a_twisted_blade():
+    """k_A² of zero leaves the blade more nose-down at the tip, by ∫ F k_A² θ'/GJ dr to first order."""
+    made = design(0.0)
+    structure = made.rotor.blade.structure
+    assert structure is not None
+    without = with_structure(made, tension_gyration=0.0)
+    change = mean_tip(solve(made)) - mean_tip(solve(without))
+    r = np.linspace(made.rotor.blade.root_cutout * made.rotor.radius, made.rotor.radius, 2000)
+    pull = structure.centrifugal_force(r, made.rotor.angular_speed) * structure.tension_gyration
+    twist = made.twist(r / made.rotor.radius)
+    by_hand = -np.trapezoid(pull / structure.at(r, structure.torsional_stiffness) * np.gradient(twist, r), r)
+    assert by_hand > 0.0
+    assert_allclose(change, by_hand, rtol=0.35)  # The propeller moment and the air answer to it.
+
+
+def mean_tip(solution: Solution) -> float:
+    elastic = solution.require().elastic
+    assert elastic is not None
+    return float(elastic.tip.mean())
+
+
+def test_a_rotor_without_structure_is_rigid_with_a_caveat():
+    made = make_design(rotor="r22", mu=0.2)
+    solution = solve(replace(made, models=replace(made.models, elastic_twist=True))).require()
+    assert solution.elastic is None
+    assert "no-blade-structure" in [caveat.name for caveat in solution.caveats]
+    assert solution.power == solve(replace(made, models=replace(made.models, elastic_twist=False))).power
+
+
+def test_results_by_name():
+    record = solve(design(0.2)).require().to_dict()
+    assert set(record["elastic_twist_deg"]) == {"mean_tip", "amplitude_1_tip", "min_tip", "max_tip"}
+    assert record["elastic_twist_deg"]["min_tip"] < record["elastic_twist_deg"]["mean_tip"] < 0.0
+    assert_allclose(record["torsion_frequencies_per_rev"][0], 4.97, atol=0.01)
+    assert record["pitch_link_load_n"]["mean"] > record["pitch_link_load_n"]["amplitude"] > 0.0
+    assert solve(design(0.2, on=False)).to_dict()["elastic_twist_deg"] is None
+
+
+def test_the_next_trim_uses_the_derivatives_of_the_gradient(monkeypatch: pytest.MonkeyPatch):
+    """The same answer without evaluating derivatives; a copy, as from another process, has none."""
+    start, near = solve(design(0.25)).require(), design(0.252)
+    power_gradient(start)
+    alone = solve(near, pickle.loads(pickle.dumps(start))).require()
+    evaluated: list[object] = []
+    monkeypatch.setattr(newton_module, "differentiate", lambda *of: evaluated.append(of) or differentiate(*of))
+    assert_allclose(solve(near, start).require().power.total, alone.power.total, rtol=1e-9)
+    assert not evaluated
+
+
+def test_the_trims_used_last_are_kept():
+    """The latest with their blade elements, the others with their derivatives."""
+    kept = KeptTrims(most=3, whole=1)
+    problem = build_problem(design(0.2, small=True))
+    elements = newton(problem, first_guess(problem)).elements
+    fields = [np.zeros(k) for k in range(4)]
+    for field in fields[:3]:
+        kept.keep(KeptTrim(field, None, elements))
+    assert kept.of(fields[0]) is not None
+    kept.keep(KeptTrim(fields[3], None, elements))
+    whole = [one.elements is elements if (one := kept.of(field)) is not None else None for field in fields]
+    assert whole == [False, None, False, True]

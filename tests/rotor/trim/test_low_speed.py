@@ -1,0 +1,137 @@
+"""Forward flight that passes over to hover: limits, smoothness, gradient, records."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from rotor.aero.momentum import glauert_inflow
+from rotor.design.design import Design, LowSpeed
+from rotor.files.design_file import design_from_record
+from rotor.files.make_design import make_design
+from rotor.trim.adjoint import Objective, power_gradient
+from rotor.trim.low_speed import FASTEST, axial_share, hover_difference, inflow_ratio
+from rotor.trim.options import SolverOptions
+from rotor.trim.solve import solve
+
+
+def design(twist: str = "linear:-12", low_speed: LowSpeed = "hover", elastic_twist: bool = True) -> Design:
+    made = make_design(hover=True, twist=twist)
+    return replace(made, models=replace(made.models, low_speed=low_speed, elastic_twist=elastic_twist))
+
+
+def watts(what: Design) -> float:
+    return solve(what, None, SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-11)).require().power.total
+
+
+@pytest.mark.parametrize(
+    ("mu", "ratio"), [(0.0, 1.0), (math.sqrt(1.5), math.sqrt(0.5)), (100.0, 0.01)], ids=["hover", "", "fast"]
+)
+def test_inflow_ratio_is_glauerts(mu: float, ratio: float):
+    """λ̄⁴ + µ̄² λ̄² = 1: λ̄² is ½ at µ̄² = 3/2, and λ̄ tends to 1/µ̄."""
+    assert inflow_ratio(mu) == pytest.approx(ratio, abs=1e-8)
+    assert inflow_ratio(mu) == pytest.approx(glauert_inflow(2.0 * 0.08**2, 0.08 * mu, 0.0)[0] / 0.08, rel=1e-8)
+
+
+def test_share_follows_the_fifth_power_and_ends():
+    """Close to λ̄⁵, and 0 from FASTEST on, where value, slope and curvature are 0: no kink."""
+    speeds = np.linspace(0.0, 0.2, 81)
+    share = np.array([axial_share(mu, 2.0 * 0.06**2) for mu in speeds])
+    fifth = np.array([inflow_ratio(mu / 0.06) ** 5 for mu in speeds])
+    assert share[0] == 1.0
+    assert np.abs(share - fifth).max() < 0.05
+    assert (share[speeds < 0.06 * FASTEST - 1e-9] > 0.0).all()
+    assert (share[speeds > 0.06 * FASTEST + 1e-9] == 0.0).all()
+    assert axial_share(0.06 * (FASTEST - 0.01), 2.0 * 0.06**2) < 1e-7
+
+
+@pytest.mark.parametrize("elastic", [True, False])
+@pytest.mark.parametrize("twist", ["linear:0", "linear:-24", "builtin"])
+def test_hover_is_the_limit_of_forward_flight(twist: str, elastic: bool):
+    at = design(twist, elastic_twist=elastic)
+    assert watts(at.at(mu=0.002)) == pytest.approx(watts(at), rel=1e-3)
+    assert watts(at.at(mu=1e-4)) == pytest.approx(watts(at), rel=1e-5)
+
+
+def test_without_it_hover_is_no_limit_and_at_speed_it_hardly_matters():
+    with_, without = design(), design(low_speed="wake")
+    assert watts(without.at(mu=0.002)) > 1.03 * watts(without)
+    assert watts(with_.at(mu=0.1)) == pytest.approx(watts(without.at(mu=0.1)), rel=2e-3)
+
+
+def test_at_speed_it_is_exactly_the_forward_wake_and_hover_is_not_computed():
+    with_, without = design("linear:-12.345"), design("linear:-12.345", low_speed="wake")
+    before = hover_difference.cache_info()
+    assert watts(with_.at(mu=0.15)) == watts(without.at(mu=0.15))
+    assert hover_difference.cache_info() == before
+
+
+def test_only_the_flight_preset_passes_over_to_hover():
+    assert make_design(preset="flight").models.low_speed == "hover"
+    assert make_design(preset="thesis").models.low_speed == "wake"
+
+
+@pytest.mark.slow
+def test_power_falls_from_hover_without_a_kink():
+    """The slope by µ² is momentum theory's at first, −P_i/4λ_h², and changes sign only at the speed of least power."""
+    at = design()
+    speeds = np.arange(0.0, 0.1501, 0.01)
+    power = np.array([watts(at.at(mu=mu)) for mu in speeds])
+    slope = np.diff(power) / np.diff(speeds)
+    assert (slope < 0.0).all()
+    bend = np.abs(np.diff(slope, 2))
+    assert bend.max() < 0.25 * np.abs(slope).max()
+
+
+@pytest.mark.parametrize("station", [0.4, 0.9])
+@pytest.mark.parametrize("objective", ["total", "induced"])
+@pytest.mark.parametrize("elastic", [True, False])
+def test_gradient_by_pitch_agrees_with_differences(objective: Objective, station: float, elastic: bool):
+    at = design(elastic_twist=elastic).at(mu=0.02)
+    stations, bend = np.array([0.13, station, 1.0]), 0.01
+    gradient = power_gradient(solve(at).require(), objective)
+
+    def power(sign: float) -> float:
+        angles = -12.0 * (stations - 0.75) + sign * bend * np.array([0.0, 1.0, 0.0])
+        twist = f"points:{','.join(map(repr, angles.tolist()))}@{','.join(map(repr, stations.tolist()))}"
+        found = solve(at.with_twist(twist)).require().power
+        return found.total if objective == "total" else found.induced
+
+    slope = (power(1.0) - power(-1.0)) / (2.0 * math.radians(bend))
+    change = np.interp(gradient.r, stations, [0.0, 1.0, 0.0])
+    assert slope == pytest.approx(float(gradient.by_element @ change), rel=1e-4)
+
+
+def test_energy_closes():
+    power = solve(design().at(mu=0.01)).require().power
+    assert power.main_rotor == pytest.approx(power.shaft, rel=1e-9)
+
+
+def test_where_hover_has_no_answer_a_caveat_says_so():
+    """The free wake needs more thrust."""
+    at = design().at(mu=0.02, mass_kg=700.0)
+    at = replace(at, models=replace(at.models, hover_inflow="free-wake"))
+    found = solve(at).require()
+    assert "low-speed-not-matched" in {caveat.name for caveat in found.caveats}
+    without = replace(at, models=replace(at.models, low_speed="wake"))
+    assert found.power.total == pytest.approx(solve(without).require().power.total, rel=1e-12)
+    faster = solve(at.at(mu=0.15)).require()
+    assert "low-speed-not-matched" not in {caveat.name for caveat in faster.caveats}
+
+
+def test_linear_inflow_stays_what_it_is():
+    at = design().at(mu=0.05)
+    with_ = replace(at, models=replace(at.models, inflow="drees"))
+    without = replace(with_, models=replace(with_.models, low_speed="wake"))
+    assert watts(with_) == watts(without)
+
+
+def test_design_files_keep_it():
+    at = design().at(mu=0.05)
+    assert design_from_record(at.to_dict()) == at
+    without = design(low_speed="wake").at(mu=0.05)
+    assert design_from_record(without.to_dict()) == without
+    assert "low_speed" not in at.to_dict()
+    with pytest.raises(ValueError, match="use one of wake, hover"):
+        design_from_record({**at.to_dict(), "low_speed": "fly"})

@@ -1,0 +1,232 @@
+"""Trims of a rotor on a test stand: exact derivatives, the energy identity, and agreement of the trims with another."""
+
+import math
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor.aero.elements import build_problem, evaluate_elements
+from rotor.aero.inflow import Wake
+from rotor.aero.inflow.linear import LINEAR_MODELS
+from rotor.aero.inflow.peters_he import flow_parameters
+from rotor.aero.sums import disk_sums
+from rotor.aero.trim_state import TrimState
+from rotor.design.design import Design
+from rotor.design.stand import Stand, read_stand
+from rotor.design.twist import LinearTwist
+from rotor.files.design_file import design_from_record, load_design
+from rotor.files.make_design import make_design
+from rotor.trim.adjoint import power_gradient
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+from tests.rotor.check_jacobian import check_jacobian
+
+TRIMS = {
+    "tunnel-thrust": ("wind-tunnel", Stand(shaft_tilt=math.radians(5.0), ct_over_sigma=0.075)),
+    "tunnel-backward": ("wind-tunnel", Stand(shaft_tilt=math.radians(-12.0), ct_over_sigma=0.075)),
+    "tunnel-collective": ("wind-tunnel", Stand(shaft_tilt=math.radians(3.0), collective=0.12)),
+    "tunnel-free-flapping": ("wind-tunnel", Stand(ct_over_sigma=0.06, flapping="free", cyclic_1s=-0.03)),
+    "tunnel-no-thrust": ("wind-tunnel", Stand(ct_over_sigma=0.0)),
+    "free-collective": ("free-rotor", Stand(collective=math.radians(2.0), flapping="free")),
+    "free-thrust": ("free-rotor", Stand(ct_over_sigma=0.06, flapping="free")),
+    "free-trimmed": ("free-rotor", Stand(thrust=60e3)),
+    "controls": ("controls", Stand(collective=0.12, flapping="free", cyclic_1c=0.01, cyclic_1s=-0.05)),
+}
+
+
+def bench(name: str, mu: float = 0.2, inflow: str = "pitt-peters", precone: float | None = None) -> Design:
+    trim, stand = TRIMS[name]
+    design = make_design(mu=mu, inflow=inflow, trim=trim, stand=stand)
+    models = replace(design.models, elements=20, azimuths=48)
+    return replace(design, models=models, rotor=replace(design.rotor, precone=precone))
+
+
+@pytest.mark.parametrize("precone", [None, 0.03])
+@pytest.mark.parametrize("name", TRIMS)
+def test_jacobian_against_differences(name: str, precone: float | None):
+    problem = build_problem(bench(name, 0.25, "drees", precone))
+    state = TrimState(0.14, 0.02, -0.06, 0.05, 0.06, -0.02, 0.01, 0.012)
+    if name.startswith("free"):
+        state = replace(state, shaft_tilt=-0.15)  # Air flows up through the disk.
+        assert evaluate_elements(problem, state).flow.axial < 0.0
+    check_jacobian(problem, state)
+
+
+@pytest.mark.parametrize("inflow", ["pitt-peters", "dynamic-wake"])
+@pytest.mark.parametrize("name", TRIMS)
+def test_shaft_power_is_the_sum_of_its_parts(name: str, inflow: str):
+    solution = solve(bench(name, inflow=inflow)).require()
+    power = solution.power
+    assert abs(power.shaft - power.main_rotor) <= 1e-8 * (abs(power.induced) + power.profile + abs(power.parasite))
+    assert power.tail == 0.0
+
+
+@pytest.mark.parametrize("inflow", ["pitt-peters", "dynamic-wake"])
+def test_a_free_rotor_has_no_torque_and_its_drag_does_the_work(inflow: str):
+    solution = solve(bench("free-thrust", inflow=inflow)).require()
+    _, drag = solution.lift_and_drag
+    spent = solution.power.induced + solution.power.profile
+    assert abs(solution.power.shaft) < 1e-8 * spent
+    assert_allclose(drag * solution.design.airspeed, spent, rtol=1e-8)
+    assert solution.controls.shaft_tilt < 0.0
+    assert_allclose(solution.ct_over_sigma, 0.06, rtol=1e-9)
+
+
+@pytest.mark.parametrize("inflow", ["pitt-peters", "dynamic-wake"])
+def test_the_wind_tunnel_finds_the_trim_of_flight(inflow: str):
+    flight = solve(make_design(mu=0.2, inflow=inflow)).require()
+    stand = Stand(shaft_tilt=flight.controls.shaft_tilt, ct_over_sigma=flight.ct_over_sigma)
+    tunnel = solve(make_design(mu=0.2, inflow=inflow, trim="wind-tunnel", stand=stand)).require()
+    assert_allclose(tunnel.power.main_rotor, flight.power.main_rotor, rtol=1e-8)
+    assert_allclose(tunnel.power.parasite, flight.power.parasite, rtol=1e-7)
+
+
+def test_given_controls_return_the_trim_they_came_from():
+    tunnel = solve(bench("tunnel-thrust")).require()
+    state = tunnel.controls
+    stand = Stand(
+        shaft_tilt=state.shaft_tilt,
+        collective=state.collective,
+        cyclic_1c=state.cyclic_1c,
+        cyclic_1s=state.cyclic_1s,
+        flapping="free",
+    )
+    models = replace(tunnel.design.models, trim="controls")
+    back = solve(replace(tunnel.design, models=models, condition=replace(tunnel.design.condition, stand=stand)))
+    assert_allclose(back.require().controls.array(), state.array(), atol=1e-9)
+    assert_allclose(back.power.shaft, tunnel.power.shaft, rtol=1e-8)
+
+
+def test_hover_at_the_collective_of_a_thrust_has_that_thrust():
+    thrust = solve(bench("tunnel-thrust", 0.0)).require()
+    stand = Stand(collective=thrust.controls.collective)
+    given = solve(replace(thrust.design, condition=replace(thrust.design.condition, stand=stand))).require()
+    assert_allclose(given.ct, thrust.ct, rtol=1e-10)
+    assert_allclose(given.power.shaft, thrust.power.shaft, rtol=1e-10)
+
+
+def test_hover_without_thrust_takes_profile_power():
+    """σ C_d0/8 with the drag near zero lift, and a little from the twist: between 0.006 and 0.016."""
+    solution = solve(bench("tunnel-no-thrust", 0.0)).require()
+    assert abs(solution.ct) < 1e-12
+    assert 0.006 < 8.0 * solution.cp / solution.design.rotor.solidity < 0.016
+
+
+@pytest.mark.parametrize("name", ["tunnel-thrust", "tunnel-collective", "controls"])
+@pytest.mark.parametrize("mu", [0.0, 0.2])
+def test_gradient_of_shaft_power_against_differences(name: str, mu: float):
+    design = bench(name, 0.2, "dynamic-wake")
+    if mu == 0.0 and name == "controls":
+        design = replace(design, condition=replace(design.condition, stand=Stand(collective=0.12, flapping="free")))
+    design = design.at(mu=mu)
+    design = design.with_twist("linear:-8")
+    gradient = power_gradient(solve(design))
+    step = 1e-4
+
+    def power(rate: float) -> float:
+        return solve(design.with_twist(LinearTwist(rate))).require().power.shaft
+
+    base = math.radians(-8.0)
+    difference = (power(base + step) - power(base - step)) / (2.0 * step)
+    assert_allclose(gradient.along((gradient.r - 0.75)[None]), difference, rtol=2e-4, atol=5.0)
+
+
+def test_shaft_power_of_a_free_rotor_has_no_gradient():
+    solution = solve(bench("free-thrust"))
+    with pytest.raises(RuntimeError, match="no power from its shaft"):
+        power_gradient(solution)
+    assert np.all(np.isfinite(power_gradient(solution, "induced").by_element))
+
+
+def test_a_gimbal_keeps_its_coning_and_passes_no_moment():
+    design = bench("tunnel-free-flapping", precone=math.radians(1.5))
+    blade = replace(design.rotor.blade, flap_hinge=0.0)
+    solution = solve(replace(design, rotor=replace(design.rotor, blade=blade))).require()
+    assert_allclose(solution.controls.coning, math.radians(1.5))
+    assert solution.elastic is not None
+    elements = evaluate_elements(
+        build_problem(solution.design), solution.controls, elastic=solution.elastic.coordinates
+    )
+    assert_allclose(disk_sums(build_problem(solution.design), elements).moment[1:], 0.0, atol=1e-12)
+    assert solution.hub_moment.size < 1e-3
+
+
+@pytest.mark.parametrize("axial", [0.02, -0.02, -0.06])
+def test_wake_parameters_of_upflow(axial: float):
+    """A wake above the disk has the skew of its mirror image, and exact slopes."""
+    wake = Wake(0.2, axial - 0.01, 0.01)
+    here = flow_parameters(wake)
+    mirrored = flow_parameters(Wake(0.2, abs(axial) - 0.01, 0.01))
+    assert_allclose(here.half_skew, mirrored.half_skew)
+    for model in LINEAR_MODELS:
+        assert_allclose(model.longitudinal(wake)[0], model.longitudinal(Wake(0.2, abs(axial) - 0.01, 0.01))[0])
+    for k, name in enumerate(("mu_x", "mu_z", "lambda0")):
+        low, high = (flow_parameters(replace(wake, **{name: getattr(wake, name) + h})) for h in (-1e-7, 1e-7))
+        difference = [(getattr(high, what) - getattr(low, what)) / 2e-7 for what in ("half_skew", "speed", "mass_flow")]
+        assert_allclose(here.slopes[:, k], difference, rtol=1e-6, atol=1e-8)
+
+
+@pytest.mark.parametrize("name", TRIMS)
+def test_design_files_keep_the_stand(name: str, tmp_path):
+    design = bench(name)
+    trim, _ = TRIMS[name]
+    plain = make_design(mu=0.2, inflow="pitt-peters", trim=trim, stand=design.condition.stand)
+    plain.save(tmp_path / "test.json")
+    back = load_design(tmp_path / "test.json")
+    assert back.models.trim == trim
+    before, after = plain.condition.stand, back.condition.stand
+    assert before is not None
+    assert after is not None
+    for key, value in before.record().items():
+        assert after.record()[key] == (value if isinstance(value, str) else pytest.approx(value))
+
+
+@pytest.mark.parametrize(
+    ("record", "sentence"),
+    [
+        ({}, "none of them"),
+        ({"thrust_n": 1.0, "collective_deg": 2.0}, "thrust_n and collective_deg"),
+        ({"ct_over_sigma": 0.5}, "outside 0…0.25"),
+        ({"collective_deg": 5.0, "cyclic_1c_deg": 1.0}, "it trims the flapping"),
+        ({"collective_deg": "5"}, "give a number"),
+        ({"pitch": 5.0}, "is not known"),
+    ],
+)
+def test_inputs_that_do_not_fit(record: dict[str, object], sentence: str):
+    with pytest.raises(ValueError, match=sentence):
+        read_stand(record, "wind-tunnel")
+
+
+@pytest.mark.parametrize(
+    ("changes", "sentence"),
+    [
+        ({"trim": "wind-tunnel"}, "needs the inputs"),
+        ({"trim": "thrust", "stand": {"collective_deg": 5.0}}, "does not use"),
+        ({"trim": "controls", "stand": {"ct_over_sigma": 0.07}}, "needs a collective"),
+        ({"trim": "free-rotor", "advance_ratio": 0.0, "stand": {"ct_over_sigma": 0.07}}, "needs wind"),
+        ({"trim": "wind-tunnel", "preset": "thesis", "stand": {"ct_over_sigma": 0.07}}, "axial flow"),
+        ({"trim": "glide", "stand": {"ct_over_sigma": 0.07}}, "is not known"),
+        ({"stand": [1]}, "design file key"),
+    ],
+)
+def test_designs_that_do_not_fit(changes: dict[str, object], sentence: str):
+    with pytest.raises(ValueError, match=sentence):
+        design_from_record(changes)
+
+
+def test_a_thrust_beyond_the_rotor_fails_with_a_sentence():
+    design = bench("tunnel-thrust", 0.3)
+    stand = Stand(ct_over_sigma=0.22)
+    solution: Solution = solve(replace(design, condition=replace(design.condition, stand=stand)))
+    assert not solution.converged
+    assert solution.message.startswith("Not trimmed: the rotor on the stand has no equilibrium")
+
+
+def test_speed_and_mass_are_wider_on_a_stand():
+    design = bench("tunnel-thrust", 0.7)
+    assert design.condition.advance_ratio == 0.7
+    assert make_design(mass_kg=5.0, trim="wind-tunnel", stand={"ct_over_sigma": 0.07}).condition.mass == 5.0
+    with pytest.raises(ValueError, match=r"outside 0…0\.6"):
+        make_design(mu=0.7)

@@ -1,0 +1,85 @@
+"""Take the pictures of the page that the documents show: `python -m tests.tools.pictures`.
+
+It needs Chromium (`make browser`). Software draws the scene, so one picture takes about half a minute.
+"""
+
+import io
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+from PIL import Image
+from playwright.sync_api import Page, sync_playwright
+
+from explorer.app import App
+from explorer.state import OPENING
+from tests.chromium import LAUNCH_ARGUMENTS, find_chromium
+
+FOLDER = Path(__file__).parents[2] / "docs" / "images"
+SIZE = (1500, 940)
+START = replace(OPENING, advance_ratio=0.22, mass_t=9.6)
+"""Heavy: the disk has a stalled region."""
+WAIT = 120_000
+"""[ms]"""
+MOST_BYTES = 550_000
+
+_AS_WITH_A_GPU = """
+const read = WebGL2RenderingContext.prototype.getParameter;
+WebGL2RenderingContext.prototype.getParameter = function (name) {
+  return name === 37446 ? 'GPU' : read.call(this, name);
+};
+"""
+"""The page filters the words on the disk as well as a graphics card would: UNMASKED_RENDERER_WEBGL is 37446."""
+
+
+def main() -> int:
+    """0, or 1 with a sentence where there is no browser."""
+    browser_path = find_chromium()
+    if browser_path is None:
+        print("No Chromium found: `make browser` gets one, ROTOR_CHROMIUM names one.", file=sys.stderr)
+        return 1
+    app = App("127.0.0.1", 0, START)
+    try:
+        with sync_playwright() as playwright:
+            browser = playwright.chromium.launch(executable_path=browser_path, args=list(LAUNCH_ARGUMENTS))
+            context = browser.new_context(
+                viewport={"width": SIZE[0], "height": SIZE[1]}, color_scheme="light", reduced_motion="reduce"
+            )
+            context.add_init_script(_AS_WITH_A_GPU)
+            page = context.new_page()
+            page.goto(app.address)
+            _write(_twisted(page), FOLDER / "explorer.png")
+            browser.close()
+    finally:
+        app.stop()
+    return 0
+
+
+def _twisted(page: Page) -> bytes:
+    """The first view after the root was twisted by hand."""
+    page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
+    page.wait_for_function("() => RX.state.strip?.length === 4", timeout=WAIT)
+    page.evaluate("() => RX.send('knot', ['0', 'start'])")
+    page.evaluate("() => RX.send('knot', ['0', [0.13, 6.8]])")
+    page.wait_for_function("() => RX.state.power.since && RX.state.power.why", timeout=WAIT)
+    page.evaluate("() => RX.send('knot', ['0', 'end'])")
+    page.evaluate("() => RX.send('azimuth', 65)")
+    swept = "() => RX.state.strip[0].lines.some(line => line.role === 'saving' && line.y.some(y => Math.abs(y) > 1))"
+    page.wait_for_function(swept, timeout=WAIT)
+    page.wait_for_function("() => Object.keys(RX.state.worth).length >= 6", timeout=WAIT)
+    page.wait_for_function("() => !document.querySelector('.mantine-Notification-root')", timeout=WAIT)
+    page.wait_for_timeout(6_000)  # The fine picture of the disk is drawn once nothing moves.
+    return page.screenshot(timeout=WAIT)
+
+
+def _write(content: bytes, path: Path) -> None:
+    """As a PNG without transparency, as small as it gets."""
+    Image.open(io.BytesIO(content)).convert("RGB").save(path, optimize=True)
+    size = path.stat().st_size
+    if size > MOST_BYTES:
+        raise SystemExit(f"{path} has {size} bytes, more than {MOST_BYTES}: show less")
+    print(f"{path}: {size / 1e3:.0f} kB")
+
+
+if __name__ == "__main__":
+    sys.exit(main())
