@@ -6,6 +6,7 @@ import re
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -286,8 +287,8 @@ class Here:
 
 
 def until(true: Callable[[], bool]) -> None:
-    """Fails after ten seconds."""
-    end = time.monotonic() + 10.0
+    """Fails after a minute."""
+    end = time.monotonic() + 60.0
     while not true():
         assert time.monotonic() < end
         time.sleep(0.01)
@@ -309,9 +310,9 @@ def test_the_study_answers_the_newest_question():
 
 
 def page_gets_its_turn() -> bool:
-    """Whether a trim that gave way in the middle, and comes behind all else, gets its turn within a second."""
+    """Whether a trim that gave way in the middle, and comes behind all else, gets its turn, at last."""
     time.sleep(0.1)
-    end = time.monotonic() + 1.0
+    end = time.monotonic() + 10.0
     granted = SCHEDULER.behind(False, lambda: time.monotonic() > end)
     if granted:
         SCHEDULER.pass_on()
@@ -342,15 +343,17 @@ def test_sweeps_that_wait_keep_no_page_from_computing():
 
 @pytest.mark.slow
 def test_what_nobody_asked_for_waits_until_the_page_is_still(monkeypatch: pytest.MonkeyPatch):
-    monkeypatch.setattr(actuator_study, "IDLE", 0.15)
-    here = Here()
+    now, here = [100.0], Here()
+    monkeypatch.setattr(actuator_study, "time", SimpleNamespace(monotonic=lambda: now[0], sleep=time.sleep))
     study = VerdictWorker(here, lambda: None, "study-idle")
     question = question_of(ActuatorInputs(), DESIGN)
     study.start()
     for _ in range(10):  # Somebody drags: far longer than the wait, but never still.
         study.ask(question, wanted=False)
-        time.sleep(0.03)
+        now[0] += 0.9 * actuator_study.IDLE
+        time.sleep(0.1)
     assert here.asked == []
+    now[0] += actuator_study.IDLE
     until(lambda: study.findings.complete)
     study.ask(question, wanted=False, stirred=False)  # A round that the findings themselves woke.
     assert study.current(question)

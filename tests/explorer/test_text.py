@@ -305,17 +305,17 @@ class TestLatestWins:
         def job(superseded) -> None:
             seen.append(state[0])
             begun.set()
-            gate.wait(5.0)
+            gate.wait(60.0)
 
         worker = NewestWins(job, lambda error: None, "test")
         worker.start()
         worker.wake()
-        assert begun.wait(5.0)
+        assert begun.wait(60.0)
         for value in range(1, 50):
             state[0] = value
             worker.wake()
         gate.set()
-        deadline = time.monotonic() + 5.0
+        deadline = time.monotonic() + 60.0
         while len(seen) < 2 and time.monotonic() < deadline:
             time.sleep(0.005)
         time.sleep(0.05)
@@ -324,21 +324,23 @@ class TestLatestWins:
 
     def test_a_job_learns_that_it_is_superseded(self):
         answers: list[bool] = []
-        running, finish = threading.Event(), threading.Event()
+        running, finish, done = threading.Event(), threading.Event(), threading.Event()
 
         def job(superseded) -> None:
             if not answers:
                 answers.append(superseded())
                 running.set()
-                finish.wait(5.0)
+                finish.wait(60.0)
                 answers.append(superseded())
+                done.set()
 
         worker = NewestWins(job, lambda error: None, "test")
         worker.start()
         worker.wake()
-        assert running.wait(5.0)
+        assert running.wait(60.0)
         worker.wake()
         finish.set()
+        assert done.wait(60.0)
         worker.stop()
         assert answers[:2] == [False, True]
 
@@ -358,7 +360,7 @@ class TestLatestWins:
         worker = NewestWins(job, report, "test")
         worker.start()
         worker.wake()
-        assert done.wait(5.0)
+        assert done.wait(60.0)
         worker.stop()
         assert [str(error) for error in errors] == ["broken"]
 

@@ -51,13 +51,13 @@ def test_overlapping_threads_restore_the_first_setting():
     def other() -> None:
         with one_blas_thread():
             inside.set()
-            leave.wait(10.0)
+            leave.wait(60.0)
             seen.append(threads())
 
     thread = threading.Thread(target=other)
     with one_blas_thread():
         thread.start()
-        assert inside.wait(10.0)
+        assert inside.wait(60.0)
     leave.set()
     thread.join()
     assert set(seen[0]) == {1}

@@ -4,6 +4,7 @@ import asyncio
 import json
 import socket
 import threading
+import time
 import urllib.error
 import urllib.request
 from collections.abc import Awaitable, Callable, Coroutine, Iterator
@@ -154,7 +155,7 @@ class TestStrangers:
         async def work() -> None:
             other = await arrive(app)
             monkeypatch.setattr(
-                request_filter, "RateLimiter", lambda now: limits.RateLimiter(now, limits.RateLimit(10.0, 50.0))
+                request_filter, "RateLimiter", lambda now: limits.RateLimiter(now, limits.RateLimit(0.01, 50.0))
             )
             flooder = Visitor()
             await flooder.open(app.address)
@@ -332,8 +333,8 @@ def words(visitor: Visitor) -> str:
 
 def settle(app: App) -> None:
     """Until the server has noticed that all have left."""
-    for _ in range(200):
+    for _ in range(3000):
         if not app._connections and not [t for t in threading.enumerate() if t.name.startswith("session-")]:
             return
-        threading.Event().wait(0.02)
+        time.sleep(0.02)
     raise AssertionError("sessions stay behind")

@@ -26,16 +26,18 @@ def test_it_tells_the_time_that_has_gone_and_ends_with_pause():
     player.play()
     player.play()  # A second press starts no second clock.
     assert playing("walk") == 1
-    assert enough.wait(5.0)
+    assert enough.wait(60.0)
     player.pause()
     gone = time.monotonic() - begin
     assert not player.playing
     assert min(steps) >= 0.9 * BEAT
     assert sum(steps) <= gone + BEAT
     count = len(steps)
-    time.sleep(2.5 * BEAT)
-    assert len(steps) <= count + 1  # One may have been under way.
+    deadline = time.monotonic() + 60.0
+    while playing("walk") and time.monotonic() < deadline:
+        time.sleep(0.01)
     assert playing("walk") == 0
+    assert len(steps) <= count + 1  # One may have been under way.
     player.pause()  # Nothing plays: nothing happens.
 
 
@@ -45,7 +47,7 @@ def test_it_ends_when_there_is_nobody_to_walk(caplog: pytest.LogCaptureFixture):
 
     player = Player(step, "lost")
     player.play()
-    deadline = time.monotonic() + 5.0
+    deadline = time.monotonic() + 60.0
     while player.playing and time.monotonic() < deadline:
         time.sleep(0.01)
     assert not player.playing

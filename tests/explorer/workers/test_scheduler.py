@@ -2,14 +2,27 @@
 
 import threading
 import time
+from collections.abc import Callable
 
 from explorer.workers.newest_wins import IdleTimeout, NewestWins, Superseded
 from explorer.workers.scheduler import SLICE, FairScheduler
+
+LONG = 60.0
+"""[s]; how long a step of another thread may take before a test gives up: far more than on a busy machine."""
+
+
+def until(true: Callable[[], bool]) -> None:
+    """Wait for what another thread brings about."""
+    end = time.monotonic() + LONG
+    while not true():
+        assert time.monotonic() < end
+        time.sleep(0.001)
 
 
 class TestScheduler:
     def test_only_the_given_number_runs_at_once(self):
         turns, lock, now, most = FairScheduler(2), threading.Lock(), 0, 0
+        pair = threading.Barrier(2, timeout=LONG)
 
         def work() -> None:
             nonlocal now, most
@@ -17,6 +30,7 @@ class TestScheduler:
                 with lock:
                     now += 1
                     most = max(most, now)
+                pair.wait()  # Two do run at once, however slowly threads start.
                 time.sleep(0.002)
                 with lock:
                     now -= 1
@@ -39,8 +53,7 @@ class TestScheduler:
         with turns.take():
             for k, thread in enumerate(threads):
                 thread.start()
-                while turns.waiting <= k:
-                    time.sleep(0.0005)
+                until(lambda k=k: turns.waiting > k)
         for thread in threads:
             thread.join()
         assert order == list(range(12))
@@ -65,8 +78,7 @@ class TestScheduler:
         held.wait()
         for thread in threads[1:]:
             thread.start()
-        while turns.waiting < 3:
-            time.sleep(0.001)
+        until(lambda: turns.waiting == 3)
         go.set()
         for thread in threads:
             thread.join()
@@ -87,6 +99,7 @@ class TestScheduler:
             thread.start()
         with turns.take() as turn:
             for _ in range(20):
+                until(lambda: turns.waiting == 4)
                 assert turn.give_way(lambda: False)
         ended.set()
         for thread in threads:
@@ -105,8 +118,7 @@ class TestScheduler:
         with turns.take() as turn:
             other = threading.Thread(target=hold)
             other.start()
-            while not turns.waiting:
-                time.sleep(0.001)
+            until(lambda: turns.waiting == 1)
             assert not turn.give_way(holding.is_set)
             assert not turn.held
         done.set()
@@ -116,33 +128,37 @@ class TestScheduler:
         assert turns._free == 1
 
     def test_a_single_page_does_not_wait(self):
-        turns = FairScheduler(1)
+        turns, best = FairScheduler(1), 60.0
         with turns.take() as turn:
-            begun = time.perf_counter()
-            assert all(turn.give_way(lambda: False) for _ in range(1000))
-            assert time.perf_counter() - begun < 0.1
+            for _ in range(10):
+                begun = time.perf_counter()
+                assert all(turn.give_way(lambda: False) for _ in range(1000))
+                best = min(best, time.perf_counter() - begun)
+        assert best < 0.1
 
 
 class TestWorker:
     def test_twenty_busy_sessions_get_equal_shares(self):
-        """Rounds done by each while all want to work all the time differ by a few."""
-        turns, rounds, until = FairScheduler(2), [0] * 20, time.monotonic() + 0.4
+        """All want to work all the time: the rounds done by each differ by one or two."""
+        turns, rounds, over = FairScheduler(2), [0] * 20, threading.Event()
 
         def job(k: int) -> None:
             rounds[k] += 1
-            time.sleep(0.001)
+            workers[k].wake()
+            until(lambda: turns.waiting == 18 or over.is_set())  # Those that do not work ask for a turn.
+            if min(rounds) >= 5 or max(rounds) >= 50:
+                over.set()
 
         workers = [NewestWins(lambda _, k=k: job(k), print, f"w{k}", scheduler=turns) for k in range(20)]
         for worker in workers:
             worker.start()
-        while time.monotonic() < until:
-            for worker in workers:
-                worker.wake()
-            time.sleep(0.001)
+            worker.wake()
+        assert over.wait(LONG)
+        done = list(rounds)
         for worker in workers:
-            worker.stop()
-        assert min(rounds) >= 3
-        assert max(rounds) - min(rounds) <= 3
+            worker.stop(LONG)
+        assert min(done) >= 5
+        assert max(done) - min(done) <= 2
 
     def test_the_last_change_is_always_processed(self):
         turns, state, seen = FairScheduler(1), [0], [0]
@@ -155,51 +171,44 @@ class TestWorker:
         for k in range(200):
             state[0] = k
             worker.wake()
-        deadline = time.monotonic() + 2.0
-        while seen[0] != 199 and time.monotonic() < deadline:
-            time.sleep(0.001)
+        until(lambda: seen[0] == 199)
         worker.stop()
-        assert seen[0] == 199
 
     def test_idle_worker_sleeps_once_and_wakes_before_the_next_update(self):
         events: list[str] = []
         idle = IdleTimeout(0.03, lambda: events.append("sleep"), lambda: events.append("wake"))
         worker = NewestWins(lambda _: events.append("update"), print, "w", idle)
         worker.start()
-        time.sleep(0.15)
+        until(lambda: "sleep" in events)
+        time.sleep(0.1)
         worker.wake()
-        while "update" not in events:
-            time.sleep(0.002)
+        until(lambda: "update" in events)
         worker.stop()
         assert events[:3] == ["sleep", "wake", "update"]
 
     def test_a_pause_lets_others_work_and_ends_with_a_change(self):
-        turns, waited, ran = FairScheduler(1), threading.Event(), threading.Event()
+        turns, begun, ran = FairScheduler(1), threading.Event(), threading.Event()
         lengths: list[float] = []
 
         def job(_: object) -> None:
+            begun.set()
             begin = time.monotonic()
-            worker.pause(0.02 if waited.is_set() else 5.0)
+            worker.pause(0.02 if lengths else 10.0 * LONG)
             lengths.append(time.monotonic() - begin)
-            waited.set()
 
         worker = NewestWins(job, print, "w", scheduler=turns)
         other = NewestWins(lambda _: ran.set(), print, "o", scheduler=turns)
         worker.start()
         other.start()
         worker.wake()
-        time.sleep(0.05)
+        assert begun.wait(LONG)
         other.wake()
-        assert ran.wait(2.0)  # Though there is one turn, and the first worker is within its update.
+        assert ran.wait(LONG)  # Though there is one turn, and the first worker is within its update.
         worker.wake()
-        assert waited.wait(2.0)
-        for _ in range(200):
-            if len(lengths) == 2:
-                break
-            time.sleep(0.01)
+        until(lambda: len(lengths) == 2)
         worker.stop()
         other.stop()
-        assert lengths[0] < 2.0
+        assert lengths[0] < 5.0 * LONG
         assert lengths[1] >= 0.02
 
 
@@ -209,18 +218,19 @@ def test_a_pause_ends_with_a_change_though_no_turn_is_free():
 
     def update(_: object) -> None:
         paused.set()
+        until(lambda: scheduler.waiting == 1)
         worker.pause(0.01)
         ended.set()
 
     worker = NewestWins(update, print, "w", scheduler=scheduler)
     worker.start()
     worker.wake()
-    assert paused.wait(10.0)
-    with scheduler.take():
+    assert paused.wait(LONG)
+    with scheduler.take():  # It has the turn from the moment the pause leaves it.
         time.sleep(0.05)
         assert not ended.is_set()
         worker.wake()
-        assert ended.wait(2.0)
+        assert ended.wait(LONG)
     worker.stop()
 
 
@@ -240,7 +250,7 @@ def test_a_long_step_gives_way_and_comes_to_its_end():
         order.append("begin")
         asked.set()
         while scheduler.waiting == 0:
-            time.sleep(0.001)
+            time.sleep(0.01)  # Which takes next to none of the slice.
         superseded.pause()
         order.append("more")
         compute(SLICE)
@@ -256,9 +266,9 @@ def test_a_long_step_gives_way_and_comes_to_its_end():
     for worker in (slow, fast):
         worker.start()
     slow.wake()
-    assert asked.wait(10.0)
+    assert asked.wait(LONG)
     fast.wake()
-    assert ended.wait(10.0)
+    assert ended.wait(LONG)
     assert order == ["begin", "more", "frame", "end"]
     for worker in (slow, fast):
         worker.stop()
