@@ -38,8 +38,8 @@ from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
 _log = logging.getLogger(__name__)
-_STILL = 0.06
-"""[s] without a change after which nothing is dragged: a drag changes something every 50 ms."""
+_STILL = 0.12
+"""[s] without a change after which nothing is dragged: even a slow drag changes something every 100 ms."""
 
 
 class Session:
@@ -186,7 +186,8 @@ class Session:
         elif self._curves.recent:
             return
         # On a test stand measured points take the place of power over µ.
-        if set_shown(solution) is not None or self._curves.sweep(design, state.reference.design, stop, show_power):
+        swept = set_shown(solution) is not None or self._curves.sweep(design, state.reference.design, stop, show_power)
+        if swept and not stop():
             page.rest(state, stop)
 
     def _show_failure(self, failure: Failure) -> None:

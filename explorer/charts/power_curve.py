@@ -13,15 +13,21 @@ from explorer.text.readout import ideal_induced
 from explorer.workers.scheduler import SCHEDULER
 from rotor.arrays import Array
 from rotor.design.design import Design
+from rotor.trim.forward import guess_of
 from rotor.trim.low_speed import passes_over
+from rotor.trim.newton import Guess
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.trim.validity import LOW_SPEED
 
 PATIENCE = 0.6
 """A curve older than this [s] is swept coarsely even while a slider moves, so that it follows a long drag."""
-HASTE = 0.15
-"""[s] that such a sweep may delay a drag; if it takes longer, the machine is busy and frames come first."""
+HASTE = 0.08
+"""[s] that such a sweep may take once a slider has moved; if it needs longer, frames come first."""
+_FEW = (0, 1, 3, 6, 9, 12, 15, 18)
+"""Places in `SWEEP` computed first; a smooth line joins them where time is short."""
+_FEWEST = (0, 6, 12, 18)
+"""The same where the curve of a design much like it is known: the line then joins the differences from it."""
 _KEPT = 200
 """Curves remembered per session."""
 
@@ -35,17 +41,23 @@ class PowerCurves:
         """(2, points): total and ideal [kW]."""
         self._coarse: set[Design] = set()
         """Curves swept coarsely, to be swept again once there is time."""
-        self._last: tuple[Design | None, float] = (None, -math.inf)
+        self._last: Design | None = None
+        self._tried = -math.inf
+        """When the last sweep ended, also one that was abandoned: the next would be as slow."""
+        self._starts: dict[int, Guess] = {}
+        """The trims of the last sweep by their place in `SWEEP`: the next one belongs to a design much like it."""
+        self._fine: tuple[Design, Array] | None = None
+        """The last curve that was swept to its end."""
 
     @property
     def recent(self) -> bool:
         """Whether the last sweep is so fresh that the next can wait until a drag ends."""
-        return time.monotonic() - self._last[1] < PATIENCE
+        return time.monotonic() - self._tried < PATIENCE
 
     def known(self, design: Design, reference: Design) -> PowerCurve:
         """The curves of a design and of its reference; until the design is swept, the curve before it."""
         blank = np.full((2, len(SWEEP)), math.nan)
-        last = self._last[0]
+        last = self._last
         alike = last is not None and last.aircraft == design.aircraft
         before = self._curves.get(last, blank) if last is not None and alike else blank
         family = _family(design)
@@ -64,42 +76,51 @@ class PowerCurves:
         `known`: called after each of the two.
         """
         patient = self.recent
-        for family in (_family(design), _family(reference)):
+        for family in dict.fromkeys((_family(design), _family(reference))):
             if family not in self._curves or family in self._coarse:
                 values, coarse = self._swept(family, superseded, patient)
+                self._tried = time.monotonic()
                 if values is None:
                     return False
                 self._keep(family, values, coarse)
             if family == _family(design):
-                self._last = (family, time.monotonic())
+                self._last = family
             known()
         return True
 
     def _swept(self, family: Design, superseded: Callable[[], bool], patient: bool) -> tuple[Array | None, bool]:
         """Total and ideal power over `SWEEP`, and whether coarse; None when abandoned for newer input."""
-        coarse, begun = False, time.monotonic()
+        begun, slow = time.monotonic(), 0 if passes_over(family) else 1
         values = np.full((2, len(SWEEP)), math.nan)
-        start: Solution | None = None
-        lost = 0
-        for k, mu in enumerate(SWEEP):
+        points: dict[int, Guess] = {}
+        before = self._starts if self._last is not None and _alike(self._last, family) else {}
+        base = self._fine[1] if self._fine is not None and _alike(self._fine[0], family) else None
+        end, lost = len(SWEEP), 0
+        few = _FEW if base is None else _FEWEST
+        for k in (*few, *(k for k in range(end) if k not in few)):
+            if k >= end or (slow and 0.0 < SWEEP[k] < LOW_SPEED):
+                continue
             if superseded():
+                if k not in few or end < len(SWEEP):
+                    self._starts = before | points
+                    return _bridged(values, slow, base), True
                 if patient or SCHEDULER.waiting or time.monotonic() - begun > self._haste:
                     return None, False
-                coarse = True
-            if lost == (1 if coarse else 2):
-                break  # Faster flight does not trim either, and each failed trim takes long.
-            if (coarse and k % 3 and k != 1) or (0.0 < mu < LOW_SPEED and not passes_over(family)):
-                continue
             try:
-                design = family.at(mu=mu)
+                design = family.at(mu=SWEEP[k])
             except ValueError:  # A free rotor in hover.
                 continue
-            point = solve(design, start)
-            lost = 0 if point.converged else lost + 1
+            starts = before if k in before else points
+            point = solve(design, starts[min(starts, key=lambda known: abs(known - k))] if starts else None)
             if point.converged:
-                start, values[:, k] = point, _powers(point)
-        first = 0 if passes_over(family) else 1
-        return np.stack([_bridged(row, first) for row in values]) if coarse else values, coarse
+                # Without its derivatives, which would take 10 MB a page.
+                points[k], values[:, k] = replace(guess_of(point), derivatives=None), _powers(point)
+                continue
+            lost += 1
+            if lost == 2 or (points and k in few):
+                end = k  # Faster flight does not trim either, and each failed trim takes long.
+        self._starts, self._fine = points, (family, values)
+        return values, False
 
     def _keep(self, family: Design, values: Array, coarse: bool) -> None:
         if len(self._curves) >= _KEPT:
@@ -114,6 +135,11 @@ def _family(design: Design) -> Design:
     return replace(design, condition=replace(design.condition, advance_ratio=any_speed))
 
 
+def _alike(one: Design, other: Design) -> bool:
+    """Whether trims of one design are starts for the other: the same unknowns on the same grid."""
+    return (one.rotor, one.models, one.condition.stand) == (other.rotor, other.models, other.condition.stand)
+
+
 def _powers(point: Solution) -> tuple[float, float]:
     """Total power, and total power with the least induced power at this lift [kW], which is NaN at low speed."""
     total, slow = point.power.total / 1e3, 0.0 < point.design.condition.advance_ratio < LOW_SPEED
@@ -121,11 +147,17 @@ def _powers(point: Solution) -> tuple[float, float]:
     return total, math.nan if ideal is None else total - (point.power.induced - ideal) / 1e3
 
 
-def _bridged(values: Array, first: int) -> Array:
-    """Fill the points left out of a coarse sweep by a smooth line, from `first` on."""
-    k = np.arange(len(values))
-    have = np.isfinite(values) & (k >= first)
-    if have.sum() < 2:
-        return values
-    line = PchipInterpolator(k[have], values[have], extrapolate=False)
-    return np.where(k >= first, line(k), values)
+def _bridged(values: Array, first: int, base: Array | None) -> Array:
+    """Fill the points left out of a coarse sweep, from `first` on, by a smooth line of the values less those of a base.
+
+    values, base: (2, points).
+    """
+    base = np.zeros_like(values) if base is None else base
+    k = np.arange(values.shape[1])
+    have = np.isfinite(values - base) & (k >= first)
+    filled = values.copy()
+    for row, known in enumerate(have):
+        if known.sum() >= 2:
+            line = PchipInterpolator(k[known], (values - base)[row, known], extrapolate=False)
+            filled[row] = np.where(np.isfinite(values[row]) | (k < first), values[row], base[row] + line(k))
+    return filled

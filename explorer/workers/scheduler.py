@@ -1,5 +1,7 @@
 """Schedules the updates of all pages: a few at once, first come first served, frames before what can wait.
 
+Of what can wait, and of a frame that takes long, only one is computed at a time: a turn stays free for frames.
+
 All sessions share one process, and most of an update is Python, of which only one line runs at a time. Unscheduled,
 twenty updates would all be half done, none would be drawn, and the thread that talks to the browsers would wait for
 each of them. Scheduled, an update runs through, and no page gets its second before all others had their first.
@@ -30,6 +32,8 @@ class FairScheduler:
         self._frames: deque[threading.Event] = deque()
         self._behind: deque[threading.Event] = deque()
         self._in_a_row = 0
+        self._waitable = False
+        """Whether a turn is held by work that can wait."""
 
     @contextmanager
     def take(self) -> "Iterator[Turn]":
@@ -39,29 +43,26 @@ class FairScheduler:
         try:
             yield turn
         finally:
-            if turn.held:
-                self.pass_on()
+            turn.leave()
 
     @property
     def waiting(self) -> int:
         """How many frames wait for their turn."""
         return len(self._frames)
 
-    def behind(self, held: bool, unwanted: Callable[[], bool]) -> bool:
+    def behind(self, turn: "Turn", unwanted: Callable[[], bool]) -> bool:
         """Pass the turn, if held, to waiting frames and wait for one after them; False if it became unwanted."""
         mine = self._ask(self._behind)
-        if held:
-            self.pass_on()
+        turn.leave()
         return self._wait(mine, unwanted)
 
     def _ask(self, queue: deque[threading.Event]) -> threading.Event:
         mine = threading.Event()
         with self._lock:
+            queue.append(mine)
             if self._free:
                 self._free -= 1
-                mine.set()
-            else:
-                queue.append(mine)
+                self._grant()
         return mine
 
     def _wait(self, mine: threading.Event, unwanted: Callable[[], bool]) -> bool:
@@ -75,17 +76,25 @@ class FairScheduler:
             return False
         return True
 
-    def pass_on(self) -> None:
-        """A turn has ended: the next one begins."""
+    def pass_on(self, waitable: bool) -> None:
+        """A turn has ended, of work that could wait or of a frame: the next one begins."""
         with self._lock:
-            if self._frames and not (self._behind and self._in_a_row >= _FRAMES_IN_A_ROW):
-                self._in_a_row += 1
-                self._frames.popleft().set()
-            elif self._behind:
-                self._in_a_row = 0
-                self._behind.popleft().set()
-            else:
-                self._free += 1
+            if waitable:
+                self._waitable = False
+            self._grant()
+
+    def _grant(self) -> None:
+        """Give a turn to who is next, or keep it free."""
+        behind = bool(self._behind) and not self._waitable
+        if self._frames and not (behind and self._in_a_row >= _FRAMES_IN_A_ROW):
+            self._in_a_row += 1
+            self._frames.popleft().set()
+        elif behind:
+            self._in_a_row = 0
+            self._waitable = True
+            self._behind.popleft().set()
+        else:
+            self._free += 1
 
 
 class Turn:
@@ -94,21 +103,22 @@ class Turn:
     def __init__(self, scheduler: FairScheduler) -> None:
         self._scheduler = scheduler
         self.held = True
+        self._waitable = False
         self._since = time.thread_time()
 
     def leave(self) -> None:
-        """Pass the turn on; `give_way` waits for another."""
+        """Pass the turn on, if held; `give_way` waits for another."""
         if self.held:
             self.held = False
-            self._scheduler.pass_on()
+            self._scheduler.pass_on(self._waitable)
 
     def give_way(self, unwanted: Callable[[], bool]) -> bool:
         """Let waiting frames go first; called between two steps of work that can wait.
 
         False when the work became unwanted meanwhile. The turn is then gone; a further call waits for another.
         """
-        if not self.held or self._scheduler.waiting:
-            self.held = self._scheduler.behind(self.held, unwanted)
+        if not self.held or self._scheduler.waiting or (self.long and not self._waitable):
+            self.held = self._waitable = self._scheduler.behind(self, unwanted)
             self._since = time.thread_time()
         return self.held
 

@@ -1,5 +1,6 @@
 """The page's numbers, words and charts, without a server: inputs, read-outs, plots, worker."""
 
+import itertools
 import math
 import re
 import threading
@@ -265,8 +266,9 @@ class TestPowerCurves:
         curves = PowerCurves(haste=math.inf)
         curves.sweep(design, design, lambda: True)
         assert asked[-2:] == [0.225, 0.3]
+        asked.clear()
         curves.sweep(design, design, lambda: False)
-        assert asked[-3:] == [0.25, 0.275, 0.3]
+        assert [mu for mu in asked if mu > 0.24] == [0.3, 0.25, 0.275]
         assert np.isfinite(curves.known(design, design).design[:11]).all()
         assert np.isnan(curves.known(design, design).design[11:]).all()
 
@@ -287,15 +289,49 @@ class TestPowerCurves:
         coarse = curves.known(design, baseline_of(design)).design
         curves.sweep(design, baseline_of(design), lambda: False)
         fine = curves.known(design, baseline_of(design)).design
-        k = plots.SWEEP.index(0.15)
+        k = plots.SWEEP.index(0.175)
         assert_allclose(coarse[1:14], fine[1:14], rtol=0.03)
         assert coarse[k] != fine[k]
-        assert_allclose(fine[k], solve(design.at(mu=0.15)).power.total / 1e3, rtol=1e-6)
+        assert_allclose(fine[k], solve(design.at(mu=0.175)).power.total / 1e3, rtol=1e-6)
+
+    @pytest.mark.slow
+    def test_beside_a_known_curve_four_points_do(self, monkeypatch: pytest.MonkeyPatch):
+        asked: list[float] = []
+
+        def counting(design: Design, start: Solution | None) -> Solution:
+            asked.append(design.condition.advance_ratio)
+            return solve(design, start)
+
+        curves = PowerCurves(haste=math.inf)
+        first, second = (Inputs(law="linear", linear=twist).design() for twist in (-8.0, -11.0))
+        curves.sweep(first, first, lambda: False)
+        monkeypatch.setattr("explorer.charts.power_curve.PATIENCE", 0.0)
+        monkeypatch.setattr("explorer.charts.power_curve.solve", counting)
+        curves.sweep(second, second, lambda: True)
+        assert asked == [0.0, 0.15, 0.3, 0.45]
+        coarse = curves.known(second, second).design
+        curves.sweep(second, second, lambda: False)
+        assert_allclose(coarse, curves.known(second, second).design, rtol=0.01)
 
     def test_on_a_busy_machine_frames_come_first(self):
         curves = PowerCurves(haste=0.0)
         design = Inputs(law="linear", linear=-8.0).design()
         assert not curves.sweep(design, baseline_of(design), lambda: True)
+
+    def test_an_abandoned_sweep_is_not_tried_again_at_once(self):
+        """Otherwise each step of a drag would wait for a sweep that never ends."""
+        curves = PowerCurves(haste=0.0)
+        design = Inputs(law="linear", linear=-8.0).design()
+        curves.sweep(design, baseline_of(design), lambda: True)
+        assert curves.recent
+
+    def test_input_that_comes_late_leaves_a_smooth_curve(self):
+        """Once every third point is known nothing is lost, and nothing more is computed."""
+        calls = itertools.count()
+        curves = PowerCurves(haste=0.0)
+        design = Inputs(law="linear", linear=-8.0).design()
+        assert curves.sweep(design, design, lambda: next(calls) >= 8)
+        assert np.isfinite(curves.known(design, design).design).all()
 
 
 class TestLatestWins:

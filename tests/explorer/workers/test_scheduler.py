@@ -127,6 +127,37 @@ class TestScheduler:
             pass  # The one place is free again, once.
         assert turns._free == 1
 
+    def test_long_work_leaves_a_turn_to_frames(self):
+        """Of three that take long only one computes at a time, so a frame begins at once on the other turn."""
+        turns, lock, now, most = FairScheduler(2), threading.Lock(), 0, 0
+        ended = threading.Event()
+
+        def search() -> None:
+            nonlocal now, most
+            with turns.take() as turn:
+                compute(1.2 * SLICE)
+                while not ended.is_set() and turn.give_way(ended.is_set):
+                    with lock:
+                        now += 1
+                        most = max(most, now)
+                    compute(0.2 * SLICE)
+                    with lock:
+                        now -= 1
+
+        threads = [threading.Thread(target=search) for _ in range(3)]
+        for thread in threads:
+            thread.start()
+        while not most:
+            time.sleep(0.001)
+        for _ in range(20):
+            with turns.take():
+                time.sleep(0.002)
+        ended.set()
+        for thread in threads:
+            thread.join()
+        assert most == 1
+        assert turns._free == 2
+
     def test_a_single_page_does_not_wait(self):
         turns, best = FairScheduler(1), 60.0
         with turns.take() as turn:
