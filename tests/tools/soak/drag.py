@@ -61,6 +61,7 @@ class Dragger:
             await visitor.open(address)
             await visitor.until(lambda: visitor.text("status") == "converged", _PATIENCE)
             await asyncio.sleep(max(begin - time.monotonic(), 0.0))
+            end += time.monotonic() - begin  # Who comes late drags as long as the others.
             self._measuring, bytes_before = True, visitor.bytes
             while time.monotonic() < end:
                 await self._drag(min(time.monotonic() + _DRAG, end), 1.0 / rate)

@@ -78,7 +78,7 @@ async def _soak(plan: Soak, address: str, pid: int, tell: Callable[[str], None])
         await asyncio.sleep(max(begin - time.monotonic(), 0.0))
         before, told = processor_seconds(pid), begin
         every = min(_WATCH, plan.minutes * 60.0 / 40.0)
-        while time.monotonic() < end and not all(task.done() for task in visits):
+        while not all(task.done() for task in visits):
             await asyncio.sleep(every)
             samples.append((time.monotonic(), resident_mb(pid)))
             if samples[-1][0] - told > 30.0:
