@@ -70,7 +70,7 @@ class BladeTorsion:
     tip_mass: Array
     """w, (elements,)."""
     tables: Array
-    """C_m, (sections, α cells, Mach cells, 4, 4)."""
+    """C_m, (sections, α cells, Mach cells, 1, 4, 4)."""
     moment_unit: float
     """ρπR⁵Ω²/N_b [N m]."""
 
@@ -157,7 +157,7 @@ def build_torsion(
         damping=rotor.blades * chord**3 / 8.0,
         lag=behind,
         tip_mass=mass * behind * disk.r * radius**3 / unit,
-        tables=np.stack([moment_table(blade.installed(name).table, only_mach) for name in names]),
+        tables=np.stack([moment_table(blade.installed(name).table, only_mach) for name in names])[:, :, :, None],
         moment_unit=unit * rotor.angular_speed**2,
     )
 
