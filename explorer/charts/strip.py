@@ -6,6 +6,7 @@ Each chart compares this design with its reference. Gaps are NaN in the arrays a
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any, Literal
 
 import numpy as np
@@ -87,6 +88,7 @@ class StripChart:
         low, high = self.y_range
         return bool(np.mean((line.y >= low) & (line.y <= high)) > 0.5)
 
+    @cached_property
     def as_dict(self) -> dict[str, Any]:
         """The chart as JSON can hold it, rounded to what a pixel shows."""
         span = self.y_range[1] - self.y_range[0]
@@ -272,4 +274,5 @@ def _margin(r: Array, margin: Array) -> tuple[str, str]:
 
 
 def _plain(values: Sequence[float] | Array, digits: int) -> list[float | None]:
-    return [round(float(value), digits) if math.isfinite(value) else None for value in values]
+    rounded = np.round(np.asarray(values, dtype=float), digits)
+    return np.where(np.isfinite(rounded), rounded, None).tolist()

@@ -191,7 +191,10 @@ class ChartStrip:
         self._measured = MeasuredChart()
 
     def show(self, state: SessionState, gradient: PitchGradient | None) -> None:
-        """Follow a converged state; `gradient`: of its power by pitch, None where there is none."""
+        """Follow a converged state; `gradient`: of its power by pitch, None where there is none.
+
+        Sent together with power over µ: `show_power` follows at once.
+        """
         self._pinned, self._faded = state.pinned is not None, False
         self._charts["alpha"] = alpha_chart(
             state.solution, state.reference, state.view.azimuth_deg, self._held("alpha")
@@ -202,7 +205,6 @@ class ChartStrip:
         else:
             self._charts.pop("worth", None)
         self._show_measured(state.solution)
-        self._send()
 
     def rest(self, state: SessionState, superseded: Callable[[], bool]) -> None:
         """The page rests: trim at the measured points of this rotor, where it is on a test stand."""
@@ -273,7 +275,7 @@ class ChartStrip:
     def _send(self) -> None:
         charts: list[dict[str, Any]] = [
             {
-                **self._charts[name].as_dict(),
+                **self._charts[name].as_dict,
                 "name": name,
                 "kind": self._kinds.get(name, ""),
                 "pinned": self._pinned,

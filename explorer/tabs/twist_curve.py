@@ -88,7 +88,7 @@ class TwistCurveEditor:
             lines.insert(1, StripLine(r, mean, "flown"))
             key.append(["flown", "flown"])
             band = {name: [round(float(y), 2) for y in values] for name, values in (("low", low), ("high", high))}
-        chart = StripChart("Twist", "°", (0.1, 1.03), axis, tuple(lines)).as_dict()
+        chart = StripChart("Twist", "°", (0.1, 1.03), axis, tuple(lines)).as_dict
         twist = shown_twist(design)
         movable = stations(state.inputs) if design.twist == state.inputs.design().twist else ()
         handles = [

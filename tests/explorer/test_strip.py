@@ -69,8 +69,8 @@ class TestPowerChange:
         curve = self.curve(-50.0)
         curve.design[-1] = math.nan
         chart = power_change_chart(curve, 0.2, None, "A")
-        assert chart.as_dict()["lines"][0]["y"][-1] is None
-        assert len(chart.as_dict()["dots"]) == 1
+        assert chart.as_dict["lines"][0]["y"][-1] is None
+        assert len(chart.as_dict["dots"]) == 1
         assert chart.value == ""
 
     def test_a_design_that_is_its_own_reference_shows_its_power(self):
@@ -85,14 +85,14 @@ class TestPowerChange:
 
     def test_inputs_without_trim_leave_the_curve_without_its_dot(self):
         chart = total_power_chart(self.curve(0.0), 0.2, None)
-        assert [dot["label"] for dot in chart.as_dict()["dots"]] == ["hover"]
+        assert [dot["label"] for dot in chart.as_dict["dots"]] == ["hover"]
 
     def test_a_power_not_swept_yet_is_its_dot_alone(self):
         curve = self.curve(0.0)
         curve.design[:] = math.nan
         chart = total_power_chart(curve, 0.2, 720e3, AVIATION)
         assert chart.value == ""
-        assert chart.as_dict()["dots"][-1]["y"] == pytest.approx(720e3 / 745.699872, abs=0.1)
+        assert chart.as_dict["dots"][-1]["y"] == pytest.approx(720e3 / 745.699872, abs=0.1)
 
     def test_aviation_units(self):
         chart = power_change_chart(self.curve(-50.0), 0.2, -10e3, "A", AVIATION)
@@ -186,7 +186,7 @@ def test_every_chart_is_plain_json_without_nan(built: Solution, linear: Solution
         where_to_twist_chart(power_gradient(built)),
     )
     for chart in charts:
-        text = json.dumps(chart.as_dict(), allow_nan=False)
+        text = json.dumps(chart.as_dict, allow_nan=False)
         assert len(text) < 4000
 
 
