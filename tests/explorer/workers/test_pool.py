@@ -134,13 +134,15 @@ TRIES = 10
 
 
 def test_a_stop_answers_at_once_and_keeps_what_there_is(pool: Pool):
+    answers: list[tuple[float, Any]] = []
     for _ in range(TRIES):
         took, ended, heard = stopped(pool, Count(10_000, 0.01))
         assert ended.stopped
         assert ended.result in (None, len(heard.items))
+        answers.append((took, ended.result))
         if took < 0.3 and ended.result is not None:
             return
-    pytest.fail(f"the last of {TRIES} answers took {took:.2f} s and brought {ended.result}")
+    pytest.fail(f"seconds and results of all answers: {answers}")
 
 
 def test_positions_in_the_queue_are_honest(pool: Pool):
@@ -222,9 +224,10 @@ def test_time_is_limited(pool: Pool):
         _, heard = submit(pool, Count(10_000, 0.01), limit=0.1)
         ended = heard.until(JobEnded)
         assert ended.late
+        assert ended.result in (None, len(heard.items))
         if ended.result is not None:
-            break
-    assert ended.result == len(heard.items)
+            return
+    pytest.fail(f"none of {TRIES} tasks brought a result")
 
 
 def test_a_task_that_fails_says_so_and_the_process_goes_on(pool: Pool):
