@@ -35,7 +35,7 @@ from explorer.tabs.actuator.state import (
 from explorer.tabs.actuator.study import Findings, VerdictTask, VerdictWorker, answer, lean
 from explorer.tabs.actuator.sweep import SweepWorker, amplitude_plot, phase_plot, sweep_sentence, sweep_task
 from explorer.workers.pool import Pool
-from explorer.workers.scheduler import SCHEDULER
+from explorer.workers.scheduler import SCHEDULER, Turn
 from rotor.actuator.catalogue import PiezoPly, actuators, find_actuator
 from rotor.actuator.harmonic import PowerMap
 from rotor.actuator.verdict import Verdict, verdict_sentence
@@ -313,9 +313,10 @@ def page_gets_its_turn() -> bool:
     """Whether a trim that gave way in the middle, and comes behind all else, gets its turn, at last."""
     time.sleep(0.1)
     end = time.monotonic() + 10.0
-    granted = SCHEDULER.behind(False, lambda: time.monotonic() > end)
-    if granted:
-        SCHEDULER.pass_on()
+    turn = Turn(SCHEDULER)
+    turn.held = False
+    granted = turn.give_way(lambda: time.monotonic() > end)
+    turn.leave()
     return granted
 
 
