@@ -15,7 +15,7 @@ from rotor.aero.disk import Disk, build_disk
 from rotor.aero.elastic import BladeTorsion, TorsionState, air_moments, build_torsion, highest_harmonic
 from rotor.aero.inflow import InflowModel, Wake, inflow_model
 from rotor.aero.inflow.interface import InflowResponse
-from rotor.aero.losses import loss_factor
+from rotor.aero.losses import mean_loss_factor
 from rotor.aero.momentum import glauert_inflow
 from rotor.aero.radial_flow import RadialFriction, radial_friction, skin_friction
 from rotor.aero.trim_state import TrimState
@@ -307,15 +307,11 @@ def _lift_loss(problem: Problem, wake: Wake, flow: Wake) -> tuple[Array, Array]:
     """Loss factor on lift, averaged over azimuth (thesis p. 24), (elements,), and slopes by (α, λ0)."""
     models, rotor = problem.design.models, problem.design.rotor
     response = problem.inflow.respond(problem.loss_disk, wake, _NO_LOAD)
-    factor, slope = loss_factor(
-        problem.loss_disk.r[:, None],
-        flow.mu_z + response.induced,
-        rotor.blades,
-        rotor.blade.root_cutout,
-        tip=models.tip_loss,
-        hub=models.hub_loss,
-    )
     slopes = by_tilt_and_lambda0(response.by_wake, wake.mu_x, wake.mu_z)
     if models.disk_axial_flow:
         slopes[0] += wake.mu_x
-    return factor.mean(axis=1), (slope * slopes).mean(axis=2)
+    factor, *by = mean_loss_factor(
+        problem.loss_disk.r, flow.mu_z + response.induced, slopes, rotor.blades, rotor.blade.root_cutout,
+        models.tip_loss, models.hub_loss,
+    )  # fmt: skip
+    return factor, np.stack(by)

@@ -1,9 +1,13 @@
 """Prandtl's loss factors at the tip and at the root, eqs. (3.16)–(3.18): of blade elements, and of a smeared disk."""
 
+import math
+from typing import Any
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from rotor.arrays import Array
+from rotor.compiled import compiled
 
 HUB_FACTOR = 0.95
 """B of eq. (3.17) as printed: "around 0.95 for the hub relation" (thesis p. 24)."""
@@ -42,6 +46,46 @@ def loss_factor(
         slope = slope * end + factor * end_slope * (-f / signed)
         factor = factor * end
     return factor, slope
+
+
+_LARGEST = 40.0
+"""f from which F is 1 and its slope 0 to rounding."""
+
+_compile = compiled(error_model="numpy")
+
+
+@_compile
+def _end_factor(f: float) -> Any:
+    """`prandtl` at one f."""
+    if f > _LARGEST:
+        return 1.0, 0.0
+    rise = -math.expm1(-f)
+    decay = 1.0 - rise
+    return 2.0 / math.pi * math.acos(decay), 2.0 / math.pi * decay / math.sqrt(rise * (1.0 + decay))
+
+
+@_compile
+def mean_loss_factor(r: Any, inflow: Any, slopes: Any, blades: int, root_cutout: float, tip: bool, hub: bool) -> Any:
+    """Means around the azimuth of `loss_factor` and of its slopes, (1 + slopes, elements).
+
+    inflow: λ, (elements, azimuths); slopes: ∂λ by anything, (slopes, elements, azimuths).
+    """
+    n, m = inflow.shape
+    out = np.zeros((1 + len(slopes), n))
+    for i in range(n):
+        ends = (0.5 * blades * (1.0 - r[i]) if tip else math.inf, 0.5 * HUB_FACTOR * (r[i] - root_cutout))
+        for j in range(m):
+            signed = inflow[i, j] if abs(inflow[i, j]) >= _SMALLEST_INFLOW else _SMALLEST_INFLOW
+            factor, slope = 1.0, 0.0
+            for end in range(2 if hub else 1):
+                f = ends[end] / abs(signed)
+                own, own_slope = _end_factor(f)
+                slope = slope * own + factor * own_slope * (-f / signed if own_slope > 0.0 else 0.0)
+                factor *= own
+            out[0, i] += factor / m
+            for k in range(len(slopes)):
+                out[1 + k, i] += slope * slopes[k, i, j] / m
+    return out
 
 
 def tip_factor(r: ArrayLike, inflow: float, blades: int) -> tuple[Array, Array]:

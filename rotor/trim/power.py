@@ -19,14 +19,13 @@ the power.
 """
 
 import math
-
-import numpy as np
+from typing import Any
 
 from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem
 from rotor.aero.momentum import glauert_inflow
 from rotor.aero.sums import disk_sums
-from rotor.arrays import Array
+from rotor.compiled import compiled
 from rotor.design.aircraft import FIXED_SHARE, TailRotor
 from rotor.design.design import Design
 from rotor.trim.solution import HubMoment, PowerBudget
@@ -36,21 +35,51 @@ def power_budget(problem: Problem, elements: BladeElements) -> PowerBudget:
     """Power [W] by parts, and torque × Ω."""
     design, disk, loads = problem.design, problem.disk, elements.loads
     unit = design.power_unit * disk.dr / len(disk.psi)
-    cubed: Array = np.hypot(elements.u_t, elements.u_p) ** 3 * loads[kernel.CD]
-    dissipation: Array = disk.half_solidity @ cubed
-    turning = elements.swirl[:, None] * loads[kernel.FX]
-    induced = float((elements.induced * loads[kernel.FZ] + turning).sum()) * unit
-    profile = float(dissipation.sum()) * unit
+    induced, profile, shaft = _powers(
+        loads[kernel.FZ], loads[kernel.FX], loads[kernel.CD], elements.u_t, elements.u_p, elements.induced,
+        elements.swirl, disk.r, disk.half_solidity,
+    )  # fmt: skip
     if elements.friction is not None:
-        along = elements.flow.mu_x * disk.cos
-        profile += float((elements.u_t * elements.friction.fx + along * elements.friction.radial).sum()) * unit
+        profile += _rubbing(elements.u_t, elements.flow.mu_x * disk.cos, elements.friction.fx, elements.friction.radial)
+    induced, profile, shaft = unit * induced, unit * profile, unit * shaft
     parasite = problem.drag * design.condition.advance_ratio * design.power_unit
     if design.condition.stand is not None:
         parasite = -wind_forces(problem, elements)[1] * design.condition.advance_ratio * design.power_unit
-    shaft = float((disk.r @ loads[kernel.FX]).sum()) * unit
     main = induced + profile + parasite
     tail, _ = tail_power(design, main)
     return PowerBudget(induced=induced, profile=profile, parasite=parasite, tail=tail, shaft=shaft)
+
+
+_compile = compiled(error_model="numpy", fastmath={"contract"})
+
+
+@_compile
+def _powers(
+    fz: Any, fx: Any, cd: Any, u_t: Any, u_p: Any, induced: Any, swirl: Any, r: Any, half_solidity: Any
+) -> Any:  # fmt: skip
+    """Sums over the disk of λ_i dF_z + u dF_x, of U dD = ½σ U³ C_d, and of r dF_x."""
+    by_inflow, dissipation, torque = 0.0, 0.0, 0.0
+    for i in range(len(r)):
+        turning, dragging, along = 0.0, 0.0, 0.0
+        for j in range(fz.shape[1]):
+            square = u_t[i, j] * u_t[i, j] + u_p[i, j] * u_p[i, j]
+            along += induced[i, j] * fz[i, j]
+            dragging += square * math.sqrt(square) * cd[i, j]
+            turning += fx[i, j]
+        by_inflow += along + swirl[i] * turning
+        dissipation += half_solidity[i] * dragging
+        torque += r[i] * turning
+    return by_inflow, dissipation, torque
+
+
+@_compile
+def _rubbing(u_t: Any, along: Any, fx: Any, radial: Any) -> Any:
+    """Sum over the disk of U_T dF_x + U_R dF_r of the friction of radial flow."""
+    total = 0.0
+    for i in range(len(u_t)):
+        for j in range(len(along)):
+            total += u_t[i, j] * fx[i, j] + along[j] * radial[i, j]
+    return total
 
 
 def wind_forces(problem: Problem, elements: BladeElements) -> tuple[float, float]:

@@ -7,12 +7,14 @@ distribution, so with them induced power does not depend on twist.
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import InflowFeedback, Wake
 from rotor.arrays import Array
+from rotor.compiled import compiled
 
 Gradient = tuple[float, float, float]
 """A gradient k with its slopes by µ_x and by the axial flow µ_z + λ0."""
@@ -49,13 +51,24 @@ class LinearInflow:
 
     def field(self, r: Array, cos: Array, sin: Array, wake: Wake) -> tuple[Array, Array]:
         """λ_i, (n, m), at radii (n,) and azimuths given by cos ψ, sin ψ (m,); slopes by (µ_x, µ_z, λ0), (3, n, m)."""
-        kx, kx_mu, kx_axial = self.longitudinal(wake)
-        ky, ky_mu, ky_axial = self.lateral(wake)
-        r = r[:, None]
-        shape = 1.0 + r * (kx * cos + ky * sin)
-        by_mu = (wake.lambda0 * r) * (kx_mu * cos + ky_mu * sin)
-        by_axial = (wake.lambda0 * r) * (kx_axial * cos + ky_axial * sin)
-        return wake.lambda0 * shape, np.stack([by_mu, by_axial, shape + by_axial])
+        field = _field(r, cos, sin, wake.lambda0, self.longitudinal(wake), self.lateral(wake))
+        return field[0], field[1:]
+
+
+@compiled()
+def _field(r: Any, cos: Any, sin: Any, lambda0: float, kx: Any, ky: Any) -> Any:
+    """λ_i and its slopes, (4, elements, azimuths), from k_x and k_y with their slopes by µ_x and by the axial flow."""
+    n, m = len(r), len(cos)
+    out = np.empty((4, n, m))
+    for i in range(n):
+        for j in range(m):
+            shape = 1.0 + r[i] * (kx[0] * cos[j] + ky[0] * sin[j])
+            by_axial = lambda0 * r[i] * (kx[2] * cos[j] + ky[2] * sin[j])
+            out[0, i, j] = lambda0 * shape
+            out[1, i, j] = lambda0 * r[i] * (kx[1] * cos[j] + ky[1] * sin[j])
+            out[2, i, j] = by_axial
+            out[3, i, j] = shape + by_axial
+    return out
 
 
 @dataclass(frozen=True, eq=False)

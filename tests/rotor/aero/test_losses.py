@@ -5,7 +5,7 @@ import math
 import numpy as np
 from numpy.testing import assert_allclose
 
-from rotor.aero.losses import HUB_FACTOR, loss_factor, prandtl
+from rotor.aero.losses import HUB_FACTOR, loss_factor, mean_loss_factor, prandtl
 
 
 def test_prandtl_by_hand():
@@ -68,3 +68,15 @@ def test_more_blades_lose_less():
     many, _ = loss_factor(0.95, 0.05, 40, 0.13, hub=False)
     assert few < many
     assert_allclose(many, 1.0, atol=1e-8)
+
+
+def test_mean_around_the_azimuth():
+    """The compiled mean is that of the factor and of its slopes, with either end and with both, upflow included."""
+    r = np.linspace(0.14, 0.995, 30)
+    inflow = 0.03 + 0.05 * r[:, None] * np.cos(np.arange(24) * math.pi / 12.0)
+    ways = np.stack([np.ones_like(inflow), inflow**2])
+    for tip, hub in ((True, True), (True, False), (False, True), (False, False)):
+        factor, slope = loss_factor(r[:, None], inflow, 4, 0.13, tip=tip, hub=hub)
+        found = mean_loss_factor(r, inflow, ways, 4, 0.13, tip, hub)
+        assert_allclose(found[0], factor.mean(axis=1), rtol=1e-14)
+        assert_allclose(found[1:], (slope * ways).mean(axis=2), rtol=1e-11, atol=1e-13)
