@@ -15,6 +15,7 @@ same. The mass flow keeps the sign of the flow.
 import math
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,6 +23,7 @@ from scipy.special import eval_jacobi
 
 from rotor.aero.inflow.interface import Wake
 from rotor.arrays import Array
+from rotor.compiled import compiled
 
 Mode = tuple[int, int]
 """Harmonic m and degree n = m + 1, m + 3, …"""
@@ -103,11 +105,28 @@ class Family:
 
         L^0m = X^m Γ;  L^rm = [X^|m−r| ± (−1)^min(r,m) X^(m+r)] Γ for r ≥ 1, + for cosines, − for sines.
         """
-        powers = half_skew ** np.arange(int(self.mirrored.max()) + 1)
-        slopes = np.arange(len(powers)) * np.concatenate(([0.0], powers[:-1]))
-        value = powers[self.direct] + self.mirror_sign * powers[self.mirrored]
-        slope = slopes[self.direct] + self.mirror_sign * slopes[self.mirrored]
-        return self.gain * value, self.gain * slope
+        both = _influence(self.gain, self.direct, self.mirrored, self.mirror_sign, half_skew)
+        return both[0], both[1]
+
+
+@compiled()
+def _influence(gain: Any, direct: Any, mirrored: Any, mirror_sign: Any, half_skew: float) -> Any:
+    """`Family.influence`: [L] and its derivative, (2, modes, modes)."""
+    modes = len(gain)
+    highest = 0
+    for i in range(modes):
+        highest = max(highest, mirrored[i, i])
+    powers, slopes = np.ones(highest + 1), np.zeros(highest + 1)
+    for k in range(1, highest + 1):
+        powers[k] = half_skew * powers[k - 1]
+        slopes[k] = k * powers[k - 1]
+    out = np.empty((2, modes, modes))
+    for i in range(modes):
+        for j in range(modes):
+            near, far, sign = direct[i, j], mirrored[i, j], mirror_sign[i, j]
+            out[0, i, j] = gain[i, j] * (powers[near] + sign * powers[far])
+            out[1, i, j] = gain[i, j] * (slopes[near] + sign * slopes[far])
+    return out
 
 
 @lru_cache(maxsize=16)
