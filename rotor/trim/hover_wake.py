@@ -16,6 +16,7 @@ from rotor.aero.inflow import Wake
 from rotor.aero.torsion_balance import torsion_residual
 from rotor.aero.trim_state import TrimState
 from rotor.arrays import Array
+from rotor.blas_threads import one_blas_thread
 from rotor.trim.hover import hover, steady_coning, steady_moments
 from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
 
@@ -290,6 +291,7 @@ class WakeAdjoint:
         return by_p @ down + (weights.swirl - by_t) @ turning
 
 
+@one_blas_thread()
 def torque_changes(problem: Problem, state: WakeState, elastic: Array | None = None) -> Array:
     """Change of C_P, as a part of it, with each of the `other_roll_ups`, (roll-ups,), to first order."""
     adjoint = WakeAdjoint(problem, state, elastic)
@@ -300,6 +302,7 @@ def torque_changes(problem: Problem, state: WakeState, elastic: Array | None = N
     return np.array([adjoint.change(weights, system) / cp for system in other_roll_ups(problem, state, elastic)])
 
 
+@one_blas_thread()
 def flown_torques(problem: Problem, state: WakeState, elastic: Array | None = None) -> Array:
     """C_Q of a settled wake, then of the same rotor in equilibrium with each of the `other_roll_ups`, (1 + roll-ups,).
 

@@ -2,9 +2,11 @@
 
 A cold start takes the circulation of annulus momentum theory and Landgrebe's wake. Newton's method follows the wake in
 pseudo-time, whose step grows as the residual falls, first with half the azimuths and a wide core of the tip vortex.
-Where that fails it is run again with small steps, and then from an easier rotor: medium thrust, milder twist, or both,
-approached in steps. A warm start goes on with the factors of the last Jacobian as long as the residual falls. All ways
-end at the same equations with the same tolerance.
+Where shorter steps do not help, the circulation follows in pseudo-time too: near stall the branch of attached flow may
+end, where Newton's method stops at the least residual and time goes on to separated flow. Where that fails it is run
+again with small steps, and then from an easier rotor: medium thrust, milder twist, or both, approached in steps. A warm
+start goes on with the factors of the last Jacobian as long as the residual falls. All ways end at the same equations
+with the same tolerance.
 """
 
 import math
@@ -34,6 +36,10 @@ TOLERANCE = 1e-10
 """Largest residual: of lengths over R, of circulation over ΩR², of C_T."""
 _KEPT_RATIO = 0.7
 """Factors are kept while a step leaves less than this part of the residual."""
+_REJECTED = 3
+"""Rejected steps in a row after which the circulation follows in pseudo-time as the nodes do."""
+_MOST_STEPS = 40, 60
+"""Passes of a stage, and those after that."""
 _LONGEST_STEPS = 0.15, 0.02, 0.1
 """Largest change in a step: of a node over R, of Γ/ΩR², of the collective [rad]."""
 _STAGES = ((0.08, 3e-3, 1.0), (0.04, 1e-3, 4.0), (0.02, 1e-3, 8.0))
@@ -212,25 +218,25 @@ def cold(system: HoverSystem, coarse: HoverSystem, circulation: Array, collectiv
     return replace(found, passes=passes + found.passes)
 
 
-def _pseudo_time(
-    system: HoverSystem, state: WakeState, core: float, enough: float, pace: float, most: int = 40
-) -> Settled:
-    """Newton's method on (nodes − step of pseudo-time), which is Newton's own method as the step grows."""
+def _pseudo_time(system: HoverSystem, state: WakeState, core: float, enough: float, pace: float) -> Settled:
+    """Newton's method on (unknowns − step of pseudo-time), which is Newton's own method as the step grows."""
     point = system.evaluate(state, core)
-    passes = 1
-    factors = None
+    passes, most = 1, _MOST_STEPS[0]
+    factors, rejected, damped = None, 0, False
     while point.error > enough and passes < most:
-        factors = _factorise(point, pace)
+        factors = _factorise(point, pace, damped=damped)
         step = _limited(-factors.solve(point.residual), system.layout)
         trial = system.evaluate(WakeState(system.layout, point.state.values + step), core)
         passes += 1
         if not trial.error <= 3.0 * point.error:
-            pace *= 0.25
+            rejected, pace = rejected + 1, 0.25 * pace
+            if rejected == _REJECTED and not damped:
+                damped, pace, most = True, 1.0, passes + _MOST_STEPS[1]
             if pace < 1e-3:
                 break
             continue
         pace = min(pace * min(max(1.5 * point.error / max(trial.error, 1e-30), 0.5), 4.0), 1e6)
-        point = trial
+        point, rejected = trial, 0
     converged = point.error <= enough
     if converged and enough <= TOLERANCE and factors is not None:
         KEPT.keep(point.state, factors)
@@ -319,11 +325,15 @@ def _interpolated(state: WakeState, coarse: HoverSystem, fine: HoverSystem) -> W
     return WakeState(layout, values)
 
 
-def _factorise(point: WakeEvaluation, pace: float) -> Factors:
+def _factorise(point: WakeEvaluation, pace: float, *, damped: bool = False) -> Factors:
+    """With steps of pseudo-time of `pace` radians of wake azimuth for the nodes; `damped`: for the circulation too."""
     layout = point.state.layout
     jacobian = point.jacobian.copy()
     diagonal = np.arange(layout.geometry)
     jacobian[diagonal, diagonal] += layout.step / pace
+    if damped:
+        loads = np.arange(layout.geometry, layout.size - 1)
+        jacobian[loads, loads] += 1.0 / pace
     return Factors.of(jacobian)
 
 
