@@ -123,7 +123,7 @@ class Page:
         with layout.in_mode("actuate"):
             self.actuator = ActuatorPanel(client, bridge, shared.pool, callbacks.wake, self._fly)
             self._actuator_inputs = self.actuator.inputs()
-        self.results = ResultsPanel(gui, bridge, layout)
+        self.results = ResultsPanel(gui, bridge, layout, shared.pool, callbacks.wake)
         with layout.in_drawer("details"):
             self.waterfall = WaterfallPanel(gui, self.controls.show_costs)
         with layout.in_drawer("twist"):
@@ -163,7 +163,7 @@ class Page:
 
     def stop(self) -> None:
         """The browser has left."""
-        for tab in (self.optimise, self.map, self.schedule, self.actuator, *self.tabs):
+        for tab in (self.optimise, self.map, self.schedule, self.actuator, self.results, *self.tabs):
             tab.stop()
         self.bridge.stop()
 
@@ -241,11 +241,12 @@ class Page:
         self.file.follow(state)
 
     def settle(self, state: SessionState) -> None:
-        """The fine picture, the address, and what the page keeps of an own rotor and of the steps.
+        """The fine picture, the band of power, the address, and what the page keeps of an own rotor and of the steps.
 
         It comes before the power curve: an early reload must find it.
         """
         self.scene.settle()
+        self.results.settle(state)
         self.file.follow(state)
         self.file.keep()
         self.history.store()

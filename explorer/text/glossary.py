@@ -196,6 +196,15 @@ CONTROLS: dict[str, Term] = {
 READOUTS: dict[str, Term] = {
     "total_power": Term("Power of the main rotor and of the tail rotor that balances its torque.", section=12),
     "change": Term("Total power relative to the reference design."),
+    "power_band": Term(
+        "Main rotor with five other roll-ups of the free wake, and downward also with a finer grid: how far its power "
+        "is known.",
+        section=7,
+    ),
+    "worth_band": Term(
+        "Change of main-rotor power from the reference, if both blades have another roll-up of the free wake.",
+        section=7,
+    ),
     "induced": Term("Σ λi dFz: power to make lift.", section=12),
     "profile": Term("Σ U dD: power dissipated by the drag of the blade sections.", ("3.15",)),
     "parasite": Term("D·V: power to overcome fuselage drag.", ("3.19",)),

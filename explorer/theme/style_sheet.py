@@ -31,7 +31,7 @@ div:has(> [data-dock-area]) { margin-top: 0 !important; }
 .rx-bar { position: relative; }
 .rx-mark { display: inline-block; width: 2px; height: 10px; background: currentColor; vertical-align: middle; }
 .rx-bar .rx-mark { width: 2.5px; color: var(--mantine-color-text); }
-.rx-kappa { font-size: 12px; padding-top: 1px; }
+.rx-kappa { font-size: 12px; padding-top: 1px; flex-wrap: wrap; }
 .rx-check { height: 19px; font-size: 12px; }
 .rx table { width: 100%; border-collapse: collapse; white-space: nowrap; }
 .rx td { padding: 0; }

@@ -189,7 +189,7 @@ def test_a_free_wake_is_shown_while_it_settles(session: Session, monkeypatch: py
     assert not page.frames[-1].solution.settled
 
 
-def test_what_settles_is_the_picture_the_address_and_what_the_page_keeps():
+def test_what_settles_is_the_picture_the_bands_the_address_and_what_the_page_keeps():
     called: list[str] = []
     part = SimpleNamespace(
         settle=lambda: called.append("picture"),
@@ -197,7 +197,8 @@ def test_what_settles_is_the_picture_the_address_and_what_the_page_keeps():
         keep=lambda: called.append("kept"),
         store=lambda: called.append("steps"),
     )
-    page: Any = SimpleNamespace(scene=part, file=part, history=part)
+    bands = SimpleNamespace(settle=lambda _: called.append("bands"))
+    page: Any = SimpleNamespace(scene=part, file=part, history=part, results=bands)
     state: Any = None
     Page.settle(page, state)
-    assert called == ["picture", "address", "kept", "steps"]
+    assert called == ["picture", "bands", "address", "kept", "steps"]
