@@ -141,6 +141,10 @@ class SessionPage(Protocol):
         """Update the numbers beside the hand for a wake that is not in equilibrium yet."""
         ...
 
+    def show_power_number(self, state: SessionState) -> None:
+        """Update power and what stands beside the hand, of a step whose charts are left out."""
+        ...
+
     def show_azimuth(self, state: SessionState) -> None:
         """Only the azimuth of the reference blade changed."""
         ...

@@ -214,6 +214,11 @@ class Page:
         self.results.show_settling(state, self._pause)
         self._show_hand(state)
 
+    def show_power_number(self, state: SessionState) -> None:
+        """Power, and what stands beside the hand: what a drag needs at each step."""
+        self.results.card.show(state, self._pause)
+        self._show_hand(state)
+
     def show_azimuth(self, state: SessionState) -> None:
         """Only the azimuth of the reference blade changed."""
         self.results.turn(state)

@@ -12,13 +12,16 @@ A slider step takes these steps; `_update` is the path, the page implements `exp
 7. draw: `picture.make_picture` makes arrays of the solution: blades, disk image, outlines.
 8. draw: `scene` assigns them to viser's handles and flushes. The frame is on its way.
 9. follow: the baseline and A are solved and complete the `SessionState`.
-10. follow: `page.show_results` updates status, numbers, charts and the panels of long work.
+10. follow: `page.show_results` updates status, numbers, charts and the panels of long work; in a drag in which other
+   pages wait for their frames, it does so only now and then, and `page.show_power_number` at each step.
 11. follow: `page.follow` updates all other tabs.
 12. follow: once nothing moves, `page.settle` draws finely; the power curve is swept; `page.rest` does what can wait.
 """
 
 import logging
+import math
 import threading
+import time
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -32,6 +35,7 @@ from explorer.page import Page
 from explorer.state import Inputs, baseline_of, with_optimum
 from explorer.workers import solver
 from explorer.workers.newest_wins import IdleTimeout, NewestWins, Superseded
+from explorer.workers.scheduler import SCHEDULER
 from rotor.blas_threads import one_blas_thread
 from rotor.trim.options import DEFAULT_OPTIONS
 from rotor.trim.solution import Solution
@@ -40,6 +44,8 @@ from rotor.trim.solve import solve
 _log = logging.getLogger(__name__)
 _STILL = 0.12
 """[s] without a change after which nothing is dragged: even a slow drag changes something every 100 ms."""
+_CHARTS = 0.25
+"""[s] after which charts follow a drag even where other pages wait for their frames."""
 
 
 class Session:
@@ -64,6 +70,8 @@ class Session:
         """Whether more than the azimuth of the reference blade may have changed since the last update."""
         self._baseline = solver.BaselineCache()
         self._curves = PowerCurves()
+        self._charted = -math.inf
+        """When the charts last followed."""
         self._pool = shared.pool
         self._worker = NewestWins(self._update, self._failed, f"session-{client.client_id}", self._freeing(idle))
         callbacks = SessionCallbacks(self._wake, self._worker.wake, lambda: self._state)
@@ -168,6 +176,10 @@ class Session:
         if not everything and state.only_turned(before):
             page.show_azimuth(state)
             return
+        if self._overtaken() and SCHEDULER.waiting and time.monotonic() - self._charted < _CHARTS:
+            page.show_power_number(state)  # Half of a step's time are charts: in a crowd frames come first.
+            return
+        self._charted = time.monotonic()
         page.show_results(reading, state)
 
         def show_power() -> None:

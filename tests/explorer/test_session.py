@@ -172,6 +172,22 @@ def test_a_drag_waits_neither_for_the_fine_picture_nor_for_a_recent_curve(
     assert page.calls[-1] == "show_power"
 
 
+def test_in_a_crowd_charts_wait_but_not_for_long(session: Session, monkeypatch: pytest.MonkeyPatch):
+    update(session)
+    page: Any = session.page
+    page.read = lambda: (session._wake(), (page.inputs, page.view))[1]
+    monkeypatch.setattr(session_module, "SCHEDULER", SimpleNamespace(waiting=3))
+    monkeypatch.setattr(session_module, "_CHARTS", 600.0)
+    page.inputs = replace(page.inputs, two_inner=page.inputs.two_inner - 0.5)
+    page.calls.clear()
+    session._update(lambda: True)
+    assert page.calls == ["pin_or_swap", "show_frame", "solve_pinned", "show_power_number"]
+    monkeypatch.setattr(session_module, "_CHARTS", 0.0)
+    page.inputs = replace(page.inputs, two_inner=page.inputs.two_inner - 0.5)
+    session._update(lambda: True)
+    assert "show_results" in page.calls
+
+
 def test_a_free_wake_is_shown_while_it_settles(session: Session, monkeypatch: pytest.MonkeyPatch):
     page: Any = session.page
     monkeypatch.setattr(session._curves, "sweep", lambda *_: False)
