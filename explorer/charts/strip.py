@@ -274,5 +274,5 @@ def _margin(r: Array, margin: Array) -> tuple[str, str]:
 
 
 def _plain(values: Sequence[float] | Array, digits: int) -> list[float | None]:
-    rounded = np.round(np.asarray(values, dtype=float), digits)
-    return np.where(np.isfinite(rounded), rounded, None).tolist()
+    rounded: list[float] = np.round(np.asarray(values, dtype=float), digits).tolist()
+    return [value if math.isfinite(value) else None for value in rounded]
