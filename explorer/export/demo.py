@@ -34,14 +34,16 @@ from rotor.design.twist import parse_twist
 from rotor.files.design_file import load_design
 from rotor.files.make_design import make_design
 from rotor.terminal import run_command
+from rotor.trim.low_speed import passes_over
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
+from rotor.trim.validity import LOW_SPEED
 from rotor.units import KNOT
 
 TWISTS = tuple(float(rate) for rate in range(-20, 1))
 """Linear twist [degrees per radius]."""
-SPEEDS = (0.0, *(round(0.05 + 0.025 * k, 3) for k in range(13)))
-"""Advance ratios: hover, then from where the dynamic wake is trusted up to 0.35."""
+SPEEDS = tuple(round(0.025 * k, 3) for k in range(15))
+"""Advance ratios."""
 OPENING = (-12.0, 0.2)
 """Twist and advance ratio that the file opens on."""
 HARMONICS = 4
@@ -60,9 +62,13 @@ def demo_html(
 ) -> str:
     """The file's text: the design with each linear twist [degrees per radius] at each advance ratio.
 
+    Where forward flight does not pass over to hover, low speeds are left out.
+
     Raises ValueError when the design does not trim with the twist and speed in the middle, which the file opens on.
     """
     view = view or ViewState()
+    joined = passes_over(design)
+    speeds = [speed for speed in speeds if joined or not 0.0 < speed < LOW_SPEED]
     field = FIELDS[view.field]
     colour_range = field.low, field.high
     first = OPENING if OPENING[0] in twists and OPENING[1] in speeds else (twists[len(twists) // 2], speeds[-1])
@@ -86,7 +92,8 @@ def demo_html(
     edges = edge_pairs(shape)
     record = {
         "twists": list(twists),
-        "speeds": list(speeds),
+        "speeds": speeds,
+        "joined": joined,
         "knots": [speed * design.rotor.tip_speed / KNOT for speed in speeds],
         "opening": [list(twists).index(first[0]), list(speeds).index(first[1])],
         "points": points,

@@ -3,7 +3,7 @@
 import math
 
 from explorer.stand import TRIM_TITLES, StandInputs, stand_of
-from explorer.state import LAWS, PRESET_TITLES, Inputs
+from explorer.state import INFLOW_MENUS, LAWS, PRESET_TITLES, Inputs
 from explorer.text.units import METRE_PER_SECOND, SI, TONNE, Units, number
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, switched_off
@@ -109,8 +109,8 @@ def model_words(design: Design) -> str:
 def inflow_words(design: Design) -> str:
     """The inflow model in use: that of hover, or that of forward flight."""
     if design.hovering:
-        words = {"annulus": "annulus balance", "closed-form": "closed form, eq. (3.3)", "free-wake": "free wake"}
-        return words[design.models.hover_inflow]
+        title = INFLOW_MENUS["hover_inflow"][design.models.hover_inflow].lower()
+        return f"{title}, eq. (3.3)" if design.models.hover_inflow == "closed-form" else title
     return INFLOW_MODELS[design.models.inflow].title
 
 
