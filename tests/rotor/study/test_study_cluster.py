@@ -73,6 +73,15 @@ def start() -> "Iterator[Callable[..., subprocess.Popen[bytes]]]":
         process.communicate()  # Closes its pipes as well.
 
 
+_BOTH = """
+import sys
+from distributed import Client
+with Client(sys.argv[1], timeout=200) as client:
+    client.wait_for_workers(2, timeout=200)
+    client.run(__import__, "rotor.study.chunks")
+"""
+
+
 @pytest.fixture
 def cluster(start: Callable[..., Any], tmp_path: Path) -> Cluster:
     """`dask scheduler` and two `dask worker` commands, as docs/scale.md says."""
@@ -85,6 +94,8 @@ def cluster(start: Callable[..., Any], tmp_path: Path) -> Cluster:
     for _ in range(2):
         one = ("--nthreads", "1", "--no-nanny", "--no-dashboard", "--local-directory", tmp_path / "scratch")
         cluster.workers.append(start(DASK, "worker", cluster.address, *one, **quiet))
+    # Before there is work: a worker that comes late would find all of it done by the other.
+    subprocess.run([sys.executable, "-c", _BOTH, cluster.address], check=True, timeout=PATIENCE)
     return cluster
 
 

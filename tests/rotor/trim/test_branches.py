@@ -132,12 +132,12 @@ def complaints(seed: int) -> tuple[bool, list[str]]:
 
 @pytest.mark.slow
 def test_random_designs_trim_alike_from_anywhere_or_say_why_not():
-    """As many as fit into a minute; ROTOR_DESIGNS asks for a number, however long it takes, from ROTOR_FIRST_DESIGN."""
-    wanted, first = int(os.environ.get("ROTOR_DESIGNS", "0")), int(os.environ.get("ROTOR_FIRST_DESIGN", "0"))
+    """Some minute's work, the same on every machine; ROTOR_DESIGNS asks for more, from ROTOR_FIRST_DESIGN."""
+    wanted, first = int(os.environ.get("ROTOR_DESIGNS", "600")), int(os.environ.get("ROTOR_FIRST_DESIGN", "0"))
     begun, tried, trimmed = time.monotonic(), 0, 0
     found: list[str] = []
     with ProcessPoolExecutor(2, get_context("spawn")) as pool:
-        while tried < wanted or (not wanted and time.monotonic() - begun < 45.0):
+        while tried < wanted:
             for converged, wrong in pool.map(complaints, range(first + tried, first + tried + 100), chunksize=10):
                 trimmed += converged
                 found += wrong
@@ -145,5 +145,5 @@ def test_random_designs_trim_alike_from_anywhere_or_say_why_not():
             print(
                 f"{tried} designs, {trimmed} trimmed, {len(found)} wrong, {time.monotonic() - begun:.0f} s", flush=True
             )
-    assert tried >= 100
     assert found == []
+    assert trimmed > tried / 2
