@@ -54,11 +54,14 @@ class Problem:
     flap: FlapDynamics
     tip_mach: float
     weight: float
-    """C_W; on a test stand the C_T given, or an estimate where the collective is given."""
+    """C_W with the download and the vertical part of the drag, which the rotor carries; on a test stand the C_T given,
+    or an estimate where the collective is given."""
     scale: float
     """What residuals are measured by: C_W, and on a test stand C_T, at least 0.02 σ."""
     drag: float
-    """Fuselage drag over ρA(ΩR)²."""
+    """Horizontal part of the fuselage drag over ρA(ΩR)²."""
+    climb: float
+    """V_c/(ΩR)"""
     inflow: InflowModel
     friction: float
     """c_f for the flow along the blade; 0 where it is left out."""
@@ -79,7 +82,7 @@ class Problem:
 def build_problem(design: Design) -> Problem:
     """The design on its grid."""
     rotor, condition, models = design.rotor, design.condition, design.models
-    drag = design.drag / design.thrust_unit
+    drag, down = design.drag_parts
     disk = build_disk(
         rotor,
         models.elements,
@@ -88,11 +91,12 @@ def build_problem(design: Design) -> Problem:
         models.has("swept_tip"),
         models.has("surface_drag"),
     )
-    wake = expected_wake(design, drag)
+    wake = expected_wake(design)
     download = design.fuselage.hover_download if models.has("download") and condition.stand is None else 0.0
     weight = design.weight_coefficient
     if download:
-        weight *= 1.0 + download * (wake.axial / wake.speed) ** 2
+        weight *= 1.0 + download * (max(wake.axial, 0.0) / wake.speed) ** 2
+    weight += down
     inflow = inflow_model(models.inflow)
     if not models.tip_loss:
         inflow = inflow.without_tip_loss()
@@ -121,6 +125,7 @@ def build_problem(design: Design) -> Problem:
         weight=weight,
         scale=weight if condition.stand is None else max(weight, 0.02 * rotor.solidity),
         drag=drag,
+        climb=design.climb_ratio,
         inflow=inflow.with_wake_geometry(wake),
         friction=skin_friction(_reynolds(design)) if models.has("radial_friction") else 0.0,
         unloaded=None if models.reverse_flow else disk.r[:, None] + condition.advance_ratio * disk.sin < 0.0,
@@ -149,13 +154,14 @@ def _reynolds(design: Design) -> float:
     return condition.density * 0.75 * rotor.tip_speed * rotor.reference_chord / condition.viscosity
 
 
-def expected_wake(design: Design, drag: float) -> Wake:
-    """The wake of momentum theory when the disk is normal to the resultant of weight and drag (a coefficient).
+def expected_wake(design: Design) -> Wake:
+    """The wake of momentum theory when the disk is normal to the resultant of weight and drag.
 
     On a test stand: at the shaft tilt given. A free rotor's that is not given follows from its drag-to-lift ratio,
     µ tan α = −C_P/C_T with C_P = σ C_d0/8 (1 + 4.65 µ²) + C_T²/2µ.
     """
-    weight, mu = design.weight_coefficient, design.condition.advance_ratio
+    drag, down = design.drag_parts
+    weight, mu = design.weight_coefficient + down, design.condition.advance_ratio
     tilt = math.atan2(drag, weight)
     stand = design.condition.stand
     if stand is not None:
@@ -163,7 +169,7 @@ def expected_wake(design: Design, drag: float) -> Wake:
         if stand.shaft_tilt is None and design.models.trim == "free-rotor":
             profile = design.rotor.solidity * FREE_ROTOR_DRAG / 8.0 * (1.0 + 4.65 * mu**2)
             tilt = -math.atan2(profile + weight**2 / (2.0 * mu), mu * weight)
-    mu_x, mu_z = mu * math.cos(tilt), mu * math.sin(tilt)
+    mu_x, mu_z = _in_disk_axes(mu, design.climb_ratio, tilt)
     return Wake(mu_x, mu_z, glauert_inflow(math.hypot(weight, drag), mu_x, mu_z)[0])
 
 
@@ -199,9 +205,15 @@ class BladeElements:
 
 
 def wake_at(problem: Problem, state: TrimState) -> Wake:
-    """The wake of a trim state: µ cos α, µ sin α, λ0."""
-    mu, tilt = problem.design.condition.advance_ratio, state.shaft_tilt
-    return Wake(mu * math.cos(tilt), mu * math.sin(tilt), state.lambda0)
+    """The wake of a trim state: µ cos α − µ_c sin α, µ sin α + µ_c cos α with µ_c = V_c/ΩR, and λ0."""
+    mu_x, mu_z = _in_disk_axes(problem.design.condition.advance_ratio, problem.climb, state.shaft_tilt)
+    return Wake(mu_x, mu_z, state.lambda0)
+
+
+def _in_disk_axes(mu: float, climb: float, tilt: float) -> tuple[float, float]:
+    """Flight velocity along the disk and through it, µ_x and µ_z."""
+    cos, sin = math.cos(tilt), math.sin(tilt)
+    return mu * cos - climb * sin, mu * sin + climb * cos
 
 
 def evaluate_elements(
@@ -299,7 +311,7 @@ def swirl_of(r: Array, product: ArrayLike) -> tuple[Array, Array]:
 
 
 def by_tilt_and_lambda0(by_wake: Array, mu_x: float, mu_z: float) -> Array:
-    """Derivatives by (µ_x, µ_z, λ0) to derivatives by (α, λ0): µ_x = µ cos α, µ_z = µ sin α."""
+    """Derivatives by (µ_x, µ_z, λ0) to derivatives by (α, λ0): ∂µ_x/∂α = −µ_z, ∂µ_z/∂α = µ_x."""
     return np.stack([mu_x * by_wake[1] - mu_z * by_wake[0], by_wake[2]])
 
 

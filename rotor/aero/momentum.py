@@ -49,23 +49,59 @@ def annulus_power(r: ArrayLike, inflow: ArrayLike, climb: float = 0.0) -> Array:
     return np.asarray(inflow, dtype=float) * annulus_thrust(r, inflow, climb)
 
 
+def axial_inflow(ct: float, climb: float) -> float:
+    """λ_i = −λ_c/2 + √((λ_c/2)² + C_T/2) of the ideal rotor in axial flight, (2.24) with a uniform λ = λ_c + λ_i.
+
+    √(C_T/2) in hover, less in a climb. In descent it is the root that goes on from hover, and holds as long as the wake
+    trails below the disk: see `vortex_ring_edge`.
+    """
+    half = 0.5 * climb
+    return math.sqrt(half * half + 0.5 * ct) - half
+
+
+VORTEX_RING_ONSET = -0.2
+"""V_c/v_h from which measured inflow leaves momentum theory: point D of the same source."""
+FASTEST_RING = 0.95
+"""V/v_h from which there is no vortex ring state."""
+_EDGE, _BELOW = -0.45, -1.5
+"""V_c/v_h at which it begins and ends in vertical descent."""
+
+
+def vortex_ring_edge(forward: float) -> float:
+    """V_c/v_h of the upper edge of the vortex ring state at V/v_h; −∞ from V/v_h = 0.95 on.
+
+    Within it the inflow grows so much with the rate of descent that no steady descent is stable:
+    ½(N + X) + ½(N − X)(1 − (V/0.95 v_h)²)^0.2 with N = −0.45, X = −1.5 (Johnson, Model for Vortex Ring State Influence
+    on Rotorcraft Flight Dynamics, NASA/TP-2005-213477, 2005, with its nominal parameters).
+    """
+    if forward >= FASTEST_RING:
+        return -math.inf
+    share = (1.0 - (forward / FASTEST_RING) ** 2) ** 0.2
+    return 0.5 * (_EDGE + _BELOW) + 0.5 * (_EDGE - _BELOW) * share
+
+
 def glauert_inflow(ct: float, mu_x: float, mu_z: float) -> tuple[float, float]:
     """λ0 = C_T/(2√(µ_x² + (µ_z + λ0)²)) and its slope dλ0/dC_T; eq. (2.30) with the axial flow of a tilted disk.
 
-    For C_T ≥ 0 and µ_z ≥ 0 the root is unique. C_T below zero gives the mirrored root.
+    For C_T ≥ 0 and µ_z ≥ 0 the root is unique, with less the search begins at that of a wake below the disk. C_T below
+    zero gives the mirrored root.
     """
     sign = -1.0 if ct < 0.0 else 1.0
     half = 0.5 * abs(ct)
     axial = sign * mu_z
     # λ V(λ) = C_T/2 rises with λ, so the root lies between the two one-flow limits and Newton from above is safe.
     inflow = math.sqrt(half) + max(-axial, 0.0)
+    low, high = 0.0, inflow
     for _ in range(60):
         speed = math.hypot(mu_x, axial + inflow)
         if speed == 0.0:
             return 0.0, 0.0
         error = inflow * speed - half
         slope = speed + inflow * (axial + inflow) / speed
-        step = error / slope
+        low, high = (low, inflow) if error > 0.0 else (inflow, high)
+        step = error / slope if slope > 0.0 else math.inf
+        if axial < 0.0 and not low <= inflow - step <= high:  # In fast descent λ V(λ) falls on part of the way.
+            step = inflow - 0.5 * (low + high)
         inflow -= step
         if abs(step) <= 1e-15 + 1e-14 * abs(inflow):
             break

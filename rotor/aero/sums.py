@@ -168,7 +168,7 @@ def slopes(
 
 
 def _wake_slopes(problem: Problem, elements: BladeElements, unknowns: tuple[Unknown, ...]) -> Array:
-    """∂(µ_x, µ_z, λ0) by the unknowns, (unknowns, 3): µ_x = µ cos α, µ_z = µ sin α."""
+    """∂(µ_x, µ_z, λ0) by the unknowns, (unknowns, 3): ∂µ_x/∂α = −µ_z, ∂µ_z/∂α = µ_x."""
     wake = wake_at(problem, elements.state)
     out = np.zeros((len(unknowns), 3))
     for row, unknown in zip(out, unknowns, strict=True):

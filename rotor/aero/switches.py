@@ -136,8 +136,10 @@ def no_effect(design: Design, name: str) -> str:
     if name in ("fuselage", "download") and design.condition.stand is not None:
         return "there is no airframe on a test stand"
     match name:
-        case "flapping" | "fuselage" if hovering:
-            return "hover is the same at every azimuth" if name == "flapping" else "no drag in hover"
+        case "flapping" if hovering:
+            return "hover is the same at every azimuth"
+        case "fuselage" if design.flight_speed == 0.0:
+            return "no drag in hover"
         case "tip_loss" if not hovering and inflow.load_dependent and inflow.without_tip_loss() == inflow:
             return "tip loss is part of this wake"
         case "tip_loss" | "hub_loss" if hovering and design.models.hover_inflow == "free-wake":

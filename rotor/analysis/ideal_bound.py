@@ -218,9 +218,9 @@ class Bound:
 def find_bound(design: Design) -> Bound:
     """The bound for a design's rotor, thrust and speed (not for its twist or sections). Takes seconds."""
     rotor = design.rotor
-    drag = design.drag / design.thrust_unit
-    wake = expected_wake(design, drag)
-    ct = math.hypot(design.weight_coefficient, drag)
+    drag, down = design.drag_parts
+    wake = expected_wake(design)
+    ct = math.hypot(design.weight_coefficient + down, drag)
     lattice = bound_lattice(rotor.blades, round(rotor.blade.root_cutout, 2))
     r = lattice.r
     blade = LinearBlade(chord=rotor.reference_chord / rotor.radius)
@@ -264,6 +264,8 @@ def not_bounded(design: Design) -> str:
     models = design.models
     if design.aircraft.key != TABLE_ROTOR:
         return "not computed for this rotor"
+    if design.condition.climb_speed:
+        return "computed for level flight only"
     if not design.hovering:
         if models.inflow not in BOUNDED_INFLOWS:
             return "does not bound this inflow"

@@ -17,11 +17,11 @@ from rotor.trim.solve import solve
 from rotor.units import KNOT
 
 COLUMNS = (
-    "twist", "mu", "speed_kt", "status", "total_kw", "main_rotor_kw", "induced_kw", "profile_kw", "parasite_kw",
-    "tail_kw", "message",
+    "twist", "mu", "speed_kt", "climb_m_s", "status", "total_kw", "main_rotor_kw", "induced_kw", "profile_kw",
+    "parasite_kw", "climb_kw", "tail_kw", "message",
 )  # fmt: skip
 """The unit is the end of the name; without one a column is a text or a ratio."""
-POWERS = ("total", "main_rotor", "induced", "profile", "parasite", "tail")
+POWERS = ("total", "main_rotor", "induced", "profile", "parasite", "climb", "tail")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -103,11 +103,19 @@ def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
         )
     labels = "Advance ratio µ", "Power [kW]"
     if len(tables) == 1:
-        return plot_lines(_speeds(tables[0]), {part: _kilowatts(tables[0], part) for part in POWERS}, labels, ax)
+        return plot_lines(
+            _speeds(tables[0]), {part: _kilowatts(tables[0], part) for part in _drawn(tables[0])}, labels, ax
+        )
     for table in tables:
         name = table[0].design.twist.spec() if len(table) else "empty"
         ax = plot_lines(_speeds(table), {name: _kilowatts(table, "total")}, labels, ax)
     return ax
+
+
+def _drawn(table: SweepTable) -> list[str]:
+    """The powers of a table; that of the climb where there is one."""
+    climbs = any(solution.design.condition.climb_speed for solution in table)
+    return [part for part in POWERS if climbs or part != "climb"]
 
 
 def _speeds(table: SweepTable) -> list[float]:
@@ -125,13 +133,14 @@ def _row(solution: Solution) -> tuple[float | str | None, ...]:
         design.twist.spec(),
         design.condition.advance_ratio,
         design.airspeed / KNOT,
+        design.condition.climb_speed,
         solution.status.value,
         *powers,
         solution.message,
     )
 
 
-PARTS = ("induced", "profile", "parasite", "tail")
+PARTS = ("induced", "profile", "parasite", "climb", "tail")
 """Parts of the total, as in `PowerBudget`."""
 
 

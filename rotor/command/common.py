@@ -21,6 +21,7 @@ from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, parse_switches
 from rotor.airfoil.sections import TABLE_NAMES
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
+from rotor.design.aircraft import FASTEST_CLIMB
 from rotor.design.design import HOVER_INFLOWS, LOW_SPEEDS, TRIMS, Design
 from rotor.design.stand import LOAD_KEYS
 from rotor.files.design_file import load_design
@@ -57,6 +58,10 @@ def add_design_arguments(parser: argparse.ArgumentParser, *, one_twist: bool) ->
         "--mass-kg", type=finite, metavar="KG", help="aircraft mass (default: the rotor's reference mass)"
     )
     parser.add_argument("--altitude-m", type=finite, metavar="M", help="pressure altitude (default 0)")
+    parser.add_argument(
+        "--climb-m-s", type=finite, metavar="V",
+        help=f"rate of climb, {-FASTEST_CLIMB:g}…{FASTEST_CLIMB:g} m/s, negative in descent (default 0); preset flight",
+    )  # fmt: skip
     parser.add_argument(
         "--airfoils", metavar="SPEC",
         help=f"sections root to tip, e.g. sc1094r8,sc1095@0.5, of {', '.join(TABLE_NAMES)}",
@@ -135,6 +140,7 @@ def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: floa
         if args.mass_kg is not None
         else (base.condition.mass if base and not args.rotor else None),
         altitude_m=args.altitude_m if args.altitude_m is not None else (base.condition.altitude if base else 0.0),
+        climb_m_s=args.climb_m_s if args.climb_m_s is not None else (base.condition.climb_speed if base else 0.0),
         models=base.models if base and not args.preset else None,
     )
     if advance_ratio is None:

@@ -44,7 +44,8 @@ def _load(design: Design) -> str:
     """What the rotor carries: weight at an altitude, or the inputs of a test."""
     condition = design.condition
     if condition.stand is None:
-        return f"{condition.mass:.1f} kg, {condition.altitude:.0f} m"
+        climb = f", climb {condition.climb_speed:g} m/s" if condition.climb_speed else ""
+        return f"{condition.mass:.1f} kg, {condition.altitude:.0f} m{climb}"
     return f"{design.models.trim}: {condition.stand}"
 
 
@@ -85,7 +86,8 @@ def report(solution: Solution, worth: dict[str, float] | None = None) -> str:
         }  # fmt: skip
         kw = {
             "total": power.total, "main rotor": power.main_rotor, "induced": power.induced,
-            "profile": power.profile, "parasite": power.parasite, "tail rotor": power.tail,
+            "profile": power.profile, "parasite": power.parasite,
+            **({"climb": power.climb} if design.condition.climb_speed else {}), "tail rotor": power.tail,
         }  # fmt: skip
         if design.condition.stand is not None:
             kw = {

@@ -17,6 +17,7 @@ from rotor.analysis.series import COLUMNS as SWEEP_COLUMNS
 from rotor.analysis.series import PARTS, Waterfall, WaterfallStep, sweep, waterfall
 from rotor.assets import SHIPPED_ROTORS
 from rotor.command.common import add_command, add_design_arguments, add_rotor_argument, design_from, finite, write_table
+from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.files.ranges import parse_range
 from rotor.files.rotor_file import find_aircraft
@@ -42,7 +43,7 @@ def run_sweep(args: argparse.Namespace) -> int:
     rows: list[tuple[str, ...]] = []
     converged = True
     longest = max(len(design.twist.spec()) for design in designs)
-    widths = (max(22, longest + 2), 7, 10, 14, 10, 15, 12, 12, 13, 8)
+    widths = (max(22, longest + 2), 7, 10, 11, 14, 10, 15, 12, 12, 13, 10, 8)
     print("".join(f"{name:<{width}}" for name, width in zip(SWEEP_COLUMNS, widths, strict=False)))
     for design in designs[:: len(advance_ratios)]:
         table = sweep(design, advance_ratios)
@@ -60,7 +61,7 @@ def _text(name: str, cell: float | str | None) -> str:
     """A cell as printed: powers and speeds with fixed digits, nothing where there is no value."""
     if cell is None or isinstance(cell, str):
         return cell or ""
-    return f"{cell:.4g}" if name == "mu" else f"{cell:.1f}" if name == "speed_kt" else f"{cell:.2f}"
+    return f"{cell:.4g}" if name in ("mu", "climb_m_s") else f"{cell:.1f}" if name == "speed_kt" else f"{cell:.2f}"
 
 
 def add_waterfall(commands: Any) -> None:
@@ -107,7 +108,7 @@ def _step_record(step: WaterfallStep) -> dict[str, Any]:
 def waterfall_report(found: Waterfall) -> str:
     """The same as two tables."""
     design = found.full.design
-    heading = f"{'kW':<18}{'total':>9}{'change':>9}" + "".join(f"{part:>10}" for part in PARTS)
+    heading = f"{'kW':<18}{'total':>9}{'change':>9}" + "".join(f"{part:>10}" for part in _parts(design))
     return "\n".join(
         [
             f"{design.rotor.name}, preset {design.preset}, twist {design.twist.spec()}, "
@@ -125,15 +126,20 @@ def waterfall_report(found: Waterfall) -> str:
 
 
 def _step_line(step: WaterfallStep) -> str:
-    note = f"   {step.note}" if step.note else ""
+    parts, note = _parts(step.solution.design), f"   {step.note}" if step.note else ""
     if step.power is None:
         return f"{step.title:<18}{step.solution.message}"
     start = f"{step.title:<18}{step.power / 1e3:9.1f}"
     if step.change is None or step.added is None:
         power = step.solution.power
-        return f"{start}{'':9}" + "".join(f"{getattr(power, part) / 1e3:10.1f}" for part in PARTS)
-    changes = "".join(f"{_kilowatts(step.change[part]):+10.1f}" for part in PARTS)
+        return f"{start}{'':9}" + "".join(f"{getattr(power, part) / 1e3:10.1f}" for part in parts)
+    changes = "".join(f"{_kilowatts(step.change[part]):+10.1f}" for part in parts)
     return f"{start}{_kilowatts(step.added):+9.1f}{changes}{note}"
+
+
+def _parts(design: Design) -> list[str]:
+    """Parts of the total power; that of the climb where there is one."""
+    return [part for part in PARTS if part != "climb" or design.condition.climb_speed]
 
 
 def _kilowatts(power: float) -> float:

@@ -27,14 +27,16 @@ RATIO_OF_SPECIFIC_HEATS = 1.4
 
 LEAST_MASS = 100.0
 """[kg] of an aircraft."""
+FASTEST_CLIMB = 20.0
+"""[m/s], 3900 ft/min, up and down."""
 
 
 @dataclass(frozen=True)
 class FlightCondition:
-    """Steady level flight, or a test of the rotor alone; hover when the advance ratio is zero."""
+    """Steady flight, level unless it climbs, or a test of the rotor alone; hover when the advance ratio is zero."""
 
     advance_ratio: float
-    """µ = V/(ΩR)."""
+    """µ = V/(ΩR) with the horizontal speed V."""
     mass: float
     """[kg]"""
     altitude: float = 0.0
@@ -45,12 +47,20 @@ class FlightCondition:
     """Given lateral flapping β1s [rad]."""
     stand: Stand | None = None
     """The inputs of a test of the rotor alone, which has neither weight nor drag to balance; None in flight."""
+    climb_speed: float = 0.0
+    """V_c, rate of climb [m/s], negative in descent. Air density is that of the altitude: the climb of an instant."""
 
     def __post_init__(self) -> None:
         _check("advance ratio", self.advance_ratio, 0.0, 0.6 if self.stand is None else 0.75, "")
         if self.stand is None:
             _check("mass", self.mass, LEAST_MASS, 50_000.0, " kg")
         _check("altitude", self.altitude, -500.0, 8_000.0, " m")
+        _check("rate of climb", self.climb_speed, -FASTEST_CLIMB, FASTEST_CLIMB, " m/s")
+        if self.stand is not None and self.climb_speed:
+            raise ValueError(
+                f"rate of climb {self.climb_speed:g} m/s on a test stand: leave it out, and tilt the shaft for flow "
+                "through the disk"
+            )
         _check("flap_1c", self.flap_1c, -0.3, 0.3, " rad")
         _check("flap_1s", self.flap_1s, -0.3, 0.3, " rad")
 

@@ -135,6 +135,11 @@ class Design:
 
     def __post_init__(self) -> None:
         trim, stand = self.models.trim, self.condition.stand
+        if self.condition.climb_speed and not self.models.disk_axial_flow:
+            raise ValueError(
+                f"rate of climb {self.condition.climb_speed:g} m/s: the document's equations (3.3), (3.6) are those of "
+                "level flight; use the preset flight, or leave the rate of climb out"
+            )
         if (trim in STAND_TRIMS) != (stand is not None):
             raise ValueError(
                 f"trim {trim!r} {'needs' if stand is None else 'does not use'} the inputs of a test stand: "
@@ -156,6 +161,8 @@ class Design:
         speed = "hover" if self.hovering else f"mu={condition.advance_ratio:.4g}"
         inflow = self.models.hover_inflow if self.hovering else self.models.inflow
         load = f"{condition.mass:.0f} kg, {condition.altitude:.0f} m"
+        if condition.climb_speed:
+            load += f", climb {condition.climb_speed:g} m/s"
         if condition.stand is not None:
             load = f"{self.models.trim}: {condition.stand}"
         return (
@@ -171,10 +178,12 @@ class Design:
         hover: bool = False,
         mass_kg: float | None = None,
         altitude_m: float | None = None,
+        climb_m_s: float | None = None,
     ) -> "Design":
         """The same design at another flight condition; what is left out stays as it is.
 
-        `mu` (advance ratio), `speed_kt` (airspeed in knots) and `hover` exclude one another.
+        `mu` (advance ratio), `speed_kt` (airspeed in knots), both of the horizontal speed, and `hover` exclude one
+        another. `climb_m_s`: rate of climb, negative in descent.
         Raises TypeError or ValueError with one sentence that names the value and the remedy.
         """
         old = self.condition
@@ -184,6 +193,7 @@ class Design:
             advance_ratio=old.advance_ratio if mu is None else mu,
             mass=old.mass if mass_kg is None else number("mass_kg", mass_kg, "8000"),
             altitude=old.altitude if altitude_m is None else number("altitude_m", altitude_m, "1500"),
+            climb_speed=old.climb_speed if climb_m_s is None else number("climb_m_s", climb_m_s, "5"),
         )
         return replace(self, condition=condition)
 
@@ -214,6 +224,7 @@ class Design:
             "advance_ratio": self.condition.advance_ratio,
             "mass_kg": self.condition.mass,
             "altitude_m": self.condition.altitude,
+            **({"climb_m_s": self.condition.climb_speed} if self.condition.climb_speed else {}),
             "inflow": self.models.inflow,
             **({} if self.models.hover_inflow == preset.hover_inflow else {"hover_inflow": self.models.hover_inflow}),
             **({} if self.models.low_speed == preset.low_speed else {"low_speed": self.models.low_speed}),
@@ -232,15 +243,35 @@ class Design:
 
     @property
     def airspeed(self) -> float:
-        """V = µΩR [m/s]"""
+        """V = µΩR, horizontal [m/s]"""
         return self.condition.advance_ratio * self.rotor.tip_speed
 
     @property
+    def flight_speed(self) -> float:
+        """Along the flight path [m/s]."""
+        return math.hypot(self.airspeed, self.condition.climb_speed)
+
+    @property
+    def climb_ratio(self) -> float:
+        """V_c/(ΩR)"""
+        return self.condition.climb_speed / self.rotor.tip_speed
+
+    @property
     def drag(self) -> float:
-        """Drag of the airframe [N], eq. (3.19); 0 where the models leave it out, and on a test stand."""
+        """Drag of the airframe [N] against the flight path, eq. (3.19); 0 where the models leave it out, and on a test
+        stand."""
         if not self.models.fuselage or self.condition.stand is not None:
             return 0.0
-        return self.fuselage.drag(self.condition.density, self.airspeed)
+        return self.fuselage.drag(self.condition.density, self.flight_speed)
+
+    @property
+    def drag_parts(self) -> tuple[float, float]:
+        """Drag coefficients of the airframe over ρA(ΩR)², aft and down."""
+        speed = self.flight_speed
+        if speed == 0.0:
+            return 0.0, 0.0
+        drag = self.drag / self.thrust_unit
+        return drag * (self.airspeed / speed), drag * (self.condition.climb_speed / speed)
 
     @property
     def elastic(self) -> bool:

@@ -32,6 +32,7 @@ _KEYS = (
     "advance_ratio",
     "mass_kg",
     "altitude_m",
+    "climb_m_s",
     "inflow",
     "hover_inflow",
     "low_speed",
@@ -92,6 +93,7 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False) -> Design
         mu=_number(record, "advance_ratio", 0.2),
         mass_kg=_number(record, "mass_kg", None),
         altitude_m=_number(record, "altitude_m", 0.0),
+        climb_m_s=_number(record, "climb_m_s", 0.0),
         trim=_text(record, "trim", "") or None,
         stand=cast(dict[str, Any] | None, stand),
     )

@@ -52,6 +52,7 @@ def make_design(
     hover: bool = False,
     mass_kg: float | None = None,
     altitude_m: float = 0.0,
+    climb_m_s: float = 0.0,
     preset: str = "flight",
     inflow: str | None = None,
     models: Models | None = None,
@@ -65,6 +66,7 @@ def make_design(
         twist that the preset compares with.
     mu, speed_kt, hover: advance ratio V/(ΩR), airspeed in knots, or `hover=True`; one of them at most.
     mass_kg: aircraft mass; by default the rotor's reference mass. altitude_m: pressure altitude.
+    climb_m_s: rate of climb, negative in descent; mu and speed_kt are of the horizontal speed.
     preset: `flight`, the best models available, or `thesis`, those of the source document. On a rotor other than the
         UH-60A `thesis` means the document's models with that rotor's own sections, planform, hinge and twist.
     inflow: forward-flight inflow model by name, in place of the preset's. models: all model choices at once.
@@ -98,6 +100,7 @@ def make_design(
         rotor.mass if mass_kg is None else number("mass_kg", mass_kg, "8000"),
         number("altitude_m", altitude_m, "1500"),
         stand=stand,
+        climb_speed=number("climb_m_s", climb_m_s, "5"),
     )
     design = Design(
         preset=preset,

@@ -84,6 +84,11 @@ def run_search(
     run = _Run(search, evaluate)
     try:
         run.baseline = evaluate.baseline()
+        if objective.quantity == "total" and run.baseline is not None and run.baseline <= 0.0:
+            return run.refused(
+                "The air drives the rotor at this rate of descent, so total power is below zero and a saving says "
+                "nothing: descend more slowly, or use the objective induced."
+            )
         evaluate.phase = "search"
         for k, x in enumerate(_starts(search, evaluate)):
             evaluate.start = k
@@ -154,6 +159,14 @@ class _Run:
     def _fallback(self) -> Array:
         known = self.evaluate.best
         return known.x if known is not None else np.full(len(self.evaluate.span), 0.5)
+
+    def refused(self, message: str) -> Optimum:
+        """A search that is not made."""
+        search, evaluate = self.search, self.evaluate
+        return Optimum(
+            SearchStatus.NOT_CONVERGED, message, search.concept.name, search.design, None, (), (), self.baseline,
+            evaluate.count, evaluate.starts, search.seed, evaluate.elapsed,
+        )  # fmt: skip
 
     def result(self, *, stopped: bool) -> Optimum:
         """What has been found so far."""

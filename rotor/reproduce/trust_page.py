@@ -176,7 +176,7 @@ _NOT_MODELLED = (
     "what a real surface adds to section drag, unless the rotor file states it (surface_drag)",
     "any inflow model below µ 0.05 (0.075 with linear inflow): wakes that respond to the load pass over to the hover "
     "model by interpolation",
-    "climb and descent: flight is level",
+    "climb and descent, which are verified against theory but compared with no measurement; the vortex ring state",
 )
 
 

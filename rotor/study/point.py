@@ -147,6 +147,7 @@ def design_of(values: Values, aircraft: Mapping[str, Aircraft]) -> Design:
         mu=float(values.get("mu", _CRUISE)),
         mass_kg=float(values["mass_kg"]) if "mass_kg" in values else None,
         altitude_m=float(values.get("altitude_m", 0.0)),
+        climb_m_s=float(values.get("climb_m_s", 0.0)),
         models=replace(models, **changed) if changed else models,
         trim=str(values["trim"]) if "trim" in values else None,
         stand=stand or None,
@@ -269,6 +270,7 @@ def _condition(design: Design) -> Row:
         "speed_m_s": design.airspeed,
         "mass_kg": condition.mass,
         "altitude_m": condition.altitude,
+        "climb_m_s": condition.climb_speed,
         "preset": design.preset,
         "inflow": design.models.inflow,
     }
@@ -305,6 +307,7 @@ def _answer(solution: Solution) -> Row:
         "power_induced_w": power.induced,
         "power_profile_w": power.profile,
         "power_parasite_w": power.parasite,
+        "power_climb_w": power.climb,
         "power_tail_w": power.tail,
         "ct": solution.ct,
         "cp": solution.cp,

@@ -46,6 +46,7 @@ def _all() -> dict[str, Quantity]:
         Quantity("speed_kt", "number", "kt", "fixed"),
         Quantity("mass_kg", "number", "kg", "fixed"),
         Quantity("altitude_m", "number", "m", "fixed"),
+        Quantity("climb_m_s", "number", "m/s", "fixed"),
         Quantity("twist", "text", "", "fixed"),
         Quantity("airfoils", "text", "", "fixed"),
         Quantity("concept", "text", "", "fixed"),

@@ -263,7 +263,7 @@ class Column:
 
 _POWERS = tuple(
     Column(f"power_{part}_w", "number", "W")
-    for part in ("total", "main_rotor", "induced", "profile", "parasite", "tail")
+    for part in ("total", "main_rotor", "induced", "profile", "parasite", "climb", "tail")
 )
 _ANGLES = tuple(
     Column(f"{name}_deg", "number", "°")
@@ -280,6 +280,7 @@ _CONDITION = (
     Column("speed_m_s", "number", "m/s"),
     Column("mass_kg", "number", "kg"),
     Column("altitude_m", "number", "m"),
+    Column("climb_m_s", "number", "m/s"),
     Column("preset", "text"),
     Column("inflow", "text"),
     Column("twist", "text"),

@@ -67,7 +67,7 @@ def first_guess(problem: Problem) -> Guess:
     design = problem.design
     mu = design.condition.advance_ratio
     ct = math.hypot(problem.weight, problem.drag)
-    wake = expected_wake(design, problem.drag)
+    wake = expected_wake(design)
     # C_T = ½σa(θ(1 + 3/2 µ²)/3 − λ/2) for an untwisted blade, a near 2π·0.95.
     collective = 3.0 * (2.0 * ct / (design.rotor.solidity * 5.9) + 0.5 * wake.axial) / (1.0 + 1.5 * mu**2)
     coning = problem.flap.load_gain * 0.7 * ct - problem.flap.weight
@@ -102,7 +102,7 @@ def _easier(design: Design, t: float) -> Design:
 
 
 def easier_condition(design: Design, t: float) -> FlightCondition:
-    """The condition on the way from a light rotor at moderate speed (t = 0) to the wanted one (t = 1)."""
+    """The condition between a light rotor in level flight at moderate speed (t = 0) and the wanted one (t = 1)."""
     condition = design.condition
     speed = condition.advance_ratio
     easy_speed = min(max(speed, 0.08), 0.2)
@@ -118,6 +118,7 @@ def easier_condition(design: Design, t: float) -> FlightCondition:
         condition,
         advance_ratio=easy_speed + t * (speed - easy_speed),
         mass=easy_mass + t * (condition.mass - easy_mass),
+        climb_speed=t * condition.climb_speed,
     )
 
 

@@ -1,10 +1,11 @@
-"""Hover: blade element momentum theory, annulus by annulus (thesis §2.4), for a given thrust.
+"""Hover and axial flight: blade element momentum theory, annulus by annulus (thesis §2.4), for a given thrust.
 
 Each annulus balances the momentum it gives the air with the lift of its blade elements,
 
-    4 F λ|λ| r = dC_T/dr(θ − λ/r),
+    4 F λ_i|λ| r = dC_T/dr(θ − λ/r),    λ = λ_c + λ_i,
 
-from (2.24) with λ_c = 0 and Prandtl's F. With a lift curve C_lα α the balance closes as eq. (3.3).
+which is (2.24) with Prandtl's F; λ_c = 0 in hover. With a lift curve C_lα α the balance closes as eq. (2.28), in hover
+(3.3).
 """
 
 import math
@@ -19,6 +20,7 @@ from rotor.aero.elastic import TorsionState, air_moments
 from rotor.aero.elements import BladeElements, Problem, swirl_of
 from rotor.aero.inflow import Wake
 from rotor.aero.losses import loss_factor
+from rotor.aero.momentum import axial_inflow
 from rotor.aero.trim_state import TrimState
 from rotor.airfoil.sections import Section
 from rotor.arrays import Array
@@ -113,7 +115,10 @@ def hover(
     low, high = -0.3, _LARGEST_COLLECTIVE
     solidity = problem.design.rotor.solidity
     theta0 = (
-        start if start is not None else 6.0 * problem.weight / (solidity * 5.9) + 1.5 * math.sqrt(problem.weight / 2)
+        start
+        if start is not None
+        else 6.0 * problem.weight / (solidity * 5.9)
+        + 1.5 * (axial_inflow(problem.weight, problem.climb) + problem.climb)
     )
     best, twist_of_best = (math.inf, theta0), annuli.elastic
     for _ in range(60):
@@ -161,13 +166,13 @@ def steady_coning(problem: Problem, loads: Array) -> float:
 def steady_moments(problem: Problem, loads: Array, u_t: Array, inflow: Array) -> Array:
     """Moments of the air on an elastic hovering blade with derivatives, (rows, elements).
 
-    loads (rows, elements); u_t, inflow (elements,) over ΩR.
+    loads (rows, elements); u_t, inflow λ_i (elements,) over ΩR.
     """
     assert problem.torsion is not None
     still = np.zeros_like(u_t)[:, None]
     return air_moments(
-        problem.torsion, problem.disk, problem.tip_mach, u_t[:, None], inflow[:, None], np.zeros(1), still,
-        np.ascontiguousarray(loads[:, :, None]),
+        problem.torsion, problem.disk, problem.tip_mach, u_t[:, None], inflow[:, None] + problem.climb, np.zeros(1),
+        still, np.ascontiguousarray(loads[:, :, None]),
     )[:, :, 0]  # fmt: skip
 
 
@@ -205,7 +210,8 @@ class Annuli:
         self.problem = problem
         self.passes = 0
         disk = problem.disk
-        self.inflow = np.full_like(disk.r, math.sqrt(problem.scale / 2.0))
+        self.inflow = np.full_like(disk.r, axial_inflow(problem.scale, problem.climb))
+        """λ_i"""
         self.ones = np.ones_like(disk.r)
         self.lift_slope, self.zero_lift = lift_curve(problem)
         self.elastic: Array = np.zeros(len(problem.given_torsion))
@@ -230,8 +236,9 @@ class Annuli:
         self.passes += 1
         u_t = disk.r - self.swirl(inflow)[0]
         return kernel.element_loads(
-            self.pitch(theta0)[:, None], u_t[:, None], inflow[:, None], np.zeros(1), self.ones, problem.tip_mach,
-            disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables, disk.cos_sweep, disk.sin_sweep,
+            self.pitch(theta0)[:, None], u_t[:, None], inflow[:, None] + problem.climb, np.zeros(1), self.ones,
+            problem.tip_mach, disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables, disk.cos_sweep,
+            disk.sin_sweep,
         )[:, :, 0]  # fmt: skip
 
     def moments(self, loads: Array, inflow: Array) -> Array:
@@ -239,38 +246,42 @@ class Annuli:
         return steady_moments(self.problem, loads, self.problem.disk.r - self.swirl(inflow)[0], inflow)
 
     def swirl(self, inflow: Array) -> tuple[Array, Array]:
-        """Swirl of each annulus over ΩR and its slope by λ, (elements,)."""
+        """Swirl of each annulus over ΩR and its slope by λ_i, (elements,)."""
         if not self.problem.design.models.has("swirl"):
             return np.zeros_like(inflow), np.zeros_like(inflow)
-        swirl, slope = swirl_of(self.problem.disk.r, inflow * inflow)
-        return swirl, 2.0 * inflow * slope
+        total = inflow + self.problem.climb
+        swirl, slope = swirl_of(self.problem.disk.r, inflow * total)
+        return swirl, (inflow + total) * slope
 
     def by_inflow(self, loads: Array, inflow: Array, fz_or_fx: int) -> Array:
-        """∂F_z or ∂F_x by λ at the same pitch: through U_P, and through the swirl in U_T."""
+        """∂F_z or ∂F_x by λ_i at the same pitch: through U_P, and through the swirl in U_T."""
         by_t, by_p = (kernel.FZ_UT, kernel.FZ_UP) if fz_or_fx == kernel.FZ else (kernel.FX_UT, kernel.FX_UP)
         return loads[by_p] - loads[by_t] * self.swirl(inflow)[1]
 
     def momentum(self, inflow: Array) -> tuple[Array, Array]:
-        """4Fλ|λ|r and its slope by λ."""
+        """4Fλ_i|λ|r and its slope by λ_i."""
         models, rotor, r = self.problem.design.models, self.problem.design.rotor, self.problem.disk.r
+        total = inflow + self.problem.climb
         factor, slope = loss_factor(
-            r, inflow, rotor.blades, rotor.blade.root_cutout, tip=models.tip_loss, hub=models.hub_loss
+            r, total, rotor.blades, rotor.blade.root_cutout, tip=models.tip_loss, hub=models.hub_loss
         )
-        size = np.abs(inflow)
-        return 4.0 * factor * inflow * size * r, 4.0 * r * size * (2.0 * factor + slope * inflow)
+        size, signed = np.abs(total), np.copysign(inflow, inflow * total)
+        climbing = 4.0 * r * factor * (signed - size)  # 0 in hover.
+        return 4.0 * factor * inflow * size * r, 4.0 * r * size * (2.0 * factor + slope * inflow) + climbing
 
     def lift(self, theta0: float, inflow: Array) -> tuple[Array, Array, Array]:
-        """Lift of the momentum balance, and its slopes by pitch and by λ."""
+        """Lift of the momentum balance, and its slopes by pitch and by λ_i."""
         if self.problem.design.models.hover_inflow == "annulus":
             loads = self.loads(theta0, inflow)
             return loads[kernel.FZ], loads[kernel.FZ_THETA], self.by_inflow(loads, inflow, kernel.FZ)
         disk = self.problem.disk
         gain = disk.half_solidity * self.lift_slope
         pitch = self.pitch(theta0) - self.zero_lift
-        return gain * (pitch * disk.r**2 - inflow * disk.r), gain * disk.r**2, -gain * disk.r
+        total = inflow + self.problem.climb
+        return gain * (pitch * disk.r**2 - total * disk.r), gain * disk.r**2, -gain * disk.r
 
     def solve(self, theta0: float) -> tuple[Array, Array]:
-        """λ(r) that balances every annulus, and ∂λ/∂θ; safeguarded Newton on all annuli at once."""
+        """λ_i(r) that balances every annulus, and ∂λ_i/∂θ; safeguarded Newton on all annuli at once."""
         inflow = self.inflow
         low, high = np.full_like(inflow, -_LARGEST_INFLOW), np.full_like(inflow, _LARGEST_INFLOW)
         by_pitch = slope = np.ones_like(inflow)
@@ -363,7 +374,7 @@ class Annuli:
         section_loads = self.loads(theta0, self.inflow)
         loads = np.repeat(section_loads[:, :, None], shape[1], axis=2)
         coning = self.coning(section_loads)
-        state = TrimState(collective=theta0, coning=coning, lambda0=math.sqrt(max(thrust, 0.0) / 2.0))
+        state = TrimState(collective=theta0, coning=coning, lambda0=axial_inflow(max(thrust, 0.0), problem.climb))
         torsion = None
         if problem.torsion is not None:
             coordinates = np.zeros_like(problem.given_torsion)
@@ -371,6 +382,6 @@ class Annuli:
             moments = np.repeat(self.moments(section_loads, self.inflow)[:, :, None], shape[1], axis=2)
             torsion = TorsionState(coordinates, problem.torsion.shapes.field(coordinates), np.zeros(shape), moments)
         return BladeElements(
-            state, Wake(0.0, 0.0, state.lambda0), theta, u_t, induced, induced, None,
+            state, Wake(0.0, problem.climb, state.lambda0), theta, u_t, induced + problem.climb, induced, None,
             self.ones, np.zeros((2, shape[0])), np.full(shape[1], coning), loads, swirl, None, torsion,
         )  # fmt: skip

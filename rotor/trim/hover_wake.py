@@ -13,6 +13,7 @@ from rotor.aero.free_wake.roll_up import POWER, RollUp
 from rotor.aero.free_wake.settle import Factors, Settled, preview, settle, torque, warm
 from rotor.aero.free_wake.system import SHEET_CORE, HoverSystem, WakeEvaluation, WakeState, first_passage_radius
 from rotor.aero.inflow import Wake
+from rotor.aero.momentum import axial_inflow
 from rotor.aero.torsion_balance import torsion_residual
 from rotor.aero.trim_state import TrimState
 from rotor.arrays import Array
@@ -153,7 +154,7 @@ def over_disk(problem: Problem, at: WakeEvaluation, elastic: Array | None = None
     loads = np.repeat(at.loads[:, :, None], shape[1], axis=2)
     thrust = float(at.loads[kernel.FZ].sum() * disk.dr)
     coning = steady_coning(problem, at.loads)
-    state = TrimState(collective=collective, coning=coning, lambda0=math.sqrt(max(thrust, 0.0) / 2.0))
+    state = TrimState(collective=collective, coning=coning, lambda0=axial_inflow(max(thrust, 0.0), problem.climb))
     torsion = None
     if problem.torsion is not None and elastic is not None:
         coordinates = np.zeros_like(problem.given_torsion)
@@ -161,9 +162,9 @@ def over_disk(problem: Problem, at: WakeEvaluation, elastic: Array | None = None
         moments = np.repeat(_moments(problem, at)[:, :, None], shape[1], axis=2)
         torsion = TorsionState(coordinates, problem.torsion.shapes.field(coordinates), np.zeros(shape), moments)
     return BladeElements(
-        state, Wake(0.0, 0.0, state.lambda0), everywhere(as_flown(problem, elastic).twist + collective),
-        everywhere(disk.r - at.swirl), induced, induced, None, np.ones_like(disk.r), np.zeros((2, shape[0])),
-        np.full(shape[1], coning), loads, at.swirl, None, torsion,
+        state, Wake(0.0, problem.climb, state.lambda0), everywhere(as_flown(problem, elastic).twist + collective),
+        everywhere(disk.r - at.swirl), induced + problem.climb, induced, None, np.ones_like(disk.r),
+        np.zeros((2, shape[0])), np.full(shape[1], coning), loads, at.swirl, None, torsion,
     )  # fmt: skip
 
 

@@ -9,7 +9,8 @@ of the hovering rotor, is added to the inflow in forward flight times s(µ), whi
 λ̄ is Glauert's inflow over that of hover. With it cos²χ of the wake's skew χ is λ̄⁴, the share of the axial transport in
 the squared velocity through the disk; c is taken to fall with it and with the inflow itself, as λ̄⁵, which s follows
 within 0.05. λ̄_e belongs to µ̄ = 2.5, where the wake trails at 81° to the shaft: beyond it s is 0 and hover is not
-computed. So hover and forward flight have one limit, and neither power nor its slope has a kink.
+computed. So hover and forward flight have one limit, and neither power nor its slope has a kink. In a climb hover is
+that at the same rate of climb.
 """
 
 import math
@@ -24,6 +25,7 @@ from rotor.aero.elements import BladeElements, Problem, build_problem, swirl_of
 from rotor.aero.free_wake.system import WakeState
 from rotor.aero.inflow import InflowModel, Wake, inflow_model
 from rotor.aero.inflow.interface import InflowFeedback, InflowResponse
+from rotor.aero.momentum import vortex_ring_edge
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.trim.hover import hover
@@ -49,7 +51,7 @@ class HoverDifference:
     @property
     def flow(self) -> Wake:
         """The wake of momentum theory in hover."""
-        return Wake(0.0, 0.0, self.elements.state.lambda0)
+        return Wake(0.0, self.problem.climb, self.elements.state.lambda0)
 
     def by_hover(self, inflow: Array, swirl: Array) -> tuple[Array, Array, Array]:
         """Slopes of a sum of both differences with these weights by F_z, λ_i and swirl of hover; fields each."""
@@ -67,9 +69,9 @@ def hover_difference(design: Design) -> HoverDifference | None:
     if not found.converged:
         return None
     elements, disk = found.elements, problem.disk
-    flow = Wake(0.0, 0.0, elements.state.lambda0)
+    flow = Wake(0.0, problem.climb, elements.state.lambda0)
     axial = problem.inflow.respond(disk, flow, elements.loads[kernel.FZ]).induced.mean(axis=1)
-    uniform, _ = swirl_of(disk.r, flow.lambda0**2 if design.models.has("swirl") else 0.0)
+    uniform, _ = swirl_of(disk.r, flow.lambda0**2 + flow.lambda0 * flow.mu_z if design.models.has("swirl") else 0.0)
     wake = found.wake.state if isinstance(found, HoverWakeResult) and found.wake is not None else None
     return HoverDifference(problem, elements, wake, elements.induced[:, 0] - axial, elements.swirl - uniform)
 
@@ -93,11 +95,20 @@ def trim_problem(design: Design) -> Problem:
     share = hover_share(design)
     if not share:
         return problem
-    difference = hover_difference(replace(design.at(hover=True), active_twist=None))
+    difference = hover_difference(replace(in_hover(design), active_twist=None))
     if difference is None:
         return problem
     inflow = HoverMatched(problem.inflow, share * difference.inflow, difference, share)
     return replace(problem, inflow=inflow, added_swirl=share * difference.swirl)
+
+
+def in_hover(design: Design) -> Design:
+    """The design without forward speed, at its rate of climb: in descent at most that of the vortex ring state's edge.
+
+    Faster descents are flown at speed only, where little of hover is left.
+    """
+    slowest = vortex_ring_edge(0.0) * math.sqrt(0.5 * design.weight_coefficient) * design.rotor.tip_speed
+    return design.at(hover=True, climb_m_s=max(design.condition.climb_speed, slowest))
 
 
 def passes_over(design: Design) -> bool:

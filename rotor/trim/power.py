@@ -5,7 +5,10 @@ included), parasite D·V. With periodic flapping and forces in balance their sum
 (3.13) as an identity of the discretised equations: from U_T dF_x + U_R dF_r = U_P dF_z + U dD and
 r = U_T + u − µ_x sin ψ,
 
-    P_shaft = Σ (λ_i dF_z + u dF_x + U dD) + µ_z C_T − µ_x C_H,    and    µ_z T − µ_x H = D·V.
+    P_shaft = Σ (λ_i dF_z + u dF_x + U dD) + µ_z C_T − µ_x C_H,    and    µ_z T − µ_x H = D·V + W V_c.
+
+The parasite power D·V is that of all air loads on the airframe: in a climb the download is pushed up as well. It is the
+weight alone that gains height, W V_c.
 
 On a test stand nothing balances the rotor's forces, and µ_z T − µ_x H is the power with which it pulls against its
 mount, negative where it drags; it takes the place of D·V.
@@ -42,12 +45,14 @@ def power_budget(problem: Problem, elements: BladeElements) -> PowerBudget:
     if elements.friction is not None:
         profile += _rubbing(elements.u_t, elements.flow.mu_x * disk.cos, elements.friction.fx, elements.friction.radial)
     induced, profile, shaft = unit * induced, unit * profile, unit * shaft
-    parasite = problem.drag * design.condition.advance_ratio * design.power_unit
+    pressed = problem.weight - design.weight_coefficient
+    parasite = (problem.drag * design.condition.advance_ratio + pressed * problem.climb) * design.power_unit
+    climb = design.weight_coefficient * problem.climb * design.power_unit
     if design.condition.stand is not None:
         parasite = -wind_forces(problem, elements)[1] * design.condition.advance_ratio * design.power_unit
-    main = induced + profile + parasite
+    main = induced + profile + parasite + climb
     tail, _ = tail_power(design, main)
-    return PowerBudget(induced=induced, profile=profile, parasite=parasite, tail=tail, shaft=shaft)
+    return PowerBudget(induced=induced, profile=profile, parasite=parasite, tail=tail, shaft=shaft, climb=climb)
 
 
 _compile = compiled(error_model="numpy", fastmath={"contract"})
@@ -83,7 +88,7 @@ def _rubbing(u_t: Any, along: Any, fx: Any, radial: Any) -> Any:
 
 
 def wind_forces(problem: Problem, elements: BladeElements) -> tuple[float, float]:
-    """Lift and drag of the rotor over ρA(ΩR)², normal to the wind and along it (drag positive aft)."""
+    """Vertical and horizontal force of the rotor over ρA(ΩR)², up and aft: lift and drag in level wind."""
     total, tilt = disk_sums(problem, elements), elements.state.shaft_tilt
     cos, sin = math.cos(tilt), math.sin(tilt)
     return total.thrust * cos + total.drag * sin, total.drag * cos - total.thrust * sin
@@ -97,9 +102,9 @@ def tail_power(design: Design, main: float) -> tuple[float, float]:
     if design.condition.stand is not None:
         return 0.0, 0.0
     if design.tail_rotor is None or not design.models.tail_rotor_solved:
-        return FIXED_SHARE * main, FIXED_SHARE
+        return FIXED_SHARE * abs(main), math.copysign(FIXED_SHARE, main)
     speed = design.rotor.angular_speed
-    tail, slope = tail_rotor_power(design.tail_rotor, main / speed, design.airspeed, design.condition.density)
+    tail, slope = tail_rotor_power(design.tail_rotor, main / speed, design.flight_speed, design.condition.density)
     return tail, slope / speed
 
 
@@ -125,7 +130,7 @@ def hub_moment(problem: Problem, elements: BladeElements) -> HubMoment:
 
 
 def tail_rotor_power(tail: TailRotor, torque: float, airspeed: float, density: float) -> tuple[float, float]:
-    """Power [W] that balances a main-rotor torque [N m] at an airspeed [m/s], and its slope dP/dQ [W/(N m)].
+    """Power [W] that balances a main-rotor torque [N m] of either sign at an airspeed [m/s], and its slope dP/dQ [1/s].
 
     Energy method: induced power T v_i of the effective disk (radius B R), profile power σ c_d/8 (1 + 3µ²) of the
     dissipation form with the polar taken at the mean angle of attack 6 C_T/(σ a).
@@ -135,8 +140,8 @@ def tail_rotor_power(tail: TailRotor, torque: float, airspeed: float, density: f
     unit = density * area * tip_speed**2
     solidity = tail.blades * tail.chord / (math.pi * tail.radius)
     mu = airspeed / tip_speed
-    ct_slope = 1.0 / (tail.arm * math.cos(tail.cant) * unit)
-    ct = max(torque, 0.0) * ct_slope
+    ct_slope = math.copysign(1.0, torque) / (tail.arm * math.cos(tail.cant) * unit)
+    ct = torque * ct_slope
 
     effective = ct / tail.tip_loss**2
     inflow, inflow_slope = glauert_inflow(effective, mu, 0.0)

@@ -17,6 +17,7 @@ import numpy as np
 from rotor.aero.elements import Problem, build_problem
 from rotor.aero.free_wake.filaments import WakeFilaments
 from rotor.aero.free_wake.system import WakeState
+from rotor.aero.momentum import axial_inflow
 from rotor.aero.switches import switched_off
 from rotor.aero.trim_state import TrimState
 from rotor.arrays import Array
@@ -138,14 +139,16 @@ class PowerBudget:
     profile: float
     """Σ U dD, dissipation"""
     parasite: float
-    """D·V"""
+    """D·V, in a climb with the power that lifts the download"""
     tail: float
     shaft: float
     """Torque × Ω. In the flight preset it equals `main_rotor` to rounding; in the thesis preset it is not power."""
+    climb: float = 0.0
+    """W V_c, negative in descent"""
 
     @property
     def main_rotor(self) -> float:
-        return self.induced + self.profile + self.parasite
+        return self.induced + self.profile + self.parasite + self.climb
 
     @property
     def total(self) -> float:
@@ -181,7 +184,7 @@ class Solution:
     hub_moment: HubMoment
     ct: float
     lift_and_drag: tuple[float, float]
-    """Force of the rotor normal to the wind and along it [N]; drag positive aft."""
+    """Force of the rotor up and aft [N]: in level flight and on a stand normal to the wind and along it."""
     cp: float
     """Main-rotor power over ρA(ΩR)³, eq. (2.12)."""
     reverse_flow_area: float
@@ -207,7 +210,7 @@ class Solution:
             state += f" Caveats: {', '.join(caveat.name for caveat in self.caveats)}."
         power = "power: none, the rotor is not in trim"
         if self.converged:
-            parts = ("induced", "profile", "parasite", "tail")
+            parts = ("induced", "profile", "parasite", *(("climb",) if self.power.climb else ()), "tail")
             kilowatts = ", ".join(f"{part} {getattr(self.power, part) / 1e3:.1f}" for part in parts)
             power = f"power {self.power.total / 1e3:.1f} kW: {kilowatts}"
         return f"{self.design}\n{state}\n{power}"
@@ -242,10 +245,17 @@ class Solution:
 
     @property
     def figure_of_merit(self) -> float | None:
-        """Ideal over actual main-rotor power, hover only."""
-        if not self.design.hovering or self.cp <= 0.0:
+        """Ideal induced power over induced and profile power, in hover and axial flight only.
+
+        The power of the climb is not counted: it would make any rotor look better the faster it climbs.
+        """
+        own = (self.last_power.induced + self.last_power.profile) / self.design.power_unit
+        if not self.design.hovering or own <= 0.0:
             return None
-        return max(self.ct, 0.0) ** 1.5 / np.sqrt(2.0).item() / self.cp
+        ideal = max(self.ct, 0.0) ** 1.5 / np.sqrt(2.0).item()
+        if self.design.climb_ratio:
+            ideal = self.ct * axial_inflow(self.ct, self.design.climb_ratio)
+        return ideal / own
 
     @property
     def induced_power_factor(self) -> float:
@@ -313,6 +323,7 @@ class Solution:
                 "induced": power.induced,
                 "profile": power.profile,
                 "parasite": power.parasite,
+                "climb": power.climb,
                 "tail": power.tail,
             },
             "ct": self.ct,
@@ -341,6 +352,7 @@ class Solution:
             "caveats": [caveat.sentence for caveat in self.caveats],
             "mu": design.condition.advance_ratio,
             "speed_m_s": design.airspeed,
+            "climb_m_s": design.condition.climb_speed,
             "preset": design.preset,
             "inflow": design.models.inflow if not design.hovering else design.models.hover_inflow,
             "twist": design.twist.spec(),

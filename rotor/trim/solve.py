@@ -10,15 +10,15 @@ from rotor.aero.sums import disk_sums
 from rotor.aero.torsion_balance import control_moment, control_work
 from rotor.blas_threads import one_blas_thread
 from rotor.design.design import Design, require_design
-from rotor.trim.forward import guess_of, trim, trim_along
+from rotor.trim.forward import first_guess, guess_of, trim, trim_along
 from rotor.trim.hover import HoverResult, hover
 from rotor.trim.hover_wake import HoverWakeResult, hover_wake
 from rotor.trim.low_speed import trim_problem
-from rotor.trim.newton import KEPT, Guess, KeptTrim, TrimResult
+from rotor.trim.newton import KEPT, Guess, KeptTrim, TrimResult, newton
 from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
 from rotor.trim.power import hub_moment, power_budget, wind_forces
 from rotor.trim.solution import DiskFields, ElasticTwist, Solution, Status
-from rotor.trim.validity import caveats, failure_sentence, implausible
+from rotor.trim.validity import caveats, failure_sentence, implausible, vortex_ring
 
 SUSPECT_STALL = 0.25
 """Part of the disk. Trims of attached flow end at about this share; those beyond the largest lift have 0.4 or more."""
@@ -35,6 +35,8 @@ def solve(design: Design, start: Solution | Guess | None = None, options: Solver
     if not isinstance(start, Solution | Guess | None):  # pyright: ignore[reportUnnecessaryIsInstance]
         raise TypeError(f"start is {start!r:.80}: give an earlier solution or leave it out")
     problem = trim_problem(require_design(design))
+    if vortex_ring(design):
+        return _assemble(problem, _without_trim(problem), begin)
     guess = _guess(design, start) if isinstance(start, Solution) else start
     if design.hovering and design.models.hover_inflow == "free-wake":
         wake = start.wake if isinstance(start, Solution) and start.converged else None
@@ -55,6 +57,13 @@ def solve(design: Design, start: Solution | Guess | None = None, options: Solver
         if other is not None:
             return _least(solution, _assemble(problem, replace(other, passes=result.passes + other.passes), begin))
     return solution
+
+
+def _without_trim(problem: Problem) -> HoverResult | TrimResult:
+    """A state near a design that has no steady wake."""
+    if problem.design.hovering:
+        return replace(hover(problem), converged=False)
+    return replace(newton(problem, first_guess(problem), replace(DEFAULT_OPTIONS, max_passes=1)), converged=False)
 
 
 def _may_be_of_another_branch(solution: Solution, result: HoverResult | HoverWakeResult | TrimResult) -> bool:
@@ -93,20 +102,22 @@ def _assemble(problem: Problem, result: HoverResult | HoverWakeResult | TrimResu
     message = "Trimmed."
     if not converged:
         message = wake.message if wake is not None else ""
-        message = message or failure_sentence(design, result.reached, area["stalled"])
+        message = message or vortex_ring(design) or failure_sentence(design, result.reached, area["stalled"])
     if converged and (refused := implausible(problem, elements)):
         converged, message = False, refused
-    if converged and design.condition.stand is None and not 0.0 < power.main_rotor < math.inf:
+    climb = design.condition.climb_speed
+    least = 0.0 if climb >= 0.0 else -math.inf
+    if converged and design.condition.stand is None and not least < power.main_rotor < math.inf:
         converged = False
         message = (
-            f"Not trimmed: the trim found needs {power.main_rotor / 1e3:.0f} kW, impossible in level flight; "
-            "lower the advance ratio or the mass."
+            f"Not trimmed: the trim found needs {power.main_rotor / 1e3:.0f} kW, impossible in "
+            f"{'a climb' if climb else 'level flight'}; lower the advance ratio or the mass."
         )
     return Solution(
         design=design,
         status=Status.CONVERGED if converged else Status.NOT_CONVERGED,
         message=message,
-        caveats=caveats(problem, elements, fields.stall_margin, area["stalled"], moment) if converged else (),
+        caveats=caveats(problem, elements, fields.stall_margin, area["stalled"], moment, power) if converged else (),
         controls=elements.state,
         disk=fields,
         last_power=power,

@@ -6,6 +6,7 @@ import numpy as np
 
 from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem
+from rotor.aero.momentum import FASTEST_RING, VORTEX_RING_ONSET, vortex_ring_edge
 from rotor.aero.sums import disk_sums
 from rotor.aero.switches import switched_off
 from rotor.airfoil.polynomial import THESIS_NAME
@@ -15,7 +16,7 @@ from rotor.design.design import Design
 from rotor.design.stand import Stand
 from rotor.trim.forward import easier_condition
 from rotor.trim.low_speed import HoverMatched, hover_share
-from rotor.trim.solution import Caveat, HubMoment
+from rotor.trim.solution import Caveat, HubMoment, PowerBudget
 
 LOW_SPEED = 0.075
 """Below this advance ratio linear inflow is not trusted (thesis p. 26)."""
@@ -41,7 +42,12 @@ STALL_SHARE = 0.02
 
 
 def caveats(
-    problem: Problem, elements: BladeElements, stall_margin: Array, stalled: float, moment: HubMoment
+    problem: Problem,
+    elements: BladeElements,
+    stall_margin: Array,
+    stalled: float,
+    moment: HubMoment,
+    power: PowerBudget,
 ) -> tuple[Caveat, ...]:
     """The limits of validity that a converged solution exceeds; `stall_margin` [rad] by (radius, azimuth)."""
     design, disk = problem.design, problem.disk
@@ -108,6 +114,22 @@ def caveats(
         add(
             "low-speed-not-matched",
             "The hover model has no answer at this weight, so the inflow does not pass over to hover at low speed.",
+        )
+    if design.condition.climb_speed < 0.0:
+        inflow = math.sqrt(0.5 * design.weight_coefficient)
+        descent, edge = -design.climb_ratio / inflow, -vortex_ring_edge(mu / inflow)
+        if descent > -VORTEX_RING_ONSET and edge < math.inf:
+            add(
+                "vortex-ring",
+                f"The descent is {descent:.2f} of the induced velocity in hover: at this low speed measured inflow "
+                f"exceeds that of momentum theory from {-VORTEX_RING_ONSET:g} on, and at {edge:.2f} the vortex ring "
+                "state begins.",
+            )
+    if power.main_rotor < 0.0 and design.condition.stand is None:
+        add(
+            "beyond-autorotation",
+            "The air drives the rotor: beyond the rate of descent of autorotation power is negative, and with the "
+            "engine off the rotor turns faster.",
         )
     if mu > HIGH_SPEED:
         add(
@@ -184,6 +206,23 @@ def _rigid(moment: HubMoment) -> str:
     return (
         f"Rigid blades without cyclic: the hub carries {abs(moment.roll) / 1e3:.0f} kN m rolling to the {side} side "
         f"and {abs(moment.pitch) / 1e3:.0f} kN m nose-{nose}."
+    )
+
+
+def vortex_ring(design: Design) -> str:
+    """Why a descent has no steady wake, as a sentence; empty where it has one."""
+    if design.condition.climb_speed >= 0.0:
+        return ""
+    inflow, mu = math.sqrt(0.5 * design.weight_coefficient), design.condition.advance_ratio
+    edge = vortex_ring_edge(mu / inflow)
+    if design.climb_ratio >= edge * inflow:
+        return ""
+    speed = design.rotor.tip_speed
+    return (
+        f"Not trimmed: in descent at {-design.condition.climb_speed:g} m/s and advance ratio {mu:.3f} the rotor is in "
+        "or beyond the vortex ring state, where its wake is not steady and momentum theory has no valid answer: "
+        f"descend at less than {math.floor(-10.0 * edge * inflow * speed) / 10.0:.1f} m/s, or fly faster than advance "
+        f"ratio {math.ceil(1e3 * FASTEST_RING * inflow) / 1e3:.3f}."
     )
 
 

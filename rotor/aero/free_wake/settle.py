@@ -30,6 +30,7 @@ from rotor.aero.free_wake.system import (
     landgrebe_rates,
     layout_of,
 )
+from rotor.aero.momentum import axial_inflow
 from rotor.arrays import Array
 
 TOLERANCE = 1e-10
@@ -293,7 +294,8 @@ def _uniform_start(problem: Problem) -> tuple[Array, float]:
     shape = np.sqrt(np.minimum(1.0, (1.0 - disk.r) / 0.06)) * np.minimum(1.0, (disk.r - disk.root) / 0.1)
     circulation = shape * math.pi * problem.weight / (disk.blades * disk.dr * float(shape @ disk.r))
     slope = problem.design.rotor.solidity * 5.9
-    return circulation, 6.0 * problem.weight / slope + 1.5 * math.sqrt(problem.weight / 2.0)
+    axial = axial_inflow(problem.weight, problem.climb) + problem.climb
+    return circulation, 6.0 * problem.weight / slope + 1.5 * axial
 
 
 def _prescribed(system: HoverSystem, circulation: Array, collective: float) -> WakeState:
@@ -309,6 +311,7 @@ def _prescribed(system: HoverSystem, circulation: Array, collective: float) -> W
     nodes[..., 0] = release[:, None] * landgrebe_radius(age, problem.weight)
     nodes[..., 1] = -1.5 * math.sqrt(problem.weight / 2.0) * age
     nodes[-1, :, 1] = k1 * np.minimum(age, first) + k2 * np.maximum(age - first, 0.0)
+    nodes[..., 1] -= problem.climb * age
     return WakeState(layout, np.concatenate([nodes.ravel(), circulation, [collective]]))
 
 

@@ -3,7 +3,7 @@
 Unknowns: the nodes (r, z) of the filaments behind one blade, the circulation Γ of every blade element, the collective.
 Equations, with χ the azimuth behind the blade, lengths over R, velocities over ΩR:
 
-    dr/dχ = v_r/(1 − v_θ/r),   dz/dχ = v_z/(1 − v_θ/r)      filaments are streamlines, steady seen from the blade
+    dr/dχ = v_r/(1 − v_θ/r),   dz/dχ = (v_z − λ_c)/(1 − v_θ/r)   filaments are streamlines, steady seen from the blade
     Γ = ½ c U C_l                                           lifting line on the section data
     C_T = C_W                                               the thrust that is asked for
 
@@ -237,13 +237,14 @@ class HoverSystem:
         own = self.self_induction(radius[:, : free + 1], rolled, extra_core)
         velocity[:wake, 2] += own.velocity.ravel()
         velocity[wake:, 2] += self.near_wake @ state.circulation
+        velocity[:wake, 2] -= self.problem.climb
         inflow = -velocity[wake:, 2]
         swirl = velocity[wake:, 1] if self.swirling else np.zeros_like(inflow)
         u_t = disk.r - swirl
         loads = kernel.element_loads(
-            (self.problem.twist + state.collective)[:, None], u_t[:, None], inflow[:, None], np.zeros(1),
-            np.ones_like(disk.r), self.problem.tip_mach, disk.half_solidity, disk.section, disk.weight, disk.offset,
-            disk.tables, disk.cos_sweep, disk.sin_sweep,
+            (self.problem.twist + state.collective)[:, None], u_t[:, None], (inflow + self.problem.climb)[:, None],
+            np.zeros(1), np.ones_like(disk.r), self.problem.tip_mach, disk.half_solidity, disk.section, disk.weight,
+            disk.offset, disk.tables, disk.cos_sweep, disk.sin_sweep,
         )[:, :, 0]  # fmt: skip
         residual = np.empty(layout.size)
         drift = self._drift(velocity[:wake], target[:wake, 0])
@@ -283,7 +284,7 @@ class HoverSystem:
         jacobian[:geometry] = self._streamline_slopes(velocity[:wake], velocity_slopes[:wake], target[:wake, 0], rolled)
         inflow_slopes = -velocity_slopes[wake:, 2]
         swirl_slopes = velocity_slopes[wake:, 1] * float(self.swirling)
-        by_t, by_p, by_theta = lift_slopes(loads, u_t, inflow)
+        by_t, by_p, by_theta = lift_slopes(loads, u_t, inflow + self.problem.climb)
         jacobian[geometry:-1] = -gain * (by_p[:, None] * inflow_slopes - by_t[:, None] * swirl_slopes)
         jacobian[geometry:-1, -1] -= gain * by_theta
         elements = np.arange(layout.elements)
@@ -304,7 +305,7 @@ class HoverSystem:
 
     def lift_slopes(self, at: WakeEvaluation) -> tuple[Array, Array, Array]:
         """`lift_slopes` of an evaluation."""
-        return lift_slopes(at.loads, self.problem.disk.r - at.swirl, at.inflow)
+        return lift_slopes(at.loads, self.problem.disk.r - at.swirl, at.inflow + self.problem.climb)
 
     def _all_nodes(self, state: WakeState, rolled: RolledUp) -> tuple[Array, Array, Array, Array]:
         """r and z of all nodes, the pitch of the fixed turns (down, per radian) and its slope."""

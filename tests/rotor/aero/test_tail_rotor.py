@@ -28,7 +28,7 @@ def test_hover_power_by_hand():
 
 
 @pytest.mark.parametrize("speed", [0.0, 30.0, 80.0])
-@pytest.mark.parametrize("torque", [5e3, 4e4, 9e4])
+@pytest.mark.parametrize("torque", [-4e4, 5e3, 4e4, 9e4])
 def test_slope_is_exact(speed: float, torque: float):
     _, slope = tail_rotor_power(TAIL, torque, speed, 1.1)
     difference = (

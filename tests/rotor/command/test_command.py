@@ -20,7 +20,7 @@ from rotor.command.optimise import digits_of_band
 from rotor.files.ranges import parse_range
 
 KEYS = [
-    "status", "message", "caveats", "mu", "speed_m_s", "preset", "inflow", "twist", "power_w", "ct", "cp",
+    "status", "message", "caveats", "mu", "speed_m_s", "climb_m_s", "preset", "inflow", "twist", "power_w", "ct", "cp",
     "ct_over_sigma", "cq", "cq_over_sigma", "shaft_torque_nm", "rotor_lift_n", "rotor_drag_n",
     "collective_deg", "cyclic_1c_deg", "cyclic_1s_deg", "coning_deg", "flap_1c_deg", "flap_1s_deg",
     "shaft_tilt_deg", "lambda0", "reverse_flow_area_percent", "stalled_area_percent",
@@ -45,12 +45,35 @@ def test_json_keys_and_power(capsys: pytest.CaptureFixture[str]):
     answer = solved(capsys, "--mu", "0.2", "--twist", "linear:-8")
     assert list(answer) == KEYS
     power = answer["power_w"]
-    assert list(power) == ["total", "main_rotor", "induced", "profile", "parasite", "tail"]
+    assert list(power) == ["total", "main_rotor", "induced", "profile", "parasite", "climb", "tail"]
     assert_allclose(power["main_rotor"], power["induced"] + power["profile"] + power["parasite"], rtol=1e-12)
     assert_allclose(power["total"], power["main_rotor"] + power["tail"], rtol=1e-12)
     assert answer["status"] == "converged"
     assert answer["twist"] == "linear:-8"
     assert_allclose(answer["speed_m_s"], 0.2 * 27.0 * 8.1788, rtol=1e-12)
+
+
+def test_climb(capsys: pytest.CaptureFixture[str]):
+    level, climbing = (solved(capsys, "--mu", "0.2", *flag) for flag in ((), ("--climb-m-s", "4")))
+    assert (level["climb_m_s"], climbing["climb_m_s"]) == (0.0, 4.0)
+    assert level["power_w"]["climb"] == 0.0
+    assert_allclose(climbing["power_w"]["climb"], 8322.4 * 9.80665 * 4.0, rtol=1e-12)
+    assert "climb            326.5 kW" in run(capsys, "solve", "--mu", "0.2", "--climb-m-s", "4")[1]
+    code, out, _ = run(capsys, "sweep", "--mu", "0:0.2:0.1", "--climb-m-s", "4")
+    assert code == 0
+    assert all("  4          converged" in line for line in out.splitlines()[1:])
+    code, out, _ = run(capsys, "solve", "--hover", "--climb-m-s=-8")
+    assert code == 1
+    assert "vortex ring state" in out
+    code, _, err = run(capsys, "solve", "--preset", "thesis", "--climb-m-s", "4")
+    assert (code, err.count("\n")) == (2, 1)
+    assert "leave the rate of climb out" in err
+
+
+def test_an_optimum_beyond_autorotation_is_refused(capsys: pytest.CaptureFixture[str]):
+    code, out, _ = run(capsys, "optimise", "--mu", "0.2", "--climb-m-s=-14", "--starts", "1", "--no-band")
+    assert code == 1
+    assert "descend more slowly, or use the objective induced" in out
 
 
 def test_hover_and_speed(capsys: pytest.CaptureFixture[str]):

@@ -1,0 +1,316 @@
+"""Climb and descent: momentum theory, balance, energy, limits, and where the vortex ring state begins."""
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.optimize import brentq
+
+from rotor.aero.elements import build_problem
+from rotor.aero.free_wake.settle import settle
+from rotor.aero.free_wake.system import HoverSystem, WakeState
+from rotor.aero.inflow import INFLOW_MODELS
+from rotor.aero.losses import loss_factor
+from rotor.aero.momentum import FASTEST_RING, axial_inflow, glauert_inflow, vortex_ring_edge
+from rotor.aero.trim_state import TrimState
+from rotor.design.design import HOVER_INFLOWS, Design
+from rotor.design.twist import IdealTwist, ideal_tip_pitch
+from rotor.files.design_file import design_from_record
+from rotor.files.make_design import make_design
+from rotor.trim.adjoint import power_gradient
+from rotor.trim.hover import closed_form_inflow, lift_curve
+from rotor.trim.hover_wake import hover_wake
+from rotor.trim.options import SolverOptions
+from rotor.trim.solve import solve
+from tests.rotor.check_jacobian import check_jacobian
+
+TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-11)
+
+
+def design(mu: float, climb: float, **models: Any) -> Design:
+    made = make_design(mu=mu, twist="linear:-12", climb_m_s=climb)
+    return replace(made, models=replace(made.models, **models))
+
+
+def hover_velocity(of: Design) -> float:
+    """v_h [m/s]"""
+    return math.sqrt(0.5 * of.weight_coefficient) * of.rotor.tip_speed
+
+
+@pytest.mark.parametrize("climb", [-3.0, 4.0, 12.0])
+def test_ideal_rotor_follows_momentum_theory(climb: float):
+    """P/P_h = V_c/2v_h + √((V_c/2v_h)² + 1) of a rotor with uniform inflow; the root cut-out makes v_h larger."""
+
+    def power(rate: float) -> float:
+        at = design(
+            0.0, rate, hover_inflow="closed-form", tip_loss=False, hub_loss=False, download=False, fuselage=False,
+            swirl=False, elastic_twist=False, swept_tip=False, compressibility=False,
+        )  # fmt: skip
+        blade = at.rotor.blade.root_cutout
+        ct, total = at.weight_coefficient / (1.0 - blade**2), at.climb_ratio
+        slope = float(np.mean(lift_curve(build_problem(at))[0]))
+        tip = ideal_tip_pitch(ct, at.rotor.solidity, slope) - math.sqrt(0.5 * ct) + axial_inflow(ct, total) + total
+        found = solve(at.with_twist(IdealTwist(tip))).require()
+        assert np.ptp(found.disk.inflow[:, 0]) < 0.03 * found.disk.inflow.mean()
+        assert found.power.parasite == 0.0
+        return found.power.induced + found.power.climb
+
+    at = design(0.0, climb)
+    ratio = climb / (hover_velocity(at) / math.sqrt(1.0 - at.rotor.blade.root_cutout**2))
+    assert_allclose(power(climb) / power(0.0), 0.5 * ratio + math.hypot(0.5 * ratio, 1.0), rtol=1e-2)
+
+
+@pytest.mark.parametrize("climb", [-0.02, 0.0, 0.03])
+def test_axial_inflow_is_glauerts_root(climb: float):
+    inflow = axial_inflow(0.008, climb)
+    assert_allclose(2.0 * inflow * (climb + inflow), 0.008, rtol=1e-13)
+    assert_allclose(inflow, glauert_inflow(0.008, 0.0, climb)[0], rtol=1e-12)
+
+
+@pytest.mark.parametrize("mu_x", [0.04, 0.06, 0.2])
+@pytest.mark.parametrize("mu_z", [-0.2, -0.15, -0.1, -0.06])
+def test_glauert_closes_in_fast_descent(mu_x: float, mu_z: float):
+    inflow, _ = glauert_inflow(0.0065, mu_x, mu_z)
+    assert_allclose(2.0 * inflow * math.hypot(mu_x, mu_z + inflow), 0.0065, rtol=1e-12)
+
+
+@pytest.mark.parametrize("climb", [-4.0, 6.0])
+def test_annuli_balance_momentum(climb: float):
+    """4Fλ_i|λ_c + λ_i| r is the lift of every annulus."""
+    found = solve(design(0.0, climb)).require()
+    disk, rotor = found.disk, found.design.rotor
+    induced, total = disk.induced[:, 0], disk.induced[:, 0] + climb / rotor.tip_speed
+    assert_allclose(disk.u_p[:, 0], total, rtol=1e-14)
+    factor, _ = loss_factor(disk.r, total, rotor.blades, rotor.blade.root_cutout)
+    assert_allclose(4.0 * factor * induced * np.abs(total) * disk.r, disk.dct[:, 0], rtol=1e-9, atol=1e-12)
+
+
+@pytest.mark.parametrize("climb", [-4.0, 6.0])
+def test_closed_form_is_eq_2_28(climb: float):
+    found = solve(design(0.0, climb, hover_inflow="closed-form")).require()
+    problem = build_problem(found.design)
+    slope, zero = lift_curve(problem)
+    factor, _ = loss_factor(problem.disk.r, found.disk.inflow[:, 0], 4, problem.disk.root)
+    expected = closed_form_inflow(
+        problem.disk.r, found.disk.theta[:, 0] - zero, 2.0 * problem.disk.half_solidity, slope, factor=factor,
+        climb=problem.climb,
+    )  # fmt: skip
+    lifting = found.disk.induced[:, 0] > 0.0
+    assert lifting.sum() > 35
+    assert_allclose(found.disk.inflow[lifting, 0], np.asarray(expected)[lifting], rtol=1e-9)
+
+
+@pytest.mark.parametrize("inflow", INFLOW_MODELS)
+@pytest.mark.parametrize(("mu", "climb"), [(0.08, -3.0), pytest.param(0.2, -12.0, marks=pytest.mark.slow), (0.3, 8.0)])
+def test_energy_closes_and_the_climb_has_its_part(inflow: str, mu: float, climb: float):
+    found = solve(design(mu, climb, inflow=inflow)).require()
+    power = found.power
+    assert abs(power.shaft - power.main_rotor) < 1e-9 * (power.induced + power.profile + abs(power.climb))
+    assert_allclose(power.climb, found.design.condition.weight * climb, rtol=1e-13)
+    assert_allclose(power.main_rotor, power.induced + power.profile + power.parasite + power.climb, rtol=1e-14)
+
+
+@pytest.mark.parametrize("hover_inflow", HOVER_INFLOWS)
+@pytest.mark.parametrize(("mu", "climb"), [(0.0, -2.0), (0.0, 5.0), (0.02, 5.0)])
+def test_energy_closes_in_axial_flight_and_close_to_it(hover_inflow: str, mu: float, climb: float):
+    found = solve(design(mu, climb, hover_inflow=hover_inflow)).require()
+    assert_allclose(found.power.shaft, found.power.main_rotor, rtol=1e-9)
+
+
+@pytest.mark.parametrize("climb", [-7.0, 6.0])
+def test_forces_carry_weight_and_drag_along_the_flight_path(climb: float):
+    """Drag is ½ρV²f against the flight path; what presses on the airframe is parasite power."""
+    found = solve(design(0.2, climb, download=False)).require()
+    at = found.design
+    speed = math.hypot(at.airspeed, climb)
+    drag = 0.5 * 1.225 * speed * at.fuselage.drag_area
+    lift, aft = found.lift_and_drag
+    assert_allclose(lift, at.condition.weight + drag * climb, rtol=1e-9)
+    assert_allclose(-aft, drag * at.airspeed, rtol=1e-9)
+    assert_allclose(found.power.parasite, drag * speed**2, rtol=1e-9)
+
+
+def test_the_download_is_lifted_too():
+    power = solve(design(0.0, 5.0, fuselage=False)).require().power
+    assert_allclose(power.parasite, 0.035 * power.climb, rtol=1e-9)
+
+
+def on_stand(stand: Mapping[str, Any], mu: float, trim: str) -> Design:
+    return make_design(mu=mu, twist="linear:-12", trim=trim, stand={**stand, "flapping": "trimmed"})
+
+
+@pytest.mark.parametrize("climb", [-9.0, 7.0])
+def test_a_climb_is_a_wind_tunnel_at_the_angle_of_the_flight_path(climb: float):
+    """The rotor knows only the wind: the same thrust at the same angle to it takes the same controls and torque."""
+    flown = solve(design(0.2, climb), None, TIGHT).require()
+    at, tilt = flown.design, flown.controls.shaft_tilt
+    along = 0.2 * math.cos(tilt) - at.climb_ratio * math.sin(tilt)
+    through = 0.2 * math.sin(tilt) + at.climb_ratio * math.cos(tilt)
+    stand = {"shaft_tilt_deg": math.degrees(math.atan2(through, along)), "ct_over_sigma": flown.ct_over_sigma}
+    found = solve(on_stand(stand, math.hypot(along, through), "wind-tunnel"), None, TIGHT).require()
+    assert_allclose(found.power.shaft, flown.power.shaft, rtol=1e-7)
+    assert_allclose(found.controls.collective, flown.controls.collective, rtol=1e-7)
+    assert_allclose(found.controls.cyclic_1s, flown.controls.cyclic_1s, rtol=1e-6)
+
+
+def test_autorotation():
+    """Without power a UH-60A descends at 10 to 13 m/s near its speed of least descent, and its rotor is a free one."""
+    rate = brentq(lambda climb: solve(design(0.17, climb)).require().power.main_rotor, -16.0, -5.0, xtol=1e-6)
+    assert 10.0 < -rate < 13.0
+    flown = solve(design(0.17, rate), None, TIGHT).require()
+    power = flown.power
+    assert_allclose(-power.climb, power.induced + power.profile + power.parasite, rtol=1e-6)
+    flow = flown.disk.inflow.mean() - flown.disk.induced.mean()
+    along = math.hypot(0.17, flown.design.climb_ratio)
+    free = on_stand({"ct_over_sigma": flown.ct_over_sigma}, along, "free-rotor")
+    assert_allclose(math.sin(solve(free, None, TIGHT).require().controls.shaft_tilt), flow / along, rtol=1e-4)
+    beyond = solve(design(0.17, rate - 1.0)).require()
+    assert beyond.power.main_rotor < 0.0
+    assert [caveat.name for caveat in beyond.caveats].count("beyond-autorotation") == 1
+    assert beyond.power.tail > 0.0
+
+
+@pytest.mark.parametrize("mu", [0.15, 0.25])
+def test_excess_power_climbs_at_its_known_efficiency(mu: float):
+    """W V_c over what a climb takes more: the factor is quoted as 0.8 to 0.9 (Prouty); near ½ in hover, it falls."""
+    level, climbing = (solve(design(mu, climb)).require().power for climb in (0.0, 5.0))
+    assert 0.8 < climbing.climb / (climbing.total - level.total) < 0.95
+    hover, rising = (solve(design(0.0, climb)).require().power for climb in (0.0, 0.5))
+    assert (rising.main_rotor - hover.main_rotor) / rising.climb == pytest.approx(0.55, abs=0.05)
+
+
+@pytest.mark.parametrize("climb", [-4.0, 3.0, 15.0])
+@pytest.mark.parametrize("hover_inflow", ["annulus", "closed-form"])
+def test_axial_flight_is_the_limit_of_forward_flight(climb: float, hover_inflow: str):
+    def watts(mu: float) -> float:
+        return solve(design(mu, climb, hover_inflow=hover_inflow), None, TIGHT).require().power.total
+
+    assert watts(1e-4) == pytest.approx(watts(0.0), rel=1e-5)
+    assert watts(0.002) == pytest.approx(watts(0.0), rel=1e-3)
+
+
+def test_power_is_continuous_in_the_rate_of_climb_where_hover_is_held_at_the_edge():
+    """At µ 0.08 a descent of 5.7 m/s passes the edge of the vortex ring state of hover, whose share is 7 %."""
+    edge = vortex_ring_edge(0.0) * hover_velocity(design(0.08, 0.0))
+    rates = edge + np.array([-1e-3, 0.0, 1e-3])
+    power = [solve(design(0.08, rate), None, TIGHT).require().power.total for rate in rates]
+    assert np.ptp(power) < 2e-3 * 1.2 * design(0.08, 0.0).condition.weight
+
+
+@pytest.mark.parametrize("climb", [-9.0, 9.0])
+@pytest.mark.parametrize("models", [{"inflow": "drees"}, {"inflow": "uniform", "trim": "thrust"}])
+def test_jacobian_against_differences(climb: float, models: dict[str, Any]):
+    problem = build_problem(design(0.15, climb, **models))
+    check_jacobian(problem, TrimState(0.14, 0.06, -0.06, 0.05, 0.06, -0.02, 0.01, 0.02))
+
+
+@pytest.mark.parametrize(
+    ("mu", "climb", "hover_inflow"),
+    [(0.0, 5.0, "annulus"), (0.0, -4.0, "closed-form"), (0.0, 3.0, "free-wake"), (0.03, 5.0, "annulus"),
+     (0.2, -12.0, "annulus"), (0.25, 8.0, "annulus")],
+)  # fmt: skip
+def test_gradient_by_twist_agrees_with_differences(mu: float, climb: float, hover_inflow: str):
+    at = design(mu, climb, hover_inflow=hover_inflow)
+    gradient = power_gradient(solve(at).require())
+    step = 0.02
+
+    def power(change: float) -> float:
+        return solve(at.with_twist(f"linear:{-12.0 + change!r}")).require().power.total
+
+    slope = (power(step) - power(-step)) / (2.0 * math.radians(step))
+    assert slope == pytest.approx(float(gradient.by_element @ (gradient.r - 0.75)), rel=2e-4, abs=200.0)
+
+
+class TestFreeWake:
+    @pytest.mark.parametrize("climb", [pytest.param(-1.0, marks=pytest.mark.slow), 6.0])
+    def test_jacobian_agrees_with_differences(self, climb: float):
+        problem = build_problem(design(0.0, climb, elastic_twist=False))
+        start = hover_wake(problem)
+        assert start.wake is not None
+        state = start.wake.state
+        system = HoverSystem(problem, state.layout)
+        direction = np.random.default_rng(1).normal(size=state.layout.size)
+        direction[: state.layout.geometry] *= 0.1
+        step = 1e-7
+        ahead, behind = (
+            system.evaluate(WakeState(state.layout, state.values + sign * step * direction), slopes=False).residual
+            for sign in (1.0, -1.0)
+        )
+        exact = system.evaluate(state).jacobian @ direction
+        assert_allclose(exact, (ahead - behind) / (2.0 * step), rtol=1e-4, atol=1e-5 * np.abs(exact).max())
+
+    def test_the_wake_is_carried_away_faster_and_power_nears_momentum_theory(self):
+        """The faster the climb, the deeper the wake; power keeps within 4 % of that of annuli."""
+        depth: list[float] = []
+        for climb in (0.0, 5.0, 10.0):
+            free, annuli = (solve(design(0.0, climb, hover_inflow=name)).require() for name in ("free-wake", "annulus"))
+            assert free.wake is not None
+            depth.append(float(free.wake.tip_vortices[0, -1, 2]))
+            assert free.power.main_rotor == pytest.approx(annuli.power.main_rotor, rel=0.04)
+        problem = build_problem(design(0.0, 10.0))
+        added = problem.climb * 2.0 * math.pi * 5.0  # Five turns.
+        assert depth[2] < depth[1] < depth[0]
+        assert -depth[2] > added
+
+    @pytest.mark.slow
+    def test_start_does_not_matter(self):
+        problem = build_problem(design(0.0, 4.0, elastic_twist=False))
+        cold = hover_wake(problem)
+        level = hover_wake(build_problem(design(0.0, 0.0, elastic_twist=False)))
+        assert cold.wake is not None
+        assert level.wake is not None
+        warm = settle(problem, cold.wake.state.circulation, cold.elements.state.collective, level.wake.state)
+        assert warm.converged
+        assert_allclose(warm.evaluation.state.collective, cold.wake.state.collective, rtol=1e-8)
+
+
+class TestVortexRing:
+    def test_edge_by_the_source(self):
+        """−0.45 v_h in vertical descent, −0.975 v_h where it ends at 0.95 v_h; none beyond."""
+        assert vortex_ring_edge(0.0) == pytest.approx(-0.45, rel=1e-14)
+        assert vortex_ring_edge(FASTEST_RING * (1.0 - 1e-15)) == pytest.approx(-0.975, abs=1e-2)
+        assert vortex_ring_edge(FASTEST_RING) == -math.inf
+        assert np.all(np.diff([vortex_ring_edge(x) for x in np.linspace(0.0, 0.94, 50)]) < 0.0)
+
+    @pytest.mark.parametrize("mu", [0.0, 0.002, 0.03])
+    def test_no_number_within(self, mu: float):
+        velocity = hover_velocity(design(mu, 0.0))
+        edge = vortex_ring_edge(mu * design(mu, 0.0).rotor.tip_speed / velocity) * velocity
+        found = solve(design(mu, edge + 0.01)).require()
+        assert "vortex-ring" in {caveat.name for caveat in found.caveats}
+        refused = solve(design(mu, edge - 0.01))
+        assert not refused.converged
+        assert "vortex ring state" in refused.message
+        assert refused.to_dict()["power_w"]["total"] is None
+        slower = float(refused.message.partition("less than ")[2].partition(" m/s")[0])
+        faster = float(refused.message.rstrip(".").rpartition("advance ratio ")[2])
+        assert solve(design(mu, -slower)).converged
+        assert solve(design(faster, edge - 0.01)).converged
+
+    def test_slow_descent_and_flight_at_speed_have_no_caveat(self):
+        for mu, climb in ((0.0, -2.4), (0.1, -8.0)):
+            assert "vortex-ring" not in {caveat.name for caveat in solve(design(mu, climb)).caveats}
+
+
+def test_what_cannot_climb_says_so():
+    with pytest.raises(ValueError, match="document's equations"):
+        make_design(preset="thesis", climb_m_s=3.0)
+    with pytest.raises(ValueError, match="on a test stand"):
+        make_design(rotor="xv15", climb_m_s=3.0)
+    with pytest.raises(ValueError, match="rate of climb 21 m/s is outside"):
+        make_design(climb_m_s=21.0)
+    with pytest.raises(TypeError, match="climb_m_s is 'fast'"):
+        make_design(climb_m_s="fast")  # pyright: ignore[reportArgumentType]
+
+
+def test_design_files_keep_it():
+    at = design(0.1, -3.5)
+    assert design_from_record(at.to_dict()) == at
+    assert "climb_m_s" not in design(0.1, 0.0).to_dict()
+    assert at.at(mu=0.2).condition.climb_speed == -3.5
+    assert at.at(climb_m_s=0.0) == design(0.1, 0.0)
+    assert "climb -3.5 m/s" in repr(at)
