@@ -73,7 +73,7 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False) -> Design
     """
     unknown = sorted(set(record) - set(_KEYS))
     if unknown:
-        raise ValueError(f"design file has the unknown key {unknown[0]!r}: the keys are {', '.join(_KEYS)}")
+        raise ValueError(f"design file has the unknown key {unknown[0]!r}: the keys are {', '.join(_KEYS[2:-1])}")
     if record.get("format", FORMAT) != FORMAT or record.get("version", VERSION) not in READS:
         raise ValueError(
             f"design file is {record.get('format')!r} version {record.get('version')!r}: this program reads "

@@ -96,7 +96,7 @@ def test_closed_form_is_eq_2_28(climb: float):
     slope, zero = lift_curve(problem)
     factor, _ = loss_factor(problem.disk.r, found.disk.inflow[:, 0], 4, problem.disk.root)
     expected = closed_form_inflow(
-        problem.disk.r, found.disk.theta[:, 0] - zero, 2.0 * problem.disk.half_solidity, slope, factor=factor,
+        problem.disk.r, found.disk.theta[:, 0] - zero, 2.0 * problem.disk.half_solidity * slope, 1.0, factor=factor,
         climb=problem.climb,
     )  # fmt: skip
     lifting = found.disk.induced[:, 0] > 0.0
