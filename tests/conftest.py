@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import hypothesis
 import pytest
 from chromium import LAUNCH_ARGUMENTS, find_chromium
+from hypothesis.internal.conjecture import providers
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser
@@ -22,6 +23,8 @@ hypothesis.settings.register_profile("repeatable", derandomize=True, deadline=No
 hypothesis.settings.register_profile("thorough", derandomize=True, deadline=None, max_examples=200)
 hypothesis.settings.register_profile("wide", deadline=None, max_examples=1000)
 hypothesis.settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
+# It also tries the constants of our modules that happen to be loaded: others in a whole run than in one of a file.
+providers._get_local_constants = providers.Constants
 
 
 def pytest_xdist_auto_num_workers(config: pytest.Config) -> int | None:
