@@ -61,14 +61,14 @@ def test_every_control_has_a_spoken_name(watched: Watched):
     }
     for mode, one in expected.items():
         watched.mode(mode)
+        watched.until(lambda one=one: one in spoken(watched))
         listed = watched.at_rest(lambda: spoken(watched))
-        assert one in listed
         assert [role for role, name in listed if not name] == [], mode
     watched.mode("explore")
     for drawer in ("open", "share", "settings", "probe", "lecture"):
         watched.drawer(drawer)
+        watched.until(lambda: ("button", "Close") in spoken(watched))
         listed = watched.at_rest(lambda: spoken(watched))
-        assert ("button", "Close") in listed
         assert [role for role, name in listed if not name] == [], drawer
 
 
@@ -79,8 +79,8 @@ def test_the_model_opens_by_key_and_its_controls_have_names(watched: Watched):
     head.focus()
     page.keyboard.press("Enter")
     watched.until_changed(lambda: head.get_attribute("aria-expanded"), "false")
+    watched.until(lambda: "checkbox" in {role for role, _ in spoken(watched)})
     listed = watched.at_rest(lambda: spoken(watched))
-    assert "checkbox" in {role for role, _ in listed}
     assert [role for role, name in listed if not name] == []
     page.keyboard.press("Enter")
     watched.until_changed(lambda: head.get_attribute("aria-expanded"), "true")
@@ -88,11 +88,16 @@ def test_the_model_opens_by_key_and_its_controls_have_names(watched: Watched):
 
 def test_the_tab_key_walks_the_whole_page_with_visible_focus(watched: Watched):
     page = watched.page
+    page.wait_for_function("() => RX.state.strip.length === 4 && Object.keys(RX.state.worth).length === 6")
+    watched.settled()  # What is drawn anew gets the focus back a frame later.
     page.locator(".rxf-rotor").focus()
     reached: list[dict[str, Any]] = []
     for _ in range(90):
         page.keyboard.press("Tab")
         focus = page.evaluate(FOCUS)
+        if focus is None:
+            watched.drawn()
+            focus = page.evaluate(FOCUS)
         if focus is None:
             break  # Past the last control: back to the browser, so nothing held the focus.
         reached.append(focus)
@@ -137,7 +142,7 @@ def test_a_slider_moves_by_arrows(watched: Watched):
     slider = watched.row("Outboard").get_by_role("slider")
     watched.press("Outboard", "ArrowRight", 3)
     watched.until_changed(lambda: watched.text("total-power"), before)
-    assert float(slider.get_attribute("aria-valuenow") or 0) > 0.0
+    watched.until(lambda: float(slider.get_attribute("aria-valuenow") or 0) > 0.0)
     assert watched.page.evaluate("() => document.activeElement.ariaLabel") == "Outboard ±"
 
 
@@ -167,18 +172,24 @@ def test_a_finger_drags_slider_curve_and_blade_on_a_phone(browser: "Browser", ap
         assert box is not None
         return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
 
+    watched.settled()
+    begun = outer()
     slider.scroll_into_view_if_needed()
     swipe(session, watched, middle_of(slider), (30.0, 2.0))
+    watched.until_changed(outer, begun)
     by_slider = watched.at_rest(outer)
     assert 3.0 < by_slider < 12.0
     knot = page.locator('[data-knot="2"]')
     knot.scroll_into_view_if_needed()
+    watched.settled()
     swipe(session, watched, middle_of(knot), (0.0, 12.0))
+    watched.until_changed(outer, by_slider)
     by_curve = watched.at_rest(outer)
     assert -20.0 <= by_curve < by_slider - 2.0
-    camera: Any = page.evaluate("() => window.__viserMutable.camera.position.toArray()")
+    camera: Any = watched.at_rest(lambda: page.evaluate("() => window.__viserMutable.camera.position.toArray()"))
     x, y = page.evaluate(ON_SCREEN, 7.2)
     swipe(session, watched, (x, y), (0.0, -30.0))
+    watched.until_changed(outer, by_curve)
     by_blade = watched.at_rest(outer)
     assert by_blade > by_curve + 1.0  # The tip was turned up.
     # The camera follows the shaft tilt; an orbit would have moved it by metres.

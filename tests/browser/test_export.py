@@ -54,8 +54,20 @@ def saved(watched: Watched, button: str, folder: Path) -> Path:
         drawer.get_by_role("button", name=button, exact=True).click()
     path = folder / download.value.suggested_filename
     download.value.save_as(path)
-    assert download.value.suggested_filename in until(watched, "done")
+    done = "name => document.querySelector('[data-explorer=export][data-kind=done]')?.innerText.includes(name)"
+    watched.page.wait_for_function(done, arg=path.name)
     return path
+
+
+def value(app: App, label: str) -> Any:
+    """What the server holds for a widget."""
+    (client,) = app.server.get_clients().values()
+    handles: Any = client.gui._gui_input_handle_from_uuid.values()
+    return next(handle.value for handle in handles if getattr(handle, "label", None) == label)
+
+
+def clipboard(watched: Watched) -> str:
+    return watched.page.evaluate("navigator.clipboard.readText()")
 
 
 def test_shapes_are_closed_and_to_scale(watched: Watched, tmp_path: Path):
@@ -80,36 +92,41 @@ def test_tables_are_read_back(watched: Watched, tmp_path: Path, button: str, row
     assert "linear:-16" in text
 
 
-def test_pictures_have_the_pixels_asked_for(watched: Watched, tmp_path: Path):
+def test_pictures_have_the_pixels_asked_for(watched: Watched, app: App, tmp_path: Path):
     watched.choose("Size [px]", "1280 × 720")
+    watched.until(lambda: value(app, "Size [px]") == "1280 × 720")
     with Image.open(saved(watched, "PNG", tmp_path)) as disk:
         assert disk.size == (1280, 720)
         assert disk.getpixel((3, 3)) == (255, 255, 255, 255)
         assert len(disk.convert("RGB").getcolors(1 << 21) or []) > 200  # Something is drawn.
     watched.page.get_by_label("Transparent").first.click()
-    watched.page.wait_for_timeout(100)
+    watched.until(lambda: value(app, "Transparent"))
     with Image.open(saved(watched, "PNG", tmp_path)) as disk:
         assert disk.getpixel((3, 3))[3] == 0  # pyright: ignore[reportIndexIssue, reportOptionalSubscript]
     watched.page.get_by_label("Transparent").first.click()
+    watched.until(lambda: not value(app, "Transparent"))
     drawing = saved(watched, "SVG", tmp_path).read_text(encoding="utf-8")
     assert drawing.startswith('<svg xmlns="http://www.w3.org/2000/svg" width="1280" height="720"')
     watched.choose("Picture", "3D view")
+    watched.until(lambda: value(app, "Picture") == "3D view")
     watched.page.get_by_role("button", name="SVG", exact=True).click()
     assert "save it as PNG" in until(watched, "problem")
     watched.choose("Size [px]", "2000 × 2000")
+    watched.until(lambda: value(app, "Size [px]") == "2000 × 2000")
     with Image.open(saved(watched, "PNG", tmp_path)) as view:
         assert view.size == (2000, 2000)
     watched.choose("Size [px]", "Own size")
     watched.page.get_by_text("W, H [px]").wait_for(timeout=WAIT)
     first, second = watched.row("W, H").locator("input:not([type=hidden])").all()
     first.fill("3000")
-    watched.page.wait_for_timeout(100)
+    watched.taken()
     second.fill("400")
     watched.page.keyboard.press("Enter")
-    watched.page.wait_for_timeout(100)
+    watched.until(lambda: tuple(value(app, "W, H [px]")) == (3000, 400))
     watched.page.get_by_role("button", name="PNG", exact=True).click()
     assert re.search(r"3000 × 400 leaves no room", until(watched, "problem"))
     watched.choose("Picture", "Disk")
+    watched.until(lambda: value(app, "Picture") == "Disk")
 
 
 def test_text_is_shown_copied_and_has_the_power_of_the_page(watched: Watched):
@@ -118,15 +135,17 @@ def test_text_is_shown_copied_and_has_the_power_of_the_page(watched: Watched):
     command = page.wait_for_selector('[data-explorer="code"]', timeout=WAIT)
     assert command is not None
     assert command.inner_text().strip() == "python -m rotor solve --mu 0.41 --twist linear:-16 --mass-kg 8320"
-    assert page.evaluate("navigator.clipboard.readText()").strip() == command.inner_text().strip()
+    watched.until(lambda: clipboard(watched).strip() == command.inner_text().strip())
+    copied = clipboard(watched)
     page.get_by_role("dialog").get_by_role("button", name="Close", exact=True).click()
     page.wait_for_selector('[data-explorer="code"]', state="detached")
     page.get_by_role("button", name="Python", exact=True).click()
     page.wait_for_selector('[data-explorer="code"]', timeout=WAIT)
     names: dict[str, Any] = {}
-    exec(compile(page.evaluate("navigator.clipboard.readText()"), "copied", "exec"), names)
+    exec(compile(watched.until_changed(lambda: clipboard(watched), copied), "copied", "exec"), names)
     assert names["solution"].power.total == pytest.approx(power, rel=1e-9)
     page.get_by_role("dialog").get_by_role("button", name="Close", exact=True).click()
+    page.wait_for_selector('[data-explorer="code"]', state="detached")
 
 
 def test_the_report_opens_without_a_server_and_asks_for_nothing(watched: Watched, tmp_path: Path):
@@ -144,7 +163,7 @@ def test_the_report_opens_without_a_server_and_asks_for_nothing(watched: Watched
     ground = "() => getComputedStyle(document.body).backgroundColor"
     light = report.page.evaluate(ground)
     report.page.get_by_role("button", name="Dark / light").click()
-    assert report.page.evaluate(ground) != light
+    report.until(lambda: report.page.evaluate(ground) != light)
     report.page.wait_for_timeout(500)
     assert [url for url in asked if not url.startswith(("file:", "blob:", "data:", "about:"))] == []
     assert asked.count(path.as_uri()) == 1
@@ -221,9 +240,10 @@ def test_the_demo_follows_its_sliders_from_the_disk(browser: "Browser", tmp_path
     before, jig_before, power = page.evaluate(tip), page.evaluate(jig), page.inner_text("#demo-total")
     page.locator("#demo-twist").press("ArrowRight")
     page.wait_for_function("power => document.getElementById('demo-total').textContent !== power", arg=power)
-    after, jig_after = page.evaluate(tip), page.evaluate(jig)
-    assert np.max(np.abs(np.subtract(after, before))) > 0.05  # [m]
-    assert np.max(np.abs(np.subtract(jig_after, jig_before))) > 0.05
+    shown = Watched(page)
+    for read, earlier in ((tip, before), (jig, jig_before)):
+        shown.until(lambda read=read, earlier=earlier: np.max(np.abs(np.subtract(page.evaluate(read), earlier))) > 0.05)
+    after, jig_after = page.evaluate(tip), page.evaluate(jig)  # [m]
     # Untwisted as built, the tip lies level; in flight the air turns it nose-down.
     levels, flown = (np.reshape(points, (-1, 3)) for points in (jig_after, after))
     tips = [points[points[:, 0] > points[:, 0].max() - 1e-3] for points in (levels, flown)]

@@ -102,14 +102,14 @@ def test_infinite_blades_take_less_induced_power(watched: Watched):
     )
     watched.page.get_by_label("Infinite blades").uncheck()
     watched.until_changed(lambda: watched.text("total-power"), after)
-    assert watched.text("total-power") == power
+    watched.says("total-power", power)
 
 
 def test_check_with_the_vortex_wake(watched: Watched):
     model(watched)
     watched.page.get_by_role("button", name="Check with the vortex wake").click()
     watched.page.wait_for_selector('[data-explorer="check"]', timeout=WAIT)
-    assert re.search(r"\d{3} kW.*shown is [+−]\d\.\d %", watched.text("check"), re.DOTALL)
+    watched.reads("check", r"(?s)\d{3} kW.*shown is [+−]\d\.\d %")
     watched.press("Adv. ratio", "ArrowRight", 2)
     watched.page.wait_for_selector('[data-explorer="check"]', state="detached", timeout=WAIT)
 
@@ -117,8 +117,7 @@ def test_check_with_the_vortex_wake(watched: Watched):
 def test_home_key_hovers(watched: Watched):
     watched.drawer("details")
     watched.press("Adv. ratio", "Home")
-    watched.until_changed(lambda: watched.text("speed"), "159 km/h · 44.2 m/s · 86 kt")
-    assert watched.text("speed") == "hover"
+    watched.says("speed", "hover")
     watched.page.wait_for_function(
         """() => document.querySelector('[data-explorer="trim"]').innerText.includes('Figure of merit')""", timeout=WAIT
     )
@@ -128,10 +127,9 @@ def test_beyond_the_rotor_is_a_red_sentence_and_the_way_back_is_open(watched: Wa
     disk = watched.node("/rotor/disk/field")
     for label, value in (("Altitude", 4000), ("Mass", 11), ("Adv. ratio", 0.44)):
         watched.type(label, value)
-        watched.page.wait_for_timeout(300)
     watched.page.wait_for_selector('[data-explorer="status"][data-kind="problem"]', timeout=WAIT)
-    assert "Not trimmed" in watched.text("problem")
-    assert "last converged solution" in watched.text("problem")
+    watched.reads("problem", "Not trimmed")
+    watched.reads("problem", "last converged solution")
     watched.until_changed(lambda: watched.node("/rotor/disk/field"), disk)
     watched.reset()
     watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
@@ -156,7 +154,7 @@ def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
     page.mouse.move(x, y)
     page.mouse.down()
     seen_while_down, steps = 0, 0
-    while seen_while_down < 5 and steps < 150:  # As long as a slow machine needs, but never letting go.
+    while seen_while_down < 5 and steps < 1000:  # As long as a slow machine needs, but never letting go.
         steps += 1
         page.mouse.move(x + steps % 30, y)
         page.wait_for_timeout(40)
@@ -177,7 +175,7 @@ def test_sessions_end_with_their_browsers(browser: "Browser", app: App):
     assert len(working()) == len(before) + 1
     watched.press("Adv. ratio", "ArrowRight")
     watched.close()
-    deadline = time.monotonic() + 10.0
+    deadline = time.monotonic() + 60.0
     while working() != before and time.monotonic() < deadline:
         time.sleep(0.1)
     assert working() == before
@@ -197,7 +195,7 @@ def test_crossed_divisions_are_one_red_sentence(watched: Watched):
     watched.until_changed(lambda: watched.text("change"), "0.0 %")
     watched.type("Division 2", 0.3)
     watched.page.wait_for_selector('[data-explorer="status"][data-kind="problem"]', timeout=WAIT)
-    assert "divisions at 0.4 and 0.3 R are out of order" in watched.text("problem")
+    watched.reads("problem", r"divisions at 0\.4 and 0\.3 R are out of order")
     watched.type("Division 2", 0.8)
     watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
 
@@ -209,10 +207,12 @@ def test_thesis_preset_brings_its_own_inflow(watched: Watched):
     watched.page.wait_for_function(
         """() => document.querySelector('[data-explorer="provenance"]')?.innerText.includes('15π/23')""", timeout=WAIT
     )
-    assert "linear −16°" in watched.text("against")
+    watched.reads("against", "linear −16°")
 
 
 def test_the_strip_has_four_charts_with_axes(watched: Watched):
+    watched.page.wait_for_function("() => RX.state.strip.length === 4 && RX.state.strip.every(one => one)")
+    watched.settled()
     names = watched.page.locator(".rxf-chart").evaluate_all("all => all.map(one => one.dataset.name)")
     assert names == ["power", "alpha", "lift", "worth"]
     for chart in watched.page.locator(".rxf-chart").all():
@@ -228,8 +228,10 @@ def test_the_strip_has_four_charts_with_axes(watched: Watched):
 
 def test_no_number_on_screen_is_not_a_number(watched: Watched):
     for key in ("Home", "End"):
+        speed = watched.text("speed")
         watched.press("Adv. ratio", key)
-        watched.page.wait_for_timeout(600)
+        watched.until_changed(lambda: watched.text("speed"), speed)
+        watched.settled(0.6)
         assert not re.search(r"\b(NaN|nan|inf|undefined)\b", watched.page.inner_text("body"))
 
 

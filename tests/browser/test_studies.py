@@ -1,6 +1,7 @@
 """The Studies tab in a real browser: a result opened, a click on a point flown, charts changed; Plotly only then."""
 
 import os
+import re
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -54,18 +55,25 @@ def test_a_click_on_a_point_puts_it_on_the_sliders(page: tuple[Watched, Session]
     assert tab.evaluate("window.Plotly === undefined")  # 1.7 MB that a page without studies never asks for.
     watched.choose("Result", "blades")
     tab.wait_for_selector('[data-explorer="study-state"][data-kind="done"]', timeout=WAIT)
-    assert "36 of 36 points" in watched.text("study-state")
+    watched.reads("study-state", "36 of 36 points")
     dots = tab.locator(".js-plotly-plot .points path")
     dots.first.wait_for(timeout=WAIT)
-    assert tab.evaluate(DRAWN) == 12  # Blades: each a pair of hover and cruise.
+    tab.wait_for_function(f"() => {DRAWN} === 12")  # Blades: each a pair of hover and cruise.
     before = watched.text("total-power")
-    dots.last.click(force=True)
-    tab.wait_for_function(
-        "() => document.querySelector('[data-explorer=study-point]')?.innerText.startsWith('Applied')"
-    )
+    said = tab.locator("[data-explorer=study-point]", has_text=re.compile("^Applied"))
+
+    def taken() -> bool:
+        """Plotly hears a click on a point over which it knows the pointer."""
+        dots.last.hover(force=True)
+        tab.wait_for_timeout(300)
+        dots.last.click(force=True)
+        tab.wait_for_timeout(1500)
+        return said.count() > 0
+
+    watched.until(taken)
     row = int(watched.text("study-point").split("point ")[1].split()[0])
     results = read_results(studies / "blades")
-    inputs = session.page.controls.inputs()
+    inputs = watched.at_rest(session.page.controls.inputs, 0.4)
     assert (inputs.law, inputs.inflow) == ("two", "pitt-peters")
     assert inputs.advance_ratio == results.columns["mu"][row] == 0.3
     assert inputs.two_inner == pytest.approx(results.columns["inboard_rate_deg"][row])
@@ -90,7 +98,7 @@ def test_other_charts_and_a_point_by_its_number(page: tuple[Watched, Session], a
     tab.screenshot(path=artefacts / "studies.png")
     watched.type("Point no.", 0)
     tab.wait_for_function("() => document.querySelector('[data-explorer=study-point]')?.innerText.includes('point 0')")
-    assert session.page.controls.inputs().advance_ratio == 0.0
+    watched.until(lambda: session.page.controls.inputs().advance_ratio == 0.0)
     watched.type("Point no.", 99)
     tab.wait_for_function("() => document.querySelector('[data-explorer=study-point]')?.innerText.includes('0…35')")
     assert watched.complaints == []

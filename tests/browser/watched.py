@@ -16,6 +16,10 @@ WAIT = 45_000
 """[ms]; far more than it takes, for machines that draw in software."""
 COARSE = "?fixedDpr=0.5"
 """Half as many pixels each way, for tests that read no picture."""
+OPEN = """() => document.querySelector('[data-explorer=status]')?.dataset.kind === 'converged'
+    && !document.documentElement.classList.contains('rx-veiled')"""
+_DRAWN = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done())))"
+_TAKEN = "() => new Promise(done => requestAnimationFrame(() => setTimeout(done, 80)))"
 
 
 class Watched:
@@ -23,13 +27,27 @@ class Watched:
 
     def __init__(self, page: "Page") -> None:
         self.page = page
+        page.set_default_timeout(WAIT)
         self.complaints: list[str] = []
         page.on("pageerror", lambda error: self.complaints.append(str(error)))
         page.on("console", lambda m: self.complaints.append(m.text) if m.type == "error" else None)
 
     def open(self, address: str, query: str = COARSE) -> None:
         self.page.goto(address + query)
-        self.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
+        self.ready()
+
+    def ready(self) -> None:
+        """Wait for the first answer, and until the page is seen. The first kernels may have to be compiled."""
+        self.page.wait_for_function(OPEN, timeout=4 * WAIT)
+
+    def drawn(self) -> None:
+        """Wait until what has arrived is drawn: `RX.state` is ahead of what is seen by a frame."""
+        self.page.evaluate(_DRAWN)
+
+    def taken(self) -> None:
+        """Wait until the page has sent the last edit: viser keeps one back that follows another within 50 ms, and
+        loses it to a third. Counted by the page's own clock, as a busy page is late."""
+        self.page.evaluate(_TAKEN)
 
     def close(self) -> None:
         """With all pages of its window."""
@@ -43,43 +61,49 @@ class Watched:
         self.row(label).get_by_role("slider").focus()
         for _ in range(times):
             self.page.keyboard.press(key)
-            self.page.wait_for_timeout(70)  # viser loses an edit that follows another within 50 ms.
+            self.taken()
 
     def choose(self, label: str, option: str) -> None:
         self.row(label).locator("input").first.click()
         self.page.get_by_role("option", name=option, exact=True).click()
+        self.taken()
 
     def type(self, label: str, value: float) -> None:
         self.row(label).locator("input:not([type=hidden])").last.fill(f"{value:g}")
         self.page.keyboard.press("Enter")
+        self.taken()
 
     def mode(self, name: str) -> None:
         """Explore, Optimise or Actuate: what the rail holds."""
         self.page.locator(f".rxf-modes [data-value={name}]").click()
-        self.page.wait_for_function("name => RX.state.bar?.mode === name", arg=name, timeout=WAIT)
+        self.page.wait_for_function("name => RX.state.bar?.mode === name", arg=name)
+        self.page.wait_for_selector(f".rxf-modes [data-value={name}][aria-current=true]")
 
     def drawer(self, name: str) -> None:
         """Open a drawer, unless it is open."""
         if self.page.evaluate("() => RX.state.bar.drawer") != name:
             self.page.evaluate("name => RX.send('drawer', name)", name)
-        self.page.wait_for_selector(f'[data-explorer="drawer"][data-name="{name}"]', timeout=WAIT)
+        self.page.wait_for_selector(f'[data-explorer="drawer"][data-name="{name}"]')
 
     def section(self, title: str) -> None:
         """A part of a rail or drawer that has several."""
         button = self.page.locator(".rxp-sections button", has_text=title)
         button.click()
-        self.page.wait_for_selector(f'.rxp-sections button[aria-pressed=true] >> text="{title}"', timeout=WAIT)
+        self.page.wait_for_selector(f'.rxp-sections button[aria-pressed=true] >> text="{title}"')
 
     def reset(self) -> None:
-        """Back to the design the page began with."""
+        """Back to the design the page began with. The server resets on a thread of its own, at any time."""
         self.mode("explore")
         self.page.get_by_role("button", name="Reset design").click()
+        self.taken()
+        self.settled(0.4)
 
     def show(self, field: str) -> None:
         """Another quantity on the disk."""
         self.page.locator(".rxf-field select").select_option(field)
 
     def text(self, part: str) -> str:
+        self.drawn()
         return self.page.locator(f'[data-explorer="{part}"]').first.inner_text()
 
     def until_changed(self, read: Callable[[], Any], before: Any) -> Any:
@@ -99,19 +123,37 @@ class Watched:
         self.page.wait_for_function(
             "([part, text]) => document.querySelector(`[data-explorer='${part}']`)?.innerText.trim() === text",
             arg=[part, text],
-            timeout=WAIT,
         )
 
+    def reads(self, part: str, pattern: str) -> str:
+        """What a part of the page says once it has a match of the pattern."""
+        text = self.text(part)
+        for _ in range(WAIT // 100):
+            if re.search(pattern, text):
+                return text
+            self.page.wait_for_timeout(100)
+            text = self.text(part)
+        raise AssertionError(f"{part} says {text!r}, without {pattern!r}")
+
     def at_rest(self, read: Callable[[], Any], rest: float = 1.2) -> Any:
-        """What is read once it has stayed the same so long [s]: a busy machine is still answering the last key."""
-        now, since = read(), time.monotonic()
-        deadline = since + WAIT / 1e3
-        while time.monotonic() - since < rest:
+        """What is read once it has stayed the same so long [s]: a busy machine is still answering the last key.
+
+        Time in which nothing was read does not count: the machine may have halted, the server with it.
+        """
+        now, last, rested = read(), time.monotonic(), 0.0
+        deadline = last + WAIT / 1e3
+        while rested < rest:
             assert time.monotonic() < deadline, f"never at rest: {now!r:.200}"
             self.page.wait_for_timeout(100)
-            if (new := read()) != now:
-                now, since = new, time.monotonic()
+            new, before, last = read(), last, time.monotonic()
+            rested = rested + min(last - before, 0.25) if new == now else 0.0
+            now = new
         return now
+
+    def settled(self, rest: float = 1.2) -> None:
+        """Wait until the frame of the page has nothing new to draw."""
+        self.at_rest(lambda: self.page.evaluate("() => JSON.stringify(RX.state)"), rest)
+        self.drawn()
 
     def node(self, name: str) -> str:
         """A digest of what the browser holds for a scene node: vertices or picture."""
