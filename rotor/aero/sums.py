@@ -130,21 +130,20 @@ def slopes(
 ) -> Slopes:
     """Exact derivatives of loads and sums by the unknowns. `feedback`: of the response of a load-dependent model."""
     disk, loads, response = problem.disk, elements.loads, elements.response
-    shape = (len(unknowns), *elements.theta.shape)
-    fz, fx = np.empty(shape), np.empty(shape)
-    for k, unknown in enumerate(unknowns):
-        _with_inflow_held(problem, elements, unknown, fz[k], fx[k])
+    fz, fx = np.empty((2, len(unknowns), *elements.theta.shape))
     prescribed: Array | None = None
     answer: InflowColumns | None = None
     shapes = problem.torsion.shapes if problem.torsion is not None else None
-    if response is not None:
-        wake = _wake_slopes(problem, elements, unknowns)
-        if feedback is None:
-            prescribed = np.tensordot(wake, response.by_wake, 1)
-            for k in np.flatnonzero(wake.any(axis=1)):
-                fz[k] += loads[kernel.FZ_UP] * prescribed[k]
-                fx[k] += loads[kernel.FX_UP] * prescribed[k]
-        elif isinstance(feedback, ColumnFeedback):
+    wake = _wake_slopes(problem, elements, unknowns)
+    if response is not None and feedback is None:
+        prescribed = np.zeros((len(unknowns), *disk.shape))
+        by_wake = response.by_wake.reshape(3, -1)
+        for k in np.flatnonzero(wake.any(axis=1)):
+            np.dot(wake[k], by_wake, out=prescribed[k].reshape(-1))
+    for k, unknown in enumerate(unknowns):
+        _by_unknown(problem, elements, unknown, None if prescribed is None else prescribed[k], fz[k], fx[k])
+    if response is not None and feedback is not None:
+        if isinstance(feedback, ColumnFeedback):
             answer = feedback.answer_columns(fz, wake, loads[kernel.FZ_THETA], shapes)
         else:
             answer = FieldColumns.of(response, feedback, fz, wake, loads[kernel.FZ_THETA], shapes)
@@ -183,15 +182,23 @@ def weighted_loads(problem: Problem, elements: BladeElements, fz: Array, fx: Arr
     """What every element adds to the six sums with fields of F_z and F_x, (6, elements, azimuths)."""
     disk = problem.disk
     cell = disk.dr / len(disk.psi)
-    arm = (cell * (disk.r - problem.flap.hinge))[:, None]
-    out = np.empty((N_SUMS, *fz.shape))
-    np.multiply(fz, cell, out=out[0])
-    np.multiply(fx, cell * disk.sin, out=out[1])
-    out[1] -= fz * (cell * elements.beta * disk.cos)
-    np.multiply(fz, arm, out=out[2])
-    np.multiply(out[2], 2.0 * disk.cos, out=out[3])
-    np.multiply(out[2], 2.0 * disk.sin, out=out[4])
-    np.multiply(fx, (cell * disk.r)[:, None], out=out[5])
+    return _weighted(fz, fx, disk.r, disk.r - problem.flap.hinge, disk.cos, disk.sin, elements.beta, cell)
+
+
+@compiled(error_model="numpy")
+def _weighted(fz: Any, fx: Any, r: Any, arm: Any, cos: Any, sin: Any, beta: Any, cell: float) -> Any:
+    n, m = fz.shape
+    out = np.empty((6, n, m))
+    for i in range(n):
+        for j in range(m):
+            out[0, i, j] = cell * fz[i, j]
+            out[1, i, j] = cell * (sin[j] * fx[i, j] - beta[j] * cos[j] * fz[i, j])
+            out[2, i, j] = cell * arm[i] * fz[i, j]
+        for j in range(m):
+            moment = 2.0 * cell * arm[i] * fz[i, j]
+            out[3, i, j] = moment * cos[j]
+            out[4, i, j] = moment * sin[j]
+            out[5, i, j] = cell * r[i] * fx[i, j]
     return out
 
 
@@ -222,8 +229,13 @@ def swirl_slope(problem: Problem, elements: BladeElements, unknown: Unknown) -> 
     return product * slope[:, None]
 
 
-def _with_inflow_held(problem: Problem, elements: BladeElements, unknown: Unknown, fz: Array, fx: Array) -> None:
-    """Write ∂F_z, ∂F_x by one unknown with the inflow held: through θ, U_T, U_P and the loss factor."""
+def _by_unknown(
+    problem: Problem, elements: BladeElements, unknown: Unknown, prescribed: Array | None, fz: Array, fx: Array
+) -> None:
+    """Write ∂F_z, ∂F_x by one unknown: through θ, U_T, U_P and the loss factor.
+
+    prescribed: ∂λ_i of a model that does not depend on the load; None: λ_i is held.
+    """
     disk, loads = problem.disk, elements.loads
     if unknown in ("collective", "cyclic_1c", "cyclic_1s"):
         theta = {"collective": 1.0, "cyclic_1c": disk.cos, "cyclic_1s": disk.sin}[unknown]
@@ -231,17 +243,45 @@ def _with_inflow_held(problem: Problem, elements: BladeElements, unknown: Unknow
         np.multiply(loads[kernel.FX_THETA], theta, out=fx)
         return
     u_t, u_p = velocity_slopes(problem, elements, unknown)
-    np.multiply(loads[kernel.FZ_UP], u_p, out=fz)
-    np.multiply(loads[kernel.FX_UP], u_p, out=fx)
-    if unknown in ("shaft_tilt", "lambda0"):
-        fz += loads[kernel.FZ_UT] * u_t
-        fx += loads[kernel.FX_UT] * u_t
-        lift = loads[kernel.LIFT] * elements.loss_slopes[0 if unknown == "shaft_tilt" else 1][:, None]
-        fz += lift * elements.u_t
-        fx += lift * elements.u_p
-    if unknown == "shaft_tilt" and problem.design.models.disk_axial_flow:
-        u_r = -elements.flow.mu_z * disk.cos
-        fz += loads[kernel.FZ_UR] * u_r
-        fx += loads[kernel.FX_UR] * u_r
-        if elements.friction is not None:
-            fx -= elements.flow.mu_z * elements.friction.fx_slope
+    if unknown not in ("shaft_tilt", "lambda0"):
+        np.multiply(loads[kernel.FZ_UP], u_p, out=fz)
+        np.multiply(loads[kernel.FX_UP], u_p, out=fx)
+        return
+    change = velocity_changes(problem, elements, unknown, u_t, u_p if prescribed is None else u_p + prescribed)
+    lift = loads[kernel.LIFT]
+    for out, by_ut, by_up, by_ur, along in (
+        (fz, kernel.FZ_UT, kernel.FZ_UP, kernel.FZ_UR, elements.u_t),
+        (fx, kernel.FX_UT, kernel.FX_UP, kernel.FX_UR, elements.u_p),
+    ):
+        chain_rule(*change, loads[by_ut], loads[by_up], loads[by_ur], lift, along, out)
+    if unknown == "shaft_tilt" and problem.design.models.disk_axial_flow and elements.friction is not None:
+        fx -= elements.flow.mu_z * elements.friction.fx_slope
+
+
+def velocity_changes(
+    problem: Problem, elements: BladeElements, unknown: Unknown, u_t: Array | float, u_p: Array | float
+) -> tuple[Array, Array, Array, Array]:
+    """∂U_T, ∂U_P on the grid, ∂U_R (azimuths,) and ∂F (elements,) by shaft tilt or λ0, for `chain_rule`."""
+    by_ut, by_up = np.empty((2, *problem.disk.shape))
+    by_ut[:], by_up[:] = u_t, u_p
+    tilting = unknown == "shaft_tilt" and problem.design.models.disk_axial_flow
+    along = -elements.flow.mu_z * problem.disk.cos if tilting else np.zeros_like(problem.disk.cos)
+    return by_ut, by_up, along, elements.loss_slopes[0 if unknown == "shaft_tilt" else 1]
+
+
+@compiled(error_model="numpy", fastmath={"contract"})
+def chain_rule(
+    u_t: Any, u_p: Any, u_r: Any, loss: Any, by_ut: Any, by_up: Any, by_ur: Any, lift: Any, along: Any, out: Any
+) -> None:
+    """Write ∂f/∂U_T δU_T + ∂f/∂U_P δU_P + ∂f/∂U_R δU_R + ½σUC_l · along · δF, (elements, azimuths).
+
+    u_t, u_p (elements, azimuths), u_r (azimuths,) and loss (elements,) are the changes; the others belong to f.
+    """
+    for i in range(len(loss)):
+        for j in range(len(u_r)):
+            out[i, j] = (
+                by_ut[i, j] * u_t[i, j]
+                + by_up[i, j] * u_p[i, j]
+                + by_ur[i, j] * u_r[j]
+                + lift[i, j] * along[i, j] * loss[i]
+            )

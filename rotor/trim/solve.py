@@ -7,7 +7,7 @@ from dataclasses import replace
 from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem
 from rotor.aero.sums import disk_sums
-from rotor.aero.torsion_balance import control_moment, control_work
+from rotor.aero.torsion_balance import control_loads
 from rotor.blas_threads import one_blas_thread
 from rotor.design.design import Design, require_design
 from rotor.trim.forward import first_guess, guess_of, trim, trim_along
@@ -141,7 +141,7 @@ def _elastic(problem: Problem, elements: BladeElements) -> ElasticTwist | None:
     if problem.torsion is None or elements.torsion is None or structure is None:
         return None
     coordinates, shapes = elements.torsion.coordinates, problem.torsion.shapes
-    moment = control_moment(problem, elements)
+    moment, power = control_loads(problem, elements)
     return ElasticTwist(
         coordinates=coordinates,
         shapes=shapes.radial,
@@ -150,7 +150,7 @@ def _elastic(problem: Problem, elements: BladeElements) -> ElasticTwist | None:
         along_blade=elements.torsion.twist.mean(axis=1),
         control_moment=moment,
         pitch_link_load=moment / structure.pitch_horn,
-        control_power=control_work(problem, elements) * problem.design.power_unit,
+        control_power=power * problem.design.power_unit,
     )
 
 

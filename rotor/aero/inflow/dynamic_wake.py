@@ -278,7 +278,15 @@ class WakeOperator:
 
     def field(self, x: Array) -> Array:
         """λ_i = C x/F, (…, states) → (…, elements, azimuths)."""
-        return self.projection.field(x) / self.factor[:, None]
+        return self.over_factor(self.projection.field(x))
+
+    def over_factor(self, fields: Array) -> Array:
+        """Fields over F; themselves where F = 1."""
+        return fields if self._no_factor else fields / self.factor[:, None]
+
+    @cached_property
+    def _no_factor(self) -> bool:
+        return bool((self.factor == 1.0).all())
 
     def induced(self, d: Array) -> Array:
         """λ_i = A d."""
@@ -286,7 +294,7 @@ class WakeOperator:
 
     def induced_transposed(self, g: Array) -> Array:
         """Aᵀ g, for adjoints."""
-        back = self.transfer(self.projection.field_transposed(g / self.factor[:, None]), transposed=True)
+        back = self.transfer(self.projection.field_transposed(self.over_factor(g)), transposed=True)
         return self.projection.loads_transposed(back)
 
     def states_by_wake(self, d: Array) -> Array:
@@ -311,7 +319,7 @@ class WakeOperator:
 
     def feedback(self, slope: Array, load: Array) -> "DynamicWakeFeedback":
         """The feedback for a pointwise slope K = ∂d/∂λ_i, negative where more inflow reduces the lift, at a load."""
-        reduced = self.projection.reduced(slope / self.factor[:, None])
+        reduced = self.projection.reduced(self.over_factor(slope))
         system = -self.transfer(reduced)
         system.ravel()[:: len(system) + 1] += 1.0
         # Of the transpose, which is what LAPACK sees in these rows without copying them.
@@ -352,7 +360,7 @@ class DynamicWakeFeedback:
     def solve_transposed(self, field: Array) -> Array:
         """v with v − K Aᵀ v = field."""
         operator, projection = self.operator, self.operator.projection
-        back = projection.field_transposed(field / operator.factor[:, None])
+        back = projection.field_transposed(operator.over_factor(field))
         back = lu_solve(self.lu, back, check_finite=False)
         return field + self.slope * projection.loads_transposed(operator.transfer(back, transposed=True))
 
@@ -389,13 +397,13 @@ class StateColumns:
 
     def integrate(self, fields: Array) -> Array:
         """As `InflowColumns`."""
-        out = self.operator.projection.field_transposed(fields / self.operator.factor[:, None]) @ self.states
+        out = self.operator.projection.field_transposed(self.operator.over_factor(fields)) @ self.states
         return out if self.beyond is None else out + np.outer(np.tensordot(fields, self.beyond, 2), self.shares)
 
     def project(self, slope: Array, shapes: HarmonicShapes) -> Array:
         """As `InflowColumns`."""
         projection = self.operator.projection
-        rows = projection.field_factor[:, None] * projection.against(slope / self.operator.factor[:, None], shapes)
+        rows = projection.field_factor[:, None] * projection.against(self.operator.over_factor(slope), shapes)
         out = np.tile(shapes.scale, len(shapes.radial))[:, None] * (rows.T @ self.states)
         return out if self.beyond is None else out + np.outer(shapes.project(slope * self.beyond), self.shares)
 

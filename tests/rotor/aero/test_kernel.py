@@ -7,6 +7,7 @@ from numpy.testing import assert_array_equal
 
 from rotor.aero import kernel
 from rotor.aero.disk import build_disk
+from rotor.aero.torsion_balance import propeller_moment
 from rotor.arrays import Array
 from rotor.compiled import compiled
 from rotor.files.make_design import make_design
@@ -31,6 +32,17 @@ def test_inflow_angle_to_rounding():
     assert np.abs((found - exact) / np.spacing(np.abs(exact))).max() <= 3.0
     axes = np.array([0.0, 1.0, -1.0, 0.0, 0.0]), np.array([1.0, 0.0, 0.0, -1.0, 0.0])
     assert_array_equal(angles(*axes), [0.0, 0.5 * math.pi, -0.5 * math.pi, math.pi, 0.0])
+
+
+def test_propeller_moment_to_rounding():
+    """½ sin 2θ and cos 2θ against the C library, over several turns."""
+    theta = np.random.default_rng(3).uniform(-10.0, 10.0, (100, 1000))
+    theta[0, :5] = 0.0, 0.25 * math.pi, -0.25 * math.pi, 0.5 * math.pi, -math.pi
+    sine, cosine = propeller_moment(np.ones(100), theta)
+    assert np.abs(2.0 * sine - np.sin(2.0 * theta)).max() < 1.5e-15
+    assert np.abs(cosine - np.cos(2.0 * theta)).max() < 1.5e-15
+    small = propeller_moment(np.ones(1), np.full((1, 1), 1e-9))[0]
+    assert abs(small[0, 0] / 1e-9 - 1.0) < 1e-15
 
 
 def test_what_is_not_a_number_stays_so():
