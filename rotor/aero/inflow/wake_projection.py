@@ -98,8 +98,8 @@ class Projection:
 
         As `reduced`: only the Fourier coefficients of the slope enter. The factors of load or field are left out.
         """
-        pairs = self.radial[:, None] * shapes.radial * shapes.dr
-        spectrum = pairs @ (slope @ self.spectrum.T)
+        pairs = (self.radial[:, None] * shapes.radial * shapes.dr).reshape(-1, len(self.r))
+        spectrum = (pairs @ (slope @ self.spectrum.T)).reshape(len(self.radial), len(shapes.radial), -1)
         return _assemble_columns(
             spectrum, self.mode, self.parity, self.wave, self.share, shapes.wave, shapes.parity,
             self.spectrum.shape[0] // 2,
