@@ -87,6 +87,7 @@ def watched(sized: tuple[Watched, tuple[int, int]]) -> Iterator[Watched]:
     page.evaluate("() => document.activeElement?.blur()")
     page.keyboard.press("r")
     page.wait_for_function("() => RX.state.power.change === '0.0 %' && RX.state.power.total.length < 4", timeout=WAIT)
+    sized[0].settled(0.4)
     yield sized[0]
     assert sized[0].complaints == []
 
@@ -96,9 +97,11 @@ def test_everything_has_its_place(watched: Watched):
     for field in ("Power dP/dr", "Thrust dT/dr"):  # Those with the longest units.
         watched.show(field)
         page.wait_for_function("field => RX.state.field.field === field", arg=field, timeout=WAIT)
+        watched.drawn()
         assert page.evaluate(_LEAVES, [".rxf-field", ".rxf-field *"]) == []
     page.evaluate("() => RX.send('knot', ['2', [1.0, 6.0]])")
     page.wait_for_function("() => RX.state.power.since", timeout=WAIT)
+    watched.settled()  # Nothing may come that puts back what is set here.
     long = {"value": "+1 903 kW", "words": "since grabbed", "kind": "bad"}
     page.evaluate("since => RX.set({power: {...RX.state.power, total: '2 801', since}})", long)
     page.wait_for_function(
@@ -109,10 +112,10 @@ def test_everything_has_its_place(watched: Watched):
     # A race takes two places of the strip and gives them back.
     page.evaluate("() => { window.before = RX.state.strip; RX.set({strip: [{...before[0], wide: true}, before[1]]}); }")
     page.wait_for_function("() => document.querySelectorAll('.rxf-chart').length !== 4", timeout=WAIT)
-    assert page.evaluate(_NARROW_CHARTS) == []
+    page.wait_for_function(f"() => ({_NARROW_CHARTS})().length === 0")
     page.evaluate("() => RX.set({strip: window.before})")
     page.wait_for_function("() => document.querySelectorAll('.rxf-chart').length >= 3", timeout=WAIT)
-    assert page.evaluate(_NARROW_CHARTS) == []
+    page.wait_for_function(f"() => ({_NARROW_CHARTS})().length === 0")
 
 
 def test_no_two_cards_meet(watched: Watched):
@@ -122,11 +125,13 @@ def test_no_two_cards_meet(watched: Watched):
         page.wait_for_function(f"() => ({_CARDS})().length === 0", timeout=WAIT)
     page.evaluate("() => RX.send('knot', ['2', [1.0, 6.0]])")
     page.wait_for_function("() => RX.state.power.since", timeout=WAIT)
-    assert page.evaluate(_CARDS) == []
+    watched.settled(0.4)
+    page.wait_for_function(f"() => ({_CARDS})().length === 0")
     page.get_by_role("button", name="Pin A").click()
     page.wait_for_function("() => RX.state.bar.pinned", timeout=WAIT)
-    assert page.evaluate(_CARDS) == []
-    assert page.evaluate(_OUTSIDE) == []
+    watched.settled(0.4)
+    page.wait_for_function(f"() => ({_CARDS})().length === 0")
+    page.wait_for_function(f"() => ({_OUTSIDE})().length === 0")
     page.evaluate("() => RX.send('pin', '')")
     page.wait_for_function("() => !RX.state.bar.pinned", timeout=WAIT)
 
@@ -151,8 +156,10 @@ def test_the_lecture_is_the_scene_a_caption_and_three_numbers(watched: Watched, 
     page, size, rail = watched.page, sized[1], watched.page.locator("[data-dock-region=right]")
     page.keyboard.press("t")
     page.wait_for_selector('[data-explorer="lecture"][data-step="1"]', timeout=WAIT)
-    assert page.evaluate(_LEAVES, ["", ".rxf-bar *, .rxf-caption *, .rxf-stage > .rxf-card"]) == []
-    assert not rail.is_visible()
+    page.wait_for_function(
+        f"() => ({_LEAVES})(['', '.rxf-bar *, .rxf-caption *, .rxf-stage > .rxf-card']).length === 0"
+    )
+    rail.wait_for(state="hidden")
     page.keyboard.press("PageDown")
     page.wait_for_selector('[data-explorer="lecture"][data-step="2"]', timeout=WAIT)
     page.wait_for_function("() => /\\d/.test(document.querySelector('[data-explorer=said]').innerText)", timeout=WAIT)
@@ -164,21 +171,22 @@ def test_the_lecture_is_the_scene_a_caption_and_three_numbers(watched: Watched, 
         return Boolean(box) && e.contains(document.elementFromPoint(x, y)); }"""
     for part in ('[data-explorer="said"]', ".rxf-caption [data-value=next]"):
         page.wait_for_function(seen, arg=part, timeout=WAIT)
-    scene = page.locator("canvas[data-engine]").evaluate("e => e.getBoundingClientRect().toJSON()")
-    caption = page.locator(".rxf-caption").evaluate("e => e.getBoundingClientRect().toJSON()")
+    boxes = """() => ["canvas[data-engine]", ".rxf-caption"].map(
+        name => document.querySelector(name).getBoundingClientRect().toJSON())"""
+    scene, caption = watched.at_rest(lambda: page.evaluate(boxes), 0.6)
     assert scene["left"] == 0
     assert scene["right"] == size[0]  # Full-bleed.
     assert scene["height"] > 0.3 * size[1]
     assert page.locator(".rxf-caption").evaluate("e => e.scrollWidth <= e.clientWidth")
     assert caption["top"] >= scene["bottom"] - 1
     assert caption["bottom"] <= size[1] + 1
-    assert page.evaluate(_CARDS) == []
+    page.wait_for_function(f"() => ({_CARDS})().length === 0")
     for panel in ("[data-dock-region]", ".rxf-strip", ".rxf-power"):
-        assert not page.locator(panel).first.is_visible(), panel
+        page.locator(panel).first.wait_for(state="hidden")
     _controls_come_and_go(watched)
     page.get_by_role("button", name="End", exact=True).click()
     page.wait_for_selector('[data-explorer="lecture"]', state="hidden", timeout=WAIT)
-    assert rail.is_visible() == (size[0] > 1100 or size[0] <= 700)
+    rail.wait_for(state="visible" if size[0] > 1100 or size[0] <= 700 else "hidden")
 
 
 def _controls_come_and_go(watched: Watched) -> None:

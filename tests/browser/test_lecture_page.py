@@ -38,14 +38,15 @@ def test_the_lecture_sets_the_page_and_says_what_is_seen(browser: "Browser", app
     page.get_by_role("button", name="Next").click()
     stands_at(page, 2)
     design_in_address(watched, "linear:-16;mu=0")
+    watched.reads("said", "^Induced power: A ")
     said = watched.at_rest(lambda: watched.text("said"))
-    assert said.startswith("Induced power: A ")
     page.evaluate("() => RX.send('knot', ['1', [1.0, -3.0]])")  # The curve's handle moves the rate.
-    assert watched.until_changed(lambda: watched.text("said"), said).startswith("Induced power: A ")
+    watched.until_changed(lambda: watched.text("said"), said)
+    watched.reads("said", "^Induced power: A ")
     for k in range(3, len(STEPS) + 1):
         page.keyboard.press("PageDown")
         stands_at(page, k)
-    assert page.evaluate("() => RX.state.bar.mode") == "actuate"
+    page.wait_for_function("() => RX.state.bar.mode === 'actuate'")
     page.keyboard.press("PageUp")
     stands_at(page, len(STEPS) - 1)
     page.get_by_role("button", name="End", exact=True).click()
@@ -70,8 +71,7 @@ def test_with_four_blades_a_step_compares_four_with_four(browser: "Browser", app
         stands_at(page, k)
         page.keyboard.press("PageDown")
     stands_at(page, 5)
-    before = watched.at_rest(lambda: watched.text("said"))
-    assert "(+1" in before
+    watched.reads("said", r"\(\+1")
     inputs = app.sessions[-1].page.context.inputs()
     app.sessions[-1].page.context.set_inputs(replace(inputs, inflow="dynamic-wake"))
 
@@ -79,9 +79,9 @@ def test_with_four_blades_a_step_compares_four_with_four(browser: "Browser", app
         found = re.search(r"\(([+−][\d.]+)", watched.text("said"))
         return float(found[1].replace("−", "-")) if found else math.inf
 
-    watched.until_changed(lambda: change() < 1.0, False)  # First the design, then A has the other inflow.
+    watched.until(lambda: change() < 1.0)  # First the design, then A has the other inflow.
     assert watched.at_rest(change) < 1.0
-    assert "different models" not in page.evaluate("() => RX.state.power.status.title")
+    page.wait_for_function("() => !RX.state.power.status.title.includes('different models')")
     watched.close()
 
 
@@ -94,23 +94,25 @@ def test_others_follow_the_presenter_and_may_leave(browser: "Browser", app: App)
     link = presenter.page.locator('[data-explorer="presence"] a').get_attribute("href")
     assert link is not None
     name = link.removeprefix("?follow=")
-    secret = page.evaluate("() => JSON.parse(sessionStorage.getItem('rx-kept')).present")
-    assert secret
+    present = "() => JSON.parse(sessionStorage.getItem('rx-kept') ?? '{}').present"
+    secret = page.wait_for_function(present).json_value()
     assert secret not in page.url  # Whoever is sent the address must not become the presenter.
     page.reload()
     page.wait_for_selector('[data-explorer="presence"] a', timeout=WAIT)  # The page itself presents on.
     assert page.locator('[data-explorer="presence"] a').get_attribute("href") == link
     follower = opened(browser, app.address, COARSE + f"&follow={name}")
     other = follower.page
-    assert "moves by itself" in follower.text("presence")
+    follower.reads("presence", "moves by itself")
     page.wait_for_function(
         """() => document.querySelector('[data-explorer="presence"]').innerText.includes('1 follows')""", timeout=WAIT
     )
     before = shown_kw(follower)
     presenter.type("Adv. ratio", 0.3)
-    assert follower.until_changed(lambda: shown_kw(follower), before) == presenter.until_changed(
-        lambda: shown_kw(presenter), before
-    )
+    presenter.until_changed(lambda: shown_kw(presenter), before)
+    design_in_address(presenter, "mu=0.3")
+    shown = presenter.at_rest(lambda: shown_kw(presenter))
+    assert shown != before
+    follower.until(lambda: shown_kw(follower) == shown)
     follower.type("Adv. ratio", 0.2)  # Read-only: it goes back.
     here = shown_kw(presenter)
     other.wait_for_timeout(1500)
@@ -123,7 +125,7 @@ def test_others_follow_the_presenter_and_may_leave(browser: "Browser", app: App)
     other.keyboard.press("Escape")
     for key in ("h", "t", "p"):  # Nor do its keys move it, nor its buttons.
         other.keyboard.press(key)
-    assert other.get_by_role("button", name="Pin A").is_disabled()
+    follower.until(other.get_by_role("button", name="Pin A").is_disabled)
     other.wait_for_timeout(1500)
     assert not other.locator('[data-explorer="lecture"]').is_visible()
     design_in_address(follower, "mu=0.3")
