@@ -14,6 +14,7 @@ that at the same rate of climb.
 """
 
 import math
+from collections import deque
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
@@ -63,9 +64,12 @@ class HoverDifference:
 
 @lru_cache(maxsize=32)
 def hover_difference(design: Design) -> HoverDifference | None:
-    """The difference for a hovering design; None where hover does not converge."""
+    """The difference for a hovering design; None where hover does not converge.
+
+    A free wake starts from the last one of the same rotor: what it settles to does not depend on the start.
+    """
     problem = build_problem(design)
-    found = hover_wake(problem) if design.models.hover_inflow == "free-wake" else hover(problem)
+    found = _in_free_wake(problem) if design.models.hover_inflow == "free-wake" else hover(problem)
     if not found.converged:
         return None
     elements, disk = found.elements, problem.disk
@@ -73,7 +77,24 @@ def hover_difference(design: Design) -> HoverDifference | None:
     axial = problem.inflow.respond(disk, flow, elements.loads[kernel.FZ]).induced.mean(axis=1)
     uniform, _ = swirl_of(disk.r, flow.lambda0**2 + flow.lambda0 * flow.mu_z if design.models.has("swirl") else 0.0)
     wake = found.wake.state if isinstance(found, HoverWakeResult) and found.wake is not None else None
-    return HoverDifference(problem, elements, wake, elements.induced[:, 0] - axial, elements.swirl - uniform)
+    difference = HoverDifference(problem, elements, wake, elements.induced[:, 0] - axial, elements.swirl - uniform)
+    if wake is not None:
+        _SETTLED.append(difference)
+    return difference
+
+
+_SETTLED: deque[HoverDifference] = deque(maxlen=4)
+"""The last free wakes."""
+
+
+def _in_free_wake(problem: Problem) -> HoverWakeResult:
+    """Hover, from the last free wake of the same rotor with the same models if there is one."""
+    design = problem.design
+    for near in reversed(list(_SETTLED)):
+        if (near.problem.design.rotor, near.problem.design.models) == (design.rotor, design.models):
+            torsion = near.elements.torsion
+            return hover_wake(problem, near.wake, elastic=None if torsion is None else torsion.coordinates)
+    return hover_wake(problem)
 
 
 def axial_share(mu: float, thrust: float) -> float:
