@@ -35,6 +35,11 @@ NOT_SETTLED = (
     "Not trimmed: the free wake did not settle at this thrust and twist; take hover inflow annulus, or change the "
     "twist or the mass a little."
 )
+TIPS_PUSH_DOWN = (
+    "Not trimmed: with so much twist for so little thrust the tips push down. The tip vortices lose their circulation, "
+    "and the steady free wake that follows from more thrust ends before; take hover inflow annulus, less twist or more "
+    "mass."
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,11 +88,14 @@ def hover_wake(
     circulation = math.pi / problem.disk.blades * annuli.elements.loads[kernel.LIFT, :, 0]
     collective = annuli.elements.state.collective
     if problem.torsion is None:
-        return _result(problem, settle(problem, circulation, collective, start), None, settled=True)
-    assert annuli.elements.torsion is not None
-    if twist is None:
-        twist = annuli.elements.torsion.coordinates[:, 0]
-    return _with_torsion(problem, circulation, collective, start, twist)
+        result = _result(problem, settle(problem, circulation, collective, start), None, settled=True)
+    else:
+        assert annuli.elements.torsion is not None
+        if twist is None:
+            twist = annuli.elements.torsion.coordinates[:, 0]
+        result = _with_torsion(problem, circulation, collective, start, twist)
+    tips_push_down = float(circulation[problem.disk.r > 0.8].min()) < 0.0
+    return result if result.converged or not tips_push_down else replace(result, message=TIPS_PUSH_DOWN)
 
 
 def _with_torsion(

@@ -145,6 +145,14 @@ def test_a_rotor_without_thrust_gets_a_sentence():
     assert "annulus" in solution.message
 
 
+@pytest.mark.slow
+def test_tips_that_push_down_get_a_sentence():
+    """Followed from more thrust, the wake of five blades with −21.7° ends at C_T/σ 0.025 (a fold of the solution)."""
+    solution = solve(free_wake("linear:-32", mass_kg=2000.0))
+    assert not solution.converged
+    assert "tips push down" in solution.message
+
+
 def test_a_given_collective_gets_a_sentence():
     design = make_design(rotor="xv15", hover=True, trim="controls", stand={"collective_deg": 8.0})
     solution = solve(replace(design, models=replace(design.models, hover_inflow="free-wake")))
