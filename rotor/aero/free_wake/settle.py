@@ -41,6 +41,8 @@ _REJECTED = 3
 """Rejected steps in a row after which the circulation follows in pseudo-time as the nodes do."""
 _MOST_STEPS = 40, 60
 """Passes of a stage, and those after that."""
+_NEAR = 2e-3
+"""Residual of the full grid from which factors are kept: a Jacobian takes as long as six residuals."""
 _LONGEST_STEPS = 0.15, 0.02, 0.1
 """Largest change in a step: of a node over R, of Γ/ΩR², of the collective [rad]."""
 _STAGES = ((0.08, 3e-3, 1.0), (0.04, 1e-3, 4.0), (0.02, 1e-3, 8.0))
@@ -57,6 +59,8 @@ class Settled:
     converged: bool
     passes: int
     """Evaluations of the equations."""
+    damped: bool = False
+    """Whether the circulation had to follow in pseudo-time, so that others may be in equilibrium too."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,12 +112,14 @@ def settle(
     circulation Γ/ΩR² (elements,) and collective [rad] begin a cold start; `start` is an earlier wake of one layout.
     More than one wake may be in equilibrium: with one tip vortex below and another above the next blade, or with the
     root stalled or not. Where that may be so, and with `compare`, the wake that follows from that of mild twist is
-    found too, and the one of less torque is returned, so that it does not depend on the start.
+    found too (after a start that went on to separated flow, that of an easier rotor), and the one of less torque is
+    returned, so that it does not depend on the start.
     """
     found = _any(problem, circulation, collective, start)
     if not (compare and found.converged and _may_have_another(found)):
         return found
-    other = _follow(problem, _easiest(problem), found.system.layout)
+    easiest = _easiest(problem)
+    other = _from_easier(problem, found) if found.damped else _follow(problem, easiest, found.system.layout)
     passes = found.passes + other.passes
     chosen = other if other.converged and torque(other) < torque(found) else found
     return replace(chosen, passes=passes)
@@ -179,7 +185,11 @@ def preview(problem: Problem, start: WakeState) -> Settled | None:
 def warm(system: HoverSystem, start: WakeState) -> Settled:
     """Newton's method from an earlier wake with kept factors, made anew where the residual does not fall."""
     factors = KEPT.of(start)
-    point = system.evaluate(start, slopes=factors is None)
+    return _with_kept_factors(system, system.evaluate(start, slopes=factors is None), factors)
+
+
+def _with_kept_factors(system: HoverSystem, point: WakeEvaluation, factors: Factors | None = None) -> Settled:
+    """Newton's method from an evaluation, its Jacobian factorised where no `factors` are given."""
     passes, first = 1, point.error
     while point.error > TOLERANCE and passes < 40:
         fresh = factors is None
@@ -209,14 +219,20 @@ def warm(system: HoverSystem, start: WakeState) -> Settled:
 
 def cold(system: HoverSystem, coarse: HoverSystem, circulation: Array, collective: float, haste: float) -> Settled:
     """From a prescribed wake, with half the azimuths first; `haste` scales the steps of pseudo-time."""
-    passes = 0
+    passes, damped = 0, False
     state = _prescribed(coarse, circulation, collective)
     for core, enough, pace in _STAGES:
         found = _pseudo_time(coarse, state, core, enough, pace * haste)
-        state, passes = found.evaluation.state, passes + found.passes
-    start = _interpolated(state, coarse, system)
-    found = _pseudo_time(system, start, 0.0, TOLERANCE, 8.0 * haste)
-    return replace(found, passes=passes + found.passes)
+        state, passes, damped = found.evaluation.state, passes + found.passes, damped or found.damped
+    found = _pseudo_time(system, _interpolated(state, coarse, system), 0.0, _NEAR, 8.0 * haste)
+    passes, damped = passes + found.passes, damped or found.damped
+    if found.converged:
+        near = found.evaluation
+        found = _with_kept_factors(system, near)
+        if not found.converged:
+            found = _pseudo_time(system, near.state, 0.0, TOLERANCE, 32.0 * haste)
+        passes, damped = passes + found.passes, damped or found.damped
+    return replace(found, passes=passes, damped=damped)
 
 
 def _pseudo_time(system: HoverSystem, state: WakeState, core: float, enough: float, pace: float) -> Settled:
@@ -241,7 +257,7 @@ def _pseudo_time(system: HoverSystem, state: WakeState, core: float, enough: flo
     converged = point.error <= enough
     if converged and enough <= TOLERANCE and factors is not None:
         KEPT.keep(point.state, factors)
-    return Settled(system, point, converged, passes)
+    return Settled(system, point, converged, passes, damped)
 
 
 def _from_easier(problem: Problem, failed: Settled) -> Settled:
