@@ -77,7 +77,12 @@ def faults(watched: Watched) -> dict[str, list[str]]:
                 watched.section(section)
             unfold(watched)
             # What is wrong only while the page lays itself out does not count.
-            found[f"{place} {section}".strip()] = watched.at_rest(lambda: watched.page.evaluate(_FAULTS), 0.4)
+            watched.settled(0.4)
+            wrong = watched.at_rest(lambda: watched.page.evaluate(_FAULTS), 0.4)
+            if wrong:
+                watched.page.wait_for_timeout(5000)
+                wrong = watched.at_rest(lambda: watched.page.evaluate(_FAULTS), 0.4)
+            found[f"{place} {section}".strip()] = wrong
 
     for mode in MODES:
         watched.mode(mode)

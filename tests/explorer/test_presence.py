@@ -31,7 +31,7 @@ def app() -> Iterator[App]:
 
 def test_no_address_and_no_clipboard_gets_the_secret(app: App, scripts: list[str]):
     async def visit() -> None:
-        async with asyncio.timeout(60.0):
+        async with asyncio.timeout(240.0):
             visitor = Visitor()
             await visitor.open(app.address)
             await visitor.until(lambda: len(app.sessions) == 1)

@@ -52,7 +52,7 @@ class TestApp:
         app = App("127.0.0.1", 0)
         try:
             assert app.address.startswith("http://127.0.0.1:")
-            with urllib.request.urlopen(app.address, timeout=10) as answer:
+            with urllib.request.urlopen(app.address, timeout=60) as answer:
                 assert b"<html" in answer.read().lower()
         finally:
             app.stop()

@@ -66,7 +66,7 @@ def test_the_notebook_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPat
     try:
         exec(NOTEBOOK, names)
         page, best = names["page"], names["best"]
-        answer = urllib.request.urlopen(page.address, timeout=10)
+        answer = urllib.request.urlopen(page.address, timeout=60)
         assert answer.status == 200
         assert "frame-ancestors 'self' http://localhost:*" in answer.headers["Content-Security-Policy"]
         assert page.address in page._repr_html_()
@@ -74,7 +74,7 @@ def test_the_notebook_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPat
         if "page" in names:
             names["page"].stop()
     with pytest.raises(OSError, match="refused"):
-        urllib.request.urlopen(page.address, timeout=10)
+        urllib.request.urlopen(page.address, timeout=60)
     assert best.saving_percent >= 0.0
     low, high = best.band[0].low, best.band[0].high
     assert low < best.twist.rates[0] < high

@@ -33,7 +33,7 @@ def main(port: int) -> int:
     printed = server.stdout.readline()
     power = asyncio.run(visit(f"http://127.0.0.1:{port}")) if "http://" in printed else ""
     server.send_signal(signal.SIGTERM)
-    _, errors = server.communicate(timeout=30)
+    _, errors = server.communicate(timeout=90)
     writable = [place for place in (ROOT, Path("/"), Path("/usr")) if os.access(place, os.W_OK)]
     facts = {"power": power, "code": server.returncode, "errors": errors, "home": os.environ.get("HOME")}
     print(json.dumps({**facts, "writable": [str(place) for place in writable]}))

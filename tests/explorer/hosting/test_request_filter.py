@@ -48,7 +48,7 @@ def alone(work: Callable[[], Awaitable[None]]) -> None:
     """Run a test's visitors to their end, with a bound on time."""
 
     async def bounded() -> None:
-        async with asyncio.timeout(90.0):
+        async with asyncio.timeout(240.0):
             await work()
 
     ran(bounded)
@@ -77,7 +77,7 @@ async def handshake(app: App, **headers: str) -> int:
 def page(app: App, host: str) -> tuple[int, str, dict[str, str]]:
     request = urllib.request.Request(app.address, headers={"Host": host})
     try:
-        with urllib.request.urlopen(request, timeout=10) as answer:
+        with urllib.request.urlopen(request, timeout=60) as answer:
             return answer.status, answer.read().decode(), dict(answer.headers)
     except urllib.error.HTTPError as error:
         with error:
@@ -108,7 +108,7 @@ class TestAllowedHosts:
         assert ran(lambda: handshake(app, Host="evil.example")) == 403
 
     def test_a_malformed_request_prints_nothing(self, app: App, caplog: pytest.LogCaptureFixture):
-        with socket.create_connection(("127.0.0.1", app.server.get_port()), timeout=20.0) as probe:
+        with socket.create_connection(("127.0.0.1", app.server.get_port()), timeout=90.0) as probe:
             probe.sendall(b"HEAD / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n")
             while probe.recv(4096):
                 pass

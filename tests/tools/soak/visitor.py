@@ -60,7 +60,9 @@ class Visitor:
         """Connect to `http://host:port` and say where the camera is, as a page does once it is laid out."""
         uri = "ws" + address.removeprefix("http")
         subprotocols = [Subprotocol(wire.SUBPROTOCOL)]
-        self._socket = await connect(uri, subprotocols=subprotocols, max_size=None, compression=None, **options)
+        self._socket = await connect(
+            uri, subprotocols=subprotocols, max_size=None, compression=None, open_timeout=90.0, **options
+        )
         self._reading = asyncio.create_task(self._read(self._socket))
         await self.send("ViewerCameraMessage", **_CAMERA)
 
@@ -107,7 +109,7 @@ class Visitor:
                         return kind[1] if kind else text
         return ""
 
-    async def until(self, true: Callable[[], bool], patience: float = 30.0) -> None:
+    async def until(self, true: Callable[[], bool], patience: float = 90.0) -> None:
         """Wait for something the server's messages bring about; TimeoutError after `patience` [s]."""
         async with asyncio.timeout(patience):
             while not true():
