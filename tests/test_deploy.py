@@ -95,7 +95,7 @@ fcntl.ioctl(socket.socket(), 0x8914, struct.pack('16sh', b'lo', 0x41))  # SIOCSI
 
 @pytest.mark.slow
 def test_runs_with_a_read_only_root_and_without_home_network_and_rights():
-    """Compiles its kernels, as no folder can keep them: some 15 s on an idle machine."""
+    """Compiles its kernels, as no folder can keep them: some 25 s on an idle machine."""
     apart = ["unshare", "-m", "-n", "-p", "-f", "--mount-proc"]
     if not shutil.which("unshare") or subprocess.run([*apart, "true"], capture_output=True).returncode:
         pytest.skip("needs the right to make namespaces")
