@@ -13,7 +13,7 @@ from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
 Order = Literal["pin", "unpin", "swap", "back"]
-FLIGHT = ("advance_ratio", "mass_t", "altitude_m")
+FLIGHT = ("advance_ratio", "mass_t", "altitude_m", "climb_m_s")
 """The numbers of the flight condition."""
 CONDITION = (*FLIGHT, "stand")
 """The inputs of the condition; the others are the aircraft and the models."""
@@ -48,11 +48,14 @@ class Pinned:
         return flight_name(self.inputs)
 
     def design(self, present: Design) -> Design:
-        """A's blade and models in the flight condition of the present design."""
+        """A's blade and models in the flight condition of the present design, level where its models cannot climb."""
         own = self.solution.design
         tested = own.condition.stand is not None, present.condition.stand is not None
         trim = present.models.trim if any(tested) else own.models.trim
-        return replace(own, condition=present.condition, models=replace(own.models, trim=trim))
+        condition = present.condition
+        if not own.models.disk_axial_flow:
+            condition = replace(condition, climb_speed=0.0)
+        return replace(own, condition=condition, models=replace(own.models, trim=trim))
 
     def sliders(self, present: Inputs, along: bool) -> Inputs:
         """The slider positions that mean A: in the present flight when it flies along, else in its own.

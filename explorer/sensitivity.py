@@ -12,7 +12,7 @@ import numpy as np
 
 from explorer.pinned import FLIGHT
 from explorer.state import LAWS, Inputs
-from explorer.text.units import AVIATION, FOOT, POUND, SI, Units, number
+from explorer.text.units import AVIATION, FOOT, FOOT_PER_MINUTE, POUND, SI, Units, number
 from rotor.optimisation.concepts import CONCEPTS, Concept
 from rotor.trim.adjoint import PitchGradient
 from rotor.trim.solution import Solution
@@ -62,11 +62,13 @@ STEPS: dict[str, NaturalStep] = {
     "advance_ratio": NaturalStep(0.01, "/0.01"),
     "mass_t": NaturalStep(0.1, "/100 kg"),
     "altitude_m": NaturalStep(100.0, "/100 m"),
+    "climb_m_s": NaturalStep(1.0, "/1 m/s"),
 }
 """By the field of `Inputs`, in SI."""
 _AVIATION_STEPS = {
     "mass_t": NaturalStep(200.0 * POUND.size / 1e3, "/200 lb"),
     "altitude_m": NaturalStep(500.0 * FOOT.size, "/500 ft"),
+    "climb_m_s": NaturalStep(100.0 * FOOT_PER_MINUTE.size, "/100 ft/min"),
 }
 
 
@@ -129,7 +131,7 @@ def twist_sensitivities(inputs: Inputs, gradient: PitchGradient) -> dict[str, Sl
 def flight_sensitivities(
     solution: Solution, superseded: Callable[[], bool] = lambda: False
 ) -> dict[str, SliderSensitivity]:
-    """Sensitivity of advance ratio, mass and altitude by central differences of a tenth of a step.
+    """Sensitivity of the flight's sliders by central differences of a tenth of a step.
 
     One-sided where one neighbour does not trim or lies outside the permitted range; a slider without a trimmed
     neighbour is left out, and so is the advance ratio in hover, which another model computes. `superseded` is asked
@@ -139,6 +141,8 @@ def flight_sensitivities(
     tested = solution.design.condition.stand is not None
     for name in FLIGHT[:1] if tested else FLIGHT:
         if name == "advance_ratio" and solution.design.hovering:
+            continue
+        if name == "climb_m_s" and not solution.design.models.disk_axial_flow:
             continue
         points = [(0.0, solution.power.total)]
         for direction in (-1.0, 1.0):
@@ -171,6 +175,8 @@ def _moved(solution: Solution, name: str, step: float) -> float | None:
                 moved = replace(condition, advance_ratio=condition.advance_ratio + step)
             case "mass_t":
                 moved = replace(condition, mass=condition.mass + 1e3 * step)
+            case "climb_m_s":
+                moved = replace(condition, climb_speed=condition.climb_speed + step)
             case _:
                 moved = replace(condition, altitude=condition.altitude + step)
     except ValueError:

@@ -1,4 +1,4 @@
-"""The sliders of the Design tab: what each can hold, and how weight and altitude read in other units."""
+"""The sliders of the Design tab: what each can hold, and how weight, altitude and rate of climb read in other units."""
 
 import math
 from dataclasses import dataclass, replace
@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from explorer.state import mass_range
 from explorer.text.units import AVIATION, POUND, SI, Unit, Units
 from rotor.assets import SHIPPED_ROTORS
-from rotor.design.aircraft import Aircraft
+from rotor.design.aircraft import FASTEST_CLIMB, Aircraft
 from rotor.files.rotor_file import shipped_aircraft
 
 
@@ -54,13 +54,15 @@ SLIDERS: dict[str, Slider] = {
     "advance_ratio": Slider("Adv. ratio µ", 0.0, 0.45, 0.005),
     "mass_t": _weight(_FIRST, SI),
     "altitude_m": Slider("Altitude [m]", 0.0, 4000.0, 50.0),
+    "climb_m_s": Slider("Climb [m/s]", -FASTEST_CLIMB, FASTEST_CLIMB, 0.1),
 }
 """By the field of `Inputs`, in SI; the weight is the first rotor's."""
 _AVIATION = {
     "mass_t": _weight(_FIRST, AVIATION),
     "altitude_m": Slider("Altitude [ft]", 0.0, 13_200.0, 100.0),
+    "climb_m_s": Slider("Climb [ft/min]", -3900.0, 3900.0, 50.0),
 }
-_SIZES = {"mass_t": 1e3, "altitude_m": 1.0}
+_SIZES = {"mass_t": 1e3, "altitude_m": 1.0, "climb_m_s": 1.0}
 """What one of the input is in SI."""
 
 
@@ -88,7 +90,7 @@ def meant(name: str, place: float, units: Units) -> float:
 
 
 def _unit(name: str, units: Units) -> Unit:
-    return units.mass if name == "mass_t" else units.altitude
+    return {"mass_t": units.mass, "altitude_m": units.altitude, "climb_m_s": units.climb}[name]
 
 
 def limits(name: str, aircraft: Aircraft = _FIRST) -> tuple[float, float]:

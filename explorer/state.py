@@ -88,8 +88,10 @@ class Inputs:
     advance_ratio: float = 0.2
     mass_t: float = 8.32
     altitude_m: float = 0.0
+    climb_m_s: float = 0.0
+    """Negative in descent; without effect where `climbs` says so."""
     stand: StandInputs | None = None
-    """The test of the rotor alone, in place of mass and altitude; None in flight."""
+    """The test of the rotor alone, in place of mass, altitude and climb; None in flight."""
     inflow: str = FLIGHT_MODELS.inflow
     hover_inflow: str = FLIGHT_MODELS.hover_inflow
     low_speed: str = FLIGHT_MODELS.low_speed
@@ -131,6 +133,7 @@ class Inputs:
             mu=self.advance_ratio,
             mass_kg=None if self.aircraft.isolated else 1e3 * self.mass_t,
             altitude_m=self.altitude_m,
+            climb_m_s=self.climb_m_s if self.climbs else 0.0,
             models=replace(models, **{name: getattr(self, name) for name in (*INFLOW_MENUS, *SWITCHES)}),
             trim=None if self.stand is None else self.stand.trim,
             stand=None if self.stand is None else self.stand.stand(),
@@ -138,6 +141,11 @@ class Inputs:
         if self.law in NOT_ALWAYS and self.airfoils:
             design = replace(design, rotor=change_airfoils(design.rotor, self.airfoils))
         return design
+
+    @property
+    def climbs(self) -> bool:
+        """Whether the rate of climb counts: neither on a test stand nor with the document's equations."""
+        return self.stand is None and preset_models(self.preset).disk_axial_flow
 
     @property
     def speed_kt(self) -> float:
@@ -240,6 +248,7 @@ def inputs_of(design: Design) -> Inputs:
         advance_ratio=design.condition.advance_ratio,
         mass_t=reference_mass_t(design.aircraft) if design.aircraft.isolated else design.condition.mass / 1e3,
         altitude_m=design.condition.altitude,
+        climb_m_s=design.condition.climb_speed,
         stand=stand_of(design),
         **{name: getattr(design.models, name) for name in (*INFLOW_MENUS, *SWITCHES)},
     )

@@ -148,6 +148,8 @@ def _flags(design: Design) -> list[str]:
         ]
     if condition.altitude:
         words.append(f"--altitude-m {_plain(condition.altitude)}")
+    if condition.climb_speed:
+        words.append(f"--climb-m-s {_plain(condition.climb_speed)}")
     inflow = "hover_inflow" if design.hovering else "inflow"
     if getattr(design.models, inflow) != getattr(plain.models, inflow):
         words.append(f"--inflow {getattr(design.models, inflow)}")
@@ -223,6 +225,7 @@ def as_python(design: Design) -> str:
         mu=condition.advance_ratio,
         mass_kg=condition.mass,
         altitude_m=condition.altitude,
+        climb_m_s=condition.climb_speed,
         **_test(design),
     )
     spec = exact_spec(design.twist)
@@ -235,6 +238,7 @@ def as_python(design: Design) -> str:
         f"mu={float(condition.advance_ratio)!r}",
         f"mass_kg={float(condition.mass)!r}",
         f"altitude_m={float(condition.altitude)!r}",
+        *([f"climb_m_s={float(condition.climb_speed)!r}"] if condition.climb_speed else []),
         *(f"{name}={value!r}" for name, value in _test(design).items()),
     ]
     made = writer.call("make_design", arguments)
@@ -249,13 +253,19 @@ def as_python(design: Design) -> str:
             *([f"design = {changed}"] if changed else []),
             "solution = solve(design).require()  # RuntimeError with the reason where there is no trim",
             "",
-            'for part in ("total", "main_rotor", "induced", "profile", "parasite", "tail"):',
+            f"for part in ({', '.join(map(writer.value, _parts(design)))}):",
             '    print(f"{part:<12}{getattr(solution.power, part) / 1e3:14.6f} kW")',
             "for caveat in solution.caveats:",
             '    print("caveat:", caveat.sentence)',
             "",
         ]
     )
+
+
+def _parts(design: Design) -> list[str]:
+    """The powers that a script prints; that of the climb where there is one."""
+    climb = ["climb"] if design.condition.climb_speed else []
+    return ["total", "main_rotor", "induced", "profile", "parasite", *climb, "tail"]
 
 
 def _default(one: Field[Any]) -> Any:

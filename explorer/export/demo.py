@@ -26,7 +26,7 @@ from explorer.picture.poses import flown_twist, follows_azimuth
 from explorer.scene.page_scene import SURFACES, TURN_RATES, motion_of, scene_script
 from explorer.scene.still_scene import JIG_EDGES, still_page
 from explorer.state import ViewState
-from explorer.text.readout import PART_TITLES
+from explorer.text.readout import part_titles
 from explorer.theme.colours import PARTS
 from rotor.arrays import Array
 from rotor.design.design import Design
@@ -103,7 +103,7 @@ def demo_html(
         "faces": _packed(np.asarray(shape.faces)),
         "edges": _packed(edges),
         "ghost": JIG_EDGES,
-        "parts": [[name, PART_TITLES[name], colour] for name, colour in PARTS.items()],
+        "parts": [[name, title, PARTS[name]] for name, title in part_titles(design).items()],
         "surfaces": SURFACES,
         "rate": TURN_RATES["normal"],
         "rotor": design.rotor.name,
@@ -168,7 +168,7 @@ def _point(solution: Solution, shape: BladeShape, view: ViewState, colour_range:
     image = io.BytesIO()
     Image.open(io.BytesIO(picture.png)).convert("RGBA").save(image, "WEBP", quality=80)
     return {
-        "power": [round(getattr(solution.power, name) / 1e3, 2) for name in PARTS],
+        "power": [round(getattr(solution.power, name) / 1e3, 2) for name in part_titles(solution.design)],
         "motion": motion_of(solution),
         "poses": [
             [pose.wxyz.tolist(), pose.position.tolist()] for pose in (picture.rotor, picture.disk, picture.airframe)

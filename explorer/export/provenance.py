@@ -43,12 +43,13 @@ def versions() -> dict[str, str]:
 
 
 def condition_line(design: Design) -> str:
-    """Advance ratio, mass and altitude in one line."""
+    """Advance ratio, climb, mass and altitude in one line."""
     condition = design.condition
     speed = "hover" if design.hovering else f"advance ratio {condition.advance_ratio:g}"
     if condition.stand is not None:
         return f"{speed}, {design.models.trim}: {condition.stand}"
-    return f"{speed}, {condition.mass:.0f} kg, {condition.altitude:.0f} m"
+    climb = f", climb {condition.climb_speed:g} m/s" if condition.climb_speed else ""
+    return f"{speed}{climb}, {condition.mass:.0f} kg, {condition.altitude:.0f} m"
 
 
 def provenance_lines(solution: Solution) -> list[str]:
@@ -75,7 +76,8 @@ def provenance_lines(solution: Solution) -> list[str]:
 def file_stem(design: Design, *parts: str) -> str:
     """A file name without ending: rotor, twist, speed and what else tells files apart; safe on every system."""
     speed = "hover" if design.hovering else f"mu{design.condition.advance_ratio:.3f}"
-    words = [design.rotor.name, design.twist.spec(), speed, *parts]
+    climb = [f"climb{design.condition.climb_speed:g}"] if design.condition.climb_speed else []
+    words = [design.rotor.name, design.twist.spec(), speed, *climb, *parts]
     safe = (re.sub(r"[^a-z0-9.+-]+", "_", word.lower()).strip("_.") for word in words)
     return "-".join(word[:60] for word in safe if word)
 

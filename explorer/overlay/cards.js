@@ -1,15 +1,14 @@
 // The cards on the stage: power, quantity on the disk.
 (() => {
   const {text, part} = RX;
-  const PARTS = ['induced', 'profile', 'parasite', 'tail'];
 
   RX.paint('power', now => {
     const place = part('power');
     place.toggleAttribute('data-faded', Boolean(now.problem));
     const total = Math.max(now.parts.reduce((sum, one) => sum + Math.max(one.share, 0), 0), 1e-6);
-    const bar = now.parts.map((one, k) => `<div style="flex:${Math.max(one.share, 0) / total};background:var(--rx-${PARTS[k]})"></div>`).join('')
+    const bar = now.parts.map(one => `<div style="flex:${Math.max(one.share, 0) / total};background:var(--rx-${one.part})"></div>`).join('')
       + (now.ideal === null ? '' : `<u style="left:${100 * now.ideal}%" title="${text(now.ideal_title)}"></u>`);
-    const key = now.parts.map((one, k) => `<div style="--c:var(--rx-${PARTS[k]})" title="${text(one.title)}"><dt>${text(one.name)}</dt><dd class="rxf-num">${text(one.value)}</dd></div>`).join('');
+    const key = now.parts.map(one => `<div style="--c:var(--rx-${one.part})" title="${text(one.title)}"><dt>${text(one.name)}</dt><dd class="rxf-num">${text(one.value)}</dd></div>`).join('');
     const since = now.since ? `<span class="${now.since.kind ? `rxf-${now.since.kind}` : ''}">${text(now.since.value)}</span> <small>${text(now.since.words)}</small>` : `<span>${text(now.rest)}</span>`;
     const bands = now.bands.length ? `<div class="rxf-bands rxf-num">${now.bands.map(one => `<span data-explorer="${one.name.replace('_', '-')}" title="${text(one.title)}">${text(one.words)}</span>`).join('')}</div>` : '';
     place.innerHTML = `<div data-explorer="power"><div class="rxf-total rxf-num"><span data-explorer="total-power">${text(now.total)} <small>${text(now.unit)}</small></span></div>

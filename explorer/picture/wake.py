@@ -71,8 +71,10 @@ def tip_vortex_path(solution: Solution) -> TipVortexPath:
     """
     if solution.wake is not None:
         return _free_path(solution.wake)
-    disk, controls, mu = solution.disk, solution.controls, solution.design.condition.advance_ratio
-    along, axial = mu * math.cos(controls.shaft_tilt), mu * math.sin(controls.shaft_tilt)
+    disk, controls, design = solution.disk, solution.controls, solution.design
+    mu, climb = design.condition.advance_ratio, design.climb_ratio
+    cos, sin = math.cos(controls.shaft_tilt), math.sin(controls.shaft_tilt)
+    along, axial = mu * cos - climb * sin, mu * sin + climb * cos
     down = axial + controls.lambda0
     narrowing = abs(down) / max(math.hypot(along, down), 1e-9) * _CONTRACTION
     age = np.linspace(0.0, 2.0 * math.pi * _TURNS, _AGES)

@@ -26,7 +26,7 @@ LONGEST = 1800
 KEPT = "own"
 """Stands for a design that does not fit into an address: the page keeps its file, also over a reload."""
 
-_SHORT = {"advance_ratio": "mu", "mass_kg": "mass", "altitude_m": "alt"}
+_SHORT = {"advance_ratio": "mu", "mass_kg": "mass", "altitude_m": "alt", "climb_m_s": "climb"}
 _LONG = {short: key for key, short in _SHORT.items()}
 _PLAIN = Inputs()
 _TWISTS = tuple(name for law in LAWS.values() for name in law.inputs)

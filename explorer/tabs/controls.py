@@ -8,6 +8,7 @@ from typing import Any, Protocol
 
 import viser
 
+from explorer.pinned import FLIGHT
 from explorer.sliders import SLIDERS, meant, shown, slider
 from explorer.state import INFLOW_MENUS, INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs, preset_inflow, with_rotor
 from explorer.tabs import power_card as worth
@@ -56,7 +57,7 @@ class DesignControls:
         self.pauses = Pauses()
         self._laws = _laws_of(start)
         self._units = SI
-        """Of the mass and altitude sliders now."""
+        """Of the sliders of mass, altitude and climb now."""
         self._worths: dict[str, viser.GuiHtmlHandle] = {}
         gui.add_html(
             '<div class="rxp-head">JIG TWIST<span>slopes in °/R</span></div><div class="rxp-curve" data-curve></div>'
@@ -73,7 +74,7 @@ class DesignControls:
             self._hand_moved,
             self.inputs,
             self.set_inputs,
-            lambda: self._sliders(gui, ("advance_ratio", "mass_t", "altitude_m")),
+            lambda: self._sliders(gui, FLIGHT),
         )
         with gui.add_folder("Model", expand_by_default=False):
             titles = tuple(PRESET_TITLES.values())
@@ -165,10 +166,10 @@ class DesignControls:
                 shown_now = key == shown_law
                 if self._inputs[name].visible != shown_now:
                     self._inputs[name].visible = self._worths[name].visible = shown_now
-        for name in ("mass_t", "altitude_m"):
-            in_flight = inputs.stand is None
-            if self._inputs[name].visible != in_flight:
-                self._inputs[name].visible = self._worths[name].visible = in_flight
+        in_flight = inputs.stand is None
+        for name, counts in {"mass_t": in_flight, "altitude_m": in_flight, "climb_m_s": inputs.climbs}.items():
+            if self._inputs[name].visible != counts:
+                self._inputs[name].visible = self._worths[name].visible = counts
         if self._own is None:
             self.stand.show_measured(inputs)
         self._speed.content = _flight_heading(
@@ -185,11 +186,11 @@ class DesignControls:
             handle.content = f'<div class="rxp-cost" data-explorer="cost">{words}</div>' if words else ""
 
     def _change_units(self, units: Units) -> None:
-        """Weight and altitude in other units; the inputs stay what they are."""
+        """Weight, altitude and climb in other units; the inputs stay what they are."""
         if units is self._units:
             return
         with self._moving:
-            for name in ("mass_t", "altitude_m"):
+            for name in FLIGHT[1:]:
                 handle: Any = self._inputs[name]
                 value, form = self._read(name, handle.value), slider(name, units, self._special.aircraft)
                 handle.label, handle.step, handle.precision = form.label, form.step, form.digits

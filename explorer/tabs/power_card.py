@@ -266,6 +266,7 @@ def _numbers(state: SessionState, units: Units) -> dict[str, Any]:
         title = f"{words} power {units.watts(value, digits)}"
         parts.append(
             {
+                "part": name,
                 "name": words.removesuffix(" rotor"),
                 "value": number(unit.of(value), digits),
                 "share": round(value / power.total, 5) if power.total > 0.0 else 0.0,

@@ -7,6 +7,7 @@ import viser
 
 from explorer.interface import SessionState
 from explorer.text import readout
+from explorer.text.readout import part_titles
 from explorer.text.units import SI, UNITS, Units, number
 from explorer.theme.colours import PARTS
 from rotor.aero.switches import SWITCHES, with_switches
@@ -29,8 +30,7 @@ def waterfall_chart(steps: Sequence[WaterfallStep], units: Units = SI) -> str:
     """Rows from everything off to everything on; as far as the steps are known. Empty without steps."""
     if not steps:
         return '<div class="rx rx-dim" data-explorer="waterfall" data-steps="0">Computing …</div>'
-    known = [step.power for step in steps if step.power is not None]
-    top = 1.04 * max(known, default=1.0)
+    top = 1.04 * max((_length(step) for step in steps if step.power is not None), default=1.0)
     rows: list[str] = []
     for k, step in enumerate(steps):
         y = 2.0 + k * _ROW
@@ -42,7 +42,7 @@ def waterfall_chart(steps: Sequence[WaterfallStep], units: Units = SI) -> str:
     done = f'data-explorer="waterfall" data-steps="{len(steps)}"'
     return (
         f'<div class="rx rx-waterfall" {done}><svg viewBox="0 0 {WIDTH} {height:.0f}" width="100%" role="img" '
-        f'aria-label="Waterfall of power">{"".join(rows)}</svg>{_key(units)}</div>'
+        f'aria-label="Waterfall of power">{"".join(rows)}</svg>{_key(steps[0], units)}</div>'
     )
 
 
@@ -80,12 +80,13 @@ def _note(note: str, y: float) -> str:
 def _whole(name: str, step: WaterfallStep, y: float, top: float, units: Units) -> str:
     """A bar of all parts from zero."""
     power, x, rects = step.solution.power, _BAR_LEFT, []
-    for part, colour in PARTS.items():
+    titles = part_titles(step.solution.design)
+    for part in titles:
         width = max(_x(getattr(power, part), top) - _BAR_LEFT, 0.0)
-        rects.append(_rect(x, y + 2, width, colour))
+        rects.append(_rect(x, y + 2, width, PARTS[part]))
         x += width
     unit = units.power[0]
-    parts = ", ".join(f"{part} {unit.text(getattr(power, part))}" for part in PARTS)
+    parts = ", ".join(f"{part} {unit.text(getattr(power, part))}" for part in titles)
     total = _words(WIDTH, y + 11, number(unit.of(power.total), 1), "rx-w-number rx-w-strong")
     return (
         f"<g><title>{escape(f'{name}: {unit.text(power.total, 1)}; {parts}')}</title>"
@@ -109,16 +110,23 @@ def _patches(change: dict[str, float], y: float, units: Units) -> str:
 def _spoken(step: WaterfallStep, units: Units) -> str:
     """The step in words, for those who point at it or have it read out."""
     change, unit = step.change or {}, units.power[0]
-    parts = ", ".join(f"{part} {unit.text(value, 1, sign=True)}" for part, value in change.items())
+    titles = part_titles(step.solution.design)
+    parts = ", ".join(f"{part} {unit.text(change[part], 1, sign=True)}" for part in titles if part in change)
     what = step.switch.on if step.switch else ""
     return f"{step.title} on: {unit.text(step.added, 1, sign=True)} ({parts}). {what}"
 
 
-def _key(units: Units) -> str:
+def _length(step: WaterfallStep) -> float:
+    """The power of the parts that need any [W]: the total but for what a descent gives."""
+    power = step.solution.power
+    return max(power.total, sum(max(getattr(power, part), 0.0) for part in PARTS))
+
+
+def _key(step: WaterfallStep, units: Units) -> str:
     """The parts' colours, and the unit of every number above."""
     entries = "".join(
-        f'<span><span class="rx-patch" style="background:{colour}"></span>{escape(name)}</span>'
-        for name, colour in PARTS.items()
+        f'<span><span class="rx-patch" style="background:{PARTS[name]}"></span>{escape(name)}</span>'
+        for name in part_titles(step.solution.design)
     )
     return f'<div class="rx-dim rx-small rx-line">{entries}<span>[{units.power[0].symbol}]</span></div>'
 

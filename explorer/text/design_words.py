@@ -76,14 +76,15 @@ def title_words(design: Design) -> str:
 
 
 def flight_words(design: Design, units: Units = SI) -> str:
-    """Speed, mass and altitude in one line."""
+    """Speed, climb, mass and altitude in one line."""
     condition = design.condition
     speeds = " · ".join(unit.text(design.airspeed) for unit in units.speed if unit is not METRE_PER_SECOND)
     where = "Hover" if design.hovering else f"µ {number(condition.advance_ratio, 3)} · {speeds}"
     if (stand := stand_of(design)) is not None:
         return f"{where} · {stand_words(stand)}"
     mass = units.mass.text(condition.mass, 2 if units.mass is TONNE else 0)
-    return f"{where} · {mass} · {units.altitude.text(condition.altitude)}"
+    climb = units.climb_rate(condition.climb_speed)
+    return " · ".join(filter(None, (where, climb, mass, units.altitude.text(condition.altitude))))
 
 
 def stand_words(stand: StandInputs) -> str:
@@ -139,6 +140,8 @@ def flight_name(inputs: Inputs, units: Units = SI) -> str:
     off = "".join(f", no {switch.title.lower()}" for name, switch in SWITCHES.items() if not getattr(inputs, name))
     if inputs.stand is not None:
         return f"{speed}, {stand_words(inputs.stand)}{off}"
+    if inputs.climbs and inputs.climb_m_s:
+        speed += f", {units.climb_rate(inputs.climb_m_s)}"
     high = f", {units.altitude.text(inputs.altitude_m)}" if inputs.altitude_m else ""
     mass = f"{inputs.mass_t:g} t" if units is SI else units.mass.text(1e3 * inputs.mass_t)
     return f"{speed}, {mass}{high}{off}"

@@ -52,6 +52,7 @@ CONTROLS: dict[str, Term] = {
     "altitude_m": Term(
         "Pressure altitude in the standard atmosphere: it sets air density and speed of sound.", section=2
     ),
+    "climb_m_s": Term("Rate of climb, negative in descent; µ is of the horizontal speed.", section=2),
     "trim": Term(
         "Flight: weight and drag are carried. Test stand: wind tunnel, rotor without torque, or given controls."
     ),
@@ -208,6 +209,7 @@ READOUTS: dict[str, Term] = {
     "induced": Term("Σ λi dFz: power to make lift.", section=12),
     "profile": Term("Σ U dD: power dissipated by the drag of the blade sections.", ("3.15",)),
     "parasite": Term("D·V: power to overcome fuselage drag.", ("3.19",)),
+    "climb": Term("W·V_c: power that lifts the weight; negative where descent gives it back.", section=12),
     "propulsive": Term("Propulsive force times airspeed; negative where the stream drives the rotor.", section=12),
     "tail": Term("Power of the tail rotor, which balances the torque.", section=12),
     "kappa": Term(

@@ -22,11 +22,17 @@ _MEANT = {"Propulsive": "propulsive"}
 
 
 def part_titles(*designs: Design) -> dict[str, str]:
-    """The parts of power and their titles; a rotor on a test stand has no fuselage and no tail rotor."""
+    """The parts of power and their titles; a rotor on a test stand has no fuselage and no tail rotor.
+
+    That of the climb is among them where one of the designs climbs or descends.
+    """
     tested = [design.condition.stand is not None for design in designs]
     if all(tested):
         return _ON_A_STAND
-    return {**PART_TITLES, "parasite": "Parasite, propulsive"} if any(tested) else PART_TITLES
+    titles = {**PART_TITLES, "parasite": "Parasite, propulsive"} if any(tested) else PART_TITLES
+    if not any(design.condition.climb_speed for design in designs):
+        return titles
+    return {name: "Climb" if name == "climb" else titles[name] for name in PARTS}
 
 
 @dataclass(frozen=True)

@@ -40,6 +40,7 @@ KILOWATT, HORSEPOWER = Unit("kW", 1e3), Unit("hp", 745.699872)
 METRE_PER_SECOND, KILOMETRE_PER_HOUR, KNOT = Unit("m/s", 1.0), Unit("km/h", 1.0 / 3.6), Unit("kt", units.KNOT)
 KILOGRAM, TONNE, POUND = Unit("kg", 1.0), Unit("t", 1e3), Unit("lb", 0.45359237)
 METRE, FOOT = Unit("m", 1.0), Unit("ft", 0.3048)
+FOOT_PER_MINUTE = Unit("ft/min", 0.3048 / 60.0)
 
 
 @dataclass(frozen=True)
@@ -52,10 +53,18 @@ class Units:
     speed: tuple[Unit, Unit, Unit]
     mass: Unit
     altitude: Unit
+    climb: Unit
 
     def watts(self, value: float | None, digits: int = 0, sign: bool = False) -> str:
         """A power [W] in the main unit."""
         return self.power[0].text(value, digits, sign)
+
+    def climb_rate(self, value: float) -> str:
+        """A rate of climb [m/s] in words, `climb 5.0 m/s` or `descent 3.0 m/s`; empty for level flight."""
+        if value == 0.0:
+            return ""
+        digits = 1 if self.climb is METRE_PER_SECOND else 0
+        return f"{'climb' if value > 0.0 else 'descent'} {self.climb.text(abs(value), digits)}"
 
     def airspeed(self, value: float) -> str:
         """A speed [m/s] in all three units; `hover` for zero."""
@@ -64,7 +73,9 @@ class Units:
         return " · ".join(unit.text(value, 1 if unit is METRE_PER_SECOND else 0) for unit in self.speed)
 
 
-SI = Units("SI", (KILOWATT, HORSEPOWER), (KILOMETRE_PER_HOUR, METRE_PER_SECOND, KNOT), TONNE, METRE)
-AVIATION = Units("Aviation", (HORSEPOWER, KILOWATT), (KNOT, KILOMETRE_PER_HOUR, METRE_PER_SECOND), POUND, FOOT)
+SI = Units("SI", (KILOWATT, HORSEPOWER), (KILOMETRE_PER_HOUR, METRE_PER_SECOND, KNOT), TONNE, METRE, METRE_PER_SECOND)
+AVIATION = Units(
+    "Aviation", (HORSEPOWER, KILOWATT), (KNOT, KILOMETRE_PER_HOUR, METRE_PER_SECOND), POUND, FOOT, FOOT_PER_MINUTE
+)
 UNITS = {units.title: units for units in (SI, AVIATION)}
 """By the title of the menu."""

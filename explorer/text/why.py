@@ -121,6 +121,8 @@ def _flight_causes(a: Design, b: Design) -> list[str]:
     if old.stand != new.stand:
         causes.append(_test_cause(b) if old.stand is None or new.stand is None else "another test")
         return causes
+    if old.climb_speed != new.climb_speed:
+        causes.append(SI.climb_rate(new.climb_speed) or "level flight")
     if old.mass != new.mass:
         percent = 100.0 * (new.mass / old.mass - 1.0)
         causes.append(f"{number(abs(percent), _digits(percent))} % {'more' if percent > 0.0 else 'less'} weight")

@@ -39,7 +39,7 @@ NOW = "#e03131"
 """The present point and the reference blade, in charts."""
 LIMIT = "#b5179e"
 """A limit, in charts."""
-PARTS = {"induced": "#3b82c4", "profile": "#e6a117", "parasite": "#8d949c", "tail": "#983a6e"}
+PARTS = {"induced": "#3b82c4", "profile": "#e6a117", "parasite": "#8d949c", "climb": "#2f9e44", "tail": "#983a6e"}
 """Power parts, told apart by every eye (tested, as are the lines of charts and the maps)."""
 
 MARKED_BLADE: Rgb = (130, 20, 8)

@@ -57,7 +57,7 @@ def _glance(report: DesignReport) -> str:
 def _card(report: DesignReport, k: int, colour: str) -> str:
     entry = report.all[k]
     power, design = entry.solution.power, entry.solution.design
-    largest = max(other.solution.power.total for other in report.all)
+    largest = max(sum(max(getattr(other.solution.power, name), 0.0) for name in PARTS) for other in report.all)
     values = {name: max(getattr(power, name), 0.0) for name in PARTS}
     bar = "".join(
         f'<i style="width:{100.0 * value / largest:.3f}%;background:{PARTS[name]}"></i>'

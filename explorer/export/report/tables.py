@@ -12,7 +12,7 @@ from explorer.state import PRESET_TITLES
 from explorer.text.design_words import inflow_words, physics_words, stand_words, twist_words
 from explorer.text.readout import ideal_induced, part_titles
 from explorer.text.status import section_title
-from explorer.text.units import FOOT, KILOGRAM, METRE, POUND, SI, TONNE, Units, number
+from explorer.text.units import FOOT, FOOT_PER_MINUTE, KILOGRAM, METRE, POUND, SI, TONNE, Units, number
 from explorer.theme.colours import PARTS
 from rotor.design.design import Design
 from rotor.trim.solution import Solution
@@ -82,7 +82,10 @@ def _load(design: Design) -> list[tuple[str, str]]:
     condition, stand = design.condition, stand_of(design)
     if stand is not None:
         return [("Test stand", stand_words(stand))]
+    climb = condition.climb_speed
+    rate = f"{number(climb, 1)} m/s · {FOOT_PER_MINUTE.text(climb)}"
     return [
+        *([("Rate of climb", rate)] if climb else []),
         ("Mass", f"{KILOGRAM.text(condition.mass, 1)} · {POUND.text(condition.mass)}"),
         ("Pressure altitude", f"{METRE.text(condition.altitude)} · {FOOT.text(condition.altitude)}"),
     ]
@@ -201,9 +204,11 @@ def _share(part: float, total: float, units: Units) -> str:
 
 
 def _speed(design: Design, units: Units) -> str:
+    climb = units.climb_rate(design.condition.climb_speed)
     if design.hovering:
-        return "hover"
-    return f"µ {number(design.condition.advance_ratio, 3)}<br><small>{units.speed[0].text(design.airspeed)}</small>"
+        return f"hover<br><small>{climb}</small>" if climb else "hover"
+    speed = units.speed[0].text(design.airspeed) + (f", {climb}" if climb else "")
+    return f"µ {number(design.condition.advance_ratio, 3)}<br><small>{speed}</small>"
 
 
 def _weight(design: Design, units: Units) -> str:
