@@ -130,12 +130,30 @@ def test_the_handles_of_the_curve_have_keys(watched: Watched):
 
 def test_each_slider_says_what_a_step_is_worth(watched: Watched):
     page = watched.page
-    page.wait_for_function("() => Object.keys(RX.state.worth).length === 6", timeout=WAIT)
+    page.wait_for_function("() => Object.keys(RX.state.worth).length === 7", timeout=WAIT)
     watched.settled()
-    for name in ("built_inner", "built_outer", "built_division", "advance_ratio", "mass_t", "altitude_m"):
+    for name in ("built_inner", "built_outer", "built_division", "advance_ratio", "mass_t", "altitude_m", "climb_m_s"):
         place = page.locator(f'[data-worth="{name}"]')
         assert re.search(r"−\d+\.\d (kW|hp)/|flat", place.inner_text()), name
         assert "changes power by" in (place.get_attribute("title") or "")
+
+
+def test_a_climb_has_its_part_of_the_power_and_is_in_the_link(watched: Watched):
+    page = watched.page
+    level = watched.text("total-power")
+    watched.type("Climb", 5.0)
+    page.wait_for_function("() => RX.state.power.parts.some(one => one.part === 'climb')", timeout=WAIT)
+    climbing = watched.at_rest(lambda: watched.text("total-power"))
+    assert climbing != level
+    page.wait_for_function("() => location.search.includes('climb=')", timeout=WAIT)
+    apart = """() => {
+        const places = [...document.querySelectorAll('.rxf-parts dl > div')].map(e => e.getBoundingClientRect());
+        return places.slice(1).every((place, k) => place.left >= places[k].right);
+    }"""
+    assert page.evaluate(apart)
+    page.reload()
+    page.wait_for_function("() => RX.state.power?.parts.some(one => one.part === 'climb')", timeout=WAIT)
+    assert watched.text("total-power") == climbing
 
 
 def test_why_names_the_cause(watched: Watched):

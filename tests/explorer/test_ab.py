@@ -318,3 +318,12 @@ class TestDisk:
     def test_a_used_up_margin_stays_rust(self, b: Solution):
         assert difference(FIELDS["Stall margin"], b).colours == "margin"
         assert difference(FIELDS["Mach number"], b).colours == "diverging"
+
+
+def test_a_pinned_design_of_the_document_stays_level_beside_a_climb():
+    level = replace(make_design(preset="thesis"), models=replace(make_design(preset="thesis").models, elements=20))
+    pinned = Pinned(Inputs(preset="thesis"), solve(level).require())
+    climbing = make_design(climb_m_s=5.0, mu=0.25)
+    moved = pinned.design(climbing)
+    assert moved.condition == replace(climbing.condition, climb_speed=0.0)
+    assert Inputs(preset="thesis", climb_m_s=5.0).design().condition.climb_speed == 0.0

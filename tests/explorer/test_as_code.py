@@ -32,6 +32,7 @@ DESIGNS = {
     "forward wake alone": Inputs(advance_ratio=0.05, low_speed="wake").design(),
     "thesis, high": Inputs(preset="thesis", law="three", altitude_m=1500.0, **preset_inflow("thesis")).design(),
     "other inflow": Inputs(law="quadratic", inflow="pitt-peters", mass_t=7.35).design(),
+    "descent": Inputs(climb_m_s=-3.5).design(),
     "built-in": Inputs(law="builtin", advance_ratio=0.3).design(),
     "found": Inputs(law="found", found=SPLINE, airfoils="sc1094r8,sc1095@0.5").design(),
     "switches": Inputs(tip_loss=False, reverse_flow=False).design(),

@@ -107,8 +107,9 @@ class TestHistory:
 @st.composite
 def positions(draw: st.DrawFn) -> Inputs:
     rate = st.integers(-300, 100).map(lambda n: n / 10.0)
+    preset = draw(st.sampled_from(("flight", "thesis")))
     return Inputs(
-        preset=draw(st.sampled_from(("flight", "thesis"))),
+        preset=preset,
         law=draw(st.sampled_from(("builtin", "linear", "quadratic", "two", "three", "ideal"))),
         linear=draw(rate),
         two_inner=draw(rate),
@@ -118,6 +119,7 @@ def positions(draw: st.DrawFn) -> Inputs:
         advance_ratio=draw(st.integers(0, 90)) / 200.0,
         mass_t=draw(st.integers(100, 220)) / 20.0,
         altitude_m=draw(st.integers(0, 80)) * 50.0,
+        climb_m_s=draw(st.integers(-200, 200)) / 10.0 if preset == "flight" else 0.0,
         inflow=draw(st.sampled_from(("uniform", "drees", "pitt-peters-15pi/23", "dynamic-wake"))),
     )
 

@@ -17,7 +17,7 @@ from explorer.sensitivity import (
     twist_sensitivities,
 )
 from explorer.sliders import SLIDERS
-from explorer.state import LAWS, Inputs
+from explorer.state import LAWS, Inputs, preset_inflow
 from explorer.text.units import AVIATION
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.solve import solve
@@ -53,8 +53,13 @@ def test_flight_sliders_agree_with_differences_of_another_step(mass: float):
     inputs = Inputs(advance_ratio=0.25, mass_t=mass, altitude_m=500.0)
     found = flight_sensitivities(solve(inputs.design()).require())
     assert tuple(found) == FLIGHT
-    for name, step in (("advance_ratio", 3e-4), ("mass_t", 2e-3), ("altitude_m", 3.0)):
+    for name, step in (("advance_ratio", 3e-4), ("mass_t", 2e-3), ("altitude_m", 3.0), ("climb_m_s", 0.03)):
         assert_allclose(found[name].slope, difference(inputs, name, step), rtol=5e-3)
+
+
+def test_the_documents_equations_know_no_climb():
+    found = flight_sensitivities(solve(Inputs(preset="thesis", **preset_inflow("thesis")).design()).require())
+    assert tuple(found) == FLIGHT[:3]
 
 
 def test_weight_in_hover_costs_what_momentum_theory_says():

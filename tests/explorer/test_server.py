@@ -23,6 +23,7 @@ from explorer.picture import disk_image
 from explorer.picture.picture import make_picture
 from explorer.picture.png import encode_png
 from explorer.picture.scene_theme import DARK, LIGHT
+from explorer.pinned import FLIGHT
 from explorer.scene.scene import Scene
 from explorer.sliders import SLIDERS
 from explorer.state import LAWS, NOT_ALWAYS, Inputs, ViewState, with_optimum
@@ -178,7 +179,9 @@ class TestControls:
     def test_only_the_sliders_of_the_law_show(self, controls: DesignControls):
         controls.refresh(Inputs(law="two"), SI)
         shown = {name for name in SLIDERS if controls._inputs[name].visible}
-        assert shown == {"two_inner", "two_outer", "two_division", "advance_ratio", "mass_t", "altitude_m"}
+        assert shown == {"two_inner", "two_outer", "two_division", *FLIGHT}
+        controls.refresh(Inputs(preset="thesis", law="two"), SI)
+        assert not controls._inputs["climb_m_s"].visible
 
     def test_every_slider_holds_its_default(self):
         for name, slider in SLIDERS.items():

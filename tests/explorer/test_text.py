@@ -407,6 +407,10 @@ def test_a_test_stand_has_no_fuselage_and_no_tail_rotor():
     assert list(readout.part_titles(stand).values()) == ["Induced", "Profile", "Propulsive"]
     assert list(readout.part_titles(flight).values()) == ["Induced", "Profile", "Parasite", "Tail rotor"]
     assert readout.part_titles(flight, stand)["parasite"] == "Parasite, propulsive"
+    climbing = make_design(climb_m_s=4.0)
+    assert list(readout.part_titles(climbing).values()) == ["Induced", "Profile", "Parasite", "Climb", "Tail rotor"]
+    assert list(readout.part_titles(flight, climbing)) == list(readout.part_titles(climbing))
+    assert "326 kW" in readout.power_panel(solve(climbing), None)
     solution = solve(stand)
     assert solution.power.tail == 0.0
     html = readout.power_panel(solution, None)

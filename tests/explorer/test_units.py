@@ -67,6 +67,9 @@ def test_names_say_the_flight_in_the_chosen_units_and_what_is_off():
     inputs = Inputs(mass_t=9.0, altitude_m=1524.0, flapping=False, hub_loss=False)
     assert flight_name(inputs) == "µ 0.2, 9 t, 1\u2009524 m, no flapping, no hub loss"
     assert flight_name(Inputs(altitude_m=1524.0), AVIATION) == "µ 0.2, 18\u2009342 lb, 5\u2009000 ft"
+    assert flight_name(Inputs(climb_m_s=5.0)) == "µ 0.2, climb 5.0 m/s, 8.32 t"
+    assert flight_name(Inputs(climb_m_s=-2.54), AVIATION) == "µ 0.2, descent 500 ft/min, 18\u2009342 lb"
+    assert flight_name(Inputs(climb_m_s=5.0, preset="thesis")) == "µ 0.2, 8.32 t"
 
 
 def test_searches_and_history_in_horsepower(solution: Solution):
@@ -85,7 +88,7 @@ def test_curves_change_with_the_unit():
     assert curve.in_unit(HORSEPOWER).design[0] == pytest.approx(500.0 / 0.745699872)
 
 
-@pytest.mark.parametrize("name", ["mass_t", "altitude_m"])
+@pytest.mark.parametrize("name", ["mass_t", "altitude_m", "climb_m_s"])
 def test_an_input_is_itself_after_other_units(name: str):
     for value in np.linspace(*limits(name), 173):
         kept = round(float(value), 6)

@@ -133,3 +133,13 @@ class TestPanel:
         panel.show(SessionState(Inputs(), ViewState(azimuth_deg=90.0), solution, solution, None, None))
         assert panel._steps is steps
         assert "rx-faded" not in panel._chart.content
+
+
+def test_in_descent_the_bars_of_what_needs_power_fit_and_the_climb_has_its_colour():
+    design = coarse(0.2).at(climb_m_s=-5.0)
+    svg = waterfall_chart(waterfall(design).steps)
+    right = [float(x) + float(width) for x, width in re.findall(r'<rect x="([\d.]+)" y="[\d.]+" width="([\d.]+)"', svg)]
+    assert max(right) <= 258.0
+    assert "climb −408 kW" in svg
+    assert ">climb</span>" in svg
+    assert ">climb</span>" not in waterfall_chart(waterfall(coarse(0.2)).steps)
