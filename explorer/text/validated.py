@@ -66,6 +66,9 @@ def nearest(sets: list[MeasuredSet], solution: Solution) -> MeasuredSet:
 
 def beyond(measured: MeasuredSet, solution: Solution) -> str:
     """What of a solution lies outside the points that the row counts, in words; empty where nothing does."""
+    climb = solution.design.condition.climb_speed
+    if climb:
+        return f"rate of climb {climb:g} m/s, compared in level flight"
     points = [point for point in measured.points if measured.is_judged(point)] or list(measured.points)
     found = {"mu": solution.design.condition.advance_ratio, "ct": solution.ct, "ct_over_sigma": solution.ct_over_sigma}
     for name, value in found.items():

@@ -153,7 +153,7 @@ def test_a_climb_has_its_part_of_the_power_and_is_in_the_link(watched: Watched):
     assert page.evaluate(apart)
     page.reload()
     page.wait_for_function("() => RX.state.power?.parts.some(one => one.part === 'climb')", timeout=WAIT)
-    assert watched.text("total-power") == climbing
+    watched.says("total-power", climbing)
 
 
 def test_why_names_the_cause(watched: Watched):

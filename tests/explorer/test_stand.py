@@ -186,4 +186,7 @@ def test_the_chip_says_how_well_the_region_is_validated():
     assert "µ 0.35, compared 0.125…0.2" in fast.sentence
     uh60a = validated(solve(OPENING.design()))
     assert uh60a.words == "not measured here"
+    rising = validated(solve(replace(OPENING, advance_ratio=0.0, climb_m_s=3.0).design()))
+    assert rising.words == "beyond what was measured"
+    assert "rate of climb 3 m/s, compared in level flight" in rising.sentence
     assert "in hover only" in uh60a.sentence
