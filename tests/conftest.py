@@ -24,7 +24,7 @@ hypothesis.settings.register_profile("thorough", derandomize=True, deadline=None
 hypothesis.settings.register_profile("wide", deadline=None, max_examples=1000)
 hypothesis.settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "repeatable"))
 # It also tries the constants of our modules that happen to be loaded: others in a whole run than in one of a file.
-providers._get_local_constants = providers.Constants
+providers._get_local_constants = providers.Constants  # pyright: ignore[reportPrivateImportUsage]
 
 
 def pytest_xdist_auto_num_workers(config: pytest.Config) -> int | None:
