@@ -205,7 +205,7 @@ def quantity_of(name: str, solution: Solution, measured: MeasuredSet) -> float:
 
 
 def _at_zero(design: Design) -> float:
-    """C_Q of a blade in hover at zero thrust, by annuli: hardly anything is induced there."""
+    """C_Q of a blade in hover at zero thrust, by annuli. A twist of −12° makes an eighth of it."""
     stand = Stand(ct_over_sigma=0.0)
     models = replace(design.models, hover_inflow="annulus", trim="wind-tunnel")
     condition = replace(design.condition, advance_ratio=0.0, stand=stand)
