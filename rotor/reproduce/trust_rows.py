@@ -1,4 +1,7 @@
-"""Rows of the trust table: verification, public codes, validation, indicative comparisons, statements of the thesis."""
+"""Rows of the trust table: verification, public codes, validation, indicative comparisons, statements of the thesis.
+
+One maker of rows for each kind of comparison, with the reasons of the errors beside them.
+"""
 
 import math
 from collections.abc import Iterable, Iterator

@@ -211,7 +211,7 @@ def _with_kept_factors(system: HoverSystem, point: WakeEvaluation, factors: Fact
             if not fresh and trial.error > point.error:
                 continue
         point = trial
-    converged = point.error <= TOLERANCE
+    converged = point.error <= TOLERANCE and _ends_below(point)
     if converged and factors is not None:
         KEPT.keep(point.state, factors)
     return Settled(system, point, converged, passes)
@@ -254,10 +254,15 @@ def _pseudo_time(system: HoverSystem, state: WakeState, core: float, enough: flo
             continue
         pace = min(pace * min(max(1.5 * point.error / max(trial.error, 1e-30), 0.5), 4.0), 1e6)
         point, rejected = trial, 0
-    converged = point.error <= enough
+    converged = point.error <= enough and (enough > TOLERANCE or _ends_below(point))
     if converged and enough <= TOLERANCE and factors is not None:
         KEPT.keep(point.state, factors)
     return Settled(system, point, converged, passes, damped)
+
+
+def _ends_below(point: WakeEvaluation) -> bool:
+    """Whether the free turns end below the disk, as the turns of constant pitch behind them take for granted."""
+    return bool((point.height[:, point.state.layout.free] < 0.0).all())
 
 
 def _from_easier(problem: Problem, failed: Settled) -> Settled:

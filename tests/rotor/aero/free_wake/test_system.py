@@ -10,8 +10,9 @@ from rotor.aero import kernel
 from rotor.aero.elements import Problem, build_problem
 from rotor.aero.free_wake import system as wake
 from rotor.aero.free_wake.roll_up import POWER, RollUp
-from rotor.aero.free_wake.settle import Settled, cold
+from rotor.aero.free_wake.settle import Settled, _ends_below, cold
 from rotor.aero.free_wake.system import HoverSystem, WakeState, layout_of
+from rotor.trim.hover import hover
 from tests.rotor.aero.free_wake.conftest import hovering, rigid, settled
 
 
@@ -147,6 +148,24 @@ def test_tip_vortices_go_where_they_were_measured(medium: tuple[Problem, Settled
         assert tip[passage - 1, 1] == pytest.approx(k1 * first, abs=0.012)
         assert rate == pytest.approx(k2, rel=0.15)
     assert tip[-1, 0] == pytest.approx(0.78, abs=0.06)
+
+
+def test_a_wake_that_ends_above_the_disk_is_none(medium: tuple[Problem, Settled]):
+    at = medium[1].evaluation
+    assert _ends_below(at)
+    assert not _ends_below(replace(at, height=-at.height))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("blades", "loading", "twist"), [(3, 0.139507, -38.83858), (2, 0.128496, -29.529116)])
+def test_a_start_near_stall_goes_on_to_separated_flow(blades: int, loading: float, twist: float):
+    """Newton's method alone stopped here at a residual of 1e-3."""
+    problem = rigid(build_problem(hovering(loading, twist, blades)))
+    annuli = hover(problem)
+    circulation = np.asarray(math.pi / blades * annuli.elements.loads[kernel.LIFT, :, 0])
+    system, coarse = (HoverSystem(problem, layout_of(problem, steps)) for steps in (24, 12))
+    found = cold(system, coarse, circulation, annuli.elements.state.collective, 1.0)
+    assert found.converged
 
 
 @pytest.mark.parametrize("blades", [2, *(pytest.param(blades, marks=pytest.mark.slow) for blades in (3, 5, 6, 7))])
