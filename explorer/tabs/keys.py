@@ -1,6 +1,7 @@
 """Keyboard: every command of the page with its title and key, the palette, and what the page does for them."""
 
 import json
+import threading
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import partial
@@ -202,12 +203,14 @@ def dialog_script(content: str) -> str:
 
 
 class Keyboard:
-    """Commands as they are bound. Actions run on the pool's threads and must only say what is wanted."""
+    """Commands as they are bound. Actions run on viser's threads, one at a time, and must only say what is wanted."""
 
     def __init__(self, client: viser.ClientHandle) -> None:
         self._client = client
         self._commands: dict[str, viser.CommandHandle] = {}
         self._held = False
+        self._acting = threading.Lock()
+        """Two keys pressed at once must not both read the inputs before either has written them."""
         viser_compat.run_in_page(client, page_script(COARSE))
         self.bind("keys", self.show)
 
@@ -222,7 +225,13 @@ class Keyboard:
         hotkey: Any = key.key or None
         modifier: Any = key.modifier or None
         command = self._client.gui.add_command(key.title, hotkey=hotkey, modifier=modifier)
-        command.on_trigger(lambda _: None if self._held and leads(name) else action())
+
+        def act(_: Any) -> None:
+            if not (self._held and leads(name)):
+                with self._acting:
+                    action()
+
+        command.on_trigger(act)
         self._commands[name] = command
 
     def hold(self, held: bool) -> None:

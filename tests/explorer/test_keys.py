@@ -1,7 +1,9 @@
 """Commands and keys: none twice, none that camera, palette or browser need, all of them listed."""
 
+import threading
 import typing
 from collections import Counter
+from contextlib import suppress
 from typing import Any
 
 import pytest
@@ -70,6 +72,27 @@ class TestKeyboard:
         for callback in command._impl.trigger_cb:
             callback(None)
         assert done == ["undo"]
+
+    def test_two_keys_at_once_act_one_after_the_other(self, client: Any):
+        """Each action reads the inputs and writes them changed: between the two no other may write."""
+        keyboard, inputs = Keyboard(client), [0]
+        met = threading.Barrier(2)
+
+        def more() -> None:
+            before = inputs[0]
+            with suppress(threading.BrokenBarrierError):
+                met.wait(0.2)  # Where both are here at once, both have read the same.
+            inputs[0] = before + 1
+
+        for name in ("undo", "redo"):
+            keyboard.bind(name, more)
+        commands = [c for c in client.gui._command_handle_from_uuid.values() if c.label in ("Undo", "Redo")]
+        threads = [threading.Thread(target=c._impl.trigger_cb[0], args=(None,)) for c in commands]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        assert inputs == [2]
 
     def test_an_unknown_name_or_a_second_action_is_refused(self, client: Any):
         keyboard = Keyboard(client)
