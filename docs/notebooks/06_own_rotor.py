@@ -40,7 +40,8 @@ for remark in mine.remarks:
 design = rotor.make_design(rotor=mine, mu=0.25)
 table = rotor.sweep(design, [0.08, 0.12, 0.16, 0.2, 0.24, 0.28, 0.32])
 rotor.plot_power(table)
-for mu, total in ((row[1], row[4]) for row in table.rows):
+columns = table.to_dict()
+for mu, total in zip(columns["mu"], columns["total_kw"], strict=True):
     print(f"µ {mu:.2f}: " + ("no trim" if total is None else f"{total:.1f} kW"))
 
 # %%

@@ -88,7 +88,9 @@ def test_the_model_opens_by_key_and_its_controls_have_names(watched: Watched):
 
 def test_the_tab_key_walks_the_whole_page_with_visible_focus(watched: Watched):
     page = watched.page
-    page.wait_for_function("() => RX.state.strip.length === 4 && Object.keys(RX.state.worth).length === 6")
+    page.wait_for_function(
+        "() => RX.state.strip.length === 4 && Object.keys(RX.state.worth).length === 7", timeout=WAIT
+    )
     watched.settled()  # What is drawn anew gets the focus back a frame later.
     page.locator(".rxf-rotor").focus()
     reached: list[dict[str, Any]] = []
