@@ -17,7 +17,7 @@ from rotor.aero.inflow.interface import HarmonicShapes, InflowFeedback, Wake
 from rotor.aero.inflow.peters_he import FlowParameters, families, flow_parameters
 from rotor.aero.inflow.wake_projection import Projection, build_projection
 from rotor.aero.losses import tip_factor
-from rotor.arrays import Array
+from rotor.arrays import Array, Integers
 from rotor.compiled import compiled
 
 
@@ -119,24 +119,9 @@ class _FamilyResponse:
         return cls(influence, slope, diagonal, family.uniform, rate, swap, family.mass, waves[1::2])
 
     def respond(self, p: Array) -> Array:
-        """T p of one load, (states of the family,)."""
-        return _respond(self.influence, self.flow, self.mass, self.harmonics, p.reshape(self.rate.shape)).ravel()
-
-    @cached_property
-    def blocks(self) -> tuple[Array, ...]:
-        """T: steady (modes, modes), then for each q cosine and sine together, (2 modes, 2 modes)."""
-        pairs = [_pair_block(self.influence, self.flow, self.mass, q) for q in self.harmonics.tolist()]
-        return 0.5 * self.influence / self.flow, *pairs
-
-    def apply(self, p: Array, *, transposed: bool = False) -> Array:
-        """T p or Tᵀ p along the first axis, (states of the family, …)."""
-        out = np.empty_like(p)
-        start = 0
-        for block in self.blocks:
-            stop = start + len(block)
-            out[start:stop] = (block.T if transposed else block) @ p[start:stop]
-            start = stop
-        return out
+        """T p of a stack of loads, (loads, states of the family)."""
+        loads = p.reshape(len(p), *self.rate.shape)
+        return _respond(self.influence, self.flow, self.mass, self.harmonics, loads).reshape(p.shape)
 
     def slopes(self, p: Array) -> Array:
         """∂(T p) by X, V_T and V̄, (3, states of the family).
@@ -144,13 +129,17 @@ class _FamilyResponse:
         With x = T p = L y and (V + iqML) y = ½ p:  dx = dL y − 2T (dV y + iqM dL y).
         """
         shape = self.rate.shape
-        x = self.apply(p).reshape(shape)
+        x = self.respond(p[None]).reshape(shape)
         y = (0.5 * p.reshape(shape) - self.rate * x[self.swap]) / self.flow
         turned = y @ self.influence_slope.T
         pushed = np.stack([self.rate * turned[self.swap], y * self.uniform, y * (1.0 - self.uniform)])
-        out = -2.0 * self.apply(np.ascontiguousarray(pushed.reshape(3, -1).T)).T
+        out = -2.0 * self.respond(pushed.reshape(3, -1))
         out[0] += turned.ravel()
         return out
+
+    def pair(self, q: float, expansion: Array, blocks: Integers) -> Array:
+        """½ Eᵀ L (V + iqM L)⁻¹ E, transposed, with the expansion E of `Projection`, (2, modes, modes)."""
+        return _pair(self.influence, self.flow, self.mass, q, expansion, blocks)
 
 
 _compile = compiled(error_model="numpy", fastmath={"contract"})
@@ -173,38 +162,49 @@ def _system(influence: Any, flow: Any, mass: Any, q: float, transposed: bool, co
 def _respond(influence: Any, flow: Any, mass: Any, harmonics: Any, loads: Any) -> Any:
     """T p, steady, then cosine and sine of every q: a = ½ L (V + iqM L)⁻¹ τ with a = x_c − i x_s, τ = p_c − i p_s."""
     out = np.zeros_like(loads)
-    modes = len(flow)
-    for i in range(modes):
-        for j in range(modes):
-            out[0, i] += 0.5 * influence[i, j] * loads[0, j] / flow[j]
-    for k in range(len(harmonics)):
-        cosine, sine = 1 + 2 * k, 2 + 2 * k
-        system = _system(influence, flow, mass, harmonics[k], False, 1)
-        for i in range(modes):
-            system[0, i, modes], system[1, i, modes] = loads[cosine, i], -loads[sine, i]
-        _eliminate(system[0], system[1])
+    count, modes = len(loads), len(flow)
+    for c in range(count):
         for i in range(modes):
             for j in range(modes):
-                out[cosine, i] += 0.5 * influence[i, j] * system[0, j, modes]
-                out[sine, i] -= 0.5 * influence[i, j] * system[1, j, modes]
+                out[c, 0, i] += 0.5 * influence[i, j] * loads[c, 0, j] / flow[j]
+    for k in range(len(harmonics)):
+        cosine, sine = 1 + 2 * k, 2 + 2 * k
+        system = _system(influence, flow, mass, harmonics[k], False, count)
+        for c in range(count):
+            for i in range(modes):
+                system[0, i, modes + c], system[1, i, modes + c] = loads[c, cosine, i], -loads[c, sine, i]
+        _eliminate(system[0], system[1])
+        for c in range(count):
+            for i in range(modes):
+                for j in range(modes):
+                    out[c, cosine, i] += 0.5 * influence[i, j] * system[0, j, modes + c]
+                    out[c, sine, i] -= 0.5 * influence[i, j] * system[1, j, modes + c]
     return out
 
 
 @_compile
-def _pair_block(influence: Any, flow: Any, mass: Any, q: float) -> Any:
-    """T of cosine and sine of one q, (2 modes, 2 modes): with ½ L (V + iqM L)⁻¹ = R + iI it is [[R, I], [−I, R]]."""
+def _pair(influence: Any, flow: Any, mass: Any, q: float, expansion: Any, blocks: Any) -> Any:
+    """`_FamilyResponse.pair`, real and imaginary part: the transposed equations with Lᵀ E as right sides, times Eᵀ."""
     modes = len(flow)
     system = _system(influence, flow, mass, q, True, modes)
     for i in range(modes):
         for j in range(modes):
-            system[0, j, modes + i] = 0.5 * influence[i, j]
-    _eliminate(system[0], system[1])
-    out = np.empty((2 * modes, 2 * modes))
-    for i in range(modes):
+            total = 0.0
+            for k in range(blocks[i, 0], blocks[i, 1]):
+                total += expansion[k, i] * influence[k, j]
+            system[0, j, modes + i] = 0.5 * total
+    if q == 0.0:
         for j in range(modes):
-            out[i, j] = out[modes + i, modes + j] = system[0, j, modes + i]
-            out[i, modes + j] = system[1, j, modes + i]
-            out[modes + i, j] = -system[1, j, modes + i]
+            for i in range(modes):
+                system[0, j, modes + i] /= flow[j]
+    else:
+        _eliminate(system[0], system[1])
+    out = np.zeros((2, modes, modes))
+    for j in range(modes):
+        for k in range(blocks[j, 0], blocks[j, 1]):
+            for i in range(modes):
+                out[0, j, i] += expansion[k, j] * system[0, k, modes + i]
+                out[1, j, i] += expansion[k, j] * system[1, k, modes + i]
     return out
 
 
@@ -258,7 +258,7 @@ def _pairing(harmonics: tuple[int, ...]) -> tuple[Array, NDArray[np.int64]]:
 
 @dataclass(frozen=True, eq=False)
 class WakeOperator:
-    """A for one wake on one grid. Fields are (elements, azimuths), states (225,) for S = 8, k = 2."""
+    """A for one wake on one grid. Fields are (elements, azimuths), states (225,) and terms (113,) for S = 8, k = 2."""
 
     projection: Projection
     flow: FlowParameters
@@ -269,16 +269,19 @@ class WakeOperator:
     """∂F/∂(µ_z + λ0), (elements,)."""
 
     def states(self, d: Array) -> Array:
-        """x = T W d: the wake's states under a load or a stack of loads, (…, states)."""
-        p = self.projection.loads(d)
-        if p.ndim > 1:
-            return self.transfer(p.T).T
+        """x = T W d: the wake's states under a load, (states,)."""
+        p = self.projection.state_loads(self.projection.sums(d))
         split = self._split
-        return np.concatenate([self.families[0].respond(p[:split]), self.families[1].respond(p[split:])])
+        cosines, sines = self.families
+        return np.concatenate([cosines.respond(p[None, :split]), sines.respond(p[None, split:])], axis=1)[0]
 
-    def field(self, x: Array) -> Array:
-        """λ_i = C x/F, (…, states) → (…, elements, azimuths)."""
-        return self.over_factor(self.projection.field(x))
+    def coefficients(self, d: Array) -> Array:
+        """The inflow under a stack of loads in terms, (…, elements, azimuths) → (…, terms)."""
+        return self.projection.sums(d) @ self.transfer.T
+
+    def field(self, coefficients: Array) -> Array:
+        """λ_i of coefficients of the terms over F, (…, terms) → (…, elements, azimuths)."""
+        return self.over_factor(self.projection.field(coefficients))
 
     def over_factor(self, fields: Array) -> Array:
         """Fields over F; themselves where F = 1."""
@@ -289,29 +292,30 @@ class WakeOperator:
         return bool((self.factor == 1.0).all())
 
     def induced(self, d: Array) -> Array:
-        """λ_i = A d."""
-        return self.field(self.states(d))
+        """λ_i = A d of a load, (elements, azimuths), by the wake's equations, or of a stack of loads."""
+        if d.ndim > 2:
+            return self.field(self.coefficients(d))
+        return self.field(self.projection.coefficients(self.states(d)))
 
     def induced_transposed(self, g: Array) -> Array:
         """Aᵀ g, for adjoints."""
-        back = self.transfer(self.projection.field_transposed(self.over_factor(g)), transposed=True)
-        return self.projection.loads_transposed(back)
+        return self.projection.field(self.projection.sums(self.over_factor(g)) @ self.transfer)
 
-    def states_by_wake(self, d: Array) -> Array:
-        """∂x by (µ_x, µ_z, λ0) at fixed load, (3, states)."""
-        p = self.projection.loads(d)
+    def coefficients_by_wake(self, d: Array) -> Array:
+        """∂ of the terms' coefficients by (µ_x, µ_z, λ0) at fixed load, (3, terms)."""
+        p = self.projection.state_loads(self.projection.sums(d))
         split = self._split
         parts = [family.slopes(part) for family, part in zip(self.families, (p[:split], p[split:]), strict=True)]
-        return self.flow.slopes.T @ np.concatenate(parts, axis=1)
+        return self.flow.slopes.T @ self.projection.coefficients(np.concatenate(parts, axis=1))
 
     def induced_by_wake(self, d: Array) -> Array:
         """∂λ_i by (µ_x, µ_z, λ0) at fixed load, (3, elements, azimuths)."""
-        out, beyond = self.field(self.states_by_wake(d)), self.beyond_states(d)
+        out, beyond = self.field(self.coefficients_by_wake(d)), self.beyond_terms(d)
         if beyond is not None:
             out[1:] += beyond
         return out
 
-    def beyond_states(self, d: Array) -> Array | None:
+    def beyond_terms(self, d: Array) -> Array | None:
         """The part of ∂λ_i/∂(µ_z + λ0) through F, (elements, azimuths); None where F does not follow the wake."""
         if not np.any(self.factor_slope):
             return None
@@ -319,92 +323,139 @@ class WakeOperator:
 
     def feedback(self, slope: Array, load: Array) -> "DynamicWakeFeedback":
         """The feedback for a pointwise slope K = ∂d/∂λ_i, negative where more inflow reduces the lift, at a load."""
-        reduced = self.projection.reduced(self.over_factor(slope))
-        system = -self.transfer(reduced)
+        system = -(self.transfer @ self.projection.reduced(self.over_factor(slope)))
         system.ravel()[:: len(system) + 1] += 1.0
         # Of the transpose, which is what LAPACK sees in these rows without copying them.
         return DynamicWakeFeedback(self, slope, load, lu_factor(system.T, overwrite_a=True, check_finite=False))
 
-    def transfer(self, p: Array, *, transposed: bool = False) -> Array:
-        """T p or Tᵀ p along the first axis: loads on the states → states."""
-        split = self._split
-        cosines, sines = self.families
-        return np.concatenate(
-            [cosines.apply(p[:split], transposed=transposed), sines.apply(p[split:], transposed=transposed)]
-        )
+    @cached_property
+    def transfer(self) -> Array:
+        """From sums of the load with the terms to coefficients of the inflow, (terms, terms): the states eliminated.
+
+        With u± = a ∓ i b of the amplitudes a, b of cosines and sines of one m, a state's field is the real part of
+        ½ Σ u± exp i(q ± m)ψ, and its load is made of the sums with exp −i(q ± m)ψ. So what leads from the one to the
+        other is half of the cosines' matrix plus or minus the sines'.
+        """
+        projection, (cosines, sines) = self.projection, self.families
+        m, table, steady = projection.mode_order, projection.term_table, len(projection.modes) - len(sines.flow)
+        blocks, expansion = projection.mode_blocks, projection.block_expansion
+        out = np.zeros((projection.terms, projection.terms))
+        for q in (0, *projection.harmonics):
+            even = cosines.pair(float(q), expansion, blocks)
+            odd = sines.pair(float(q), expansion[steady:, steady:], blocks[steady:] - steady)
+            weight = projection.cell * (0.5 if q else 0.25)
+            _add_pairs(even, odd, q, weight, m, projection.mode_place, table, out)
+        return out
 
     @property
     def _split(self) -> int:
-        return self.projection.family[0] * (1 + 2 * len(self.projection.harmonics))
+        return len(self.projection.modes) * (1 + 2 * len(self.projection.harmonics))
+
+
+@_compile
+def _add_pairs(cosines: Any, sines: Any, q: int, weight: float, m: Any, order: Any, table: Any, out: Any) -> None:
+    """Add what one blade harmonic leads to, see `WakeOperator.transfer`.
+
+    The result of `_pair` is transposed: (2, loads, inflow). m, order: of the place of each g; table: of terms.
+    """
+    modes, steady = len(m), len(m) - sines.shape[1]
+    for j in range(modes):
+        half = weight * (0.5 if m[j] == 0 else 1.0)
+        for i in range(modes):
+            real, imaginary = half * cosines[0, j, i], half * cosines[1, j, i]
+            odd_real, odd_imaginary = 0.0, 0.0
+            if i >= steady and j >= steady:
+                odd_real, odd_imaginary = (
+                    half * sines[0, j - steady, i - steady],
+                    half * sines[1, j - steady, i - steady],
+                )
+            for side in (1, -1):
+                wave = q + side * m[i]
+                turn = np.sign(wave)
+                row, sine_row = table[order[i], abs(wave), 0], table[order[i], abs(wave), 1]
+                for other_side in (1, -1):
+                    other = q + other_side * m[j]
+                    back = np.sign(other)
+                    column, sine_column = table[order[j], abs(other), 0], table[order[j], abs(other), 1]
+                    x = real + side * other_side * odd_real
+                    y = imaginary + side * other_side * odd_imaginary
+                    out[row, column] += x
+                    out[row, sine_column] += back * y
+                    out[sine_row, column] -= turn * y
+                    out[sine_row, sine_column] += turn * back * x
 
 
 @dataclass(frozen=True, eq=False)
 class DynamicWakeFeedback:
-    """(I − A diag K)⁻¹, exactly, through one LU of the size of the states: I + (C/F) (I − T W (K/F) C)⁻¹ T W K."""
+    """(I − A diag K)⁻¹, exactly, through one LU of the size of the terms.
+
+    With the sums B over the grid and A = (1/F) Bᵀ T B it is I + (Bᵀ/F) (I − T B (K/F) Bᵀ)⁻¹ T B K.
+    """
 
     operator: WakeOperator
     slope: Array
     load: Array
     """The load at which the wake changes."""
     lu: tuple[Array, NDArray[np.int32]]
-    """Factors of (I − T W (K/F) C)ᵀ."""
+    """Factors of (I − T B (K/F) Bᵀ)ᵀ."""
 
-    def solve_states(self, x: Array) -> Array:
-        """(I − T W (K/F) C)⁻¹ x, (states,) or (states, n): the feedback in terms of the states."""
-        return lu_solve(self.lu, x, trans=1, check_finite=False)
+    def solve_terms(self, coefficients: Array) -> Array:
+        """(I − T B (K/F) Bᵀ)⁻¹ c, (terms,) or (terms, n): the feedback in terms of the coefficients."""
+        return lu_solve(self.lu, coefficients, trans=1, check_finite=False)
 
     def solve(self, fields: Array) -> Array:
         """λ with λ − A (K λ) = fields, for a field or a stack of fields, (…, elements, azimuths)."""
-        return fields + self.operator.field(self.solve_states(self.operator.states(self.slope * fields).T).T)
+        return fields + self.operator.field(self.solve_terms(self.operator.coefficients(self.slope * fields).T).T)
 
     def solve_transposed(self, field: Array) -> Array:
         """v with v − K Aᵀ v = field."""
         operator, projection = self.operator, self.operator.projection
-        back = projection.field_transposed(operator.over_factor(field))
-        back = lu_solve(self.lu, back, check_finite=False)
-        return field + self.slope * projection.loads_transposed(operator.transfer(back, transposed=True))
+        back = lu_solve(self.lu, projection.sums(operator.over_factor(field)), check_finite=False)
+        return field + self.slope * projection.field(back @ operator.transfer)
 
-    def answer_columns(self, loads: Array, wake: Array, slope: Array, shapes: HarmonicShapes | None) -> "StateColumns":
-        """As `ColumnFeedback`: the states under every change, x = (I − T W (K/F) C)⁻¹ (T W load + ∂x/∂wake)."""
+    def answer_columns(self, loads: Array, wake: Array, slope: Array, shapes: HarmonicShapes | None) -> "TermColumns":
+        """As `ColumnFeedback`: the terms under every change, c = (I − T B (K/F) Bᵀ)⁻¹ (T B load + ∂c/∂wake)."""
         operator, projection = self.operator, self.operator.projection
-        beyond, shares = operator.beyond_states(self.load), wake[:, 1] + wake[:, 2]
+        beyond, shares = operator.beyond_terms(self.load), wake[:, 1] + wake[:, 2]
         if beyond is not None:
             loads = loads + shares[:, None, None] * (self.slope * beyond)
-        states = operator.transfer(projection.loads(loads).T) + operator.states_by_wake(self.load).T @ wake.T
+        sums = projection.sums(loads).T
         if shapes is not None:
-            own = projection.load_factor[:, None] * projection.against(slope, shapes)
-            states = np.hstack([states, operator.transfer(own)])
-            shares = np.concatenate([shares, np.zeros(shapes.columns)])
-        return StateColumns(operator, self.solve_states(states), beyond, shares)
+            sums = np.hstack([sums, projection.against(slope, shapes)])
+        columns = operator.transfer @ sums
+        columns[:, : len(wake)] += operator.coefficients_by_wake(self.load).T @ wake.T
+        shares = np.concatenate([shares, np.zeros(columns.shape[1] - len(wake))])
+        return TermColumns(operator, self.solve_terms(columns), beyond, shares)
 
 
 @dataclass(frozen=True, eq=False)
-class StateColumns:
-    """The inflow that answers several changes, in terms of the wake's states."""
+class TermColumns:
+    """The inflow that answers several changes, in terms of the projection."""
 
     operator: WakeOperator
-    states: Array
-    """(states, columns)"""
+    coefficients: Array
+    """(terms, columns)"""
     beyond: Array | None
-    """What no state can hold, (elements, azimuths), see `WakeOperator.beyond_states`."""
+    """What no term can hold, (elements, azimuths), see `WakeOperator.beyond_terms`."""
     shares: Array
     """How much of it is in each column, (columns,)."""
 
     def field(self, coefficients: Array) -> Array:
         """As `InflowColumns`."""
-        out = self.operator.field(self.states @ coefficients)
+        out = self.operator.field(self.coefficients @ coefficients)
         return out if self.beyond is None else out + float(self.shares @ coefficients) * self.beyond
 
     def integrate(self, fields: Array) -> Array:
         """As `InflowColumns`."""
-        out = self.operator.projection.field_transposed(self.operator.over_factor(fields)) @ self.states
+        out = self.operator.projection.sums(self.operator.over_factor(fields)) @ self.coefficients
         return out if self.beyond is None else out + np.outer(np.tensordot(fields, self.beyond, 2), self.shares)
 
     def project(self, slope: Array, shapes: HarmonicShapes) -> Array:
         """As `InflowColumns`."""
         projection = self.operator.projection
-        rows = projection.field_factor[:, None] * projection.against(self.operator.over_factor(slope), shapes)
-        out = np.tile(shapes.scale, len(shapes.radial))[:, None] * (rows.T @ self.states)
+        rows = projection.against(self.operator.over_factor(slope), shapes)
+        scale = np.tile(shapes.scale, len(shapes.radial)) * projection.cell
+        out = scale[:, None] * (rows.T @ self.coefficients)
         return out if self.beyond is None else out + np.outer(shapes.project(slope * self.beyond), self.shares)
 
 

@@ -1,191 +1,186 @@
 """Projection between fields on the disk and the states of the dynamic wake.
 
 A state is a mode φ_n^m(r) cos mψ or sin mψ times one of the blade harmonics 1, cos qψ, sin qψ, q = N_b, 2N_b, …, the
-harmonics of N_b identical blades in the fixed frame. Every such shape is φ(r) times one azimuthal function, so sums
-over the disk are two small matrix products, without a matrix of the size of the disk.
+harmonics of N_b identical blades in the fixed frame. As a product of two waves it is a sum of two, with the wave
+numbers |m ± q|, and φ_n^m is r^m times a polynomial of r². So the shapes of the states are sums of far fewer terms
+g_k(r) cos pψ and g_k(r) sin pψ: g_k is the φ of m = k with the highest n, and g_m, g_m+2, … span all φ_n^m. Order 8
+with two blade harmonics has 225 states, and 113 terms. A load acts on the wake through its sums with the terms alone,
+and the inflow is a sum of them.
 """
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
 
 from rotor.aero.inflow.interface import HarmonicShapes
-from rotor.aero.inflow.peters_he import mode_set, radial_functions
+from rotor.aero.inflow.peters_he import Mode, mode_set, radial_functions
 from rotor.arrays import Array, Integers
 from rotor.compiled import compiled
 
 
 @dataclass(frozen=True, eq=False)
 class Projection:
-    """States ↔ fields on one grid. States are ordered by family (cosines, sines), blade harmonic, mode."""
+    """States ↔ terms ↔ fields on one grid. States are ordered by family (cosines, sines), blade harmonic, mode."""
 
     r: Array
     """Element centres, (elements,)."""
     radial: Array
-    """φ of the modes, (modes, elements)."""
+    """g_k, (S + 1, elements)."""
     waves: Array
-    """cos pψ, then sin pψ, p = 0 … S + q_max, (waves, azimuths): each azimuthal function of a state is a sum of two."""
-    mode: Integers
-    """Row of `radial` of each state, (states,)."""
+    """cos pψ, then sin pψ, p = 0 … S + q_max, (waves, azimuths)."""
+    order: Integers
+    """k of each term, (terms,)."""
+    wave: Integers
+    """p of each term, (terms,)."""
+    parity: Integers
+    """0 for a cosine, 1 for a sine, (terms,)."""
+    mixture: Array
+    """The shape of each state as a sum of terms, (states, terms)."""
+    expansion: Array
+    """φ of each mode as a sum of g_k, (modes, S + 1)."""
     load_factor: Array
     """Weight of d in the load on a state, (states,): ½ for m = 0, else 1."""
     field_factor: Array
     """Weight of a state in the field, (states,): 1 for the steady part, 2 for a harmonic."""
     cell: float
     """Δr/N_ψ, by which a sum over the grid becomes ⟨∫ … dr⟩."""
-    family: tuple[int, int]
-    """How many cosine and sine modes."""
+    modes: tuple[Mode, ...]
+    """(m, n) of the cosines; the sines are those with m ≥ 1."""
     harmonics: tuple[int, ...]
     """q = N_b, 2N_b, … [per revolution]."""
     spectrum: Array
     """cos pψ, then sin pψ, p = 0 … 2(S + q_max), (harmonics, azimuths), over N_ψ."""
     pairs: Array
-    """φ_i φ_j Δr for i ≥ j, (pairs, elements)."""
-    parity: Integers
-    """0 where a state's azimuthal function is a sum of cosines, 1 of sines, (states,)."""
-    wave: Integers
-    """The two wave numbers in it, (states, 2)."""
-    share: Array
-    """And their amplitudes, (states, 2)."""
+    """g_i g_j Δr for i ≥ j, (pairs, elements)."""
+
+    # Every mode (m, n) also has a place for one of g_m, g_m+2, …, as many as there are modes with this m.
+
+    @cached_property
+    def mode_order(self) -> Integers:
+        """m of each mode, (modes,)."""
+        return np.array([m for m, _ in self.modes], dtype=np.int64)
+
+    @cached_property
+    def mode_blocks(self) -> Integers:
+        """Where the modes with the same m begin and end, (modes, 2)."""
+        m = self.mode_order
+        return np.stack([np.searchsorted(m, m), np.searchsorted(m, m, side="right")], axis=1)
+
+    @cached_property
+    def mode_place(self) -> Integers:
+        """k of the place of each mode, (modes,)."""
+        return self.mode_order + 2 * (np.arange(len(self.modes)) - self.mode_blocks[:, 0])
+
+    @cached_property
+    def block_expansion(self) -> Array:
+        """`expansion` by these places, (modes, modes): blocks along the diagonal."""
+        same = self.mode_order[:, None] == self.mode_order
+        return np.where(same, self.expansion[:, self.mode_place], 0.0)
+
+    @cached_property
+    def term_table(self) -> Integers:
+        """Index of a term by k, p and whether a sine, (S + 1, waves, 2); for sin 0 that of cos 0."""
+        table = np.zeros((len(self.radial), len(self.waves) // 2, 2), dtype=np.int64)
+        table[self.order, self.wave, self.parity] = np.arange(self.terms)
+        table[:, 0, 1] = table[:, 0, 0]
+        return table
 
     @property
     def states(self) -> int:
-        return len(self.mode)
+        return len(self.mixture)
 
-    def loads(self, d: Array) -> Array:
-        """W d: the load τ on each state. d (…, elements, azimuths) → (…, states)."""
-        return self._analyse(d) * (self.load_factor * self.cell)
+    @property
+    def terms(self) -> int:
+        return len(self.order)
 
-    def field(self, x: Array) -> Array:
-        """C x: the inflow of states. (…, states) → (…, elements, azimuths)."""
-        return self._synthesise(x * self.field_factor)
+    def sums(self, fields: Array) -> Array:
+        """Σ over the grid of a field times every term, (…, elements, azimuths) → (…, terms)."""
+        spectrum = (self.radial @ fields) @ self.waves.T
+        return spectrum[..., self.order, self._column]
 
-    def loads_transposed(self, p: Array) -> Array:
-        """Wᵀ p, (…, states) → (…, elements, azimuths)."""
-        return self._synthesise(p * (self.load_factor * self.cell))
+    def field(self, coefficients: Array) -> Array:
+        """The sum of the terms, (…, terms) → (…, elements, azimuths)."""
+        spectrum = np.zeros((*coefficients.shape[:-1], len(self.radial), len(self.waves)))
+        spectrum[..., self.order, self._column] = coefficients
+        return self.radial.T @ (spectrum @ self.waves)
 
-    def field_transposed(self, f: Array) -> Array:
-        """Cᵀ f, (…, elements, azimuths) → (…, states)."""
-        return self._analyse(f) * self.field_factor
+    @cached_property
+    def _column(self) -> Integers:
+        """Row of `waves` of each term."""
+        return self.wave + self.parity * (len(self.waves) // 2)
 
-    def _analyse(self, field: Array) -> Array:
-        spectrum = self.radial @ (field @ self.waves.T)
-        shape = (-1, *spectrum.shape[-2:])
-        states = _collect(spectrum.reshape(shape), self.mode, self.parity, self.wave, self.share)
-        return states.reshape(*field.shape[:-2], self.states)
+    def state_loads(self, sums: Array) -> Array:
+        """The load τ on each state from the sums of d with the terms, (terms,) → (states,)."""
+        return self.cell * self.load_factor * (self.mixture @ sums)
 
-    def _synthesise(self, x: Array) -> Array:
-        modes, waves = len(self.radial), len(self.waves)
-        spectrum = _spread(x.reshape(-1, self.states), self.mode, self.parity, self.wave, self.share, modes, waves)
-        return (self.radial.T @ spectrum.reshape(*x.shape[:-1], modes, waves)) @ self.waves
+    def coefficients(self, x: Array) -> Array:
+        """The inflow of states in terms, (…, states) → (…, terms)."""
+        return (x * self.field_factor) @ self.mixture
 
     def reduced(self, slope: Array) -> Array:
-        """W diag(K) C for a pointwise slope K(r, ψ), (elements, azimuths) → (states, states).
+        """Σ over the grid of term · K · term for a pointwise slope K(r, ψ), (terms, terms).
 
-        A product of two azimuthal functions is a sum of at most eight waves, so K enters by its Fourier coefficients
-        alone: sums over r for every pair of modes, then a look-up for every pair of states.
+        A product of two waves is a sum of two, so K enters by its Fourier coefficients alone: sums over r for every
+        pair of g, then a look-up for every pair of terms.
         """
-        spectrum = self.pairs @ (slope @ self.spectrum.T)
-        return _assemble(
-            spectrum, self.mode, self.parity, self.wave, self.share, self.spectrum.shape[0] // 2,
-            self.load_factor, self.field_factor,
-        )  # fmt: skip
+        spectrum = (self.pairs @ slope) @ self.spectrum.T
+        return _assemble(spectrum, self.order, self.wave, self.parity, self.spectrum.shape[0] // 2, 1.0 / self.cell)
 
     def against(self, slope: Array, shapes: HarmonicShapes) -> Array:
-        """⟨∫ state · slope · column dr⟩ for every state and every column of `shapes`, (states, columns).
-
-        As `reduced`: only the Fourier coefficients of the slope enter. The factors of load or field are left out.
-        """
+        """Σ over the grid of term · slope · column of `shapes`, (terms, columns), computed as `reduced`."""
         pairs = (self.radial[:, None] * shapes.radial * shapes.dr).reshape(-1, len(self.r))
-        spectrum = (pairs @ (slope @ self.spectrum.T)).reshape(len(self.radial), len(shapes.radial), -1)
+        spectrum = ((pairs @ slope) @ self.spectrum.T).reshape(len(self.radial), len(shapes.radial), -1)
         return _assemble_columns(
-            spectrum, self.mode, self.parity, self.wave, self.share, shapes.wave, shapes.parity,
-            self.spectrum.shape[0] // 2,
+            spectrum, self.order, self.wave, self.parity, shapes.wave, shapes.parity, self.spectrum.shape[0] // 2,
+            1.0 / self.cell,
         )  # fmt: skip
 
 
-_compile = compiled()
+_compile = compiled(error_model="numpy", fastmath={"contract"})
 
 
 @_compile
-def _collect(spectrum: Any, mode: Any, parity: Any, wave: Any, share: Any) -> Any:
-    """Sums with every state from those with every mode and wave, (n, modes, waves) → (n, states)."""
-    n, states, sines = len(spectrum), len(mode), spectrum.shape[2] // 2
-    out = np.empty((n, states))
-    for k in range(n):
-        for a in range(states):
-            row, first = spectrum[k, mode[a]], parity[a] * sines
-            out[k, a] = share[a, 0] * row[first + wave[a, 0]] + share[a, 1] * row[first + wave[a, 1]]
-    return out
-
-
-@_compile
-def _spread(x: Any, mode: Any, parity: Any, wave: Any, share: Any, modes: int, waves: int) -> Any:
-    """Coefficients of every mode and wave from those of the states, (n, states) → (n, modes, waves)."""
-    n, states, sines = len(x), len(mode), waves // 2
-    out = np.zeros((n, modes, waves))
-    for k in range(n):
-        for a in range(states):
-            row, first = out[k, mode[a]], parity[a] * sines
-            row[first + wave[a, 0]] += share[a, 0] * x[k, a]
-            row[first + wave[a, 1]] += share[a, 1] * x[k, a]
-    return out
-
-
-@_compile
-def _assemble(spectrum: Any, mode: Any, parity: Any, wave: Any, share: Any, sines: int, rows: Any, columns: Any) -> Any:
-    """Σ over waves of products of azimuthal functions times factors of rows and columns, (states, states).
+def _mean_of_waves(row: Any, p: int, p_sine: int, s: int, s_sine: int, sines: int) -> float:
+    """⟨f · wave p · wave s⟩ from the Fourier coefficients of f, cosines, then sines.
 
     cos p cos s and sin p sin s are ½[cos(p − s) ± cos(p + s)]; sin p cos s is ½[sin(p + s) + sin(p − s)].
     """
-    n = len(mode)
+    if p_sine == s_sine:
+        near, far = row[abs(p - s)], row[p + s]
+        return 0.5 * (near - far if p_sine else near + far)
+    difference = p - s if p_sine else s - p
+    near = row[sines + difference] if difference >= 0 else -row[sines - difference]
+    return 0.5 * (row[sines + p + s] + near)
+
+
+@_compile
+def _assemble(spectrum: Any, order: Any, wave: Any, parity: Any, sines: int, factor: float) -> Any:
+    """The symmetric matrix of `Projection.reduced` from the spectra of all pairs of g."""
+    n = len(order)
     out = np.empty((n, n))
     for a in range(n):
         for b in range(a + 1):
-            i = max(mode[a], mode[b])
-            row = spectrum[i * (i + 1) // 2 + min(mode[a], mode[b])]
-            total = 0.0
-            for u in range(2):
-                for v in range(2):
-                    weight = 0.5 * share[a, u] * share[b, v]
-                    if parity[a] == parity[b]:
-                        p, s = wave[a, u], wave[b, v]
-                        far = row[p + s] if parity[a] == 0 else -row[p + s]
-                        total += weight * (row[abs(p - s)] + far)
-                    else:
-                        p, s = (wave[a, u], wave[b, v]) if parity[a] == 1 else (wave[b, v], wave[a, u])
-                        near = row[sines + p - s] if p >= s else -row[sines + s - p]
-                        total += weight * (row[sines + p + s] + near)
-            out[a, b] = rows[a] * total * columns[b]
-            out[b, a] = rows[b] * total * columns[a]
+            i, j = max(order[a], order[b]), min(order[a], order[b])
+            mean = _mean_of_waves(spectrum[i * (i + 1) // 2 + j], wave[a], parity[a], wave[b], parity[b], sines)
+            out[a, b] = out[b, a] = factor * mean
     return out
 
 
 @_compile
 def _assemble_columns(
-    spectrum: Any, mode: Any, parity: Any, wave: Any, share: Any, own_wave: Any, own_parity: Any, sines: int
+    spectrum: Any, order: Any, wave: Any, parity: Any, own_wave: Any, own_parity: Any, sines: int, factor: float
 ) -> Any:
-    """Σ over waves of products of azimuthal functions and harmonics, (states, shapes × harmonics)."""
-    n, shapes, functions = len(mode), spectrum.shape[1], len(own_wave)
+    """The matrix of `Projection.against`, (terms, shapes × harmonics)."""
+    n, shapes, functions = len(order), spectrum.shape[1], len(own_wave)
     out = np.empty((n, shapes * functions))
     for a in range(n):
         for k in range(shapes):
-            row = spectrum[mode[a], k]
+            row = spectrum[order[a], k]
             for c in range(functions):
-                total = 0.0
-                for u in range(2):
-                    weight = 0.5 * share[a, u]
-                    if parity[a] == own_parity[c]:
-                        p, s = wave[a, u], own_wave[c]
-                        far = row[p + s] if parity[a] == 0 else -row[p + s]
-                        total += weight * (row[abs(p - s)] + far)
-                    else:
-                        p, s = (wave[a, u], own_wave[c]) if parity[a] == 1 else (own_wave[c], wave[a, u])
-                        near = row[sines + p - s] if p >= s else -row[sines + s - p]
-                        total += weight * (row[sines + p + s] + near)
-                out[a, k * functions + c] = total
+                mean = _mean_of_waves(row, wave[a], parity[a], own_wave[c], own_parity[c], sines)
+                out[a, k * functions + c] = factor * mean
     return out
 
 
@@ -195,8 +190,8 @@ def build_projection(order: int, blades: int, harmonics: int, root: float, eleme
 
     Elements are equally wide from `root` to 1 and summed by the midpoint rule, azimuths evenly spaced.
     """
-    waves = tuple(k * blades for k in range(1, harmonics + 1))
-    highest = order + (waves[-1] if waves else 0)
+    multiples = tuple(k * blades for k in range(1, harmonics + 1))
+    highest = order + (multiples[-1] if multiples else 0)
     if azimuths <= 2 * highest:
         raise ValueError(
             f"{azimuths} azimuths cannot resolve the wake's {highest} waves per revolution: use more than {2 * highest}"
@@ -205,36 +200,66 @@ def build_projection(order: int, blades: int, harmonics: int, root: float, eleme
     r = np.linspace(root + 0.5 * dr, 1.0 - 0.5 * dr, elements)
     psi = 2.0 * np.pi * np.arange(azimuths) / azimuths
     modes = mode_set(order)
-    radial = radial_functions(modes, r)
+    expansion = _expansion(modes, order)
 
-    # Blade harmonics as (wave number, whether a sine), and every m as cosine, then sine.
-    rotor = [(0, 0)] + [(q, kind) for q in waves for kind in (0, 1)]
-    places = [(m, 0) for m in range(order + 1)] + [(m, 1) for m in range(1, order + 1)]
-    products = [_product(*place, *own) for place in places for own in rotor]
-    index = [
-        (modes.index((m, n)), places.index((m, kind)) * len(rotor) + h, 0.5 if m == 0 else 1.0, 1.0 if h == 0 else 2.0)
-        for kind in (0, 1)
-        for h in range(len(rotor))
-        for m, n in mode_set(order, kind)
-    ]
+    # Blade harmonics as (wave number, whether a sine).
+    rotor = [(0, 0)] + [(q, kind) for q in multiples for kind in (0, 1)]
+    shapes: list[dict[tuple[int, int, int], float]] = []
+    factors: list[tuple[float, float]] = []
+    for kind in (0, 1):
+        for h, blade in enumerate(rotor):
+            for m, n in mode_set(order, kind):
+                factors.append((0.5 if m == 0 else 1.0, 1.0 if h == 0 else 2.0))
+                shapes.append(_shape(expansion[modes.index((m, n))], m, _product(m, kind, *blade)))
+    terms = sorted({term for shape in shapes for term in shape}, key=lambda term: (term[1], term[2], term[0]))
+    mixture = np.array([[shape.get(term, 0.0) for term in terms] for shape in shapes])
     phase = np.outer(np.arange(2 * highest + 1), psi)
-    rows, columns = np.tril_indices(len(modes))
+    radial = radial_functions(_highest(order), r)
+    rows, columns = np.tril_indices(order + 1)
     return Projection(
         r=r,
         radial=radial,
         waves=np.concatenate([np.cos(phase[: highest + 1]), np.sin(phase[: highest + 1])]),
-        mode=np.array([entry[0] for entry in index], dtype=np.int64),
-        load_factor=np.array([entry[2] for entry in index]),
-        field_factor=np.array([entry[3] for entry in index]),
+        order=np.array([term[0] for term in terms], dtype=np.int64),
+        wave=np.array([term[1] for term in terms], dtype=np.int64),
+        parity=np.array([term[2] for term in terms], dtype=np.int64),
+        mixture=mixture,
+        expansion=expansion,
+        load_factor=np.array([factor[0] for factor in factors]),
+        field_factor=np.array([factor[1] for factor in factors]),
         cell=dr / azimuths,
-        family=(len(modes), len(mode_set(order, 1))),
-        harmonics=waves,
+        modes=modes,
+        harmonics=multiples,
         spectrum=np.concatenate([np.cos(phase), np.sin(phase)]) / azimuths,
         pairs=radial[rows] * radial[columns] * dr,
-        parity=np.array([products[entry[1]][0] for entry in index], dtype=np.int64),
-        wave=np.array([products[entry[1]][1] for entry in index], dtype=np.int64),
-        share=np.array([products[entry[1]][2] for entry in index]),
     )
+
+
+def _highest(order: int) -> tuple[Mode, ...]:
+    """The modes of g_0 … g_S: the highest n of every m."""
+    return tuple((m, order + (order - m + 1) % 2) for m in range(order + 1))
+
+
+def _expansion(modes: tuple[Mode, ...], order: int) -> Array:
+    """`Projection.expansion`: polynomials of the same span, so their values at enough radii determine it."""
+    r = np.sqrt(1.0 - np.square(np.linspace(0.02, 0.98, 4 * order)))
+    basis, out = radial_functions(_highest(order), r), np.zeros((len(modes), order + 1))
+    for row, (m, n) in zip(out, modes, strict=True):
+        row[m::2] = np.linalg.lstsq(basis[m::2].T, radial_functions(((m, n),), r)[0])[0]
+    return out
+
+
+def _shape(
+    expansion: Array, m: int, product: tuple[int, tuple[int, int], tuple[float, float]]
+) -> dict[tuple[int, int, int], float]:
+    """φ times an azimuthal function as amplitudes of terms (k, p, whether a sine)."""
+    parity, waves, amplitudes = product
+    shape: dict[tuple[int, int, int], float] = {}
+    for k in range(m, len(expansion), 2):
+        for wave, amplitude in zip(waves, amplitudes, strict=True):
+            if wave or not parity:  # sin 0 is none.
+                shape[k, wave, parity] = shape.get((k, wave, parity), 0.0) + amplitude * expansion[k]
+    return shape
 
 
 def _product(m: int, m_sine: int, q: int, q_sine: int) -> tuple[int, tuple[int, int], tuple[float, float]]:

@@ -38,7 +38,10 @@ def model(request: pytest.FixtureRequest) -> DynamicWake:
 
 
 def test_size_of_the_default():
-    assert respond(DynamicWake()).projection.states == 225  # (25 + 20)(1 + 2·2)
+    projection = respond(DynamicWake()).projection
+    assert projection.states == 225  # (25 + 20)(1 + 2·2)
+    # g_k with k ≥ the least m for which one of m, |m ± 4|, |m ± 8| is p; p = 0, then 1 … 16 as cosine and sine.
+    assert projection.terms == 5 + 2 * (4 + 4 + 4 + 5 + 4 + 4 + 4 + 5 + 4 + 4 + 3 + 3 + 2 + 2 + 1 + 1)
 
 
 def test_projection_against_brute_force():
@@ -53,26 +56,39 @@ def test_projection_against_brute_force():
                 shape = np.outer(phi, trig(m * psi) * rotor)
                 expected_loads.append((0.5 if m == 0 else 1.0) * (shape * d).sum(axis=0).mean() * (1 - ROOT) / ELEMENTS)
                 shapes.append(shape * (1.0 if kind == 0 else 2.0))
-    assert_allclose(projection.loads(d), expected_loads, rtol=0, atol=1e-14)
+    assert_allclose(projection.state_loads(projection.sums(d)), expected_loads, rtol=0, atol=1e-14)
     x = np.random.default_rng(2).normal(size=projection.states)
-    assert_allclose(projection.field(x), np.tensordot(x, np.array(shapes), axes=1), rtol=0, atol=1e-11)
+    field = projection.field(projection.coefficients(x))
+    assert_allclose(field, np.tensordot(x, np.array(shapes), axes=1), rtol=0, atol=1e-11)
 
 
 def test_reduced_matrix_against_brute_force(model: DynamicWake):
     projection = model.on(ROOT, ELEMENTS, AZIMUTHS)
     slope = noise(3)
-    columns = [projection.loads(slope * projection.field(x)) for x in np.eye(projection.states)]
-    assert_allclose(projection.reduced(slope), np.stack(columns, axis=1), rtol=0, atol=1e-13)
+    columns = [projection.sums(slope * projection.field(unit)) for unit in np.eye(projection.terms)]
+    assert_allclose(projection.reduced(slope), np.stack(columns, axis=1), rtol=0, atol=1e-10)  # Sums of order 10³.
+
+
+def test_transfer_between_terms_is_that_of_the_states(model: DynamicWake):
+    response = respond(model)
+    projection = response.projection
+    split = len(projection.modes) * (1 + 2 * len(projection.harmonics))
+    cosines, sines = response.families
+    columns = []
+    for unit in np.eye(projection.terms):
+        p = projection.state_loads(unit)
+        x = np.concatenate([cosines.respond(p[None, :split])[0], sines.respond(p[None, split:])[0]])
+        columns.append(projection.coefficients(x))
+    assert_allclose(response.transfer, np.stack(columns, axis=1), rtol=0, atol=1e-13 * np.abs(columns).max())
 
 
 def test_transposes(model: DynamicWake):
     response = respond(model)
     projection = response.projection
     d, g = noise(4), noise(5)
-    x = np.random.default_rng(6).normal(size=projection.states)
-    # Dot products of some hundred terms of order 10.
-    assert_allclose(np.vdot(g, projection.field(x)), projection.field_transposed(g) @ x, rtol=0, atol=1e-11)
-    assert_allclose(projection.loads(d) @ x, np.vdot(d, projection.loads_transposed(x)), rtol=0, atol=1e-12)
+    x = np.random.default_rng(6).normal(size=projection.terms)
+    # Dot products of some hundred numbers of order 10.
+    assert_allclose(np.vdot(g, projection.field(x)), projection.sums(g) @ x, rtol=0, atol=1e-11)
     assert_allclose(np.vdot(g, response.induced(d)), np.vdot(response.induced_transposed(g), d), rtol=0, atol=1e-10)
 
 
@@ -85,16 +101,16 @@ def test_feedback_is_solved_exactly(model: DynamicWake):
     v = loop.solve_transposed(g)
     assert_allclose(v - slope * response.induced_transposed(v), g, rtol=0, atol=1e-11)
     assert_allclose(np.vdot(g, inflow), np.vdot(v, f), rtol=0, atol=1e-10)
-    # Inflow that the states can hold: the same loop without leaving them.
-    x = np.random.default_rng(10).normal(size=response.projection.states)
-    assert_allclose(loop.solve(response.field(x)), response.field(loop.solve_states(x)), rtol=0, atol=1e-10)
+    # Inflow that the terms can hold: the same loop without leaving them.
+    x = np.random.default_rng(10).normal(size=response.projection.terms)
+    assert_allclose(loop.solve(response.field(x)), response.field(loop.solve_terms(x)), rtol=0, atol=1e-10)
 
 
-def test_states_of_one_load_and_of_many(model: DynamicWake):
-    """One load by the factors of the wake's equations, many by the matrix made of them."""
+def test_inflow_of_one_load_and_of_many(model: DynamicWake):
+    """One load by the wake's equations, many by the matrix made of them."""
     response = respond(model)
     loads = np.stack([noise(13), noise(14)])
-    assert_allclose(response.states(loads)[1], response.states(loads[1]), rtol=0, atol=1e-13)
+    assert_allclose(response.induced(loads)[1], response.induced(loads[1]), rtol=0, atol=1e-12)
 
 
 def test_many_changes_are_answered_as_each_with_its_field(model: DynamicWake):
@@ -106,12 +122,12 @@ def test_many_changes_are_answered_as_each_with_its_field(model: DynamicWake):
     assert isinstance(feedback, ColumnFeedback)
     wake = np.array([[0.0, 0.0, 0.0], [-0.1, 0.2, 0.0], [0.0, 0.0, 1.0]])
     changes = np.stack([noise(17), noise(18), 0.0 * noise(19)]), wake, noise(20), shapes
-    by_states, by_fields = feedback.answer_columns(*changes), FieldColumns.of(response, feedback, *changes)
+    by_terms, by_fields = feedback.answer_columns(*changes), FieldColumns.of(response, feedback, *changes)
     mix = np.random.default_rng(21).normal(size=9)
-    assert_allclose(by_states.field(mix), by_fields.field(mix), rtol=0, atol=1e-11)
+    assert_allclose(by_terms.field(mix), by_fields.field(mix), rtol=0, atol=1e-11)
     weights, slope = np.stack([noise(22), noise(23)]), noise(24)
-    assert_allclose(by_states.integrate(weights), by_fields.integrate(weights), rtol=0, atol=1e-10)
-    assert_allclose(by_states.project(slope, shapes), by_fields.project(slope, shapes), rtol=0, atol=1e-12)
+    assert_allclose(by_terms.integrate(weights), by_fields.integrate(weights), rtol=0, atol=1e-10)
+    assert_allclose(by_terms.project(slope, shapes), by_fields.project(slope, shapes), rtol=0, atol=1e-12)
 
 
 @pytest.mark.parametrize("wake", [FORWARD, Wake(0.35, 0.04, 0.011), Wake(0.02, 0.0, 0.055), Wake(0.0, 0.0, 0.057)])
@@ -149,7 +165,7 @@ def test_steady_response_to_a_load_that_vanishes_at_the_hub():
     d = np.repeat((ct * load / (load.sum() * dr))[:, None], azimuths, axis=1)
     lambda0, _ = glauert_inflow(ct, 0.2, 0.0)
     response = model.operator(projection, Wake(0.2, 0.0, lambda0))
-    inflow = projection.field(response.states(d))
+    inflow = projection.field(projection.coefficients(response.states(d)))
     kappa = (inflow * d).mean(axis=1).sum() * dr / (ct * lambda0)
     assert 1.169 <= kappa <= 1.173  # The span of the reference's own values.
 
@@ -226,7 +242,7 @@ def test_infinite_blades_use_the_tip_factor():
     response = respond(model)
     d = noise(14)
     factor, _ = tip_factor(R, FORWARD.axial, 4)
-    plain = response.projection.field(response.states(d))
+    plain = response.projection.field(response.projection.coefficients(response.states(d)))
     assert_allclose(response.induced(d), plain / factor[:, None], rtol=1e-14)
     assert np.all(respond(DynamicWake()).factor == 1.0)  # Blade harmonics hold the tip themselves.
 
