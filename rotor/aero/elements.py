@@ -310,20 +310,15 @@ def swirl_of(r: Array, product: ArrayLike) -> tuple[Array, Array]:
     return q * r / below, r**3 / below**2
 
 
-def by_tilt_and_lambda0(by_wake: Array, mu_x: float, mu_z: float) -> Array:
-    """Derivatives by (µ_x, µ_z, λ0) to derivatives by (α, λ0): ∂µ_x/∂α = −µ_z, ∂µ_z/∂α = µ_x."""
-    return np.stack([mu_x * by_wake[1] - mu_z * by_wake[0], by_wake[2]])
-
-
 def _lift_loss(problem: Problem, wake: Wake, flow: Wake) -> tuple[Array, Array]:
     """Loss factor on lift, averaged over azimuth (thesis p. 24), (elements,), and slopes by (α, λ0)."""
     models, rotor = problem.design.models, problem.design.rotor
     response = problem.inflow.respond(problem.loss_disk, wake, _NO_LOAD)
-    slopes = by_tilt_and_lambda0(response.by_wake, wake.mu_x, wake.mu_z)
-    if models.disk_axial_flow:
-        slopes[0] += wake.mu_x
-    factor, *by = mean_loss_factor(
-        problem.loss_disk.r, flow.mu_z + response.induced, slopes, rotor.blades, rotor.blade.root_cutout,
+    factor, slope, by_mu_x, by_mu_z, by_lambda0 = mean_loss_factor(
+        problem.loss_disk.r, flow.mu_z + response.induced, response.by_wake, rotor.blades, rotor.blade.root_cutout,
         models.tip_loss, models.hub_loss,
     )  # fmt: skip
-    return factor, np.stack(by)
+    if models.disk_axial_flow:
+        by_mu_z = by_mu_z + slope
+    # ∂µ_x/∂α = −µ_z, ∂µ_z/∂α = µ_x
+    return factor, np.array([wake.mu_x * by_mu_z - wake.mu_z * by_mu_x, by_lambda0])

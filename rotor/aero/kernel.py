@@ -80,8 +80,8 @@ _TINY = 1e-30
 
 
 @_compile
-def _inflow_angle(p: float, t: float) -> float:
-    """φ = atan2(U_P, U_T), to 1.5 units in the last place (tested); 0 where both are zero.
+def arctangent(p: float, t: float) -> float:
+    """atan2(p, t), to 1.5 units in the last place (tested); 0 where both are zero.
 
     With |x| ≤ 1 by swapping the two and |z| ≤ tan π/8 by arctan x = π/4 + arctan (x − 1)/(x + 1), the rational function
     of Cephes for arctan z (S. Moshier, Methods and Programs for Mathematical Functions, 1989).
@@ -112,9 +112,9 @@ def _wrapped(angle: float) -> float:
 
 @_compile
 def _angles_of_attack(theta: Array, u_t: Array, u_p: Array, out: Array) -> None:
-    """α = θ − φ of one row."""
+    """α = θ − φ of one row, with φ = atan2(U_P, U_T)."""
     for j in range(len(out)):
-        out[j] = _wrapped(theta[j] - _inflow_angle(u_p[j], u_t[j]))
+        out[j] = _wrapped(theta[j] - arctangent(u_p[j], u_t[j]))
 
 
 @_compile

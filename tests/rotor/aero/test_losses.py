@@ -79,4 +79,5 @@ def test_mean_around_the_azimuth():
         factor, slope = loss_factor(r[:, None], inflow, 4, 0.13, tip=tip, hub=hub)
         found = mean_loss_factor(r, inflow, ways, 4, 0.13, tip, hub)
         assert_allclose(found[0], factor.mean(axis=1), rtol=1e-14)
-        assert_allclose(found[1:], (slope * ways).mean(axis=2), rtol=1e-11, atol=1e-13)
+        assert_allclose(found[1], slope.mean(axis=1), rtol=1e-11, atol=1e-13)
+        assert_allclose(found[2:], (slope * ways).mean(axis=2), rtol=1e-11, atol=1e-13)
