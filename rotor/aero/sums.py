@@ -19,13 +19,8 @@ from rotor.compiled import compiled
 
 SumName = Literal["thrust", "drag", "moment", "moment_1c", "moment_1s", "torque"]
 """The sums over the disk, in the order of the arrays of sums."""
-_SUM_INDEX: dict[SumName, int] = {name: k for k, name in enumerate(get_args(SumName))}
-N_SUMS = len(_SUM_INDEX)
-
-
-def sum_index(name: SumName) -> int:
-    """Place of a sum in the arrays of sums."""
-    return _SUM_INDEX[name]
+SUM_NAMES: tuple[SumName, ...] = get_args(SumName)
+N_SUMS = len(SUM_NAMES)
 
 
 @dataclass(frozen=True)
@@ -60,7 +55,7 @@ def disk_sums(problem: Problem, elements: BladeElements) -> DiskSums:
 def radial_drag(problem: Problem, radial: Array) -> float:
     """Part of C_H of a field of forces along the blade: Σ dF_r cos ψ."""
     disk = problem.disk
-    return float(disk.dr * radial.sum(axis=0) @ disk.cos) / len(disk.psi)
+    return float((radial @ disk.cos).sum()) * disk.dr / len(disk.psi)
 
 
 def integrate(problem: Problem, elements: BladeElements, fz: Array, fx: Array) -> Array:
@@ -115,8 +110,9 @@ class Slopes:
     """∂F_z, (unknowns, elements, azimuths): an inflow that answers the load is held, one that does not follows."""
     fx: Array
     """∂F_x likewise."""
-    prescribed: Array | None
-    """∂λ_i of a model that does not depend on the load, (unknowns, elements, azimuths)."""
+    changes: "UnknownChanges"
+    by_wake: Array | None
+    """∂λ_i by (µ_x, µ_z, λ0) of a model that does not depend on the load, (3, elements, azimuths)."""
     answer: InflowColumns | None
     """∂λ_i of one that does, by the unknowns, then by the elastic coordinates."""
     sums: Array
@@ -130,23 +126,19 @@ def slopes(
 ) -> Slopes:
     """Exact derivatives of loads and sums by the unknowns. `feedback`: of the response of a load-dependent model."""
     disk, loads, response = problem.disk, elements.loads, elements.response
-    fz, fx = np.empty((2, len(unknowns), *elements.theta.shape))
-    prescribed: Array | None = None
     answer: InflowColumns | None = None
     shapes = problem.torsion.shapes if problem.torsion is not None else None
-    wake = _wake_slopes(problem, elements, unknowns)
-    if response is not None and feedback is None:
-        prescribed = np.zeros((len(unknowns), *disk.shape))
-        by_wake = response.by_wake.reshape(3, -1)
-        for k in np.flatnonzero(wake.any(axis=1)):
-            np.dot(wake[k], by_wake, out=prescribed[k].reshape(-1))
-    for k, unknown in enumerate(unknowns):
-        _by_unknown(problem, elements, unknown, None if prescribed is None else prescribed[k], fz[k], fx[k])
+    by_wake = response.by_wake if response is not None and feedback is None else None
+    changes = unknown_changes(problem, elements, unknowns)
+    fz = changes.follow(_BY_FZ, loads, loads[kernel.LIFT] * elements.u_t, by_wake)
+    fx = changes.follow(_BY_FX, loads, loads[kernel.LIFT] * elements.u_p, by_wake)
+    if elements.friction is not None and problem.design.models.disk_axial_flow and "shaft_tilt" in unknowns:
+        fx[unknowns.index("shaft_tilt")] -= elements.flow.mu_z * elements.friction.fx_slope
     if response is not None and feedback is not None:
         if isinstance(feedback, ColumnFeedback):
-            answer = feedback.answer_columns(fz, wake, loads[kernel.FZ_THETA], shapes)
+            answer = feedback.answer_columns(fz, changes.wake, loads[kernel.FZ_THETA], shapes)
         else:
-            answer = FieldColumns.of(response, feedback, fz, wake, loads[kernel.FZ_THETA], shapes)
+            answer = FieldColumns.of(response, feedback, fz, changes.wake, loads[kernel.FZ_THETA], shapes)
     total = integrate(problem, elements, fz, fx)
     lift = disk.dr * loads[kernel.FZ].sum(axis=0)
     for k, unknown in enumerate(unknowns):  # β also tilts the lift itself: −β dF_z cos ψ in C_H.
@@ -163,19 +155,7 @@ def slopes(
         added = answer.integrate(weighted_loads(problem, elements, loads[kernel.FZ_UP], loads[kernel.FX_UP]))
         total += added[:, : len(unknowns)]
         twisting = twisting + added[:, len(unknowns) :]
-    return Slopes(unknowns, fz, fx, prescribed, answer, total, twisting)
-
-
-def _wake_slopes(problem: Problem, elements: BladeElements, unknowns: tuple[Unknown, ...]) -> Array:
-    """∂(µ_x, µ_z, λ0) by the unknowns, (unknowns, 3): ∂µ_x/∂α = −µ_z, ∂µ_z/∂α = µ_x."""
-    wake = wake_at(problem, elements.state)
-    out = np.zeros((len(unknowns), 3))
-    for row, unknown in zip(out, unknowns, strict=True):
-        if unknown == "shaft_tilt":
-            row[:2] = -wake.mu_z, wake.mu_x
-        elif unknown == "lambda0":
-            row[2] = 1.0
-    return out
+    return Slopes(unknowns, fz, fx, changes, by_wake, answer, total, twisting)
 
 
 def weighted_loads(problem: Problem, elements: BladeElements, fz: Array, fx: Array) -> Array:
@@ -202,86 +182,113 @@ def _weighted(fz: Any, fx: Any, r: Any, arm: Any, cos: Any, sin: Any, beta: Any,
     return out
 
 
-def velocity_slopes(problem: Problem, elements: BladeElements, unknown: Unknown) -> tuple[Array | float, Array | float]:
-    """∂U_T and ∂U_P by one unknown with the inflow held; broadcast to (elements, azimuths)."""
-    cos, sin, flow = problem.disk.cos, problem.disk.sin, elements.flow
-    if unknown in ("coning", "flap_1c", "flap_1s"):
-        u_p = flow.mu_x * cos * {"coning": 1.0, "flap_1c": cos, "flap_1s": sin}[unknown]
-        if unknown != "coning":
-            u_p = u_p + (problem.disk.r - problem.flap.hinge)[:, None] * (-sin if unknown == "flap_1c" else cos)
-        return 0.0, u_p
-    u_t: Array | float = -swirl_slope(problem, elements, unknown)
-    if unknown == "shaft_tilt" and problem.design.models.disk_axial_flow:
-        return u_t - flow.mu_z * sin, flow.mu_x - flow.mu_z * elements.beta * cos
-    return u_t, 0.0
+@dataclass(frozen=True, eq=False)
+class UnknownChanges:
+    """What a unit of each unknown changes at the blade elements, the inflow held: functions of r and of ψ.
 
-
-def swirl_slope(problem: Problem, elements: BladeElements, unknown: Unknown) -> Array | float:
-    """∂(swirl) by one unknown, (elements, 1) or 0."""
-    models, flow = problem.design.models, elements.flow
-    if unknown not in ("shaft_tilt", "lambda0") or not models.has("swirl"):
-        return 0.0
-    if unknown == "shaft_tilt":
-        product = flow.lambda0 * flow.mu_x if models.disk_axial_flow else 0.0
-    else:
-        product = flow.axial + flow.lambda0
-    _, slope = swirl_of(problem.disk.r, flow.lambda0 * flow.axial)
-    return product * slope[:, None]
-
-
-def _by_unknown(
-    problem: Problem, elements: BladeElements, unknown: Unknown, prescribed: Array | None, fz: Array, fx: Array
-) -> None:
-    """Write ∂F_z, ∂F_x by one unknown: through θ, U_T, U_P and the loss factor.
-
-    prescribed: ∂λ_i of a model that does not depend on the load; None: λ_i is held.
+    ∂U_T = u_t_along(r) + u_t(ψ) and ∂U_P = u_p(ψ) + (r − e) u_p_arm(ψ).
     """
-    disk, loads = problem.disk, elements.loads
-    if unknown in ("collective", "cyclic_1c", "cyclic_1s"):
-        theta = {"collective": 1.0, "cyclic_1c": disk.cos, "cyclic_1s": disk.sin}[unknown]
-        np.multiply(loads[kernel.FZ_THETA], theta, out=fz)
-        np.multiply(loads[kernel.FX_THETA], theta, out=fx)
-        return
-    u_t, u_p = velocity_slopes(problem, elements, unknown)
-    if unknown not in ("shaft_tilt", "lambda0"):
-        np.multiply(loads[kernel.FZ_UP], u_p, out=fz)
-        np.multiply(loads[kernel.FX_UP], u_p, out=fx)
-        return
-    change = velocity_changes(problem, elements, unknown, u_t, u_p if prescribed is None else u_p + prescribed)
-    lift = loads[kernel.LIFT]
-    for out, by_ut, by_up, by_ur, along in (
-        (fz, kernel.FZ_UT, kernel.FZ_UP, kernel.FZ_UR, elements.u_t),
-        (fx, kernel.FX_UT, kernel.FX_UP, kernel.FX_UR, elements.u_p),
-    ):
-        chain_rule(*change, loads[by_ut], loads[by_up], loads[by_ur], lift, along, out)
-    if unknown == "shaft_tilt" and problem.design.models.disk_axial_flow and elements.friction is not None:
-        fx -= elements.flow.mu_z * elements.friction.fx_slope
+
+    theta: Array
+    """∂θ, (unknowns, azimuths), as all but two."""
+    rate: Array
+    """∂θ'"""
+    u_t: Array
+    u_p: Array
+    u_p_arm: Array
+    u_r: Array
+    """∂U_R"""
+    u_t_along: Array
+    """(unknowns, elements): less the change of the swirl."""
+    loss: Array
+    """∂F, (unknowns, elements)."""
+    wake: Array
+    """∂(µ_x, µ_z, λ0), (unknowns, 3)."""
+    arm: Array
+    """r − e, (elements,)."""
+
+    def follow(
+        self, by: tuple[int, int, int, int], fields: Array, by_loss: Array, by_wake: Array | None = None
+    ) -> Array:
+        """∂f by the unknowns, (unknowns, elements, azimuths), of a field f of the loads.
+
+        by: places in `fields` of its slopes by θ, U_T, U_P and U_R; by_loss: that by F; by_wake: ∂λ_i of a model that
+        does not depend on the load, as in `Slopes`.
+        """
+        theta, u_t, u_p, u_r = by
+        return _follow(
+            self.theta, self.u_t, self.u_p, self.u_p_arm, self.u_r, self.u_t_along, self.loss, self.wake, self.arm,
+            fields[theta], fields[u_t], fields[u_p], fields[u_r], by_loss, by_wake if by_wake is not None else _HELD,
+        )  # fmt: skip
 
 
-def velocity_changes(
-    problem: Problem, elements: BladeElements, unknown: Unknown, u_t: Array | float, u_p: Array | float
-) -> tuple[Array, Array, Array, Array]:
-    """∂U_T, ∂U_P on the grid, ∂U_R (azimuths,) and ∂F (elements,) by shaft tilt or λ0, for `chain_rule`."""
-    by_ut, by_up = np.empty((2, *problem.disk.shape))
-    by_ut[:], by_up[:] = u_t, u_p
-    tilting = unknown == "shaft_tilt" and problem.design.models.disk_axial_flow
-    along = -elements.flow.mu_z * problem.disk.cos if tilting else np.zeros_like(problem.disk.cos)
-    return by_ut, by_up, along, elements.loss_slopes[0 if unknown == "shaft_tilt" else 1]
+_HELD = np.zeros((0, 0, 0))
+"""∂λ_i of an inflow that is held."""
+_BY_FZ = kernel.FZ_THETA, kernel.FZ_UT, kernel.FZ_UP, kernel.FZ_UR
+_BY_FX = kernel.FX_THETA, kernel.FX_UT, kernel.FX_UP, kernel.FX_UR
+
+
+def unknown_changes(problem: Problem, elements: BladeElements, unknowns: tuple[Unknown, ...]) -> UnknownChanges:
+    """The changes at the blade elements by the unknowns."""
+    disk, flow, models = problem.disk, elements.flow, problem.design.models
+    cos, sin = disk.cos, disk.sin
+    theta, rate, u_t, u_p, u_p_arm, u_r = np.zeros((6, len(unknowns), len(cos)))
+    u_t_along, loss = np.zeros((2, len(unknowns), len(disk.r)))
+    wake, at = np.zeros((len(unknowns), 3)), wake_at(problem, elements.state)
+    for k, unknown in enumerate(unknowns):
+        if unknown == "collective":
+            theta[k] = 1.0
+        elif unknown == "cyclic_1c":
+            theta[k], rate[k] = cos, -sin
+        elif unknown == "cyclic_1s":
+            theta[k], rate[k] = sin, cos
+        elif unknown == "coning":
+            u_p[k] = flow.mu_x * cos
+        elif unknown == "flap_1c":
+            u_p[k], u_p_arm[k] = flow.mu_x * cos * cos, -sin
+        elif unknown == "flap_1s":
+            u_p[k], u_p_arm[k] = flow.mu_x * cos * sin, cos
+        elif unknown == "shaft_tilt":
+            loss[k], wake[k, :2] = elements.loss_slopes[0], (-at.mu_z, at.mu_x)
+            if models.disk_axial_flow:  # ∂µ_x/∂α = −µ_z, ∂µ_z/∂α = µ_x
+                u_t[k], u_p[k], u_r[k] = -flow.mu_z * sin, flow.mu_x - flow.mu_z * elements.beta * cos, -flow.mu_z * cos
+        elif unknown == "lambda0":
+            loss[k], wake[k, 2] = elements.loss_slopes[1], 1.0
+    if models.has("swirl"):
+        _, slope = swirl_of(disk.r, flow.lambda0 * flow.axial)
+        if "shaft_tilt" in unknowns and models.disk_axial_flow:
+            u_t_along[unknowns.index("shaft_tilt")] = -flow.lambda0 * flow.mu_x * slope
+        if "lambda0" in unknowns:
+            u_t_along[unknowns.index("lambda0")] = -(flow.axial + flow.lambda0) * slope
+    return UnknownChanges(theta, rate, u_t, u_p, u_p_arm, u_r, u_t_along, loss, wake, disk.r - problem.flap.hinge)
 
 
 @compiled(error_model="numpy", fastmath={"contract"})
-def chain_rule(
-    u_t: Any, u_p: Any, u_r: Any, loss: Any, by_ut: Any, by_up: Any, by_ur: Any, lift: Any, along: Any, out: Any
-) -> None:
-    """Write ∂f/∂U_T δU_T + ∂f/∂U_P δU_P + ∂f/∂U_R δU_R + ½σUC_l · along · δF, (elements, azimuths).
-
-    u_t, u_p (elements, azimuths), u_r (azimuths,) and loss (elements,) are the changes; the others belong to f.
-    """
-    for i in range(len(loss)):
-        for j in range(len(u_r)):
-            out[i, j] = (
-                by_ut[i, j] * u_t[i, j]
-                + by_up[i, j] * u_p[i, j]
-                + by_ur[i, j] * u_r[j]
-                + lift[i, j] * along[i, j] * loss[i]
-            )
+def _follow(
+    theta: Any, u_t: Any, u_p: Any, u_p_arm: Any, u_r: Any, u_t_along: Any, loss: Any, wake: Any, arm: Any,
+    by_theta: Any, by_ut: Any, by_up: Any, by_ur: Any, by_loss: Any, by_wake: Any,
+) -> Any:  # fmt: skip
+    """The chain rule of `UnknownChanges.follow`; an unknown changes either the pitch or velocities and losses."""
+    n, m = by_theta.shape
+    out = np.empty((len(theta), n, m))
+    for k in range(len(theta)):
+        pitches, moves_wake = theta[k].any(), len(by_wake) > 0 and wake[k].any()
+        for i in range(n):
+            if pitches:
+                for j in range(m):
+                    out[k, i, j] = by_theta[i, j] * theta[k, j]
+                continue
+            for j in range(m):
+                out[k, i, j] = (
+                    by_ut[i, j] * (u_t_along[k, i] + u_t[k, j])
+                    + by_up[i, j] * (u_p[k, j] + arm[i] * u_p_arm[k, j])
+                    + by_ur[i, j] * u_r[k, j]
+                    + by_loss[i, j] * loss[k, i]
+                )
+            if moves_wake:
+                for j in range(m):
+                    inflow = (
+                        wake[k, 0] * by_wake[0, i, j] + wake[k, 1] * by_wake[1, i, j] + wake[k, 2] * by_wake[2, i, j]
+                    )
+                    out[k, i, j] += by_up[i, j] * inflow
+    return out

@@ -12,8 +12,7 @@ import numpy as np
 from rotor.aero import kernel
 from rotor.aero.elastic import BladeTorsion, TorsionState
 from rotor.aero.elements import BladeElements, Problem
-from rotor.aero.sums import Slopes, chain_rule, velocity_changes, velocity_slopes
-from rotor.aero.trim_state import Unknown
+from rotor.aero.sums import Slopes
 from rotor.arrays import Array
 from rotor.compiled import compiled
 
@@ -48,11 +47,16 @@ def torsion_slopes(problem: Problem, elements: BladeElements, by_unknown: Slopes
     """∂(torsion residual) by the trim unknowns, then by the elastic coordinates, (columns, unknowns + columns)."""
     torsion, blade = torsion_of(problem, elements)
     shapes, moments, unknowns = torsion.shapes, blade.moments, by_unknown.unknowns
-    fields = moment_slopes(problem, elements, by_unknown)
+    # ∂(moment of the air) by the unknowns; the lift, which acts x behind the pitch axis, follows the loss factor.
+    changes = by_unknown.changes
+    by_loss = -torsion.lag[:, None] * elements.loads[kernel.LIFT] * elements.u_t
+    by = kernel.M_THETA, kernel.M_UT, kernel.M_UP, kernel.M_UR
+    fields = changes.follow(by, moments, by_loss, by_unknown.by_wake)
     pitching = pitch_slope(torsion, elements)
     for k, unknown in enumerate(unknowns):
         if unknown in ("collective", "cyclic_1c", "cyclic_1s"):
-            fields[k] += (pitching - moments[kernel.M_THETA]) * control_shape(problem, unknown)
+            fields[k] += (pitching - moments[kernel.M_THETA]) * changes.theta[k]
+            fields[k] += moments[kernel.M_RATE] * changes.rate[k]
     load = shapes.project(fields)
     inertia = torsion.modal(torsion.inertia)
     for k, unknown in enumerate(unknowns):
@@ -112,43 +116,6 @@ def _of_double_angle(angle: float) -> Any:
     cosine = ((cosine * s - 2.75573141792967388e-7) * s + 2.48015872888517045e-5) * s - 1.38888888888730564e-3
     cosine = 1.0 - 0.5 * s + s * s * (cosine * s + 4.16666666666665929e-2)
     return sign * 2.0 * sine * cosine, sign * (1.0 - 2.0 * sine * sine)
-
-
-def control_shape(problem: Problem, unknown: Unknown) -> Array | float:
-    """∂θ by collective or cyclic."""
-    disk = problem.disk
-    return {"collective": 1.0, "cyclic_1c": disk.cos, "cyclic_1s": disk.sin}[unknown]
-
-
-def control_rate(problem: Problem, unknown: Unknown) -> Array | float:
-    """∂θ' by collective or cyclic."""
-    disk = problem.disk
-    return {"collective": 0.0, "cyclic_1c": -disk.sin, "cyclic_1s": disk.cos}[unknown]
-
-
-def moment_slopes(problem: Problem, elements: BladeElements, by_unknown: Slopes) -> Array:
-    """∂(dC_M/dr of the air) by the trim unknowns, as `Slopes.fz` of F_z, (unknowns, elements, azimuths)."""
-    torsion, blade = torsion_of(problem, elements)
-    disk, loads, moments = problem.disk, elements.loads, blade.moments
-    out = np.empty((len(by_unknown.unknowns), *disk.shape))
-    for k, unknown in enumerate(by_unknown.unknowns):
-        if unknown in ("collective", "cyclic_1c", "cyclic_1s"):
-            np.multiply(moments[kernel.M_THETA], control_shape(problem, unknown), out=out[k])
-            if unknown != "collective":
-                out[k] += moments[kernel.M_RATE] * control_rate(problem, unknown)
-        else:
-            u_t, u_p = velocity_slopes(problem, elements, unknown)
-            if by_unknown.prescribed is not None:
-                u_p = u_p + by_unknown.prescribed[k]
-            if unknown not in ("shaft_tilt", "lambda0"):
-                np.multiply(moments[kernel.M_UP], u_p, out=out[k])
-                continue
-            by_ut, by_up, along, loss = velocity_changes(problem, elements, unknown, u_t, u_p)
-            chain_rule(
-                by_ut, by_up, along, -torsion.lag * loss, moments[kernel.M_UT], moments[kernel.M_UP],
-                moments[kernel.M_UR], loads[kernel.LIFT], elements.u_t, out[k],
-            )  # fmt: skip
-    return out
 
 
 def _between_columns(torsion: BladeTorsion, by_theta: Array, by_rate: Array) -> Array:

@@ -18,11 +18,11 @@ import numpy as np
 from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem, evaluate_elements
 from rotor.aero.free_wake.system import WakeState
-from rotor.aero.sums import N_SUMS, Slopes, integrate_transposed, swirl_slope, velocity_slopes
+from rotor.aero.sums import Slopes, integrate_transposed
 from rotor.aero.torsion_balance import pitch_slope
 from rotor.arrays import Array
 from rotor.blas_threads import one_blas_thread
-from rotor.trim.equations import combine_sums, unknowns_of
+from rotor.trim.equations import balance, unknowns_of
 from rotor.trim.forward import guess_of
 from rotor.trim.hover import Annuli, AnnulusSlopes
 from rotor.trim.hover_wake import LineWeights, WakeAdjoint
@@ -178,30 +178,27 @@ class Adjoint:
         measure = np.zeros(len(derivatives.jacobian))
         measure[:trims] = _dot(by_unknown.fz, weights.fz) + _dot(by_unknown.fx, weights.fx)
         by_inflow = weights.inflow + weights.u_p
-        if by_unknown.prescribed is not None:
-            measure[:trims] += _dot(by_unknown.prescribed, by_inflow)
+        changes = by_unknown.changes
+        if by_unknown.by_wake is not None:
+            measure[:trims] += changes.wake @ _dot(by_unknown.by_wake, by_inflow)
         if by_unknown.answer is not None:
             source = weights.fz * loads[kernel.FZ_UP] + weights.fx * loads[kernel.FX_UP] + by_inflow
             measure += by_unknown.answer.integrate(source[None])[0]
-        disk = problem.disk
-        pitch = {"collective": np.ones_like(disk.cos), "cyclic_1c": disk.cos, "cyclic_1s": disk.sin}
-        for k, unknown in enumerate(by_unknown.unknowns):
-            if unknown in pitch:
-                measure[k] += float(np.sum(weights.theta * pitch[unknown]))
-            else:
-                u_t, u_p = velocity_slopes(problem, elements, unknown)
-                measure[k] += float(np.sum(weights.u_t * u_t + weights.u_p * u_p))
-                measure[k] += float(np.sum(weights.swirl * swirl_slope(problem, elements, unknown)))
-                if unknown == "shaft_tilt" and problem.design.models.disk_axial_flow:
-                    measure[k] += weights.tilt - elements.flow.mu_z * float(np.sum(weights.u_r * disk.cos))
-
+        shape = problem.disk.shape
+        theta, u_t, u_p, u_r, swirl = (
+            np.broadcast_to(field, shape)
+            for field in (weights.theta, weights.u_t, weights.u_p, weights.u_r, weights.swirl)
+        )
+        measure[:trims] += changes.theta @ theta.sum(axis=0) + changes.u_r @ u_r.sum(axis=0)
+        measure[:trims] += changes.u_t @ u_t.sum(axis=0) + changes.u_t_along @ (u_t - swirl).sum(axis=1)
+        measure[:trims] += changes.u_p @ u_p.sum(axis=0) + changes.u_p_arm @ (changes.arm @ u_p)
+        if "shaft_tilt" in by_unknown.unknowns and problem.design.models.disk_axial_flow:
+            measure[by_unknown.unknowns.index("shaft_tilt")] += weights.tilt
         if problem.torsion is not None:
             twisting = weights.fz * loads[kernel.FZ_THETA] + weights.fx * loads[kernel.FX_THETA] + weights.theta
             measure[trims:] += problem.torsion.shapes.gather(twisting).ravel()
         adjoint = np.linalg.solve(derivatives.jacobian.T, measure)
-        trim_fz, trim_fx = integrate_transposed(
-            problem, elements, adjoint[:trims] @ combine_sums(problem, elements, np.eye(N_SUMS))
-        )
+        trim_fz, trim_fx = integrate_transposed(problem, elements, adjoint[:trims] @ balance(problem, elements).weights)
         fz, fx = weights.fz - trim_fz, weights.fx - trim_fx
         moment, pitching, tension = 0.0, 0.0, 0.0
         if problem.torsion is not None:

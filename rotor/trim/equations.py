@@ -23,7 +23,7 @@ from functools import cache
 import numpy as np
 
 from rotor.aero.elements import BladeElements, Problem
-from rotor.aero.sums import N_SUMS, Slopes, SumName, disk_sums, sum_index
+from rotor.aero.sums import SUM_NAMES, Slopes, SumName, disk_sums
 from rotor.aero.trim_state import TrimState, Unknown
 from rotor.arrays import Array
 from rotor.design.design import Design
@@ -185,18 +185,33 @@ def with_given_values(problem: Problem, start: TrimState) -> TrimState:
 class Balance:
     """How far the forces are from balance."""
 
-    error: Array
-    """Residual of each trim equation in units of C_T, (equations,)."""
+    equations: tuple[Equation, ...]
     weights: Array
     """On the sums over the disk, (equations, sums)."""
+    sums: Array
+    """The sums over the disk, in the order of `SumName`."""
+    error: Array
+    """Residual of each trim equation in units of C_T, (equations,)."""
+
+    def jacobian(self, slopes: Slopes) -> Array:
+        """Exact derivatives of the residuals by the unknowns, (equations, unknowns)."""
+        matrix = self.weights @ slopes.sums
+        column = {unknown: k for k, unknown in enumerate(slopes.unknowns)}
+        for row, equation in zip(matrix, self.equations, strict=True):
+            for unknown, slope in equation.slopes.items():
+                if unknown in column:
+                    row[column[unknown]] += slope
+            if equation.by_tilt and "shaft_tilt" in column:
+                row[column["shaft_tilt"]] += _in_order(equation.by_tilt) @ self.sums
+        return matrix
 
 
 def balance(problem: Problem, elements: BladeElements) -> Balance:
     """The residuals, and how they depend on the sums."""
-    equations = _equations(problem, elements)
-    weights = _weights(equations)
-    rest = np.array([equation.rest for equation in equations])
-    return Balance(rest + weights @ disk_sums(problem, elements).array, weights)
+    equations = tuple(row(problem, elements) for row in trim_of(problem.design).rows)
+    weights = np.array([_in_order(equation.weights) for equation in equations])
+    rest, sums = np.array([equation.rest for equation in equations]), disk_sums(problem, elements).array
+    return Balance(equations, weights, sums, rest + weights @ sums)
 
 
 def residuals(problem: Problem, elements: BladeElements) -> Array:
@@ -206,33 +221,9 @@ def residuals(problem: Problem, elements: BladeElements) -> Array:
 
 def jacobian(problem: Problem, elements: BladeElements, slopes: Slopes) -> Array:
     """Exact derivatives of `residuals` by the unknowns, (equations, unknowns)."""
-    equations = _equations(problem, elements)
-    matrix = _weights(equations) @ slopes.sums
-    column = {unknown: k for k, unknown in enumerate(slopes.unknowns)}
-    for row, equation in zip(matrix, equations, strict=True):
-        for unknown, slope in equation.slopes.items():
-            if unknown in column:
-                row[column[unknown]] += slope
-    if "shaft_tilt" in column:
-        sums = disk_sums(problem, elements).array
-        for row, equation in zip(matrix, equations, strict=True):
-            row[column["shaft_tilt"]] += sum(w * sums[sum_index(name)] for name, w in equation.by_tilt.items())
-    return matrix
+    return balance(problem, elements).jacobian(slopes)
 
 
-def combine_sums(problem: Problem, elements: BladeElements, sums: Array) -> Array:
-    """The part of the residuals that is linear in the sums over the disk, for columns of sums, (equations, columns)."""
-    return _weights(_equations(problem, elements)) @ sums
-
-
-def _equations(problem: Problem, elements: BladeElements) -> list[Equation]:
-    return [row(problem, elements) for row in trim_of(problem.design).rows]
-
-
-def _weights(equations: list[Equation]) -> Array:
-    """(equations, sums)"""
-    weights = np.zeros((len(equations), N_SUMS))
-    for row, equation in zip(weights, equations, strict=True):
-        for name, weight in equation.weights.items():
-            row[sum_index(name)] = weight
-    return weights
+def _in_order(weights: Mapping[SumName, float]) -> list[float]:
+    """Weights on the sums in the order of `SumName`."""
+    return [weights.get(name, 0.0) for name in SUM_NAMES]

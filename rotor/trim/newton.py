@@ -21,7 +21,7 @@ from rotor.aero.sums import Slopes, integrate, slopes
 from rotor.aero.torsion_balance import torsion_by_inflow, torsion_residual, torsion_slopes
 from rotor.aero.trim_state import TrimState, Unknown
 from rotor.arrays import Array
-from rotor.trim.equations import Balance, balance, combine_sums, jacobian, unknowns_of, with_given_values
+from rotor.trim.equations import Balance, balance, unknowns_of, with_given_values
 from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
 
 _MOST_SLOW_STEPS = 4
@@ -167,7 +167,7 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
         if derivatives is None:
             if options.pause is not None:
                 options.pause()
-            latest = derivatives = differentiate(problem, point.elements, unknowns)[1]
+            latest = derivatives = differentiate(problem, point.elements, unknowns, point.balance)[1]
         step, inflow_step = _step(problem, point, derivatives)
         if step is None:
             break
@@ -230,21 +230,24 @@ def _inflow_scale(problem: Problem, elements: BladeElements) -> float:
 
 
 def differentiate(
-    problem: Problem, elements: BladeElements, unknowns: tuple[Unknown, ...]
+    problem: Problem, elements: BladeElements, unknowns: tuple[Unknown, ...], forces: Balance | None = None
 ) -> tuple[Slopes, Derivatives]:
-    """Exact derivatives at these elements by the trim unknowns and the elastic coordinates."""
+    """Exact derivatives at these elements, of which `forces` is the balance, by trim unknowns and elastic twist."""
     feedback = inflow_feedback(problem, elements)
     found = slopes(problem, elements, unknowns, feedback)
-    matrix = full_jacobian(problem, elements, found)
+    matrix = full_jacobian(problem, elements, found, forces)
     return found, Derivatives(unknowns, matrix, feedback, found.answer, problem.disk.shape)
 
 
-def full_jacobian(problem: Problem, elements: BladeElements, by_unknown: Slopes) -> Array:
+def full_jacobian(
+    problem: Problem, elements: BladeElements, by_unknown: Slopes, forces: Balance | None = None
+) -> Array:
     """Derivatives of all equations by all unknowns: those of the trim first, then those of torsion."""
-    matrix = jacobian(problem, elements, by_unknown)
+    forces = forces if forces is not None else balance(problem, elements)
+    matrix = forces.jacobian(by_unknown)
     if problem.torsion is None:
         return matrix
-    across = combine_sums(problem, elements, by_unknown.torsion_sums)
+    across = forces.weights @ by_unknown.torsion_sums
     return np.vstack([np.hstack([matrix, across]), torsion_slopes(problem, elements, by_unknown)])
 
 
