@@ -5,7 +5,7 @@ W projects the load on the states, T is the theory's periodic solution for a giv
 """
 
 from dataclasses import dataclass, replace
-from functools import cache, cached_property
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -17,7 +17,7 @@ from rotor.aero.inflow.interface import HarmonicShapes, InflowFeedback, Wake
 from rotor.aero.inflow.peters_he import FlowParameters, families, flow_parameters
 from rotor.aero.inflow.wake_projection import Projection, build_projection
 from rotor.aero.losses import tip_factor
-from rotor.arrays import Array, Integers
+from rotor.arrays import Array
 from rotor.compiled import compiled
 
 
@@ -98,9 +98,6 @@ class _FamilyResponse:
     flow: Array
     """Diagonal of V."""
     uniform: Array
-    rate: Array
-    """±qM: d/dψ of a pair of cosine and sine amplitudes times M, (1 + 2k, modes)."""
-    swap: NDArray[np.int64]
     mass: Array
     """Diagonal of M."""
     harmonics: Array
@@ -114,97 +111,148 @@ class _FamilyResponse:
         family = families(model.order)[which]
         influence, slope = family.influence(flow.half_skew)
         diagonal = np.where(family.uniform > 0.0, flow.speed, flow.mass_flow)
-        waves, swap = _pairing(harmonics)
-        rate = waves[:, None] * family.mass
-        return cls(influence, slope, diagonal, family.uniform, rate, swap, family.mass, waves[1::2])
+        return cls(influence, slope, diagonal, family.uniform, family.mass, np.array(harmonics, dtype=np.float64))
 
     def respond(self, p: Array) -> Array:
-        """T p of a stack of loads, (loads, states of the family)."""
-        loads = p.reshape(len(p), *self.rate.shape)
-        return _respond(self.influence, self.flow, self.mass, self.harmonics, loads).reshape(p.shape)
+        """T p of one load, (states of the family,)."""
+        loads = p.reshape(1 + 2 * len(self.harmonics), -1)
+        return _respond(self.influence, self.flow, self.mass, self.harmonics, loads).ravel()
+
+    @cached_property
+    def blocks(self) -> Array:
+        """½ L (V + iqM L)⁻¹ for q = 0 and every harmonic, complex, (1 + k, modes, modes)."""
+        return _blocks(self.influence, self.flow, self.mass, self.harmonics)
 
     def slopes(self, p: Array) -> Array:
-        """∂(T p) by X, V_T and V̄, (3, states of the family).
-
-        With x = T p = L y and (V + iqML) y = ½ p:  dx = dL y − 2T (dV y + iqM dL y).
-        """
-        shape = self.rate.shape
-        x = self.respond(p[None]).reshape(shape)
-        y = (0.5 * p.reshape(shape) - self.rate * x[self.swap]) / self.flow
-        turned = y @ self.influence_slope.T
-        pushed = np.stack([self.rate * turned[self.swap], y * self.uniform, y * (1.0 - self.uniform)])
-        out = -2.0 * self.respond(pushed.reshape(3, -1))
-        out[0] += turned.ravel()
-        return out
-
-    def pair(self, q: float, expansion: Array, blocks: Integers) -> Array:
-        """½ Eᵀ L (V + iqM L)⁻¹ E, transposed, with the expansion E of `Projection`, (2, modes, modes)."""
-        return _pair(self.influence, self.flow, self.mass, q, expansion, blocks)
+        """∂(T p) by X, V_T and V̄, (3, states of the family)."""
+        loads = p.reshape(1 + 2 * len(self.harmonics), -1)
+        out = _slopes(
+            self.blocks, self.influence_slope, self.flow, self.uniform, self.mass, self.harmonics, loads
+        )  # fmt: skip
+        return out.reshape(3, -1)
 
 
 _compile = compiled(error_model="numpy", fastmath={"contract"})
 
 
 @_compile
-def _system(influence: Any, flow: Any, mass: Any, q: float, transposed: bool, columns: int) -> Any:
-    """V + iqM L or its transpose with room for right sides, (2, modes, modes + columns): real, imaginary part."""
-    modes = len(flow)
-    out = np.zeros((2, modes, modes + columns))
-    for i in range(modes):
-        out[0, i, i] = flow[i]
-        for j in range(modes):
-            row, column = (j, i) if transposed else (i, j)
-            out[1, row, column] = q * mass[i] * influence[i, j]
-    return out
-
-
-@_compile
 def _respond(influence: Any, flow: Any, mass: Any, harmonics: Any, loads: Any) -> Any:
     """T p, steady, then cosine and sine of every q: a = ½ L (V + iqM L)⁻¹ τ with a = x_c − i x_s, τ = p_c − i p_s."""
-    out = np.zeros_like(loads)
-    count, modes = len(loads), len(flow)
-    for c in range(count):
-        for i in range(modes):
-            for j in range(modes):
-                out[c, 0, i] += 0.5 * influence[i, j] * loads[c, 0, j] / flow[j]
+    out = np.empty_like(loads)
+    modes = len(flow)
+    out[0] = 0.5 * _times(influence, loads[0] / flow)
+    system = np.empty((2, modes, modes + 1))
     for k in range(len(harmonics)):
         cosine, sine = 1 + 2 * k, 2 + 2 * k
-        system = _system(influence, flow, mass, harmonics[k], False, count)
-        for c in range(count):
-            for i in range(modes):
-                system[0, i, modes + c], system[1, i, modes + c] = loads[c, cosine, i], -loads[c, sine, i]
+        for i in range(modes):
+            for j in range(modes):
+                system[0, i, j], system[1, i, j] = 0.0, harmonics[k] * mass[i] * influence[i, j]
+            system[0, i, i] = flow[i]
+            system[0, i, modes], system[1, i, modes] = loads[cosine, i], -loads[sine, i]
         _eliminate(system[0], system[1])
-        for c in range(count):
-            for i in range(modes):
-                for j in range(modes):
-                    out[c, cosine, i] += 0.5 * influence[i, j] * system[0, j, modes + c]
-                    out[c, sine, i] -= 0.5 * influence[i, j] * system[1, j, modes + c]
+        out[cosine] = 0.5 * _times(influence, system[0, :, modes].copy())
+        out[sine] = -0.5 * _times(influence, system[1, :, modes].copy())
     return out
 
 
 @_compile
-def _pair(influence: Any, flow: Any, mass: Any, q: float, expansion: Any, blocks: Any) -> Any:
-    """`_FamilyResponse.pair`, real and imaginary part: the transposed equations with Lᵀ E as right sides, times Eᵀ."""
+def _blocks(influence: Any, flow: Any, mass: Any, harmonics: Any) -> Any:
+    """`_FamilyResponse.blocks`: ½ (L − iq L B)(I + q²B²)⁻¹V⁻¹ with B = V⁻¹M L, without complex arithmetic."""
     modes = len(flow)
-    system = _system(influence, flow, mass, q, True, modes)
+    scaled = np.empty((modes, modes))
+    out = np.empty((1 + len(harmonics), modes, modes), np.complex128)
     for i in range(modes):
         for j in range(modes):
-            total = 0.0
-            for k in range(blocks[i, 0], blocks[i, 1]):
-                total += expansion[k, i] * influence[k, j]
-            system[0, j, modes + i] = 0.5 * total
-    if q == 0.0:
-        for j in range(modes):
+            scaled[i, j] = mass[i] / flow[i] * influence[i, j]
+            out[0, i, j] = 0.5 * influence[i, j] / flow[j]
+    square, turned = scaled @ scaled, influence @ scaled
+    for k in range(len(harmonics)):
+        q = harmonics[k]
+        inverse = _inverse_beside_one(q * q * square)
+        real, imaginary = influence @ inverse, turned @ inverse
+        for i in range(modes):
+            for j in range(modes):
+                out[1 + k, i, j] = complex(0.5 * real[i, j] / flow[j], -0.5 * q * imaginary[i, j] / flow[j])
+    return out
+
+
+@_compile
+def _inverse_beside_one(matrix: Any) -> Any:
+    """(I + A)⁻¹ by Gauss and Jordan's elimination in place, rows exchanged for the largest pivot."""
+    n = len(matrix)
+    a, place = matrix.copy(), np.arange(n)
+    for k in range(n):
+        a[k, k] += 1.0
+    for k in range(n):
+        best = k
+        for i in range(k + 1, n):
+            if abs(a[i, k]) > abs(a[best, k]):
+                best = i
+        if best != k:
+            place[k], place[best] = place[best], place[k]
+            for j in range(n):
+                a[k, j], a[best, j] = a[best, j], a[k, j]
+        pivot = 1.0 / a[k, k]
+        a[k, k] = 1.0
+        for j in range(n):
+            a[k, j] *= pivot
+        for i in range(n):
+            if i != k:
+                factor = a[i, k]
+                a[i, k] = 0.0
+                for j in range(n):
+                    a[i, j] -= factor * a[k, j]
+    out = np.empty((n, n))
+    for k in range(n):
+        for i in range(n):
+            out[i, place[k]] = a[i, k]
+    return out
+
+
+@_compile
+def _slopes(
+    blocks: Any, influence_slope: Any, flow: Any, uniform: Any, mass: Any, harmonics: Any, loads: Any
+) -> Any:  # fmt: skip
+    """∂(T p) by X, V_T and V̄, (3, 1 + 2k, modes).
+
+    With a = H τ = L y and (V + iqM L) y = ½ τ:  da = dL y − 2H (dV y + iqM dL y).
+    """
+    modes = len(flow)
+    out = np.empty((3, *loads.shape))
+    load, pushed = np.zeros(modes, np.complex128), np.empty((3, modes), np.complex128)
+    driven, turned = np.empty(modes, np.complex128), np.zeros(modes, np.complex128)
+    for k in range(len(blocks)):
+        q = harmonics[k - 1] if k else 0.0
+        cosine, sine = max(2 * k - 1, 0), 2 * k
+        for i in range(modes):
+            load[i] = complex(loads[cosine, i], -loads[sine, i] if k else 0.0)
+        answer = _times(blocks[k], load)
+        for i in range(modes):
+            driven[i] = (0.5 * load[i] - 1j * q * mass[i] * answer[i]) / flow[i]
+        turned = _times(influence_slope, driven)
+        for i in range(modes):
+            pushed[0, i] = 1j * q * mass[i] * turned[i]
+            pushed[1, i] = uniform[i] * driven[i]
+            pushed[2, i] = (1.0 - uniform[i]) * driven[i]
+        for row in range(3):
+            change = -2.0 * _times(blocks[k], pushed[row])
+            if row == 0:
+                change += turned
             for i in range(modes):
-                system[0, j, modes + i] /= flow[j]
-    else:
-        _eliminate(system[0], system[1])
-    out = np.zeros((2, modes, modes))
-    for j in range(modes):
-        for k in range(blocks[j, 0], blocks[j, 1]):
-            for i in range(modes):
-                out[0, j, i] += expansion[k, j] * system[0, k, modes + i]
-                out[1, j, i] += expansion[k, j] * system[1, k, modes + i]
+                out[row, sine, i] = -change[i].imag
+                out[row, cosine, i] = change[i].real
+    return out
+
+
+@compiled(error_model="numpy", fastmath={"contract", "reassoc"})
+def _times(matrix: Any, vector: Any) -> Any:
+    """Matrix times vector; sums in any order, so that they become vector code."""
+    out = np.empty_like(vector)
+    for i in range(len(out)):
+        total = 0.0 * vector[0]
+        for j in range(len(vector)):
+            total += matrix[i, j] * vector[j]
+        out[i] = total
     return out
 
 
@@ -249,13 +297,6 @@ def _subtract(real: Any, imaginary: Any, row: int, a: float, b: float, other: in
         imaginary[row, j] -= a * y + b * x
 
 
-@cache
-def _pairing(harmonics: tuple[int, ...]) -> tuple[Array, NDArray[np.int64]]:
-    """0, then q and −q of every pair of cosine and sine; and the place of the other of each pair."""
-    signed = np.array([0.0] + [s * q for q in harmonics for s in (1.0, -1.0)])
-    return signed, np.array([0] + [2 * k + s for k in range(len(harmonics)) for s in (2, 1)], dtype=np.int64)
-
-
 @dataclass(frozen=True, eq=False)
 class WakeOperator:
     """A for one wake on one grid. Fields are (elements, azimuths), states (225,) and terms (113,) for S = 8, k = 2."""
@@ -273,7 +314,7 @@ class WakeOperator:
         p = self.projection.state_loads(self.projection.sums(d))
         split = self._split
         cosines, sines = self.families
-        return np.concatenate([cosines.respond(p[None, :split]), sines.respond(p[None, split:])], axis=1)[0]
+        return np.concatenate([cosines.respond(p[:split]), sines.respond(p[split:])])
 
     def coefficients(self, d: Array) -> Array:
         """The inflow under a stack of loads in terms, (…, elements, azimuths) → (…, terms)."""
@@ -337,15 +378,10 @@ class WakeOperator:
         other is half of the cosines' matrix plus or minus the sines'.
         """
         projection, (cosines, sines) = self.projection, self.families
-        m, table, steady = projection.mode_order, projection.term_table, len(projection.modes) - len(sines.flow)
-        blocks, expansion = projection.mode_blocks, projection.block_expansion
-        out = np.zeros((projection.terms, projection.terms))
-        for q in (0, *projection.harmonics):
-            even = cosines.pair(float(q), expansion, blocks)
-            odd = sines.pair(float(q), expansion[steady:, steady:], blocks[steady:] - steady)
-            weight = projection.cell * (0.5 if q else 0.25)
-            _add_pairs(even, odd, q, weight, m, projection.mode_place, table, out)
-        return out
+        return projection.cell * _between_terms(
+            cosines.blocks, sines.blocks, projection.block_expansion, projection.mode_blocks, projection.mode_order,
+            projection.mode_place, np.array((0, *projection.harmonics)), projection.term_table, projection.terms,
+        )  # fmt: skip
 
     @property
     def _split(self) -> int:
@@ -353,36 +389,57 @@ class WakeOperator:
 
 
 @_compile
-def _add_pairs(cosines: Any, sines: Any, q: int, weight: float, m: Any, order: Any, table: Any, out: Any) -> None:
-    """Add what one blade harmonic leads to, see `WakeOperator.transfer`.
-
-    The result of `_pair` is transposed: (2, loads, inflow). m, order: of the place of each g; table: of terms.
-    """
+def _between_terms(
+    cosines: Any, sines: Any, expansion: Any, blocks: Any, m: Any, order: Any, harmonics: Any, table: Any, terms: int
+) -> Any:
+    """`WakeOperator.transfer` without the cell: blocks between g_k with m, added at the terms of both sides."""
+    out = np.zeros((terms, terms))
     modes, steady = len(m), len(m) - sines.shape[1]
-    for j in range(modes):
-        half = weight * (0.5 if m[j] == 0 else 1.0)
+    sine_expansion, sine_blocks = expansion[steady:, steady:], blocks[steady:] - steady
+    rows, turns = np.empty((2, modes, 2), np.int64), np.empty((2, modes))
+    for h in range(len(harmonics)):
+        even = _expanded(cosines[h], expansion, blocks)
+        odd = _expanded(sines[h], sine_expansion, sine_blocks)
+        weight = 0.5 if h else 0.25
+        for side in range(2):
+            for i in range(modes):
+                wave = harmonics[h] + (m[i] if side == 0 else -m[i])
+                turns[side, i] = np.sign(wave)
+                rows[side, i] = table[order[i], abs(wave)]
         for i in range(modes):
-            real, imaginary = half * cosines[0, j, i], half * cosines[1, j, i]
-            odd_real, odd_imaginary = 0.0, 0.0
-            if i >= steady and j >= steady:
-                odd_real, odd_imaginary = (
-                    half * sines[0, j - steady, i - steady],
-                    half * sines[1, j - steady, i - steady],
-                )
-            for side in (1, -1):
-                wave = q + side * m[i]
-                turn = np.sign(wave)
-                row, sine_row = table[order[i], abs(wave), 0], table[order[i], abs(wave), 1]
-                for other_side in (1, -1):
-                    other = q + other_side * m[j]
-                    back = np.sign(other)
-                    column, sine_column = table[order[j], abs(other), 0], table[order[j], abs(other), 1]
-                    x = real + side * other_side * odd_real
-                    y = imaginary + side * other_side * odd_imaginary
-                    out[row, column] += x
-                    out[row, sine_column] += back * y
-                    out[sine_row, column] -= turn * y
-                    out[sine_row, sine_column] += turn * back * x
+            for j in range(modes):
+                half = weight * (0.5 if m[j] == 0 else 1.0)
+                mean, difference = half * even[i, j], 0.0j
+                if i >= steady and j >= steady:
+                    difference = half * odd[i - steady, j - steady]
+                same, opposite = mean + difference, mean - difference
+                for side in range(2):
+                    row, sine_row, turn = rows[side, i, 0], rows[side, i, 1], turns[side, i]
+                    for other in range(2):
+                        column, sine_column, back = rows[other, j, 0], rows[other, j, 1], turns[other, j]
+                        value = same if side == other else opposite
+                        out[row, column] += value.real
+                        out[sine_row, sine_column] += turn * back * value.real
+                        if h:
+                            out[row, sine_column] += back * value.imag
+                            out[sine_row, column] -= turn * value.imag
+    return out
+
+
+@_compile
+def _expanded(block: Any, expansion: Any, blocks: Any) -> Any:
+    """Eᵀ H E with the blocks along the diagonal of E."""
+    n = len(block)
+    half, out = np.zeros_like(block), np.zeros_like(block)
+    for i in range(n):
+        for k in range(blocks[i, 0], blocks[i, 1]):
+            for j in range(n):
+                half[i, j] += expansion[k, i] * block[k, j]
+    for i in range(n):
+        for k in range(n):
+            for j in range(blocks[k, 0], blocks[k, 1]):
+                out[i, j] += half[i, k] * expansion[k, j]
+    return out
 
 
 @dataclass(frozen=True, eq=False)
