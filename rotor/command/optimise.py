@@ -22,7 +22,14 @@ from rotor.command.common import (
 from rotor.design.blade import airfoils_spec
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept, find_concept, on_top
-from rotor.optimisation.objective import Objective, at_condition, hover_and_cruise, measure, read_mission
+from rotor.optimisation.objective import (
+    MISSION_COLUMNS,
+    Objective,
+    at_condition,
+    hover_and_cruise,
+    measure,
+    read_mission,
+)
 from rotor.optimisation.search import STARTS, Minimum, Optimum, Progress, Search, SearchStatus, run_search
 from rotor.units import KNOT
 
@@ -40,7 +47,9 @@ def add_parser(commands: Any) -> None:
     speed.add_argument("--hover", action="store_true", help="hover")
     parser.add_argument("--objective", default="total", metavar="NAME", help="total (default) | induced | hover-cruise")
     parser.add_argument("--hover-share", type=finite, metavar="S", help="fraction of time in hover (default 0.5)")
-    parser.add_argument("--mission", metavar="FILE", help="CSV of mu,mass_kg,altitude_m,hours: minimise the mean power")
+    parser.add_argument(
+        "--mission", metavar="FILE", help=f"CSV of {','.join(MISSION_COLUMNS)}: minimise the mean power"
+    )
     add_design_arguments(parser, one_twist=True)
     add_search_arguments(parser, STARTS)
     parser.add_argument(

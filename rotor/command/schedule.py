@@ -24,15 +24,14 @@ from rotor.command.common import (
 from rotor.command.optimise import named
 from rotor.files.ranges import parse_range
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
-from rotor.optimisation.objective import QUANTITIES, WeightedCondition, read_mission
+from rotor.optimisation.objective import MISSION_COLUMNS, QUANTITIES, WeightedCondition, read_mission
 from rotor.optimisation.schedule import Cell, Plan, Schedule, open_cells, read_cells, run_plan
 from rotor.optimisation.search import Optimum
 from rotor.user_input import check_writable
 
 DEFAULT_CONCEPTS = ("linear", "two-segment", "three-segment", "free-form")
 DEFAULT_MU = "0:0.35:0.05"
-COLUMNS = ("mu", "mass_kg", "altitude_m", "hours", "concept", "status", "baseline_kw", "power_kw", "saving_percent",
-           "twist")  # fmt: skip
+COLUMNS = (*MISSION_COLUMNS, "concept", "status", "baseline_kw", "power_kw", "saving_percent", "twist")
 
 
 def add_parser(commands: Any) -> None:
@@ -44,7 +43,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--division", metavar="R", help="division of two-segment concepts, r/R (default 0.5)")
     where = parser.add_mutually_exclusive_group()
     where.add_argument("--mu", metavar="A:B:STEP", help=f"advance ratios, equal hours each (default {DEFAULT_MU})")
-    where.add_argument("--mission", metavar="FILE", help="CSV of mu,mass_kg,altitude_m,hours")
+    where.add_argument("--mission", metavar="FILE", help=f"CSV of {','.join(MISSION_COLUMNS)}")
     parser.add_argument("--objective", default="total", choices=QUANTITIES, help="power to minimise (default total)")
     add_design_arguments(parser, one_twist=True)
     add_search_arguments(parser, 4)
@@ -129,6 +128,7 @@ def record(schedule: Schedule) -> dict[str, Any]:
                 "mu": condition.flight.advance_ratio,
                 "mass_kg": condition.flight.mass,
                 "altitude_m": condition.flight.altitude,
+                "climb_m_s": condition.flight.climb_speed,
                 "hours": condition.hours,
                 "baseline_power_w": _baseline(schedule, k),
                 "optima": {one.name: _entry(schedule.at(k, one.name), one) for one in plan.concepts},
@@ -171,7 +171,7 @@ def _entry(optimum: Optimum | None, concept: Concept) -> dict[str, Any] | None:
 def report(schedule: Schedule) -> str:
     """The same as tables."""
     rows = _rows(schedule)
-    widths = (7, 9, 11, 7, 26, 14, 12, 10, 15, 0)
+    widths = (7, 9, 11, 10, 7, 26, 14, 12, 10, 15, 0)
     lines = ["".join(f"{cell:<{width}}" for cell, width in zip(COLUMNS, widths, strict=True))]
     lines += ["".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
     lines.append("")
@@ -192,9 +192,9 @@ def _rows(schedule: Schedule) -> list[tuple[str, ...]]:
     rows: list[tuple[str, ...]] = []
     for cell in schedule.cells:
         condition, one = None if cell.condition is None else schedule.plan.conditions[cell.condition], cell.optimum
-        where = ("all", "", "", "") if condition is None else (
+        where = ("all", "", "", "", "") if condition is None else (
             f"{condition.flight.advance_ratio:.4g}", f"{condition.flight.mass:.6g}", f"{condition.flight.altitude:.4g}",
-            f"{condition.hours:.4g}",
+            f"{condition.flight.climb_speed:.4g}", f"{condition.hours:.4g}",
         )  # fmt: skip
         rows.append((
             *where, cell.concept, one.status.value,

@@ -140,31 +140,31 @@ def measure(
     return Measured(power, by_pitch, tuple(stalled), np.array(stalled_by_pitch) if stall else None, tuple(solutions))
 
 
-COLUMNS = ("mu", "mass_kg", "altitude_m", "hours")
+MISSION_COLUMNS = ("mu", "mass_kg", "altitude_m", "climb_m_s", "hours")
 
 
-@refusing("mission", f"give a CSV file with {', '.join(COLUMNS)}")
+@refusing("mission", f"give a CSV file with {', '.join(MISSION_COLUMNS)}")
 def read_mission(path: str | Path, design: Design) -> tuple[WeightedCondition, ...]:
-    """Flight conditions of a CSV table with the columns mu, mass_kg, altitude_m, hours; `#` starts a comment.
+    """Flight conditions of a CSV table with the columns `MISSION_COLUMNS`; `#` starts a comment.
 
-    Only mu is needed: mass and altitude left out or blank are the design's own, hours are 1. Raises ValueError with one
-    sentence that names file, line and remedy.
+    Only mu is needed: mass, altitude and rate of climb left out or blank are the design's own, hours are 1. Raises
+    ValueError with one sentence that names file, line and remedy.
     """
     path = Path(path)
-    text = read_text(path, "mission", f"give a CSV file with {', '.join(COLUMNS)}")
+    text = read_text(path, "mission", f"give a CSV file with {', '.join(MISSION_COLUMNS)}")
     numbered = [(number, line.partition("#")[0].strip()) for number, line in enumerate(text.splitlines(), start=1)]
     rows = [(number, next(csv.reader([line]))) for number, line in numbered if line]
     if not rows:
-        raise ValueError(f"mission {str(path)!r} is empty: start it with the line {','.join(COLUMNS)}")
+        raise ValueError(f"mission {str(path)!r} is empty: start it with the line {','.join(MISSION_COLUMNS)}")
     heading = [cell.strip() for cell in rows[0][1]]
-    unknown = [name for name in heading if name not in COLUMNS]
+    unknown = [name for name in heading if name not in MISSION_COLUMNS]
     if unknown or "mu" not in heading:
         raise ValueError(
             f"mission {str(path)!r} line {rows[0][0]} reads {','.join(heading)!r}: "
-            f"write the heading {','.join(COLUMNS)}; only mu is required"
+            f"write the heading {','.join(MISSION_COLUMNS)}; only mu is required"
         )
     if len(rows) < 2:
-        raise ValueError(f"mission {str(path)!r} has no flight conditions: add a line such as 0.2,8322,0,1.5")
+        raise ValueError(f"mission {str(path)!r} has no flight conditions: add a line such as 0.2,8322,0,0,1.5")
     return tuple(
         _condition(path, number, dict(zip(heading, cells, strict=False)), design) for number, cells in rows[1:]
     )
@@ -178,7 +178,9 @@ def _condition(path: Path, line: int, cells: dict[str, str], design: Design) -> 
             advance_ratio=_number(cells, "mu", None),
             mass=_number(cells, "mass_kg", condition.mass),
             altitude=_number(cells, "altitude_m", condition.altitude),
+            climb_speed=_number(cells, "climb_m_s", condition.climb_speed),
         )
+        replace(design, condition=condition)  # Refuses a climb where the models are those of level flight.
         return WeightedCondition(condition, _number(cells, "hours", 1.0))
     except ValueError as error:
         raise ValueError(f"mission {str(path)!r} line {line}: {error}") from None

@@ -357,6 +357,10 @@ class TestSchedule:
             condition = progress.plan.conditions[k].flight
             twisted = replace(make_design(twist=row["twist"], models=UNIFORM), condition=condition)
             assert float(row["best_kw"]) == pytest.approx(solve(twisted).power.total / 1e3, abs=2e-3)
+        leg = progress.plan.conditions[1]
+        climbing = replace(progress.plan, conditions=(replace(leg, flight=replace(leg.flight, climb_speed=2.5)),))
+        text = schedule_view.csv_of(schedule_view.PlanProgress(climbing)).decode()
+        assert next(csv.DictReader(io.StringIO(text)))["climb_m_s"] == "2.5"
 
     def test_stopped_keeps_what_there_is(self, progress: schedule_view.PlanProgress):
         told: list[Any] = []

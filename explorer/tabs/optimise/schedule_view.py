@@ -23,12 +23,13 @@ from rotor.design.twist import (
     TableTwist,
     TwistLaw,
 )
+from rotor.optimisation.objective import MISSION_COLUMNS
 from rotor.optimisation.schedule import Cell, Plan, Schedule
 from rotor.optimisation.search import Optimum
 
 LEGS = 6
 """Rows of the mission table, so traces of the twist chart."""
-_COLUMNS = ("mu", "mass_kg", "altitude_m", "hours", "as_it_is_kw", "best_kw", "saving_percent", "fixed_kw", "twist")
+_COLUMNS = (*MISSION_COLUMNS, "as_it_is_kw", "best_kw", "saving_percent", "fixed_kw", "twist")
 
 
 @dataclass
@@ -144,6 +145,7 @@ def csv_of(progress: PlanProgress) -> bytes:
                 f"{c.advance_ratio:g}",
                 f"{c.mass:g}",
                 f"{c.altitude:g}",
+                f"{c.climb_speed:g}",
                 f"{leg.hours:g}",
                 _kilowatt(None if one is None else one.baseline_power),
                 _kilowatt(None if best is None else best.power),
@@ -156,7 +158,7 @@ def csv_of(progress: PlanProgress) -> bytes:
     if fixed is not None and fixed.best is not None:
         hours = sum(leg.hours for leg in progress.plan.conditions)
         mean = (_kilowatt(fixed.baseline_power), "", "", _kilowatt(fixed.best.power))
-        writer.writerow(("mean", "", "", f"{hours:g}", *mean, fixed.best.twist))
+        writer.writerow(("mean", "", "", "", f"{hours:g}", *mean, fixed.best.twist))
     return text.getvalue().encode()
 
 

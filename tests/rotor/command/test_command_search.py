@@ -160,15 +160,15 @@ def test_not_converged_is_exit_1_with_nulls(capsys: pytest.CaptureFixture[str]):
 def test_schedule_json_and_csv(capsys: pytest.CaptureFixture[str], tmp_path: Path):
     table, found = tmp_path / "schedule.csv", tmp_path / "found.jsonl"
     arguments = (
-        "schedule", "--concept", "two-segment", "linear", "--mu", "0,0.2", "--starts", "1", "--processes", "1", "--csv",
-        str(table), "--resume", str(found), "--json",
+        "schedule", "--concept", "two-segment", "linear", "--mu", "0,0.2", "--climb-m-s", "2", "--starts", "1",
+        "--processes", "1", "--csv", str(table), "--resume", str(found), "--json",
     )  # fmt: skip
     code, out, err = run(capsys, *arguments)
     assert (code, err) == (0, "")
     answer = json.loads(out, parse_constant=no_constant)
     assert list(answer) == ["status", "concepts", "objective", "conditions", "fixed", "worth"]
     assert answer["concepts"] == ["linear", "two-segment"]  # Simple ones first, whatever the order of the flags.
-    assert [condition["mu"] for condition in answer["conditions"]] == [0.0, 0.2]
+    assert [(condition["mu"], condition["climb_m_s"]) for condition in answer["conditions"]] == [(0.0, 2.0), (0.2, 2.0)]
     for name in answer["concepts"]:
         worth = answer["worth"][name]
         moving = [condition["optima"][name]["power_w"] for condition in answer["conditions"]]
@@ -176,7 +176,7 @@ def test_schedule_json_and_csv(capsys: pytest.CaptureFixture[str], tmp_path: Pat
         assert_allclose(worth["gain_w"], worth["fixed_w"] - worth["moving_w"], rtol=1e-12)
         assert 0.0 <= worth["gain_percent"] < 1.0
     with table.open(newline="") as file:
-        assert len(list(csv.DictReader(file))) == 6
+        assert [row["climb_m_s"] for row in csv.DictReader(file)] == [*["2"] * 4, "", ""]
     least = math.inf
     for _ in range(5):
         begin = time.perf_counter()

@@ -101,6 +101,12 @@ def test_mission_file(tmp_path: Path):
     assert (third.flight.advance_ratio, third.flight.altitude, third.hours) == (0.3, 200.0, 1.0)
 
 
+def test_a_leg_of_a_mission_may_climb(tmp_path: Path):
+    path = tmp_path / "mission.csv"
+    path.write_text("mu,climb_m_s,hours\n0.15,5,0.1\n0.2,,1\n0.15,-3,0.2\n")
+    assert [leg.flight.climb_speed for leg in read_mission(path, make_design(climb_m_s=1.0))] == [5.0, 1.0, -3.0]
+
+
 @pytest.mark.parametrize(
     ("text", "words"),
     [
@@ -113,6 +119,7 @@ def test_mission_file(tmp_path: Path):
         ("mu,hours\n0.9,1\n", "line 2: advance ratio 0.9"),
         ("mu,hours\n0.2,0\n", "line 2: 0 hours"),
         ("mu,mass_kg\n0.2,nan\n", "line 2: mass_kg is 'nan'"),
+        ("mu,climb_m_s\n0.2,1\n0.2,90\n", "line 3: rate of climb 90 m/s"),
     ],
 )
 def test_mission_file_errors(tmp_path: Path, text: str | None, words: str):
@@ -122,6 +129,13 @@ def test_mission_file_errors(tmp_path: Path, text: str | None, words: str):
     with pytest.raises(ValueError, match=words) as caught:
         read_mission(path, make_design())
     assert "\n" not in str(caught.value)
+
+
+def test_a_mission_cannot_climb_with_equations_of_level_flight(tmp_path: Path):
+    path = tmp_path / "mission.csv"
+    path.write_text("mu,climb_m_s\n0.2,5\n")
+    with pytest.raises(ValueError, match=r"line 2: rate of climb 5 m/s: .* use the preset flight"):
+        read_mission(path, make_design(preset="thesis"))
 
 
 def test_objective_errors():
