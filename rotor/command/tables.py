@@ -151,11 +151,13 @@ _IDEAL_COLUMNS = (
     "mu", "mass_kg", "ct", "lambda0", "glauert_kw", "any_circulation", "lift_limited", "steady_twist", "linear_twist",
     "linear_deg",
 )  # fmt: skip
+_IDEAL_UNITS = ("", "kg", "", "", "kW", *["κ"] * 4, "°/R")
+"""κ: induced power over C_T λ0."""
 
 _EXPLANATION = (
     "# Least induced power over C_T λ0 (momentum theory, glauert_kw) of the {rotor} at sea level: any circulation;\n"
-    "# any within section lift −0.6…1.2; any steady twist; the best linear twist and its rate. Vortex lattice, rigid\n"
-    "# helical wake, zero hub moments, linear aerodynamics.\n"
+    "# any within section lift −0.6…1.2; any steady twist; the best linear twist and its rate in °/R. Vortex\n"
+    "# lattice, rigid helical wake, zero hub moments, linear aerodynamics.\n"
     "# Made by: python -m rotor ideal --mu A:B:STEP --mass-kg LIST --csv FILE{flag}\n"
 )
 
@@ -185,7 +187,8 @@ def run_ideal(args: argparse.Namespace) -> int:
     if args.csv:
         check_writable(args.csv)
     rows: list[tuple[str, ...]] = []
-    print("".join(f"{name:>16}" for name in _IDEAL_COLUMNS))
+    for heading in (_IDEAL_COLUMNS, _IDEAL_UNITS):
+        print("".join(f"{word:>16}" for word in heading))
     for design in tqdm(designs, disable=not sys.stderr.isatty(), leave=False):
         bound = find_bound(design)
         rows.append(_ideal_row(design.condition.mass, bound, bound.ct * bound.lambda0 * design.power_unit))

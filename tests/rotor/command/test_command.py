@@ -2,6 +2,7 @@
 
 import csv
 import json
+import math
 import subprocess
 import sys
 from collections.abc import Callable
@@ -15,6 +16,7 @@ from rotor import __version__
 from rotor.__main__ import main
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES
+from rotor.analysis.ideal_bound import ideal_factor
 from rotor.analysis.series import COLUMNS
 from rotor.command.optimise import digits_of_band
 from rotor.files.ranges import parse_range
@@ -212,6 +214,20 @@ def test_sweep_table_and_csv(capsys: pytest.CaptureFixture[str], tmp_path: Path)
     assert out.splitlines()[0].split() == list(COLUMNS[:-1])  # Headings stand apart.
     single = solved(capsys, "--mu", "0.2", "--twist", "linear:-8")
     assert_allclose(float(rows[1]["total_kw"]), single["power_w"]["total"] / 1e3, atol=0.006)
+
+
+def test_ideal_states_its_units(capsys: pytest.CaptureFixture[str]):
+    code, out, _ = run(capsys, "ideal", "--mu", "0.2")
+    names, units, row = ([line[k : k + 16].strip() for k in range(0, 160, 16)] for line in out.splitlines())
+    assert code == 0
+    assert dict(zip(names, units, strict=True)) == {
+        "mu": "", "mass_kg": "kg", "ct": "", "lambda0": "", "glauert_kw": "kW", "any_circulation": "κ",
+        "lift_limited": "κ", "steady_twist": "κ", "linear_twist": "κ", "linear_deg": "°/R",
+    }  # fmt: skip
+    found = dict(zip(names, map(float, row), strict=True))
+    power = solved(capsys, "--mu", "0.2", "--inflow", "uniform", "--off", "tip-loss", "--twist", "ideal")["power_w"]
+    assert_allclose(found["glauert_kw"], power["induced"] / 1e3, rtol=0.02)
+    assert_allclose(found["lift_limited"], ideal_factor(0.2, found["ct"]) or math.nan, rtol=1e-3)
 
 
 def test_readable_report(capsys: pytest.CaptureFixture[str]):
