@@ -117,8 +117,8 @@ class StandControls:
                 handle.value = round(value, 6)
 
     def show_measured(self, inputs: Inputs) -> None:
-        """The measured condition that is set, where one is."""
-        conditions = measured_conditions(inputs.rotor)
+        """The measured condition that is set, where one is; in flight there is none."""
+        conditions = () if inputs.stand is None else measured_conditions(inputs.rotor)
         self._test.visible = bool(conditions)
         now = next((one for one in conditions if _is_at(inputs, one)), None)
         tests = list(dict.fromkeys(one.test for one in conditions))

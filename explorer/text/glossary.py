@@ -54,7 +54,8 @@ CONTROLS: dict[str, Term] = {
     ),
     "climb_m_s": Term("Rate of climb, negative in descent; µ is of the horizontal speed.", section=2),
     "trim": Term(
-        "Flight: weight and drag are carried. Test stand: wind tunnel, rotor without torque, or given controls."
+        "Flight: weight and drag are carried. Test stand: wind tunnel, rotor without torque, or given controls; with "
+        "the conditions of its tests, where a rotor was measured."
     ),
     "measured_test": Term("Tests in which this rotor was measured; choose one to set its conditions."),
     "measured_point": Term("The measured points of this test; choose one to set its conditions."),

@@ -124,11 +124,13 @@ class TestWidgets:
 
         choose(panel._trim_chosen, TRIM_TITLES["wind-tunnel"])
         assert controls.inputs().stand == StandInputs()
+        assert panel._test.visible
         choose(panel._load_chosen, LOAD_TITLES["collective_deg"])
         choose(panel._slid("collective_deg"), 6.5)
         assert controls.inputs().stand == StandInputs(load="collective_deg", value=6.5)
         choose(panel._trim_chosen, TRIM_TITLES["flight"])
         assert controls.inputs().stand is None
+        assert not panel._test.visible
         controls.choose_rotor("xv15")
         assert TRIM_TITLES["flight"] not in panel._trim.options
         choose(panel._test_chosen, XV15.test)
