@@ -7,7 +7,7 @@
     place.toggleAttribute('data-faded', Boolean(now.problem));
     const total = Math.max(now.parts.reduce((sum, one) => sum + Math.max(one.share, 0), 0), 1e-6);
     const bar = now.parts.map(one => `<div style="flex:${Math.max(one.share, 0) / total};background:var(--rx-${one.part})"></div>`).join('')
-      + (now.ideal === null ? '' : `<u style="left:${100 * now.ideal}%" title="${text(now.ideal_title)}"></u>`);
+      + (now.ideal === null ? '' : `<u style="left:${100 * now.ideal / total}%" title="${text(now.ideal_title)}"></u>`);
     const key = now.parts.map(one => `<div style="--c:var(--rx-${one.part})" title="${text(one.title)}"><dt>${text(one.name)}</dt><dd class="rxf-num">${text(one.value)}</dd></div>`).join('');
     const since = now.since ? `<span class="${now.since.kind ? `rxf-${now.since.kind}` : ''}">${text(now.since.value)}</span> <small>${text(now.since.words)}</small>` : `<span>${text(now.rest)}</span>`;
     const bands = now.bands.length ? `<div class="rxf-bands rxf-num">${now.bands.map(one => `<span data-explorer="${one.name.replace('_', '-')}" title="${text(one.title)}">${text(one.words)}</span>`).join('')}</div>` : '';
