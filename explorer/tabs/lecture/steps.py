@@ -115,7 +115,7 @@ def _both(state: SessionState) -> str:
 def _reverse(state: SessionState) -> str:
     before, after = _powers(state)
     area = _percent(state.solution.reverse_flow_area, 1)
-    return f"{area} of the disk is in reverse flow; it costs {_power(state, after.total - before.total)} in all."
+    return f"{area} of the disk is in reverse flow; it costs {_power(state, after.total - before.total)} in total."
 
 
 def _per_cent(state: SessionState) -> str:
