@@ -114,12 +114,14 @@ class Page:
             tasks = Sections(gui, bridge, "task", ("Search", "Map", "Schedule"))
             with tasks["Search"]:
                 self.optimise = OptimisePanel(
-                    gui, bridge, shared.pool, context, lambda design: self.schedule.legs(design), self._search_changed
+                    gui, bridge, shared.pool, context, lambda design: self.schedule.legs(design), self._preview_changed
                 )
             with tasks["Map"]:
                 self.map = MapPanel(gui, shared.pool, context, self.optimise)
             with tasks["Schedule"]:
-                self.schedule = SchedulePanel(gui, bridge, shared.pool, context, self.optimise.request)
+                self.schedule = SchedulePanel(
+                    gui, bridge, shared.pool, context, self.optimise.request, self._preview_changed
+                )
         with layout.in_mode("actuate"):
             self.actuator = ActuatorPanel(client, bridge, shared.pool, callbacks.wake, self._fly)
             self._actuator_inputs = self.actuator.inputs()
@@ -383,8 +385,8 @@ class Page:
         self._set_mode("optimise")
         self.optimise.begin()
 
-    def _search_changed(self) -> None:
-        """A search begins, or its design was taken or left: no change since a grab that came before counts."""
+    def _preview_changed(self) -> None:
+        """A search or a playback begins, or its design was taken or left: no change since an earlier grab counts."""
         self.results.card.forget()
 
     def _toggle_drawer(self, name: str) -> None:

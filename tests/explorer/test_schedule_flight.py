@@ -2,11 +2,15 @@
 
 import math
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
+import viser
 from numpy.testing import assert_allclose
 
+from explorer.tabs.optimise.schedule_panel import SchedulePanel
 from explorer.tabs.optimise.schedule_view import (
     PlanProgress,
     ScheduleFlight,
@@ -14,6 +18,7 @@ from explorer.tabs.optimise.schedule_view import (
     largest_change_deg,
     twist_between,
 )
+from explorer.tabs.optimise.search_request import SearchRequest
 from rotor.design.twist import (
     IdealTwist,
     LinearTwist,
@@ -168,3 +173,20 @@ class TestTwistBetween:
     @pytest.mark.parametrize(("before", "after"), LAWS)
     def test_zero_at_three_quarters_radius(self, before: TwistLaw, after: TwistLaw):
         assert_allclose(twist_between(before, after, 0.4)(0.75), 0.0, atol=1e-12)
+
+
+def test_the_playback_says_when_it_begins_and_when_it_ends(progress: PlanProgress):
+    """The power card then counts no change since an earlier grab."""
+    told: list[bool] = []
+    nothing: Any = SimpleNamespace(on=lambda *_: None, wake=lambda: None)
+    server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+    panel = SchedulePanel(server.gui, nothing, nothing, nothing, SearchRequest, lambda: told.append(True))
+    panel.play()
+    assert told == []  # There is no schedule to play yet.
+    panel._progress = progress
+    panel.play()
+    assert len(told) == 1
+    panel.play()
+    panel.land()
+    assert len(told) == 2
+    server.stop()

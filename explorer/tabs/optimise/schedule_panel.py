@@ -42,8 +42,10 @@ class SchedulePanel:
         pool: PoolClient,
         context: TabContext,
         request: Callable[[], SearchRequest],
+        changed: Callable[[], None] = lambda: None,
     ) -> None:
-        self._pool, self._context, self._request = pool, context, request
+        """`request`: what the search is asked for. `changed`: a playback begins or ends."""
+        self._pool, self._context, self._request, self._changed = pool, context, request, changed
         self._flight: ScheduleFlight | None = None
         self._time = 0.0
         self._player = Player(self._fly_on, "schedule-flight")
@@ -150,11 +152,14 @@ class SchedulePanel:
         except ValueError as error:
             self._line = str(error)
         else:
+            self._changed()
             self._player.play()
         self._context.wake()
 
     def land(self) -> None:
         """Stop the playback; the page shows the sliders again."""
+        if self._flight is not None:
+            self._changed()
         self._flight = None
         self._player.pause()
         self._context.wake()
