@@ -12,8 +12,8 @@ A slider step takes these steps; `_update` is the path, the page implements `exp
 7. draw: `picture.make_picture` makes arrays of the solution: blades, disk image, outlines.
 8. draw: `scene` assigns them to viser's handles and flushes. The frame is on its way.
 9. follow: the baseline and A are solved and complete the `SessionState`.
-10. follow: `page.show_results` updates status, numbers, charts and the panels of long work; in a drag in which other
-   pages wait for their frames, it does so only now and then, and `page.show_power_number` at each step.
+10. follow: `page.show_results` updates status, numbers, charts and the panels of long work; where other pages wait for
+   their frames, it does so once nothing moves, in a drag now and then, and `page.show_power_number` at each step.
 11. follow: `page.follow` updates all other tabs.
 12. follow: once nothing moves, `page.settle` draws finely; the power curve is swept; `page.rest` does what can wait.
 """
@@ -44,8 +44,9 @@ from rotor.trim.solve import solve
 _log = logging.getLogger(__name__)
 _STILL = 0.12
 """[s] without a change after which nothing is dragged: even a slow drag changes something every 100 ms."""
-_CHARTS = 0.25
-"""[s] after which charts follow a drag even where other pages wait for their frames."""
+_CHARTS, _CHARTS_EACH = 0.25, 0.06
+"""[s] after which charts follow a drag even where other pages wait for their frames: at least, and for each that waits.
+So charts of a crowd take together a fifth of one processor, the frames the rest."""
 
 
 class Session:
@@ -176,9 +177,14 @@ class Session:
         if not everything and state.only_turned(before):
             page.show_azimuth(state)
             return
-        if self._overtaken() and SCHEDULER.waiting and time.monotonic() - self._charted < _CHARTS:
+        waiting = SCHEDULER.waiting
+        if waiting and time.monotonic() - self._charted < max(_CHARTS, waiting * _CHARTS_EACH):
             page.show_power_number(state)  # Half of a step's time are charts: in a crowd frames come first.
-            return
+            if self._overtaken():
+                return
+            self._worker.pause(_STILL)  # The next step of a drag is on its way, or nothing moves any more.
+            if self._overtaken():
+                return
         self._charted = time.monotonic()
         page.show_results(reading, state)
 

@@ -66,11 +66,12 @@ class NewestWins:
     def wake(self) -> None:
         """Something changed: an update that starts after this call will see it."""
         self._wanted.set()
+        self._look()
 
     def stop(self, timeout: float = 2.0) -> None:
         """End the thread after the update it is in."""
         self._stopped = True
-        self._wanted.set()
+        self.wake()
         if threading.current_thread() is not self._thread and self._thread.is_alive():
             self._thread.join(timeout)
 
@@ -95,6 +96,11 @@ class NewestWins:
         self._wanted.wait(seconds)
         if self._turn is not None:
             self._turn.give_way(lambda: self.superseded)
+
+    def _look(self) -> None:
+        """An update that waits behind frames asks whether it is still wanted."""
+        if (turn := self._turn) is not None:
+            turn.look()
 
     def _superseded_after(self, turn: Turn) -> "Superseded":
         return Superseded(self, turn)

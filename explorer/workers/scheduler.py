@@ -14,8 +14,6 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
-_LOOK = 0.02
-"""[s] between checks whether work that waits behind frames is still wanted."""
 _FRAMES_IN_A_ROW = 4
 """Frames after which work that waits behind them has its turn: a crowd delays it but does not starve it."""
 SLICE = 0.03
@@ -38,7 +36,7 @@ class FairScheduler:
     @contextmanager
     def take(self) -> "Iterator[Turn]":
         """Wait for a turn, in the order of calls, and hold it to the end of the block."""
-        self._wait(self._ask(self._frames), lambda: False)
+        self._ask(self._frames).wait()
         turn = Turn(self)
         try:
             yield turn
@@ -52,9 +50,19 @@ class FairScheduler:
 
     def behind(self, turn: "Turn", unwanted: Callable[[], bool]) -> bool:
         """Pass the turn, if held, to waiting frames and wait for one after them; False if it became unwanted."""
-        mine = self._ask(self._behind)
+        mine = turn.waits_on = self._ask(self._behind)
         turn.leave()
-        return self._wait(mine, unwanted)
+        while not unwanted():
+            mine.wait()
+            with self._lock:
+                if mine not in self._behind:
+                    return True
+                mine.clear()  # Under the lock, so that no grant is lost.
+        with self._lock:
+            if mine not in self._behind:
+                return True
+            self._behind.remove(mine)
+        return False
 
     def _ask(self, queue: deque[threading.Event]) -> threading.Event:
         mine = threading.Event()
@@ -64,17 +72,6 @@ class FairScheduler:
                 self._free -= 1
                 self._grant()
         return mine
-
-    def _wait(self, mine: threading.Event, unwanted: Callable[[], bool]) -> bool:
-        while not mine.wait(None if mine.is_set() else _LOOK):
-            if not unwanted():
-                continue
-            with self._lock:
-                if mine.is_set():
-                    return True
-                self._behind.remove(mine)
-            return False
-        return True
 
     def pass_on(self, waitable: bool) -> None:
         """A turn has ended, of work that could wait or of a frame: the next one begins."""
@@ -105,6 +102,13 @@ class Turn:
         self.held = True
         self._waitable = False
         self._since = time.thread_time()
+        self.waits_on: threading.Event | None = None
+        """Set by a grant, and by `look`."""
+
+    def look(self) -> None:
+        """Whether the work is still wanted may have changed: who waits in `give_way` asks again. From any thread."""
+        if (waits_on := self.waits_on) is not None:
+            waits_on.set()
 
     def leave(self) -> None:
         """Pass the turn on, if held; `give_way` waits for another."""
@@ -115,7 +119,8 @@ class Turn:
     def give_way(self, unwanted: Callable[[], bool]) -> bool:
         """Let waiting frames go first; called between two steps of work that can wait.
 
-        False when the work became unwanted meanwhile. The turn is then gone; a further call waits for another.
+        `unwanted` is asked at once and after each `look`. False when the work became unwanted meanwhile: the turn is
+        then gone, and a further call waits for another.
         """
         if not self.held or self._scheduler.waiting or (self.long and not self._waitable):
             self.held = self._waitable = self._scheduler.behind(self, unwanted)

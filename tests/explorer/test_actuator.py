@@ -3,6 +3,7 @@
 import math
 import pickle
 import re
+import threading
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -312,10 +313,12 @@ def test_the_study_answers_the_newest_question():
 def page_gets_its_turn() -> bool:
     """Whether a trim that gave way in the middle, and comes behind all else, gets its turn, at last."""
     time.sleep(0.1)
-    end = time.monotonic() + 10.0
-    turn = Turn(SCHEDULER)
+    turn, late = Turn(SCHEDULER), threading.Event()
     turn.held = False
-    granted = turn.give_way(lambda: time.monotonic() > end)
+    alarm = threading.Timer(10.0, lambda: (late.set(), turn.look()))
+    alarm.start()
+    granted = turn.give_way(late.is_set)
+    alarm.cancel()
     turn.leave()
     return granted
 

@@ -113,6 +113,7 @@ class TestScheduler:
         def hold() -> None:
             with turns.take():
                 holding.set()
+                turn.look()
                 done.wait()
 
         with turns.take() as turn:
