@@ -9,6 +9,7 @@ import secrets
 import threading
 import time
 from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -178,6 +179,8 @@ def guard_values(client: viser.ClientHandle, tell: Callable[[str], None]) -> Non
         if handle is None:
             return
         props = handle._impl.props
+        # viser queues the value for its other pages, of which there is none: each time that wakes what sends, in vain.
+        handle._impl.sync_cb = None
         try:
             if set(message.updates) != {"value"}:
                 raise ValueError("This page sent more than a value: that is ignored.")
@@ -193,8 +196,38 @@ def guard_values(client: viser.ClientHandle, tell: Callable[[str], None]) -> Non
             return
         await assign(client_id, message)
 
+    setattr(gui, "_thread_executor", _Callbacks(gui._thread_executor))  # noqa: B010 - not of its type
     connection.unregister_handler(_messages.GuiUpdateMessage, assign)
     connection.register_handler(_messages.GuiUpdateMessage, checked)
+
+
+Callback = Callable[[viser.GuiEvent[Any]], None]
+
+
+def quick(callback: Callback) -> Callback:
+    """A callback that takes no time and waits for nothing: it is called on the event loop.
+
+    Another thread would cost more than it does, and have to wait for its turn of the interpreter.
+    """
+    setattr(callback, "quick", True)  # noqa: B010 - functions have no such attribute
+    return callback
+
+
+class _Callbacks:
+    """viser's threads for callbacks; quick ones are called at once."""
+
+    def __init__(self, threads: ThreadPoolExecutor) -> None:
+        self._threads = threads
+
+    def submit(self, callback: Callable[..., Any], *arguments: Any) -> Future[Any]:
+        if not getattr(callback, "quick", False):
+            return self._threads.submit(callback, *arguments)
+        done: Future[Any] = Future()
+        try:
+            done.set_result(callback(*arguments))
+        except Exception as error:
+            done.set_exception(error)
+        return done
 
 
 def set_png(handle: viser.ImageHandle, png: bytes) -> None:

@@ -8,6 +8,7 @@ from typing import Any, Protocol
 
 import viser
 
+from explorer.hosting.viser_compat import quick
 from explorer.pinned import FLIGHT
 from explorer.sliders import SLIDERS, meant, shown, slider
 from explorer.state import INFLOW_MENUS, INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_TITLES, Inputs, preset_inflow, with_rotor
@@ -222,7 +223,7 @@ class DesignControls:
         self._inputs[name] = self._watched(menu)
 
     def _watched(self, handle: Any) -> Any:
-        handle.on_update(lambda event: self._moved(event.client is not None))
+        handle.on_update(quick(lambda event: self._moved(event.client is not None)))
         return handle
 
     def _moved(self, by_hand: bool) -> None:

@@ -183,9 +183,40 @@ def test_in_a_crowd_charts_wait_but_not_for_long(session: Session, monkeypatch: 
     session._update(lambda: True)
     assert page.calls == ["pin_or_swap", "show_frame", "solve_pinned", "show_power_number"]
     monkeypatch.setattr(session_module, "_CHARTS", 0.0)
+    monkeypatch.setattr(session_module, "_CHARTS_EACH", 600.0)  # For each page that waits.
+    page.inputs = replace(page.inputs, two_inner=page.inputs.two_inner - 0.5)
+    page.calls.clear()
+    session._update(lambda: True)
+    assert page.calls[-1] == "show_power_number"
+    monkeypatch.setattr(session_module, "_CHARTS_EACH", 0.0)
     page.inputs = replace(page.inputs, two_inner=page.inputs.two_inner - 0.5)
     session._update(lambda: True)
     assert "show_results" in page.calls
+
+
+def test_in_a_crowd_the_last_step_gets_its_charts(session: Session, monkeypatch: pytest.MonkeyPatch):
+    """The number comes at once; charts once nothing has moved for a moment in which other pages compute."""
+    update(session)
+    page: Any = session.page
+    monkeypatch.setattr(session_module, "SCHEDULER", SimpleNamespace(waiting=3))
+    monkeypatch.setattr(session_module, "_CHARTS", 600.0)
+    monkeypatch.setattr(session._worker, "pause", lambda _: page.calls.append("pause"))
+    page.inputs = replace(page.inputs, two_inner=page.inputs.two_inner - 0.5)
+    calls = update(session).calls
+    assert calls[: calls.index("show_results") + 1][-3:] == ["show_power_number", "pause", "show_results"]
+    assert page.states[-1].solution is page.frames[-1].solution
+    assert "follow" in calls
+
+
+def test_in_a_crowd_a_step_between_two_others_has_no_charts(session: Session, monkeypatch: pytest.MonkeyPatch):
+    """The next step of the drag comes while this one leaves its turn to others."""
+    update(session)
+    page: Any = session.page
+    monkeypatch.setattr(session_module, "SCHEDULER", SimpleNamespace(waiting=3))
+    monkeypatch.setattr(session_module, "_CHARTS", 600.0)
+    monkeypatch.setattr(session._worker, "pause", lambda _: session._wake())
+    page.inputs = replace(page.inputs, two_inner=page.inputs.two_inner - 0.5)
+    assert update(session).calls[-1] == "show_power_number"
 
 
 def test_a_free_wake_is_shown_while_it_settles(session: Session, monkeypatch: pytest.MonkeyPatch):

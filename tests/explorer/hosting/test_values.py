@@ -4,6 +4,7 @@ import asyncio
 import json
 import logging
 import math
+import threading
 import urllib.error
 import urllib.request
 from collections.abc import Iterator
@@ -14,6 +15,7 @@ import pytest
 
 from explorer.app import App
 from explorer.hosting.limits import LONGEST_TEXT, accepted_value
+from explorer.hosting.viser_compat import _Callbacks, quick
 from explorer.sharing import share
 from explorer.sharing.address import Address
 from explorer.sharing.view_code import view_from
@@ -124,3 +126,37 @@ def test_a_flood_of_bad_values_changes_nothing_and_writes_no_traceback(app: App,
         thread.submit(lambda: asyncio.run(flood())).result()
     assert not [record for record in caplog.records if record.exc_info]
     assert json.dumps([record.getMessage() for record in caplog.records]).count("failed") == 0
+
+
+def test_a_value_is_not_sent_back_to_the_page_it_came_from(app: App):
+    async def drag() -> list[Any]:
+        async with asyncio.timeout(240.0):
+            visitor = Visitor()
+            await visitor.open(app.address)
+            await visitor.until(lambda: visitor.text("status") == "converged")
+            (session,) = app.sessions
+            buffer, queued = session.page._client._websock_connection.get_message_buffer(), list[Any]()
+            push = buffer.push
+            buffer.push = lambda message: (queued.append(message), push(message))
+            slider, power = visitor.find("Inboard ±"), visitor.text("total-power")
+            await visitor.move("Inboard ±", visitor.widgets[slider]["value"] - 2.0)
+            await visitor.until(lambda: visitor.text("total-power") != power)
+            await visitor.close()
+            return [one for one in queued if getattr(one, "uuid", None) == slider]
+
+    with ThreadPoolExecutor(1) as thread:
+        assert thread.submit(lambda: asyncio.run(drag())).result() == []
+
+
+def test_only_quick_callbacks_are_called_at_once():
+    def here() -> int:
+        return threading.get_ident()
+
+    def fail() -> None:
+        raise ZeroDivisionError
+
+    with ThreadPoolExecutor(1) as threads:
+        callbacks = _Callbacks(threads)
+        assert callbacks.submit(here).result() != threading.get_ident()
+        assert callbacks.submit(quick(lambda *_: here())).result() == threading.get_ident()
+        assert isinstance(callbacks.submit(quick(lambda *_: fail())).exception(), ZeroDivisionError)
