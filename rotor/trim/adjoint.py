@@ -9,7 +9,7 @@ loads, and the part u = Aᵀ(I − K Aᵀ)⁻¹(K w_z + ∂F_x/∂λ w_x + ∂P/
 The chain rule then gives the gradient by any twist parameter: dP/dp = Σ_r dP/dθ(r) ∂θ_tw(r)/∂p.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Literal
 
@@ -22,7 +22,8 @@ from rotor.aero.sums import Slopes, integrate_transposed
 from rotor.aero.torsion_balance import pitch_slope
 from rotor.arrays import Array
 from rotor.blas_threads import one_blas_thread
-from rotor.trim.equations import balance, unknowns_of
+from rotor.compiled import compiled
+from rotor.trim.equations import unknowns_of
 from rotor.trim.forward import guess_of
 from rotor.trim.hover import Annuli, AnnulusSlopes
 from rotor.trim.hover_wake import LineWeights, WakeAdjoint
@@ -32,6 +33,9 @@ from rotor.trim.power import tail_power
 from rotor.trim.solution import Solution
 
 Objective = Literal["total", "induced"]
+
+_FZ_THETA, _FZ_UT, _FZ_UP, _FZ_UR = kernel.FZ_THETA, kernel.FZ_UT, kernel.FZ_UP, kernel.FZ_UR
+_FX_THETA, _FX_UT, _FX_UP, _FX_UR = kernel.FX_THETA, kernel.FX_UT, kernel.FX_UP, kernel.FX_UR
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,6 +81,53 @@ class Weights:
     """By the swirl at the same velocities."""
     tilt: float = 0.0
     """By the shaft tilt at the same loads and velocities."""
+
+    def on(self, shape: tuple[int, int]) -> "GridWeights":
+        """All fields on the grid."""
+        zero = np.zeros(shape)
+
+        def full(field: Array | float) -> Array:
+            whole = isinstance(field, np.ndarray) and field.shape == shape
+            return np.ascontiguousarray(field) if whole else zero + field
+
+        return GridWeights(
+            full(self.fz), full(self.fx), full(self.inflow), full(self.theta), full(self.u_t), full(self.u_p),
+            full(self.u_r), full(self.swirl), self.tilt,
+        )  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class GridWeights:
+    """`Weights` with all fields on the grid, (elements, azimuths)."""
+
+    fz: Array
+    fx: Array
+    inflow: Array
+    theta: Array
+    u_t: Array
+    u_p: Array
+    u_r: Array
+    swirl: Array
+    tilt: float
+
+    def by_flow(self, loads: Array) -> Array:
+        """Slopes of the measure by θ, U_T, U_P and U_R, the loads following, (4, elements, azimuths)."""
+        return _by_flow(self.fz, self.fx, self.theta, self.u_t, self.u_p, self.u_r, loads)
+
+
+@compiled(error_model="numpy", fastmath={"contract"})
+def _by_flow(fz: Any, fx: Any, theta: Any, u_t: Any, u_p: Any, u_r: Any, loads: Any) -> Any:
+    """`GridWeights.by_flow`."""
+    n, m = fz.shape
+    out = np.empty((4, n, m))
+    for i in range(n):
+        for j in range(m):
+            out[0, i, j] = theta[i, j] + fz[i, j] * loads[_FZ_THETA, i, j] + fx[i, j] * loads[_FX_THETA, i, j]
+            out[1, i, j] = u_t[i, j] + fz[i, j] * loads[_FZ_UT, i, j] + fx[i, j] * loads[_FX_UT, i, j]
+        for j in range(m):
+            out[2, i, j] = u_p[i, j] + fz[i, j] * loads[_FZ_UP, i, j] + fx[i, j] * loads[_FX_UP, i, j]
+            out[3, i, j] = u_r[i, j] + fz[i, j] * loads[_FZ_UR, i, j] + fx[i, j] * loads[_FX_UR, i, j]
+    return out
 
 
 class HoverAdjoint:
@@ -142,9 +193,10 @@ class Adjoint:
         """Raises RuntimeError with the solution's sentence when it is not converged."""
         solution.require()
         self.solution = solution
-        self.problem: Problem = trim_problem(solution.design)
         self._hover: HoverAdjoint | None = None
-        self._kept = KEPT.of(solution.disk.induced)
+        self._kept = kept = KEPT.of(solution.disk.induced)
+        same = kept is not None and kept.problem is not None and kept.problem.design is solution.design
+        self.problem: Problem = kept.problem if kept and kept.problem and same else trim_problem(solution.design)
         guess = guess_of(solution)
         with one_blas_thread():
             if solution.design.hovering:
@@ -168,68 +220,63 @@ class Adjoint:
         if kept is not None and kept.slopes is not None and kept.derivatives is not None:
             return kept.slopes, kept.derivatives
         found, derivatives = differentiate(self.problem, self.elements, unknowns_of(self.problem.design))
-        KEPT.keep(KeptTrim(self.solution.disk.induced, derivatives, self.elements, found))
+        KEPT.keep(KeptTrim(self.solution.disk.induced, derivatives, self.elements, found, self.problem))
         return found, derivatives
 
-    def _forward(self, weights: Weights) -> Array:
+    def _forward(self, given: Weights) -> Array:
         problem, elements, loads = self.problem, self.elements, self.elements.loads
         by_unknown, derivatives = self._linear
-        trims = len(by_unknown.unknowns)
+        trims, changes, shape = len(by_unknown.unknowns), by_unknown.changes, problem.disk.shape
+        weights = given.on(shape)
+        by = weights.by_flow(loads)
+        source = by[2] + weights.inflow
         measure = np.zeros(len(derivatives.jacobian))
-        measure[:trims] = _dot(by_unknown.fz, weights.fz) + _dot(by_unknown.fx, weights.fx)
-        by_inflow = weights.inflow + weights.u_p
-        changes = by_unknown.changes
+        measure[:trims] = changes.collect(by, self._by_loss(weights))
+        measure[:trims] -= changes.u_t_along @ weights.swirl.sum(axis=1)
         if by_unknown.by_wake is not None:
-            measure[:trims] += changes.wake @ _dot(by_unknown.by_wake, by_inflow)
+            measure[:trims] += changes.wake @ _dot(by_unknown.by_wake, source)
         if by_unknown.answer is not None:
-            source = weights.fz * loads[kernel.FZ_UP] + weights.fx * loads[kernel.FX_UP] + by_inflow
             measure += by_unknown.answer.integrate(source[None])[0]
-        shape = problem.disk.shape
-        theta, u_t, u_p, u_r, swirl = (
-            np.broadcast_to(field, shape)
-            for field in (weights.theta, weights.u_t, weights.u_p, weights.u_r, weights.swirl)
-        )
-        measure[:trims] += changes.theta @ theta.sum(axis=0) + changes.u_r @ u_r.sum(axis=0)
-        measure[:trims] += changes.u_t @ u_t.sum(axis=0) + changes.u_t_along @ (u_t - swirl).sum(axis=1)
-        measure[:trims] += changes.u_p @ u_p.sum(axis=0) + changes.u_p_arm @ (changes.arm @ u_p)
         if "shaft_tilt" in by_unknown.unknowns and problem.design.models.disk_axial_flow:
-            measure[by_unknown.unknowns.index("shaft_tilt")] += weights.tilt
+            tilt = by_unknown.unknowns.index("shaft_tilt")
+            measure[tilt] += weights.tilt
+            if elements.friction is not None:
+                measure[tilt] -= elements.flow.mu_z * float(np.vdot(weights.fx, elements.friction.fx_slope))
         if problem.torsion is not None:
-            twisting = weights.fz * loads[kernel.FZ_THETA] + weights.fx * loads[kernel.FX_THETA] + weights.theta
-            measure[trims:] += problem.torsion.shapes.gather(twisting).ravel()
+            measure[trims:] += problem.torsion.shapes.gather(by[0]).ravel()
         adjoint = np.linalg.solve(derivatives.jacobian.T, measure)
-        trim_fz, trim_fx = integrate_transposed(problem, elements, adjoint[:trims] @ balance(problem, elements).weights)
-        fz, fx = weights.fz - trim_fz, weights.fx - trim_fx
-        moment, pitching, tension = 0.0, 0.0, 0.0
-        if problem.torsion is not None:
+
+        trim_fz, trim_fx = integrate_transposed(problem, elements, adjoint[:trims] @ derivatives.weights)
+        weights = replace(weights, fz=weights.fz - trim_fz, fx=weights.fx - trim_fx)
+        by = weights.by_flow(loads)
+        direct, tension = by[0], 0.0
+        source = by[2] + weights.inflow
+        moment: Array | None = None
+        if problem.torsion is not None and elements.torsion is not None:
             modal = problem.torsion.gain[:, None] * adjoint[trims:].reshape(problem.given_torsion.shape)
             moment = problem.torsion.shapes.project_transposed(modal)
-            pitching = moment * pitch_slope(problem.torsion, elements)
+            direct = direct + moment * pitch_slope(problem.torsion, elements)
             tension = -modal[:, 0] @ problem.torsion.tension
-        on_inflow = self._on_inflow(fz, fx, moment, by_inflow)
-        if on_inflow is not None and elements.response is not None:
-            fz = fz + elements.response.apply_transposed(on_inflow)
-        direct = fz * loads[kernel.FZ_THETA] + fx * loads[kernel.FX_THETA] + weights.theta + pitching
+            source = source + elements.torsion.moments[kernel.M_UP] * moment
         found = direct.sum(axis=1) + tension
-        if on_inflow is None or not isinstance(problem.inflow, HoverMatched):
+        if derivatives.feedback is None:
             return found
-        on_swirl = weights.swirl - weights.u_t - fz * loads[kernel.FZ_UT] - fx * loads[kernel.FX_UT]
-        if elements.torsion is not None:
+        on_inflow, on_load = derivatives.feedback.solve_transposed(source)
+        found = found + np.einsum("ij,ij->i", on_load, loads[kernel.FZ_THETA])
+        if not isinstance(problem.inflow, HoverMatched):
+            return found
+        on_swirl = weights.swirl - by[1] - on_load * loads[kernel.FZ_UT]
+        if moment is not None and elements.torsion is not None:
             on_swirl = on_swirl - elements.torsion.moments[kernel.M_UT] * moment
         return found + self._by_difference(problem.inflow, on_inflow, on_swirl)
 
-    def _on_inflow(self, fz: Array | float, fx: Array | float, moment: Array | float, by_inflow: Any) -> Array | None:
-        """Derivative by an inflow added to every element, its feedback included, (elements, azimuths).
-
-        None where the inflow does not depend on the load.
-        """
-        elements, feedback = self.elements, self._linear[1].feedback
-        if feedback is None or elements.response is None:
-            return None
-        source = elements.loads[kernel.FZ_UP] * fz + elements.loads[kernel.FX_UP] * fx + by_inflow
-        if elements.torsion is not None:
-            source = source + elements.torsion.moments[kernel.M_UP] * moment
-        return feedback.solve_transposed(source)
+    def _by_loss(self, weights: "GridWeights") -> Array:
+        """The measure's slope by the loss factor of each element, (elements,)."""
+        elements = self.elements
+        if not elements.loss_slopes.any():
+            return np.zeros_like(elements.loss)
+        along = weights.fz * elements.u_t + weights.fx * elements.u_p
+        return np.einsum("ij,ij->i", along, elements.loads[kernel.LIFT])
 
     def _by_difference(self, inflow: HoverMatched, on_inflow: Array, on_swirl: Array) -> Array:
         """The part of the gradient through the hovering rotor, whose inflow is carried over to low speed."""

@@ -35,6 +35,8 @@ class Derivatives:
     unknowns: tuple[Unknown, ...]
     jacobian: Array
     """Of the trim equations, then of the torsion equations, by the unknowns and the elastic coordinates."""
+    weights: Array
+    """Of the sums over the disk in the trim equations, (equations, sums)."""
     feedback: InflowFeedback | None
     answer: InflowColumns | None
     """∂λ_i by the unknowns and the elastic coordinates; None for a model that does not depend on the load."""
@@ -91,6 +93,8 @@ class KeptTrim:
     """1.3 MB; None once other trims have followed."""
     slopes: Slopes | None = None
     """Those at the trim, where they have been evaluated; the derivatives are then exact."""
+    problem: Problem | None = None
+    """The design on its grid, kept as long as the blade elements."""
 
 
 class KeptTrims:
@@ -120,7 +124,7 @@ class KeptTrims:
                 del self._kept[next(iter(self._kept))]
             whole = [key for key, one in self._kept.items() if one.elements is not None]
             for key in whole[: -self._whole]:
-                self._kept[key] = replace(self._kept[key], elements=None, slopes=None)
+                self._kept[key] = replace(self._kept[key], elements=None, slopes=None, problem=None)
 
 
 KEPT = KeptTrims()
@@ -233,10 +237,11 @@ def differentiate(
     problem: Problem, elements: BladeElements, unknowns: tuple[Unknown, ...], forces: Balance | None = None
 ) -> tuple[Slopes, Derivatives]:
     """Exact derivatives at these elements, of which `forces` is the balance, by trim unknowns and elastic twist."""
+    forces = forces if forces is not None else balance(problem, elements)
     feedback = inflow_feedback(problem, elements)
     found = slopes(problem, elements, unknowns, feedback)
     matrix = full_jacobian(problem, elements, found, forces)
-    return found, Derivatives(unknowns, matrix, feedback, found.answer, problem.disk.shape)
+    return found, Derivatives(unknowns, matrix, forces.weights, feedback, found.answer, problem.disk.shape)
 
 
 def full_jacobian(

@@ -51,7 +51,7 @@ def solve(design: Design, start: Solution | Guess | None = None, options: Solver
         result = trim(problem, guess, options)
     solution = _assemble(problem, result, begin)
     if isinstance(result, TrimResult) and result.converged:
-        KEPT.keep(KeptTrim(result.elements.induced, result.derivatives, result.elements))
+        KEPT.keep(KeptTrim(result.elements.induced, result.derivatives, result.elements, problem=problem))
     if _may_be_of_another_branch(solution, result) and not options.asked_to_stop:
         other = trim_along(problem, options)
         if other is not None:

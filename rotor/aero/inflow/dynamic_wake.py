@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import lu_factor, lu_solve
+from scipy.linalg.lapack import dgetrf, dgetrs
 
 from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import HarmonicShapes, InflowFeedback, Wake
@@ -367,7 +367,8 @@ class WakeOperator:
         system = -(self.transfer @ self.projection.reduced(self.over_factor(slope)))
         system.ravel()[:: len(system) + 1] += 1.0
         # Of the transpose, which is what LAPACK sees in these rows without copying them.
-        return DynamicWakeFeedback(self, slope, load, lu_factor(system.T, overwrite_a=True, check_finite=False))
+        factors, pivots, _ = dgetrf(system.T, overwrite_a=True)
+        return DynamicWakeFeedback(self, slope, load, (factors, pivots))
 
     @cached_property
     def transfer(self) -> Array:
@@ -458,17 +459,18 @@ class DynamicWakeFeedback:
 
     def solve_terms(self, coefficients: Array) -> Array:
         """(I − T B (K/F) Bᵀ)⁻¹ c, (terms,) or (terms, n): the feedback in terms of the coefficients."""
-        return lu_solve(self.lu, coefficients, trans=1, check_finite=False)
+        return dgetrs(*self.lu, coefficients, trans=1)[0]
 
     def solve(self, fields: Array) -> Array:
         """λ with λ − A (K λ) = fields, for a field or a stack of fields, (…, elements, azimuths)."""
         return fields + self.operator.field(self.solve_terms(self.operator.coefficients(self.slope * fields).T).T)
 
-    def solve_transposed(self, field: Array) -> Array:
-        """v with v − K Aᵀ v = field."""
+    def solve_transposed(self, field: Array) -> tuple[Array, Array]:
+        """v with v − K Aᵀ v = field, and Aᵀ v: the sums of v with the terms follow from those of the field."""
         operator, projection = self.operator, self.operator.projection
-        back = lu_solve(self.lu, projection.sums(operator.over_factor(field)), check_finite=False)
-        return field + self.slope * projection.field(back @ operator.transfer)
+        back = dgetrs(*self.lu, projection.sums(operator.over_factor(field)))[0]
+        on_load = projection.field(back @ operator.transfer)
+        return field + self.slope * on_load, on_load
 
     def answer_columns(self, loads: Array, wake: Array, slope: Array, shapes: HarmonicShapes | None) -> "TermColumns":
         """As `ColumnFeedback`: the terms under every change, c = (I − T B (K/F) Bᵀ)⁻¹ (T B load + ∂c/∂wake)."""

@@ -44,8 +44,8 @@ class InflowFeedback(Protocol):
         """z with z − A K z = fields, for a stack of fields."""
         ...
 
-    def solve_transposed(self, field: Array) -> Array:
-        """v with v − K Aᵀ v = field."""
+    def solve_transposed(self, field: Array) -> tuple[Array, Array]:
+        """v with v − K Aᵀ v = field, and Aᵀ v."""
         ...
 
 

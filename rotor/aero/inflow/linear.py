@@ -96,8 +96,8 @@ class _NoFeedback:
     def solve(self, fields: Array) -> Array:
         return fields
 
-    def solve_transposed(self, field: Array) -> Array:
-        return field
+    def solve_transposed(self, field: Array) -> tuple[Array, Array]:
+        return field, np.zeros_like(field)
 
 
 def _zero(wake: Wake) -> Gradient:

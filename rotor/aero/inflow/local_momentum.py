@@ -109,15 +109,17 @@ class LocalMomentumResponse:
 
     def feedback(self, slope: Array) -> InflowFeedback:
         """Point by point, 1/(1 − gain K)."""
-        return _PointwiseFeedback(self._sectors.feedback(slope))
+        return _PointwiseFeedback(self._sectors.feedback(slope), self._gain)
 
 
 @dataclass(frozen=True, eq=False)
 class _PointwiseFeedback:
     factor: Array
+    gain: Array
 
     def solve(self, fields: Array) -> Array:
         return self.factor * fields
 
-    def solve_transposed(self, field: Array) -> Array:
-        return self.factor * field
+    def solve_transposed(self, field: Array) -> tuple[Array, Array]:
+        found = self.factor * field
+        return found, self.gain * found

@@ -182,9 +182,10 @@ class _LatticeFeedback:
         points = self.influence.gather(self.slope * fields) @ self.influence.matrix.T
         return fields + self.influence.spread(lu_solve(self.lu, points.T).T)
 
-    def solve_transposed(self, field: Array) -> Array:
+    def solve_transposed(self, field: Array) -> tuple[Array, Array]:
         back = lu_solve(self.lu, self.influence.spread_transposed(field), trans=1) @ self.influence.matrix
-        return field + self.slope * self.influence.gather_transposed(back)
+        on_load = self.influence.gather_transposed(back)
+        return field + self.slope * on_load, on_load
 
 
 @lru_cache(maxsize=4)
