@@ -6,9 +6,9 @@ loads with their pointwise derivatives gives every sum over the disk and its exa
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
 
 from rotor.aero import kernel
 from rotor.aero.disk import Disk, build_disk
@@ -20,6 +20,7 @@ from rotor.aero.momentum import glauert_inflow
 from rotor.aero.radial_flow import RadialFriction, radial_friction, skin_friction
 from rotor.aero.trim_state import TrimState
 from rotor.arrays import Array, Booleans
+from rotor.compiled import compiled
 from rotor.design.design import Design
 from rotor.dynamics.flapping import FlapDynamics, flap_dynamics
 
@@ -297,7 +298,8 @@ def evaluate_elements(
     )
 
 
-def swirl_of(r: Array, product: ArrayLike) -> tuple[Array, Array]:
+@compiled()
+def swirl_of(r: Any, product: Any) -> Any:
     """Swirl in the disk over ΩR and its slope by `product` = λ_i λ, the induced times the total axial flow; shape of r.
 
     The air leaves turning with the rotor: torque and thrust of an annulus give u = λ_i λ/r at the disk, half of what is
@@ -305,9 +307,8 @@ def swirl_of(r: Array, product: ArrayLike) -> tuple[Array, Array]:
     and stays below r at the centre. In forward flight λ_i is the mean inflow λ0 and λ is µ_z + λ0, and the swirl all
     but disappears.
     """
-    q = np.asarray(product, dtype=float)
-    below = r * r + q
-    return q * r / below, r**3 / below**2
+    below = r * r + product
+    return product * r / below, r * r * r / (below * below)
 
 
 def _lift_loss(problem: Problem, wake: Wake, flow: Wake) -> tuple[Array, Array]:

@@ -69,16 +69,22 @@ def _fall(f: float) -> float:
 
 
 @_compile
+def end_factor(spacing: float, inflow: float) -> Any:
+    """`prandtl` of one end of the blade at f = spacing/|λ|, and its slope by λ: compiled, for one element."""
+    signed = inflow if abs(inflow) >= _SMALLEST_INFLOW else _SMALLEST_INFLOW
+    f = min(spacing / abs(signed), _LARGEST)
+    fall = _fall(f)
+    decay = 1.0 - fall
+    root = math.sqrt(fall * (1.0 + decay))  # The sine of arccos e^−f.
+    slope = -2.0 / math.pi * decay / root * f / signed if f < _LARGEST else 0.0
+    return 2.0 / math.pi * arctangent(root, decay), slope
+
+
+@_compile
 def _multiply_end(spacing: float, inflow: Any, factor: Any, slope: Any) -> None:
-    """Multiply one row of factors, with their slopes by λ, by `prandtl` of one end of the blade: f = spacing/|λ|."""
+    """Multiply one row of factors, with their slopes by λ, by that of one end of the blade."""
     for j in range(len(inflow)):
-        signed = inflow[j] if abs(inflow[j]) >= _SMALLEST_INFLOW else _SMALLEST_INFLOW
-        f = min(spacing / abs(signed), _LARGEST)
-        fall = _fall(f)
-        decay = 1.0 - fall
-        root = math.sqrt(fall * (1.0 + decay))  # The sine of arccos e^−f.
-        own = 2.0 / math.pi * arctangent(root, decay)
-        own_slope = -2.0 / math.pi * decay / root * f / signed if f < _LARGEST else 0.0
+        own, own_slope = end_factor(spacing, inflow[j])
         slope[j] = slope[j] * own + factor[j] * own_slope
         factor[j] = factor[j] * own
 

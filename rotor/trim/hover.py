@@ -11,6 +11,7 @@ which is (2.24) with Prandtl's F; λ_c = 0 in hover. With a lift curve C_lα α 
 import math
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,11 +20,12 @@ from rotor.aero import kernel
 from rotor.aero.elastic import TorsionState, air_moments
 from rotor.aero.elements import BladeElements, Problem, swirl_of
 from rotor.aero.inflow import Wake
-from rotor.aero.losses import loss_factor
+from rotor.aero.losses import HUB_FACTOR, end_factor
 from rotor.aero.momentum import axial_inflow
 from rotor.aero.trim_state import TrimState
 from rotor.airfoil.sections import Section
 from rotor.arrays import Array
+from rotor.compiled import compiled
 from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
 
 LIFT_CURVE_MACH = 0.3
@@ -31,6 +33,8 @@ LIFT_CURVE_MACH = 0.3
 
 _LARGEST_INFLOW = 0.6
 """Bracket of λ, far above any annulus of a rotor."""
+_MOST_PASSES = 80
+"""Evaluations after which a balance of annuli ends as it is."""
 _LARGEST_COLLECTIVE = math.radians(40.0)
 
 
@@ -203,6 +207,78 @@ class AnnulusSlopes:
         return np.concatenate([np.ones((1, len(self.thrust))), self.shapes])
 
 
+_compile = compiled(error_model="numpy", fastmath={"contract"})
+
+
+@_compile
+def _momentum(r: float, inflow: float, climb: float, ends: Any) -> Any:
+    """4Fλ_i|λ|r of an annulus and its slope by λ_i; ends: f times |λ| of `loss_factor` at tip and root."""
+    total = inflow + climb
+    (tip, tip_slope), (hub, hub_slope) = end_factor(ends[0], total), end_factor(ends[1], total)
+    factor, slope = tip * hub, tip_slope * hub + tip * hub_slope
+    size, signed = abs(total), math.copysign(inflow, inflow * total)
+    climbing = 4.0 * r * factor * (signed - size)  # 0 in hover.
+    return 4.0 * factor * inflow * size * r, 4.0 * r * size * (2.0 * factor + slope * inflow) + climbing
+
+
+@_compile
+def _lift(
+    theta: Array, inflow: float, climb: float, swirls: bool, r: float, tip_mach: float, half_solidity: Array,
+    section: Any, weight: Array, offset: Array, tables: Array, cos_sweep: Array, sin_sweep: Array,
+) -> Any:  # fmt: skip
+    """F_z of an annulus, and its slopes by pitch and by λ_i, the swirl included; arrays hold its one element."""
+    total = inflow + climb
+    swirl, slope = swirl_of(r, inflow * total) if swirls else (0.0, 0.0)
+    loads = kernel.element_loads(
+        theta.reshape((1, 1)), np.full((1, 1), r - swirl), np.full((1, 1), total), np.zeros(1), np.ones(1), tip_mach,
+        half_solidity, section, weight, offset, tables, cos_sweep, sin_sweep,
+    )[:, 0, 0]  # fmt: skip
+    by_inflow = loads[kernel.FZ_UP] - loads[kernel.FZ_UT] * (inflow + total) * slope
+    return loads[kernel.FZ], loads[kernel.FZ_THETA], by_inflow
+
+
+@_compile
+def _linear_lift(angle: float, total: float, r: float, gain: float) -> Any:
+    """The same for a linear lift curve and small angles, as (2.28) takes it; gain: ½σ C_lα."""
+    return gain * (angle * r**2 - total * r), gain * r**2, -gain * r
+
+
+@_compile
+def _balance(
+    theta: Array, start: Array, climb: float, swirls: bool, r: Array, ends: Array, closed: bool, lift_slope: Array,
+    zero_lift: Array, tip_mach: float, half_solidity: Array, section: Any, weight: Array, offset: Array, tables: Array,
+    cos_sweep: Array, sin_sweep: Array,
+) -> Any:  # fmt: skip
+    """λ_i and ∂λ_i/∂θ of every annulus, (2, elements), and the most evaluations of one.
+
+    Newton's method with a bracket. closed: with the linear lift curve.
+    """
+    out, most = np.empty((2, len(r))), 0
+    for i in range(len(r)):
+        one = slice(i, i + 1)
+        inflow, low, high, passes = start[i], -_LARGEST_INFLOW, _LARGEST_INFLOW, 0
+        while True:
+            passes += 1
+            if closed:
+                gain = half_solidity[i] * lift_slope[i]
+                lift, by_pitch, by_inflow = _linear_lift(theta[i] - zero_lift[i], inflow + climb, r[i], gain)
+            else:
+                lift, by_pitch, by_inflow = _lift(
+                    theta[one], inflow, climb, swirls, r[i], tip_mach, half_solidity[one], section[one], weight[one],
+                    offset[one], tables, cos_sweep[one], sin_sweep[one],
+                )  # fmt: skip
+            momentum, momentum_slope = _momentum(r[i], inflow, climb, ends[:, i])
+            error, slope = momentum - lift, momentum_slope - by_inflow
+            if abs(error) <= 1e-15 + 1e-13 * abs(lift) or high - low < 1e-15 or passes == _MOST_PASSES:
+                break
+            low, high = (inflow, high) if error < 0.0 else (low, inflow)
+            ahead = inflow - error / slope if slope > 0.0 else math.inf
+            inflow = ahead if low < ahead < high else 0.5 * (low + high)
+        out[0, i], out[1, i] = inflow, by_pitch / max(slope, 1e-12)
+        most = max(most, passes)
+    return out, most
+
+
 class Annuli:
     """The annuli at a collective and an elastic twist; the last inflow is the next start."""
 
@@ -258,48 +334,23 @@ class Annuli:
         by_t, by_p = (kernel.FZ_UT, kernel.FZ_UP) if fz_or_fx == kernel.FZ else (kernel.FX_UT, kernel.FX_UP)
         return loads[by_p] - loads[by_t] * self.swirl(inflow)[1]
 
-    def momentum(self, inflow: Array) -> tuple[Array, Array]:
-        """4Fλ_i|λ|r and its slope by λ_i."""
-        models, rotor, r = self.problem.design.models, self.problem.design.rotor, self.problem.disk.r
-        total = inflow + self.problem.climb
-        factor, slope = loss_factor(
-            r, total, rotor.blades, rotor.blade.root_cutout, tip=models.tip_loss, hub=models.hub_loss
-        )
-        size, signed = np.abs(total), np.copysign(inflow, inflow * total)
-        climbing = 4.0 * r * factor * (signed - size)  # 0 in hover.
-        return 4.0 * factor * inflow * size * r, 4.0 * r * size * (2.0 * factor + slope * inflow) + climbing
-
-    def lift(self, theta0: float, inflow: Array) -> tuple[Array, Array, Array]:
-        """Lift of the momentum balance, and its slopes by pitch and by λ_i."""
-        if self.problem.design.models.hover_inflow == "annulus":
-            loads = self.loads(theta0, inflow)
-            return loads[kernel.FZ], loads[kernel.FZ_THETA], self.by_inflow(loads, inflow, kernel.FZ)
-        disk = self.problem.disk
-        gain = disk.half_solidity * self.lift_slope
-        pitch = self.pitch(theta0) - self.zero_lift
-        total = inflow + self.problem.climb
-        return gain * (pitch * disk.r**2 - total * disk.r), gain * disk.r**2, -gain * disk.r
-
     def solve(self, theta0: float) -> tuple[Array, Array]:
-        """λ_i(r) that balances every annulus, and ∂λ_i/∂θ; safeguarded Newton on all annuli at once."""
-        inflow = self.inflow
-        low, high = np.full_like(inflow, -_LARGEST_INFLOW), np.full_like(inflow, _LARGEST_INFLOW)
-        by_pitch = slope = np.ones_like(inflow)
-        for _ in range(80):
-            momentum, momentum_slope = self.momentum(inflow)
-            lift, by_pitch, by_inflow = self.lift(theta0, inflow)
-            error, slope = momentum - lift, momentum_slope - by_inflow
-            if np.abs(error).max() <= 1e-15 + 1e-13 * np.abs(lift).max():
-                break
-            low = np.where(error < 0.0, inflow, low)
-            high = np.where(error > 0.0, inflow, high)
-            step = np.where(slope > 0.0, -error / np.where(slope > 0.0, slope, 1.0), np.inf)
-            ahead = inflow + step
-            inflow = np.where((ahead > low) & (ahead < high), ahead, 0.5 * (low + high))
-            if (high - low).max() < 1e-15:
-                break
-        self.inflow = inflow
-        return inflow, by_pitch / np.maximum(slope, 1e-12)
+        """λ_i(r) that balances every annulus, and ∂λ_i/∂θ."""
+        problem, disk = self.problem, self.problem.disk
+        models, rotor = problem.design.models, problem.design.rotor
+        far = np.full_like(disk.r, math.inf)
+        ends = np.stack([
+            0.5 * rotor.blades * (1.0 - disk.r) if models.tip_loss else far,
+            0.5 * HUB_FACTOR * (disk.r - rotor.blade.root_cutout) if models.hub_loss else far,
+        ])  # fmt: skip
+        closed = models.hover_inflow != "annulus"
+        (self.inflow, response), passes = _balance(
+            self.pitch(theta0), self.inflow, problem.climb, models.has("swirl"), disk.r, ends, closed, self.lift_slope,
+            self.zero_lift, problem.tip_mach, disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables,
+            disk.cos_sweep, disk.sin_sweep,
+        )  # fmt: skip
+        self.passes += 0 if closed else passes
+        return self.inflow, response
 
     def thrust(self, theta0: float) -> tuple[float, float]:
         """C_T and ∂C_T/∂θ0, the change of inflow and of elastic twist included."""
