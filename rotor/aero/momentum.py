@@ -60,11 +60,12 @@ def axial_inflow(ct: float, climb: float) -> float:
 
 
 VORTEX_RING_ONSET = -0.2
-"""V_c/v_h from which measured inflow leaves momentum theory: point D of the same source."""
+"""V_c/v_h from which measured inflow leaves momentum theory; with the next three from the source of `vortex_ring_edge`,
+where it is point D."""
 FASTEST_RING = 0.95
 """V/v_h from which there is no vortex ring state."""
 _EDGE, _BELOW = -0.45, -1.5
-"""V_c/v_h at which it begins and ends in vertical descent."""
+"""V_c/v_h at which the vortex ring state begins and ends in vertical descent."""
 
 
 def vortex_ring_edge(forward: float) -> float:

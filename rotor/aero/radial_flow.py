@@ -1,6 +1,6 @@
 """Friction of the air that flows along the blade in forward flight.
 
-The section data know the flow across the blade. With U_R = µ_x cos ψ along it as well, skin friction follows the yawed
+Section data hold for the flow across the blade. With U_R = µ_x cos ψ along it as well, skin friction follows the yawed
 velocity V = √(U_T² + U_R²) (Harris, J. AHS 11(3), 1966; Johnson, Helicopter Theory, 1980): per length
 
     dF_x = ½σ c_f (V − |U_T|) U_T        dF_r = ½σ c_f V U_R

@@ -25,7 +25,7 @@ LOWEST_SPEED = 0.05
 HIGH_SPEED = 0.40
 """Above it reverse flow and unsteady stall dominate, and quasi-steady section data no longer suffice."""
 HOVER_CAUTION = 0.12
-"""C_T/σ in hover from which maximum lift decides, and with it the least certain part of the section data."""
+"""C_T/σ in hover from which maximum lift decides, the least certain part of the section data. Our choice."""
 HOVER_LIMIT = 0.17
 """Largest C_T/σ: every blade element at its maximum lift, as tests show (Prouty, Helicopter Performance, Stability, and
 Control, 1986, figure 5.2; Bousman, NASA TM-2000-209601, is quoted with 0.18 for SC1095 at tip Mach 0.65)."""
