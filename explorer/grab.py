@@ -88,11 +88,6 @@ def stations(inputs: Inputs) -> tuple[Station, ...]:
     return Station(0, root, "root"), *middle, Station(len(divisions) + 1, 1.0, "tip")
 
 
-def nearest_station(inputs: Inputs, r: float) -> Station | None:
-    """The station closest to r/R; None for a law without."""
-    return min(stations(inputs), key=lambda station: abs(station.r - r), default=None)
-
-
 def turned(inputs: Inputs, station: Station, degrees: float) -> Inputs:
     """The inputs with a station turned nose up relative to its neighbours, as far as the sliders go."""
     return _stepped(inputs, turn_slopes(inputs, station), degrees)

@@ -1,7 +1,6 @@
 """Solution → chart data: finite arrays and axis ranges; a gap is NaN inside an array and never a number on screen."""
 
 import math
-from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,7 +8,6 @@ import numpy as np
 from explorer.picture.polar import stall_angles
 from explorer.text.units import KILOWATT, Unit
 from rotor.arrays import Array
-from rotor.design.design import Design
 from rotor.trim.solution import Solution
 
 Range = tuple[float, float]
@@ -61,85 +59,6 @@ def held_range(previous: Range | None, low: float, high: float) -> Range:
     return step * math.floor((low - foot) / step), step * math.ceil((high + 0.04 * span) / step)
 
 
-def power_plot(curve: PowerCurve, mu: float, power: float | None, previous: Range | None, pinned: bool = False) -> Plot:
-    """Series: ideal for this lift; baseline, A, this design; hover points of these three; the present point.
-
-    Where forward flight does not pass over to hover, hover is a point and the line starts at µ 0.075. `pinned`: the
-    reference of the curve is A, which takes the baseline's place.
-    """
-    x = _with_point(mu)
-    lines = (_line(x, curve.reference), _line(x, curve.design))
-    hovers = (_single(x, 0.0, curve.reference[0]), _single(x, 0.0, curve.design[0]))
-    now = _single(x, mu, math.nan if power is None else power)
-    data = (x, _line(x, curve.ideal), *_placed(pinned, *lines), *_placed(pinned, *hovers), now)
-    return Plot(data, _range_of(_flown(data, mu), previous, floor=0.0))
-
-
-def apart_plot(curve: PowerCurve, mu: float, apart_now: float | None, previous: Range | None) -> Plot:
-    """Series: zero, B − A over µ, its hover point, the present point."""
-    x = _with_point(mu)
-    apart = curve.design - curve.reference
-    now = _single(x, mu, math.nan if apart_now is None else apart_now)
-    data = (x, np.zeros(len(x)), _line(x, apart), _single(x, 0.0, apart[0]), now)
-    seen = np.concatenate([values[np.isfinite(values)] for values in _flown(data, mu)])
-    return Plot(data, held_range(previous, min(float(seen.min()), -1.0), max(float(seen.max()), 1.0)))
-
-
-def _with_point(mu: float) -> Array:
-    """The advance ratios of the sweep and the present one."""
-    return np.array(sorted({*SWEEP, mu}))
-
-
-def _line(x: Array, values: Array) -> Array:
-    """A curve over `SWEEP` at x, with its gaps."""
-    return np.interp(x, np.array(SWEEP), values, left=math.nan, right=math.nan)
-
-
-def _single(x: Array, at: float, value: float) -> Array:
-    y = np.full(len(x), math.nan)
-    y[x == at] = value
-    return y
-
-
-def _placed(pinned: bool, reference: Array, design: Array) -> tuple[Array, Array, Array]:
-    """Series of the baseline, of A, of the design: a chart has them all from the start, and one is empty."""
-    none = np.full_like(reference, math.nan)
-    return (none, reference, design) if pinned else (reference, none, design)
-
-
-def _flown(data: tuple[Array, ...], mu: float) -> list[Array]:
-    """The values that a range must hold; the last points rise so steeply that they would flatten all others."""
-    flown = data[0] <= max(0.4, mu)
-    return [values[flown] for values in data[1:]]
-
-
-def twist_plot(design: Design, reference: Design, previous: Range | None, pinned: bool = False) -> Plot:
-    """Series: baseline, A, this design [°]. `pinned`: the reference is A."""
-    r = np.linspace(design.rotor.blade.root_cutout, 1.0, 120)
-    one = np.degrees(reference.twist(r))
-    one[r < reference.rotor.blade.root_cutout] = math.nan
-    series = _placed(pinned, one, np.degrees(design.twist(r)))
-    return Plot((r, *series), _range_of(series, previous))
-
-
-def alpha_plot(solution: Solution, azimuth_deg: float, pinned: Solution | None = None) -> Plot:
-    """Series: negative and positive stall angle, α [°] along the blade at one azimuth; gaps in reverse flow.
-
-    The α of the reference blade alone, or of A and of B when A is pinned.
-    """
-    low, high = -15.0, 20.0
-
-    def shown(angles: Array) -> Array:
-        # Points far outside are pulled to just beyond the axis, where the chart cuts them off.
-        return np.clip(angles, low - 5.0, high + 5.0)
-
-    def alpha(one: Solution) -> Array:
-        return shown(angles_along(one, azimuth_deg)[2])
-
-    limits = (shown(limit) for limit in angles_along(solution, azimuth_deg)[:2])
-    return Plot((solution.disk.r, *limits, *_marked(solution, pinned, alpha)), (low, high))
-
-
 def angles_along(solution: Solution, azimuth_deg: float) -> tuple[Array, Array, Array]:
     """Negative and positive stall angle, and α [°], at the elements of one azimuth; NaN in reverse flow."""
     disk = solution.disk
@@ -149,26 +68,9 @@ def angles_along(solution: Solution, azimuth_deg: float) -> tuple[Array, Array, 
     return outside * np.degrees(lower), outside * np.degrees(upper), outside * np.degrees(alpha)
 
 
-def lift_plot(solution: Solution, azimuth_deg: float, pinned: Solution | None = None) -> Plot:
-    """Series: Cl along the reference blade at one azimuth, or of A and of B when A is pinned; reverse flow included."""
-    series = _marked(solution, pinned, lambda one: _at_azimuth(one, one.disk.cl, azimuth_deg))
-    return Plot((solution.disk.r, *series), (-0.5, 1.5))
-
-
-def _marked(
-    solution: Solution, pinned: Solution | None, read: Callable[[Solution], Array]
-) -> tuple[Array, Array, Array]:
-    """Series of the reference blade, of A, of B, on the elements of `solution`; those that do not apply are empty."""
-    own, r = read(solution), solution.disk.r
-    none = np.full_like(own, math.nan)
-    if pinned is None:
-        return own, none, none
-    if not pinned.converged:
-        return none, none, own
-    other = read(pinned)
-    if not np.array_equal(r, pinned.disk.r):  # Beyond its own root and tip there is none of A.
-        other = np.interp(r, pinned.disk.r, other, left=math.nan, right=math.nan)
-    return none, other, own
+def lift_along(solution: Solution, azimuth_deg: float) -> Array:
+    """C_l at the elements of one azimuth, reverse flow included."""
+    return _at_azimuth(solution, solution.disk.cl, azimuth_deg)
 
 
 def _at_azimuth(solution: Solution, values: Array, azimuth_deg: float) -> Array:
@@ -178,29 +80,3 @@ def _at_azimuth(solution: Solution, values: Array, azimuth_deg: float) -> Array:
     base = math.floor(position)
     weight = position - base
     return (1.0 - weight) * values[:, base % n] + weight * values[:, (base + 1) % n]
-
-
-def _range_of(series: Sequence[Array], previous: Range | None, floor: float | None = None) -> Range:
-    finite = np.concatenate([values[np.isfinite(values)] for values in series])
-    if not len(finite):
-        return previous or (0.0, 1.0)
-    low = float(finite.min()) if floor is None else min(floor, float(finite.min()))
-    return held_range(previous, low, float(finite.max()))
-
-
-def blank() -> tuple[Plot, Plot, Plot, Plot, Plot]:
-    """Empty charts for a page that waits for its first solution: power, B − A, twist, α, Cl.
-
-    No answer has their ranges, so that the first one makes the page build each chart anew: viser's
-    charts start with no width, and one that is fed while it gets its width would stay without axis numbers.
-    """
-    none = np.full(2, np.nan)
-    mu, ends = np.array([0.0, 0.45]), np.array([0.13, 1.0])
-    waiting = (-1e-3, 1e-3)
-    return (
-        Plot((mu, *(none,) * 8), waiting),
-        Plot((mu, *(none,) * 4), waiting),
-        Plot((ends, *(none,) * 3), waiting),
-        Plot((ends, *(none,) * 5), waiting),
-        Plot((ends, *(none,) * 3), waiting),
-    )

@@ -141,7 +141,7 @@ def blade_csv(solution: Solution, reference: Design, azimuth_deg: float) -> byte
         ("alpha [deg]", alpha),
         ("stall below [deg]", lower),
         ("stall above [deg]", upper),
-        ("cl [-]", plots.lift_plot(solution, azimuth_deg).data[1]),
+        ("cl [-]", plots.lift_along(solution, azimuth_deg)),
     ]
     notes = [
         f"at azimuth {azimuth_deg:g} deg; angles are empty in reverse flow",

@@ -317,12 +317,6 @@ def copy_text(client: viser.ClientHandle, expression: str) -> None:
     run_in_page(client, f"navigator.clipboard&&navigator.clipboard.writeText({expression}).catch(()=>0)")
 
 
-def open_tab(client: viser.ClientHandle, name: str) -> None:
-    """Open the tab of that name, as Enter on it would: viser's tabs are dragged, so they do not hear clicks."""
-    tab = f"[...document.querySelectorAll('[role=tab]')].find(t=>t.textContent.trim()==={json.dumps(name)})"
-    run_in_page(client, f"{tab}?.dispatchEvent(new KeyboardEvent('keydown',{{key:'Enter',bubbles:true}}))")
-
-
 def save_picture(client: viser.ClientHandle, drawing: str, size: tuple[int, int], name: str, patience: float) -> int:
     """Have the page save an SVG as a PNG of `size` pixels; how many bytes it has. Not to be called on the event loop.
 
@@ -339,13 +333,6 @@ def save_picture(client: viser.ClientHandle, drawing: str, size: tuple[int, int]
     if not said.isdigit():
         raise RuntimeError(said.removeprefix("failed: "))
     return int(said)
-
-
-def reveal(client: viser.ClientHandle, tab: str, selector: str) -> None:
-    """Open a tab by its name and bring an element of it before the eyes."""
-    open_tab(client, tab)
-    seen = f"document.querySelector({json.dumps(selector)})?.scrollIntoView({{block:'center'}})"
-    run_in_page(client, f"setTimeout(()=>{seen},200)")
 
 
 _SAVE_PICTURE = """(async () => {

@@ -23,7 +23,7 @@ from explorer.tabs.optimise.run import Race
 from explorer.tabs.power_card import against
 from explorer.text import readout
 from explorer.text.units import UNITS, Units
-from explorer.theme.colours import BASELINE, IDEAL, LIMIT, NOW, PINNED, PINNED_DASH, START_COLOURS, THIS, css
+from explorer.theme.colours import PINNED, PINNED_DASH, START_COLOURS, THIS, css
 from rotor.trim.adjoint import PitchGradient
 from rotor.trim.solution import Solution
 
@@ -36,12 +36,6 @@ Key = tuple[tuple[str, str] | tuple[str, str, bool], ...]
 """Name, colour, and whether the line is dashed, of each series that is told apart."""
 AB_KEY: Key = (("B", THIS), ("A", PINNED, True))
 """While two designs are compared."""
-POWER_KEY: Key = (("this design", THIS), ("baseline", BASELINE, True), ("ideal", IDEAL, True))
-TWIST_KEY: Key = (("this design", THIS), ("baseline", BASELINE, True))
-ALPHA_KEY: Key = (("reference blade", NOW), ("stall", LIMIT, True))
-LIFT_KEY: Key = (("reference blade", NOW),)
-IDEAL_KEY: Key = (("ideal", IDEAL, True),)
-STALL_KEY: Key = (("stall", LIMIT, True),)
 
 
 def line(label: str, colour: str, width: float = 2.0, dash: tuple[float, ...] | None = None) -> uplot.Series:
@@ -118,57 +112,6 @@ class Chart:
 
     def _scales(self) -> dict[str, uplot.Scale]:
         return {"x": uplot.Scale(time=False, range=self._x_range), "y": uplot.Scale(range=self._y_range)}
-
-
-class Charts:
-    """Power against µ, twist, α and Cl along the blade; with a pinned design those of A and B, and B − A over µ."""
-
-    def __init__(self, gui: viser.GuiApi, power: Plot, apart: Plot, twist: Plot, alpha: Plot, lift: Plot) -> None:
-        three = (line("baseline", BASELINE, 1.5, (5, 3)), pinned_line(), line("this design", THIS))
-        self.power = Chart(
-            gui,
-            "Power [kW] over µ",
-            POWER_KEY,
-            "advance ratio µ",
-            (
-                line("ideal for this lift", IDEAL, 1.2, (2, 3)),
-                *three,
-                points("baseline, hover", BASELINE, 6),
-                points("A, hover", PINNED, 6),
-                points("this design, hover", THIS, 6),
-                points("now", NOW, 8),
-            ),
-            power,
-            (-0.012, 0.462),
-            name="chart_power",
-        )
-        self.apart = Chart(
-            gui,
-            "B − A [kW] over µ",
-            AB_KEY,
-            "advance ratio µ",
-            (
-                pinned_line(),
-                line("B", THIS),
-                points("hover", THIS, 6),
-                points("now", NOW, 8),
-            ),
-            apart,
-            (-0.012, 0.462),
-            name="chart_apart",
-        )
-        self.apart.set_visible(False)
-        span = (0.1, 1.02)
-        self.twist = Chart(gui, "Twist [°] over r/R", TWIST_KEY, "radius r/R", three, twist, span, name="chart_twist")
-        stall = line("stall", LIMIT, 1.5, (5, 3))
-        marked = (line("reference blade", NOW), pinned_line(), line("B", THIS))
-        ends = (stall, stall, *marked)
-        self.alpha = Chart(
-            gui, "Angle of attack [°] over r/R", ALPHA_KEY, "radius r/R", ends, alpha, span, name="chart_alpha"
-        )
-        self.lift = Chart(
-            gui, "Lift coefficient over r/R", LIFT_KEY, "radius r/R", marked, lift, span, name="chart_lift"
-        )
 
 
 _BESIDE_RACE = ("power", "lift")

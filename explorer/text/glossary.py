@@ -72,9 +72,6 @@ CONTROLS: dict[str, Term] = {
     "field": Term("Quantity on the disk.", section=8),
     "difference": Term("The quantity of this design minus that of the pinned design A."),
     "colours": Term("The colour range is held while you drag; fit it to the data here."),
-    "outline_reverse_flow": Term("Shows where the flow comes from the trailing edge, U_T < 0.", ("3.5",)),
-    "outline_stall": Term("Shows where the angle of attack exceeds the stall angle of the section.", section=5),
-    "outline_drag_divergence": Term("Shows where ∂C_d/∂M reaches 0.1.", section=5),
     "azimuth_deg": Term(
         "Azimuth of the reference blade (red): 0° over the tail, 90° on the advancing side.", section=1
     ),
@@ -236,11 +233,6 @@ READOUTS: dict[str, Term] = {
     "stalled_area": Term("Part of the disk that is stalled, reverse flow excluded.", section=5),
     "speed": Term("Airspeed V = µΩR.", section=1),
     "status": Term("Convergence of the trim, caveats, and the models used.", section=11),
-    "chart_power": Term(
-        "Total power over advance ratio; with linear inflow, not valid below µ 0.075, hover is a separate point.",
-        section=12,
-    ),
-    "chart_apart": Term("Total power of B minus that of A over advance ratio.", section=12),
     "elastic_tip": Term(
         "Elastic twist of the tip, mean over azimuth. Flown twist = jig twist + elastic twist.",
         section=10,
@@ -248,11 +240,6 @@ READOUTS: dict[str, Term] = {
     "elastic_wave": Term("Elastic twist of the tip: amplitude of its 1/rev part.", section=10),
     "pitch_link": Term("Force of one pitch link, mean over azimuth; positive where it holds the nose up.", section=10),
     "pitch_link_wave": Term("Force of one pitch link: half of peak to peak.", section=10),
-    "chart_twist": Term("Jig twist along the blade; zero at 0.75 R.", section=4),
-    "chart_alpha": Term(
-        "Angle of attack along the reference blade, and its stall limits; gaps: reverse flow.", section=8
-    ),
-    "chart_lift": Term("Section lift coefficient along the reference blade.", ("3.8",)),
     "probe_alpha": Term("α = θ − φ: pitch minus inflow angle.", section=8),
     "probe_region": Term("Attached, stalled, beyond drag divergence, or in reverse flow.", section=5),
     "probe_u_t": Term(

@@ -233,12 +233,6 @@ def reserved(height: int) -> str:
     return f'<div class="rx"><div class="rx-reserved" style="height:{height}px"></div></div>'
 
 
-def speed_line(speed: float, units: Units = SI) -> str:
-    """Airspeed [m/s] in the units of the page."""
-    words = units.airspeed(speed)
-    return f'<div class="rx rx-dim rx-speed" data-explorer="speed"{tip("speed")}>{words}</div>'
-
-
 def explanation(text: str) -> str:
     """The line below a menu, in a box of constant height."""
     return f'<div class="rx rx-dim rx-small rx-explain">{escape(text)}</div>'

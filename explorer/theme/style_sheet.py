@@ -59,7 +59,6 @@ div:has(> [data-dock-area]) { margin-top: 0 !important; }
 .rx-care { display: flex; gap: 6px; }
 .rx-care > span:first-child { color: #e67700; }
 .rx-faded { opacity: .35; }
-.rx-speed { text-align: right; margin-top: -4px; padding-bottom: 5px; font-size: 12px; }
 .rx-explain { height: 36px; }
 .rx-heading { padding-top: 3px; margin-bottom: -2px; font-size: 12px; gap: 10px; }
 .rx-heading > :first-child { font-weight: 600; margin-right: auto; }
@@ -70,9 +69,6 @@ div:has(> [data-dock-area]) { margin-top: 0 !important; }
 .rx-ticks { position: relative; height: 19px; }
 .rx-ticks span { position: absolute; top: 4px; transform: translateX(-50%); }
 .rx-ticks i { position: absolute; top: 0; width: 1px; height: 4px; background: currentColor; }
-.rx-legend { height: 40px; font-size: 12px; }
-.rx-outline { display: inline-block; box-sizing: content-box; width: 14px; height: 2px; vertical-align: middle;
-  margin-right: 4px; border: 1.5px solid; outline: .5px solid rgba(128,128,128,.6); }
 .rx-concept { padding-bottom: 4px; }
 .rx-concept svg { display: block; margin: -2px 0 1px; }
 .rx-where { min-height: 50px; }
@@ -110,14 +106,6 @@ div:has(> [data-dock-area]) { margin-top: 0 !important; }
   background: rgba(128,128,128,.10); }
 /* A text field that only clicks write to: see explorer/charts/svg.py. */
 div:has(> .rx-bridge), div:has(> .rx-bridge) + div { display: none !important; }
-.rx-lecture { font-size: 14px; line-height: 1.4; padding-bottom: 4px; }
-.rx-lecture h3 { margin: 2px 0 4px; font-size: 18px; line-height: 1.2; white-space: normal; }
-.rx-lecture p { margin: 0 0 6px; }
-.rx-said { font-weight: 600; font-variant-numeric: tabular-nums; }
-.rx-dots { padding-top: 8px; }
-.rx-dots i { display: inline-block; width: 7px; height: 7px; border-radius: 50%; margin-left: 4px;
-  background: rgba(128,128,128,.35); }
-.rx-dots .rx-here { background: #1c7ed6; }
 .rx-presence { margin: 2px 10px 4px; padding: 6px 10px; border-radius: 4px; background: rgba(28,126,214,.14); }
 .rx-strip { display: block; }
 .rx-take { cursor: pointer; }
@@ -160,12 +148,10 @@ html:root {
   #rx svg text, .rxp-curve svg text { font-size: 12.5px; }
   .rxp-title { font-size: 19px; }
   .rxp-head, .rxp-head span, .rxp-worth { font-size: 13px; }
-  .rx, .rx-status, .rx-heading, .rx-legend, .rx-scale, .rx-kappa, .rx-speed, .rx-check { font-size: 15.5px; }
+  .rx, .rx-status, .rx-heading, .rx-scale, .rx-kappa, .rx-check { font-size: 15.5px; }
   .rx-small { font-size: 14px; }
   .rx-total { font-size: 38px; }
   .rx-change { font-size: 23px; }
-  .rx-lecture { font-size: 18px; }
-  .rx-lecture h3 { font-size: 24px; }
 }
 @media (min-width: 1100px) { html:root {
   .rxf-total { font-size: 46px; }

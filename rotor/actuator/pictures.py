@@ -10,7 +10,6 @@ import numpy as np
 from rotor.actuator.catalogue import PiezoPly, TorqueTube
 from rotor.actuator.installation import InstalledActuator
 from rotor.actuator.section import (
-    Host,
     Placement,
     SectionSpec,
     passive_skin,
@@ -169,11 +168,6 @@ def twist_comparison(verdict: Verdict, stations: int = 61) -> TwistComparison:
 def electronics_station(installed: InstalledActuator) -> tuple[float, float]:
     """Inner and outer end of the drive electronics, r/R (figure 5.8), between flap hinge and active span."""
     return float(installed.r[0]) + 0.02, installed.placement.span[0] - 0.02
-
-
-def default_host(kind: str) -> Host:
-    """A retrofit, or the new blade with half the stiffness of the worked example."""
-    return Host() if kind == "retrofit" else Host("new", 0.5)
 
 
 def _wall(spec: SectionSpec, installed: InstalledActuator) -> float:

@@ -1,6 +1,6 @@
 """The structure of a blade in torsion, as a rotor file states it."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
@@ -56,7 +56,3 @@ class BladeStructure:
         strips = 0.5 * (pull[1:] + pull[:-1]) * np.diff(grid)
         outward = np.concatenate((np.cumsum(strips[::-1])[::-1], [0.0]))
         return angular_speed**2 * np.interp(np.asarray(r, dtype=float), grid, outward)
-
-    def stiffened(self, factor: float) -> "BladeStructure":
-        """The same blade with GJ × `factor`; the control system stays."""
-        return replace(self, torsional_stiffness=tuple(factor * value for value in self.torsional_stiffness))

@@ -37,12 +37,6 @@ def uh60a_twist() -> TwistLaw:
     return shipped_aircraft("uh60a").rotor.builtin_twist
 
 
-def baseline_twist(preset: str, aircraft: Aircraft | None = None) -> TwistLaw:
-    """The twist that changes count from: the rotor's own, or the document's −16° (`thesis`, UH-60A)."""
-    check_preset(preset)
-    return (aircraft or shipped_aircraft(SHIPPED_ROTORS[0])).twist_for(preset)
-
-
 def make_design(
     *,
     rotor: Aircraft | str = SHIPPED_ROTORS[0],

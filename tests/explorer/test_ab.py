@@ -9,7 +9,6 @@ import pytest
 from numpy.testing import assert_allclose
 from PIL import Image
 
-from explorer.charts import plots
 from explorer.picture.fields import FIELDS, difference, fitted_range, shown_field
 from explorer.picture.picture import disk_png, field_values
 from explorer.picture.polar import polar_grid
@@ -220,45 +219,6 @@ class TestReadOut:
         assert "&lt;mine&gt;" in line
         assert f"{number(a.power.total / 1e3)} kW" in line
         assert "at µ 0.2, 8.32 t" in line
-
-
-class TestCharts:
-    def curve(self) -> plots.PowerCurve:
-        values = np.linspace(900.0, 2000.0, len(plots.SWEEP))
-        return plots.PowerCurve(values, values + 10.0, values - 50.0)
-
-    def test_a_takes_the_place_of_the_baseline(self, a: Solution, b: Solution):
-        for pinned, (empty, filled) in ((False, (3, 2)), (True, (2, 3))):
-            data = plots.power_plot(self.curve(), 0.2, 1000.0, None, pinned).data
-            assert np.isnan(data[empty]).all()
-            assert np.nanmax(data[filled]) > 1900.0
-            data = plots.twist_plot(b.design, a.design, None, pinned).data
-            assert np.isnan(data[empty - 1]).all()
-            assert_allclose(data[filled - 1], -8.0 * (data[0] - 0.75), atol=1e-9)
-
-    def test_difference_over_the_advance_ratio(self):
-        x, zero, apart, hover, now = plots.apart_plot(self.curve(), 0.21, -12.0, None).data
-        assert_allclose(apart, -10.0)
-        assert hover[x == 0.0] == -10.0
-        assert now[x == 0.21] == -12.0
-        assert not zero.any()
-        blank = replace(self.curve(), reference=np.full(len(plots.SWEEP), np.nan))
-        assert np.isfinite(plots.apart_plot(blank, 0.2, None, None).y_range).all()
-
-    def test_marked_blade_alone_or_a_and_b(self, along: Solution, b: Solution, lost: Solution):
-        for plot in (plots.alpha_plot, plots.lift_plot):
-            alone, _, none = plot(b, 60.0).data[-3:]
-            empty, of_a, of_b = plot(b, 60.0, along).data[-3:]
-            assert np.isnan(none).all()
-            assert np.isnan(empty).all()
-            assert_allclose(of_b, alone)
-            assert_allclose(of_a, plot(along, 60.0).data[-3])
-            assert np.isnan(plot(b, 60.0, lost).data[-2]).all()
-
-    def test_a_of_other_elements_is_drawn_where_it_is(self, along: Solution, b: Solution):
-        fine = solve(replace(along.design, models=replace(QUICK, elements=40, azimuths=72)))
-        of_a = plots.lift_plot(b, 90.0, fine).data[-2]
-        assert_allclose(of_a, plots.lift_plot(along, 90.0).data[-3], atol=0.02)
 
 
 class TestDisk:

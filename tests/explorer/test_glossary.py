@@ -17,7 +17,6 @@ from explorer.text import comparison as ab_readout
 from explorer.text import readout
 from explorer.text.glossary import CONTROLS, READOUTS, hint, tip
 from explorer.text.status import status_panel
-from explorer.text.units import SI
 from rotor.aero.switches import SWITCHES
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
@@ -102,7 +101,6 @@ def test_every_line_of_the_results_has_its_sentence(mu: float):
         ab_readout.power_panel(solution, other),
         ab_readout.trim_panel(solution, other),
         readout.check_panel(other, solution),
-        readout.speed_line(solution.design.airspeed, SI),
         status_panel(solution),
     ]
     for html in page:

@@ -18,7 +18,6 @@ from explorer.grab import (
     begin,
     grabbed_inputs,
     movement,
-    nearest_station,
     place_of,
     slid,
     stations,
@@ -50,12 +49,6 @@ class TestStations:
         assert places[-1] == 1.0
         assert places == sorted(places)
         assert len(places) == len(PIECES[law][0]) + 1
-
-    def test_the_nearest_is_taken(self):
-        for r, title in ((0.2, "root"), (0.45, "division"), (0.93, "tip")):
-            station = nearest_station(TWO, r)
-            assert station is not None
-            assert station.title == title
 
     @pytest.mark.parametrize("law", ["ideal", "found"])
     def test_a_law_without_sliders_becomes_the_nearest_two_segments(self, law: str):

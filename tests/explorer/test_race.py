@@ -1,20 +1,15 @@
-"""The race of a search's starts, and sliders and numbers that follow its previews."""
+"""The race of a search's starts."""
 
-import math
 from dataclasses import replace
 from typing import Any
 
 import pytest
 
-from explorer.state import Inputs
 from explorer.tabs.optimise import search_request as mission
 from explorer.tabs.optimise.run import (
     Race,
     RaceStart,
     SearchRun,
-    counting,
-    falling_power,
-    inputs_at,
     race_of,
 )
 from explorer.tabs.optimise.search_request import SearchRequest
@@ -123,26 +118,3 @@ class TestRace:
         assert race.leader is None
         assert race.change is None
         assert race.axis() == (0.0, 1.0)
-
-
-class TestPreview:
-    def test_sliders_mean_the_previewed_blade(self):
-        inputs = Inputs(law="linear", advance_ratio=0.3, mass_t=9.0)
-        preview = make_design(twist="segments:-9.5,-18.2@0.82", mu=0.3, mass_kg=9000.0)
-        followed = inputs_at(inputs, preview)
-        assert followed.design().twist.spec() == preview.twist.spec()
-        assert (followed.advance_ratio, followed.mass_t) == (0.3, 9.0)
-
-
-class TestNumbers:
-    def test_the_count_ends_on_the_power(self):
-        assert counting(853.7, 844.6, 0.0) == "853.7"
-        assert counting(853.7, 844.6, 1.0) == "844.6"
-
-    def test_a_replay_falls_between_its_frames_and_passes_over_a_start_without_trim(self):
-        powers = [math.inf, 850.0, 840.0]
-        assert falling_power(powers, 0.0) == 850.0
-        assert falling_power(powers, 1.5) == 845.0
-        assert falling_power(powers, 9.0) == 840.0
-        with pytest.raises(ValueError, match="at least one design"):
-            falling_power([math.inf], 0.0)

@@ -15,7 +15,6 @@ from explorer.tabs.optimise.schedule_view import (
     PlanProgress,
     ScheduleFlight,
     flown_legs,
-    largest_change_deg,
     twist_between,
 )
 from explorer.tabs.optimise.search_request import SearchRequest
@@ -141,13 +140,6 @@ class TestFlight:
     def test_one_leg_alone_stands_still(self, progress: PlanProgress):
         flight = ScheduleFlight(PlanProgress(progress.plan, [cell for cell in progress.cells if cell.condition == 0]))
         assert flight.at(0.0).twist == flight.at(flight.seconds).twist
-        assert largest_change_deg(flight) == 0.0
-
-    def test_the_largest_change_is_that_between_neighbouring_optima(self, progress: PlanProgress):
-        flight = ScheduleFlight(progress)
-        rates = [math.degrees(leg.twist.rate) for leg in flight.legs if isinstance(leg.twist, LinearTwist)]
-        root = progress.plan.design.rotor.blade.root_cutout
-        assert largest_change_deg(flight) == pytest.approx(max(abs(np.diff(rates))) * (1.0 - root))
 
 
 class TestTwistBetween:

@@ -162,34 +162,8 @@ class TestReadout:
         hover = make_design(mu=0.0)
         assert with_vortex_wake(hover) == hover
 
-    def test_speed_in_knots(self):
-        assert "180 km/h · 50.0 m/s · 97 kt" in readout.speed_line(50.0)
-        assert "hover" in readout.speed_line(0.0)
-
 
 class TestPlots:
-    def curve(self) -> plots.PowerCurve:
-        """With linear inflow, which is not valid at low speed."""
-        values = np.linspace(900.0, 2000.0, len(plots.SWEEP))
-        values[1:3] = np.nan
-        return plots.PowerCurve(values, values + 10.0, values - 50.0)
-
-    def test_where_there_is_no_valid_inflow_hover_stands_alone(self):
-        """No line between µ 0 and 0.075."""
-        plot = plots.power_plot(self.curve(), 0.05, 1000.0, None)
-        x, ideal, _, _, line, _, _, hover, now = plot.data
-        assert np.isnan(line[(x > 0.0) & (x < 0.075)]).all()
-        assert np.isfinite(line[x >= 0.075]).all()
-        assert (ideal[x >= 0.075] < line[x >= 0.075]).all()
-        assert np.isfinite(hover).tolist() == (x == 0.0).tolist()
-        assert now[x == 0.05] == 1000.0
-
-    def test_the_present_point_is_an_abscissa(self):
-        x, *_, now = plots.power_plot(self.curve(), 0.2137, 1234.0, None).data
-        assert (np.diff(x) > 0).all()
-        assert now[np.isfinite(now)].tolist() == [1234.0]
-        assert x[np.isfinite(now)].tolist() == [0.2137]
-
     def test_ranges_are_held(self):
         first = plots.held_range(None, 0.0, 2300.0)
         assert first[0] == 0.0
@@ -201,28 +175,22 @@ class TestPlots:
 
     def test_angle_of_attack_has_a_gap_in_reverse_flow(self):
         solution = solve(make_design(mu=0.35)).require()
-        r, lower, upper, alpha = plots.alpha_plot(solution, 270.0).data[:4]
+        r, (lower, upper, alpha) = solution.disk.r, plots.angles_along(solution, 270.0)
         assert np.isnan(alpha[r < 0.3]).all()
         assert np.isfinite(alpha[r > 0.4]).all()
         assert np.isnan(lower[r < 0.3]).all()
         assert np.isnan(upper[r < 0.3]).all()
-        assert np.isfinite(plots.alpha_plot(solution, 90.0).data[3]).all()
+        assert np.isfinite(plots.angles_along(solution, 90.0)[2]).all()
 
     def test_azimuth_closes(self, forward: Solution):
-        first, last = (plots.alpha_plot(forward, psi).data[3] for psi in (0.0, 360.0))
-        assert_allclose(first, last, rtol=1e-12)
+        for first, last in zip(*(plots.angles_along(forward, psi) for psi in (0.0, 360.0)), strict=True):
+            assert_allclose(first, last, rtol=1e-12)
 
     def test_stall_limit_lies_above_an_unstalled_blade(self, forward: Solution):
-        r, lower, upper, alpha = plots.alpha_plot(forward, 60.0).data[:4]
+        r, (lower, upper, alpha) = forward.disk.r, plots.angles_along(forward, 60.0)
         assert (upper > alpha).all()
         assert (lower < alpha).all()
         assert 10.0 < upper[r.searchsorted(0.4)] < 16.0
-
-    def test_twist_in_degrees(self):
-        design = Inputs(law="linear", linear=-10.0).design()
-        r, baseline, _, twist = plots.twist_plot(design, baseline_of(design), None).data
-        assert_allclose(twist, -10.0 * (r - 0.75), atol=1e-12)
-        assert baseline.max() == pytest.approx(9.6, abs=0.2)
 
 
 class TestPowerCurves:

@@ -155,7 +155,7 @@ def along(solution: Solution) -> str:
         if degrees == 270:
             alpha += [Trace("", BASELINE, r, limit, "3 3", 1.2) for limit in (lower, upper)]
         alpha.append(Trace(f"ψ {degrees}°", colour, r, angle))
-        cl = plots.lift_plot(solution, float(degrees)).data[1]
+        cl = plots.lift_along(solution, float(degrees))
         lift.append(Trace(f"ψ {degrees}°", colour, r, np.where(np.isfinite(angle), cl, math.nan)))
     alpha.append(Trace("stall at ψ 270°", BASELINE, r[:0], r[:0], "3 3", 1.2))
     return (

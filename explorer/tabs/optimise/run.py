@@ -1,16 +1,12 @@
 """A search as the page follows it: its course, the improving designs to play, and the race of its starts."""
 
-import math
 import threading
 import time
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 from typing import Literal
 
-from explorer.interpolation import blend, eased
-from explorer.state import Inputs, with_optimum
-from explorer.text.units import SI, Units, number
+from explorer.text.units import SI, Units
 from explorer.workers.job import JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
 from explorer.workers.tasks import ReferencePower, StartPower
 from rotor.design.design import Design
@@ -293,31 +289,3 @@ def race_of(run: SearchRun) -> Race:
         starts.append(RaceStart(k + 1, trace, best, state, gap))
     tried = run.optimum.evaluations if run.optimum is not None else run.progress.evaluation if run.progress else 0
     return Race(tuple(starts), run.start_power, least, tried)
-
-
-def inputs_at(inputs: Inputs, preview: Design) -> Inputs:
-    """The slider positions that mean the previewed blade in the present flight, so that the sliders follow it."""
-    return with_optimum(inputs, preview)
-
-
-def counting(before: float, after: float, part: float, digits: int = 1) -> str:
-    """The large number while it runs from one power to the next [kW or any unit], `part` 0…1."""
-    return number(blend(before, after, eased(part)), digits)
-
-
-def falling_power(powers: Sequence[float], position: float) -> float:
-    """Power of a replay between its frames: `position` counts frames from 0 and may lie between two.
-
-    Infinite powers, of a start without trim, are passed over: the next known power stands from the beginning.
-    """
-    known = [power for power in powers if math.isfinite(power)]
-    if not known:
-        raise ValueError("a replay needs at least one design with a power")
-    filled = list(powers)
-    for k in range(len(filled) - 1, -1, -1):
-        if not math.isfinite(filled[k]):
-            filled[k] = filled[k + 1] if k + 1 < len(filled) else known[-1]
-    place = min(max(position, 0.0), len(filled) - 1.0)
-    lower = min(int(place), len(filled) - 1)
-    upper = min(lower + 1, len(filled) - 1)
-    return blend(filled[lower], filled[upper], place - lower)

@@ -6,7 +6,6 @@ import io
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from itertools import pairwise
 
 import numpy as np
 
@@ -360,14 +359,6 @@ def twist_between(before: TwistLaw, after: TwistLaw, weight: float) -> TwistLaw:
         case _:
             angles = (1.0 - weight) * before(_STATIONS) + weight * after(_STATIONS)
             return TableTwist(tuple(_STATIONS.tolist()), tuple(angles.tolist()), "between two legs")
-
-
-def largest_change_deg(flight: ScheduleFlight) -> float:
-    """The most that the blade turns between two neighbouring legs, root to tip."""
-    root = flight.design(flight.at(0.0)).rotor.blade.root_cutout
-    stations = np.linspace(root, 1.0, 40)
-    angles = [leg.twist(stations) - leg.twist(np.array(root)) for leg in flight.legs]
-    return max((math.degrees(float(np.abs(b - a).max())) for a, b in pairwise(angles)), default=0.0)
 
 
 def _over_fixed(leg: FlownLeg) -> float | None:

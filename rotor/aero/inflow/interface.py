@@ -99,10 +99,6 @@ class HarmonicShapes:
         """Σ over the grid of a field times every column, (…, elements, azimuths) → (…, shapes, functions)."""
         return self.radial @ fields @ self.waves.T
 
-    def gather_rates(self, fields: Array) -> Array:
-        """The same with the derivatives of the columns by ψ."""
-        return self.radial @ fields @ self.rates.T
-
     def harmonics(self, around: Array) -> Array:
         """Fourier amplitudes of functions of azimuth, (…, azimuths) → (…, functions)."""
         return around @ self.waves.T * (self.scale / self.waves.shape[1])
