@@ -137,33 +137,75 @@ _compile = compiled(error_model="numpy", fastmath={"contract"})
 
 @_compile
 def _respond(influence: Any, flow: Any, mass: Any, harmonics: Any, loads: Any) -> Any:
-    """T p, steady, then cosine and sine of every q: a = ½ L (V + iqM L)⁻¹ τ with a = x_c − i x_s, τ = p_c − i p_s."""
+    """T p, steady, then cosine and sine of every q: a = ½ L (V + iqM L)⁻¹ τ with a = x_c − i x_s, τ = p_c − i p_s.
+
+    As in `_blocks`, a = ½ L (z − iq B z) with (I + q²B²) z = V⁻¹ τ, so only real equations are solved.
+    """
     out = np.empty_like(loads)
     modes = len(flow)
     out[0] = 0.5 * _times(influence, loads[0] / flow)
-    system = np.empty((2, modes, modes + 1))
+    scaled = _scaled(influence, flow, mass)
+    square = scaled @ scaled
+    system = np.empty((modes, modes + 2))
     for k in range(len(harmonics)):
-        cosine, sine = 1 + 2 * k, 2 + 2 * k
+        q, cosine, sine = harmonics[k], 1 + 2 * k, 2 + 2 * k
         for i in range(modes):
             for j in range(modes):
-                system[0, i, j], system[1, i, j] = 0.0, harmonics[k] * mass[i] * influence[i, j]
-            system[0, i, i] = flow[i]
-            system[0, i, modes], system[1, i, modes] = loads[cosine, i], -loads[sine, i]
-        _eliminate(system[0], system[1])
-        out[cosine] = 0.5 * _times(influence, system[0, :, modes].copy())
-        out[sine] = -0.5 * _times(influence, system[1, :, modes].copy())
+                system[i, j] = q * q * square[i, j]
+            system[i, i] += 1.0
+            system[i, modes], system[i, modes + 1] = loads[cosine, i] / flow[i], loads[sine, i] / flow[i]
+        _eliminate(system)
+        real, imaginary = system[:, modes].copy(), system[:, modes + 1].copy()  # z is real − i imaginary.
+        out[cosine] = 0.5 * _times(influence, real - q * _times(scaled, imaginary))
+        out[sine] = 0.5 * _times(influence, imaginary + q * _times(scaled, real))
     return out
+
+
+@_compile
+def _scaled(influence: Any, flow: Any, mass: Any) -> Any:
+    """B = V⁻¹M L."""
+    out = np.empty_like(influence)
+    for i in range(len(flow)):
+        for j in range(len(flow)):
+            out[i, j] = mass[i] / flow[i] * influence[i, j]
+    return out
+
+
+@_compile
+def _eliminate(system: Any) -> None:
+    """Solve equations with their right sides beside them, (n, n + columns), in place: Gaussian elimination.
+
+    Rows are exchanged for the largest pivot. LAPACK takes twice as long for few right sides of 25 unknowns.
+    """
+    n = len(system)
+    for k in range(n):
+        best = k
+        for i in range(k + 1, n):
+            if abs(system[i, k]) > abs(system[best, k]):
+                best = i
+        if best != k:
+            for j in range(k, system.shape[1]):
+                system[k, j], system[best, j] = system[best, j], system[k, j]
+        pivot = 1.0 / system[k, k]
+        for i in range(k + 1, n):
+            factor = system[i, k] * pivot
+            for j in range(k + 1, system.shape[1]):
+                system[i, j] -= factor * system[k, j]
+    for k in range(n - 1, -1, -1):
+        for j in range(n, system.shape[1]):
+            total = system[k, j]
+            for i in range(k + 1, n):
+                total -= system[k, i] * system[i, j]
+            system[k, j] = total / system[k, k]
 
 
 @_compile
 def _blocks(influence: Any, flow: Any, mass: Any, harmonics: Any) -> Any:
     """`_FamilyResponse.blocks`: ½ (L − iq L B)(I + q²B²)⁻¹V⁻¹ with B = V⁻¹M L, without complex arithmetic."""
-    modes = len(flow)
-    scaled = np.empty((modes, modes))
+    modes, scaled = len(flow), _scaled(influence, flow, mass)
     out = np.empty((1 + len(harmonics), modes, modes), np.complex128)
     for i in range(modes):
         for j in range(modes):
-            scaled[i, j] = mass[i] / flow[i] * influence[i, j]
             out[0, i, j] = 0.5 * influence[i, j] / flow[j]
     square, turned = scaled @ scaled, influence @ scaled
     for k in range(len(harmonics)):
@@ -254,47 +296,6 @@ def _times(matrix: Any, vector: Any) -> Any:
             total += matrix[i, j] * vector[j]
         out[i] = total
     return out
-
-
-@_compile
-def _eliminate(real: Any, imaginary: Any) -> None:
-    """Solve a complex system with its right sides beside it, (n, n + columns), in place: Gaussian elimination.
-
-    Rows are exchanged for the largest pivot. LAPACK takes twice as long for one right side of 25 unknowns. Real and
-    imaginary parts are apart, so that the loops along a row become vector code.
-    """
-    n = len(real)
-    for k in range(n):
-        best, largest = k, 0.0
-        for i in range(k, n):
-            size = real[i, k] * real[i, k] + imaginary[i, k] * imaginary[i, k]
-            if size > largest:
-                best, largest = i, size
-        if best != k:
-            for rows in (real, imaginary):
-                for j in range(k, rows.shape[1]):
-                    rows[k, j], rows[best, j] = rows[best, j], rows[k, j]
-        for i in range(k + 1, n):
-            a = (real[i, k] * real[k, k] + imaginary[i, k] * imaginary[k, k]) / largest
-            b = (imaginary[i, k] * real[k, k] - real[i, k] * imaginary[k, k]) / largest
-            _subtract(real, imaginary, i, a, b, k, k + 1)
-    for k in range(n - 1, -1, -1):
-        for i in range(k + 1, n):
-            _subtract(real, imaginary, k, real[k, i], imaginary[k, i], i, n)
-        size = real[k, k] * real[k, k] + imaginary[k, k] * imaginary[k, k]
-        for j in range(n, real.shape[1]):
-            x, y = real[k, j], imaginary[k, j]
-            real[k, j] = (x * real[k, k] + y * imaginary[k, k]) / size
-            imaginary[k, j] = (y * real[k, k] - x * imaginary[k, k]) / size
-
-
-@_compile
-def _subtract(real: Any, imaginary: Any, row: int, a: float, b: float, other: int, start: int) -> None:
-    """A row less (a + ib) times another, from a column on."""
-    for j in range(start, real.shape[1]):
-        x, y = real[other, j], imaginary[other, j]
-        real[row, j] -= a * x - b * y
-        imaginary[row, j] -= a * y + b * x
 
 
 @dataclass(frozen=True, eq=False)

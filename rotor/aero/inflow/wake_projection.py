@@ -98,18 +98,19 @@ class Projection:
     def sums(self, fields: Array) -> Array:
         """Σ over the grid of a field times every term, (…, elements, azimuths) → (…, terms)."""
         spectrum = (self.radial @ fields) @ self.waves.T
-        return spectrum[..., self.order, self._column]
+        return spectrum.reshape(*fields.shape[:-2], -1).take(self._place, axis=-1)
 
     def field(self, coefficients: Array) -> Array:
         """The sum of the terms, (…, terms) → (…, elements, azimuths)."""
-        spectrum = np.zeros((*coefficients.shape[:-1], len(self.radial), len(self.waves)))
-        spectrum[..., self.order, self._column] = coefficients
+        spectrum = np.zeros((*coefficients.shape[:-1], len(self.radial) * len(self.waves)))
+        spectrum[..., self._place] = coefficients
+        spectrum = spectrum.reshape(*coefficients.shape[:-1], len(self.radial), len(self.waves))
         return self.radial.T @ (spectrum @ self.waves)
 
     @cached_property
-    def _column(self) -> Integers:
-        """Row of `waves` of each term."""
-        return self.wave + self.parity * (len(self.waves) // 2)
+    def _place(self) -> Integers:
+        """Place of each term among all g_k with all waves."""
+        return self.order * len(self.waves) + self.wave + self.parity * (len(self.waves) // 2)
 
     def state_loads(self, sums: Array) -> Array:
         """The load τ on each state from the sums of d with the terms, (terms,) → (states,)."""
