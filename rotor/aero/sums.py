@@ -142,8 +142,10 @@ def slopes(
     shapes = problem.torsion.shapes if problem.torsion is not None else None
     by_wake = response.by_wake if response is not None and feedback is None else None
     changes = unknown_changes(problem, elements, unknowns)
-    fz = changes.follow(_BY_FZ, loads, loads[kernel.LIFT] * elements.u_t, by_wake)
-    fx = changes.follow(_BY_FX, loads, loads[kernel.LIFT] * elements.u_p, by_wake)
+    by_fz = loads[kernel.FZ_THETA], loads[kernel.FZ_UT], loads[kernel.FZ_UP], loads[kernel.FZ_UR]
+    by_fx = loads[kernel.FX_THETA], loads[kernel.FX_UT], loads[kernel.FX_UP], loads[kernel.FX_UR]
+    fz = changes.follow(by_fz, loads[kernel.LIFT] * elements.u_t, by_wake)
+    fx = changes.follow(by_fx, loads[kernel.LIFT] * elements.u_p, by_wake)
     if elements.friction is not None and problem.design.models.disk_axial_flow and "shaft_tilt" in unknowns:
         fx[unknowns.index("shaft_tilt")] -= elements.flow.mu_z * elements.friction.fx_slope
     if response is not None and feedback is not None:
@@ -220,17 +222,21 @@ class UnknownChanges:
     """r − e, (elements,)."""
 
     def follow(
-        self, by: tuple[int, int, int, int], fields: Array, by_loss: Array, by_wake: Array | None = None
+        self,
+        by: tuple[Array, Array, Array, Array],
+        by_loss: Array,
+        by_wake: Array | None = None,
+        by_rate: Array | None = None,
     ) -> Array:
-        """∂f by the unknowns, (unknowns, elements, azimuths), of a field f of the loads.
+        """∂f by the unknowns, (unknowns, elements, azimuths), of a field f.
 
-        by: places in `fields` of its slopes by θ, U_T, U_P and U_R; by_loss: that by F; by_wake: ∂λ_i of a model that
-        does not depend on the load, as in `Slopes`.
+        by: its slopes by θ, U_T, U_P and U_R; by_loss: that by F; by_wake: ∂λ_i of a model that does not depend on the
+        load, as in `Slopes`; by_rate: its slope by θ', 0 where left out.
         """
-        theta, u_t, u_p, u_r = by
         return _follow(
-            self.theta, self.u_t, self.u_p, self.u_p_arm, self.u_r, self.u_t_along, self.loss, self.wake, self.arm,
-            fields[theta], fields[u_t], fields[u_p], fields[u_r], by_loss, by_wake if by_wake is not None else _HELD,
+            self.theta, self.rate, self.u_t, self.u_p, self.u_p_arm, self.u_r, self.u_t_along, self.loss, self.wake,
+            self.arm, *by, by_loss, by_wake if by_wake is not None else _HELD,
+            by_rate if by_rate is not None else _NO_RATE,
         )  # fmt: skip
 
     def collect(self, by: Array, by_loss: Array) -> Array:
@@ -246,8 +252,7 @@ class UnknownChanges:
 
 _HELD = np.zeros((0, 0, 0))
 """∂λ_i of an inflow that is held."""
-_BY_FZ = kernel.FZ_THETA, kernel.FZ_UT, kernel.FZ_UP, kernel.FZ_UR
-_BY_FX = kernel.FX_THETA, kernel.FX_UT, kernel.FX_UP, kernel.FX_UR
+_NO_RATE = np.zeros((0, 0))
 
 
 def unknown_changes(problem: Problem, elements: BladeElements, unknowns: tuple[Unknown, ...]) -> UnknownChanges:
@@ -287,8 +292,8 @@ def unknown_changes(problem: Problem, elements: BladeElements, unknowns: tuple[U
 
 @compiled(error_model="numpy", fastmath={"contract"})
 def _follow(
-    theta: Any, u_t: Any, u_p: Any, u_p_arm: Any, u_r: Any, u_t_along: Any, loss: Any, wake: Any, arm: Any,
-    by_theta: Any, by_ut: Any, by_up: Any, by_ur: Any, by_loss: Any, by_wake: Any,
+    theta: Any, rate: Any, u_t: Any, u_p: Any, u_p_arm: Any, u_r: Any, u_t_along: Any, loss: Any, wake: Any, arm: Any,
+    by_theta: Any, by_ut: Any, by_up: Any, by_ur: Any, by_loss: Any, by_wake: Any, by_rate: Any,
 ) -> Any:  # fmt: skip
     """The chain rule of `UnknownChanges.follow`; an unknown changes either the pitch or velocities and losses."""
     n, m = by_theta.shape
@@ -299,6 +304,9 @@ def _follow(
             if pitches:
                 for j in range(m):
                     out[k, i, j] = by_theta[i, j] * theta[k, j]
+                if len(by_rate) > 0:
+                    for j in range(m):
+                        out[k, i, j] += by_rate[i, j] * rate[k, j]
                 continue
             for j in range(m):
                 out[k, i, j] = (

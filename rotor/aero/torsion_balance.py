@@ -50,14 +50,9 @@ def torsion_slopes(problem: Problem, elements: BladeElements, by_unknown: Slopes
     # ∂(moment of the air) by the unknowns; the lift, which acts x behind the pitch axis, follows the loss factor.
     changes = by_unknown.changes
     by_loss = -torsion.lag[:, None] * elements.loads[kernel.LIFT] * elements.u_t
-    by = kernel.M_THETA, kernel.M_UT, kernel.M_UP, kernel.M_UR
-    fields = changes.follow(by, moments, by_loss, by_unknown.by_wake)
     pitching = pitch_slope(torsion, elements)
-    for k, unknown in enumerate(unknowns):
-        if unknown in ("collective", "cyclic_1c", "cyclic_1s"):
-            fields[k] += (pitching - moments[kernel.M_THETA]) * changes.theta[k]
-            fields[k] += moments[kernel.M_RATE] * changes.rate[k]
-    load = shapes.project(fields)
+    by = pitching, moments[kernel.M_UT], moments[kernel.M_UP], moments[kernel.M_UR]
+    load = shapes.project(changes.follow(by, by_loss, by_unknown.by_wake, moments[kernel.M_RATE]))
     inertia = torsion.modal(torsion.inertia)
     for k, unknown in enumerate(unknowns):
         if unknown in ("cyclic_1c", "cyclic_1s"):
@@ -124,8 +119,9 @@ def _between_columns(torsion: BladeTorsion, by_theta: Array, by_rate: Array) -> 
     modes, functions, azimuths = len(shapes.radial), len(shapes.waves), shapes.waves.shape[1]
     pairs = (shapes.radial[:, None] * shapes.radial).reshape(modes * modes, -1) * (shapes.dr / azimuths)
     analysis = shapes.scale[:, None] * shapes.waves
-    theta, rate = pairs @ by_theta, pairs @ by_rate
-    blocks = (analysis * theta[:, None]) @ shapes.waves.T + (analysis * rate[:, None]) @ shapes.rates.T
+    both = np.concatenate([pairs @ by_theta, pairs @ by_rate], axis=1)  # (modes², 2 azimuths)
+    weighted = (np.hstack([analysis, analysis]) * both[:, None]).reshape(-1, 2 * azimuths)
+    blocks = weighted @ np.hstack([shapes.waves, shapes.rates]).T
     return (
         blocks.reshape(modes, modes, functions, functions)
         .transpose(0, 2, 1, 3)

@@ -97,7 +97,7 @@ class Projection:
 
     def sums(self, fields: Array) -> Array:
         """Σ over the grid of a field times every term, (…, elements, azimuths) → (…, terms)."""
-        spectrum = (self.radial @ fields) @ self.waves.T
+        spectrum = (self.radial @ fields).reshape(-1, fields.shape[-1]) @ self.waves.T
         return spectrum.reshape(*fields.shape[:-2], -1).take(self._place, axis=-1)
 
     def field(self, coefficients: Array) -> Array:

@@ -221,7 +221,7 @@ def test_measures_by_the_unknowns_are_the_transpose_of_their_chain_rule():
     changes = unknown_changes(p, elements, unknowns)
     weight = np.random.default_rng(4).normal(size=p.disk.shape)
     by_loss = elements.loads[kernel.LIFT] * elements.u_t
-    by = kernel.FZ_THETA, kernel.FZ_UT, kernel.FZ_UP, kernel.FZ_UR
-    fields = changes.follow(by, elements.loads, by_loss)
-    collected = changes.collect(weight * elements.loads[list(by)], (weight * by_loss).sum(axis=1))
+    theta, u_t, u_p, u_r = by = elements.loads[[kernel.FZ_THETA, kernel.FZ_UT, kernel.FZ_UP, kernel.FZ_UR]]
+    fields = changes.follow((theta, u_t, u_p, u_r), by_loss)
+    collected = changes.collect(weight * by, (weight * by_loss).sum(axis=1))
     assert_allclose(collected, (weight * fields).sum(axis=(1, 2)), rtol=0, atol=1e-12 * np.abs(fields).sum())
