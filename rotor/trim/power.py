@@ -27,15 +27,15 @@ from typing import Any
 from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem
 from rotor.aero.momentum import glauert_inflow
-from rotor.aero.sums import disk_sums
+from rotor.aero.sums import DiskSums
 from rotor.compiled import compiled
 from rotor.design.aircraft import FIXED_SHARE, TailRotor
 from rotor.design.design import Design
 from rotor.trim.solution import HubMoment, PowerBudget
 
 
-def power_budget(problem: Problem, elements: BladeElements) -> PowerBudget:
-    """Power [W] by parts, and torque × Ω."""
+def power_budget(problem: Problem, elements: BladeElements, total: DiskSums) -> PowerBudget:
+    """Power [W] by parts, and torque × Ω; total: the sums over the disk."""
     design, disk, loads = problem.design, problem.disk, elements.loads
     unit = design.power_unit * disk.dr / len(disk.psi)
     induced, profile, shaft = _powers(
@@ -49,13 +49,14 @@ def power_budget(problem: Problem, elements: BladeElements) -> PowerBudget:
     parasite = (problem.drag * design.condition.advance_ratio + pressed * problem.climb) * design.power_unit
     climb = design.weight_coefficient * problem.climb * design.power_unit
     if design.condition.stand is not None:
-        parasite = -wind_forces(problem, elements)[1] * design.condition.advance_ratio * design.power_unit
+        parasite = -wind_forces(elements, total)[1] * design.condition.advance_ratio * design.power_unit
     main = induced + profile + parasite + climb
     tail, _ = tail_power(design, main)
     return PowerBudget(induced=induced, profile=profile, parasite=parasite, tail=tail, shaft=shaft, climb=climb)
 
 
-_compile = compiled(error_model="numpy", fastmath={"contract"})
+# Sums in any order, so that the compiler makes vector code of them.
+_compile = compiled(error_model="numpy", fastmath={"contract", "reassoc"})
 
 
 @_compile
@@ -87,10 +88,9 @@ def _rubbing(u_t: Any, along: Any, fx: Any, radial: Any) -> Any:
     return total
 
 
-def wind_forces(problem: Problem, elements: BladeElements) -> tuple[float, float]:
+def wind_forces(elements: BladeElements, total: DiskSums) -> tuple[float, float]:
     """Vertical and horizontal force of the rotor over ρA(ΩR)², up and aft: lift and drag in level wind."""
-    total, tilt = disk_sums(problem, elements), elements.state.shaft_tilt
-    cos, sin = math.cos(tilt), math.sin(tilt)
+    cos, sin = math.cos(elements.state.shaft_tilt), math.sin(elements.state.shaft_tilt)
     return total.thrust * cos + total.drag * sin, total.drag * cos - total.thrust * sin
 
 

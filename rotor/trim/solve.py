@@ -3,12 +3,16 @@
 import math
 import time
 from dataclasses import replace
+from typing import Any
+
+import numpy as np
 
 from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem
 from rotor.aero.sums import disk_sums
 from rotor.aero.torsion_balance import control_loads
 from rotor.blas_threads import one_blas_thread
+from rotor.compiled import compiled
 from rotor.design.design import Design, require_design
 from rotor.trim.forward import first_guess, guess_of, trim, trim_along
 from rotor.trim.hover import HoverResult, hover
@@ -93,9 +97,9 @@ def _assemble(problem: Problem, result: HoverResult | HoverWakeResult | TrimResu
     design, elements = problem.design, result.elements
     total = disk_sums(problem, elements)
     fields = _fields(problem, elements)
-    power = power_budget(problem, elements)
+    power = power_budget(problem, elements, total)
     moment = hub_moment(problem, elements)
-    lift, drag = wind_forces(problem, elements)
+    lift, drag = wind_forces(elements, total)
     area = _areas(problem, fields)
     converged = result.converged
     wake = result if isinstance(result, HoverWakeResult) else None
@@ -103,7 +107,7 @@ def _assemble(problem: Problem, result: HoverResult | HoverWakeResult | TrimResu
     if not converged:
         message = wake.message if wake is not None else ""
         message = message or vortex_ring(design) or failure_sentence(design, result.reached, area["stalled"])
-    if converged and (refused := implausible(problem, elements)):
+    if converged and (refused := implausible(problem, elements, total)):
         converged, message = False, refused
     climb = design.condition.climb_speed
     least = 0.0 if climb >= 0.0 else -math.inf
@@ -117,7 +121,9 @@ def _assemble(problem: Problem, result: HoverResult | HoverWakeResult | TrimResu
         design=design,
         status=Status.CONVERGED if converged else Status.NOT_CONVERGED,
         message=message,
-        caveats=caveats(problem, elements, fields.stall_margin, area["stalled"], moment, power) if converged else (),
+        caveats=caveats(problem, elements, total, fields.stall_margin, area["stalled"], moment, power)
+        if converged
+        else (),
         controls=elements.state,
         disk=fields,
         last_power=power,
@@ -182,9 +188,19 @@ def _fields(problem: Problem, elements: BladeElements) -> DiskFields:
 def _areas(problem: Problem, fields: DiskFields) -> dict[str, float]:
     """Reverse-flow and stalled parts of πR²."""
     disk = problem.disk
-    cell = 2.0 * disk.r[:, None] * disk.dr / len(disk.psi)
-    reverse = fields.u_t < 0.0
-    return {
-        "reverse": float((cell * reverse).sum()),
-        "stalled": float((cell * ((fields.stall_margin < 0.0) & ~reverse)).sum()),
-    }
+    annuli = 2.0 * disk.r * disk.dr / len(disk.psi)
+    reverse, stalled = _counts(fields.u_t, fields.stall_margin)
+    return {"reverse": float(annuli @ reverse), "stalled": float(annuli @ stalled)}
+
+
+@compiled()
+def _counts(u_t: Any, stall_margin: Any) -> Any:
+    """Azimuths in reverse flow and stalled azimuths of each annulus, (2, elements); none is both."""
+    out = np.empty((2, len(u_t)))
+    for i in range(len(u_t)):
+        reverse, stalled = 0, 0
+        for j in range(u_t.shape[1]):
+            reverse += u_t[i, j] < 0.0
+            stalled += (stall_margin[i, j] < 0.0) & (u_t[i, j] >= 0.0)
+        out[0, i], out[1, i] = reverse, stalled
+    return out

@@ -7,7 +7,7 @@ import numpy as np
 from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem
 from rotor.aero.momentum import FASTEST_RING, VORTEX_RING_ONSET, vortex_ring_edge
-from rotor.aero.sums import disk_sums
+from rotor.aero.sums import DiskSums
 from rotor.aero.switches import switched_off
 from rotor.airfoil.polynomial import THESIS_NAME
 from rotor.arrays import Array
@@ -44,6 +44,7 @@ STALL_SHARE = 0.02
 def caveats(
     problem: Problem,
     elements: BladeElements,
+    total: DiskSums,
     stall_margin: Array,
     stalled: float,
     moment: HubMoment,
@@ -144,7 +145,7 @@ def caveats(
             "overstated beyond -16° or so.",
         )
         cell = disk.dr / len(disk.psi)
-        thrust, least = disk_sums(problem, elements).thrust, elements.state.lambda0
+        thrust, least = total.thrust, elements.state.lambda0
         turning = elements.swirl[:, None] * elements.loads[kernel.FX]
         induced = float((elements.induced * elements.loads[kernel.FZ] + turning).sum()) * cell
         if induced < thrust * least:
@@ -153,7 +154,7 @@ def caveats(
                 f"Induced power is {100.0 * (1.0 - induced / (thrust * least)):.0f} % below the least of momentum "
                 "theory: the roll-up model of the free wake fails here. Take hover inflow annulus.",
             )
-    loading = disk_sums(problem, elements).thrust / design.rotor.solidity
+    loading = total.thrust / design.rotor.solidity
     if design.hovering and loading > HOVER_CAUTION:
         add(
             "blade-loading",
@@ -226,7 +227,7 @@ def vortex_ring(design: Design) -> str:
     )
 
 
-def implausible(problem: Problem, elements: BladeElements) -> str:
+def implausible(problem: Problem, elements: BladeElements, total: DiskSums) -> str:
     """Why a trim that closes is refused all the same, as a sentence; empty where nothing speaks against it."""
     state, design = elements.state, problem.design
     lighter = "lower the mass, the altitude or the speed"
@@ -244,7 +245,7 @@ def implausible(problem: Problem, elements: BladeElements) -> str:
                 f"Not trimmed: the forces balance at a {name} of {math.degrees(value):,.0f}°, beyond "
                 f"±{math.degrees(largest):.0f}°, where these equations no longer hold: {remedy}."
             )
-    loading = disk_sums(problem, elements).thrust / design.rotor.solidity
+    loading = total.thrust / design.rotor.solidity
     if design.hovering and loading > HOVER_LIMIT:
         return (
             f"Not trimmed: hover needs C_T/σ {loading:.3f}, and rotors have reached about {HOVER_LIMIT:g} with every "
