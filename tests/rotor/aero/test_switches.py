@@ -18,6 +18,7 @@ from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.interface import Wake
 from rotor.aero.losses import tip_factor
 from rotor.aero.radial_flow import radial_friction
+from rotor.aero.sums import disk_sums
 from rotor.aero.switches import SWITCHES, no_effect, parse_switches, switched_off, with_switches
 from rotor.aero.trim_state import TrimState
 from rotor.airfoil.sections import load_installed
@@ -153,7 +154,8 @@ class TestReverseFlow:
         elements = evaluate_elements(problem, TrimState(lambda0=1e-9))
         loads = elements.loads.copy()
         loads[kernel.CD] = np.where(problem.unloaded, loads[kernel.CD], drag)
-        got = power_budget(problem, replace(elements, loads=loads)).profile / design.power_unit
+        elements = replace(elements, loads=loads)
+        got = power_budget(problem, elements, disk_sums(problem, elements)).profile / design.power_unit
         root = design.rotor.blade.root_cutout
         whole, _ = dblquad(
             lambda r, psi: (r + mu * math.sin(psi)) ** 3,

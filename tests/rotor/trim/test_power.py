@@ -12,6 +12,7 @@ from rotor.aero import kernel
 from rotor.aero.elements import build_problem, evaluate_elements
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.linear import LINEAR_MODELS
+from rotor.aero.sums import disk_sums
 from rotor.aero.trim_state import TrimState
 from rotor.files.make_design import make_design
 from rotor.trim.power import power_budget, profile_power_coefficient
@@ -99,7 +100,8 @@ def test_numerical_profile_power_of_a_constant_drag():
     elements = evaluate_elements(problem, TrimState(lambda0=1e-9))
     loads = elements.loads.copy()
     loads[kernel.CD] = 0.01
-    budget = power_budget(problem, replace(elements, loads=loads))
+    elements = replace(elements, loads=loads)
+    budget = power_budget(problem, elements, disk_sums(problem, elements))
     start = problem.design.rotor.blade.root_cutout
     sigma = problem.design.rotor.solidity
 
