@@ -32,10 +32,15 @@ def pytest_xdist_auto_num_workers(config: pytest.Config) -> int | None:
     return 0 if config.args_source is config.ArgsSource.ARGS else None
 
 
+def pytest_collection() -> None:
+    """Modules and collected tests live to the end: the garbage collector need not visit them again and again."""
+    gc.disable()
+
+
 def pytest_collection_finish() -> None:
-    """Thousands of collected tests live to the end: the garbage collector need not visit them again and again."""
     gc.collect()
     gc.freeze()
+    gc.enable()
 
 
 @pytest.fixture(scope="session")

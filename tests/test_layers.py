@@ -39,6 +39,12 @@ def tree(path: Path) -> ast.Module:
     return ast.parse(path.read_text(encoding="utf-8"), str(path))
 
 
+@cache
+def nodes(path: Path) -> tuple[ast.AST, ...]:
+    return tuple(ast.walk(tree(path)))
+
+
+@cache
 def imports(path: Path, *, lazy: bool) -> set[str]:
     """Top-level names that a file imports; with `lazy`, also those inside functions."""
 
@@ -98,7 +104,7 @@ def test_no_import_points_up(package: str):
 
 def imported_parts(path: Path, package: str) -> Iterator[str]:
     """Folders and files of a package that a file imports, wherever in the file."""
-    for node in ast.walk(tree(path)):
+    for node in nodes(path):
         if not isinstance(node, ast.ImportFrom) or not node.module:
             continue
         if node.module == package:
@@ -113,7 +119,7 @@ def test_no_modules_import_each_other_in_a_circle():
     modules = {module.removesuffix(".__init__"): path for module, path in modules.items()}
     graph: dict[str, set[str]] = {module: set() for module in modules}
     for module, path in modules.items():
-        for node in ast.walk(tree(path)):
+        for node in nodes(path):
             if isinstance(node, ast.ImportFrom) and node.module:
                 inner = {f"{node.module}.{alias.name}" for alias in node.names} & set(modules)
                 graph[module] |= inner or ({node.module} & set(modules))
@@ -124,7 +130,7 @@ def test_no_modules_import_each_other_in_a_circle():
 def test_class_names_are_used_once():
     places: dict[str, list[str]] = {}
     for path in MODULES:
-        for node in ast.walk(tree(path)):
+        for node in nodes(path):
             if isinstance(node, ast.ClassDef):
                 places.setdefault(node.name, []).append(name(path))
     assert not {title: paths for title, paths in places.items() if len(paths) > 1}

@@ -38,9 +38,9 @@ INSTEAD = {
 
 def shown_texts(path: Path) -> Iterator[str]:
     """String constants of a file, without its docstrings."""
-    tree = ast.parse(path.read_text(encoding="utf-8"))
-    silent = {id(node.value) for node in ast.walk(tree) if isinstance(node, ast.Expr)}
-    for node in ast.walk(tree):
+    nodes = list(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+    silent = {id(node.value) for node in nodes if isinstance(node, ast.Expr)}
+    for node in nodes:
         if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in silent:
             yield node.value
 
@@ -53,11 +53,12 @@ def test_the_reader_finds_text_and_leaves_docstrings_out(tmp_path: Path):
 
 @pytest.mark.parametrize("package", ["explorer", "rotor"])
 def test_no_text_uses_a_second_name(package: str):
+    phrases = {phrase.lower(): better for phrase, better in INSTEAD.items()}
     found = [
         f"{path.relative_to(ROOT)}: {phrase!r}: write {better!r}"
         for path in sorted((ROOT / package).rglob("*.py"))
-        for text in shown_texts(path)
-        for phrase, better in INSTEAD.items()
-        if phrase.lower() in text.lower()
+        for text in map(str.lower, shown_texts(path))
+        for phrase, better in phrases.items()
+        if phrase in text
     ]
     assert not found, "\n".join(found)
