@@ -171,7 +171,7 @@ CONTROLS: dict[str, Term] = {
     "close": Term("Closes this window."),
     "pin": Term("Undo, redo; pin: this design becomes A, and every change is B beside it."),
     "pinned": Term("Swap A and B, or return the sliders to A."),
-    "along": Term("On: A flies at the speed, mass and altitude on the sliders. Off: A stays as it was pinned."),
+    "along": Term("On: A flies at the speed, mass, altitude and climb of the sliders. Off: A stays as it was pinned."),
     "tour": Term("Six stops of ten seconds: the sliders move by themselves, and a caption says what to see."),
     "lecture": Term("Eight steps that set the page and say what to watch. Keys: Page Down, Page Up."),
     "big_type": Term("Larger text, for a lecture room."),
@@ -196,8 +196,7 @@ READOUTS: dict[str, Term] = {
     "total_power": Term("Power of the main rotor and of the tail rotor that balances its torque.", section=12),
     "change": Term("Total power relative to the reference design."),
     "power_band": Term(
-        "Main rotor with five other roll-ups of the free wake, and downward also with a finer grid: how far its power "
-        "is known.",
+        "Uncertainty of main-rotor power: five other roll-ups of the free wake and, downwards, a finer grid.",
         section=7,
     ),
     "worth_band": Term(
@@ -207,7 +206,7 @@ READOUTS: dict[str, Term] = {
     "induced": Term("Σ λi dFz: power to make lift.", section=12),
     "profile": Term("Σ U dD: power dissipated by the drag of the blade sections.", ("3.15",)),
     "parasite": Term("D·V: power to overcome fuselage drag.", ("3.19",)),
-    "climb": Term("W·V_c: power that lifts the weight; negative where descent gives it back.", section=12),
+    "climb": Term("W·V_c: gain of potential energy in a second; negative in descent.", section=12),
     "propulsive": Term("Propulsive force times airspeed; negative where the stream drives the rotor.", section=12),
     "tail": Term("Power of the tail rotor, which balances the torque.", section=12),
     "kappa": Term(
