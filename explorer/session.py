@@ -44,9 +44,9 @@ from rotor.trim.solve import solve
 _log = logging.getLogger(__name__)
 _STILL = 0.12
 """[s] without a change after which nothing is dragged: even a slow drag changes something every 100 ms."""
-_CHARTS, _CHARTS_EACH = 0.25, 0.06
+_CHARTS, _CHARTS_EACH = 0.25, 0.1
 """[s] after which charts follow a drag even where other pages wait for their frames: at least, and for each that waits.
-So charts of a crowd take together a fifth of one processor, the frames the rest."""
+So charts of a crowd take together a seventh of a processor, the frames the rest."""
 
 
 class Session:

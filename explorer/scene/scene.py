@@ -87,7 +87,7 @@ class RotorNodes:
 
         `still`: False while the page itself moves the blades.
         """
-        self.frame.wxyz = picture.rotor.wxyz
+        viser_compat.place(self.frame, picture.rotor.wxyz)
         place(self._disk, picture.disk)
         count = len(picture.blades.poses)
         shapes = picture.blades.shapes or (picture.blade_vertices,) * count
@@ -104,7 +104,7 @@ class RotorNodes:
 
     def _pose(self, blades: Blades, still: bool) -> None:
         if still:
-            self._head.wxyz = about(2, blades.azimuth)
+            viser_compat.place(self._head, about(2, blades.azimuth))
             for handle, pose in zip(self._blades, blades.poses, strict=False):
                 place(handle, pose)
 
@@ -281,8 +281,5 @@ def picture_plane(api: viser.SceneApi, name: str, position: tuple[float, float, 
 
 
 def place(handle: viser.SceneNodeHandle, pose: Pose) -> None:
-    """Move a node within its parent; what stays is not assigned: viser takes ten times as long to see that."""
-    if (handle.wxyz != pose.wxyz).any():
-        handle.wxyz = pose.wxyz
-    if (handle.position != pose.position).any():
-        handle.position = pose.position
+    """Move a node within its parent."""
+    viser_compat.place(handle, pose.wxyz, pose.position)

@@ -36,8 +36,8 @@ _GRACE = 3.0
 """[s] after a stop until a process that goes on is killed."""
 _LOOK = 2.0
 """[s] between the checks of an idle thread whether its process still lives."""
-_POLL = 0.05
-"""[s] between the questions whether a result is still awaited."""
+_POLL = 0.2
+"""[s] between the questions whether a result is still awaited: each takes a turn of the interpreter from the frames."""
 _START = 60.0
 """[s] a new process may take to import and compile."""
 

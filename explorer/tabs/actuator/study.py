@@ -25,8 +25,6 @@ IDLE = 2.5
 """How long the page must have been still before work is begun that nobody asked for [s]."""
 URGENCY = 5
 """Behind searches, maps and schedules."""
-_LOOK = 0.05
-"""How often a waiting study looks around [s]."""
 _KEPT = 64
 
 Outcome = Verdict | str
@@ -192,12 +190,12 @@ class VerdictWorker:
     def _patient(self, began: float, superseded: Superseded) -> bool:
         """Wait until it is time; False when superseded."""
         while True:
-            now = time.monotonic()
-            if now - began >= STILL if self._wanted else now - self._last >= IDLE:
+            left = (began + STILL if self._wanted else self._last + IDLE) - time.monotonic()
+            if left <= 0.0:
                 return True
+            self._worker.pause(left)
             if superseded():
                 return False
-            time.sleep(_LOOK)
 
     def _failed(self, error: Exception) -> None:
         self.findings = Findings(self._question, f"The verdict failed ({error}): change any setting to try again.")
