@@ -9,6 +9,7 @@ import shlex
 import subprocess
 import sys
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -44,6 +45,12 @@ BEYOND_FLAGS = {"active"}
 ONLY_PYTHON = {"other grid"}
 
 
+@cache
+def power_of(name: str) -> float:
+    """[W]"""
+    return solve(DESIGNS[name]).power.total
+
+
 def power_of_script(script: str) -> float:
     """[W], from what the script prints."""
     printed = io.StringIO()
@@ -55,12 +62,11 @@ def power_of_script(script: str) -> float:
 
 @pytest.mark.parametrize("name", DESIGNS)
 def test_the_script_has_the_same_power(name: str):
-    power = solve(DESIGNS[name]).power.total
     names: dict[str, object] = {}
     with contextlib.redirect_stdout(io.StringIO()):
         exec(compile(as_python(DESIGNS[name]), "copied", "exec"), names)
     assert names["design"] == DESIGNS[name]
-    assert names["solution"].power.total == pytest.approx(power, rel=1e-9)  # pyright: ignore[reportAttributeAccessIssue]
+    assert names["solution"].power.total == pytest.approx(power_of(name), rel=1e-9)  # pyright: ignore[reportAttributeAccessIssue]
 
 
 @pytest.mark.parametrize("name", sorted(DESIGNS.keys() - ONLY_PYTHON))
@@ -77,7 +83,7 @@ def test_the_command_has_the_same_power(
     assert words[:3] == ["python", "-m", "rotor"]
     assert main([*words[3:], "--json"]) == 0
     record = json.loads(capsys.readouterr().out)
-    assert record["power_w"]["total"] == pytest.approx(solve(DESIGNS[name]).power.total, rel=1e-9)
+    assert record["power_w"]["total"] == pytest.approx(power_of(name), rel=1e-9)
 
 
 def test_what_no_flag_and_no_file_holds_is_refused_in_a_sentence():

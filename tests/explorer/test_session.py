@@ -64,8 +64,11 @@ class RecordingPage:
 
 @pytest.fixture
 def session(monkeypatch: pytest.MonkeyPatch) -> Session:
-    """Its worker does not run: a test calls `_update` itself."""
+    """Its worker does not run: a test calls `_update` itself. Its power curves have four points."""
     monkeypatch.setattr(session_module, "Page", RecordingPage)
+    monkeypatch.setattr(power_curve, "SWEEP", power_curve.SWEEP[::6])
+    monkeypatch.setattr(power_curve, "_FEW", (0, 1, 2, 3))
+    monkeypatch.setattr(power_curve, "_FEWEST", (0, 1, 2, 3))
     client: Any = SimpleNamespace(client_id=1)
     shared: Any = SimpleNamespace(pool=SimpleNamespace(leave=lambda: None))
     return Session(client, Inputs(), PageFacts(), shared)

@@ -19,7 +19,7 @@ async def visit(address: str) -> str:
     async with asyncio.timeout(220.0):
         visitor = Visitor()
         await visitor.open(address)
-        await visitor.until(lambda: visitor.text("status") == "converged", 120.0)
+        await visitor.until(lambda: visitor.text("status") == "converged", 200.0)
         power = visitor.text("total-power")
         await visitor.close()
         return power
