@@ -21,7 +21,7 @@ class SolverOptions:
     closes to 1e-6."""
     max_passes: int = 40
     """Evaluations of the blade elements in one run of Newton's method."""
-    refresh_ratio: float = 0.15
+    refresh_ratio: float = 0.1
     """Derivatives are evaluated again when a step with old ones leaves more than this part of the residual."""
     kept_ratio: float = 0.03
     """Derivatives are kept for the next trim where the last step left less than this part of the residual."""

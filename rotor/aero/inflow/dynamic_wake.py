@@ -5,7 +5,7 @@ W projects the load on the states, T is the theory's periodic solution for a giv
 """
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any
 
 import numpy as np
@@ -79,7 +79,7 @@ class DynamicWake:
         if self.infinite_blades and self.tip:
             factor, slope = tip_factor(r, wake.axial, self.blades)
         else:
-            factor, slope = np.ones_like(r), np.zeros_like(r)
+            factor, slope = projection.no_factor
         return WakeOperator(projection, flow, responses, factor, slope)
 
 
@@ -110,8 +110,8 @@ class _FamilyResponse:
         """At these parameters of the flow."""
         family = families(model.order)[which]
         influence, slope = family.influence(flow.half_skew)
-        diagonal = np.where(family.uniform > 0.0, flow.speed, flow.mass_flow)
-        return cls(influence, slope, diagonal, family.uniform, family.mass, np.array(harmonics, dtype=np.float64))
+        diagonal = flow.mass_flow + (flow.speed - flow.mass_flow) * family.uniform
+        return cls(influence, slope, diagonal, family.uniform, family.mass, _numbers(harmonics))
 
     def respond(self, p: Array) -> Array:
         """T p of one load, (states of the family,)."""
@@ -130,6 +130,11 @@ class _FamilyResponse:
             self.blocks, self.influence_slope, self.flow, self.uniform, self.mass, self.harmonics, loads
         )  # fmt: skip
         return out.reshape(3, -1)
+
+
+@cache
+def _numbers(harmonics: tuple[int, ...]) -> Array:
+    return np.array(harmonics, dtype=np.float64)
 
 
 _compile = compiled(error_model="numpy", fastmath={"contract"})
@@ -329,9 +334,9 @@ class WakeOperator:
         """Fields over F; themselves where F = 1."""
         return fields if self._no_factor else fields / self.factor[:, None]
 
-    @cached_property
+    @property
     def _no_factor(self) -> bool:
-        return bool((self.factor == 1.0).all())
+        return self.factor is self.projection.no_factor[0]
 
     def induced(self, d: Array) -> Array:
         """λ_i = A d of a load, (elements, azimuths), by the wake's equations, or of a stack of loads."""
@@ -359,7 +364,7 @@ class WakeOperator:
 
     def beyond_terms(self, d: Array) -> Array | None:
         """The part of ∂λ_i/∂(µ_z + λ0) through F, (elements, azimuths); None where F does not follow the wake."""
-        if not np.any(self.factor_slope):
+        if self._no_factor:
             return None
         return self.induced(d) * (-self.factor_slope / self.factor)[:, None]
 

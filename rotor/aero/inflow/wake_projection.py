@@ -87,6 +87,16 @@ class Projection:
         table[:, 0, 1] = table[:, 0, 0]
         return table
 
+    @cached_property
+    def no_factor(self) -> tuple[Array, Array]:
+        """F = 1 and its slope, (elements,) both, for a wake that holds the tip itself."""
+        return np.ones_like(self.r), np.zeros_like(self.r)
+
+    @cached_property
+    def _loading(self) -> Array:
+        """`mixture` times the weights of `state_loads`."""
+        return (self.cell * self.load_factor)[:, None] * self.mixture
+
     @property
     def states(self) -> int:
         return len(self.mixture)
@@ -114,7 +124,7 @@ class Projection:
 
     def state_loads(self, sums: Array) -> Array:
         """The load τ on each state from the sums of d with the terms, (terms,) → (states,)."""
-        return self.cell * self.load_factor * (self.mixture @ sums)
+        return self._loading @ sums
 
     def coefficients(self, x: Array) -> Array:
         """The inflow of states in terms, (…, states) → (…, terms)."""
