@@ -576,7 +576,7 @@ class DynamicWakeResponse:
         return self._operator.induced_transposed(field)
 
     def feedback(self, slope: Array) -> InflowFeedback:
-        """(I − A diag K)⁻¹ through one factorisation of the wake's states."""
+        """(I − A diag K)⁻¹ through one factorisation of the size of the terms."""
         return self._operator.feedback(slope, self._load)
 
 
