@@ -1,4 +1,4 @@
-"""The Peters–He dynamic wake: shape functions, inflow influence [L], apparent mass [M] and flow parameters [V].
+"""The Peters–He dynamic wake: shape functions, inflow influence [L], apparent mass [M], flow parameters [V], response.
 
 The shapes are radial functions φ_n^m(r) times cos mψ and sin mψ. φ_n^m is the normalised Legendre function
 P̄_n^m(ν)/ν on the disk, ν = √(1 − r²), n − m odd, so that ν φ_n^m of one m are orthonormal on 0 ≤ ν ≤ 1.
@@ -14,7 +14,7 @@ same. The mass flow keeps the sign of the flow.
 
 import math
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache, cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -176,3 +176,220 @@ def flow_parameters(wake: Wake) -> FlowParameters:
     m_axial = (2.0 * axial + wake.lambda0) / speed - mass_flow * v_axial / speed
     slopes = np.array([[x_mu, x_axial, x_axial], [v_mu, v_axial, v_axial], [m_mu, m_axial, m_axial + axial / speed]])
     return FlowParameters(mu / total, speed, mass_flow, slopes)
+
+
+@dataclass(frozen=True, eq=False)
+class FamilyResponse:
+    """T of the cosines or of the sines. States of a family are (rotor harmonics 1 + 2k, modes).
+
+    a = ½ L (V + iqM L)⁻¹ τ for the amplitudes a = x_c − i x_s of a load τ = p_c − i p_s with cos qψ and sin qψ. [L]⁻¹,
+    singular for edgewise flight, is never formed.
+    """
+
+    influence: Array
+    """L"""
+    influence_slope: Array
+    """∂L/∂X"""
+    flow: Array
+    """Diagonal of V."""
+    uniform: Array
+    mass: Array
+    """Diagonal of M."""
+    harmonics: Array
+    """q"""
+
+    @classmethod
+    def solve(cls, family: Family, flow: FlowParameters, harmonics: tuple[int, ...]) -> "FamilyResponse":
+        """At these parameters of the flow."""
+        influence, slope = family.influence(flow.half_skew)
+        diagonal = flow.mass_flow + (flow.speed - flow.mass_flow) * family.uniform
+        return cls(influence, slope, diagonal, family.uniform, family.mass, _numbers(harmonics))
+
+    def respond(self, p: Array) -> Array:
+        """T p of one load, (states of the family,)."""
+        loads = p.reshape(1 + 2 * len(self.harmonics), -1)
+        return _respond(self.influence, self.flow, self.mass, self.harmonics, loads).ravel()
+
+    @cached_property
+    def blocks(self) -> Array:
+        """½ L (V + iqM L)⁻¹ for q = 0 and every harmonic, complex, (1 + k, modes, modes)."""
+        return _blocks(self.influence, self.flow, self.mass, self.harmonics)
+
+    def slopes(self, p: Array) -> Array:
+        """∂(T p) by X, V_T and V̄, (3, states of the family)."""
+        loads = p.reshape(1 + 2 * len(self.harmonics), -1)
+        out = _slopes(
+            self.blocks, self.influence_slope, self.flow, self.uniform, self.mass, self.harmonics, loads
+        )  # fmt: skip
+        return out.reshape(3, -1)
+
+
+@cache
+def _numbers(harmonics: tuple[int, ...]) -> Array:
+    return np.array(harmonics, dtype=np.float64)
+
+
+_compile = compiled(error_model="numpy", fastmath={"contract"})
+
+
+@_compile
+def _respond(influence: Any, flow: Any, mass: Any, harmonics: Any, loads: Any) -> Any:
+    """T p, steady, then cosine and sine of every q: a = ½ L (V + iqM L)⁻¹ τ with a = x_c − i x_s, τ = p_c − i p_s.
+
+    As in `_blocks`, a = ½ L (z − iq B z) with (I + q²B²) z = V⁻¹ τ, so only real equations are solved.
+    """
+    out = np.empty_like(loads)
+    modes = len(flow)
+    out[0] = 0.5 * _times(influence, loads[0] / flow)
+    scaled = _scaled(influence, flow, mass)
+    square = scaled @ scaled
+    system = np.empty((modes, modes + 2))
+    for k in range(len(harmonics)):
+        q, cosine, sine = harmonics[k], 1 + 2 * k, 2 + 2 * k
+        for i in range(modes):
+            for j in range(modes):
+                system[i, j] = q * q * square[i, j]
+            system[i, i] += 1.0
+            system[i, modes], system[i, modes + 1] = loads[cosine, i] / flow[i], loads[sine, i] / flow[i]
+        _eliminate(system)
+        real, imaginary = system[:, modes].copy(), system[:, modes + 1].copy()  # z is real − i imaginary.
+        out[cosine] = 0.5 * _times(influence, real - q * _times(scaled, imaginary))
+        out[sine] = 0.5 * _times(influence, imaginary + q * _times(scaled, real))
+    return out
+
+
+@_compile
+def _scaled(influence: Any, flow: Any, mass: Any) -> Any:
+    """B = V⁻¹M L."""
+    out = np.empty_like(influence)
+    for i in range(len(flow)):
+        for j in range(len(flow)):
+            out[i, j] = mass[i] / flow[i] * influence[i, j]
+    return out
+
+
+@_compile
+def _eliminate(system: Any) -> None:
+    """Solve equations with their right sides beside them, (n, n + columns), in place: Gaussian elimination.
+
+    Rows are exchanged for the largest pivot. LAPACK takes twice as long for few right sides of 25 unknowns.
+    """
+    n = len(system)
+    for k in range(n):
+        best = k
+        for i in range(k + 1, n):
+            if abs(system[i, k]) > abs(system[best, k]):
+                best = i
+        if best != k:
+            for j in range(k, system.shape[1]):
+                system[k, j], system[best, j] = system[best, j], system[k, j]
+        pivot = 1.0 / system[k, k]
+        for i in range(k + 1, n):
+            factor = system[i, k] * pivot
+            for j in range(k + 1, system.shape[1]):
+                system[i, j] -= factor * system[k, j]
+    for k in range(n - 1, -1, -1):
+        for j in range(n, system.shape[1]):
+            total = system[k, j]
+            for i in range(k + 1, n):
+                total -= system[k, i] * system[i, j]
+            system[k, j] = total / system[k, k]
+
+
+@_compile
+def _blocks(influence: Any, flow: Any, mass: Any, harmonics: Any) -> Any:
+    """`FamilyResponse.blocks`: ½ (L − iq L B)(I + q²B²)⁻¹V⁻¹ with B = V⁻¹M L, without complex arithmetic."""
+    modes, scaled = len(flow), _scaled(influence, flow, mass)
+    out = np.empty((1 + len(harmonics), modes, modes), np.complex128)
+    for i in range(modes):
+        for j in range(modes):
+            out[0, i, j] = 0.5 * influence[i, j] / flow[j]
+    square, turned = scaled @ scaled, influence @ scaled
+    for k in range(len(harmonics)):
+        q = harmonics[k]
+        inverse = _inverse_beside_one(q * q * square)
+        real, imaginary = influence @ inverse, turned @ inverse
+        for i in range(modes):
+            for j in range(modes):
+                out[1 + k, i, j] = complex(0.5 * real[i, j] / flow[j], -0.5 * q * imaginary[i, j] / flow[j])
+    return out
+
+
+@_compile
+def _inverse_beside_one(matrix: Any) -> Any:
+    """(I + A)⁻¹ by Gauss and Jordan's elimination in place, rows exchanged for the largest pivot."""
+    n = len(matrix)
+    a, place = matrix.copy(), np.arange(n)
+    for k in range(n):
+        a[k, k] += 1.0
+    for k in range(n):
+        best = k
+        for i in range(k + 1, n):
+            if abs(a[i, k]) > abs(a[best, k]):
+                best = i
+        if best != k:
+            place[k], place[best] = place[best], place[k]
+            for j in range(n):
+                a[k, j], a[best, j] = a[best, j], a[k, j]
+        pivot = 1.0 / a[k, k]
+        a[k, k] = 1.0
+        for j in range(n):
+            a[k, j] *= pivot
+        for i in range(n):
+            if i != k:
+                factor = a[i, k]
+                a[i, k] = 0.0
+                for j in range(n):
+                    a[i, j] -= factor * a[k, j]
+    out = np.empty((n, n))
+    for k in range(n):
+        for i in range(n):
+            out[i, place[k]] = a[i, k]
+    return out
+
+
+@_compile
+def _slopes(
+    blocks: Any, influence_slope: Any, flow: Any, uniform: Any, mass: Any, harmonics: Any, loads: Any
+) -> Any:  # fmt: skip
+    """∂(T p) by X, V_T and V̄, (3, 1 + 2k, modes).
+
+    With a = H τ = L y and (V + iqM L) y = ½ τ:  da = dL y − 2H (dV y + iqM dL y).
+    """
+    modes = len(flow)
+    out = np.empty((3, *loads.shape))
+    load, pushed = np.zeros(modes, np.complex128), np.empty((3, modes), np.complex128)
+    driven, turned = np.empty(modes, np.complex128), np.zeros(modes, np.complex128)
+    for k in range(len(blocks)):
+        q = harmonics[k - 1] if k else 0.0
+        cosine, sine = max(2 * k - 1, 0), 2 * k
+        for i in range(modes):
+            load[i] = complex(loads[cosine, i], -loads[sine, i] if k else 0.0)
+        answer = _times(blocks[k], load)
+        for i in range(modes):
+            driven[i] = (0.5 * load[i] - 1j * q * mass[i] * answer[i]) / flow[i]
+        turned = _times(influence_slope, driven)
+        for i in range(modes):
+            pushed[0, i] = 1j * q * mass[i] * turned[i]
+            pushed[1, i] = uniform[i] * driven[i]
+            pushed[2, i] = (1.0 - uniform[i]) * driven[i]
+        for row in range(3):
+            change = -2.0 * _times(blocks[k], pushed[row])
+            if row == 0:
+                change += turned
+            for i in range(modes):
+                out[row, sine, i] = -change[i].imag
+                out[row, cosine, i] = change[i].real
+    return out
+
+
+@compiled(error_model="numpy", fastmath={"contract", "reassoc"})
+def _times(matrix: Any, vector: Any) -> Any:
+    """Matrix times vector; sums in any order, so that they become vector code."""
+    out = np.empty_like(vector)
+    for i in range(len(out)):
+        total = 0.0 * vector[0]
+        for j in range(len(vector)):
+            total += matrix[i, j] * vector[j]
+        out[i] = total
+    return out

@@ -281,3 +281,57 @@ def _product(m: int, m_sine: int, q: int, q_sine: int) -> tuple[int, tuple[int, 
     # sin a cos b = ½ sin(a + b) + ½ sin(a − b), and sin(−x) = −sin x.
     forward = m >= q if m_sine else q >= m
     return 1, (near, far), (0.5 if forward else -0.5, 0.5)
+
+
+@_compile
+def between_terms(
+    cosines: Any, sines: Any, expansion: Any, blocks: Any, m: Any, order: Any, harmonics: Any, table: Any, terms: int
+) -> Any:
+    """T between the terms, without the cell: blocks of a family between g_k, added at the terms of both sides."""
+    out = np.zeros((terms, terms))
+    modes, steady = len(m), len(m) - sines.shape[1]
+    sine_expansion, sine_blocks = expansion[steady:, steady:], blocks[steady:] - steady
+    rows, turns = np.empty((2, modes, 2), np.int64), np.empty((2, modes))
+    for h in range(len(harmonics)):
+        even = _expanded(cosines[h], expansion, blocks)
+        odd = _expanded(sines[h], sine_expansion, sine_blocks)
+        weight = 0.5 if h else 0.25
+        for side in range(2):
+            for i in range(modes):
+                wave = harmonics[h] + (m[i] if side == 0 else -m[i])
+                turns[side, i] = np.sign(wave)
+                rows[side, i] = table[order[i], abs(wave)]
+        for i in range(modes):
+            for j in range(modes):
+                half = weight * (0.5 if m[j] == 0 else 1.0)
+                mean, difference = half * even[i, j], 0.0j
+                if i >= steady and j >= steady:
+                    difference = half * odd[i - steady, j - steady]
+                same, opposite = mean + difference, mean - difference
+                for side in range(2):
+                    row, sine_row, turn = rows[side, i, 0], rows[side, i, 1], turns[side, i]
+                    for other in range(2):
+                        column, sine_column, back = rows[other, j, 0], rows[other, j, 1], turns[other, j]
+                        value = same if side == other else opposite
+                        out[row, column] += value.real
+                        out[sine_row, sine_column] += turn * back * value.real
+                        if h:
+                            out[row, sine_column] += back * value.imag
+                            out[sine_row, column] -= turn * value.imag
+    return out
+
+
+@_compile
+def _expanded(block: Any, expansion: Any, blocks: Any) -> Any:
+    """Eᵀ H E with the blocks along the diagonal of E."""
+    n = len(block)
+    half, out = np.zeros_like(block), np.zeros_like(block)
+    for i in range(n):
+        for k in range(blocks[i, 0], blocks[i, 1]):
+            for j in range(n):
+                half[i, j] += expansion[k, i] * block[k, j]
+    for i in range(n):
+        for k in range(n):
+            for j in range(blocks[k, 0], blocks[k, 1]):
+                out[i, j] += half[i, k] * expansion[k, j]
+    return out
