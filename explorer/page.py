@@ -125,6 +125,8 @@ class Page:
         with layout.in_mode("actuate"):
             self.actuator = ActuatorPanel(client, bridge, shared.pool, callbacks.wake, self._fly)
             self._actuator_inputs = self.actuator.inputs()
+        self._followed: Reading | None = None
+        """What all tabs but the actuator's have followed."""
         self.results = ResultsPanel(gui, bridge, layout, shared.pool, callbacks.wake)
         with layout.in_drawer("details"):
             self.waterfall = WaterfallPanel(gui, self.controls.show_costs)
@@ -240,8 +242,9 @@ class Page:
         self.results.show_power(state, curve, failed)
 
     def follow(self, reading: Reading, state: SessionState) -> None:
-        """All other tabs, and the address."""
-        if not self._actuator_in_frame:
+        """All other tabs, and the address; the actuator's panel at rest, unless it is seen."""
+        self._followed = reading
+        if not self._actuator_in_frame and self.layout.mode == "actuate":
             self._show_actuator(reading, state.solution)
         for tab in self.tabs:
             tab.show(state)
@@ -262,6 +265,8 @@ class Page:
         """What can wait: also the worth of flight sliders, and the waterfall."""
         self.settle(state)
         self.history.rest(stop)
+        if self._followed is not None and not self._actuator_in_frame and self.layout.mode != "actuate":
+            self._show_actuator(self._followed, state.solution)
         self.results.rest(stop)
         self.waterfall.climb(stop)
 

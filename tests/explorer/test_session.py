@@ -252,3 +252,26 @@ def test_what_settles_is_the_picture_the_bands_the_address_and_what_the_page_kee
     state: Any = None
     Page.settle(page, state)
     assert called == ["picture", "bands", "address", "kept", "steps"]
+
+
+@pytest.mark.parametrize(
+    ("mode", "expected"), [("explore", ["tab", "rest", "actuator"]), ("actuate", ["actuator", "tab", "rest"])]
+)
+def test_the_actuators_panel_waits_for_rest_unless_it_is_seen(mode: str, expected: list[str]):
+    called: list[str] = []
+    note = SimpleNamespace(
+        rest=lambda _: called.append("rest"),
+        climb=lambda _: None,
+        follow=lambda _: None,
+        show=lambda _: called.append("tab"),
+    )
+    page: Any = SimpleNamespace(
+        layout=SimpleNamespace(mode=mode), _actuator_in_frame=False, _followed=None,
+        _show_actuator=lambda *_: called.append("actuator"), settle=lambda _: None, tabs=(note,), file=note,
+        history=note, results=SimpleNamespace(rest=lambda _: None), waterfall=note,
+    )  # fmt: skip
+    state: Any = SimpleNamespace(solution=None)
+    reading: Any = object()
+    Page.follow(page, reading, state)
+    Page.rest(page, state, lambda: False)
+    assert called == expected
