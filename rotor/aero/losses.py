@@ -104,12 +104,11 @@ def mean_loss_factor(r: Any, inflow: Any, slopes: Any, blades: int, root_cutout:
             _multiply_end(0.5 * blades * (1.0 - r[i]), inflow[i], factor, slope)
         if hub:
             _multiply_end(0.5 * HUB_FACTOR * (r[i] - root_cutout), inflow[i], factor, slope)
-        for j in range(m):
-            out[0, i] += factor[j] / m
-            out[1, i] += slope[j] / m
-            for k in range(len(slopes)):
-                out[2 + k, i] += slope[j] * slopes[k, i, j] / m
-    return out
+        out[0, i], out[1, i] = factor.sum(), slope.sum()
+        for k in range(len(slopes)):
+            for j in range(m):
+                out[2 + k, i] += slope[j] * slopes[k, i, j]
+    return out / m
 
 
 def tip_factor(r: ArrayLike, inflow: float, blades: int) -> tuple[Array, Array]:
