@@ -12,6 +12,7 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
 import pytest
+from viser.infra import Message
 
 from explorer.app import App
 from explorer.hosting.limits import LONGEST_TEXT, accepted_value
@@ -137,7 +138,12 @@ def test_a_value_is_not_sent_back_to_the_page_it_came_from(app: App):
             (session,) = app.sessions
             buffer, queued = session.page._client._websock_connection.get_message_buffer(), list[Any]()
             push = buffer.push
-            buffer.push = lambda message: (queued.append(message), push(message))
+
+            def watched(message: Message) -> None:
+                queued.append(message)
+                push(message)
+
+            buffer.push = watched
             slider, power = visitor.find("Inboard ±"), visitor.text("total-power")
             await visitor.move("Inboard ±", visitor.widgets[slider]["value"] - 2.0)
             await visitor.until(lambda: visitor.text("total-power") != power)
@@ -149,7 +155,7 @@ def test_a_value_is_not_sent_back_to_the_page_it_came_from(app: App):
 
 
 def test_only_quick_callbacks_are_called_at_once():
-    def here() -> int:
+    def here() -> Any:
         return threading.get_ident()
 
     def fail() -> None:
