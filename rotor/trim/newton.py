@@ -189,7 +189,7 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
                 break
             fraction *= 0.5
         serving = trial.size <= options.kept_ratio * point.size
-        if trial.size > options.refresh_ratio * point.size or not problem.inflow.load_dependent:
+        if _steps_left(trial.size, point.size) > options.most_old_steps or not problem.inflow.load_dependent:
             derivatives = None
         if trial.size >= point.size and not fresh:
             continue  # The old derivatives do not serve here: take the step again with new ones.
@@ -203,6 +203,13 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
     accepted = max(residual, twisting) <= options.accepted_residual and difference <= options.accepted_inflow
     converged = point.size <= 1.0 or accepted
     return TrimResult(point.elements, residual, converged, passes, derivatives=latest if serving else None)
+
+
+def _steps_left(size: float, before: float) -> float:
+    """How many more steps reach a size of 1, if each leaves the same part of the residual as the last one did."""
+    if size <= 1.0:
+        return 0.0
+    return math.log(size) / math.log(before / size) if size < before else math.inf
 
 
 def coordinates_of(elements: BladeElements) -> Array:

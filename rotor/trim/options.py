@@ -21,8 +21,9 @@ class SolverOptions:
     closes to 1e-6."""
     max_passes: int = 40
     """Evaluations of the blade elements in one run of Newton's method."""
-    refresh_ratio: float = 0.1
-    """Derivatives are evaluated again when a step with old ones leaves more than this part of the residual."""
+    most_old_steps: float = 3.0
+    """Derivatives are evaluated again when more steps than this are to be expected with the old ones: derivatives cost
+    two evaluations, and one or two steps follow them."""
     kept_ratio: float = 0.03
     """Derivatives are kept for the next trim where the last step left less than this part of the residual."""
     angle_step: float = 0.08
