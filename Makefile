@@ -22,12 +22,11 @@ help:                 ## list these targets
 run: $(WARM)          ## start the explorer; ARGS are handed on, e.g. make run PORT=8090 ARGS=--no-browser
 	@exec $(BIN)/python -m explorer --host $(HOST) --port $(PORT) $(ARGS)
 
-# Without a browser on all cores; the page one test at a time, for they wait for what a busy machine draws late.
-# With `make --jobs=2` the first fill the time in which the second wait: `nice`, so that they hardly delay a page.
+# Without a browser on all cores; the page by itself, for its tests wait for what a busy machine draws late.
 test: test-code test-page ## run all tests but the slow ones, browser included
 
 test-code: setup-dev
-	nice -n 5 $(BIN)/python -m pytest $(ARGS) $(NONE)
+	$(BIN)/python -m pytest $(ARGS) $(NONE)
 
 test-page: setup-dev browser
 	$(BIN)/python -m pytest -n 0 -m 'browser and not slow' $(ARGS) $(NONE)
@@ -35,7 +34,7 @@ test-page: setup-dev browser
 slow: slow-code slow-page ## run the slow tests: built wheel, rebuilt section data, long studies
 
 slow-code: setup-dev
-	nice -n 5 $(BIN)/python -m pytest -m 'slow and not browser' $(ARGS) $(NONE)
+	$(BIN)/python -m pytest -m 'slow and not browser' $(ARGS) $(NONE)
 
 slow-page: setup-dev browser
 	$(BIN)/python -m pytest -n 0 -m 'slow and browser' $(ARGS) $(NONE)
