@@ -125,7 +125,7 @@ def test_energy_closes_in_axial_flight_and_close_to_it(hover_inflow: str, mu: fl
 def test_forces_carry_weight_and_drag_along_the_flight_path(climb: float):
     """Drag is ½ρV²f against the flight path; what presses on the airframe is parasite power."""
     # The forces close to a part of the weight, 20 times the drag: to see 1e-9 of the drag, closer than by default.
-    found = solve(design(0.2, climb, download=False), options=SolverOptions(residual_tolerance=1e-12)).require()
+    found = solve(design(0.2, climb, download=False), options=TIGHT).require()
     at = found.design
     speed = math.hypot(at.airspeed, climb)
     drag = 0.5 * 1.225 * speed * at.fuselage.drag_area
