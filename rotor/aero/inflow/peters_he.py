@@ -269,20 +269,27 @@ def _scaled(influence: Any, flow: Any, mass: Any) -> Any:
 
 
 @_compile
+def _bring_pivot(a: Any, k: int) -> int:
+    """Exchange row k for that row from k on with the largest number in column k; its place."""
+    best = k
+    for i in range(k + 1, len(a)):
+        if abs(a[i, k]) > abs(a[best, k]):
+            best = i
+    if best != k:
+        for j in range(a.shape[1]):
+            a[k, j], a[best, j] = a[best, j], a[k, j]
+    return best
+
+
+@_compile
 def _eliminate(system: Any) -> None:
     """Solve equations with their right sides beside them, (n, n + columns), in place: Gaussian elimination.
 
-    Rows are exchanged for the largest pivot. LAPACK takes twice as long for few right sides of 25 unknowns.
+    LAPACK takes twice as long for few right sides of 25 unknowns.
     """
     n = len(system)
     for k in range(n):
-        best = k
-        for i in range(k + 1, n):
-            if abs(system[i, k]) > abs(system[best, k]):
-                best = i
-        if best != k:
-            for j in range(k, system.shape[1]):
-                system[k, j], system[best, j] = system[best, j], system[k, j]
+        _bring_pivot(system, k)
         pivot = 1.0 / system[k, k]
         for i in range(k + 1, n):
             factor = system[i, k] * pivot
@@ -317,20 +324,14 @@ def _blocks(influence: Any, flow: Any, mass: Any, harmonics: Any) -> Any:
 
 @_compile
 def _inverse_beside_one(matrix: Any) -> Any:
-    """(I + A)⁻¹ by Gauss and Jordan's elimination in place, rows exchanged for the largest pivot."""
+    """(I + A)⁻¹ by Gauss and Jordan's elimination in place."""
     n = len(matrix)
     a, place = matrix.copy(), np.arange(n)
     for k in range(n):
         a[k, k] += 1.0
     for k in range(n):
-        best = k
-        for i in range(k + 1, n):
-            if abs(a[i, k]) > abs(a[best, k]):
-                best = i
-        if best != k:
-            place[k], place[best] = place[best], place[k]
-            for j in range(n):
-                a[k, j], a[best, j] = a[best, j], a[k, j]
+        best = _bring_pivot(a, k)
+        place[k], place[best] = place[best], place[k]
         pivot = 1.0 / a[k, k]
         a[k, k] = 1.0
         for j in range(n):
