@@ -298,7 +298,7 @@ def evaluate_elements(
     )
 
 
-@compiled()
+@compiled(error_model="numpy")
 def swirl_of(r: Any, product: Any) -> Any:
     """Swirl in the disk over ΩR and its slope by `product` = λ_i λ, the induced times the total axial flow; shape of r.
 
