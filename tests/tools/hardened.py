@@ -16,10 +16,10 @@ from tests.tools.soak.visitor import Visitor  # noqa: E402 - run as a script, ou
 
 async def visit(address: str) -> str:
     """The power that the page shows."""
-    async with asyncio.timeout(220.0):
+    async with asyncio.timeout(120.0):
         visitor = Visitor()
         await visitor.open(address)
-        await visitor.until(lambda: visitor.text("status") == "converged", 200.0)
+        await visitor.until(lambda: visitor.text("status") == "converged", 120.0)
         power = visitor.text("total-power")
         await visitor.close()
         return power
