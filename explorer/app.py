@@ -18,6 +18,7 @@ from explorer.hosting.seats import SeatQueue
 from explorer.hosting.served_page import with_loading_screen
 from explorer.interface import SharedServices
 from explorer.overlay.bridge import frame_html
+from explorer.picture import picture
 from explorer.session import Session
 from explorer.sharing.presentation import Presentations
 from explorer.state import OPENING, Inputs
@@ -136,8 +137,9 @@ class App:
     def _warm(self) -> None:
         try:
             solver.warm()
+            picture.warm()
         except Exception:  # The sessions will meet the same error and show it.
-            _log.exception("warming the solver failed")
+            _log.exception("warming the solver and the picture failed")
         self.pool.warm()  # Only now, so that it does not compete with the first page.
         self._warmed.set()
 

@@ -6,13 +6,14 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from explorer.picture.polar import PolarGrid
-from explorer.picture.regions import MarkedRegion
+from explorer.picture.polar import Places, PolarGrid
+from explorer.picture.regions import Bytes, MarkedRegion
 from explorer.picture.scene_theme import DiskInk
 from explorer.theme.colours import VOID, Scheme, colour_map, greyed
 from rotor.arrays import Array
+from rotor.compiled import compiled
 
-Bytes = NDArray[np.uint8]
+_compile = compiled(error_model="numpy", fastmath={"contract"})
 
 MOVING, AT_REST = 368, 960
 """Pixels along each edge of the page's picture while something is dragged, and afterwards."""
@@ -49,9 +50,9 @@ _REGION_ENTRIES = {
 class Raster:
     """Where each pixel looks on the polar grid. Row 0 is at the nose (ψ = 180°), columns run to starboard."""
 
-    index: NDArray[np.intp]
+    index: Places
     """Flat polar index of each covered pixel, shape (covered,)."""
-    covered: NDArray[np.intp]
+    covered: Places
     """Flat pixel index of each covered pixel."""
     kind: NDArray[np.uint16]
     """Row of the table that turns polar codes into palette entries, times 256: inside, under a stripe, or an edge pixel
@@ -87,7 +88,8 @@ def _raster(inner: float, size: int, radii: int, azimuths: int) -> Raster:
     stripe = (((aft - starboard) * _STRIPES) % 1.0 < _STRIPE_SHARE).ravel()[covered]
     level = quarters[covered]
     kind = np.where(level == 4, np.where(stripe, 1, 0), 1 + level).astype(np.uint16)
-    return Raster((row * azimuths + column).ravel()[covered], covered, kind * np.uint16(256))
+    index = (row * azimuths + column).ravel()[covered]
+    return Raster(index.astype(np.int32), covered.astype(np.int32), kind * np.uint16(256))
 
 
 @lru_cache(maxsize=1)
@@ -123,17 +125,34 @@ def indices(
     inner, usual = float(grid.r[0]), size in (MOVING, AT_REST) and values.shape == grid_size(size)
     # The page's own are kept for the next frame; a large one weighs more than it costs to make again.
     raster = _page_raster(inner, size) if usual else _raster(inner, size, *values.shape)
-    scaled = np.clip((values - low) * ((_LEVELS - 1) / (high - low)), 0.0, _LEVELS - 1)
-    codes = (scaled + 1.5).astype(np.uint8)
+    codes = levels_of(np.ascontiguousarray(values), low, high, _LEVELS)
     if void is not None:
-        codes[void] = _VOID
+        np.copyto(codes, _VOID, where=void)
     if regions is not None:
         codes += ((regions == MarkedRegion.STALLED) & (codes <= _LEVELS)) * np.uint8(_HATCHED)
         np.copyto(codes, _region_entries().take(regions), where=regions > MarkedRegion.STALLED)
-    image = np.zeros(size * size, dtype=np.uint8)
-    # `take` costs a fraction of an index in brackets.
-    image[raster.covered] = _entries().take(raster.kind + codes.ravel().take(raster.index))
+    image: Bytes = paint(codes, raster.index, raster.covered, raster.kind, _entries(), size * size)
     return image.reshape(size, size)
+
+
+@_compile
+def levels_of(values: Array, low: float, high: float, levels: int) -> Bytes:
+    """1…levels for values from `low` to `high` and beyond them."""
+    made = np.empty(values.shape, np.uint8)
+    scale, most = (levels - 1) / (high - low), levels - 1.0
+    for i in range(values.shape[0]):
+        for j in range(values.shape[1]):
+            made[i, j] = np.uint8(min(max((values[i, j] - low) * scale, 0.0), most) + 1.5)
+    return made
+
+
+@_compile
+def paint(codes: Bytes, index: Places, covered: Places, kind: NDArray[np.uint16], entries: Bytes, pixels: int) -> Bytes:
+    """A picture of so many pixels: `covered` ones get the entry of their kind for the code at their index."""
+    image, flat = np.zeros(pixels, np.uint8), codes.ravel()
+    for k in range(len(covered)):
+        image[covered[k]] = entries[kind[k] + flat[index[k]]]
+    return image
 
 
 def write_labels(pixels: Bytes, ink: Bytes, ground: NDArray[np.bool_]) -> None:

@@ -28,7 +28,9 @@ from explorer.state import ViewState
 from explorer.theme import colours
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
+from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
 
 DISK_DROP = 0.30
 """How far the coloured disk lies below the hub [m], so that blades are seen on it; of the UH-60A's size."""
@@ -77,6 +79,13 @@ class Picture:
     png: bytes
     png_size: int
     """Pixels along each edge of `png`."""
+
+
+def warm() -> None:
+    """Compile and load everything that the first picture would wait for: fields are sampled in either precision."""
+    solution = solve(make_design(mu=0.2))
+    for field in (FIELDS["Angle of attack"], FIELDS["Mach number"]):
+        page_disk_png(solution, field, (field.low, field.high), ViewState(), disk_image.MOVING)
 
 
 def disk_drop(rotor: Rotor) -> float:

@@ -11,10 +11,13 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from explorer.picture.fields import filled
-from explorer.picture.polar import PolarGrid, Single, polar_grid, product, refined
+from explorer.picture.polar import PolarGrid, Single, Sums, polar_grid, refined
+from rotor.arrays import Array, Booleans
+from rotor.compiled import compiled
 from rotor.trim.solution import Solution
 
 Bytes = NDArray[np.uint8]
+_compile = compiled(error_model="numpy", fastmath={"contract"})
 
 DRAG_DIVERGENCE = 0.1
 """∂C_d/∂M that marks drag divergence."""
@@ -89,21 +92,25 @@ def region_codes(solution: Solution, grid: PolarGrid, marks: Marks, half_width: 
     flow = refined(solution, grid)
     clear = flow.u_t > _CLEAR_OF_REVERSE
     codes = np.zeros(flow.u_t.shape, dtype=np.uint8)
+
+    def line(region: MarkedRegion, values: Single, where: Booleans, part: float) -> None:
+        mark_line(codes, region.value, values, where, part * half_width, grid.r)
+
     if marks.stall:
         margin = flow.margin
-        codes[(margin < 0.0) & clear] = MarkedRegion.STALLED
-        codes[_line(grid, margin, 0.8 * half_width) & clear] = MarkedRegion.STALL_RIM
+        mark_below(codes, MarkedRegion.STALLED.value, margin, clear)
+        line(MarkedRegion.STALL_RIM, margin, clear, 0.8)
     if marks.drag_divergence:
-        line = _line(grid, divergence_margin(solution, grid), half_width)
-        codes[line & _dashes(grid) & clear] = MarkedRegion.DASH
+        line(MarkedRegion.DASH, divergence_margin(solution, grid), clear & _dashes(grid), 1.0)
     if marks.reverse_flow:
-        codes[flow.u_t < 0.0] = MarkedRegion.REVERSE
-        codes[_line(grid, flow.u_t, 0.9 * half_width)] = MarkedRegion.REVERSE_RIM
+        everywhere = np.ones_like(clear)
+        mark_below(codes, MarkedRegion.REVERSE.value, flow.u_t, everywhere)
+        line(MarkedRegion.REVERSE_RIM, flow.u_t, everywhere, 0.9)
     return codes
 
 
 @lru_cache(maxsize=4)
-def _dashes(grid: PolarGrid) -> NDArray[np.bool_]:
+def _dashes(grid: PolarGrid) -> Booleans:
     """Where a dashed line is drawn, also where it runs along a radius; not at the very tip."""
     dash = (grid.psi * (_DASHES / (2.0 * math.pi)) + 0.5 * _DASHES / math.pi * grid.r[:, None]) % 1.0 < _DASH_SHARE
     return dash & (grid.r[:, None] < 0.995)
@@ -112,48 +119,57 @@ def _dashes(grid: PolarGrid) -> NDArray[np.bool_]:
 def divergence_margin(solution: Solution, grid: PolarGrid) -> Single:
     """∂C_d/∂M less the value that marks drag divergence, smoothed on the solver's grid; positive beyond it."""
     slope = filled(solution.disk, np.clip(solution.disk.cd_mach, -_SLOPE_LIMIT, _SLOPE_LIMIT))
-    along, around = _smoothing(grid)
-    return product(along, slope.astype(np.float32), around) - np.float32(DRAG_DIVERGENCE)
+    return _smoothing(grid)([slope])[0] - np.float32(DRAG_DIVERGENCE)
 
 
 @lru_cache(maxsize=4)
-def _smoothing(grid: PolarGrid) -> tuple[Single, Single]:
-    """Smoothing on the solver's grid and interpolation in one: the matrices from the left and from the right."""
+def _smoothing(grid: PolarGrid) -> Sums:
+    """Smoothing on the solver's grid and interpolation in one."""
     along, around = _SMOOTHING
     rows = ndimage.gaussian_filter1d(np.eye(grid.along.shape[1]), along, axis=0, mode="nearest", truncate=3.0)
     columns = ndimage.gaussian_filter1d(np.eye(grid.around.shape[0]), around, axis=1, mode="wrap", truncate=3.0)
-    return (grid.along @ rows).astype(np.float32), (columns @ grid.around).astype(np.float32)
+    return Sums(grid.along @ rows, columns @ grid.around, np.float32)
 
 
-def _line(grid: PolarGrid, values: Single, half_width: float) -> NDArray[np.bool_]:
-    """Where `values` are zero, as a line of even width: the distance is the value over its gradient.
+@_compile
+def mark_below(codes: Bytes, code: int, values: Single, where: Booleans) -> None:
+    """Mark the points `where` values are below zero."""
+    for i in range(values.shape[0]):
+        for j in range(values.shape[1]):
+            if where[i, j] and values[i, j] < 0.0:
+                codes[i, j] = code
 
-    Only points near a change of sign are looked at, so the gradient is not taken over the whole disk.
+
+@_compile
+def mark_line(codes: Bytes, code: int, values: Single, where: Booleans, half_width: float, r: Array) -> None:
+    """Mark, within `where`, the line along which `values` are zero, as wide everywhere: the distance is the value over
+    its gradient. `half_width` in radii; `r`: r/R of the rows.
+
+    Only points near a change of sign belong to it: one where values just touch zero has no sides.
     """
-    positive = values > 0.0
-    change = np.zeros_like(positive)
-    change[:-1] = positive[:-1] != positive[1:]
-    change[:, 1:] |= positive[:, 1:] != positive[:, :-1]
-    change[:, 0] |= positive[:, 0] != positive[:, -1]
-    spacing = float(grid.r[1] - grid.r[0])
-    if half_width < 0.6 * spacing:
-        return change  # No wider than the points are apart.
-    near = np.zeros_like(positive)
-    reach = math.ceil(half_width / spacing) + 1
-    rows, columns = np.nonzero(change)
-    count_r, count_psi = values.shape
-    for down in range(-reach, reach + 1):
-        for aside in range(-reach, reach + 1):
-            near[np.clip(rows + down, 0, count_r - 1), (columns + aside) % count_psi] = True
-    row, column = np.nonzero(near)
-    value = values[row, column]
-    inner, outer = np.maximum(row - 1, 0), np.minimum(row + 1, count_r - 1)
-    along = (values[outer, column] - values[inner, column]) / (grid.r[outer] - grid.r[inner])
-    step = 4.0 * math.pi / count_psi
-    around = (values[row, (column + 1) % count_psi] - values[row, column - 1]) / (step * grid.r[row])
-    line = np.zeros_like(positive)
-    line[row, column] = np.abs(value) < half_width * np.hypot(along, around)
-    return line
+    radii, azimuths = values.shape
+    spacing = r[1] - r[0]
+    reach = 0 if half_width < 0.6 * spacing else math.ceil(half_width / spacing) + 1
+    near = np.zeros(values.shape, np.bool_)
+    for i in range(radii):
+        outer, before = min(i + 1, radii - 1), values[i, azimuths - 1] > 0.0
+        for j in range(azimuths):
+            positive = values[i, j] > 0.0
+            if positive != before or positive != (values[outer, j] > 0.0):
+                for row in range(max(i - reach, 0), min(i + reach, radii - 1) + 1):
+                    for column in range(j - reach, j + reach + 1):
+                        near[row, column % azimuths] = True
+            before = positive
+    step = 4.0 * math.pi / azimuths
+    for i in range(radii):
+        inner, outer = max(i - 1, 0), min(i + 1, radii - 1)
+        for j in range(azimuths):
+            if near[i, j] and where[i, j]:
+                along = (values[outer, j] - values[inner, j]) / (r[outer] - r[inner])
+                around = (values[i, (j + 1) % azimuths] - values[i, j - 1]) / (step * r[i])
+                # Without reach the line is no wider than the points are apart.
+                if reach == 0 or abs(values[i, j]) < half_width * math.hypot(along, around):
+                    codes[i, j] = code
 
 
 def region_labels(solution: Solution, marks: Marks) -> tuple[RegionLabel, ...]:
@@ -161,7 +177,7 @@ def region_labels(solution: Solution, marks: Marks) -> tuple[RegionLabel, ...]:
     grid = polar_grid(solution.disk, _LABEL_RADII, _LABEL_AZIMUTHS)
     flow = refined(solution, grid)
     clear = flow.u_t > _CLEAR_OF_REVERSE
-    regions: list[tuple[str, NDArray[np.bool_]]] = []
+    regions: list[tuple[str, Booleans]] = []
     if marks.reverse_flow:
         regions.append(("REVERSE FLOW", flow.u_t < 0.0))
     if marks.stall:
@@ -176,7 +192,7 @@ def region_labels(solution: Solution, marks: Marks) -> tuple[RegionLabel, ...]:
     return tuple(labels)
 
 
-def _on_plane(grid: PolarGrid, inside: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def _on_plane(grid: PolarGrid, inside: Booleans) -> Booleans:
     """A polar mask on a square of _PLANE points a side: rows run aft, columns to starboard."""
     place = (2.0 * np.arange(_PLANE) + 1.0) / _PLANE - 1.0
     starboard, aft = np.meshgrid(place, place)
@@ -187,7 +203,7 @@ def _on_plane(grid: PolarGrid, inside: NDArray[np.bool_]) -> NDArray[np.bool_]:
     return within & inside[np.clip(row, 0, len(grid.r) - 1), column]
 
 
-def _widest(text: str, inside: NDArray[np.bool_], cutout: float, others: Sequence[RegionLabel]) -> RegionLabel | None:
+def _widest(text: str, inside: Booleans, cutout: float, others: Sequence[RegionLabel]) -> RegionLabel | None:
     """A label for a region, clear of the hub; None where the region is too small to name."""
     if np.count_nonzero(inside) < _LEAST_AREA * 0.25 * math.pi * _PLANE**2:
         return None
@@ -205,7 +221,7 @@ def _widest(text: str, inside: NDArray[np.bool_], cutout: float, others: Sequenc
 
 
 def _divergence_label(
-    solution: Solution, grid: PolarGrid, clear: NDArray[np.bool_], others: Sequence[RegionLabel]
+    solution: Solution, grid: PolarGrid, clear: Booleans, others: Sequence[RegionLabel]
 ) -> list[RegionLabel]:
     """Inboard of the line on the advancing side, where it stands clear of the reference blade."""
     beyond = (divergence_margin(solution, grid) > 0.0) & clear
