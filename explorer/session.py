@@ -19,7 +19,6 @@ A slider step takes these steps; `_update` is the path, the page implements `exp
 """
 
 import logging
-import math
 import threading
 import time
 from collections.abc import Callable
@@ -44,9 +43,9 @@ from rotor.trim.solve import solve
 _log = logging.getLogger(__name__)
 _STILL = 0.12
 """[s] without a change after which nothing is dragged: even a slow drag changes something every 100 ms."""
-_CHARTS, _CHARTS_EACH = 0.25, 0.1
-"""[s] after which charts follow a drag even where other pages wait for their frames: at least, and for each that waits.
-So charts of a crowd take together a seventh of a processor, the frames the rest."""
+_FRAMES_TO_CHARTS = 6.0
+"""While other pages wait for their frames, charts follow a drag once its frames since the last charts have taken so
+many times as long as these [processor time]: so frames have most of a crowd's time on a fast and on a slow machine."""
 
 
 class Session:
@@ -71,8 +70,8 @@ class Session:
         """Whether more than the azimuth of the reference blade may have changed since the last update."""
         self._baseline = solver.BaselineCache()
         self._curves = PowerCurves()
-        self._charted = -math.inf
-        """When the charts last followed."""
+        self._begun = self._frames_took = self._charts_took = 0.0
+        """Processor time [s] at which this update began, of the frames since the last charts, and of these charts."""
         self._pool = shared.pool
         self._worker = NewestWins(self._update, self._failed, f"session-{client.client_id}", self._freeing(idle))
         callbacks = SessionCallbacks(self._wake, self._worker.wake, lambda: self._state)
@@ -97,6 +96,7 @@ class Session:
     @one_blas_thread()  # The pictures too: in a notebook's process they would take ten times as long.
     def _update(self, superseded: Callable[[], bool]) -> None:
         """One slider step; `superseded` gives way to the frames of other pages, then says whether to stop."""
+        self._begun = time.thread_time()
         everything, self._all_changed = self._all_changed, False
         reading = self._read()
         if self._preview(reading, everything) and self._overtaken():
@@ -177,15 +177,15 @@ class Session:
         if not everything and state.only_turned(before):
             page.show_azimuth(state)
             return
-        waiting = SCHEDULER.waiting
-        if waiting and time.monotonic() - self._charted < max(_CHARTS, waiting * _CHARTS_EACH):
+        self._frames_took += time.thread_time() - self._begun
+        if SCHEDULER.waiting and self._frames_took < _FRAMES_TO_CHARTS * self._charts_took:
             page.show_power_number(state)  # Half of a step's time are charts: in a crowd frames come first.
             if self._overtaken():
                 return
             self._worker.pause(_STILL)  # The next step of a drag is on its way, or nothing moves any more.
             if self._overtaken():
                 return
-        self._charted = time.monotonic()
+        begun = time.thread_time()
         page.show_results(reading, state)
 
         def show_power() -> None:
@@ -197,6 +197,7 @@ class Session:
         show_power()
         if not self._overtaken():
             page.follow(reading, state)
+        self._charts_took, self._frames_took = time.thread_time() - begun, 0.0
         self._shown.set()
         self._worker.pause(_STILL)
         if not stop():

@@ -3,6 +3,7 @@
 import threading
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 from explorer.interface import SessionState
@@ -11,7 +12,7 @@ from explorer.picture.fields import FIELDS, Field, tick_text, ticks
 from explorer.scene.page_scene import TURN_RATES
 from explorer.state import ViewState
 from explorer.text.units import number
-from explorer.theme.colours import colour_map, css
+from explorer.theme.colours import Scheme, colour_map, css
 
 REGIONS = ("stall", "reverse_flow", "wake", "arrows", "drag_divergence")
 """Fields of `ViewState` that a press switches."""
@@ -153,7 +154,7 @@ class Display:
                 "fields": list(FIELDS),
                 "field": view.field,
                 "unit": f"{field.unit}{field.note}",
-                "colours": [css(colour) for colour in colour_map(field.colours, _COLOURS).tolist()],
+                "colours": _bar(field.colours),
                 "ticks": [
                     [round(100.0 * (value - low) / (high - low), 2), tick_text(value)] for value in ticks(low, high)
                 ],
@@ -167,3 +168,9 @@ class Display:
                 "held": self._held,
             }
         )
+
+
+@cache
+def _bar(scheme: Scheme) -> list[str]:
+    """Colours of the bar, as style sheets write them."""
+    return [css(colour) for colour in colour_map(scheme, _COLOURS).tolist()]

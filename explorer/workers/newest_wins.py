@@ -65,13 +65,15 @@ class NewestWins:
 
     def wake(self) -> None:
         """Something changed: an update that starts after this call will see it."""
-        self._wanted.set()
-        self._look()
+        if not self._wanted.is_set():  # To set it again takes as long as all the rest of an edit.
+            self._wanted.set()
+            self._look()
 
     def stop(self, timeout: float = 2.0) -> None:
         """End the thread after the update it is in."""
         self._stopped = True
-        self.wake()
+        self._wanted.set()
+        self._look()
         if threading.current_thread() is not self._thread and self._thread.is_alive():
             self._thread.join(timeout)
 

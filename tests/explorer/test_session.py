@@ -180,21 +180,20 @@ def test_in_a_crowd_charts_wait_but_not_for_long(session: Session, monkeypatch: 
     page: Any = session.page
     page.read = lambda: (session._wake(), (page.inputs, page.view))[1]
     monkeypatch.setattr(session_module, "SCHEDULER", SimpleNamespace(waiting=3))
-    monkeypatch.setattr(session_module, "_CHARTS", 600.0)
+    monkeypatch.setattr(session_module, "_FRAMES_TO_CHARTS", 1e6)
     page.inputs = replace(page.inputs, two_inner=page.inputs.two_inner - 0.5)
     page.calls.clear()
     session._update(lambda: True)
     assert page.calls == ["pin_or_swap", "show_frame", "solve_pinned", "show_power_number"]
-    monkeypatch.setattr(session_module, "_CHARTS", 0.0)
-    monkeypatch.setattr(session_module, "_CHARTS_EACH", 600.0)  # For each page that waits.
+    session._frames_took = 2e6 * session._charts_took  # As if many frames had followed.
+    page.inputs = replace(page.inputs, two_inner=page.inputs.two_inner - 0.5)
+    session._update(lambda: True)
+    assert "show_results" in page.calls
+    assert session._frames_took == 0.0
     page.inputs = replace(page.inputs, two_inner=page.inputs.two_inner - 0.5)
     page.calls.clear()
     session._update(lambda: True)
     assert page.calls[-1] == "show_power_number"
-    monkeypatch.setattr(session_module, "_CHARTS_EACH", 0.0)
-    page.inputs = replace(page.inputs, two_inner=page.inputs.two_inner - 0.5)
-    session._update(lambda: True)
-    assert "show_results" in page.calls
 
 
 def test_in_a_crowd_the_last_step_gets_its_charts(session: Session, monkeypatch: pytest.MonkeyPatch):
@@ -202,7 +201,7 @@ def test_in_a_crowd_the_last_step_gets_its_charts(session: Session, monkeypatch:
     update(session)
     page: Any = session.page
     monkeypatch.setattr(session_module, "SCHEDULER", SimpleNamespace(waiting=3))
-    monkeypatch.setattr(session_module, "_CHARTS", 600.0)
+    monkeypatch.setattr(session_module, "_FRAMES_TO_CHARTS", 1e6)
     monkeypatch.setattr(session._worker, "pause", lambda _: page.calls.append("pause"))
     page.inputs = replace(page.inputs, two_inner=page.inputs.two_inner - 0.5)
     calls = update(session).calls
@@ -216,7 +215,7 @@ def test_in_a_crowd_a_step_between_two_others_has_no_charts(session: Session, mo
     update(session)
     page: Any = session.page
     monkeypatch.setattr(session_module, "SCHEDULER", SimpleNamespace(waiting=3))
-    monkeypatch.setattr(session_module, "_CHARTS", 600.0)
+    monkeypatch.setattr(session_module, "_FRAMES_TO_CHARTS", 1e6)
     monkeypatch.setattr(session._worker, "pause", lambda _: session._wake())
     page.inputs = replace(page.inputs, two_inner=page.inputs.two_inner - 0.5)
     assert update(session).calls[-1] == "show_power_number"
