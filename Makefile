@@ -23,6 +23,7 @@ run: $(WARM)          ## start the explorer; ARGS are handed on, e.g. make run P
 	@exec $(BIN)/python -m explorer --host $(HOST) --port $(PORT) $(ARGS)
 
 # Without a browser on all cores; the page by itself, for its tests wait for what a busy machine draws late.
+# The slow tests of one file are shared by the cores: some take minutes, and a few files hold most of them.
 test: test-code test-page ## run all tests but the slow ones, browser included
 
 test-code: setup-dev
@@ -34,7 +35,7 @@ test-page: setup-dev browser
 slow: slow-code slow-page ## run the slow tests: built wheel, rebuilt section data, long studies
 
 slow-code: setup-dev
-	$(BIN)/python -m pytest -m 'slow and not browser' $(ARGS) $(NONE)
+	$(BIN)/python -m pytest -m 'slow and not browser' --dist worksteal $(ARGS) $(NONE)
 
 slow-page: setup-dev browser
 	$(BIN)/python -m pytest -n 0 -m 'slow and browser' $(ARGS) $(NONE)

@@ -2,10 +2,10 @@
 
 import re
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pytest
-from watched import WAIT, Watched, for_people, opened, painted
+from watched import WAIT, Watched, looks, opened, painted
 
 from explorer.app import App
 from explorer.state import Inputs
@@ -98,19 +98,19 @@ def test_pin_move_compare_swap_back_and_let_go(browser: "Browser", app: App):
     watched.close()
 
 
-@for_people
-def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any, size: tuple[int, int]):
-    watched = painted(browser, app.address, scheme, size)
+@pytest.mark.slow
+def test_screenshots(browser: "Browser", app: App, artefacts: Path):
+    watched = painted(browser, app.address, "light")
     watched.page.keyboard.press("p")
     watched.page.wait_for_function("() => RX.state.bar.pinned", timeout=WAIT)
     for label, value in (("Inboard", -20), ("Outboard", -2), ("Division", 0.6)):
         watched.type(label, value)
         watched.page.wait_for_timeout(300)
     watched.page.get_by_role("button", name="Show B − A").click()
-    watched.page.wait_for_timeout(2500)
     watched.quiet()
-    path = artefacts / f"ab-{scheme}-{size[0]}x{size[1]}.png"
-    watched.page.screenshot(path=path)
-    assert path.stat().st_size > 50_000
+    for look in looks(watched, "light", "dark"):
+        path = artefacts / f"ab-{look}.png"
+        watched.page.screenshot(path=path)
+        assert path.stat().st_size > 50_000
     assert watched.complaints == []
     watched.close()

@@ -3,10 +3,10 @@
 import re
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pytest
-from watched import Watched, for_people, opened, painted
+from watched import Watched, looks, opened, painted
 
 from explorer.app import App
 
@@ -125,19 +125,19 @@ def test_the_sweep_of_the_harmonic_follows_its_sliders(watched: Watched):
     watched.choose("Harmonic", "Off")
 
 
-@for_people
-def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any, size: tuple[int, int]):
-    watched = painted(browser, app.address, scheme, size)
+@pytest.mark.slow
+def test_screenshots(browser: "Browser", app: App, artefacts: Path):
+    watched = painted(browser, app.address, "dark")
     watched.mode("actuate")
     watched.quiet()
     watched.page.get_by_label("Show blade cut").first.click()
     watched.type("Voltage", 60)
     watched.page.wait_for_selector('[data-explorer="verdict"][data-kind="ready"]', timeout=VERDICT)
-    watched.page.mouse.move(size[0] / 2, size[1] / 2)
-    watched.page.wait_for_timeout(700)
-    path = artefacts / f"actuator-{scheme}-{size[0]}x{size[1]}.png"
-    watched.page.screenshot(path=path)
-    assert path.stat().st_size > 50_000
-    assert not re.search(r"\b(NaN|nan|inf|undefined)\b", watched.page.inner_text("body"))
+    watched.page.mouse.move(640, 360)
+    for look in looks(watched, "dark", "light"):
+        path = artefacts / f"actuator-{look}.png"
+        watched.page.screenshot(path=path)
+        assert path.stat().st_size > 50_000
+        assert not re.search(r"\b(NaN|nan|inf|undefined)\b", watched.page.inner_text("body"))
     assert watched.complaints == []
     watched.close()

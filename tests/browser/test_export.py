@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import trimesh
 from PIL import Image
-from watched import WAIT, Watched, opened, painted
+from watched import MEDIUM, WAIT, Watched, opened, painted
 
 from explorer.app import App
 from explorer.export.demo import demo_html
@@ -207,19 +207,23 @@ def test_a_design_without_an_answer_is_said_to_have_none(watched: Watched, tmp_p
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_screenshots_of_report_and_pictures(browser: "Browser", app: App, artefacts: Path, tmp_path: Path, scheme: Any):
-    watched = painted(browser, app.address, scheme, (1280, 720))
+def test_screenshots_of_report_and_pictures(browser: "Browser", app: App, artefacts: Path, tmp_path: Path):
+    watched = painted(browser, app.address, "light", MEDIUM)
     watched.drawer("share")
     watched.page.keyboard.press("m")
     watched.choose("Picture", "3D view")
-    picture = saved(watched, "PNG", tmp_path)
-    picture.rename(artefacts / f"export-view-{scheme}.png")
+    saved(watched, "PNG", tmp_path).rename(artefacts / "export-view-light.png")
     report = Watched(watched.page.context.new_page())
     report.page.goto(saved(watched, "Report of this session", tmp_path).as_uri())
-    report.page.wait_for_timeout(6000)
-    report.page.screenshot(path=artefacts / f"report-{scheme}.png", full_page=True)
-    assert not re.search(r"\b(NaN|nan|inf|undefined)\b", report.page.inner_text("body"))
+    for scheme in ("light", "dark"):
+        report.page.emulate_media(color_scheme=scheme)
+        report.page.wait_for_timeout(6000)
+        report.page.screenshot(path=artefacts / f"report-{scheme}.png", full_page=True)
+        assert not re.search(r"\b(NaN|nan|inf|undefined)\b", report.page.inner_text("body"))
+    report.page.close()
+    watched.page.keyboard.press("n")
+    watched.page.wait_for_selector("html[data-mantine-color-scheme=dark]", state="attached")
+    saved(watched, "PNG", tmp_path).rename(artefacts / "export-view-dark.png")
     assert watched.complaints == report.complaints == []
     watched.close()
 

@@ -5,10 +5,10 @@ import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pytest
-from watched import WAIT, Watched, for_people, opened, painted
+from watched import WAIT, Watched, looks, opened, painted
 
 from explorer.app import App
 from explorer.state import Inputs
@@ -235,30 +235,16 @@ def test_no_number_on_screen_is_not_a_number(watched: Watched):
         assert not re.search(r"\b(NaN|nan|inf|undefined)\b", watched.page.inner_text("body"))
 
 
-@for_people
-def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any, size: tuple[int, int]):
-    watched = painted(browser, app.address, scheme, size)
-    watched.type("Adv. ratio", 0.3)
-    watched.page.wait_for_timeout(2500)
-    watched.quiet()
-    path = artefacts / f"explorer-{scheme}-{size[0]}x{size[1]}.png"
-    watched.page.screenshot(path=path)
-    assert path.stat().st_size > 50_000
-    assert watched.page.locator("html").get_attribute("data-mantine-color-scheme") == scheme  # As the browser asks.
-    overlap = watched.page.evaluate("() => document.querySelector('canvas').getBoundingClientRect().width")
-    assert overlap <= size[0] - 330  # The rail stands beside the canvas, not on it.
-    assert watched.complaints == []
-    watched.close()
-
-
 @pytest.mark.slow
-def test_picture_of_the_readme(browser: "Browser", app: App, artefacts: Path):
-    """docs/images/explorer.png is a copy of what this saves."""
-    watched = painted(browser, app.address, "light", (1500, 940))
-    watched.choose("Twist concept", "Two segments")
-    watched.show("Induced inflow λi")
-    watched.page.wait_for_timeout(2500)
+def test_screenshots(browser: "Browser", app: App, artefacts: Path):
+    watched = painted(browser, app.address, "dark")
+    watched.type("Adv. ratio", 0.3)
     watched.quiet()
-    watched.page.screenshot(path=artefacts / "explorer.png")
+    for look in looks(watched, "dark", "light"):
+        path = artefacts / f"explorer-{look}.png"
+        watched.page.screenshot(path=path)
+        assert path.stat().st_size > 50_000
+        beside = "() => document.querySelector('canvas').getBoundingClientRect().width <= innerWidth - 330"
+        assert watched.page.evaluate(beside)  # The rail is not on the canvas.
     assert watched.complaints == []
     watched.close()

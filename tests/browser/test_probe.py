@@ -5,11 +5,11 @@ import re
 import threading
 from collections.abc import Iterator
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
-from watched import WAIT, Watched, for_people, opened, painted
+from watched import WAIT, Watched, looks, opened, painted
 
 from explorer.app import App
 from explorer.picture.camera_views import FIELD_OF_VIEW, Cover, View, fit
@@ -234,27 +234,26 @@ def test_a_sentence_in_red_dims_the_probe_and_stops_play(watched: Watched):
     page.wait_for_selector(".rx-faded [data-explorer=probe]", state="detached", timeout=WAIT)
 
 
-@for_people
-def test_screenshots(browser: "Browser", app: App, artefacts: Path, scheme: Any, size: tuple[int, int]):
-    watched = painted(browser, app.address, scheme, size)
+@pytest.mark.slow
+def test_screenshots(browser: "Browser", app: App, artefacts: Path):
+    watched = painted(browser, app.address, "dark")
     page = watched.page
     watched.type("Adv. ratio", 0.37)
     watched.drawer("probe")
-    page.wait_for_timeout(2500)
     watched.quiet()
-    page.keyboard.press("Escape")
-    for name, r, psi, key in (
-        ("advancing", 0.8, 90.0, "1"),
-        ("retreating", 0.75, 270.0, "3"),
-        ("reverse", 0.25, 270.0, "4"),
-    ):
-        watched.type("Radius r/R", r)
-        page.wait_for_timeout(100)
-        watched.type("Azimuth", psi)
-        page.keyboard.press("Escape")
-        page.keyboard.press(key)
-        page.wait_for_timeout(1500)
-        page.screenshot(path=artefacts / f"probe-{name}-{scheme}-{size[0]}x{size[1]}.png")
-    assert re.search("reverse flow", watched.text("probe-region"))
+    for look in looks(watched, "dark", "light"):
+        for name, r, psi, key in (
+            ("advancing", 0.8, 90.0, "1"),
+            ("retreating", 0.75, 270.0, "3"),
+            ("reverse", 0.25, 270.0, "4"),
+        ):
+            watched.type("Radius r/R", r)
+            page.wait_for_timeout(100)
+            watched.type("Azimuth", psi)
+            page.keyboard.press("Escape")
+            page.keyboard.press(key)
+            page.wait_for_timeout(1500)
+            page.screenshot(path=artefacts / f"probe-{name}-{look}.png")
+        assert re.search("reverse flow", watched.text("probe-region"))
     assert watched.complaints == []
     watched.close()

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import pytest
-from watched import WAIT, Watched, for_people, opened, painted
+from watched import WAIT, Watched, looks, opened, painted
 
 from explorer.app import App
 from explorer.state import Inputs
@@ -65,11 +65,12 @@ def test_a_measured_rotor_offers_its_tests_and_draws_its_points(watched: Watched
     watched.row("Mass").wait_for(timeout=WAIT)
 
 
-@for_people
-def test_pictures(app: App, browser: "Browser", artefacts: "Path", scheme: str, size: tuple[int, int]):
-    watched = painted(browser, app.address, scheme, size)
+@pytest.mark.slow
+def test_pictures(app: App, browser: "Browser", artefacts: "Path"):
+    watched = painted(browser, app.address, "light")
     watched.page.locator(".rxf-rotor").select_option(label="XV-15 metal blade")
     until(watched, f"() => ({CHART})()?.value.includes('rms')")
-    watched.page.wait_for_timeout(1500)
-    watched.page.screenshot(path=artefacts / f"stand-{scheme}-{size[0]}.png")
+    for look in looks(watched, "light", "dark"):
+        watched.page.screenshot(path=artefacts / f"stand-{look}.png")
+    assert watched.complaints == []
     watched.close()

@@ -2,16 +2,15 @@
 
 import re
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any
 
-import pytest
 from chromium import DRAW_NOTHING
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Locator, Page
 
-SMALL = (1180, 640)
+SMALL, MEDIUM, LARGE = (1180, 640), (1280, 720), (1500, 940)
 WAIT = 45_000
 """[ms]; far more than it takes, for machines that draw in software."""
 COARSE = "?fixedDpr=0.5"
@@ -185,7 +184,7 @@ def opened(browser: "Browser", address: str, query: str = COARSE, size: tuple[in
     return watched
 
 
-def painted(browser: "Browser", address: str, scheme: Any, size: tuple[int, int]) -> Watched:
+def painted(browser: "Browser", address: str, scheme: Any, size: tuple[int, int] = LARGE) -> Watched:
     """A window of its own as a person sees it, for pictures."""
     context = browser.new_context(viewport={"width": size[0], "height": size[1]}, color_scheme=scheme)
     watched = Watched(context.new_page())
@@ -193,7 +192,18 @@ def painted(browser: "Browser", address: str, scheme: Any, size: tuple[int, int]
     return watched
 
 
-def for_people(test: Any) -> Any:
-    """A test that takes pictures in both schemes and sizes. Not compared with anything: kept for people to look at."""
-    test = pytest.mark.parametrize("scheme", ["light", "dark"])(test)
-    return pytest.mark.slow(pytest.mark.parametrize("size", [(1500, 940), (1280, 720)])(test))
+def looks(watched: Watched, *schemes: str) -> Iterator[str]:
+    """An open page in each scheme, the first as its browser asks, the next by key, and in both sizes: their names.
+
+    For pictures that are not compared with anything: kept for people to look at.
+    """
+    page = watched.page
+    for k, scheme in enumerate(schemes):
+        if k:
+            page.evaluate("() => document.activeElement?.blur()")
+            page.keyboard.press("n")
+        page.wait_for_selector(f"html[data-mantine-color-scheme={scheme}]", state="attached")
+        for width, height in (LARGE, MEDIUM):
+            page.set_viewport_size({"width": width, "height": height})
+            page.wait_for_timeout(2000)
+            yield f"{scheme}-{width}x{height}"
