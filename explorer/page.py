@@ -306,8 +306,8 @@ class Page:
         self.map.refresh(reading.sliders)
         self.schedule.refresh()
         self.bridge.set(notice=self.schedule.notice() or self.optimise.notice(reading.sliders))
-        racing = self.layout.mode == "optimise"
-        self.results.strip.show_race(self.optimise.race if racing else None, UNITS[reading.view.units])
+        searching = self.layout.mode == "optimise"
+        self.results.strip.show_starts(self.optimise.starts if searching else None, UNITS[reading.view.units])
 
     def _wire(self) -> None:
         """Buttons to what they do, once everything stands."""

@@ -19,7 +19,7 @@ from explorer.charts.strip import (
 )
 from explorer.interface import SessionState
 from explorer.overlay.bridge import Bridge
-from explorer.tabs.optimise.run import Race
+from explorer.tabs.optimise.run import Starts
 from explorer.tabs.power_card import against
 from explorer.text import readout
 from explorer.text.units import UNITS, Units
@@ -114,7 +114,7 @@ class Chart:
         return {"x": uplot.Scale(time=False, range=self._x_range), "y": uplot.Scale(range=self._y_range)}
 
 
-_BESIDE_RACE = ("power", "lift")
+_BESIDE_STARTS = ("power", "lift")
 _ORDER = ("power", "alpha", "lift", "worth")
 _MEASURED = "measured"
 """Takes the place of power over µ on a test stand, for a rotor that was measured."""
@@ -130,7 +130,7 @@ class ChartStrip:
         self._faded = self._pinned = False
         self._plain = False
         """Whether power over µ shows the power itself."""
-        self._race: dict[str, Any] | None = None
+        self._starts: dict[str, Any] | None = None
         self._measured = MeasuredChart()
 
     def show(self, state: SessionState, gradient: PitchGradient | None) -> None:
@@ -195,11 +195,11 @@ class ChartStrip:
         )
         self._send()
 
-    def show_race(self, race: Race | None, units: Units) -> None:
+    def show_starts(self, starts: Starts | None, units: Units) -> None:
         """The starts of a search in place of the charts along the blade; None: those again."""
-        if race is None and self._race is None:
+        if starts is None and self._starts is None:
             return
-        self._race = None if race is None else race_chart(race, units)
+        self._starts = None if starts is None else starts_chart(starts, units)
         self._send()
 
     def fade(self) -> None:
@@ -212,7 +212,7 @@ class ChartStrip:
         return None if chart is None else chart.y_range
 
     def _names(self) -> tuple[str, ...]:
-        names = _ORDER if self._race is None else _BESIDE_RACE
+        names = _ORDER if self._starts is None else _BESIDE_STARTS
         return (_MEASURED, *names[1:]) if _MEASURED in self._charts else names
 
     def _send(self) -> None:
@@ -227,33 +227,33 @@ class ChartStrip:
             for name in self._names()
             if name in self._charts
         ]
-        self._bridge.set(strip=charts if self._race is None else [self._race, *charts])
+        self._bridge.set(strip=charts if self._starts is None else [self._starts, *charts])
 
 
-def race_chart(race: Race, units: Units) -> dict[str, Any]:
+def starts_chart(starts: Starts, units: Units) -> dict[str, Any]:
     """The least power so far over the designs that each start has tried."""
     unit = units.power[0]
-    low, high = (unit.of(end) for end in race.axis())
-    longest = max([10, *(len(start.best) for start in race.starts)])
+    low, high = (unit.of(end) for end in starts.axis())
+    longest = max([10, *(len(start.best) for start in starts.each)])
     lines = [
         {
             "x": list(range(1, len(start.best) + 1)),
             "y": [round(unit.of(power), 3) for power in start.best],
             "role": "saving",
             "colour": css(START_COLOURS[k]),
-            "width": 2.8 if start.leads else 1.4,
+            "width": 2.8 if start.is_best else 1.4,
         }
-        for k, start in enumerate(race.starts)
+        for k, start in enumerate(starts.each)
         if start.best
     ]
-    if race.start_power is not None:
-        level = round(unit.of(race.start_power), 3)
+    if starts.start_power is not None:
+        level = round(unit.of(starts.start_power), 3)
         lines.insert(0, {"x": [1, longest], "y": [level, level], "role": "reference"})
-    above = race.above_axis()
-    leader = race.leader
+    above = starts.above_axis()
+    best = starts.best_start
     return {
-        "name": "race",
-        "title": "Race of the starts",
+        "name": "starts",
+        "title": "Searches from several starts",
         "unit": f"least {unit.symbol} so far over designs tried",
         "x_range": [1, longest],
         "y_range": [low, high],
@@ -261,7 +261,7 @@ def race_chart(race: Race, units: Units) -> dict[str, Any]:
         "y_ticks": round_ticks(low, high, 4),
         "lines": lines,
         "dots": [],
-        "value": "" if leader is None else f"start {leader.start} leads",
+        "value": "" if best is None else f"start {best.number} is best",
         "note": f"{above} designs lie above the axis." if above else "",
         "kind": "",
         "wide": True,

@@ -109,7 +109,7 @@ def test_everything_has_its_place(watched: Watched):
     )
     assert page.evaluate(_MEET, _PARTS) == []
     assert page.evaluate(_LEAVES, [".rxf-power", ".rxf-power *"]) == []
-    # A race takes two places of the strip and gives them back.
+    # The chart of a search's starts takes two places of the strip and gives them back.
     page.evaluate("() => { window.before = RX.state.strip; RX.set({strip: [{...before[0], wide: true}, before[1]]}); }")
     page.wait_for_function("() => document.querySelectorAll('.rxf-chart').length !== 4", timeout=WAIT)
     page.wait_for_function(f"() => ({_NARROW_CHARTS})().length === 0")

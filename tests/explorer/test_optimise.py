@@ -14,13 +14,13 @@ from PIL import Image
 from explorer.charts.plots import Plot
 from explorer.picture.blade_mesh import blade_shape, blade_vertices
 from explorer.state import baseline_of
-from explorer.tabs.charts import race_chart
+from explorer.tabs.charts import starts_chart
 from explorer.tabs.optimise import map_panel as power_map
 from explorer.tabs.optimise import schedule_view, sensitivity
 from explorer.tabs.optimise import search_request as mission
 from explorer.tabs.optimise import text as search_text
 from explorer.tabs.optimise.map_panel import default_axes
-from explorer.tabs.optimise.run import SearchRun, race_of
+from explorer.tabs.optimise.run import SearchRun, starts_of
 from explorer.tabs.optimise.search_request import OBJECTIVES, SearchRequest
 from explorer.tabs.optimise.text import concept_picture
 from explorer.text.units import SI
@@ -125,7 +125,7 @@ class TestSearchRun:
         assert not run.under_way
         assert "Stopped, nothing found yet" in search_text.standing(run)
         assert search_text.found(run) == ""
-        assert {start.legend(SI) for start in race_of(run).starts} == {f"Start {k}: not run" for k in range(1, 7)}
+        assert {start.legend(SI) for start in starts_of(run).each} == {f"Start {k}: not run" for k in range(1, 7)}
 
     def test_a_broken_process_keeps_the_best(self, run: SearchRun):
         broken = SearchRun(run.search)
@@ -138,7 +138,7 @@ class TestSearchRun:
 
 class TestCharts:
     def test_every_start_is_a_line_of_finite_numbers(self, run: SearchRun):
-        chart = race_chart(race_of(run), SI)
+        chart = starts_chart(starts_of(run), SI)
         level, *starts = chart["lines"]
         assert level["role"] == "reference"
         assert len(starts) == sum(bool(trace) for trace in run.traces) == 3
@@ -152,12 +152,12 @@ class TestCharts:
         assert len({line["colour"] for line in starts}) == 3
 
     def test_the_headline_is_the_least_power_and_names_every_start(self, run: SearchRun):
-        race = race_of(run)
-        html = search_text.headline(race, run)
-        assert race.best_power is not None
-        assert SI.watts(race.best_power, 1) in html
-        for start in race.starts:
-            assert f"Start {start.start}:" in html
+        starts = starts_of(run)
+        html = search_text.headline(starts, run)
+        assert starts.best_power is not None
+        assert SI.watts(starts.best_power, 1) in html
+        for start in starts.each:
+            assert f"Start {start.number}:" in html
 
     def test_sensitivity_knows_that_turning_the_whole_blade_changes_nothing(self):
         solution = solve(make_design(mu=0.2))

@@ -12,7 +12,7 @@ from explorer.interface import TabContext
 from explorer.overlay.bridge import Bridge
 from explorer.state import baseline_of, baseline_title, with_optimum
 from explorer.tabs.optimise import text
-from explorer.tabs.optimise.run import FRAME, TRACES, Race, SearchRun, race_of
+from explorer.tabs.optimise.run import FRAME, TRACES, SearchRun, Starts, starts_of
 from explorer.tabs.optimise.search_request import OBJECTIVES, SearchRequest
 from explorer.tabs.optimise.text import concept_picture
 from explorer.text.glossary import hint
@@ -174,9 +174,9 @@ class OptimisePanel:
         return None if frame is None else frame.design
 
     @property
-    def race(self) -> Race | None:
+    def starts(self) -> Starts | None:
         """The starts of the search; None where there is none."""
-        return None if self._run is None or not any(self._run.traces) else race_of(self._run)
+        return None if self._run is None or not any(self._run.traces) else starts_of(self._run)
 
     @property
     def offered(self) -> bool:
@@ -220,8 +220,8 @@ class OptimisePanel:
             self._frame.content = text.moved_on()
         else:
             self._frame.content = ""
-        race = race_of(run)
-        self._headline.content = text.headline(race, run, units)
+        starts = starts_of(run)
+        self._headline.content = text.headline(starts, run, units)
 
     def _on_event(self, run: SearchRun, news: JobEvent) -> None:
         run.on_event(news)

@@ -1,4 +1,4 @@
-"""A search as the page follows it: its course, the improving designs to play, and the race of its starts."""
+"""A search as the page follows it: its course, the improving designs to play, and how far each of its starts is."""
 
 import threading
 import time
@@ -198,10 +198,10 @@ StartState = Literal["waiting", "running", "finished", "not run"]
 
 
 @dataclass(frozen=True)
-class RaceStart:
+class Start:
     """One start of the search."""
 
-    start: int
+    number: int
     """From 1."""
     powers: tuple[float, ...]
     """Power of every design tried [W]."""
@@ -212,24 +212,24 @@ class RaceStart:
     """Its best above the best of all starts [W]; None before its first design."""
 
     @property
-    def leads(self) -> bool:
+    def is_best(self) -> bool:
         """Whether the best of all starts is its own."""
         return self.gap == 0.0
 
     def legend(self, units: Units = SI) -> str:
-        """Its line in the legend: `Start 3: leads`, `Start 2: equal`, `Start 1: +0.4 kW`, `Start 6: waiting`."""
+        """Its line in the legend: `Start 3: best`, `Start 2: equal`, `Start 1: +0.4 kW`, `Start 6: waiting`."""
         if self.gap is None:
-            return f"Start {self.start}: {'no trim' if self.state == 'finished' else self.state}"
+            return f"Start {self.number}: {'no trim' if self.state == 'finished' else self.state}"
         behind = units.watts(self.gap, 1, sign=True)
         # As printed: what is less than the last digit is no difference.
-        return f"Start {self.start}: {'leads' if self.leads else behind if behind.startswith('+') else 'equal'}"
+        return f"Start {self.number}: {'best' if self.is_best else behind if behind.startswith('+') else 'equal'}"
 
 
 @dataclass(frozen=True)
-class Race:
+class Starts:
     """All starts of a search at one time."""
 
-    starts: tuple[RaceStart, ...]
+    each: tuple[Start, ...]
     start_power: float | None
     """Of the design the search began from [W]."""
     best_power: float | None
@@ -237,9 +237,9 @@ class Race:
     evaluations: int
 
     @property
-    def leader(self) -> RaceStart | None:
+    def best_start(self) -> Start | None:
         """The start with the least power; the first of several."""
-        return next((one for one in self.starts if one.leads), None)
+        return next((one for one in self.each if one.is_best), None)
 
     @property
     def change(self) -> float | None:
@@ -258,7 +258,7 @@ class Race:
 
     def axis(self) -> tuple[float, float]:
         """Range of power [W] that shows where the starts end, not the worst designs tried on the way."""
-        ends = [one.best[-1] for one in self.starts if one.best]
+        ends = [one.best[-1] for one in self.each if one.best]
         if not ends:
             return 0.0, 1.0
         low = min(ends)
@@ -269,10 +269,10 @@ class Race:
     def above_axis(self) -> int:
         """How many designs tried lie above the axis: to be said beside a chart that clips them."""
         top = self.axis()[1]
-        return sum(power > top for one in self.starts for power in one.powers)
+        return sum(power > top for one in self.each for power in one.powers)
 
 
-def race_of(run: SearchRun) -> Race:
+def starts_of(run: SearchRun) -> Starts:
     """Where a search stands. Reads a snapshot: the run may be written meanwhile."""
     traces = [tuple(trace) for trace in run.traces]
     current = run.progress.start if run.progress is not None else -1
@@ -280,12 +280,12 @@ def race_of(run: SearchRun) -> Race:
     cut_short = run.state in ("stopped", "late", "broken") and (run.progress is None or run.progress.phase != "band")
     bests = [tuple(accumulate(trace, min)) for trace in traces]
     least = min((best[-1] for best in bests if best), default=None)
-    starts: list[RaceStart] = []
+    starts: list[Start] = []
     for k, (trace, best) in enumerate(zip(traces, bests, strict=True)):
         state: StartState = "finished" if k < current or not searching else "running" if k == current else "waiting"
         if cut_short and k > current:
             state = "not run"
         gap = best[-1] - least if best and least is not None else None
-        starts.append(RaceStart(k + 1, trace, best, state, gap))
+        starts.append(Start(k + 1, trace, best, state, gap))
     tried = run.optimum.evaluations if run.optimum is not None else run.progress.evaluation if run.progress else 0
-    return Race(tuple(starts), run.start_power, least, tried)
+    return Starts(tuple(starts), run.start_power, least, tried)

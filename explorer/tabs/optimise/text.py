@@ -6,7 +6,7 @@ from html import escape
 
 import numpy as np
 
-from explorer.tabs.optimise.run import Race, SearchRun
+from explorer.tabs.optimise.run import SearchRun, Starts
 from explorer.text.units import SI, Units, number
 from explorer.theme.colours import NOW, START_COLOURS, THIS, css
 from rotor.design.twist import PiecewiseLinearTwist
@@ -76,22 +76,24 @@ def _arrow(x1: float, y1: float, x2: float, y2: float, colour: str) -> str:
     return f'<path d="M{x1},{y1} L{x2},{y2} {heads}" fill="none" stroke="{colour}" stroke-width="1.5"/>'
 
 
-def headline(race: Race, run: SearchRun, units: Units = SI) -> str:
-    """The power of the best so far as a large number, and every start with its place in the race."""
-    if race.best_power is None:
+def headline(starts: Starts, run: SearchRun, units: Units = SI) -> str:
+    """The power of the best so far as a large number, and how each start compares."""
+    if starts.best_power is None:
         return ""
-    change = "" if race.change is None else units.watts(race.change, 1, sign=True)
-    kind = "" if race.change is None or abs(race.change) < 50.0 else " rx-less" if race.change < 0.0 else " rx-more"
+    change = "" if starts.change is None else units.watts(starts.change, 1, sign=True)
+    kind = (
+        "" if starts.change is None or abs(starts.change) < 50.0 else " rx-less" if starts.change < 0.0 else " rx-more"
+    )
     mean = "mean power" if len(_legs(run)) > 1 else f"{_quantity(run)} power"
     mean += ", best so far" if run.under_way else ", best found"
     rows = "".join(
         f'<span><i style="background:{css(START_COLOURS[k])}"></i>{escape(start.legend(units))}</span>'
-        for k, start in enumerate(race.starts)
+        for k, start in enumerate(starts.each)
     )
     return (
-        f'<div class="rxp-big" data-explorer="race"><b data-explorer="best">{units.watts(race.best_power, 1)}</b>'
+        f'<div class="rxp-big" data-explorer="starts"><b data-explorer="best">{units.watts(starts.best_power, 1)}</b>'
         f'<em class="{kind}">{change}</em>'
-        f'<div class="rx-dim">{mean}</div><div class="rxp-race">{rows}</div></div>'
+        f'<div class="rx-dim">{mean}</div><div class="rxp-starts">{rows}</div></div>'
     )
 
 
