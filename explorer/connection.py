@@ -18,7 +18,7 @@ MakeSession = Callable[[viser.ClientHandle, viser_compat.PageFacts], Session]
 
 
 class ClientConnection:
-    """Lives from connect to disconnect. Each step may come on another thread; they run one at a time."""
+    """Exists from connect to disconnect. Each step may come on another thread; they run one at a time."""
 
     def __init__(self, client: viser.ClientHandle) -> None:
         self.client = client
@@ -72,7 +72,7 @@ class ClientConnection:
             session.stop()
 
     def _ignored(self, sentence: str) -> None:
-        """A value was refused; a flood of them is told once in a while."""
+        """A value was refused; many of them are reported once in a while."""
         now = time.monotonic()
         if now - self._told > _TELL_EVERY:
             self._told = now

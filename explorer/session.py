@@ -49,7 +49,7 @@ many times as long as these [processor time]: so frames have most of a crowd's t
 
 
 class Session:
-    """Lives from connect to disconnect. After construction everything happens on the worker's thread."""
+    """Exists from connect to disconnect. After construction everything happens on the worker's thread."""
 
     def __init__(
         self,

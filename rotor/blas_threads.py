@@ -55,7 +55,7 @@ def keep_one_blas_thread() -> None:
 @cache
 def _libraries() -> tuple[list[Any], list[Any]]:
     """The BLAS libraries that NumPy and SciPy have loaded: with one pool for the process, and with one per thread."""
-    importlib.import_module("scipy.linalg")  # The controller knows only the libraries that are loaded by now.
+    importlib.import_module("scipy.linalg")  # The controller finds only the libraries that are loaded by now.
     controller: Any = ThreadpoolController()
     found: list[Any] = controller.select(user_api="blas").lib_controllers
     per_thread = [library for library in found if getattr(library, "threading_layer", "") == "openmp"]

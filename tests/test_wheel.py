@@ -45,7 +45,7 @@ def test_it_solves_from_an_empty_directory(installed: Path, tmp_path: Path):
     assert 0.4e6 < power["total"] < 2.0e6
 
 
-def test_it_knows_its_version(installed: Path, tmp_path: Path):
+def test_it_has_its_version(installed: Path, tmp_path: Path):
     assert release.run(installed, "-c", "import rotor; print(rotor.__version__)", cwd=tmp_path).strip() in str(
         next(installed.parent.parent.parent.glob("*.whl"))
     )

@@ -130,7 +130,7 @@ class PowerCurves:
 
 
 def _family(design: Design) -> Design:
-    """The same design for every advance ratio; a test may not know hover, so there it is another one."""
+    """The same design for every advance ratio; a test may have no hover, so there it is another one."""
     any_speed = 0.0 if design.condition.stand is None else 0.2
     return replace(design, condition=replace(design.condition, advance_ratio=any_speed))
 

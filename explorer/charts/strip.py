@@ -84,7 +84,7 @@ class StripChart:
         return round_ticks(*self.y_range, 4)
 
     def _seen(self, line: StripLine) -> bool:
-        """Whether most of a line lies within the axis: a limit of which only crumbs do says nothing."""
+        """Whether most of a line lies within the axis: a limit of which only small parts do is left out."""
         low, high = self.y_range
         return bool(np.mean((line.y >= low) & (line.y <= high)) > 0.5)
 

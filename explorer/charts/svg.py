@@ -166,8 +166,9 @@ def write_to(field: str, expression: str) -> str:
 def charts_write_to(field: str) -> str:
     """A script for the page: from then on a click on a point of any Plotly chart writes its `customdata` into a field.
 
-    viser's chart tells the server of no click. Plotly itself does, in the page, but forgets who listens when a chart is
-    drawn anew; so every drawing is followed by listening again. The field is the one with that label, wherever it is.
+    viser's chart reports no click to the server. Plotly itself does, in the page, but drops its listeners when a
+    chart is drawn anew; so they are added again after every drawing. The field is the one with that label, wherever
+    it is.
     """
     return (
         "if(window.Plotly&&!Plotly.heard){const react=Plotly.react;"

@@ -40,7 +40,7 @@ _WIDTH = 90
 
 
 class PythonWriter:
-    """Writes frozen values as Python expressions and remembers the imports that they need."""
+    """Writes frozen values as Python expressions and collects the imports that they need."""
 
     def __init__(self) -> None:
         self._names: set[tuple[str, str]] = set()

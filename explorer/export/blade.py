@@ -54,7 +54,7 @@ def blade_mesh(design: Design, psi: float | None = None) -> trimesh.Trimesh:
 
 
 def blade_stl(design: Design, psi: float | None = None) -> bytes:
-    """The blade as binary STL. The format knows no unit, so the header names it: metres."""
+    """The blade as binary STL. The format has no unit, so the header names it: metres."""
     body = cast(bytes, blade_mesh(design, psi).export(file_type="stl"))
     header = f"{PROGRAM}: {design.rotor.name} blade, twist {design.twist.spec()}; unit metre"
     return header.encode("ascii", "replace")[:_HEADER].ljust(_HEADER) + body[_HEADER:]

@@ -1,7 +1,7 @@
 """`python -m explorer demo FILE`: the rotor as one HTML file without a server, in a computed sweep of twist and speed.
 
 The file is viser's viewer with the trimmed rotor in it, and `demo.html` on top: sliders, play, power, two charts. It
-asks no host for anything, so it opens from a disk or any static host.
+requests nothing from any host, so it opens from a disk or any static host.
 """
 
 import argparse

@@ -120,7 +120,7 @@ UPLOADS_AT_ONCE = 2
 def refuse_upload(name: str, size: int, parts: int, under_way: int, accepts: str) -> str | None:
     """Why a file is refused, in one sentence; None where it is accepted. `accepts`: as in HTML, ".json,.toml" or "*/*".
 
-    The page's server keeps every part in memory until the last has come, and believes whatever size is claimed.
+    The page's server keeps every part in memory until the last has come, and accepts whatever size is claimed.
     """
     most = next((largest for ending, largest in _OF_TYPE.items() if name.lower().endswith(ending)), LARGEST_FILE)
     shown = repr(name if len(name) <= 60 else name[:57] + "…")

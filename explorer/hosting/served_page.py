@@ -136,7 +136,7 @@ _LOADING_SCREEN = """<div id="rx-veil"><svg viewBox="0 0 100 100"><circle cx="50
     if (next) watch(next);
   }});
 
-  // A chart that is drawn anew before it has taken a new size in forgets to, and has no numbers along its axis: so
+  // A chart that is drawn anew before it has taken its new size keeps the old one, without numbers along its axis: so
   // every drawing looks at the axes. The client lists its charts here.
   const uplots = new Proxy({}, {set(charts, name, entry) {
     const redraw = entry.chart.redraw;

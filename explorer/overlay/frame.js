@@ -32,7 +32,7 @@
         for (const name of due) if (name in state) painters[name]?.(state[name]);
       });
     },
-    // From Python: the text widget that hears us; later, parts of the state.
+    // From Python: the text widget that takes our messages; later, parts of the state.
     begin(uuid) { bridge = uuid; for (const name of Object.keys(state)) delete state[name]; page.removeAttribute('data-lecture'); },
     set(parts) { for (const [name, value] of Object.entries(parts)) { state[name] = value; RX.again(name); } },
     // To Python: what is wanted, and of what. A serial number makes every message another one.

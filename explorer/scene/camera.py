@@ -39,7 +39,7 @@ class FittedCamera:
         self._following = True
         self._held = False
         self._wanted: tuple[float, bool] | None = None
-        """What `follow` was told while the camera was held."""
+        """What `follow` was given while the camera was held."""
         self._put: tuple[np.ndarray, tuple[int, int], float] | None = None
         client.camera.fov = FIELD_OF_VIEW
         client.camera.near = 2.0  # A far near plane keeps the depth resolution that words on the disk need.

@@ -72,7 +72,7 @@ class PageScene:
             self._send(solution)
 
     def turn(self, azimuth: float) -> None:
-        """The reference blade is at ψ [rad] now; the page goes on from here until it hears again."""
+        """The reference blade is at ψ [rad] now; the page goes on from here until the next message."""
         if self.playing:
             run_in_page(self._client, f"rotorScene.turn({azimuth:.4f})")
 

@@ -94,7 +94,7 @@ class WakeBandJobs:
     """One session's bands of power in hover with a free wake, made by processes of the pool while the page rests."""
 
     def __init__(self, pool: PoolClient, found: Callable[[], None]) -> None:
-        """`found`: hears, in a thread of the pool, that there is a new band."""
+        """`found` is called, in a thread of the pool, when there is a new band."""
         self._pool, self._found = pool, found
         self._asked: dict[type[PowerBandTask | WorthBandTask], _AskedBand] = {}
 

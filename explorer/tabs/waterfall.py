@@ -182,7 +182,7 @@ class WaterfallPanel:
     """One session's."""
 
     def __init__(self, gui: viser.GuiApi, show_costs: Callable[[Mapping[str, str]], None]) -> None:
-        """`show_costs`: hears what each switch costs, in words, by its name."""
+        """`show_costs` is called with what each switch costs, in words, by its name."""
         self._show_costs = show_costs
         gui.add_html(_WORDS)
         self._chart = gui.add_html(waterfall_chart(()))

@@ -100,7 +100,7 @@ class NewestWins:
             self._turn.give_way(lambda: self.superseded)
 
     def _look(self) -> None:
-        """An update that waits behind frames asks whether it is still wanted."""
+        """Let an update that waits behind frames check again whether it is wanted."""
         if (turn := self._turn) is not None:
             turn.look()
 

@@ -1,11 +1,11 @@
 """A pool of warm worker processes shared by all pages, with progress, stop, time limits and honest queue positions.
 
 One process is kept warm from the start; others are added, up to the size of the pool, once there is work. Each has a
-thread that feeds it through a pipe, so a process that dies or hangs costs only its own job.
+thread that feeds it through a pipe, so a process that ends or hangs costs only its own job.
 
 `concurrent.futures.ProcessPoolExecutor` (and loky, which is built on it) was tried and does not do: it cannot end a
 task that ignores its stop, the interpreter waits for running tasks at exit (8 s measured for a task of 8 s), and the
-processes of a server that was killed live on.
+processes of a server that was killed go on.
 """
 
 import itertools
@@ -35,7 +35,7 @@ _PATIENCE = 0.12
 _GRACE = 3.0
 """[s] after a stop until a process that goes on is killed."""
 _LOOK = 2.0
-"""[s] between the checks of an idle thread whether its process still lives."""
+"""[s] between the checks of an idle thread whether its process still runs."""
 _POLL = 0.2
 """[s] between the questions whether a result is still awaited: each takes a turn of the interpreter from the frames."""
 _START = 60.0
@@ -66,7 +66,7 @@ class Pool:
             self._change.notify_all()
 
     def warm(self) -> None:
-        """Start the first process before anybody asks."""
+        """Start the first process before it is needed."""
         with self._change:
             if not self._workers:
                 self._add_worker()
@@ -123,7 +123,7 @@ class Pool:
 
     @property
     def pids(self) -> tuple[int, ...]:
-        """Ids of the processes that live."""
+        """Ids of the processes that run."""
         return tuple(pid for worker in self._workers if (pid := worker.pid) is not None)
 
     def next(self, patience: float) -> Job | None:
@@ -223,7 +223,7 @@ class WorkerThread(threading.Thread):
     def run(self) -> None:
         while not self._pool.closed:
             with suppress(OSError, EOFError):
-                self._ready()  # Warm before anybody asks, and again after it was lost.
+                self._ready()  # Warm before it is needed, and again after it was lost.
             job = self._pool.next(_LOOK)
             if job is None:
                 continue

@@ -1,4 +1,4 @@
-"""The worker process: takes tasks from a pipe, one at a time, and sends what they report. Does not know the page."""
+"""The worker process: takes tasks from a pipe, one at a time, and sends what they report. Without the page."""
 
 import os
 import signal

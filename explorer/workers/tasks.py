@@ -1,4 +1,4 @@
-"""Tasks of the worker processes, as values that can be pickled. They do not know viser."""
+"""Tasks of the worker processes, as values that can be pickled. They do not import viser."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -35,7 +35,7 @@ class SearchTask:
     """The second reference of the saving."""
 
     def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Optimum:
-        """Tells `StartPower`, `ReferencePower`, then every `Progress`."""
+        """Reports `StartPower`, `ReferencePower`, then every `Progress`."""
         search = self.search
         objective = search.objective or at_condition(search.design)
         begin = measure(objective, search.design, gradient=False)
@@ -62,7 +62,7 @@ class MapTask:
     """Intervals along each axis, each a multiple of the one before."""
 
     def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> bool:
-        """Tells a `MapLevel` for each grid; True when all were done."""
+        """Reports a `MapLevel` for each grid; True when all were done."""
         known: dict[tuple[int, int], float | None] = {}
         finest = self.steps[-1]
         for steps in self.steps:
@@ -106,7 +106,7 @@ class ScheduleTask:
     plan: Plan
 
     def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Schedule:
-        """Tells every `Cell`, then `FixedPowers`. Every leg uses all its starts."""
+        """Reports every `Cell`, then `FixedPowers`. Every leg uses all its starts."""
         plan, concept = self.plan, self.plan.concepts[0]
         cells: list[Cell] = []
         guesses: tuple[tuple[float, ...], ...] = ()

@@ -49,7 +49,7 @@ class Section:
     """A section on the blade.
 
     `incidence_offset` [rad] is the nose-down angle of its chord line from the blade's (on the UH-60A that of
-    the SC1095): the table is asked at alpha_blade - incidence_offset. `chord_ratio` [-] is its chord over the
+    the SC1095): the table is read at alpha_blade - incidence_offset. `chord_ratio` [-] is its chord over the
     blade's. `outline` is its shape, for pictures.
     """
 

@@ -100,7 +100,7 @@ class Models:
     """`wake`: the inflow model of forward flight at any speed; `hover`: it passes over to the hover model as the speed
     falls to zero."""
     document_losses: bool = False
-    """Only losses the document knows: whatever the switches of `BEYOND_DOCUMENT` say."""
+    """Only the losses that the document has: whatever the switches of `BEYOND_DOCUMENT` say."""
     elements: int = 40
     """Blade elements, equally wide (eq. 3.14)."""
     azimuths: int = 120

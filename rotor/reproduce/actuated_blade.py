@@ -152,7 +152,7 @@ def table_5_1() -> Report:
     return Report(
         number="5.1",
         kind="table",
-        caption="Properties of the actuators that this package knows; columns and choice are ours.",
+        caption="Properties of the actuators in this package; columns and choice are ours.",
         statement=caption_only("Table 5.1"),
         ours=f"{len(made.rows)} actuators. " + " ".join(made.notes),
         verdict=Agreement.ALONE,

@@ -155,7 +155,7 @@ def _disk(disk: DiskFields, values: np.ndarray, label: str, title: str, *, zero_
 ELEMENTS = (5, 10, 20, 40, 80, 160, 320)
 AZIMUTHS = (8, 12, 16, 24, 36, 48, 72, 100, 120, 180, 360)
 WAKE_LEAST = 36
-"""The dynamic wake carries 16 waves per revolution and refuses fewer than 33 azimuths."""
+"""The dynamic wake carries 16 waves per revolution and needs at least 33 azimuths."""
 FINEST_AZIMUTHS = 720
 FORWARD = 0.30
 """Advance ratio of figs. 3.8 and 3.9: "high speed forward flight" in the thesis (p. 21)."""

@@ -160,7 +160,7 @@ def figure_4_8(scope: Scope = FULL, variants: Variants = EVERY_VARIANT) -> Repor
         " SC1094 R8 inboard, SC1095 outboard, changing at the division (our order; that of the thesis is not known). "
         "In "
         "the thesis preset decks replace the polynomials and the annulus balance eq. (3.3), in the baseline too: the "
-        "R8 exists as a deck only, and (3.3) knows one lift curve for a whole blade.",
+        "R8 exists as a deck only, and (3.3) has one lift curve for a whole blade.",
     )  # fmt: skip
 
 

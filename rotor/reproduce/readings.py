@@ -63,7 +63,7 @@ def reading_design(section: str, rate: float, mu: float) -> Design:
     design = replace(design, rotor=with_airfoils(design.rotor, (section,), ()))
     if section.startswith(THESIS_NAME):
         return design
-    # Equation (3.3) knows one lift curve for the whole blade; with Mach number the annulus balance takes its place.
+    # Equation (3.3) has one lift curve for the whole blade; with Mach number the annulus balance takes its place.
     return replace(design, models=replace(design.models, hover_inflow="annulus"))
 
 

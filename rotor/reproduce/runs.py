@@ -246,7 +246,7 @@ def best(name: str, concept: str, mu: float, scope: Scope) -> ConceptOptimum:
     design = variant(name, twist=BASELINE, mu=mu)
     if concept in ("two airfoils", SC1095_DECKS) and design.preset == "thesis":
         # The R8 exists as a deck only; its baseline is then the SC1095 deck, so that sections are compared, not polars.
-        # Hover by eq. (3.3) knows one lift curve for the whole blade, so the annulus balance takes its place.
+        # Hover by eq. (3.3) has one lift curve for the whole blade, so the annulus balance takes its place.
         models = replace(design.models, hover_inflow="annulus")
         design = replace(design, rotor=with_airfoils(design.rotor, ("sc1095",), ()), models=models)
     speeds = scope.speeds

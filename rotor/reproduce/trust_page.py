@@ -181,7 +181,7 @@ _NOT_MODELLED = (
 
 
 def all_rows(reports: Sequence[Report], tell: Callable[[str], None] = print) -> list[TrustRow]:
-    """Every row, run anew; rows of a public code that is not installed are the shipped ones, and `tell` hears of it."""
+    """Every row, run anew; rows of a public code that is not installed are the shipped ones, named to `tell`."""
     rows = [*verification(), *between_theories(), *public_codes()]
     for package, name in CODES.items():
         if not have(package):

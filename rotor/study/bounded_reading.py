@@ -1,6 +1,6 @@
 """Reading a result of a study that a visitor uploads: in a process of its own with bounded memory and time.
 
-A Parquet file says how large its parts are, and Arrow believes it: some kilobytes may unpack to gigabytes. One file is
+A Parquet file says how large its parts are, and Arrow relies on it: some kilobytes may unpack to gigabytes. One file is
 read at a time, for all pages together.
 """
 

@@ -76,7 +76,7 @@ class WarmStarts:
         return Guess(TrimState.from_array(state), induced.reshape(self._shape), twist)
 
     def keep(self, values: Mapping[str, Value], solution: Solution) -> None:
-        """Remember a trim; one that did not converge teaches nothing."""
+        """Keep a trim to start others from; one that did not converge is of no use."""
         if not solution.converged:
             return
         key = self._kind(values, solution.design.hovering)

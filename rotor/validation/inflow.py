@@ -1,6 +1,6 @@
 """Measured inflow over the disk beside every inflow model: correlation and root mean square of the difference.
 
-The laser velocimeter measured the time mean at points of the disk, one chord above it. A model that knows single blades
+The laser velocimeter measured the time mean at points of the disk, one chord above it. A model with single blades
 gives the inflow at the blade; its time mean is that of the same load spread over infinitely many blades.
 """
 
@@ -22,7 +22,7 @@ ROTOR = "2mrts"
 CONDITIONS = {0.15: (3.0, 0.0064), 0.23: (3.04, 0.0064), 0.35: (5.7, 0.0064)}
 """Shaft tilt [°] and C_T at each advance ratio (NASA TM-100541 to 100543)."""
 MODELS = tuple(name for name in INFLOW_MODELS if name != "vortex-wake")
-"""Models with a time mean at a point of the disk; the vortex lattice knows the inflow at the blade only."""
+"""Models with a time mean at a point of the disk; the vortex lattice gives the inflow at the blade only."""
 SET = "2mrts-inflow"
 """Name of the set on the command line."""
 WHY = (

@@ -148,7 +148,7 @@ def test_text_is_shown_copied_and_has_the_power_of_the_page(watched: Watched):
     page.wait_for_selector('[data-explorer="code"]', state="detached")
 
 
-def test_the_report_opens_without_a_server_and_asks_for_nothing(watched: Watched, tmp_path: Path):
+def test_the_report_opens_without_a_server_and_requests_nothing(watched: Watched, tmp_path: Path):
     shown = watched.text("total-power")
     watched.page.keyboard.press("m")
     path = saved(watched, "Report of this session", tmp_path)

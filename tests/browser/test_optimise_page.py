@@ -154,7 +154,7 @@ def test_reset_design_discards_a_preview(page: tuple[Watched, Session]):
 
 
 def stopped(watched: Watched, session: Session) -> float:
-    """How long a search takes to stop [s], from the press that the server hears."""
+    """How long a search takes to stop [s], from the press that reaches the server."""
     panel = session.page.optimise
     optimise(watched, session)
     until(watched, "running")

@@ -63,7 +63,7 @@ def test_a_click_on_a_point_puts_it_on_the_sliders(page: tuple[Watched, Session]
     said = tab.locator("[data-explorer=study-point]", has_text=re.compile("^Applied"))
 
     def taken() -> bool:
-        """Plotly hears a click on a point over which it knows the pointer."""
+        """Plotly takes a click on a point once it has found the pointer over it."""
         dots.last.hover(force=True)
         tab.wait_for_timeout(300)
         dots.last.click(force=True)

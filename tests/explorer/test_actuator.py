@@ -277,7 +277,7 @@ def test_the_chart_shows_need_and_reach(verdict: Verdict):
 
 
 class Here:
-    """For the processes of the page: answers at once, and remembers what it was asked."""
+    """For the processes of the page: answers at once, and keeps what it was asked."""
 
     def __init__(self) -> None:
         self.asked: list[str] = []
@@ -346,7 +346,7 @@ def test_sweeps_that_wait_keep_no_page_from_computing():
 
 
 @pytest.mark.slow
-def test_what_nobody_asked_for_waits_until_the_page_is_still(monkeypatch: pytest.MonkeyPatch):
+def test_work_not_asked_for_waits_until_the_page_is_still(monkeypatch: pytest.MonkeyPatch):
     now, here = [100.0], Here()
     monkeypatch.setattr(actuator_study, "time", SimpleNamespace(monotonic=lambda: now[0], sleep=time.sleep))
     study = VerdictWorker(here, lambda: None, "study-idle")

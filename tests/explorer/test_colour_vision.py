@@ -54,7 +54,7 @@ def apart(first: str, second: str, eye: str) -> float:
     return float(np.linalg.norm(seen(rgb_of(first), eye) - seen(rgb_of(second), eye)))
 
 
-def test_the_simulation_knows_red_from_green_as_the_eyes_do():
+def test_the_simulation_tells_red_from_green_as_the_eyes_do():
     """Red and green of one luminance: one colour for a deuteranope nearly, two for a tritanope; white is white."""
     red, green = "#c43c3c", "#5b8a3c"
     assert apart(red, green, "deuteranopia") < 0.35 * apart(red, green, "ordinary")

@@ -77,7 +77,7 @@ def test_the_disk_is_a_picture_of_the_size_said(data: dict):
     assert (image.format, image.size) == ("WEBP", (PIXELS, PIXELS))
 
 
-def test_it_asks_no_host(page: str):
+def test_it_requests_nothing_from_any_host(page: str):
     front = page[page.index('id="demo"') :]
     assert not re.search(r"https?://", front)
     assert not re.search(

@@ -199,7 +199,7 @@ def test_file_names_hold_nothing_that_a_system_refuses():
 
 
 def curves_of(content: bytes) -> dict[float, np.ndarray]:
-    """Closed curves (points, 3) [m] by r/R, read by a library that knows nothing of us."""
+    """Closed curves (points, 3) [m] by r/R, read by a library without any of our code."""
     table = pyarrow.csv.read_csv(io.BytesIO(content)).to_pydict()
     points = np.stack([table[name] for name in ("x_m", "y_m", "z_m")], axis=1)
     sections = np.array(table["section"])

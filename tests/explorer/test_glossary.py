@@ -75,7 +75,7 @@ def _never_seen(call: ast.Call) -> bool:
     return label == "frame" and any(word.arg == "visible" for word in call.keywords)
 
 
-def test_every_widget_that_is_made_anywhere_asks_the_glossary():
+def test_every_widget_that_is_made_anywhere_has_its_hint_from_the_glossary():
     """Of all tabs, by reading the code: `hint=hint("name")`, or a variable that holds it."""
     for path in sorted((ROOT / "explorer").rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):

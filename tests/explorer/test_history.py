@@ -61,7 +61,7 @@ class TestHistory:
         history.undo()
         history.undo()
         assert history.redo() == replace(START, two_inner=-15.0)
-        assert not history.note(history.present, 0.1)  # The page's own echo is no step and forgets nothing.
+        assert not history.note(history.present, 0.1)  # The page's own echo is no step and drops none.
         assert history.redo() == replace(START, two_inner=-15.0, advance_ratio=0.3)
         history.undo()
         drag(history, "mass_t", [9.0], LONG)

@@ -31,7 +31,7 @@ def test_titles_are_distinct_and_short_enough_for_a_line():
     assert max(map(len, titles)) <= 40
 
 
-def test_the_page_knows_every_key():
+def test_the_page_has_every_key():
     known = {*typing.get_args(_messages.HotkeyKey), "?"}
     assert {key.key for key in KEYS.values()} - {""} <= known
     assert {key.modifier for key in KEYS.values()} - {""} <= set(typing.get_args(_messages.KeyModifier))

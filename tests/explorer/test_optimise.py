@@ -159,7 +159,7 @@ class TestCharts:
         for start in starts.each:
             assert f"Start {start.number}:" in html
 
-    def test_sensitivity_knows_that_turning_the_whole_blade_changes_nothing(self):
+    def test_sensitivity_to_turning_the_whole_blade_is_zero(self):
         solution = solve(make_design(mu=0.2))
         plot = sensitivity.sensitivity_plot(solution, None)
         assert np.isnan(plot.data[3]).all()  # No A.

@@ -77,7 +77,7 @@ def test_a_step_without_trim_has_no_change_and_does_not_spoil_the_next():
     assert tracker.solved(at(-9.5), 846e3, DRAG) == -4e3
 
 
-def test_reset_forgets():
+def test_reset_drops_what_was_kept():
     tracker = PowerTracker()
     tracker.solved(START, 850e3, 0.0)
     tracker.solved(at(-9.0), 847e3, 60.0)

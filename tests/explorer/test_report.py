@@ -189,7 +189,7 @@ def page(report: DesignReport) -> str:
 
 
 class TestReport:
-    def test_is_one_file_that_asks_for_nothing(self, page: str):
+    def test_is_one_file_that_requests_nothing(self, page: str):
         checked = Checked(page)
         assert checked.wanted == []
         assert checked.open == []

@@ -86,7 +86,7 @@ class TestDrawing:
         assert "Too &lt;heavy&gt;." in svg
         assert "has no trim" in alone_table((steps[1],))
 
-    def test_every_row_speaks(self, found: Waterfall):
+    def test_every_row_has_its_words(self, found: Waterfall):
         svg = waterfall_chart(found.steps)
         for switch in SWITCHES.values():
             assert f"<title>{switch.title} on: " in svg

@@ -68,7 +68,7 @@ class ActuatorPanel:
                 self._controls.arrange(inputs, inputs.installed(uh60a_rotor(design.preset)))
             check_blade(design.aircraft)
             installed = inputs.installed(design.rotor)
-            inputs.turning(installed, design.elastic)  # Resonance of a rigid trim speaks here.
+            inputs.turning(installed, design.elastic)  # Resonance of a rigid trim is reported here.
             question = question_of(inputs, design)
         except ValueError as error:
             self._cut.hide()

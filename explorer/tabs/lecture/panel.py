@@ -38,13 +38,13 @@ class LecturePanel:
         presence: Presence,
         stage: Callable[[str], None],
     ) -> None:
-        """`stage`: hears which mode a step wants to be seen in; empty: the lecture has ended."""
+        """`stage` is called with the mode that a step is shown in; empty once the lecture has ended."""
         self._bridge, self._context, self._presence, self._stage = bridge, context, presence, stage
         self._step: int | None = None
         self._before: PageSnapshot | None = None
         """The visitor's own page, to be given back at the end."""
         self._against: Inputs | None = None
-        """A, as the step wants it beside what is on the sliders."""
+        """A, as the step sets it beside what is on the sliders."""
         self._time: float | None = None
         """[s] since the tour began; None outside it."""
         self._player = Player(self._tour_on, "tour")
@@ -117,7 +117,7 @@ class LecturePanel:
         self._show()
 
     def set(self, step: int) -> None:
-        """Set the page as a step wants it."""
+        """Set the page as a step describes it."""
         if self._before is None:
             self._before = PageSnapshot.take(self._context)
         self._stop_tour()

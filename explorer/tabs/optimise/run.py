@@ -33,7 +33,7 @@ class SearchFrame:
 
 
 class SearchRun:
-    """Written by the pool's threads (`hear`), read by the session's."""
+    """Written by the pool's threads (`on_event`), read by the session's."""
 
     def __init__(self, search: Search, reference_title: str = "") -> None:
         """`reference_title`: what the saving is also measured against."""

@@ -229,7 +229,7 @@ class FlightInstant:
 
 
 class ScheduleFlight:
-    """The playback of the legs that a schedule knows, in the order of speed."""
+    """The playback of the legs that a schedule has, in the order of speed."""
 
     def __init__(self, progress: PlanProgress, seconds: float = SECONDS) -> None:
         """ValueError with one sentence where no leg has an optimum yet."""

@@ -141,7 +141,7 @@ class ProbePanel:
         opened: Callable[[], None],
         turn_rate: Callable[[], float] = lambda: TURN_RATES["normal"],
     ) -> None:
-        """`playing`: hears whether the rotor turns by itself. `opened`: a click on the disk wants the probe shown.
+        """`playing` is called with whether the rotor turns by itself, `opened` on a click on the disk.
 
         `turn_rate`: of the rotor while it plays [rad/s].
         """

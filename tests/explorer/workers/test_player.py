@@ -12,7 +12,7 @@ def playing(name: str) -> int:
     return sum(thread.name == name for thread in threading.enumerate())
 
 
-def test_it_tells_the_time_that_has_gone_and_ends_with_pause():
+def test_it_gives_the_time_that_has_gone_and_ends_with_pause():
     steps: list[float] = []
     enough = threading.Event()
 
@@ -41,7 +41,7 @@ def test_it_tells_the_time_that_has_gone_and_ends_with_pause():
     player.pause()  # Nothing plays: nothing happens.
 
 
-def test_it_ends_when_there_is_nobody_to_walk(caplog: pytest.LogCaptureFixture):
+def test_it_ends_without_a_page(caplog: pytest.LogCaptureFixture):
     def step(seconds: float) -> None:
         raise RuntimeError(f"gone after {seconds:g} s")
 

@@ -113,7 +113,7 @@ def pool() -> Iterator[Pool]:
     pool.close()
 
 
-def test_tells_in_order_and_returns(pool: Pool):
+def test_reports_in_order_and_returns(pool: Pool):
     _, heard = submit(pool, Count(5))
     assert heard.until(JobEnded) == JobEnded(5)
     assert heard.items == [1, 2, 3, 4, 5]
@@ -282,7 +282,7 @@ def test_a_process_that_will_not_stop_is_not_waited_for(pool: Pool):
     assert heard.until(JobEnded) == JobEnded(2)
 
 
-def test_nobody_hears_of_a_job_whose_browser_left(pool: Pool):
+def test_a_job_whose_browser_left_reports_nothing(pool: Pool):
     job, heard = submit(pool, Count(10_000, 0.01))
     heard.until(JobProgress)
     pool.stop(job, quiet=True)

@@ -108,7 +108,7 @@ def test_jacobian_against_differences(off: tuple[str, ...], trim: str):
 @pytest.mark.parametrize("mu", [0.0, 0.3])
 @pytest.mark.parametrize("off", [*((n,) for n in SWITCHES), tuple(SWITCHES)], ids=name)
 def test_gradient_along_the_blade_against_differences(off: tuple[str, ...], mu: float):
-    """dP/dθ(r) with the dynamic wake, along one change of pitch that no twist law knows."""
+    """dP/dθ(r) with the dynamic wake, along one change of pitch that no twist law has."""
     design = with_switches(small(mu), off)
     r = build_problem(design).disk.r
     base, way = design.twist(r), np.random.default_rng(3).standard_normal(len(r))

@@ -16,7 +16,7 @@ def test_hover_points():
     """Validation with incomplete provenance: rotor C_P against C_T, ten digitised points.
 
     The measured points give an induced-power factor of 1.20 (fit of the data), annulus momentum theory gives 1.07: it
-    knows no wake contraction and no tip-vortex interference. So ours must lie below the data, by no more than that 11 %
+    has no wake contraction and no tip-vortex interference. So ours must lie below the data, by no more than that 11 %
     of an induced share of three quarters, but for the 3.2 % scatter of the points either way. The first point, 10 % off
     its own curve, is not counted.
     """

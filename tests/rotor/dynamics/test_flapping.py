@@ -28,7 +28,7 @@ def trimmed(preset: str, mu: float) -> tuple[Problem, TrimState]:
 def march(problem: Problem, state: TrimState, revolutions: int) -> np.ndarray:
     """β(ψ) over the last revolution of β'' + ν²β = Γ Σ(r − e) dC_T/dr(ψ, β, β') dr − w, by Runge–Kutta.
 
-    The load is evaluated at the instant's own β and β' with controls and inflow as trimmed; nothing here knows of
+    The load is evaluated at the instant's own β and β' with controls and inflow as trimmed; nothing here uses
     harmonics.
     """
     disk, flap = problem.disk, problem.flap

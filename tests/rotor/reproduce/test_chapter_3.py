@@ -157,7 +157,7 @@ def test_figure_3_11(report: Make):
     one = report("3.11")
     for preset in ("thesis", "flight"):
         assert -18.0 < one.numbers[f"{preset}_optimum"] < -13.0
-        # Drag rise by angle of attack in the sections of the flight preset wants more twist: −18°.
+        # Drag rise by angle of attack in the sections of the flight preset moves the optimum to more twist: −18°.
         assert 0.0 <= one.numbers[f"{preset}_cost_of_13_5"] < {"thesis": 3e-3, "flight": 6e-3}[preset]
         assert one.numbers[f"{preset}_cost_of_0"] > 0.05
     for made in one.tables:  # At the thesis' mass and above, more twist helps down to −12°; lighter rotors want less.

@@ -146,7 +146,7 @@ def on_stand(stand: Mapping[str, Any], mu: float, trim: str) -> Design:
 
 @pytest.mark.parametrize("climb", [-9.0, 7.0])
 def test_a_climb_is_a_wind_tunnel_at_the_angle_of_the_flight_path(climb: float):
-    """The rotor knows only the wind: the same thrust at the same angle to it takes the same controls and torque."""
+    """Only the relative wind counts: the same thrust at the same angle to it takes the same controls and torque."""
     flown = solve(design(0.2, climb), None, TIGHT).require()
     at, tilt = flown.design, flown.controls.shaft_tilt
     along = 0.2 * math.cos(tilt) - at.climb_ratio * math.sin(tilt)

@@ -123,7 +123,7 @@ def test_elements_converge(preset: str, mu: float):
 
 
 def test_azimuths_converge():
-    """Fig. 3.9: the document wants at least 100 azimuths; here 120 are within 0.02 % of 720."""
+    """Fig. 3.9: the document requires at least 100 azimuths; here 120 are within 0.02 % of 720."""
     design = make_design(preset="thesis", twist="linear:-16", mu=0.3)
 
     def power(azimuths: int) -> float:

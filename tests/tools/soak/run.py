@@ -55,7 +55,7 @@ def server(*options: str) -> Iterator[tuple[str, int]]:
 
 
 def soak(plan: Soak, tell: Callable[[str], None] = lambda line: None) -> SoakReport:
-    """Run it; `tell` hears a line now and then. RuntimeError where there is no server, or no browser to be had."""
+    """Run it; `tell` takes a line now and then. RuntimeError where there is no server, or no browser to be had."""
     expected()
     with server("--max-sessions", str(plan.browsers + plan.real)) as (address, pid):
         try:

@@ -1,4 +1,4 @@
-"""A browser without a screen: knows its widgets, reads every frame, moves sliders as the page would."""
+"""A browser without a screen: keeps its widgets, reads every frame, moves sliders as the page would."""
 
 import asyncio
 import json
