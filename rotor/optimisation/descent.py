@@ -1,15 +1,16 @@
 """From one start to one local minimum, and how flat the minimum is.
 
-A descent is SciPy's SLSQP (Kraft 1988) on the exact gradient, in coordinates in which the power is nearly a round
-paraboloid. Power is close to quadratic in the twist, but much flatter along some parameters than along others. Least
-squares on the exact gradients of earlier evaluations gives its second derivatives. In the coordinates y a step of
-length one costs BAND of the power in any direction, so a descent takes few steps and the band is a sphere.
+Power is a smooth function of the pitch of every blade element, close to quadratic, and each trim gives its exact
+gradient. So a trim of one blade tells of all others, whatever their concept. The second derivatives by pitch are the
+least squares of the changes of gradient between the trims known. With value and gradient at one trim they make a model
+of power that knows how a law bends where a break passes an element. A descent goes to the least of the model within
+a region that it trusts, evaluates there, and begins again with what this has taught (Conn, Gould, Toint 2000).
 
-The band of a parameter is how far it can go with P ≤ (1 + BAND) P*, the others re-optimised: one small SLSQP problem
-per parameter and side, started from the end of the ellipsoid that the second derivatives predict. Earlier evaluations
-inside the band widen it.
+The band of a parameter is how far it can go with P ≤ (1 + BAND) P*, the others re-optimised: the ends of the model,
+evaluated, and corrected with the model at that evaluation.
 """
 
+import math
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -19,7 +20,9 @@ import numpy as np
 from scipy import optimize
 
 from rotor.arrays import Array
-from rotor.optimisation.evaluator import Evaluation, Evaluator
+from rotor.optimisation.evaluator import Evaluation, Evaluator, Sample
+from rotor.optimisation.limits import PERCENT
+from rotor.optimisation.objective import Measured
 from rotor.optimisation.results import Band
 
 _minimize = cast(Callable[..., Any], optimize.minimize)
@@ -68,87 +71,190 @@ def slsqp(
     return SlsqpEnd(np.asarray(ended.x, dtype=np.float64), int(ended.status) in (0, 8))
 
 
-_least_squares = cast(Callable[..., Any], np.linalg.lstsq)
-
 BAND = 1e-3
 """Relative rise of power that defines the band of each parameter."""
-_REACH = 0.25
-"""Scaled distance within which evaluations have full weight for the second derivatives."""
+_NEAR = 0.02
+"""Distance [rad], about 10°/R of a straight blade, within which trims have full weight for the second derivatives."""
+_SAME = 1e-6
+"""Distance [rad] within which two blades are the same."""
+_PRIOR = 1e-3
+"""Weight of the mean curvature in directions that trims have not shown, beside 1 of a trim."""
+_FIRST_CURVATURE = 200.0
+"""Curvature [1/rad²] over power, before two trims show it: some per cent over half the range of a rate."""
 _FLATTEST = 2e-3
 """Least curvature over the largest; flatter directions are left to the descent."""
 
 
+def second_derivatives(steps: Array, changes: Array, weights: Array, elsewhere: float) -> Array:
+    """The symmetric H with H·step = change by least squares, `elsewhere` times 1 where no step leads, (n, n).
+
+    steps, changes: (trims, n). Least squares of H s − y and of H − c 1 gives H A + A H = B, solved along the axes of A.
+    """
+    length = np.asarray(np.linalg.norm(steps, axis=1))
+    scale = (np.sqrt(weights) / length)[:, None]
+    s, y = scale * steps, scale * changes
+    curvature = max(float(np.vdot(s, y) / np.vdot(s, s)), 0.0) if len(steps) and elsewhere else elsewhere
+    size, axes = np.linalg.eigh(s.T @ s + _PRIOR * np.eye(steps.shape[1]))
+    right = y.T @ s + s.T @ y + 2.0 * _PRIOR * curvature * np.eye(len(size))
+    return axes @ (axes.T @ right @ axes / (size[:, None] + size)) @ axes.T
+
+
 @dataclass(frozen=True, eq=False)
-class Preconditioner:
-    """x = centre + stretch · y."""
+class Quadratic:
+    """A measure of the blade near one trim, as a function of the twist at the elements."""
 
-    centre: Array
-    stretch: Array
-    """(parameters, parameters)"""
-    unit: float
-    """Power [W] by which the objective is scaled: half a |y|² of it."""
+    pitch: Array
+    value: float
+    slope: Array
+    """[1/rad], (elements,)"""
+    second: Array
+    """[1/rad²], (elements, elements)"""
 
-    def x(self, y: Array) -> Array:
-        """Scaled parameters of y."""
-        return self.centre + self.stretch @ y
-
-    def y(self, x: Array) -> Array:
-        """The inverse of `x`."""
-        return np.asarray(np.linalg.solve(self.stretch, x - self.centre), dtype=np.float64)
-
-
-def initial_preconditioner(centre: Array, power: float) -> Preconditioner:
-    """Before any evaluation: power rises by some per cent over half the range of a parameter."""
-    return Preconditioner(centre, np.sqrt(2.0 * BAND) * np.eye(len(centre)), 2.0 * BAND * power)
+    def at(self, pitch: Array) -> tuple[float, Array]:
+        """Value, and slope by the twist at the elements."""
+        step = pitch - self.pitch
+        bent = self.second @ step
+        return self.value + float((self.slope + 0.5 * bent) @ step), self.slope + bent
 
 
-def fit_preconditioner(records: Sequence[Evaluation], best: Evaluation) -> Preconditioner | None:
-    """The preconditioner at the best point; None while the evaluations do not determine it."""
-    assert best.power is not None
-    known = [one for one in records if one.power is not None and one.power < 1.5 * best.power]
-    n = len(best.x)
-    pairs = [(i, j) for i in range(n) for j in range(i, n)]
-    if len(known) * n < len(pairs) + 2 * n:
-        return None
-    offsets = np.array([one.x - best.x for one in known])
-    gradients = np.array([one.slope for one in known]) / best.power
-    weight = 1.0 / (1.0 + (offsets**2).sum(axis=1) / _REACH**2)
-    # Unknowns: the gradient at the best point, then the upper triangle of the second derivatives.
-    rows = np.zeros((len(known), n, n + len(pairs)))
-    rows[:, np.arange(n), np.arange(n)] = 1.0
-    for column, (i, j) in enumerate(pairs, start=n):
-        rows[:, i, column] += offsets[:, j]
-        if i != j:
-            rows[:, j, column] += offsets[:, i]
-    matrix, wanted = (rows * weight[:, None, None]).reshape(-1, n + len(pairs)), (gradients * weight[:, None]).ravel()
-    found: list[float] = _least_squares(matrix, wanted, rcond=1e-9)[0].tolist()
-    second = np.zeros((n, n))
-    for value, (i, j) in zip(found[n:], pairs, strict=True):
-        second[i, j] = second[j, i] = value
-    size, axes = np.linalg.eigh(second)
-    if not size[-1] > 0.0:
-        return None
-    size = np.maximum(size, _FLATTEST * size[-1])
-    # P/P* − 1 = ½ xᵀ H x = BAND |y|².
-    return Preconditioner(best.x, axes * np.sqrt(2.0 * BAND / size), 2.0 * BAND * best.power)
+def _known(made: Measured) -> tuple[float, Array]:
+    """Power [W] and its slope by pitch [W/rad] of a blade that trims."""
+    assert made.power is not None
+    assert made.by_pitch is not None
+    return made.power, made.by_pitch
 
 
-def bound_margins(preconditioner: Preconditioner) -> Inequality:
-    """The bounds 0 ≤ x ≤ 1, each scaled to a distance in the preconditioner's coordinates."""
-    size = np.linalg.norm(preconditioner.stretch, axis=1)
-    rows = preconditioner.stretch / size[:, None]
-    both = np.vstack([rows, -rows])
-
-    def margins(y: Array) -> Array:
-        x = preconditioner.x(y)
-        return np.concatenate([x / size, (1.0 - x) / size])
-
-    return Inequality(margins, lambda _: both)
+_Measure = Callable[[Array], tuple[Any, Array]]
+"""Value or values at x, and slopes by x."""
+_MODEL_ITERATIONS = 40
+_MODEL_TOLERANCE = 1e-6
+"""Of the least of the model, in units of 2 BAND of the power."""
 
 
-TOLERANCE = 2e-4
-"""Change of the objective at which a descent ends, in units of the preconditioner: 4e-7 of the power."""
+class Model:
+    """Power and stall margins as quadratics around one trim, limits and bounds as they are."""
+
+    def __init__(self, evaluate: Evaluator, centre: Sample, others: Sequence[Sample]) -> None:
+        """others: trims that teach the second derivatives; those of other rotors are left out."""
+        self.evaluate = evaluate
+        made = centre.made
+        power, by_pitch = _known(made)
+        metric = evaluate.r * math.sqrt(1.0 / len(evaluate.r))  # Lift follows the square of the radius.
+        pairs = [
+            (one.made, step, length)
+            for one in others
+            if one.rotor == centre.rotor and _known(one.made)[0] < 1.5 * power
+            for step in [(one.pitch - centre.pitch) * metric]
+            if (length := float(np.linalg.norm(step))) > _SAME
+        ]
+        steps = np.array([step for _, step, _ in pairs]).reshape(-1, len(metric))
+        weights = 1.0 / (1.0 + (np.array([length for _, _, length in pairs]) / _NEAR) ** 2) ** 2
+
+        def fit(slope: Array, slopes: Sequence[Array], elsewhere: float) -> Array:
+            changes = np.array([(other - slope) / metric for other in slopes]).reshape(steps.shape)
+            return second_derivatives(steps, changes, weights, elsewhere)
+
+        first = _FIRST_CURVATURE * power
+        size, axes = np.linalg.eigh(fit(by_pitch, [_known(other)[1] for other, _, _ in pairs], first))
+        size = np.maximum(size, _FLATTEST * max(size[-1], first))
+        self.power = Quadratic(centre.pitch, power, by_pitch, metric[:, None] * (axes * size) @ axes.T * metric)
+        self.stall: list[Quadratic] = []
+        if made.stalled_by_pitch is not None:
+            for k, slope in enumerate(made.stalled_by_pitch):
+                slopes = [other.stalled_by_pitch[k] for other, _, _ in pairs if other.stalled_by_pitch is not None]
+                second = metric[:, None] * fit(slope, slopes, 0.0) * metric
+                self.stall.append(Quadratic(centre.pitch, made.stalled[k], slope, second))
+
+    def watts(self, x: Array) -> float:
+        """[W]"""
+        return self.power.at(self.evaluate.pitch(x))[0]
+
+    def stretch(self, x: Array) -> Array:
+        """Columns are steps of x that raise the power by BAND from a minimum, (parameters, parameters)."""
+        by = self.evaluate.pitch_slopes(x)
+        size, axes = np.linalg.eigh(by @ self.power.second @ by.T)
+        size = np.maximum(size, _FLATTEST * size[-1])
+        return axes * np.sqrt(2.0 * BAND * self.power.value / size)
+
+    def margins(self, x: Array) -> tuple[Array, Array]:
+        """Margins of all limits, positive inside, and slopes by x."""
+        margins, slopes = self.evaluate.cheap_margins(x)
+        pitch, by, limit = self.evaluate.pitch(x), self.evaluate.pitch_slopes(x), self.evaluate.limits.stalled
+        for one in self.stall:
+            assert limit is not None
+            stalled, slope = one.at(pitch)
+            margins = np.append(margins, (limit - stalled) / PERCENT)
+            slopes = np.vstack([slopes, -by @ slope / PERCENT])
+        return margins, slopes
+
+    def least(self, x: Array, reach: float = 1.0) -> Array:
+        """Where the model is least within the limits and `reach` of x, in parts of the ranges."""
+        stretch, unit = self.stretch(x), 2.0 * BAND * self.power.value
+
+        def value(x: Array) -> tuple[float, Array]:
+            power, slope = self.power.at(self.evaluate.pitch(x))
+            return power / unit, self.evaluate.pitch_slopes(x) @ slope / unit
+
+        newton = x - stretch @ (stretch.T @ value(x)[1])
+        inside = bool((np.abs(newton - x) < reach).all() and (newton >= 0.0).all() and (newton <= 1.0).all())
+        if inside and not len(self.margins(x)[0]) and np.linalg.norm(stretch.T @ value(newton)[1]) < _MODEL_TOLERANCE:
+            return newton
+        return self._descend(x, reach, stretch, x, value, ())
+
+    def farthest(self, x: Array, k: int, side: float, edge: float) -> Array:
+        """Where parameter k is largest (side 1) or smallest (−1) with the power at most `edge`, begun beside x."""
+        stretch, scale = self.stretch(x), BAND * self.power.value
+        along = side * stretch[k]
+        size = float(np.linalg.norm(along))
+        direction = side * np.eye(len(x))[k] / size
+
+        def room(x: Array) -> tuple[Array, Array]:
+            power, slope = self.power.at(self.evaluate.pitch(x))
+            return np.array([(edge - power) / scale]), -(self.evaluate.pitch_slopes(x) @ slope)[None] / scale
+
+        start = np.clip(x + stretch @ along / size, 0.0, 1.0)
+        return self._descend(x, 1.0, stretch, start, lambda x: (-float(direction @ x), -direction), (room,))
+
+    def _descend(
+        self, centre: Array, reach: float, stretch: Array, start: Array, value: _Measure, more: Sequence[_Measure]
+    ) -> Array:
+        """SLSQP in coordinates in which the power is round, within `reach` of a centre."""
+        low, high = np.maximum(centre - reach, 0.0), np.minimum(centre + reach, 1.0)
+        length = np.linalg.norm(stretch, axis=1)
+        rows = np.vstack([stretch, -stretch]) / np.concatenate([length, length])[:, None]
+
+        def box(y: Array) -> Array:
+            x = centre + stretch @ y
+            return np.concatenate([(x - low) / length, (high - x) / length])
+
+        def inequality(measure: _Measure) -> Inequality:
+            return Inequality(
+                lambda y: measure(centre + stretch @ y)[0], lambda y: measure(centre + stretch @ y)[1] @ stretch
+            )
+
+        def both(y: Array) -> tuple[float, Array]:
+            found, slope = value(centre + stretch @ y)
+            return found, slope @ stretch
+
+        limits = [self.margins] if len(self.margins(centre)[0]) else []
+        end = slsqp(
+            both,
+            True,
+            np.asarray(np.linalg.solve(stretch, np.clip(start, low, high) - centre), dtype=np.float64),
+            [Inequality(box, lambda _: rows), *(inequality(one) for one in (*limits, *more))],
+            iterations=_MODEL_ITERATIONS,
+            tolerance=_MODEL_TOLERANCE,
+        )
+        return np.clip(centre + stretch @ end.x, low, high)
+
+
+TOLERANCE = 1e-7
+"""Fall of power foreseen, as a part of it, at which a descent ends."""
 _ITERATIONS = 60
+_FIRST_REACH = 0.4
+"""How far from its trim the model is trusted at first, in parts of the ranges."""
+_LEAST_REACH = 1e-4
+"""Step at which a descent ends where the power does not fall as foreseen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,131 +262,63 @@ class Descent:
     """Where a descent ended."""
 
     end: Evaluation | None
-    """The best feasible point evaluated; None when there was none."""
+    """The best feasible point evaluated; None when there was none, or when the descent leads to a minimum known."""
     settled: bool
     """Whether it converged."""
 
 
-def descend(evaluate: Evaluator, preconditioner: Preconditioner, first: Evaluation) -> Descent:
-    """Descend from a point that trims."""
-    problem = CachedProblem(evaluate, preconditioner, first)
-    seen_before = len(evaluate.records)
-    inequalities = [bound_margins(preconditioner)]
-    if first.margins.size:
-        inequalities.append(Inequality(problem.margins, problem.margin_slopes))
-    end = slsqp(
-        problem.value,
-        problem.slope,
-        preconditioner.y(first.x),
-        inequalities,
-        iterations=_ITERATIONS,
-        tolerance=TOLERANCE,
-    )
-    seen = [record for record in (first, *evaluate.records[seen_before:]) if record.feasible]
-    return Descent(min(seen, key=lambda record: record.watts, default=None), end.settled)
+def descend(evaluate: Evaluator, first: Evaluation, known: Callable[[Array], bool]) -> Descent:
+    """Descend from a point that trims, as long as the model's minimum is not one that is `known`."""
+    centre, reach = first, _FIRST_REACH
+    for _ in range(_ITERATIONS):
+        model = Model(evaluate, centre.sample, evaluate.samples.all)
+        x = model.least(centre.x, reach)
+        foreseen = centre.watts - model.watts(x)
+        if centre.feasible and foreseen <= TOLERANCE * centre.watts:
+            return Descent(centre, settled=True)
+        if known(x):
+            return Descent(None, settled=True)
+        length = float(np.abs(x - centre.x).max())
+        if length < _LEAST_REACH:
+            break
+        trial = evaluate(x)
+        share = (centre.watts - trial.watts) / foreseen if trial.feasible and centre.feasible else 0.0
+        if trial.rank >= centre.rank or share < 0.1:
+            reach = 0.3 * length
+        elif share > 0.5:
+            reach = max(reach, 2.0 * length)
+        centre = min(centre, trial, key=lambda one: one.rank)
+    return Descent(centre if centre.feasible else None, settled=centre.feasible and reach < _LEAST_REACH)
 
 
-class CachedProblem:
-    """Value, gradient and margins for SLSQP from one evaluation per point."""
-
-    def __init__(self, evaluate: Evaluator, preconditioner: Preconditioner, first: Evaluation) -> None:
-        self.evaluate, self.preconditioner = evaluate, preconditioner
-        self.trimmed = [first]
-        self._key, self._record = preconditioner.y(first.x).tobytes(), first
-
-    def at(self, y: Array) -> Evaluation:
-        """The record of a point."""
-        key = y.tobytes()
-        if key != self._key:
-            self._key, self._record = key, self.evaluate(self.preconditioner.x(y))
-            if self._record.power is not None:
-                self.trimmed.append(self._record)
-        return self._record
-
-    def value(self, y: Array) -> float:
-        """Scaled power. Where nothing trims: a cone that leads back to the nearest point that did."""
-        record = self.at(y)
-        if record.power is not None:
-            return record.power / self.preconditioner.unit
-        worst = max(one.watts for one in self.trimmed)
-        return 1.01 * worst / self.preconditioner.unit + float(np.linalg.norm(self._away(record)))
-
-    def slope(self, y: Array) -> Array:
-        """Its gradient."""
-        record = self.at(y)
-        if record.power is not None:
-            return self.preconditioner.stretch.T @ record.slope / self.preconditioner.unit
-        away = self._away(record)
-        return away / max(float(np.linalg.norm(away)), 1e-12)
-
-    def margins(self, y: Array) -> Array:
-        """Margins of the limits; where nothing trims, those of the nearest point that did."""
-        return self._trimmed_at(y).margins
-
-    def margin_slopes(self, y: Array) -> Array:
-        """Their gradients."""
-        return self._trimmed_at(y).margin_slopes @ self.preconditioner.stretch
-
-    def _trimmed_at(self, y: Array) -> Evaluation:
-        record = self.at(y)
-        return record if record.power is not None else self._near(record)
-
-    def _away(self, record: Evaluation) -> Array:
-        return self.preconditioner.y(record.x) - self.preconditioner.y(self._near(record).x)
-
-    def _near(self, record: Evaluation) -> Evaluation:
-        return min(self.trimmed, key=lambda one: float(((one.x - record.x) ** 2).sum()))
+_BAND_TOLERANCE = 0.02
+"""Correction of a side of the band that is not evaluated again, over its distance from the best."""
+_BAND_EVALUATIONS = 3
+"""Evaluations of a side at most."""
 
 
-_TOLERANCE = 1e-3
-"""Relative tolerance of a side of the band."""
-_INSIDE = 2e-5
-"""Power above the edge of the band that still counts as on it: two per cent of the band."""
-_BAND_ITERATIONS = 7
-
-
-def measure_band(evaluate: Evaluator, preconditioner: Preconditioner, best: Evaluation) -> tuple[Band, ...]:
+def measure_band(evaluate: Evaluator, best: Evaluation) -> tuple[Band, ...]:
     """The band of every parameter, SI."""
     edge = best.watts * (1.0 + BAND)
     found: list[Band] = []
     for k, parameter in enumerate(evaluate.concept.parameters):
-        ends: list[float] = []
-        for side in (-1.0, 1.0):
-            _go(evaluate, preconditioner, best, edge, side * preconditioner.stretch[k])
-            inside = [one for one in evaluate.records if one.feasible and one.watts <= edge * (1.0 + _INSIDE)]
-            ends.append(side * max(side * float(one.x[k]) for one in inside))
-        low, high = (float(evaluate.low[k] + evaluate.span[k] * end) for end in ends)
+        low, high = (_side(evaluate, best, edge, k, side) for side in (-1.0, 1.0))
+        low, high = (float(evaluate.low[k] + evaluate.span[k] * end) for end in (low, high))
         found.append(Band(parameter.name, low, high))
     return tuple(found)
 
 
-def _go(evaluate: Evaluator, preconditioner: Preconditioner, best: Evaluation, edge: float, row: Array) -> None:
-    """Maximise one parameter within the band, along one row of the preconditioner; the evaluations are the result."""
-    problem = CachedProblem(evaluate, preconditioner, best)
-    along = row / np.linalg.norm(row)
-    centre = preconditioner.y(best.x)
-    scale = BAND * best.watts
-
-    def room(y: Array) -> Array:
-        record = problem.at(y)
-        if record.power is None:  # Outside by the square of the distance, as for a quadratic.
-            return np.array([1.0 - float(((y - centre) ** 2).sum())])
-        return np.array([(edge - record.power) / scale])
-
-    def room_slope(y: Array) -> Array:
-        record = problem.at(y)
+def _side(evaluate: Evaluator, best: Evaluation, edge: float, k: int, side: float) -> float:
+    """How far parameter k goes within the band on one side, scaled."""
+    centre = best
+    x = Model(evaluate, best.sample, evaluate.samples.all).farthest(best.x, k, side, edge)
+    for _ in range(_BAND_EVALUATIONS):
+        record = evaluate(x)
         if record.power is None:
-            return -2.0 * (y - centre)[None]
-        return -(preconditioner.stretch.T @ record.slope)[None] / scale
-
-    inequalities = [Inequality(room, room_slope), bound_margins(preconditioner)]
-    if best.margins.size:
-        inequalities.append(Inequality(problem.margins, problem.margin_slopes))
-    slsqp(
-        lambda y: -float(along @ y),
-        lambda _: -along,
-        centre + along,
-        inequalities,
-        iterations=_BAND_ITERATIONS,
-        tolerance=_TOLERANCE,
-    )
+            break
+        centre, before = record, x
+        x = Model(evaluate, centre.sample, evaluate.samples.all).farthest(centre.x, k, side, edge)
+        if abs(x[k] - before[k]) <= _BAND_TOLERANCE * abs(before[k] - best.x[k]) + 1e-6:
+            break
+    inside = [one.x for one in evaluate.records if one.feasible and one.watts <= edge]
+    return side * max(side * float(one[k]) for one in (*inside, x))

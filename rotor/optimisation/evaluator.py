@@ -2,12 +2,15 @@
 
 import math
 import time
+from collections import deque
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from rotor.aero.elements import build_problem
 from rotor.arrays import Array
+from rotor.design.blade import Rotor
 from rotor.design.design import Design
 from rotor.optimisation.concepts import Concept
 from rotor.optimisation.limits import Limits, cheap_margins, stall_margins
@@ -19,19 +22,59 @@ FEASIBLE = 1e-3
 """Accepted violation of a limit: a thousandth of a degree, or of a per cent of the disk."""
 
 
+_KEPT_SOLUTIONS = 64
+"""Solutions kept as starts for trims."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sample:
+    """What a trim of one blade says of all blades near it, whatever their concept."""
+
+    rotor: Rotor
+    pitch: Array
+    """Twist at the elements [rad], (elements,)."""
+    made: Measured
+    """Without the solutions, which are kept for the last trims only."""
+
+
+class Samples:
+    """What searches with one objective have trimmed."""
+
+    def __init__(self) -> None:
+        self.all: list[Sample] = []
+        self._solved: deque[tuple[Sample, tuple[Solution, ...]]] = deque(maxlen=_KEPT_SOLUTIONS)
+
+    def known(self, rotor: Rotor, pitch: Array) -> Sample | None:
+        """The sample of this very blade."""
+        return next((one for one in self.all if np.array_equal(one.pitch, pitch) and one.rotor == rotor), None)
+
+    def starts(self, pitch: Array, r: Array) -> tuple[Solution, ...]:
+        """The trims of the nearest blade."""
+        gap = min(self._solved, key=lambda pair: float(((r * (pair[0].pitch - pitch)) ** 2).sum()), default=None)
+        return () if gap is None else gap[1]
+
+    def add(self, rotor: Rotor, pitch: Array, made: Measured) -> Sample:
+        """Keep what was trimmed."""
+        sample = Sample(rotor, pitch, replace(made, solutions=()))
+        if made.power is not None:
+            self.all.append(sample)
+            self._solved.append((sample, made.solutions))
+        return sample
+
+
 @dataclass(frozen=True, eq=False)
 class Evaluation:
     """One evaluated design. x: parameters scaled to 0…1 over their bounds."""
 
     x: Array
-    power: float | None
-    """[W]; None when it does not trim."""
-    slope: Array
-    """∂power/∂x [W]"""
+    sample: Sample
     margins: Array
     """Margin of each limit, scaled, positive inside, (limits,)."""
-    margin_slopes: Array
-    """(limits, parameters)"""
+
+    @property
+    def power(self) -> float | None:
+        """[W]; None when it does not trim."""
+        return self.sample.made.power
 
     @property
     def feasible(self) -> bool:
@@ -43,9 +86,12 @@ class Evaluation:
         """Power, infinite where it does not trim, for comparing."""
         return math.inf if self.power is None else self.power
 
-
-_KEPT_SOLUTIONS = 64
-"""Solutions kept as starts for trims."""
+    @property
+    def rank(self) -> tuple[float, float]:
+        """The lesser, the better: by power within the limits, by the violation outside."""
+        if self.power is None:
+            return math.inf, math.inf
+        return (0.0, self.power) if self.feasible else (-float(self.margins.min()), self.power)
 
 
 class SearchStopped(Exception):
@@ -64,7 +110,9 @@ class Evaluator:
         starts: int,
         watch: Callable[[Progress], None] | None,
         stop: Callable[[], bool] | None,
+        samples: Samples,
     ) -> None:
+        """samples: of earlier searches with this objective, at the same conditions; those of this one are added."""
         self.design, self.concept, self.objective, self.limits = design, concept, objective, limits
         self.low, self.high = np.array(limits.bounds_of(concept)).T
         self.span = self.high - self.low
@@ -74,8 +122,9 @@ class Evaluator:
         self.begin = time.perf_counter()
         self.records: list[Evaluation] = []
         self.best: Evaluation | None = None
+        self.samples = samples
+        self.r = build_problem(design).disk.r
         self._watch, self._stop = watch, stop
-        self._solved: list[tuple[Array, tuple[Solution, ...]]] = []
 
     @property
     def elapsed(self) -> float:
@@ -90,50 +139,50 @@ class Evaluator:
         """The scaled point of parameters, within its bounds."""
         return np.clip((np.asarray(values, dtype=np.float64) - self.low) / self.span, 0.0, 1.0)
 
+    def pitch(self, x: Array) -> Array:
+        """Twist at the elements [rad], (elements,)."""
+        return self.concept.twist(self.values(x))(self.r)
+
+    def pitch_slopes(self, x: Array) -> Array:
+        """∂(twist at the elements)/∂x, (parameters, elements)."""
+        return self.concept.slopes(self.values(x), self.r) * self.span[:, None]
+
+    def cheap_margins(self, x: Array) -> tuple[Array, Array]:
+        """Margins of the limits that need no trim, and slopes by x, (limits, parameters)."""
+        margins, slopes = cheap_margins(self.limits, self.concept, self.values(x), self.design.rotor.blade.root_cutout)
+        return margins, slopes * self.span
+
     def baseline(self) -> float | None:
         """Power of the design as given [W]; its trim is where the first start begins."""
         self._check()
-        made = measure(self.objective, self.design, gradient=False)
-        self.count += 1
-        self._solved.append((np.full(len(self.span), 0.5), made.solutions))
-        return made.power
+        return self._sample(self.design).made.power
 
     def __call__(self, x: Array) -> Evaluation:
         """Evaluate a scaled point; SearchStopped when the caller stops the search."""
         self._check()
         x = np.clip(x, 0.0, 1.0)
         values = self.values(x)
-        made = measure(
-            self.objective,
-            self.concept.apply(self.design, values),
-            self._nearest(x),
-            stall=self.limits.stalled is not None,
-        )
-        self.count += 1
-        record = self._record(x, values, made)
+        sample = self._sample(self.concept.apply(self.design, values))
+        margins = self.cheap_margins(x)[0]
+        if sample.made.power is not None:
+            margins = np.concatenate([margins, stall_margins(self.limits, sample.made.stalled)])
+        record = Evaluation(x, sample, margins)
         self.records.append(record)
-        if made.power is not None:
-            self._solved.append((x, made.solutions))
-            del self._solved[:-_KEPT_SOLUTIONS]
         if record.feasible and (self.best is None or record.watts < self.best.watts):
             self.best = record
         self._report(record, values)
         return record
 
-    def _record(self, x: Array, values: tuple[float, ...], made: Measured) -> Evaluation:
-        margins, slopes = cheap_margins(self.limits, self.concept, values, self.design.rotor.blade.root_cutout)
-        if made.power is None or made.by_pitch is None:
-            return Evaluation(x, None, np.zeros_like(x), margins, slopes * self.span)
-        by_value = self.concept.slopes(values, made.solutions[0].disk.r)
-        if made.stalled_by_pitch is not None:
-            more, more_slopes = stall_margins(self.limits, made.stalled, made.stalled_by_pitch @ by_value.T)
-            margins, slopes = np.concatenate([margins, more]), np.concatenate([slopes, more_slopes])
-        return Evaluation(x, made.power, (by_value @ made.by_pitch) * self.span, margins, slopes * self.span)
-
-    def _nearest(self, x: Array) -> tuple[Solution, ...]:
-        if not self._solved:
-            return ()
-        return min(self._solved, key=lambda pair: float(((pair[0] - x) ** 2).sum()))[1]
+    def _sample(self, design: Design) -> Sample:
+        """Trim a design from the nearest one trimmed before; the design itself need not be trimmed again."""
+        pitch = design.twist(self.r)
+        known = self.samples.known(design.rotor, pitch)
+        if known is not None:
+            return known
+        stall = self.limits.stalled is not None
+        self.count += 1
+        made = measure(self.objective, design, self.samples.starts(pitch, self.r), stall=stall)
+        return self.samples.add(design.rotor, pitch, made)
 
     def _check(self) -> None:
         if self._stop is not None and self._stop():

@@ -20,7 +20,7 @@ from rotor.optimisation.concepts import Concept, Parameter, Values
 from rotor.trim.adjoint import Adjoint, Weights
 
 _DEGREE = math.radians(1.0)
-_PERCENT = 0.01
+PERCENT = 0.01
 CHANGE_STATIONS = 33
 """Number of radii at which the change limit is enforced, root cut-out to tip."""
 
@@ -106,11 +106,9 @@ def cheap_margins(limits: Limits, concept: Concept, values: Values, root: float)
     return np.concatenate(margins) / _DEGREE, np.concatenate(slopes) / _DEGREE
 
 
-def stall_margins(limits: Limits, stalled: Sequence[float], by_value: Array | None) -> tuple[Array, Array]:
-    """What is left of the stalled-area limit on every condition [per cent], and slopes by the values."""
-    if limits.stalled is None or by_value is None:
-        return np.zeros(0), np.zeros((0, 0))
-    return (limits.stalled - np.asarray(stalled)) / _PERCENT, -by_value / _PERCENT
+def stall_margins(limits: Limits, stalled: Sequence[float]) -> Array:
+    """What is left of the stalled-area limit on every condition [per cent]; none without the limit."""
+    return np.zeros(0) if limits.stalled is None else (limits.stalled - np.asarray(stalled)) / PERCENT
 
 
 WIDTH = math.radians(0.5)

@@ -54,7 +54,7 @@ class Minimum:
     twist: str
     """SPEC"""
     starts: tuple[int, ...]
-    """The starts that ended here."""
+    """The starts that lead here; none where only the gradients at other points did."""
     active: tuple[str, ...]
     """Active bounds and limits, for example `division high` or `stalled area`."""
 

@@ -15,13 +15,14 @@ from typing import Any, cast
 
 from rotor.design.design import Design, fingerprint
 from rotor.optimisation.concepts import Concept, nearest
+from rotor.optimisation.evaluator import Samples
 from rotor.optimisation.objective import Objective, Quantity, WeightedCondition
 from rotor.optimisation.processes import WorkerLost, Workers
 from rotor.optimisation.search import Limits, Minimum, Optimum, Search, SearchStatus, run_search
 from rotor.user_input import read_text
 
 CHUNK = 4
-"""Neighbouring conditions computed together."""
+"""Neighbouring conditions computed together, and concepts of the fixed blade."""
 
 
 @dataclass(frozen=True)
@@ -146,7 +147,8 @@ def run_plan(
         try:
             stopped = workers.run([(_work_chunk, (plan, chunk, dict(cells))) for chunk in chunks])
             if not stopped:
-                workers.run([(_work_fixed, (plan, concept, dict(cells))) for concept in plan.concepts])
+                concepts = [plan.concepts[k : k + CHUNK] for k in range(0, len(plan.concepts), CHUNK)]
+                workers.run([(_work_fixed, (plan, some, dict(cells))) for some in concepts])
         except WorkerLost as lost:
             message = str(lost)
     order = {concept.name: k for k, concept in enumerate(plan.concepts)}
@@ -165,6 +167,7 @@ def _work_chunk(
 ) -> Iterator[Cell]:
     """All concepts at neighbouring conditions, one after the other."""
     for condition in conditions:
+        samples = Samples()  # What a trim teaches of power by pitch holds for every concept.
         for concept in plan.concepts:
             if (condition, concept.name) in known:
                 continue
@@ -181,7 +184,7 @@ def _work_chunk(
                 guesses=guesses,
                 band=False,
             )
-            optimum = run_search(search, stop=stop)
+            optimum = run_search(search, stop=stop, samples=samples)
             if optimum.status is SearchStatus.STOPPED:
                 return
             cell = Cell(condition, concept.name, optimum)
@@ -189,28 +192,36 @@ def _work_chunk(
             yield cell
 
 
-def _work_fixed(plan: Plan, concept: Concept, known: _Known, stop: Callable[[], bool] | None) -> Iterator[Cell]:
-    """The best fixed blade of one concept, started from the mean of its optima."""
-    if (None, concept.name) in known:
-        return
-    objective = Objective(plan.quantity, plan.conditions)
-    bests = [(share, known.get((condition, concept.name))) for condition, share in enumerate(objective.shares)]
-    found = [(share, cell.optimum.best) for share, cell in bests if cell is not None and cell.optimum.best is not None]
-    total = sum(share for share, _ in found)
-    n = len(concept.parameters)
-    middle = tuple(sum(share * best.parameters[k] for share, best in found) / total for k in range(n)) if found else ()
-    search = Search(
-        design=plan.design,
-        concept=concept,
-        objective=objective,
-        limits=plan.limits,
-        starts=1,
-        seed=plan.seed,
-        guesses=(middle,) if middle else (),
-        band=False,
-    )
-    optimum = run_search(search, stop=stop)
-    if optimum.status is not SearchStatus.STOPPED:
+def _work_fixed(
+    plan: Plan, concepts: tuple[Concept, ...], known: _Known, stop: Callable[[], bool] | None
+) -> Iterator[Cell]:
+    """The best fixed blades of some concepts, each started from the mean of its optima."""
+    objective, samples = Objective(plan.quantity, plan.conditions), Samples()
+    for concept in concepts:
+        if (None, concept.name) in known:
+            continue
+        bests = [(share, known.get((condition, concept.name))) for condition, share in enumerate(objective.shares)]
+        found = [
+            (share, cell.optimum.best) for share, cell in bests if cell is not None and cell.optimum.best is not None
+        ]
+        total = sum(share for share, _ in found)
+        middle = tuple(
+            sum(share * best.parameters[k] for share, best in found) / (total or 1.0)
+            for k in range(len(concept.parameters))
+        )
+        search = Search(
+            design=plan.design,
+            concept=concept,
+            objective=objective,
+            limits=plan.limits,
+            starts=1,
+            seed=plan.seed,
+            guesses=(middle,) if found else (),
+            band=False,
+        )
+        optimum = run_search(search, stop=stop, samples=samples)
+        if optimum.status is SearchStatus.STOPPED:
+            return
         yield Cell(None, concept.name, optimum)
 
 

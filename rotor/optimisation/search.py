@@ -1,7 +1,8 @@
 """The twist of least power: a global search from many starts, with every local minimum and the flatness of the best.
 
-The thesis uses fmincon with GlobalSearch (§2.7). Here SLSQP descends on the exact gradient from a seeded
-low-discrepancy set of starting points (Halton); minima are grouped, and the band gives the flatness of the best.
+The thesis uses fmincon with GlobalSearch (§2.7). Here descents on the exact gradient begin at a seeded low-discrepancy
+set of starting points (Halton). One that comes to lead to a minimum known already ends there. Minima are grouped, and
+the band gives the flatness of the best.
 `optimise` runs the search for one design in one call.
 """
 
@@ -18,13 +19,12 @@ from rotor.design.design import Design, require_design
 from rotor.optimisation.concepts import Concept, find_concept, nearest
 from rotor.optimisation.descent import (
     BAND,
-    Preconditioner,
+    TOLERANCE,
+    Model,
     descend,
-    fit_preconditioner,
-    initial_preconditioner,
     measure_band,
 )
-from rotor.optimisation.evaluator import FEASIBLE, Evaluation, Evaluator, SearchStopped
+from rotor.optimisation.evaluator import FEASIBLE, Evaluation, Evaluator, Samples, SearchStopped
 from rotor.optimisation.limits import ChangeLimit as ChangeLimit
 from rotor.optimisation.limits import Limits as Limits
 from rotor.optimisation.limits import even_change_limit as even_change_limit
@@ -39,6 +39,10 @@ STARTS = 6
 """Default number of starting points; the first is the law nearest to the design's own twist."""
 _SAME_PLACE = 0.05
 """Ends whose parameters agree within this fraction of their ranges are one minimum."""
+_BESIDE = 1e-4
+"""Rise of power above a minimum within which a descent is taken to end in it."""
+_PLACES = 12
+"""Points from which the model of power is searched for further minima."""
 _RISE = 1e-6
 """Relative rise of power allowed half-way between two ends of one minimum."""
 
@@ -73,14 +77,18 @@ def run_search(
     search: Search,
     watch: Callable[[Progress], None] | None = None,
     stop: Callable[[], bool] | None = None,
+    samples: Samples | None = None,
 ) -> Optimum:
     """Run a search. `watch` is called after every evaluation; `stop` before each one, True ends the search.
 
+    samples: trims of earlier searches with the same design and objective, to learn from; those of this one are added.
     Always returns: stopped early with the best so far; where no start trims within the limits, with a message.
     """
     count = max(search.starts, len(search.guesses))
     objective = search.objective or at_condition(search.design)
-    evaluate = Evaluator(search.design, search.concept, objective, search.limits, count, watch, stop)
+    evaluate = Evaluator(
+        search.design, search.concept, objective, search.limits, count, watch, stop, samples or Samples()
+    )
     run = _Run(search, evaluate)
     try:
         run.baseline = evaluate.baseline()
@@ -93,12 +101,11 @@ def run_search(
         for k, x in enumerate(_starts(search, evaluate)):
             evaluate.start = k
             run.descend_from(k, x)
+        if any(parameter.unit == "R" for parameter in search.concept.parameters):
+            run.look_elsewhere()
         if run.best is not None and search.band:
             evaluate.phase = "band"
-            preconditioner = run.preconditioner or initial_preconditioner(
-                run.best.x, run.best.watts
-            )  # A start at the optimum has too few evaluations.
-            run.band = measure_band(evaluate, preconditioner, run.best)
+            run.band = measure_band(evaluate, run.best)
     except SearchStopped:
         return run.result(stopped=True)
     return run.result(stopped=False)
@@ -113,7 +120,6 @@ class _Run:
         self.groups: list[tuple[Evaluation, list[int]]] = []
         """Local minima: the best end of each, and the starts that ended there."""
         self.lost = 0
-        self.preconditioner: Preconditioner | None = None
         self.band: tuple[Band, ...] = ()
 
     @property
@@ -122,7 +128,10 @@ class _Run:
         return min((end for end, _ in self.groups), key=lambda end: end.watts, default=None)
 
     def descend_from(self, start: int, x: Array) -> None:
-        """Descend from one start; a point that does not trim is moved towards the best point first."""
+        """Descend from one start, as long as it does not lead to a minimum known.
+
+        A start that does not trim is moved towards the best point first.
+        """
         first = self.evaluate(x)
         for _ in range(3):
             if first.power is not None:
@@ -132,11 +141,41 @@ class _Run:
         if first.power is None:
             self.lost += 1
             return
-        descent = descend(self.evaluate, self.preconditioner or initial_preconditioner(x, first.power), first)
-        if descent.end is not None and descent.settled:
+        arrived: list[int] = []
+
+        def known(x: Array) -> bool:
+            """Whether a descent goes on to a minimum known; noted, once it does."""
+            arrived[:] = [k for k, (lead, _) in enumerate(self.groups) if self._leads_to(lead, x)][:1]
+            return bool(arrived)
+
+        descent = descend(self.evaluate, first, known)
+        if arrived:
+            self.groups[arrived[0]][1].append(start)
+        elif descent.end is not None and descent.settled:
             self._gather(start, descent.end)
-        if self.evaluate.best is not None:
-            self.preconditioner = fit_preconditioner(self.evaluate.records, self.evaluate.best) or self.preconditioner
+
+    def look_elsewhere(self) -> None:
+        """Descend where the model of power foresees less than the best: laws with movable breaks have many minima."""
+        places = qmc.Halton(len(self.evaluate.span), seed=self.search.seed).random(_PLACES)
+        for _ in range(_PLACES):
+            if self.best is None:
+                return
+            model = Model(self.evaluate, self.best.sample, self.evaluate.samples.all)
+            x = min((model.least(place) for place in places), key=model.watts)
+            if model.watts(x) >= self.best.watts * (1.0 - TOLERANCE):
+                return
+            first = self.evaluate(x)
+            end = descend(self.evaluate, first, lambda _: False).end if first.power is not None else None
+            if end is None or end.watts >= self.best.watts:
+                return
+            self.groups.append((end, []))
+
+    def _leads_to(self, lead: Evaluation, x: Array) -> bool:
+        """Whether a point is so near a minimum that a descent from there ends in it."""
+        if np.abs(lead.x - x).max() < _SAME_PLACE:
+            return True
+        model = Model(self.evaluate, lead.sample, self.evaluate.samples.all)
+        return model.watts(x) <= lead.watts * (1.0 + _BESIDE)
 
     def _gather(self, start: int, end: Evaluation) -> None:
         """Add an end to its minimum, or begin a new one."""
@@ -200,6 +239,8 @@ class _Run:
             agree = len(minima[0].starts)
             which = "only local minimum found" if len(minima) == 1 else f"best of {len(minima)} local minima"
             message = f"{agree} of {evaluate.starts} starting points converged to the {which}."
+            if not agree:
+                message = f"The {which} was found from the gradients at the others: no starting point led to it."
             if self.lost:
                 message += f" {self.lost} had no trim."
         return Optimum(

@@ -46,7 +46,8 @@ class SearchRun:
         self.reference_power: float | None = None
         self.frames: list[SearchFrame] = []
         self.traces: list[list[float]] = [[] for _ in range(search.starts)]
-        """Power at each evaluation of each start [W]; one without trim or beyond a limit repeats the one before."""
+        """Power at each evaluation of each start [W]; one without trim or beyond a limit repeats the one before.
+        At the end that of the minimum it leads to."""
         self.progress: Progress | None = None
         self.optimum: Optimum | None = None
         self._lock = threading.Lock()
@@ -132,6 +133,10 @@ class SearchRun:
         if optimum is None:
             return
         self.sentence = optimum.message
+        for minimum in optimum.minima:  # A start that leads to a minimum known is not followed to its end.
+            for start in minimum.starts:
+                if self.traces[start] and minimum.power < self.traces[start][-1]:
+                    self.traces[start].append(minimum.power)
         if optimum.best is not None and self.frames and optimum.design != self.frames[-1].design:
             self._add(optimum.evaluations, optimum.best.power, optimum.design)
 

@@ -15,6 +15,7 @@ from rotor.design.design import Design
 from rotor.design.twist import LinearTwist
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS, find_concept
+from rotor.optimisation.descent import second_derivatives
 from rotor.optimisation.objective import Objective, WeightedCondition, at_condition, measure
 from rotor.optimisation.search import (
     ChangeLimit,
@@ -74,6 +75,38 @@ def test_no_grid_point_is_better_in_two_variables():
     assert found.best is not None
     assert found.best.power <= powers.min() * (1.0 + 1e-6)
     assert_allclose(found.best.power, powers.min(), rtol=2e-3)
+
+
+def test_second_derivatives_of_a_quadratic_are_found_from_its_gradients():
+    """H·step is known on three steps in five dimensions: there it is H, and across them the mean curvature."""
+    rng = np.random.default_rng(3)
+    root = rng.normal(size=(5, 5))
+    wanted, steps = root @ root.T, rng.normal(size=(3, 5))
+    found = second_derivatives(steps, steps @ wanted, np.ones(3), 1.0)
+    assert_allclose(found, found.T, atol=1e-12)
+    assert_allclose(steps @ found, steps @ wanted, rtol=0.02, atol=0.02 * np.abs(wanted).max())
+    across = np.linalg.svd(steps)[2][3:]
+    mean = float(np.vdot(steps, steps @ wanted) / np.vdot(steps, steps))
+    assert 0.3 * mean < float(np.trace(across @ found @ across.T)) / 2.0 < 3.0 * mean
+
+
+def test_the_free_division_is_no_worse_than_any_fixed_one():
+    """A movable break makes many local minima; one starting point finds the best nevertheless."""
+    design = small(0.1)
+    free = run_search(Search(design, CONCEPTS["two-segment-free"], starts=1, band=False))
+    assert free.best is not None
+    for division in np.arange(0.30, 0.91, 0.1).tolist():
+        fixed = run_search(Search(design, find_concept("two-segment", [division]), starts=1, band=False))
+        assert fixed.best is not None
+        assert free.best.power <= fixed.best.power * (1.0 + 1e-6)
+
+
+def test_a_start_that_leads_to_a_known_minimum_takes_two_trims_at_most():
+    design = small(0.25)
+    one, six = (run_search(Search(design, CONCEPTS["two-segment"], starts=n, band=False)) for n in (1, 6))
+    assert six.best is not None
+    assert len(six.best.starts) == 6
+    assert six.evaluations - one.evaluations <= 2 * 5
 
 
 @pytest.mark.slow
