@@ -20,7 +20,7 @@ import numpy as np
 from scipy import optimize
 
 from rotor.arrays import Array
-from rotor.optimisation.evaluator import Evaluation, Evaluator, Sample
+from rotor.optimisation.evaluator import Evaluation, Evaluator, TrimmedBlade
 from rotor.optimisation.limits import PERCENT
 from rotor.optimisation.objective import Measured
 from rotor.optimisation.results import Band
@@ -134,7 +134,7 @@ _MODEL_TOLERANCE = 1e-6
 class Model:
     """Power and stall margins as quadratics around one trim, limits and bounds as they are."""
 
-    def __init__(self, evaluate: Evaluator, centre: Sample, others: Sequence[Sample]) -> None:
+    def __init__(self, evaluate: Evaluator, centre: TrimmedBlade, others: Sequence[TrimmedBlade]) -> None:
         """others: trims that teach the second derivatives; those of other rotors are left out."""
         self.evaluate = evaluate
         made = centre.made
@@ -271,7 +271,7 @@ def descend(evaluate: Evaluator, first: Evaluation, known: Callable[[Array], boo
     """Descend from a point that trims, as long as the model's minimum is not one that is `known`."""
     centre, reach = first, _FIRST_REACH
     for _ in range(_ITERATIONS):
-        model = Model(evaluate, centre.sample, evaluate.samples.all)
+        model = Model(evaluate, centre.blade, evaluate.trimmed.all)
         x = model.least(centre.x, reach)
         foreseen = centre.watts - model.watts(x)
         if centre.feasible and foreseen <= TOLERANCE * centre.watts:
@@ -311,13 +311,13 @@ def measure_band(evaluate: Evaluator, best: Evaluation) -> tuple[Band, ...]:
 def _side(evaluate: Evaluator, best: Evaluation, edge: float, k: int, side: float) -> float:
     """How far parameter k goes within the band on one side, scaled."""
     centre = best
-    x = Model(evaluate, best.sample, evaluate.samples.all).farthest(best.x, k, side, edge)
+    x = Model(evaluate, best.blade, evaluate.trimmed.all).farthest(best.x, k, side, edge)
     for _ in range(_BAND_EVALUATIONS):
         record = evaluate(x)
         if record.power is None:
             break
         centre, before = record, x
-        x = Model(evaluate, centre.sample, evaluate.samples.all).farthest(centre.x, k, side, edge)
+        x = Model(evaluate, centre.blade, evaluate.trimmed.all).farthest(centre.x, k, side, edge)
         if abs(x[k] - before[k]) <= _BAND_TOLERANCE * abs(before[k] - best.x[k]) + 1e-6:
             break
     inside = [one.x for one in evaluate.records if one.feasible and one.watts <= edge]

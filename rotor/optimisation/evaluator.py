@@ -27,7 +27,7 @@ _KEPT_SOLUTIONS = 64
 
 
 @dataclass(frozen=True, eq=False)
-class Sample:
+class TrimmedBlade:
     """What a trim of one blade says of all blades near it, whatever their concept."""
 
     rotor: Rotor
@@ -37,15 +37,15 @@ class Sample:
     """Without the solutions, which are kept for the last trims only."""
 
 
-class Samples:
+class TrimmedBlades:
     """What searches with one objective have trimmed."""
 
     def __init__(self) -> None:
-        self.all: list[Sample] = []
-        self._solved: deque[tuple[Sample, tuple[Solution, ...]]] = deque(maxlen=_KEPT_SOLUTIONS)
+        self.all: list[TrimmedBlade] = []
+        self._solved: deque[tuple[TrimmedBlade, tuple[Solution, ...]]] = deque(maxlen=_KEPT_SOLUTIONS)
 
-    def known(self, rotor: Rotor, pitch: Array) -> Sample | None:
-        """The sample of this very blade."""
+    def known(self, rotor: Rotor, pitch: Array) -> TrimmedBlade | None:
+        """What is known of this very blade."""
         return next((one for one in self.all if np.array_equal(one.pitch, pitch) and one.rotor == rotor), None)
 
     def starts(self, pitch: Array, r: Array) -> tuple[Solution, ...]:
@@ -53,13 +53,13 @@ class Samples:
         gap = min(self._solved, key=lambda pair: float(((r * (pair[0].pitch - pitch)) ** 2).sum()), default=None)
         return () if gap is None else gap[1]
 
-    def add(self, rotor: Rotor, pitch: Array, made: Measured) -> Sample:
+    def add(self, rotor: Rotor, pitch: Array, made: Measured) -> TrimmedBlade:
         """Keep what was trimmed."""
-        sample = Sample(rotor, pitch, replace(made, solutions=()))
+        blade = TrimmedBlade(rotor, pitch, replace(made, solutions=()))
         if made.power is not None:
-            self.all.append(sample)
-            self._solved.append((sample, made.solutions))
-        return sample
+            self.all.append(blade)
+            self._solved.append((blade, made.solutions))
+        return blade
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,14 +67,14 @@ class Evaluation:
     """One evaluated design. x: parameters scaled to 0…1 over their bounds."""
 
     x: Array
-    sample: Sample
+    blade: TrimmedBlade
     margins: Array
     """Margin of each limit, scaled, positive inside, (limits,)."""
 
     @property
     def power(self) -> float | None:
         """[W]; None when it does not trim."""
-        return self.sample.made.power
+        return self.blade.made.power
 
     @property
     def feasible(self) -> bool:
@@ -110,9 +110,9 @@ class Evaluator:
         starts: int,
         watch: Callable[[Progress], None] | None,
         stop: Callable[[], bool] | None,
-        samples: Samples,
+        trimmed: TrimmedBlades,
     ) -> None:
-        """samples: of earlier searches with this objective, at the same conditions; those of this one are added."""
+        """trimmed: in earlier searches with this objective; the blades of this one are added."""
         self.design, self.concept, self.objective, self.limits = design, concept, objective, limits
         self.low, self.high = np.array(limits.bounds_of(concept)).T
         self.span = self.high - self.low
@@ -122,7 +122,7 @@ class Evaluator:
         self.begin = time.perf_counter()
         self.records: list[Evaluation] = []
         self.best: Evaluation | None = None
-        self.samples = samples
+        self.trimmed = trimmed
         self.r = build_problem(design).disk.r
         self._watch, self._stop = watch, stop
 
@@ -155,34 +155,34 @@ class Evaluator:
     def baseline(self) -> float | None:
         """Power of the design as given [W]; its trim is where the first start begins."""
         self._check()
-        return self._sample(self.design).made.power
+        return self._trim(self.design).made.power
 
     def __call__(self, x: Array) -> Evaluation:
         """Evaluate a scaled point; SearchStopped when the caller stops the search."""
         self._check()
         x = np.clip(x, 0.0, 1.0)
         values = self.values(x)
-        sample = self._sample(self.concept.apply(self.design, values))
+        blade = self._trim(self.concept.apply(self.design, values))
         margins = self.cheap_margins(x)[0]
-        if sample.made.power is not None:
-            margins = np.concatenate([margins, stall_margins(self.limits, sample.made.stalled)])
-        record = Evaluation(x, sample, margins)
+        if blade.made.power is not None:
+            margins = np.concatenate([margins, stall_margins(self.limits, blade.made.stalled)])
+        record = Evaluation(x, blade, margins)
         self.records.append(record)
         if record.feasible and (self.best is None or record.watts < self.best.watts):
             self.best = record
         self._report(record, values)
         return record
 
-    def _sample(self, design: Design) -> Sample:
+    def _trim(self, design: Design) -> TrimmedBlade:
         """Trim a design from the nearest one trimmed before; the design itself need not be trimmed again."""
         pitch = design.twist(self.r)
-        known = self.samples.known(design.rotor, pitch)
+        known = self.trimmed.known(design.rotor, pitch)
         if known is not None:
             return known
         stall = self.limits.stalled is not None
         self.count += 1
-        made = measure(self.objective, design, self.samples.starts(pitch, self.r), stall=stall)
-        return self.samples.add(design.rotor, pitch, made)
+        made = measure(self.objective, design, self.trimmed.starts(pitch, self.r), stall=stall)
+        return self.trimmed.add(design.rotor, pitch, made)
 
     def _check(self) -> None:
         if self._stop is not None and self._stop():

@@ -15,7 +15,7 @@ from typing import Any, cast
 
 from rotor.design.design import Design, fingerprint
 from rotor.optimisation.concepts import Concept, nearest
-from rotor.optimisation.evaluator import Samples
+from rotor.optimisation.evaluator import TrimmedBlades
 from rotor.optimisation.objective import Objective, Quantity, WeightedCondition
 from rotor.optimisation.processes import WorkerLost, Workers
 from rotor.optimisation.search import Limits, Minimum, Optimum, Search, SearchStatus, run_search
@@ -167,7 +167,7 @@ def _work_chunk(
 ) -> Iterator[Cell]:
     """All concepts at neighbouring conditions, one after the other."""
     for condition in conditions:
-        samples = Samples()  # What a trim teaches of power by pitch holds for every concept.
+        trimmed = TrimmedBlades()  # What a trim teaches of power by pitch holds for every concept.
         for concept in plan.concepts:
             if (condition, concept.name) in known:
                 continue
@@ -184,7 +184,7 @@ def _work_chunk(
                 guesses=guesses,
                 band=False,
             )
-            optimum = run_search(search, stop=stop, samples=samples)
+            optimum = run_search(search, stop=stop, trimmed=trimmed)
             if optimum.status is SearchStatus.STOPPED:
                 return
             cell = Cell(condition, concept.name, optimum)
@@ -196,7 +196,7 @@ def _work_fixed(
     plan: Plan, concepts: tuple[Concept, ...], known: _Known, stop: Callable[[], bool] | None
 ) -> Iterator[Cell]:
     """The best fixed blades of some concepts, each started from the mean of its optima."""
-    objective, samples = Objective(plan.quantity, plan.conditions), Samples()
+    objective, trimmed = Objective(plan.quantity, plan.conditions), TrimmedBlades()
     for concept in concepts:
         if (None, concept.name) in known:
             continue
@@ -219,7 +219,7 @@ def _work_fixed(
             guesses=(middle,) if found else (),
             band=False,
         )
-        optimum = run_search(search, stop=stop, samples=samples)
+        optimum = run_search(search, stop=stop, trimmed=trimmed)
         if optimum.status is SearchStatus.STOPPED:
             return
         yield Cell(None, concept.name, optimum)

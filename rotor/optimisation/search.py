@@ -24,7 +24,7 @@ from rotor.optimisation.descent import (
     descend,
     measure_band,
 )
-from rotor.optimisation.evaluator import FEASIBLE, Evaluation, Evaluator, Samples, SearchStopped
+from rotor.optimisation.evaluator import FEASIBLE, Evaluation, Evaluator, SearchStopped, TrimmedBlades
 from rotor.optimisation.limits import ChangeLimit as ChangeLimit
 from rotor.optimisation.limits import Limits as Limits
 from rotor.optimisation.limits import even_change_limit as even_change_limit
@@ -77,17 +77,17 @@ def run_search(
     search: Search,
     watch: Callable[[Progress], None] | None = None,
     stop: Callable[[], bool] | None = None,
-    samples: Samples | None = None,
+    trimmed: TrimmedBlades | None = None,
 ) -> Optimum:
     """Run a search. `watch` is called after every evaluation; `stop` before each one, True ends the search.
 
-    samples: trims of earlier searches with the same design and objective, to learn from; those of this one are added.
+    trimmed: blades of earlier searches with the same objective, to learn from; those of this one are added.
     Always returns: stopped early with the best so far; where no start trims within the limits, with a message.
     """
     count = max(search.starts, len(search.guesses))
     objective = search.objective or at_condition(search.design)
     evaluate = Evaluator(
-        search.design, search.concept, objective, search.limits, count, watch, stop, samples or Samples()
+        search.design, search.concept, objective, search.limits, count, watch, stop, trimmed or TrimmedBlades()
     )
     run = _Run(search, evaluate)
     try:
@@ -160,7 +160,7 @@ class _Run:
         for _ in range(_PLACES):
             if self.best is None:
                 return
-            model = Model(self.evaluate, self.best.sample, self.evaluate.samples.all)
+            model = Model(self.evaluate, self.best.blade, self.evaluate.trimmed.all)
             x = min((model.least(place) for place in places), key=model.watts)
             if model.watts(x) >= self.best.watts * (1.0 - TOLERANCE):
                 return
@@ -174,7 +174,7 @@ class _Run:
         """Whether a point is so near a minimum that a descent from there ends in it."""
         if np.abs(lead.x - x).max() < _SAME_PLACE:
             return True
-        model = Model(self.evaluate, lead.sample, self.evaluate.samples.all)
+        model = Model(self.evaluate, lead.blade, self.evaluate.trimmed.all)
         return model.watts(x) <= lead.watts * (1.0 + _BESIDE)
 
     def _gather(self, start: int, end: Evaluation) -> None:

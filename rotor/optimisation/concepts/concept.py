@@ -135,7 +135,12 @@ def nearest(concept: Concept, law: TwistLaw, root: float = 0.13) -> tuple[float,
         by = concept.slopes((low + span * x).tolist(), r)
         return ((by - by.mean(axis=1, keepdims=True)) * span[:, None]).T
 
-    found = least_squares(gap, np.full(len(span), 0.5), jac=slope, bounds=(0.0, 1.0), xtol=1e-12)
+    middle = np.full(len(span), 0.5)
+    step = np.linalg.lstsq(slope(middle), -gap(middle))[0]
+    inside = middle + np.clip(step, -0.5, 0.5)
+    if np.abs(slope(inside).T @ gap(inside)).max() < 1e-12:  # A law that is linear in its values, within the bounds.
+        return tuple((low + span * inside).tolist())
+    found = least_squares(gap, middle, jac=slope, bounds=(0.0, 1.0), xtol=1e-12)
     return tuple((low + span * np.clip(found.x, 0.0, 1.0)).tolist())
 
 
