@@ -137,7 +137,7 @@ def nearest(concept: Concept, law: TwistLaw, root: float = 0.13) -> tuple[float,
 
     middle = np.full(len(span), 0.5)
     step = np.linalg.lstsq(slope(middle), -gap(middle))[0]
-    inside = middle + np.clip(step, -0.5, 0.5)
+    inside = np.asarray(middle + np.clip(step, -0.5, 0.5), dtype=np.float64)
     if np.abs(slope(inside).T @ gap(inside)).max() < 1e-12:  # A law that is linear in its values, within the bounds.
         return tuple((low + span * inside).tolist())
     found = least_squares(gap, middle, jac=slope, bounds=(0.0, 1.0), xtol=1e-12)
