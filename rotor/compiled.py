@@ -7,6 +7,8 @@ disk is full, and where a kept file was cut short. The kernels then compile anew
 import logging
 from collections.abc import Callable
 from contextlib import suppress
+from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numba  # pyright: ignore[reportMissingTypeStubs]
@@ -16,7 +18,17 @@ _log = logging.getLogger(__name__)
 
 
 class _ForgivingCache(FunctionCache):
-    """numba's cache, for which every failure means that there is nothing to read, or that nothing is kept."""
+    """numba's cache, for which every failure means that there is nothing to read, or that nothing is kept.
+
+    Kept code holds that of the functions it calls, so it serves as long as their files are the same as well.
+    """
+
+    def _index_key(self, sig: Any, codegen: Any) -> Any:
+        """What numba finds kept code by, with the times and sizes of those files."""
+        files = sorted({function.__code__.co_filename for function in _called(self._py_func, set())})
+        stamps = [Path(file).stat() for file in files]
+        own: tuple[Any, ...] = super()._index_key(sig, codegen)  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
+        return *own, tuple((stamp.st_mtime, stamp.st_size) for stamp in stamps)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The kept code; None where there is none that can be read."""
@@ -34,6 +46,18 @@ class _ForgivingCache(FunctionCache):
             super().save_overload(sig, data)  # pyright: ignore[reportUnknownMemberType]
         except Exception as error:
             _log.debug("%r cannot be kept (%s)", self, error)
+
+
+def _called(function: Any, found: set[Any]) -> set[Any]:
+    """All compiled functions that one calls, directly or through others: by the names in it."""
+    names, space = function.__code__.co_names, function.__globals__
+    for value in [space.get(name) for name in names]:
+        for item in [value, *(vars(value).get(name) for name in names)] if isinstance(value, ModuleType) else [value]:
+            callee = getattr(item, "py_func", None) or getattr(item, "_defn", None)  # The latter of an intrinsic.
+            if callee is not None and callee not in found:
+                found.add(callee)
+                _called(callee, found)
+    return found
 
 
 def compiled(**options: Any) -> Callable[[Callable[..., Any]], Any]:

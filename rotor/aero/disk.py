@@ -53,6 +53,13 @@ class Disk:
         """(elements, azimuths)"""
         return len(self.r), len(self.psi)
 
+    @property
+    def section_data(self) -> tuple[Array, NDArray[np.int64], Array, Array, Array, Array, Array]:
+        """What the loads of the blade elements need beside velocities."""
+        return (
+            self.half_solidity, self.section, self.weight, self.offset, self.tables, self.cos_sweep, self.sin_sweep
+        )  # fmt: skip
+
 
 @lru_cache(maxsize=16)
 def build_disk(

@@ -6,6 +6,7 @@ loads with their pointwise derivatives gives every sum over the disk and its exa
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,7 @@ from rotor.aero.inflow import InflowModel, Wake, inflow_model
 from rotor.aero.inflow.interface import InflowResponse
 from rotor.aero.losses import mean_loss_factor
 from rotor.aero.momentum import glauert_inflow
-from rotor.aero.radial_flow import RadialFriction, radial_friction, skin_friction
+from rotor.aero.radial_flow import RadialFriction, skin_friction
 from rotor.aero.trim_state import TrimState
 from rotor.arrays import Array, Booleans
 from rotor.compiled import compiled
@@ -78,6 +79,11 @@ class Problem:
     radians, (modes, functions)."""
     added_swirl: Array | float = 0.0
     """What is added to the swirl of momentum theory, (elements,)."""
+
+    @cached_property
+    def no_loss(self) -> tuple[Array, Array]:
+        """F = 1 and its slopes, of load-dependent inflow."""
+        return np.ones_like(self.disk.r), np.zeros((2, len(self.disk.r)))
 
 
 def build_problem(design: Design) -> Problem:
@@ -217,85 +223,102 @@ def _in_disk_axes(mu: float, climb: float, tilt: float) -> tuple[float, float]:
     return mu * cos - climb * sin, mu * sin + climb * cos
 
 
+@dataclass(frozen=True, eq=False)
+class BladeMotion:
+    """How the blade moves through the air at a trim state."""
+
+    wake: Wake
+    flow: Wake
+    """As in `BladeElements`."""
+    induced: Array
+    response: InflowResponse | None
+    """Of a model that does not depend on the load."""
+    loss: Array
+    loss_slopes: Array
+    swirl: Array
+    arguments: tuple[Any, ...]
+    """Those of `kernel.velocities`."""
+
+
+def blade_motion(problem: Problem, state: TrimState, induced: Array | None, elastic: Array | None) -> BladeMotion:
+    """What the velocities of a trim state follow from; arguments as in `evaluate_elements`."""
+    disk, models = problem.disk, problem.design.models
+    wake = wake_at(problem, state)
+    flow = wake if models.disk_axial_flow else Wake(problem.design.condition.advance_ratio, 0.0, wake.lambda0)
+    if problem.inflow.load_dependent:
+        assert induced is not None
+        response = None
+        loss, loss_slopes = problem.no_loss
+    else:
+        response = problem.inflow.respond(disk, wake, _NO_LOAD)
+        induced = response.induced
+        loss, loss_slopes = _lift_loss(problem, wake, flow)
+    swirl, _ = swirl_of(disk.r, flow.lambda0 * flow.axial if models.has("swirl") else 0.0)
+    swirl = swirl + problem.added_swirl
+    twisting = _RIGID
+    if problem.torsion is not None:
+        coordinates = elastic if elastic is not None else np.zeros_like(problem.given_torsion)
+        shapes = problem.torsion.shapes
+        twisting = shapes.radial, coordinates @ shapes.waves, coordinates @ shapes.rates
+    arguments = (
+        problem.twist,
+        disk.r - swirl,
+        disk.r - problem.flap.hinge,
+        disk.cos,
+        disk.sin,
+        (state.collective, state.cyclic_1c, state.cyclic_1s),
+        (state.coning, state.flap_1c, state.flap_1s),
+        flow.mu_x,
+        flow.mu_z,
+        induced,
+        *twisting,
+    )
+    return BladeMotion(wake, flow, induced, response, loss, loss_slopes, swirl, arguments)
+
+
 def evaluate_elements(
-    problem: Problem, state: TrimState, induced: Array | None = None, elastic: Array | None = None
+    problem: Problem,
+    state: TrimState,
+    induced: Array | None = None,
+    elastic: Array | None = None,
+    response: InflowResponse | None = None,
 ) -> BladeElements:
     """Velocities of eqs. (3.5), (3.6) and the loads they cause.
 
     U_T = r − u + µ_x sin ψ with the swirl u; U_P = µ_z + λ_i + (r − e) β' + µ_x β cos ψ. Where the models leave out
     the axial flow of the tilted disk, as (3.6) prints it, µ_z is absent; λ_i is then still skewed by the tilt, eq.
     (2.31). A load-dependent inflow model needs a trial field `induced`, (elements, azimuths); its response gives the
-    field for those loads. `elastic`: trial coordinates of the elastic twist, (modes, functions); none: untwisted.
+    field for those loads, where it is not given. `elastic`: trial coordinates of the elastic twist, (modes, functions);
+    none: untwisted.
     """
-    disk, models = problem.disk, problem.design.models
-    cos, sin = disk.cos, disk.sin
-    wake = wake_at(problem, state)
-    flow = wake if models.disk_axial_flow else Wake(problem.design.condition.advance_ratio, 0.0, wake.lambda0)
-    if problem.inflow.load_dependent:
-        assert induced is not None
-        response = None
-        loss, loss_slopes = np.ones_like(disk.r), np.zeros((2, len(disk.r)))
-    else:
-        response = problem.inflow.respond(disk, wake, _NO_LOAD)
-        induced = response.induced
-        loss, loss_slopes = _lift_loss(problem, wake, flow)
-
-    beta = state.coning + state.flap_1c * cos + state.flap_1s * sin
-    beta_rate = state.flap_1s * cos - state.flap_1c * sin
-    swirl, _ = swirl_of(disk.r, flow.lambda0 * flow.axial if models.has("swirl") else 0.0)
-    swirl = swirl + problem.added_swirl
-    coordinates: Array | None = None
-    radial, waves, rates = _RIGID
-    if problem.torsion is not None:
-        coordinates = elastic if elastic is not None else np.zeros_like(problem.given_torsion)
-        shapes = problem.torsion.shapes
-        radial, waves, rates = shapes.radial, coordinates @ shapes.waves, coordinates @ shapes.rates
-    theta, u_t, u_p, elastic_twist, rate = kernel.velocities(
-        problem.twist + state.collective,
-        state.cyclic_1c * cos + state.cyclic_1s * sin,
-        disk.r - swirl,
-        flow.mu_x * sin,
-        disk.r - problem.flap.hinge,
-        beta_rate,
-        flow.mu_z + flow.mu_x * beta * cos,
-        induced,
-        radial,
-        waves,
-        rates,
-        state.cyclic_1s * cos - state.cyclic_1c * sin,
-    )
+    disk = problem.disk
+    motion = blade_motion(problem, state, induced, elastic)
+    (theta, u_t, u_p, *twisting), beta = kernel.velocities(*motion.arguments)
     if problem.active.size > 1:
         theta += problem.active
-        rate += problem.active_rates[0]
-    loads = kernel.element_loads(
-        theta, u_t, u_p, flow.mu_x * cos, loss, problem.tip_mach,
-        disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables, disk.cos_sweep, disk.sin_sweep,
-    )  # fmt: skip
+        if twisting:
+            twisting[1] += problem.active_rates[0]
+    u_r = motion.flow.mu_x * disk.cos
+    loads = kernel.element_loads(theta, u_t, u_p, u_r, motion.loss, problem.tip_mach, *disk.section_data)
     friction = None
     if problem.friction:
-        friction = radial_friction(disk, flow.mu_x, problem.friction)
-        if problem.unloaded is not None:
-            friction = RadialFriction(
-                *(
-                    np.where(problem.unloaded, 0.0, field)
-                    for field in (friction.fx, friction.radial, friction.fx_slope, friction.radial_slope)
-                )
-            )
+        friction = RadialFriction(disk, motion.flow.mu_x, problem.friction, problem.unloaded)
         loads[kernel.FX] += friction.fx
     if problem.unloaded is not None:
         loads[: kernel.ALPHA, problem.unloaded] = 0.0
         loads[kernel.CL :, problem.unloaded] = 0.0
-    if response is None:
-        response = problem.inflow.respond(disk, wake, loads[kernel.FZ])
     torsion = None
-    if problem.torsion is not None and coordinates is not None:
-        moments = air_moments(problem.torsion, disk, problem.tip_mach, u_t, u_p, flow.mu_x * cos, rate, loads)
+    if problem.torsion is not None:
+        moments = air_moments(problem.torsion, disk, problem.tip_mach, u_t, u_p, u_r, twisting[1], loads)
         if problem.unloaded is not None:
             moments[:, problem.unloaded] = 0.0
-        torsion = TorsionState(coordinates, elastic_twist, rate, moments)
+        coordinates = elastic if elastic is not None else np.zeros_like(problem.given_torsion)
+        torsion = TorsionState(coordinates, twisting[0], twisting[1], moments)
+    response = motion.response or response or problem.inflow.respond(disk, motion.wake, loads[kernel.FZ])
     return BladeElements(
-        state, flow, theta, u_t, u_p, induced, response, loss, loss_slopes, beta, loads, swirl, friction, torsion
-    )
+        state, motion.flow, theta, u_t, u_p, motion.induced, response, motion.loss, motion.loss_slopes, beta, loads,
+        motion.swirl, friction, torsion,
+    )  # fmt: skip
 
 
 @compiled(error_model="numpy")

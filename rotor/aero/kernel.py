@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from rotor.airfoil.bicubic import ALPHA_STEP, MACH_STEP, N_ALPHA, N_MACH
+from rotor.aero.look_up import INVERSE_MACH, look_up, places_along_alpha, places_along_mach, wrapped
 from rotor.arrays import Array
 from rotor.compiled import compiled
 
@@ -24,9 +24,6 @@ from rotor.compiled import compiled
 LIFT: ½σ U C_l, so that ∂FZ/∂F = LIFT·U_T and ∂FX/∂F = LIFT·U_P; then the flow at the section."""
 
 _PI = math.pi
-_TWO_PI = 2.0 * math.pi
-_INVERSE_ALPHA = 1.0 / ALPHA_STEP
-_INVERSE_MACH = 1.0 / MACH_STEP
 
 
 # Contraction (fused multiply-add) is the only deviation from strict IEEE arithmetic.
@@ -35,39 +32,78 @@ _compile = compiled(error_model="numpy", fastmath={"contract"})
 
 @_compile
 def velocities(
-    pitch: Array,
-    pitch_around: Array,
+    twist: Array,
     along: Array,
-    along_around: Array,
     arm: Array,
-    flap_rate: Array,
-    through: Array,
+    cos: Array,
+    sin: Array,
+    pitch: Any,
+    flap: Any,
+    mu_x: float,
+    mu_z: float,
     induced: Array,
     shapes: Array,
     twist_around: Array,
     rate_around: Array,
-    pitch_rate: Array,
-) -> Array:
-    """θ, U_T, U_P, elastic twist φ and rate of pitch θ' of eqs. (3.5), (3.6), (5, elements, azimuths).
+) -> Any:
+    """θ, U_T and U_P of eqs. (3.5), (3.6), for an elastic blade its twist φ and rate of pitch θ' as well, and β.
 
-    θ = pitch(r) + pitch_around(ψ) + φ, U_T = along(r) + along_around(ψ), U_P = λ_i + arm(r) β'(ψ) + through(ψ) and
-    φ = Σ Φ_k(r) q_k(ψ) with the shapes (modes, elements), q_k (modes, azimuths) and their rates.
+    θ = θ_tw + θ0 + θ1c cos ψ + θ1s sin ψ + φ, U_T = along(r) + µ_x sin ψ, U_P = µ_z + λ_i + (r − e) β' + µ_x β cos ψ
+    and φ = Σ Φ_k(r) q_k(ψ) with the shapes (modes, elements), q_k (modes, azimuths) and their rates. pitch, flap: mean,
+    cosine and sine parts of θ and β; arm: r − e. Fields are (3 or 5, elements, azimuths), β is (azimuths,).
     """
     n, m = induced.shape
-    out = np.empty((5, n, m))
+    around = around_azimuth(cos, sin, pitch, flap, mu_x, mu_z)
+    out = np.empty((5 if len(shapes) else 3, n, m))
     for i in range(n):
-        for j in range(m):
-            out[1, i, j] = along[i] + along_around[j]
-            out[2, i, j] = induced[i, j] + arm[i] * flap_rate[j] + through[j]
-            out[3, i, j] = 0.0
-            out[4, i, j] = pitch_rate[j]
-        for k in range(len(shapes)):
-            for j in range(m):
-                out[3, i, j] += shapes[k, i] * twist_around[k, j]
-                out[4, i, j] += shapes[k, i] * rate_around[k, j]
-        for j in range(m):
-            out[0, i, j] = pitch[i] + pitch_around[j] + out[3, i, j]
+        velocities_of_row(twist[i], along[i], arm[i], sin, mu_x, induced[i], around, out[0, i], out[1, i], out[2, i])
+        if len(shapes):
+            add_twist(shapes[:, i], twist_around, rate_around, around, out[0, i], out[3, i], out[4, i])
+    return out, around[BETA]
+
+
+(BETA, _BETA_RATE, _THROUGH, _CYCLIC, _CYCLIC_RATE) = range(5)
+
+
+@_compile
+def around_azimuth(cos: Array, sin: Array, pitch: Any, flap: Any, mu_x: float, mu_z: float) -> Array:
+    """β, β', µ_z + µ_x β cos ψ, the cyclic pitch and its rate, (5, azimuths)."""
+    out = np.empty((5, len(cos)))
+    for j in range(len(cos)):
+        out[BETA, j] = flap[0] + flap[1] * cos[j] + flap[2] * sin[j]
+        out[_BETA_RATE, j] = flap[2] * cos[j] - flap[1] * sin[j]
+        out[_THROUGH, j] = mu_z + mu_x * out[BETA, j] * cos[j]
+        out[_CYCLIC, j] = pitch[0] + pitch[1] * cos[j] + pitch[2] * sin[j]
+        out[_CYCLIC_RATE, j] = pitch[2] * cos[j] - pitch[1] * sin[j]
     return out
+
+
+@_compile
+def velocities_of_row(
+    twist: float, along: float, arm: float, sin: Array, mu_x: float, induced: Array, around: Any, theta: Array,
+    u_t: Array, u_p: Array,
+) -> None:  # fmt: skip
+    """θ without elastic twist, U_T and U_P of one row."""
+    for j in range(len(theta)):
+        theta[j] = twist + around[_CYCLIC, j]
+        u_t[j] = along + mu_x * sin[j]
+        u_p[j] = induced[j] + arm * around[_BETA_RATE, j] + around[_THROUGH, j]
+
+
+@_compile
+def add_twist(
+    shapes: Any, twist_around: Any, rate_around: Any, around: Any, theta: Array, twist: Array, rate: Array
+) -> None:
+    """Elastic twist and rate of pitch of one row; the twist is added to θ."""
+    for j in range(len(theta)):
+        twist[j] = 0.0
+        rate[j] = around[_CYCLIC_RATE, j]
+    for k in range(len(shapes)):
+        for j in range(len(theta)):
+            twist[j] += shapes[k] * twist_around[k, j]
+            rate[j] += shapes[k] * rate_around[k, j]
+    for j in range(len(theta)):
+        theta[j] += twist[j]
 
 
 _EIGHTH_TURN = 0.25 * _PI
@@ -105,91 +141,18 @@ def arctangent(p: float, t: float) -> float:
 
 
 @_compile
-def _wrapped(angle: float) -> float:
-    """The angle in [−π, π)."""
-    return angle - _TWO_PI * math.floor((angle + _PI) * (1.0 / _TWO_PI))
-
-
-@_compile
-def _angles_of_attack(theta: Array, u_t: Array, u_p: Array, out: Array) -> None:
+def angles_of_attack(theta: Array, u_t: Array, u_p: Array, out: Array) -> None:
     """α = θ − φ of one row, with φ = atan2(U_P, U_T)."""
     for j in range(len(out)):
-        out[j] = _wrapped(theta[j] - arctangent(u_p[j], u_t[j]))
+        out[j] = wrapped(theta[j] - arctangent(u_p[j], u_t[j]))
 
 
 @_compile
-def _mach_numbers(u_t: Array, u_p: Array, u_r: Array, cos: float, sin: float, tip_mach: float, out: Array) -> None:
+def mach_numbers(u_t: Array, u_p: Array, u_r: Array, cos: float, sin: float, tip_mach: float, out: Array) -> None:
     """M of the flow normal to the swept quarter chord, of one row."""
     for j in range(len(out)):
         normal = u_t[j] * cos - u_r[j] * sin
         out[j] = math.sqrt(normal * normal + u_p[j] * u_p[j] + _TINY) * tip_mach
-
-
-@_compile
-def _places_along_alpha(alpha: Array, offset: float, cell: Any, place: Array) -> None:
-    """Cells of the table and the places in them, from 0 to 1, of one row about the section's own chord."""
-    for j in range(len(alpha)):
-        x = (_wrapped(alpha[j] - offset) + _PI) * _INVERSE_ALPHA
-        i = max(min(np.int32(x), np.int32(N_ALPHA - 1)), np.int32(0))  # Never outside, also where α is not a number.
-        cell[j] = i
-        place[j] = x - i
-
-
-@_compile
-def _places_along_mach(mach: Array, cell: Any, place: Array, slope: Array) -> None:
-    """The same along Mach, and ∂place/∂M: 0 beyond the table, where section data are constant; there is a caveat."""
-    for j in range(len(mach)):
-        y = min(mach[j] * _INVERSE_MACH, N_MACH - 1e-9)
-        i = max(min(np.int32(y), np.int32(N_MACH - 1)), np.int32(0))
-        cell[j] = i
-        place[j] = y - i
-        slope[j] = _INVERSE_MACH if mach[j] * _INVERSE_MACH < N_MACH else 0.0
-
-
-@_compile
-def _along_alpha(cell: Any, k: int, u: float) -> Any:
-    """The factor of v^k in a cell's polynomial at u, and its slope: Horner's rule for both."""
-    value = cell[3, k] * u + cell[2, k]
-    slope = cell[3, k] * u + value
-    value = value * u + cell[1, k]
-    slope = slope * u + value
-    return value * u + cell[0, k], slope
-
-
-@_compile
-def _surface(cell: Any, u: float, v: float) -> Any:
-    """A cell's bicubic polynomial (4, 4) and its slopes by u and v."""
-    c0, s0 = _along_alpha(cell, 0, u)
-    c1, s1 = _along_alpha(cell, 1, u)
-    c2, s2 = _along_alpha(cell, 2, u)
-    c3, s3 = _along_alpha(cell, 3, u)
-    value = c3 * v + c2
-    by_v = c3 * v + value
-    value = value * v + c1
-    by_v = by_v * v + value
-    return value * v + c0, ((s3 * v + s2) * v + s1) * v + s0, by_v
-
-
-@_compile
-def _look_up(
-    tables: Any, which: int, at_alpha: Any, at_mach: Any, u: Array, v: Array, mach_slope: Array, share: float, out: Any
-) -> None:
-    """Blend a section into coefficients and slopes by α [rad] and Mach of one row, out[which coefficient] + 0, 1, 2.
-
-    tables: (sections, α cells, Mach cells, coefficients, 4, 4); share: of this section, 1 for the first of two.
-    """
-    for j in range(len(u)):
-        cell = tables[which, at_alpha[j], at_mach[j]]
-        for k in range(cell.shape[0]):
-            value, by_u, by_v = _surface(cell[k], u[j], v[j])
-            if share < 1.0:
-                out[3 * k, j] += share * (value - out[3 * k, j])
-                out[3 * k + 1, j] += share * (by_u * _INVERSE_ALPHA - out[3 * k + 1, j])
-                out[3 * k + 2, j] += share * (by_v * mach_slope[j] - out[3 * k + 2, j])
-            else:
-                out[3 * k, j] = value
-                out[3 * k + 1, j] = by_u * _INVERSE_ALPHA
-                out[3 * k + 2, j] = by_v * mach_slope[j]
 
 
 @_compile
@@ -208,12 +171,12 @@ def _blended(
 
     cells (2, azimuths), places (3, azimuths): memory to work in. The rest as in `Disk` and `_look_up`.
     """
-    _places_along_mach(mach, cells[1], places[1], places[2])
+    places_along_mach(mach, cells[1], places[1], places[2])
     for which in range(2):
         share = weight if which == 1 else 1.0
         if share > 0.0:
-            _places_along_alpha(alpha, offset[which], cells[0], places[0])
-            _look_up(tables, section[which], cells[0], cells[1], places[0], places[1], places[2], share, out)
+            places_along_alpha(alpha, offset[which], cells[0], places[0])
+            look_up(tables, section[which], cells[0], cells[1], places[0], places[1], places[2], share, out)
 
 
 @_compile
@@ -300,8 +263,8 @@ def element_loads(
     found = np.empty((6, m))
     for i in range(n):
         t, p, alpha, mach = u_t[i], u_p[i], out[ALPHA, i], out[MACH, i]
-        _angles_of_attack(theta[i], t, p, alpha)
-        _mach_numbers(t, p, u_r, cos_sweep[i], sin_sweep[i], tip_mach, mach)
+        angles_of_attack(theta[i], t, p, alpha)
+        mach_numbers(t, p, u_r, cos_sweep[i], sin_sweep[i], tip_mach, mach)
         _blended(alpha, mach, section[i], weight[i], offset[i], tables, cells, places, found)
         cl, cl_a, cl_m, cd, cd_a, cd_m = found[0], found[1], found[2], found[3], found[4], found[5]
         _forces(
@@ -403,6 +366,28 @@ def element_moments(
 
 
 @_compile
+def force_values(
+    u_t: Array, u_p: Array, half_solidity: float, loss: float, cl: Array, cd: Array, fz: Array, fx: Array
+) -> None:
+    """dC_T/dr and dC_Q/dr of one row."""
+    for j in range(len(fz)):
+        t, p = u_t[j], u_p[j]
+        k = half_solidity * math.sqrt(t * t + p * p + _TINY)
+        fz[j] = k * (loss * cl[j] * t - cd[j] * p)
+        fx[j] = k * (loss * cl[j] * p + cd[j] * t)
+
+
+@_compile
+def moment_values(
+    u_t: Array, u_p: Array, rate: Array, gain: float, damping: float, lag: float, cm: Array, fz: Array, moment: Array
+) -> None:
+    """dC_M/dr of one row."""
+    for j in range(len(moment)):
+        square = u_t[j] * u_t[j] + u_p[j] * u_p[j] + _TINY
+        moment[j] = gain * square * cm[j] - lag * fz[j] - damping * math.sqrt(square) * rate[j]
+
+
+@_compile
 def stall_margins(
     alpha: Array, mach: Array, u_t: Array, section: Any, weight: Array, offset: Array, stall: Array
 ) -> Array:
@@ -419,7 +404,7 @@ def stall_margins(
             if u_t[i, j] < 0.0:
                 out[i, j] = 0.5 * _PI
                 continue
-            x = min(mach[i, j] * _INVERSE_MACH, top)
+            x = min(mach[i, j] * INVERSE_MACH, top)
             k = int(x)
             v = x - k
             high = 0.0

@@ -10,13 +10,15 @@ does not follow the yawed velocity. U_P is left out of V: it changes the result 
 """
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.arrays import Array
+from rotor.arrays import Array, Booleans
 from rotor.compiled import compiled
 
 
@@ -29,34 +31,82 @@ def skin_friction(reynolds: float) -> float:
 class RadialFriction:
     """Forces beyond the section data and their slopes by µ_x, (elements, azimuths)."""
 
-    fx: Array
-    radial: Array
-    """dF_r, outward."""
-    fx_slope: Array
-    radial_slope: Array
+    disk: Disk
+    mu_x: float
+    coefficient: float
+    """c_f"""
+    unloaded: Booleans | None = None
+    """Elements without any load, (elements, azimuths)."""
+
+    @property
+    def fx(self) -> Array:
+        return self._forces[0]
+
+    @property
+    def radial(self) -> Array:
+        """dF_r, outward."""
+        return self._forces[1]
+
+    @property
+    def fx_slope(self) -> Array:
+        return self._slopes[0]
+
+    @property
+    def radial_slope(self) -> Array:
+        return self._slopes[1]
+
+    @cached_property
+    def _forces(self) -> Array:
+        return self._on_loaded(_forces)
+
+    @cached_property
+    def _slopes(self) -> Array:
+        return self._on_loaded(_slopes)
+
+    def _on_loaded(self, fields: Callable[..., Array]) -> Array:
+        disk = self.disk
+        out = fields(disk.r, disk.cos, disk.sin, self.coefficient * disk.half_solidity, self.mu_x)
+        if self.unloaded is not None:
+            out[:, self.unloaded] = 0.0
+        return out
 
 
-def radial_friction(disk: Disk, mu_x: float, coefficient: float) -> RadialFriction:
-    """The friction of radial flow at an advance ratio; `coefficient` is c_f."""
-    return RadialFriction(*_friction(disk.r, disk.cos, disk.sin, coefficient * disk.half_solidity, mu_x))
-
+_TINY = 1e-30
+"""Added to squares of velocities, so that nothing divides by zero."""
 
 _compile = compiled(error_model="numpy")
 
 
 @_compile
-def _friction(r: Any, cos: Any, sin: Any, gain: Any, mu_x: float) -> Any:
-    """The four fields of `RadialFriction`, (4, elements, azimuths); gain: ½σ c_f, (elements,)."""
+def _forces(r: Any, cos: Any, sin: Any, gain: Any, mu_x: float) -> Any:
+    """F_x and F_r, (2, elements, azimuths); gain: ½σ c_f, (elements,)."""
+    out = np.zeros((2, len(r), len(cos)))
+    for i in range(len(r)):
+        friction_of_row(r[i], cos, sin, gain[i], mu_x, out[0, i], out[1, i])
+    return out
+
+
+@_compile
+def friction_of_row(r: float, cos: Any, sin: Any, gain: float, mu_x: float, fx: Any, radial: Any) -> None:
+    """F_r of one row, and its F_x added to `fx`."""
+    for j in range(len(cos)):
+        across, along = r + mu_x * sin[j], mu_x * cos[j]
+        speed = math.sqrt(across * across + along * along + _TINY)
+        fx[j] += gain * (speed - abs(across)) * across
+        radial[j] = gain * speed * along
+
+
+@_compile
+def _slopes(r: Any, cos: Any, sin: Any, gain: Any, mu_x: float) -> Any:
+    """Their slopes by µ_x."""
     n, m = len(r), len(cos)
-    out = np.empty((4, n, m))
+    out = np.empty((2, n, m))
     for i in range(n):
         for j in range(m):
             across, along = r[i] + mu_x * sin[j], mu_x * cos[j]
-            speed = math.sqrt(across * across + along * along + 1e-30)
-            excess = speed - abs(across)
+            speed = math.sqrt(across * across + along * along + _TINY)
             speed_slope = (across * sin[j] + along * cos[j]) / speed
-            out[0, i, j] = gain[i] * excess * across
-            out[1, i, j] = gain[i] * speed * along
-            out[2, i, j] = gain[i] * ((speed_slope - np.sign(across) * sin[j]) * across + excess * sin[j])
-            out[3, i, j] = gain[i] * (speed_slope * along + speed * cos[j])
+            excess_slope = speed_slope - np.sign(across) * sin[j]
+            out[0, i, j] = gain[i] * (excess_slope * across + (speed - abs(across)) * sin[j])
+            out[1, i, j] = gain[i] * (speed_slope * along + speed * cos[j])
     return out

@@ -5,6 +5,7 @@ radians. Its derivatives by the trim unknowns and by the elastic coordinates inc
 """
 
 import math
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -13,8 +14,11 @@ from rotor.aero import kernel
 from rotor.aero.elastic import BladeTorsion, TorsionState
 from rotor.aero.elements import BladeElements, Problem
 from rotor.aero.sums import Slopes
+from rotor.aero.trim_state import TrimState
 from rotor.arrays import Array
 from rotor.compiled import compiled
+
+_compile = compiled(error_model="numpy", fastmath={"contract"})
 
 
 def torsion_of(problem: Problem, elements: BladeElements) -> tuple[BladeTorsion, TorsionState]:
@@ -26,21 +30,32 @@ def torsion_of(problem: Problem, elements: BladeElements) -> tuple[BladeTorsion,
 
 def torsion_residual(problem: Problem, elements: BladeElements) -> Array:
     """Elastic twist less what the loads make of it [rad], (modes, functions)."""
-    torsion, blade = torsion_of(problem, elements)
-    shapes, state = torsion.shapes, elements.state
-    load = shapes.project(blade.moments[kernel.MOMENT] - propeller_moment(torsion.inertia, elements.theta)[0])
-    load += torsion.coupling @ blade.coordinates
-    inertia = torsion.modal(torsion.inertia)
-    load[:, 0] += torsion.modal(torsion.tip_mass) * state.coning
-    load[:, 1] += inertia * state.cyclic_1c
-    load[:, 2] += inertia * state.cyclic_1s
-    return torsion.dynamic * blade.coordinates - torsion.gain[:, None] * load + problem.given_torsion
+    _, blade = torsion_of(problem, elements)
+    return torsion_error(problem, elements.state, blade.coordinates, modal_moments(problem, elements))
 
 
-def torsion_by_inflow(problem: Problem, elements: BladeElements, inflow: Array) -> Array:
-    """Change of `torsion_residual` with a change of λ_i, (columns,)."""
+def torsion_error(problem: Problem, state: TrimState, elastic: Array, modal: Array) -> Array:
+    """The same from the coordinates of the elastic twist, (modes, functions), and `modal_moments`."""
+    torsion = problem.torsion
+    assert torsion is not None
+    load = torsion.shapes.analyse(modal) + torsion.coupling @ elastic
+    load[:, 0] += torsion.modal_tip_mass * state.coning
+    load[:, 1] += torsion.modal_inertia * state.cyclic_1c
+    load[:, 2] += torsion.modal_inertia * state.cyclic_1s
+    return torsion.dynamic * elastic - torsion.gain[:, None] * load + problem.given_torsion
+
+
+def modal_moments(problem: Problem, elements: BladeElements) -> Array:
+    """Σ along the blade of Φ_k (dC_M/dr − j ½ sin 2θ), (modes, azimuths)."""
     torsion, blade = torsion_of(problem, elements)
-    return -(torsion.gain[:, None] * torsion.shapes.project(blade.moments[kernel.M_UP] * inflow)).ravel()
+    return _modal_moments(torsion.shapes.radial, torsion.inertia, blade.moments[kernel.MOMENT], elements.theta)
+
+
+def torsion_by_inflow(problem: Problem, elements: BladeElements) -> Callable[[Array], Array]:
+    """Change of `torsion_residual`, (columns,), with a change of λ_i, (elements, azimuths)."""
+    torsion, blade = torsion_of(problem, elements)
+    slope = blade.moments[kernel.M_UP].copy()
+    return lambda inflow: -(torsion.gain[:, None] * torsion.shapes.project(slope * inflow)).ravel()
 
 
 def torsion_slopes(problem: Problem, elements: BladeElements, by_unknown: Slopes) -> Array:
@@ -53,12 +68,12 @@ def torsion_slopes(problem: Problem, elements: BladeElements, by_unknown: Slopes
     pitching = pitch_slope(torsion, elements)
     by = pitching, moments[kernel.M_UT], moments[kernel.M_UP], moments[kernel.M_UR]
     load = shapes.project(changes.follow(by, by_loss, by_unknown.by_wake, moments[kernel.M_RATE]))
-    inertia = torsion.modal(torsion.inertia)
+    inertia = torsion.modal_inertia
     for k, unknown in enumerate(unknowns):
         if unknown in ("cyclic_1c", "cyclic_1s"):
             load[k, :, 1 if unknown == "cyclic_1c" else 2] += inertia
         if unknown == "coning":
-            load[k, :, 0] += torsion.modal(torsion.tip_mass)
+            load[k, :, 0] += torsion.modal_tip_mass
     by_trim = load.reshape(len(unknowns), shapes.columns).T
 
     modes, functions = torsion.dynamic.shape
@@ -80,21 +95,40 @@ def pitch_slope(torsion: BladeTorsion, elements: BladeElements) -> Array:
     return elements.torsion.moments[kernel.M_THETA] - propeller_moment(torsion.inertia, elements.theta)[1]
 
 
-@compiled(error_model="numpy", fastmath={"contract"})
+@_compile
 def propeller_moment(inertia: Any, theta: Any) -> Any:
     """j ½ sin 2θ and its slope j cos 2θ, (2, elements, azimuths)."""
     n, m = theta.shape
     out = np.empty((2, n, m))
     for i in range(n):
         for j in range(m):
-            sine, cosine = _of_double_angle(theta[i, j])
+            sine, cosine = of_double_angle(theta[i, j])
             out[0, i, j] = 0.5 * inertia[i] * sine
             out[1, i, j] = inertia[i] * cosine
     return out
 
 
-@compiled(error_model="numpy", fastmath={"contract"})
-def _of_double_angle(angle: float) -> Any:
+@_compile
+def _modal_moments(shapes: Any, inertia: Any, moment: Any, theta: Any) -> Any:
+    """`modal_moments`."""
+    out = np.zeros((len(shapes), theta.shape[1]))
+    for i in range(len(theta)):
+        add_modal_moments(shapes[:, i], inertia[i], moment[i].copy(), theta[i], out)
+    return out
+
+
+@_compile
+def add_modal_moments(shapes: Any, inertia: float, moment: Array, theta: Array, out: Any) -> None:
+    """Add one row to `modal_moments`; dC_M/dr becomes the moment with that of the propeller."""
+    for j in range(len(theta)):
+        moment[j] -= 0.5 * inertia * of_double_angle(theta[j])[0]
+    for k in range(len(shapes)):
+        for j in range(len(theta)):
+            out[k, j] += shapes[k] * moment[j]
+
+
+@_compile
+def of_double_angle(angle: float) -> Any:
     """sin and cos of twice an angle, to 4·10⁻¹⁶ (tested), without branches so that loops over it become vector code.
 
     Of the rest y after turns of π/2 with the polynomials of Cephes for |y| ≤ π/4 (S. Moshier, Methods and Programs for

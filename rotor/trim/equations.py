@@ -17,82 +17,93 @@ is free, or trimmed by cyclic. A hub that fixes the coning leaves it out of the 
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import cache
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from rotor.aero.elements import BladeElements, Problem
-from rotor.aero.sums import SUM_NAMES, Slopes, SumName, disk_sums
+from rotor.aero.inflow import Wake
+from rotor.aero.sums import N_SUMS, SUM_NAMES, Slopes, SumName, sum_array
 from rotor.aero.trim_state import TrimState, Unknown
 from rotor.arrays import Array
 from rotor.design.design import Design
 
+_NONE: Mapping[Any, float] = MappingProxyType({})
 
-@dataclass(frozen=True)
-class Equation:
+
+class Equation(NamedTuple):
     """One equation at a trim state: weights · sums + rest = 0, in units of C_T."""
 
     weights: Mapping[SumName, float]
     """Weights on the sums over the disk."""
     rest: float = 0.0
     """Part that does not depend on the loads."""
-    slopes: Mapping[Unknown, float] = field(default_factory=dict[Unknown, float])
+    slopes: Mapping[Unknown, float] = _NONE
     """∂rest by the unknowns."""
-    by_tilt: Mapping[SumName, float] = field(default_factory=dict[SumName, float])
+    by_tilt: Mapping[SumName, float] = _NONE
     """∂weights by the shaft tilt."""
 
 
-Row = Callable[[Problem, BladeElements], Equation]
+_PLACE = {name: k for k, name in enumerate(SUM_NAMES)}
+
+Row = Callable[[Problem, TrimState, Wake], Equation]
 
 
-def vertical_force(problem: Problem, elements: BladeElements) -> Equation:
+def vertical_force(problem: Problem, state: TrimState, flow: Wake) -> Equation:
     """Thrust and H-force carry the weight: C_T cos α + C_H sin α = C_W."""
-    cos, sin = math.cos(elements.state.shaft_tilt), math.sin(elements.state.shaft_tilt)
+    del flow
+    cos, sin = math.cos(state.shaft_tilt), math.sin(state.shaft_tilt)
     return Equation({"thrust": cos, "drag": sin}, -problem.weight, by_tilt={"thrust": -sin, "drag": cos})
 
 
-def forward_force(problem: Problem, elements: BladeElements) -> Equation:
+def forward_force(problem: Problem, state: TrimState, flow: Wake) -> Equation:
     """Thrust and H-force pull the airframe's drag: C_T sin α − C_H cos α = D."""
-    cos, sin = math.cos(elements.state.shaft_tilt), math.sin(elements.state.shaft_tilt)
+    del flow
+    cos, sin = math.cos(state.shaft_tilt), math.sin(state.shaft_tilt)
     return Equation({"thrust": sin, "drag": -cos}, -problem.drag, by_tilt={"thrust": cos, "drag": sin})
 
 
-def given_thrust(problem: Problem, elements: BladeElements) -> Equation:
+def given_thrust(problem: Problem, state: TrimState, flow: Wake) -> Equation:
     """The thrust along the shaft is the resultant of weight and drag, or the one given on a test stand."""
-    del elements
+    del state, flow
     return Equation({"thrust": 1.0}, -math.hypot(problem.weight, problem.drag))
 
 
-def no_torque(problem: Problem, elements: BladeElements) -> Equation:
+def no_torque(problem: Problem, state: TrimState, flow: Wake) -> Equation:
     """The air turns the rotor: C_Q = 0."""
-    del problem, elements
+    del problem, state, flow
     return Equation({"torque": 1.0})
 
 
-def coning_moment(problem: Problem, elements: BladeElements) -> Equation:
+def coning_moment(problem: Problem, state: TrimState, flow: Wake) -> Equation:
     """The mean flap moment carries coning and the blade's weight: ν² β0 + weight = Γ M0."""
+    del flow
     flap = problem.flap
     stiffness = flap.frequency_squared / flap.load_gain
-    rest = -(flap.weight + flap.frequency_squared * elements.state.coning) / flap.load_gain
+    rest = -(flap.weight + flap.frequency_squared * state.coning) / flap.load_gain
     return Equation({"moment": 1.0}, rest, {"coning": -stiffness})
 
 
-def flap_moment_1c(problem: Problem, elements: BladeElements) -> Equation:
+def flap_moment_1c(problem: Problem, state: TrimState, flow: Wake) -> Equation:
     """The cosine part of the flap moment: (ν² − 1) β1c = Γ M1c."""
+    del flow
     stiffness = (problem.flap.frequency_squared - 1.0) / problem.flap.load_gain
-    return Equation({"moment_1c": 1.0}, -stiffness * elements.state.flap_1c, {"flap_1c": -stiffness})
+    return Equation({"moment_1c": 1.0}, -stiffness * state.flap_1c, {"flap_1c": -stiffness})
 
 
-def flap_moment_1s(problem: Problem, elements: BladeElements) -> Equation:
+def flap_moment_1s(problem: Problem, state: TrimState, flow: Wake) -> Equation:
     """The sine part of the flap moment: (ν² − 1) β1s = Γ M1s."""
+    del flow
     stiffness = (problem.flap.frequency_squared - 1.0) / problem.flap.load_gain
-    return Equation({"moment_1s": 1.0}, -stiffness * elements.state.flap_1s, {"flap_1s": -stiffness})
+    return Equation({"moment_1s": 1.0}, -stiffness * state.flap_1s, {"flap_1s": -stiffness})
 
 
-def momentum(problem: Problem, elements: BladeElements) -> Equation:
+def momentum(problem: Problem, state: TrimState, flow: Wake) -> Equation:
     """Mean inflow of momentum theory, eq. (2.30): 2 λ0 V = C_T with V = √(µ_x² + (µ_z + λ0)²)."""
-    flow = elements.flow
+    del state
     slopes: dict[Unknown, float] = {"lambda0": 2.0 * (flow.speed + flow.lambda0 * flow.axial / flow.speed)}
     if problem.design.models.disk_axial_flow:  # V ∂V = µ_x λ0, since µ_x dµ_x + µ_z dµ_z = 0.
         slopes["shaft_tilt"] = 2.0 * flow.lambda0**2 * flow.mu_x / flow.speed
@@ -202,28 +213,31 @@ class Balance:
                 if unknown in column:
                     row[column[unknown]] += slope
             if equation.by_tilt and "shaft_tilt" in column:
-                row[column["shaft_tilt"]] += _in_order(equation.by_tilt) @ self.sums
+                by_tilt = (slope * self.sums[_PLACE[name]] for name, slope in equation.by_tilt.items())
+                row[column["shaft_tilt"]] += sum(by_tilt)
         return matrix
 
 
-def balance(problem: Problem, elements: BladeElements) -> Balance:
-    """The residuals, and how they depend on the sums."""
-    equations = tuple(row(problem, elements) for row in trim_of(problem.design).rows)
-    weights = np.array([_in_order(equation.weights) for equation in equations])
-    rest, sums = np.array([equation.rest for equation in equations]), disk_sums(problem, elements).array
+def balance(problem: Problem, state: TrimState, flow: Wake, sums: Array) -> Balance:
+    """The residuals, and how they depend on the sums over the disk, (6,)."""
+    equations = tuple(row(problem, state, flow) for row in trim_of(problem.design).rows)
+    weights, rest = np.zeros((len(equations), N_SUMS)), np.array([equation.rest for equation in equations])
+    for k, equation in enumerate(equations):
+        for name, weight in equation.weights.items():
+            weights[k, _PLACE[name]] = weight
     return Balance(equations, weights, sums, rest + weights @ sums)
+
+
+def balance_of(problem: Problem, elements: BladeElements) -> Balance:
+    """The same of blade elements."""
+    return balance(problem, elements.state, elements.flow, sum_array(problem, elements))
 
 
 def residuals(problem: Problem, elements: BladeElements) -> Array:
     """Residual of each trim equation in units of C_T, (equations,)."""
-    return balance(problem, elements).error
+    return balance_of(problem, elements).error
 
 
 def jacobian(problem: Problem, elements: BladeElements, slopes: Slopes) -> Array:
     """Exact derivatives of `residuals` by the unknowns, (equations, unknowns)."""
-    return balance(problem, elements).jacobian(slopes)
-
-
-def _in_order(weights: Mapping[SumName, float]) -> list[float]:
-    """Weights on the sums in the order of `SumName`."""
-    return [weights.get(name, 0.0) for name in SUM_NAMES]
+    return balance_of(problem, elements).jacobian(slopes)

@@ -10,6 +10,7 @@ import threading
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -17,11 +18,13 @@ from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem, evaluate_elements, wake_at
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.interface import InflowColumns, InflowFeedback
-from rotor.aero.sums import Slopes, integrate, slopes
-from rotor.aero.torsion_balance import torsion_by_inflow, torsion_residual, torsion_slopes
+from rotor.aero.sums import Slopes, slopes, sums_by_inflow
+from rotor.aero.torsion_balance import torsion_by_inflow, torsion_error, torsion_slopes
+from rotor.aero.trial_loads import TrialLoads, evaluate_loads
 from rotor.aero.trim_state import TrimState, Unknown
 from rotor.arrays import Array
-from rotor.trim.equations import Balance, balance, unknowns_of, with_given_values
+from rotor.compiled import compiled
+from rotor.trim.equations import Balance, balance, balance_of, unknowns_of, with_given_values
 from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
 
 _MOST_SLOW_STEPS = 4
@@ -40,6 +43,10 @@ class Derivatives:
     feedback: InflowFeedback | None
     answer: InflowColumns | None
     """∂λ_i by the unknowns and the elastic coordinates; None for a model that does not depend on the load."""
+    sums_by_inflow: Callable[[Array], Array]
+    """The change of the sums with a change of λ_i, as `rotor.aero.sums.sums_by_inflow`."""
+    torsion_by_inflow: Callable[[Array], Array] | None
+    """The change of the torsion residual (columns,) with a change of λ_i; None for a rigid blade."""
     shape: tuple[int, int]
     """(elements, azimuths)"""
 
@@ -132,9 +139,9 @@ KEPT = KeptTrims()
 
 @dataclass(frozen=True, eq=False)
 class _Iterate:
-    """The blade elements at a trial state, with the residual of every equation."""
+    """The loads at a trial state, with the residual of every equation."""
 
-    elements: BladeElements
+    loads: TrialLoads
     balance: Balance
     inflow_error: Array | None
     """The model's response less the trial field; None for a model that does not depend on the load."""
@@ -160,36 +167,37 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
     induced = start.induced
     if problem.inflow.load_dependent and (induced is None or induced.shape != problem.disk.shape):
         induced = _prescribed_start(problem, state)
-    point = _evaluate(problem, state, induced, elastic, options)
-    passes, slow_steps = 1, 0
     derivatives = start.derivatives
     if derivatives is not None and not derivatives.serve(problem, unknowns):
         derivatives = None
     latest, serving = derivatives, False
+    point = _evaluate(problem, state, induced, elastic, options)
+    passes, slow_steps = 1, 0
     while point.size > 1.0 and passes < options.max_passes and slow_steps < _MOST_SLOW_STEPS:
         fresh = derivatives is None
         if derivatives is None:
             if options.pause is not None:
                 options.pause()
-            latest = derivatives = differentiate(problem, point.elements, unknowns, point.balance)[1]
+            elements = _elements(problem, point)
+            latest = derivatives = differentiate(problem, elements, unknowns, point.balance)[1]
         step, inflow_step = _step(problem, point, derivatives)
         if step is None:
             break
         step *= min(1.0, float((limits / np.maximum(np.abs(step), 1e-12)).min()))
         fraction = 1.0
         while True:
-            state = point.elements.state.moved(unknowns, fraction * step[: len(unknowns)])
+            state = point.loads.state.moved(unknowns, fraction * step[: len(unknowns)])
             induced = None
             if point.inflow_error is not None:
-                induced = point.elements.induced + fraction * inflow_step(step)
-            elastic = coordinates_of(point.elements) + fraction * step[len(unknowns) :].reshape(shape)
+                induced = point.loads.induced + fraction * inflow_step(step)
+            elastic = point.loads.elastic + fraction * step[len(unknowns) :].reshape(shape)
             trial = _evaluate(problem, state, induced, elastic, options)
             passes += 1
             if trial.size < point.size or not fresh or fraction < 0.2 or passes >= options.max_passes:
                 break
             fraction *= 0.5
         serving = trial.size <= options.kept_ratio * point.size
-        if _steps_left(trial.size, point.size) > options.most_old_steps or not problem.inflow.load_dependent:
+        if _steps_left(trial.size, point.size) > options.most_old_steps:
             derivatives = None
         if trial.size >= point.size and not fresh:
             continue  # The old derivatives do not serve here: take the step again with new ones.
@@ -199,10 +207,10 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
     residual, difference = float(np.abs(point.balance.error).max()) / problem.scale, 0.0
     twisting = float(np.abs(point.torsion_error).max()) if problem.torsion is not None else 0.0
     if point.inflow_error is not None:
-        difference = float(np.abs(point.inflow_error).max()) / _inflow_scale(problem, point.elements)
+        difference = float(np.abs(point.inflow_error).max()) / _inflow_scale(problem, point.loads)
     accepted = max(residual, twisting) <= options.accepted_residual and difference <= options.accepted_inflow
     converged = point.size <= 1.0 or accepted
-    return TrimResult(point.elements, residual, converged, passes, derivatives=latest if serving else None)
+    return TrimResult(_elements(problem, point), residual, converged, passes, derivatives=latest if serving else None)
 
 
 def _steps_left(size: float, before: float) -> float:
@@ -217,45 +225,66 @@ def coordinates_of(elements: BladeElements) -> Array:
     return elements.torsion.coordinates if elements.torsion is not None else np.zeros(0)
 
 
+def _elements(problem: Problem, point: _Iterate) -> BladeElements:
+    """The blade elements of an iterate; their loads have slopes."""
+    loads = point.loads
+    return evaluate_elements(problem, loads.state, loads.induced, loads.elastic, loads.response)
+
+
 def _evaluate(
     problem: Problem, state: TrimState, induced: Array | None, elastic: Array, options: SolverOptions
 ) -> _Iterate:
-    elements = evaluate_elements(problem, state, induced, elastic)
-    forces = balance(problem, elements)
+    loads = evaluate_loads(problem, state, induced, elastic)
+    forces = balance(problem, state, loads.flow, loads.sums)
     size = float(np.abs(forces.error).max()) / (problem.scale * options.residual_tolerance)
-    torsion_error = elastic
+    twisting = elastic
     if problem.torsion is not None:
-        torsion_error = torsion_residual(problem, elements).ravel()
-        size = max(size, float(np.abs(torsion_error).max()) / options.torsion_tolerance)
+        twisting = torsion_error(problem, state, elastic, loads.modal).ravel()
+        size = max(size, float(np.abs(twisting).max()) / options.torsion_tolerance)
     inflow_error = None
-    if problem.inflow.load_dependent and elements.response is not None:
-        inflow_error = elements.response.induced - elements.induced
-        tolerance = _inflow_scale(problem, elements) * options.inflow_tolerance
-        size = max(size, float(np.abs(inflow_error).max()) / tolerance)
-    return _Iterate(elements, forces, inflow_error, torsion_error, size if math.isfinite(size) else math.inf)
+    if problem.inflow.load_dependent:
+        inflow_error, largest = _difference(loads.response.induced, loads.induced)
+        size = max(size, largest / (_inflow_scale(problem, loads) * options.inflow_tolerance))
+    return _Iterate(loads, forces, inflow_error, twisting, size if math.isfinite(size) else math.inf)
 
 
-def _inflow_scale(problem: Problem, elements: BladeElements) -> float:
+@compiled()
+def _difference(one: Any, other: Any) -> Any:
+    """one − other, (elements, azimuths), and its largest size; not a number where the difference is none somewhere."""
+    out, largest, total = np.empty_like(one), 0.0, 0.0
+    for i in range(len(one)):
+        for j in range(one.shape[1]):
+            out[i, j] = one[i, j] - other[i, j]
+            largest = max(largest, abs(out[i, j]))
+            total += out[i, j]
+    return out, largest if math.isfinite(total) else math.nan
+
+
+def _inflow_scale(problem: Problem, loads: TrialLoads) -> float:
     """What differences of inflow are measured by: |λ0|, at least a small part of hover's."""
-    return max(abs(elements.flow.lambda0), 0.02 * math.sqrt(problem.scale / 2.0))
+    return max(abs(loads.flow.lambda0), 0.02 * math.sqrt(problem.scale / 2.0))
 
 
 def differentiate(
     problem: Problem, elements: BladeElements, unknowns: tuple[Unknown, ...], forces: Balance | None = None
 ) -> tuple[Slopes, Derivatives]:
     """Exact derivatives at these elements, of which `forces` is the balance, by trim unknowns and elastic twist."""
-    forces = forces if forces is not None else balance(problem, elements)
+    forces = forces if forces is not None else balance_of(problem, elements)
     feedback = inflow_feedback(problem, elements)
     found = slopes(problem, elements, unknowns, feedback)
     matrix = full_jacobian(problem, elements, found, forces)
-    return found, Derivatives(unknowns, matrix, forces.weights, feedback, found.answer, problem.disk.shape)
+    sums = sums_by_inflow(problem, elements)
+    torsion = torsion_by_inflow(problem, elements) if problem.torsion is not None else None
+    return found, Derivatives(
+        unknowns, matrix, forces.weights, feedback, found.answer, sums, torsion, problem.disk.shape
+    )
 
 
 def full_jacobian(
     problem: Problem, elements: BladeElements, by_unknown: Slopes, forces: Balance | None = None
 ) -> Array:
     """Derivatives of all equations by all unknowns: those of the trim first, then those of torsion."""
-    forces = forces if forces is not None else balance(problem, elements)
+    forces = forces if forces is not None else balance_of(problem, elements)
     matrix = forces.jacobian(by_unknown)
     if problem.torsion is None:
         return matrix
@@ -275,13 +304,9 @@ def _step(problem: Problem, point: _Iterate, derivatives: Derivatives) -> tuple[
     error, torsion_error, inflow_change = point.balance.error, point.torsion_error, None
     if point.inflow_error is not None and derivatives.feedback is not None:
         inflow_change = derivatives.feedback.solve(point.inflow_error[None])
-        loads = point.elements.loads
-        change = integrate(
-            problem, point.elements, loads[kernel.FZ_UP] * inflow_change, loads[kernel.FX_UP] * inflow_change
-        )
-        error = error + point.balance.weights @ change[:, 0]
-        if problem.torsion is not None:
-            torsion_error = torsion_error + torsion_by_inflow(problem, point.elements, inflow_change[0])
+        error = error + point.balance.weights @ derivatives.sums_by_inflow(inflow_change[0])
+        if derivatives.torsion_by_inflow is not None:
+            torsion_error = torsion_error + derivatives.torsion_by_inflow(inflow_change[0])
     step: Array | None = None
     with suppress(np.linalg.LinAlgError):
         right = -np.concatenate([error, torsion_error])

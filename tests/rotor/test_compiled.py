@@ -3,6 +3,7 @@
 import errno
 import importlib.util
 import re
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -55,6 +56,24 @@ def test_compiled_code_is_kept(source: Path):
     assert (second(1.0), hits(second)) == (2.0, 1)
 
 
+def test_kept_code_follows_the_functions_it_calls(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Compiled code holds that of the functions it calls, here of another file."""
+    monkeypatch.syspath_prepend(tmp_path)
+    inner, outer = tmp_path / "called_by_a_test.py", tmp_path / "kernels.py"
+    inner.write_text("from rotor.compiled import compiled\n\n@compiled()\ndef by(x):\n    return x + 1.0\n")
+    outer.write_text(
+        "import called_by_a_test\nfrom rotor.compiled import compiled\n\n"
+        "@compiled()\ndef kernel(x):\n    return 10.0 * called_by_a_test.by(x)\n"
+    )
+    assert module(outer).kernel(1.0) == 20.0
+    again = module(outer).kernel
+    assert (again(1.0), hits(again)) == (20.0, 1)
+    inner.write_text(inner.read_text().replace("x + 1.0", "x + 21.0"))
+    monkeypatch.delitem(sys.modules, "called_by_a_test")
+    changed = module(outer).kernel
+    assert (changed(1.0), hits(changed)) == (220.0, 0)
+
+
 @pytest.mark.parametrize("ending", ["nbi", "nbc"])
 @pytest.mark.parametrize("share", [0.0, 0.3, 0.97])
 def test_a_file_that_was_cut_short_is_written_again(source: Path, ending: str, share: float):
@@ -98,6 +117,6 @@ def test_a_function_without_a_file_is_compiled_too():
 def test_every_kernel_is_compiled_here():
     """A kernel with numba's own cache ends the program at import where no folder can be written."""
     home = Path(rotor.__file__).parent
-    imports = re.compile(r"^\s*(import|from) numba\b", re.MULTILINE)
-    users = [path.name for path in home.rglob("*.py") if imports.search(path.read_text(encoding="utf-8"))]
+    compiles = re.compile(r"\b(njit|jit|vectorize|guvectorize|stencil)\(")
+    users = [path.name for path in home.rglob("*.py") if compiles.search(path.read_text(encoding="utf-8"))]
     assert users == ["compiled.py"]

@@ -9,6 +9,7 @@ Fields are (elements, azimuths); d = dC_T/dr of the whole rotor as if smeared; s
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol, runtime_checkable
 
 import numpy as np
@@ -82,7 +83,7 @@ class HarmonicShapes:
     def columns(self) -> int:
         return len(self.radial) * len(self.waves)
 
-    @property
+    @cached_property
     def scale(self) -> Array:
         """Factors that turn a mean with a function into the amplitude of its harmonic: 1, 2, 2, …, (functions,)."""
         return np.where(self.wave == 0, 1.0, 2.0)
@@ -105,7 +106,15 @@ class HarmonicShapes:
 
     def project(self, fields: Array) -> Array:
         """Harmonics of ∫ Φ_k f dr, (…, elements, azimuths) → (…, shapes, functions)."""
-        return self.gather(fields) * (self.scale * self.dr / self.waves.shape[1])
+        return self.analyse(self.radial @ fields)
+
+    def analyse(self, along: Array) -> Array:
+        """Harmonics of such sums along the blade, (…, shapes, azimuths) → (…, shapes, functions)."""
+        return along @ self._analysis
+
+    @cached_property
+    def _analysis(self) -> Array:
+        return self.waves.T * (self.scale * self.dr / self.waves.shape[1])
 
     def project_transposed(self, weights: Array) -> Array:
         """Transpose of `project`: weights (shapes, functions) → (elements, azimuths)."""

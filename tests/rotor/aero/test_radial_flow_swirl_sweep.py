@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 
 from rotor.aero.elements import build_problem, swirl_of
 from rotor.aero.losses import loss_factor
-from rotor.aero.radial_flow import radial_friction, skin_friction
+from rotor.aero.radial_flow import RadialFriction, skin_friction
 from rotor.aero.switches import no_effect, with_switches
 from rotor.design.design import BEYOND_DOCUMENT
 from rotor.files.make_design import make_design
@@ -28,7 +28,7 @@ def test_profile_power_and_drag_with_yawed_flow(mu: float):
     blade = replace(design.rotor.blade, root_cutout=0.001, spans=design.rotor.blade.spans[-1:])
     design = replace(design, rotor=replace(design.rotor, blade=replace(blade, chord_stations=(0.0, 1.0))))
     disk = build_problem(replace(design, models=replace(design.models, elements=400, azimuths=360))).disk
-    friction = radial_friction(disk, mu, 1.0)
+    friction = RadialFriction(disk, mu, 1.0)
     across: np.ndarray = disk.r[:, None] + mu * disk.sin
     cell = disk.dr / len(disk.psi)
     section = disk.half_solidity[:, None] * np.abs(across) * across
@@ -42,7 +42,7 @@ def test_profile_power_and_drag_with_yawed_flow(mu: float):
 def test_slopes_of_friction_by_advance_ratio():
     disk = build_problem(make_design(mu=0.3)).disk
     step = 1e-6
-    ahead, behind, here = (radial_friction(disk, 0.3 + s, 0.0065) for s in (step, -step, 0.0))
+    ahead, behind, here = (RadialFriction(disk, 0.3 + s, 0.0065) for s in (step, -step, 0.0))
     scale = np.abs(here.radial_slope).max()
     for name in ("fx", "radial"):
         difference = (getattr(ahead, name) - getattr(behind, name)) / (2.0 * step)

@@ -17,7 +17,7 @@ from rotor.aero.elements import LOW_MACH, build_problem, evaluate_elements
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.interface import Wake
 from rotor.aero.losses import tip_factor
-from rotor.aero.radial_flow import radial_friction
+from rotor.aero.radial_flow import RadialFriction
 from rotor.aero.sums import disk_sums
 from rotor.aero.switches import SWITCHES, no_effect, parse_switches, switched_off, with_switches
 from rotor.aero.trim_state import TrimState
@@ -224,7 +224,7 @@ class TestFlapping:
         disk, tilt = solution.disk, solution.controls.shaft_tilt
         mean = disk.dr / len(disk.psi)
         thrust = disk.dct.sum() * mean
-        friction = radial_friction(build_problem(design).disk, 0.25 * math.cos(tilt), build_problem(design).friction)
+        friction = RadialFriction(build_problem(design).disk, 0.25 * math.cos(tilt), build_problem(design).friction)
         drag = ((disk.dcq * np.sin(disk.psi)).sum() + (friction.radial * np.cos(disk.psi)).sum()) * mean
         unit = design.thrust_unit
         assert_allclose(thrust * math.cos(tilt) + drag * math.sin(tilt), build_problem(design).weight, rtol=1e-9)
