@@ -62,13 +62,13 @@ STEPS: dict[str, NaturalStep] = {
     "advance_ratio": NaturalStep(0.01, "/0.01"),
     "mass_t": NaturalStep(0.1, "/100 kg"),
     "altitude_m": NaturalStep(100.0, "/100 m"),
-    "climb_m_s": NaturalStep(1.0, "/1 m/s"),
+    "climb_m_s": NaturalStep(1.0, "/(m/s)"),
 }
 """By the field of `Inputs`, in SI."""
 _AVIATION_STEPS = {
     "mass_t": NaturalStep(200.0 * POUND.size / 1e3, "/200 lb"),
     "altitude_m": NaturalStep(500.0 * FOOT.size, "/500 ft"),
-    "climb_m_s": NaturalStep(100.0 * FOOT_PER_MINUTE.size, "/100 ft/min"),
+    "climb_m_s": NaturalStep(100.0 * FOOT_PER_MINUTE.size, "/(100 ft/min)"),
 }
 
 

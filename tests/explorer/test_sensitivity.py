@@ -57,7 +57,7 @@ def test_flight_sliders_agree_with_differences_of_another_step(mass: float):
         assert_allclose(found[name].slope, difference(inputs, name, step), rtol=5e-3)
 
 
-def test_the_documents_equations_know_no_climb():
+def test_the_documents_equations_have_no_climb():
     found = flight_sensitivities(solve(Inputs(preset="thesis", **preset_inflow("thesis")).design()).require())
     assert tuple(found) == FLIGHT[:3]
 
