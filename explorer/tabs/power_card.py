@@ -291,7 +291,7 @@ def _bands(solution: Solution, bands: WakeBands, units: Units) -> list[dict[str,
     words: dict[str, str] = {}
     if bands.power is not None:
         watts = [units.power[0].of(end * solution.power.main_rotor) for end in bands.power]
-        words["power_band"] = f"{span(watts, fineness(solution.power))} {units.power[0].symbol}"
+        words["power_band"] = f"power {span(watts, fineness(solution.power))} {units.power[0].symbol}"
     if bands.worth is not None:
         words["worth_band"] = f"change {span([100.0 * end for end in bands.worth], 1)} %"
     return [{"name": name, "words": text, "title": READOUTS[name].text} for name, text in words.items()]
