@@ -5,7 +5,7 @@ W projects the load on the states, T is the theory's periodic solution for a giv
 """
 
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,8 +13,8 @@ from scipy.linalg.lapack import dgetrf, dgetrs
 
 from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import HarmonicShapes, InflowFeedback, Wake
-from rotor.aero.inflow.peters_he import FamilyResponse, FlowParameters, families, flow_parameters
-from rotor.aero.inflow.wake_projection import Projection, between_terms, build_projection
+from rotor.aero.inflow.peters_he import FlowParameters, flow_parameters
+from rotor.aero.inflow.wake_projection import Projection, build_projection
 from rotor.aero.losses import tip_factor
 from rotor.arrays import Array
 
@@ -71,38 +71,27 @@ class DynamicWake:
 
     def operator(self, projection: Projection, wake: Wake) -> "WakeOperator":
         """A(wake) on that grid."""
-        flow = flow_parameters(wake)
-        responses = tuple(FamilyResponse.solve(family, flow, projection.harmonics) for family in families(self.order))
-        r = projection.r
+        factor, slope = projection.no_factor
         if self.infinite_blades and self.tip:
-            factor, slope = tip_factor(r, wake.axial, self.blades)
-        else:
-            factor, slope = projection.no_factor
-        return WakeOperator(projection, flow, responses, factor, slope)
+            factor, slope = tip_factor(projection.r, wake.axial, self.blades)
+        return WakeOperator(projection, flow_parameters(wake), factor, slope)
 
 
 @dataclass(frozen=True, eq=False)
 class WakeOperator:
-    """A for one wake on one grid. Fields are (elements, azimuths), states (225,) and terms (113,) for S = 8, k = 2."""
+    """A for one wake on one grid. Fields are (elements, azimuths), coefficients of terms (113,) for S = 8, k = 2."""
 
     projection: Projection
     flow: FlowParameters
-    families: tuple[FamilyResponse, ...]
     factor: Array
     """F, (elements,)."""
     factor_slope: Array
     """∂F/∂(µ_z + λ0), (elements,)."""
 
-    def states(self, d: Array) -> Array:
-        """x = T W d: the wake's states under a load, (states,)."""
-        p = self.projection.state_loads(self.projection.sums(d))
-        split = self._split
-        cosines, sines = self.families
-        return np.concatenate([cosines.respond(p[:split]), sines.respond(p[split:])])
-
     def coefficients(self, d: Array) -> Array:
-        """The inflow under a stack of loads in terms, (…, elements, azimuths) → (…, terms)."""
-        return self.projection.sums(d) @ self.transfer.T
+        """The inflow under a load or a stack of loads in terms, (…, elements, azimuths) → (…, terms)."""
+        sums = self.projection.sums(d)
+        return self.projection.answer(sums, self.flow) if d.ndim == 2 else sums @ self.transfer.T
 
     def field(self, coefficients: Array) -> Array:
         """λ_i of coefficients of the terms over F, (…, terms) → (…, elements, azimuths)."""
@@ -118,9 +107,7 @@ class WakeOperator:
 
     def induced(self, d: Array) -> Array:
         """λ_i = A d of a load, (elements, azimuths), by the wake's equations, or of a stack of loads."""
-        if d.ndim > 2:
-            return self.field(self.coefficients(d))
-        return self.field(self.projection.coefficients(self.states(d)))
+        return self.field(self.coefficients(d))
 
     def induced_transposed(self, g: Array) -> Array:
         """Aᵀ g, for adjoints."""
@@ -128,10 +115,8 @@ class WakeOperator:
 
     def coefficients_by_wake(self, d: Array) -> Array:
         """∂ of the terms' coefficients by (µ_x, µ_z, λ0) at fixed load, (3, terms)."""
-        p = self.projection.state_loads(self.projection.sums(d))
-        split = self._split
-        parts = [family.slopes(part) for family, part in zip(self.families, (p[:split], p[split:]), strict=True)]
-        return self.flow.slopes.T @ self.projection.coefficients(np.concatenate(parts, axis=1))
+        slopes = self.projection.answer_slopes(self.projection.sums(d), self.flow, self._blocks)
+        return self.flow.slopes.T @ slopes
 
     def induced_by_wake(self, d: Array) -> Array:
         """∂λ_i by (µ_x, µ_z, λ0) at fixed load, (3, elements, azimuths)."""
@@ -156,21 +141,12 @@ class WakeOperator:
 
     @cached_property
     def transfer(self) -> Array:
-        """From sums of the load with the terms to coefficients of the inflow, (terms, terms): the states eliminated.
+        """From sums of the load with the terms to coefficients of the inflow, (terms, terms): the states eliminated."""
+        return self.projection.transfer(self._blocks)
 
-        With u± = a ∓ i b of the amplitudes a, b of cosines and sines of one m, a state's field is the real part of
-        ½ Σ u± exp i(q ± m)ψ, and its load is made of the sums with exp −i(q ± m)ψ. So what leads from the one to the
-        other is half of the cosines' matrix plus or minus the sines'.
-        """
-        projection, (cosines, sines) = self.projection, self.families
-        return projection.cell * between_terms(
-            cosines.blocks, sines.blocks, projection.block_expansion, projection.mode_blocks, projection.mode_order,
-            projection.mode_place, np.array((0, *projection.harmonics)), projection.term_table, projection.terms,
-        )  # fmt: skip
-
-    @property
-    def _split(self) -> int:
-        return len(self.projection.modes) * (1 + 2 * len(self.projection.harmonics))
+    @cached_property
+    def _blocks(self) -> tuple[Array, Array]:
+        return self.projection.blocks(self.flow)
 
 
 @dataclass(frozen=True, eq=False)
@@ -272,10 +248,13 @@ class DynamicWakeInflow:
 
     def respond(self, disk: Disk, wake: Wake, load: Array) -> "DynamicWakeResponse":
         """λ_i = A d."""
-        model = DynamicWake.of(disk.blades, self.order, infinite_blades=self.infinite_blades, tip=self.tip)
-        elements, azimuths = disk.shape
-        projection = model.on(disk.root, elements, azimuths)
-        return DynamicWakeResponse(model.operator(projection, wake), load)
+        model = _of(disk.blades, self.order, self.infinite_blades, self.tip)
+        return DynamicWakeResponse(model.operator(model.on(disk.root, *disk.shape), wake), load)
+
+
+@cache
+def _of(blades: int, order: int, infinite_blades: bool, tip: bool) -> DynamicWake:
+    return DynamicWake.of(blades, order, infinite_blades=infinite_blades, tip=tip)
 
 
 class DynamicWakeResponse:

@@ -14,10 +14,11 @@ from rotor.aero.inflow.peters_he import (
     families,
     flow_parameters,
     gain,
-    mode_set,
+    highest_modes,
     radial_function,
     radial_functions,
 )
+from rotor.aero.inflow.wake_projection import Projection
 
 
 def entry(matrix: np.ndarray, family: Family, r: int, j: int, m: int, n: int) -> float:
@@ -29,13 +30,16 @@ def amplitudes(order: int, wake: Wake, load: np.ndarray, radii: np.ndarray, coun
     model = DynamicWake(order=order, harmonics=0)
     projection = model.on(0.0, len(load), 2 * order + 4)
     d = np.repeat(load[:, None], 2 * order + 4, axis=1)
-    states = model.operator(projection, wake).states(d)
-    modes = mode_set(order)
-    radial = radial_functions(modes, radii)
-    return np.stack(
-        [sum(x * phi for (m, _), x, phi in zip(modes, states[: len(modes)], radial, strict=True) if m == k)
-         for k in range(count)]
-    )  # fmt: skip
+    return harmonics_of(projection, model.operator(projection, wake).coefficients(d), radii)[0, :count]
+
+
+def harmonics_of(projection: Projection, coefficients: np.ndarray, radii: np.ndarray) -> np.ndarray:
+    """Cosine and sine amplitudes of an inflow in terms, (2, waves, radii)."""
+    out = np.zeros((2, projection.wave.max() + 1, len(radii)))
+    g = radial_functions(highest_modes(len(projection.radial) - 1), radii)
+    for k, p, sine, x in zip(projection.order, projection.wave, projection.parity, coefficients, strict=True):
+        out[sine, p] += x * g[k]
+    return out
 
 
 MIDPOINTS = (np.arange(2000) + 0.5) / 2000
@@ -168,11 +172,10 @@ def test_independent_of_the_fourier_operator_of_the_actuator_disk(m: int, sine: 
     mid = projection.r
     angle = 2.0 * np.pi * np.arange(azimuths) / azimuths
     d = 2.0 * mid[:, None] ** (m + 1) * (1.0 - mid[:, None] ** 2) ** 1.5 * trig(m * angle)
-    states = model.operator(projection, wake_at(chi_deg)).states(d)
+    coefficients = model.operator(projection, wake_at(chi_deg)).coefficients(d)
     inside = r < 0.95
-    found = np.zeros(int(inside.sum()))
-    for kind, start, modes in ((np.cos, 0, mode_set(order)), (np.sin, len(mode_set(order)), mode_set(order, 1))):
-        for (k, n), value in zip(modes, states[start:], strict=False):
-            found += value * radial_function(k, n, r[inside]) * kind(k * psi[inside])
+    cosines, sines = harmonics_of(projection, coefficients, r[inside])
+    turns = np.outer(np.arange(len(cosines)), psi[inside])
+    found = (cosines * np.cos(turns) + sines * np.sin(turns)).sum(axis=0)
     # Truncation at S = 16 and the box's periodic images; w reaches 0.05 … 0.3.
     assert_allclose(found, w[inside], rtol=0, atol=1.2e-3)

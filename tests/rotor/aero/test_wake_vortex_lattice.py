@@ -119,7 +119,7 @@ def dynamic_power_factor(model: DynamicWake) -> float:
     d = np.repeat((projection.r**3 * np.sqrt(1.0 - np.square(projection.r)))[:, None], azimuths, axis=1)
     d *= ct / (d.mean(axis=1).sum() * 0.87 / elements)
     response = model.operator(projection, Wake(0.2, 0.0, lambda0))
-    inflow = projection.field(projection.coefficients(response.states(d)))
+    inflow = projection.field(response.coefficients(d))
     return float((inflow * d).mean(axis=1).sum() * 0.87 / elements / (ct * lambda0))
 
 
