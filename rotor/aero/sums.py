@@ -5,7 +5,6 @@ in θ; coning and flapping are columns in U_P; tilt and λ0 change the velocitie
 inflow to the changed load is added where the model is load-dependent. An elastic coordinate is a column in θ as well.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Literal, get_args
 
@@ -114,19 +113,6 @@ def around_disk(along: Any, cos: Any, sin: Any, beta: Any, cell: float) -> Any:
         out[4] += 2.0 * moment * sin[j]
         out[5] += cell * along[3, j]
     return out
-
-
-def sums_by_inflow(problem: Problem, elements: BladeElements) -> Callable[[Array], Array]:
-    """The change of the sums, (6,), with a change of λ_i, (elements, azimuths); it keeps 0.1 MB."""
-    disk, beta = problem.disk, elements.beta
-    arm, cell = disk.r - problem.flap.hinge, disk.dr / len(disk.psi)
-    fz, fx = elements.loads[kernel.FZ_UP].copy(), elements.loads[kernel.FX_UP].copy()
-
-    def change(inflow: Array) -> Array:
-        fields = inflow[None]
-        return _integrate(fz * fields, fx * fields, disk.r, arm, disk.cos, disk.sin, beta, cell)[:, 0]
-
-    return change
 
 
 def integrate_transposed(problem: Problem, elements: BladeElements, weights: Array) -> tuple[Array, Array]:

@@ -5,7 +5,6 @@ radians. Its derivatives by the trim unknowns and by the elastic coordinates inc
 """
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -49,13 +48,6 @@ def modal_moments(problem: Problem, elements: BladeElements) -> Array:
     """Σ along the blade of Φ_k (dC_M/dr − j ½ sin 2θ), (modes, azimuths)."""
     torsion, blade = torsion_of(problem, elements)
     return _modal_moments(torsion.shapes.radial, torsion.inertia, blade.moments[kernel.MOMENT], elements.theta)
-
-
-def torsion_by_inflow(problem: Problem, elements: BladeElements) -> Callable[[Array], Array]:
-    """Change of `torsion_residual`, (columns,), with a change of λ_i, (elements, azimuths)."""
-    torsion, blade = torsion_of(problem, elements)
-    slope = blade.moments[kernel.M_UP].copy()
-    return lambda inflow: -(torsion.gain[:, None] * torsion.shapes.project(slope * inflow)).ravel()
 
 
 def torsion_slopes(problem: Problem, elements: BladeElements, by_unknown: Slopes) -> Array:
@@ -167,15 +159,33 @@ def _loads(problem: Problem, elements: BladeElements) -> Array:
     """All moments per unit of r about the pitch axis, inertia included, (elements, azimuths)."""
     torsion, blade = torsion_of(problem, elements)
     disk, state, shapes = problem.disk, elements.state, torsion.shapes
-    second = -(shapes.wave**2)
-    acceleration = shapes.field(blade.coordinates * second) + problem.active_rates[1]
-    acceleration = acceleration - (state.cyclic_1c * disk.cos + state.cyclic_1s * disk.sin)
-    return (
-        blade.moments[kernel.MOMENT]
-        - torsion.inertia[:, None] * acceleration
-        - propeller_moment(torsion.inertia, elements.theta)[0]
-        + torsion.tip_mass[:, None] * state.coning
-    )
+    elastic = (blade.coordinates * -(shapes.wave**2)) @ shapes.waves
+    cyclic = -(state.cyclic_1c * disk.cos + state.cyclic_1s * disk.sin)
+    found = _all_moments(
+        blade.moments[kernel.MOMENT], elements.theta, torsion.inertia, torsion.tip_mass * state.coning, shapes.radial,
+        elastic, cyclic,
+    )  # fmt: skip
+    if problem.active_rates[1].size > 1:
+        found -= torsion.inertia[:, None] * problem.active_rates[1]
+    return found
+
+
+@_compile
+def _all_moments(
+    moment: Any, theta: Any, inertia: Any, coned: Any, shapes: Any, elastic: Any, cyclic: Any
+) -> Any:  # fmt: skip
+    """dC_M/dr − j (θ'' + ½ sin 2θ) + w β0, with θ'' = Σ Φ_k q_k'' and that of the cyclic, (azimuths,)."""
+    n, m = theta.shape
+    out, acceleration = np.empty((n, m)), np.empty(m)
+    for i in range(n):
+        acceleration[:] = cyclic
+        for k in range(len(shapes)):
+            for j in range(m):
+                acceleration[j] += shapes[k, i] * elastic[k, j]
+        for j in range(m):
+            turned = acceleration[j] + 0.5 * of_double_angle(theta[i, j])[0]
+            out[i, j] = moment[i, j] - inertia[i] * turned + coned[i]
+    return out
 
 
 def control_loads(problem: Problem, elements: BladeElements) -> tuple[Array, float]:
@@ -189,10 +199,12 @@ def control_loads(problem: Problem, elements: BladeElements) -> tuple[Array, flo
     torsion, blade = torsion_of(problem, elements)
     disk, state = problem.disk, elements.state
     loads = _loads(problem, elements)
-    moment = -torsion.moment_unit * disk.dr * loads.sum(axis=0)
+    total = loads.sum(axis=0)
+    moment = -torsion.moment_unit * disk.dr * total
     cyclic = state.cyclic_1s * disk.cos - state.cyclic_1c * disk.sin
-    work = -float((loads * (cyclic + problem.active_rates[0])).sum()) * disk.dr
+    work = -float(total @ cyclic) * disk.dr
     if problem.active_rates[0].size > 1:
+        work -= float(np.vdot(loads, problem.active_rates[0])) * disk.dr
         twist = problem.twist[:, None] + problem.active
         modal = torsion.tension.T @ (blade.coordinates @ torsion.shapes.waves)
         work += float(((torsion.own_tension @ twist + modal) * problem.active_rates[0]).sum())

@@ -18,9 +18,9 @@ from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem, evaluate_elements, wake_at
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.interface import InflowColumns, InflowFeedback
-from rotor.aero.sums import Slopes, slopes, sums_by_inflow
-from rotor.aero.torsion_balance import torsion_by_inflow, torsion_error, torsion_slopes
-from rotor.aero.trial_loads import TrialLoads, evaluate_loads
+from rotor.aero.sums import Slopes, slopes
+from rotor.aero.torsion_balance import torsion_error, torsion_slopes
+from rotor.aero.trial_loads import LoadsByInflow, TrialLoads, evaluate_loads
 from rotor.aero.trim_state import TrimState, Unknown
 from rotor.arrays import Array
 from rotor.compiled import compiled
@@ -43,10 +43,7 @@ class Derivatives:
     feedback: InflowFeedback | None
     answer: InflowColumns | None
     """∂λ_i by the unknowns and the elastic coordinates; None for a model that does not depend on the load."""
-    sums_by_inflow: Callable[[Array], Array]
-    """The change of the sums with a change of λ_i, as `rotor.aero.sums.sums_by_inflow`."""
-    torsion_by_inflow: Callable[[Array], Array] | None
-    """The change of the torsion residual (columns,) with a change of λ_i; None for a rigid blade."""
+    by_inflow: LoadsByInflow
     shape: tuple[int, int]
     """(elements, azimuths)"""
 
@@ -273,11 +270,8 @@ def differentiate(
     feedback = inflow_feedback(problem, elements)
     found = slopes(problem, elements, unknowns, feedback)
     matrix = full_jacobian(problem, elements, found, forces)
-    sums = sums_by_inflow(problem, elements)
-    torsion = torsion_by_inflow(problem, elements) if problem.torsion is not None else None
-    return found, Derivatives(
-        unknowns, matrix, forces.weights, feedback, found.answer, sums, torsion, problem.disk.shape
-    )
+    by_inflow = LoadsByInflow.at(elements)
+    return found, Derivatives(unknowns, matrix, forces.weights, feedback, found.answer, by_inflow, problem.disk.shape)
 
 
 def full_jacobian(
@@ -304,9 +298,11 @@ def _step(problem: Problem, point: _Iterate, derivatives: Derivatives) -> tuple[
     error, torsion_error, inflow_change = point.balance.error, point.torsion_error, None
     if point.inflow_error is not None and derivatives.feedback is not None:
         inflow_change = derivatives.feedback.solve(point.inflow_error[None])
-        error = error + point.balance.weights @ derivatives.sums_by_inflow(inflow_change[0])
-        if derivatives.torsion_by_inflow is not None:
-            torsion_error = torsion_error + derivatives.torsion_by_inflow(inflow_change[0])
+        sums, modal = derivatives.by_inflow.change(problem, inflow_change[0])
+        error = error + point.balance.weights @ sums
+        if problem.torsion is not None:
+            twisting = problem.torsion.gain[:, None] * problem.torsion.shapes.analyse(modal)
+            torsion_error = torsion_error - twisting.ravel()
     step: Array | None = None
     with suppress(np.linalg.LinAlgError):
         right = -np.concatenate([error, torsion_error])
