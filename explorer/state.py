@@ -3,7 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
-from functools import cache
+from functools import cache, cached_property
 from itertools import pairwise
 from typing import Any
 
@@ -125,6 +125,10 @@ class Inputs:
 
     def design(self) -> Design:
         """The design these inputs mean; ValueError with one sentence for inputs that mean none."""
+        return self._design
+
+    @cached_property
+    def _design(self) -> Design:
         models = preset_models(self.preset)
         design = make_design(
             preset=self.preset,

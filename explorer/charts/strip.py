@@ -274,5 +274,7 @@ def _margin(r: Array, margin: Array) -> tuple[str, str]:
 
 
 def _plain(values: Sequence[float] | Array, digits: int) -> list[float | None]:
-    rounded: list[float] = np.round(np.asarray(values, dtype=float), digits).tolist()
-    return [value if math.isfinite(value) else None for value in rounded]
+    rounded = np.round(np.asarray(values, dtype=float), digits)
+    if np.isfinite(rounded).all():
+        return rounded.tolist()
+    return [value if math.isfinite(value) else None for value in rounded.tolist()]

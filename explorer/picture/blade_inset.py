@@ -25,20 +25,20 @@ def inset(rotor: Rotor, twist: TwistLaw, ghost: TwistLaw | None, exaggeration: f
     chords), `theta` and `ghost` [°]. `times`: the exaggeration to draw the angles with.
     """
     r, cuts = _places(rotor)
-    datum = np.array([REFERENCE_RADIUS])
-    edges, angles = _degrees(twist, r), _degrees(twist, cuts)
-    behind = None if ghost is None else _degrees(ghost, r)
-    other = [None] * len(cuts) if ghost is None else _degrees(ghost, cuts)
+    places = np.concatenate((r, cuts, [REFERENCE_RADIUS]))
+    *angles, datum = _degrees(twist, places)
+    behind = None if ghost is None else _degrees(ghost, places)
+    other = [None] * len(cuts) if behind is None else behind[len(r) : -1]
     return {
         "times": exaggeration,
         "r": [round(float(at), 4) for at in r],
-        "datum": _degrees(twist, datum)[0],
-        "ghost_datum": 0.0 if ghost is None else _degrees(ghost, datum)[0],
-        "theta": edges,
-        "ghost": behind,
+        "datum": datum,
+        "ghost_datum": 0.0 if behind is None else behind[-1],
+        "theta": angles[: len(r)],
+        "ghost": None if behind is None else behind[: len(r)],
         "cuts": [
             {"r": float(at), "outline": outline, "theta": angle, "ghost": before}
-            for at, outline, angle, before in zip(cuts, _outlines(rotor), angles, other, strict=True)
+            for at, outline, angle, before in zip(cuts, _outlines(rotor), angles[len(r) :], other, strict=True)
         ],
     }
 

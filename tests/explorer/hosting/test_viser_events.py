@@ -4,9 +4,14 @@ import asyncio
 import threading
 from concurrent.futures import ThreadPoolExecutor
 
+import numpy as np
+import numpy.typing as npt
+import pytest
 from viser import _messages
+from viser._assignable_props_api import AssignablePropsBase
 from viser.infra import _infra
 
+from explorer.hosting import viser_compat
 from explorer.hosting.viser_compat import ThreadedBuffer
 
 MESSAGES, THREADS = 300, 4
@@ -64,3 +69,13 @@ def test_a_thread_does_not_touch_what_waits_on_the_loop():
 
 def test_servers_use_it():
     assert vars(_infra)["AsyncMessageBuffer"] is ThreadedBuffer
+
+
+def test_plain_values_are_assigned_as_they_are_and_arrays_cast(monkeypatch: pytest.MonkeyPatch):
+    """Without asking viser, which would compare types; an array still becomes one of the property's own type."""
+    handle = AssignablePropsBase.__new__(AssignablePropsBase)
+    made = handle._cast_value_recursive(npt.NDArray[np.float32], np.arange(3.0), "vertices")
+    assert made.dtype == np.float32
+    monkeypatch.setattr(viser_compat, "_cast", lambda *_: pytest.fail("asked viser"))
+    for value in ("text", True, 3, 0.5, None):
+        assert handle._cast_value_recursive(str, value, "content") is value
