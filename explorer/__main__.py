@@ -42,12 +42,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def _run(options: argparse.Namespace) -> int:
     from explorer.app import App, PortBusy
     from explorer.hosting.allowed_hosts import is_loopback, warning
-    from explorer.hosting.limits import ServerLimits
+    from explorer.hosting.limits import ServerLimits, few_pools
     from explorer.hosting.log_limit import limit_log
     from explorer.state import OPENING, inputs_of
     from rotor.blas_threads import keep_one_blas_thread
     from rotor.files.design_file import load_design
 
+    few_pools()
     keep_one_blas_thread()
     limit_log()
     try:

@@ -1,7 +1,10 @@
 """Limits of one server: rate of messages, uploads, freed memory."""
 
+import subprocess
+import sys
 import threading
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 
@@ -76,3 +79,39 @@ class TestMemory:
         assert not cleared.acquire(blocking=False)
         memory.give_back_soon(0.0)
         assert cleared.acquire(timeout=60.0)
+
+
+_POOLS = """
+import ctypes, sys, threading
+from explorer.hosting.limits import few_pools
+
+if sys.argv[1] == "few":
+    few_pools()
+held, ready, go = [], threading.Barrier(13), threading.Event()
+
+def hold():
+    held.append([bytes(2000) for _ in range(200)])
+    ready.wait()
+    go.wait()
+
+for _ in range(12):
+    threading.Thread(target=hold, daemon=True).start()
+ready.wait()
+libc = ctypes.CDLL(None)
+libc.fopen.restype = ctypes.c_void_p
+file = ctypes.c_void_p(libc.fopen(sys.argv[2].encode(), b"w"))
+libc.malloc_info(0, file)
+libc.fclose(file)
+go.set()
+"""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="glibc only")
+def test_threads_share_two_pools_of_memory(tmp_path: Path):
+    def pools(how: str) -> int:
+        file = tmp_path / how
+        subprocess.run([sys.executable, "-c", _POOLS, how, str(file)], check=True)
+        return file.read_text(encoding="ascii").count("<heap nr=")
+
+    assert pools("few") <= 2
+    assert pools("many") > 2

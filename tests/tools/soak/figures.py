@@ -7,10 +7,10 @@ from dataclasses import asdict, dataclass
 import numpy as np
 from scipy.stats import theilslopes
 
-GROWTH = 0.02
-"""Memory that grew by more than this part of itself over the run, and not by chance, is a leak."""
-SETTLING = 0.25
-"""The first part of a run that memory is not judged by: caches fill, pages connect."""
+GROWTH = 0.015
+"""Memory that grew by more than this part of itself after settling, and not by chance, is a leak."""
+SETTLING = 0.5
+"""The first part of a run that memory is not judged by: caches fill, pages connect, steps to undo are kept."""
 _FEWEST = 12
 """Samples of memory without which no slope is claimed."""
 
