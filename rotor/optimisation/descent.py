@@ -196,8 +196,8 @@ class Model:
             return power / unit, self.evaluate.pitch_slopes(x) @ slope / unit
 
         newton = x - stretch @ (stretch.T @ value(x)[1])
-        inside = bool((np.abs(newton - x) < reach).all() and (newton >= 0.0).all() and (newton <= 1.0).all())
-        if inside and not len(self.margins(x)[0]) and np.linalg.norm(stretch.T @ value(newton)[1]) < _MODEL_TOLERANCE:
+        free = self._free(newton) and bool((np.abs(newton - x) < reach).all())
+        if free and np.linalg.norm(stretch.T @ value(newton)[1]) < _MODEL_TOLERANCE:
             return newton
         return self._descend(x, reach, stretch, x, value, ())
 
@@ -212,8 +212,23 @@ class Model:
             power, slope = self.power.at(self.evaluate.pitch(x))
             return np.array([(edge - power) / scale]), -(self.evaluate.pitch_slopes(x) @ slope)[None] / scale
 
+        # Power is a sphere around −slope in these coordinates; x need not be its middle.
+        left, by = room(x)
+        slope = -0.5 * by[0] @ stretch
+        radius = math.sqrt(max(float(left[0] + slope @ slope), 0.0))
+        end = x + stretch @ (radius * along / size - slope)
+        if self._free(end):
+            left, by = room(end)
+            outward = -by[0] @ stretch
+            turned = float(np.linalg.norm(outward / np.linalg.norm(outward) - along / size))
+            if max(abs(float(left[0])), turned) < 1e-4:
+                return end
         start = np.clip(x + stretch @ along / size, 0.0, 1.0)
         return self._descend(x, 1.0, stretch, start, lambda x: (-float(direction @ x), -direction), (room,))
+
+    def _free(self, x: Array) -> bool:
+        """Whether nothing limits x but its bounds, and x lies within these."""
+        return not len(self.margins(x)[0]) and bool((x >= 0.0).all() and (x <= 1.0).all())
 
     def _descend(
         self, centre: Array, reach: float, stretch: Array, start: Array, value: _Measure, more: Sequence[_Measure]
