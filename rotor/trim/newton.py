@@ -167,7 +167,7 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
     derivatives = start.derivatives
     if derivatives is not None and not derivatives.serve(problem, unknowns):
         derivatives = None
-    latest, serving = derivatives, False
+    latest, serving, secants = derivatives, False, _Secants(derivatives)
     point = _evaluate(problem, state, induced, elastic, options)
     passes, slow_steps = 1, 0
     while point.size > 1.0 and passes < options.max_passes and slow_steps < _MOST_SLOW_STEPS:
@@ -177,7 +177,8 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
                 options.pause()
             elements = _elements(problem, point)
             latest = derivatives = differentiate(problem, elements, unknowns, point.balance)[1]
-        step, inflow_step = _step(problem, point, derivatives)
+            secants = _Secants(derivatives)
+        step, inflow_step = _step(problem, point, derivatives, secants)
         if step is None:
             break
         step *= min(1.0, float((limits / np.maximum(np.abs(step), 1e-12)).min()))
@@ -193,6 +194,7 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
             if trial.size < point.size or not fresh or fraction < 0.2 or passes >= options.max_passes:
                 break
             fraction *= 0.5
+        secants.taken = fraction * step
         serving = trial.size <= options.kept_ratio * point.size
         if _steps_left(trial.size, point.size) > options.most_old_steps:
             derivatives = None
@@ -293,7 +295,31 @@ def inflow_feedback(problem: Problem, elements: BladeElements) -> InflowFeedback
     return elements.response.feedback(elements.loads[kernel.FZ_UP])
 
 
-def _step(problem: Problem, point: _Iterate, derivatives: Derivatives) -> tuple[Array | None, Callable[[Array], Array]]:
+class _Secants:
+    """The Jacobian of steps with the same derivatives, which follows what the steps have shown (Broyden 1965)."""
+
+    def __init__(self, derivatives: Derivatives | None) -> None:
+        self.matrix = derivatives.jacobian if derivatives is not None else np.zeros((0, 0))
+        self.taken: Array | None = None
+        """The last step."""
+        self._residual: Array | None = None
+
+    def at(self, residual: Array) -> Array:
+        """The Jacobian, given the residual after the last step: the least change by which it agrees with that step.
+
+        Changes of an unknown are measured by what they do to the residual.
+        """
+        if self.taken is not None and self._residual is not None:
+            weighted = self.taken * np.einsum("ij,ij->j", self.matrix, self.matrix)
+            missed = residual - self._residual - self.matrix @ self.taken
+            self.matrix = self.matrix + np.outer(missed, weighted / max(self.taken @ weighted, 1e-300))
+        self._residual = residual
+        return self.matrix
+
+
+def _step(
+    problem: Problem, point: _Iterate, derivatives: Derivatives, secants: _Secants
+) -> tuple[Array | None, Callable[[Array], Array]]:
     """The Newton step of the trim unknowns, and the step of λ_i that goes with a (shortened) step of theirs."""
     error, torsion_error, inflow_change = point.balance.error, point.torsion_error, None
     if point.inflow_error is not None and derivatives.feedback is not None:
@@ -305,8 +331,8 @@ def _step(problem: Problem, point: _Iterate, derivatives: Derivatives) -> tuple[
             torsion_error = torsion_error - twisting.ravel()
     step: Array | None = None
     with suppress(np.linalg.LinAlgError):
-        right = -np.concatenate([error, torsion_error])
-        step = np.asarray(np.linalg.solve(derivatives.jacobian, right), dtype=np.float64)
+        residual = np.concatenate([error, torsion_error])
+        step = np.asarray(np.linalg.solve(secants.at(residual), -residual), dtype=np.float64)
 
     def inflow_step(taken: Array) -> Array:
         assert inflow_change is not None
