@@ -232,9 +232,13 @@ def _reduced(
             near_row, far_row = rows[shift + near // 2], rows[shift + far // 2]
             by_near, by_far = factor * by_near, factor * by_far
             for a in range(groups[first], groups[first + 1]):
-                for b in range(groups[second], min(groups[second + 1], a + 1)):
-                    k = places[order[a], order[b]]
-                    out[a, b] = out[b, a] = by_near * near_row[k] + by_far * far_row[k]
+                own = places[order[a]]
+                for b in range(groups[second], groups[second + 1]):
+                    k = own[order[b]]
+                    out[a, b] = by_near * near_row[k] + by_far * far_row[k]
+    for a in range(n):
+        for b in range(a):
+            out[b, a] = out[a, b]
     return out
 
 
@@ -421,7 +425,8 @@ def build_projection(order: int, blades: int, harmonics: int, root: float, eleme
     basis = common_basis(order)
 
     terms = np.array(sorted(_terms(basis, multiples)), dtype=np.int64)
-    wave, parity, k = terms.T.copy()
+    by_term: Integers = terms.T.copy()
+    wave, parity, k = by_term[0], by_term[1], by_term[2]
     table = np.zeros((order + 1, highest + 1, 2), dtype=np.int64)
     table[k, wave, parity] = np.arange(len(terms))
     table[:, 0, 1] = table[:, 0, 0]
@@ -435,7 +440,7 @@ def build_projection(order: int, blades: int, harmonics: int, root: float, eleme
     odd = wave % 2
     # The g_k of each half, the places of k among them, and those of the terms among all products with its waves.
     used: list[Integers] = [np.flatnonzero(np.bincount(k[odd == half_of])) for half_of in (0, 1)]
-    rank: Integers = np.array([int(np.searchsorted(used[p % 2], i)) for p, i in zip(wave, k, strict=True)])
+    rank: Integers = np.array([int(np.searchsorted(used[int(p) % 2], int(i))) for p, i in zip(wave, k, strict=True)])
     across = np.array([len(part) for part in waves])
     place = rank * across[odd] + wave // 2 + parity * across[odd] // 2 + odd * len(used[0]) * across[0]
     rows, columns = np.tril_indices(order + 1)
