@@ -157,6 +157,8 @@ class Slopes:
     """∂ of the sums in the order of `SumName` by the unknowns, the inflow following, (6, unknowns)."""
     torsion_sums: Array
     """The same by the elastic coordinates, (6, columns)."""
+    by_terms: Array | None
+    """The same by the terms of an inflow that answers the load, (6, terms), see `InflowColumns.rows`."""
 
 
 def slopes(
@@ -179,23 +181,32 @@ def slopes(
             answer = feedback.answer_columns(fz, changes.wake, loads[kernel.FZ_THETA], shapes)
         else:
             answer = FieldColumns.of(response, feedback, fz, changes.wake, loads[kernel.FZ_THETA], shapes)
-    total = integrate(problem, elements, fz, fx)
-    lift = disk.dr * loads[kernel.FZ].sum(axis=0)
-    for k, unknown in enumerate(unknowns):  # β also tilts the lift itself: −β dF_z cos ψ in C_H.
-        if unknown in ("coning", "flap_1c", "flap_1s"):
-            beta = {"coning": 1.0, "flap_1c": disk.cos, "flap_1s": disk.sin}[unknown]
-            total[1, k] -= (lift @ (beta * disk.cos)) / len(disk.psi)
-        if unknown == "shaft_tilt" and elements.friction is not None and problem.design.models.disk_axial_flow:
-            total[1, k] -= elements.flow.mu_z * radial_drag(problem, elements.friction.radial_slope)
+    total = integrate(problem, elements, fz, fx) + sums_at_given_loads(problem, elements, unknowns)
     twisting = np.zeros((N_SUMS, 0))
+    rows: Array | None = None
     if shapes is not None:
         by_theta = weighted_loads(problem, elements, loads[kernel.FZ_THETA], loads[kernel.FX_THETA])
         twisting = shapes.gather(by_theta).reshape(N_SUMS, -1)
     if answer is not None:
-        added = answer.integrate(weighted_loads(problem, elements, loads[kernel.FZ_UP], loads[kernel.FX_UP]))
+        rows = answer.rows(weighted_loads(problem, elements, loads[kernel.FZ_UP], loads[kernel.FX_UP]))
+        added = answer.times(rows)
         total += added[:, : len(unknowns)]
         twisting = twisting + added[:, len(unknowns) :]
-    return Slopes(unknowns, fz, fx, changes, by_wake, answer, total, twisting)
+    return Slopes(unknowns, fz, fx, changes, by_wake, answer, total, twisting, rows)
+
+
+def sums_at_given_loads(problem: Problem, elements: BladeElements, unknowns: tuple[Unknown, ...]) -> Array:
+    """∂ of the sums by the unknowns at the same F_z and F_x, (6, unknowns)."""
+    disk, out = problem.disk, np.zeros((N_SUMS, len(unknowns)))
+    lift: Array | None = None
+    for k, unknown in enumerate(unknowns):  # β also tilts the lift itself: −β dF_z cos ψ in C_H.
+        if unknown in ("coning", "flap_1c", "flap_1s"):
+            lift = disk.dr * elements.loads[kernel.FZ].sum(axis=0) if lift is None else lift
+            beta = {"coning": 1.0, "flap_1c": disk.cos, "flap_1s": disk.sin}[unknown]
+            out[1, k] -= (lift @ (beta * disk.cos)) / len(disk.psi)
+        if unknown == "shaft_tilt" and elements.friction is not None and problem.design.models.disk_axial_flow:
+            out[1, k] -= elements.flow.mu_z * radial_drag(problem, elements.friction.radial_slope)
+    return out
 
 
 def weighted_loads(problem: Problem, elements: BladeElements, fz: Array, fx: Array) -> Array:

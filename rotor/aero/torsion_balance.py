@@ -5,6 +5,7 @@ radians. Its derivatives by the trim unknowns and by the elastic coordinates inc
 """
 
 import math
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from rotor.aero import kernel
 from rotor.aero.elastic import BladeTorsion, TorsionState
 from rotor.aero.elements import BladeElements, Problem
 from rotor.aero.sums import Slopes
-from rotor.aero.trim_state import TrimState
+from rotor.aero.trim_state import TrimState, Unknown
 from rotor.arrays import Array
 from rotor.compiled import compiled
 
@@ -50,8 +51,11 @@ def modal_moments(problem: Problem, elements: BladeElements) -> Array:
     return _modal_moments(torsion.shapes.radial, torsion.inertia, blade.moments[kernel.MOMENT], elements.theta)
 
 
-def torsion_slopes(problem: Problem, elements: BladeElements, by_unknown: Slopes) -> Array:
-    """∂(torsion residual) by the trim unknowns, then by the elastic coordinates, (columns, unknowns + columns)."""
+def torsion_slopes(problem: Problem, elements: BladeElements, by_unknown: Slopes) -> tuple[Array, Array | None]:
+    """∂(torsion residual) by the trim unknowns, then by the elastic coordinates, (columns, unknowns + columns).
+
+    Beside it those by the terms of an inflow that answers the load, (columns, terms), see `InflowColumns.rows`.
+    """
     torsion, blade = torsion_of(problem, elements)
     shapes, moments, unknowns = torsion.shapes, blade.moments, by_unknown.unknowns
     # ∂(moment of the air) by the unknowns; the lift, which acts x behind the pitch axis, follows the loss factor.
@@ -60,23 +64,33 @@ def torsion_slopes(problem: Problem, elements: BladeElements, by_unknown: Slopes
     pitching = pitch_slope(torsion, elements)
     by = pitching, moments[kernel.M_UT], moments[kernel.M_UP], moments[kernel.M_UR]
     load = shapes.project(changes.follow(by, by_loss, by_unknown.by_wake, moments[kernel.M_RATE]))
-    inertia = torsion.modal_inertia
+    by_trim = load.reshape(len(unknowns), shapes.columns).T
+    found = np.hstack([by_trim, _between_columns(torsion, pitching, moments[kernel.M_RATE])])
+    gain, rows = np.repeat(torsion.gain, len(shapes.waves))[:, None], None
+    if by_unknown.answer is not None:
+        rows = by_unknown.answer.projected_rows(moments[kernel.M_UP], shapes)
+        found += by_unknown.answer.times(rows)
+        rows *= -gain
+    found *= -gain
+    return found + torsion_at_given_moments(torsion, unknowns), rows
+
+
+@lru_cache(maxsize=32)
+def torsion_at_given_moments(torsion: BladeTorsion, unknowns: tuple[Unknown, ...]) -> Array:
+    """∂(torsion residual) at given moments of the air and propeller moment, (columns, unknowns + columns)."""
+    modes, functions = torsion.dynamic.shape
+    load = np.zeros((modes, functions, len(unknowns)))
     for k, unknown in enumerate(unknowns):
         if unknown in ("cyclic_1c", "cyclic_1s"):
-            load[k, :, 1 if unknown == "cyclic_1c" else 2] += inertia
+            load[:, 1 if unknown == "cyclic_1c" else 2, k] = torsion.modal_inertia
         if unknown == "coning":
-            load[k, :, 0] += torsion.modal_tip_mass
-    by_trim = load.reshape(len(unknowns), shapes.columns).T
-
-    modes, functions = torsion.dynamic.shape
-    own = _between_columns(torsion, pitching, moments[kernel.M_RATE])
-    same = list(range(functions))
-    own.reshape(modes, functions, modes, functions)[:, same, :, same] += torsion.coupling
-    found = np.hstack([by_trim, own])
-    if by_unknown.answer is not None:
-        found += by_unknown.answer.project(moments[kernel.M_UP], shapes)
+            load[:, 0, k] = torsion.modal_tip_mass
+    own, same = np.zeros((modes, functions, modes, functions)), list(range(functions))
+    own[:, same, :, same] = torsion.coupling
+    columns = modes * functions
+    found = np.hstack([load.reshape(columns, -1), own.reshape(columns, columns)])
     found *= -np.repeat(torsion.gain, functions)[:, None]
-    diagonal = np.arange(shapes.columns)
+    diagonal = np.arange(columns)
     found[diagonal, len(unknowns) + diagonal] += torsion.dynamic.ravel()
     return found
 

@@ -9,34 +9,27 @@ loads, and the part u = Aᵀ(I − K Aᵀ)⁻¹(K w_z + ∂F_x/∂λ w_x + ∂P/
 The chain rule then gives the gradient by any twist parameter: dP/dp = Σ_r dP/dθ(r) ∂θ_tw(r)/∂p.
 """
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
 from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem, evaluate_elements
 from rotor.aero.free_wake.system import WakeState
-from rotor.aero.sums import Slopes, integrate_transposed
-from rotor.aero.torsion_balance import pitch_slope
 from rotor.arrays import Array
 from rotor.blas_threads import one_blas_thread
-from rotor.compiled import compiled
-from rotor.trim.equations import unknowns_of
 from rotor.trim.forward import guess_of
 from rotor.trim.hover import Annuli, AnnulusSlopes
 from rotor.trim.hover_wake import LineWeights, WakeAdjoint
 from rotor.trim.low_speed import HoverMatched, trim_problem
-from rotor.trim.newton import KEPT, Derivatives, KeptTrim, differentiate
+from rotor.trim.newton import KEPT, KeptTrim, differentiate
 from rotor.trim.power import tail_power
 from rotor.trim.solution import Solution
+from rotor.trim.transposed import BY_INFLOW, BY_THETA, BY_UT, TENSION, TransposedTrim
 
 Objective = Literal["total", "induced"]
-
-_FZ_THETA, _FZ_UT, _FZ_UP, _FZ_UR = kernel.FZ_THETA, kernel.FZ_UT, kernel.FZ_UP, kernel.FZ_UR
-_FX_THETA, _FX_UT, _FX_UP, _FX_UR = kernel.FX_THETA, kernel.FX_UT, kernel.FX_UP, kernel.FX_UR
-
 
 @dataclass(frozen=True, eq=False)
 class PitchGradient:
@@ -82,52 +75,12 @@ class Weights:
     tilt: float = 0.0
     """By the shaft tilt at the same loads and velocities."""
 
-    def on(self, shape: tuple[int, int]) -> "GridWeights":
-        """All fields on the grid."""
-        zero = np.zeros(shape)
-
-        def full(field: Array | float) -> Array:
-            whole = isinstance(field, np.ndarray) and field.shape == shape
-            return np.ascontiguousarray(field) if whole else zero + field
-
-        return GridWeights(
-            full(self.fz), full(self.fx), full(self.inflow), full(self.theta), full(self.u_t), full(self.u_p),
-            full(self.u_r), full(self.swirl), self.tilt,
-        )  # fmt: skip
-
-
-@dataclass(frozen=True, eq=False)
-class GridWeights:
-    """`Weights` with all fields on the grid, (elements, azimuths)."""
-
-    fz: Array
-    fx: Array
-    inflow: Array
-    theta: Array
-    u_t: Array
-    u_p: Array
-    u_r: Array
-    swirl: Array
-    tilt: float
-
-    def by_flow(self, loads: Array) -> Array:
-        """Slopes of the measure by θ, U_T, U_P and U_R, the loads following, (4, elements, azimuths)."""
-        return _by_flow(self.fz, self.fx, self.theta, self.u_t, self.u_p, self.u_r, loads)
-
-
-@compiled(error_model="numpy", fastmath={"contract"})
-def _by_flow(fz: Any, fx: Any, theta: Any, u_t: Any, u_p: Any, u_r: Any, loads: Any) -> Any:
-    """`GridWeights.by_flow`."""
-    n, m = fz.shape
-    out = np.empty((4, n, m))
-    for i in range(n):
-        for j in range(m):
-            out[0, i, j] = theta[i, j] + fz[i, j] * loads[_FZ_THETA, i, j] + fx[i, j] * loads[_FX_THETA, i, j]
-            out[1, i, j] = u_t[i, j] + fz[i, j] * loads[_FZ_UT, i, j] + fx[i, j] * loads[_FX_UT, i, j]
-        for j in range(m):
-            out[2, i, j] = u_p[i, j] + fz[i, j] * loads[_FZ_UP, i, j] + fx[i, j] * loads[_FX_UP, i, j]
-            out[3, i, j] = u_r[i, j] + fz[i, j] * loads[_FZ_UR, i, j] + fx[i, j] * loads[_FX_UR, i, j]
-    return out
+    def on(self, shape: tuple[int, int]) -> Array:
+        """As `TransposedTrim.slopes` takes them, (7, elements, azimuths)."""
+        out = np.empty((7, *shape))
+        for k, field in enumerate((self.fz, self.fx, self.inflow, self.theta, self.u_t, self.u_p, self.u_r)):
+            out[k] = field
+        return out
 
 
 class HoverAdjoint:
@@ -214,74 +167,36 @@ class Adjoint:
             return self._forward(weights) if self._hover is None else self._hover.by_pitch(weights)
 
     @cached_property
-    def _linear(self) -> tuple[Slopes, Derivatives]:
-        """Exact derivatives at the trim, kept also for the next trim that starts from it."""
-        kept = self._kept
-        if kept is not None and kept.slopes is not None and kept.derivatives is not None:
-            return kept.slopes, kept.derivatives
-        found, derivatives = differentiate(self.problem, self.elements, unknowns_of(self.problem.design))
-        KEPT.keep(KeptTrim(self.solution.disk.induced, derivatives, self.elements, found, self.problem))
-        return found, derivatives
+    def _transposed(self) -> TransposedTrim:
+        return TransposedTrim(self.problem, self.elements)
 
-    def _forward(self, given: Weights) -> Array:
-        problem, elements, loads = self.problem, self.elements, self.elements.loads
-        by_unknown, derivatives = self._linear
-        trims, changes, shape = len(by_unknown.unknowns), by_unknown.changes, problem.disk.shape
-        weights = given.on(shape)
-        by = weights.by_flow(loads)
-        source = by[2] + weights.inflow
-        measure = np.zeros(len(derivatives.jacobian))
-        measure[:trims] = changes.collect(by, self._by_loss(weights))
-        measure[:trims] -= changes.u_t_along @ weights.swirl.sum(axis=1)
-        if by_unknown.by_wake is not None:
-            measure[:trims] += changes.wake @ _dot(by_unknown.by_wake, source)
-        if by_unknown.answer is not None:
-            measure += by_unknown.answer.integrate(source[None])[0]
-        if "shaft_tilt" in by_unknown.unknowns and problem.design.models.disk_axial_flow:
-            tilt = by_unknown.unknowns.index("shaft_tilt")
-            measure[tilt] += weights.tilt
-            if elements.friction is not None:
-                measure[tilt] -= elements.flow.mu_z * float(np.vdot(weights.fx, elements.friction.fx_slope))
-        if problem.torsion is not None:
-            measure[trims:] += problem.torsion.shapes.gather(by[0]).ravel()
-        adjoint = np.linalg.solve(derivatives.jacobian.T, measure)
-
-        trim_fz, trim_fx = integrate_transposed(problem, elements, adjoint[:trims] @ derivatives.weights)
-        weights = replace(weights, fz=weights.fz - trim_fz, fx=weights.fx - trim_fx)
-        by = weights.by_flow(loads)
-        direct, tension = by[0], 0.0
-        source = by[2] + weights.inflow
-        moment: Array | None = None
-        if problem.torsion is not None and elements.torsion is not None:
-            modal = problem.torsion.gain[:, None] * adjoint[trims:].reshape(problem.given_torsion.shape)
-            moment = problem.torsion.shapes.project_transposed(modal)
-            direct = direct + moment * pitch_slope(problem.torsion, elements)
-            tension = -modal[:, 0] @ problem.torsion.tension
-            source = source + elements.torsion.moments[kernel.M_UP] * moment
-        found = direct.sum(axis=1) + tension
-        if derivatives.feedback is None:
-            return found
-        on_inflow, on_load = derivatives.feedback.solve_transposed(source)
-        found = found + np.einsum("ij,ij->i", on_load, loads[kernel.FZ_THETA])
+    def _forward(self, weights: Weights) -> Array:
+        problem, trim = self.problem, self._transposed
+        shape = problem.disk.shape
+        swirl = np.broadcast_to(weights.swirl, shape).sum(axis=1)
+        slopes = self._slopes(weights.on(shape), trim.direct(swirl, weights.tilt))
+        found = slopes[BY_THETA] + slopes[TENSION]
         if not isinstance(problem.inflow, HoverMatched):
             return found
-        on_swirl = weights.swirl - by[1] - on_load * loads[kernel.FZ_UT]
-        if moment is not None and elements.torsion is not None:
-            on_swirl = on_swirl - elements.torsion.moments[kernel.M_UT] * moment
-        return found + self._by_difference(problem.inflow, on_inflow, on_swirl)
+        return found + self._by_difference(problem.inflow, slopes[BY_INFLOW], swirl - slopes[BY_UT])
 
-    def _by_loss(self, weights: "GridWeights") -> Array:
-        """The measure's slope by the loss factor of each element, (elements,)."""
-        elements = self.elements
-        if not elements.loss_slopes.any():
-            return np.zeros_like(elements.loss)
-        along = weights.fz * elements.u_t + weights.fx * elements.u_p
-        return np.einsum("ij,ij->i", along, elements.loads[kernel.LIFT])
+    def _slopes(self, given: Array, direct: Array) -> Array:
+        """As `TransposedTrim.with_nearby`, with the derivatives kept of the trim or, where these do not serve, with new ones."""
+        problem, trim, kept = self.problem, self._transposed, self._kept
+        near = kept.derivatives if kept is not None else None
+        if near is not None and near.serve(problem, trim.unknowns):
+            found = trim.with_nearby(near, given, direct)
+            if found is not None:
+                return found
+        exact = differentiate(problem, self.elements, trim.unknowns)[1]
+        self._kept = KeptTrim(self.solution.disk.induced, exact, self.elements, problem)
+        KEPT.keep(self._kept)
+        return trim.with_own(exact, given, direct)
 
     def _by_difference(self, inflow: HoverMatched, on_inflow: Array, on_swirl: Array) -> Array:
         """The part of the gradient through the hovering rotor, whose inflow is carried over to low speed."""
         difference, share = inflow.difference, inflow.share
-        fz, by_inflow, by_swirl = difference.by_hover(share * on_inflow.sum(axis=1), share * on_swirl.sum(axis=1))
+        fz, by_inflow, by_swirl = difference.by_hover(share * on_inflow, share * on_swirl)
         torsion = difference.elements.torsion
         hovering = HoverAdjoint(
             difference.problem,
@@ -350,8 +265,3 @@ def _radial_dissipation_slope(adjoint: Adjoint) -> float:
 def _tail_gain(solution: Solution) -> float:
     """Total power per watt at the shaft, the tail rotor included."""
     return 1.0 + tail_power(solution.design, solution.last_power.main_rotor)[1]
-
-
-def _dot(stack: Array, weight: Array | float) -> Array:
-    """Σ over the disk of a stack of fields times a weight, (stack,)."""
-    return np.tensordot(stack, weight, 2) if isinstance(weight, np.ndarray) else weight * stack.sum(axis=(1, 2))

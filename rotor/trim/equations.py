@@ -206,8 +206,12 @@ class Balance:
 
     def jacobian(self, slopes: Slopes) -> Array:
         """Exact derivatives of the residuals by the unknowns, (equations, unknowns)."""
-        matrix = self.weights @ slopes.sums
-        column = {unknown: k for k, unknown in enumerate(slopes.unknowns)}
+        return self.weights @ slopes.sums + self.besides_sums(slopes.unknowns)
+
+    def besides_sums(self, unknowns: tuple[Unknown, ...]) -> Array:
+        """The part of `jacobian` that is not through the sums over the disk."""
+        matrix = np.zeros((len(self.equations), len(unknowns)))
+        column = {unknown: k for k, unknown in enumerate(unknowns)}
         for row, equation in zip(matrix, self.equations, strict=True):
             for unknown, slope in equation.slopes.items():
                 if unknown in column:

@@ -25,7 +25,7 @@ from rotor.aero.disk import Disk
 from rotor.aero.elements import BladeElements, Problem, build_problem, swirl_of
 from rotor.aero.free_wake.system import WakeState
 from rotor.aero.inflow import InflowModel, Wake, inflow_model
-from rotor.aero.inflow.interface import InflowFeedback, InflowResponse
+from rotor.aero.inflow.interface import InflowFeedback, InflowResponse, ResponseTerms, TermResponse
 from rotor.aero.momentum import vortex_ring_edge
 from rotor.arrays import Array
 from rotor.design.design import Design
@@ -196,6 +196,10 @@ class AddedInflow:
     @property
     def by_wake(self) -> Array:
         return self.response.by_wake
+
+    @property
+    def terms(self) -> ResponseTerms | None:
+        return self.response.terms if isinstance(self.response, TermResponse) else None
 
     def apply(self, fields: Array) -> Array:
         return self.response.apply(fields)

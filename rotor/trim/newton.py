@@ -43,6 +43,8 @@ class Derivatives:
     feedback: InflowFeedback | None
     answer: InflowColumns | None
     """∂λ_i by the unknowns and the elastic coordinates; None for a model that does not depend on the load."""
+    by_terms: Array | None
+    """Of these equations by the terms of an inflow that answers the load, (equations + columns, terms)."""
     by_inflow: LoadsByInflow
     shape: tuple[int, int]
     """(elements, azimuths)"""
@@ -95,8 +97,6 @@ class KeptTrim:
     """At the trim or near it, 0.5 MB."""
     elements: BladeElements | None
     """1.3 MB; None once other trims have followed."""
-    slopes: Slopes | None = None
-    """Those at the trim, where they have been evaluated; the derivatives are then exact."""
     problem: Problem | None = None
     """The design on its grid, kept as long as the blade elements."""
 
@@ -128,7 +128,7 @@ class KeptTrims:
                 del self._kept[next(iter(self._kept))]
             whole = [key for key, one in self._kept.items() if one.elements is not None]
             for key in whole[: -self._whole]:
-                self._kept[key] = replace(self._kept[key], elements=None, slopes=None, problem=None)
+                self._kept[key] = replace(self._kept[key], elements=None, problem=None)
 
 
 KEPT = KeptTrims()
@@ -271,21 +271,30 @@ def differentiate(
     forces = forces if forces is not None else balance_of(problem, elements)
     feedback = inflow_feedback(problem, elements)
     found = slopes(problem, elements, unknowns, feedback)
-    matrix = full_jacobian(problem, elements, found, forces)
+    matrix, by_terms = full_jacobian(problem, elements, found, forces)
     by_inflow = LoadsByInflow.at(elements)
-    return found, Derivatives(unknowns, matrix, forces.weights, feedback, found.answer, by_inflow, problem.disk.shape)
+    return found, Derivatives(
+        unknowns, matrix, forces.weights, feedback, found.answer, by_terms, by_inflow, problem.disk.shape
+    )
 
 
 def full_jacobian(
     problem: Problem, elements: BladeElements, by_unknown: Slopes, forces: Balance | None = None
-) -> Array:
-    """Derivatives of all equations by all unknowns: those of the trim first, then those of torsion."""
+) -> tuple[Array, Array | None]:
+    """Derivatives of all equations by all unknowns: those of the trim first, then those of torsion.
+
+    Beside them those by the terms of an inflow that answers the load.
+    """
     forces = forces if forces is not None else balance_of(problem, elements)
     matrix = forces.jacobian(by_unknown)
+    by_terms = None if by_unknown.by_terms is None else forces.weights @ by_unknown.by_terms
     if problem.torsion is None:
-        return matrix
-    across = forces.weights @ by_unknown.torsion_sums
-    return np.vstack([np.hstack([matrix, across]), torsion_slopes(problem, elements, by_unknown)])
+        return matrix, by_terms
+    twisting, torsion_by_terms = torsion_slopes(problem, elements, by_unknown)
+    matrix = np.vstack([np.hstack([matrix, forces.weights @ by_unknown.torsion_sums]), twisting])
+    if by_terms is not None and torsion_by_terms is not None:
+        by_terms = np.vstack([by_terms, torsion_by_terms])
+    return matrix, by_terms
 
 
 def inflow_feedback(problem: Problem, elements: BladeElements) -> InflowFeedback | None:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.linalg.lapack import dgetrf, dgetrs
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import HarmonicShapes, InflowFeedback, Wake
+from rotor.aero.inflow.interface import HarmonicShapes, InflowFeedback, ResponseTerms, Wake
 from rotor.aero.inflow.peters_he import FlowParameters, flow_parameters
 from rotor.aero.inflow.wake_projection import Projection, build_projection
 from rotor.aero.losses import tip_factor
@@ -210,18 +210,22 @@ class TermColumns:
         out = self.operator.field(self.coefficients @ coefficients)
         return out if self.beyond is None else out + float(self.shares @ coefficients) * self.beyond
 
-    def integrate(self, fields: Array) -> Array:
-        """As `InflowColumns`."""
-        out = self.operator.projection.sums(self.operator.over_factor(fields)) @ self.coefficients
-        return out if self.beyond is None else out + np.outer(np.tensordot(fields, self.beyond, 2), self.shares)
+    def rows(self, fields: Array) -> Array:
+        """As `InflowColumns`; what no term can hold is one more."""
+        rows = self.operator.projection.sums(self.operator.over_factor(fields))
+        return rows if self.beyond is None else np.column_stack([rows, np.tensordot(fields, self.beyond, 2)])
 
-    def project(self, slope: Array, shapes: HarmonicShapes) -> Array:
+    def projected_rows(self, slope: Array, shapes: HarmonicShapes) -> Array:
         """As `InflowColumns`."""
-        projection = self.operator.projection
-        rows = projection.against(self.operator.over_factor(slope), shapes)
-        scale = np.tile(shapes.scale, len(shapes.radial)) * projection.cell
-        out = scale[:, None] * (rows.T @ self.coefficients)
-        return out if self.beyond is None else out + np.outer(shapes.project(slope * self.beyond), self.shares)
+        rows = self.operator.projection.against(self.operator.over_factor(slope), shapes).T
+        rows = np.tile(shapes.weights, len(shapes.radial))[:, None] * rows
+        return rows if self.beyond is None else np.column_stack([rows, shapes.project(slope * self.beyond).ravel()])
+
+    def times(self, rows: Array) -> Array:
+        """As `InflowColumns`; the row of a field's sums with the terms alone will do as well."""
+        terms = len(self.coefficients)
+        out = rows[:, :terms] @ self.coefficients
+        return out if rows.shape[1] == terms else out + rows[:, terms:] * self.shares
 
 
 @dataclass(frozen=True)
@@ -269,6 +273,21 @@ class DynamicWakeResponse:
     def by_wake(self) -> Array:
         """∂λ_i by (µ_x, µ_z, λ0) at this load."""
         return self._operator.induced_by_wake(self._load)
+
+    @property
+    def terms(self) -> ResponseTerms:
+        """A in the terms of the projection."""
+        operator, projection = self._operator, self._operator.projection
+        beyond = operator.beyond_terms(self._load)
+        return ResponseTerms(
+            load_shapes=projection.radial_columns,
+            inflow_shapes=operator.over_factor(projection.radial.T).T.copy(),
+            waves=projection.all_waves,
+            place=projection.place_in_all,
+            transfer=operator.transfer,
+            by_wake=operator.coefficients_by_wake(self._load),
+            beyond=np.zeros((0, 0)) if beyond is None else beyond,
+        )
 
     def apply(self, fields: Array) -> Array:
         """A f."""

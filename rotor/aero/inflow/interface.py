@@ -10,7 +10,7 @@ Fields are (elements, azimuths); d = dC_T/dr of the whole rotor as if smeared; s
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Protocol, runtime_checkable
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -104,6 +104,11 @@ class HarmonicShapes:
         """Fourier amplitudes of functions of azimuth, (…, azimuths) → (…, functions)."""
         return around @ self.waves.T * (self.scale / self.waves.shape[1])
 
+    @property
+    def weights(self) -> Array:
+        """Factors that turn a sum over the grid into an integral along r and a harmonic, (functions,)."""
+        return self.scale * (self.dr / self.waves.shape[1])
+
     def project(self, fields: Array) -> Array:
         """Harmonics of ∫ Φ_k f dr, (…, elements, azimuths) → (…, shapes, functions)."""
         return self.analyse(self.radial @ fields)
@@ -114,26 +119,34 @@ class HarmonicShapes:
 
     @cached_property
     def _analysis(self) -> Array:
-        return self.waves.T * (self.scale * self.dr / self.waves.shape[1])
+        return self.waves.T * self.weights
 
-    def project_transposed(self, weights: Array) -> Array:
-        """Transpose of `project`: weights (shapes, functions) → (elements, azimuths)."""
-        return self.field(weights * (self.scale * self.dr / self.waves.shape[1]))
+    def times(self, field: Array) -> Array:
+        """Every column times a field, (columns, elements, azimuths)."""
+        columns = self.radial[:, None, :, None] * self.waves[None, :, None, :] * field
+        return columns.reshape(-1, *field.shape)
 
 
 class InflowColumns(Protocol):
-    """The inflow that answers a unit of each of several changes, the feedback through the load included."""
+    """The inflow that answers a unit of each of several changes, the feedback through the load included.
+
+    It is given by the terms of the model: sums over the grid of a field times λ_i are products with a row of terms.
+    """
 
     def field(self, coefficients: Array) -> Array:
         """λ_i of a combination of the columns, (columns,) → (elements, azimuths)."""
         ...
 
-    def integrate(self, fields: Array) -> Array:
-        """Σ over the grid of fields times λ_i of every column, (n, elements, azimuths) → (n, columns)."""
+    def rows(self, fields: Array) -> Array:
+        """Fields as rows: Σ over the grid of a field times every term, (n, elements, azimuths) → (n, terms)."""
         ...
 
-    def project(self, slope: Array, shapes: HarmonicShapes) -> Array:
-        """`HarmonicShapes.project` of slope · λ_i of every column, (shapes × functions, columns)."""
+    def projected_rows(self, slope: Array, shapes: HarmonicShapes) -> Array:
+        """`HarmonicShapes.project` of slope · every term, (shapes × functions, terms)."""
+        ...
+
+    def times(self, rows: Array) -> Array:
+        """Rows times the terms of every column, (n, terms) → (n, columns)."""
         ...
 
 
@@ -170,19 +183,54 @@ class FieldColumns:
         """As `ColumnFeedback.answer_columns`."""
         fields = response.apply(loads) + np.tensordot(wake, response.by_wake, 1)
         if shapes is not None:
-            columns = shapes.radial[:, None, :, None] * shapes.waves[None, :, None, :] * slope
-            fields = np.concatenate([fields, response.apply(columns.reshape(-1, *slope.shape))])
+            fields = np.concatenate([fields, response.apply(shapes.times(slope))])
         return cls(feedback.solve(fields))
 
     def field(self, coefficients: Array) -> Array:
         return np.tensordot(coefficients, self.fields, axes=1)
 
-    def integrate(self, fields: Array) -> Array:
-        return np.tensordot(fields, self.fields, axes=((1, 2), (1, 2)))
+    def rows(self, fields: Array) -> Array:
+        return fields.reshape(len(fields), -1)
 
-    def project(self, slope: Array, shapes: HarmonicShapes) -> Array:
-        projected = shapes.project(slope * self.fields)
-        return projected.reshape(len(self.fields), -1).T
+    def projected_rows(self, slope: Array, shapes: HarmonicShapes) -> Array:
+        return (np.tile(shapes.weights, len(shapes.radial))[:, None, None] * shapes.times(slope)).reshape(
+            shapes.columns, -1
+        )
+
+    def times(self, rows: Array) -> Array:
+        return rows @ self.fields.reshape(len(self.fields), -1).T
+
+
+class ResponseTerms(NamedTuple):
+    """A response in terms, functions along the blade times waves around the disk: A = (1/F) Bᵀ T B with the sums B.
+
+    Arrays in the order of rows, for compiled code.
+    """
+
+    load_shapes: Array
+    """Functions along the blade, (elements, shapes)."""
+    inflow_shapes: Array
+    """The same over F, (shapes, elements)."""
+    waves: Array
+    """(waves, azimuths)"""
+    place: Integers
+    """Place of each term among all shapes with all waves, (terms,)."""
+    transfer: Array
+    """T, (terms, terms)."""
+    by_wake: Array
+    """∂λ_i by (µ_x, µ_z, λ0) at fixed load in terms, (3, terms)."""
+    beyond: Array
+    """The part of ∂λ_i by µ_z and by λ0 that no term can hold, (elements, azimuths), or (0, 0) where there is none."""
+
+
+@runtime_checkable
+class TermResponse(Protocol):
+    """A response that has terms."""
+
+    @property
+    def terms(self) -> ResponseTerms | None:
+        """None where the model inside has none."""
+        ...
 
 
 class InflowResponse(Protocol):

@@ -12,7 +12,7 @@ g_k, because k + p is then even in every term.
 """
 
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -90,6 +90,22 @@ class Projection:
         stack = np.ascontiguousarray(coefficients).reshape(-1, self.terms)
         out = _field(stack, *self.parts, *self.waves, self.place, self.azimuths)
         return out.reshape(*coefficients.shape[:-1], *out.shape[-2:])
+
+    @cached_property
+    def radial_columns(self) -> Array:
+        """`radial` with an element in every row, (elements, S + 1)."""
+        return self.radial.T.copy()
+
+    @cached_property
+    def all_waves(self) -> Array:
+        """cos pψ, then sin pψ, p = 0 … S + q_max, over all azimuths, (waves, azimuths)."""
+        phase = np.outer(np.arange(self.wave.max() + 1), 2.0 * np.pi * np.arange(self.azimuths) / self.azimuths)
+        return np.concatenate([np.cos(phase), np.sin(phase)])
+
+    @cached_property
+    def place_in_all(self) -> Integers:
+        """Place of each term among all g_k with `all_waves`, (terms,)."""
+        return self.order * len(self.all_waves) + self.wave + self.parity * (len(self.all_waves) // 2)
 
     def reduced(self, slope: Array) -> Array:
         """Σ over the grid of term · K · term for a pointwise slope K(r, ψ), (terms, terms).

@@ -166,7 +166,7 @@ def test_newton_converges_quadratically():
         balance = torsion_residual(p, elements)
         error = np.concatenate([residuals(p, elements), balance.ravel()])
         sizes.append(np.abs(error[:count]).max() / p.weight)
-        matrix = full_jacobian(p, elements, slopes(p, elements, unknowns, None))
+        matrix = full_jacobian(p, elements, slopes(p, elements, unknowns, None))[0]
         step = np.asarray(np.linalg.solve(matrix, -error), dtype=float)
         state, twist = state.moved(unknowns, step[:count]), twist + step[count:].reshape(twist.shape)
     assert sizes[1] < sizes[0] ** 2
