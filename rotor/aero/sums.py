@@ -115,30 +115,6 @@ def around_disk(along: Any, cos: Any, sin: Any, beta: Any, cell: float) -> Any:
     return out
 
 
-def integrate_transposed(problem: Problem, elements: BladeElements, weights: Array) -> tuple[Array, Array]:
-    """The transpose of `integrate`: ∂(weights · sums) by F_z and by F_x, (…, 6) → (…, elements, azimuths)."""
-    disk = problem.disk
-    cell = disk.dr / len(disk.psi)
-    both = _integrate_transposed(
-        cell * weights.reshape(-1, N_SUMS), disk.r, disk.r - problem.flap.hinge, disk.cos, disk.sin, elements.beta
-    ).reshape(2, *weights.shape[:-1], *disk.shape)
-    return both[0], both[1]
-
-
-@compiled(error_model="numpy")
-def _integrate_transposed(weights: Any, r: Any, arm: Any, cos: Any, sin: Any, beta: Any) -> Any:
-    """Weights (stack, 6) on the sums to weights on F_z and on F_x, (2, stack, elements, azimuths)."""
-    out = np.empty((2, len(weights), len(r), len(cos)))
-    for k in range(len(weights)):
-        thrust, drag, mean, cosine, sine, torque = weights[k]
-        for i in range(len(r)):
-            for j in range(len(cos)):
-                moment = mean + 2.0 * (cosine * cos[j] + sine * sin[j])
-                out[0, k, i, j] = thrust - drag * beta[j] * cos[j] + arm[i] * moment
-                out[1, k, i, j] = drag * sin[j] + torque * r[i]
-    return out
-
-
 @dataclass(frozen=True, eq=False)
 class Slopes:
     """Derivatives by the chosen unknowns and by the elastic coordinates. Stacks lead with the unknowns."""
@@ -276,16 +252,6 @@ class UnknownChanges:
             by_rate if by_rate is not None else _NO_RATE,
         )  # fmt: skip
 
-    def collect(self, by: Array, by_loss: Array) -> Array:
-        """The transpose of `follow`: Σ over the disk of ∂f by the unknowns, (unknowns,), of a measure f.
-
-        by: its slopes at every element by θ, U_T, U_P and U_R, (4, elements, azimuths); by_loss: that by F, summed
-        around the disk, (elements,).
-        """
-        return _collect(
-            self.theta, self.u_t, self.u_p, self.u_p_arm, self.u_r, self.u_t_along, self.arm, by
-        ) + self.loss @ by_loss  # fmt: skip
-
 
 _HELD = np.zeros((0, 0, 0))
 """∂λ_i of an inflow that is held."""
@@ -358,34 +324,4 @@ def _follow(
                         wake[k, 0] * by_wake[0, i, j] + wake[k, 1] * by_wake[1, i, j] + wake[k, 2] * by_wake[2, i, j]
                     )
                     out[k, i, j] += by_up[i, j] * inflow
-    return out
-
-
-@compiled(error_model="numpy", fastmath={"contract", "reassoc"})
-def _collect(
-    theta: Any, u_t: Any, u_p: Any, u_p_arm: Any, u_r: Any, u_t_along: Any, arm: Any, by: Any
-) -> Any:  # fmt: skip
-    """The sums of `UnknownChanges.collect` without the loss factor: along the blade first, then around the disk."""
-    _, n, m = by.shape
-    along, around = np.zeros((5, m)), np.zeros(n)
-    for i in range(n):
-        total = 0.0
-        for j in range(m):
-            along[0, j] += by[0, i, j]
-            along[1, j] += by[1, i, j]
-            along[2, j] += by[2, i, j]
-            along[3, j] += arm[i] * by[2, i, j]
-            along[4, j] += by[3, i, j]
-        for j in range(m):
-            total += by[1, i, j]
-        around[i] = total
-    out = np.zeros(len(theta))
-    for k in range(len(theta)):
-        total = 0.0
-        for j in range(m):
-            total += theta[k, j] * along[0, j] + u_t[k, j] * along[1, j] + u_p[k, j] * along[2, j]
-            total += u_p_arm[k, j] * along[3, j] + u_r[k, j] * along[4, j]
-        for i in range(n):
-            total += u_t_along[k, i] * around[i]
-        out[k] = total
     return out

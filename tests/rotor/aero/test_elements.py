@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 
 from rotor.aero import kernel
 from rotor.aero.elements import Problem, build_problem, evaluate_elements
-from rotor.aero.sums import N_SUMS, disk_sums, integrate, integrate_transposed, slopes, unknown_changes, weighted_loads
+from rotor.aero.sums import disk_sums, integrate, slopes, unknown_changes, weighted_loads
 from rotor.aero.torsion_balance import torsion_residual
 from rotor.aero.trim_state import TrimState
 from rotor.airfoil.sections import load_installed
@@ -175,14 +175,12 @@ def test_newton_converges_quadratically():
 
 
 def test_the_sums_are_those_over_the_elements():
-    """The compiled sums against the contributions of all elements, and against their transpose."""
+    """The compiled sums against the contributions of all elements."""
     p = problem(mu=0.2)
     elements = evaluate_elements(p, STATE)
     fz, fx = elements.loads[kernel.FZ], elements.loads[kernel.FX]
     sums = integrate(p, elements, np.stack([fx, fz]), np.stack([fz, fx]))[:, 1]
     assert_allclose(weighted_loads(p, elements, fz, fx).sum(axis=(1, 2)), sums, rtol=1e-12)
-    by_fz, by_fx = integrate_transposed(p, elements, np.eye(N_SUMS))
-    assert_allclose((by_fz * fz + by_fx * fx).sum(axis=(1, 2)), sums, rtol=1e-12)
 
 
 def test_loss_average_over_azimuth_is_settled():
