@@ -141,7 +141,7 @@ def slopes(
     problem: Problem, elements: BladeElements, unknowns: tuple[Unknown, ...], feedback: InflowFeedback | None
 ) -> Slopes:
     """Exact derivatives of loads and sums by the unknowns. `feedback`: of the response of a load-dependent model."""
-    disk, loads, response = problem.disk, elements.loads, elements.response
+    loads, response = elements.loads, elements.response
     answer: InflowColumns | None = None
     shapes = problem.torsion.shapes if problem.torsion is not None else None
     by_wake = response.by_wake if response is not None and feedback is None else None
@@ -174,10 +174,10 @@ def slopes(
 def sums_at_given_loads(problem: Problem, elements: BladeElements, unknowns: tuple[Unknown, ...]) -> Array:
     """∂ of the sums by the unknowns at the same F_z and F_x, (6, unknowns)."""
     disk, out = problem.disk, np.zeros((N_SUMS, len(unknowns)))
-    lift: Array | None = None
+    lift = np.zeros(0)
     for k, unknown in enumerate(unknowns):  # β also tilts the lift itself: −β dF_z cos ψ in C_H.
         if unknown in ("coning", "flap_1c", "flap_1s"):
-            lift = disk.dr * elements.loads[kernel.FZ].sum(axis=0) if lift is None else lift
+            lift = lift if lift.size else disk.dr * elements.loads[kernel.FZ].sum(axis=0)
             beta = {"coning": 1.0, "flap_1c": disk.cos, "flap_1s": disk.sin}[unknown]
             out[1, k] -= (lift @ (beta * disk.cos)) / len(disk.psi)
         if unknown == "shaft_tilt" and elements.friction is not None and problem.design.models.disk_axial_flow:

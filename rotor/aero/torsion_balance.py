@@ -90,8 +90,7 @@ def torsion_at_given_moments(torsion: BladeTorsion, unknowns: tuple[Unknown, ...
     columns = modes * functions
     found = np.hstack([load.reshape(columns, -1), own.reshape(columns, columns)])
     found *= -np.repeat(torsion.gain, functions)[:, None]
-    diagonal = np.arange(columns)
-    found[diagonal, len(unknowns) + diagonal] += torsion.dynamic.ravel()
+    found[:, len(unknowns) :] += np.diag(torsion.dynamic.ravel())
     return found
 
 

@@ -31,6 +31,7 @@ from rotor.trim.transposed import BY_INFLOW, BY_THETA, BY_UT, TENSION, Transpose
 
 Objective = Literal["total", "induced"]
 
+
 @dataclass(frozen=True, eq=False)
 class PitchGradient:
     """Change of power with pitch along the blade; trim and inflow adjust."""
@@ -181,7 +182,7 @@ class Adjoint:
         return found + self._by_difference(problem.inflow, slopes[BY_INFLOW], swirl - slopes[BY_UT])
 
     def _slopes(self, given: Array, direct: Array) -> Array:
-        """As `TransposedTrim.with_nearby`, with the derivatives kept of the trim or, where these do not serve, with new ones."""
+        """As `TransposedTrim.with_nearby`, with the derivatives kept or, where these do not serve, with new ones."""
         problem, trim, kept = self.problem, self._transposed, self._kept
         near = kept.derivatives if kept is not None else None
         if near is not None and near.serve(problem, trim.unknowns):

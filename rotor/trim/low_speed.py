@@ -197,9 +197,8 @@ class AddedInflow:
     def by_wake(self) -> Array:
         return self.response.by_wake
 
-    @property
     def terms(self) -> ResponseTerms | None:
-        return self.response.terms if isinstance(self.response, TermResponse) else None
+        return self.response.terms() if isinstance(self.response, TermResponse) else None
 
     def apply(self, fields: Array) -> Array:
         return self.response.apply(fields)

@@ -125,7 +125,7 @@ class TransposedTrim:
             shapes, waves, rates = torsion.shapes.radial, torsion.shapes.waves, torsion.shapes.rates
             modal = torsion.gain[:, None] * torsion.shapes.weights
             moments, pitching = elements.torsion.moments, pitch_slope(torsion, elements)
-        terms = response.terms if isinstance(response, TermResponse) else None
+        terms = response.terms() if isinstance(response, TermResponse) else None
         self._terms = terms if terms is not None else _NO_TERMS
         prescribed = response is not None and not problem.inflow.load_dependent
         self._tilt = "shaft_tilt" in unknowns and problem.design.models.disk_axial_flow
@@ -147,9 +147,7 @@ class TransposedTrim:
             beta=elements.beta,
             weights=forces.weights * (disk.dr / len(disk.psi)),
             direct=direct,
-            around=np.hstack(
-                [changes.theta, changes.u_t, changes.u_p, changes.u_p_arm, changes.u_r, changes.rate]
-            ),
+            around=np.hstack([changes.theta, changes.u_t, changes.u_p, changes.u_p_arm, changes.u_r, changes.rate]),
             u_t_along=changes.u_t_along,
             loss=changes.loss,
             wake=changes.wake,
@@ -197,9 +195,9 @@ class TransposedTrim:
 
     def with_own(self, derivatives: Derivatives, given: Array, direct: Array) -> Array:
         """The same with the derivatives of this very trim: one solution and one pass."""
-        blade, problem, trims = self._blade, self._problem, len(self.unknowns)
+        blade = self._blade
         no_load = np.zeros((0, len(blade.cos)))
-        multipliers = np.zeros(len(derivatives.jacobian))
+        multipliers: Array = np.zeros(len(derivatives.jacobian))
         slopes, _, _, source = _pass(blade, multipliers, _NO_FIELD, no_load, _NO_FIELD, _NO_FIELD, given)
         slopes[: len(direct)] += direct
         if derivatives.feedback is not None and derivatives.answer is not None:
@@ -219,7 +217,7 @@ _compile = compiled(error_model="numpy", fastmath={"contract", "reassoc"})
 def _conjugate_residuals(
     blade: Any, terms: Any, nearby: Any, given: Any, direct: Any, tolerance: float, most: int
 ) -> Any:  # fmt: skip
-    """Slopes by element, and whether their error fell to the tolerance within so many passes.
+    """Slopes by element, and whether their error fell to the tolerance; it ends where more passes are to be expected.
 
     Every pass takes the part of what is left away that its change of the slopes can: with the preconditioner C,
     C(slopes) is made as small as the changes C(pass(step)) of all steps together allow.
@@ -233,7 +231,7 @@ def _conjugate_residuals(
     rest = _correction(nearby, slopes, _sums(terms, on_terms))
     changes, steps = np.zeros((most, size + own)), np.zeros((most, size + own))
     gains = np.zeros((most, *found.shape))
-    largest = 0.0
+    largest, before = 0.0, math.inf
     for k in range(most):
         steps[k] = rest
         if own > 0:
@@ -262,6 +260,9 @@ def _conjugate_residuals(
         error = largest * math.sqrt(rest @ rest) / np.abs(found[0] + found[3]).max()
         if error <= tolerance:
             return found, True
+        if k > 0 and not error * (error / before) ** (most - 1 - k) <= tolerance:
+            return found, False
+        before = error
     return found, False
 
 

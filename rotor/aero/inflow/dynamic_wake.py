@@ -274,7 +274,6 @@ class DynamicWakeResponse:
         """∂λ_i by (µ_x, µ_z, λ0) at this load."""
         return self._operator.induced_by_wake(self._load)
 
-    @property
     def terms(self) -> ResponseTerms:
         """A in the terms of the projection."""
         operator, projection = self._operator, self._operator.projection

@@ -227,7 +227,6 @@ class ResponseTerms(NamedTuple):
 class TermResponse(Protocol):
     """A response that has terms."""
 
-    @property
     def terms(self) -> ResponseTerms | None:
         """None where the model inside has none."""
         ...

@@ -15,7 +15,9 @@ from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
 
-def design(mu: float, rate: float, inflow: str = "dynamic-wake", *, elastic: bool = True, preset: str = "flight") -> Design:
+def design(
+    mu: float, rate: float, inflow: str = "dynamic-wake", *, elastic: bool = True, preset: str = "flight"
+) -> Design:
     made = make_design(preset=preset, twist=f"linear:{rate:g}", mu=mu)
     return replace(made, models=replace(made.models, inflow=inflow, elastic_twist=elastic))
 
@@ -44,9 +46,7 @@ def evaluated(monkeypatch: pytest.MonkeyPatch) -> list[object]:
 @pytest.mark.parametrize(
     "inflow", ["dynamic-wake", "dynamic-wake-quick", "dynamic-wake-infinite-blades", "pitt-peters", "drees"]
 )
-def test_gradient_with_the_derivatives_of_a_trim_nearby(
-    inflow: str, mu: float, elastic: bool, evaluated: list[object]
-):
+def test_gradient_with_the_derivatives_of_a_trim_nearby(inflow: str, mu: float, elastic: bool, evaluated: list[object]):
     near = solve(design(mu, -14.0, inflow, elastic=elastic)).require()
     here = solve(design(mu + 0.002, -13.0, inflow, elastic=elastic), near).require()
     for objective in ("total", "induced"):
