@@ -9,7 +9,7 @@ from numpy.testing import assert_allclose
 
 from rotor.aero import kernel
 from rotor.aero.elements import Problem, build_problem, evaluate_elements
-from rotor.aero.sums import disk_sums, integrate, slopes, unknown_changes, weighted_loads
+from rotor.aero.sums import disk_sums, integrate, slopes, weighted_loads
 from rotor.aero.torsion_balance import torsion_residual
 from rotor.aero.trim_state import TrimState
 from rotor.airfoil.sections import load_installed
@@ -209,17 +209,3 @@ def test_sums_by_quadrature_of_a_known_field():
     start = p.design.rotor.blade.root_cutout
     assert_allclose(total.thrust, 0.5 * 0.08 * 0.6 * (1.0 - start**3) / 3.0, rtol=2e-4)  # midpoint rule, 40 elements
     assert_allclose(total.moment[1:], 0.0, atol=1e-15)
-
-
-def test_measures_by_the_unknowns_are_the_transpose_of_their_chain_rule():
-    """Σ over the disk of a weight times ∂f by every unknown, f being F_z, from the fields and collected at once."""
-    p = problem(mu=0.2)
-    elements = evaluate_elements(p, STATE)
-    unknowns = ("collective", "shaft_tilt", "coning", "cyclic_1c", "cyclic_1s", "flap_1c", "flap_1s", "lambda0")
-    changes = unknown_changes(p, elements, unknowns)
-    weight = np.random.default_rng(4).normal(size=p.disk.shape)
-    by_loss = elements.loads[kernel.LIFT] * elements.u_t
-    theta, u_t, u_p, u_r = by = elements.loads[[kernel.FZ_THETA, kernel.FZ_UT, kernel.FZ_UP, kernel.FZ_UR]]
-    fields = changes.follow((theta, u_t, u_p, u_r), by_loss)
-    collected = changes.collect(weight * by, (weight * by_loss).sum(axis=1))
-    assert_allclose(collected, (weight * fields).sum(axis=(1, 2)), rtol=0, atol=1e-12 * np.abs(fields).sum())
