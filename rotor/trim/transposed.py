@@ -260,7 +260,7 @@ def _conjugate_residuals(
         error = largest * math.sqrt(rest @ rest) / np.abs(found[0] + found[3]).max()
         if error <= tolerance:
             return found, True
-        if k > 0 and not error * (error / before) ** (most - 1 - k) <= tolerance:
+        if k > 3 and not error * (error / before) ** (most - 1 - k) <= tolerance:
             return found, False
         before = error
     return found, False
