@@ -15,7 +15,7 @@ from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.objective import QUANTITIES, Objective, WeightedCondition, at_condition, measure
 from rotor.trim.options import SolverOptions
 
-TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-11)
+TIGHT = SolverOptions(residual_tolerance=1e-14, inflow_tolerance=1e-12, torsion_tolerance=1e-14)
 RELATIVE = 1e-6
 """Accepted error, as a part of what the whole range of a parameter does to the power at the steepest slope."""
 # Breaks half-way between element centres: power has a kink (a jump of slope) where a break crosses one.
