@@ -24,8 +24,8 @@ from rotor.aero.kernel import (
 )
 from rotor.aero.look_up import look_up_values, places_along_alpha, places_along_mach
 from rotor.aero.radial_flow import friction_of_row
-from rotor.aero.sums import add_along_blade, around_disk
-from rotor.aero.torsion_balance import add_modal_moments
+from rotor.aero.sums import add_along_blade, around_disk, sum_array
+from rotor.aero.torsion_balance import add_modal_moments, modal_moments
 from rotor.aero.trim_state import TrimState
 from rotor.arrays import Array
 from rotor.compiled import compiled
@@ -66,6 +66,17 @@ def evaluate_loads(problem: Problem, state: TrimState, induced: Array | None, el
     )  # fmt: skip
     response = motion.response or problem.inflow.respond(disk, motion.wake, lift)
     return TrialLoads(state, motion.flow, motion.induced, elastic, response, sums, modal)
+
+
+def loads_of(problem: Problem, elements: BladeElements) -> TrialLoads:
+    """The same from blade elements that have been evaluated whole."""
+    assert elements.response is not None
+    modal, elastic = np.zeros((0, len(problem.disk.psi))), np.zeros(0)
+    if elements.torsion is not None:
+        modal, elastic = modal_moments(problem, elements), elements.torsion.coordinates
+    return TrialLoads(
+        elements.state, elements.flow, elements.induced, elastic, elements.response, sum_array(problem, elements), modal
+    )
 
 
 @dataclass(frozen=True, eq=False)

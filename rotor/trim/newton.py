@@ -20,7 +20,7 @@ from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.interface import InflowColumns, InflowFeedback
 from rotor.aero.sums import Slopes, slopes
 from rotor.aero.torsion_balance import torsion_error, torsion_slopes
-from rotor.aero.trial_loads import LoadsByInflow, TrialLoads, evaluate_loads
+from rotor.aero.trial_loads import LoadsByInflow, TrialLoads, evaluate_loads, loads_of
 from rotor.aero.trim_state import TrimState, Unknown
 from rotor.arrays import Array
 from rotor.compiled import compiled
@@ -146,6 +146,8 @@ class _Iterate:
     """Residual of the torsion equations [rad], (columns,); none for a rigid blade."""
     size: float
     """Largest residual over its tolerance: at most 1 when all equations are met."""
+    elements: BladeElements | None
+    """None where only the loads were evaluated."""
 
 
 def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTIONS) -> TrimResult:
@@ -168,8 +170,8 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
     if derivatives is not None and not derivatives.serve(problem, unknowns):
         derivatives = None
     latest, serving, secants = derivatives, False, _Secants(derivatives)
-    point = _evaluate(problem, state, induced, elastic, options)
-    passes, slow_steps = 1, 0
+    point = _evaluate(problem, state, induced, elastic, options, whole=derivatives is None)
+    passes, slow_steps, expected = 1, 0, math.inf
     while point.size > 1.0 and passes < options.max_passes and slow_steps < _MOST_SLOW_STEPS:
         fresh = derivatives is None
         if derivatives is None:
@@ -189,7 +191,7 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
             if point.inflow_error is not None:
                 induced = point.loads.induced + fraction * inflow_step(step)
             elastic = point.loads.elastic + fraction * step[len(unknowns) :].reshape(shape)
-            trial = _evaluate(problem, state, induced, elastic, options)
+            trial = _evaluate(problem, state, induced, elastic, options, whole=expected <= 1.0)
             passes += 1
             if trial.size < point.size or not fresh or fraction < 0.2 or passes >= options.max_passes:
                 break
@@ -198,6 +200,7 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
         serving = trial.size <= options.kept_ratio * point.size
         if _steps_left(trial.size, point.size) > options.most_old_steps:
             derivatives = None
+        expected = trial.size * min(trial.size / point.size, 1.0)
         if trial.size >= point.size and not fresh:
             continue  # The old derivatives do not serve here: take the step again with new ones.
         slow_steps = slow_steps + 1 if trial.size > 0.9 * point.size else 0
@@ -226,14 +229,18 @@ def coordinates_of(elements: BladeElements) -> Array:
 
 def _elements(problem: Problem, point: _Iterate) -> BladeElements:
     """The blade elements of an iterate; their loads have slopes."""
+    if point.elements is not None:
+        return point.elements
     loads = point.loads
     return evaluate_elements(problem, loads.state, loads.induced, loads.elastic, loads.response)
 
 
 def _evaluate(
-    problem: Problem, state: TrimState, induced: Array | None, elastic: Array, options: SolverOptions
+    problem: Problem, state: TrimState, induced: Array | None, elastic: Array, options: SolverOptions, *, whole: bool
 ) -> _Iterate:
-    loads = evaluate_loads(problem, state, induced, elastic)
+    """whole: with the blade elements, where these will be needed; loads alone take less time."""
+    elements = evaluate_elements(problem, state, induced, elastic) if whole else None
+    loads = loads_of(problem, elements) if elements is not None else evaluate_loads(problem, state, induced, elastic)
     forces = balance(problem, state, loads.flow, loads.sums)
     size = float(np.abs(forces.error).max()) / (problem.scale * options.residual_tolerance)
     twisting = elastic
@@ -244,7 +251,7 @@ def _evaluate(
     if problem.inflow.load_dependent:
         inflow_error, largest = _difference(loads.response.induced, loads.induced)
         size = max(size, largest / (_inflow_scale(problem, loads) * options.inflow_tolerance))
-    return _Iterate(loads, forces, inflow_error, twisting, size if math.isfinite(size) else math.inf)
+    return _Iterate(loads, forces, inflow_error, twisting, size if math.isfinite(size) else math.inf, elements)
 
 
 @compiled()
@@ -308,7 +315,7 @@ class _Secants:
     """The Jacobian of steps with the same derivatives, which follows what the steps have shown (Broyden 1965)."""
 
     def __init__(self, derivatives: Derivatives | None) -> None:
-        self.matrix = derivatives.jacobian if derivatives is not None else np.zeros((0, 0))
+        self.matrix: Array = derivatives.jacobian if derivatives is not None else np.zeros((0, 0))
         self.taken: Array | None = None
         """The last step."""
         self._residual: Array | None = None
@@ -319,9 +326,10 @@ class _Secants:
         Changes of an unknown are measured by what they do to the residual.
         """
         if self.taken is not None and self._residual is not None:
-            weighted = self.taken * np.einsum("ij,ij->j", self.matrix, self.matrix)
-            missed = residual - self._residual - self.matrix @ self.taken
-            self.matrix = self.matrix + np.outer(missed, weighted / max(self.taken @ weighted, 1e-300))
+            weighted: Array = self.taken * np.einsum("ij,ij->j", self.matrix, self.matrix)
+            missed: Array = residual - self._residual - self.matrix @ self.taken
+            length = max(float(self.taken @ weighted), 1e-300)
+            self.matrix = self.matrix + missed[:, None] * (weighted / length)
         self._residual = residual
         return self.matrix
 

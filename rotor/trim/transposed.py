@@ -202,7 +202,7 @@ class TransposedTrim:
         slopes[: len(direct)] += direct
         if derivatives.feedback is not None and derivatives.answer is not None:
             slopes += derivatives.answer.times(derivatives.answer.rows(source[None]))[0]
-        multipliers = np.linalg.solve(derivatives.jacobian.T, slopes)
+        multipliers = np.asarray(np.linalg.solve(derivatives.jacobian.T, slopes), dtype=np.float64)
         if derivatives.feedback is None:
             return _pass(blade, multipliers, _NO_FIELD, no_load, _NO_FIELD, _NO_FIELD, given)[1]
         source = _pass(blade, multipliers, _NO_FIELD, no_load, _NO_FIELD, _NO_FIELD, given)[3]
