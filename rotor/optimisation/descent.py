@@ -1,10 +1,10 @@
 """From one start to one local minimum, and how flat the minimum is.
 
 Power is a smooth function of the pitch of every blade element, close to quadratic, and each trim gives its exact
-gradient. So a trim of one blade tells of all others, whatever their concept. The second derivatives by pitch are the
-least squares of the changes of gradient between the trims known. With value and gradient at one trim they make a model
-of power that knows how a law bends where a break passes an element. A descent goes to the least of the model within
-a region that it trusts, evaluates there, and begins again with what this has taught (Conn, Gould, Toint 2000).
+gradient. So each trim is of use for all blades, whatever their concept. The second derivatives by pitch are the least
+squares of the changes of gradient between the trims known. With value and gradient at one trim they make a model of
+power, in which a law bends as it does where a break passes an element. A descent goes to the least of the model within
+a region of trust, evaluates there, and begins again with the better model (Conn, Gould, Toint 2000).
 
 The band of a parameter is how far it can go with P ≤ (1 + BAND) P*, the others re-optimised: the ends of the model,
 evaluated, and corrected with the model at that evaluation.
@@ -78,9 +78,9 @@ _NEAR = 0.02
 _SAME = 1e-6
 """Distance [rad] within which two blades are the same."""
 _PRIOR = 1e-3
-"""Weight of the mean curvature in directions that trims have not shown, beside 1 of a trim."""
+"""Weight of the mean curvature in directions without trims, beside 1 of a trim."""
 _FIRST_CURVATURE = 200.0
-"""Curvature [1/rad²] over power, before two trims show it: some per cent over half the range of a rate."""
+"""Curvature [1/rad²] over power, while there is one trim only: some per cent over half the range of a rate."""
 _FLATTEST = 2e-3
 """Least curvature over the largest; flatter directions are left to the descent."""
 
@@ -135,7 +135,7 @@ class Model:
     """Power and stall margins as quadratics around one trim, limits and bounds as they are."""
 
     def __init__(self, evaluate: Evaluator, centre: TrimmedBlade, others: Sequence[TrimmedBlade]) -> None:
-        """others: trims that teach the second derivatives; those of other rotors are left out."""
+        """others: trims that the second derivatives are made of; those of other rotors are left out."""
         self.evaluate = evaluate
         made = centre.made
         power, by_pitch = _known(made)

@@ -28,7 +28,7 @@ _KEPT_SOLUTIONS = 64
 
 @dataclass(frozen=True, eq=False)
 class TrimmedBlade:
-    """What a trim of one blade says of all blades near it, whatever their concept."""
+    """A trim of one blade, of use for all blades near it, whatever their concept."""
 
     rotor: Rotor
     pitch: Array

@@ -167,7 +167,7 @@ def _work_chunk(
 ) -> Iterator[Cell]:
     """All concepts at neighbouring conditions, one after the other."""
     for condition in conditions:
-        trimmed = TrimmedBlades()  # What a trim teaches of power by pitch holds for every concept.
+        trimmed = TrimmedBlades()  # One model of power by pitch serves every concept.
         for concept in plan.concepts:
             if (condition, concept.name) in known:
                 continue

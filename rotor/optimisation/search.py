@@ -1,8 +1,8 @@
 """The twist of least power: a global search from many starts, with every local minimum and the flatness of the best.
 
 The thesis uses fmincon with GlobalSearch (§2.7). Here descents on the exact gradient begin at a seeded low-discrepancy
-set of starting points (Halton). One that comes to lead to a minimum known already ends there. Minima are grouped, and
-the band gives the flatness of the best.
+set of starting points (Halton). One whose next step leads to a minimum known already ends there. Minima are grouped,
+and the band gives the flatness of the best.
 `optimise` runs the search for one design in one call.
 """
 
@@ -81,7 +81,7 @@ def run_search(
 ) -> Optimum:
     """Run a search. `watch` is called after every evaluation; `stop` before each one, True ends the search.
 
-    trimmed: blades of earlier searches with the same objective, to learn from; those of this one are added.
+    trimmed: blades of earlier searches with the same objective, for the model of power; those of this one are added.
     Always returns: stopped early with the best so far; where no start trims within the limits, with a message.
     """
     count = max(search.starts, len(search.guesses))
