@@ -27,6 +27,8 @@ from rotor.compiled import compiled
 from rotor.trim.equations import Balance, balance, balance_of, unknowns_of, with_given_values
 from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
 
+_NEARLY = 10.0
+"""Expected residual over its tolerance at which a step may well be the last."""
 _MOST_SLOW_STEPS = 4
 """Steps that hardly reduce the residual before the iteration ends."""
 
@@ -189,9 +191,10 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
             state = point.loads.state.moved(unknowns, fraction * step[: len(unknowns)])
             induced = None
             if point.inflow_error is not None:
-                induced = point.loads.induced + fraction * inflow_step(step)
+                induced = inflow_step(fraction * step, fraction)
+                induced += point.loads.induced
             elastic = point.loads.elastic + fraction * step[len(unknowns) :].reshape(shape)
-            trial = _evaluate(problem, state, induced, elastic, options, whole=expected <= 1.0)
+            trial = _evaluate(problem, state, induced, elastic, options, whole=expected <= _NEARLY)
             passes += 1
             if trial.size < point.size or not fresh or fraction < 0.2 or passes >= options.max_passes:
                 break
@@ -336,7 +339,7 @@ class _Secants:
 
 def _step(
     problem: Problem, point: _Iterate, derivatives: Derivatives, secants: _Secants
-) -> tuple[Array | None, Callable[[Array], Array]]:
+) -> tuple[Array | None, Callable[[Array, float], Array]]:
     """The Newton step of the trim unknowns, and the step of λ_i that goes with a (shortened) step of theirs."""
     error, torsion_error, inflow_change = point.balance.error, point.torsion_error, None
     if point.inflow_error is not None and derivatives.feedback is not None:
@@ -351,10 +354,12 @@ def _step(
         residual = np.concatenate([error, torsion_error])
         step = np.asarray(np.linalg.solve(secants.at(residual), -residual), dtype=np.float64)
 
-    def inflow_step(taken: Array) -> Array:
+    def inflow_step(taken: Array, fraction: float) -> Array:
         assert inflow_change is not None
         assert derivatives.answer is not None
-        return inflow_change[0] + derivatives.answer.field(taken)
+        out = derivatives.answer.field(taken)
+        out += inflow_change[0] if fraction == 1.0 else fraction * inflow_change[0]
+        return out
 
     return step, inflow_step
 
