@@ -88,10 +88,8 @@ $(DEV): requirements-dev.txt $(READY)
 
 # The kernels are compiled on first use and kept beside their source. Doing it here saves the first page the wait.
 $(WARM): $(READY) $(shell find rotor explorer/picture -name '*.py' 2>/dev/null)
-	@{ $(BIN)/python -m rotor solve --hover --json && $(BIN)/python -m rotor solve --mu 0.2 --json \
-	  && $(BIN)/python -m rotor solve --mu 0.2 --inflow pitt-peters --json \
-	  && $(BIN)/python -c "from explorer.picture.picture import warm; warm()"; } >/dev/null \
-	  && touch $@ || echo "The kernels could not be compiled ahead: the first page will take some seconds longer"
+	@$(BIN)/python -c "from explorer.workers.solver import compile_all; compile_all()" && touch $@ \
+	  || echo "The kernels could not be compiled ahead: the first page will take some seconds longer"
 
 # A browser for the tests: an installed one, else Debian's (as root), else Playwright's own download.
 # Without one, tests/conftest.py skips those tests with a banner, and fails them in CI.

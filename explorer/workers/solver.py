@@ -4,15 +4,27 @@ from dataclasses import dataclass, replace
 
 from rotor.design.design import PRESETS, Design
 from rotor.files.make_design import make_design
+from rotor.trim.adjoint import power_gradient
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
 
 def warm() -> None:
-    """Compile and load everything that the first solution would wait for."""
+    """Compile and load everything that the first solution and its gradient would wait for."""
     for preset in PRESETS:
         for advance_ratio in (0.0, 0.2):
-            solve(make_design(preset=preset, mu=advance_ratio))
+            power_gradient(solve(make_design(preset=preset, mu=advance_ratio)))
+
+
+def compile_all() -> None:
+    """Compile every kernel, so that nothing waits for it later: at set-up."""
+    from explorer.picture import picture  # Not for processes that only solve.
+
+    warm()
+    for advance_ratio, models in ((0.0, {"hover_inflow": "free-wake"}), (0.2, {"inflow": "vortex-wake"})):
+        design = make_design(mu=advance_ratio)
+        power_gradient(solve(replace(design, models=replace(design.models, **models))))
+    picture.warm()
 
 
 def with_vortex_wake(design: Design) -> Design:
