@@ -88,7 +88,8 @@ $(DEV): requirements-dev.txt $(READY)
 
 # The kernels are compiled on first use and kept beside their source. Doing it here saves the first page the wait.
 $(WARM): $(READY) $(shell find rotor explorer/picture -name '*.py' 2>/dev/null)
-	@$(BIN)/python -c "from explorer.workers.solver import compile_all; compile_all()" && touch $@ \
+	@$(BIN)/python -c "from explorer.picture import picture; from explorer.workers import solver; \
+	  solver.compile_all(); picture.warm()" && touch $@ \
 	  || echo "The kernels could not be compiled ahead: the first page will take some seconds longer"
 
 # A browser for the tests: an installed one, else Debian's (as root), else Playwright's own download.

@@ -17,14 +17,11 @@ def warm() -> None:
 
 
 def compile_all() -> None:
-    """Compile every kernel, so that nothing waits for it later: at set-up."""
-    from explorer.picture import picture  # Not for processes that only solve.
-
+    """Compile every kernel of the solver, so that nothing waits for it later: at set-up."""
     warm()
     for advance_ratio, models in ((0.0, {"hover_inflow": "free-wake"}), (0.2, {"inflow": "vortex-wake"})):
         design = make_design(mu=advance_ratio)
         power_gradient(solve(replace(design, models=replace(design.models, **models))))
-    picture.warm()
 
 
 def with_vortex_wake(design: Design) -> Design:

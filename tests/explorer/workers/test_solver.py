@@ -24,6 +24,7 @@ def also(design, **models):
     return replace(design, models=replace(design.models, **models))
 
 compile_all()
+picture.warm()
 before = compiled()
 flight, slow, hover = (make_design(mu=mu) for mu in (0.25, 0.08, 0.0))
 for design in (
