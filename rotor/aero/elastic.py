@@ -18,7 +18,7 @@ moment), and that of first-harmonic flapping on it, which is zero for a hinge at
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -143,11 +143,27 @@ def build_torsion(
     rotor: Rotor, disk: Disk, density: float, only_mach: float | None, swept: bool, highest: int
 ) -> BladeTorsion:
     """The torsion of the rotor's blade, which must have a structure, on a grid in air of a density [kg/m³]."""
+    made = _at_unit_density(rotor, disk, only_mach, swept, highest)
+    return replace(
+        made,
+        gain=made.gain * density,
+        inertia=made.inertia / density,
+        coupling=made.coupling / density,
+        tension=made.tension / density,
+        own_tension=made.own_tension / density,
+        tip_mass=made.tip_mass / density,
+        moment_unit=made.moment_unit * density,
+    )
+
+
+@lru_cache(maxsize=32)
+def _at_unit_density(rotor: Rotor, disk: Disk, only_mach: float | None, swept: bool, highest: int) -> BladeTorsion:
+    """The same in air of 1 kg/m³; modes and tables take most of the time."""
     blade, structure, radius = rotor.blade, rotor.blade.structure, rotor.radius
     assert structure is not None
     modes = blade_modes(structure, rotor.angular_speed, MODES)
     shapes = HarmonicShapes.on(disk, modes.at(disk.r * radius), highest)
-    unit = density * math.pi * radius**5 / rotor.blades  # Times Ω² [N m].
+    unit = math.pi * radius**5 / rotor.blades  # Times Ω² [N m].
     frequency = modes.frequency / rotor.angular_speed
     inertia = structure.at(disk.r * radius, structure.torsional_inertia) * radius / unit
     root = 0.5 * (structure.clamp / radius + disk.root)
