@@ -99,7 +99,8 @@ class Projection:
     @cached_property
     def all_waves(self) -> Array:
         """cos pψ, then sin pψ, p = 0 … S + q_max, over all azimuths, (waves, azimuths)."""
-        phase = np.outer(np.arange(self.wave.max() + 1), 2.0 * np.pi * np.arange(self.azimuths) / self.azimuths)
+        waves = np.arange(int(self.wave.max()) + 1)
+        phase = np.outer(waves, 2.0 * np.pi * np.arange(self.azimuths) / self.azimuths)
         return np.concatenate([np.cos(phase), np.sin(phase)])
 
     @cached_property

@@ -213,8 +213,8 @@ def check_name(name: str) -> None:
         raise ValueError(f"no section named {name!r}{hint} choose one of {', '.join(RECIPES)}")
 
 
-def run_trip_polars(name: str, report: Callable[[str], None], machs: Sequence[float] = NATIVE_MACHS) -> PolarSet:
-    """Run XFOIL for the deck of `name` at `machs` and every angle of its recipe; takes up to minutes."""
+def run_trip_polars(name: str, report: Callable[[str], None]) -> PolarSet:
+    """Run XFOIL for the deck of `name` at every angle of its recipe; takes up to minutes."""
     check_name(name)
     if RECIPES[name].polars == "measured":
         raise XfoilError(f"the polar of {name} was measured: add --from-polars")
@@ -227,7 +227,7 @@ def run_trip_polars(name: str, report: Callable[[str], None], machs: Sequence[fl
         f"angles where no paneling converged are left out{below}",
     )
     polars: list[Polar] = []
-    for mach in machs:
+    for mach in NATIVE_MACHS:
         case = XfoilCase(mach, per_mach * mach, 9.0, TRIP)
         polars.append(run_polar(contour, case, POLAR_ALPHA_DEG[lowest <= POLAR_ALPHA_DEG], report))
     return PolarSet(header, tuple(polars))

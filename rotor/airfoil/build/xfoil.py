@@ -21,20 +21,9 @@ import numpy as np
 from rotor.airfoil.contour import Contour
 from rotor.airfoil.polars import Array, Polar
 
-# gfortran's run-time calls _set_fpe to switch the traps on; an empty one, loaded first, leaves them off. It calls
-# _st_write_done after each line. XFOIL writes several in an iteration, which takes some 10 ms, and none once it hangs:
-# a timer ends a process that has used 2 s of processor time since its last line.
-_SHIM = """
-void *dlsym(void *library, const char *name);
-int setitimer(int which, const void *now, void *before);
-void _gfortran_set_fpe(int mask) { (void)mask; }
-void _gfortran_st_write_done(void *line) {
-  const struct { long every[2], first[2]; } silence = { { 0, 0 }, { 2, 0 } };  /* s, us */
-  ((void (*)(void *))dlsym((void *)-1L, "_gfortran_st_write_done"))(line);
-  setitimer(2, &silence, 0);  /* of user and system time; SIGPROF ends the process */
-}
-"""
-_CPU_LIMIT = 30  # s of processor time, the same on a busy machine; a sweep takes 1 to 7 s, on a slow machine up to 14.
+# gfortran's run-time calls this to switch the traps on; an empty one, loaded first, leaves them off.
+_TRAP_SHIM = "void _gfortran_set_fpe(int mask) { (void)mask; }\n"
+_CPU_LIMIT = 14  # s of processor time, the same on a busy machine; a sweep takes 1 to 7 s; a hung one never ends.
 _TIME_LIMIT = 120.0  # s of wall-clock time, for a process that waits without using the processor.
 _LIMITED = ("sh", "-c", f'ulimit -t {_CPU_LIMIT} && exec "$@"', "sh")
 _PANELINGS = ((160, 100), (200, 200), (240, 300), (180, 300), (220, 300))  # (panels, iterations), in this order.
@@ -84,7 +73,7 @@ def _shim_folder() -> tempfile.TemporaryDirectory[str] | None:
     folder = tempfile.TemporaryDirectory(prefix="rotor-xfoil-")
     atexit.register(folder.cleanup)
     source = Path(folder.name) / "notraps.c"
-    source.write_text(_SHIM, encoding="utf-8")
+    source.write_text(_TRAP_SHIM, encoding="utf-8")
     made = subprocess.run(
         [compiler, "-shared", "-fPIC", "-nostdlib", "-O1", "-o", "notraps.so", source.name],
         cwd=folder.name,
