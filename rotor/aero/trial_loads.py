@@ -1,7 +1,7 @@
 """Loads of a trial state without slopes, in one pass over the disk: what a step of Newton's method has to know.
 
-The formulas are those of `rotor.aero.kernel`, row by row. A pass writes the lift alone to memory, so it takes half the
-time of `evaluate_elements`, whose loads have slopes.
+The formulas are those of `rotor.aero.kernel`, row by row. A pass writes the lift alone to memory and takes half the
+time of loads and moments with slopes (`evaluate_elements`).
 """
 
 from dataclasses import dataclass

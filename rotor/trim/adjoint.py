@@ -77,7 +77,7 @@ class Weights:
     """By the shaft tilt at the same loads and velocities."""
 
     def on(self, shape: tuple[int, int]) -> Array:
-        """As `TransposedTrim.slopes` takes them, (7, elements, azimuths)."""
+        """As `TransposedTrim.with_nearby` takes them, (7, elements, azimuths)."""
         out = np.empty((7, *shape))
         for k, field in enumerate((self.fz, self.fx, self.inflow, self.theta, self.u_t, self.u_p, self.u_r)):
             out[k] = field

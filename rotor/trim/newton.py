@@ -28,7 +28,7 @@ from rotor.trim.equations import Balance, balance, balance_of, unknowns_of, with
 from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
 
 _NEARLY = 10.0
-"""Expected residual over its tolerance at which a step may well be the last."""
+"""Expected residual over its tolerance at which a step may well be the last. Our choice."""
 _MOST_SLOW_STEPS = 4
 """Steps that hardly reduce the residual before the iteration ends."""
 
@@ -156,8 +156,8 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
     """Newton's method on trim unknowns, elastic twist and inflow together, with a step limit and backtracking.
 
     Eliminating the inflow by the model's own feedback leaves a system of the trim unknowns and, for an elastic blade,
-    its torsion coordinates. For a load-dependent model the derivatives are kept over several steps, because they cost
-    more than an evaluation; the first steps are made with those of the start, if it has any.
+    its torsion coordinates. The derivatives are kept over several steps, because they cost more than an evaluation; the
+    first steps are made with those of the start, if it has any.
     """
     unknowns = unknowns_of(problem.design)
     limits = np.array([options.inflow_step if name == "lambda0" else options.angle_step for name in unknowns])
@@ -315,7 +315,7 @@ def inflow_feedback(problem: Problem, elements: BladeElements) -> InflowFeedback
 
 
 class _Secants:
-    """The Jacobian of steps with the same derivatives, which follows what the steps have shown (Broyden 1965)."""
+    """The Jacobian of steps with the same derivatives, corrected by what the steps have shown (Broyden 1965)."""
 
     def __init__(self, derivatives: Derivatives | None) -> None:
         self.matrix: Array = derivatives.jacobian if derivatives is not None else np.zeros((0, 0))

@@ -23,7 +23,7 @@ class SolverOptions:
     """Evaluations of the blade elements in one run of Newton's method."""
     most_old_steps: float = 4.0
     """Derivatives are evaluated again when more steps than this are to be expected with the old ones: derivatives cost
-    two evaluations, and one or two steps follow them. Our choice."""
+    as much as two to four, and one or two steps follow them. Our choice."""
     kept_ratio: float = 0.03
     """Derivatives are kept for the next trim where the last step left less than this part of the residual."""
     angle_step: float = 0.08
