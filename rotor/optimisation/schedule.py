@@ -165,12 +165,14 @@ _Known = dict[tuple[int | None, str], Cell]
 def _work_chunk(
     plan: Plan, conditions: tuple[int, ...], known: _Known, stop: Callable[[], bool] | None
 ) -> Iterator[Cell]:
-    """All concepts at neighbouring conditions, one after the other."""
+    """All concepts at neighbouring conditions, one after the other.
+
+    One model of power by pitch serves every concept at a condition. So where some of its cells are missing, the
+    searches before these are run again: a plan that is resumed then gives the same numbers.
+    """
     for condition in conditions:
-        trimmed = TrimmedBlades()  # One model of power by pitch serves every concept.
-        for concept in plan.concepts:
-            if (condition, concept.name) in known:
-                continue
+        trimmed, missing = TrimmedBlades(), [c for c in plan.concepts if (condition, c.name) not in known]
+        for concept in plan.concepts[: plan.concepts.index(missing[-1]) + 1] if missing else ():
             neighbour = known.get((condition - 1, concept.name)) if condition - 1 in conditions else None
             guesses = _guesses(plan, condition, concept, known, neighbour)
             search = Search(
@@ -187,9 +189,10 @@ def _work_chunk(
             optimum = run_search(search, stop=stop, trimmed=trimmed)
             if optimum.status is SearchStatus.STOPPED:
                 return
-            cell = Cell(condition, concept.name, optimum)
-            known[condition, concept.name] = cell
-            yield cell
+            if concept in missing:
+                cell = Cell(condition, concept.name, optimum)
+                known[condition, concept.name] = cell
+                yield cell
 
 
 def _work_fixed(
@@ -197,9 +200,8 @@ def _work_fixed(
 ) -> Iterator[Cell]:
     """The best fixed blades of some concepts, each started from the mean of its optima."""
     objective, trimmed = Objective(plan.quantity, plan.conditions), TrimmedBlades()
-    for concept in concepts:
-        if (None, concept.name) in known:
-            continue
+    missing = [concept for concept in concepts if (None, concept.name) not in known]
+    for concept in concepts[: concepts.index(missing[-1]) + 1] if missing else ():
         bests = [(share, known.get((condition, concept.name))) for condition, share in enumerate(objective.shares)]
         found = [
             (share, cell.optimum.best) for share, cell in bests if cell is not None and cell.optimum.best is not None
@@ -222,7 +224,8 @@ def _work_fixed(
         optimum = run_search(search, stop=stop, trimmed=trimmed)
         if optimum.status is SearchStatus.STOPPED:
             return
-        yield Cell(None, concept.name, optimum)
+        if concept in missing:
+            yield Cell(None, concept.name, optimum)
 
 
 def _guesses(
@@ -232,7 +235,8 @@ def _guesses(
     guesses: list[tuple[float, ...]] = []
     if neighbour is not None and neighbour.optimum.best is not None:
         guesses.append(neighbour.optimum.best.parameters)
-    here = [known.get((condition, other.name)) for other in plan.concepts if other.name != concept.name]
+    before = plan.concepts[: plan.concepts.index(concept)]
+    here = [known.get((condition, other.name)) for other in before]
     simpler = [(cell.optimum.best.power, cell.optimum.design) for cell in here if cell and cell.optimum.best]
     if simpler:
         _, design = min(simpler, key=lambda one: one[0])
