@@ -5,9 +5,9 @@ loads with their pointwise derivatives gives every sum over the disk and its exa
 """
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -16,6 +16,7 @@ from rotor.aero.disk import Disk, build_disk
 from rotor.aero.elastic import BladeTorsion, TorsionState, air_moments, build_torsion, highest_harmonic
 from rotor.aero.inflow import InflowModel, Wake, inflow_model
 from rotor.aero.inflow.interface import InflowResponse
+from rotor.aero.inflow.linear import PrescribedResponse
 from rotor.aero.losses import mean_loss_factor
 from rotor.aero.momentum import glauert_inflow
 from rotor.aero.radial_flow import RadialFriction, skin_friction
@@ -36,7 +37,9 @@ FREE_ROTOR_DRAG = 0.011
 """Mean section drag coefficient for a first estimate of a free rotor's shaft tilt."""
 
 _LOSS_PSI = 2.0 * np.pi * np.arange(LOSS_AZIMUTHS) / LOSS_AZIMUTHS
+_LOSS_COS, _LOSS_SIN = np.cos(_LOSS_PSI), np.sin(_LOSS_PSI)
 _NO_LOAD = np.zeros((0, 0))
+_NO_SLOPES = np.zeros((0, 0, 0))
 _RIGID = np.zeros((0, 0)), np.zeros((0, 0)), np.zeros((0, 0))
 """Shapes, coordinates around the azimuth and their rates of a blade without torsion modes."""
 
@@ -47,8 +50,6 @@ class Problem:
 
     design: Design
     disk: Disk
-    loss_disk: Disk
-    """The same radii at the few azimuths over which the loss factor is averaged."""
     twist: Array
     """θ_tw at the elements [rad]."""
     active: Array
@@ -79,6 +80,11 @@ class Problem:
     radians, (modes, functions)."""
     added_swirl: Array | float = 0.0
     """What is added to the swirl of momentum theory, (elements,)."""
+
+    @cached_property
+    def arm(self) -> Array:
+        """r − e, from the hinge, (elements,)."""
+        return self.disk.r - self.flap.hinge
 
     @cached_property
     def no_loss(self) -> tuple[Array, Array]:
@@ -124,7 +130,6 @@ def build_problem(design: Design) -> Problem:
     return Problem(
         design=design,
         disk=disk,
-        loss_disk=replace(disk, psi=_LOSS_PSI, cos=np.cos(_LOSS_PSI), sin=np.sin(_LOSS_PSI)),
         twist=twist,
         active=active_field,
         flap=flap_dynamics(rotor, condition.density, blade_weight=models.blade_weight),
@@ -223,8 +228,7 @@ def _in_disk_axes(mu: float, climb: float, tilt: float) -> tuple[float, float]:
     return mu * cos - climb * sin, mu * sin + climb * cos
 
 
-@dataclass(frozen=True, eq=False)
-class BladeMotion:
+class BladeMotion(NamedTuple):
     """How the blade moves through the air at a trim state."""
 
     wake: Wake
@@ -235,26 +239,30 @@ class BladeMotion:
     """Of a model that does not depend on the load."""
     loss: Array
     loss_slopes: Array
+    """Zero where no slopes were asked for."""
     swirl: Array
     arguments: tuple[Any, ...]
     """Those of `kernel.velocities`."""
 
 
-def blade_motion(problem: Problem, state: TrimState, induced: Array | None, elastic: Array | None) -> BladeMotion:
-    """What the velocities of a trim state follow from; arguments as in `evaluate_elements`."""
+def blade_motion(
+    problem: Problem, state: TrimState, induced: Array | None, elastic: Array | None, *, slopes: bool = False
+) -> BladeMotion:
+    """What the velocities of a trim state follow from; arguments as in `evaluate_elements`.
+
+    slopes: whether those of the loss factor are asked for.
+    """
     disk, models = problem.disk, problem.design.models
     wake = wake_at(problem, state)
     flow = wake if models.disk_axial_flow else Wake(problem.design.condition.advance_ratio, 0.0, wake.lambda0)
-    if problem.inflow.load_dependent:
-        assert induced is not None
-        response = None
-        loss, loss_slopes = problem.no_loss
-    else:
+    response, (loss, loss_slopes) = None, problem.no_loss
+    if not problem.inflow.load_dependent:
         response = problem.inflow.respond(disk, wake, _NO_LOAD)
+        assert isinstance(response, PrescribedResponse)
         induced = response.induced
-        loss, loss_slopes = _lift_loss(problem, wake, flow)
-    swirl, _ = swirl_of(disk.r, flow.lambda0 * flow.axial if models.has("swirl") else 0.0)
-    swirl = swirl + problem.added_swirl
+        loss, loss_slopes = _lift_loss(problem, wake, flow, response, slopes)
+    assert induced is not None
+    swirl = swirl_of(disk.r, flow.lambda0 * flow.axial if models.has("swirl") else 0.0)[0] + problem.added_swirl
     twisting = _RIGID
     if problem.torsion is not None:
         coordinates = elastic if elastic is not None else np.zeros_like(problem.given_torsion)
@@ -263,7 +271,7 @@ def blade_motion(problem: Problem, state: TrimState, induced: Array | None, elas
     arguments = (
         problem.twist,
         disk.r - swirl,
-        disk.r - problem.flap.hinge,
+        problem.arm,
         disk.cos,
         disk.sin,
         (state.collective, state.cyclic_1c, state.cyclic_1s),
@@ -292,7 +300,7 @@ def evaluate_elements(
     none: untwisted.
     """
     disk = problem.disk
-    motion = blade_motion(problem, state, induced, elastic)
+    motion = blade_motion(problem, state, induced, elastic, slopes=True)
     (theta, u_t, u_p, *twisting), beta = kernel.velocities(*motion.arguments)
     if problem.active.size > 1:
         theta += problem.active
@@ -334,14 +342,19 @@ def swirl_of(r: Any, product: Any) -> Any:
     return product * r / below, r * r * r / (below * below)
 
 
-def _lift_loss(problem: Problem, wake: Wake, flow: Wake) -> tuple[Array, Array]:
+def _lift_loss(
+    problem: Problem, wake: Wake, flow: Wake, response: PrescribedResponse, slopes: bool
+) -> tuple[Array, Array]:  # fmt: skip
     """Loss factor on lift, averaged over azimuth (thesis p. 24), (elements,), and slopes by (α, λ0)."""
-    models, rotor = problem.design.models, problem.design.rotor
-    response = problem.inflow.respond(problem.loss_disk, wake, _NO_LOAD)
-    factor, slope, by_mu_x, by_mu_z, by_lambda0 = mean_loss_factor(
-        problem.loss_disk.r, flow.mu_z + response.induced, response.by_wake, rotor.blades, rotor.blade.root_cutout,
+    disk, models = problem.disk, problem.design.models
+    around = response.around(_LOSS_COS, _LOSS_SIN)
+    factor, slope, *by_wake = mean_loss_factor(
+        disk.r, flow.mu_z + around.induced, around.by_wake if slopes else _NO_SLOPES, disk.blades, disk.root,
         models.tip_loss, models.hub_loss,
     )  # fmt: skip
+    if not slopes:
+        return factor, problem.no_loss[1]
+    by_mu_x, by_mu_z, by_lambda0 = by_wake
     if models.disk_axial_flow:
         by_mu_z = by_mu_z + slope
     # ∂µ_x/∂α = −µ_z, ∂µ_z/∂α = µ_x

@@ -7,6 +7,7 @@ distribution, so with them induced power does not depend on twist.
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -47,36 +48,37 @@ class LinearInflow:
     def respond(self, disk: Disk, wake: Wake, load: Array) -> "PrescribedResponse":
         """The prescribed field; the load is ignored."""
         del load
-        return PrescribedResponse(*self.field(disk.r, disk.cos, disk.sin, wake))
+        return self.field(disk.r, disk.cos, disk.sin, wake)
 
-    def field(self, r: Array, cos: Array, sin: Array, wake: Wake) -> tuple[Array, Array]:
-        """λ_i, (n, m), at radii (n,) and azimuths given by cos ψ, sin ψ (m,); slopes by (µ_x, µ_z, λ0), (3, n, m)."""
-        field = _field(r, cos, sin, wake.lambda0, self.longitudinal(wake), self.lateral(wake))
-        return field[0], field[1:]
-
-
-@compiled()
-def _field(r: Any, cos: Any, sin: Any, lambda0: float, kx: Any, ky: Any) -> Any:
-    """λ_i and its slopes, (4, elements, azimuths), from k_x and k_y with their slopes by µ_x and by the axial flow."""
-    n, m = len(r), len(cos)
-    out = np.empty((4, n, m))
-    for i in range(n):
-        for j in range(m):
-            shape = 1.0 + r[i] * (kx[0] * cos[j] + ky[0] * sin[j])
-            by_axial = lambda0 * r[i] * (kx[2] * cos[j] + ky[2] * sin[j])
-            out[0, i, j] = lambda0 * shape
-            out[1, i, j] = lambda0 * r[i] * (kx[1] * cos[j] + ky[1] * sin[j])
-            out[2, i, j] = by_axial
-            out[3, i, j] = shape + by_axial
-    return out
+    def field(self, r: Array, cos: Array, sin: Array, wake: Wake) -> "PrescribedResponse":
+        """The same at radii (n,) and azimuths given by cos ψ, sin ψ (m,)."""
+        return PrescribedResponse(r, cos, sin, wake.lambda0, self.longitudinal(wake), self.lateral(wake))
 
 
 @dataclass(frozen=True, eq=False)
 class PrescribedResponse:
     """The response of a prescribed inflow, A = 0."""
 
-    induced: Array
-    by_wake: Array
+    r: Array
+    cos: Array
+    sin: Array
+    lambda0: float
+    longitudinal: Gradient
+    lateral: Gradient
+
+    @cached_property
+    def induced(self) -> Array:
+        """λ_i, (elements, azimuths)."""
+        return _field(self.r, self.cos, self.sin, self.lambda0, self.longitudinal[0], self.lateral[0])
+
+    @cached_property
+    def by_wake(self) -> Array:
+        """Its slopes by (µ_x, µ_z, λ0), (3, elements, azimuths)."""
+        return _slopes(self.r, self.cos, self.sin, self.lambda0, self.longitudinal, self.lateral)
+
+    def around(self, cos: Array, sin: Array) -> "PrescribedResponse":
+        """The same inflow at other azimuths."""
+        return PrescribedResponse(self.r, cos, sin, self.lambda0, self.longitudinal, self.lateral)
 
     def apply(self, fields: Array) -> Array:
         """Zero: the load does not change a prescribed inflow."""
@@ -90,6 +92,30 @@ class PrescribedResponse:
         """No feedback."""
         del slope
         return _NoFeedback()
+
+
+@compiled()
+def _field(r: Any, cos: Any, sin: Any, lambda0: float, kx: float, ky: float) -> Any:
+    """λ_i"""
+    out = np.empty((len(r), len(cos)))
+    for i in range(len(r)):
+        for j in range(len(cos)):
+            out[i, j] = lambda0 * (1.0 + r[i] * (kx * cos[j] + ky * sin[j]))
+    return out
+
+
+@compiled()
+def _slopes(r: Any, cos: Any, sin: Any, lambda0: float, kx: Any, ky: Any) -> Any:
+    """The slopes of λ_i from k_x and k_y with their slopes by µ_x and by the axial flow."""
+    n, m = len(r), len(cos)
+    out = np.empty((3, n, m))
+    for i in range(n):
+        for j in range(m):
+            by_axial = lambda0 * r[i] * (kx[2] * cos[j] + ky[2] * sin[j])
+            out[0, i, j] = lambda0 * r[i] * (kx[1] * cos[j] + ky[1] * sin[j])
+            out[1, i, j] = by_axial
+            out[2, i, j] = 1.0 + r[i] * (kx[0] * cos[j] + ky[0] * sin[j]) + by_axial
+    return out
 
 
 class _NoFeedback:
