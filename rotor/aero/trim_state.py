@@ -1,7 +1,7 @@
 """The trim of a rotor as one value: pitch, shaft tilt, flapping and mean inflow."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 from typing import Literal
 
 import numpy as np
@@ -38,12 +38,14 @@ class TrimState:
 
     def array(self, names: Sequence[Unknown] | None = None) -> Array:
         """The quantities named, in that order; all eight by default."""
-        return np.array([getattr(self, name) for name in names or STATE_NAMES])
+        return np.array([getattr(self, name) for name in names] if names else list(vars(self).values()), dtype=float)
 
     def moved(self, names: Sequence[Unknown], step: Array) -> "TrimState":
         """The state with a step, (names,), added to the quantities named."""
-        ahead = {name: getattr(self, name) + by for name, by in zip(names, step.tolist(), strict=True)}
-        return replace(self, **ahead)
+        ahead = dict(vars(self))
+        for name, by in zip(names, step.tolist(), strict=True):
+            ahead[name] += by
+        return TrimState(**ahead)
 
 
 STATE_NAMES: tuple[Unknown, ...] = tuple(field.name for field in fields(TrimState))  # pyright: ignore[reportAssignmentType]

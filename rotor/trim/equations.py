@@ -1,8 +1,9 @@
 """The equations of equilibrium in forward flight, and their exact Jacobian.
 
 A trim is data: the quantities it solves for and, one for each, the equations that have to be met. Every equation is a
-weighted sum of the sums over the disk (thrust, H-force, flap moments, torque) plus a term of the trim state alone, in
-units of C_T, so that its exact derivatives follow from those of the sums.
+weighted sum of the sums over the disk (thrust, H-force, flap moments, torque), with weights that are constant or turn
+with the shaft, plus a term of the trim state alone, in units of C_T. So they are matrices, made once for a trim, and
+their exact derivatives follow from those of the sums.
 
 `propulsive` (flight preset): collective, cyclic, shaft tilt and coning so that the vertical force carries the weight,
 the forward force the drag, and the first-harmonic flapping has its given value. `thrust` (thesis preset): collective
@@ -18,7 +19,7 @@ is free, or trimmed by cyclic. A hub that fixes the coning leaves it out of the 
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, lru_cache
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -27,87 +28,111 @@ import numpy as np
 from rotor.aero.elements import BladeElements, Problem
 from rotor.aero.inflow import Wake
 from rotor.aero.sums import N_SUMS, SUM_NAMES, Slopes, SumName, sum_array
-from rotor.aero.trim_state import TrimState, Unknown
-from rotor.arrays import Array
+from rotor.aero.trim_state import STATE_NAMES, TrimState, Unknown
+from rotor.arrays import Array, Integers
+from rotor.compiled import compiled
 from rotor.design.design import Design
 
 _NONE: Mapping[Any, float] = MappingProxyType({})
 
 
 class Equation(NamedTuple):
-    """One equation at a trim state: weights · sums + rest = 0, in units of C_T."""
+    """One equation: (fixed + cos α · level + sin α · tilted) · sums + constant + by_state · state = 0, units of C_T."""
 
-    weights: Mapping[SumName, float]
+    fixed: Mapping[SumName, float] = _NONE
     """Weights on the sums over the disk."""
-    rest: float = 0.0
-    """Part that does not depend on the loads."""
-    slopes: Mapping[Unknown, float] = _NONE
-    """∂rest by the unknowns."""
-    by_tilt: Mapping[SumName, float] = _NONE
-    """∂weights by the shaft tilt."""
+    level: Mapping[SumName, float] = _NONE
+    """The same times the cosine of the shaft tilt."""
+    tilted: Mapping[SumName, float] = _NONE
+    """The same times its sine."""
+    constant: float = 0.0
+    by_state: Mapping[Unknown, float] = _NONE
+    inflow: bool = False
+    """Whether 2 λ0 V is part of it."""
 
 
-_PLACE = {name: k for k, name in enumerate(SUM_NAMES)}
-
-Row = Callable[[Problem, TrimState, Wake], Equation]
+Row = Callable[[Problem], Equation]
 
 
-def vertical_force(problem: Problem, state: TrimState, flow: Wake) -> Equation:
+def vertical_force(problem: Problem) -> Equation:
     """Thrust and H-force carry the weight: C_T cos α + C_H sin α = C_W."""
-    del flow
-    cos, sin = math.cos(state.shaft_tilt), math.sin(state.shaft_tilt)
-    return Equation({"thrust": cos, "drag": sin}, -problem.weight, by_tilt={"thrust": -sin, "drag": cos})
+    return Equation(level={"thrust": 1.0}, tilted={"drag": 1.0}, constant=-problem.weight)
 
 
-def forward_force(problem: Problem, state: TrimState, flow: Wake) -> Equation:
+def forward_force(problem: Problem) -> Equation:
     """Thrust and H-force pull the airframe's drag: C_T sin α − C_H cos α = D."""
-    del flow
-    cos, sin = math.cos(state.shaft_tilt), math.sin(state.shaft_tilt)
-    return Equation({"thrust": sin, "drag": -cos}, -problem.drag, by_tilt={"thrust": cos, "drag": sin})
+    return Equation(tilted={"thrust": 1.0}, level={"drag": -1.0}, constant=-problem.drag)
 
 
-def given_thrust(problem: Problem, state: TrimState, flow: Wake) -> Equation:
+def given_thrust(problem: Problem) -> Equation:
     """The thrust along the shaft is the resultant of weight and drag, or the one given on a test stand."""
-    del state, flow
-    return Equation({"thrust": 1.0}, -math.hypot(problem.weight, problem.drag))
+    return Equation({"thrust": 1.0}, constant=-math.hypot(problem.weight, problem.drag))
 
 
-def no_torque(problem: Problem, state: TrimState, flow: Wake) -> Equation:
+def no_torque(problem: Problem) -> Equation:
     """The air turns the rotor: C_Q = 0."""
-    del problem, state, flow
+    del problem
     return Equation({"torque": 1.0})
 
 
-def coning_moment(problem: Problem, state: TrimState, flow: Wake) -> Equation:
+def coning_moment(problem: Problem) -> Equation:
     """The mean flap moment carries coning and the blade's weight: ν² β0 + weight = Γ M0."""
-    del flow
     flap = problem.flap
     stiffness = flap.frequency_squared / flap.load_gain
-    rest = -(flap.weight + flap.frequency_squared * state.coning) / flap.load_gain
-    return Equation({"moment": 1.0}, rest, {"coning": -stiffness})
+    return Equation({"moment": 1.0}, constant=-flap.weight / flap.load_gain, by_state={"coning": -stiffness})
 
 
-def flap_moment_1c(problem: Problem, state: TrimState, flow: Wake) -> Equation:
+def flap_moment_1c(problem: Problem) -> Equation:
     """The cosine part of the flap moment: (ν² − 1) β1c = Γ M1c."""
-    del flow
     stiffness = (problem.flap.frequency_squared - 1.0) / problem.flap.load_gain
-    return Equation({"moment_1c": 1.0}, -stiffness * state.flap_1c, {"flap_1c": -stiffness})
+    return Equation({"moment_1c": 1.0}, by_state={"flap_1c": -stiffness})
 
 
-def flap_moment_1s(problem: Problem, state: TrimState, flow: Wake) -> Equation:
+def flap_moment_1s(problem: Problem) -> Equation:
     """The sine part of the flap moment: (ν² − 1) β1s = Γ M1s."""
-    del flow
     stiffness = (problem.flap.frequency_squared - 1.0) / problem.flap.load_gain
-    return Equation({"moment_1s": 1.0}, -stiffness * state.flap_1s, {"flap_1s": -stiffness})
+    return Equation({"moment_1s": 1.0}, by_state={"flap_1s": -stiffness})
 
 
-def momentum(problem: Problem, state: TrimState, flow: Wake) -> Equation:
+def momentum(problem: Problem) -> Equation:
     """Mean inflow of momentum theory, eq. (2.30): 2 λ0 V = C_T with V = √(µ_x² + (µ_z + λ0)²)."""
-    del state
-    slopes: dict[Unknown, float] = {"lambda0": 2.0 * (flow.speed + flow.lambda0 * flow.axial / flow.speed)}
-    if problem.design.models.disk_axial_flow:  # V ∂V = µ_x λ0, since µ_x dµ_x + µ_z dµ_z = 0.
-        slopes["shaft_tilt"] = 2.0 * flow.lambda0**2 * flow.mu_x / flow.speed
-    return Equation({"thrust": -1.0}, 2.0 * flow.lambda0 * flow.speed, slopes)
+    del problem
+    return Equation({"thrust": -1.0}, inflow=True)
+
+
+def _momentum_slopes(problem: Problem, flow: Wake) -> tuple[float, float]:
+    """∂(2 λ0 V) by λ0 and by the shaft tilt: V ∂V = µ_x λ0, since µ_x dµ_x + µ_z dµ_z = 0."""
+    tilts = problem.design.models.disk_axial_flow
+    return (
+        2.0 * (flow.speed + flow.lambda0 * flow.axial / flow.speed),
+        2.0 * flow.lambda0**2 * flow.mu_x / flow.speed if tilts else 0.0,
+    )
+
+
+class _Equations(NamedTuple):
+    """The equations of a trim as matrices."""
+
+    weights: Array
+    """Constant ones, those times cos α and those times sin α, (3, equations, sums)."""
+    constant: Array
+    by_state: Array
+    """(equations, 8)"""
+    inflow: Array
+    """1 where 2 λ0 V is part of an equation, (equations,)."""
+
+
+@lru_cache(maxsize=8)
+def _equations(problem: Problem) -> _Equations:
+    rows = [row(problem) for row in trim_of(problem.design).rows]
+    weights, by_state = np.zeros((3, len(rows), N_SUMS)), np.zeros((len(rows), len(STATE_NAMES)))
+    for i, row in enumerate(rows):
+        for k, mapping in enumerate((row.fixed, row.level, row.tilted)):
+            for name, weight in mapping.items():
+                weights[k, i, SUM_NAMES.index(name)] = weight
+        for unknown, slope in row.by_state.items():
+            by_state[i, STATE_NAMES.index(unknown)] = slope
+    constant, inflow = np.array([(row.constant, row.inflow) for row in rows]).T.copy()
+    return _Equations(weights, constant, by_state, inflow)
 
 
 @dataclass(frozen=True)
@@ -170,33 +195,34 @@ def unknowns_of(design: Design) -> tuple[Unknown, ...]:
 
 def with_given_values(problem: Problem, start: TrimState) -> TrimState:
     """The start with every quantity that is not solved for at its given value."""
-    state, design = start, problem.design
+    design = problem.design
     condition, models, stand = design.condition, design.models, design.condition.stand
+    given: dict[str, float] = {"lambda0": max(start.lambda0, 1e-4)}
     if not models.flapping:
-        state = replace(state, coning=0.0, cyclic_1c=0.0, cyclic_1s=0.0, flap_1c=0.0, flap_1s=0.0)
+        given |= {"coning": 0.0, "cyclic_1c": 0.0, "cyclic_1s": 0.0, "flap_1c": 0.0, "flap_1s": 0.0}
     elif _cyclic_trims(design):
-        state = replace(state, flap_1c=condition.flap_1c, flap_1s=condition.flap_1s)
-    elif stand is not None:
-        state = replace(state, cyclic_1c=stand.cyclic_1c, cyclic_1s=stand.cyclic_1s)
+        given |= {"flap_1c": condition.flap_1c, "flap_1s": condition.flap_1s}
     else:
-        state = replace(state, cyclic_1c=0.0, cyclic_1s=0.0)
+        given |= {"cyclic_1c": stand.cyclic_1c if stand else 0.0, "cyclic_1s": stand.cyclic_1s if stand else 0.0}
     if models.flapping and design.rotor.precone is not None:
-        state = replace(state, coning=design.rotor.precone)
+        given["coning"] = design.rotor.precone
     if models.trim == "thrust":
-        state = replace(state, shaft_tilt=math.atan2(problem.drag, problem.weight))
+        given["shaft_tilt"] = math.atan2(problem.drag, problem.weight)
     if stand is not None:
         if models.trim != "free-rotor":
-            state = replace(state, shaft_tilt=stand.tilt)
+            given["shaft_tilt"] = stand.tilt
         if stand.collective is not None:
-            state = replace(state, collective=stand.collective)
-    return replace(state, lambda0=max(state.lambda0, 1e-4))
+            given["collective"] = stand.collective
+    return replace(start, **given)
 
 
-@dataclass(frozen=True, eq=False)
-class Balance:
+class Balance(NamedTuple):
     """How far the forces are from balance."""
 
-    equations: tuple[Equation, ...]
+    problem: Problem
+    tilt: float
+    """α"""
+    flow: Wake
     weights: Array
     """On the sums over the disk, (equations, sums)."""
     sums: Array
@@ -210,26 +236,58 @@ class Balance:
 
     def besides_sums(self, unknowns: tuple[Unknown, ...]) -> Array:
         """The part of `jacobian` that is not through the sums over the disk."""
-        matrix = np.zeros((len(self.equations), len(unknowns)))
-        column = {unknown: k for k, unknown in enumerate(unknowns)}
-        for row, equation in zip(matrix, self.equations, strict=True):
-            for unknown, slope in equation.slopes.items():
-                if unknown in column:
-                    row[column[unknown]] += slope
-            if equation.by_tilt and "shaft_tilt" in column:
-                by_tilt = (slope * self.sums[_PLACE[name]] for name, slope in equation.by_tilt.items())
-                row[column["shaft_tilt"]] += sum(by_tilt)
-        return matrix
+        weights, _, by_state, inflow = _equations(self.problem)
+        slopes = _momentum_slopes(self.problem, self.flow)
+        return _besides_sums(weights, by_state, inflow, self.tilt, slopes, self.sums, _places(unknowns))
+
+
+_LAMBDA0, _TILT = STATE_NAMES.index("lambda0"), STATE_NAMES.index("shaft_tilt")
+
+
+@cache
+def _places(unknowns: tuple[Unknown, ...]) -> Integers:
+    return np.array([STATE_NAMES.index(unknown) for unknown in unknowns], dtype=np.int64)
+
+
+@compiled()
+def _besides_sums(
+    weights: Any, by_state: Any, momentum: Any, tilt: float, slopes: Any, sums: Any, places: Any
+) -> Any:  # fmt: skip
+    """`Balance.besides_sums`; slopes: ∂(2 λ0 V) by λ0 and by the shaft tilt; places: of the unknowns in the state."""
+    turned = math.cos(tilt) * weights[2] - math.sin(tilt) * weights[1]
+    out = np.empty((len(by_state), len(places)))
+    for i in range(len(out)):
+        for k in range(len(places)):
+            out[i, k] = by_state[i, places[k]]
+            if places[k] == _LAMBDA0:
+                out[i, k] += slopes[0] * momentum[i]
+            if places[k] == _TILT:
+                out[i, k] += slopes[1] * momentum[i]
+                for n in range(len(sums)):
+                    out[i, k] += turned[i, n] * sums[n]
+    return out
 
 
 def balance(problem: Problem, state: TrimState, flow: Wake, sums: Array) -> Balance:
     """The residuals, and how they depend on the sums over the disk, (6,)."""
-    equations = tuple(row(problem, state, flow) for row in trim_of(problem.design).rows)
-    weights, rest = np.zeros((len(equations), N_SUMS)), np.array([equation.rest for equation in equations])
-    for k, equation in enumerate(equations):
-        for name, weight in equation.weights.items():
-            weights[k, _PLACE[name]] = weight
-    return Balance(equations, weights, sums, rest + weights @ sums)
+    inflow = 2.0 * flow.lambda0 * flow.speed
+    weights, error = _residuals(*_equations(problem), state.array(), state.shaft_tilt, inflow, sums)
+    return Balance(problem, state.shaft_tilt, flow, weights, sums, error)
+
+
+@compiled()
+def _residuals(
+    weights: Any, constant: Any, by_state: Any, momentum: Any, state: Any, tilt: float, inflow: float, sums: Any
+) -> Any:  # fmt: skip
+    """Weights on the sums, (equations, sums), and residuals, (equations,); inflow: 2 λ0 V."""
+    found = weights[0] + math.cos(tilt) * weights[1] + math.sin(tilt) * weights[2]
+    error = constant + inflow * momentum
+    for i in range(len(error)):
+        for k in range(len(state)):
+            error[i] += by_state[i, k] * state[k]
+        for k in range(len(sums)):
+            error[i] += found[i, k] * sums[k]
+    return found, error
 
 
 def balance_of(problem: Problem, elements: BladeElements) -> Balance:
