@@ -129,6 +129,7 @@ def _drawn(measured: MeasuredSet, solution: Solution, known: _Known, previous: R
         marks=marks,
         value=value,
         note=note,
+        x_name="",
     )
 
 

@@ -74,6 +74,8 @@ class StripChart:
     """The number to remember, in the corner."""
     note: str = ""
     """One sentence: what the chart says, or what lies outside it."""
+    x_name: str = "r/R"
+    """What the horizontal axis is."""
 
     @property
     def x_ticks(self) -> list[float]:
@@ -99,6 +101,7 @@ class StripChart:
             "x_range": list(self.x_range),
             "y_range": list(self.y_range),
             "x_ticks": self.x_ticks,
+            "x_name": self.x_name,
             "y_ticks": self.y_ticks,
             "lines": [
                 {"x": _plain(line.x, 4), "y": _plain(line.y, digits), "role": line.role, "filled": line.filled}
@@ -151,6 +154,7 @@ def power_change_chart(
         lines=(StripLine(mus, apart, "saving" if curve.current else "earlier", filled=curve.current),),
         dots=(*([StripDot(0.0, float(apart[0]), "hover")] if curve.current else []), StripDot(mu, now, "")),
         value="" if change is None else f"{number(now, 1 if abs(now) < 9.95 else 0, sign=True)} {unit.symbol}",
+        x_name="µ",
     )
 
 
@@ -175,6 +179,7 @@ def total_power_chart(
         lines=(StripLine(mus, power, "saving" if curve.current else "earlier"),),
         dots=(*([StripDot(0.0, float(power[0]), "hover")] if curve.current else []), StripDot(mu, now, "")),
         value=f"least near µ {mus[least]:.2f}" if known else "",
+        x_name="µ",
     )
 
 

@@ -15,7 +15,7 @@
       <div class="rxf-sub rxf-num"><span data-explorer="change" class="${now.kind ? `rxf-${now.kind}` : ''}">${text(now.change)}</span> vs. <span data-explorer="against">${text(now.against)}</span></div>${bands}</div>
       <div class="rxf-rule"></div>
       ${now.problem ? `<div class="rxf-problem" data-explorer="problem" role="alert">${text(now.problem)}</div>` : `<div class="rxf-change"><div class="rxf-since rxf-num" data-explorer="since">${since}</div>
-      <div class="rxf-why rxf-num" data-explorer="why" title="${text(now.why)}">${text(now.why)}</div></div>`}
+      <div class="rxf-why rxf-num" data-explorer="why" title="${text(now.why)}">${text(now.why.replace(/(\d) (kW|hp)/g, '$1\u00a0$2'))}</div></div>`}
       <div class="rxf-rule"></div>
       <div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details" aria-label="Power and trim in detail: ${now.parts.map(one => `${text(one.name)} ${text(one.value)}`).join(', ')}" title="Power and trim in detail"><div>${bar}</div><dl>${key}</dl></div>
       <button class="rxf-chip" data-do="drawer" data-value="trust" data-explorer="status" data-kind="${now.status.kind === 'care' ? 'converged' : now.status.kind}" data-tone="${now.status.kind}" title="${text(now.status.title)}"><span>${text(now.status.words)}${now.status.measured ? `<small data-explorer="validated">${text(now.status.measured)}</small>` : ''}</span></button>`;
@@ -29,7 +29,7 @@
     reverse_flow: ['Reverse flow', '<rect x=".7" y=".7" width="18.6" height="9.6" fill="var(--rx-reverse)" stroke="#fff" stroke-width="1.4"/>'],
     wake: ['Tip vortices', '<path d="M0 8.500C6 1 13 1 20 6.5" stroke="var(--rx-accent)" stroke-width="1.800" fill="none"/>'],
     arrows: ['Inflow', '<path d="M5 0v9M2.200 6 5 9.5 7.800 6M15 0v9M12.200 6 15 9.5 17.800 6" stroke="var(--rx-accent)" stroke-width="1.5" fill="none"/>'],
-    drag_divergence: ['Drag div.', '<path d="M0 5.500H20" stroke="var(--rx-ink)" stroke-width="2" stroke-dasharray="4.5 2.5"/>'],
+    drag_divergence: ['Drag divergence', '<path d="M0 5.500H20" stroke="var(--rx-ink)" stroke-width="2" stroke-dasharray="4.5 2.5"/>'],
   };
   RX.paint('field', now => {
     const card = document.querySelector('.rxf-field');

@@ -14,11 +14,12 @@
       left, right: width - right, top, base: height - bottom,
     };
   }
-  function axes(one, place, height) {
+  function axes(one, place, height, unit = '') {
     const rows = one.y_ticks.map(v => `<path d="M${place.left} ${place.Y(v).toFixed(1)}H${place.right}" stroke="var(${v === 0 ? '--rx-faint' : '--rx-grid'})"/>
-      <text x="${place.left - 6}" y="${(place.Y(v) + 3.5).toFixed(1)}" text-anchor="end">${digits(v)}</text>`);
+      <text x="${place.left - 6}" y="${(place.Y(v) + 3.5).toFixed(1)}" text-anchor="end">${digits(v)}${unit}</text>`);
     const columns = one.x_ticks.map(v => `<text x="${place.X(v).toFixed(1)}" y="${height - 2}" text-anchor="middle">${digits(v)}</text>`);
-    return rows.join('') + columns.join('');
+    const name = `<text x="${place.left - 6}" y="${height - 2}" text-anchor="end" data-axis>${text(one.x_name)}</text>`;
+    return rows.join('') + columns.join('') + name;
   }
   function curve(line, place, one) {
     let path = '', open = false, first = null, last = null;
@@ -118,9 +119,9 @@
       if (place.dataset.stamp === stamp && place.childElementCount) continue;
       place.dataset.stamp = stamp;
       const focus = document.activeElement?.dataset?.knot;
-      const width = place.offsetWidth, height = place.offsetHeight, frame = frameOf(now, width, height, 30);
+      const width = place.offsetWidth, height = place.offsetHeight, frame = frameOf(now, width, height, 34);
       const knots = now.knots.map(k => `<circle cx="${frame.X(k.r).toFixed(1)}" cy="${frame.Y(k.theta).toFixed(1)}" r="5" tabindex="0" role="slider" data-knot="${k.name}" aria-label="${text(k.title)}" aria-valuenow="${k.theta}" aria-valuetext="${digits(k.theta)}° at ${digits(k.r)} R"><title>${text(k.title)}</title></circle>`).join('');
-      place.innerHTML = `<svg viewBox="0 0 ${width} ${height}" role="group" aria-label="Twist curve">${axes(now, frame, height)}${bandOf(now, frame)}${keyOf(now, frame)}${now.lines.map(line => curve(line, frame, now)).join('')}${knots}</svg>`;
+      place.innerHTML = `<svg viewBox="0 0 ${width} ${height}" role="group" aria-label="Twist curve">${axes(now, frame, height, '°')}${bandOf(now, frame)}${keyOf(now, frame)}${now.lines.map(line => curve(line, frame, now)).join('')}${knots}</svg>`;
       place.frame = frame;
       if (focus) place.querySelector(`[data-knot="${focus}"]`)?.focus();
     }

@@ -51,6 +51,8 @@
       inside += `<text x="${o[0]}" y="${height - 14}" text-anchor="middle" style="fill:var(--rx-ink);font-weight:620;font-size:12px">${signed(cut.theta)}</text>
         <text x="${o[0]}" y="${height - 1}" text-anchor="middle">${changed(cut) ? `<tspan style="fill:var(--rx-blade);font-weight:600">${signed(cut.theta - cut.ghost)}</tspan> · ` : ''}${cut.r.toFixed(2)}</text>`;
     });
+    // What the two rows of numbers are, where there is room beside the first of them.
+    if (x0 > 82) inside += `<text x="0" y="${height - 14}">twist</text><text x="0" y="${height - 1}">${now.cuts.some(changed) ? 'Δ · ' : ''}r/R</text>`;
     const spoken = now.cuts.map(cut => `${signed(cut.theta)} at ${cut.r.toFixed(2)} R`).join(', ');
     card.innerHTML = `<div class="rxf-head"><b>Blade from the tip</b><button class="rxf-dim" data-do="times" title="Twist exaggeration, here and in the scene">twist ×${now.times}${now.times > 1 ? ', as in the scene' : ''}</button>
       <div class="rxf-key"><span title="${text(now.name_hint)}"><i></i>${text(now.name)}</span>${now.ghost ? `<span title="${text(now.ghost_hint)}"><i data-ghost></i>${text(now.ghost_name)}</span>` : ''}<span>root ← r/R → tip</span></div></div>

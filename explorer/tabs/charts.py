@@ -258,6 +258,7 @@ def starts_chart(starts: Starts, units: Units) -> dict[str, Any]:
         "x_range": [1, longest],
         "y_range": [low, high],
         "x_ticks": round_ticks(1.0, float(longest), 5),
+        "x_name": "",
         "y_ticks": round_ticks(low, high, 4),
         "lines": lines,
         "dots": [],

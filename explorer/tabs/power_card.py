@@ -291,14 +291,14 @@ def _bands(solution: Solution, bands: WakeBands, units: Units) -> list[dict[str,
     words: dict[str, str] = {}
     if bands.power is not None:
         watts = [units.power[0].of(end * solution.power.main_rotor) for end in bands.power]
-        words["power_band"] = f"power {span(watts, fineness(solution.power))} {units.power[0].symbol}"
+        words["power_band"] = f"uncertainty {span(watts, fineness(solution.power))} {units.power[0].symbol}"
     if bands.worth is not None:
         words["worth_band"] = f"change {span([100.0 * end for end in bands.worth], 1)} %"
     return [{"name": name, "words": text, "title": READOUTS[name].text} for name, text in words.items()]
 
 
 def _status(state: SessionState) -> dict[str, str]:
-    """The chip: trimmed, or what to read with care, and how well this rotor is validated in this region."""
+    """The chip: trimmed, the stalled area or the number of caveats, and how well this rotor is validated here."""
     reasons = cautions(state.solution, state.pinned)
     stalled = state.solution.stalled_area
     record = validated(state.solution)
@@ -309,7 +309,7 @@ def _status(state: SessionState) -> dict[str, str]:
     if stalled >= _STALLED:
         words = f"{number(100.0 * stalled, 1)} % of disk stalled"
     elif reasons:
-        words = "read with care" if len(reasons) == 1 else f"{len(reasons)} cautions"
+        words = "1 caveat" if len(reasons) == 1 else f"{len(reasons)} caveats"
     else:
         title = f"{state.solution.message} {record.sentence} Click: how far to trust it."
         return {"kind": "converged", "words": "trimmed", "measured": record.words, "title": title}

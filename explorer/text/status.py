@@ -38,19 +38,17 @@ def status_panel(solution: Solution | None, problem: str | None = None, pinned: 
 
 def _measurement(solution: Solution) -> str:
     """How well this rotor is validated in this region."""
-    return (
-        f'<div class="rx-small" data-explorer="measurement">{escape(typographic(validated(solution).sentence))}</div>'
-    )
+    return f'<div class="rx-small" data-explorer="measurement">{escape(validated(solution).sentence)}</div>'
 
 
 def cautions(solution: Solution, pinned: Solution | None) -> list[str]:
     """Caveats of a solution; with A pinned, those of both, and the other differences between the two."""
-    own = [caveat.sentence for caveat in solution.caveats]
+    own = [typographic(caveat.sentence) for caveat in solution.caveats]
     if pinned is None:
         return own
     if not pinned.converged:
         return [f"A: {pinned.message}", *own]
-    other = [caveat.sentence for caveat in pinned.caveats]
+    other = [typographic(caveat.sentence) for caveat in pinned.caveats]
     a, b = pinned.design, solution.design
     apart = []
     if a.condition != b.condition:
@@ -74,11 +72,13 @@ def tiny(value: float) -> str:
 def provenance(solution: Solution) -> str:
     """The models used, and the kind of result."""
     design = solution.design
+    took = solution.elapsed
+    time = f"{number(1e3 * took, 1)} ms" if took < 1.0 else f"{number(took, 1)} s"
     sections = dict.fromkeys(section_title(span.section) for span in design.rotor.blade.spans)
     return (
         f'<div class="rx-small rx-dim" data-explorer="provenance">Preset <i>{escape(design.preset)}</i>: '
         f"{escape(inflow_words(design))}, {escape(' / '.join(sections))}, {physics_words(design)}, "
-        f"{design.models.elements} × {design.models.azimuths} grid, {number(1e3 * solution.elapsed, 1)} ms. "
+        f"{design.models.elements} × {design.models.azimuths} grid, {time}. "
         "Indicative: a model, not a measurement.</div>"
     )
 

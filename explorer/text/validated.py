@@ -1,9 +1,11 @@
 """How well a rotor has been validated in the region of a solution, in words, from the rows of the trust page."""
 
 import math
+import re
 from dataclasses import dataclass
 
 from explorer.text.units import number
+from rotor.reproduce.report import typographic
 from rotor.reproduce.trust import TrustRow, trust_rows
 from rotor.trim.solution import Solution
 from rotor.validation.measured import MeasuredSet, sets_of
@@ -48,7 +50,8 @@ def validated(solution: Solution) -> ValidationRecord:
     if design.twist != design.rotor.builtin_twist or design.active_twist is not None:
         parts.append("Measured with the twist as built; no measurement of this twist is known.")
     words = f"measured: {_short(row, measured)}" if not outside else "beyond what was measured"
-    return ValidationRecord(words, " ".join(part for part in parts if part), measured)
+    sentence = typographic(" ".join(part for part in parts if part))
+    return ValidationRecord(words, re.sub(r"\bC_(?=[TPQ])", "C", sentence), measured)
 
 
 def nearest(sets: list[MeasuredSet], solution: Solution) -> MeasuredSet:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from explorer.state import INFLOW_MENUS
 from explorer.text.readout import part_titles
 from explorer.text.units import SI, Units, number
 from rotor.aero.inflow import INFLOW_MODELS
@@ -87,6 +88,8 @@ def _cause(before: Solution, after: Solution) -> str:
     if (a.twist, a.active_twist) != (b.twist, b.active_twist):
         # With another rotor or flight the lift moves for their sake too, so it is named only on its own.
         causes = [*causes, "a new twist"] if causes else [lift_movement(before, after)]
+    if not causes:
+        return "Another model"
     if len(causes) > 2:
         return "Several changes at once"
     text = " and ".join(causes)
@@ -109,6 +112,11 @@ def _model_causes(a: Design, b: Design) -> list[str]:
     ]
     if a.models.inflow != b.models.inflow:
         causes.append(f"{INFLOW_MODELS[b.models.inflow].title} instead of {INFLOW_MODELS[a.models.inflow].title}")
+    if a.models.hover_inflow != b.models.hover_inflow:
+        new, old = (INFLOW_MENUS["hover_inflow"][one.models.hover_inflow].lower() for one in (b, a))
+        causes.append(f"{new} instead of {old} in hover")
+    if a.models.low_speed != b.models.low_speed:
+        causes.append(f"{'with' if b.models.low_speed == 'hover' else 'without'} passage to hover at low speed")
     return causes
 
 
@@ -137,7 +145,7 @@ def _test_cause(design: Design) -> str:
 
 
 def _changed_parts(before: Solution, after: Solution, units: Units) -> list[str]:
-    """At most three parts of power that changed, the largest change first, the unit behind the first."""
+    """At most three parts of power that changed, the largest change first, the unit behind the last."""
     unit = units.power[0]
     titles = part_titles(before.design, after.design)
     changes = {name: unit.of(getattr(after.power, name) - getattr(before.power, name)) for name in titles}
@@ -146,7 +154,7 @@ def _changed_parts(before: Solution, after: Solution, units: Units) -> list[str]
     shown = max(_SMALL_PART * largest, 0.5 * 10.0**-digits)
     order = sorted((name for name in changes if abs(changes[name]) >= shown), key=lambda name: -abs(changes[name]))
     texts = [f"{titles[name].lower()} {number(changes[name], digits, sign=True)}" for name in order[:3]]
-    return [f"{texts[0]} {unit.symbol}", *texts[1:]] if texts else []
+    return [*texts[:-1], f"{texts[-1]} {unit.symbol}"] if texts else []
 
 
 def _reason(before: Solution, after: Solution) -> str:

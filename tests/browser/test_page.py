@@ -218,6 +218,7 @@ def test_the_strip_has_four_charts_with_axes(watched: Watched):
     for chart in watched.page.locator(".rxf-chart").all():
         assert chart.locator("svg text").count() >= 6
         assert chart.locator("svg g path").count() >= 1
+    assert watched.page.locator(".rxf-chart [data-axis]").all_text_contents() == ["µ", "r/R", "r/R", "r/R"]
     before = watched.page.locator('[data-name="alpha"] svg').inner_html()
     turn = watched.page.get_by_label("Azimuth of the reference blade")
     turn.focus()

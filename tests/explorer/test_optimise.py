@@ -185,9 +185,18 @@ class TestCharts:
 class TestWords:
     def test_the_optimum_is_told_with_its_band(self, run: SearchRun):
         words = search_text.found(run) + search_text.details(run) + search_text.standing(run)
-        for part in ("Inboard rate", "Outboard rate", "within 0.1 %", "saving vs. starting design", "Done"):
+        for part in ("Inboard rate", "Outboard rate", "within 0.1 % of the least power", "Done"):
             assert part in words
         assert "nan" not in words.lower()
+
+    def test_a_saving_is_told_without_a_sign(self, run: SearchRun):
+        assert run.best is not None
+        assert run.start_power is not None
+        saved = 100.0 * (1.0 - run.best.power / run.start_power)
+        row = search_text.found(run).split("</tr>")[0]
+        assert saved > 0.01
+        assert row.endswith(f">{saved:.2f} %</td>")
+        assert "saving vs. starting design" in row
 
     def test_before_the_first_search(self):
         assert "Not run yet" in search_text.standing(None)
@@ -257,13 +266,18 @@ class TestMap:
         assert picture.getpixel((3, 3))[3] > 0  # pyright: ignore[reportIndexIssue, reportOptionalSubscript]
         svg = ET.fromstring(power_map.drawing(drawn, (0.5, 0.5), exact=True).replace("&nbsp;", " "))
         assert svg.find("image") is not None
-        assert "Fixed: Inboard rate" in power_map.legend(drawn)
+        assert "Fixed: Inboard rate" in power_map.legend(drawn, exact=True)
+        marks = [
+            [mark for mark in ("● design on", "○ nearest to") if mark in power_map.legend(drawn, exact)]
+            for exact in (True, False, None)
+        ]
+        assert marks == [["● design on"], ["○ nearest to"], []]
 
     def test_the_example_beside_the_field_is_the_best_point(self, levels: tuple[MapTask, list[MapLevel]]):
         task, told = levels
         drawn = power_map.Map(task, np.array(told[-1].powers, dtype=float))
         example = power_map.least_text(drawn)
-        assert f"such as {example}." in power_map.legend(drawn)
+        assert f"such as {example}." in power_map.legend(drawn, exact=True)
         x, y, _ = drawn.least
         for axis, place in zip(task.axes, (x, y), strict=True):
             parameter = task.concept.parameters[axis]

@@ -65,8 +65,8 @@ class TestKnownCauses:
     def test_twist_in_hover_moves_lift_inboard_and_saves_induced_power(self):
         before, after = flown(0.0, "linear:0"), flown(0.0, "linear:-8")
         saved = 1e-3 * (before.power.induced - after.power.induced)
-        assert why(before, after).startswith(f"Lift moved inboard: induced −{saved:.0f} kW, tail rotor −")
-        assert why(after, before).startswith(f"Lift moved outboard: induced +{saved:.0f} kW")
+        assert why(before, after).startswith(f"Lift moved inboard: induced −{saved:.0f}, tail rotor −")
+        assert why(after, before).startswith(f"Lift moved outboard: induced +{saved:.0f}, ")
 
     def test_twist_beyond_the_optimum_in_hover_costs_induced_power_although_lift_moves_inboard(self):
         assert why(flown(0.0, "linear:-20"), flown(0.0, "linear:-28")).startswith("Lift moved inboard: induced +")
@@ -114,6 +114,14 @@ class TestKnownCauses:
         uniform = solved(replace(flight.design, models=replace(flight.design.models, inflow="uniform")))
         assert why(flight, uniform).startswith("Uniform")
         assert " instead of Dynamic wake" in why(flight, uniform)
+        hover = flown(0.0)
+        closed = solved(replace(hover.design, models=replace(hover.design.models, hover_inflow="closed-form")))
+        assert why(hover, closed).startswith("Closed form instead of annulus balance in hover: ")
+        slow = flown(0.05)
+        wake = solved(replace(slow.design, models=replace(slow.design.models, low_speed="wake")))
+        assert why(slow, wake).startswith("Without passage to hover at low speed: ")
+        coarse = solved(replace(hover.design, models=replace(hover.design.models, elements=20)))
+        assert why(hover, coarse).startswith("Another model: ")
         other = solved(make_design(rotor="s61"))
         assert why(flight, other).startswith(f"{other.design.aircraft.name} instead of UH-60A: ")
 
@@ -160,6 +168,11 @@ class TestNumbers:
             field = "tail" if name == "tail rotor" else name
             change = 1e-3 * (getattr(after.power, field) - getattr(before.power, field))
             assert_allclose(size, change, atol=0.51)
+
+    def test_the_unit_stands_once_behind_the_last_part(self):
+        sentence = why(flown(0.3), flown(0.3, "linear:-4", 9500.0))
+        assert re.search(r": induced [+−]\d+(, [a-z ]+ [+−]\d+)+ kW[.;]", sentence)
+        assert sentence.count("kW") == 1
 
     def test_aviation_units(self):
         assert " hp" in why(flown(0.2), flown(0.3), AVIATION)

@@ -78,8 +78,7 @@ def refined(powers: Array, wide: int, high: int) -> Array:
 def picture(powers: Array) -> bytes:
     """PNG: colours by power above the least, lines at CONTOURS, the 0.1 % band white within a white edge."""
     values = refined(powers, _WIDE, _HIGH)[::-1]
-    least = float(np.nanmin(powers))
-    excess = values / least - 1.0
+    excess = values / float(np.nanmin(powers)) - 1.0
     known = np.isfinite(excess)
     excess = np.where(known, excess, 9.0)
     pixels = (1.0 + np.clip(excess / _SCALE, 0.0, 1.0) ** 0.5 * (_LEVELS - 1)).astype(np.uint8)
@@ -186,13 +185,13 @@ def point_of(text: str, drawn: Map) -> tuple[float, ...]:
     return tuple(values)
 
 
-def legend(drawn: Map, units: Units = SI) -> str:
-    """Axes, least power, contour lines, and the fixed parameters."""
-    x, y = drawn.parameters
-    at_x, at_y, power = drawn.least
+def legend(drawn: Map, exact: bool | None, units: Units = SI) -> str:
+    """Marks, least power, contour lines, and the fixed parameters; `exact` as in `drawing`, None without a design."""
+    mark = "" if exact is None else "● design on the sliders" if exact else "○ nearest to the design on the sliders"
+    *place, power = drawn.least
     best = [
         f"{number(p.shown(p.low + part * (p.high - p.low)), 1 if p.angular else 2)} {p.shown_unit}"
-        for p, part in ((x, at_x), (y, at_y))
+        for p, part in zip(drawn.parameters, place, strict=True)
     ]
     held = [
         f"{p.title} {number(p.shown(value), 1 if p.angular else 2)} {p.shown_unit}"
@@ -202,6 +201,7 @@ def legend(drawn: Map, units: Units = SI) -> str:
     return (
         '<div class="rx rx-small" data-explorer="map-legend">'
         f"<div>★ {units.watts(power, 1)} at {', '.join(best)}</div>"
+        f'<div style="color:{NOW}">{mark}</div>'
         f'<div class="rx-dim">Click the map, or type x and y, such as {least_text(drawn)}.</div>'
         f'<div class="rx-dim">White outline: within {100 * _BAND:g} % of the least.</div>'
         f'<div class="rx-dim">{"Fixed: " + escape(", ".join(held)) + "." if held else ""}</div></div>'
@@ -319,7 +319,7 @@ class MapPanel:
         if seen != self._drawn:
             self._drawn = seen
             self._picture.content = f'<div class="rx">{title(drawn)}{drawing(drawn, here, exact)}{colour_bar()}</div>'
-            self._legend.content = legend(drawn, units)
+            self._legend.content = legend(drawn, None if here is None else exact, units)
             self._point.visible = True
 
     def _axes(self, titles: list[str]) -> tuple[int, int]:

@@ -238,7 +238,7 @@ class OptimisePanel:
         best, units = run.best, UNITS[self._context.view().units]
         words = "" if best is None else f": {units.watts(best.power)}"
         if best is not None and run.start_power:
-            words += f", {number(100.0 * (best.power / run.start_power - 1.0), 1, sign=True)}\u00a0%"
+            words += f", {number(100.0 * (best.power / run.start_power - 1.0), 1, sign=True)}\u00a0% vs.\u00a0start"
         if run.under_way:
             return {"text": f"Searching{words or ' …'}", "actions": [("halt", "Stop")]}
         if len(run.frames) < 2:

@@ -182,7 +182,7 @@ def _saving(title: str, power: float, reference: float | None, units: Units) -> 
     return (
         f'<tr><td class="rx-dim">{"saving vs." if less else "above"} {escape(title)}</td>'
         f'<td class="rx-num">{units.watts(abs(power - reference), 1)}</td>'
-        f'<td class="rx-num{kind}" style="width:26%">{number(percent, 2, sign=True)} %</td></tr>'
+        f'<td class="rx-num{kind}" style="width:26%">{number(abs(percent), 2)} %</td></tr>'
     )
 
 
@@ -201,14 +201,16 @@ def _optimum(optimum: Optimum, concept: Concept, units: Units) -> str:
             f'<td class="rx-dim rx-unit">{escape(parameter.shown_unit)}</td>'
             f'<td class="rx-num rx-dim">{reach}</td></tr>'
         )
-    heading = '<tr class="rx-dim rx-small"><td></td><td></td><td></td><td class="rx-num">within 0.1 %</td></tr>'
+    heading = (
+        '<tr class="rx-dim rx-small"><td class="rx-num" colspan="4">range within 0.1 % of the least power</td></tr>'
+    )
     lines = [f"<table>{heading if bands else ''}{''.join(rows)}</table>"]
     notes = [optimum.message]
     if best.active:
         notes.append(f"Active limits: {', '.join(name.replace('_', ' ') for name in best.active)}.")
     others = [units.watts(other.power, 1) for other in optimum.minima[1:3]]
     if others:
-        notes.append(f"Other minima: {', '.join(others)}.")
+        notes.append(f"Other {'minimum' if len(others) == 1 else 'minima'}: {', '.join(others)}.")
     lines.append(f'<div class="rx-dim rx-small">{escape(" ".join(notes))}</div>')
     return "".join(lines)
 
