@@ -45,9 +45,14 @@ _M_UT, _M_UP, _M_UR, _M_RATE = kernel.M_UT, kernel.M_UP, kernel.M_UR, kernel.M_R
 
 _NO_FIELD = np.zeros((0, 0))
 _NO_FIELDS = np.zeros((0, 0, 0))
+_NO_PLACES = np.zeros(0, dtype=np.int64)
 _NO_TERMS = ResponseTerms(
-    _NO_FIELD, _NO_FIELD, _NO_FIELD, np.zeros(0, dtype=np.int64), _NO_FIELD, np.zeros((3, 0)), _NO_FIELD
-)
+    _NO_FIELD, _NO_FIELD, _NO_FIELD, np.zeros(1, dtype=np.int64), _NO_PLACES, _NO_PLACES, _NO_FIELD, np.zeros((3, 0)),
+    _NO_FIELD,
+)  # fmt: skip
+
+_ROWS = 4
+"""Rows of blade elements that are summed along the blade at a time."""
 
 
 class _Blade(NamedTuple):
@@ -61,8 +66,9 @@ class _Blade(NamedTuple):
     u_p: Array
     friction: Array
     """∂F_x/∂µ_x of the friction of radial flow."""
+    rubbing: Array
+    """Its sums along the blade, and those over r, (2, azimuths)."""
     r: Array
-    arm: Array
     lag: Array
     cos: Array
     sin: Array
@@ -83,6 +89,11 @@ class _Blade(NamedTuple):
     """µ_z in the place of the shaft tilt where the friction follows it, (unknowns,)."""
     by_loss: bool
     shapes: Array
+    """Functions along the blade: those of the terms of the inflow, 1 and r − e, then zeros, (elements, shapes)."""
+    through: Array
+    """1, r − e, and those of the terms over F, (2 + shapes of the terms, elements and zeros)."""
+    twisting: Array
+    """1 and the modes of the elastic twist, (1 + modes, elements and zeros)."""
     waves: Array
     rates: Array
     """Of the elastic twist."""
@@ -118,29 +129,34 @@ class TransposedTrim:
         direct = np.zeros((trims + problem.given_torsion.size, trims + problem.given_torsion.size))
         direct[:trims, :trims] = forces.besides_sums(unknowns)
         direct[:trims, :trims] += forces.weights @ sums_at_given_loads(problem, elements, unknowns)
-        shapes = waves = rates = modal = pitching = _NO_FIELD
+        modes = waves = rates = modal = pitching = _NO_FIELD
         moments = _NO_FIELDS
         if torsion is not None and elements.torsion is not None:
             direct[trims:] = torsion_at_given_moments(torsion, unknowns)
-            shapes, waves, rates = torsion.shapes.radial, torsion.shapes.waves, torsion.shapes.rates
+            modes, waves, rates = torsion.shapes.radial, torsion.shapes.waves, torsion.shapes.rates
             modal = torsion.gain[:, None] * torsion.shapes.weights
             moments, pitching = elements.torsion.moments, pitch_slope(torsion, elements)
         terms = response.terms() if isinstance(response, TermResponse) else None
         self._terms = terms if terms is not None else _NO_TERMS
         prescribed = response is not None and not problem.inflow.load_dependent
         self._tilt = "shaft_tilt" in unknowns and problem.design.models.disk_axial_flow
-        mu_z = np.zeros(trims)
+        mu_z, friction = np.zeros(trims), _NO_FIELD
         if self._tilt:
             mu_z[unknowns.index("shaft_tilt")] = elements.flow.mu_z
+            if elements.friction is not None:
+                friction = elements.friction.fx_slope
+        shapes, through, twisting = _along_blade(
+            self._terms.load_shapes, self._terms.inflow_shapes, modes, changes.arm, _ROWS
+        )
         self._blade = _Blade(
             loads=elements.loads,
             moments=moments,
             pitching=pitching,
             u_t=elements.u_t,
             u_p=elements.u_p,
-            friction=elements.friction.fx_slope if self._tilt and elements.friction is not None else _NO_FIELD,
+            friction=friction,
+            rubbing=np.stack([np.ones_like(disk.r), disk.r]) @ friction if friction.size else np.zeros((2, 0)),
             r=disk.r,
-            arm=changes.arm,
             lag=torsion.lag if torsion is not None else np.zeros_like(disk.r),
             cos=disk.cos,
             sin=disk.sin,
@@ -155,6 +171,8 @@ class TransposedTrim:
             mu_z=mu_z,
             by_loss=bool(elements.loss_slopes.any()),
             shapes=shapes,
+            through=through,
+            twisting=twisting,
             waves=waves,
             rates=rates,
             modal=modal,
@@ -196,21 +214,44 @@ class TransposedTrim:
     def with_own(self, derivatives: Derivatives, given: Array, direct: Array) -> Array:
         """The same with the derivatives of this very trim: one solution and one pass."""
         blade = self._blade
-        no_load = np.zeros((0, len(blade.cos)))
+        no_load = np.zeros((blade.shapes.shape[1], len(blade.cos)))
         multipliers: Array = np.zeros(len(derivatives.jacobian))
-        slopes, _, _, source = _pass(blade, multipliers, _NO_FIELD, no_load, _NO_FIELD, _NO_FIELD, given)
+        slopes, _, _, source = _pass(blade, multipliers, no_load, _NO_FIELD, given)
         slopes[: len(direct)] += direct
         if derivatives.feedback is not None and derivatives.answer is not None:
             slopes += derivatives.answer.times(derivatives.answer.rows(source[None]))[0]
         multipliers = np.asarray(np.linalg.solve(derivatives.jacobian.T, slopes), dtype=np.float64)
+        _, found, _, source = _pass(blade, multipliers, no_load, _NO_FIELD, given)
         if derivatives.feedback is None:
-            return _pass(blade, multipliers, _NO_FIELD, no_load, _NO_FIELD, _NO_FIELD, given)[1]
-        source = _pass(blade, multipliers, _NO_FIELD, no_load, _NO_FIELD, _NO_FIELD, given)[3]
-        on_load = np.ascontiguousarray(derivatives.feedback.solve_transposed(source)[1])
-        return _pass(blade, multipliers, np.eye(len(on_load)), on_load, _NO_FIELD, _NO_FIELD, given)[1]
+            return found
+        given = given.copy()
+        given[0] += derivatives.feedback.solve_transposed(source)[1]
+        return _pass(blade, multipliers, no_load, _NO_FIELD, given)[1]
 
 
 _compile = compiled(error_model="numpy", fastmath={"contract", "reassoc"})
+
+
+@_compile
+def _along_blade(load_shapes: Any, inflow_shapes: Any, modes: Any, arm: Any, rows: int) -> Any:
+    """`shapes`, `through` and `twisting` of `_Blade`, filled up to multiples of `rows`."""
+    own, n = len(inflow_shapes), len(arm)
+    full = n + -n % rows
+    shapes, through, twisting = (
+        np.zeros((n, 2 + own + -(2 + own) % rows)),
+        np.zeros((2 + own, full)),
+        np.zeros((1, full)),
+    )
+    twisting = np.zeros((1 + len(modes), full))
+    for i in range(n):
+        for k in range(own):
+            shapes[i, k] = load_shapes[i, k]
+            through[2 + k, i] = inflow_shapes[k, i]
+        shapes[i, own] = through[0, i] = twisting[0, i] = 1.0
+        shapes[i, own + 1] = through[1, i] = arm[i]
+        for k in range(len(modes)):
+            twisting[1 + k, i] = modes[k, i]
+    return shapes, through, twisting
 
 
 @_compile
@@ -222,11 +263,8 @@ def _conjugate_residuals(
     Every pass takes the part of what is left away that its change of the slopes can: with the preconditioner C,
     C(slopes) is made as small as the changes C(pass(step)) of all steps together allow.
     """
-    size, own = len(blade.direct), len(terms.place)
-    load = np.zeros((0, len(blade.cos)))
-    slopes, found, on_terms, _ = _pass(
-        blade, np.zeros(size), terms.load_shapes, load, terms.inflow_shapes, terms.beyond, given
-    )
+    size, own, shape = len(blade.direct), len(terms.transfer), (blade.shapes.shape[1], len(blade.cos))
+    slopes, found, on_terms, _ = _pass(blade, np.zeros(size), _around(terms, np.zeros(own), shape), terms.beyond, given)
     slopes[: len(direct)] += direct
     rest = _correction(nearby, slopes, _sums(terms, on_terms))
     changes, steps = np.zeros((most, size + own)), np.zeros((most, size + own))
@@ -234,11 +272,8 @@ def _conjugate_residuals(
     largest, before = 0.0, math.inf
     for k in range(most):
         steps[k] = rest
-        if own > 0:
-            load = _around(terms, rest[size:])
-        slopes, gains[k], on_terms, _ = _pass(
-            blade, rest[:size], terms.load_shapes, load, terms.inflow_shapes, terms.beyond, given[:0]
-        )
+        around = _around(terms, rest[size:], shape)
+        slopes, gains[k], on_terms, _ = _pass(blade, rest[:size], around, terms.beyond, given[:0])
         if own > 0:
             slopes[: len(blade.wake)] += blade.wake @ (terms.by_wake @ rest[size:])
         changes[k] = -_correction(nearby, slopes, _sums(terms, on_terms) - rest[size:])
@@ -296,181 +331,225 @@ def _solve(factors: Any, pivots: Any, right: Any) -> Any:
 
 
 @_compile
-def _around(terms: Any, sums: Any) -> Any:
-    """Tᵀ s at every azimuth, (shapes, azimuths)."""
-    waves = len(terms.waves)
-    spectrum = np.zeros(terms.load_shapes.shape[1] * waves)
-    coefficients = sums @ terms.transfer
-    for k in range(len(sums)):
-        spectrum[terms.place[k]] = coefficients[k]
-    return spectrum.reshape(-1, waves) @ terms.waves
+def _around(terms: Any, sums: Any, shape: Any) -> Any:
+    """Tᵀ s at every azimuth for each function along the blade, (shapes, azimuths)."""
+    waves, begin, term, wave = terms.waves, terms.begin, terms.term, terms.wave
+    out, coefficients = np.zeros(shape), np.zeros(len(sums) + 1)  # The last one stands where there is no term.
+    if len(sums) > 0:
+        coefficients[:-1] = sums @ terms.transfer
+    for k in range(len(begin) - 1):
+        for t in range(begin[k], begin[k + 1], 4):
+            a, b, c, d = wave[t], wave[t + 1], wave[t + 2], wave[t + 3]
+            by_a, by_b = coefficients[term[t]], coefficients[term[t + 1]]
+            by_c, by_d = coefficients[term[t + 2]], coefficients[term[t + 3]]
+            for j in range(shape[1]):
+                out[k, j] += by_a * waves[a, j] + by_b * waves[b, j] + by_c * waves[c, j] + by_d * waves[d, j]
+    return out
 
 
 @_compile
 def _sums(terms: Any, along: Any) -> Any:
     """Sums with the terms from those with the shapes along the blade, (shapes, azimuths) → (terms,)."""
-    out = np.empty(len(terms.place))
-    if len(out) == 0:
-        return out
-    spectrum = (along @ terms.waves.T).ravel()
-    for k in range(len(out)):
-        out[k] = spectrum[terms.place[k]]
-    return out
+    waves, begin, term, wave = terms.waves, terms.begin, terms.term, terms.wave
+    out = np.zeros(len(terms.transfer) + 1)
+    for k in range(len(begin) - 1):
+        for t in range(begin[k], begin[k + 1], 4):
+            a, b, c, d = wave[t], wave[t + 1], wave[t + 2], wave[t + 3]
+            on_a, on_b, on_c, on_d = 0.0, 0.0, 0.0, 0.0
+            for j in range(waves.shape[1]):
+                on_a += along[k, j] * waves[a, j]
+                on_b += along[k, j] * waves[b, j]
+                on_c += along[k, j] * waves[c, j]
+                on_d += along[k, j] * waves[d, j]
+            out[term[t]], out[term[t + 1]], out[term[t + 2]], out[term[t + 3]] = on_a, on_b, on_c, on_d
+    return out[:-1]
+
+
+# Rows of what a pass sums along the blade at every azimuth, in the order of `_Blade.around`. By θ and by θ' times each
+# mode of the elastic twist follow, then by U_P times each function of the terms.
+_THETA, _UT, _UP, _UP_ARM, _UR, _RATE, _BESIDE = range(7)
 
 
 @_compile
-def _pass(
-    blade: Any, multipliers: Any, load_shapes: Any, load: Any, inflow_shapes: Any, beyond: Any, given: Any
-) -> Any:  # fmt: skip
+def _pass(blade: Any, multipliers: Any, around: Any, beyond: Any, given: Any) -> Any:
     """One pass over the blade elements, see above.
 
     Slopes by the unknowns, slopes by element, and ∂L/∂λ: its sums along the blade with the shapes of the terms, and the
-    field. load: what Aᵀv has of each of the `load_shapes`, (shapes, azimuths). given: as in `with_nearby`; without it
-    all of this is linear in multipliers and load.
+    field. around: what Aᵀv has of each function along the blade, (shapes, azimuths), to which what is left of w_z is
+    added. given: as in `with_nearby`; without it all of this is linear in multipliers and load.
     """
-    loads, moments, wake = blade.loads, blade.moments, blade.wake
-    trims, n, m, modes = len(blade.weights), len(blade.r), len(blade.cos), len(blade.shapes)
+    loads, moments, wake, twisting = blade.loads, blade.moments, blade.wake, blade.twisting
+    trims, n, m, modes, own = (
+        len(blade.weights),
+        len(blade.r),
+        len(blade.cos),
+        len(twisting) - 1,
+        len(blade.through) - 2,
+    )
     sums = multipliers[:trims] @ blade.weights
-    trim = _around_disk(sums, blade.beta, blade.cos, blade.sin)
-    modal = np.zeros((0, m))
+    pull = _around_disk(sums, blade.beta, blade.cos, blade.sin, around[own], around[own + 1])
+    modal = np.zeros((modes, m))
     if modes > 0:
         modal = (multipliers[trims:].copy().reshape(blade.modal.shape) * blade.modal) @ blade.waves
-    w_z = load_shapes @ load if len(load) > 0 else np.zeros((n, m))
-    inflow, by_twist = np.empty((n, m)), np.zeros((2, modes, m))
-    along, by_element, by_loss = np.zeros((6, m)), np.zeros((4, n)), np.zeros(n)
-    rows = np.zeros((6, m))
-    w_x, w_m, by_theta, by_ut, by_ur, rate = rows[0], rows[1], rows[2], rows[3], rows[4], rows[5]
+    along, by_element, by_loss = np.zeros((_BESIDE + 2 * modes + own, m)), np.zeros((4, n)), np.zeros(n)
+    weights, inflow = np.zeros((3, m)), np.zeros((twisting.shape[1], m))
+    w_z, w_x, w_m = weights[0], weights[1], weights[2]
+    by_theta, by_ut, by_ur, rate = np.zeros((4, m)), np.zeros((4, m)), np.zeros((4, m)), np.zeros((4, m))
     rubbing, past = 0.0, 0.0
-    for i in range(n):
-        by_up = inflow[i]
-        _add_trim_weights(trim[0], trim[1], trim[2], blade.arm[i], sums[5] * blade.r[i], w_z[i], w_x)
-        if len(given) > 0:
-            _add(given[0, i], w_z[i])
-            _add(given[1, i], w_x)
-        _by_loads(w_z[i], w_x, loads[_FZ_THETA, i], loads[_FX_THETA, i], by_theta)
-        _by_loads(w_z[i], w_x, loads[_FZ_UT, i], loads[_FX_UT, i], by_ut)
-        _by_loads(w_z[i], w_x, loads[_FZ_UP, i], loads[_FX_UP, i], by_up)
-        _by_loads(w_z[i], w_x, loads[_FZ_UR, i], loads[_FX_UR, i], by_ur)
-        if modes > 0:
-            w_m[:] = 0.0
-            for k in range(modes):
-                _add_times(blade.shapes[k, i], modal[k], w_m)
-            _by_moments(
-                w_m, blade.pitching[i], moments[_M_UT, i], moments[_M_UP, i], moments[_M_UR, i], moments[_M_RATE, i],
-                by_theta, by_ut, by_up, by_ur, rate,
-            )  # fmt: skip
-            _add(rate, along[5])
-        if len(given) > 0:
-            _add(given[3, i], by_theta)
-            _add(given[4, i], by_ut)
-            _add(given[5, i], by_up)
-            _add(given[6, i], by_ur)
-        for k in range(modes):
-            _add_times(blade.shapes[k, i], by_theta, by_twist[0, k])
-            _add_times(blade.shapes[k, i], rate, by_twist[1, k])
-        _add_along(blade.arm[i], by_theta, by_ut, by_up, by_ur, along)
-        if len(given) > 0:
-            _add(given[2, i], by_up)
-        by_element[0, i], by_element[1, i], by_element[2, i] = _sums_of(by_theta, by_ut, by_up)
-        if blade.by_loss:
-            by_loss[i] = _by_loss(loads[_LIFT, i], blade.u_t[i], blade.u_p[i], w_z[i], w_x, blade.lag[i], w_m)
-        if len(blade.friction) > 0:
-            rubbing += _dot(blade.friction[i], w_x)
-        if len(beyond) > 0:
-            past += _dot(beyond[i], by_up)
+    for first in range(0, n, 4):
+        by_up = inflow[first : first + 4]
+        for c in range(min(4, n - first)):
+            i = first + c
+            _weigh_lift(blade.shapes, i, around, w_z)
+            _weigh_drag(pull, sums[5] * blade.r[i], w_x)
+            if len(given) > 0:
+                _add(given, 0, i, w_z)
+                _add(given, 1, i, w_x)
+                if len(blade.friction) > 0:
+                    rubbing += _on_row(blade.friction, i, given, 1)
+            if modes > 0:
+                _weigh_moment(twisting, i, modal, w_m)
+                _by_loads_and_moments(w_z, w_x, w_m, loads, _FZ_THETA, _FX_THETA, blade.pitching, i, by_theta, c)
+                _by_loads_and_moments(w_z, w_x, w_m, loads, _FZ_UT, _FX_UT, moments[_M_UT], i, by_ut, c)
+                _by_loads_and_moments(w_z, w_x, w_m, loads, _FZ_UP, _FX_UP, moments[_M_UP], i, by_up, c)
+                _by_loads_and_moments(w_z, w_x, w_m, loads, _FZ_UR, _FX_UR, moments[_M_UR], i, by_ur, c)
+                _by_moments(w_m, moments, _M_RATE, i, rate, c)
+            else:
+                _by_loads(w_z, w_x, loads, _FZ_THETA, _FX_THETA, i, by_theta, c)
+                _by_loads(w_z, w_x, loads, _FZ_UT, _FX_UT, i, by_ut, c)
+                _by_loads(w_z, w_x, loads, _FZ_UP, _FX_UP, i, by_up, c)
+                _by_loads(w_z, w_x, loads, _FZ_UR, _FX_UR, i, by_ur, c)
+            if len(given) > 0:
+                _add(given, 3, i, by_theta[c])
+                _add(given, 4, i, by_ut[c])
+                _add(given, 5, i, by_up[c])
+                _add(given, 6, i, by_ur[c])
+            if blade.by_loss:
+                by_loss[i] = _by_loss(loads[_LIFT, i], blade.u_t[i], blade.u_p[i], w_z, w_x, blade.lag[i], w_m)
+        _add_rows(twisting, 0, first, by_ut, along, _UT)
+        _add_rows(twisting, 0, first, by_ur, along, _UR)
+        _add_rows(blade.through, 0, first, by_up, along, _UP)
+        _add_rows(blade.through, 1, first, by_up, along, _UP_ARM)
+        for k in range(1 + modes):
+            _add_rows(twisting, k, first, by_theta, along, _THETA if k == 0 else _BESIDE + k - 1)
+            if modes > 0:
+                _add_rows(twisting, k, first, rate, along, _RATE if k == 0 else _BESIDE + modes + k - 1)
+        for c in range(min(4, n - first)):
+            i = first + c
+            if len(given) > 0:
+                _add(given, 2, i, by_up[c])
+            by_element[0, i], by_element[1, i], by_element[2, i] = _sum(by_theta, c), _sum(by_ut, c), _sum(by_up, c)
+            if len(beyond) > 0:
+                past += _on_row(beyond, i, inflow[None], 0)
+        for k in range(own):
+            _add_rows(blade.through, 2 + k, first, by_up, along, _BESIDE + 2 * modes + k)
     slopes = -(multipliers @ blade.direct)
     if modes > 0:
         by_element[3] = -(multipliers[trims :: blade.modal.shape[1]].copy() @ blade.tension)
-        slopes[trims:] += (by_twist[0] @ blade.waves.T + by_twist[1] @ blade.rates.T).ravel()
-    slopes[:trims] += blade.around @ along.ravel() + blade.u_t_along @ by_element[1] + blade.loss @ by_loss
+        by_twist, by_rate = along[_BESIDE : _BESIDE + modes], along[_BESIDE + modes : _BESIDE + 2 * modes]
+        slopes[trims:] += (by_twist @ blade.waves.T + by_rate @ blade.rates.T).ravel()
+    slopes[:trims] += blade.around @ along[:_BESIDE].ravel() + blade.u_t_along @ by_element[1] + blade.loss @ by_loss
+    if len(blade.friction) > 0:
+        rubbing += pull @ blade.rubbing[0] - sums[5] * blade.rubbing[1].sum()
     for k in range(trims):
         slopes[k] += (wake[k, 1] + wake[k, 2]) * past - blade.mu_z[k] * rubbing
     if len(blade.by_wake) > 0:
-        slopes[:trims] += wake @ (blade.by_wake @ inflow.ravel())
-    on_terms = inflow_shapes @ inflow if len(inflow_shapes) > 0 else np.zeros((0, m))
-    return slopes, by_element, on_terms, inflow
+        slopes[:trims] += wake @ (blade.by_wake @ inflow[:n].ravel())
+    return slopes, by_element, along[_BESIDE + 2 * modes :], inflow[:n]
 
 
 @_compile
-def _around_disk(sums: Any, beta: Any, cos: Any, sin: Any) -> Any:
-    """−∂(weighted sums over the disk) by F_z, by F_z times its arm and by F_x, but for the torque, (3, azimuths)."""
+def _around_disk(sums: Any, beta: Any, cos: Any, sin: Any, lift: Any, turn: Any) -> Any:
+    """−∂(weighted sums over the disk) by F_z, by F_z times its arm and, returned, by F_x but for the torque."""
     thrust, drag, mean, cosine, sine, _ = sums
-    out = np.empty((3, len(cos)))
+    pull = np.empty(len(cos))
     for j in range(len(cos)):
-        out[0, j] = drag * beta[j] * cos[j] - thrust
-        out[1, j] = -mean - 2.0 * (cosine * cos[j] + sine * sin[j])
-        out[2, j] = -drag * sin[j]
-    return out
+        lift[j] = drag * beta[j] * cos[j] - thrust
+        turn[j] = -mean - 2.0 * (cosine * cos[j] + sine * sin[j])
+        pull[j] = -drag * sin[j]
+    return pull
+
+
+# Of one row i of the blade elements each. In the loops one array is written and at most eight are read, four functions
+# or four rows at a time: so the compiler makes vector code of them, and memory is read and written less often.
 
 
 @_compile
-def _add_trim_weights(lift: Any, turn: Any, pull: Any, arm: float, torque: float, w_z: Any, w_x: Any) -> None:
-    """w_z more by −a·∂R/∂F_z, and w_x, of one row."""
+def _weigh_lift(shapes: Any, i: int, around: Any, w_z: Any) -> None:
+    """w_z, from functions along the blade and around the disk."""
+    a, b, c, d = shapes[i, 0], shapes[i, 1], shapes[i, 2], shapes[i, 3]
+    for j in range(len(w_z)):
+        w_z[j] = a * around[0, j] + b * around[1, j] + c * around[2, j] + d * around[3, j]
+    for k in range(4, shapes.shape[1], 4):
+        a, b, c, d = shapes[i, k], shapes[i, k + 1], shapes[i, k + 2], shapes[i, k + 3]
+        for j in range(len(w_z)):
+            w_z[j] += a * around[k, j] + b * around[k + 1, j] + c * around[k + 2, j] + d * around[k + 3, j]
+
+
+@_compile
+def _weigh_drag(pull: Any, torque: float, w_x: Any) -> None:
     for j in range(len(w_x)):
-        w_z[j] += lift[j] + arm * turn[j]
         w_x[j] = pull[j] - torque
 
 
 @_compile
-def _by_loads(w_z: Any, w_x: Any, by_fz: Any, by_fx: Any, out: Any) -> None:
-    for j in range(len(out)):
-        out[j] = w_z[j] * by_fz[j] + w_x[j] * by_fx[j]
+def _weigh_moment(twisting: Any, i: int, modal: Any, w_m: Any) -> None:
+    for j in range(len(w_m)):
+        w_m[j] = twisting[1, i] * modal[0, j]
+    for k in range(1, len(modal)):
+        for j in range(len(w_m)):
+            w_m[j] += twisting[1 + k, i] * modal[k, j]
 
 
 @_compile
-def _by_moments(
-    w_m: Any, pitching: Any, m_ut: Any, m_up: Any, m_ur: Any, m_rate: Any, by_theta: Any, by_ut: Any, by_up: Any,
-    by_ur: Any, rate: Any,
+def _by_loads(w_z: Any, w_x: Any, loads: Any, fz: int, fx: int, i: int, out: Any, c: int) -> None:
+    for j in range(len(w_z)):
+        out[c, j] = w_z[j] * loads[fz, i, j] + w_x[j] * loads[fx, i, j]
+
+
+@_compile
+def _by_loads_and_moments(
+    w_z: Any, w_x: Any, w_m: Any, loads: Any, fz: int, fx: int, moment: Any, i: int, out: Any, c: int
 ) -> None:  # fmt: skip
-    for j in range(len(w_m)):
-        by_theta[j] += w_m[j] * pitching[j]
-        by_ut[j] += w_m[j] * m_ut[j]
-    for j in range(len(w_m)):
-        by_up[j] += w_m[j] * m_up[j]
-        by_ur[j] += w_m[j] * m_ur[j]
-    for j in range(len(w_m)):
-        rate[j] = w_m[j] * m_rate[j]
+    for j in range(len(w_z)):
+        out[c, j] = w_z[j] * loads[fz, i, j] + w_x[j] * loads[fx, i, j] + w_m[j] * moment[i, j]
 
 
 @_compile
-def _add_along(arm: float, by_theta: Any, by_ut: Any, by_up: Any, by_ur: Any, along: Any) -> None:
-    for j in range(len(by_up)):
-        along[0, j] += by_theta[j]
-        along[1, j] += by_ut[j]
-    for j in range(len(by_up)):
-        along[2, j] += by_up[j]
-        along[3, j] += arm * by_up[j]
-        along[4, j] += by_ur[j]
+def _by_moments(w_m: Any, moments: Any, row: int, i: int, out: Any, c: int) -> None:
+    for j in range(len(w_m)):
+        out[c, j] = w_m[j] * moments[row, i, j]
 
 
 @_compile
-def _add(row: Any, to: Any) -> None:
+def _add_rows(functions: Any, k: int, first: int, rows: Any, out: Any, place: int) -> None:
+    """Add four rows, (4, azimuths), times a function along the blade."""
+    a, b, c, d = functions[k, first], functions[k, first + 1], functions[k, first + 2], functions[k, first + 3]
+    for j in range(rows.shape[1]):
+        out[place, j] += a * rows[0, j] + b * rows[1, j] + c * rows[2, j] + d * rows[3, j]
+
+
+@_compile
+def _add(fields: Any, k: int, i: int, to: Any) -> None:
     for j in range(len(to)):
-        to[j] += row[j]
+        to[j] += fields[k, i, j]
 
 
 @_compile
-def _add_times(factor: float, row: Any, to: Any) -> None:
-    for j in range(len(to)):
-        to[j] += factor * row[j]
-
-
-@_compile
-def _dot(first: Any, second: Any) -> float:
+def _on_row(field: Any, i: int, fields: Any, k: int) -> float:
+    """Sum of a field times another one of a stack."""
     total = 0.0
-    for j in range(len(first)):
-        total += first[j] * second[j]
+    for j in range(field.shape[1]):
+        total += field[i, j] * fields[k, i, j]
     return total
 
 
 @_compile
-def _sums_of(first: Any, second: Any, third: Any) -> Any:
-    one, two, three = 0.0, 0.0, 0.0
-    for j in range(len(first)):
-        one += first[j]
-        two += second[j]
-        three += third[j]
-    return one, two, three
+def _sum(rows: Any, c: int) -> float:
+    total = 0.0
+    for j in range(rows.shape[1]):
+        total += rows[c, j]
+    return total
 
 
 @_compile

@@ -213,8 +213,12 @@ class ResponseTerms(NamedTuple):
     """The same over F, (shapes, elements)."""
     waves: Array
     """(waves, azimuths)"""
-    place: Integers
-    """Place of each term among all shapes with all waves, (terms,)."""
+    begin: Integers
+    """Where the terms of one shape begin in the next two, (shapes + 1,)."""
+    term: Integers
+    """The terms of every shape, four or a multiple; the number of terms stands where there is none."""
+    wave: Integers
+    """The wave of each."""
     transfer: Array
     """T, (terms, terms)."""
     by_wake: Array

@@ -104,9 +104,17 @@ class Projection:
         return np.concatenate([np.cos(phase), np.sin(phase)])
 
     @cached_property
-    def place_in_all(self) -> Integers:
-        """Place of each term among all g_k with `all_waves`, (terms,)."""
-        return self.order * len(self.all_waves) + self.wave + self.parity * (len(self.all_waves) // 2)
+    def terms_by_shape(self) -> tuple[Integers, Integers, Integers]:
+        """`begin`, `term` and `wave` of `ResponseTerms`, waves as in `all_waves`."""
+        begin, term, wave = [0], list[int](), list[int]()
+        row = self.wave + self.parity * (len(self.all_waves) // 2)
+        for k in range(len(self.radial)):
+            own = np.flatnonzero(self.order == k)
+            padding = [self.terms] * (-len(own) % 4)
+            term += [*own.tolist(), *padding]
+            wave += [*row[own].tolist(), *([0] * len(padding))]
+            begin.append(len(term))
+        return np.array(begin, dtype=np.int64), np.array(term, dtype=np.int64), np.array(wave, dtype=np.int64)
 
     def reduced(self, slope: Array) -> Array:
         """Σ over the grid of term · K · term for a pointwise slope K(r, ψ), (terms, terms).
