@@ -22,7 +22,8 @@ help:                 ## list these targets
 run: $(WARM)          ## start the explorer; ARGS are handed on, e.g. make run PORT=8090 ARGS=--no-browser
 	@exec $(BIN)/python -m explorer --host $(HOST) --port $(PORT) $(ARGS)
 
-# Without a browser on all cores; the page by itself, for its tests wait for what a busy machine draws late.
+# Without a browser on all cores; the page in two processes, for its tests wait more than they compute, but a busier
+# machine draws late.
 # The slow tests of one file are shared by the cores: some take minutes, and a few files hold most of them.
 test: test-code test-page ## run all tests but the slow ones, browser included
 
@@ -30,7 +31,7 @@ test-code: setup-dev
 	$(BIN)/python -m pytest $(ARGS) $(NONE)
 
 test-page: setup-dev browser
-	$(BIN)/python -m pytest -n 0 -m 'browser and not slow' $(ARGS) $(NONE)
+	$(BIN)/python -m pytest -n 2 -m 'browser and not slow' $(ARGS) $(NONE)
 
 slow: slow-code slow-page ## run the slow tests: built wheel, rebuilt section data, long studies
 

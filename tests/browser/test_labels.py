@@ -46,6 +46,7 @@ _FAULTS = """() => {
       faults.add(`${name(e)}: scrolls sideways`);
   return [...faults];
 }"""
+_STATE_AND_FAULTS = f"() => [JSON.stringify(RX.state), ({_FAULTS})()]"
 
 
 @pytest.fixture(scope="module")
@@ -77,8 +78,7 @@ def faults(watched: Watched) -> dict[str, list[str]]:
                 watched.section(section)
             unfold(watched)
             # What is wrong only while the page lays itself out does not count.
-            watched.settled(0.4)
-            wrong = watched.at_rest(lambda: watched.page.evaluate(_FAULTS), 0.4)
+            wrong = watched.at_rest(lambda: watched.page.evaluate(_STATE_AND_FAULTS), 0.4)[1]
             if wrong:
                 watched.page.wait_for_timeout(5000)
                 wrong = watched.at_rest(lambda: watched.page.evaluate(_FAULTS), 0.4)

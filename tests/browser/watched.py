@@ -92,7 +92,8 @@ class Watched:
 
     def reset(self) -> None:
         """Back to the design the page began with. The server resets on a thread of its own, at any time."""
-        self.mode("explore")
+        if self.page.evaluate("() => RX.state.bar?.mode") != "explore":
+            self.mode("explore")
         self.page.get_by_role("button", name="Reset design").click()
         self.taken()
         self.settled(0.4)
