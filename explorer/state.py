@@ -1,6 +1,7 @@
 """The rotors of the menu, the sliders and what is shown, as values; degrees, tonnes and knots end here."""
 
 import math
+import re
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import cache, cached_property
@@ -28,7 +29,10 @@ _LIGHTEST, _HEAVIEST = 0.6, 1.32
 @cache
 def menu_titles(own: Aircraft | None) -> dict[str, str]:
     """The menu: name in `Inputs` → title; rotors that were tested on a stand follow, the user's own comes last."""
-    titles = {name: shipped_aircraft(name).name for name in (*SHIPPED_ROTORS, *MEASURED_ROTORS)}
+    titles = {
+        name: re.sub(r"-(\d+) deg\b", "−\\1°", shipped_aircraft(name).name)
+        for name in (*SHIPPED_ROTORS, *MEASURED_ROTORS)
+    }
     return titles if own is None else {**titles, OWN: f"{own.name} (own)"}
 
 

@@ -49,17 +49,13 @@ def table_panel(findings: Findings, question: Question) -> str:
     return (
         f'<div class="rx" data-explorer="actuator-table"><table class="rxa-table">{head}{rows}</table>'
         f'<div class="rx-dim rx-small">µ {first:g} ↔ {second:g}, {escape(question.host.label)}, half the time each. '
-        "▲: some data from memory, not verified. Hover over a verdict for the full text.</div></div>"
+        "▲: some data not verified. Hover over a verdict for the full text.</div></div>"
     )
 
 
 def _row(id: str, outcome: Outcome | None, chosen: bool) -> str:
     actuator = find_actuator(id)
-    care = (
-        ' <span title="some data from memory, not verified" class="rxa-bad">▲</span>'
-        if actuator.provenance.recalled
-        else ""
-    )
+    care = ' <span title="some data not verified" class="rxa-bad">▲</span>' if actuator.provenance.recalled else ""
     name = f'<td title="{escape(actuator.name)}">{escape(short_name(id))}{care}</td>'
     look = ' class="rxa-chosen"' if chosen else ""
     if outcome is None:

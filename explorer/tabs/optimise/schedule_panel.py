@@ -199,7 +199,7 @@ class SchedulePanel:
     def refresh(self) -> None:
         """Bring everything that only shows into line."""
         title = self._request().known_concept().title
-        self._concept.content = f'<div class="rx rx-dim rx-small">Concept from Optimise: {title}</div>'
+        self._concept.content = f'<div class="rx rx-dim rx-small">Concept: {title}</div>'
         self._begin.visible, self._halt.visible = not self._running, self._running
         kind = "running" if self._running else "idle" if self._progress is None else "done"
         self._state.content = (
