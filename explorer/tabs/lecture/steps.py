@@ -138,8 +138,8 @@ def _total_and_parts(state: SessionState) -> tuple[LargeNumber, LargeNumber, Lar
     power = state.solution.power
     return (
         LargeNumber(_power(state, power.total), "total power"),
-        LargeNumber(_percent(power.induced / power.total), "of it induced"),
-        LargeNumber(_percent(power.parasite / power.total), "of it parasite"),
+        LargeNumber(_percent(power.induced / power.total), "induced share"),
+        LargeNumber(_percent(power.parasite / power.total), "parasite share"),
     )
 
 
@@ -184,7 +184,7 @@ def _actuator_numbers(state: SessionState) -> tuple[LargeNumber, LargeNumber, La
     mass = units.mass.text(state.solution.design.condition.mass, 1 if units.mass.size > 1.0 else 0)
     return (
         LargeNumber(_power(state, power.total), "total power"),
-        LargeNumber(_power(state, 0.01 * power.total), "is one per cent of it"),
+        LargeNumber(_power(state, 0.01 * power.total), "one per cent of that"),
         LargeNumber(mass.replace(" ", "\u00a0").replace("\u2009", "\u00a0"), "carried already"),
     )
 
@@ -198,7 +198,7 @@ STEPS: tuple[LectureStep, ...] = (
         "Every picture shows a rotor in trim: it carries the weight and overcomes the drag, and cyclic pitch removes "
         "the first harmonic of flapping, so that the disk stays square to the shaft. Main-rotor power has three parts: "
         "induced (making lift), profile (blade drag) and parasite (fuselage drag). The tail rotor needs some more. The "
-        "sliders set jig twist, as built; the air twists the blade on, and it is drawn as flown.",
+        "sliders set jig twist, as built; airloads twist the blade further, and it is drawn as flown.",
         "Drag the advance ratio from 0 to 0.3: induced power falls to about a third, parasite power grows with "
         "the cube of speed, and the total has a minimum.",
         _UH60A,
@@ -208,7 +208,7 @@ STEPS: tuple[LectureStep, ...] = (
     LectureStep(
         "Why twist helps in hover",
         "Without twist (A) the inflow in hover grows towards the tip. Twist moves lift inboard and makes the inflow "
-        "more uniform: the same thrust for less induced power. In flight the tip turns 2 to 3° nose-down by itself, so "
+        "more uniform: the same thrust for less induced power. In flight airloads turn the tip 2 to 3° nose-down, so "
         "the best jig twist is −16° where that of a rigid blade is −18°.",
         "Drag Rate from −16° towards −24°: the gain ends where the inflow becomes non-uniform the other way.",
         replace(_LINEAR, linear=-16.0, advance_ratio=0.0),
@@ -277,7 +277,7 @@ STEPS: tuple[LectureStep, ...] = (
         "What a piezoelectric ply can twist",
         "Plies of piezoelectric fibres at ±45° twist the blade when voltage strains them. The verdict compares the "
         "twist they can supply with the twist needed, and gives the saving left after their mass is carried.",
-        "Drag a voltage and watch the blade. Add plies: twist grows, and so does mass. Then read the verdict.",
+        "Drag Voltage and watch the blade. Add plies: twist grows, and so does mass. Then read the verdict.",
         replace(_UH60A, advance_ratio=0.3),
         _actuator,
         _actuator_numbers,
