@@ -52,8 +52,9 @@ def page(shared: tuple[Watched, Session]) -> tuple[Watched, Session]:
 
 
 def until(watched: Watched, *kinds: str) -> None:
+    """Wait until a search stands so: its worker may have to be started first, which a busy machine does slowly."""
     selector = ", ".join(f'[data-explorer="search"][data-kind="{kind}"]' for kind in kinds)
-    watched.page.wait_for_selector(selector, timeout=WAIT)
+    watched.page.wait_for_selector(selector, timeout=4 * WAIT)
 
 
 def press(watched: Watched, name: str) -> None:
