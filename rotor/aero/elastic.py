@@ -157,6 +157,14 @@ def build_torsion(
 
 
 @lru_cache(maxsize=32)
+def torsion_on_every_azimuth(torsion: BladeTorsion, step: int) -> BladeTorsion:
+    """The torsion on the disk with every `step`-th of its azimuths."""
+    shapes = torsion.shapes
+    waves, rates = shapes.waves[:, ::step].copy(), shapes.rates[:, ::step].copy()
+    return replace(torsion, shapes=replace(shapes, waves=waves, rates=rates))
+
+
+@lru_cache(maxsize=32)
 def _at_unit_density(rotor: Rotor, disk: Disk, only_mach: float | None, swept: bool, highest: int) -> BladeTorsion:
     """The same in air of 1 kg/m³; modes and tables take most of the time."""
     blade, structure, radius = rotor.blade, rotor.blade.structure, rotor.radius

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem, blade_motion
 from rotor.aero.inflow.interface import InflowResponse, Wake
 from rotor.aero.kernel import (
@@ -77,51 +76,6 @@ def loads_of(problem: Problem, elements: BladeElements) -> TrialLoads:
     return TrialLoads(
         elements.state, elements.flow, elements.induced, elastic, elements.response, sum_array(problem, elements), modal
     )
-
-
-@dataclass(frozen=True, eq=False)
-class LoadsByInflow:
-    """How sums and modal moments change with λ_i; fields are (elements, azimuths)."""
-
-    fz: Array
-    fx: Array
-    moment: Array
-    """∂(dC_M/dr); (0, 0) of a rigid blade."""
-    beta: Array
-
-    @classmethod
-    def at(cls, elements: BladeElements) -> "LoadsByInflow":
-        """At blade elements; it keeps 0.1 MB of theirs."""
-        torsion = elements.torsion
-        moment = torsion.moments[kernel.M_UP].copy() if torsion is not None else np.zeros((0, 0))
-        return cls(elements.loads[kernel.FZ_UP].copy(), elements.loads[kernel.FX_UP].copy(), moment, elements.beta)
-
-    def change(self, problem: Problem, inflow: Array) -> tuple[Array, Array]:
-        """Changes of the sums, (6,), and of the modal moments, (modes, azimuths), with a change of λ_i."""
-        disk, torsion = problem.disk, problem.torsion
-        return _by_inflow(
-            self.fz, self.fx, self.moment, self.beta, inflow, disk.r, disk.r - problem.flap.hinge, disk.cos, disk.sin,
-            disk.dr / len(disk.psi), torsion.shapes.radial if torsion is not None else np.zeros((0, 0)),
-        )  # fmt: skip
-
-
-@compiled(error_model="numpy", fastmath={"contract"})
-def _by_inflow(
-    fz: Array, fx: Array, moment: Any, beta: Array, inflow: Array, r: Array, arm: Array, cos: Array, sin: Array,
-    cell: float, shapes: Any,
-) -> Any:  # fmt: skip
-    """`LoadsByInflow.change`."""
-    n, m = inflow.shape
-    along, modal, still = np.zeros((5, m)), np.zeros((len(shapes), m)), np.zeros(m)
-    lift, drag = np.empty(m), np.empty(m)
-    for i in range(n):
-        for j in range(m):
-            lift[j], drag[j] = fz[i, j] * inflow[i, j], fx[i, j] * inflow[i, j]
-        add_along_blade(arm[i], r[i], lift, drag, still, along)
-        for k in range(len(shapes)):
-            for j in range(m):
-                modal[k, j] += shapes[k, i] * moment[i, j] * inflow[i, j]
-    return around_disk(along, cos, sin, beta, cell), modal
 
 
 @compiled(error_model="numpy", fastmath={"contract"})

@@ -25,7 +25,7 @@ from rotor.aero.disk import Disk
 from rotor.aero.elements import BladeElements, Problem, build_problem, swirl_of
 from rotor.aero.free_wake.system import WakeState
 from rotor.aero.inflow import InflowModel, Wake, inflow_model
-from rotor.aero.inflow.interface import InflowFeedback, InflowResponse, ResponseTerms, TermResponse
+from rotor.aero.inflow.interface import InflowBasis, InflowFeedback, InflowResponse, ResponseTerms, TermResponse
 from rotor.aero.momentum import vortex_ring_edge
 from rotor.arrays import Array
 from rotor.design.design import Design
@@ -181,6 +181,34 @@ class HoverMatched:
     def respond(self, disk: Disk, wake: Wake, load: Array) -> "AddedInflow":
         return AddedInflow(self.model.respond(disk, wake, load), self.added)
 
+    def basis(self, disk: Disk) -> "AddedBasis":
+        return AddedBasis(self.model.basis(disk), self.added)
+
+
+@dataclass(frozen=True, eq=False)
+class AddedBasis:
+    """The basis of a model, with a given inflow added that is no coordinate."""
+
+    basis: InflowBasis
+    added: Array
+    """(elements,)"""
+
+    @property
+    def size(self) -> int:
+        return self.basis.size
+
+    def nearest(self, field: Array) -> Array:
+        return self.basis.nearest(field - self.added[:, None])
+
+    def field(self, coordinates: Array) -> Array:
+        return self.basis.field(coordinates) + self.added[:, None]
+
+    def bound(self, change: Array) -> float:
+        return self.basis.bound(change)
+
+    def resolved_by(self, azimuths: int) -> bool:
+        return self.basis.resolved_by(azimuths)
+
 
 @dataclass(frozen=True, eq=False)
 class AddedInflow:
@@ -192,6 +220,10 @@ class AddedInflow:
     @property
     def induced(self) -> Array:
         return self.response.induced + self.added[:, None]
+
+    @property
+    def coordinates(self) -> Array:
+        return self.response.coordinates
 
     @property
     def by_wake(self) -> Array:

@@ -10,23 +10,23 @@ import threading
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
 from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem, evaluate_elements, wake_at
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.inflow.interface import InflowColumns, InflowFeedback
+from rotor.aero.inflow.interface import InflowBasis, InflowColumns, InflowFeedback
 from rotor.aero.sums import Slopes, slopes
 from rotor.aero.torsion_balance import torsion_error, torsion_slopes
-from rotor.aero.trial_loads import LoadsByInflow, TrialLoads, evaluate_loads, loads_of
+from rotor.aero.trial_loads import TrialLoads, evaluate_loads, loads_of
 from rotor.aero.trim_state import TrimState, Unknown
 from rotor.arrays import Array
-from rotor.compiled import compiled
 from rotor.trim.equations import Balance, balance, balance_of, unknowns_of, with_given_values
 from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
 
+_NEAR = 1e4
+"""Residual over its tolerance to which a trim is solved on few azimuths. Our choice."""
 _NEARLY = 10.0
 """Expected residual over its tolerance at which a step may well be the last. Our choice."""
 _MOST_SLOW_STEPS = 4
@@ -40,24 +40,19 @@ class Derivatives:
     unknowns: tuple[Unknown, ...]
     jacobian: Array
     """Of the trim equations, then of the torsion equations, by the unknowns and the elastic coordinates."""
-    weights: Array
-    """Of the sums over the disk in the trim equations, (equations, sums)."""
     feedback: InflowFeedback | None
     answer: InflowColumns | None
     """∂λ_i by the unknowns and the elastic coordinates; None for a model that does not depend on the load."""
     by_terms: Array | None
-    """Of these equations by the terms of an inflow that answers the load, (equations + columns, terms)."""
-    by_inflow: LoadsByInflow
-    shape: tuple[int, int]
-    """(elements, azimuths)"""
+    """Of these equations by the coordinates of an inflow that answers the load, (equations + columns, coordinates)."""
 
     def serve(self, problem: Problem, unknowns: tuple[Unknown, ...]) -> bool:
-        """Whether steps can be made with them: whether they are for these unknowns on this grid."""
+        """Whether steps can be made with them: whether they are for these unknowns and coordinates."""
+        size = problem.inflow.basis(problem.disk).size if problem.inflow.load_dependent else 0
         return (
             self.unknowns == unknowns
             and len(self.jacobian) == len(unknowns) + problem.given_torsion.size
-            and self.shape == problem.disk.shape
-            and (self.feedback is not None) == problem.inflow.load_dependent
+            and size == (self.by_terms.shape[1] if self.by_terms is not None else 0)
         )
 
 
@@ -141,9 +136,13 @@ class _Iterate:
     """The loads at a trial state, with the residual of every equation."""
 
     loads: TrialLoads
+    inflow: Array
+    """Coordinates of the trial's inflow; none of a model that does not depend on the load."""
     balance: Balance
-    inflow_error: Array | None
-    """The model's response less the trial field; None for a model that does not depend on the load."""
+    inflow_error: Array
+    """Those of the model's response less these."""
+    largest_error: float
+    """Bound of the field that has the coordinates `inflow_error`."""
     torsion_error: Array
     """Residual of the torsion equations [rad], (columns,); none for a rigid blade."""
     size: float
@@ -156,73 +155,127 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
     """Newton's method on trim unknowns, elastic twist and inflow together, with a step limit and backtracking.
 
     Eliminating the inflow by the model's own feedback leaves a system of the trim unknowns and, for an elastic blade,
-    its torsion coordinates. The derivatives are kept over several steps, because they cost more than an evaluation; the
-    first steps are made with those of the start, if it has any.
+    its torsion coordinates. Unknowns, elastic coordinates and coordinates of the inflow mean the same on every grid, so
+    derivatives are evaluated on few azimuths, and a start without derivatives is trimmed there first. The derivatives
+    are kept over several steps; the first steps are made with those of the start, if it has any.
     """
     unknowns = unknowns_of(problem.design)
-    limits = np.array([options.inflow_step if name == "lambda0" else options.angle_step for name in unknowns])
     shape = problem.given_torsion.shape
-    limits = np.concatenate([limits, np.full(problem.given_torsion.size, options.angle_step)])
     elastic = start.elastic if start.elastic is not None and start.elastic.shape == shape else np.zeros(shape)
-    state = with_given_values(problem, start.state)
-    induced = start.induced
-    if problem.inflow.load_dependent and (induced is None or induced.shape != problem.disk.shape):
-        induced = _prescribed_start(problem, state)
+    state, inflow = with_given_values(problem, start.state), np.zeros(0)
+    if problem.inflow.load_dependent:
+        induced = start.induced
+        if induced is None or induced.shape != problem.disk.shape:
+            induced = _prescribed_start(problem, state)
+        inflow = problem.inflow.basis(problem.disk).nearest(induced)
     derivatives = start.derivatives
     if derivatives is not None and not derivatives.serve(problem, unknowns):
         derivatives = None
-    latest, serving, secants = derivatives, False, _Secants(derivatives)
-    point = _evaluate(problem, state, induced, elastic, options, whole=derivatives is None)
-    passes, slow_steps, expected = 1, 0, math.inf
-    while point.size > 1.0 and passes < options.max_passes and slow_steps < _MOST_SLOW_STEPS:
-        fresh = derivatives is None
-        if derivatives is None:
-            if options.pause is not None:
-                options.pause()
-            elements = _elements(problem, point)
-            latest = derivatives = differentiate(problem, elements, unknowns, point.balance)[1]
-            secants = _Secants(derivatives)
-        step, inflow_step = _step(problem, point, derivatives, secants)
-        if step is None:
-            break
-        step *= min(1.0, float((limits / np.maximum(np.abs(step), 1e-12)).min()))
-        fraction = 1.0
-        while True:
-            state = point.loads.state.moved(unknowns, fraction * step[: len(unknowns)])
-            induced = None
-            if point.inflow_error is not None:
-                induced = inflow_step(fraction * step, fraction)
-                induced += point.loads.induced
-            elastic = point.loads.elastic + fraction * step[len(unknowns) :].reshape(shape)
-            trial = _evaluate(problem, state, induced, elastic, options, whole=expected <= _NEARLY)
-            passes += 1
-            if trial.size < point.size or not fresh or fraction < 0.2 or passes >= options.max_passes:
-                break
-            fraction *= 0.5
-        secants.taken = fraction * step
-        serving = trial.size <= options.kept_ratio * point.size
-        if _steps_left(trial.size, point.size) > options.most_old_steps:
-            derivatives = None
-        expected = trial.size * min(trial.size / point.size, 1.0)
-        if trial.size >= point.size and not fresh:
-            continue  # The old derivatives do not serve here: take the step again with new ones.
-        slow_steps = slow_steps + 1 if trial.size > 0.9 * point.size else 0
-        if trial.size < point.size or slow_steps < _MOST_SLOW_STEPS:
-            point = trial
+    iteration = _Iteration(problem, unknowns, derivatives, options)
+    if derivatives is None and problem.thinned is not problem and options.max_passes > 1:
+        near = iteration.run(problem.thinned, state, inflow, elastic, _NEAR)
+        state, inflow, elastic = near.loads.state, near.inflow, near.loads.elastic
+    point = iteration.run(problem, state, inflow, elastic, 1.0)
     residual, difference = float(np.abs(point.balance.error).max()) / problem.scale, 0.0
     twisting = float(np.abs(point.torsion_error).max()) if problem.torsion is not None else 0.0
-    if point.inflow_error is not None:
-        difference = float(np.abs(point.inflow_error).max()) / _inflow_scale(problem, point.loads)
+    if len(point.inflow_error) > 0:
+        difference = point.largest_error / _inflow_scale(problem, point.loads)
     accepted = max(residual, twisting) <= options.accepted_residual and difference <= options.accepted_inflow
     converged = point.size <= 1.0 or accepted
-    return TrimResult(_elements(problem, point), residual, converged, passes, derivatives=latest if serving else None)
+    return TrimResult(
+        _elements(problem, point), residual, converged, iteration.passes, derivatives=iteration.serving_derivatives
+    )
 
 
-def _steps_left(size: float, before: float) -> float:
-    """How many more steps reach a size of 1, if each leaves the same part of the residual as the last one did."""
-    if size <= 1.0:
+class _Iteration:
+    """The steps of one run of Newton's method, on few azimuths first and then on all."""
+
+    def __init__(
+        self, problem: Problem, unknowns: tuple[Unknown, ...], derivatives: Derivatives | None, options: SolverOptions
+    ) -> None:
+        self.passes = 0
+        """Evaluations of the blade elements."""
+        limits = [options.inflow_step if name == "lambda0" else options.angle_step for name in unknowns]
+        self._limits = np.array(limits + [options.angle_step] * problem.given_torsion.size)
+        self._thin, self._unknowns, self._options = problem.thinned, unknowns, options
+        self._derivatives = self._latest = derivatives
+        self._secants = _Secants(derivatives)
+        self._serving = False
+
+    @property
+    def serving_derivatives(self) -> Derivatives | None:
+        """Those of the last step, if it left little of the residual."""
+        return self._latest if self._serving else None
+
+    def run(self, problem: Problem, state: TrimState, inflow: Array, elastic: Array, goal: float) -> _Iterate:
+        """Steps until the residual is within `goal` times the tolerance, or no more progress is made."""
+        options, slow_steps, expected = self._options, 0, math.inf
+        self._secants.begin()
+        point = _evaluate(problem, state, inflow, elastic, options, whole=self._at_these(problem))
+        self.passes += 1
+        while point.size > goal and self.passes < options.max_passes and slow_steps < _MOST_SLOW_STEPS:
+            fresh = self._derivatives is None
+            derivatives = self._derivatives or self._differentiate(problem, point)
+            step, inflow_step = _step(point, derivatives, self._secants)
+            if step is None:
+                break
+            step *= min(1.0, float((self._limits / np.maximum(np.abs(step), 1e-12)).min()))
+            trial, fraction = self._taken(problem, point, step, inflow_step(step), 1.0, expected), 1.0
+            while fresh and trial.size >= point.size and fraction >= 0.2 and self.passes < options.max_passes:
+                fraction *= 0.5
+                trial = self._taken(problem, point, step, inflow_step(step), fraction, expected)
+            self._secants.taken = fraction * step
+            self._serving = trial.size <= options.kept_ratio * point.size
+            if _steps_left(trial.size, point.size, goal) > options.most_old_steps:
+                self._derivatives = None
+            expected = trial.size * min(trial.size / point.size, 1.0)
+            if trial.size >= point.size and not fresh:
+                continue  # The old derivatives do not serve here: take the step again with new ones.
+            slow_steps = slow_steps + 1 if trial.size > 0.9 * point.size else 0
+            if trial.size < point.size or slow_steps < _MOST_SLOW_STEPS:
+                point = trial
+        return point
+
+    def _at_these(self, problem: Problem) -> bool:
+        """Whether derivatives are evaluated next, at the blade elements of this problem."""
+        return self._derivatives is None and problem is self._thin
+
+    def _taken(
+        self, problem: Problem, point: _Iterate, step: Array, inflow_step: Array, fraction: float, expected: float
+    ) -> _Iterate:
+        """The iterate a fraction of a step on."""
+        self.passes += 1
+        loads, count = point.loads, len(self._unknowns)
+        return _evaluate(
+            problem,
+            loads.state.moved(self._unknowns, fraction * step[:count]),
+            point.inflow + fraction * inflow_step,
+            loads.elastic + fraction * step[count:].reshape(loads.elastic.shape),
+            self._options,
+            whole=expected <= _NEARLY and problem is not self._thin,
+        )
+
+    def _differentiate(self, problem: Problem, point: _Iterate) -> Derivatives:
+        """New derivatives, on few azimuths, at an iterate."""
+        if self._options.pause is not None:
+            self._options.pause()
+        thin, loads = self._thin, point.loads
+        if thin is problem:
+            found = differentiate(thin, _elements(thin, point), self._unknowns, point.balance)[1]
+        else:
+            induced = thin.inflow.basis(thin.disk).field(point.inflow) if len(point.inflow) > 0 else None
+            elements = evaluate_elements(thin, loads.state, induced, loads.elastic)
+            found = differentiate(thin, elements, self._unknowns)[1]
+        self._derivatives = self._latest = found
+        self._secants = _Secants(found)
+        return found
+
+
+def _steps_left(size: float, before: float, goal: float) -> float:
+    """How many more steps reach the goal, if each leaves the same part of the residual as the last one did."""
+    if size <= goal:
         return 0.0
-    return math.log(size) / math.log(before / size) if size < before else math.inf
+    return math.log(size / goal) / math.log(before / size) if size < before else math.inf
 
 
 def coordinates_of(elements: BladeElements) -> Array:
@@ -239,9 +292,14 @@ def _elements(problem: Problem, point: _Iterate) -> BladeElements:
 
 
 def _evaluate(
-    problem: Problem, state: TrimState, induced: Array | None, elastic: Array, options: SolverOptions, *, whole: bool
+    problem: Problem, state: TrimState, inflow: Array, elastic: Array, options: SolverOptions, *, whole: bool
 ) -> _Iterate:
     """whole: with the blade elements, where these will be needed; loads alone take less time."""
+    basis: InflowBasis | None = None
+    induced: Array | None = None
+    if problem.inflow.load_dependent:
+        basis = problem.inflow.basis(problem.disk)
+        induced = basis.field(inflow)
     elements = evaluate_elements(problem, state, induced, elastic) if whole else None
     loads = loads_of(problem, elements) if elements is not None else evaluate_loads(problem, state, induced, elastic)
     forces = balance(problem, state, loads.flow, loads.sums)
@@ -250,23 +308,13 @@ def _evaluate(
     if problem.torsion is not None:
         twisting = torsion_error(problem, state, elastic, loads.modal).ravel()
         size = max(size, float(np.abs(twisting).max()) / options.torsion_tolerance)
-    inflow_error = None
-    if problem.inflow.load_dependent:
-        inflow_error, largest = _difference(loads.response.induced, loads.induced)
+    inflow_error, largest = inflow, 0.0
+    if basis is not None:
+        inflow_error = loads.response.coordinates - inflow
+        largest = basis.bound(inflow_error)
         size = max(size, largest / (_inflow_scale(problem, loads) * options.inflow_tolerance))
-    return _Iterate(loads, forces, inflow_error, twisting, size if math.isfinite(size) else math.inf, elements)
-
-
-@compiled()
-def _difference(one: Any, other: Any) -> Any:
-    """one − other, (elements, azimuths), and its largest size; not a number where the difference is none somewhere."""
-    out, largest, total = np.empty_like(one), 0.0, 0.0
-    for i in range(len(one)):
-        for j in range(one.shape[1]):
-            out[i, j] = one[i, j] - other[i, j]
-            largest = max(largest, abs(out[i, j]))
-            total += out[i, j]
-    return out, largest if math.isfinite(total) else math.nan
+    size = size if math.isfinite(size) else math.inf
+    return _Iterate(loads, inflow, forces, inflow_error, largest, twisting, size, elements)
 
 
 def _inflow_scale(problem: Problem, loads: TrialLoads) -> float:
@@ -282,10 +330,7 @@ def differentiate(
     feedback = inflow_feedback(problem, elements)
     found = slopes(problem, elements, unknowns, feedback)
     matrix, by_terms = full_jacobian(problem, elements, found, forces)
-    by_inflow = LoadsByInflow.at(elements)
-    return found, Derivatives(
-        unknowns, matrix, forces.weights, feedback, found.answer, by_terms, by_inflow, problem.disk.shape
-    )
+    return found, Derivatives(unknowns, matrix, feedback, found.answer, by_terms)
 
 
 def full_jacobian(
@@ -323,6 +368,10 @@ class _Secants:
         """The last step."""
         self._residual: Array | None = None
 
+    def begin(self) -> None:
+        """Forget the last step, for steps from elsewhere."""
+        self.taken = self._residual = None
+
     def at(self, residual: Array) -> Array:
         """The Jacobian, given the residual after the last step: the least change by which it agrees with that step.
 
@@ -338,30 +387,18 @@ class _Secants:
 
 
 def _step(
-    problem: Problem, point: _Iterate, derivatives: Derivatives, secants: _Secants
-) -> tuple[Array | None, Callable[[Array, float], Array]]:
-    """The Newton step of the trim unknowns, and the step of λ_i that goes with a (shortened) step of theirs."""
-    error, torsion_error, inflow_change = point.balance.error, point.torsion_error, None
-    if point.inflow_error is not None and derivatives.feedback is not None:
-        inflow_change = derivatives.feedback.solve(point.inflow_error[None])
-        sums, modal = derivatives.by_inflow.change(problem, inflow_change[0])
-        error = error + point.balance.weights @ sums
-        if problem.torsion is not None:
-            twisting = problem.torsion.gain[:, None] * problem.torsion.shapes.analyse(modal)
-            torsion_error = torsion_error - twisting.ravel()
+    point: _Iterate, derivatives: Derivatives, secants: _Secants
+) -> tuple[Array | None, Callable[[Array], Array]]:
+    """The Newton step of unknowns and elastic coordinates, and the step of the inflow that goes with one of theirs."""
+    residual, answer = np.concatenate([point.balance.error, point.torsion_error]), derivatives.answer
+    settled = point.inflow_error
+    if answer is not None and derivatives.by_terms is not None:
+        settled = answer.solve(settled)
+        residual += derivatives.by_terms @ settled
     step: Array | None = None
     with suppress(np.linalg.LinAlgError):
-        residual = np.concatenate([error, torsion_error])
         step = np.asarray(np.linalg.solve(secants.at(residual), -residual), dtype=np.float64)
-
-    def inflow_step(taken: Array, fraction: float) -> Array:
-        assert inflow_change is not None
-        assert derivatives.answer is not None
-        out = derivatives.answer.field(taken)
-        out += inflow_change[0] if fraction == 1.0 else fraction * inflow_change[0]
-        return out
-
-    return step, inflow_step
+    return step, lambda taken: settled if answer is None else settled + answer.change(taken)
 
 
 def _prescribed_start(problem: Problem, state: TrimState) -> Array:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.linalg.lapack import dgetrf, dgetrs
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import HarmonicShapes, InflowFeedback, ResponseTerms, Wake
+from rotor.aero.inflow.interface import FieldBasis, HarmonicShapes, InflowBasis, InflowFeedback, ResponseTerms, Wake
 from rotor.aero.inflow.peters_he import FlowParameters, flow_parameters
 from rotor.aero.inflow.wake_projection import Projection, build_projection
 from rotor.aero.losses import tip_factor
@@ -99,10 +99,11 @@ class WakeOperator:
 
     def over_factor(self, fields: Array) -> Array:
         """Fields over F; themselves where F = 1."""
-        return fields if self._no_factor else fields / self.factor[:, None]
+        return fields if self.holds_tip else fields / self.factor[:, None]
 
     @property
-    def _no_factor(self) -> bool:
+    def holds_tip(self) -> bool:
+        """Whether F = 1: the inflow is then a sum of the terms."""
         return self.factor is self.projection.no_factor[0]
 
     def induced(self, d: Array) -> Array:
@@ -127,7 +128,7 @@ class WakeOperator:
 
     def beyond_terms(self, d: Array) -> Array | None:
         """The part of ∂λ_i/∂(µ_z + λ0) through F, (elements, azimuths); None where F does not follow the wake."""
-        if self._no_factor:
+        if self.holds_tip:
             return None
         return self.induced(d) * (-self.factor_slope / self.factor)[:, None]
 
@@ -137,7 +138,8 @@ class WakeOperator:
         system.ravel()[:: len(system) + 1] += 1.0
         # Of the transpose, which is what LAPACK sees in these rows without copying them.
         factors, pivots, _ = dgetrf(system.T, overwrite_a=True)
-        return DynamicWakeFeedback(self, slope, load, (factors, pivots))
+        kind = TermFeedback if self.holds_tip else DynamicWakeFeedback
+        return kind(self, slope, load, (factors, pivots))
 
     @cached_property
     def transfer(self) -> Array:
@@ -178,54 +180,50 @@ class DynamicWakeFeedback:
         on_load = projection.field(back @ operator.transfer)
         return field + self.slope * on_load, on_load
 
+
+@dataclass(frozen=True, eq=False)
+class TermFeedback(DynamicWakeFeedback):
+    """The same of a wake that holds the tip itself, F = 1."""
+
     def answer_columns(self, loads: Array, wake: Array, slope: Array, shapes: HarmonicShapes | None) -> "TermColumns":
-        """As `ColumnFeedback`: the terms under every change, c = (I − T B (K/F) Bᵀ)⁻¹ (T B load + ∂c/∂wake)."""
+        """As `ColumnFeedback`: the terms under every change, c = (I − T B K Bᵀ)⁻¹ (T B load + ∂c/∂wake)."""
         operator, projection = self.operator, self.operator.projection
-        beyond, shares = operator.beyond_terms(self.load), wake[:, 1] + wake[:, 2]
-        if beyond is not None:
-            loads = loads + shares[:, None, None] * (self.slope * beyond)
         sums = projection.sums(loads).T
         if shapes is not None:
             sums = np.hstack([sums, projection.against(slope, shapes)])
         columns = operator.transfer @ sums
         columns[:, : len(wake)] += operator.coefficients_by_wake(self.load).T @ wake.T
-        shares = np.concatenate([shares, np.zeros(columns.shape[1] - len(wake))])
-        return TermColumns(operator, self.solve_terms(columns), beyond, shares)
+        return TermColumns(self, self.solve_terms(columns))
 
 
 @dataclass(frozen=True, eq=False)
 class TermColumns:
     """The inflow that answers several changes, in terms of the projection."""
 
-    operator: WakeOperator
+    feedback: TermFeedback
     coefficients: Array
     """(terms, columns)"""
-    beyond: Array | None
-    """What no term can hold, (elements, azimuths), see `WakeOperator.beyond_terms`."""
-    shares: Array
-    """How much of it is in each column, (columns,)."""
 
-    def field(self, coefficients: Array) -> Array:
+    def change(self, shares: Array) -> Array:
         """As `InflowColumns`."""
-        out = self.operator.field(self.coefficients @ coefficients)
-        return out if self.beyond is None else out + float(self.shares @ coefficients) * self.beyond
+        return self.coefficients @ shares
+
+    def solve(self, error: Array) -> Array:
+        """As `InflowColumns`."""
+        return self.feedback.solve_terms(error)
 
     def rows(self, fields: Array) -> Array:
-        """As `InflowColumns`; what no term can hold is one more."""
-        rows = self.operator.projection.sums(self.operator.over_factor(fields))
-        return rows if self.beyond is None else np.column_stack([rows, np.tensordot(fields, self.beyond, 2)])
+        """As `InflowColumns`."""
+        return self.feedback.operator.projection.sums(fields)
 
     def projected_rows(self, slope: Array, shapes: HarmonicShapes) -> Array:
         """As `InflowColumns`."""
-        rows = self.operator.projection.against(self.operator.over_factor(slope), shapes).T
-        rows = np.tile(shapes.weights, len(shapes.radial))[:, None] * rows
-        return rows if self.beyond is None else np.column_stack([rows, shapes.project(slope * self.beyond).ravel()])
+        rows = self.feedback.operator.projection.against(slope, shapes).T
+        return np.tile(shapes.weights, len(shapes.radial))[:, None] * rows
 
     def times(self, rows: Array) -> Array:
-        """As `InflowColumns`; the row of a field's sums with the terms alone will do as well."""
-        terms = len(self.coefficients)
-        out = rows[:, :terms] @ self.coefficients
-        return out if rows.shape[1] == terms else out + rows[:, terms:] * self.shares
+        """As `InflowColumns`."""
+        return rows @ self.coefficients
 
 
 @dataclass(frozen=True)
@@ -252,8 +250,17 @@ class DynamicWakeInflow:
 
     def respond(self, disk: Disk, wake: Wake, load: Array) -> "DynamicWakeResponse":
         """λ_i = A d."""
-        model = _of(disk.blades, self.order, self.infinite_blades, self.tip)
+        model = self._wake(disk)
         return DynamicWakeResponse(model.operator(model.on(disk.root, *disk.shape), wake), load)
+
+    def basis(self, disk: Disk) -> InflowBasis:
+        """The terms of the projection; where F divides them, which follows the wake, any field."""
+        if self.infinite_blades and self.tip:
+            return FieldBasis(disk.shape)
+        return self._wake(disk).on(disk.root, *disk.shape)
+
+    def _wake(self, disk: Disk) -> DynamicWake:
+        return _of(disk.blades, self.order, self.infinite_blades, self.tip)
 
 
 @cache
@@ -267,7 +274,17 @@ class DynamicWakeResponse:
     def __init__(self, operator: WakeOperator, load: Array) -> None:
         self._operator = operator
         self._load = load
-        self.induced = operator.induced(load)
+        self._coefficients = operator.coefficients(load)
+
+    @cached_property
+    def induced(self) -> Array:
+        """λ_i"""
+        return self._operator.field(self._coefficients)
+
+    @property
+    def coordinates(self) -> Array:
+        """As `InflowResponse`."""
+        return self._coefficients if self._operator.holds_tip else self.induced.ravel()
 
     @property
     def by_wake(self) -> Array:

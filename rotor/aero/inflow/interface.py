@@ -38,6 +38,63 @@ class Wake:
         return math.hypot(self.mu_x, self.axial)
 
 
+class InflowBasis(Protocol):
+    """The functions of which the inflow of a model is a sum, on one grid; their coefficients are its coordinates."""
+
+    @property
+    def size(self) -> int:
+        """Number of coordinates."""
+        ...
+
+    def nearest(self, field: Array) -> Array:
+        """Coordinates of the sum that is nearest to a field, (elements, azimuths) → (coordinates,)."""
+        ...
+
+    def field(self, coordinates: Array) -> Array:
+        """λ_i, (coordinates,) → (elements, azimuths)."""
+        ...
+
+    def bound(self, change: Array) -> float:
+        """What |∂λ_i| does not exceed anywhere for a change of the coordinates."""
+        ...
+
+    def resolved_by(self, azimuths: int) -> bool:
+        """Whether the same coordinates mean the same inflow on a grid with this number of azimuths."""
+        ...
+
+
+@dataclass(frozen=True)
+class FieldBasis:
+    """The coordinates of any field: its values on the grid."""
+
+    shape: tuple[int, int]
+    """(elements, azimuths)"""
+
+    @property
+    def size(self) -> int:
+        return self.shape[0] * self.shape[1]
+
+    def nearest(self, field: Array) -> Array:
+        return field.ravel()
+
+    def field(self, coordinates: Array) -> Array:
+        return coordinates.reshape(self.shape)
+
+    def bound(self, change: Array) -> float:
+        return float(np.abs(change).max())
+
+    def resolved_by(self, azimuths: int) -> bool:
+        return azimuths == self.shape[1]
+
+
+class AnyField:
+    """Part of a model whose inflow may be any field."""
+
+    def basis(self, disk: Disk) -> InflowBasis:
+        """As `InflowModel`."""
+        return FieldBasis(disk.shape)
+
+
 class InflowFeedback(Protocol):
     """The feedback inflow → load → inflow for a pointwise load slope K = ∂d/∂λ_i."""
 
@@ -130,23 +187,27 @@ class HarmonicShapes:
 class InflowColumns(Protocol):
     """The inflow that answers a unit of each of several changes, the feedback through the load included.
 
-    It is given by the terms of the model: sums over the grid of a field times λ_i are products with a row of terms.
+    It is given by the coordinates of the model: sums over the grid of a field times λ_i are products with a row.
     """
 
-    def field(self, coefficients: Array) -> Array:
-        """λ_i of a combination of the columns, (columns,) → (elements, azimuths)."""
+    def change(self, shares: Array) -> Array:
+        """Coordinates of a combination of the columns, (columns,) → (coordinates,)."""
+        ...
+
+    def solve(self, error: Array) -> Array:
+        """z with z − A K z = error, all in coordinates, (coordinates,)."""
         ...
 
     def rows(self, fields: Array) -> Array:
-        """Fields as rows: Σ over the grid of a field times every term, (n, elements, azimuths) → (n, terms)."""
+        """Fields as rows: Σ over the grid of a field times λ_i, (n, elements, azimuths) → (n, coordinates)."""
         ...
 
     def projected_rows(self, slope: Array, shapes: HarmonicShapes) -> Array:
-        """`HarmonicShapes.project` of slope · every term, (shapes × functions, terms)."""
+        """`HarmonicShapes.project` of slope · λ_i, (shapes × functions, coordinates)."""
         ...
 
     def times(self, rows: Array) -> Array:
-        """Rows times the terms of every column, (n, terms) → (n, columns)."""
+        """Rows times every column, (n, coordinates) → (n, columns)."""
         ...
 
 
@@ -169,6 +230,7 @@ class FieldColumns:
 
     fields: Array
     """(columns, elements, azimuths)"""
+    feedback: InflowFeedback
 
     @classmethod
     def of(
@@ -184,10 +246,13 @@ class FieldColumns:
         fields = response.apply(loads) + np.tensordot(wake, response.by_wake, 1)
         if shapes is not None:
             fields = np.concatenate([fields, response.apply(shapes.times(slope))])
-        return cls(feedback.solve(fields))
+        return cls(feedback.solve(fields), feedback)
 
-    def field(self, coefficients: Array) -> Array:
-        return np.tensordot(coefficients, self.fields, axes=1)
+    def change(self, shares: Array) -> Array:
+        return shares @ self.fields.reshape(len(self.fields), -1)
+
+    def solve(self, error: Array) -> Array:
+        return self.feedback.solve(error.reshape(1, *self.fields.shape[1:])).ravel()
 
     def rows(self, fields: Array) -> Array:
         return fields.reshape(len(fields), -1)
@@ -245,6 +310,11 @@ class InflowResponse(Protocol):
         ...
 
     @property
+    def coordinates(self) -> Array:
+        """The same in the coordinates of the model's basis."""
+        ...
+
+    @property
     def by_wake(self) -> Array:
         """∂λ_i by (µ_x, µ_z, λ0) at fixed load, (3, elements, azimuths)."""
         ...
@@ -299,4 +369,8 @@ class InflowModel(Protocol):
 
     def respond(self, disk: Disk, wake: Wake, load: Array) -> InflowResponse:
         """The response at a wake to a load d(r, ψ), which a model that is not load-dependent ignores."""
+        ...
+
+    def basis(self, disk: Disk) -> InflowBasis:
+        """The functions of which the inflow is a sum."""
         ...

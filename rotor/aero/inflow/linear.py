@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import InflowFeedback, Wake
+from rotor.aero.inflow.interface import AnyField, InflowFeedback, Wake
 from rotor.arrays import Array
 from rotor.compiled import compiled
 
@@ -22,7 +22,7 @@ Gradient = tuple[float, float, float]
 
 
 @dataclass(frozen=True)
-class LinearInflow:
+class LinearInflow(AnyField):
     """A first-harmonic inflow model."""
 
     name: str
@@ -79,6 +79,11 @@ class PrescribedResponse:
     def around(self, cos: Array, sin: Array) -> "PrescribedResponse":
         """The same inflow at other azimuths."""
         return PrescribedResponse(self.r, cos, sin, self.lambda0, self.longitudinal, self.lateral)
+
+    @property
+    def coordinates(self) -> Array:
+        """As `InflowResponse`."""
+        return self.induced.ravel()
 
     def apply(self, fields: Array) -> Array:
         """Zero: the load does not change a prescribed inflow."""

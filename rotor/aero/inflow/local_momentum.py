@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import InflowFeedback, Wake
+from rotor.aero.inflow.interface import AnyField, InflowFeedback, Wake
 from rotor.aero.inflow.peters_he import flow_parameters
 from rotor.aero.losses import tip_factor
 from rotor.arrays import Array
@@ -64,7 +64,7 @@ def sector_operator(r: Array, cos: Array, wake: Wake, blades: int, *, tip: bool 
 
 
 @dataclass(frozen=True)
-class LocalMomentumInflow:
+class LocalMomentumInflow(AnyField):
     """The inflow at a point depends on the load at that point alone."""
 
     name = "local-momentum"
@@ -97,6 +97,7 @@ class LocalMomentumResponse:
         self._sectors = sectors
         self._gain = sectors.gain[:, None]
         self.induced = sectors.induced(load)
+        self.coordinates = self.induced.ravel()
         self.by_wake = sectors.induced_by_wake(load)
 
     def apply(self, fields: Array) -> Array:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from scipy.linalg import lu_factor, lu_solve
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import InflowFeedback, Wake
+from rotor.aero.inflow.interface import AnyField, InflowFeedback, Wake
 from rotor.aero.inflow.vortex_lattice import Lattice, shared_azimuths
 from rotor.arrays import Array
 
@@ -63,7 +63,7 @@ PANELS, AZIMUTHS = 16, 36
 
 
 @dataclass(frozen=True)
-class VortexWakeInflow:
+class VortexWakeInflow(AnyField):
     """Rigid skewed helical vortex lattice of the rotor's own blades."""
 
     geometry: Wake | None = None
@@ -148,6 +148,7 @@ class VortexWakeResponse:
     def __init__(self, influence: _Influence, load: Array) -> None:
         self._influence = influence
         self.induced = self.apply(load)
+        self.coordinates = self.induced.ravel()
         self.by_wake = np.zeros((3, *load.shape))
 
     def apply(self, fields: Array) -> Array:

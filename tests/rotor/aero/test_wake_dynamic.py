@@ -40,7 +40,7 @@ def model(request: pytest.FixtureRequest) -> DynamicWake:
 def test_size_of_the_default():
     # g_k with k ≥ the least m for which one of m, |m ± 4|, |m ± 8| is p; p = 0, then 1 … 16 as cosine and sine.
     terms = 5 + 2 * (4 + 4 + 4 + 5 + 4 + 4 + 4 + 5 + 4 + 4 + 3 + 3 + 2 + 2 + 1 + 1)
-    assert respond(DynamicWake()).projection.terms == terms
+    assert respond(DynamicWake()).projection.size == terms
 
 
 @pytest.mark.parametrize("azimuths", [AZIMUTHS, AZIMUTHS + 1])
@@ -58,7 +58,7 @@ def test_projection_against_brute_force(model: DynamicWake, azimuths: int):
     expected = np.tensordot(fields, terms, axes=((1, 2), (1, 2)))
     assert_allclose(projection.sums(fields), expected, rtol=0, atol=1e-14 * np.abs(expected).max() * ELEMENTS)
     assert_allclose(projection.sums(fields[1]), expected[1], rtol=0, atol=1e-14 * np.abs(expected).max() * ELEMENTS)
-    x = np.random.default_rng(2).normal(size=(2, projection.terms))
+    x = np.random.default_rng(2).normal(size=(2, projection.size))
     assert_allclose(projection.field(x), np.tensordot(x, terms, axes=1), rtol=0, atol=1e-11)
     slope = fields[0]
     expected = np.tensordot(terms * slope, terms, axes=((1, 2), (1, 2)))
@@ -103,7 +103,7 @@ def test_transposes(model: DynamicWake):
     response = respond(model)
     projection = response.projection
     d, g = noise(4), noise(5)
-    x = np.random.default_rng(6).normal(size=projection.terms)
+    x = np.random.default_rng(6).normal(size=projection.size)
     # Dot products of some hundred numbers of order 10.
     assert_allclose(np.vdot(g, projection.field(x)), projection.sums(g) @ x, rtol=0, atol=1e-11)
     assert_allclose(np.vdot(g, response.induced(d)), np.vdot(response.induced_transposed(g), d), rtol=0, atol=1e-10)
@@ -120,7 +120,7 @@ def test_feedback_is_solved_exactly(model: DynamicWake):
     assert_allclose(v - slope * on_load, g, rtol=0, atol=1e-11)
     assert_allclose(np.vdot(g, inflow), np.vdot(v, f), rtol=0, atol=1e-10)
     # Inflow that the terms can hold: the same loop without leaving them.
-    x = np.random.default_rng(10).normal(size=response.projection.terms)
+    x = np.random.default_rng(10).normal(size=response.projection.size)
     assert_allclose(loop.solve(response.field(x)), response.field(loop.solve_terms(x)), rtol=0, atol=1e-10)
 
 
