@@ -197,11 +197,11 @@ class AddedBasis:
     def size(self) -> int:
         return self.basis.size
 
-    def nearest(self, field: Array) -> Array:
-        return self.basis.nearest(field - self.added[:, None])
+    def nearest(self, field: Array, wake: Wake) -> Array:
+        return self.basis.nearest(field - self.added[:, None], wake)
 
-    def field(self, coordinates: Array) -> Array:
-        return self.basis.field(coordinates) + self.added[:, None]
+    def field(self, coordinates: Array, wake: Wake) -> Array:
+        return self.basis.field(coordinates, wake) + self.added[:, None]
 
     def bound(self, change: Array) -> float:
         return self.basis.bound(change)

@@ -16,7 +16,7 @@ import numpy as np
 from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem, evaluate_elements, wake_at
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.inflow.interface import InflowBasis, InflowColumns, InflowFeedback
+from rotor.aero.inflow.interface import InflowColumns, InflowFeedback
 from rotor.aero.sums import Slopes, slopes
 from rotor.aero.torsion_balance import torsion_error, torsion_slopes
 from rotor.aero.trial_loads import TrialLoads, evaluate_loads, loads_of
@@ -25,7 +25,7 @@ from rotor.arrays import Array
 from rotor.trim.equations import Balance, balance, balance_of, unknowns_of, with_given_values
 from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
 
-_NEAR = 1e4
+_NEAR = 1e5
 """Residual over its tolerance to which a trim is solved on few azimuths. Our choice."""
 _NEARLY = 10.0
 """Expected residual over its tolerance at which a step may well be the last. Our choice."""
@@ -167,7 +167,7 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
         induced = start.induced
         if induced is None or induced.shape != problem.disk.shape:
             induced = _prescribed_start(problem, state)
-        inflow = problem.inflow.basis(problem.disk).nearest(induced)
+        inflow = problem.inflow.basis(problem.disk).nearest(induced, wake_at(problem, state))
     derivatives = start.derivatives
     if derivatives is not None and not derivatives.serve(problem, unknowns):
         derivatives = None
@@ -263,7 +263,7 @@ class _Iteration:
         if thin is problem:
             found = differentiate(thin, _elements(thin, point), self._unknowns, point.balance)[1]
         else:
-            induced = thin.inflow.basis(thin.disk).field(point.inflow) if len(point.inflow) > 0 else None
+            induced = _field(thin, loads.state, point.inflow)
             elements = evaluate_elements(thin, loads.state, induced, loads.elastic)
             found = differentiate(thin, elements, self._unknowns)[1]
         self._derivatives = self._latest = found
@@ -295,11 +295,7 @@ def _evaluate(
     problem: Problem, state: TrimState, inflow: Array, elastic: Array, options: SolverOptions, *, whole: bool
 ) -> _Iterate:
     """whole: with the blade elements, where these will be needed; loads alone take less time."""
-    basis: InflowBasis | None = None
-    induced: Array | None = None
-    if problem.inflow.load_dependent:
-        basis = problem.inflow.basis(problem.disk)
-        induced = basis.field(inflow)
+    induced = _field(problem, state, inflow)
     elements = evaluate_elements(problem, state, induced, elastic) if whole else None
     loads = loads_of(problem, elements) if elements is not None else evaluate_loads(problem, state, induced, elastic)
     forces = balance(problem, state, loads.flow, loads.sums)
@@ -309,12 +305,19 @@ def _evaluate(
         twisting = torsion_error(problem, state, elastic, loads.modal).ravel()
         size = max(size, float(np.abs(twisting).max()) / options.torsion_tolerance)
     inflow_error, largest = inflow, 0.0
-    if basis is not None:
+    if problem.inflow.load_dependent:
         inflow_error = loads.response.coordinates - inflow
-        largest = basis.bound(inflow_error)
+        largest = problem.inflow.basis(problem.disk).bound(inflow_error)
         size = max(size, largest / (_inflow_scale(problem, loads) * options.inflow_tolerance))
     size = size if math.isfinite(size) else math.inf
     return _Iterate(loads, inflow, forces, inflow_error, largest, twisting, size, elements)
+
+
+def _field(problem: Problem, state: TrimState, inflow: Array) -> Array | None:
+    """λ_i of coordinates; None for a model that does not depend on the load."""
+    if not problem.inflow.load_dependent:
+        return None
+    return problem.inflow.basis(problem.disk).field(inflow, wake_at(problem, state))
 
 
 def _inflow_scale(problem: Problem, loads: TrialLoads) -> float:
@@ -330,6 +333,8 @@ def differentiate(
     feedback = inflow_feedback(problem, elements)
     found = slopes(problem, elements, unknowns, feedback)
     matrix, by_terms = full_jacobian(problem, elements, found, forces)
+    if by_terms is not None:  # Without what no term can hold.
+        by_terms = np.ascontiguousarray(by_terms[:, : problem.inflow.basis(problem.disk).size])
     return found, Derivatives(unknowns, matrix, feedback, found.answer, by_terms)
 
 

@@ -21,7 +21,7 @@ class SolverOptions:
     closes to 1e-6."""
     max_passes: int = 40
     """Evaluations of the blade elements in one run of Newton's method."""
-    most_old_steps: float = 4.0
+    most_old_steps: float = 3.0
     """Derivatives are evaluated again when more steps than this are to be expected with the old ones: derivatives cost
     as much as two to four, and one or two steps follow them. Our choice."""
     kept_ratio: float = 0.03

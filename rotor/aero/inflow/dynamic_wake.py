@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.linalg.lapack import dgetrf, dgetrs
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import FieldBasis, HarmonicShapes, InflowBasis, InflowFeedback, ResponseTerms, Wake
+from rotor.aero.inflow.interface import HarmonicShapes, InflowFeedback, ResponseTerms, Wake
 from rotor.aero.inflow.peters_he import FlowParameters, flow_parameters
 from rotor.aero.inflow.wake_projection import Projection, build_projection
 from rotor.aero.losses import tip_factor
@@ -69,12 +69,15 @@ class DynamicWake:
         """Its projection on a grid (cached)."""
         return build_projection(self.order, self.blades, self.harmonics, root, elements, azimuths)
 
+    def factor(self, projection: Projection, wake: Wake) -> tuple[Array, Array]:
+        """F at a wake and its slope by µ_z + λ0, (elements,)."""
+        if self.infinite_blades and self.tip:
+            return tip_factor(projection.r, wake.axial, self.blades)
+        return projection.no_factor
+
     def operator(self, projection: Projection, wake: Wake) -> "WakeOperator":
         """A(wake) on that grid."""
-        factor, slope = projection.no_factor
-        if self.infinite_blades and self.tip:
-            factor, slope = tip_factor(projection.r, wake.axial, self.blades)
-        return WakeOperator(projection, flow_parameters(wake), factor, slope)
+        return WakeOperator(projection, flow_parameters(wake), *self.factor(projection, wake))
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,11 +102,10 @@ class WakeOperator:
 
     def over_factor(self, fields: Array) -> Array:
         """Fields over F; themselves where F = 1."""
-        return fields if self.holds_tip else fields / self.factor[:, None]
+        return fields if self._no_factor else fields / self.factor[:, None]
 
     @property
-    def holds_tip(self) -> bool:
-        """Whether F = 1: the inflow is then a sum of the terms."""
+    def _no_factor(self) -> bool:
         return self.factor is self.projection.no_factor[0]
 
     def induced(self, d: Array) -> Array:
@@ -128,7 +130,7 @@ class WakeOperator:
 
     def beyond_terms(self, d: Array) -> Array | None:
         """The part of ∂λ_i/∂(µ_z + λ0) through F, (elements, azimuths); None where F does not follow the wake."""
-        if self.holds_tip:
+        if self._no_factor:
             return None
         return self.induced(d) * (-self.factor_slope / self.factor)[:, None]
 
@@ -138,8 +140,7 @@ class WakeOperator:
         system.ravel()[:: len(system) + 1] += 1.0
         # Of the transpose, which is what LAPACK sees in these rows without copying them.
         factors, pivots, _ = dgetrf(system.T, overwrite_a=True)
-        kind = TermFeedback if self.holds_tip else DynamicWakeFeedback
-        return kind(self, slope, load, (factors, pivots))
+        return DynamicWakeFeedback(self, slope, load, (factors, pivots))
 
     @cached_property
     def transfer(self) -> Array:
@@ -180,29 +181,32 @@ class DynamicWakeFeedback:
         on_load = projection.field(back @ operator.transfer)
         return field + self.slope * on_load, on_load
 
-
-@dataclass(frozen=True, eq=False)
-class TermFeedback(DynamicWakeFeedback):
-    """The same of a wake that holds the tip itself, F = 1."""
-
     def answer_columns(self, loads: Array, wake: Array, slope: Array, shapes: HarmonicShapes | None) -> "TermColumns":
-        """As `ColumnFeedback`: the terms under every change, c = (I − T B K Bᵀ)⁻¹ (T B load + ∂c/∂wake)."""
+        """As `ColumnFeedback`: the terms under every change, c = (I − T B (K/F) Bᵀ)⁻¹ (T B load + ∂c/∂wake)."""
         operator, projection = self.operator, self.operator.projection
+        beyond, shares = operator.beyond_terms(self.load), wake[:, 1] + wake[:, 2]
+        if beyond is not None:
+            loads = loads + shares[:, None, None] * (self.slope * beyond)
         sums = projection.sums(loads).T
         if shapes is not None:
             sums = np.hstack([sums, projection.against(slope, shapes)])
         columns = operator.transfer @ sums
         columns[:, : len(wake)] += operator.coefficients_by_wake(self.load).T @ wake.T
-        return TermColumns(self, self.solve_terms(columns))
+        shares = np.concatenate([shares, np.zeros(columns.shape[1] - len(wake))])
+        return TermColumns(self, self.solve_terms(columns), beyond, shares)
 
 
 @dataclass(frozen=True, eq=False)
 class TermColumns:
     """The inflow that answers several changes, in terms of the projection."""
 
-    feedback: TermFeedback
+    feedback: DynamicWakeFeedback
     coefficients: Array
     """(terms, columns)"""
+    beyond: Array | None
+    """What no term can hold, (elements, azimuths), see `WakeOperator.beyond_terms`."""
+    shares: Array
+    """How much of it is in each column, (columns,)."""
 
     def change(self, shares: Array) -> Array:
         """As `InflowColumns`."""
@@ -213,17 +217,23 @@ class TermColumns:
         return self.feedback.solve_terms(error)
 
     def rows(self, fields: Array) -> Array:
-        """As `InflowColumns`."""
-        return self.feedback.operator.projection.sums(fields)
+        """As `InflowColumns`; what no term can hold is one more."""
+        operator = self.feedback.operator
+        rows = operator.projection.sums(operator.over_factor(fields))
+        return rows if self.beyond is None else np.column_stack([rows, np.tensordot(fields, self.beyond, 2)])
 
     def projected_rows(self, slope: Array, shapes: HarmonicShapes) -> Array:
         """As `InflowColumns`."""
-        rows = self.feedback.operator.projection.against(slope, shapes).T
-        return np.tile(shapes.weights, len(shapes.radial))[:, None] * rows
+        operator = self.feedback.operator
+        rows = operator.projection.against(operator.over_factor(slope), shapes).T
+        rows = np.tile(shapes.weights, len(shapes.radial))[:, None] * rows
+        return rows if self.beyond is None else np.column_stack([rows, shapes.project(slope * self.beyond).ravel()])
 
     def times(self, rows: Array) -> Array:
-        """As `InflowColumns`."""
-        return rows @ self.coefficients
+        """As `InflowColumns`; the row of a field's sums with the terms alone will do as well."""
+        terms = len(self.coefficients)
+        out = rows[:, :terms] @ self.coefficients
+        return out if rows.shape[1] == terms else out + rows[:, terms:] * self.shares
 
 
 @dataclass(frozen=True)
@@ -253,14 +263,40 @@ class DynamicWakeInflow:
         model = self._wake(disk)
         return DynamicWakeResponse(model.operator(model.on(disk.root, *disk.shape), wake), load)
 
-    def basis(self, disk: Disk) -> InflowBasis:
-        """The terms of the projection; where F divides them, which follows the wake, any field."""
-        if self.infinite_blades and self.tip:
-            return FieldBasis(disk.shape)
-        return self._wake(disk).on(disk.root, *disk.shape)
+    def basis(self, disk: Disk) -> "TermBasis":
+        """The terms of the projection over F."""
+        model = self._wake(disk)
+        return TermBasis(model, model.on(disk.root, *disk.shape))
 
     def _wake(self, disk: Disk) -> DynamicWake:
         return _of(disk.blades, self.order, self.infinite_blades, self.tip)
+
+
+@dataclass(frozen=True, eq=False)
+class TermBasis:
+    """The terms of the projection as the coordinates of a dynamic wake's inflow, see `InflowBasis`."""
+
+    model: DynamicWake
+    projection: Projection
+
+    @property
+    def size(self) -> int:
+        return self.projection.terms
+
+    def nearest(self, field: Array, wake: Wake) -> Array:
+        factor, _ = self.model.factor(self.projection, wake)
+        return self.projection.nearest(factor[:, None] * field)
+
+    def field(self, coordinates: Array, wake: Wake) -> Array:
+        field, factor = self.projection.field(coordinates), self.model.factor(self.projection, wake)[0]
+        return field if factor is self.projection.no_factor[0] else field / factor[:, None]
+
+    def bound(self, change: Array) -> float:
+        """Before the division by F, which only the elements next to the tip notice."""
+        return self.projection.bound(change)
+
+    def resolved_by(self, azimuths: int) -> bool:
+        return azimuths > 2 * int(self.projection.wave.max())
 
 
 @cache
@@ -274,17 +310,12 @@ class DynamicWakeResponse:
     def __init__(self, operator: WakeOperator, load: Array) -> None:
         self._operator = operator
         self._load = load
-        self._coefficients = operator.coefficients(load)
+        self.coordinates = operator.coefficients(load)
 
     @cached_property
     def induced(self) -> Array:
         """λ_i"""
-        return self._operator.field(self._coefficients)
-
-    @property
-    def coordinates(self) -> Array:
-        """As `InflowResponse`."""
-        return self._coefficients if self._operator.holds_tip else self.induced.ravel()
+        return self._operator.field(self.coordinates)
 
     @property
     def by_wake(self) -> Array:

@@ -46,12 +46,12 @@ class InflowBasis(Protocol):
         """Number of coordinates."""
         ...
 
-    def nearest(self, field: Array) -> Array:
-        """Coordinates of the sum that is nearest to a field, (elements, azimuths) → (coordinates,)."""
+    def nearest(self, field: Array, wake: Wake) -> Array:
+        """Coordinates of the sum that is nearest to a field at a wake, (elements, azimuths) → (coordinates,)."""
         ...
 
-    def field(self, coordinates: Array) -> Array:
-        """λ_i, (coordinates,) → (elements, azimuths)."""
+    def field(self, coordinates: Array, wake: Wake) -> Array:
+        """λ_i at a wake, (coordinates,) → (elements, azimuths)."""
         ...
 
     def bound(self, change: Array) -> float:
@@ -74,10 +74,12 @@ class FieldBasis:
     def size(self) -> int:
         return self.shape[0] * self.shape[1]
 
-    def nearest(self, field: Array) -> Array:
+    def nearest(self, field: Array, wake: Wake) -> Array:
+        del wake
         return field.ravel()
 
-    def field(self, coordinates: Array) -> Array:
+    def field(self, coordinates: Array, wake: Wake) -> Array:
+        del wake
         return coordinates.reshape(self.shape)
 
     def bound(self, change: Array) -> float:

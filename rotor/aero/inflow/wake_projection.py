@@ -16,7 +16,6 @@ from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
-from scipy.linalg.lapack import dpotrf, dpotrs
 
 from rotor.aero.inflow.interface import HarmonicShapes
 from rotor.aero.inflow.peters_he import (
@@ -78,8 +77,7 @@ class Projection:
     """F = 1 and its slope, (elements,) both, for a wake that holds the tip itself."""
 
     @property
-    def size(self) -> int:
-        """Number of terms."""
+    def terms(self) -> int:
         return len(self.order)
 
     def sums(self, fields: Array) -> Array:
@@ -89,32 +87,32 @@ class Projection:
 
     def field(self, coefficients: Array) -> Array:
         """The sum of the terms, (…, terms) → (…, elements, azimuths)."""
-        stack = np.ascontiguousarray(coefficients).reshape(-1, self.size)
+        stack = np.ascontiguousarray(coefficients).reshape(-1, self.terms)
         out = _field(stack, *self.parts, *self.waves, self.place, self.azimuths)
         return out.reshape(*coefficients.shape[:-1], *out.shape[-2:])
 
     def nearest(self, field: Array) -> Array:
-        """Coefficients of the sum of the terms that is nearest to a field in the mean square, (terms,)."""
-        return dpotrs(self._gram, self.sums(field))[0]
+        """Coefficients of the sum of the terms that is nearest to a field in the mean square, (terms,).
+
+        With an odd number of blades some terms depend on others but for rounding: the part of a field that only their
+        difference could hold, 1e-4 of it, is left out.
+        """
+        return self._to_nearest @ self.sums(field)
 
     @cached_property
-    def _gram(self) -> Array:
-        """Cholesky factor of Σ over the grid of term · term."""
+    def _to_nearest(self) -> Array:
+        """Pseudo-inverse of Σ over the grid of term · term."""
         products = self.reduced(np.ones((len(self.r), self.azimuths)))
-        return np.asarray(dpotrf(products)[0])
+        return np.asarray(np.linalg.pinv(products, rcond=1e-10, hermitian=True), dtype=np.float64)
 
     @cached_property
     def _peaks(self) -> Array:
         """Largest size of each term on the grid, (terms,)."""
         return np.abs(self.radial).max(axis=1)[self.order]
 
-    def bound(self, change: Array) -> float:
-        """As `InflowBasis`."""
-        return float(self._peaks @ np.abs(change))
-
-    def resolved_by(self, azimuths: int) -> bool:
-        """As `InflowBasis`."""
-        return azimuths > 2 * int(self.wave.max())
+    def bound(self, coefficients: Array) -> float:
+        """What the sum of the terms does not exceed anywhere."""
+        return float(self._peaks @ np.abs(coefficients))
 
     @cached_property
     def radial_columns(self) -> Array:
@@ -179,7 +177,7 @@ class Projection:
         """From sums of the load with the terms to coefficients of the inflow, (terms, terms), from the blocks."""
         basis = self.basis
         return _between(
-            *made, basis.m, basis.order, basis.steady, self.harmonics, self.table, self.cell, self.size
+            *made, basis.m, basis.order, basis.steady, self.harmonics, self.table, self.cell, self.terms
         )  # fmt: skip
 
     def answer_slopes(self, sums: Array, flow: FlowParameters, made: tuple[Array, Array]) -> Array:

@@ -40,7 +40,7 @@ def model(request: pytest.FixtureRequest) -> DynamicWake:
 def test_size_of_the_default():
     # g_k with k ≥ the least m for which one of m, |m ± 4|, |m ± 8| is p; p = 0, then 1 … 16 as cosine and sine.
     terms = 5 + 2 * (4 + 4 + 4 + 5 + 4 + 4 + 4 + 5 + 4 + 4 + 3 + 3 + 2 + 2 + 1 + 1)
-    assert respond(DynamicWake()).projection.size == terms
+    assert respond(DynamicWake()).projection.terms == terms
 
 
 @pytest.mark.parametrize("azimuths", [AZIMUTHS, AZIMUTHS + 1])
@@ -58,7 +58,7 @@ def test_projection_against_brute_force(model: DynamicWake, azimuths: int):
     expected = np.tensordot(fields, terms, axes=((1, 2), (1, 2)))
     assert_allclose(projection.sums(fields), expected, rtol=0, atol=1e-14 * np.abs(expected).max() * ELEMENTS)
     assert_allclose(projection.sums(fields[1]), expected[1], rtol=0, atol=1e-14 * np.abs(expected).max() * ELEMENTS)
-    x = np.random.default_rng(2).normal(size=(2, projection.size))
+    x = np.random.default_rng(2).normal(size=(2, projection.terms))
     assert_allclose(projection.field(x), np.tensordot(x, terms, axes=1), rtol=0, atol=1e-11)
     slope = fields[0]
     expected = np.tensordot(terms * slope, terms, axes=((1, 2), (1, 2)))
@@ -103,7 +103,7 @@ def test_transposes(model: DynamicWake):
     response = respond(model)
     projection = response.projection
     d, g = noise(4), noise(5)
-    x = np.random.default_rng(6).normal(size=projection.size)
+    x = np.random.default_rng(6).normal(size=projection.terms)
     # Dot products of some hundred numbers of order 10.
     assert_allclose(np.vdot(g, projection.field(x)), projection.sums(g) @ x, rtol=0, atol=1e-11)
     assert_allclose(np.vdot(g, response.induced(d)), np.vdot(response.induced_transposed(g), d), rtol=0, atol=1e-10)
@@ -120,7 +120,7 @@ def test_feedback_is_solved_exactly(model: DynamicWake):
     assert_allclose(v - slope * on_load, g, rtol=0, atol=1e-11)
     assert_allclose(np.vdot(g, inflow), np.vdot(v, f), rtol=0, atol=1e-10)
     # Inflow that the terms can hold: the same loop without leaving them.
-    x = np.random.default_rng(10).normal(size=response.projection.size)
+    x = np.random.default_rng(10).normal(size=response.projection.terms)
     assert_allclose(loop.solve(response.field(x)), response.field(loop.solve_terms(x)), rtol=0, atol=1e-10)
 
 
@@ -132,18 +132,42 @@ def test_inflow_of_one_load_and_of_many(model: DynamicWake):
     assert_allclose(response.induced(loads)[1], one, rtol=0, atol=5e-14 * np.abs(one).max())
 
 
+def test_coordinates_of_a_sum_of_terms(model: DynamicWake):
+    """A sum of terms is found again on any grid; of another field the nearest one; the bound holds."""
+    own = np.random.default_rng(26).normal(size=model.on(0.1, ELEMENTS, AZIMUTHS).terms)
+    for azimuths in (AZIMUTHS, 48):
+        projection = model.on(0.1, ELEMENTS, azimuths)
+        field = projection.field(own)
+        found = projection.nearest(field)
+        error = 1e-3 if model.blades % 2 else 1e-9  # Of an odd number of blades some terms depend on others.
+        assert_allclose(projection.field(found), field, rtol=0, atol=error)
+        assert_allclose(model.on(0.1, ELEMENTS, 90).field(found), model.on(0.1, ELEMENTS, 90).field(own), atol=error)
+        assert np.abs(field).max() <= projection.bound(own) < 100.0 * np.abs(field).max()
+        other = field + np.random.default_rng(27).normal(size=field.shape)
+        rest = other - projection.field(projection.nearest(other))
+        assert_allclose(projection.sums(rest), 0.0, atol=1e-2 if model.blades % 2 else 1e-9)
+
+
 def test_many_changes_are_answered_as_each_with_its_field(model: DynamicWake):
     """Loads, changes of the wake and twist by two shapes with three harmonics each."""
     disk = build_disk(make_design().rotor, ELEMENTS, AZIMUTHS)
     shapes = HarmonicShapes.on(disk, np.stack([disk.r, disk.r**2]), 1)
-    response = DynamicWakeResponse(model.operator(model.on(disk.root, ELEMENTS, AZIMUTHS), FORWARD), np.abs(noise(15)))
+    projection = model.on(disk.root, ELEMENTS, AZIMUTHS)
+    response = DynamicWakeResponse(model.operator(projection, FORWARD), np.abs(noise(15)))
     feedback = response.feedback(-0.3 * np.abs(noise(16)))
     assert isinstance(feedback, ColumnFeedback)
     wake = np.array([[0.0, 0.0, 0.0], [-0.1, 0.2, 0.0], [0.0, 0.0, 1.0]])
     changes = np.stack([noise(17), noise(18), 0.0 * noise(19)]), wake, noise(20), shapes
     by_terms, by_fields = feedback.answer_columns(*changes), FieldColumns.of(response, feedback, *changes)
     mix = np.random.default_rng(21).normal(size=9)
-    assert_allclose(by_terms.field(mix), by_fields.field(mix), rtol=0, atol=1e-11)
+    operator = response._operator
+    own, beyond = operator.field(by_terms.change(mix)), operator.beyond_terms(np.abs(noise(15)))
+    if beyond is not None:
+        own += beyond * ((wake[:, 1] + wake[:, 2]) @ mix[:3])
+    assert_allclose(own.ravel(), by_fields.change(mix), rtol=0, atol=1e-11)
+    error = np.random.default_rng(25).normal(size=projection.terms)
+    settled = by_fields.solve(operator.field(error).ravel())
+    assert_allclose(operator.field(by_terms.solve(error)).ravel(), settled, rtol=0, atol=1e-10)
     weights, slope = np.stack([noise(22), noise(23)]), noise(24)
     sums = [answer.times(answer.rows(weights)) for answer in (by_terms, by_fields)]
     assert_allclose(sums[0], sums[1], rtol=0, atol=1e-10)
