@@ -312,7 +312,7 @@ class DynamicWakeResponse:
         self._load = load
         self.coordinates = operator.coefficients(load)
 
-    @cached_property
+    @property
     def induced(self) -> Array:
         """λ_i"""
         return self._operator.field(self.coordinates)

@@ -71,9 +71,9 @@ def test_the_jacobian_is_still_exact():
     """Newton needs no more iterations, and the Jacobian agrees with differences of the residuals."""
     design = turning(make_design(mu=0.25), Harmonic(2, DEGREE))
     problem = build_problem(replace(design, models=replace(design.models, inflow="pitt-peters")))
-    done = newton(problem, first_guess(problem))
+    done, still = newton(problem, first_guess(problem)), build_problem(replace(problem.design, active_twist=None))
     assert done.converged
-    assert done.passes <= 6
+    assert done.passes <= newton(still, first_guess(still)).passes + 1
     elements = evaluate_elements(problem, done.elements.state)
     matrix = jacobian(problem, elements, slopes(problem, elements, unknowns_of(problem.design), None))
     assert np.linalg.cond(matrix) < 1e6

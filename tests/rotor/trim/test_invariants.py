@@ -7,9 +7,14 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
+from rotor.aero.elements import LEAST_AZIMUTHS, evaluate_elements
+from rotor.arrays import Array
 from rotor.design.structure import BladeStructure
 from rotor.design.twist import LinearTwist
 from rotor.files.make_design import make_design
+from rotor.trim.equations import unknowns_of
+from rotor.trim.low_speed import trim_problem
+from rotor.trim.newton import differentiate
 from rotor.trim.solve import solve
 
 
@@ -146,3 +151,38 @@ def test_reverse_flow_area_is_the_circle():
     edge = np.clip(-mu_x * np.sin(psi), r0, None)
     expected = 0.5 * (edge**2 - r0**2).mean()
     assert_allclose(fine.reverse_flow_area, expected, rtol=5e-3)
+
+
+@pytest.mark.parametrize("mu", [0.1, 0.35])
+@pytest.mark.parametrize("inflow", ["pitt-peters", "dynamic-wake", "dynamic-wake-infinite-blades"])
+def test_few_azimuths_stand_for_all(inflow: str, mu: float):
+    """The trim on a third of the azimuths, and its derivatives as a step on all: what is left of the error."""
+    made = make_design(mu=mu)
+    design = replace(made, models=replace(made.models, inflow=inflow))
+    whole = solve(design).require()
+    few = solve(replace(design, models=replace(design.models, azimuths=LEAST_AZIMUTHS))).require()
+    assert few.disk.theta.shape[1] == LEAST_AZIMUTHS
+    assert_allclose(few.power.total, whole.power.total, rtol=1e-5)
+    problem, state = trim_problem(design), whole.controls
+    assert problem.thinned.disk.shape[1] == LEAST_AZIMUTHS
+    assert whole.elastic is not None
+    matrices: list[Array] = []
+    for each in (problem, problem.thinned):
+        step = problem.disk.shape[1] // each.disk.shape[1]
+        elements = evaluate_elements(each, state, whole.disk.induced[:, ::step].copy(), whole.elastic.coordinates)
+        matrices.append(differentiate(each, elements, unknowns_of(design))[1].jacobian)
+    left = np.eye(len(matrices[0])) - np.linalg.solve(matrices[1], matrices[0])
+    assert np.abs(np.linalg.eigvals(left)).max() < 1e-2
+
+
+def test_azimuths_that_cannot_be_thinned():
+    """Neither are fewer than 40 left, nor those of a model whose inflow belongs to the grid."""
+    few = make_design(mu=0.2)
+    few = replace(few, models=replace(few.models, azimuths=72))
+    problem = trim_problem(few)
+    assert problem.thinned is problem
+    assert solve(few).converged
+    more = replace(few, models=replace(few.models, azimuths=150))
+    assert trim_problem(more).thinned.disk.shape[1] == 50
+    vortex = replace(make_design(mu=0.2), models=replace(few.models, azimuths=120, inflow="vortex-wake"))
+    assert trim_problem(vortex).thinned.disk.shape[1] == 120
