@@ -5,7 +5,7 @@ loads with their pointwise derivatives gives every sum over the disk and its exa
 """
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, NamedTuple
 

@@ -66,14 +66,22 @@ class PrescribedResponse:
     longitudinal: Gradient
     lateral: Gradient
 
-    @cached_property
+    @property
     def induced(self) -> Array:
         """λ_i, (elements, azimuths)."""
+        return self._induced
+
+    @property
+    def by_wake(self) -> Array:
+        """Its slopes by (µ_x, µ_z, λ0), (3, elements, azimuths)."""
+        return self._by_wake
+
+    @cached_property
+    def _induced(self) -> Array:
         return _field(self.r, self.cos, self.sin, self.lambda0, self.longitudinal[0], self.lateral[0])
 
     @cached_property
-    def by_wake(self) -> Array:
-        """Its slopes by (µ_x, µ_z, λ0), (3, elements, azimuths)."""
+    def _by_wake(self) -> Array:
         return _slopes(self.r, self.cos, self.sin, self.lambda0, self.longitudinal, self.lateral)
 
     def around(self, cos: Array, sin: Array) -> "PrescribedResponse":
