@@ -99,14 +99,19 @@ def friction_of_row(r: float, cos: Any, sin: Any, gain: float, mu_x: float, fx: 
 @_compile
 def _slopes(r: Any, cos: Any, sin: Any, gain: Any, mu_x: float) -> Any:
     """Their slopes by µ_x."""
-    n, m = len(r), len(cos)
-    out = np.empty((2, n, m))
-    for i in range(n):
-        for j in range(m):
-            across, along = r[i] + mu_x * sin[j], mu_x * cos[j]
-            speed = math.sqrt(across * across + along * along + _TINY)
-            speed_slope = (across * sin[j] + along * cos[j]) / speed
-            excess_slope = speed_slope - np.sign(across) * sin[j]
-            out[0, i, j] = gain[i] * (excess_slope * across + (speed - abs(across)) * sin[j])
-            out[1, i, j] = gain[i] * (speed_slope * along + speed * cos[j])
+    out = np.empty((2, len(r), len(cos)))
+    for i in range(len(r)):
+        friction_slopes_of_row(r[i], cos, sin, gain[i], mu_x, out[0, i], out[1, i])
     return out
+
+
+@_compile
+def friction_slopes_of_row(r: float, cos: Any, sin: Any, gain: float, mu_x: float, fx: Any, radial: Any) -> None:
+    """Slopes by µ_x of F_x and F_r of one row."""
+    for j in range(len(cos)):
+        across, along = r + mu_x * sin[j], mu_x * cos[j]
+        speed = math.sqrt(across * across + along * along + _TINY)
+        speed_slope = (across * sin[j] + along * cos[j]) / speed
+        excess_slope = speed_slope - np.sign(across) * sin[j]
+        fx[j] = gain * (excess_slope * across + (speed - abs(across)) * sin[j])
+        radial[j] = gain * (speed_slope * along + speed * cos[j])

@@ -13,10 +13,12 @@ import numpy as np
 from rotor.aero import kernel
 from rotor.aero.elastic import BladeTorsion, TorsionState
 from rotor.aero.elements import BladeElements, Problem
-from rotor.aero.sums import Slopes
+from rotor.aero.sums import HELD, Slopes, add_product, chain_rule, velocity_changes
 from rotor.aero.trim_state import TrimState, Unknown
 from rotor.arrays import Array
 from rotor.compiled import compiled
+
+_M_THETA, _M_RATE, _M_UT, _M_UP, _M_UR = kernel.M_THETA, kernel.M_RATE, kernel.M_UT, kernel.M_UP, kernel.M_UR
 
 _compile = compiled(error_model="numpy", fastmath={"contract"})
 
@@ -57,22 +59,72 @@ def torsion_slopes(problem: Problem, elements: BladeElements, by_unknown: Slopes
     Beside it those by the terms of an inflow that answers the load, (columns, terms), see `InflowColumns.rows`.
     """
     torsion, blade = torsion_of(problem, elements)
-    shapes, moments, unknowns = torsion.shapes, blade.moments, by_unknown.unknowns
-    # ∂(moment of the air) by the unknowns; the lift, which acts x behind the pitch axis, follows the loss factor.
-    changes = by_unknown.changes
-    by_loss = -torsion.lag[:, None] * elements.loads[kernel.LIFT] * elements.u_t
-    pitching = pitch_slope(torsion, elements)
-    by = pitching, moments[kernel.M_UT], moments[kernel.M_UP], moments[kernel.M_UR]
-    load = shapes.project(changes.follow(by, by_loss, by_unknown.by_wake, moments[kernel.M_RATE]))
-    by_trim = load.reshape(len(unknowns), shapes.columns).T
-    found = np.hstack([by_trim, _between_columns(torsion, pitching, moments[kernel.M_RATE])])
-    gain, rows = np.repeat(torsion.gain, len(shapes.waves))[:, None], None
+    shapes, unknowns = torsion.shapes, by_unknown.unknowns
+    by_trim, pairs = _moments_by_unknowns(
+        by_unknown.changes, blade.moments, elements.loads[kernel.LIFT], elements.u_t, elements.theta,
+        by_unknown.by_wake if by_unknown.by_wake is not None else HELD, torsion.inertia, torsion.lag, shapes.radial,
+    )  # fmt: skip
+    found = np.empty((shapes.columns, len(unknowns) + shapes.columns))
+    found[:, : len(unknowns)] = shapes.analyse(by_trim).reshape(len(unknowns), -1).T
+    found[:, len(unknowns) :] = _between_columns(torsion, pairs)
+    gain, rows = _gain_of_columns(torsion), None
     if by_unknown.answer is not None:
-        rows = by_unknown.answer.projected_rows(moments[kernel.M_UP], shapes)
+        rows = by_unknown.answer.projected_rows(blade.moments[kernel.M_UP], shapes)
         found += by_unknown.answer.times(rows)
         rows *= -gain
     found *= -gain
-    return found + torsion_at_given_moments(torsion, unknowns), rows
+    found += torsion_at_given_moments(torsion, unknowns)
+    return found, rows
+
+
+@lru_cache(maxsize=32)
+def _gain_of_columns(torsion: BladeTorsion) -> Array:
+    """1/(m_k ν_k²) of every column, (columns, 1)."""
+    return np.repeat(torsion.gain, len(torsion.shapes.waves))[:, None]
+
+
+@_compile
+def _moments_by_unknowns(
+    changes: Any, moments: Any, lift: Any, u_t: Any, theta: Any, by_wake: Any, inertia: Any, lag: Any, shapes: Any
+) -> Any:  # fmt: skip
+    """Σ along the blade of Φ_k ∂(moment) by the unknowns, (unknowns, modes, azimuths), and Φ_k Φ_l ∂(moment).
+
+    The latter by θ and by θ', (2, modes, modes, azimuths). The moment is that of the air and of the propeller; the lift
+    acts x behind the pitch axis, and follows the loss factor.
+    """
+    (modes, n), unknowns, m = shapes.shape, len(changes.theta), theta.shape[1]
+    out, pairs = np.zeros((unknowns, modes, m)), np.zeros((2, modes, modes, m))
+    row, pitching, by_ut, by_up = np.empty(m), np.empty(m), np.empty(m), np.empty(m)
+    for i in range(n):
+        rating, m_ut, m_up, m_ur = moments[_M_RATE, i], moments[_M_UT, i], moments[_M_UP, i], moments[_M_UR, i]
+        rising, tangential = lift[i], u_t[i]
+        _pitching(inertia[i], moments[_M_THETA, i], theta[i], pitching)
+        for k in range(unknowns):
+            if changes.pitches[k]:
+                for j in range(m):
+                    row[j] = pitching[j] * changes.theta[k, j] + rating[j] * changes.rate[k, j]
+            else:
+                velocity_changes(changes, k, i, by_wake, by_ut, by_up)
+                chain_rule(m_ut, m_up, m_ur, by_ut, by_up, changes.u_r, k, row)
+                if lag[i] * changes.loss[k, i] != 0.0:
+                    add_product(-lag[i] * changes.loss[k, i], rising, tangential, row)
+            for one in range(modes):
+                for j in range(m):
+                    out[k, one, j] += shapes[one, i] * row[j]
+        for one in range(modes):
+            for other in range(modes):
+                both = shapes[one, i] * shapes[other, i]
+                for j in range(m):
+                    pairs[0, one, other, j] += both * pitching[j]
+                    pairs[1, one, other, j] += both * rating[j]
+    return out, pairs
+
+
+@_compile
+def _pitching(inertia: float, by_theta: Any, theta: Any, out: Any) -> None:
+    """∂(moment of the air and propeller moment)/∂θ of one row."""
+    for j in range(len(out)):
+        out[j] = by_theta[j] - inertia * of_double_angle(theta[j])[1]
 
 
 @lru_cache(maxsize=32)
@@ -152,20 +204,16 @@ def of_double_angle(angle: float) -> Any:
     return sign * 2.0 * sine * cosine, sign * (1.0 - 2.0 * sine * sine)
 
 
-def _between_columns(torsion: BladeTorsion, by_theta: Array, by_rate: Array) -> Array:
-    """`HarmonicShapes.project` of by_theta · column + by_rate · its rate, (columns as rows, columns)."""
+def _between_columns(torsion: BladeTorsion, pairs: Array) -> Array:
+    """`HarmonicShapes.project` of ∂(moment)/∂θ · column + ∂(moment)/∂θ' · its rate, (columns as rows, columns).
+
+    pairs: as `_moments_by_unknowns` returns.
+    """
     shapes = torsion.shapes
-    modes, functions, azimuths = len(shapes.radial), len(shapes.waves), shapes.waves.shape[1]
-    pairs = (shapes.radial[:, None] * shapes.radial).reshape(modes * modes, -1) * (shapes.dr / azimuths)
-    analysis = shapes.scale[:, None] * shapes.waves
-    both = np.concatenate([pairs @ by_theta, pairs @ by_rate], axis=1)  # (modes², 2 azimuths)
-    weighted = (np.hstack([analysis, analysis]) * both[:, None]).reshape(-1, 2 * azimuths)
-    blocks = weighted @ np.hstack([shapes.waves, shapes.rates]).T
-    return (
-        blocks.reshape(modes, modes, functions, functions)
-        .transpose(0, 2, 1, 3)
-        .reshape(modes * functions, modes * functions)
-    )
+    modes, functions = len(shapes.radial), len(shapes.waves)
+    analysis = shapes.waves * shapes.weights[:, None]
+    blocks = (pairs[0, :, :, None] * analysis) @ shapes.waves.T + (pairs[1, :, :, None] * analysis) @ shapes.rates.T
+    return blocks.transpose(0, 2, 1, 3).reshape(modes * functions, modes * functions)
 
 
 def _loads(problem: Problem, elements: BladeElements) -> Array:

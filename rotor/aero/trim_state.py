@@ -2,12 +2,13 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields
+from functools import cache
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotor.arrays import Array
+from rotor.arrays import Array, Integers
 
 Unknown = Literal["collective", "cyclic_1c", "cyclic_1s", "shaft_tilt", "coning", "flap_1c", "flap_1s", "lambda0"]
 """Name of one of the eight quantities, any of which a trim may solve for."""
@@ -50,3 +51,9 @@ class TrimState:
 
 STATE_NAMES: tuple[Unknown, ...] = tuple(field.name for field in fields(TrimState))  # pyright: ignore[reportAssignmentType]
 """The eight names, in the order of `TrimState.array`."""
+
+
+@cache
+def places_of(unknowns: tuple[Unknown, ...]) -> Integers:
+    """The places of these quantities in `TrimState.array`, (unknowns,)."""
+    return np.array([STATE_NAMES.index(unknown) for unknown in unknowns], dtype=np.int64)

@@ -28,8 +28,8 @@ import numpy as np
 from rotor.aero.elements import BladeElements, Problem
 from rotor.aero.inflow import Wake
 from rotor.aero.sums import N_SUMS, SUM_NAMES, Slopes, SumName, sum_array
-from rotor.aero.trim_state import STATE_NAMES, TrimState, Unknown
-from rotor.arrays import Array, Integers
+from rotor.aero.trim_state import STATE_NAMES, TrimState, Unknown, places_of
+from rotor.arrays import Array
 from rotor.compiled import compiled
 from rotor.design.design import Design
 
@@ -238,15 +238,10 @@ class Balance(NamedTuple):
         """The part of `jacobian` that is not through the sums over the disk."""
         weights, _, by_state, inflow = _equations(self.problem)
         slopes = _momentum_slopes(self.problem, self.flow)
-        return _besides_sums(weights, by_state, inflow, self.tilt, slopes, self.sums, _places(unknowns))
+        return _besides_sums(weights, by_state, inflow, self.tilt, slopes, self.sums, places_of(unknowns))
 
 
 _LAMBDA0, _TILT = STATE_NAMES.index("lambda0"), STATE_NAMES.index("shaft_tilt")
-
-
-@cache
-def _places(unknowns: tuple[Unknown, ...]) -> Integers:
-    return np.array([STATE_NAMES.index(unknown) for unknown in unknowns], dtype=np.int64)
 
 
 @compiled()
