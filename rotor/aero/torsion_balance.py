@@ -40,11 +40,28 @@ def torsion_error(problem: Problem, state: TrimState, elastic: Array, modal: Arr
     """The same from the coordinates of the elastic twist, (modes, functions), and `modal_moments`."""
     torsion = problem.torsion
     assert torsion is not None
-    load = torsion.shapes.analyse(modal) + torsion.coupling @ elastic
-    load[:, 0] += torsion.modal_tip_mass * state.coning
-    load[:, 1] += torsion.modal_inertia * state.cyclic_1c
-    load[:, 2] += torsion.modal_inertia * state.cyclic_1s
-    return torsion.dynamic * elastic - torsion.gain[:, None] * load + problem.given_torsion
+    return _torsion_error(
+        torsion.shapes.analyse(modal), elastic, torsion.coupling, torsion.modal_tip_mass, torsion.modal_inertia,
+        torsion.dynamic, torsion.gain, problem.given_torsion, state.coning, state.cyclic_1c, state.cyclic_1s,
+    )  # fmt: skip
+
+
+@_compile
+def _torsion_error(
+    load: Any, elastic: Any, coupling: Any, tip_mass: Any, inertia: Any, dynamic: Any, gain: Any, given: Any,
+    coning: float, cyclic_1c: float, cyclic_1s: float,
+) -> Any:  # fmt: skip
+    """`torsion_error` from the harmonics of the modal moments, (modes, functions), which become those of all loads."""
+    out = np.empty_like(elastic)
+    for k in range(len(load)):
+        load[k, 0] += tip_mass[k] * coning
+        load[k, 1] += inertia[k] * cyclic_1c
+        load[k, 2] += inertia[k] * cyclic_1s
+        for h in range(load.shape[1]):
+            for other in range(len(load)):
+                load[k, h] += coupling[k, other] * elastic[other, h]
+            out[k, h] = dynamic[k, h] * elastic[k, h] - gain[k] * load[k, h] + given[k, h]
+    return out
 
 
 def modal_moments(problem: Problem, elements: BladeElements) -> Array:

@@ -121,17 +121,22 @@ class _Equations(NamedTuple):
     """1 where 2 λ0 V is part of an equation, (equations,)."""
 
 
+_SUM_PLACE = {name: k for k, name in enumerate(SUM_NAMES)}
+_STATE_PLACE = {name: k for k, name in enumerate(STATE_NAMES)}
+
+
 @lru_cache(maxsize=8)
 def _equations(problem: Problem) -> _Equations:
     rows = [row(problem) for row in trim_of(problem.design).rows]
     weights, by_state = np.zeros((3, len(rows), N_SUMS)), np.zeros((len(rows), len(STATE_NAMES)))
+    constant, inflow = np.zeros((2, len(rows)))
     for i, row in enumerate(rows):
         for k, mapping in enumerate((row.fixed, row.level, row.tilted)):
             for name, weight in mapping.items():
-                weights[k, i, SUM_NAMES.index(name)] = weight
+                weights[k, i, _SUM_PLACE[name]] = weight
         for unknown, slope in row.by_state.items():
-            by_state[i, STATE_NAMES.index(unknown)] = slope
-    constant, inflow = np.array([(row.constant, row.inflow) for row in rows]).T.copy()
+            by_state[i, _STATE_PLACE[unknown]] = slope
+        constant[i], inflow[i] = row.constant, row.inflow
     return _Equations(weights, constant, by_state, inflow)
 
 

@@ -37,7 +37,8 @@ from rotor.trim.solution import HubMoment, PowerBudget
 def power_budget(problem: Problem, elements: BladeElements, total: DiskSums) -> PowerBudget:
     """Power [W] by parts, and torque × Ω; total: the sums over the disk."""
     design, disk, loads = problem.design, problem.disk, elements.loads
-    unit = design.power_unit * disk.dr / len(disk.psi)
+    watts, weight = design.power_unit, design.weight_coefficient
+    unit = watts * disk.dr / len(disk.psi)
     induced, profile, shaft = _powers(
         loads[kernel.FZ], loads[kernel.FX], loads[kernel.CD], elements.u_t, elements.u_p, elements.induced,
         elements.swirl, disk.r, disk.half_solidity,
@@ -45,11 +46,11 @@ def power_budget(problem: Problem, elements: BladeElements, total: DiskSums) -> 
     if elements.friction is not None:
         profile += _rubbing(elements.u_t, elements.flow.mu_x * disk.cos, elements.friction.fx, elements.friction.radial)
     induced, profile, shaft = unit * induced, unit * profile, unit * shaft
-    pressed = problem.weight - design.weight_coefficient
-    parasite = (problem.drag * design.condition.advance_ratio + pressed * problem.climb) * design.power_unit
-    climb = design.weight_coefficient * problem.climb * design.power_unit
+    pressed = problem.weight - weight
+    parasite = (problem.drag * design.condition.advance_ratio + pressed * problem.climb) * watts
+    climb = weight * problem.climb * watts
     if design.condition.stand is not None:
-        parasite = -wind_forces(elements, total)[1] * design.condition.advance_ratio * design.power_unit
+        parasite = -wind_forces(elements, total)[1] * design.condition.advance_ratio * watts
     main = induced + profile + parasite + climb
     tail, _ = tail_power(design, main)
     return PowerBudget(induced=induced, profile=profile, parasite=parasite, tail=tail, shaft=shaft, climb=climb)

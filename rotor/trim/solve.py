@@ -100,6 +100,7 @@ def _assemble(problem: Problem, result: HoverResult | HoverWakeResult | TrimResu
     power = power_budget(problem, elements, total)
     moment = hub_moment(problem, elements)
     lift, drag = wind_forces(elements, total)
+    newtons = design.thrust_unit
     area = _areas(problem, fields)
     converged = result.converged
     wake = result if isinstance(result, HoverWakeResult) else None
@@ -129,8 +130,8 @@ def _assemble(problem: Problem, result: HoverResult | HoverWakeResult | TrimResu
         last_power=power,
         hub_moment=moment,
         ct=total.thrust,
-        lift_and_drag=(lift * design.thrust_unit, drag * design.thrust_unit),
-        cp=power.main_rotor / design.power_unit,
+        lift_and_drag=(lift * newtons, drag * newtons),
+        cp=power.main_rotor / (newtons * design.rotor.tip_speed),
         reverse_flow_area=area["reverse"],
         stalled_area=area["stalled"],
         residual=result.residual,
