@@ -388,14 +388,12 @@ def _lift_loss(
     """Loss factor on lift, averaged over azimuth (thesis p. 24), (elements,), and slopes by (α, λ0)."""
     disk, models = problem.disk, problem.design.models
     around = response.around(_LOSS_COS, _LOSS_SIN)
-    factor, slope, *by_wake = mean_loss_factor(
+    found = mean_loss_factor(
         disk.r, flow.mu_z + around.induced, around.by_wake if slopes else _NO_SLOPES, disk.blades, disk.root,
         models.tip_loss, models.hub_loss,
     )  # fmt: skip
     if not slopes:
-        return factor, problem.no_loss[1]
-    by_mu_x, by_mu_z, by_lambda0 = by_wake
-    if models.disk_axial_flow:
-        by_mu_z = by_mu_z + slope
-    # ∂µ_x/∂α = −µ_z, ∂µ_z/∂α = µ_x
-    return factor, np.array([wake.mu_x * by_mu_z - wake.mu_z * by_mu_x, by_lambda0])
+        return found[0], problem.no_loss[1]
+    # By λ itself, µ_x, µ_z and λ0, of which ∂µ_x/∂α = −µ_z, ∂µ_z/∂α = µ_x.
+    by_tilt = [wake.mu_x if models.disk_axial_flow else 0.0, -wake.mu_z, wake.mu_x, 0.0]
+    return found[0], np.array([by_tilt, [0.0, 0.0, 0.0, 1.0]]) @ found[1:]

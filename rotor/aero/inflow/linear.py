@@ -7,7 +7,6 @@ distribution, so with them induced power does not depend on twist.
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -55,38 +54,27 @@ class LinearInflow(AnyField):
         return PrescribedResponse(r, cos, sin, wake.lambda0, self.longitudinal(wake), self.lateral(wake))
 
 
-@dataclass(frozen=True, eq=False)
 class PrescribedResponse:
     """The response of a prescribed inflow, A = 0."""
 
-    r: Array
-    cos: Array
-    sin: Array
-    lambda0: float
-    longitudinal: Gradient
-    lateral: Gradient
-
-    @property
-    def induced(self) -> Array:
+    def __init__(self, r: Array, cos: Array, sin: Array, lambda0: float, kx: Gradient, ky: Gradient) -> None:
+        self._r, self._lambda0, self._kx, self._ky = r, lambda0, kx, ky
+        self._around = cos, sin
+        self._by_wake: Array | None = None
+        self.induced: Array = _field(r, cos, sin, lambda0, kx[0], ky[0])
         """λ_i, (elements, azimuths)."""
-        return self._induced
 
     @property
     def by_wake(self) -> Array:
         """Its slopes by (µ_x, µ_z, λ0), (3, elements, azimuths)."""
-        return self._by_wake
-
-    @cached_property
-    def _induced(self) -> Array:
-        return _field(self.r, self.cos, self.sin, self.lambda0, self.longitudinal[0], self.lateral[0])
-
-    @cached_property
-    def _by_wake(self) -> Array:
-        return _slopes(self.r, self.cos, self.sin, self.lambda0, self.longitudinal, self.lateral)
+        found = self._by_wake
+        if found is None:
+            self._by_wake = found = _slopes(self._r, *self._around, self._lambda0, self._kx, self._ky)
+        return found
 
     def around(self, cos: Array, sin: Array) -> "PrescribedResponse":
         """The same inflow at other azimuths."""
-        return PrescribedResponse(self.r, cos, sin, self.lambda0, self.longitudinal, self.lateral)
+        return PrescribedResponse(self._r, cos, sin, self._lambda0, self._kx, self._ky)
 
     @property
     def coordinates(self) -> Array:
