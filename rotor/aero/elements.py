@@ -22,7 +22,7 @@ from rotor.aero.elastic import (
     torsion_on_every_azimuth,
 )
 from rotor.aero.inflow import InflowModel, Wake, inflow_model
-from rotor.aero.inflow.interface import InflowResponse
+from rotor.aero.inflow.interface import InflowBasis, InflowResponse
 from rotor.aero.inflow.linear import PrescribedResponse
 from rotor.aero.losses import mean_loss_factor
 from rotor.aero.momentum import glauert_inflow
@@ -103,6 +103,11 @@ class Problem:
         return np.ones_like(self.disk.r), np.zeros((2, len(self.disk.r)))
 
     @cached_property
+    def inflow_basis(self) -> InflowBasis:
+        """Of the inflow model on this disk."""
+        return self.inflow.basis(self.disk)
+
+    @cached_property
     def thinned(self) -> "Problem":
         """The same on a part of the azimuths, at least `LEAST_AZIMUTHS`; itself where no smaller part will do.
 
@@ -115,7 +120,7 @@ class Problem:
         return self
 
     def _resolved_by(self, azimuths: int) -> bool:
-        return not self.inflow.load_dependent or self.inflow.basis(self.disk).resolved_by(azimuths)
+        return not self.inflow.load_dependent or self.inflow_basis.resolved_by(azimuths)
 
     def _every(self, step: int) -> "Problem":
         torsion, unloaded = self.torsion, self.unloaded

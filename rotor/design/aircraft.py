@@ -6,6 +6,7 @@ standard atmosphere, weight, advance ratio, and the drag of the airframe.
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from numbers import Real
 from typing import Any, Literal
 
@@ -69,7 +70,7 @@ class FlightCondition:
         """[N]"""
         return self.mass * GRAVITY
 
-    @property
+    @cached_property
     def density(self) -> float:
         """Air density [kg/m³], standard atmosphere unless a test gives it."""
         if self.stand is not None and self.stand.density is not None:

@@ -9,6 +9,7 @@ import hashlib
 import json
 import math
 from dataclasses import dataclass, fields, is_dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal, cast
 
@@ -315,12 +316,12 @@ class Design:
             return stand.tip_mach
         return self.rotor.tip_speed / self.condition.sound_speed
 
-    @property
+    @cached_property
     def thrust_unit(self) -> float:
         """ρ A (ΩR)² [N], eq. (2.11)."""
         return self.condition.density * self.rotor.disk_area * self.rotor.tip_speed**2
 
-    @property
+    @cached_property
     def power_unit(self) -> float:
         """ρ A (ΩR)³ [W], eq. (2.12)."""
         return self.thrust_unit * self.rotor.tip_speed

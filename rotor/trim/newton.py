@@ -8,10 +8,11 @@ meet the same tolerance, whatever the derivatives of the steps.
 import math
 import threading
 from collections.abc import Callable
-from contextlib import suppress
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+from scipy.linalg.lapack import dgesv
 
 from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem, evaluate_elements, wake_at
@@ -22,6 +23,7 @@ from rotor.aero.torsion_balance import torsion_error, torsion_slopes
 from rotor.aero.trial_loads import TrialLoads, evaluate_loads, loads_of
 from rotor.aero.trim_state import TrimState, Unknown
 from rotor.arrays import Array
+from rotor.compiled import compiled
 from rotor.trim.equations import Balance, balance, balance_of, unknowns_of, with_given_values
 from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
 
@@ -48,7 +50,7 @@ class Derivatives:
 
     def serve(self, problem: Problem, unknowns: tuple[Unknown, ...]) -> bool:
         """Whether steps can be made with them: whether they are for these unknowns and coordinates."""
-        size = problem.inflow.basis(problem.disk).size if problem.inflow.load_dependent else 0
+        size = problem.inflow_basis.size if problem.inflow.load_dependent else 0
         return (
             self.unknowns == unknowns
             and len(self.jacobian) == len(unknowns) + problem.given_torsion.size
@@ -167,7 +169,7 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
         induced = start.induced
         if induced is None or induced.shape != problem.disk.shape:
             induced = _prescribed_start(problem, state)
-        inflow = problem.inflow.basis(problem.disk).nearest(induced, wake_at(problem, state))
+        inflow = problem.inflow_basis.nearest(induced, wake_at(problem, state))
     derivatives = start.derivatives
     if derivatives is not None and not derivatives.serve(problem, unknowns):
         derivatives = None
@@ -219,7 +221,7 @@ class _Iteration:
             step, inflow_step = _step(point, derivatives, self._secants)
             if step is None:
                 break
-            step *= min(1.0, float((self._limits / np.maximum(np.abs(step), 1e-12)).min()))
+            step = _within(step, self._limits)
             trial, fraction = self._taken(problem, point, step, inflow_step(step), 1.0, expected), 1.0
             while fresh and trial.size >= point.size and fraction >= 0.2 and self.passes < options.max_passes:
                 fraction *= 0.5
@@ -299,15 +301,15 @@ def _evaluate(
     elements = evaluate_elements(problem, state, induced, elastic) if whole else None
     loads = loads_of(problem, elements) if elements is not None else evaluate_loads(problem, state, induced, elastic)
     forces = balance(problem, state, loads.flow, loads.sums)
-    size = float(np.abs(forces.error).max()) / (problem.scale * options.residual_tolerance)
+    size = _largest(forces.error) / (problem.scale * options.residual_tolerance)
     twisting = elastic
     if problem.torsion is not None:
         twisting = torsion_error(problem, state, elastic, loads.modal).ravel()
-        size = max(size, float(np.abs(twisting).max()) / options.torsion_tolerance)
+        size = max(size, _largest(twisting) / options.torsion_tolerance)
     inflow_error, largest = inflow, 0.0
     if problem.inflow.load_dependent:
         inflow_error = loads.response.coordinates - inflow
-        largest = problem.inflow.basis(problem.disk).bound(inflow_error)
+        largest = problem.inflow_basis.bound(inflow_error)
         size = max(size, largest / (_inflow_scale(problem, loads) * options.inflow_tolerance))
     size = size if math.isfinite(size) else math.inf
     return _Iterate(loads, inflow, forces, inflow_error, largest, twisting, size, elements)
@@ -317,7 +319,7 @@ def _field(problem: Problem, state: TrimState, inflow: Array) -> Array | None:
     """λ_i of coordinates; None for a model that does not depend on the load."""
     if not problem.inflow.load_dependent:
         return None
-    return problem.inflow.basis(problem.disk).field(inflow, wake_at(problem, state))
+    return problem.inflow_basis.field(inflow, wake_at(problem, state))
 
 
 def _inflow_scale(problem: Problem, loads: TrialLoads) -> float:
@@ -334,7 +336,7 @@ def differentiate(
     found = slopes(problem, elements, unknowns, feedback)
     matrix, by_terms = full_jacobian(problem, elements, found, forces)
     if by_terms is not None:  # Without what no term can hold.
-        by_terms = np.ascontiguousarray(by_terms[:, : problem.inflow.basis(problem.disk).size])
+        by_terms = np.ascontiguousarray(by_terms[:, : problem.inflow_basis.size])
     return found, Derivatives(unknowns, matrix, feedback, found.answer, by_terms)
 
 
@@ -383,12 +385,43 @@ class _Secants:
         Changes of an unknown are measured by what they do to the residual.
         """
         if self.taken is not None and self._residual is not None:
-            weighted: Array = self.taken * np.einsum("ij,ij->j", self.matrix, self.matrix)
-            missed: Array = residual - self._residual - self.matrix @ self.taken
-            length = max(float(self.taken @ weighted), 1e-300)
-            self.matrix = self.matrix + missed[:, None] * (weighted / length)
+            self.matrix = _corrected(self.matrix, self.taken, residual - self._residual)
         self._residual = residual
         return self.matrix
+
+
+@compiled(error_model="numpy")
+def _corrected(matrix: Any, step: Any, change: Any) -> Any:
+    """The matrix nearest to this one by which a step changes the residual as it did."""
+    missed, weighted, length = change - matrix @ step, np.zeros(len(step)), 1e-300
+    for j in range(len(step)):
+        for i in range(len(matrix)):
+            weighted[j] += matrix[i, j] * matrix[i, j] * step[j]
+        length += weighted[j] * step[j]
+    out = np.empty_like(matrix)
+    for i in range(len(matrix)):
+        for j in range(len(step)):
+            out[i, j] = matrix[i, j] + missed[i] * weighted[j] / length
+    return out
+
+
+@compiled(error_model="numpy")
+def _within(step: Any, limits: Any) -> Any:
+    """The step, shortened where an unknown would move by more than its limit."""
+    share = 1.0
+    for k in range(len(step)):
+        share = min(share, limits[k] / max(abs(step[k]), 1e-12))
+    return share * step
+
+
+@compiled(error_model="numpy")
+def _largest(values: Any) -> float:
+    """The largest size; not a number where one value is none."""
+    largest, total = 0.0, 0.0
+    for value in values:
+        largest = max(largest, abs(value))
+        total += value
+    return largest if math.isfinite(total) else math.nan
 
 
 def _step(
@@ -400,10 +433,8 @@ def _step(
     if answer is not None and derivatives.by_terms is not None:
         settled = answer.solve(settled)
         residual += derivatives.by_terms @ settled
-    step: Array | None = None
-    with suppress(np.linalg.LinAlgError):
-        step = np.asarray(np.linalg.solve(secants.at(residual), -residual), dtype=np.float64)
-    return step, lambda taken: settled if answer is None else settled + answer.change(taken)
+    _, _, step, singular = dgesv(secants.at(residual), -residual)
+    return None if singular else step, lambda taken: settled if answer is None else settled + answer.change(taken)
 
 
 def _prescribed_start(problem: Problem, state: TrimState) -> Array:
