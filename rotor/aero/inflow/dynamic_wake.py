@@ -333,8 +333,7 @@ class DynamicWakeResponse:
             begin=projection.terms_by_shape[0],
             term=projection.terms_by_shape[1],
             wave=projection.terms_by_shape[2],
-            transfer=operator.transfer,
-            by_wake=operator.coefficients_by_wake(self._load),
+            answer=projection.transposed_answer(projection.sums(self._load), operator.flow),
             beyond=np.zeros((0, 0)) if beyond is None else beyond,
         )
 

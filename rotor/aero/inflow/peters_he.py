@@ -18,7 +18,7 @@ same. The mass flow keeps the sign of the flow.
 import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -364,6 +364,141 @@ def _times(made: Any, loads: Any) -> Any:
                 out[real, i] += made[real, j, i] * re - made[imaginary, j, i] * im
                 out[imaginary, i] += made[real, j, i] * im + made[imaginary, j, i] * re
     return out.T.copy()
+
+
+class TransposedAnswer(NamedTuple):
+    """What `answer_transposed` needs, and the slopes of `answer` by X, V_T and V̄; amplitudes are (1 + 2k, modes)."""
+
+    influence: Array
+    """L"""
+    scaled: Array
+    """B"""
+    factors: Array
+    """Of 1 + q²B², (k, modes, modes), with their pivots, (k, modes)."""
+    pivots: Integers
+    uniform: Array
+    flow: tuple[float, float, float]
+    by_flow: Array
+    """dL y by X, and what H is to be applied to for the slopes by X, V_T and V̄, (4, 1 + 2k, modes)."""
+
+
+@_compile
+def transpose_answer(
+    influence: Any, driven: Any, slopes: Any, flow: Any, uniform: Any, harmonics: Any, loads: Any
+) -> Any:  # fmt: skip
+    """What `TransposedAnswer` holds, at loads (modes, 1 + 2k). `slopes` are those of L and M L by X.
+
+    With a = H τ = L y and (V + iqM L) y = ½ τ:  da = dL y − 2H (dV y + iqM dL y).
+    """
+    modes, count = loads.shape
+    scaled, y = _over_flow(driven, flow, uniform), 0.5 * _over_flow(loads, flow, uniform).T.copy()
+    square = scaled @ scaled
+    factors, pivots = np.empty((len(harmonics), modes, modes)), np.empty((len(harmonics), modes), np.int64)
+    for k in range(len(harmonics)):
+        q, real, imaginary = harmonics[k], 1 + 2 * k, 2 + 2 * k
+        for i in range(modes):
+            for j in range(modes):
+                factors[k, i, j] = q * q * square[i, j]
+            factors[k, i, i] += 1.0
+        factorise(factors[k], pivots[k])
+        both = y[real : imaginary + 1].copy()
+        solve_factored(factors[k], pivots[k], both)
+        turned = both @ scaled.T
+        for i in range(modes):
+            y[real, i] = both[0, i] + q * turned[1, i]
+            y[imaginary, i] = both[1, i] - q * turned[0, i]
+    by_influence, by_driven = y @ slopes[0].T, y @ slopes[1].T
+    by_flow = np.zeros((4, count, modes))
+    by_flow[0] = by_influence
+    for c in range(count):
+        share = y[c] @ uniform[1]
+        for i in range(modes):
+            by_flow[2, c, i] = -2.0 * uniform[0, i] * share
+            by_flow[3, c, i] = -2.0 * y[c, i] - by_flow[2, c, i]
+    for k in range(len(harmonics)):
+        for i in range(modes):
+            by_flow[1, 1 + 2 * k, i] = 2.0 * harmonics[k] * by_driven[2 + 2 * k, i]
+            by_flow[1, 2 + 2 * k, i] = -2.0 * harmonics[k] * by_driven[1 + 2 * k, i]
+    return scaled, factors, pivots, by_flow
+
+
+@_compile
+def answer_transposed(made: Any, harmonics: Any, weights: Any) -> Any:
+    """Hᴴ w = ½ V⁻ᵀ (1 + iqBᵀ)(1 + q²BᵀBᵀ)⁻¹ Lᵀ w with a = H τ, (1 + 2k, modes) both, and wᵀ∂a/∂(X, V_T, V̄)."""
+    out = weights @ made.influence
+    for k in range(len(harmonics)):
+        q, real, imaginary = harmonics[k], 1 + 2 * k, 2 + 2 * k
+        both = out[real : imaginary + 1]
+        solve_factored_transposed(made.factors[k], made.pivots[k], both)
+        turned = both @ made.scaled
+        for i in range(out.shape[1]):
+            out[real, i] -= q * turned[1, i]
+            out[imaginary, i] += q * turned[0, i]
+    _, speed, mass_flow = made.flow
+    by_flow = np.zeros(3)
+    for c in range(len(out)):
+        share = 0.0
+        for i in range(out.shape[1]):
+            share += out[c, i] * made.uniform[0, i]
+        share *= mass_flow / speed - 1.0
+        for i in range(out.shape[1]):
+            out[c, i] = 0.5 * (out[c, i] + share * made.uniform[1, i]) / mass_flow
+            by_flow[0] += weights[c, i] * made.by_flow[0, c, i] + out[c, i] * made.by_flow[1, c, i]
+            by_flow[1] += out[c, i] * made.by_flow[2, c, i]
+            by_flow[2] += out[c, i] * made.by_flow[3, c, i]
+    return out, by_flow
+
+
+@_compile
+def factorise(matrix: Any, pivots: Any) -> None:
+    """Factors of a matrix with its rows exchanged, in its place: below the diagonal L, on it and above U."""
+    n = len(matrix)
+    for k in range(n):
+        best, most = k, abs(matrix[k, k])
+        for i in range(k + 1, n):
+            if abs(matrix[i, k]) > most:
+                best, most = i, abs(matrix[i, k])
+        pivots[k] = best
+        if best != k:
+            for j in range(n):
+                matrix[k, j], matrix[best, j] = matrix[best, j], matrix[k, j]
+        pivot = 1.0 / matrix[k, k]
+        for i in range(k + 1, n):
+            matrix[i, k] *= pivot
+            for j in range(k + 1, n):
+                matrix[i, j] -= matrix[i, k] * matrix[k, j]
+
+
+@_compile
+def solve_factored(factors: Any, pivots: Any, rows: Any) -> None:
+    """Solve for right sides, one in each row, in place, with the factors of `factorise`."""
+    n = len(factors)
+    for right in rows:
+        for k in range(n):
+            right[k], right[pivots[k]] = right[pivots[k]], right[k]
+        for i in range(1, n):
+            for j in range(i):
+                right[i] -= factors[i, j] * right[j]
+        for i in range(n - 1, -1, -1):
+            for j in range(i + 1, n):
+                right[i] -= factors[i, j] * right[j]
+            right[i] /= factors[i, i]
+
+
+@_compile
+def solve_factored_transposed(factors: Any, pivots: Any, rows: Any) -> None:
+    """The same for the transposed matrix."""
+    n = len(factors)
+    for c in range(len(rows)):
+        for k in range(n):
+            rows[c, k] /= factors[k, k]
+            for j in range(k + 1, n):
+                rows[c, j] -= factors[k, j] * rows[c, k]
+        for k in range(n - 1, 0, -1):
+            for j in range(k):
+                rows[c, j] -= factors[k, j] * rows[c, k]
+        for k in range(n - 1, -1, -1):
+            rows[c, k], rows[c, pivots[k]] = rows[c, pivots[k]], rows[c, k]
 
 
 @_compile
