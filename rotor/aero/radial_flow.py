@@ -112,6 +112,6 @@ def friction_slopes_of_row(r: float, cos: Any, sin: Any, gain: float, mu_x: floa
         across, along = r + mu_x * sin[j], mu_x * cos[j]
         speed = math.sqrt(across * across + along * along + _TINY)
         speed_slope = (across * sin[j] + along * cos[j]) / speed
-        excess_slope = speed_slope - np.sign(across) * sin[j]
+        excess_slope = speed_slope - math.copysign(1.0, across) * sin[j]
         fx[j] = gain * (excess_slope * across + (speed - abs(across)) * sin[j])
         radial[j] = gain * (speed_slope * along + speed * cos[j])

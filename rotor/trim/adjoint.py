@@ -10,8 +10,8 @@ The chain rule then gives the gradient by any twist parameter: dP/dp = Σ_r dP/d
 """
 
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Literal
+from functools import cached_property, lru_cache
+from typing import Any, Literal
 
 import numpy as np
 
@@ -20,16 +20,19 @@ from rotor.aero.elements import BladeElements, Problem, evaluate_elements
 from rotor.aero.free_wake.system import WakeState
 from rotor.arrays import Array
 from rotor.blas_threads import one_blas_thread
+from rotor.compiled import compiled
 from rotor.trim.forward import guess_of
 from rotor.trim.hover import Annuli, AnnulusSlopes
 from rotor.trim.hover_wake import LineWeights, WakeAdjoint
-from rotor.trim.low_speed import HoverMatched, trim_problem
+from rotor.trim.low_speed import HoverDifference, HoverMatched, trim_problem
 from rotor.trim.newton import KEPT, KeptTrim, differentiate
 from rotor.trim.power import tail_power
 from rotor.trim.solution import Solution
-from rotor.trim.transposed import BY_INFLOW, BY_THETA, BY_UT, TENSION, TransposedTrim
+from rotor.trim.transposed import BY_INFLOW, BY_THETA, BY_UT, TENSION, Given, TransposedTrim
 
 Objective = Literal["total", "induced"]
+
+_compile = compiled(error_model="numpy", fastmath={"contract", "reassoc"})
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,12 +79,15 @@ class Weights:
     tilt: float = 0.0
     """By the shaft tilt at the same loads and velocities."""
 
-    def on(self, shape: tuple[int, int]) -> Array:
-        """As `TransposedTrim.with_nearby` takes them, (7, elements, azimuths)."""
-        out = np.empty((7, *shape))
-        for k, field in enumerate((self.fz, self.fx, self.inflow, self.theta, self.u_t, self.u_p, self.u_r)):
-            out[k] = field
-        return out
+    def on(self, shape: tuple[int, int]) -> Given:
+        """As `TransposedTrim.with_nearby` takes them."""
+        given = {name: getattr(self, name) for name in Given._fields}
+        return Given(**{name: _on(field, shape) for name, field in given.items() if not isinstance(field, float)})
+
+
+def _on(field: Array, shape: tuple[int, int]) -> Array:
+    """A field for compiled code: itself where it may."""
+    return field if field.shape == shape and field.flags.c_contiguous else np.broadcast_to(field, shape).copy()
 
 
 class HoverAdjoint:
@@ -181,7 +187,7 @@ class Adjoint:
             return found
         return found + self._by_difference(problem.inflow, slopes[BY_INFLOW], swirl - slopes[BY_UT])
 
-    def _slopes(self, given: Array, direct: Array) -> Array:
+    def _slopes(self, given: Given, direct: Array) -> Array:
         """As `TransposedTrim.with_nearby`, with the derivatives kept or, where these do not serve, with new ones."""
         problem, trim, kept = self.problem, self._transposed, self._kept
         near = kept.derivatives if kept is not None else None
@@ -198,14 +204,19 @@ class Adjoint:
         """The part of the gradient through the hovering rotor, whose inflow is carried over to low speed."""
         difference, share = inflow.difference, inflow.share
         fz, by_inflow, by_swirl = difference.by_hover(share * on_inflow, share * on_swirl)
-        torsion = difference.elements.torsion
-        hovering = HoverAdjoint(
-            difference.problem,
-            difference.elements.state.collective,
-            torsion.coordinates if torsion is not None else None,
-            difference.wake,
-        )
-        return hovering.by_pitch(Weights(fz=fz, inflow=by_inflow, swirl=by_swirl))
+        return _hover_adjoint(difference).by_pitch(Weights(fz=fz, inflow=by_inflow, swirl=by_swirl))
+
+
+@lru_cache(maxsize=4)
+def _hover_adjoint(difference: HoverDifference) -> HoverAdjoint:
+    """The same for all measures, and for all conditions that share the hovering rotor."""
+    torsion = difference.elements.torsion
+    return HoverAdjoint(
+        difference.problem,
+        difference.elements.state.collective,
+        torsion.coordinates if torsion is not None else None,
+        difference.wake,
+    )
 
 
 def power_gradient(solution: Solution, objective: Objective = "total") -> PitchGradient:
@@ -240,18 +251,37 @@ def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradie
         )
         gain = 1.0
     else:
+        by_fz, by_fx, lift, drag, lifted = _power_weights(
+            elements.u_t, elements.u_p, elements.induced, elements.swirl, fz, fx, cell
+        )
         weights = Weights(
-            fz=cell * (elements.induced - elements.u_p),
-            fx=cell * (elements.u_t + elements.swirl[:, None]),
-            inflow=cell * fz,
-            u_t=cell * fx,
-            u_p=-cell * fz,
-            swirl=cell * fx,
+            fz=by_fz,
+            fx=by_fx,
+            inflow=lift,
+            u_t=drag,
+            u_p=lifted,
+            swirl=drag,
             tilt=-cell * elements.flow.mu_z * _radial_dissipation_slope(adjoint),
         )
         gain = _tail_gain(adjoint.solution)
     by_element = adjoint.by_pitch(weights) * gain * problem.design.power_unit
     return PitchGradient(problem.disk.r, problem.disk.dr, by_element)
+
+
+@_compile
+def _power_weights(u_t: Any, u_p: Any, induced: Any, swirl: Any, fz: Any, fx: Any, cell: float) -> Any:
+    """Slopes of power by F_z, F_x, λ_i, U_T and U_P at the same F_z and F_x, (5, elements, azimuths)."""
+    n, m = fz.shape
+    out = np.empty((5, n, m))
+    for i in range(n):
+        for j in range(m):
+            out[0, i, j] = cell * (induced[i, j] - u_p[i, j])
+            out[1, i, j] = cell * (u_t[i, j] + swirl[i])
+        for j in range(m):
+            out[2, i, j] = cell * fz[i, j]
+            out[3, i, j] = cell * fx[i, j]
+            out[4, i, j] = -cell * fz[i, j]
+    return out
 
 
 def _radial_dissipation_slope(adjoint: Adjoint) -> float:
@@ -260,7 +290,17 @@ def _radial_dissipation_slope(adjoint: Adjoint) -> float:
     if elements.friction is None:
         return 0.0
     friction = elements.friction
-    return float((disk.cos * (friction.radial + elements.flow.mu_x * friction.radial_slope)).sum())
+    return _along_flight(disk.cos, friction.radial, elements.flow.mu_x, friction.radial_slope)
+
+
+@_compile
+def _along_flight(cos: Any, radial: Any, mu_x: float, slope: Any) -> float:
+    """Sum over the grid of cos ψ (radial + µ_x slope)."""
+    total = 0.0
+    for i in range(len(radial)):
+        for j in range(len(cos)):
+            total += cos[j] * (radial[i, j] + mu_x * slope[i, j])
+    return total
 
 
 def _tail_gain(solution: Solution) -> float:

@@ -16,7 +16,7 @@ that at the same rate of climb.
 import math
 from collections import deque
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -58,8 +58,12 @@ class HoverDifference:
         """Slopes of a sum of both differences with these weights by F_z, λ_i and swirl of hover; fields each."""
         around = np.ones(self.problem.disk.shape) / len(self.problem.disk.psi)
         by_inflow = inflow[:, None] * around
-        response = self.problem.inflow.respond(self.problem.disk, self.flow, self.elements.loads[kernel.FZ])
-        return -response.apply_transposed(by_inflow), by_inflow, swirl[:, None] * around
+        return -self._response.apply_transposed(by_inflow), by_inflow, swirl[:, None] * around
+
+    @cached_property
+    def _response(self) -> InflowResponse:
+        """Of the forward-flight model to hover."""
+        return self.problem.inflow.respond(self.problem.disk, self.flow, self.elements.loads[kernel.FZ])
 
 
 @lru_cache(maxsize=32)

@@ -15,6 +15,7 @@ preconditioner ends after a few passes.
 
 import math
 from typing import Any, NamedTuple
+from weakref import WeakKeyDictionary
 
 import numpy as np
 from scipy.linalg.lapack import dgetrf
@@ -31,7 +32,7 @@ from rotor.compiled import compiled
 from rotor.trim.equations import balance_of, unknowns_of
 from rotor.trim.newton import Derivatives
 
-TOLERANCE = 1e-11
+TOLERANCE = 1e-10
 """Error of a gradient at which the passes end, as a fraction of it."""
 MOST_PASSES = 9
 """Passes after which new derivatives are evaluated instead: they cost more by then. Our choice."""
@@ -103,6 +104,25 @@ class _Blade(NamedTuple):
     """From multipliers of their means to the tension on the twist, (modes, elements)."""
 
 
+class Given(NamedTuple):
+    """Slopes of a measure at each element, (elements, azimuths), or (0, 0) where it has none."""
+
+    fz: Array = _NO_FIELD
+    """By F_z."""
+    fx: Array = _NO_FIELD
+    """By F_x."""
+    inflow: Array = _NO_FIELD
+    """By λ_i at the same velocities."""
+    theta: Array = _NO_FIELD
+    """By θ at the same loads, as the next three."""
+    u_t: Array = _NO_FIELD
+    u_p: Array = _NO_FIELD
+    u_r: Array = _NO_FIELD
+
+
+_NOTHING = Given()
+
+
 class _Nearby(NamedTuple):
     """Derivatives of a trim nearby, as arrays for compiled code."""
 
@@ -116,6 +136,10 @@ class _Nearby(NamedTuple):
     """The terms of the inflow by unknowns and elastic coordinates, (columns, terms)."""
     by_terms: Array
     """∂(equations)/∂(terms), (equations + columns, terms)."""
+
+
+_NEARBY: WeakKeyDictionary[Derivatives, _Nearby] = WeakKeyDictionary()
+"""Those of the derivatives in use."""
 
 
 class TransposedTrim:
@@ -189,13 +213,23 @@ class TransposedTrim:
             out[self.unknowns.index("shaft_tilt")] += tilt
         return out
 
-    def with_nearby(self, derivatives: Derivatives, given: Array, direct: Array) -> Array | None:
+    def with_nearby(self, derivatives: Derivatives, given: Given, direct: Array) -> Array | None:
         """Slopes of a measure at each element, the trim following, (4, elements), see `BY_THETA`.
 
-        given: the measure's slopes by F_z, F_x, λ_i, θ, U_T, U_P and U_R at every element, (7, elements, azimuths);
-        direct: those by the unknowns beside, (unknowns,). None where the derivatives are of a trim too far away, or the
-        inflow model has no terms.
+        direct: the measure's slopes by the unknowns beside the given ones, (unknowns,). None where the derivatives are
+        of a trim too far away, or the inflow model has no terms.
         """
+        nearby = _NEARBY.get(derivatives)
+        if nearby is None:
+            nearby = self._nearby(derivatives)
+            if nearby is None:
+                return None
+            _NEARBY[derivatives] = nearby
+        found, converged = _conjugate_residuals(self._blade, self._terms, nearby, given, direct, TOLERANCE, MOST_PASSES)
+        return found if converged else None
+
+    def _nearby(self, derivatives: Derivatives) -> _Nearby | None:
+        """The derivatives for compiled code; None where the inflow model has no terms."""
         factors: Any = _NO_FIELD, np.zeros(0, dtype=np.int32), _NO_FIELD, _NO_FIELD
         if self._problem.inflow.load_dependent:
             feedback, answer, by_terms = derivatives.feedback, derivatives.answer, derivatives.by_terms
@@ -206,12 +240,9 @@ class TransposedTrim:
             by_terms = np.ascontiguousarray(by_terms[:, : columns.shape[1]])
             factors = feedback.lu[0].T, feedback.lu[1], columns, by_terms
         jacobian, pivots, _ = dgetrf(derivatives.jacobian.T)
-        found, converged = _conjugate_residuals(
-            self._blade, self._terms, _Nearby(jacobian.T, pivots, *factors), given, direct, TOLERANCE, MOST_PASSES
-        )
-        return found if converged else None
+        return _Nearby(jacobian.T, pivots, *factors)
 
-    def with_own(self, derivatives: Derivatives, given: Array, direct: Array) -> Array:
+    def with_own(self, derivatives: Derivatives, given: Given, direct: Array) -> Array:
         """The same with the derivatives of this very trim: one solution and one pass."""
         blade = self._blade
         no_load = np.zeros((blade.shapes.shape[1], len(blade.cos)))
@@ -224,8 +255,8 @@ class TransposedTrim:
         _, found, _, source = _pass(blade, multipliers, no_load, _NO_FIELD, given)
         if derivatives.feedback is None:
             return found
-        given = given.copy()
-        given[0] += derivatives.feedback.solve_transposed(source)[1]
+        on_load = derivatives.feedback.solve_transposed(source)[1]
+        given = given._replace(fz=given.fz + on_load if given.fz.size else np.ascontiguousarray(on_load))
         return _pass(blade, multipliers, no_load, _NO_FIELD, given)[1]
 
 
@@ -276,7 +307,7 @@ def _conjugate_residuals(
         if own > 0:
             coefficients, by_wake = transposed(terms.answer, coefficients)
         around = _around(terms, coefficients, shape)
-        slopes, gains[k], on_terms, _ = _pass(blade, rest[:size], around, terms.beyond, given[:0])
+        slopes, gains[k], on_terms, _ = _pass(blade, rest[:size], around, terms.beyond, _NOTHING)
         slopes[: len(blade.wake)] += blade.wake @ by_wake
         changes[k] = -_correction(nearby, slopes, _sums(terms, on_terms) - rest[size:])
         for i in range(k):
@@ -392,7 +423,7 @@ def _pass(blade: Any, multipliers: Any, around: Any, beyond: Any, given: Any) ->
 
     Slopes by the unknowns, slopes by element, and ∂L/∂λ: its sums along the blade with the shapes of the terms, and the
     field. around: what Aᵀv has of each function along the blade, (shapes, azimuths), to which what is left of w_z is
-    added. given: as in `with_nearby`; without it all of this is linear in multipliers and load.
+    added. given: the measure's slopes; without them all of this is linear in multipliers and load.
     """
     loads, moments, wake, twisting = blade.loads, blade.moments, blade.wake, blade.twisting
     trims, n, m, modes, own = (
@@ -418,11 +449,10 @@ def _pass(blade: Any, multipliers: Any, around: Any, beyond: Any, given: Any) ->
             i = first + c
             _weigh_lift(blade.shapes, i, around, w_z)
             _weigh_drag(pull, sums[5] * blade.r[i], w_x)
-            if len(given) > 0:
-                _add(given, 0, i, w_z)
-                _add(given, 1, i, w_x)
-                if len(blade.friction) > 0:
-                    rubbing += _on_row(blade.friction, i, given, 1)
+            _add(given.fz, i, w_z)
+            _add(given.fx, i, w_x)
+            if len(blade.friction) > 0 and len(given.fx) > 0:
+                rubbing += _on_row(blade.friction, given.fx, i)
             if modes > 0:
                 _weigh_moment(twisting, i, modal, w_m)
                 _by_loads_and_moments(w_z, w_x, w_m, loads, _FZ_THETA, _FX_THETA, blade.pitching, i, by_theta, c)
@@ -435,11 +465,10 @@ def _pass(blade: Any, multipliers: Any, around: Any, beyond: Any, given: Any) ->
                 _by_loads(w_z, w_x, loads, _FZ_UT, _FX_UT, i, by_ut, c)
                 _by_loads(w_z, w_x, loads, _FZ_UP, _FX_UP, i, by_up, c)
                 _by_loads(w_z, w_x, loads, _FZ_UR, _FX_UR, i, by_ur, c)
-            if len(given) > 0:
-                _add(given, 3, i, by_theta[c])
-                _add(given, 4, i, by_ut[c])
-                _add(given, 5, i, by_up[c])
-                _add(given, 6, i, by_ur[c])
+            _add(given.theta, i, by_theta[c])
+            _add(given.u_t, i, by_ut[c])
+            _add(given.u_p, i, by_up[c])
+            _add(given.u_r, i, by_ur[c])
             if blade.by_loss:
                 by_loss[i] = _by_loss(loads[_LIFT, i], blade.u_t[i], blade.u_p[i], w_z, w_x, blade.lag[i], w_m)
         _add_rows(twisting, 0, first, by_ut, along, _UT)
@@ -452,11 +481,10 @@ def _pass(blade: Any, multipliers: Any, around: Any, beyond: Any, given: Any) ->
                 _add_rows(twisting, k, first, rate, along, _RATE if k == 0 else _BESIDE + modes + k - 1)
         for c in range(min(4, n - first)):
             i = first + c
-            if len(given) > 0:
-                _add(given, 2, i, by_up[c])
+            _add(given.inflow, i, by_up[c])
             by_element[0, i], by_element[1, i], by_element[2, i] = _sum(by_theta, c), _sum(by_ut, c), _sum(by_up, c)
             if len(beyond) > 0:
-                past += _on_row(beyond, i, inflow[None], 0)
+                past += _on_row(beyond, inflow, i)
         for k in range(own):
             _add_rows(blade.through, 2 + k, first, by_up, along, _BESIDE + 2 * modes + k)
     slopes = -(multipliers @ blade.direct)
@@ -546,17 +574,18 @@ def _add_rows(functions: Any, k: int, first: int, rows: Any, out: Any, place: in
 
 
 @_compile
-def _add(fields: Any, k: int, i: int, to: Any) -> None:
-    for j in range(len(to)):
-        to[j] += fields[k, i, j]
+def _add(field: Any, i: int, to: Any) -> None:
+    """Add a field, unless there is none."""
+    if len(field) > 0:
+        for j in range(len(to)):
+            to[j] += field[i, j]
 
 
 @_compile
-def _on_row(field: Any, i: int, fields: Any, k: int) -> float:
-    """Sum of a field times another one of a stack."""
+def _on_row(one: Any, other: Any, i: int) -> float:
     total = 0.0
-    for j in range(field.shape[1]):
-        total += field[i, j] * fields[k, i, j]
+    for j in range(one.shape[1]):
+        total += one[i, j] * other[i, j]
     return total
 
 

@@ -435,18 +435,26 @@ def answer_transposed(made: Any, harmonics: Any, weights: Any) -> Any:
             out[real, i] -= q * turned[1, i]
             out[imaginary, i] += q * turned[0, i]
     _, speed, mass_flow = made.flow
-    by_flow = np.zeros(3)
     for c in range(len(out)):
         share = 0.0
         for i in range(out.shape[1]):
             share += out[c, i] * made.uniform[0, i]
         share *= mass_flow / speed - 1.0
         for i in range(out.shape[1]):
-            out[c, i] = 0.5 * (out[c, i] + share * made.uniform[1, i]) / mass_flow
-            by_flow[0] += weights[c, i] * made.by_flow[0, c, i] + out[c, i] * made.by_flow[1, c, i]
-            by_flow[1] += out[c, i] * made.by_flow[2, c, i]
-            by_flow[2] += out[c, i] * made.by_flow[3, c, i]
+            out[c, i] = (0.5 / mass_flow) * (out[c, i] + share * made.uniform[1, i])
+    by_flow = np.empty(3)
+    by_flow[0] = _dot(weights, made.by_flow[0]) + _dot(out, made.by_flow[1])
+    by_flow[1], by_flow[2] = _dot(out, made.by_flow[2]), _dot(out, made.by_flow[3])
     return out, by_flow
+
+
+@compiled(error_model="numpy", fastmath={"contract", "reassoc"})
+def _dot(one: Any, other: Any) -> float:
+    total = 0.0
+    for c in range(len(one)):
+        for i in range(one.shape[1]):
+            total += one[c, i] * other[c, i]
+    return total
 
 
 @_compile
