@@ -13,6 +13,7 @@ import numpy as np
 from rotor.aero import kernel
 from rotor.aero.elastic import BladeTorsion, TorsionState
 from rotor.aero.elements import BladeElements, Problem
+from rotor.aero.inflow.interface import HarmonicShapes
 from rotor.aero.sums import HELD, Slopes, add_product, chain_rule, velocity_changes
 from rotor.aero.trim_state import TrimState, Unknown
 from rotor.arrays import Array
@@ -106,11 +107,11 @@ def _moments_by_unknowns(
 ) -> Any:  # fmt: skip
     """Σ along the blade of Φ_k ∂(moment) by the unknowns, (unknowns, modes, azimuths), and Φ_k Φ_l ∂(moment).
 
-    The latter by θ and by θ', (2, modes, modes, azimuths). The moment is that of the air and of the propeller; the lift
+    The latter by θ and by θ', (modes, modes, 2, azimuths). The moment is that of the air and of the propeller; the lift
     acts x behind the pitch axis, and follows the loss factor.
     """
     (modes, n), unknowns, m = shapes.shape, len(changes.theta), theta.shape[1]
-    out, pairs = np.zeros((unknowns, modes, m)), np.zeros((2, modes, modes, m))
+    out, pairs = np.zeros((unknowns, modes, m)), np.zeros((modes, modes, 2, m))
     row, pitching, by_ut, by_up = np.empty(m), np.empty(m), np.empty(m), np.empty(m)
     for i in range(n):
         rating, m_ut, m_up, m_ur = moments[_M_RATE, i], moments[_M_UT, i], moments[_M_UP, i], moments[_M_UR, i]
@@ -132,8 +133,8 @@ def _moments_by_unknowns(
             for other in range(modes):
                 both = shapes[one, i] * shapes[other, i]
                 for j in range(m):
-                    pairs[0, one, other, j] += both * pitching[j]
-                    pairs[1, one, other, j] += both * rating[j]
+                    pairs[one, other, 0, j] += both * pitching[j]
+                    pairs[one, other, 1, j] += both * rating[j]
     return out, pairs
 
 
@@ -226,11 +227,20 @@ def _between_columns(torsion: BladeTorsion, pairs: Array) -> Array:
 
     pairs: as `_moments_by_unknowns` returns.
     """
-    shapes = torsion.shapes
-    modes, functions = len(shapes.radial), len(shapes.waves)
-    analysis = shapes.waves * shapes.weights[:, None]
-    blocks = (pairs[0, :, :, None] * analysis) @ shapes.waves.T + (pairs[1, :, :, None] * analysis) @ shapes.rates.T
+    modes, functions = torsion.dynamic.shape
+    blocks = (pairs.reshape(modes * modes, -1) @ _products(torsion.shapes)).reshape(modes, modes, functions, functions)
     return blocks.transpose(0, 2, 1, 3).reshape(modes * functions, modes * functions)
+
+
+@lru_cache(maxsize=32)
+def _products(shapes: HarmonicShapes) -> Array:
+    """Every function of ψ as `HarmonicShapes.project` weighs it times every function, then times every rate.
+
+    (2 × azimuths, functions as rows × functions).
+    """
+    analysis = (shapes.waves * shapes.weights[:, None]).T[:, :, None]
+    products = [analysis * waves.T[:, None, :] for waves in (shapes.waves, shapes.rates)]
+    return np.concatenate(products).reshape(2 * shapes.waves.shape[1], -1)
 
 
 def _loads(problem: Problem, elements: BladeElements) -> Array:
