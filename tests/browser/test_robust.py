@@ -143,8 +143,9 @@ def test_outlives_its_server(context: "BrowserContext", artefacts: Path):
     page.wait_for_selector("#rx-gone", timeout=WAIT)
     page.screenshot(path=artefacts / "server-gone.png")
     with served(port):
-        page.wait_for_selector("#rx-gone", state="detached", timeout=WAIT)
-        page.wait_for_function(_OPEN, timeout=WAIT)
+        # A new process has everything to load before it answers.
+        page.wait_for_selector("#rx-gone", state="detached", timeout=4 * WAIT)
+        page.wait_for_function(_OPEN, timeout=4 * WAIT)
         inboard = "() => [...document.querySelectorAll('input')].some(one => one.value === '-11.5')"
         page.wait_for_function(inboard, timeout=WAIT)
         assert field(page, "Inboard") == "-11.5"
@@ -174,8 +175,10 @@ def served(port: int) -> Iterator[str]:
     command = [sys.executable, "-m", "explorer", "--port", str(port), "--no-browser"]
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) as server:
         assert server.stdout is not None
-        while "http://" not in server.stdout.readline():
-            assert server.poll() is None
-        yield f"http://127.0.0.1:{port}"
-        server.terminate()
+        try:
+            while "http://" not in server.stdout.readline():
+                assert server.poll() is None
+            yield f"http://127.0.0.1:{port}"
+        finally:  # A test that failed must not wait for it for ever.
+            server.terminate()
         assert server.wait(90) == 0
