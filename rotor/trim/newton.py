@@ -27,7 +27,7 @@ from rotor.compiled import compiled
 from rotor.trim.equations import Balance, balance, balance_of, unknowns_of, with_given_values
 from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
 
-_NEAR = 1e5
+_NEAR = 1e6
 """Residual over its tolerance to which a trim is solved on few azimuths. Our choice."""
 _NEARLY = 10.0
 """Expected residual over its tolerance at which a step may well be the last. Our choice."""
@@ -212,6 +212,7 @@ class _Iteration:
     def run(self, problem: Problem, state: TrimState, inflow: Array, elastic: Array, goal: float) -> _Iterate:
         """Steps until the residual is within `goal` times the tolerance, or no more progress is made."""
         options, slow_steps, expected = self._options, 0, math.inf
+        most_old_steps = options.most_old_steps if goal <= 1.0 else options.most_old_steps_of_start
         self._secants.begin()
         point = _evaluate(problem, state, inflow, elastic, options, whole=self._at_these(problem))
         self.passes += 1
@@ -228,7 +229,7 @@ class _Iteration:
                 trial = self._taken(problem, point, step, inflow_step(step), fraction, expected)
             self._secants.taken = fraction * step
             self._serving = trial.size <= options.kept_ratio * point.size
-            if _steps_left(trial.size, point.size, goal) > options.most_old_steps:
+            if _steps_left(trial.size, point.size, goal) > most_old_steps:
                 self._derivatives = None
             expected = trial.size * min(trial.size / point.size, 1.0)
             if trial.size >= point.size and not fresh:

@@ -21,9 +21,11 @@ class SolverOptions:
     closes to 1e-6."""
     max_passes: int = 40
     """Evaluations of the blade elements in one run of Newton's method."""
-    most_old_steps: float = 3.0
+    most_old_steps: float = 4.0
     """Derivatives are evaluated again when more steps than this are to be expected with the old ones: derivatives cost
     as much as two to four, and one or two steps follow them. Our choice."""
+    most_old_steps_of_start: float = 2.0
+    """The same where a trim is solved on few azimuths to start from: derivatives serve all later steps. Our choice."""
     kept_ratio: float = 0.03
     """Derivatives are kept for the next trim where the last step left less than this part of the residual."""
     angle_step: float = 0.08
