@@ -196,13 +196,18 @@ class _Iteration:
         self, problem: Problem, unknowns: tuple[Unknown, ...], derivatives: Derivatives | None, options: SolverOptions
     ) -> None:
         self.passes = 0
-        """Evaluations of the blade elements."""
+        """Evaluations of the blade elements, on few azimuths or on all."""
         limits = [options.inflow_step if name == "lambda0" else options.angle_step for name in unknowns]
         self._limits = np.array(limits + [options.angle_step] * problem.given_torsion.size)
-        self._thin, self._unknowns, self._options = problem.thinned, unknowns, options
+        self._problem, self._unknowns, self._options = problem, unknowns, options
         self._derivatives = self._latest = derivatives
         self._secants = _Secants(derivatives)
         self._serving = False
+
+    @property
+    def _thin(self) -> Problem:
+        """Where derivatives are evaluated."""
+        return self._problem.thinned
 
     @property
     def serving_derivatives(self) -> Derivatives | None:
@@ -255,20 +260,20 @@ class _Iteration:
             point.inflow + fraction * inflow_step,
             loads.elastic + fraction * step[count:].reshape(loads.elastic.shape),
             self._options,
-            whole=expected <= _NEARLY and problem is not self._thin,
+            whole=expected <= _NEARLY,
         )
 
     def _differentiate(self, problem: Problem, point: _Iterate) -> Derivatives:
         """New derivatives, on few azimuths, at an iterate."""
         if self._options.pause is not None:
             self._options.pause()
-        thin, loads = self._thin, point.loads
-        if thin is problem:
-            found = differentiate(thin, _elements(thin, point), self._unknowns, point.balance)[1]
-        else:
-            induced = _field(thin, loads.state, point.inflow)
-            elements = evaluate_elements(thin, loads.state, induced, loads.elastic)
-            found = differentiate(thin, elements, self._unknowns)[1]
+        thin, loads, forces = self._thin, point.loads, point.balance if problem is self._thin else None
+        elements = (
+            _elements(thin, point)
+            if forces is not None
+            else evaluate_elements(thin, loads.state, _field(thin, loads.state, point.inflow), loads.elastic)
+        )
+        found = differentiate(thin, elements, self._unknowns, forces)[1]
         self._derivatives = self._latest = found
         self._secants = _Secants(found)
         return found
