@@ -24,7 +24,7 @@ from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem
 from rotor.aero.inflow.dynamic_wake import DynamicWakeFeedback, TermColumns
 from rotor.aero.inflow.interface import ResponseTerms, TermResponse
-from rotor.aero.inflow.wake_transposed import no_wake, transposed
+from rotor.aero.inflow.wake_projection import no_wake, transposed
 from rotor.aero.sums import sums_at_given_loads, unknown_changes
 from rotor.aero.torsion_balance import pitch_slope, torsion_at_given_moments
 from rotor.arrays import Array
@@ -51,6 +51,9 @@ _NO_PLACES = np.zeros(0, dtype=np.int64)
 _NO_TERMS = ResponseTerms(
     _NO_FIELD, _NO_FIELD, _NO_FIELD, np.zeros(1, dtype=np.int64), _NO_PLACES, _NO_PLACES, no_wake(), _NO_FIELD
 )
+
+_ROWS = 4
+"""Rows of blade elements that are summed along the blade at a time."""
 
 
 class _Blade(NamedTuple):
@@ -166,7 +169,9 @@ class TransposedTrim:
             mu_z[unknowns.index("shaft_tilt")] = elements.flow.mu_z
             if elements.friction is not None:
                 friction = elements.friction.fx_slope
-        shapes, through, twisting = _along_blade(self._terms.load_shapes, self._terms.inflow_shapes, modes, changes.arm)
+        shapes, through, twisting = _along_blade(
+            self._terms.load_shapes, self._terms.inflow_shapes, modes, changes.arm, _ROWS
+        )
         self._blade = _Blade(
             loads=elements.loads,
             moments=moments,
@@ -259,12 +264,16 @@ _compile = compiled(error_model="numpy", fastmath={"contract", "reassoc"})
 
 
 @_compile
-def _along_blade(load_shapes: Any, inflow_shapes: Any, modes: Any, arm: Any) -> Any:
-    """`shapes`, `through` and `twisting` of `_Blade`, filled up to multiples of four."""
+def _along_blade(load_shapes: Any, inflow_shapes: Any, modes: Any, arm: Any, rows: int) -> Any:
+    """`shapes`, `through` and `twisting` of `_Blade`, filled up to multiples of `rows`."""
     own, n = len(inflow_shapes), len(arm)
-    full = n + -n % 4
-    shapes = np.zeros((n, 2 + own + -(2 + own) % 4))
-    through, twisting = np.zeros((2 + own, full)), np.zeros((1 + len(modes), full))
+    full = n + -n % rows
+    shapes, through, twisting = (
+        np.zeros((n, 2 + own + -(2 + own) % rows)),
+        np.zeros((2 + own, full)),
+        np.zeros((1, full)),
+    )
+    twisting = np.zeros((1 + len(modes), full))
     for i in range(n):
         for k in range(own):
             shapes[i, k] = load_shapes[i, k]

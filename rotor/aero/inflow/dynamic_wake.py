@@ -15,7 +15,6 @@ from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import HarmonicShapes, InflowFeedback, ResponseTerms, Wake
 from rotor.aero.inflow.peters_he import FlowParameters, flow_parameters
 from rotor.aero.inflow.wake_projection import Projection, build_projection
-from rotor.aero.inflow.wake_transposed import transposed_wake
 from rotor.aero.losses import tip_factor
 from rotor.arrays import Array
 
@@ -334,7 +333,7 @@ class DynamicWakeResponse:
             begin=projection.terms_by_shape[0],
             term=projection.terms_by_shape[1],
             wave=projection.terms_by_shape[2],
-            answer=transposed_wake(projection, projection.sums(self._load), operator.flow),
+            answer=projection.transposed_answer(projection.sums(self._load), operator.flow),
             beyond=np.zeros((0, 0)) if beyond is None else beyond,
         )
 

@@ -287,7 +287,7 @@ class ResponseTerms(NamedTuple):
     wave: Integers
     """The wave of each."""
     answer: Any
-    """Tᵀ and ∂λ_i/∂(µ_x, µ_z, λ0) at fixed load, see `wake_transposed.transposed`."""
+    """Tᵀ and ∂λ_i/∂(µ_x, µ_z, λ0) at fixed load, see `wake_projection.transposed`."""
     beyond: Array
     """The part of ∂λ_i by µ_z and by λ0 that no term can hold, (elements, azimuths), or (0, 0) where there is none."""
 

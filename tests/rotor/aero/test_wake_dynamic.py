@@ -23,7 +23,7 @@ from rotor.aero.inflow.peters_he import (
     solve_factored,
     solve_factored_transposed,
 )
-from rotor.aero.inflow.wake_transposed import transposed, transposed_wake
+from rotor.aero.inflow.wake_projection import transposed
 from rotor.aero.losses import tip_factor
 from rotor.aero.momentum import glauert_inflow
 from rotor.files.make_design import make_design
@@ -125,7 +125,7 @@ def test_answer_transposed_without_the_transfer_matrix(model: DynamicWake, wake:
     response, load = respond(model, wake), noise(11)
     projection = response.projection
     weights = np.random.default_rng(12).normal(size=projection.terms)
-    found, by_wake = transposed(transposed_wake(projection, projection.sums(load), response.flow), weights)
+    found, by_wake = transposed(projection.transposed_answer(projection.sums(load), response.flow), weights)
     expected = weights @ response.transfer
     assert_allclose(found, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
     expected = response.coefficients_by_wake(load) @ weights
