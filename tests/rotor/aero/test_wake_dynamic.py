@@ -13,17 +13,7 @@ from scipy.integrate import solve_ivp
 from rotor.aero.disk import build_disk
 from rotor.aero.inflow.dynamic_wake import DynamicWake, DynamicWakeResponse, WakeOperator
 from rotor.aero.inflow.interface import ColumnFeedback, FieldColumns, HarmonicShapes, Wake
-from rotor.aero.inflow.peters_he import (
-    eliminate,
-    factorise,
-    families,
-    flow_parameters,
-    highest_modes,
-    radial_functions,
-    solve_factored,
-    solve_factored_transposed,
-)
-from rotor.aero.inflow.wake_projection import transposed
+from rotor.aero.inflow.peters_he import eliminate, families, flow_parameters, highest_modes, radial_functions
 from rotor.aero.losses import tip_factor
 from rotor.aero.momentum import glauert_inflow
 from rotor.files.make_design import make_design
@@ -117,32 +107,6 @@ def test_transposes(model: DynamicWake):
     # Dot products of some hundred numbers of order 10.
     assert_allclose(np.vdot(g, projection.field(x)), projection.sums(g) @ x, rtol=0, atol=1e-11)
     assert_allclose(np.vdot(g, response.induced(d)), np.vdot(response.induced_transposed(g), d), rtol=0, atol=1e-10)
-
-
-@pytest.mark.parametrize("wake", [FORWARD, Wake(0.05, 0.06, 0.03)], ids=str)
-def test_answer_transposed_without_the_transfer_matrix(model: DynamicWake, wake: Wake):
-    """Solved with factors of its own, it is what the transfer matrix and the slopes by the wake give."""
-    response, load = respond(model, wake), noise(11)
-    projection = response.projection
-    weights = np.random.default_rng(12).normal(size=projection.terms)
-    found, by_wake = transposed(projection.transposed_answer(projection.sums(load), response.flow), weights)
-    expected = weights @ response.transfer
-    assert_allclose(found, expected, rtol=0, atol=1e-12 * np.abs(expected).max())
-    expected = response.coefficients_by_wake(load) @ weights
-    assert_allclose(by_wake, expected, rtol=0, atol=1e-11 * np.abs(expected).max())
-
-
-@pytest.mark.parametrize("n", [1, 2, 7, 25])
-def test_factors_solve_both_ways(n: int):
-    random = np.random.default_rng(n)
-    matrix, rows = random.normal(size=(n, n)), random.normal(size=(2, n))
-    matrix[0, 0] = 0.0 if n > 1 else 1.0  # Rows have to be exchanged.
-    factors, pivots, one, other = matrix.copy(), np.zeros(n, dtype=np.int64), rows.copy(), rows.copy()
-    factorise(factors, pivots)
-    solve_factored(factors, pivots, one)
-    solve_factored_transposed(factors, pivots, other)
-    assert_allclose(one @ matrix.T, rows, rtol=0, atol=1e-11)
-    assert_allclose(other @ matrix, rows, rtol=0, atol=1e-11)
 
 
 def test_feedback_is_solved_exactly(model: DynamicWake):
