@@ -24,7 +24,6 @@ from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem
 from rotor.aero.inflow.dynamic_wake import DynamicWakeFeedback, TermColumns
 from rotor.aero.inflow.interface import ResponseTerms, TermResponse
-from rotor.aero.inflow.wake_projection import no_wake, transposed
 from rotor.aero.sums import sums_at_given_loads, unknown_changes
 from rotor.aero.torsion_balance import pitch_slope, torsion_at_given_moments
 from rotor.arrays import Array
@@ -49,8 +48,9 @@ _NO_FIELD = np.zeros((0, 0))
 _NO_FIELDS = np.zeros((0, 0, 0))
 _NO_PLACES = np.zeros(0, dtype=np.int64)
 _NO_TERMS = ResponseTerms(
-    _NO_FIELD, _NO_FIELD, _NO_FIELD, np.zeros(1, dtype=np.int64), _NO_PLACES, _NO_PLACES, no_wake(), _NO_FIELD
-)
+    _NO_FIELD, _NO_FIELD, _NO_FIELD, np.zeros(1, dtype=np.int64), _NO_PLACES, _NO_PLACES, _NO_FIELD, np.zeros((3, 0)),
+    _NO_FIELD,
+)  # fmt: skip
 
 _ROWS = 4
 """Rows of blade elements that are summed along the blade at a time."""
@@ -294,7 +294,7 @@ def _conjugate_residuals(
     Every pass takes the part of what is left away that its change of the slopes can: with the preconditioner C,
     C(slopes) is made as small as the changes C(pass(step)) of all steps together allow.
     """
-    size, own, shape = len(blade.direct), terms.answer.terms, (blade.shapes.shape[1], len(blade.cos))
+    size, own, shape = len(blade.direct), len(terms.transfer), (blade.shapes.shape[1], len(blade.cos))
     slopes, found, on_terms, _ = _pass(blade, np.zeros(size), _around(terms, np.zeros(own), shape), terms.beyond, given)
     slopes[: len(direct)] += direct
     rest = _correction(nearby, slopes, _sums(terms, on_terms))
@@ -303,12 +303,10 @@ def _conjugate_residuals(
     largest, before = 0.0, math.inf
     for k in range(most):
         steps[k] = rest
-        coefficients, by_wake = rest[size:], np.zeros(3)
-        if own > 0:
-            coefficients, by_wake = transposed(terms.answer, coefficients)
-        around = _around(terms, coefficients, shape)
+        around = _around(terms, rest[size:], shape)
         slopes, gains[k], on_terms, _ = _pass(blade, rest[:size], around, terms.beyond, _NOTHING)
-        slopes[: len(blade.wake)] += blade.wake @ by_wake
+        if own > 0:
+            slopes[: len(blade.wake)] += blade.wake @ (terms.by_wake @ rest[size:])
         changes[k] = -_correction(nearby, slopes, _sums(terms, on_terms) - rest[size:])
         for i in range(k):
             share = changes[k] @ changes[i]
@@ -353,37 +351,23 @@ def _solve(factors: Any, pivots: Any, right: Any) -> Any:
     n, out = len(right), right.copy()
     for k in range(n):
         out[k], out[pivots[k]] = out[pivots[k]], out[k]
-    for first in range(0, n, 4):  # Four unknowns at a time, so that the rest is read and written less often.
-        end = min(first + 4, n)
-        for k in range(first, end):
-            for i in range(k + 1, end):
-                out[i] -= factors[k, i] * out[k]
-        if end < n:
-            _take_four(factors, first, out, end, n)
-    for end in range(n, 0, -4):
-        first = max(end - 4, 0)
-        for k in range(end - 1, first - 1, -1):
-            out[k] /= factors[k, k]
-            for i in range(first, k):
-                out[i] -= factors[k, i] * out[k]
-        if first > 0:
-            _take_four(factors, first, out, 0, first)
+    for k in range(n):
+        for i in range(k + 1, n):
+            out[i] -= factors[k, i] * out[k]
+    for k in range(n - 1, -1, -1):
+        out[k] /= factors[k, k]
+        for i in range(k):
+            out[i] -= factors[k, i] * out[k]
     return out
 
 
 @_compile
-def _take_four(factors: Any, k: int, out: Any, begin: int, end: int) -> None:
-    a, b, c, d = out[k], out[k + 1], out[k + 2], out[k + 3]
-    for i in range(begin, end):
-        out[i] -= factors[k, i] * a + factors[k + 1, i] * b + factors[k + 2, i] * c + factors[k + 3, i] * d
-
-
-@_compile
-def _around(terms: Any, coefficients: Any, shape: Any) -> Any:
-    """Tᵀ s, given by its coefficients, at every azimuth for each function along the blade, (shapes, azimuths)."""
+def _around(terms: Any, sums: Any, shape: Any) -> Any:
+    """Tᵀ s at every azimuth for each function along the blade, (shapes, azimuths)."""
     waves, begin, term, wave = terms.waves, terms.begin, terms.term, terms.wave
-    out = np.zeros(shape)
-    coefficients = np.append(coefficients, 0.0)  # The last one stands where there is no term.
+    out, coefficients = np.zeros(shape), np.zeros(len(sums) + 1)  # The last one stands where there is no term.
+    if len(sums) > 0:
+        coefficients[:-1] = sums @ terms.transfer
     for k in range(len(begin) - 1):
         for t in range(begin[k], begin[k + 1], 4):
             a, b, c, d = wave[t], wave[t + 1], wave[t + 2], wave[t + 3]
@@ -398,7 +382,7 @@ def _around(terms: Any, coefficients: Any, shape: Any) -> Any:
 def _sums(terms: Any, along: Any) -> Any:
     """Sums with the terms from those with the shapes along the blade, (shapes, azimuths) → (terms,)."""
     waves, begin, term, wave = terms.waves, terms.begin, terms.term, terms.wave
-    out = np.zeros(terms.answer.terms + 1)
+    out = np.zeros(len(terms.transfer) + 1)
     for k in range(len(begin) - 1):
         for t in range(begin[k], begin[k + 1], 4):
             a, b, c, d = wave[t], wave[t + 1], wave[t + 2], wave[t + 3]

@@ -333,7 +333,8 @@ class DynamicWakeResponse:
             begin=projection.terms_by_shape[0],
             term=projection.terms_by_shape[1],
             wave=projection.terms_by_shape[2],
-            answer=projection.transposed_answer(projection.sums(self._load), operator.flow),
+            transfer=operator.transfer,
+            by_wake=operator.coefficients_by_wake(self._load),
             beyond=np.zeros((0, 0)) if beyond is None else beyond,
         )
 

@@ -10,7 +10,7 @@ Fields are (elements, azimuths); d = dC_T/dr of the whole rotor as if smeared; s
 import math
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple, Protocol, runtime_checkable
+from typing import NamedTuple, Protocol, runtime_checkable
 
 import numpy as np
 
@@ -286,8 +286,10 @@ class ResponseTerms(NamedTuple):
     """The terms of every shape, four or a multiple; the number of terms stands where there is none."""
     wave: Integers
     """The wave of each."""
-    answer: Any
-    """Tᵀ and ∂λ_i/∂(µ_x, µ_z, λ0) at fixed load, see `wake_projection.transposed`."""
+    transfer: Array
+    """T, (terms, terms)."""
+    by_wake: Array
+    """∂λ_i by (µ_x, µ_z, λ0) at fixed load in terms, (3, terms)."""
     beyond: Array
     """The part of ∂λ_i by µ_z and by λ0 that no term can hold, (elements, azimuths), or (0, 0) where there is none."""
 

@@ -13,7 +13,7 @@ g_k, because k + p is then even in every term.
 
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -21,17 +21,14 @@ from rotor.aero.inflow.interface import HarmonicShapes
 from rotor.aero.inflow.peters_he import (
     CommonBasis,
     FlowParameters,
-    TransposedAnswer,
     answer,
     answer_slopes,
-    answer_transposed,
     blocks,
     common_basis,
     highest_modes,
     influences,
     powers_of_skew,
     radial_functions,
-    transpose_answer,
 )  # fmt: skip
 from rotor.arrays import Array, Integers
 from rotor.compiled import compiled
@@ -182,27 +179,6 @@ class Projection:
         return _between(
             *made, basis.m, basis.order, basis.steady, self.harmonics, self.table, self.cell, self.terms
         )  # fmt: skip
-
-    def transposed_answer(self, sums: Array, flow: FlowParameters) -> "TransposedWake":
-        """What `transposed` needs, at the sums of a load."""
-        basis, parameters = self.basis, (flow.half_skew, flow.speed, flow.mass_flow)
-        cosines, sines = _transpose(
-            sums, parameters, basis.gain, basis.driven, basis.uniform, basis.m, basis.order, basis.steady,
-            self.harmonics, self.table, self.cell,
-        )  # fmt: skip
-        uniform = basis.uniform, self._steady_uniform
-        families = [
-            TransposedAnswer(*found[:4], each, parameters, found[4])
-            for found, each in zip((cosines, sines), uniform, strict=True)
-        ]
-        return TransposedWake(
-            families[0], families[1], basis.m, basis.order, basis.steady, self.harmonics, self.table, self.cell,
-            flow.slopes, self.terms,
-        )  # fmt: skip
-
-    @cached_property
-    def _steady_uniform(self) -> Array:
-        return self.basis.uniform[:, self.basis.steady :].copy()
 
     def answer_slopes(self, sums: Array, flow: FlowParameters, made: tuple[Array, Array]) -> Array:
         """∂ of `answer` by X, V_T and V̄, (3, terms)."""
@@ -403,71 +379,6 @@ def _answer(
         found = answer(influence[0], influence[1], flow, uniform[:, first:].copy(), harmonics, loads)
         _add(out, found, sign, own, k, harmonics, table)
     return out
-
-
-class TransposedWake(NamedTuple):
-    """The wake's answer transposed, at one load."""
-
-    cosines: TransposedAnswer
-    sines: TransposedAnswer
-    m: Integers
-    order: Integers
-    steady: int
-    harmonics: Array
-    table: Integers
-    cell: float
-    slopes: Array
-    """Those of X, V_T and V̄, see `peters_he.FlowParameters`."""
-    terms: int
-
-
-def no_wake() -> TransposedWake:
-    """One without terms, for models that have none."""
-    plane, line, places = np.zeros((0, 0)), np.zeros(0), np.zeros(0, dtype=np.int64)
-    stack = np.zeros((0, 0, 0))
-    family = TransposedAnswer(plane, plane, stack, places.reshape(0, 0), plane, (0.0, 0.0, 0.0), stack)
-    return TransposedWake(family, family, places, places, 0, line, places.reshape(0, 0, 0), 0.0, np.zeros((3, 3)), 0)
-
-
-@_compile
-def _transpose(
-    sums: Any, flow: Any, gain: Any, driven: Any, uniform: Any, m: Any, order: Any, steady: int, harmonics: Any,
-    table: Any, cell: float,
-) -> Any:  # fmt: skip
-    """What `TransposedAnswer` holds of both families, as far as it depends on the flow."""
-    powers = powers_of_skew(flow[0], 2 * m[-1])
-    influence = influences(gain, driven, m, 1.0, powers[0])
-    slopes = influences(gain, driven, m, 1.0, powers[1])
-    loads = _loads(sums, 1.0, m, order, harmonics, table, cell)
-    cosines = transpose_answer(influence[0], influence[1], slopes, flow, uniform, harmonics, loads)
-    part, k = m[steady:], order[steady:]
-    own = influences(gain[steady:, steady:], driven[steady:, steady:], part, -1.0, powers[0])
-    slopes = influences(gain[steady:, steady:], driven[steady:, steady:], part, -1.0, powers[1])
-    loads = _loads(sums, -1.0, part, k, harmonics, table, cell)
-    sines = transpose_answer(own[0], own[1], slopes, flow, uniform[:, steady:].copy(), harmonics, loads)
-    return (influence[0].copy(), *cosines), (own[0].copy(), *sines)
-
-
-@_compile
-def transposed(wake: Any, weights: Any) -> Any:
-    """Tᵀ w, (terms,), and wᵀ times the slopes of the coefficients by (µ_x, µ_z, λ0).
-
-    The amplitudes are added to terms as loads are taken from sums, but for the factors.
-    """
-    out, by_flow = np.zeros(len(weights)), np.zeros(3)
-    for first, sign, made in ((0, 1.0, wake.cosines), (wake.steady, -1.0, wake.sines)):
-        m, order = wake.m[first:], wake.order[first:]
-        given = _loads(weights, sign, m, order, wake.harmonics, wake.table, wake.cell).T.copy()
-        factors = np.empty(given.shape)
-        for c in range(len(factors)):
-            for i in range(len(m)):
-                factors[c, i] = wake.cell * (0.5 if m[i] == 0 else 1.0) * (0.5 if c > 0 else 1.0)
-                given[c, i] /= factors[c, i]
-        found, own = answer_transposed(made, wake.harmonics, given)
-        by_flow += own
-        found *= factors
-        _add(out, found.T.copy(), sign, m, order, wake.harmonics, wake.table)
-    return out, wake.slopes.T @ by_flow
 
 
 @_compile
