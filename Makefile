@@ -30,7 +30,7 @@ test: test-code test-page ## run all tests but the slow ones, browser included
 test-code: setup-dev
 	$(BIN)/python -m pytest $(ARGS) $(NONE)
 
-test-page: setup-dev browser
+test-page: setup-dev browser $(WARM)
 	$(BIN)/python -m pytest -n 2 -m 'browser and not slow' $(ARGS) $(NONE)
 
 slow: slow-code slow-page ## run the slow tests: built wheel, rebuilt section data, long studies

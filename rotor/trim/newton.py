@@ -217,7 +217,9 @@ class _Iteration:
     def run(self, problem: Problem, state: TrimState, inflow: Array, elastic: Array, goal: float) -> _Iterate:
         """Steps until the residual is within `goal` times the tolerance, or no more progress is made."""
         options, slow_steps, expected = self._options, 0, math.inf
-        most_old_steps = options.most_old_steps if goal <= 1.0 else options.most_old_steps_of_start
+        most_old_steps = options.most_old_steps
+        if goal > 1.0:  # Of a prescribed inflow derivatives cost no more than a step.
+            most_old_steps = options.most_old_steps_of_start if problem.inflow.load_dependent else 0.0
         self._secants.begin()
         point = _evaluate(problem, state, inflow, elastic, options, whole=self._at_these(problem))
         self.passes += 1
