@@ -176,7 +176,10 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
     iteration = _Iteration(problem, unknowns, derivatives, options)
     if derivatives is None and problem.thinned is not problem and options.max_passes > 1:
         near = iteration.run(problem.thinned, state, inflow, elastic, _NEAR)
-        state, inflow, elastic = near.loads.state, near.inflow, near.loads.elastic
+        if near.size <= _NEAR:
+            state, inflow, elastic = near.loads.state, near.inflow, near.loads.elastic
+        else:  # Whether there is a trim is for all azimuths to say, from the same start.
+            iteration = _Iteration(problem, unknowns, None, options, iteration.passes)
     point = iteration.run(problem, state, inflow, elastic, 1.0)
     residual, difference = float(np.abs(point.balance.error).max()) / problem.scale, 0.0
     twisting = float(np.abs(point.torsion_error).max()) if problem.torsion is not None else 0.0
@@ -193,9 +196,14 @@ class _Iteration:
     """The steps of one run of Newton's method, on few azimuths first and then on all."""
 
     def __init__(
-        self, problem: Problem, unknowns: tuple[Unknown, ...], derivatives: Derivatives | None, options: SolverOptions
+        self,
+        problem: Problem,
+        unknowns: tuple[Unknown, ...],
+        derivatives: Derivatives | None,
+        options: SolverOptions,
+        passes: int = 0,
     ) -> None:
-        self.passes = 0
+        self.passes = passes
         """Evaluations of the blade elements, on few azimuths or on all."""
         limits = [options.inflow_step if name == "lambda0" else options.angle_step for name in unknowns]
         self._limits = np.array(limits + [options.angle_step] * problem.given_torsion.size)
