@@ -18,6 +18,7 @@ import numpy as np
 from rotor.aero import kernel
 from rotor.aero.elements import BladeElements, Problem, evaluate_elements
 from rotor.aero.free_wake.system import WakeState
+from rotor.aero.sums import radial_drag
 from rotor.arrays import Array
 from rotor.blas_threads import one_blas_thread
 from rotor.compiled import compiled
@@ -31,8 +32,6 @@ from rotor.trim.solution import Solution
 from rotor.trim.transposed import BY_INFLOW, BY_THETA, BY_UT, TENSION, Given, TransposedTrim
 
 Objective = Literal["total", "induced"]
-
-_compile = compiled(error_model="numpy", fastmath={"contract", "reassoc"})
 
 
 @dataclass(frozen=True, eq=False)
@@ -261,14 +260,14 @@ def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradie
             u_t=drag,
             u_p=lifted,
             swirl=drag,
-            tilt=-cell * elements.flow.mu_z * _radial_dissipation_slope(adjoint),
+            tilt=-elements.flow.mu_z * _radial_dissipation_slope(adjoint),
         )
         gain = _tail_gain(adjoint.solution)
     by_element = adjoint.by_pitch(weights) * gain * problem.design.power_unit
     return PitchGradient(problem.disk.r, problem.disk.dr, by_element)
 
 
-@_compile
+@compiled(error_model="numpy", fastmath={"contract"})
 def _power_weights(u_t: Any, u_p: Any, induced: Any, swirl: Any, fz: Any, fx: Any, cell: float) -> Any:
     """Slopes of power by F_z, F_x, λ_i, U_T and U_P at the same F_z and F_x, (5, elements, azimuths)."""
     n, m = fz.shape
@@ -285,22 +284,12 @@ def _power_weights(u_t: Any, u_p: Any, induced: Any, swirl: Any, fz: Any, fx: An
 
 
 def _radial_dissipation_slope(adjoint: Adjoint) -> float:
-    """Slope of Σ U_R dF_r by µ_x."""
-    elements, disk = adjoint.elements, adjoint.problem.disk
-    if elements.friction is None:
+    """Slope of Σ U_R dF_r by µ_x, over ρA(ΩR)²: U_R = µ_x cos ψ."""
+    problem, friction = adjoint.problem, adjoint.elements.friction
+    if friction is None:
         return 0.0
-    friction = elements.friction
-    return _along_flight(disk.cos, friction.radial, elements.flow.mu_x, friction.radial_slope)
-
-
-@_compile
-def _along_flight(cos: Any, radial: Any, mu_x: float, slope: Any) -> float:
-    """Sum over the grid of cos ψ (radial + µ_x slope)."""
-    total = 0.0
-    for i in range(len(radial)):
-        for j in range(len(cos)):
-            total += cos[j] * (radial[i, j] + mu_x * slope[i, j])
-    return total
+    by_speed = radial_drag(problem, friction.radial_slope)
+    return radial_drag(problem, friction.radial) + adjoint.elements.flow.mu_x * by_speed
 
 
 def _tail_gain(solution: Solution) -> float:

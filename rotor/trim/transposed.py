@@ -268,11 +268,7 @@ def _along_blade(load_shapes: Any, inflow_shapes: Any, modes: Any, arm: Any, row
     """`shapes`, `through` and `twisting` of `_Blade`, filled up to multiples of `rows`."""
     own, n = len(inflow_shapes), len(arm)
     full = n + -n % rows
-    shapes, through, twisting = (
-        np.zeros((n, 2 + own + -(2 + own) % rows)),
-        np.zeros((2 + own, full)),
-        np.zeros((1, full)),
-    )
+    shapes, through = np.zeros((n, 2 + own + -(2 + own) % rows)), np.zeros((2 + own, full))
     twisting = np.zeros((1 + len(modes), full))
     for i in range(n):
         for k in range(own):
