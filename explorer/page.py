@@ -57,6 +57,7 @@ from rotor.trim.solution import Solution
 from rotor.user_input import brief
 
 _BRAND = (37, 99, 235)
+_UNTOLD = "No link was read", "The browser did not tell the page its address: load the page again to open a link."
 VIEWS: tuple[tuple[View, str], ...] = (("3d", "Aircraft"), ("disk", "Disk"), ("blade", "Blade"), ("side", "Side"))
 """Views of the buttons over the scene, and their titles."""
 
@@ -75,7 +76,7 @@ class Page:
         """`start`: where the page's address holds no design."""
         self._client, self._callbacks, self._dark = client, callbacks, facts.dark
         address = Address(facts.query, partial(viser_compat.set_query, client))
-        problems: list[tuple[str, str]] = []
+        problems: list[tuple[str, str]] = [] if facts.query is not None else [_UNTOLD]
         inputs_from = partial(share.inputs_from, kept=facts.kept.get(share.DESIGN))
         start = address.read(share.DESIGN, inputs_from, start, "Not the design of the link", problems)
         view = address.read(VIEW, view_from, ViewState(), "Not the view of the link", problems)
@@ -156,9 +157,9 @@ class Page:
         self.tabs = (*followers, self.history, self.file, export, self.lecture, self._presence)
         """Everything that only follows."""
         self.camera = self.scene.camera = FittedCamera(client, rotor.radius)
-        self._wire()
-        for title, sentence in problems:
-            self._notify(title, sentence)
+        self._wire(problems)
+        for title, sentence in problems:  # They stay until they are closed: nobody may miss that a link has failed.
+            client.add_notification(title, brief(sentence), color="red")
 
     def start(self) -> None:
         """The session begins: widgets as they will be, also where the first solution takes long."""
@@ -309,8 +310,8 @@ class Page:
         searching = self.layout.mode == "optimise"
         self.results.strip.show_starts(self.optimise.starts if searching else None, UNITS[reading.view.units])
 
-    def _wire(self) -> None:
-        """Buttons to what they do, once everything stands."""
+    def _wire(self, problems: list[tuple[str, str]]) -> None:
+        """Buttons to what they do, once everything stands; `problems` get what the address holds in vain."""
         controls, context, bridge = self.controls, self.context, self.bridge
         self.actuator.shown.on_update(self._cut_switched)
         controls.reset_button.on_click(lambda _: self._reset())
@@ -331,7 +332,7 @@ class Page:
         self.top.bind(context)
         self._presence.begin(context, PresentationHooks(lambda: self.lecture.step, self.lecture.follow, self._hold))
         bind_commands(context, Actions(self._look, self._colour, self._check, self._reset, self.optimise.toggle))
-        self.file.begin()
+        self.file.begin(problems)
         self._show_views()
         self.top.refresh()
 

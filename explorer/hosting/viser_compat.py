@@ -295,14 +295,14 @@ class PageFacts:
 
     dark: bool = False
     """Whether it asks for dark pages."""
-    query: str = ""
-    """Of its address, from the question mark on."""
+    query: str | None = ""
+    """Of its address, from the question mark on; None where the browser did not tell."""
     kept: Mapping[str, str] = field(default_factory=dict[str, str])
     """Texts that it was given to keep by name: see `keep_in_page`."""
 
 
-def page_facts(client: viser.ClientHandle, timeout: float = 2.0) -> PageFacts:
-    """Ask the browser. Blocks; not to be called on the event loop."""
+def page_facts(client: viser.ClientHandle, timeout: float = 20.0) -> PageFacts:
+    """Ask the browser. Blocks, on a busy machine for seconds; not to be called on the event loop."""
     key = f"facts-{client.client_id}-{secrets.token_hex(4)}"  # Other pages share the storage.
     dark = "matchMedia('(prefers-color-scheme: dark)').matches || new URLSearchParams(location.search).has('darkMode')"
     # A page that was open before, and whose server has come back, stays as it was.
@@ -317,7 +317,7 @@ def page_facts(client: viser.ClientHandle, timeout: float = 2.0) -> PageFacts:
         kept = {str(name): str(value) for name, value in found.get("kept", {}).items()}
         return PageFacts(bool(found.get("dark")), str(found.get("query", "")), kept)
     except (TimeoutError, RuntimeError, ValueError, AttributeError):
-        return PageFacts()
+        return PageFacts(query=None)
 
 
 def keep_in_page(client: viser.ClientHandle, name: str, text: str) -> None:

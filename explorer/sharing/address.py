@@ -34,12 +34,16 @@ def with_parameter(query: str, name: str, value: str | None) -> str:
 class Address:
     """The address of one page; safe from any thread."""
 
-    def __init__(self, query: str, write: Callable[[str], None], pause: float = _PAUSE) -> None:
-        """`query`: that of the opened page. `write` puts another into the address, at least `pause` [s] apart."""
-        self._query, self._write, self._pause = query, write, pause
+    def __init__(self, query: str | None, write: Callable[[str], None], pause: float = _PAUSE) -> None:
+        """`query`: that of the opened page; None, not known, is never written over. `write` puts another into the
+        address, at least `pause` [s] apart."""
+        self._query, self._pause = query or "", pause
+        self._write = write if query is not None else lambda query: None
         self._lock = threading.Lock()
         self._written = -math.inf
         self._waiting: threading.Timer | None = None
+        self._unread: dict[str, list[str | None]] = {}
+        """Names whose value could not be read, with what the page opened with instead, once that is known."""
 
     def __getitem__(self, name: str) -> str | None:
         return parameter(self._query, name)
@@ -47,7 +51,11 @@ class Address:
     def read(
         self, name: str, meaning: Callable[[str], _Part], usual: _Part, title: str, problems: list[tuple[str, str]]
     ) -> _Part:
-        """The meaning of a name's value; `usual` where there is none or a bad one. Problems are added under `title`."""
+        """The meaning of a name's value; `usual` where there is none or a bad one. Problems are added under `title`.
+
+        A bad value stays in the address until the page shows something else than it opened with: whoever wrote it can
+        mend it there.
+        """
         value = self[name]
         if value is None:
             return usual
@@ -56,10 +64,17 @@ class Address:
                 return meaning(value)
         except ValueError as error:
             problems.append((title, str(error)))
+            self._unread[name] = []
             return usual
 
     def __setitem__(self, name: str, value: str | None) -> None:
         with self._lock:
+            if (opened := self._unread.get(name)) is not None:
+                if not opened:
+                    opened.append(value)
+                if opened == [value]:
+                    return
+                del self._unread[name]
             if value == parameter(self._query, name):
                 return
             self._query = with_parameter(self._query, name, value)
@@ -72,6 +87,16 @@ class Address:
                 self._waiting.start()
                 return
         self._put()
+
+    @property
+    def query(self) -> str:
+        """As it is or is about to be written."""
+        return self._query
+
+    def write_over(self) -> None:
+        """What could not be read need not stay any longer."""
+        with self._lock:
+            self._unread.clear()
 
     def stop(self) -> None:
         """The page has gone."""

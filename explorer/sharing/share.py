@@ -1,9 +1,13 @@
 """A design as a short text for the page's address, and back. It holds the record of a design file.
 
 `1;segments:-14,-8@0.5;mu=0.25;mass=9000`: version, twist, and what differs from the preset's own design.
+
+A plus sign is written `~`, as in `1;uh60a~segments:-2,1@0.5`: viser's client writes the query of the address anew
+without its escapes, after which a plus sign reads as a space.
 """
 
 import json
+import re
 from dataclasses import replace
 from typing import Any
 
@@ -26,6 +30,11 @@ LONGEST = 1800
 KEPT = "own"
 """Stands for a design that does not fit into an address: the page keeps its file, also over a reload."""
 
+_PLUS = "~"
+"""Stands for a plus sign."""
+_LOST_PLUS = re.compile(r"(?<=[\w.]) (?=[a-z\d])")
+"""The space that a link of an earlier version arrives with in place of a plus sign."""
+
 _SHORT = {"advance_ratio": "mu", "mass_kg": "mass", "altitude_m": "alt", "climb_m_s": "climb"}
 _LONG = {short: key for key, short in _SHORT.items()}
 _PLAIN = Inputs()
@@ -43,7 +52,7 @@ def code_of(design: Design) -> str:
     usual |= {"preset": plain.preset, "rotor": plain.aircraft.key}
     changed = {key: value for key, value in record.items() if key not in _NEVER and value != usual.get(key)}
     words = [str(VERSION), record["twist"], *(f"{_SHORT.get(key, key)}={_word(v)}" for key, v in changed.items())]
-    code = ";".join(words)
+    code = ";".join(words).replace("+", _PLUS)
     if len(code) > LONGEST:
         raise ValueError("This design is too long for a link: save it as a file and send that.")
     return code
@@ -61,7 +70,7 @@ def _design_from(code: str) -> Design:
         raise ValueError(f"The design in the address, {cut(code)!r}, is not of version {VERSION}: ask for a new link.")
     if len(code) > LONGEST:
         raise ValueError(f"The design in the address has {len(code)} characters; at most {LONGEST} are allowed.")
-    twist, *words = rest.split(";")
+    twist, *words = _LOST_PLUS.sub("+", rest).replace(_PLUS, "+").split(";")
     if _reads_file(twist):
         raise ValueError(f"The twist {cut(twist)!r} is a file on the machine of the sender: ask for the design file.")
     record: dict[str, Any] = {"twist": twist}

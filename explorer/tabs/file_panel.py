@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Mapping
+from functools import partial
 from typing import Any
 
 import viser
@@ -80,23 +81,25 @@ class FilePanel:
             self._records[name] = design.to_dict()
             return share.KEPT
 
-    def begin(self) -> None:
-        """Pin what the address says is pinned."""
-        code = self._address[share.PINNED]
-        if code is not None:
-            try:
-                self._context.pin(share.inputs_from(code, self._kept.get(share.PINNED)))
-            except ValueError as error:
-                self._context.notify("Not the A of the link", str(error))
+    def begin(self, problems: list[tuple[str, str]]) -> None:
+        """Pin what the address says is pinned; `problems` get a title and a sentence where it cannot be read."""
+        inputs_from = partial(share.inputs_from, kept=self._kept.get(share.PINNED))
+        pinned = self._address.read(share.PINNED, inputs_from, None, "Not the A of the link", problems)
+        if pinned is not None:
+            self._context.pin(pinned)
 
     def copy_link(self) -> None:
-        """The page's address into the clipboard."""
+        """The link of what is shown into the clipboard; the address is the same."""
         try:
             share.code_of(self._context.inputs().design())
         except ValueError as error:
             self._context.notify("No link", str(error))
             return
-        viser_compat.copy_text(self._client, "location.href")
+        self._address.write_over()
+        if (state := self._context.state()) is not None:
+            self.follow(state)
+        link = f"location.origin+location.pathname+{json.dumps(self._address.query)}"
+        viser_compat.copy_text(self._client, link)
         self._context.notify("Link copied", "It opens this design. The address of the page is the same link.")
 
     def save(self) -> None:

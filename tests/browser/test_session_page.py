@@ -89,7 +89,8 @@ def test_the_address_is_the_design(browser: "Browser", app: App):
 def test_a_bad_address_is_one_sentence_and_the_usual_design(browser: "Browser", app: App):
     watched = opened(browser, app.address, COARSE + "&d=1;linear:-9;wings=2")
     watched.page.get_by_text("unknown key 'wings'").wait_for(timeout=WAIT)
-    design_in_address(watched, "segments:-14,-8@0.5")
+    usual = f"{solve(START.design()).power.total / 1e3:,.0f}".replace(",", "\u2009")
+    watched.until(lambda: shown_kw(watched) == usual)
     watched.close()
 
 

@@ -1,0 +1,72 @@
+"""A design survives F5, a link and the back button of a real browser, which rewrites the address at each connection."""
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+import pytest
+from watched import COARSE, WAIT, Watched, opened
+
+from explorer.app import App
+from explorer.sharing.share import code_of
+from explorer.state import OPENING, Inputs, with_rotor
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
+
+pytestmark = pytest.mark.browser
+
+DESIGNS = (
+    replace(OPENING, built_inner=-2.0, built_outer=1.5, built_division=0.6, advance_ratio=0.25),
+    replace(OPENING, law="three", three_first=0.35, mass_t=9.0, altitude_m=1500.0, climb_m_s=-2.0),
+    replace(with_rotor(OPENING, "r22"), built_outer=-3.0),
+    replace(with_rotor(OPENING, "xv15"), built_inner=4.0),
+)
+
+
+def holds(app: App, watched: Watched, inputs: Inputs) -> bool:
+    """Whether the page's session and its address hold this design."""
+    shown = app.sessions[-1].page.controls.inputs().design()
+    return code_of(shown) == code_of(inputs.design()) and f"d={code_of(shown)}" in watched.page.evaluate(
+        "() => decodeURIComponent(location.search)"
+    )
+
+
+def test_a_design_survives_reload_link_and_back(browser: "Browser", app: App):
+    watched = opened(browser, app.address)
+    page = watched.page
+    watched.press("Inboard ±", "ArrowLeft", 3)  # By hand first: the page itself writes the address.
+    page.wait_for_function("() => location.search.includes('~segments:-0.3,0@0.5')", timeout=WAIT)
+    by_hand = replace(OPENING, built_inner=-0.3)
+    page.reload()
+    watched.ready()
+    watched.until(lambda: holds(app, watched, by_hand))
+    for inputs in DESIGNS:
+        watched.open(app.address, f"{COARSE}&d={code_of(inputs.design())}")
+        watched.until(lambda inputs=inputs: holds(app, watched, inputs))
+        page.reload()
+        watched.ready()
+        watched.until(lambda inputs=inputs: holds(app, watched, inputs))
+    for inputs in (*DESIGNS[-2::-1], by_hand):
+        page.go_back()
+        watched.ready()
+        watched.until(lambda inputs=inputs: holds(app, watched, inputs))
+    # As earlier versions wrote it.
+    watched.open(app.address, f"{COARSE}&d=1;uh60a%2Bsegments:-2,1.5@0.6;mu=0.25;mass=8320")
+    watched.until(lambda: holds(app, watched, DESIGNS[0]))
+    assert watched.complaints == []
+    watched.close()
+
+
+def test_a_link_that_cannot_be_read_is_said_and_stays(browser: "Browser", app: App):
+    watched = opened(browser, app.address, COARSE + "&d=1;uh60a~bends:3;mu=0.3")
+    page = watched.page
+    said = page.get_by_text("'uh60a+bends:3' is not known")
+    said.wait_for(timeout=WAIT)
+    watched.settled()
+    page.wait_for_timeout(7000)  # Other notices are gone by then.
+    assert said.is_visible()
+    assert "d=1;uh60a~bends:3;mu=0.3" in page.url
+    watched.press("Outboard ±", "ArrowLeft")
+    page.wait_for_function("() => location.search.includes('uh60a~segments:0,-0.1@0.5')", timeout=WAIT)
+    assert watched.complaints == []
+    watched.close()

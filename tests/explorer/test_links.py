@@ -1,0 +1,197 @@
+"""Links: random designs through the address as viser's client rewrites it, and links that cannot be read."""
+
+import random
+from collections.abc import Iterator
+from dataclasses import replace
+from urllib.parse import parse_qsl, quote
+
+import pytest
+
+from explorer.sharing.address import Address, parameter, with_parameter
+from explorer.sharing.share import DESIGN, code_of, design_from, inputs_from
+from explorer.stand import StandInputs
+from explorer.state import LAWS, OPENING, Inputs, with_rotor
+from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
+from rotor.design.design import Design
+from rotor.design.twist import SplineTwist, SumTwist, TableTwist, parse_twist
+
+KEPT_BY_BROWSERS = "!$%&'()*+,-./:;=?@[\\]^_`{|}~"
+"""Characters of a query that the parser of addresses leaves as they are; a `#` would end the query."""
+
+
+def rewritten(query: str) -> str:
+    """The query as viser's client leaves it when it connects: names and values without their escapes, put together.
+
+    `syncSearchParamServer` of viser/client/src/SearchParamsUtils.ts, and what `history.replaceState` makes of it.
+    """
+    pairs = parse_qsl(query.removeprefix("?"), keep_blank_values=True)
+    bare = "&".join(f"{name}={value}" for name, value in pairs)
+    return "?" + quote(bare.partition("#")[0], KEPT_BY_BROWSERS)
+
+
+def random_inputs(chance: random.Random) -> Inputs:
+    """Any design that the sliders, menus and design files can make."""
+
+    def rate() -> float:
+        return chance.randint(-200, 100) / 10.0
+
+    def place(low: int = 20, high: int = 95) -> float:
+        return chance.randint(low, high) / 100.0
+
+    inputs = Inputs(
+        law=chance.choice(("builtin", "builtin", "linear", "quadratic", "two", "three", "ideal", "given")),
+        built_inner=chance.choice((0.0, rate())),
+        built_outer=rate(),
+        built_division=place(),
+        linear=rate(),
+        quadratic_curvature=chance.randint(-80, 80) / 2.0,
+        quadratic_difference=rate(),
+        two_inner=rate(),
+        two_outer=rate(),
+        two_division=place(),
+        three_inner=rate(),
+        three_middle=rate(),
+        three_outer=rate(),
+        three_first=place(20, 50),
+        three_second=place(55, 95),
+        advance_ratio=chance.randint(0, 90) / 200.0,
+        mass_t=chance.randint(100, 219) / 20.0,
+        altitude_m=chance.randint(0, 80) * 50.0,
+        climb_m_s=chance.choice((0.0, chance.randint(-200, 200) / 10.0)),
+        inflow=chance.choice(("uniform", "drees", "pitt-peters-15pi/23", "dynamic-wake", "vortex-wake")),
+        hover_inflow=chance.choice(("annulus", "free-wake", "closed-form")),
+        preset=chance.choice(("flight", "flight", "thesis")),
+        tip_loss=chance.random() < 0.8,
+        elastic_twist=chance.random() < 0.8,
+        fuselage=chance.random() < 0.8,
+    )
+    if inputs.preset == "thesis":
+        inputs = replace(inputs, climb_m_s=0.0)
+    if inputs.law == "given":
+        inputs = replace(inputs, given=_twist_from_a_file(chance, rate))
+    if chance.random() < 0.3:
+        law, rotor = inputs.law, chance.choice((*SHIPPED_ROTORS[1:], *MEASURED_ROTORS))
+        other = with_rotor(replace(inputs, preset="flight"), rotor)
+        inputs = replace(other, law=law, given=inputs.given, built_inner=rate())
+        if inputs.aircraft.isolated:
+            tilt = chance.choice((None, rate()))
+            inputs = replace(inputs, stand=StandInputs("wind-tunnel", "ct_over_sigma", 0.06, tilt), climb_m_s=0.0)
+    return inputs
+
+
+def _twist_from_a_file(chance: random.Random, rate: object) -> SplineTwist | TableTwist | SumTwist:
+    angles = tuple(chance.uniform(-0.2, 0.2) for _ in range(4))
+    stations = (0.13, 0.4, 0.75, 1.0)
+    several = parse_twist(f"linear:{chance.randint(-9, 9)}+segments:-2,{chance.randint(-9, 9)}@0.5+quadratic:6,-14")
+    assert isinstance(several, SumTwist)
+    return chance.choice((SplineTwist(stations, angles), TableTwist(stations, angles, "table:mine.txt"), several))
+
+
+def random_designs(count: int) -> Iterator[Design]:
+    chance = random.Random(20)
+    while count:
+        try:
+            design = random_inputs(chance).design()
+        except ValueError:
+            continue  # A combination that the page refuses with a sentence.
+        count -= 1
+        yield design
+
+
+def test_a_thousand_random_designs_come_back_from_an_address_that_the_client_has_rewritten():
+    sums = 0
+    for design in random_designs(1000):
+        code = code_of(design)
+        sums += isinstance(design.twist, SumTwist)
+        query = with_parameter("?fixedDpr=0.5", DESIGN, code)
+        for _ in range(3):  # It rewrites it at each connection, and the page may lose its server.
+            query = rewritten(query)
+            assert parameter(query, DESIGN) == code
+        again = design_from(parameter(query, DESIGN) or "")
+        assert code_of(again) == code
+        shown = inputs_from(code)
+        assert code_of(shown.design()) == code
+        assert (again.models, again.rotor, again.preset) == (design.models, design.rotor, design.preset)
+        assert again.condition.advance_ratio == pytest.approx(design.condition.advance_ratio, rel=1e-9)
+        assert again.condition.mass == pytest.approx(design.condition.mass, rel=1e-9)
+        r = (0.2, 0.33, 0.5, 0.75, 0.9, 1.0)
+        assert again.twist(r) == pytest.approx(design.twist(r), abs=1e-7)  # Links hold a millionth of a degree.
+    assert sums > 200
+
+
+def test_the_changed_twist_as_built_is_again_on_its_sliders():
+    inputs = replace(OPENING, built_inner=-2.0, built_outer=1.5, built_division=0.6, advance_ratio=0.25)
+    code = code_of(inputs.design())
+    assert code == "1;uh60a~segments:-2,1.5@0.6;mu=0.25;mass=8320"
+    assert inputs_from(code) == inputs
+
+
+@pytest.mark.parametrize(
+    ("query", "changed"),
+    [
+        ("?d=1;uh60a%2Bsegments:-2,1@0.5;mu=0.25;mass=8320", {"advance_ratio": 0.25}),
+        ("?d=1;uh60a+segments:-2,1@0.5;mu=0.25;mass=8320", {"advance_ratio": 0.25}),
+        ("?d=1;uh60a%20segments:-2,1@0.5;mu=0.3;mass=9000", {"advance_ratio": 0.3, "mass_t": 9.0}),
+    ],
+)
+def test_links_with_a_plus_sign_still_open(query: str, changed: dict[str, float]):
+    """As earlier versions wrote them, and as viser's client leaves them after one connection and after two."""
+    for _ in range(3):
+        inputs = inputs_from(parameter(query, DESIGN) or "")
+        assert inputs == replace(OPENING, built_inner=-2.0, built_outer=1.0, **changed)
+        query = rewritten(query)
+
+
+def test_a_sum_of_many_laws_with_lost_plus_signs_opens():
+    spec = "linear:-4+segments:-2,1@0.5+quadratic:6,-14"
+    assert design_from(f"1;{spec.replace('+', ' ')};mu=0.1").twist == parse_twist(spec)
+
+
+class TestUnreadable:
+    def opened(self, query: str) -> tuple[Address, list[str], list[tuple[str, str]]]:
+        written: list[str] = []
+        problems: list[tuple[str, str]] = []
+        address = Address(query, written.append, pause=0.0)
+        assert address.read(DESIGN, inputs_from, OPENING, "Not the design of the link", problems) == OPENING
+        return address, written, problems
+
+    def test_it_is_said_and_stays_in_the_address_until_the_design_changes(self):
+        address, written, problems = self.opened("?d=1;bent:3;mu=0.3&v=1;field=mach")
+        assert [title for title, _ in problems] == ["Not the design of the link"]
+        assert "'bent:3' is not known" in problems[0][1]
+        opening = code_of(OPENING.design())
+        for _ in range(3):
+            address[DESIGN] = opening
+        assert written == []
+        address["v"] = None  # Another part of the address: that one could be read.
+        assert written == ["?d=1;bent:3;mu=0.3"]
+        changed = code_of(replace(OPENING, mass_t=9.0).design())
+        address[DESIGN] = changed
+        address[DESIGN] = opening
+        assert written[1:] == [f"?d={changed}", f"?d={opening}"]
+
+    def test_a_copied_link_holds_what_is_shown(self):
+        address, _, _ = self.opened("?d=1;bent:3")
+        opening = code_of(OPENING.design())
+        address[DESIGN] = opening
+        address.write_over()
+        address[DESIGN] = opening
+        assert address.query == f"?d={opening}"
+
+    def test_an_address_that_is_not_known_is_not_written(self):
+        written: list[str] = []
+        address = Address(None, written.append, pause=0.0)
+        address[DESIGN] = "1;linear:-8"
+        assert (address[DESIGN], written) == ("1;linear:-8", [])
+
+    def test_a_design_that_can_be_read_is_no_problem(self):
+        problems: list[tuple[str, str]] = []
+        address = Address("?d=1;linear:-8", lambda _: None)
+        found = address.read(DESIGN, inputs_from, OPENING, "", problems)
+        assert (found.law, problems) == ("linear", [])
+
+
+def test_every_law_of_the_menu_is_among_the_random_designs():
+    chance = random.Random(20)
+    laws = {random_inputs(chance).law for _ in range(200)}
+    assert laws == set(LAWS) - {"found"}
