@@ -100,7 +100,7 @@ class Page:
         self._keyboard = Keyboard(client)
         context = self.context = TabContext(
             inputs=self.controls.inputs,
-            set_inputs=self.controls.set_inputs,
+            set_inputs=self._put,
             view=self.display.view,
             set_view=self.display.set_view,
             set_azimuth=self.display.turn,
@@ -326,9 +326,12 @@ class Page:
         bridge.on("covered", lambda ends: self.camera.leave_free(float(ends[0]), float(ends[1])))
         bridge.on("colours", self._colour)
         bridge.on("play", lambda _: self.probe.toggle())
-        self.results.curve.bind(context, lambda: not self._held)
+        controls.touched = self.results.card.tracker.touch
+        bridge.on("hold", lambda held: None if self._held else self._took(bool(held)), at_once=True)
+        by_hand = replace(context, set_inputs=self._pull)
+        self.results.curve.bind(by_hand, lambda: not self._held, self._took)
         blade = self.scene.scene.rotor.reference_blade
-        self.grab = BladeGrab(blade, context, lambda: not self._held, self._grabbed)
+        self.grab = BladeGrab(blade, by_hand, lambda: not self._held, self._grabbed)
         self.top.bind(context)
         self._presence.begin(context, PresentationHooks(lambda: self.lecture.step, self.lecture.follow, self._hold))
         bind_commands(context, Actions(self._look, self._colour, self._check, self._reset, self.optimise.toggle))
@@ -342,8 +345,23 @@ class Page:
         for part in (self.controls, self.display, self.top, self.lecture, self._keyboard):
             part.hold(held)
 
+    def _put(self, inputs: Inputs) -> None:
+        """Another design comes by no hand: no change since an earlier grab counts."""
+        self.results.card.forget()
+        self.controls.set_inputs(inputs)
+
+    def _pull(self, inputs: Inputs) -> None:
+        """A hand moves the blade, or its twist curve."""
+        self.results.card.tracker.touch()
+        self.controls.set_inputs(inputs)
+
     def _grabbed(self, held: bool) -> None:
         """The reference blade was taken by the hand, or let go."""
+        self.camera.hold(held)
+        self._took(held)
+
+    def _took(self, held: bool) -> None:
+        """A slider, the blade or a handle of its twist curve was taken, or let go."""
         tracker = self.results.card.tracker
         if held:
             tracker.grab()
@@ -352,7 +370,6 @@ class Page:
         else:
             tracker.release()
             self.bridge.set(hand=None, arc=None)
-        self.camera.hold(held)
         self.history.grab(held)
         self._callbacks.wake()
 
@@ -371,7 +388,6 @@ class Page:
 
     def _step(self, step: Callable[[], None]) -> None:
         if not self._held:
-            self.results.card.forget()
             step()
 
     def _set_playing(self, playing: bool) -> None:
@@ -427,7 +443,7 @@ class Page:
         )
 
     def _fly(self, advance_ratio: float) -> None:
-        self.controls.set_inputs(replace(self.controls.inputs(), advance_ratio=advance_ratio))
+        self._put(replace(self.controls.inputs(), advance_ratio=advance_ratio))
 
     def _cut_switched(self, event: viser.GuiEvent[Any]) -> None:
         """One blade, cut open, in place of the rotor."""

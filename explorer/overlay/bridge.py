@@ -35,23 +35,29 @@ _log = logging.getLogger(__name__)
 
 
 class Bridge:
-    """One browser's. Actions run one after another, in the order of the presses, on a thread of their own."""
+    """One browser's. Actions run one after another, in the order of the presses, on a thread of their own.
+
+    Those that take no time may run at once, on the event loop, before anything that the page sends later.
+    """
 
     def __init__(self, client: viser.ClientHandle) -> None:
         self._client = client
         self._lock = threading.Lock()
         self._sent: dict[str, str] = {}
         self._actions: dict[str, Callable[[Any], None]] = {}
+        self._at_once: set[str] = set()
         self._worker = ThreadPoolExecutor(1, f"frame-{client.client_id}")
         self._heard = client.gui.add_text("frame", "", visible=False)
         self._heard.on_update(self._hear)
         viser_compat.run_in_page(client, f"RX.begin({json.dumps(viser_compat.widget_id(self._heard))})")
 
-    def on(self, name: str, action: Callable[[Any], None]) -> None:
+    def on(self, name: str, action: Callable[[Any], None], at_once: bool = False) -> None:
         """Call `action` with the value that comes with each press of `name`; ValueError for a name that is taken."""
         if name in self._actions:
             raise ValueError(f"the frame's {name!r} has an action already: choose another name")
         self._actions[name] = action
+        if at_once:
+            self._at_once.add(name)
 
     def set(self, **parts: Any) -> None:
         """Show these parts of the page's state; what has not changed is not sent."""
@@ -79,6 +85,9 @@ class Bridge:
             action = self._actions[name]
         except (ValueError, TypeError, KeyError):
             return  # Not a message of ours.
+        if name in self._at_once:
+            self._act(action, name, value)
+            return
         try:
             self._worker.submit(self._act, action, name, value)
         except RuntimeError:

@@ -69,6 +69,15 @@
     clearTimeout(turning);
     turning = setTimeout(() => RX.send(event.target.dataset.do, Number(event.target.value)), 30);
   });
+  // A slider of the design is held from the press to the release; viser sends its last value up to 50 ms later.
+  let holding = false;
+  addEventListener('pointerdown', event => {
+    if (page.dataset.mode === 'optimise' || !event.isPrimary || !(event.target instanceof Element) || !event.target.closest('[data-dock-region=right] .mantine-Slider-root')) return;
+    holding = true;
+    RX.send('hold', true);
+  }, true);
+  for (const end of ['pointerup', 'pointercancel'])
+    addEventListener(end, event => { if (holding && event.isPrimary) { holding = false; setTimeout(() => RX.send('hold', false), 80); } }, true);
   // Keys pressed in the frame's own controls are theirs alone.
   root.addEventListener('keydown', event => {
     if (event.target.matches('select, input') || (event.target.matches('button') && (event.key === ' ' || event.key === 'Enter'))) event.stopPropagation();

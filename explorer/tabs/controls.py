@@ -48,6 +48,8 @@ class DesignControls:
         """`changed`: something moved."""
         self._start = start
         self._changed = changed
+        self.touched: Callable[[], None] = lambda: None
+        """Called when a hand moves a widget."""
         self._inputs: dict[str, InputHandle] = {}
         self._special = start
         """Holds what the laws mean that are not always there."""
@@ -231,6 +233,7 @@ class DesignControls:
             return
         if by_hand:
             self._own = None  # Whoever moves a slider goes on from the preview.
+            self.touched()
         self.pauses.moved(time.monotonic())
         self._changed()
 

@@ -38,7 +38,7 @@ class ResultsPanel:
         self.bands = WakeBandJobs(pool, wake)
         self.strip = ChartStrip(bridge)
         self.worth = SliderWorth(bridge)
-        self.curve = TwistCurveEditor(bridge, self.card.tracker)
+        self.curve = TwistCurveEditor(bridge)
         self._state: SessionState | None = None
         """The last converged one."""
         self._gradient: tuple[Solution, PitchGradient] | None = None

@@ -10,7 +10,6 @@ from explorer.charts.strip import StripChart, StripLine
 from explorer.grab import place_of, slid, stations, turned
 from explorer.interface import SessionState, TabContext
 from explorer.overlay.bridge import Bridge
-from explorer.power_tracker import PowerTracker
 from explorer.state import Inputs
 from rotor.arrays import Array
 from rotor.design.design import Design
@@ -27,26 +26,25 @@ _LEAST_SPAN = 14.0
 class TwistCurveEditor:
     """One session's."""
 
-    def __init__(self, bridge: Bridge, tracker: PowerTracker) -> None:
-        self._bridge, self._tracker = bridge, tracker
+    def __init__(self, bridge: Bridge) -> None:
+        self._bridge = bridge
         self._held: Inputs | None = None
         """The inputs when a handle was taken."""
         self._place = ""
         self._range: tuple[float, float] | None = None
 
-    def bind(self, context: TabContext, free: Callable[[], bool]) -> None:
-        """Let handles move the design; `free`: whether the design is the user's to move."""
+    def bind(self, context: TabContext, free: Callable[[], bool], changed: Callable[[bool], None]) -> None:
+        """Let handles move the design; `free`: whether the design is the user's to move. `changed`: a handle was taken
+        (True) or let go."""
 
         def act(value: list[Any]) -> None:
             name, change = value
             if change == "start":
                 self._held, self._place = context.inputs(), ""
-                self._tracker.grab()
+                changed(True)
             elif change == "end":
                 self._held = None
-                self._tracker.release()
-                self._bridge.set(hand=None)
-                context.wake()
+                changed(False)
             elif free():
                 self._move(context, name, float(change[0]), float(change[1]))
 

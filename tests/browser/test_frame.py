@@ -113,6 +113,57 @@ def test_the_twist_curve_is_dragged_and_the_tag_of_power_follows(watched: Watche
     watched.until_changed(lambda: float(division.input_value()) > 0.55, False)
 
 
+def kilowatts(watched: Watched, part: str) -> int:
+    """The number that a part of the page begins with."""
+    found = re.match(r"[+−]?[\d\u2009]+", watched.text(part))
+    assert found, watched.text(part)
+    return int(found[0].replace("\u2009", "").replace("−", "-"))
+
+
+def test_one_drag_of_a_slider_with_pauses_counts_from_the_press_and_is_one_undo(watched: Watched):
+    page = watched.page
+    watched.settled()
+    before = kilowatts(watched, "total-power")
+    thumb = watched.row("Adv. ratio").get_by_role("slider").bounding_box()
+    assert thumb is not None
+    x, y = thumb["x"] + thumb["width"] / 2, thumb["y"] + thumb["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x - 40, y, steps=5)
+    watched.settled(1.6)  # Longer than any pause that ends a step of the keyboard.
+    assert kilowatts(watched, "since") == kilowatts(watched, "total-power") - before
+    page.mouse.move(x + 60, y, steps=5)
+    watched.settled(1.6)
+    page.mouse.move(x + 30, y, steps=3)
+    page.mouse.up()
+    watched.settled(1.6)
+    after = kilowatts(watched, "total-power")
+    assert after > before
+    assert watched.text("since").endswith("since grabbed")
+    assert abs(kilowatts(watched, "since") - (after - before)) <= 1  # Each is rounded by itself.
+    page.get_by_role("button", name="Undo").click()
+    watched.until(lambda: kilowatts(watched, "total-power") == before)
+    assert "grabbed" not in watched.text("since")
+
+
+def test_a_lecture_leaves_no_change_that_nobody_grabbed(watched: Watched):
+    page = watched.page
+    watched.press("Outboard ±", "PageUp", 2)
+    watched.reads("since", "since grabbed")
+    watched.settled()
+    page.evaluate("() => document.activeElement.blur()")
+    page.keyboard.press("t")
+    page.wait_for_selector(".rxf-caption", state="visible", timeout=WAIT)
+    for _ in range(3):
+        watched.settled(0.6)
+        assert "grabbed" not in watched.text("since")
+        page.locator(".rxf-caption [data-value=next]").click()
+    page.locator(".rxf-caption [data-value=end]").click()
+    page.wait_for_selector(".rxf-caption", state="hidden", timeout=WAIT)
+    watched.settled()
+    assert "grabbed" not in watched.text("since")
+
+
 def test_the_handles_of_the_curve_have_keys(watched: Watched):
     page = watched.page
     outer = watched.row("Outboard").locator("input:not([type=hidden])").last

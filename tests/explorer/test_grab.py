@@ -23,7 +23,6 @@ from explorer.grab import (
     stations,
     turned,
 )
-from explorer.power_tracker import PowerTracker
 from explorer.sensitivity import twist_sensitivities
 from explorer.sliders import limits
 from explorer.state import Inputs
@@ -301,8 +300,9 @@ class TestTwistCurve:
         bridge, now = _Bridge(), [Inputs(law="two")]
         page: Any = SimpleNamespace(inputs=lambda: now[0], set_inputs=lambda new: now.__setitem__(0, new), wake=int)
         frame: Any = bridge
-        editor = TwistCurveEditor(frame, PowerTracker())
-        editor.bind(page, lambda: True)
+        took: list[bool] = []
+        editor = TwistCurveEditor(frame)
+        editor.bind(page, lambda: True, took.append)
         drag = bridge.actions["knot"]
         drag(["2", [1.0, -1.0]])  # By key: nothing is held.
         assert editor.place == ""
@@ -314,4 +314,4 @@ class TestTwistCurve:
         assert editor.place.startswith("tip 1.00 R · θ ")
         drag(["2", "end"])
         assert editor.place == ""
-        assert bridge.state["hand"] is None
+        assert took == [True, False]

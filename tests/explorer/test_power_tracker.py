@@ -104,3 +104,28 @@ def test_a_grab_before_the_new_design_has_a_power_counts_from_its_first():
     assert tracker.solved(at(-9.0), 847e3, DRAG) == -3e3
     tracker.release()
     assert tracker.change == -3e3
+
+
+def test_what_no_hand_has_moved_does_not_count():
+    """A lecture sets another design while the answer to the last drag is still on its way."""
+    tracker = PowerTracker()
+    tracker.solved(START, 850e3, 0.0)
+    tracker.solved(at(-9.0), 847e3, 60.0)
+    tracker.reset()
+    assert tracker.solved(at(-9.5), 846e3, DRAG) is None
+    assert tracker.solved(at(-16.0, mass_t=10.0), 1349e3, 60.0) is None
+    assert tracker.reference is None
+    tracker.touch()
+    assert tracker.solved(at(-16.5, mass_t=10.0), 1347e3, DRAG) == -2e3
+
+
+def test_a_slider_that_is_let_go_before_its_last_answers_counts_from_the_press():
+    """The release comes at once, the answers to the last movements of the drag later."""
+    tracker = PowerTracker()
+    tracker.solved(START, 1047e3, 0.0)
+    tracker.grab()
+    tracker.solved(at(-9.0), 1000e3, 60.0)
+    tracker.solved(at(-10.0), 901e3, 3.0)  # It was held still in between.
+    tracker.release()
+    assert tracker.solved(at(-10.5), 915e3, DRAG) == -132e3
+    assert tracker.solved(at(-10.6), 929e3, DRAG) == -118e3

@@ -54,7 +54,7 @@ class HistoryPanel:
         return inputs
 
     def grab(self, held: bool) -> None:
-        """A blade or a curve is taken by the hand, or let go: what moves in between is one step."""
+        """A blade, a curve or a slider is taken by the hand, or let go: what moves in between is one step."""
         with self._lock:
             if held:
                 self._history.hold()
@@ -89,7 +89,8 @@ class HistoryPanel:
         with self._lock:
             history, bookmarks = self._history, (*self._waiting, *(item.inputs for item in self._kept))
             future = tuple(reversed(history.future))
-            text = StoredHistory(tuple(history.past), history.present, future, bookmarks).text()
+            kept = StoredHistory(tuple(history.past), history.present, future, bookmarks)
+        text = kept.text()  # A hundred designs: nobody need wait for them.
         if text != self._stored:
             self._stored = text
             viser_compat.keep_in_page(self._client, stored_history.NAME, text)
