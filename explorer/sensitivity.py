@@ -27,7 +27,7 @@ _CONCEPTS: dict[str, Concept] = {
 }
 """By law of the page: the concept with the same parameters in the same order as the law's inputs."""
 _FLAT = 50.0
-"""Power changes per step below this [W] are called flat: less than the last digit shown."""
+"""Power changes per step below this [W] are no effect: less than the last digit shown."""
 _FRACTION = 0.1
 """Part of a step by which flight conditions are moved for the differences."""
 
@@ -100,8 +100,8 @@ class SliderSensitivity:
         return units.power[0].symbol + natural_step(self.name, units).unit
 
     def text(self, units: Units = SI) -> str:
-        """Number and unit, or that a step changes nothing: `−2.6 kW/0.1 R`, `flat`."""
-        return f"{self.value_text(units)} {self.unit_text(units)}" if self.saving_direction else "flat"
+        """Number and unit, or that a step changes nothing: `−2.6 kW/0.1 R`, `no effect`."""
+        return f"{self.value_text(units)} {self.unit_text(units)}" if self.saving_direction else "no effect"
 
 
 def natural_step(name: str, units: Units = SI) -> NaturalStep:
@@ -159,7 +159,7 @@ def flight_sensitivities(
 
 
 def strongest(sensitivities: Mapping[str, SliderSensitivity]) -> str | None:
-    """The slider whose natural step changes power most; None where all are flat."""
+    """The slider whose natural step changes power most; None where none has an effect."""
     steep = {name: abs(one.watts()) for name, one in sensitivities.items() if one.saving_direction}
     return max(steep, key=lambda name: steep[name]) if steep else None
 

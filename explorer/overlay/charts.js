@@ -58,7 +58,7 @@
     all.forEach((one, k) => { if (one) { strip.children[k].dataset.name = one.name; chart(strip.children[k], one); } });
   });
 
-  // What a step of a slider is worth: an arrow from its thumb the way that saves power.
+  // What a step up of a slider changes, with its sign, and an arrow from the thumb the way that saves power.
   RX.paint('worth', all => {
     for (const place of document.querySelectorAll('[data-worth]')) {
       const one = all[place.dataset.worth], stamp = JSON.stringify(one ?? null);
@@ -68,14 +68,15 @@
       // The track lies between the label and the number.
       const row = place.parentElement?.previousElementSibling?.querySelector('.mantine-Slider-root')?.getBoundingClientRect(), own = place.getBoundingClientRect();
       const track = row && row.width ? [row.left - own.left, row.width] : [76, 166];
-      const start = track[0] + one.at * track[1], length = 8 + 34 * Math.min(one.size, 1);
-      const possible = one.way === 'up' ? one.at < .999 : one.at > .001;  // No arrow beyond the end of the slider.
-      const arrow = one.way && possible ? `<i data-way="${one.way}" style="left:${one.way === 'up' ? start : start - length}px;width:${length}px"></i>` : '';
-      place.innerHTML = `${arrow}<span>${one.way ? `<b>${text(one.saving)}</b> ${text(one.unit)}` : text(one.saving)}</span>`;
+      const thumb = track[0] + one.at * track[1], up = one.way === 'up', word = 40;
+      const length = Math.min(8 + 36 * one.size, Math.max(6, (up ? own.width - thumb : thumb - track[0]) - 8));
+      const possible = up ? one.at < .999 : one.at > .001;  // No arrow beyond the end of the slider.
+      // The word stands before the head, or behind the thumb where the head is near the end.
+      const head = up ? thumb + length + 8 : thumb - length - 8, ahead = up ? head + word < own.width : head - word > track[0];
+      const at = ahead ? (up ? head : head - word) : (up ? thumb - word - 6 : thumb + 6);
+      const arrow = one.way && possible ? `<i data-way="${one.way}" style="left:${up ? thumb : thumb - length}px;width:${length}px"></i><em style="left:${at}px;width:${word}px;text-align:${up === ahead ? 'left' : 'right'}">saves</em>` : '';
+      place.innerHTML = `${arrow}<span>${one.way ? `<b ${up ? 'class="rxf-good"' : ''}>${text(one.value)}</b>${text(one.unit)}` : text(one.value)}</span>`;
       place.title = one.sentence;
-      // The number stands on the right, or on the left where the thumb is that far right.
-      const number = place.lastElementChild, end = one.way === 'up' ? start + length + 8 : start;
-      place.toggleAttribute('data-left', Boolean(one.way) && end > own.width - number.offsetWidth);
     }
   });
 

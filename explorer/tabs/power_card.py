@@ -8,11 +8,11 @@ from explorer.overlay.bridge import Bridge
 from explorer.power_tracker import PowerTracker
 from explorer.sensitivity import SliderSensitivity, flight_sensitivities, natural_step, twist_sensitivities
 from explorer.sliders import SLIDERS, slider
-from explorer.state import baseline_of
+from explorer.state import Inputs, baseline_of
 from explorer.text.glossary import READOUTS
 from explorer.text.readout import NO_BANDS, WakeBands, fineness, ideal_induced, part_titles, span
 from explorer.text.status import cautions
-from explorer.text.units import UNITS, Units, number
+from explorer.text.units import SI, UNITS, Units, number
 from explorer.text.validated import validated
 from explorer.text.why import why
 from explorer.workers.job import Job, JobEnded, JobEvent
@@ -22,8 +22,8 @@ from rotor.design.design import Design
 from rotor.trim.adjoint import PitchGradient
 from rotor.trim.solution import Solution
 
-_LONGEST = 6e3
-"""Saving [W] of a step at which the arrow is as long as it gets."""
+_HALF = 6e3
+"""Change [W] of a step at which the arrow has half the greatest length, so that none looks as long as a larger one."""
 
 
 def place(name: str) -> str:
@@ -66,27 +66,31 @@ class SliderWorth:
     def _send(self, state: SessionState) -> None:
         units = UNITS[state.view.units]
         self._bridge.set(
-            worth={name: _arrow(state, one, units) for name, one in {**self._twist, **self._flight}.items()}
+            worth={
+                name: sensitivity_row(state.inputs, one, units) for name, one in {**self._twist, **self._flight}.items()
+            }
         )
 
 
-def _arrow(state: SessionState, one: SliderSensitivity, units: Units) -> dict[str, Any]:
-    """Where the arrow starts along the slider, which way saves, and how much a step that way saves."""
-    form = slider(one.name, UNITS["SI"], state.inputs.aircraft)
-    at = (getattr(state.inputs, one.name) - form.low) / (form.high - form.low)
+def sensitivity_row(inputs: Inputs, one: SliderSensitivity, units: Units) -> dict[str, Any]:
+    """The change of power by a step up, with its sign, where the arrow starts along the slider, and which way saves."""
+    form = slider(one.name, SI, inputs.aircraft)
+    at = (getattr(inputs, one.name) - form.low) / (form.high - form.low)
     way = {1: "up", -1: "down", 0: ""}[one.saving_direction]
-    saved = units.power[0].text(-abs(one.watts(units)), 1, sign=True).split(" ")[0]
+    value = one.value_text(units) if way else "no effect"
     title = SLIDERS[one.name].label.partition(" [")[0]
-    step = natural_step(one.name, units).unit.removeprefix("/")
+    step = natural_step(one.name, units).unit.removeprefix("/").strip("()")
+    step = step if step[0].isdigit() else f"1{step}" if step == "°" else f"1 {step}"
     sentence = (
-        f"{title}: a step of {step} {way} changes power by {saved} {units.power[0].symbol}."
+        f"{title}: {step} more changes power by {value} {units.power[0].symbol}. "
+        f"A {'higher' if way == 'up' else 'lower'} value saves power."
         if way
-        else f"{title}: a step changes power by less than 0.05 kW."
+        else f"{title}: {step} more changes power by less than 0.05 kW."
     )
+    size = abs(one.watts())
     return {
-        "at": round(min(max(at, 0.0), 1.0), 4), "way": way,
-        "saving": saved if way else "flat", "unit": one.unit_text(units),
-        "size": round(abs(one.watts()) / _LONGEST, 3), "sentence": sentence,
+        "at": round(min(max(at, 0.0), 1.0), 4), "way": way, "value": value, "unit": one.unit_text(units),
+        "size": round(size / (size + _HALF), 3), "sentence": sentence,
     }  # fmt: skip
 
 

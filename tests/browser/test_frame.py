@@ -190,8 +190,10 @@ def test_each_slider_says_what_a_step_is_worth(watched: Watched):
     watched.settled()
     for name in ("built_inner", "built_outer", "built_division", "advance_ratio", "mass_t", "altitude_m", "climb_m_s"):
         place = page.locator(f'[data-worth="{name}"]')
-        assert re.search(r"−\d+\.\d (kW|hp)/|flat", place.inner_text()), name
+        assert re.search(r"[+−]\d+\.\d\s*(kW|hp)/|no effect", place.inner_text()), name
         assert "changes power by" in (place.get_attribute("title") or "")
+    mass = page.locator('[data-worth="mass_t"]').inner_text()
+    assert re.fullmatch(r"saves\s*\+\d+\.\d\s*kW/100 kg", mass)  # A heavier aircraft needs more power.
 
 
 def test_a_climb_has_its_part_of_the_power_and_is_in_the_link(watched: Watched):

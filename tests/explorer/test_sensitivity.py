@@ -18,7 +18,8 @@ from explorer.sensitivity import (
 )
 from explorer.sliders import SLIDERS
 from explorer.state import LAWS, Inputs, preset_inflow
-from explorer.text.units import AVIATION
+from explorer.tabs.power_card import sensitivity_row
+from explorer.text.units import AVIATION, SI
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.solve import solve
 
@@ -104,11 +105,36 @@ def test_the_arrow_points_to_less_power():
 def test_texts():
     assert SliderSensitivity("two_division", -26_000.0).text() == "−2.6 kW/0.1 R"
     assert SliderSensitivity("two_inner", 300.0).text() == "+0.3 kW/°"
-    assert SliderSensitivity("two_inner", 3.0).text() == "flat"
+    assert SliderSensitivity("two_inner", 3.0).text() == "no effect"
     heavy = SliderSensitivity("mass_t", 90e3)
     assert heavy.unit_text(AVIATION) == "hp/200 lb"
     assert_allclose(heavy.watts(AVIATION), 90e3 * natural_step("mass_t", AVIATION).size)
     assert_allclose(natural_step("mass_t", AVIATION).size, 0.0907, atol=1e-4)
+
+
+def test_a_row_carries_the_sign_of_a_step_up_and_says_which_way_saves():
+    inputs = Inputs(law="builtin")
+    solution = solve(inputs.design()).require()
+    found = flight_sensitivities(solution)
+    faster = sensitivity_row(inputs, found["advance_ratio"], SI)
+    assert total(replace(inputs, advance_ratio=0.21)) > solution.power.total
+    assert (faster["value"][0], faster["way"], faster["unit"]) == ("+", "down", "kW/0.01")
+    assert faster["sentence"] == (
+        f"Adv. ratio µ: 0.01 more changes power by {faster['value']} kW. A lower value saves power."
+    )
+    twist = sensitivity_row(inputs, SliderSensitivity("built_outer", -900.0), SI)
+    assert (twist["value"], twist["way"]) == ("−0.9", "up")
+    assert "1° more changes power by −0.9 kW. A higher value saves power." in twist["sentence"]
+    climb = sensitivity_row(inputs, SliderSensitivity("climb_m_s", 100e3), AVIATION)
+    assert "100 ft/min more changes power by +" in climb["sentence"]
+    nothing = sensitivity_row(inputs, SliderSensitivity("built_division", 0.0), SI)
+    assert (nothing["value"], nothing["way"]) == ("no effect", "")
+
+
+def test_a_larger_change_has_a_longer_arrow():
+    sizes = [sensitivity_row(Inputs(), SliderSensitivity("mass_t", slope), SI)["size"] for slope in (3e4, 9e4, 9e5)]
+    assert sizes == sorted(set(sizes))
+    assert sizes[-1] < 1.0
 
 
 def test_the_strongest_slider():
