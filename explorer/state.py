@@ -156,6 +156,12 @@ class Inputs:
         return self.stand is None and preset_models(self.preset).disk_axial_flow
 
     @property
+    def idle(self) -> frozenset[str]:
+        """Names of inputs on the sliders that change nothing now."""
+        unchanged = self.law == "builtin" and self.built_inner == self.built_outer == 0.0
+        return frozenset({"built_division"}) if unchanged else frozenset()
+
+    @property
     def speed_kt(self) -> float:
         return self.advance_ratio * self.aircraft.rotor.tip_speed / KNOT
 

@@ -56,7 +56,7 @@ class DesignControls:
         self._moving = threading.RLock()
         self._own: Inputs | None = None
         """The user's own inputs while the sliders show those of a preview."""
-        self._following = False
+        self._following = self._held = False
         self.pauses = Pauses()
         self._laws = _laws_of(start)
         self._units = SI
@@ -118,6 +118,7 @@ class DesignControls:
 
     def hold(self, held: bool) -> None:
         """Take the widgets from the user, or give them back."""
+        self._held = held
         own = (self._infinite, self.reset_button, self.optimise_button)
         for handle in (*self._inputs.values(), *self.stand.handles, *own):
             handle.disabled = held
@@ -163,7 +164,8 @@ class DesignControls:
         """Bring everything that only follows the widgets into line: which sliders show, speed, units, explanations."""
         self._change_units(units)
         with self._moving:
-            shown_law = inputs.law if self._own is None else self._special.law
+            shown_inputs = inputs if self._own is None else self._special
+            shown_law = shown_inputs.law
         for key, law in LAWS.items():
             for name in law.inputs:
                 shown_now = key == shown_law
@@ -173,6 +175,10 @@ class DesignControls:
         for name, counts in {"mass_t": in_flight, "altitude_m": in_flight, "climb_m_s": inputs.climbs}.items():
             if self._inputs[name].visible != counts:
                 self._inputs[name].visible = self._worths[name].visible = counts
+        for name in LAWS[shown_law].inputs:
+            inert = self._held or name in shown_inputs.idle
+            if self._inputs[name].disabled != inert:
+                self._inputs[name].disabled = inert
         if self._own is None:
             self.stand.show_measured(inputs)
         self._speed.content = _flight_heading(

@@ -78,6 +78,8 @@ def sensitivity_row(inputs: Inputs, one: SliderSensitivity, units: Units) -> dic
     at = (getattr(inputs, one.name) - form.low) / (form.high - form.low)
     way = {1: "up", -1: "down", 0: ""}[one.saving_direction]
     value = one.value_text(units) if way else "no effect"
+    if one.name in inputs.idle:
+        value = "no effect while both changes are 0"
     title = SLIDERS[one.name].label.partition(" [")[0]
     step = natural_step(one.name, units).unit.removeprefix("/").strip("()")
     step = step if step[0].isdigit() else f"1{step}" if step == "°" else f"1 {step}"

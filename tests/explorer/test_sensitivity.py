@@ -127,8 +127,10 @@ def test_a_row_carries_the_sign_of_a_step_up_and_says_which_way_saves():
     assert "1° more changes power by −0.9 kW. A higher value saves power." in twist["sentence"]
     climb = sensitivity_row(inputs, SliderSensitivity("climb_m_s", 100e3), AVIATION)
     assert "100 ft/min more changes power by +" in climb["sentence"]
-    nothing = sensitivity_row(inputs, SliderSensitivity("built_division", 0.0), SI)
-    assert (nothing["value"], nothing["way"]) == ("no effect", "")
+    changed = replace(inputs, built_outer=-1.0)
+    for now, words in ((inputs, "no effect while both changes are 0"), (changed, "no effect")):
+        nothing = sensitivity_row(now, SliderSensitivity("built_division", 0.0), SI)
+        assert (nothing["value"], nothing["way"]) == (words, "")
 
 
 def test_a_larger_change_has_a_longer_arrow():

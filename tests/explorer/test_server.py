@@ -7,6 +7,7 @@ import subprocess
 import sys
 import urllib.request
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
@@ -175,6 +176,24 @@ class TestControls:
         assert applied.rotor == design.rotor
         r = np.linspace(0.13, 1.0, 50)
         np.testing.assert_allclose(applied.twist(r), design.twist(r), atol=2e-6)
+
+    def test_the_break_point_is_inert_while_there_is_no_change(self, controls: DesignControls):
+        place, built = controls._inputs["built_division"], Inputs(law="builtin")
+        changed, moved = replace(built, built_outer=-1.0), replace(built, built_division=0.7)
+        assert built.design().twist == moved.design().twist  # It has no effect indeed.
+        for inputs, inert in ((built, True), (changed, False), (built, True)):
+            controls.refresh(inputs, SI)
+            assert place.disabled is inert
+        controls.hold(True)
+        controls.refresh(changed, SI)
+        assert place.disabled
+        controls.hold(False)
+        controls.refresh(changed, SI)
+        assert not place.disabled
+        controls.hold(False)
+        controls.refresh(built, SI)
+        assert place.disabled
+        assert not controls._inputs["built_outer"].disabled
 
     def test_only_the_sliders_of_the_law_show(self, controls: DesignControls):
         controls.refresh(Inputs(law="two"), SI)
