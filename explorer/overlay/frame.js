@@ -240,12 +240,16 @@
   let labels = [];
   for (const name of LABELS) RX.paint(name, () => {
     labels = LABELS.flatMap(one => state[one] ?? []);
-    part('labels').innerHTML = labels.map(one => `<span class="rxf-label rxf-num">${RX.text(one.text)}</span>`).join('');
+    const all = part('labels');  // They stay where they are, and new ones are unseen, until they are placed.
+    while (all.children.length > labels.length) all.lastChild.remove();
+    while (all.children.length < labels.length) all.insertAdjacentHTML('beforeend', '<span class="rxf-label rxf-num" style="visibility:hidden"></span>');
+    labels.forEach((one, k) => { all.children[k].textContent = one.text; });
   });
   function placeLabels(client, box) {
     labels.forEach((one, k) => {
       const node = client.nodeRefFromName?.[one.node], label = part('labels').children[k];
-      if (!node || !client.camera || !label) return;
+      if (!label) return;
+      if (!node || !client.camera) { label.style.visibility = 'hidden'; return; }
       const at = node.position.clone().set(...one.at).applyMatrix4(node.matrixWorld).project(client.camera);
       const left = (at.x + 1) / 2 * box.width - label.offsetWidth / 2, top = (1 - at.y) / 2 * box.height - label.offsetHeight;
       label.style.visibility = at.z < 1 && Math.abs(at.x) < 1 && Math.abs(at.y) < 1 ? 'visible' : 'hidden';

@@ -2,7 +2,7 @@
 (() => {
   if (window.rotorScene) return;
   const viewer = () => window.__viserMutable;
-  let surfaces = {}, motion = null, heard = null, mark = null, rate = 0, psi = 0, before = 0, stepped = 0;
+  let surfaces = {}, tied = [], motion = null, heard = null, mark = null, rate = 0, psi = 0, before = 0, stepped = 0;
 
   // Pictures seen from a low angle stay sharp with anisotropic filtering, which a graphics card gives for nothing.
   const hardware = () => {
@@ -48,7 +48,7 @@
       const angle = at + 2 * Math.PI * k / motion.blades;
       place(`${motion.root}/blade_${k}`, angle, harmonic(motion.flap, angle), harmonic(motion.pitch, angle), motion.hinge);
     }
-    place(`${motion.root}/head`, at, 0, 0, 0);
+    for (const name of [`${motion.root}/head`, ...tied]) place(name, at, 0, 0, 0);
     trail(at);
     viewer().requestRender?.();
   };
@@ -116,6 +116,8 @@
       else if (at - mark.at > 250) { rate = near(angle - mark.psi) / ((at - mark.at) / 1000); mark = {psi: angle, at}; }
       heard = {psi: angle, at};
     },
+    // What else turns with the reference blade while the rotor plays.
+    tie(nodes) { tied = nodes; },
     stop() { motion = heard = mark = null; },
     get psi() { return psi; },
   };

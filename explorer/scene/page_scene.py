@@ -55,6 +55,11 @@ def motion_of(solution: Solution) -> dict[str, Any]:
     }
 
 
+def tie(client: viser.ClientHandle, *nodes: str) -> None:
+    """Let the page turn these nodes about the shaft with the reference blade while the rotor plays, and no others."""
+    run_in_page(client, f"rotorScene.tie({json.dumps(nodes)})")
+
+
 class PageScene:
     """One client's."""
 

@@ -165,6 +165,43 @@ def test_play_turns_the_blades_alone_and_ends_with_pause(watched: Watched, app: 
     watched.until(lambda: not [one.name for one in threading.enumerate() if one.name.startswith("play-")])
 
 
+WATCH_PLAY = """seconds => new Promise(done => {
+    const client = window.__viserMutable, end = performance.now() + 1000 * seconds, apart = [], corners = [];
+    const rotor = client.nodeRefFromName['/rotor'].matrixWorld.clone().invert();
+    const azimuth = name => {
+        const node = client.nodeRefFromName[name];
+        const at = node.position.clone().set(6, 0, 0).applyMatrix4(node.matrixWorld).applyMatrix4(rotor);
+        return Math.atan2(at.y, at.x) * 180 / Math.PI;
+    };
+    const look = now => {
+        apart.push(Math.abs((azimuth('/rotor/blade_0') - azimuth('/rotor/disk/probe') + 540) % 360 - 180));
+        for (const label of document.querySelectorAll('.rxf-label'))
+            if (label.style.visibility !== 'hidden') corners.push(label.style.transform === '');
+        now < end ? requestAnimationFrame(look) : done({apart, corners});
+    };
+    requestAnimationFrame(look);
+})"""
+"""Degrees between the reference blade and the probe in each frame, and whether a label that is seen has no place."""
+
+
+def test_the_probe_stays_on_its_blade_and_its_label_beside_it_while_the_rotor_plays(watched: Watched):
+    page = watched.page
+    click_disk(watched, 0.8, 200.0)
+    page.wait_for_selector(".rxf-label", state="visible")
+    page.evaluate("() => RX.send('play')")
+    watched.until(lambda: page.evaluate("() => rotorScene.psi") != 0.0)
+    page.wait_for_timeout(1000)
+    played = page.evaluate(WATCH_PLAY, 3.0)
+    page.evaluate("() => RX.send('play')")
+    page.wait_for_function("() => !RX.state.turn.playing")
+    rested = watched.at_rest(lambda: page.evaluate(WATCH_PLAY, 0.1)["apart"][-1])
+    # One frame may lie between the poses of the two; a blade turns by a few degrees in it on a slow machine.
+    assert np.median(played["apart"]) < 0.5
+    assert rested < 0.5
+    assert played["corners"]
+    assert not any(played["corners"])
+
+
 def test_the_blade_stops_for_the_hand_that_takes_it(watched: Watched):
     page = watched.page
     page.keyboard.press("Space")

@@ -15,7 +15,7 @@ from explorer.picture.blade_mesh import circle_segments, drawn_pitch
 from explorer.picture.camera_views import pick
 from explorer.picture.picture import LINE_LIFT
 from explorer.picture.poses import about, flown_twist
-from explorer.scene.page_scene import TURN_RATES
+from explorer.scene.page_scene import TURN_RATES, tie
 from explorer.tabs.keys import COARSE
 from explorer.tabs.probe.element import Probe, probe
 from explorer.tabs.probe.readout import outline, probe_panel
@@ -41,8 +41,9 @@ _WIDER = 1.12
 class Cursor:
     """Handles made once; a step of the probe only turns and shifts them, except on the blade."""
 
-    def __init__(self, api: viser.SceneApi, bridge: Bridge) -> None:
-        self._bridge = bridge
+    def __init__(self, client: viser.ClientHandle, bridge: Bridge) -> None:
+        self._client, self._bridge, api = client, bridge, client.scene
+        self._tied = False
         self._rotor: Rotor | None = None
         self._turned = api.add_frame(_DISK, show_axes=False, visible=False)
         self._at = api.add_frame(f"{_DISK}/at", show_axes=False)
@@ -54,11 +55,18 @@ class Cursor:
             handle.visible = False
         self._drawn: tuple[object, ...] | None = None
 
-    def show(self, rotor: Rotor, probe: Probe, pitch: float | None) -> None:
-        """At the probe; `pitch`: of the blade's own section there, as it is drawn [rad], None: no blade is there."""
+    def show(self, rotor: Rotor, probe: Probe, pitch: float | None, tied: bool) -> None:
+        """At the probe; `pitch`: of the blade's own section there, as it is drawn [rad], None: no blade is there.
+
+        `tied`: the page turns it with the blade, which is ahead of or behind what the server knows.
+        """
         self._scale(rotor)
         self._turned.visible = True
-        self._turned.wxyz = about(2, probe.psi)
+        if tied != self._tied:
+            self._tied = tied
+            tie(self._client, *([_DISK] if tied else []))
+        if not tied:
+            self._turned.wxyz = about(2, probe.psi)
         self._at.position = np.array([probe.radius, 0.0, 0.0])
         words = f"α {number(math.degrees(probe.alpha), 1)}°"
         self._bridge.set(probe_label=[{"text": words, "node": f"{_DISK}/at", "at": [0.0, 0.0, 0.4]}])
@@ -148,9 +156,9 @@ class ProbePanel:
         self._playing, self._open, self._turn_rate = playing, opened, turn_rate
         self._client, self._context = client, context
         self._seen = True
-        self._drawn: tuple[Solution, _ProbePoint, float | None] | None = None
+        self._drawn: tuple[Solution, _ProbePoint, float | None, bool] | None = None
         self._html = ""
-        self._cursor = Cursor(client.scene, bridge)
+        self._cursor = Cursor(client, bridge)
         self._player = Player(self._walk, f"play-{client.client_id}")
         self._hand = threading.Lock()
         """Held by whoever turns the blade: the clock or the user."""
@@ -185,14 +193,15 @@ class ProbePanel:
             self._follow.value or abs(math.remainder(place.psi_deg - state.view.azimuth_deg, 360.0)) < 0.5 * _PSI_STEP
         )
         pitch = _drawn_pitch(state, here) if tied else None
-        if self._drawn == (solution, place, pitch):
+        rides = self._follow.value and self._player.playing
+        if self._drawn == (solution, place, pitch, rides):
             return
-        self._drawn = solution, place, pitch
+        self._drawn = solution, place, pitch, rides
         self._html = probe_panel(here, solution, place.opened)
         self._panel.content = self._html
         with self._client.atomic():
             if place.shown:
-                self._cursor.show(solution.design.rotor, here, pitch)
+                self._cursor.show(solution.design.rotor, here, pitch, rides)
             else:
                 self._cursor.hide()
 
