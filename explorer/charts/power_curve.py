@@ -18,7 +18,7 @@ from rotor.trim.low_speed import passes_over
 from rotor.trim.newton import Guess
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.trim.validity import LOW_SPEED
+from rotor.trim.validity import LOW_SPEED, vortex_ring
 
 PATIENCE = 0.6
 """A curve older than this [s] is swept coarsely even while a slider moves, so that it follows a long drag."""
@@ -109,6 +109,8 @@ class PowerCurves:
             try:
                 design = family.at(mu=SWEEP[k])
             except ValueError:  # A free rotor in hover.
+                continue
+            if vortex_ring(design):  # In descent slow flight has no answer, while faster flight has.
                 continue
             starts = before if k in before else points
             point = solve(design, starts[min(starts, key=lambda known: abs(known - k))] if starts else None)

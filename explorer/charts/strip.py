@@ -154,8 +154,18 @@ def power_change_chart(
         lines=(StripLine(mus, apart, "saving" if curve.current else "earlier", filled=curve.current),),
         dots=(*([StripDot(0.0, float(apart[0]), "hover")] if curve.current else []), StripDot(mu, now, "")),
         value="" if change is None else f"{number(now, 1 if abs(now) < 9.95 else 0, sign=True)} {unit.symbol}",
+        note=autorotation_words(curve),
         x_name="µ",
     )
+
+
+def autorotation_words(curve: PowerCurve) -> str:
+    """Where the air drives the rotor in descent, and where no speed has an answer; empty in level flight and climb."""
+    mus, driven, known = np.array(SWEEP), curve.design < 0.0, np.isfinite(curve.design)
+    if not curve.current or not driven.any():
+        return ""
+    words = f"Autorotation between µ {mus[driven][0]:g} and {mus[driven][-1]:g}: the air drives the rotor."
+    return words if known[0] else f"{words} No answer below µ {mus[known][0]:g}: vortex ring state."
 
 
 def total_power_chart(
@@ -171,14 +181,18 @@ def total_power_chart(
     seen = [value for value in (*power[mus <= max(0.4, mu)], now) if math.isfinite(value)]
     least = int(np.nanargmin(np.where(mus > 0.0, power, math.inf)))
     known = curve.current and math.isfinite(power[least])
+    role: Role = "saving" if curve.current else "earlier"
+    driven = StripLine(mus, np.where(power < 0.0, power, np.nan), role, filled=True)
+    value = "autorotation" if now < 0.0 else f"least near µ {mus[least]:.2f}" if known else ""
     return StripChart(
         title="Power over µ",
         unit=unit.symbol,
         x_range=(0.0, SWEEP[-1]),
-        y_range=held_range(held, 0.0, max(seen, default=math.nan)),
-        lines=(StripLine(mus, power, "saving" if curve.current else "earlier"),),
+        y_range=held_range(held, min(0.0, *seen) if seen else 0.0, max(seen, default=math.nan)),
+        lines=(StripLine(mus, power, role), *([driven] if (power < 0.0).any() else [])),
         dots=(*([StripDot(0.0, float(power[0]), "hover")] if curve.current else []), StripDot(mu, now, "")),
-        value=f"least near µ {mus[least]:.2f}" if known else "",
+        value=value,
+        note=autorotation_words(curve),
         x_name="µ",
     )
 

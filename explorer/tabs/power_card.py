@@ -12,7 +12,7 @@ from explorer.state import Inputs, baseline_of
 from explorer.text.glossary import READOUTS
 from explorer.text.readout import NO_BANDS, WakeBands, fineness, ideal_induced, part_titles, span
 from explorer.text.status import cautions
-from explorer.text.units import SI, UNITS, Units, number
+from explorer.text.units import BLANK, SI, UNITS, Units, number
 from explorer.text.validated import validated
 from explorer.text.why import why
 from explorer.workers.job import Job, JobEnded, JobEvent
@@ -171,6 +171,8 @@ _URGENCY = 4
 """Behind sweeps of a harmonic, before verdicts."""
 _NOTICEABLE = 0.05
 """Changes below this [%] have no colour."""
+_TELLING = 0.1
+"""In descent and autorotation total power is near zero: below this part of its positive parts it has no percentage."""
 _STALLED = 0.025
 """Fraction of the disk from which stall is named beside the power."""
 
@@ -263,31 +265,37 @@ def against(design: Design, pinned: bool) -> str:
 def _numbers(state: SessionState, units: Units) -> dict[str, Any]:
     solution, power = state.solution, state.solution.power
     reference = state.reference.power if state.reference.converged else None
-    percent = 100.0 * (power.total / reference.total - 1.0) if reference is not None and reference.total > 0.0 else None
     unit, digits = units.power[0], fineness(power)
+    whole = sum(max(getattr(power, name), 0.0) for name in part_titles(solution.design))
+    apart = percent = None
+    if reference is not None:
+        apart = units.watts(power.total - reference.total, digits, sign=True)
+        if reference.total > _TELLING * whole:
+            percent = 100.0 * (power.total / reference.total - 1.0)
     parts = []
     for name, words in part_titles(solution.design).items():
         value = getattr(power, name)
-        apart = None if reference is None else value - getattr(reference, name)
         title = f"{words} power {units.watts(value, digits)}"
+        if reference is not None:
+            title += f", {units.watts(value - getattr(reference, name), digits, sign=True)} vs. reference"
         parts.append(
             {
                 "part": name,
                 "name": words.removesuffix(" rotor"),
                 "value": number(unit.of(value), digits),
-                "share": round(value / power.total, 5) if power.total > 0.0 else 0.0,
-                "title": title if apart is None else f"{title}, {units.watts(apart, digits, sign=True)} vs. reference",
+                "share": round(value / whole, 5) if whole > 0.0 else 0.0,
+                "title": title,
             }
         )
     ideal = ideal_induced(solution)
     return {
         "total": number(unit.of(power.total), digits),
         "unit": unit.symbol,
-        "change": f"{number(percent, 1, sign=True)} %",
+        "change": apart or BLANK if percent is None else f"{number(percent, 1, sign=True)} %",
         "kind": "" if percent is None or abs(percent) < _NOTICEABLE else "good" if percent < 0.0 else "bad",
         "against": against(solution.design, state.pinned is not None),
         "parts": parts,
-        "ideal": None if ideal is None or power.total <= 0.0 else round(ideal / power.total, 5),
+        "ideal": None if ideal is None or whole <= 0.0 else round(ideal / whole, 5),
         "ideal_title": "" if ideal is None else f"Least induced power at this lift: {units.watts(ideal)}",
     }
 
@@ -312,7 +320,9 @@ def _status(state: SessionState) -> dict[str, str]:
         title = "One Newton step of the free wake: the settled number follows."
         return {"kind": "waiting", "words": "settling", "measured": record.words, "title": title}
     title = " ".join([*reasons, record.sentence])
-    if stalled >= _STALLED:
+    if state.solution.power.total < 0.0:
+        words = "autorotation"
+    elif stalled >= _STALLED:
         words = f"{number(100.0 * stalled, 1)} % of disk stalled"
     elif reasons:
         words = "1 caveat" if len(reasons) == 1 else f"{len(reasons)} caveats"

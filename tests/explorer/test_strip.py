@@ -83,6 +83,21 @@ class TestPowerChange:
         assert [(dot.x, dot.y, dot.label) for dot in chart.dots] == [(0.0, curve.design[0], "hover"), (0.2, 720.0, "")]
         assert chart.y_range[0] == 0.0
 
+    def test_autorotation_is_marked_below_zero(self):
+        curve = self.curve(0.0)
+        curve.design[:] = 4e4 * (np.array(SWEEP) - 0.15) ** 2 - 150.0
+        curve.design[:3] = math.nan
+        chart = total_power_chart(curve, 0.15, -150e3)
+        assert chart.y_range[0] <= -150.0
+        assert chart.value == "autorotation"
+        assert chart.note == (
+            "Autorotation between µ 0.1 and 0.2: the air drives the rotor. No answer below µ 0.075: vortex ring state."
+        )
+        (tinted,) = [one for one in chart.lines if one.filled]
+        assert (tinted.y[np.isfinite(tinted.y)] < 0.0).all()
+        assert total_power_chart(curve, 0.3, 750e3).value == "least near µ 0.15"
+        assert power_change_chart(curve, 0.15, 0.0, "A").note == chart.note
+
     def test_inputs_without_trim_leave_the_curve_without_its_dot(self):
         chart = total_power_chart(self.curve(0.0), 0.2, None)
         assert [dot["label"] for dot in chart.as_dict["dots"]] == ["hover"]

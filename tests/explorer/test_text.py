@@ -13,6 +13,7 @@ from numpy.testing import assert_allclose
 
 from explorer.charts import plots
 from explorer.charts.power_curve import PowerCurves
+from explorer.charts.strip import autorotation_words
 from explorer.state import LAWS, Inputs, baseline_of, baseline_title, inputs_of, preset_inflow
 from explorer.text import readout
 from explorer.text.status import provenance, status_panel
@@ -219,6 +220,20 @@ class TestPowerCurves:
         curves.sweep(design, baseline_of(design), lambda: False)
         faster = Inputs(advance_ratio=0.3).design()
         assert np.isfinite(curves.known(faster, baseline_of(faster)).design[1:10]).all()
+
+    def test_a_descent_has_its_curve_beyond_the_vortex_ring_state(self):
+        design = Inputs(law="linear", linear=-8.0, climb_m_s=-13.0).design()
+        curves = PowerCurves(haste=math.inf)
+        assert curves.sweep(design, baseline_of(design), lambda: False)
+        curve = curves.known(design, baseline_of(design))
+        answers = [solve(design.at(mu=mu)) for mu in plots.SWEEP]
+        assert np.isfinite(curve.design).tolist() == [one.converged for one in answers]
+        assert not np.isfinite(curve.design[:3]).any()
+        assert np.isfinite(curve.design[3:]).all()
+        words = autorotation_words(curve)
+        driven = [mu for mu, one in zip(plots.SWEEP, answers, strict=True) if one.converged and one.power.total < 0.0]
+        assert words.startswith(f"Autorotation between µ {driven[0]:g} and {driven[-1]:g}")
+        assert words.endswith("No answer below µ 0.075: vortex ring state.")
 
     def test_beyond_the_rotor_the_sweep_ends(self, monkeypatch: pytest.MonkeyPatch):
         """A trim that fails is slow to fail: two in a row are enough, one in haste."""

@@ -1,0 +1,51 @@
+"""The numbers of the power card where power is near zero or negative: descent and autorotation."""
+
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from explorer.interface import SessionState
+from explorer.state import OPENING, Inputs, ViewState, baseline_of
+from explorer.tabs.power_card import PowerCard
+from rotor.trim.solve import solve
+
+
+class Bridge:
+    """What the frame was told."""
+
+    def __init__(self) -> None:
+        self.power: dict[str, Any] = {}
+
+    def set(self, power: dict[str, Any]) -> None:
+        self.power = power
+
+
+def card(inputs: Inputs) -> dict[str, Any]:
+    bridge: Any = Bridge()
+    solution = solve(inputs.design()).require()
+    state = SessionState(inputs, ViewState(), solution, solve(baseline_of(solution.design)), None)
+    PowerCard(bridge).show(state, 0.0)
+    return bridge.power
+
+
+@pytest.mark.parametrize("climb", [-8.0, -13.0])
+@pytest.mark.parametrize("outer", [0.0, -2.0])
+def test_no_number_of_the_card_is_blank_in_descent(climb: float, outer: float):
+    found = card(replace(OPENING, advance_ratio=0.15, climb_m_s=climb, built_outer=outer))
+    assert "–" not in (found["total"], found["change"])
+    assert "– %" not in str(found)
+    assert sum(max(one["share"], 0.0) for one in found["parts"]) == pytest.approx(1.0, abs=1e-4)
+
+
+def test_autorotation_is_marked():
+    found = card(replace(OPENING, advance_ratio=0.15, climb_m_s=-13.0))
+    assert found["total"].startswith("−")
+    assert found["status"]["words"] == "autorotation"
+    assert "The air drives the rotor" in found["status"]["title"]
+    assert found["change"] == "0.0 kW"
+    assert card(replace(OPENING, advance_ratio=0.15, climb_m_s=-8.0))["status"]["words"] != "autorotation"
+
+
+def test_in_level_flight_the_change_is_a_percentage():
+    assert card(OPENING)["change"] == "0.0 %"
