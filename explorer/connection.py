@@ -108,8 +108,8 @@ class WaitingPage:
 def _waiting_text(places: int, ahead: int) -> str:
     """The sentences, as HTML."""
     taken = f"All {places} places are taken." if places > 1 else "The place is taken."
-    others = "1 visitor waits" if ahead == 1 else f"{ahead} visitors wait"
-    line = f"{others} before you." if ahead else "You are next."
+    place = "second" if ahead == 1 else f"number {ahead + 1}"
+    line = f"You are {place} in the queue." if ahead else "You are next."
     return (
         '<div class="rx rx-lobby" data-explorer="lobby">'
         f"<p><b>{taken}</b> {line}</p>"

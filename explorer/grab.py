@@ -84,7 +84,7 @@ def stations(inputs: Inputs) -> tuple[Station, ...]:
     if inputs.law not in PIECES:
         return ()
     divisions = PIECES[inputs.law][1]
-    middle = [Station(k + 1, getattr(inputs, name), "division", name) for k, name in enumerate(divisions)]
+    middle = [Station(k + 1, getattr(inputs, name), "break point", name) for k, name in enumerate(divisions)]
     return Station(0, root, "root"), *middle, Station(len(divisions) + 1, 1.0, "tip")
 
 
@@ -214,7 +214,7 @@ class Grab:
     def place(self, inputs: Inputs) -> str:
         """Where the hand is, in words: the station and its twist, or the division's place."""
         if self.slides and self.station.division is not None:
-            return f"division {getattr(inputs, self.station.division):.2f} R"
+            return f"break point {getattr(inputs, self.station.division):.2f} R"
         return place_of(inputs, self.station)
 
 

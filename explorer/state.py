@@ -182,7 +182,7 @@ class Law:
 def _segments(rates: tuple[float, ...], breaks: tuple[float, ...]) -> PiecewiseLinearTwist:
     if any(high - low < 0.02 for low, high in pairwise(breaks)):
         raise ValueError(
-            f"The divisions at {' and '.join(f'{b:g}' for b in breaks)} R are out of order or too close: "
+            f"The break points at {' and '.join(f'{b:g}' for b in breaks)} R are out of order or too close: "
             "keep the second at least 0.02 R outboard of the first."
         )
     return PiecewiseLinearTwist(tuple(math.radians(rate) for rate in rates), breaks)
@@ -201,7 +201,9 @@ def _given(inputs: Inputs) -> TwistLaw:
 
 
 LAWS: dict[str, Law] = {
-    "builtin": Law("As built, changed", ("built_inner", "built_outer", "built_division"), lambda i: _built(i)),
+    "builtin": Law(
+        "As built + two-segment change", ("built_inner", "built_outer", "built_division"), lambda i: _built(i)
+    ),
     "linear": Law("Linear", ("linear",), lambda i: LinearTwist(math.radians(i.linear))),
     "quadratic": Law(
         "Quadratic",

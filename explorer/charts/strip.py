@@ -269,7 +269,7 @@ def where_to_twist_chart(gradient: PitchGradient, units: Units = SI, previous: R
         value = f"{height} at {gradient.r[outside]:.2f} R"
         note = f"Off the chart: {height} at {gradient.r[outside]:.2f} R."
     return StripChart(
-        title="Where to twist",
+        title="Pitch sensitivity",
         unit=f"{unit.symbol}/° per R",
         x_range=(0.1, 1.0),
         y_range=y_range,

@@ -185,7 +185,7 @@ def _run(options: argparse.Namespace) -> int:
     except OSError as error:
         raise ValueError(f"cannot write to {str(folder)!r} ({error.strerror}): give a folder") from None
     if len(shapes) == 1:
-        print("The rotor file states no torsional stiffness, so the flown shape is the jig shape.")
+        print("Torsional stiffness is not given in the rotor file: the flown shape is the jig shape.")
     return 0
 
 

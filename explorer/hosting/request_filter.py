@@ -27,7 +27,7 @@ _visitors.setLevel(logging.CRITICAL)  # A malformed request is not an error of o
 Answer = Callable[[ServerConnection, Request], Response | None]
 Handler = Callable[[ServerConnection], Awaitable[None]]
 
-_FLOOD = "More came from this page than the server takes; it starts again."
+_FLOOD = "Rate limit exceeded; the page starts again."
 _CLOSING = 1.0
 """[s] a client has to complete the closing handshake."""
 _HEADERS = {

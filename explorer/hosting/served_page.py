@@ -114,8 +114,7 @@ _LOADING_SCREEN = """<div id="rx-veil"><svg viewBox="0 0 100 100"><circle cx="50
     const note = document.createElement('div');
     note.id = 'rx-gone';
     note.setAttribute('role', 'alert');
-    note.textContent = 'The server does not answer: it is gone, starts again, or is full. This page goes on by itself '
-      + 'as soon as it does; what is on the sliders stands in its address.';
+    note.textContent = 'Connection lost; retrying. The address of this page holds your design.';
     document.body.append(note);
   }
 

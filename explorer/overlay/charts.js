@@ -35,7 +35,7 @@
     return `${fill}<path d="${path}" fill="none" stroke="${stroke}" stroke-width="${line.width ?? WIDTHS[kind] ?? 2}" stroke-linejoin="round" ${DASHES[kind] ? `stroke-dasharray="${DASHES[kind]}"` : ''}/>`;
   }
   // Where a chart is so narrow that its heading would be cut.
-  const SHORT = {starts: 'Starts', power: 'Power', alpha: 'α', worth: 'Twist'};
+  const SHORT = {starts: 'Starts', power: 'Power', alpha: 'α', worth: 'Pitch'};
   let clips = 0;
   function chart(element, one) {
     const width = Math.max(element.clientWidth - 32, 60), height = Math.max(element.clientHeight - 38, 40), place = frameOf(one, width, height, 12 + 6.2 * Math.max(3, ...one.y_ticks.map(v => digits(v).length))), clip = `rxc${clips++ % 64}`;

@@ -60,6 +60,13 @@
     if (near.closest('[data-part=menu]') && near.dataset.do !== 'along') menu.hidden = true;
     RX.send(near.dataset.do, near.type === 'checkbox' ? near.checked : near.dataset.value ?? null);
   });
+  // A link to be passed on, not followed.
+  document.addEventListener('click', event => {
+    const link = event.target instanceof Element && event.target.closest('a[data-copy]');
+    if (!link || !navigator.clipboard) return;
+    event.preventDefault();
+    navigator.clipboard.writeText(link.href).then(() => RX.say('Link copied'), () => window.open(link.href, '_blank', 'noopener'));
+  });
   document.addEventListener('change', event => {
     if (event.target.matches?.('#rx select[data-do]')) { RX.send(event.target.dataset.do, event.target.value); event.target.blur(); }
   });

@@ -14,7 +14,7 @@ DRAWERS = {
     "share": "Share and export",
     "details": "Power and trim",
     "probe": "Blade element",
-    "twist": "Where to twist",
+    "twist": "Power sensitivity to local pitch",
     "trust": "How far to trust this",
     "lecture": "Lecture",
     "settings": "Settings",

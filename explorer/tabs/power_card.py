@@ -246,7 +246,11 @@ class PowerCard:
             }
         apart = solution.power.total - reference.power.total
         value = units.watts(apart, fineness(solution.power), sign=True)
-        since = {"value": value, "words": "in total", "kind": _kind(apart, solution.power.total)}
+        since = {
+            "value": value,
+            "words": "vs. as built" if state.pinned is None else "vs. A",
+            "kind": _kind(apart, solution.power.total),
+        }
         return {"since": since, "rest": "", "why": why(reference, solution, units)}
 
 

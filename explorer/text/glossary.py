@@ -26,8 +26,8 @@ class Term:
 
 
 _RATE = "Twist rate in degrees per radius; negative: the outboard end is nose-down."
-_CHANGE = "Change of the twist rate as built, in degrees per radius; 0 is the blade as built."
-_DIVISION = "Radius where two twist segments meet, as a fraction of R."
+_CHANGE = "Change of twist rate inboard or outboard of the break point, in degrees per radius; 0 is the blade as built."
+_DIVISION = "Break point: radius where two twist segments meet, as a fraction of R."
 _SOURCES = {
     "flapping": ("2.39", "3.20"),
     "tip_loss": ("3.16",),

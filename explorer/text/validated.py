@@ -36,7 +36,7 @@ def validated(solution: Solution) -> ValidationRecord:
         note = f"No measured power of this rotor {where} could be reached."
         if sets:
             note += f" It was measured in {'forward flight' if design.hovering else 'hover'} only."
-        return ValidationRecord("not measured here", note)
+        return ValidationRecord("no test data at this condition", note)
     measured = nearest(alike, solution)
     row = row_of(measured, _inflow(solution))
     report = f"{measured.title}, {measured.report}"
@@ -49,7 +49,7 @@ def validated(solution: Solution) -> ValidationRecord:
         parts.insert(0, f"Outside what was compared: {outside}.")
     if design.twist != design.rotor.builtin_twist or design.active_twist is not None:
         parts.append("Measured with the twist as built; no measurement of this twist is known.")
-    words = f"measured: {_short(row, measured)}" if not outside else "beyond what was measured"
+    words = f"measured: {_short(row, measured)}" if not outside else "outside the test range"
     sentence = typographic(" ".join(part for part in parts if part))
     return ValidationRecord(words, re.sub(r"\bC_(?=[TPQ])", "C", sentence), measured)
 

@@ -181,7 +181,12 @@ def _stall(before: Solution, after: Solution) -> str:
 def _divergence(before: Solution, after: Solution) -> str:
     a, b = (_divergent(one) for one in (before, after))
     area = _area_change(_percent_of_disk(before, a), _percent_of_disk(after, b), 1.0)
-    return _region("drag divergence", area[0], _place(after, a, b), area[1]) if area else ""
+    if not area:
+        return ""
+    place = _place(after, a, b)
+    # On the retreating side the Mach number is low: there it is the lift that makes drag rise.
+    kind = "drag rise at high lift" if place.endswith("retreating side") else "drag divergence"
+    return _region(kind, area[0], place, area[1])
 
 
 def _region(kind: str, verb: str, place: str, amount: str) -> str:

@@ -103,7 +103,7 @@ def test_screenshots(browser: "Browser", app: App, artefacts: Path):
     watched = painted(browser, app.address, "light")
     watched.page.keyboard.press("p")
     watched.page.wait_for_function("() => RX.state.bar.pinned", timeout=WAIT)
-    for label, value in (("Inboard", -20), ("Outboard", -2), ("Division", 0.6)):
+    for label, value in (("Inboard", -20), ("Outboard", -2), ("Break point", 0.6)):
         watched.type(label, value)
         watched.page.wait_for_timeout(300)
     watched.page.get_by_role("button", name="Show B − A").click()

@@ -55,7 +55,7 @@ def spoken(watched: Watched) -> list[tuple[str, str]]:
 
 def test_every_control_has_a_spoken_name(watched: Watched):
     expected = {
-        "explore": ("slider", "Outboard ±"),
+        "explore": ("slider", "Δ outboard [°/R]"),
         "optimise": ("slider", "Starting points"),
         "actuate": ("slider", "Voltage [%]"),
     }
@@ -107,14 +107,14 @@ def test_the_tab_key_walks_the_whole_page_with_visible_focus(watched: Watched):
         pytest.fail(f"the focus never leaves the page: {reached[-3:]}")
     assert [one for one in reached if not one["seen"]] == []
     names = [one["name"] for one in reached]
-    order = ["Explore", "Settings", "Aircraft", "Turn the rotor", "tip", "Outboard ±", "Altitude [m]", "Model"]
+    order = ["Explore", "Settings", "Aircraft", "Turn the rotor", "tip", "Δ outboard [°/R]", "Altitude [m]", "Model"]
     assert [name for name in names if name in order] == [
         "Explore",
         "Settings",
         "Aircraft",
         "Turn the rotor",
         "tip",
-        *["Outboard ±"] * 2,  # The slider and its number.
+        *["Δ outboard [°/R]"] * 2,  # The slider and its number.
         *["Altitude [m]"] * 2,
         "Model",
     ]
@@ -141,11 +141,11 @@ def test_a_drawer_opened_by_key_takes_the_focus_and_escape_gives_it_back(watched
 
 def test_a_slider_moves_by_arrows(watched: Watched):
     before = watched.text("total-power")
-    slider = watched.row("Outboard").get_by_role("slider")
-    watched.press("Outboard", "ArrowRight", 3)
+    slider = watched.row("Δ outboard").get_by_role("slider")
+    watched.press("Δ outboard", "ArrowRight", 3)
     watched.until_changed(lambda: watched.text("total-power"), before)
     watched.until(lambda: float(slider.get_attribute("aria-valuenow") or 0) > 0.0)
-    assert watched.page.evaluate("() => document.activeElement.ariaLabel") == "Outboard ±"
+    assert watched.page.evaluate("() => document.activeElement.ariaLabel") == "Δ outboard [°/R]"
 
 
 def swipe(session: "CDPSession", watched: Watched, start: tuple[float, float], way: tuple[float, float]) -> None:
@@ -164,7 +164,7 @@ def test_a_finger_drags_slider_curve_and_blade_on_a_phone(browser: "Browser", ap
     watched = Watched(context.new_page())
     watched.open(app.address)
     page, session = watched.page, context.new_cdp_session(watched.page)
-    slider = watched.row("Outboard").get_by_role("slider")
+    slider = watched.row("Δ outboard").get_by_role("slider")
 
     def outer() -> float:
         return float(slider.get_attribute("aria-valuenow") or "nan")

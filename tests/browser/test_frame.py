@@ -44,7 +44,7 @@ def test_it_opens_as_built_with_one_prompt_that_the_first_edit_ends(browser: "Br
     for part, words in (("change", "0.0 %"), ("against", "UH-60A as built"), ("since", "as built")):
         watched.says(part, words)
     watched.says("prompt", "Drag the twist")
-    watched.press("Outboard", "ArrowRight", 3)
+    watched.press("Δ outboard", "ArrowRight", 3)
     watched.page.wait_for_selector('[data-explorer="prompt"]', state="hidden", timeout=WAIT)
     watched.until(lambda: re.fullmatch(r"[+−]?\d+ kW since grabbed", watched.text("since")))
     watched.page.get_by_role("button", name="Undo").click()
@@ -100,7 +100,7 @@ def test_the_twist_curve_is_dragged_and_the_tag_of_power_follows(watched: Watche
     page.mouse.up()
     page.wait_for_function("() => RX.state.hand === null", timeout=WAIT)
     watched.until_changed(lambda: watched.text("total-power"), before)
-    outer = watched.row("Outboard").locator("input:not([type=hidden])").last
+    outer = watched.row("Δ outboard").locator("input:not([type=hidden])").last
     assert 2.0 < float(watched.at_rest(outer.input_value)) < 20.0  # Up is nose-up: less washout.
     watched.reads("since", "since grabbed")
     watched.settled()
@@ -109,7 +109,7 @@ def test_the_twist_curve_is_dragged_and_the_tag_of_power_follows(watched: Watche
     page.mouse.down()
     page.mouse.move(x + 40, y, steps=6)
     page.mouse.up()
-    division = watched.row("Division").locator("input:not([type=hidden])").last
+    division = watched.row("Break point").locator("input:not([type=hidden])").last
     watched.until_changed(lambda: float(division.input_value()) > 0.55, False)
 
 
@@ -148,7 +148,7 @@ def test_one_drag_of_a_slider_with_pauses_counts_from_the_press_and_is_one_undo(
 
 def test_a_lecture_leaves_no_change_that_nobody_grabbed(watched: Watched):
     page = watched.page
-    watched.press("Outboard ±", "PageUp", 2)
+    watched.press("Δ outboard [°/R]", "PageUp", 2)
     watched.reads("since", "since grabbed")
     watched.settled()
     page.evaluate("() => document.activeElement.blur()")
@@ -166,7 +166,7 @@ def test_a_lecture_leaves_no_change_that_nobody_grabbed(watched: Watched):
 
 def test_the_handles_of_the_curve_have_keys(watched: Watched):
     page = watched.page
-    outer = watched.row("Outboard").locator("input:not([type=hidden])").last
+    outer = watched.row("Δ outboard").locator("input:not([type=hidden])").last
     watched.settled()
     page.locator('[data-knot="2"]').focus()
 
@@ -215,7 +215,7 @@ def test_a_climb_has_its_part_of_the_power_and_is_in_the_link(watched: Watched):
 
 
 def test_why_names_the_cause(watched: Watched):
-    watched.press("Inboard", "PageUp", 3)
+    watched.press("Δ inboard", "PageUp", 3)
     watched.page.wait_for_function("() => RX.state.power.since", timeout=WAIT)
     watched.reads("why", r"^Lift (moved|hardly moved)")
     watched.reads("why", r"induced [+−]\d")
@@ -273,7 +273,7 @@ def test_on_a_tablet_the_rail_is_a_drawer(browser: "Browser", app: App):
             - document.querySelector('[data-dock-region=right]').getBoundingClientRect().left) <= 1"""
     )
     before = watched.text("total-power")
-    watched.press("Outboard", "PageUp", 3)
+    watched.press("Δ outboard", "PageUp", 3)
     watched.until_changed(lambda: watched.text("total-power"), before)
     page.get_by_role("button", name="Controls").click()
     rail.wait_for(state="hidden", timeout=WAIT)

@@ -102,9 +102,9 @@ def test_others_follow_the_presenter_and_may_leave(browser: "Browser", app: App)
     assert page.locator('[data-explorer="presence"] a').get_attribute("href") == link
     follower = opened(browser, app.address, COARSE + f"&follow={name}")
     other = follower.page
-    follower.reads("presence", "moves by itself")
+    follower.reads("presence", "controlled by the presenter")
     page.wait_for_function(
-        """() => document.querySelector('[data-explorer="presence"]').innerText.includes('1 follows')""", timeout=WAIT
+        """() => document.querySelector('[data-explorer="presence"]').innerText.includes('1 follower')""", timeout=WAIT
     )
     before = shown_kw(follower)
     presenter.type("Adv. ratio", 0.3)

@@ -34,7 +34,7 @@ def holds(app: App, watched: Watched, inputs: Inputs) -> bool:
 def test_a_design_survives_reload_link_and_back(browser: "Browser", app: App):
     watched = opened(browser, app.address)
     page = watched.page
-    watched.press("Inboard ±", "ArrowLeft", 3)  # By hand first: the page itself writes the address.
+    watched.press("Δ inboard [°/R]", "ArrowLeft", 3)  # By hand first: the page itself writes the address.
     page.wait_for_function("() => location.search.includes('~segments:-0.3,0@0.5')", timeout=WAIT)
     by_hand = replace(OPENING, built_inner=-0.3)
     page.reload()
@@ -66,7 +66,7 @@ def test_a_link_that_cannot_be_read_is_said_and_stays(browser: "Browser", app: A
     page.wait_for_timeout(7000)  # Other notices are gone by then.
     assert said.is_visible()
     assert "d=1;uh60a~bends:3;mu=0.3" in page.url
-    watched.press("Outboard ±", "ArrowLeft")
+    watched.press("Δ outboard [°/R]", "ArrowLeft")
     page.wait_for_function("() => location.search.includes('uh60a~segments:0,-0.1@0.5')", timeout=WAIT)
     assert watched.complaints == []
     watched.close()

@@ -50,7 +50,7 @@ def test_first_page_is_the_trimmed_uh60a(watched: Watched):
     assert 650 < kilowatts(watched.text("total-power")) < 950
     assert watched.text("change") == "0.0 %"
     assert watched.text("speed").startswith("159 km/h")
-    assert re.fullmatch(r"[1-5]\.\d % of disk stalled\s+not measured here", watched.text("status"))
+    assert re.fullmatch(r"[1-5]\.\d % of disk stalled\s+no test data at this condition", watched.text("status"))
     assert watched.text("against") == "UH-60A as built"
     assert watched.page.evaluate("() => RX.state.bar.mode") == "explore"
 
@@ -193,10 +193,10 @@ def test_two_browsers_do_not_disturb_each_other(watched: Watched, browser: "Brow
 def test_crossed_divisions_are_one_red_sentence(watched: Watched):
     watched.choose("Twist concept", "Three segments")
     watched.until_changed(lambda: watched.text("change"), "0.0 %")
-    watched.type("Division 2", 0.3)
+    watched.type("Break 2", 0.3)
     watched.page.wait_for_selector('[data-explorer="status"][data-kind="problem"]', timeout=WAIT)
-    watched.reads("problem", r"divisions at 0\.4 and 0\.3 R are out of order")
-    watched.type("Division 2", 0.8)
+    watched.reads("problem", r"break points at 0\.4 and 0\.3 R are out of order")
+    watched.type("Break 2", 0.8)
     watched.page.wait_for_selector('[data-explorer="status"][data-kind="converged"]', timeout=WAIT)
 
 

@@ -264,7 +264,7 @@ def test_a_sentence_in_red_dims_the_probe_and_stops_play(watched: Watched):
     page = watched.page
     page.keyboard.press("Space")
     watched.choose("Twist concept", "Three segments")
-    watched.type("Division 2", 0.3)
+    watched.type("Break 2", 0.3)
     page.wait_for_selector(".rx-faded [data-explorer=probe]", timeout=WAIT)
     page.get_by_role("button", name="Turn the rotor").wait_for(timeout=WAIT)
     watched.reset()

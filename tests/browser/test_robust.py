@@ -130,7 +130,7 @@ def test_outlives_its_server(context: "BrowserContext", artefacts: Path):
     with served(port) as address:
         page.goto(address)
         page.wait_for_function(_OPEN, timeout=WAIT)
-        set_field(page, "Inboard", "-11.5")
+        set_field(page, "Δ inboard", "-11.5")
         page.wait_for_function("() => location.search.includes('-11.5')", timeout=WAIT)
         page.wait_for_function("() => RX.state.power.change !== '0.0 %'", timeout=WAIT)
         page.wait_for_function("() => !document.querySelector('[data-do=undo]').disabled", timeout=WAIT)
@@ -148,7 +148,7 @@ def test_outlives_its_server(context: "BrowserContext", artefacts: Path):
         page.wait_for_function(_OPEN, timeout=4 * WAIT)
         inboard = "() => [...document.querySelectorAll('input')].some(one => one.value === '-11.5')"
         page.wait_for_function(inboard, timeout=WAIT)
-        assert field(page, "Inboard") == "-11.5"
+        assert field(page, "Δ inboard") == "-11.5"
         same = "power => document.querySelector('[data-explorer=total-power]').innerText === power"
         page.wait_for_function(same, arg=power, timeout=WAIT)
         page.locator("[data-do=drawer][data-value=open]").click()

@@ -55,7 +55,9 @@ def shared(browser: "Browser", app: App) -> Iterator[Watched]:
 @pytest.fixture
 def watched(shared: Watched) -> Iterator[Watched]:
     shared.reset()
-    shared.until(lambda: [value(shared, label) for label in ("Inboard", "Outboard", "Division")] == [-14.0, -8.0, 0.5])
+    shared.until(
+        lambda: [value(shared, label) for label in ("Inboard", "Outboard", "Break point")] == [-14.0, -8.0, 0.5]
+    )
     shared.at_rest(lambda: shared.page.evaluate("() => window.__viserMutable.camera.position.toArray()"))
     yield shared
     assert [said for said in shared.complaints if _PASSIVE not in said] == []
@@ -107,8 +109,8 @@ def test_dragging_along_the_blade_moves_the_division(watched: Watched):
     start, end = (tuple(watched.page.evaluate(ON_SCREEN, r)) for r in (3.75, 4.6))
     drag(watched, start, end)
     watched.page.mouse.up()
-    watched.until(lambda: value(watched, "Division") != 0.5)
-    moved = watched.at_rest(lambda: value(watched, "Division"))
+    watched.until(lambda: value(watched, "Break point") != 0.5)
+    moved = watched.at_rest(lambda: value(watched, "Break point"))
     assert moved == pytest.approx(0.5 + (4.6 - 3.75) / 8.18, abs=0.04)
     assert (value(watched, "Inboard"), value(watched, "Outboard")) == (-14.0, -8.0)
 

@@ -87,7 +87,7 @@ def test_other_charts_and_a_point_by_its_number(page: tuple[Watched, Session], a
     watched, session = page
     tab = watched.page
     watched.choose("Chart", "Scatter")
-    watched.choose("Horizontal", "division r/R")
+    watched.choose("Horizontal", "break point r/R")
     tab.wait_for_function(f"() => {DRAWN} >= 36")
     watched.choose("Chart", "Hover against cruise")
     tab.wait_for_function(f"() => {DRAWN} == 13")

@@ -193,7 +193,7 @@ class TestGrab:
         move = Movement(0.0, 0.05)
         grab = grab_at(0.95, shift=True).decided(move, shift=True)
         assert grab.slides is True
-        assert grab.station.title == "division"
+        assert grab.station.title == "break point"
 
     def test_back_at_the_start_the_blade_is_as_it_was(self):
         grab = grab_at(0.95).decided(Movement(0.0, 0.2))
@@ -202,7 +202,7 @@ class TestGrab:
     def test_the_place_is_said_with_a_true_minus(self):
         grab = grab_at(0.95).decided(Movement(0.0, 0.2))
         assert grab.place(TWO) == "tip 1.00 R · θ −2.0°"
-        assert replace(grab_at(0.5), slides=True).place(TWO) == "division 0.50 R"
+        assert replace(grab_at(0.5), slides=True).place(TWO) == "break point 0.50 R"
 
 
 class TestBestTurn:

@@ -184,11 +184,11 @@ def test_the_chip_says_how_well_the_region_is_validated():
     assert validated(solve(replace(FORWARD, inflow="drees").design())).words == "not compared with this inflow"
     assert "twist as built" in validated(solve(replace(FORWARD, law="linear", linear=-30.0).design())).sentence
     fast = validated(solve(replace(FORWARD, advance_ratio=0.35).design()))
-    assert fast.words == "beyond what was measured"
+    assert fast.words == "outside the test range"
     assert "µ 0.35, compared 0.125…0.2" in fast.sentence
     uh60a = validated(solve(OPENING.design()))
-    assert uh60a.words == "not measured here"
+    assert uh60a.words == "no test data at this condition"
     rising = validated(solve(replace(OPENING, advance_ratio=0.0, climb_m_s=3.0).design()))
-    assert rising.words == "beyond what was measured"
+    assert rising.words == "outside the test range"
     assert "rate of climb 3 m/s, compared in level flight" in rising.sentence
     assert "in hover only" in uh60a.sentence

@@ -59,7 +59,7 @@ class TestInputs:
             assert inputs_of(inputs.design()) == inputs
 
     def test_crossed_divisions_are_one_sentence(self):
-        with pytest.raises(ValueError, match=r"divisions at 0\.8 and 0\.4 R are out of order") as caught:
+        with pytest.raises(ValueError, match=r"break points at 0\.8 and 0\.4 R are out of order") as caught:
             Inputs(law="three", three_first=0.8, three_second=0.4).design()
         assert "\n" not in str(caught.value)
 

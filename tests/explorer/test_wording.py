@@ -32,6 +32,18 @@ INSTEAD = {
     "Weight [": "Mass [",
     "lower the weight": "lower the mass",
     "UH-60A twist": "UH-60A as built",
+    "Division [": "Break point [",
+    "the division at": "the break point at",
+    "As built, changed": "as built + two-segment change",
+    "not measured here": "no test data at this condition",
+    "beyond what was measured": "outside the test range",
+    "Where to twist": "power sensitivity to local pitch",
+    "At first µ": "hover or cruise µ",
+    "carried already": "gross mass",
+    "pulsates": "unsteady wake at N/rev",
+    "the link for others": "copy link",
+    "moves by itself": "controlled by the presenter",
+    "visitor waits": "You are second in the queue",
 }
 """Phrase → the one to use."""
 

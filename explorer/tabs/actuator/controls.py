@@ -132,7 +132,11 @@ def blank() -> Plot:
     return Plot((np.array([0.13, 1.0]), *(none,) * 5), (-1e-3, 1e-3))
 
 
-FLY = ("At rest", "At first µ", "At second µ")
+def fly_titles(advance_ratios: tuple[float, float]) -> tuple[str, ...]:
+    """The buttons that fly: without voltage, and at each of two conditions."""
+    return ("At rest", *("Hover" if mu == 0.0 else f"Cruise µ {mu:.2f}" for mu in advance_ratios))
+
+
 _USED = "#2f9e44"
 
 
@@ -158,7 +162,7 @@ class ActuatorControls:
             for _ in range(MOST_SEGMENTS)
         ]
         self.bar = gui.add_html("")
-        self.fly_buttons = gui.add_button_group("Fly at", FLY, hint=hint("fly"))
+        self.fly_buttons = gui.add_button_group("Fly at", fly_titles(start.advance_ratios), hint=hint("fly"))
         self.numbers = gui.add_html("")
         with gui.add_folder("Actuator and placement"):
             self._actuator = watched(gui.add_dropdown("Actuator", tuple(self._titles.values()), hint=hint("actuator")))
@@ -285,6 +289,8 @@ class ActuatorControls:
         self._span.label = "Span {:.2f}–{:.2f}".format(*inputs.span)
         self._chord.label = "Chord {:.2f}–{:.2f}".format(*inputs.chord)
         self._pair.label = "µ {:.2f} – {:.2f}".format(*inputs.advance_ratios)
+        if self.fly_buttons.options != (titles := fly_titles(inputs.advance_ratios)):
+            self.fly_buttons.options = titles
         self._stiffness.visible = inputs.blade == "new"
         turning = inputs.per_rev > 0
         self._amplitude.visible = self._phase.visible = self.swept.visible = turning

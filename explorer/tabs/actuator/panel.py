@@ -9,7 +9,7 @@ from explorer.overlay.bridge import Bridge
 from explorer.tabs.actuator import controls as plots
 from explorer.tabs.actuator import controls as table
 from explorer.tabs.actuator import readout
-from explorer.tabs.actuator.controls import FLY, ActuatorControls
+from explorer.tabs.actuator.controls import ActuatorControls
 from explorer.tabs.actuator.picture import CutScene, cut_picture, flown_twist, section_svg, voltage_shares
 from explorer.tabs.actuator.state import MOST_SEGMENTS, ActuatorInputs, Question, question_of
 from explorer.tabs.actuator.study import CachedVerdicts, VerdictWorker
@@ -157,7 +157,7 @@ class ActuatorPanel:
 
     def _fly_clicked(self, event: viser.GuiEvent[Any]) -> None:
         self._touched = True
-        which = FLY.index(event.target.value) - 1
+        which = event.target.options.index(event.target.value) - 1
         if which < 0:
             self._controls.drive((0.0,) * MOST_SEGMENTS)
             return

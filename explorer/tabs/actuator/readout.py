@@ -150,7 +150,7 @@ def fit_panel(inputs: ActuatorInputs, installed: InstalledActuator, verdict: Ver
         ("on each blade", f"{number(masses.blade, 1)} kg"),
         ("derated by test", f"{number(tested, 2)}°" if installed.derating < 1.0 else _NONE),
         ("First torsion", f"{number(installed.frequency, 2)} /rev"),
-        (f"used ({number(inputs.counted)} %)", f"{number(nominal * inputs.share, 2)}°"),
+        ("twist commanded", f"{number(nominal * inputs.share, 2)}°"),
         ("Moment", f"{number(installed.moment)} N·m" if installed.moment else _NONE),
         ("Saving, gross", _kw(None if verdict is None else verdict.gross_saving)),
         ("Slewing power", _NONE if verdict is None else f"{number(verdict.drive.slew_power)} W"),
@@ -211,19 +211,24 @@ def segments_panel(installed: InstalledActuator, share: float, verdict: Verdict 
     return f'<div class="rx rxa-bars" data-explorer="segments">{"".join(rows)}</div>'
 
 
+def limit_words(name: str) -> str:
+    """The name of a limit as an engineer reads it."""
+    return "minimum torsional stiffness" if name == "torsion-least" else name.replace("-", " ")
+
+
 def limits_panel(verdict: Verdict | None) -> str:
     """Every limit: those broken with their sentence, the others by name, and the data to be wary of."""
     if verdict is None:
         return ""
     broken = "".join(_limit(limit) for limit in verdict.broken)
-    kept = ", ".join(limit.name.replace("-", " ") for limit in verdict.limits if limit.ok)
+    kept = ", ".join(limit_words(limit.name) for limit in verdict.limits if limit.ok)
     good = f'<div><span class="rx-good">✓</span><span class="rx-dim">met: {escape(kept)}</span></div>' if kept else ""
     cares = "".join(f'<div class="rx-care"><span>▲</span><span>{escape(text)}</span></div>' for text in verdict.caveats)
     return f'<div class="rx rxa-limits" data-explorer="limits">{broken}{good}{cares}</div>'
 
 
 def _limit(limit: Limit) -> str:
-    name = escape(limit.name.replace("-", " "))
+    name = escape(limit_words(limit.name))
     return f'<div><span class="rxa-bad">✕</span><span><b>{name}</b> {escape(typographic(limit.sentence))}</span></div>'
 
 

@@ -69,7 +69,7 @@ class Presence:
         self._client.camera.on_update(self._looked_round)
         if self._name:
             hooks.hold(True)
-            self._say("Following a presentation: this page moves by itself.", leave=True)
+            self._say("Following a presentation: controlled by the presenter.", leave=True)
             self._unfollow = self._presentations.follow(self._name, self._on_presented)
         elif self._secret:
             self._presentations.watch(self._secret, self._announce)
@@ -136,9 +136,9 @@ class Presence:
             self._presentations.present(self._secret, shown)
 
     def _announce(self, count: int) -> None:
-        follow = "follows" if count == 1 else "follow"
-        link = f'<a href="{self._link}" target="_blank" rel="noopener">the link for others</a>'
-        self._say(f"Presenting: {count} {follow}; {link}.")
+        followers = "1 follower" if count == 1 else f"{count} followers"
+        link = f'<a href="{self._link}" data-copy target="_blank" rel="noopener">copy link</a>'
+        self._say(f"Presenting: {followers} · {link}")
 
     @property
     def _link(self) -> str:

@@ -185,7 +185,7 @@ def _actuator_numbers(state: SessionState) -> tuple[LargeNumber, LargeNumber, La
     return (
         LargeNumber(_power(state, power.total), "total power"),
         LargeNumber(_power(state, 0.01 * power.total), "one per cent of that"),
-        LargeNumber(mass.replace(" ", "\u00a0").replace("\u2009", "\u00a0"), "carried already"),
+        LargeNumber(mass.replace(" ", "\u00a0").replace("\u2009", "\u00a0"), "gross mass"),
     )
 
 
@@ -242,7 +242,7 @@ STEPS: tuple[LectureStep, ...] = (
     LectureStep(
         "Four blades are not infinitely many",
         "Textbooks reduce twist for high speed. Their rotor has infinitely many blades: its wake is steady, and −14° "
-        "(B) costs induced power compared with −6° (A). Four blades shed a wake that pulsates with them.",
+        "(B) costs induced power compared with −6° (A). Four blades shed an unsteady wake at 4/rev.",
         "Switch off Infinite blades under Model: with four blades the same twist costs nothing.",
         replace(_LINEAR, linear=-14.0, advance_ratio=0.3, inflow="dynamic-wake-infinite-blades"),
         _induced,
@@ -266,7 +266,7 @@ STEPS: tuple[LectureStep, ...] = (
         "What two segments add",
         "A is the best linear jig twist at this speed, B the best of two linear segments. The optimum is so flat "
         "that degrees of twist change power by tenths of a per cent: compare powers, never angles.",
-        "Move the division and both rates: how far can each go before a kilowatt is lost? Or press Optimise.",
+        "Move the break point and both rates: how far can each go before a kilowatt is lost? Or press Optimise.",
         replace(Inputs(), law="two", two_inner=-4.0, two_outer=-15.6, two_division=0.7, advance_ratio=0.3),
         _per_cent,
         _saving_numbers,

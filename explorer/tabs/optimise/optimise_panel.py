@@ -58,9 +58,9 @@ class OptimisePanel:
         defaults, where = SearchRequest(), hint("search_division")
         self._numbers: dict[str, viser.GuiSliderHandle[float]] = {
             "hover_share": gui.add_slider("Hover [%]", 0.0, 100.0, 5.0, 50.0, hint=hint("hover_share")),
-            "division": gui.add_slider("Division [R]", 0.25, 0.92, 0.01, defaults.division, hint=where),
-            "first": gui.add_slider("Division 1 [R]", 0.2, 0.6, 0.01, defaults.first, hint=where),
-            "second": gui.add_slider("Division 2 [R]", 0.65, 0.95, 0.01, defaults.second, hint=where),
+            "division": gui.add_slider("Break point [r/R]", 0.25, 0.92, 0.01, defaults.division, hint=where),
+            "first": gui.add_slider("Break 1 [r/R]", 0.2, 0.6, 0.01, defaults.first, hint=where),
+            "second": gui.add_slider("Break 2 [r/R]", 0.65, 0.95, 0.01, defaults.second, hint=where),
             "starts": gui.add_slider("Starting points", 1, TRACES, 1, defaults.starts, hint=hint("starts")),
         }
         with gui.add_folder("Limits", expand_by_default=False):

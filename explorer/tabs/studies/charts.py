@@ -37,7 +37,7 @@ TITLES = {
     "hover_power_w": "hover power [kW]",
     "baseline_power_w": "baseline power [kW]",
     "saving_percent": "saving [%]",
-    "division": "division r/R",
+    "division": "break point r/R",
     "ct_over_sigma": "C_T/σ",
     "stalled_area_percent": "stalled area [%]",
 }

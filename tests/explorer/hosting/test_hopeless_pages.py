@@ -21,7 +21,7 @@ async def drag(visitor: Visitor, frames: list[float], seconds: float) -> float:
     end = time.monotonic() + seconds
     while time.monotonic() < end or len(delays) < 5:
         before, begun = len(frames), time.monotonic()
-        await visitor.move("Inboard ±", -1.0 - 0.1 * (len(delays) % 50))
+        await visitor.move("Δ inboard [°/R]", -1.0 - 0.1 * (len(delays) % 50))
         await visitor.until(lambda before=before: len(frames) > before, 60.0)
         delays.append(frames[before] - begun)
         await asyncio.sleep(0.1)
@@ -33,7 +33,7 @@ async def keep_searching(visitor: Visitor) -> None:
     edits = 0
     while True:
         edits += 1
-        await visitor.move("Inboard ±", -1.0 - 0.1 * (edits % 50))
+        await visitor.move("Δ inboard [°/R]", -1.0 - 0.1 * (edits % 50))
         await asyncio.sleep(1.0)
 
 

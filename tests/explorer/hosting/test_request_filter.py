@@ -28,7 +28,7 @@ from tests.tools.soak import wire
 from tests.tools.soak.visitor import Visitor
 
 Result = TypeVar("Result")
-INNER, OUTER = "Inboard ±", "Outboard ±"
+INNER, OUTER = "Δ inboard [°/R]", "Δ outboard [°/R]"
 
 
 @pytest.fixture(scope="module")
@@ -161,7 +161,7 @@ class TestStrangers:
             await flooder.open(app.address)
             for _ in range(60):
                 await flooder.send("GuiUpdateMessage", uuid="none", updates={})
-            with pytest.raises(ConnectionError, match="More came"):
+            with pytest.raises(ConnectionError, match="Rate limit exceeded"):
                 await flooder.until(lambda: False)
             for junk in ("text", b"\xff\xff", b"", wire.encode("NoSuch"), wire.encode("GuiUpdateMessage", colour=1)):
                 assert await cut(app, junk) in (None, 1002, 1007)
@@ -180,7 +180,7 @@ class TestStrangers:
                 await visitor.move("Twist concept", value)
                 await asyncio.sleep(0.01)
                 await visitor.move("Adv. ratio µ", 0.2)
-                await visitor.move("Twist concept", "As built, changed")
+                await visitor.move("Twist concept", "As built + two-segment change")
                 await still_served(visitor)
             await visitor.until(lambda: visitor.text("status") == "converged")
             await visitor.close()
@@ -224,7 +224,7 @@ class TestPlaces:
             await third.open(app.address)
             await third.until(lambda: "next" in words(third))
             await fourth.open(app.address)
-            await fourth.until(lambda: "1 visitor waits" in words(fourth))
+            await fourth.until(lambda: "You are second in the queue" in words(fourth))
             assert len([t for t in threading.enumerate() if t.name.startswith("session-")]) == 2
             await first.close()
             await third.until(lambda: third.text("status") == "converged")

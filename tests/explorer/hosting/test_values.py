@@ -116,7 +116,7 @@ def test_a_flood_of_bad_values_changes_nothing_and_writes_no_traceback(app: App,
             power = visitor.text("total-power")
             for uuid, widget in list(visitor.widgets.items()):
                 await visitor.send("GuiUpdateMessage", uuid=uuid, updates={"max": math.nan})
-                if widget.get("label") in ("Inboard ±", "Outboard ±", "Law", "Inflow", "Preset"):
+                if widget.get("label") in ("Δ inboard [°/R]", "Δ outboard [°/R]", "Law", "Inflow", "Preset"):
                     for value in ("nan", math.nan, None, {}, [1.0], "x" * 100) * 20:
                         await visitor.send("GuiUpdateMessage", uuid=uuid, updates={"value": value})
             await visitor.until(lambda: visitor.text("status") == "converged" and visitor.text("total-power") == power)
@@ -144,8 +144,8 @@ def test_a_value_is_not_sent_back_to_the_page_it_came_from(app: App):
                 push(message)
 
             buffer.push = watched
-            slider, power = visitor.find("Inboard ±"), visitor.text("total-power")
-            await visitor.move("Inboard ±", visitor.widgets[slider]["value"] - 2.0)
+            slider, power = visitor.find("Δ inboard [°/R]"), visitor.text("total-power")
+            await visitor.move("Δ inboard [°/R]", visitor.widgets[slider]["value"] - 2.0)
             await visitor.until(lambda: visitor.text("total-power") != power)
             await visitor.close()
             return [one for one in queued if getattr(one, "uuid", None) == slider]

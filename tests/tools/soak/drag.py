@@ -18,7 +18,7 @@ from rotor.trim.solve import solve
 from tests.tools.soak.figures import Visit
 from tests.tools.soak.visitor import Visitor
 
-SLIDER, NAME = "Inboard ±", "built_inner"
+SLIDER, NAME = "Δ inboard [°/R]", "built_inner"
 """The slider that is dragged, and the field of `Inputs` behind it."""
 _LOW, _HIGH, _STEP = -10.0, 10.0, 0.1
 _DRAG = 3.0
