@@ -43,6 +43,7 @@ from explorer.tabs.optimise.map_panel import MapPanel
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.tabs.optimise.schedule_panel import SchedulePanel
 from explorer.tabs.optimise.sensitivity import SensitivityPanel
+from explorer.tabs.power_card import beside_labels
 from explorer.tabs.probe.panel import ProbePanel
 from explorer.tabs.results import ResultsPanel
 from explorer.tabs.rotors import RotorUpload
@@ -236,6 +237,7 @@ class Page:
         self.history.solved(reading.inputs, state.solution.power.total)
         self.results.show(state, self._pause)
         self._show_hand(state)
+        self.bridge.set(beside_labels=beside_labels(state))
         self.display.show(state)
 
     def show_power(self, state: SessionState, curve: PowerCurve, failed: bool = False) -> None:

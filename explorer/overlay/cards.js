@@ -19,6 +19,12 @@
       <div class="rxf-rule"></div>
       <div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details" aria-label="Power and trim in detail: ${now.parts.map(one => `${text(one.name)} ${text(one.value)}`).join(', ')}" title="Power and trim in detail"><div>${bar}</div><dl>${key}</dl></div>
       <button class="rxf-chip" data-do="drawer" data-value="trust" data-explorer="status" data-kind="${now.status.kind === 'care' ? 'converged' : now.status.kind}" data-tone="${now.status.kind}" title="${text(now.status.title)}"><span>${text(now.status.words)}${now.status.measured ? `<small data-explorer="validated">${text(now.status.measured)}</small>` : ''}</span></button>`;
+    // What has no room is left out clause by clause, never cut within one: the tooltip has it all.
+    const why = place.querySelector('.rxf-why'), room = why && parseFloat(getComputedStyle(why).minHeight) + 1;
+    for (const clauses = now.why.split('; '); clauses.length > 1 && why?.offsetHeight > room;) {
+      clauses.pop();
+      why.textContent = `${clauses.join('; ')}.`;
+    }
     const chip = place.querySelector('.rxf-chip');
     if (now.status.kind === 'care') chip.style.cssText = 'background:var(--rx-warn);color:var(--rx-warn-ink)';
     if (now.problem) RX.say(now.problem);

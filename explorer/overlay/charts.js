@@ -16,7 +16,7 @@
   }
   function axes(one, place, height, unit = '') {
     const rows = one.y_ticks.map(v => `<path d="M${place.left} ${place.Y(v).toFixed(1)}H${place.right}" stroke="var(${v === 0 ? '--rx-faint' : '--rx-grid'})"/>
-      <text x="${place.left - 6}" y="${(place.Y(v) + 3.5).toFixed(1)}" text-anchor="end">${digits(v)}${unit}</text>`);
+      <text x="${place.left - 6}" y="${(place.Y(v) + 4).toFixed(1)}" text-anchor="end">${digits(v)}${unit}</text>`);
     const columns = one.x_ticks.map(v => `<text x="${place.X(v).toFixed(1)}" y="${height - 2}" text-anchor="middle">${digits(v)}</text>`);
     const name = `<text x="${place.left - 6}" y="${height - 2}" text-anchor="end" data-axis>${text(one.x_name)}</text>`;
     return rows.join('') + columns.join('') + name;
@@ -38,7 +38,7 @@
   const SHORT = {starts: 'Starts', power: 'Power', alpha: 'α', worth: 'Pitch'};
   let clips = 0;
   function chart(element, one) {
-    const width = Math.max(element.clientWidth - 32, 60), height = Math.max(element.clientHeight - 38, 40), place = frameOf(one, width, height, 12 + 6.2 * Math.max(3, ...one.y_ticks.map(v => digits(v).length))), clip = `rxc${clips++ % 64}`;
+    const width = Math.max(element.clientWidth - 32, 60), height = Math.max(element.clientHeight - 38, 40), place = frameOf(one, width, height, 12 + 7 * Math.max(3, ...one.y_ticks.map(v => digits(v).length))), clip = `rxc${clips++ % 64}`;
     const dots = one.dots.map(dot => `<circle cx="${place.X(dot.x).toFixed(1)}" cy="${place.Y(Math.max(one.y_range[0], Math.min(one.y_range[1], dot.y))).toFixed(1)}" r="${dot.label ? 3.5 : 4.5}" fill="${dot.label ? COLOURS.saving : COLOURS.this}" stroke="var(--rx-paper)" stroke-width="2"><title>${text(dot.label || 'now')}</title></circle>`).join('');
     const marks = (one.marks ?? []).map(mark => `<g data-mark><title>${text(mark.words)}</title><path d="M${place.X(mark.x).toFixed(1)} ${place.Y(mark.y + mark.error).toFixed(1)}V${place.Y(mark.y - mark.error).toFixed(1)}" stroke="var(--rx-ink)" stroke-width="1.2" opacity=".55"/><circle cx="${place.X(mark.x).toFixed(1)}" cy="${place.Y(mark.y).toFixed(1)}" r="2.6" fill="var(--rx-paper)" stroke="var(--rx-ink)" stroke-width="1.2"/></g>`).join('');
     const key = (one.key ?? []).map(([name, shade]) => `<span class="rxf-legend-line" style="--c:${shade}"><i></i>${text(name)}</span>`).join('');
@@ -87,7 +87,7 @@
   }
   const MEANT = {jig: 'As built; the sliders set it', flown: 'Jig and elastic twist: mean over azimuth, shaded from least to greatest'};
   // One row, in the corner where it covers none of the curves, or least of them; it stays there while it can.
-  const WORDS = {jig: [['jig, set by the sliders', 138]], flown: [['jig', 44], ['flown, band over azimuth', 150]]};
+  const WORDS = {jig: [['jig, set by the sliders', 158]], flown: [['jig', 46], ['flown, band over azimuth', 170]]};
   let corner = 0;
   function keyOf(now, frame) {
     const words = WORDS[now.key.length > 1 ? 'flown' : 'jig'], wide = words.reduce((sum, [, w]) => sum + w, 0);

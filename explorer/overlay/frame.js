@@ -243,7 +243,7 @@
   }
 
   // Words at points of the scene; each of these parts of the state is a list of them.
-  const LABELS = ['cut_labels', 'probe_label'];
+  const LABELS = ['cut_labels', 'probe_label', 'beside_labels'];
   let labels = [];
   for (const name of LABELS) RX.paint(name, () => {
     labels = LABELS.flatMap(one => state[one] ?? []);
@@ -256,7 +256,7 @@
     labels.forEach((one, k) => {
       const node = client.nodeRefFromName?.[one.node], label = part('labels').children[k];
       if (!label) return;
-      if (!node || !client.camera) { label.style.visibility = 'hidden'; return; }
+      if (!node?.visible || !client.camera) { label.style.visibility = 'hidden'; return; }
       const at = node.position.clone().set(...one.at).applyMatrix4(node.matrixWorld).project(client.camera);
       const left = (at.x + 1) / 2 * box.width - label.offsetWidth / 2, top = (1 - at.y) / 2 * box.height - label.offsetHeight;
       label.style.visibility = at.z < 1 && Math.abs(at.x) < 1 && Math.abs(at.y) < 1 ? 'visible' : 'hidden';

@@ -254,6 +254,17 @@ class PowerCard:
         return {"since": since, "rest": "", "why": why(reference, solution, units)}
 
 
+def beside_labels(state: SessionState) -> list[dict[str, Any]]:
+    """Power at the letters of A and B where the two rotors stand beside each other; empty elsewhere."""
+    a, b, units = state.pinned, state.solution, UNITS[state.view.units]
+    if a is None or not (state.view.beside and a.converged):
+        return []
+    digits = fineness(b.power)
+    change = units.watts(b.power.total - a.power.total, digits, sign=True)
+    words = (f"A {units.watts(a.power.total, digits)}", f"B {units.watts(b.power.total, digits)} ({change})")
+    return [{"text": text, "node": f"/letter_{text[0]}", "at": [0.0, 0.0, 0.0]} for text in words]
+
+
 def against(design: Design, pinned: bool) -> str:
     """What changes are measured against, in words."""
     if pinned:

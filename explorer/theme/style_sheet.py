@@ -16,7 +16,7 @@ div:has(> [data-dock-area]) { margin-top: 0 !important; }
 [class*=Flex-root]:has(> div > p > label:empty) > :first-child { display: none; }
 .rx { font-size: 12.5px; line-height: 1.37; padding: 0 14px; }
 .rx-dim { color: var(--mantine-color-dimmed); }
-.rx-small { font-size: 11.5px; }
+.rx-small { font-size: 12px; }
 .rx-line { display: flex; justify-content: space-between; gap: 8px; white-space: nowrap; }
 .rx-base { align-items: baseline; justify-content: flex-start; }
 .rx-push { margin-left: auto; }
@@ -36,7 +36,7 @@ div:has(> [data-dock-area]) { margin-top: 0 !important; }
 .rx table { width: 100%; border-collapse: collapse; white-space: nowrap; }
 .rx td { padding: 0; }
 .rx-patch { display: inline-block; width: 9px; height: 9px; border-radius: 2px; margin-right: 7px; }
-.rx-bars { display: grid; grid-template-columns: auto 1fr; column-gap: 6px; align-items: center; font-size: 10.5px;
+.rx-bars { display: grid; grid-template-columns: auto 1fr; column-gap: 6px; align-items: center; font-size: 12px;
   line-height: 12px; margin: 4px 0 3px; }
 .rx-bars .rx-bar { margin: 1px 0; }
 .rx-ab { table-layout: fixed; }
@@ -83,7 +83,7 @@ div:has(> [data-dock-area]) { margin-top: 0 !important; }
 .rx-map { display: block; }
 .rx-map image { image-rendering: auto; }
 .rx-map-title { padding: 0 10px 0 36px; }
-.rx-chip { padding: 0 7px; border-radius: 8px; font-size: 11.5px; line-height: 17px; align-self: center;
+.rx-chip { padding: 0 7px; border-radius: 8px; font-size: 12px; line-height: 17px; align-self: center;
   border: 1px solid currentColor; }
 .rx-chip-good { color: #0b8a6a; }
 .rx-chip-bad { color: #b5179e; }
@@ -102,7 +102,7 @@ div:has(> [data-dock-area]) { margin-top: 0 !important; }
 .rx-keys h4 { margin: 0 0 2px; font-size: 12.5px; }
 .rx-keys .rx-line { padding: 1.5px 0; }
 .rx-keys kbd { display: inline-block; min-width: 20px; margin-left: 3px; padding: 0 5px; text-align: center;
-  font: inherit; font-size: 11.5px; border: 1px solid rgba(128,128,128,.45); border-radius: 4px;
+  font: inherit; font-size: 12px; border: 1px solid rgba(128,128,128,.45); border-radius: 4px;
   background: rgba(128,128,128,.10); }
 /* A text field that only clicks write to: see explorer/charts/svg.py. */
 div:has(> .rx-bridge), div:has(> .rx-bridge) + div { display: none !important; }
@@ -116,7 +116,7 @@ div:has(> .rx-bridge), div:has(> .rx-bridge) + div { display: none !important; }
 .rx-w { font-size: 12px; fill: currentColor; }
 .rx-w-strong { font-weight: 600; }
 .rx-w-number { text-anchor: end; font-variant-numeric: tabular-nums; }
-.rx-w-note { font-size: 10.5px; fill: var(--mantine-color-dimmed); stroke: var(--rx-paper); stroke-width: 3;
+.rx-w-note { font-size: 12px; fill: var(--mantine-color-dimmed); stroke: var(--rx-paper); stroke-width: 3;
   paint-order: stroke; }
 .rx-w-bad { fill: #d9480f; }
 .rx-w-link { stroke: currentColor; stroke-opacity: .35; stroke-width: 1; stroke-dasharray: 2 2; }
@@ -125,7 +125,7 @@ div:has(> .rx-bridge), div:has(> .rx-bridge) + div { display: none !important; }
 .rx-export { min-height: 34px; padding-bottom: 6px; overflow-wrap: anywhere; color: var(--mantine-color-dimmed); }
 .rx-export[data-kind=problem] { color: #c92a2a; }
 [data-mantine-color-scheme=dark] .rx-export[data-kind=problem] { color: #ff8787; }
-.rx-code { max-height: 52vh; overflow: auto; padding: 8px 10px; border-radius: 4px; font-size: 11.5px;
+.rx-code { max-height: 52vh; overflow: auto; padding: 8px 10px; border-radius: 4px; font-size: 12px;
   line-height: 1.4; white-space: pre-wrap; overflow-wrap: anywhere; background: rgba(128,128,128,.12); }
 .rx-trust h4 { margin: 11px 0 3px; font-size: 12.5px; line-height: 1.25; }
 .rx-trust-row, .rx-trust-change { padding: 2px 0; border-top: 1px solid rgba(128,128,128,.18); }

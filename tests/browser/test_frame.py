@@ -221,6 +221,28 @@ def test_why_names_the_cause(watched: Watched):
     watched.reads("why", r"induced [+−]\d")
 
 
+_SMALL_TEXT = """() => {
+    const found = [], seen = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+    while (seen.nextNode()) {
+        const place = seen.currentNode.parentElement, words = seen.currentNode.textContent.trim();
+        if (!words || !place.closest('#rx, [data-dock-region]') || !place.checkVisibility()) continue;
+        const size = parseFloat(getComputedStyle(place).fontSize);
+        if (size < 11.99) found.push(`${size} px: ${words}`);
+    }
+    for (const field of document.querySelectorAll(':is(#rx, [data-dock-region]) :is(input, select)')) {
+        const size = parseFloat(getComputedStyle(field).fontSize);
+        if (field.checkVisibility() && size < 11.99) found.push(`${size} px: ${field.outerHTML}`);
+    }
+    return found;
+}"""
+
+
+def test_no_text_of_the_frame_and_the_rail_is_smaller_than_twelve_pixels(watched: Watched):
+    watched.page.wait_for_function("() => Object.keys(RX.state.worth).length === 7", timeout=WAIT)
+    watched.settled()
+    assert watched.page.evaluate(_SMALL_TEXT) == []
+
+
 def test_everything_that_can_be_pressed_has_a_name(watched: Watched):
     watched.settled()
     nameless = watched.page.evaluate(

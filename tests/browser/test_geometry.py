@@ -118,6 +118,37 @@ def test_everything_has_its_place(watched: Watched):
     page.wait_for_function(f"() => ({_NARROW_CHARTS})().length === 0")
 
 
+_WHY = (
+    "Nothing has changed.",
+    "Lift moved inboard and towards the advancing side: induced −12.3, profile +4.0, tail rotor −0.5 kW.",
+    "Lift moved inboard and towards the advancing side: induced −12.3, profile +4.0, tail rotor −0.5 kW; stall grew "
+    "inboard on the retreating side (12.3 % of the disk); drag divergence grew near the tip on the advancing side "
+    "(5.3 % of the disk).",
+)
+_STANDS = """() => [...document.querySelectorAll('.rxf-power, .rxf-parts, .rxf-chip')].map(e => {
+    const {left, top, bottom} = e.getBoundingClientRect();
+    return [left, top, bottom].map(Math.round);
+})"""
+
+
+def test_a_sentence_is_not_cut_and_moves_nothing(watched: Watched, sized: tuple[Watched, tuple[int, int]]):
+    page = watched.page
+    if sized[1][0] < 700:
+        return  # A telephone has no room for the sentence.
+    stands: list[object] = []
+    for value, why in (("−1 kW", _WHY[0]), ("−9.2 kW", _WHY[1]), ("+128 kW", _WHY[2])):
+        since = {"value": value, "words": "since grabbed", "kind": ""}
+        page.evaluate("([since, why]) => RX.set({power: {...RX.state.power, since, why}})", [since, why])
+        page.wait_for_function("why => document.querySelector('.rxf-why')?.title === why", arg=why, timeout=WAIT)
+        watched.drawn()
+        stands.append(page.evaluate(_STANDS))
+        shown = " ".join(watched.text("why").split())
+        assert shown.endswith(".")
+        assert why.replace("\u00a0", " ").startswith(shown.replace("\u00a0", " ").removesuffix("."))
+        assert page.evaluate("() => (e => e.scrollHeight <= e.clientHeight + 1)(document.querySelector('.rxf-why'))")
+    assert stands[0] == stands[1] == stands[2]
+
+
 def test_no_two_cards_meet(watched: Watched):
     page = watched.page
     for mode in ("optimise", "actuate", "explore"):

@@ -7,7 +7,7 @@ import pytest
 
 from explorer.interface import SessionState
 from explorer.state import OPENING, Inputs, ViewState, baseline_of
-from explorer.tabs.power_card import PowerCard
+from explorer.tabs.power_card import PowerCard, beside_labels
 from rotor.trim.solve import solve
 
 
@@ -45,6 +45,17 @@ def test_autorotation_is_marked():
     assert "The air drives the rotor" in found["status"]["title"]
     assert found["change"] == "0.0 kW"
     assert card(replace(OPENING, advance_ratio=0.15, climb_m_s=-8.0))["status"]["words"] != "autorotation"
+
+
+def test_two_rotors_beside_each_other_have_their_power():
+    a, b = solve(OPENING.design()).require(), solve(replace(OPENING, built_outer=-4.0).design()).require()
+    state = SessionState(OPENING, ViewState(beside=True), b, a, a)
+    words = [one["text"] for one in beside_labels(state)]
+    assert words[0] == f"A {a.power.total / 1e3:.0f} kW"
+    assert words[1] == f"B {b.power.total / 1e3:.0f} kW (+{(b.power.total - a.power.total) / 1e3:.0f} kW)"
+    assert [one["node"] for one in beside_labels(state)] == ["/letter_A", "/letter_B"]
+    assert beside_labels(replace(state, view=ViewState())) == []
+    assert beside_labels(replace(state, pinned=None)) == []
 
 
 def test_in_level_flight_the_change_is_a_percentage():

@@ -39,7 +39,7 @@ SHEET = """<style>
 .rxa-table th + th, .rxa-table td + td { padding-left: 6px !important; }
 .rxa-table td { border-top: 1px solid rgba(128,128,128,.18); padding: 1.5px 0; }
 .rxa-chosen td { font-weight: 650; }
-.rxa-bars { display: grid; grid-template-columns: auto 1fr auto; gap: 2px 8px; align-items: center; font-size: 11.5px; }
+.rxa-bars { display: grid; grid-template-columns: auto 1fr auto; gap: 2px 8px; align-items: center; font-size: 12px; }
 .rxa-track { position: relative; height: 10px; background: rgba(128,128,128,.14); border-radius: 2px; }
 .rxa-track > i { position: absolute; left: 0; top: 0; bottom: 0; border-radius: 2px; }
 .rxa-track > u { position: absolute; top: -1px; bottom: -1px; width: 1px; background: currentColor; opacity: .5; }
