@@ -258,7 +258,7 @@
       if (!label) return;
       if (!node?.visible || !client.camera) { label.style.visibility = 'hidden'; return; }
       const at = node.position.clone().set(...one.at).applyMatrix4(node.matrixWorld).project(client.camera);
-      const left = (at.x + 1) / 2 * box.width - label.offsetWidth / 2, top = (1 - at.y) / 2 * box.height - label.offsetHeight;
+      const left = (at.x + 1) / 2 * box.width - label.offsetWidth / 2, top = (1 - at.y) / 2 * box.height + (one.below ? 3 : -label.offsetHeight);
       label.style.visibility = at.z < 1 && Math.abs(at.x) < 1 && Math.abs(at.y) < 1 ? 'visible' : 'hidden';
       label.style.transform = `translate(${Math.max(4, Math.min(left, box.width - label.offsetWidth - 4)).toFixed(1)}px, ${Math.max(4, top).toFixed(1)}px)`;
     });

@@ -5,6 +5,7 @@ from typing import Any
 
 from explorer.interface import SessionState
 from explorer.overlay.bridge import Bridge
+from explorer.picture.camera_views import LETTER_SIZE
 from explorer.power_tracker import PowerTracker
 from explorer.sensitivity import SliderSensitivity, flight_sensitivities, natural_step, twist_sensitivities
 from explorer.sliders import SLIDERS, slider
@@ -262,7 +263,8 @@ def beside_labels(state: SessionState) -> list[dict[str, Any]]:
     digits = fineness(b.power)
     change = units.watts(b.power.total - a.power.total, digits, sign=True)
     words = (f"A {units.watts(a.power.total, digits)}", f"B {units.watts(b.power.total, digits)} ({change})")
-    return [{"text": text, "node": f"/letter_{text[0]}", "at": [0.0, 0.0, 0.0]} for text in words]
+    aft = 0.5 * LETTER_SIZE * b.design.rotor.radius  # The edge of the letter that is nearest to the reader.
+    return [{"text": text, "node": f"/letter_{text[0]}", "at": [aft, 0.0, 0.0], "below": True} for text in words]
 
 
 def against(design: Design, pinned: bool) -> str:
