@@ -36,7 +36,7 @@ from explorer.workers import solver
 from explorer.workers.newest_wins import IdleTimeout, NewestWins, Superseded
 from explorer.workers.scheduler import SCHEDULER
 from rotor.blas_threads import one_blas_thread
-from rotor.trim.options import DEFAULT_OPTIONS
+from rotor.trim.newton import DEFAULT_OPTIONS
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 

@@ -3,8 +3,8 @@
 from dataclasses import dataclass, replace
 from itertools import accumulate
 
-from explorer.interpolation import inputs_between
-from explorer.state import Inputs, ViewState
+from explorer.pinned import FLIGHT
+from explorer.state import LAWS, Inputs, ViewState
 
 _REST = 0.25
 """Part of a stop at its beginning, and again at its end, in which nothing moves, so that the caption can be read."""
@@ -107,3 +107,31 @@ def tour_at(time: float) -> TourInstant | None:
 def stop_begins(stop: int) -> float:
     """Time [s] at which a stop begins, to go back and forth."""
     return _ENDS[stop] - STOPS[stop].seconds
+
+
+def eased(part: float) -> float:
+    """0…1 with rest at both ends: 3t² − 2t³, clamped."""
+    t = min(max(part, 0.0), 1.0)
+    return t * t * (3.0 - 2.0 * t)
+
+
+def blend(before: float, after: float, weight: float) -> float:
+    """Linear interpolation that is exact at both ends."""
+    return after if weight >= 1.0 else before + weight * (after - before)
+
+
+def inputs_between(before: Inputs, after: Inputs, part: float) -> Inputs:
+    """Slider positions on the way from `before` to `after`; `part` 0…1, eased at both ends.
+
+    The numbers of the flight condition and, within one twist law, those of the law move. Everything else is that of
+    `after` at once, and so is the speed where either of the two hovers, because hover is another model.
+    """
+    if part >= 1.0:
+        return after
+    names: set[str] = set(FLIGHT)
+    if before.advance_ratio == 0.0 or after.advance_ratio == 0.0:
+        names.discard("advance_ratio")
+    if before.law == after.law:
+        names.update(LAWS[after.law].inputs)
+    weight = eased(part)
+    return replace(after, **{name: blend(getattr(before, name), getattr(after, name), weight) for name in names})

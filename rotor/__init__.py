@@ -22,7 +22,7 @@ thesis, Instituto Superior Técnico, 2016 ("the document"), whose misprints are 
 
 from importlib.metadata import PackageNotFoundError, version
 
-from rotor.aero.trim_state import TrimState
+from rotor.aero.elements import TrimState
 from rotor.analysis.series import SweepTable, plot_power, sweep
 from rotor.design.aircraft import Aircraft, FlightCondition
 from rotor.design.blade import Rotor

@@ -13,7 +13,6 @@ from explorer.text.readout import ideal_induced
 from explorer.workers.scheduler import SCHEDULER
 from rotor.arrays import Array
 from rotor.design.design import Design
-from rotor.trim.forward import guess_of
 from rotor.trim.low_speed import passes_over
 from rotor.trim.newton import Guess
 from rotor.trim.solution import Solution
@@ -116,7 +115,7 @@ class PowerCurves:
             point = solve(design, starts[min(starts, key=lambda known: abs(known - k))] if starts else None)
             if point.converged:
                 # Without its derivatives, which would take 10 MB a page.
-                points[k], values[:, k] = replace(guess_of(point), derivatives=None), _powers(point)
+                points[k], values[:, k] = replace(point.start, factors=None), _powers(point)
                 continue
             lost += 1
             if lost == 2 or (points and k in few):

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.aero.elements import LOW_MACH
-from rotor.aero.kernel import arctangent
+from rotor.aero.problem import LOW_MACH
+from rotor.aero.section import arctangent
 from rotor.arrays import Array
 from rotor.compiled import compiled
 from rotor.trim.solution import DiskFields, Solution

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from explorer.picture.airframe import SHAFT_FORWARD
-from rotor.aero.trim_state import TrimState
+from rotor.aero.elements import TrimState
 from rotor.arrays import Array
 from rotor.design.active_twist import ActiveTwist
 from rotor.design.design import Design

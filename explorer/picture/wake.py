@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
 
-from rotor.aero.free_wake.filaments import WakeFilaments
+from rotor.aero.free_wake.settle import WakeFilaments
 from rotor.arrays import Array
 from rotor.trim.solution import Solution
 

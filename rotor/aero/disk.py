@@ -1,7 +1,7 @@
 """The grid of blade elements and azimuths, with the blade properties on it."""
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -119,9 +119,3 @@ def build_disk(
         mach_limit=min(table.mach_limit for table in tables),
         fit_range=next((table.fit_range for table in tables if table.fit_range is not None), None),
     )
-
-
-@lru_cache(maxsize=16)
-def every_azimuth(disk: Disk, step: int) -> Disk:
-    """The disk with every `step`-th of its azimuths."""
-    return replace(disk, psi=disk.psi[::step].copy(), cos=disk.cos[::step].copy(), sin=disk.sin[::step].copy())

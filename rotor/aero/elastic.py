@@ -9,7 +9,7 @@ With the pitch θ = θ_jig + θ_control + φ (and active twist) and the modal fr
 in units of ρπR⁵Ω²/N_b, with j the torsional inertia, θ_rigid the pitch without φ, and w the mass of the swept tip
 times its offset and its radius: the centrifugal force of the coned mass behind the axis lifts the nose. The propeller
 moment is kept with its sine; ν_k² holds its linear part, hence + φ. Tension unwinds a twisted blade (last term).
-dC_M/dr is the moment of the air: `kernel.element_moments`. Active twist θ_act is what the actuator makes of a blade at
+dC_M/dr is the moment of the air, see `rotor.aero.section`. Active twist θ_act is what the actuator makes of a blade at
 rest: its moment is GJ θ_act', and φ is the rest of the answer. Source: Houbolt & Brooks, NACA TR 1346 (1958), without
 bending.
 
@@ -23,9 +23,7 @@ from functools import cached_property, lru_cache
 
 import numpy as np
 
-from rotor.aero import kernel
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import HarmonicShapes
 from rotor.airfoil.bicubic import N_ALPHA, N_MACH, bicubic_coefficients, mach_nodes
 from rotor.airfoil.c81 import C81Block
 from rotor.airfoil.section_table import SectionTable
@@ -33,6 +31,7 @@ from rotor.arrays import Array
 from rotor.design.active_twist import ActiveTwist
 from rotor.design.blade import Rotor
 from rotor.dynamics.torsion import TorsionModes, blade_modes
+from rotor.engine.waves import wave_grid
 
 MODES = 2
 """Torsion modes of the trim: power within 0.03 % and the mean twist of the tip within 0.03° of six modes (tested)."""
@@ -43,12 +42,16 @@ _MOST_HARMONICS = 8
 
 @dataclass(frozen=True, eq=False)
 class BladeTorsion:
-    """Torsion of one blade on the grid of the disk; moments in units of ρπR⁵Ω²/N_b, per unit of r where distributed."""
+    """Torsion of one blade on its elements; moments in units of ρπR⁵Ω²/N_b, per unit of r where distributed."""
 
     modes: TorsionModes
     frequency: Array
     """ν_k [per rev], (modes,)."""
-    shapes: HarmonicShapes
+    radial: Array
+    """Φ_k, (modes, elements)."""
+    dr: float
+    functions: int
+    """Number of waves 1, cos ψ, sin ψ, … of the elastic twist."""
     gain: Array
     """1/(m_k ν_k²): modal moment to radians, (modes,)."""
     dynamic: Array
@@ -76,7 +79,7 @@ class BladeTorsion:
 
     @property
     def moment_data(self) -> tuple[Array, Array, Array, Array, Array]:
-        """What the moments on the blade need beside velocities."""
+        """The last five of `SectionData`."""
         return self.moment_gain, self.damping, self.lag, self.tables, self.inertia
 
     @cached_property
@@ -91,21 +94,13 @@ class BladeTorsion:
 
     def modal(self, along: Array) -> Array:
         """∫ Φ_k f dr of a distribution, (elements,) → (modes,)."""
-        return self.shapes.radial @ along * self.shapes.dr
+        return self.radial @ along * self.dr
 
-
-@dataclass(frozen=True, eq=False)
-class TorsionState:
-    """The elastic twist at a trim state and the moments of the air; fields are (elements, azimuths)."""
-
-    coordinates: Array
-    """q of every mode and harmonic [rad], (modes, functions)."""
-    twist: Array
-    """φ [rad]"""
-    rate: Array
-    """dθ/dψ of the whole pitch, cyclic and active twist included."""
-    moments: Array
-    """As `kernel.element_moments` returns."""
+    def harmonics(self, around: Array) -> Array:
+        """Amplitudes 1, cos ψ, sin ψ, … of functions of azimuth, (…, azimuths) → (…, functions)."""
+        means = around @ wave_grid(self.functions, around.shape[-1]).mean
+        means[..., 1:] *= 2.0
+        return means
 
 
 REVERSE_FLOW_DEG = (165.0, 172.0)
@@ -157,20 +152,13 @@ def build_torsion(
 
 
 @lru_cache(maxsize=32)
-def torsion_on_every_azimuth(torsion: BladeTorsion, step: int) -> BladeTorsion:
-    """The torsion on the disk with every `step`-th of its azimuths."""
-    shapes = torsion.shapes
-    waves, rates = shapes.waves[:, ::step].copy(), shapes.rates[:, ::step].copy()
-    return replace(torsion, shapes=replace(shapes, waves=waves, rates=rates))
-
-
-@lru_cache(maxsize=32)
 def _at_unit_density(rotor: Rotor, disk: Disk, only_mach: float | None, swept: bool, highest: int) -> BladeTorsion:
     """The same in air of 1 kg/m³; modes and tables take most of the time."""
     blade, structure, radius = rotor.blade, rotor.blade.structure, rotor.radius
     assert structure is not None
     modes = blade_modes(structure, rotor.angular_speed, MODES)
-    shapes = HarmonicShapes.on(disk, modes.at(disk.r * radius), highest)
+    radial, functions = modes.at(disk.r * radius), 1 + 2 * highest
+    harmonic = (np.arange(functions) + 1) // 2
     unit = math.pi * radius**5 / rotor.blades  # Times Ω² [N m].
     frequency = modes.frequency / rotor.angular_speed
     inertia = structure.at(disk.r * radius, structure.torsional_inertia) * radius / unit
@@ -185,11 +173,13 @@ def _at_unit_density(rotor: Rotor, disk: Disk, only_mach: float | None, swept: b
     return BladeTorsion(
         modes=modes,
         frequency=frequency,
-        shapes=shapes,
+        radial=radial,
+        dr=disk.dr,
+        functions=functions,
         gain=unit / (modes.inertia * frequency**2),
-        dynamic=1.0 - (shapes.wave / frequency[:, None]) ** 2,
+        dynamic=1.0 - (harmonic / frequency[:, None]) ** 2,
         inertia=inertia,
-        coupling=shapes.radial * inertia @ shapes.radial.T * disk.dr,
+        coupling=radial * inertia @ radial.T * disk.dr,
         tension=tension / (unit * rotor.angular_speed**2),
         own_tension=own_tension / (unit * rotor.angular_speed**2),
         moment_gain=disk.half_solidity * chord,
@@ -214,13 +204,3 @@ def highest_harmonic(active: ActiveTwist | None) -> int:
     """Harmonics of the elastic twist that a design needs."""
     waves = [wave.per_rev for wave in active.harmonics] if active else []
     return max([HARMONICS, *(wave for wave in waves if wave <= _MOST_HARMONICS)])
-
-
-def air_moments(
-    torsion: BladeTorsion, disk: Disk, tip_mach: float, u_t: Array, u_p: Array, u_r: Array, rate: Array, loads: Array
-) -> Array:
-    """Moments of the air with derivatives, as `kernel.element_moments` returns."""
-    return kernel.element_moments(
-        loads, u_t, u_p, u_r, rate, tip_mach, torsion.moment_gain, torsion.damping, torsion.lag,
-        disk.section, disk.weight, disk.offset, torsion.tables, disk.cos_sweep, disk.sin_sweep,
-    )  # fmt: skip

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotor.aero.kernel import arctangent
+from rotor.aero.section import arctangent
 from rotor.arrays import Array
 from rotor.compiled import compiled
 
@@ -101,12 +101,13 @@ def _multiply_end(spacing: float, inflow: Any, factor: Any, slope: Any, fall: An
 
 
 @_compile
-def mean_loss_factor(r: Any, inflow: Any, slopes: Any, blades: int, root_cutout: float, tip: bool, hub: bool) -> Any:
+def mean_loss_factor(r: Any, inflow: Any, slopes: Any, blade: tuple[int, float], tip: bool, hub: bool) -> Any:
     """Means around the azimuth of `loss_factor`, of ∂F/∂λ and of the slopes that follow, (2 + slopes, elements).
 
-    inflow: λ, (elements, azimuths); slopes: ∂λ by anything, (slopes, elements, azimuths).
+    inflow: λ, (elements, azimuths); slopes: ∂λ by anything, (slopes, elements, azimuths); blade: number and root
+    cut-out r_min/R.
     """
-    n, m = inflow.shape
+    (blades, root_cutout), (n, m) = blade, inflow.shape
     out = np.zeros((2 + len(slopes), n))
     factor, slope, fall, root, own = np.empty(m), np.empty(m), np.empty(m), np.empty(m), np.empty(m)
     for i in range(n):

@@ -18,9 +18,9 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebvander
 from scipy.optimize import nnls
 
-from rotor.aero.elements import expected_wake
 from rotor.aero.inflow.interface import Wake
 from rotor.aero.inflow.vortex_lattice import Lattice, shared_azimuths
+from rotor.aero.problem import expected_wake
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
 from rotor.blas_threads import one_blas_thread

@@ -22,12 +22,11 @@ from rotor.command.common import (
     parse_division,
 )
 from rotor.command.optimise import named
-from rotor.files.ranges import parse_range
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
 from rotor.optimisation.objective import MISSION_COLUMNS, QUANTITIES, WeightedCondition, read_mission
 from rotor.optimisation.schedule import Cell, Plan, Schedule, open_cells, read_cells, run_plan
 from rotor.optimisation.search import Optimum
-from rotor.user_input import check_writable
+from rotor.user_input import check_writable, parse_range
 
 DEFAULT_CONCEPTS = ("linear", "two-segment", "three-segment", "free-form")
 DEFAULT_MU = "0:0.35:0.05"

@@ -19,9 +19,8 @@ from rotor.assets import SHIPPED_ROTORS
 from rotor.command.common import add_command, add_design_arguments, add_rotor_argument, design_from, finite, write_table
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
-from rotor.files.ranges import parse_range
 from rotor.files.rotor_file import find_aircraft
-from rotor.user_input import check_writable
+from rotor.user_input import check_writable, parse_range
 
 
 def add_sweep(commands: Any) -> None:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rotor.aero.elements import build_problem
+from rotor.aero.problem import build_problem
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
 from rotor.design.design import Design

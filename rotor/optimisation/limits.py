@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotor.aero import kernel
-from rotor.aero.elements import BladeElements, Problem
+from rotor.aero.elements import BladeElements
+from rotor.aero.problem import Problem
 from rotor.airfoil.bicubic import MACH_STEP
 from rotor.arrays import Array
 from rotor.design.twist import TwistLaw
@@ -133,8 +133,8 @@ def stalled_share(adjoint: Adjoint) -> tuple[float, Array]:
     over_t, over_p = elements.u_t / square, elements.u_p / square
     # Normal to the sweep: M² = M_tip² ((U_T cos Λ − U_R sin Λ)² + U_P²).
     cos, sin = disk.cos_sweep[:, None], disk.sin_sweep[:, None]
-    normal = elements.u_t * cos - elements.flow.mu_x * disk.cos * sin
-    scale = problem.tip_mach**2 / elements.loads[kernel.MACH]
+    normal = elements.u_t * cos - elements.u_r * sin
+    scale = problem.tip_mach**2 / elements.mach
     slope = ring * window * by_margin
     weights = Weights(
         theta=slope * by_alpha,
@@ -146,9 +146,9 @@ def stalled_share(adjoint: Adjoint) -> tuple[float, Array]:
 
 
 def _margin(problem: Problem, elements: BladeElements) -> tuple[Array, Array, Array]:
-    """Angle of attack left before stall [rad], and its slopes by α and Mach: `kernel.stall_margins` differentiated."""
+    """Angle of attack left before stall [rad], and its slopes by α and Mach: `section.stall_margins` differentiated."""
     disk = problem.disk
-    alpha, mach = elements.loads[kernel.ALPHA], elements.loads[kernel.MACH]
+    alpha, mach = elements.alpha, elements.mach
     top = disk.stall.shape[2] - 1
     x = np.minimum(mach / MACH_STEP, top - 1e-9)
     k = x.astype(np.int64)

@@ -14,7 +14,7 @@ from rotor.design.aircraft import FlightCondition
 from rotor.design.design import Design
 from rotor.optimisation.limits import stalled_share
 from rotor.trim.adjoint import Adjoint, power_along
-from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
+from rotor.trim.newton import DEFAULT_OPTIONS, SolverOptions
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.user_input import read_text, refusing

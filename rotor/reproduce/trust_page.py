@@ -241,7 +241,7 @@ def _sensitivity_part(changes: Sequence[SensitivityRow]) -> list[str]:
         mine = {row.mu: row for row in changes if row.change == name}
         cells = [
             f"{mine[mu].optimum_deg:.1f}° ({mine[mu].low_deg:.1f}…{mine[mu].high_deg:.1f}), "
-            f"{mine[mu].saving_percent:.1f} %"
+            f"{mine[mu].saving_percent:z.1f} %"
             for mu in speeds
         ]
         lines.append(f"| {name} | {' | '.join(cells)} |")

@@ -10,12 +10,15 @@ from dataclasses import replace
 import numpy as np
 from scipy.integrate import solve_ivp  # pyright: ignore[reportUnknownVariableType]
 
-from rotor.aero import kernel
-from rotor.aero.elements import build_problem, evaluate_elements, wake_at
+from rotor.aero.inflow.interface import Wake
+from rotor.aero.inflow.linear import LinearInflow
+from rotor.aero.problem import build_problem, in_disk_axes
+from rotor.aero.section import CHANNELS, FZ, LOSS, TH, UP, UT, section
 from rotor.airfoil.public_points import agreement
 from rotor.airfoil.sections import load_section
 from rotor.arrays import Array
 from rotor.assets import SHIPPED_ROTORS
+from rotor.columns.hover import closed_form_inflow
 from rotor.design.design import Design
 from rotor.dynamics.flapping import lock_number
 from rotor.files.make_design import make_design, uh60a_rotor
@@ -33,7 +36,6 @@ from rotor.reproduce.trust import Kind, TrustRow
 from rotor.reproduce.twist_effect import keys_1987
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.forward import first_guess
-from rotor.trim.hover import closed_form_inflow
 from rotor.trim.newton import newton
 from rotor.trim.power import profile_power_coefficient
 from rotor.trim.solve import solve
@@ -173,23 +175,21 @@ def _flapping() -> tuple[float, float]:
     """Largest difference of β0, β1c, β1s [°] between balance and marched motion; the marched 2/rev amplitude [°]."""
     design = _with_inflow(make_design(preset="thesis", twist="linear:-10", mu=0.15), "pitt-peters")
     problem = build_problem(design)
-    state = newton(problem, first_guess(problem)).elements.state
-    disk, flap, elements = problem.disk, problem.flap, evaluate_elements(problem, state)
-    flow = elements.flow
-    r = disk.r
+    trim = newton(problem, first_guess(problem))
+    state, elements, model = trim.state, trim.linear.elements, problem.inflow
+    assert isinstance(model, LinearInflow)
+    disk, flap, flow, loss = problem.disk, problem.flap, elements.flow, trim.point.channels[LOSS, :, :1]
+    wake = Wake(*in_disk_axes(design.condition.advance_ratio, problem.climb, state.shaft_tilt), state.lambda0)
+    r, data = disk.r[:, None], problem.section_data(len(disk.psi))
 
     def rates(psi: float, motion: Array) -> list[float]:
         cos, sin = np.array([math.cos(psi)]), np.array([math.sin(psi)])
-        here = replace(disk, psi=np.array([psi]), cos=cos, sin=sin)
-        induced = problem.inflow.respond(here, wake_at(problem, state), np.zeros((0, 0))).induced
-        theta = (problem.twist + state.collective + state.cyclic_1c * cos + state.cyclic_1s * sin)[:, None]
-        u_t = (r - elements.swirl + flow.mu_x * sin)[:, None]
-        u_p = induced + ((r - flap.hinge) * motion[1] + flow.mu_z + flow.mu_x * motion[0] * cos)[:, None]
-        loads = kernel.element_loads(
-            theta, u_t, u_p, flow.mu_x * cos, elements.loss, problem.tip_mach,
-            disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables, disk.cos_sweep, disk.sin_sweep,
-        )  # fmt: skip
-        moment = float((r - flap.hinge) @ loads[kernel.FZ, :, 0]) * disk.dr
+        channels = np.zeros((len(CHANNELS), len(r), 1))
+        channels[TH] = problem.twist[:, None] + state.collective + state.cyclic_1c * cos + state.cyclic_1s * sin
+        channels[UT], channels[LOSS] = r - elements.swirl[:, None] + flow.mu_x * sin, loss
+        channels[UP] = model.field(disk.r, cos, sin, wake)[0] + (r - flap.hinge) * motion[1]
+        channels[UP] += flow.mu_z + flow.mu_x * motion[0] * cos
+        moment = float(problem.arm @ section(channels, data, False, False)[0][FZ, :, 0]) * disk.dr
         return [float(motion[1]), flap.load_gain * moment - flap.weight - flap.frequency_squared * float(motion[0])]
 
     turns, n = 10, 36

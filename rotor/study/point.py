@@ -18,9 +18,9 @@ from typing import Any, cast
 
 import numpy as np
 
+from rotor.aero.elements import STATE_NAMES, TrimState
 from rotor.aero.inflow import inflow_model
 from rotor.aero.switches import SWITCHES
-from rotor.aero.trim_state import STATE_NAMES, TrimState
 from rotor.arrays import Array
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.aircraft import Aircraft
@@ -32,15 +32,14 @@ from rotor.optimisation.objective import at_condition, hover_and_cruise
 from rotor.optimisation.search import Limits, Optimum, Search, SearchStatus, run_search
 from rotor.study.quantities import PLAIN, Value, concept_with_breaks
 from rotor.study.study import OptimumSettings, Study
-from rotor.trim.forward import guess_of
-from rotor.trim.newton import Derivatives, Guess
+from rotor.trim.newton import Guess
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
 _KEPT = 500
-"""Trims kept, 40 kB each."""
-_KEPT_DERIVATIVES = 64
-"""Of them the last, with their derivatives, 0.5 MB each."""
+"""Trims kept, 1 kB each."""
+_KEPT_FACTORS = 64
+"""Of them the last, with their factors, 0.15 MB each."""
 _AMPLE = 1.8
 """Trims that a quadratic is made of, over the number of its terms."""
 _FIRM = 1e-8
@@ -57,10 +56,7 @@ class WarmStarts:
         self._ranges = {name: (low, (high - low) or 1.0) for name, (low, high) in ranges.items()}
         self._key: tuple[object, ...] = ()
         self._places = np.zeros((0, len(ranges)))
-        self._trims: list[Array] = []
-        self._derivatives: list[Derivatives | None] = []
-        self._shape: tuple[int, int] = (0, 0)
-        self._modes: int = 0
+        self._trims: list[Guess] = []
         self.concept = ""
         """The concept of the last optimum, and its parameters."""
         self.optimum: tuple[float, ...] = ()
@@ -72,32 +68,24 @@ class WarmStarts:
         steps = self._places - self._place(values)
         near = _wanted(steps.shape[1])
         order: list[int] = np.argsort((steps**2).sum(axis=1), kind="stable")[:near].tolist()
-        vector = np.zeros_like(self._trims[0])
+        vector = np.zeros_like(_vector(self._trims[0]))
         for weight, k in zip(_weights(steps[order]).tolist(), order, strict=True):
-            vector += weight * self._trims[k]
-        n, points = len(STATE_NAMES), self._shape[0] * self._shape[1]
-        state, induced, elastic = np.split(vector, [n, n + points])
-        twist = elastic.reshape(self._modes, -1) if self._modes else None
-        return Guess(TrimState.from_array(state), induced.reshape(self._shape), twist, self._derivatives[order[0]])
+            vector += weight * _vector(self._trims[k])
+        return _guess(vector, self._trims[order[0]])
 
     def keep(self, values: Mapping[str, Value], solution: Solution) -> None:
         """Keep a trim to start others from; one that did not converge is of no use."""
         if not solution.converged:
             return
-        key = self._kind(values, solution.design.hovering)
-        left = guess_of(solution)
-        assert left.induced is not None
-        elastic = left.elastic if left.elastic is not None else np.zeros((0, 0))
-        vector = np.concatenate([left.state.array(), left.induced.ravel(), elastic.ravel()])
-        layout = key, left.induced.shape, len(elastic)
-        if layout != (self._key, self._shape, self._modes) or (self._trims and len(vector) != len(self._trims[0])):
-            self._key, self._shape, self._modes = layout
-            self._places, self._trims, self._derivatives = self._places[:0], [], []
+        key, left = self._kind(values, solution.design.hovering), solution.start
+        same = not self._trims or len(_vector(self._trims[0])) == len(_vector(left))
+        if key != self._key or not same:
+            self._key, self._places, self._trims = key, self._places[:0], []
         self._places = np.vstack([self._places, self._place(values)])[-_KEPT:]
-        self._trims = [*self._trims, vector][-_KEPT:]
-        serve = left.derivatives is not None and left.derivatives.feedback is not None  # Others cost little.
-        self._derivatives = [*self._derivatives, left.derivatives if serve else None][-_KEPT:]
-        self._derivatives[:-_KEPT_DERIVATIVES] = [None] * len(self._derivatives[:-_KEPT_DERIVATIVES])
+        self._trims = [*self._trims, left][-_KEPT:]
+        if len(self._trims) > _KEPT_FACTORS:
+            late = self._trims[-_KEPT_FACTORS - 1]
+            self._trims[-_KEPT_FACTORS - 1] = replace(late, factors=None)
 
     def _kind(self, values: Mapping[str, Value], hovering: bool) -> tuple[object, ...]:
         """What trims must share to learn from one another."""
@@ -105,6 +93,24 @@ class WarmStarts:
 
     def _place(self, values: Mapping[str, Value]) -> Array:
         return np.array([(float(values[name]) - low) / span for name, (low, span) in self._ranges.items()])
+
+
+def _vector(trim: Guess) -> Array:
+    """All numbers of a trim."""
+    parts = [trim.state.array(), *(part.ravel() for part in (trim.elastic, trim.inflow) if part is not None)]
+    return np.concatenate(parts)
+
+
+def _guess(vector: Array, like: Guess) -> Guess:
+    """The trim of these numbers; the factors are those of a trim like it."""
+    n, twists = len(STATE_NAMES), 0 if like.elastic is None else like.elastic.size
+    state, elastic, inflow = np.split(vector, [n, n + twists])
+    return replace(
+        like,
+        state=TrimState.from_array(state),
+        elastic=None if like.elastic is None else elastic.reshape(like.elastic.shape),
+        inflow=None if like.inflow is None else inflow,
+    )
 
 
 def _wanted(axes: int) -> int:

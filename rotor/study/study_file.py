@@ -16,7 +16,6 @@ from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.aircraft import Aircraft
 from rotor.design.twist import inline_spec
 from rotor.files.make_design import make_design
-from rotor.files.ranges import parse_range
 from rotor.files.rotor_file import find_aircraft
 from rotor.study.point import check_point
 from rotor.study.quantities import QUANTITIES, Value
@@ -31,7 +30,7 @@ from rotor.study.study import (
     columns_of,
     default_chunk,
 )
-from rotor.user_input import is_file, read_text, refusing, shorten
+from rotor.user_input import is_file, parse_range, read_text, refusing, shorten
 
 SECTIONS: dict[str, tuple[str, ...]] = {
     "": ("title", "chunk"),

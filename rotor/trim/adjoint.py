@@ -1,35 +1,38 @@
 """The exact gradient of power by the pitch at every blade station: one linear solve for any number of stations.
 
-The trim makes the residuals R(x, d, λ) zero, and the inflow is λ = A d + b. For an elastic blade R and x include the
-torsion equations and their coordinates. For a measure P, with a = J⁻ᵀ ∂P/∂x, the weights w = ∂P/∂F − a·∂R/∂F on the
-loads, and the part u = Aᵀ(I − K Aᵀ)⁻¹(K w_z + ∂F_x/∂λ w_x + ∂P/∂λ) of the inflow,
-
-    dP/dθ(r) = Σ_ψ [ (w_z + u) ∂F_z/∂θ + w_x ∂F_x/∂θ + ∂P/∂θ ].
-
-The chain rule then gives the gradient by any twist parameter: dP/dp = Σ_r dP/dθ(r) ∂θ_tw(r)/∂p.
+The trim makes the residuals R(x) zero. For a measure P, with Jᵀ a = ∂P/∂x, the slope of P − a·R by the pitch channel at
+an element, summed over the azimuths, is the gradient by the pitch of that element: the trim follows. For an elastic
+blade the tension on its twist, which is in R, adds to it; where the inflow is joined with that of hover, so does what
+the hovering rotor answers. The chain rule gives the gradient by any twist parameter:
+dP/dp = Σ_r dP/dθ(r) ∂θ_tw(r)/∂p.
 """
 
+from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
-from rotor.aero import kernel
-from rotor.aero.elements import BladeElements, Problem, evaluate_elements
-from rotor.aero.free_wake.system import WakeState
-from rotor.aero.sums import radial_drag
+from rotor.aero.elements import BladeElements
+from rotor.aero.inflow.local_momentum import BALANCED
+from rotor.aero.problem import Problem
+from rotor.aero.section import FX, FZ, TH, UP, UR, UT
 from rotor.arrays import Array
 from rotor.blas_threads import one_blas_thread
-from rotor.compiled import compiled
-from rotor.trim.forward import guess_of
-from rotor.trim.hover import Annuli, AnnulusSlopes
+from rotor.columns.flight import SWIRL, SWIRL_SLOPE, flight_system
+from rotor.columns.hover import turning_of
+from rotor.columns.trims import drag_terms
+from rotor.engine.linearise import Measure, evaluate, jacobian, transposed
+from rotor.engine.newton import Factors
+from rotor.engine.terms import ONE, Structure, Terms
+from rotor.engine.waves import COS, SIN, STEADY
+from rotor.trim.hover import HoverResult, hover
 from rotor.trim.hover_wake import LineWeights, WakeAdjoint
-from rotor.trim.low_speed import HoverDifference, HoverMatched, trim_problem
-from rotor.trim.newton import KEPT, KeptTrim, differentiate
+from rotor.trim.low_speed import HoverDifference, joined_hover, trim_problem
+from rotor.trim.newton import DEFAULT_OPTIONS, LinearisedTrim, first_point, tolerances
 from rotor.trim.power import tail_power
 from rotor.trim.solution import Solution
-from rotor.trim.transposed import BY_INFLOW, BY_THETA, BY_UT, TENSION, Given, TransposedTrim
 
 Objective = Literal["total", "induced"]
 
@@ -66,7 +69,7 @@ class Weights:
     inflow: Array | float = 0.0
     """By λ_i at the same velocities."""
     theta: Array | float = 0.0
-    """By θ at the same loads, as the next two."""
+    """By θ at the same loads, as the next three."""
     u_t: Array | float = 0.0
     """By U_T."""
     u_p: Array | float = 0.0
@@ -75,74 +78,8 @@ class Weights:
     """By U_R, the flow along the blade."""
     swirl: Array | float = 0.0
     """By the swirl at the same velocities."""
-    tilt: float = 0.0
-    """By the shaft tilt at the same loads and velocities."""
-
-    def on(self, shape: tuple[int, int]) -> Given:
-        """As `TransposedTrim.with_nearby` takes them."""
-        given = {name: getattr(self, name) for name in Given._fields}
-        return Given(**{name: _on(field, shape) for name, field in given.items() if not isinstance(field, float)})
-
-
-def _on(field: Array, shape: tuple[int, int]) -> Array:
-    """A field for compiled code: itself where it may."""
-    return field if field.shape == shape and field.flags.c_contiguous else np.broadcast_to(field, shape).copy()
-
-
-class HoverAdjoint:
-    """The linearised balance of a hovering rotor: annuli, or a free wake."""
-
-    def __init__(self, problem: Problem, collective: float, elastic: Array | None, wake: WakeState | None) -> None:
-        """elastic: coordinates of the elastic twist, (modes, functions); wake: the unknowns of a free wake."""
-        self.problem = problem
-        self._annuli: tuple[Array, AnnulusSlopes | None] | None = None
-        self._wake: WakeAdjoint | None = None
-        if wake is not None:
-            self._wake = WakeAdjoint(problem, wake, elastic[:, 0] if elastic is not None else None)
-            self.elements: BladeElements = self._wake.elements
-            return
-        annuli = Annuli(problem)
-        if elastic is not None:
-            annuli.elastic = elastic[:, 0]
-        self.elements, response, twisting = annuli.at(collective)
-        self._annuli = response, twisting
-
-    def by_pitch(self, weights: Weights) -> Array:
-        """∂(measure)/∂θ of each element's pitch, the balance following, (elements,)."""
-        if self._wake is not None:
-            return self._with_free_wake(weights, self._wake)
-        assert self._annuli is not None
-        return self._in_hover(weights, *self._annuli)
-
-    def _with_free_wake(self, weights: Weights, wake: WakeAdjoint) -> Array:
-        shape = self.problem.disk.shape
-        fields = (weights.fz, weights.fx, weights.inflow, weights.u_t, weights.u_p, weights.swirl, weights.theta)
-        return wake.by_pitch(LineWeights(*(np.broadcast_to(field, shape).sum(axis=1) for field in fields)))
-
-    def _in_hover(self, weights: Weights, annuli: Array, slopes: AnnulusSlopes | None) -> Array:
-        """Annuli are independent but for the collective that keeps the thrust, and the twist of an elastic blade.
-
-        `annuli`: ∂λ/∂θ of each.
-        """
-        loads, inflow = self.elements.loads, annuli[:, None]
-        turning = Annuli(self.problem).swirl(self.elements.induced[:, 0])[1][:, None] * inflow
-        fz = loads[kernel.FZ_THETA] + loads[kernel.FZ_UP] * inflow - loads[kernel.FZ_UT] * turning
-        fx = loads[kernel.FX_THETA] + loads[kernel.FX_UP] * inflow - loads[kernel.FX_UT] * turning
-        measure = weights.fz * fz + weights.fx * fx + (weights.inflow + weights.u_p) * inflow + weights.theta
-        measure = measure + (weights.swirl - weights.u_t) * turning
-        thrust = fz.sum(axis=1)
-        by_pitch = np.broadcast_to(measure, fz.shape).sum(axis=1)
-        stand = self.problem.design.condition.stand
-        given = stand is not None and stand.collective is not None
-        torsion = self.problem.torsion
-        if slopes is None or torsion is None:
-            return by_pitch if given else by_pitch - by_pitch.sum() / thrust.sum() * thrust
-        by_unknown: Array = slopes.columns @ by_pitch
-        adjoint: Array = np.zeros(len(by_unknown))
-        free = slice(1 if given else 0, None)  # With the collective given, the thrust follows the pitch.
-        adjoint[free] = np.linalg.solve(slopes.matrix[free, free].T, by_unknown[free])
-        balance = slopes.torsion + torsion.gain[:, None] * torsion.tension
-        return by_pitch - adjoint[0] * slopes.thrust - adjoint[1:] @ balance
+    terms: Terms | None = None
+    """A sum of terms of the trim's own equations."""
 
 
 class Adjoint:
@@ -152,70 +89,172 @@ class Adjoint:
         """Raises RuntimeError with the solution's sentence when it is not converged."""
         solution.require()
         self.solution = solution
-        self._hover: HoverAdjoint | None = None
-        self._kept = kept = KEPT.of(solution.disk.induced)
-        same = kept is not None and kept.problem is not None and kept.problem.design is solution.design
-        self.problem: Problem = kept.problem if kept and kept.problem and same else trim_problem(solution.design)
-        guess = guess_of(solution)
         with one_blas_thread():
-            if solution.design.hovering:
-                wake = solution.wake and solution.wake.state
-                self._hover = HoverAdjoint(self.problem, guess.state.collective, guess.elastic, wake)
-                self.elements: BladeElements = self._hover.elements
-            elif self._kept is not None and self._kept.elements is not None:
-                self.elements = self._kept.elements
+            if solution.wake is not None:
+                problem = trim_problem(solution.design)
+                coordinates = solution.elastic.coordinates[:, 0] if solution.elastic is not None else None
+                self._own: _Linear | WakeAdjoint = WakeAdjoint(problem, solution.wake.state, coordinates)
             else:
-                self.elements = evaluate_elements(self.problem, guess.state, guess.induced, guess.elastic)
+                self._own = _Linear(solution.linear or _linearised(solution))
+        self.problem: Problem = self._own.problem
+
+    @property
+    def elements(self) -> BladeElements:
+        """The blade elements at the trim."""
+        return self._own.elements
 
     def by_pitch(self, weights: Weights) -> Array:
         """∂(measure)/∂θ of each element's pitch, trim and inflow following, (elements,)."""
         with one_blas_thread():
-            return self._forward(weights) if self._hover is None else self._hover.by_pitch(weights)
+            if isinstance(self._own, WakeAdjoint):
+                return _with_free_wake(self._own, weights)
+            if self.solution.design.hovering:
+                return self._own.by_pitch(self._own.hover_measure(weights))[0]
+            measure = self._own.flight_measure(weights)
+            found, by_channel = self._own.by_pitch(measure)
+            joined = joined_hover(self.solution.design)
+            return found if joined is None else found + self._by_difference(*joined, weights, by_channel)
+
+    def _by_difference(self, share: float, difference: HoverDifference, weights: Weights, by_channel: Array) -> Array:
+        """The part of the gradient through the hovering rotor, whose inflow is carried over to low speed."""
+        shape = self.problem.disk.shape
+        on_inflow = share * (by_channel[UP] + np.broadcast_to(weights.inflow, shape).sum(axis=1))
+        on_swirl = share * (np.broadcast_to(weights.swirl, shape).sum(axis=1) - by_channel[UT])
+        around = np.ones(shape) / shape[1]
+        hovering = Weights(
+            fz=-(on_inflow @ difference.axial)[:, None] * around, inflow=on_inflow[:, None] * around,
+            swirl=on_swirl[:, None] * around,
+        )  # fmt: skip
+        own = _difference_adjoint(difference)
+        if isinstance(own, WakeAdjoint):
+            return _with_free_wake(own, hovering)
+        return own.by_pitch(own.hover_measure(hovering))[0]
+
+    @property
+    def power_terms(self) -> Terms | None:
+        """Induced and profile power in terms of the trim's equations; None with a free wake, which has none."""
+        return None if isinstance(self._own, WakeAdjoint) else self._own.power_terms
+
+
+def _linearised(solution: Solution) -> LinearisedTrim:
+    """The equations at a solution that came without them, from another process."""
+    problem = trim_problem(solution.design)
+    if solution.design.hovering:
+        return hover(problem, solution.start).linear
+    system = flight_system(problem, tolerances(DEFAULT_OPTIONS))
+    x = first_point(problem, system, solution.start)
+    return LinearisedTrim(problem, evaluate(system, system.grid, x, slopes=True, flow=True))
+
+
+class _Linear:
+    """A linearised trim with its factors: what every adjoint of one solution shares."""
+
+    def __init__(self, trim: LinearisedTrim) -> None:
+        self.trim, self.problem, self.point = trim, trim.problem, trim.point
+
+    @property
+    def elements(self) -> BladeElements:
+        return self.trim.elements
 
     @cached_property
-    def _transposed(self) -> TransposedTrim:
-        return TransposedTrim(self.problem, self.elements)
+    def _linearised(self) -> tuple[Factors, Array]:
+        """Factors of the trim, and the slopes of induced and profile power by the states, (equations,)."""
+        matrix, power = jacobian(self.point, self.power_terms)
+        return Factors.of_matrix(matrix), power[0]
 
-    def _forward(self, weights: Weights) -> Array:
-        problem, trim = self.problem, self._transposed
-        shape = problem.disk.shape
-        swirl = np.broadcast_to(weights.swirl, shape).sum(axis=1)
-        slopes = self._slopes(weights.on(shape), trim.direct(swirl, weights.tilt))
-        found = slopes[BY_THETA] + slopes[TENSION]
-        if not isinstance(problem.inflow, HoverMatched):
-            return found
-        return found + self._by_difference(problem.inflow, slopes[BY_INFLOW], swirl - slopes[BY_UT])
+    def by_pitch(self, measure: Measure) -> tuple[Array, Array]:
+        """∂(measure)/∂θ by element, and slopes by every channel at every element, the states following."""
+        point, structure = self.point, self.point.system.structure
+        multipliers = np.zeros(len(structure.free))
+        if len(multipliers):
+            factors, power = self._linearised
+            of_power = measure.terms is self.power_terms and not (measure.forces or measure.channels or measure.parts)
+            slopes = power if of_power else transposed(point, multipliers, measure)[0]
+            multipliers = factors.solve_transposed(slopes)
+        by_channel = transposed(point, -multipliers, measure)[1]
+        found, torsion = by_channel[TH], self.problem.torsion
+        if torsion is None:
+            return found, by_channel
+        steady = [structure.equations["twist", k, 0] for k in range(len(torsion.gain))]
+        return found - multipliers[steady] @ (torsion.gain[:, None] * torsion.tension), by_channel
 
-    def _slopes(self, given: Given, direct: Array) -> Array:
-        """As `TransposedTrim.with_nearby`, with the derivatives kept or, where these do not serve, with new ones."""
-        problem, trim, kept = self.problem, self._transposed, self._kept
-        near = kept.derivatives if kept is not None else None
-        if near is not None and near.serve(problem, trim.unknowns):
-            found = trim.with_nearby(near, given, direct)
-            if found is not None:
-                return found
-        exact = differentiate(problem, self.elements, trim.unknowns)[1]
-        self._kept = KeptTrim(self.solution.disk.induced, exact, self.elements, problem)
-        KEPT.keep(self._kept)
-        return trim.with_own(exact, given, direct)
+    def flight_measure(self, weights: Weights) -> Measure:
+        """Weights as the engine takes them."""
+        terms, shape = self.problem.inflow_terms, self.problem.disk.shape
+        given = {FZ: weights.fz, FX: weights.fx}
+        forces = {force: _on(own, shape) for force, own in given.items() if not isinstance(own, float)}
+        channels = dict[int, Array]()
+        for channel, own in ((TH, weights.theta), (UT, weights.u_t), (UP, weights.u_p), (UR, weights.u_r)):
+            if not isinstance(own, float):
+                channels[channel] = _on(own, shape)
+        parts = list[tuple[int, list[Hashable], Array]]()
+        if not isinstance(weights.inflow, float):
+            parts.append((UP, list(terms.names), _on(weights.inflow, shape)))
+        if terms.interface.balanced is not None and weights.terms is None:
+            forces[terms.interface.balanced] = _on(weights.u_p, shape) + _on(weights.inflow, shape)
+        if not isinstance(weights.swirl, float):
+            parts.append((UT, [SWIRL, SWIRL_SLOPE], -_on(weights.swirl, shape)))
+        return Measure(forces=forces, channels=channels, parts=parts, terms=weights.terms)
 
-    def _by_difference(self, inflow: HoverMatched, on_inflow: Array, on_swirl: Array) -> Array:
-        """The part of the gradient through the hovering rotor, whose inflow is carried over to low speed."""
-        difference, share = inflow.difference, inflow.share
-        fz, by_inflow, by_swirl = difference.by_hover(share * on_inflow, share * on_swirl)
-        return _hover_adjoint(difference).by_pitch(Weights(fz=fz, inflow=by_inflow, swirl=by_swirl))
+    def hover_measure(self, weights: Weights) -> Measure:
+        """The same of annuli: U_T and U_P follow the inflow that they balance by themselves."""
+        shape, problem = self.problem.disk.shape, self.problem
+
+        def summed(own: Array | float) -> Array:
+            return np.broadcast_to(own, shape).sum(axis=1)[:, None]
+
+        if weights.terms is not None:
+            return Measure(terms=weights.terms)
+        turning = turning_of(problem, self.point.forces[BALANCED, :, 0])[:, None]
+        balanced = (
+            summed(weights.inflow) + summed(weights.u_p) + (summed(weights.swirl) - summed(weights.u_t)) * turning
+        )
+        forces = {FZ: summed(weights.fz), FX: summed(weights.fx), BALANCED: balanced}
+        return Measure(forces=forces, channels={TH: summed(weights.theta)}, terms=weights.terms)
+
+    @property
+    def power_terms(self) -> Terms:
+        """Induced and profile power."""
+        return _power_terms(self.point.system.structure)
+
+
+@lru_cache(maxsize=64)
+def _power_terms(s: Structure) -> Terms:
+    """Induced and profile power over ρA(ΩR)³ of a trim or a hovering rotor: C_Q + µ_x C_H − µ_z C_T − Σ (r − e) β' F_z.
+
+    From U dD = U_T dF_x − U_P dF_z + U_R dF_r, r = U_T + u − µ_x sin ψ and U_P = µ_z + λ_i + (r − e) β' + µ_x β cos ψ.
+    """
+    rows = [(0, s.measure(FX, "r", STEADY), ONE, ONE, 1.0)]
+    if "mu_x" in s.made:
+        mu_x, mu_z = s.made["mu_x"], s.made["mu_z"]
+        rows += [(0, measure, mu_x, atom, share) for share, atom, measure in drag_terms(s)]
+        rows += [
+            (0, s.measure(FZ, "one", STEADY), mu_z, ONE, -1.0),
+            (0, s.measure(FZ, "arm", SIN), s.states["flap_1c"], ONE, 1.0),
+            (0, s.measure(FZ, "arm", COS), s.states["flap_1s"], ONE, -1.0),
+        ]
+    return Terms.of(rows, 1)
+
+
+def _on(field: Array | float, shape: tuple[int, int]) -> Array:
+    return np.broadcast_to(np.asarray(field, dtype=float), shape)
 
 
 @lru_cache(maxsize=4)
-def _hover_adjoint(difference: HoverDifference) -> HoverAdjoint:
+def _difference_adjoint(difference: HoverDifference) -> "_Linear | WakeAdjoint":
     """The same for all measures, and for all conditions that share the hovering rotor."""
+    if isinstance(difference.found, HoverResult):
+        return _Linear(difference.found.linear)
     torsion = difference.elements.torsion
-    return HoverAdjoint(
-        difference.problem,
-        difference.elements.state.collective,
-        torsion.coordinates if torsion is not None else None,
-        difference.wake,
-    )
+    assert difference.wake is not None
+    coordinates = None if torsion is None else torsion.coordinates[:, 0]
+    return WakeAdjoint(difference.problem, difference.wake, coordinates)
+
+
+def _with_free_wake(wake: WakeAdjoint, weights: Weights) -> Array:
+    shape = wake.problem.disk.shape
+    fields = (weights.fz, weights.fx, weights.inflow, weights.u_t, weights.u_p, weights.swirl, weights.theta)
+    return wake.by_pitch(LineWeights(*(np.broadcast_to(field, shape).sum(axis=1) for field in fields)))
 
 
 def power_gradient(solution: Solution, objective: Objective = "total") -> PitchGradient:
@@ -229,69 +268,34 @@ def power_gradient(solution: Solution, objective: Objective = "total") -> PitchG
 def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradient:
     """The same from an adjoint that is used for other measures as well.
 
-    Main-rotor power is Σ (λ_i dF_z + u dF_x + U dD) + D·V, and U dD = U_T dF_x − U_P dF_z + U_R dF_r.
+    Main-rotor power is induced and profile power and D·V, which no twist changes; on a stand it is the shaft's.
     Raises RuntimeError for the total power of a free rotor, which is zero.
     """
-    problem, elements = adjoint.problem, adjoint.elements
+    problem = adjoint.problem
     cell = problem.disk.dr / len(problem.disk.psi)
-    fz, fx = elements.loads[kernel.FZ], elements.loads[kernel.FX]
     on_stand = problem.design.condition.stand is not None
     if problem.design.models.trim == "free-rotor" and objective == "total":
         raise RuntimeError(
             "A free rotor takes no power from its shaft, so shaft power has no gradient: use the objective induced, or "
             "trim wind-tunnel."
         )
-    if on_stand and objective == "total":  # The mount takes any force: power is the shaft's, Σ r dF_x.
-        weights = Weights(fx=cell * problem.disk.r[:, None] + 0.0 * fx)
-        gain = 1.0
-    elif objective == "induced":
+    gain = 1.0
+    if objective == "induced":
+        elements = adjoint.elements
         weights = Weights(
-            fz=cell * elements.induced, fx=cell * elements.swirl[:, None] + 0.0 * fx, inflow=cell * fz, swirl=cell * fx
-        )
-        gain = 1.0
+            fz=cell * elements.induced, fx=cell * elements.swirl[:, None], inflow=cell * elements.fz,
+            swirl=cell * elements.fx,
+        )  # fmt: skip
+    elif on_stand or adjoint.power_terms is None:  # The shaft's, which in hover is all of it.
+        weights = Weights(fx=cell * problem.disk.r[:, None])
     else:
-        by_fz, by_fx, lift, drag, lifted = _power_weights(
-            elements.u_t, elements.u_p, elements.induced, elements.swirl, fz, fx, cell
-        )
-        weights = Weights(
-            fz=by_fz,
-            fx=by_fx,
-            inflow=lift,
-            u_t=drag,
-            u_p=lifted,
-            swirl=drag,
-            tilt=-elements.flow.mu_z * _radial_dissipation_slope(adjoint),
-        )
+        weights = Weights(terms=adjoint.power_terms)
+    if objective == "total":
         gain = _tail_gain(adjoint.solution)
     by_element = adjoint.by_pitch(weights) * gain * problem.design.power_unit
     return PitchGradient(problem.disk.r, problem.disk.dr, by_element)
 
 
-@compiled(error_model="numpy", fastmath={"contract"})
-def _power_weights(u_t: Any, u_p: Any, induced: Any, swirl: Any, fz: Any, fx: Any, cell: float) -> Any:
-    """Slopes of power by F_z, F_x, λ_i, U_T and U_P at the same F_z and F_x, (5, elements, azimuths)."""
-    n, m = fz.shape
-    out = np.empty((5, n, m))
-    for i in range(n):
-        for j in range(m):
-            out[0, i, j] = cell * (induced[i, j] - u_p[i, j])
-            out[1, i, j] = cell * (u_t[i, j] + swirl[i])
-        for j in range(m):
-            out[2, i, j] = cell * fz[i, j]
-            out[3, i, j] = cell * fx[i, j]
-            out[4, i, j] = -cell * fz[i, j]
-    return out
-
-
-def _radial_dissipation_slope(adjoint: Adjoint) -> float:
-    """Slope of Σ U_R dF_r by µ_x, over ρA(ΩR)²: U_R = µ_x cos ψ."""
-    problem, friction = adjoint.problem, adjoint.elements.friction
-    if friction is None:
-        return 0.0
-    by_speed = radial_drag(problem, friction.radial_slope)
-    return radial_drag(problem, friction.radial) + adjoint.elements.flow.mu_x * by_speed
-
-
 def _tail_gain(solution: Solution) -> float:
-    """Total power per watt at the shaft, the tail rotor included."""
+    """Total power per watt at the shaft, the tail rotor included; 1 on a stand."""
     return 1.0 + tail_power(solution.design, solution.last_power.main_rotor)[1]

@@ -3,16 +3,13 @@
 import math
 from dataclasses import replace
 
-from rotor.aero.elements import Problem, build_problem, expected_wake
-from rotor.aero.sums import disk_sums
-from rotor.aero.trim_state import TrimState
+from rotor.aero.elements import TrimState
+from rotor.aero.problem import Problem, build_problem
+from rotor.columns.trims import unknowns_of
 from rotor.design.aircraft import LEAST_MASS, FlightCondition
 from rotor.design.design import Design
 from rotor.design.stand import LARGEST_CT_OVER_SIGMA, Stand
-from rotor.trim.equations import unknowns_of
-from rotor.trim.newton import KEPT, Guess, TrimResult, coordinates_of, newton
-from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
-from rotor.trim.solution import Solution
+from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult, newton
 
 
 def trim(problem: Problem, start: Guess | None = None, options: SolverOptions = DEFAULT_OPTIONS) -> TrimResult:
@@ -43,8 +40,8 @@ def trim_along(problem: Problem, options: SolverOptions = DEFAULT_OPTIONS) -> Tr
     Beyond the largest lift a rotor balances the same weight once more, deep in stall and at a multiple of the power.
     Continuation stays on the branch of attached flow, on which rotors fly.
     """
-    hopeless = TrimResult(newton(problem, first_guess(problem), replace(options, max_passes=1)).elements, 1.0, False, 1)
-    found = _continue(problem, hopeless, 1, options)
+    hopeless = newton(problem, first_guess(problem), replace(options, max_passes=1))
+    found = _continue(problem, replace(hopeless, converged=False), 1, options)
     return found if found.converged else None
 
 
@@ -59,7 +56,7 @@ def first_guesses(problem: Problem) -> list[Guess]:
 
 def _hangs_under_its_wake(problem: Problem, result: TrimResult) -> bool:
     """Whether a free rotor with given collective was found at the equilibrium with negative thrust."""
-    return problem.design.models.trim == "free-rotor" and disk_sums(problem, result.elements).thrust < 0.0
+    return problem.design.models.trim == "free-rotor" and result.thrust < 0.0
 
 
 def first_guess(problem: Problem) -> Guess:
@@ -67,7 +64,7 @@ def first_guess(problem: Problem) -> Guess:
     design = problem.design
     mu = design.condition.advance_ratio
     ct = math.hypot(problem.weight, problem.drag)
-    wake = expected_wake(design)
+    wake = problem.expected
     # C_T = ½σa(θ(1 + 3/2 µ²)/3 − λ/2) for an untwisted blade, a near 2π·0.95.
     collective = 3.0 * (2.0 * ct / (design.rotor.solidity * 5.9) + 0.5 * wake.axial) / (1.0 + 1.5 * mu**2)
     coning = problem.flap.load_gain * 0.7 * ct - problem.flap.weight
@@ -86,14 +83,6 @@ def first_guess(problem: Problem) -> Guess:
         cyclic = {"cyclic_1s": -8.0 / 3.0 * mu * collective, "cyclic_1c": 4.0 / 3.0 * mu * coning}
         return Guess(replace(state, **cyclic, flap_1c=design.condition.flap_1c, flap_1s=design.condition.flap_1s))
     return Guess(replace(state, flap_1c=-8.0 / 3.0 * mu * collective, flap_1s=-4.0 / 3.0 * mu * coning))
-
-
-def guess_of(earlier: Solution) -> Guess:
-    """The trim of an earlier solution, as a start."""
-    elastic, kept = earlier.elastic, KEPT.of(earlier.disk.induced)
-    return Guess(
-        earlier.controls, earlier.disk.induced, elastic.coordinates if elastic else None, kept and kept.derivatives
-    )
 
 
 def _easier(design: Design, t: float) -> Design:
@@ -142,7 +131,7 @@ def _continue(problem: Problem, best: TrimResult, passes: int, options: SolverOp
     if not result.converged:
         return replace(best, passes=passes, reached=0.0)
     t, step = 0.0, 0.25
-    latest, before = (0.0, result.elements), None
+    latest, before = (0.0, result), None
     for _ in range(options.continuation_steps):
         if t >= 1.0 or step < options.smallest_continuation_step:
             break
@@ -154,10 +143,10 @@ def _continue(problem: Problem, best: TrimResult, passes: int, options: SolverOp
         if before is not None:  # Along the secant through the last two trims.
             guess, last = state.array(), before[1].state.array()
             state = TrimState.from_array(guess + (guess - last) * (ahead - t) / (t - before[0]))
-        result = newton(near, Guess(state, latest[1].induced, coordinates_of(latest[1])), options)
+        result = newton(near, replace(latest[1].guess, state=state, factors=None), options)
         passes += result.passes
         if result.converged and not _hangs_under_its_wake(near, result):
-            before, latest, t = latest, (ahead, result.elements), ahead
+            before, latest, t = latest, (ahead, result), ahead
             step *= 1.7
         else:
             step *= 0.4

@@ -5,21 +5,18 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from rotor.aero import kernel
-from rotor.aero.elastic import TorsionState
-from rotor.aero.elements import BladeElements, Problem
-from rotor.aero.free_wake.filaments import WakeFilaments, filaments
+from rotor.aero.elements import BladeElements, TrimState, TwistState, over_azimuths
+from rotor.aero.free_wake import system as line
 from rotor.aero.free_wake.roll_up import POWER, RollUp
-from rotor.aero.free_wake.settle import Factors, Settled, preview, settle, torque, warm
+from rotor.aero.free_wake.settle import Settled, WakeFactors, WakeFilaments, filaments, preview, settle, torque, warm
 from rotor.aero.free_wake.system import SHEET_CORE, HoverSystem, WakeEvaluation, WakeState, first_passage_radius
 from rotor.aero.inflow import Wake
 from rotor.aero.momentum import axial_inflow
-from rotor.aero.torsion_balance import torsion_residual
-from rotor.aero.trim_state import TrimState
+from rotor.aero.problem import Problem
 from rotor.arrays import Array
 from rotor.blas_threads import one_blas_thread
-from rotor.trim.hover import hover, steady_coning, steady_moments
-from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
+from rotor.trim.hover import hover
+from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions
 
 TORSION_TOLERANCE = 1e-9
 """Largest residual of the torsion equations [rad]: what the tolerance of the wake leaves."""
@@ -59,6 +56,12 @@ class HoverWakeResult:
     """Whether wake and loads are in equilibrium; False after one Newton step from another design's wake."""
     wake: WakeFilaments | None
 
+    @property
+    def guess(self) -> Guess:
+        """A start for hovering rotors nearby."""
+        torsion = self.elements.torsion
+        return Guess(self.elements.state, None if torsion is None else torsion.coordinates)
+
 
 def hover_wake(
     problem: Problem,
@@ -76,23 +79,25 @@ def hover_wake(
         found = preview(as_flown(problem, twist), start)
         if found is not None:
             return _result(problem, found, twist, settled=found.converged and problem.torsion is None)
-    annuli = hover(problem, None, options, elastic)
+    annuli = hover(problem, None, options)
     stand = problem.design.condition.stand
     given = stand is not None and stand.collective is not None
     if given or problem.weight < LEAST_LOADING * problem.design.rotor.solidity:
         return HoverWakeResult(
-            annuli.elements, annuli.residual, False, annuli.passes, annuli.reached, NO_WAKE, True, None
+            annuli.linear.elements, annuli.residual, False, annuli.passes, annuli.reached, NO_WAKE, True, None
         )
     if not annuli.converged:
-        return HoverWakeResult(annuli.elements, annuli.residual, False, annuli.passes, annuli.reached, "", True, None)
-    circulation = math.pi / problem.disk.blades * annuli.elements.loads[kernel.LIFT, :, 0]
-    collective = annuli.elements.state.collective
+        return HoverWakeResult(
+            annuli.linear.elements, annuli.residual, False, annuli.passes, annuli.reached, "", True, None
+        )
+    circulation = math.pi / problem.disk.blades * _lift(problem, annuli.linear.elements)
+    collective = annuli.linear.elements.state.collective
     if problem.torsion is None:
         result = _result(problem, settle(problem, circulation, collective, start), None, settled=True)
     else:
-        assert annuli.elements.torsion is not None
+        assert annuli.linear.elements.torsion is not None
         if twist is None:
-            twist = annuli.elements.torsion.coordinates[:, 0]
+            twist = annuli.linear.elements.torsion.coordinates[:, 0]
         result = _with_torsion(problem, circulation, collective, start, twist)
     tips_push_down = float(circulation[problem.disk.r > 0.8].min()) < 0.0
     return result if result.converged or not tips_push_down else replace(result, message=TIPS_PUSH_DOWN)
@@ -111,7 +116,7 @@ def _with_torsion(
             return _result(problem, found, twist, settled=True)
         start = found.evaluation.state
         result = _result(problem, found, twist, settled=True)
-        residual = torsion_residual(problem, result.elements)[:, 0]
+        residual = _torsion_residual(problem, found.evaluation, twist)
         error = float(np.abs(residual).max())
         if error <= TORSION_TOLERANCE:
             return result
@@ -126,13 +131,13 @@ def as_flown(problem: Problem, elastic: Array | None) -> Problem:
     """The problem of a rigid blade with the flown twist, for elastic coordinates (modes,)."""
     if problem.torsion is None or elastic is None:
         return problem
-    twist = problem.twist + problem.torsion.shapes.radial.T @ elastic
+    twist = problem.twist + problem.torsion.radial.T @ elastic
     return replace(problem, twist=twist, torsion=None, given_torsion=np.zeros(0))
 
 
 def _result(problem: Problem, found: Settled, elastic: Array | None, *, settled: bool) -> HoverWakeResult:
     at = found.evaluation
-    thrust = float(at.loads[kernel.FZ].sum() * problem.disk.dr)
+    thrust = float(at.loads[line.FZ].sum() * problem.disk.dr)
     usable = found.converged or not settled
     return HoverWakeResult(
         elements=over_disk(problem, at, elastic),
@@ -146,39 +151,67 @@ def _result(problem: Problem, found: Settled, elastic: Array | None, *, settled:
     )
 
 
+def _lift(problem: Problem, elements: BladeElements) -> Array:
+    """½σ U C_l, (elements,)."""
+    speed = np.hypot(elements.u_t[:, 0], elements.u_p[:, 0])
+    return problem.disk.half_solidity * speed * elements.cl[:, 0]
+
+
 def over_disk(problem: Problem, at: WakeEvaluation, elastic: Array | None = None) -> BladeElements:
     """The hovering rotor as blade elements over the whole disk, the same at every azimuth.
 
     elastic: coordinates of the elastic twist, (modes,).
     """
     disk = problem.disk
-    shape = disk.shape
 
     def everywhere(values: Array) -> Array:
-        return np.repeat(values[:, None], shape[1], axis=1)
+        return over_azimuths(values, len(disk.psi))
 
-    collective = at.state.collective
-    induced = everywhere(at.inflow)
-    loads = np.repeat(at.loads[:, :, None], shape[1], axis=2)
-    thrust = float(at.loads[kernel.FZ].sum() * disk.dr)
-    coning = steady_coning(problem, at.loads)
+    collective, loads = at.state.collective, at.loads
+    thrust = float(loads[line.FZ].sum() * disk.dr)
+    coning = _coning(problem, loads)
     state = TrimState(collective=collective, coning=coning, lambda0=axial_inflow(max(thrust, 0.0), problem.climb))
-    torsion = None
+    twist = None
     if problem.torsion is not None and elastic is not None:
         coordinates = np.zeros_like(problem.given_torsion)
         coordinates[:, 0] = elastic
-        moments = np.repeat(_moments(problem, at)[:, :, None], shape[1], axis=2)
-        torsion = TorsionState(coordinates, problem.torsion.shapes.field(coordinates), np.zeros(shape), moments)
+        moment = everywhere(_moments(problem, at, elastic)[line.MOMENT])
+        twist = TwistState(coordinates, everywhere(problem.torsion.radial.T @ elastic), moment)
+    zero = np.zeros(disk.shape)
     return BladeElements(
-        state, Wake(0.0, problem.climb, state.lambda0), everywhere(as_flown(problem, elastic).twist + collective),
-        everywhere(disk.r - at.swirl), induced + problem.climb, induced, None, np.ones_like(disk.r),
-        np.zeros((2, shape[0])), np.full(shape[1], coning), loads, at.swirl, None, torsion,
+        state=state, flow=Wake(0.0, problem.climb, state.lambda0),
+        theta=everywhere(as_flown(problem, elastic).twist + collective), u_t=everywhere(disk.r - at.swirl),
+        u_p=everywhere(at.inflow + problem.climb), u_r=zero, beta=np.full(len(disk.psi), coning),
+        induced=everywhere(at.inflow), swirl=at.swirl, fz=everywhere(loads[line.FZ]), fx=everywhere(loads[line.FX]),
+        fr=zero, alpha=everywhere(loads[line.ALPHA]), mach=everywhere(loads[line.MACH]),
+        cl=everywhere(loads[line.CL]), cd=everywhere(loads[line.CD]), cd_mach=everywhere(loads[line.CD_MACH]),
+        torsion=twist,
     )  # fmt: skip
 
 
-def _moments(problem: Problem, at: WakeEvaluation) -> Array:
-    """Moments of the air with derivatives, (rows, elements), of an elastic blade."""
-    return steady_moments(problem, at.loads, problem.disk.r - at.swirl, at.inflow)
+def _coning(problem: Problem, loads: Array) -> float:
+    """β0 under loads (rows, elements)."""
+    if not problem.design.models.flapping:
+        return 0.0
+    if problem.design.rotor.precone is not None:
+        return problem.design.rotor.precone
+    moment = float((problem.arm * loads[line.FZ]).sum() * problem.disk.dr)
+    return (problem.flap.load_gain * moment - problem.flap.weight) / problem.flap.frequency_squared
+
+
+def _moments(problem: Problem, at: WakeEvaluation, elastic: Array) -> Array:
+    """The rows of `line_loads` of an elastic blade with its moment, (rows, elements)."""
+    theta = as_flown(problem, elastic).twist + at.state.collective
+    return line.line_loads(problem, theta, problem.disk.r - at.swirl, at.inflow + problem.climb)
+
+
+def _torsion_residual(problem: Problem, at: WakeEvaluation, elastic: Array) -> Array:
+    """Steady elastic twist less what the loads make of it [rad], (modes,)."""
+    torsion = problem.torsion
+    assert torsion is not None
+    load = torsion.modal(_moments(problem, at, elastic)[line.MOMENT]) + torsion.coupling @ elastic
+    load = load + torsion.modal_tip_mass * _coning(problem, at.loads)
+    return elastic - torsion.gain * load + problem.given_torsion[:, 0]
 
 
 @dataclass(frozen=True, eq=False)
@@ -217,7 +250,7 @@ class WakeAdjoint:
         self.system = HoverSystem(as_flown(problem, elastic), state.layout)
         self.at = self.system.evaluate(state)
         self.elements = over_disk(problem, self.at, elastic)
-        self._factors = Factors.of(self.at.jacobian)
+        self._factors = WakeFactors.of(self.at.jacobian)
         self._twisting = self._torsion_weights()
         """Derivatives of the torsion residuals but for what the elastic coordinates do by themselves."""
         self._torsion_by_pitch = np.array([self._by_pitch(weights)[0] for weights in self._twisting])
@@ -228,7 +261,7 @@ class WakeAdjoint:
         torsion = self.problem.torsion
         assert torsion is not None
         own = np.eye(len(torsion.gain)) - torsion.gain[:, None] * torsion.coupling
-        return own + self._torsion_by_pitch @ torsion.shapes.radial.T
+        return own + self._torsion_by_pitch @ torsion.radial.T
 
     def by_pitch(self, weights: LineWeights) -> Array:
         """∂(measure)/∂θ of each element's jig pitch, (elements,), wake, collective and elastic twist following."""
@@ -254,21 +287,19 @@ class WakeAdjoint:
         torsion = self.problem.torsion
         if torsion is None:
             return by_pitch, np.zeros(0)
-        factors: Array = np.asarray(
-            np.linalg.solve(self.torsion_slopes.T, torsion.shapes.radial @ by_pitch), np.float64
-        )
+        factors: Array = np.asarray(np.linalg.solve(self.torsion_slopes.T, torsion.radial @ by_pitch), np.float64)
         return by_pitch, factors
 
     def _by_pitch(self, weights: LineWeights) -> tuple[Array, Array]:
         """∂(measure)/∂θ at the same elastic twist, (elements,), and the multipliers of the equations."""
         at, layout, dr = self.at, self.system.layout, self.problem.disk.dr
-        by_theta = weights.fz * at.loads[kernel.FZ_THETA] + weights.fx * at.loads[kernel.FX_THETA] + weights.theta
+        by_theta = weights.fz * at.loads[line.FZ_THETA] + weights.fx * at.loads[line.FX_THETA] + weights.theta
         slopes = self._along(weights, at.inflow_slopes, at.swirl_slopes)
         slopes[-1] += by_theta.sum()
         multipliers = self._factors.solve(slopes, transposed=True)
         _, _, lift = self.system.lift_slopes(at)
         residual = -math.pi / layout.blades * lift * multipliers[layout.geometry : -1]
-        residual += multipliers[-1] * dr * at.loads[kernel.FZ_THETA]
+        residual += multipliers[-1] * dr * at.loads[line.FZ_THETA]
         return by_theta - residual, multipliers
 
     def _torsion_weights(self) -> list[LineWeights]:
@@ -276,27 +307,25 @@ class WakeAdjoint:
         problem, torsion, blade = self.problem, self.problem.torsion, self.elements.torsion
         if torsion is None or blade is None:
             return []
-        disk, moments = problem.disk, blade.moments[:, :, 0]
-        modal = -torsion.gain[:, None] * torsion.shapes.radial * disk.dr
+        disk, moments = problem.disk, _moments(problem, self.at, blade.coordinates[:, 0])
+        modal = -torsion.gain[:, None] * torsion.radial * disk.dr
         coned = np.zeros_like(disk.r)
         if problem.design.models.flapping and problem.design.rotor.precone is None:
-            gain = problem.flap.load_gain / problem.flap.frequency_squared
-            coned = gain * (disk.r - problem.flap.hinge) * disk.dr
-        propeller = torsion.inertia * np.cos(2.0 * self.elements.theta[:, 0])
+            coned = problem.flap.load_gain / problem.flap.frequency_squared * problem.arm * disk.dr
         zero = np.zeros_like(disk.r)
         return [
             LineWeights(
-                -lifted * coned, zero, zero, along * moments[kernel.M_UT], along * moments[kernel.M_UP], zero,
-                along * (moments[kernel.M_THETA] - propeller),
+                -lifted * coned, zero, zero, along * moments[line.M_UT], along * moments[line.M_UP], zero,
+                along * moments[line.M_THETA],
             )
-            for along, lifted in zip(modal, torsion.gain * torsion.modal(torsion.tip_mass), strict=True)
+            for along, lifted in zip(modal, torsion.gain * torsion.modal_tip_mass, strict=True)
         ]  # fmt: skip
 
     def _along(self, weights: LineWeights, down: Array, turning: Array) -> Array:
         """Change of a measure with λ_i by `down` and the swirl by `turning`, (elements, directions)."""
         loads = self.at.loads
-        by_p = weights.fz * loads[kernel.FZ_UP] + weights.fx * loads[kernel.FX_UP] + weights.inflow + weights.u_p
-        by_t = weights.fz * loads[kernel.FZ_UT] + weights.fx * loads[kernel.FX_UT] + weights.u_t
+        by_p = weights.fz * loads[line.FZ_UP] + weights.fx * loads[line.FX_UP] + weights.inflow + weights.u_p
+        by_t = weights.fz * loads[line.FZ_UT] + weights.fx * loads[line.FX_UT] + weights.u_t
         return by_p @ down + (weights.swirl - by_t) @ turning
 
 
@@ -307,7 +336,7 @@ def torque_changes(problem: Problem, state: WakeState, elastic: Array | None = N
     disk = problem.disk
     zero = np.zeros_like(disk.r)
     weights = LineWeights(zero, disk.r * disk.dr, zero, zero, zero, zero, zero)
-    cp = float(disk.r @ adjoint.at.loads[kernel.FX]) * disk.dr
+    cp = float(disk.r @ adjoint.at.loads[line.FX]) * disk.dr
     return np.array([adjoint.change(weights, system) / cp for system in other_roll_ups(problem, state, elastic)])
 
 

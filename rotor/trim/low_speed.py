@@ -14,22 +14,17 @@ that at the same rate of climb.
 """
 
 import math
-from collections import deque
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import lru_cache
 
-import numpy as np
-
-from rotor.aero import kernel
-from rotor.aero.disk import Disk
-from rotor.aero.elements import BladeElements, Problem, build_problem, swirl_of
+from rotor.aero.elements import BladeElements
 from rotor.aero.free_wake.system import WakeState
-from rotor.aero.inflow import InflowModel, Wake, inflow_model
-from rotor.aero.inflow.interface import InflowBasis, InflowFeedback, InflowResponse, ResponseTerms, TermResponse
+from rotor.aero.inflow import Wake, inflow_model
 from rotor.aero.momentum import vortex_ring_edge
+from rotor.aero.problem import Problem, build_problem, swirl_of
 from rotor.arrays import Array
 from rotor.design.design import Design
-from rotor.trim.hover import hover
+from rotor.trim.hover import HoverResult, hover
 from rotor.trim.hover_wake import HoverWakeResult, hover_wake
 
 FASTEST = 2.5
@@ -40,65 +35,34 @@ FASTEST = 2.5
 class HoverDifference:
     """The hovering rotor of a design, and what the forward-flight model lacks there; over ΩR, (elements,)."""
 
+    found: HoverResult | HoverWakeResult
     problem: Problem
     elements: BladeElements
     wake: WakeState | None
     """The unknowns of the free wake, where hover is solved with one."""
+    axial: Array
+    """A_0, from the load of hover to the mean inflow, (elements, elements)."""
     inflow: Array
     """c, λ_hover − A_0 d_hover."""
     swirl: Array
     """The same for the swirl."""
 
-    @property
-    def flow(self) -> Wake:
-        """The wake of momentum theory in hover."""
-        return Wake(0.0, self.problem.climb, self.elements.state.lambda0)
-
-    def by_hover(self, inflow: Array, swirl: Array) -> tuple[Array, Array, Array]:
-        """Slopes of a sum of both differences with these weights by F_z, λ_i and swirl of hover; fields each."""
-        around = np.ones(self.problem.disk.shape) / len(self.problem.disk.psi)
-        by_inflow = inflow[:, None] * around
-        return -self._response.apply_transposed(by_inflow), by_inflow, swirl[:, None] * around
-
-    @cached_property
-    def _response(self) -> InflowResponse:
-        """Of the forward-flight model to hover."""
-        return self.problem.inflow.respond(self.problem.disk, self.flow, self.elements.loads[kernel.FZ])
-
 
 @lru_cache(maxsize=32)
 def hover_difference(design: Design) -> HoverDifference | None:
-    """The difference for a hovering design; None where hover does not converge.
-
-    A free wake starts from the last one of the same rotor: what it settles to does not depend on the start.
-    """
+    """The difference for a hovering design; None where hover does not converge."""
     problem = build_problem(design)
-    found = _in_free_wake(problem) if design.models.hover_inflow == "free-wake" else hover(problem)
+    found = hover_wake(problem) if design.models.hover_inflow == "free-wake" else hover(problem)
     if not found.converged:
         return None
-    elements, disk = found.elements, problem.disk
+    elements = found.elements if isinstance(found, HoverWakeResult) else found.linear.elements
+    disk = problem.disk
     flow = Wake(0.0, problem.climb, elements.state.lambda0)
-    axial = problem.inflow.respond(disk, flow, elements.loads[kernel.FZ]).induced.mean(axis=1)
+    axial = problem.inflow_terms.axial(flow)
     uniform, _ = swirl_of(disk.r, flow.lambda0**2 + flow.lambda0 * flow.mu_z if design.models.has("swirl") else 0.0)
     wake = found.wake.state if isinstance(found, HoverWakeResult) and found.wake is not None else None
-    difference = HoverDifference(problem, elements, wake, elements.induced[:, 0] - axial, elements.swirl - uniform)
-    if wake is not None:
-        _SETTLED.append(difference)
-    return difference
-
-
-_SETTLED: deque[HoverDifference] = deque(maxlen=4)
-"""The last free wakes."""
-
-
-def _in_free_wake(problem: Problem) -> HoverWakeResult:
-    """Hover, from the last free wake of the same rotor with the same models if there is one."""
-    design = problem.design
-    for near in reversed(list(_SETTLED)):
-        if (near.problem.design.rotor, near.problem.design.models) == (design.rotor, design.models):
-            torsion = near.elements.torsion
-            return hover_wake(problem, near.wake, elastic=None if torsion is None else torsion.coordinates)
-    return hover_wake(problem)
+    inflow = elements.induced[:, 0] - axial @ elements.fz[:, 0]
+    return HoverDifference(found, problem, elements, wake, axial, inflow, elements.swirl - uniform)
 
 
 def axial_share(mu: float, thrust: float) -> float:
@@ -116,15 +80,18 @@ def inflow_ratio(mu: float) -> float:
 
 def trim_problem(design: Design) -> Problem:
     """The design on its grid, with the inflow that its models choose for low speed."""
-    problem = build_problem(design)
+    problem, joined = build_problem(design), joined_hover(design)
+    if joined is None:
+        return problem
+    share, difference = joined
+    return replace(problem, joined=(share * difference.inflow, share * difference.swirl))
+
+
+def joined_hover(design: Design) -> tuple[float, HoverDifference] | None:
+    """s, and the hovering rotor that a design in forward flight passes over to; None at speed and without hover."""
     share = hover_share(design)
-    if not share:
-        return problem
-    difference = hover_difference(replace(in_hover(design), active_twist=None))
-    if difference is None:
-        return problem
-    inflow = HoverMatched(problem.inflow, share * difference.inflow, difference, share)
-    return replace(problem, inflow=inflow, added_swirl=share * difference.swirl)
+    difference = hover_difference(replace(in_hover(design), active_twist=None)) if share else None
+    return None if difference is None else (share, difference)
 
 
 def in_hover(design: Design) -> Design:
@@ -147,100 +114,3 @@ def hover_share(design: Design) -> float:
     if design.hovering or not passes_over(design):
         return 0.0
     return axial_share(design.condition.advance_ratio, design.weight_coefficient)
-
-
-@dataclass(frozen=True, eq=False)
-class HoverMatched:
-    """A load-dependent inflow model with a part that does not depend on the load in flight."""
-
-    model: InflowModel
-    added: Array
-    """s c, (elements,)."""
-    difference: HoverDifference
-    share: float
-    """s."""
-
-    @property
-    def name(self) -> str:
-        return self.model.name
-
-    @property
-    def title(self) -> str:
-        return self.model.title
-
-    @property
-    def explanation(self) -> str:
-        return self.model.explanation
-
-    @property
-    def load_dependent(self) -> bool:
-        return self.model.load_dependent
-
-    def without_tip_loss(self) -> "HoverMatched":
-        return replace(self, model=self.model.without_tip_loss())
-
-    def with_wake_geometry(self, expected: Wake) -> "HoverMatched":
-        return replace(self, model=self.model.with_wake_geometry(expected))
-
-    def respond(self, disk: Disk, wake: Wake, load: Array) -> "AddedInflow":
-        return AddedInflow(self.model.respond(disk, wake, load), self.added)
-
-    def basis(self, disk: Disk) -> "AddedBasis":
-        return AddedBasis(self.model.basis(disk), self.added)
-
-
-@dataclass(frozen=True, eq=False)
-class AddedBasis:
-    """The basis of a model, with a given inflow added that is no coordinate."""
-
-    basis: InflowBasis
-    added: Array
-    """(elements,)"""
-
-    @property
-    def size(self) -> int:
-        return self.basis.size
-
-    def nearest(self, field: Array, wake: Wake) -> Array:
-        return self.basis.nearest(field - self.added[:, None], wake)
-
-    def field(self, coordinates: Array, wake: Wake) -> Array:
-        return self.basis.field(coordinates, wake) + self.added[:, None]
-
-    def bound(self, change: Array) -> float:
-        return self.basis.bound(change)
-
-    def resolved_by(self, azimuths: int) -> bool:
-        return self.basis.resolved_by(azimuths)
-
-
-@dataclass(frozen=True, eq=False)
-class AddedInflow:
-    """The response of a model, with a given inflow added."""
-
-    response: InflowResponse
-    added: Array
-
-    @property
-    def induced(self) -> Array:
-        return self.response.induced + self.added[:, None]
-
-    @property
-    def coordinates(self) -> Array:
-        return self.response.coordinates
-
-    @property
-    def by_wake(self) -> Array:
-        return self.response.by_wake
-
-    def terms(self) -> ResponseTerms | None:
-        return self.response.terms() if isinstance(self.response, TermResponse) else None
-
-    def apply(self, fields: Array) -> Array:
-        return self.response.apply(fields)
-
-    def apply_transposed(self, field: Array) -> Array:
-        return self.response.apply_transposed(field)
-
-    def feedback(self, slope: Array) -> InflowFeedback:
-        return self.response.feedback(slope)

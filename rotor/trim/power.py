@@ -22,71 +22,37 @@ the power.
 """
 
 import math
-from typing import Any
 
-from rotor.aero import kernel
-from rotor.aero.elements import BladeElements, Problem
+import numpy as np
+
+from rotor.aero.elements import BladeElements, DiskSums
 from rotor.aero.momentum import glauert_inflow
-from rotor.aero.sums import DiskSums
-from rotor.compiled import compiled
+from rotor.aero.problem import Problem
+from rotor.arrays import Array
 from rotor.design.aircraft import FIXED_SHARE, TailRotor
 from rotor.design.design import Design
+from rotor.engine.waves import wave_grid
 from rotor.trim.solution import HubMoment, PowerBudget
 
 
 def power_budget(problem: Problem, elements: BladeElements, total: DiskSums) -> PowerBudget:
-    """Power [W] by parts, and torque × Ω; total: the sums over the disk."""
-    design, disk, loads = problem.design, problem.disk, elements.loads
+    """Power [W] by parts, and torque × Ω; total: the sums over the disk.
+
+    U dD = U_T dF_x − U_P dF_z + U_R dF_r: the velocity at the section times the force on it.
+    """
+    design, disk = problem.design, problem.disk
     watts, weight = design.power_unit, design.weight_coefficient
-    unit = watts * disk.dr / len(disk.psi)
-    induced, profile, shaft = _powers(
-        loads[kernel.FZ], loads[kernel.FX], loads[kernel.CD], elements.u_t, elements.u_p, elements.induced,
-        elements.swirl, disk.r, disk.half_solidity,
-    )  # fmt: skip
-    if elements.friction is not None:
-        profile += _rubbing(elements.u_t, elements.flow.mu_x * disk.cos, elements.friction.fx, elements.friction.radial)
-    induced, profile, shaft = unit * induced, unit * profile, unit * shaft
+    cell = disk.dr / len(disk.psi)
+    e = elements
+    induced = float(np.vdot(e.induced, e.fz) + e.swirl @ e.fx.sum(axis=1)) * cell * watts
+    profile = float(np.vdot(e.u_t, e.fx) - np.vdot(e.u_p, e.fz) + np.vdot(e.u_r, e.fr)) * cell * watts
     pressed = problem.weight - weight
     parasite = (problem.drag * design.condition.advance_ratio + pressed * problem.climb) * watts
     climb = weight * problem.climb * watts
     if design.condition.stand is not None:
         parasite = -wind_forces(elements, total)[1] * design.condition.advance_ratio * watts
-    main = induced + profile + parasite + climb
-    tail, _ = tail_power(design, main)
-    return PowerBudget(induced=induced, profile=profile, parasite=parasite, tail=tail, shaft=shaft, climb=climb)
-
-
-# Sums in any order, so that the compiler makes vector code of them.
-_compile = compiled(error_model="numpy", fastmath={"contract", "reassoc"})
-
-
-@_compile
-def _powers(
-    fz: Any, fx: Any, cd: Any, u_t: Any, u_p: Any, induced: Any, swirl: Any, r: Any, half_solidity: Any
-) -> Any:  # fmt: skip
-    """Sums over the disk of λ_i dF_z + u dF_x, of U dD = ½σ U³ C_d, and of r dF_x."""
-    by_inflow, dissipation, torque = 0.0, 0.0, 0.0
-    for i in range(len(r)):
-        turning, dragging, along = 0.0, 0.0, 0.0
-        for j in range(fz.shape[1]):
-            square = u_t[i, j] * u_t[i, j] + u_p[i, j] * u_p[i, j]
-            along += induced[i, j] * fz[i, j]
-            dragging += square * math.sqrt(square) * cd[i, j]
-            turning += fx[i, j]
-        by_inflow += along + swirl[i] * turning
-        dissipation += half_solidity[i] * dragging
-        torque += r[i] * turning
-    return by_inflow, dissipation, torque
-
-
-@_compile
-def _rubbing(u_t: Any, along: Any, fx: Any, radial: Any) -> Any:
-    """Sum over the disk of U_T dF_x + U_R dF_r of the friction of radial flow."""
-    total = 0.0
-    for i in range(len(u_t)):
-        for j in range(len(along)):
-            total += u_t[i, j] * fx[i, j] + along[j] * radial[i, j]
-    return total
+    tail, _ = tail_power(design, induced + profile + parasite + climb)
+    return PowerBudget(induced, profile, parasite, tail, shaft=total.torque * watts, climb=climb)
 
 
 def wind_forces(elements: BladeElements, total: DiskSums) -> tuple[float, float]:
@@ -126,7 +92,7 @@ def hub_moment(problem: Problem, elements: BladeElements) -> HubMoment:
     per revolution cancel. Blades hinged at the centre transfer no moment, because flapping balances the lift.
     """
     design, disk = problem.design, problem.disk
-    moment = disk.r @ elements.loads[kernel.FZ] * (design.thrust_unit * design.rotor.radius * disk.dr / len(disk.psi))
+    moment = disk.r @ elements.fz * (design.thrust_unit * design.rotor.radius * disk.dr / len(disk.psi))
     return HubMoment(roll=float(moment @ disk.sin), pitch=-float(moment @ disk.cos))
 
 
@@ -155,3 +121,42 @@ def tail_rotor_power(tail: TailRotor, torque: float, airspeed: float, density: f
         inflow + ct * inflow_slope / tail.tip_loss**2 + profile * (d1 + 2.0 * d2 * alpha) * alpha_slope
     ) * ct_slope
     return cp * unit * tip_speed, cp_slope * unit * tip_speed
+
+
+def control_loads(problem: Problem, elements: BladeElements) -> tuple[Array, float]:
+    """Moment of the control system on one blade, and the power that moves the pitching blades.
+
+    The moment [N m], nose up, (azimuths,), is what balances all loads on the blade. The power, over ρA(ΩR)³, is that of
+    pitch links and actuators. The links take it from the shaft, because the swashplate does not move. Inertia,
+    propeller moment, tension and elasticity store energy and give it back, so once torsion is in balance it is what the
+    air takes, −Σ dC_M θ'.
+    """
+    torsion, blade = problem.torsion, elements.torsion
+    assert torsion is not None
+    assert blade is not None
+    disk, state = problem.disk, elements.state
+    loads = _loads(problem, elements)
+    total = loads.sum(axis=0)
+    moment = -torsion.moment_unit * disk.dr * total
+    cyclic = state.cyclic_1s * disk.cos - state.cyclic_1c * disk.sin
+    work = -float(total @ cyclic) * disk.dr
+    if problem.active_rates[0].size > 1:
+        work -= float(np.vdot(loads, problem.active_rates[0])) * disk.dr
+        twist = problem.twist[:, None] + problem.active
+        modal = torsion.tension.T @ (blade.coordinates @ wave_grid(torsion.functions, len(disk.psi)).at)
+        work += float(((torsion.own_tension @ twist + modal) * problem.active_rates[0]).sum())
+    return moment, work / len(disk.psi)
+
+
+def _loads(problem: Problem, elements: BladeElements) -> Array:
+    """All moments per unit of r about the pitch axis, M − j θ'' + w β0, (elements, azimuths)."""
+    torsion, blade = problem.torsion, elements.torsion
+    assert torsion is not None
+    assert blade is not None
+    disk, state = problem.disk, elements.state
+    harmonic = (np.arange(torsion.functions) + 1) // 2
+    elastic = (blade.coordinates * -(harmonic**2)) @ wave_grid(torsion.functions, len(disk.psi)).at
+    acceleration = torsion.radial.T @ elastic - (state.cyclic_1c * disk.cos + state.cyclic_1s * disk.sin)
+    if problem.active_rates[1].size > 1:
+        acceleration = acceleration + problem.active_rates[1]
+    return blade.moment - torsion.inertia[:, None] * acceleration + (torsion.tip_mass * state.coning)[:, None]

@@ -6,7 +6,7 @@ reads a result finds here what each number means.
 
 import json
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
 from pathlib import Path
@@ -14,17 +14,18 @@ from typing import Any, cast
 
 import numpy as np
 
-from rotor.aero.elements import Problem, build_problem
-from rotor.aero.free_wake.filaments import WakeFilaments
+from rotor.aero.elements import TrimState
+from rotor.aero.free_wake.settle import WakeFilaments
 from rotor.aero.free_wake.system import WakeState
 from rotor.aero.momentum import axial_inflow
+from rotor.aero.problem import Problem, build_problem
 from rotor.aero.switches import switched_off
-from rotor.aero.trim_state import TrimState
 from rotor.arrays import Array
 from rotor.design.active_twist import active_twist_record
 from rotor.design.design import Design
 from rotor.plots import plot_disk
 from rotor.trim.hover_wake import FINER_GRID, flown_torques, torque_changes
+from rotor.trim.newton import Guess, LinearisedTrim
 from rotor.user_input import write_whole
 
 
@@ -203,6 +204,13 @@ class Solution:
     """False for a preview: one Newton step towards a free wake, not its equilibrium."""
     wake: WakeFilaments | None = None
     """The vortex filaments of a free wake; None for the other inflow models."""
+    start: Guess = field(default_factory=lambda: Guess(TrimState()))
+    """What the next trim may start from."""
+    linear: LinearisedTrim | None = None
+    """The trim's equations at the solution, for gradients; not for another process."""
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "linear": None}
 
     def __repr__(self) -> str:
         state = f"{self.status.value}: {self.message}"

@@ -3,24 +3,19 @@
 import math
 import time
 from dataclasses import replace
-from typing import Any
 
-import numpy as np
-
-from rotor.aero import kernel
-from rotor.aero.elements import BladeElements, Problem
-from rotor.aero.sums import disk_sums
-from rotor.aero.torsion_balance import control_loads
+from rotor.aero.elements import BladeElements, disk_sums
+from rotor.aero.problem import Problem
+from rotor.aero.section import stall_margins
 from rotor.blas_threads import one_blas_thread
-from rotor.compiled import compiled
 from rotor.design.design import Design, require_design
-from rotor.trim.forward import first_guess, guess_of, trim, trim_along
+from rotor.engine.waves import wave_grid
+from rotor.trim.forward import first_guess, trim, trim_along
 from rotor.trim.hover import HoverResult, hover
 from rotor.trim.hover_wake import HoverWakeResult, hover_wake
 from rotor.trim.low_speed import trim_problem
-from rotor.trim.newton import KEPT, Guess, KeptTrim, TrimResult, newton
-from rotor.trim.options import DEFAULT_OPTIONS, SolverOptions
-from rotor.trim.power import hub_moment, power_budget, wind_forces
+from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult, newton
+from rotor.trim.power import control_loads, hub_moment, power_budget, wind_forces
 from rotor.trim.solution import DiskFields, ElasticTwist, Solution, Status
 from rotor.trim.validity import caveats, failure_sentence, implausible, vortex_ring
 
@@ -48,14 +43,10 @@ def solve(design: Design, start: Solution | Guess | None = None, options: Solver
             problem, wake and wake.state, options, guess and guess.elastic
         )
     elif design.hovering:
-        result = (
-            hover(problem, guess.state.collective, options, guess.elastic) if guess else hover(problem, None, options)
-        )
+        result = hover(problem, guess, options)
     else:
         result = trim(problem, guess, options)
     solution = _assemble(problem, result, begin)
-    if isinstance(result, TrimResult) and result.converged:
-        KEPT.keep(KeptTrim(result.elements.induced, result.derivatives, result.elements, problem=problem))
     if _may_be_of_another_branch(solution, result) and not options.asked_to_stop:
         other = trim_along(problem, options)
         if other is not None:
@@ -90,12 +81,13 @@ def _guess(design: Design, earlier: Solution) -> Guess | None:
     """The trim of an earlier solution; None when it did not converge, or hovered and this design does not."""
     if not earlier.converged or (earlier.design.hovering and not design.hovering):
         return None
-    return guess_of(earlier)
+    return earlier.start
 
 
 def _assemble(problem: Problem, result: HoverResult | HoverWakeResult | TrimResult, begin: float) -> Solution:
-    design, elements = problem.design, result.elements
-    total = disk_sums(problem, elements)
+    design, linear = problem.design, None if isinstance(result, HoverWakeResult) else result.linear
+    elements = result.elements if isinstance(result, HoverWakeResult) else result.linear.elements
+    total = disk_sums(problem.disk, elements)
     fields = _fields(problem, elements)
     power = power_budget(problem, elements, total)
     moment = hub_moment(problem, elements)
@@ -140,6 +132,8 @@ def _assemble(problem: Problem, result: HoverResult | HoverWakeResult | TrimResu
         elastic=_elastic(problem, elements),
         settled=wake is None or wake.settled,
         wake=wake and wake.wake,
+        start=result.guess,
+        linear=linear,
     )
 
 
@@ -147,13 +141,13 @@ def _elastic(problem: Problem, elements: BladeElements) -> ElasticTwist | None:
     structure = problem.design.rotor.blade.structure
     if problem.torsion is None or elements.torsion is None or structure is None:
         return None
-    coordinates, shapes = elements.torsion.coordinates, problem.torsion.shapes
+    coordinates, torsion = elements.torsion.coordinates, problem.torsion
     moment, power = control_loads(problem, elements)
     return ElasticTwist(
         coordinates=coordinates,
-        shapes=shapes.radial,
-        frequencies=problem.torsion.frequency,
-        tip=coordinates.sum(axis=0) @ shapes.waves,
+        shapes=torsion.radial,
+        frequencies=torsion.frequency,
+        tip=coordinates.sum(axis=0) @ wave_grid(torsion.functions, len(problem.disk.psi)).at,
         along_blade=elements.torsion.twist.mean(axis=1),
         control_moment=moment,
         pitch_link_load=moment / structure.pitch_horn,
@@ -162,27 +156,25 @@ def _elastic(problem: Problem, elements: BladeElements) -> ElasticTwist | None:
 
 
 def _fields(problem: Problem, elements: BladeElements) -> DiskFields:
-    disk, loads = problem.disk, elements.loads
+    disk, e = problem.disk, elements
     return DiskFields(
         r=disk.r,
         dr=disk.dr,
         psi=disk.psi,
-        theta=elements.theta,
-        u_t=elements.u_t,
-        u_p=elements.u_p,
-        induced=elements.induced,
-        inflow=elements.induced + elements.flow.mu_z,
-        alpha=loads[kernel.ALPHA],
-        mach=loads[kernel.MACH],
-        cl=loads[kernel.CL],
-        cd=loads[kernel.CD],
-        cd_mach=loads[kernel.CD_MACH],
-        stall_margin=kernel.stall_margins(
-            loads[kernel.ALPHA], loads[kernel.MACH], elements.u_t, disk.section, disk.weight, disk.offset, disk.stall
-        ),
-        dct=loads[kernel.FZ],
-        dcq=loads[kernel.FX],
-        elastic_twist=elements.torsion.twist if elements.torsion is not None else None,
+        theta=e.theta,
+        u_t=e.u_t,
+        u_p=e.u_p,
+        induced=e.induced,
+        inflow=e.induced + e.flow.mu_z,
+        alpha=e.alpha,
+        mach=e.mach,
+        cl=e.cl,
+        cd=e.cd,
+        cd_mach=e.cd_mach,
+        stall_margin=stall_margins(e.alpha, e.mach, e.u_t, disk.section, disk.weight, disk.offset, disk.stall),
+        dct=e.fz,
+        dcq=e.fx,
+        elastic_twist=e.torsion.twist if e.torsion is not None else None,
     )
 
 
@@ -190,18 +182,6 @@ def _areas(problem: Problem, fields: DiskFields) -> dict[str, float]:
     """Reverse-flow and stalled parts of πR²."""
     disk = problem.disk
     annuli = 2.0 * disk.r * disk.dr / len(disk.psi)
-    reverse, stalled = _counts(fields.u_t, fields.stall_margin)
-    return {"reverse": float(annuli @ reverse), "stalled": float(annuli @ stalled)}
-
-
-@compiled()
-def _counts(u_t: Any, stall_margin: Any) -> Any:
-    """Azimuths in reverse flow and stalled azimuths of each annulus, (2, elements); none is both."""
-    out = np.empty((2, len(u_t)))
-    for i in range(len(u_t)):
-        reverse, stalled = 0, 0
-        for j in range(u_t.shape[1]):
-            reverse += u_t[i, j] < 0.0
-            stalled += (stall_margin[i, j] < 0.0) & (u_t[i, j] >= 0.0)
-        out[0, i], out[1, i] = reverse, stalled
-    return out
+    reverse = fields.u_t < 0.0
+    stalled = (fields.stall_margin < 0.0) & ~reverse
+    return {"reverse": float(annuli @ reverse.sum(axis=1)), "stalled": float(annuli @ stalled.sum(axis=1))}

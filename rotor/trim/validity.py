@@ -4,10 +4,9 @@ import math
 
 import numpy as np
 
-from rotor.aero import kernel
-from rotor.aero.elements import BladeElements, Problem
+from rotor.aero.elements import BladeElements, DiskSums
 from rotor.aero.momentum import FASTEST_RING, VORTEX_RING_ONSET, vortex_ring_edge
-from rotor.aero.sums import DiskSums
+from rotor.aero.problem import Problem
 from rotor.aero.switches import switched_off
 from rotor.airfoil.polynomial import THESIS_NAME
 from rotor.arrays import Array
@@ -15,7 +14,7 @@ from rotor.design.aircraft import FIXED_SHARE
 from rotor.design.design import Design
 from rotor.design.stand import Stand
 from rotor.trim.forward import easier_condition
-from rotor.trim.low_speed import HoverMatched, hover_share
+from rotor.trim.low_speed import hover_share
 from rotor.trim.solution import Caveat, HubMoment, PowerBudget
 
 LOW_SPEED = 0.075
@@ -111,7 +110,7 @@ def caveats(
             "low-speed-inflow",
             f"No skewed-wake model is validated below advance ratio {LOWEST_SPEED:g}; this is {mu:.3f}.",
         )
-    if hover_share(design) and not isinstance(problem.inflow, HoverMatched):
+    if hover_share(design) and problem.joined is None:
         add(
             "low-speed-not-matched",
             "The hover model has no answer at this weight, so the inflow does not pass over to hover at low speed.",
@@ -146,8 +145,8 @@ def caveats(
         )
         cell = disk.dr / len(disk.psi)
         thrust, least = total.thrust, elements.state.lambda0
-        turning = elements.swirl[:, None] * elements.loads[kernel.FX]
-        induced = float((elements.induced * elements.loads[kernel.FZ] + turning).sum()) * cell
+        turning = elements.swirl[:, None] * elements.fx
+        induced = float((elements.induced * elements.fz + turning).sum()) * cell
         if induced < thrust * least:
             add(
                 "free-wake-below-ideal",
@@ -166,7 +165,7 @@ def caveats(
             "stall",
             f"{100.0 * stalled:.1f} % of the disk is stalled; section data are steady, without dynamic stall.",
         )
-    top_mach = float(elements.loads[kernel.MACH].max())
+    top_mach = float(elements.mach.max())
     if disk.fit_range is not None:
         if top_mach > 0.5:
             add(
@@ -308,6 +307,6 @@ def _outside_fit(problem: Problem, elements: BladeElements, fit_range: tuple[flo
     """Part of πR², reverse flow not counted, where a polynomial polar is clamped."""
     disk = problem.disk
     low, high = fit_range
-    alpha = elements.loads[kernel.ALPHA]
+    alpha = elements.alpha
     outside = ((alpha < low) | (alpha > high)) & (elements.u_t >= 0.0)
     return float((2.0 * disk.r[:, None] * disk.dr / len(disk.psi) * outside).sum())

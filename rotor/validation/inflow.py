@@ -10,9 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotor.aero.elements import build_problem, wake_at
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.dynamic_wake import DynamicWakeInflow
+from rotor.aero.inflow.interface import Wake
+from rotor.aero.problem import build_problem, in_disk_axes
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
 from rotor.files.make_design import make_design
@@ -104,8 +105,9 @@ def _time_mean(name: str, measured: MeasuredInflow) -> Array:
     problem = build_problem(solution.design)
     model, field = problem.inflow, solution.disk.induced
     if isinstance(model, DynamicWakeInflow):
-        mean = model.without_tip_loss()
-        field = mean.respond(problem.disk, wake_at(problem, solution.controls), solution.disk.dct).induced
+        tilt = solution.controls.shaft_tilt
+        wake = Wake(*in_disk_axes(measured.mu, problem.climb, tilt), solution.controls.lambda0)
+        field = model.spread().theory(problem.disk).induced(solution.disk.dct, wake)
     return _at(problem.disk.r, field, measured)
 
 

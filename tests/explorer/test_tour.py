@@ -7,13 +7,12 @@ from typing import Any
 import pytest
 
 from explorer.interface import SessionState, TabContext
-from explorer.interpolation import blend, eased, inputs_between
 from explorer.picture.fields import FIELDS
 from explorer.pinned import Pinned
 from explorer.snapshot import PageSnapshot
 from explorer.state import Inputs, ViewState
 from explorer.text.units import AVIATION
-from explorer.tour import SECONDS, STOPS, TourStop, stop_begins, tour_at
+from explorer.tour import SECONDS, STOPS, TourStop, blend, eased, inputs_between, stop_begins, tour_at
 from rotor.trim.solve import solve
 
 

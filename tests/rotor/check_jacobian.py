@@ -1,23 +1,36 @@
-"""The Jacobian of a trim against differences of its residuals."""
+"""The equations of a flight at any state, and their Jacobian against differences."""
 
 import numpy as np
 from numpy.testing import assert_allclose
 
-from rotor.aero.elements import Problem, evaluate_elements
-from rotor.aero.sums import slopes
-from rotor.aero.trim_state import TrimState
-from rotor.trim.equations import jacobian, residuals, unknowns_of
+from rotor.aero.elements import STATE_NAMES, BladeElements, TrimState
+from rotor.aero.problem import Problem
+from rotor.columns.flight import elements_of, flight_system
+from rotor.engine.linearise import Point, evaluate, jacobian
+from rotor.trim.newton import DEFAULT_OPTIONS, Guess, first_point, tolerances
+
+
+def point_at(problem: Problem, state: TrimState) -> Point:
+    """With all eight quantities as in the state, also those that a trim gives another value."""
+    system = flight_system(problem, tolerances(DEFAULT_OPTIONS))
+    x = first_point(problem, system, Guess(state))
+    x[[system.structure.states[name] for name in STATE_NAMES]] = state.array()
+    return evaluate(system, system.grid, x, slopes=True, flow=True)
+
+
+def elements_at(problem: Problem, state: TrimState) -> BladeElements:
+    """The blade elements there."""
+    return elements_of(problem, point_at(problem, state))
 
 
 def check_jacobian(problem: Problem, state: TrimState) -> None:
     """Every column by central differences; the step of the inflow is smaller, as the inflow itself is."""
-    unknowns = unknowns_of(problem.design)
-    elements = evaluate_elements(problem, state)
-    exact = jacobian(problem, elements, slopes(problem, elements, unknowns, None))
-    assert exact.shape == (len(unknowns), len(unknowns))
-    for k, unknown in enumerate(unknowns):
-        step = np.array([1e-6 * (0.1 if unknown == "lambda0" else 1.0)])
-        ahead, behind = (
-            residuals(problem, evaluate_elements(problem, state.moved([unknown], sign * step))) for sign in (1.0, -1.0)
-        )
-        assert_allclose(exact[:, k], (ahead - behind) / (2.0 * step[0]), rtol=2e-5, atol=2e-7)
+    point = point_at(problem, state)
+    system, exact = point.system, jacobian(point)[0]
+    free = system.structure.free
+    assert exact.shape == (len(free), len(free))
+    for k, atom in enumerate(free):
+        step = np.zeros_like(point.x)
+        step[atom] = 1e-6 * (0.1 if atom == system.structure.states["lambda0"] else 1.0)
+        ahead, behind = (evaluate(system, system.grid, point.x + sign * step).residual for sign in (1.0, -1.0))
+        assert_allclose(exact[:, k], (ahead - behind) / (2.0 * step[atom]), rtol=2e-5, atol=2e-7)

@@ -10,8 +10,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from explorer.charts.plots import Plot, Range, held_range
-from explorer.interpolation import blend, eased
 from explorer.text.units import SI, Units, number
+from explorer.tour import blend, eased
 from rotor.design.design import Design
 from rotor.design.twist import (
     LinearTwist,

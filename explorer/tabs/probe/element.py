@@ -7,7 +7,7 @@ from enum import Enum
 import numpy as np
 
 from explorer.picture.regions import DRAG_DIVERGENCE
-from rotor.aero.elements import LOW_MACH
+from rotor.aero.problem import LOW_MACH
 from rotor.airfoil.sections import Section
 from rotor.arrays import Array
 from rotor.trim.solution import DiskFields, Solution

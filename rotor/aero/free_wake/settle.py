@@ -18,8 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.linalg import lu_factor, lu_solve
 
-from rotor.aero import kernel
-from rotor.aero.elements import Problem
+from rotor.aero.free_wake import system as line
 from rotor.aero.free_wake.system import (
     STEPS,
     HoverSystem,
@@ -31,12 +30,14 @@ from rotor.aero.free_wake.system import (
     layout_of,
 )
 from rotor.aero.momentum import axial_inflow
+from rotor.aero.problem import Problem
+from rotor.aero.section import stall_margins
 from rotor.arrays import Array
 
 TOLERANCE = 1e-10
 """Largest residual: of lengths over R, of circulation over ΩR², of C_T."""
 _KEPT_RATIO = 0.7
-"""Factors are kept while a step leaves less than this part of the residual."""
+"""WakeFactors are kept while a step leaves less than this part of the residual."""
 _REJECTED = 3
 """Rejected steps in a row after which the circulation follows in pseudo-time as the nodes do."""
 _MOST_STEPS = 40, 60
@@ -64,13 +65,13 @@ class Settled:
 
 
 @dataclass(frozen=True, eq=False)
-class Factors:
+class WakeFactors:
     """A matrix in the product of its triangles."""
 
     lu: tuple[Array, NDArray[np.int32]]
 
     @classmethod
-    def of(cls, matrix: Array) -> "Factors":
+    def of(cls, matrix: Array) -> "WakeFactors":
         return cls(lu_factor(matrix, check_finite=False))
 
     def solve(self, right: Array, *, transposed: bool = False) -> Array:
@@ -79,12 +80,12 @@ class Factors:
 
 
 class KeptFactors:
-    """Factors of the Jacobians of the last few wakes: 3 MB each, so that only the latest are worth keeping."""
+    """WakeFactors of the Jacobians of the last few wakes: 3 MB each, so that only the latest are worth keeping."""
 
     def __init__(self, most: int = 4) -> None:
-        self._kept: deque[tuple[WakeState, Factors]] = deque(maxlen=most)
+        self._kept: deque[tuple[WakeState, WakeFactors]] = deque(maxlen=most)
 
-    def of(self, state: WakeState) -> Factors | None:
+    def of(self, state: WakeState) -> WakeFactors | None:
         """The factors kept for this very state; None where there are none.
 
         What is used is kept longest: all previews of a drag begin at the same wake.
@@ -97,7 +98,7 @@ class KeptFactors:
                 return entry[1]
         return None
 
-    def keep(self, state: WakeState, factors: Factors) -> None:
+    def keep(self, state: WakeState, factors: WakeFactors) -> None:
         self._kept.append((state, factors))
 
 
@@ -148,8 +149,8 @@ def _any(problem: Problem, circulation: Array, collective: float, start: WakeSta
 def _may_have_another(found: Settled) -> bool:
     """Whether the tip vortex passes above the next blade, or a blade element is stalled."""
     at, layout, disk = found.evaluation, found.system.layout, found.system.problem.disk
-    margins = kernel.stall_margins(
-        at.loads[kernel.ALPHA][:, None], at.loads[kernel.MACH][:, None], (disk.r - at.swirl)[:, None],
+    margins = stall_margins(
+        at.loads[line.ALPHA][:, None], at.loads[line.MACH][:, None], (disk.r - at.swirl)[:, None],
         disk.section, disk.weight, disk.offset, disk.stall,
     )  # fmt: skip
     return float(at.height[-1, layout.steps // layout.blades]) > 0.0 or bool((margins < 0.0).any())
@@ -157,7 +158,7 @@ def _may_have_another(found: Settled) -> bool:
 
 def torque(found: Settled) -> float:
     """∫ r dF_x, C_Q over the width of an element."""
-    return float(found.system.problem.disk.r @ found.evaluation.loads[kernel.FX])
+    return float(found.system.problem.disk.r @ found.evaluation.loads[line.FX])
 
 
 def preview(problem: Problem, start: WakeState) -> Settled | None:
@@ -188,7 +189,7 @@ def warm(system: HoverSystem, start: WakeState) -> Settled:
     return _with_kept_factors(system, system.evaluate(start, slopes=factors is None), factors)
 
 
-def _with_kept_factors(system: HoverSystem, point: WakeEvaluation, factors: Factors | None = None) -> Settled:
+def _with_kept_factors(system: HoverSystem, point: WakeEvaluation, factors: WakeFactors | None = None) -> Settled:
     """Newton's method from an evaluation, its Jacobian factorised where no `factors` are given."""
     passes, first = 1, point.error
     while point.error > TOLERANCE and passes < 40:
@@ -349,7 +350,7 @@ def _interpolated(state: WakeState, coarse: HoverSystem, fine: HoverSystem) -> W
     return WakeState(layout, values)
 
 
-def _factorise(point: WakeEvaluation, pace: float, *, damped: bool = False) -> Factors:
+def _factorise(point: WakeEvaluation, pace: float, *, damped: bool = False) -> WakeFactors:
     """With steps of pseudo-time of `pace` radians of wake azimuth for the nodes; `damped`: for the circulation too."""
     layout = point.state.layout
     jacobian = point.jacobian.copy()
@@ -358,7 +359,7 @@ def _factorise(point: WakeEvaluation, pace: float, *, damped: bool = False) -> F
     if damped:
         loads = np.arange(layout.geometry, layout.size - 1)
         jacobian[loads, loads] += 1.0 / pace
-    return Factors.of(jacobian)
+    return WakeFactors.of(jacobian)
 
 
 def _limited(step: Array, layout: WakeLayout) -> Array:
@@ -367,3 +368,38 @@ def _limited(step: Array, layout: WakeLayout) -> Array:
     parts = sizes[: layout.geometry].max(), sizes[layout.geometry : -1].max(), sizes[-1]
     ratios = [limit / max(float(size), 1e-30) for limit, size in zip(_LONGEST_STEPS, parts, strict=True)]
     return step * min(1.0, *ratios)
+
+
+@dataclass(frozen=True, eq=False)
+class WakeFilaments:
+    """The vortex filaments of all blades, for drawing."""
+
+    points: Array
+    """x, y, z over R, (filaments, points, 3): blade after blade, root to tip. Blade 0 lies over the tail, ψ = 0, along
+    the x-axis; y points to the advancing side, z up; the first point is on the blade."""
+    core_radius: Array
+    """Over R, (filaments, points)."""
+    circulation: Array
+    """Over ΩR², positive as that of a tip vortex, (filaments,)."""
+    state: WakeState
+    """The unknowns of the wake, from which an iteration may begin."""
+
+    @property
+    def tip_vortices(self) -> Array:
+        """Those of `points` that leave at the tips, (blades, points, 3)."""
+        return self.points[self.state.layout.filaments - 1 :: self.state.layout.filaments]
+
+
+def filaments(system: HoverSystem, at: WakeEvaluation) -> WakeFilaments:
+    """The filaments behind all blades in the coordinates of the rotor."""
+    layout = system.layout
+    blade = 2.0 * math.pi * np.arange(layout.blades) / layout.blades
+    psi = blade[:, None] - layout.step * np.arange(layout.nodes)  # (blades, nodes)
+    x = at.radius * np.cos(psi)[:, None]
+    y = at.radius * np.sin(psi)[:, None]
+    z = np.broadcast_to(at.height, x.shape)
+    points = np.stack([x, y, z], axis=-1).reshape(-1, layout.nodes, 3)
+    core = np.sqrt(system.core_squares(at.rolled))
+    return WakeFilaments(
+        points, np.tile(core, (layout.blades, 1)), np.tile(at.rolled.strength, layout.blades), at.state
+    )

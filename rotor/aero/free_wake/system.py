@@ -19,11 +19,64 @@ from functools import lru_cache
 
 import numpy as np
 
-from rotor.aero import kernel
-from rotor.aero.elements import Problem
 from rotor.aero.free_wake.biot_savart import filament_velocity, wake_velocities
 from rotor.aero.free_wake.roll_up import RolledUp, RollUp
+from rotor.aero.problem import Problem
+from rotor.aero.section import (
+    ALPHA as _ALPHA,
+)  # fmt: skip
+from rotor.aero.section import (
+    CD as _CD,
+)
+from rotor.aero.section import (
+    CD_MACH as _CD_MACH,
+)
+from rotor.aero.section import (
+    CHANNELS,
+    LOSS,
+    PAIRS,
+    TH,
+    UP,
+    UT,
+    M,
+    section,
+)
+from rotor.aero.section import (
+    CL as _CL,
+)
+from rotor.aero.section import (
+    FX as _FX,
+)
+from rotor.aero.section import (
+    FZ as _FZ,
+)
+from rotor.aero.section import (
+    MACH as _MACH,
+)
 from rotor.arrays import Array
+
+(FZ, FX, LIFT, ALPHA, MACH, CL, CD, CD_MACH, FZ_THETA, FX_THETA, FZ_UT, FX_UT, FZ_UP, FX_UP, MOMENT, M_THETA, M_UT,
+ M_UP) = range(18)  # fmt: skip
+"""Rows. LIFT: ½σ U C_l. MOMENT: that of the air with the propeller moment, of an elastic blade."""
+
+_SLOPES = ((_FZ, TH), (_FX, TH), (_FZ, UT), (_FX, UT), (_FZ, UP), (_FX, UP))
+
+
+def line_loads(problem: Problem, theta: Array, u_t: Array, u_p: Array) -> Array:
+    """Rows by element, (18, elements), at pitch and velocities, (elements,) each."""
+    channels = np.zeros((len(CHANNELS), len(theta), 1))
+    channels[TH, :, 0], channels[UT, :, 0], channels[UP, :, 0], channels[LOSS] = theta, u_t, u_p, 1.0
+    data = problem.section_data(len(problem.disk.psi))
+    f, d, s = section(channels, data, True, True)
+    lift = data.half_solidity * np.sqrt(u_t**2 + u_p**2) * s[_CL, :, 0]
+    rows = [f[_FZ], f[_FX], lift[:, None], s[_ALPHA], s[_MACH], s[_CL], s[_CD], s[_CD_MACH]]
+    rows += [d[PAIRS.index(pair)] for pair in _SLOPES]
+    if problem.torsion is None:
+        rows += [np.zeros_like(f[_FZ])] * 4
+    else:
+        rows += [f[M], *(d[PAIRS.index((M, channel))] for channel in (TH, UT, UP))]
+    return np.array(rows)[:, :, 0]
+
 
 TURNS = 2
 """Free turns. A third changes power by −0.1 to −0.4 %, and at high thrust its filaments pair up and find no
@@ -170,7 +223,7 @@ class WakeEvaluation:
     swirl: Array
     """In the direction of rotation, (elements,)."""
     loads: Array
-    """As `kernel.element_loads`, (rows, elements)."""
+    """As `line_loads`, (rows, elements)."""
     residual: Array
     jacobian: Array
     """(size, size); empty where it was not asked for."""
@@ -241,17 +294,13 @@ class HoverSystem:
         inflow = -velocity[wake:, 2]
         swirl = velocity[wake:, 1] if self.swirling else np.zeros_like(inflow)
         u_t = disk.r - swirl
-        loads = kernel.element_loads(
-            (self.problem.twist + state.collective)[:, None], u_t[:, None], (inflow + self.problem.climb)[:, None],
-            np.zeros(1), np.ones_like(disk.r), self.problem.tip_mach, disk.half_solidity, disk.section, disk.weight,
-            disk.offset, disk.tables, disk.cos_sweep, disk.sin_sweep,
-        )[:, :, 0]  # fmt: skip
+        loads = line_loads(self.problem, self.problem.twist + state.collective, u_t, inflow + self.problem.climb)
         residual = np.empty(layout.size)
         drift = self._drift(velocity[:wake], target[:wake, 0])
         residual[: layout.geometry] = self._streamlines(radius, height, drift)
         gain = math.pi / layout.blades
-        residual[layout.geometry : -1] = state.circulation - gain * loads[kernel.LIFT]
-        residual[-1] = loads[kernel.FZ].sum() * disk.dr - self.problem.weight
+        residual[layout.geometry : -1] = state.circulation - gain * loads[LIFT]
+        residual[-1] = loads[FZ].sum() * disk.dr - self.problem.weight
         empty = np.zeros((0, 0))
         if not slopes:
             return WakeEvaluation(state, rolled, radius, height, inflow, swirl, loads, residual, empty, empty, empty)
@@ -289,8 +338,8 @@ class HoverSystem:
         jacobian[geometry:-1, -1] -= gain * by_theta
         elements = np.arange(layout.elements)
         jacobian[geometry + elements, geometry + elements] += 1.0
-        jacobian[-1] = disk.dr * (loads[kernel.FZ_UP] @ inflow_slopes - loads[kernel.FZ_UT] @ swirl_slopes)
-        jacobian[-1, -1] += disk.dr * loads[kernel.FZ_THETA].sum()
+        jacobian[-1] = disk.dr * (loads[FZ_UP] @ inflow_slopes - loads[FZ_UT] @ swirl_slopes)
+        jacobian[-1, -1] += disk.dr * loads[FZ_THETA].sum()
         return WakeEvaluation(
             state, rolled, radius, height, inflow, swirl, loads, residual, jacobian, inflow_slopes, swirl_slopes
         )
@@ -405,10 +454,10 @@ class SelfInduction:
 def lift_slopes(loads: Array, u_t: Array, u_p: Array) -> tuple[Array, Array, Array]:
     """Slopes of ½σ U C_l, the row `LIFT`, by U_T, U_P and pitch; from ½σ U C_l U² = F_z U_T + F_x U_P."""
     square = u_t**2 + u_p**2
-    lift = loads[kernel.LIFT]
-    by_t = (loads[kernel.FZ_UT] * u_t + loads[kernel.FX_UT] * u_p + loads[kernel.FZ] - 2.0 * u_t * lift) / square
-    by_p = (loads[kernel.FZ_UP] * u_t + loads[kernel.FX_UP] * u_p + loads[kernel.FX] - 2.0 * u_p * lift) / square
-    by_theta = (loads[kernel.FZ_THETA] * u_t + loads[kernel.FX_THETA] * u_p) / square
+    lift = loads[LIFT]
+    by_t = (loads[FZ_UT] * u_t + loads[FX_UT] * u_p + loads[FZ] - 2.0 * u_t * lift) / square
+    by_p = (loads[FZ_UP] * u_t + loads[FX_UP] * u_p + loads[FX] - 2.0 * u_p * lift) / square
+    by_theta = (loads[FZ_THETA] * u_t + loads[FX_THETA] * u_p) / square
     return by_t, by_p, by_theta
 
 

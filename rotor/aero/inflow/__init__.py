@@ -5,7 +5,7 @@ from rotor.aero.inflow.interface import InflowModel as InflowModel
 from rotor.aero.inflow.interface import Wake as Wake
 from rotor.aero.inflow.linear import LINEAR_MODELS
 from rotor.aero.inflow.local_momentum import LocalMomentumInflow
-from rotor.aero.inflow.vortex_wake import VortexWakeInflow
+from rotor.aero.inflow.vortex_lattice import VortexWakeInflow
 
 _MODELS: tuple[InflowModel, ...] = (*LINEAR_MODELS, LocalMomentumInflow(), *DYNAMIC_WAKES, VortexWakeInflow())
 

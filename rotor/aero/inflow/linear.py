@@ -5,23 +5,33 @@ distribution, so with them induced power does not depend on twist.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import AnyField, InflowFeedback, Wake
+from rotor.aero.inflow.interface import PLAIN, Followed, Wake
+from rotor.aero.losses import mean_loss_factor
+from rotor.aero.section import LOSS, UP
 from rotor.arrays import Array
 from rotor.compiled import compiled
+from rotor.engine.linearise import Closure
+from rotor.engine.terms import Shape, Structure
+from rotor.engine.waves import COS, SIN, STEADY
 
 Gradient = tuple[float, float, float]
 """A gradient k with its slopes by µ_x and by the axial flow µ_z + λ0."""
 
+LOSS_AZIMUTHS = 24
+"""Azimuths over which the loss factor is averaged; 24 agree with 360 to 1e-4 in F (tested)."""
+_PSI = 2.0 * np.pi * np.arange(LOSS_AZIMUTHS) / LOSS_AZIMUTHS
+_COS, _SIN = np.cos(_PSI), np.sin(_PSI)
+
 
 @dataclass(frozen=True)
-class LinearInflow(AnyField):
+class LinearInflow:
     """A first-harmonic inflow model."""
 
     name: str
@@ -39,92 +49,100 @@ class LinearInflow(AnyField):
         """Itself: the factor is on the section lift."""
         return self
 
-    def with_wake_geometry(self, expected: Wake) -> "LinearInflow":
-        """Itself: the wake follows the trim."""
+    def on(self, disk: Disk, expected: Wake, losses: tuple[bool, bool]) -> "LinearTerms":
+        """The model on a disk."""
         del expected
-        return self
+        return LinearTerms(self, disk, losses)
 
-    def respond(self, disk: Disk, wake: Wake, load: Array) -> "PrescribedResponse":
-        """The prescribed field; the load is ignored."""
-        del load
-        return self.field(disk.r, disk.cos, disk.sin, wake)
+    def strengths(self, wake: Wake) -> dict[Hashable, tuple[float, tuple[float, float, float]]]:
+        """λ0 k_x and λ0 k_y, with slopes by (µ_x, µ_z, λ0)."""
+        out: dict[Hashable, tuple[float, tuple[float, float, float]]] = {}
+        for name, (k, by_mu, by_axial) in zip(STRENGTHS, (self.longitudinal(wake), self.lateral(wake)), strict=True):
+            l0 = wake.lambda0
+            out[name] = l0 * k, (l0 * by_mu, l0 * by_axial, k + l0 * by_axial)
+        return out
 
-    def field(self, r: Array, cos: Array, sin: Array, wake: Wake) -> "PrescribedResponse":
-        """The same at radii (n,) and azimuths given by cos ψ, sin ψ (m,)."""
-        return PrescribedResponse(r, cos, sin, wake.lambda0, self.longitudinal(wake), self.lateral(wake))
-
-
-class PrescribedResponse:
-    """The response of a prescribed inflow, A = 0."""
-
-    def __init__(self, r: Array, cos: Array, sin: Array, lambda0: float, kx: Gradient, ky: Gradient) -> None:
-        self._r, self._lambda0, self._kx, self._ky = r, lambda0, kx, ky
-        self._around = cos, sin
-        self._by_wake: Array | None = None
-        self.induced: Array = _field(r, cos, sin, lambda0, kx[0], ky[0])
-        """λ_i, (elements, azimuths)."""
-
-    @property
-    def by_wake(self) -> Array:
-        """Its slopes by (µ_x, µ_z, λ0), (3, elements, azimuths)."""
-        found = self._by_wake
-        if found is None:
-            self._by_wake = found = _slopes(self._r, *self._around, self._lambda0, self._kx, self._ky)
-        return found
-
-    def around(self, cos: Array, sin: Array) -> "PrescribedResponse":
-        """The same inflow at other azimuths."""
-        return PrescribedResponse(self._r, cos, sin, self._lambda0, self._kx, self._ky)
-
-    @property
-    def coordinates(self) -> Array:
-        """As `InflowResponse`."""
-        return self.induced.ravel()
-
-    def apply(self, fields: Array) -> Array:
-        """Zero: the load does not change a prescribed inflow."""
-        return np.zeros_like(fields)
-
-    def apply_transposed(self, field: Array) -> Array:
-        """Zero: the load does not change a prescribed inflow."""
-        return np.zeros_like(field)
-
-    def feedback(self, slope: Array) -> InflowFeedback:
-        """No feedback."""
-        del slope
-        return _NoFeedback()
+    def field(self, r: Array, cos: Array, sin: Array, wake: Wake) -> Array:
+        """λ_i at radii (n,) and azimuths (m,), and its slopes by (µ_x, µ_z, λ0), (4, n, m)."""
+        (kx, by_x), (ky, by_y) = self.strengths(wake).values()
+        return _field(r, cos, sin, wake.lambda0, (kx, ky), (by_x, by_y))
 
 
-@compiled()
-def _field(r: Any, cos: Any, sin: Any, lambda0: float, kx: float, ky: float) -> Any:
-    """λ_i"""
-    out = np.empty((len(r), len(cos)))
+@compiled(error_model="numpy", fastmath={"contract"})
+def _field(r: Any, cos: Any, sin: Any, lambda0: float, strengths: Any, slopes: Any) -> Any:
+    """λ0 + λ0 k_x r cos ψ + λ0 k_y r sin ψ, and its slopes."""
+    out = np.empty((4, len(r), len(cos)))
+    (kx, ky), (by_x, by_y) = strengths, slopes
     for i in range(len(r)):
         for j in range(len(cos)):
-            out[i, j] = lambda0 * (1.0 + r[i] * (kx * cos[j] + ky * sin[j]))
+            along, across = r[i] * cos[j], r[i] * sin[j]
+            out[0, i, j] = lambda0 + kx * along + ky * across
+            out[1, i, j] = by_x[0] * along + by_y[0] * across
+            out[2, i, j] = by_x[1] * along + by_y[1] * across
+            out[3, i, j] = 1.0 + by_x[2] * along + by_y[2] * across
     return out
 
 
-@compiled()
-def _slopes(r: Any, cos: Any, sin: Any, lambda0: float, kx: Any, ky: Any) -> Any:
-    """The slopes of λ_i from k_x and k_y with their slopes by µ_x and by the axial flow."""
-    n, m = len(r), len(cos)
-    out = np.empty((3, n, m))
-    for i in range(n):
-        for j in range(m):
-            by_axial = lambda0 * r[i] * (kx[2] * cos[j] + ky[2] * sin[j])
-            out[0, i, j] = lambda0 * r[i] * (kx[1] * cos[j] + ky[1] * sin[j])
-            out[1, i, j] = by_axial
-            out[2, i, j] = 1.0 + r[i] * (kx[0] * cos[j] + ky[0] * sin[j]) + by_axial
-    return out
+STRENGTHS = ("lambda0 kx", "lambda0 ky")
+"""Made atoms of linear inflow."""
 
 
-class _NoFeedback:
-    def solve(self, fields: Array) -> Array:
-        return fields
+class LinearTerms:
+    """Linear inflow on a disk: columns 1, r cos ψ and r sin ψ in U_P, and Prandtl's factors on the section lift."""
 
-    def solve_transposed(self, field: Array) -> tuple[Array, Array]:
-        return field, np.zeros_like(field)
+    def __init__(self, model: LinearInflow, disk: Disk, losses: tuple[bool, bool]) -> None:
+        self.key: Hashable = "linear"
+        self.names: Sequence[Shape] = (("inflow", "1"), ("inflow", "r"))
+        self.live: Sequence[tuple[int, Shape]] = ((LOSS, "loss"),)
+        self.interface, self.least_azimuths = PLAIN, 1
+        self._model, self._disk, self._losses = model, disk, losses
+
+    def declare(self, structure: Structure) -> None:
+        """No states."""
+
+    def build(self, structure: Structure) -> list[int]:
+        """The three columns; F is a live shape."""
+        one, along = self.names
+        kx, ky = (structure.quantity(name) for name in STRENGTHS)
+        structure.column(UP, one, STEADY, 1.0, structure.states["lambda0"])
+        structure.column(UP, along, COS, 1.0, kx)
+        structure.column(UP, along, SIN, 1.0, ky)
+        return []
+
+    def shapes(self) -> dict[Shape, Array]:
+        """1 and r."""
+        return dict(zip(self.names, (np.ones_like(self._disk.r), self._disk.r), strict=True))
+
+    def follow(self, wake: Wake, mu_z: float, sees_tilt: bool) -> Followed:
+        """λ0 k_x, λ0 k_y and the loss factor, averaged over azimuth (thesis p. 24)."""
+        disk, (tip, hub) = self._disk, self._losses
+        strengths = self._model.strengths(wake)
+        if not (tip or hub):
+            loss = np.ones_like(disk.r), np.zeros((3, len(disk.r)))
+        else:
+            (kx, by_x), (ky, by_y) = strengths.values()
+            field = _field(disk.r, _COS, _SIN, wake.lambda0, (kx, ky), (by_x, by_y))
+            found = mean_loss_factor(disk.r, mu_z + field[0], field[1:], (disk.blades, disk.root), tip, hub)
+            if sees_tilt:
+                found[3] += found[1]  # λ by µ_z itself.
+            loss = found[0], found[2:]
+        return Followed(strengths, {(LOSS, "loss"): loss})
+
+    def closures(self, structure: Structure) -> tuple[Closure, ...]:
+        """None: it does not respond to the load."""
+        return ()
+
+    def peaks(self) -> Array:
+        """No states."""
+        return np.zeros(0)
+
+    def nearest(self, field: Array) -> Array:
+        """No states."""
+        return np.zeros(0)
+
+    def axial(self, wake: Wake) -> Array:
+        """Zero: the load does not change it."""
+        return np.zeros((len(self._disk.r),) * 2)
 
 
 def _zero(wake: Wake) -> Gradient:

@@ -5,66 +5,107 @@
 The first term is the annulus balance (2.24) taken point by point: the part w = p/2V of the linear actuator disk that
 leaves out all coupling along the wake. Beyond µ 0.3 it is too favourable: induced power 17–39 % low. The second term
 restores the fore-aft gradient of the skewed wake, which does not change the power but corrects the lateral cyclic.
+
+So the section balances itself: it finds λ with λ = g F_z(…, U_P + λ), g = 1/(4 r F V), at every point, and its
+derivatives follow by the implicit function theorem, dλ = (g Σ ∂F_z/∂c dc + F_z dg)/(1 − g ∂F_z/∂U_P).
 """
 
 import math
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import AnyField, InflowFeedback, Wake
+from rotor.aero.inflow.interface import Followed, SectionInterface, Wake
 from rotor.aero.inflow.peters_he import flow_parameters
 from rotor.aero.losses import tip_factor
-from rotor.arrays import Array
+from rotor.aero.section import CHANNELS, FORCES, FX, FZ, LOSS, PAIRS, UP, M, section
+from rotor.arrays import Array, Booleans
+from rotor.engine.linearise import Closure
+from rotor.engine.terms import Shape, Structure
+from rotor.engine.waves import COS, STEADY
 
 GRADIENT = 15.0 * math.pi / 32.0
 """k_x over tan(χ/2): that of the exact actuator disk for a load that vanishes at the hub (three-state theory)."""
 
-
-@dataclass(frozen=True, eq=False)
-class SectorOperator:
-    """λ_i(r, ψ) = gain(r) d(r, ψ) + offset(r, ψ) for one wake. No point depends on another's load."""
-
-    gain: Array
-    """1/(4 r F V), (elements,)."""
-    gain_slopes: Array
-    """Its slopes by (µ_x, µ_z, λ0), (3, elements)."""
-    offset: Array
-    """λ0 k_x r cos ψ, (elements, azimuths)."""
-    offset_slopes: Array
-    """(3, elements, azimuths)"""
-
-    def induced(self, d: Array) -> Array:
-        """λ_i for a load d = dC_T/dr of the whole rotor, (elements, azimuths)."""
-        return self.gain[:, None] * d + self.offset
-
-    def induced_by_wake(self, d: Array) -> Array:
-        """∂λ_i by (µ_x, µ_z, λ0) at fixed load, (3, elements, azimuths)."""
-        return self.gain_slopes[:, :, None] * d + self.offset_slopes
-
-    def feedback(self, slope: Array) -> Array:
-        """1/(1 − gain K) for a pointwise slope K = ∂d/∂λ_i: the feedback inflow → load → inflow, point by point.
-
-        It is its own transpose. K is negative where more inflow reduces the lift, so the divisor is above 1.
-        """
-        return 1.0 / (1.0 - self.gain[:, None] * slope)
+GAIN, MEAN = len(CHANNELS), len(CHANNELS) + 1
+"""Channels beside those of the section: g, and λ0, from which the search for λ begins."""
+BALANCED = len(FORCES)
+"""λ, in the place of a further force."""
+_LARGEST_INFLOW = 0.6
+"""Bracket of λ, far above any annulus of a rotor."""
+_MOST_PASSES = 80
 
 
-def sector_operator(r: Array, cos: Array, wake: Wake, blades: int, *, tip: bool = True) -> SectorOperator:
-    """The response at elements r (n,) > 0 and azimuths with cos ψ (m,); `tip` for Prandtl's factor of finite blades."""
-    flow = flow_parameters(wake)
-    factor, factor_slope = tip_factor(r, wake.axial, blades) if tip else (np.ones_like(r), np.zeros_like(r))
-    gain = 1.0 / (4.0 * r * factor * flow.speed)
-    by_axial = -gain * factor_slope / factor
-    gain_slopes = -np.outer(flow.slopes[1] / flow.speed, gain) + np.outer([0.0, 1.0, 1.0], by_axial)
-    shape = GRADIENT * np.outer(r, cos)
-    strength = wake.lambda0 * flow.slopes[0] + np.array([0.0, 0.0, flow.half_skew])
-    return SectorOperator(gain, gain_slopes, wake.lambda0 * flow.half_skew * shape, strength[:, None, None] * shape)
+def balance_inflow(start: Array, residual: Callable[[Array], tuple[Array, Array, Array]]) -> Array:
+    """λ of every point at which its residual is zero: Newton's method with a bracket.
+
+    residual: λ → residual, its slope by λ, and what it is measured by, in the shape of λ.
+    """
+    inflow, low, high = start, np.full_like(start, -_LARGEST_INFLOW), np.full_like(start, _LARGEST_INFLOW)
+    for _ in range(_MOST_PASSES):
+        error, slope, scale = residual(inflow)
+        open_: Booleans = (np.abs(error) > 1e-15 + 1e-13 * np.abs(scale)) & (high - low > 1e-15)
+        if not open_.any():
+            break
+        low, high = np.where(error < 0.0, inflow, low), np.where(error < 0.0, high, inflow)
+        ahead = inflow - error / np.where(slope > 0.0, slope, np.nan)
+        with np.errstate(invalid="ignore"):
+            inside = (low < ahead) & (ahead < high)
+        inflow = np.where(open_, np.where(inside, ahead, 0.5 * (low + high)), inflow)
+    return inflow
+
+
+def _sector_section(c: Array, data: Any, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
+    """The section with the inflow that balances its own lift; as `section.section`, with the rows of `_SECTORS`."""
+    gain, own = c[GAIN], c[:GAIN].copy()
+
+    def residual(inflow: Array) -> tuple[Array, Array, Array]:
+        own[UP] = c[UP] + inflow
+        f, d, _ = section(own, data, True, False)
+        return inflow - gain * f[FZ], 1.0 - gain * d[_UP_ROW], inflow
+
+    inflow = balance_inflow(c[MEAN], residual)
+    own[UP] = c[UP] + inflow
+    f, d, s = section(own, data, slopes, flow)
+    f = np.concatenate([f, inflow[None]])
+    if not slopes:
+        return f, d, s
+    rigid = len(data.moment_gain) == 0
+    d[[k for k, (o, c) in enumerate(PAIRS) if c == LOSS or (o == M and rigid)]] = 0.0  # Not in use.
+    through = 1.0 / (1.0 - gain * d[_UP_ROW])
+    out = np.empty((len(SECTOR_PAIRS), *gain.shape))
+    for k, (force, channel) in enumerate(SECTOR_PAIRS):
+        follows = f[FZ] * through if channel == GAIN else gain * through * d[PAIRS.index((FZ, channel))]
+        if force == BALANCED:
+            out[k] = follows
+        elif channel == GAIN:
+            out[k] = d[PAIRS.index((force, UP))] * follows
+        else:
+            out[k] = d[PAIRS.index((force, channel))] + d[PAIRS.index((force, UP))] * follows
+    rest = [k for k, pair in enumerate(PAIRS) if pair not in SECTOR_PAIRS]
+    return f, np.concatenate([out, d[rest]]), s
+
+
+_UP_ROW = PAIRS.index((FZ, UP))
+_FOLLOWED = tuple(channel for force, channel in PAIRS if force == FZ)
+SECTOR_PAIRS = tuple((force, channel) for force in (FZ, FX, M, BALANCED) for channel in (*_FOLLOWED, GAIN))
+"""Forces that follow the inflow, and the channels that the inflow follows."""
+
+
+_SECTORS = SectionInterface(
+    _sector_section,
+    (*SECTOR_PAIRS, *(pair for pair in PAIRS if pair not in SECTOR_PAIRS)),
+    len(CHANNELS) + 2,
+    len(FORCES) + 1,
+    BALANCED,
+)
 
 
 @dataclass(frozen=True)
-class LocalMomentumInflow(AnyField):
+class LocalMomentumInflow:
     """The inflow at a point depends on the load at that point alone."""
 
     name = "local-momentum"
@@ -80,47 +121,68 @@ class LocalMomentumInflow(AnyField):
         """F = 1."""
         return replace(self, tip=False)
 
-    def with_wake_geometry(self, expected: Wake) -> "LocalMomentumInflow":
-        """Itself: the wake follows the trim."""
-        del expected
-        return self
-
-    def respond(self, disk: Disk, wake: Wake, load: Array) -> "LocalMomentumResponse":
-        """λ_i = gain d + λ0 k_x r cos ψ."""
-        return LocalMomentumResponse(sector_operator(disk.r, disk.cos, wake, disk.blades, tip=self.tip), load)
+    def on(self, disk: Disk, expected: Wake, losses: tuple[bool, bool]) -> "SectorTerms":
+        """The model on a disk."""
+        del expected, losses
+        return SectorTerms(disk, tip=self.tip)
 
 
-class LocalMomentumResponse:
-    """The response to one load; A is one number per radius."""
+class SectorTerms:
+    """Local momentum theory on a disk: one column for the gradient, and a section that balances itself."""
 
-    def __init__(self, sectors: SectorOperator, load: Array) -> None:
-        self._sectors = sectors
-        self._gain = sectors.gain[:, None]
-        self.induced = sectors.induced(load)
-        self.coordinates = self.induced.ravel()
-        self.by_wake = sectors.induced_by_wake(load)
+    def __init__(self, disk: Disk, *, tip: bool) -> None:
+        self.key: Hashable = "sectors"
+        self.names: Sequence[Shape] = (("inflow", "r"),)
+        self.live: Sequence[tuple[int, Shape]] = ((GAIN, "gain"),)
+        self.interface, self.least_azimuths = _SECTORS, 1
+        self._disk, self._tip = disk, tip
 
-    def apply(self, fields: Array) -> Array:
-        """A f."""
-        return self._gain * fields
+    def declare(self, structure: Structure) -> None:
+        """No states."""
 
-    def apply_transposed(self, field: Array) -> Array:
-        """Aᵀ f = A f."""
-        return self._gain * field
+    def build(self, structure: Structure) -> list[int]:
+        """λ0 k_x r cos ψ in U_P; the gain is a live shape."""
+        structure.column(UP, self.names[0], COS, 1.0, structure.quantity("lambda0 kx"))
+        structure.column(MEAN, "one", STEADY, 1.0, structure.states["lambda0"])
+        return []
 
-    def feedback(self, slope: Array) -> InflowFeedback:
-        """Point by point, 1/(1 − gain K)."""
-        return _PointwiseFeedback(self._sectors.feedback(slope), self._gain)
+    def shapes(self) -> dict[Shape, Array]:
+        """r"""
+        return {self.names[0]: self._disk.r}
 
+    def follow(self, wake: Wake, mu_z: float, sees_tilt: bool) -> Followed:
+        """λ0 k_x and the gain 1/(4 r F V)."""
+        del mu_z, sees_tilt
+        flow = flow_parameters(wake)
+        by_x, by_z, by_inflow = (GRADIENT * wake.lambda0 * flow.slopes[0]).tolist()
+        slopes = float(by_x), float(by_z), float(by_inflow) + GRADIENT * flow.half_skew
+        atoms: dict[Hashable, tuple[float, tuple[float, float, float]]] = {
+            "lambda0 kx": (GRADIENT * wake.lambda0 * flow.half_skew, slopes)
+        }
+        return Followed(atoms, {(GAIN, "gain"): self._gain(wake)})
 
-@dataclass(frozen=True, eq=False)
-class _PointwiseFeedback:
-    factor: Array
-    gain: Array
+    def _gain(self, wake: Wake) -> tuple[Array, Array]:
+        """1/(4 r F V) and its slopes by (µ_x, µ_z, λ0), (elements,) and (3, elements)."""
+        disk, flow = self._disk, flow_parameters(wake)
+        factor, factor_slope = np.ones_like(disk.r), np.zeros_like(disk.r)
+        if self._tip:
+            factor, factor_slope = tip_factor(disk.r, wake.axial, disk.blades)
+        gain = 1.0 / (4.0 * disk.r * factor * flow.speed)
+        by_axial = -gain * factor_slope / factor
+        return gain, -np.outer(flow.slopes[1] / flow.speed, gain) + np.outer([0.0, 1.0, 1.0], by_axial)
 
-    def solve(self, fields: Array) -> Array:
-        return self.factor * fields
+    def closures(self, structure: Structure) -> tuple[Closure, ...]:
+        """None: every point balances itself."""
+        return ()
 
-    def solve_transposed(self, field: Array) -> tuple[Array, Array]:
-        found = self.factor * field
-        return found, self.gain * found
+    def peaks(self) -> Array:
+        """No states."""
+        return np.zeros(0)
+
+    def nearest(self, field: Array) -> Array:
+        """No states."""
+        return np.zeros(0)
+
+    def axial(self, wake: Wake) -> Array:
+        """Diagonal: 1/(4 r F V)."""
+        return np.diag(self._gain(wake)[0])

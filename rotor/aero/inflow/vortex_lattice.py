@@ -5,14 +5,18 @@ The law of Biot and Savart is summed by numba: an influence matrix takes some te
 """
 
 import math
+from collections.abc import Hashable
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
+from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import Wake
+from rotor.aero.inflow.wake_terms import WakeTerms
 from rotor.arrays import Array
 from rotor.compiled import compiled
+from rotor.engine.waves import waves_at
 
 LEAST_REVOLUTIONS = 3.0
 SLOWEST = 0.1
@@ -235,3 +239,123 @@ def downwash_matrix(
                             here[e] -= half
                             older[e] += half
     return out / (4.0 * math.pi)
+
+
+@dataclass(frozen=True, eq=False)
+class LatticeTransfer:
+    """Interpolation both ways; a field is (elements, azimuths) on the grid, (panels, azimuths) on the lattice."""
+
+    inward: Array
+    """Elements → panels, (panels, elements); goes to zero at root and tip as circulation does."""
+    outward: Array
+    """Panels → elements, (elements, panels); constant beyond the last panel."""
+    around: Array
+    """Azimuths of the grid → of the lattice, (lattice, grid)."""
+    back: Array
+    """Azimuths of the lattice → of the grid, (grid, lattice)."""
+
+    def circulation_to_lattice(self, field: Array) -> Array:
+        return self.inward @ field @ self.around.T
+
+    def inflow_to_grid(self, field: Array) -> Array:
+        return self.outward @ field @ self.back.T
+
+
+def transfer(lattice: Lattice, r: Array, azimuths: int) -> LatticeTransfer:
+    """The transfer for elements r, (elements,), and evenly spaced azimuths."""
+    own, n = lattice.r, len(r)
+    padded = np.concatenate(([lattice.root], r, [1.0]))
+    inward = np.stack([np.interp(own, padded, np.pad(unit, 1)) for unit in np.eye(n)], axis=1)
+    outward = np.stack([np.interp(r, own, unit) for unit in np.eye(lattice.panels)], axis=1)
+    return LatticeTransfer(
+        inward, outward, _resampling(azimuths, lattice.azimuths), _resampling(lattice.azimuths, azimuths)
+    )
+
+
+def _resampling(source: int, target: int) -> Array:
+    """Fourier interpolation of evenly spaced periodic samples, (target, source): the harmonics that both resolve."""
+    highest = (min(source, target) - 1) // 2
+    angle = 2.0 * np.pi * (np.arange(target)[:, None] / target - np.arange(source) / source)
+    waves = np.arange(1, highest + 1)
+    return (1.0 + 2.0 * np.cos(angle[..., None] * waves).sum(axis=-1)) / source
+
+
+PANELS, AZIMUTHS = 16, 36
+"""Lattice whose power is within 0.4 % of 24 × 60 with 80 elements (tested); the least number of azimuths."""
+
+
+@dataclass(frozen=True)
+class VortexWakeInflow:
+    """Rigid skewed helical vortex lattice of the rotor's own blades."""
+
+    name = "vortex-wake"
+    title = "Vortex wake (rigid helices)"
+    explanation = "Each blade trails a rigid helical vortex sheet: the reference for other models, about 1 s per trim."
+    load_dependent = True
+
+    def without_tip_loss(self) -> "VortexWakeInflow":
+        """Itself: the tip loss of a lattice is that of its finite blades."""
+        return self
+
+    def on(self, disk: Disk, expected: Wake, losses: tuple[bool, bool]) -> WakeTerms:
+        """The lattice on a disk, its helices along the expected wake."""
+        del losses
+        return WakeTerms(_lattice_theory(disk, expected.mu_x, expected.axial), len(disk.r), disk.dr)
+
+
+class LatticeTheory:
+    """The answer of a lattice in waves around the disk for every panel, see `WakeTheory`: T is constant."""
+
+    factor = False
+
+    def __init__(self, lattice: Lattice, disk: Disk, mu_x: float, axial: float) -> None:
+        azimuths = len(disk.psi)
+        highest = (min(azimuths, lattice.azimuths) - 1) // 2
+        count = 1 + 2 * highest
+        self.least_azimuths = azimuths
+        """All: the loads of a lattice have strong harmonics beyond those that it answers, which few azimuths mix."""
+        moved = transfer(lattice, disk.r, azimuths)
+        self.key: Hashable = "lattice", lattice.panels, count
+        self.shapes, self.gathering = list(moved.outward.T.copy()), list(moved.inward / disk.dr)
+        self.names: tuple[tuple[int, int], ...] = tuple(
+            (panel, wave) for panel in range(lattice.panels) for wave in range(count)
+        )
+        circulation = lattice.circulation(np.ones((lattice.panels, lattice.azimuths)), lattice.tangential(mu_x)).ravel()
+        waves = waves_at(count, lattice.psi)
+        scale = np.where(np.arange(count) == 0, 1.0, 2.0)[:, None]
+        matrix = (lattice.downwash(mu_x, axial) * circulation).reshape(
+            lattice.panels, lattice.azimuths, lattice.panels, lattice.azimuths
+        )
+        analysed = np.tensordot(scale * waves / lattice.azimuths, matrix, axes=(1, 1))  # (waves, panels, panels, …)
+        both = np.tensordot(analysed, scale * waves, axes=(3, 1)).transpose(1, 0, 2, 3)
+        self.matrix = np.ascontiguousarray(both.reshape(len(self.names), -1))
+
+    def over_factor(self, wake: Wake) -> tuple[Array, Array]:
+        """No factor: the wake of finite blades holds its tip loss."""
+        del wake
+        return np.ones(len(self.shapes[0])), np.zeros(len(self.shapes[0]))
+
+    def answer(self, means: Array, wake: Wake) -> Array:
+        """T Q"""
+        del wake
+        return self.matrix @ means
+
+    def linear(self, means: Array, wake: Wake) -> tuple[Array, Array]:
+        """T; the helices do not move."""
+        del wake
+        return self.matrix, np.zeros((len(means), 3))
+
+    def nearest(self, field: Array) -> Array:
+        """Coefficients of a field, (terms,)."""
+        azimuths: int = field.shape[1]
+        count = len(self.names) // len(self.shapes)
+        means = field @ waves_at(count, 2.0 * np.pi * np.arange(azimuths) / azimuths).T / azimuths
+        means[:, 1:] *= 2.0
+        return (np.linalg.pinv(np.array(self.shapes).T) @ means).ravel()
+
+
+@lru_cache(maxsize=4)
+def _lattice_theory(disk: Disk, mu_x: float, axial: float) -> LatticeTheory:
+    azimuths = shared_azimuths(AZIMUTHS, disk.blades)
+    lattice = Lattice(blades=disk.blades, root=disk.root, panels=PANELS, azimuths=azimuths)
+    return LatticeTheory(lattice, disk, mu_x, axial)

@@ -1,4 +1,4 @@
-"""Blade elements: the kernel against the plain formulas, and exact derivatives against differences."""
+"""Blade elements: the section against the plain formulas, and exact derivatives against differences."""
 
 import math
 from dataclasses import replace
@@ -7,16 +7,21 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.aero import kernel
-from rotor.aero.elements import Problem, build_problem, evaluate_elements
-from rotor.aero.sums import disk_sums, integrate, slopes, weighted_loads
-from rotor.aero.torsion_balance import torsion_residual
-from rotor.aero.trim_state import TrimState
+from rotor.aero.elements import TrimState, disk_sums
+from rotor.aero.inflow import INFLOW_MODELS
+from rotor.aero.inflow.linear import LinearInflow
+from rotor.aero.losses import loss_factor
+from rotor.aero.problem import Problem, build_problem
+from rotor.aero.section import CHANNELS, FX, FZ, LOSS, PAIRS, RATE, section
 from rotor.airfoil.sections import load_installed
+from rotor.columns.flight import elements_of
+from rotor.columns.trims import unknowns_of
+from rotor.engine.linearise import evaluate, jacobian
 from rotor.files.make_design import make_design
-from rotor.trim.equations import jacobian, residuals, unknowns_of
 from rotor.trim.forward import first_guess
-from rotor.trim.newton import coordinates_of, full_jacobian, newton
+from rotor.trim.newton import newton
+from rotor.trim.power import hub_moment
+from tests.rotor.check_jacobian import check_jacobian, elements_at, point_at
 
 STATE = TrimState(0.17, 0.03, -0.09, 0.08, 0.06, -0.02, 0.01, 0.012)
 
@@ -32,7 +37,7 @@ def problem(preset: str = "flight", mu: float = 0.3, **models: object) -> Proble
 def test_velocities_and_loads_by_the_formulas(preset: str):
     """Eqs. (3.5)–(3.12) written out in plain NumPy at one state, reverse flow included."""
     p = problem(preset)
-    elements = evaluate_elements(p, STATE)
+    point, elements = point_at(p, STATE), elements_at(p, STATE)
     disk, mu = p.disk, 0.3
     r, psi = disk.r[:, None], disk.psi[None, :]
     tilt, beta0, b1c, b1s = STATE.shaft_tilt, STATE.coning, STATE.flap_1c, STATE.flap_1s
@@ -72,15 +77,13 @@ def test_velocities_and_loads_by_the_formulas(preset: str):
             parts.append((at.cl, at.cd))
         cl = (1.0 - weight) * parts[0][0] + weight * parts[1][0]
         cd = (1.0 - weight) * parts[0][1] + weight * parts[1][1]
-        lift, drag = (disk.half_solidity[i] * speed[i] ** 2 * c for c in (elements.loss[i] * cl, cd))
-        loads = elements.loads[:, i]
-        assert_allclose(loads[kernel.CL], cl, rtol=1e-9, atol=1e-10)
-        assert_allclose(loads[kernel.CD], cd, rtol=1e-9, atol=1e-10)
-        assert_allclose(loads[kernel.FZ], lift * np.cos(phi[i]) - drag * np.sin(phi[i]), rtol=1e-9, atol=1e-12)
-        across = disk.r[i] + mu_x * np.sin(psi[0])
-        rubbing = friction * disk.half_solidity[i] * (np.hypot(across, along) - np.abs(across)) * across
+        lift, drag = (disk.half_solidity[i] * speed[i] ** 2 * c for c in (point.channels[LOSS, i] * cl, cd))
+        assert_allclose(elements.cl[i], cl, rtol=1e-9, atol=1e-10)
+        assert_allclose(elements.cd[i], cd, rtol=1e-9, atol=1e-10)
+        assert_allclose(elements.fz[i], lift * np.cos(phi[i]) - drag * np.sin(phi[i]), rtol=1e-9, atol=1e-12)
+        rubbing = friction * disk.half_solidity[i] * (np.hypot(u_t[i], along) - np.abs(u_t[i])) * u_t[i]
         expected = lift * np.sin(phi[i]) + drag * np.cos(phi[i]) + rubbing
-        assert_allclose(loads[kernel.FX], expected, rtol=1e-9, atol=1e-4 * np.abs(rubbing).max() + 1e-12)
+        assert_allclose(elements.fx[i], expected, rtol=1e-9, atol=1e-4 * np.abs(rubbing).max() + 1e-12)
 
 
 def test_chord_ratio_and_droop_of_the_r8():
@@ -95,34 +98,19 @@ def test_chord_ratio_and_droop_of_the_r8():
     assert blended.any()
 
 
-@pytest.mark.parametrize("row", [0, 1, 2, 3])
-def test_pointwise_derivatives(row: int):
-    """∂F_z, ∂F_x by θ, U_T, U_P, U_R against central differences, everywhere on the disk."""
+@pytest.mark.parametrize("channel", [c for c in CHANNELS if c != RATE])
+def test_pointwise_derivatives(channel: int):
+    """∂F_z, ∂F_x by θ, U_T, U_P, U_R and F against central differences, everywhere on the disk."""
     p = problem()
-    elements = evaluate_elements(p, STATE)
-    disk = p.disk
-    fields = [elements.theta, elements.u_t, elements.u_p, elements.flow.mu_x * disk.cos]
-    h = 1e-6
-
-    def loads(shift: float):
-        moved = [f + shift * (k == row) for k, f in enumerate(fields)]
-        return kernel.element_loads(
-            *moved, elements.loss, p.tip_mach, disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables,
-            disk.cos_sweep, disk.sin_sweep,
-        )  # fmt: skip
-
-    ahead, behind = loads(h), loads(-h)
-    rows = [
-        (kernel.FZ_THETA, kernel.FX_THETA),
-        (kernel.FZ_UT, kernel.FX_UT),
-        (kernel.FZ_UP, kernel.FX_UP),
-        (kernel.FZ_UR, kernel.FX_UR),
-    ][row]
-    for value, slope in ((kernel.FZ, rows[0]), (kernel.FX, rows[1])):
-        difference = (ahead[value] - behind[value]) / (2.0 * h)
+    point = point_at(p, STATE)
+    step = np.zeros((len(CHANNELS), 1, 1))
+    step[channel] = 1e-6
+    ahead, behind = (section(point.channels + sign * step, p.section_data(), False, False)[0] for sign in (1.0, -1.0))
+    for force in (FZ, FX):
+        difference = (ahead[force] - behind[force]) / 2e-6
         scale = np.abs(difference).max()
         # C¹ data: a difference across a knot errs by (jump of curvature) × h, 1e-6 of the scale here.
-        assert_allclose(elements.loads[slope], difference, rtol=1e-5, atol=3e-6 * scale)
+        assert_allclose(point.slopes[PAIRS.index((force, channel))], difference, rtol=1e-5, atol=3e-6 * scale)
 
 
 @pytest.mark.parametrize(
@@ -140,72 +128,69 @@ def test_pointwise_derivatives(row: int):
 def test_trim_jacobian(preset: str, models: dict[str, object], mu: float):
     """The exact Jacobian of the trim residual against central differences."""
     p = problem(preset, mu, **models)
-    unknowns = unknowns_of(p.design)
     state = STATE
     if preset == "thesis" or models.get("trim") == "thrust":
         state = replace(STATE, shaft_tilt=math.atan2(p.drag, p.weight))
-    elements = evaluate_elements(p, state)
-    exact = jacobian(p, elements, slopes(p, elements, unknowns, None))
-    h = 1e-6
-    for k, unknown in enumerate(unknowns):
-        step = np.array([h * (0.1 if unknown == "lambda0" else 1.0)])
-        ahead, behind = (residuals(p, evaluate_elements(p, state.moved([unknown], s * step))) for s in (1.0, -1.0))
-        difference = (ahead - behind) / (2.0 * step[0])
-        assert_allclose(exact[:, k], difference, rtol=2e-5, atol=2e-7)
+    check_jacobian(p, state)
 
 
 def test_newton_converges_quadratically():
     """Near the root each residual is of the order of the last one squared: the mark of an exact Jacobian."""
     p = problem(mu=0.2)
-    unknowns = unknowns_of(p.design)
-    trimmed, count = newton(p, first_guess(p)).elements, len(unknowns)
-    state, twist = trimmed.state.moved(unknowns, np.full(count, 2e-3)), coordinates_of(trimmed)
-    sizes = []
+    point = newton(p, first_guess(p)).point
+    free, count = point.system.structure.free, len(unknowns_of(p.design))
+    x, sizes = point.x.copy(), list[float]()
+    x[free[:count]] += 2e-3
     for _ in range(4):
-        elements = evaluate_elements(p, state, None, twist)
-        balance = torsion_residual(p, elements)
-        error = np.concatenate([residuals(p, elements), balance.ravel()])
-        sizes.append(np.abs(error[:count]).max() / p.weight)
-        matrix = full_jacobian(p, elements, slopes(p, elements, unknowns, None))[0]
-        step = np.asarray(np.linalg.solve(matrix, -error), dtype=float)
-        state, twist = state.moved(unknowns, step[:count]), twist + step[count:].reshape(twist.shape)
+        point = evaluate(point.system, point.grid, x, slopes=True)
+        sizes.append(np.abs(point.residual[:count]).max() / p.weight)
+        x[free] -= np.linalg.solve(jacobian(point)[0], point.residual)
     assert sizes[1] < sizes[0] ** 2
     assert sizes[2] < sizes[1] ** 2
     assert sizes[3] < 1e-13
 
 
-def test_the_sums_are_those_over_the_elements():
-    """The compiled sums against the contributions of all elements."""
+def test_the_residuals_are_sums_over_the_elements():
+    """Carried weight, pulled drag and flap moments from the forces of all elements."""
     p = problem(mu=0.2)
-    elements = evaluate_elements(p, STATE)
-    fz, fx = elements.loads[kernel.FZ], elements.loads[kernel.FX]
-    sums = integrate(p, elements, np.stack([fx, fz]), np.stack([fz, fx]))[:, 1]
-    assert_allclose(weighted_loads(p, elements, fz, fx).sum(axis=(1, 2)), sums, rtol=1e-12)
+    point, e = point_at(p, STATE), elements_at(p, STATE)
+    total, cell = disk_sums(p.disk, e), p.disk.dr / len(p.disk.psi)
+    cos, sin = math.cos(STATE.shaft_tilt), math.sin(STATE.shaft_tilt)
+    moment = p.arm @ e.fz * cell
+    flap = p.flap
+    stiffness = (flap.frequency_squared - 1.0) / flap.load_gain
+    expected = {
+        "vertical": total.thrust * cos + total.drag * sin - p.weight,
+        "forward": total.thrust * sin - total.drag * cos - p.drag,
+        "coning": moment.sum() - (flap.frequency_squared * STATE.coning + flap.weight) / flap.load_gain,
+        "flap_1c": 2.0 * moment @ p.disk.cos - stiffness * STATE.flap_1c,
+        "flap_1s": 2.0 * moment @ p.disk.sin - stiffness * STATE.flap_1s,
+        "momentum": 2.0 * STATE.lambda0 * e.flow.speed - total.thrust,
+    }
+    rows = point.system.structure.equations
+    for name, value in expected.items():
+        assert_allclose(point.residual[rows[name]], value, rtol=1e-12, atol=1e-12 * p.weight, err_msg=name)
 
 
 def test_loss_average_over_azimuth_is_settled():
     """24 azimuths for the average of F against 360 azimuths of the same field."""
-    from rotor.aero.losses import loss_factor
-
     p = problem(mu=0.35)
-    state = newton(p, first_guess(p)).elements.state
-    elements = evaluate_elements(p, state)
-    psi = 2.0 * np.pi * np.arange(360) / 360
-    around = replace(p.disk, psi=psi, cos=np.cos(psi), sin=np.sin(psi))
-    field = p.inflow.respond(around, elements.flow, np.zeros((0, 0))).induced
-    rotor = p.design.rotor
-    factor, _ = loss_factor(p.disk.r[:, None], elements.flow.mu_z + field, rotor.blades, rotor.blade.root_cutout)
-    assert_allclose(elements.loss, factor.mean(axis=1), atol=1e-4)
+    point = newton(p, first_guess(p)).linear.point
+    wake, psi = elements_of(p, point).flow, 2.0 * np.pi * np.arange(360) / 360
+    model, rotor = INFLOW_MODELS["pitt-peters"], p.design.rotor
+    assert isinstance(model, LinearInflow)
+    field = model.field(p.disk.r, np.cos(psi), np.sin(psi), wake)[0]
+    factor, _ = loss_factor(p.disk.r[:, None], wake.mu_z + field, rotor.blades, rotor.blade.root_cutout)
+    assert_allclose(point.channels[LOSS, :, 0], factor.mean(axis=1), atol=1e-4)
 
 
 def test_sums_by_quadrature_of_a_known_field():
     """A hovering untwisted rotor of constant C_l would give C_T = ½σ Cl/3 (1 − r0³): the sums integrate to that."""
     p = problem(mu=0.0)
-    elements = evaluate_elements(p, TrimState(collective=0.1, lambda0=1e-6))
-    loads = elements.loads.copy()
-    loads[kernel.FZ] = 0.5 * 0.08 * 0.6 * elements.u_t**2
-    loads[kernel.FX] = 0.0
-    total = disk_sums(p, replace(elements, loads=loads))
+    e = elements_at(p, TrimState(collective=0.1, lambda0=1e-6))
+    e = replace(e, fz=0.5 * 0.08 * 0.6 * e.u_t**2, fx=np.zeros(p.disk.shape))
     start = p.design.rotor.blade.root_cutout
-    assert_allclose(total.thrust, 0.5 * 0.08 * 0.6 * (1.0 - start**3) / 3.0, rtol=2e-4)  # midpoint rule, 40 elements
-    assert_allclose(total.moment[1:], 0.0, atol=1e-15)
+    thrust = disk_sums(p.disk, e).thrust
+    assert_allclose(thrust, 0.5 * 0.08 * 0.6 * (1.0 - start**3) / 3.0, rtol=2e-4)  # midpoint rule, 40 elements
+    moment = hub_moment(p, e)
+    assert_allclose((moment.roll, moment.pitch), 0.0, atol=1e-15 * p.design.thrust_unit * p.design.rotor.radius)

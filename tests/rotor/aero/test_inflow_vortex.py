@@ -62,13 +62,13 @@ def test_energy_identity_and_closure():
 @pytest.mark.slow
 def test_the_lattice_is_fine_enough(monkeypatch: pytest.MonkeyPatch):
     """Power on 16 × 36 panels and 40 elements against 24 × 60 and 80: 0.4 %."""
-    import rotor.aero.inflow.vortex_wake as module
+    import rotor.aero.inflow.vortex_lattice as module
 
     design = make_design(twist="linear:-12", mu=0.3)
     coarse = solve(replace(design, models=replace(design.models, inflow="vortex-wake"))).require()
     monkeypatch.setattr(module, "PANELS", 24)
     monkeypatch.setattr(module, "AZIMUTHS", 60)
-    module._influence.cache_clear()
+    module._lattice_theory.cache_clear()
     fine = solve(replace(design, models=replace(design.models, inflow="vortex-wake", elements=80))).require()
-    module._influence.cache_clear()
+    module._lattice_theory.cache_clear()
     assert_allclose(coarse.power.main_rotor, fine.power.main_rotor, rtol=4e-3)

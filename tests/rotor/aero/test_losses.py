@@ -90,7 +90,7 @@ def test_mean_around_the_azimuth():
     ways = np.stack([np.ones_like(inflow), inflow**2])
     for tip, hub in ((True, True), (True, False), (False, True), (False, False)):
         factor, slope = loss_factor(r[:, None], inflow, 4, 0.13, tip=tip, hub=hub)
-        found = mean_loss_factor(r, inflow, ways, 4, 0.13, tip, hub)
+        found = mean_loss_factor(r, inflow, ways, (4, 0.13), tip, hub)
         assert_allclose(found[0], factor.mean(axis=1), rtol=1e-14)
         assert_allclose(found[1], slope.mean(axis=1), rtol=1e-11, atol=1e-13)
         assert_allclose(found[2:], (slope * ways).mean(axis=2), rtol=1e-11, atol=1e-13)

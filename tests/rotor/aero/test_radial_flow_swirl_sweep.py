@@ -7,10 +7,11 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.aero.elements import build_problem, swirl_of
 from rotor.aero.losses import loss_factor
-from rotor.aero.radial_flow import RadialFriction, skin_friction
+from rotor.aero.problem import Problem, build_problem, skin_friction, swirl_of
+from rotor.aero.section import FR, FX, UP, UR, UT, section
 from rotor.aero.switches import no_effect, with_switches
+from rotor.arrays import Array
 from rotor.design.design import BEYOND_DOCUMENT
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
@@ -21,32 +22,32 @@ def test_skin_friction_of_a_flat_plate():
     assert_allclose([skin_friction(1e7), skin_friction(1e6)], [0.0060, 0.0090], rtol=0.01)
 
 
+def friction_of(problem: Problem, mu: float) -> tuple[Array, Array]:
+    """What friction of the flow along the blade adds to F_x, and F_r, of an untwisted blade that does not flap."""
+    disk = problem.disk
+    channels = np.zeros((6, *disk.shape))
+    channels[UT], channels[UP], channels[UR] = disk.r[:, None] + mu * disk.sin, 0.01, mu * disk.cos
+    data = problem.section_data()
+    rubbed, clean = (section(channels, data._replace(friction=c), False, False)[0] for c in (data.friction, 0.0))
+    return rubbed[FX] - clean[FX], rubbed[FR]
+
+
 @pytest.mark.parametrize("mu", [0.1, 0.3, 0.5])
 def test_profile_power_and_drag_with_yawed_flow(mu: float):
     """All drag friction: C_P0 = σc_d/8 (1 + 4.5µ² + 1.61µ^3.7), C_H = σc_d/8 (3µ + 1.98µ^2.7) (Johnson 1980)."""
     design = make_design(mu=mu)
     blade = replace(design.rotor.blade, root_cutout=0.001, spans=design.rotor.blade.spans[-1:])
     design = replace(design, rotor=replace(design.rotor, blade=replace(blade, chord_stations=(0.0, 1.0))))
-    disk = build_problem(replace(design, models=replace(design.models, elements=400, azimuths=360))).disk
-    friction = RadialFriction(disk, mu, 1.0)
+    problem = build_problem(replace(design, models=replace(design.models, elements=400, azimuths=360)))
+    disk, (fx, radial) = problem.disk, friction_of(replace(problem, friction=1.0), mu)
     across: np.ndarray = disk.r[:, None] + mu * disk.sin
     cell = disk.dr / len(disk.psi)
-    section = disk.half_solidity[:, None] * np.abs(across) * across
-    power = ((section + friction.fx) * across + friction.radial * mu * disk.cos).sum() * cell
-    drag = ((section + friction.fx) * disk.sin + friction.radial * disk.cos).sum() * cell
+    yawless = disk.half_solidity[:, None] * np.abs(across) * across
+    power = ((yawless + fx) * across + radial * mu * disk.cos).sum() * cell
+    drag = ((yawless + fx) * disk.sin + radial * disk.cos).sum() * cell
     unit = 2.0 * disk.half_solidity.mean() / 8.0
     assert_allclose(power / unit, 1.0 + 4.5 * mu**2 + 1.61 * mu**3.7, rtol=0.01)
     assert_allclose(drag / unit, 3.0 * mu + 1.98 * mu**2.7, rtol=0.02)
-
-
-def test_slopes_of_friction_by_advance_ratio():
-    disk = build_problem(make_design(mu=0.3)).disk
-    step = 1e-6
-    ahead, behind, here = (RadialFriction(disk, 0.3 + s, 0.0065) for s in (step, -step, 0.0))
-    scale = np.abs(here.radial_slope).max()
-    for name in ("fx", "radial"):
-        difference = (getattr(ahead, name) - getattr(behind, name)) / (2.0 * step)
-        assert_allclose(getattr(here, f"{name}_slope"), difference, rtol=1e-6, atol=1e-6 * scale)
 
 
 def test_swirl_is_what_the_torque_gives_the_air():

@@ -12,29 +12,29 @@ from numpy.testing import assert_allclose, assert_array_equal
 from scipy.integrate import dblquad
 
 from rotor.__main__ import main
-from rotor.aero import kernel
-from rotor.aero.elements import LOW_MACH, build_problem, evaluate_elements
+from rotor.aero.elements import TrimState, disk_sums
 from rotor.aero.inflow import INFLOW_MODELS
+from rotor.aero.inflow.dynamic_wake import DynamicWakeInflow
 from rotor.aero.inflow.interface import Wake
+from rotor.aero.inflow.local_momentum import GAIN
 from rotor.aero.losses import tip_factor
-from rotor.aero.radial_flow import RadialFriction
-from rotor.aero.sums import disk_sums
+from rotor.aero.problem import LOW_MACH, build_problem
+from rotor.aero.section import LOSS
 from rotor.aero.switches import SWITCHES, no_effect, parse_switches, switched_off, with_switches
-from rotor.aero.trim_state import TrimState
 from rotor.airfoil.sections import load_installed
 from rotor.analysis.series import PARTS, switch_on_steps, waterfall
 from rotor.assets import asset_path
+from rotor.columns.trims import unknowns_of
 from rotor.design.design import BEYOND_DOCUMENT, Design
 from rotor.design.twist import TableTwist
 from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import read_aircraft
 from rotor.trim.adjoint import power_gradient
-from rotor.trim.equations import unknowns_of
-from rotor.trim.options import SolverOptions
+from rotor.trim.newton import SolverOptions
 from rotor.trim.power import hub_moment, power_budget
 from rotor.trim.solve import solve
-from tests.rotor.check_jacobian import check_jacobian
+from tests.rotor.check_jacobian import check_jacobian, elements_at, point_at
 
 TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-11)
 
@@ -151,11 +151,10 @@ class TestReverseFlow:
         design = make_design(preset="thesis", mu=mu)
         problem = build_problem(with_switches(design, ("reverse_flow",)))
         assert problem.unloaded is not None
-        elements = evaluate_elements(problem, TrimState(lambda0=1e-9))
-        loads = elements.loads.copy()
-        loads[kernel.CD] = np.where(problem.unloaded, loads[kernel.CD], drag)
-        elements = replace(elements, loads=loads)
-        got = power_budget(problem, elements, disk_sums(problem, elements)).profile / design.power_unit
+        e = elements_at(problem, TrimState(lambda0=1e-9))
+        pull = np.where(problem.unloaded, 0.0, drag) * problem.disk.half_solidity[:, None] * np.hypot(e.u_t, e.u_p)
+        e = replace(e, fx=pull * e.u_t, fz=-pull * e.u_p)
+        got = power_budget(problem, e, disk_sums(problem.disk, e)).profile / design.power_unit
         root = design.rotor.blade.root_cutout
         whole, _ = dblquad(
             lambda r, psi: (r + mu * math.sin(psi)) ** 3,
@@ -224,8 +223,9 @@ class TestFlapping:
         disk, tilt = solution.disk, solution.controls.shaft_tilt
         mean = disk.dr / len(disk.psi)
         thrust = disk.dct.sum() * mean
-        friction = RadialFriction(build_problem(design).disk, 0.25 * math.cos(tilt), build_problem(design).friction)
-        drag = ((disk.dcq * np.sin(disk.psi)).sum() + (friction.radial * np.cos(disk.psi)).sum()) * mean
+        assert solution.linear is not None
+        radial = solution.linear.elements.fr
+        drag = ((disk.dcq * np.sin(disk.psi)).sum() + (radial * np.cos(disk.psi)).sum()) * mean
         unit = design.thrust_unit
         assert_allclose(thrust * math.cos(tilt) + drag * math.sin(tilt), build_problem(design).weight, rtol=1e-9)
         assert_allclose(thrust * math.sin(tilt) - drag * math.cos(tilt), design.drag / unit, rtol=1e-8)
@@ -236,10 +236,9 @@ class TestFlapping:
         design = make_design(mu=mu)
         fine = replace(design.models, elements=400, inflow="uniform")
         problem = build_problem(with_switches(replace(design, models=fine), ("flapping", "swirl")))
-        elements = evaluate_elements(problem, TrimState(collective=theta, lambda0=inflow))
-        loads = elements.loads.copy()
-        loads[kernel.FZ] = 0.5 * sigma * slope * (theta * elements.u_t**2 - inflow * elements.u_t)
-        moment = hub_moment(problem, replace(elements, loads=loads))
+        e = elements_at(problem, TrimState(collective=theta, lambda0=inflow))
+        lift = 0.5 * sigma * slope * (theta * e.u_t**2 - inflow * e.u_t)
+        moment = hub_moment(problem, replace(e, fz=lift))
         root = design.rotor.blade.root_cutout
         by_hand = 0.5 * sigma * slope * mu * (theta * (1 - root**3) / 3.0 - inflow * (1 - root**2) / 4.0)
         unit = design.thrust_unit * design.rotor.radius
@@ -276,32 +275,31 @@ class TestLossesAndFuselage:
     def test_each_loss_acts_at_its_end_of_the_blade(self, off: str, end: int):
         state = TrimState(collective=0.17, shaft_tilt=0.08, lambda0=0.012)
         on, without = (
-            evaluate_elements(build_problem(with_switches(small(0.2, inflow="drees"), names)), state).loss
+            point_at(build_problem(with_switches(small(0.2, inflow="drees"), names)), state).channels[LOSS, :, 0]
             for names in ((), (off,))
         )
         assert on[end] < 0.95
         assert without[end] == pytest.approx(1.0, abs=1e-4)
         assert without[-1 - end] == pytest.approx(on[-1 - end], abs=1e-4)
 
-    @pytest.mark.parametrize("inflow", ["local-momentum", "dynamic-wake-infinite-blades"])
-    def test_load_dependent_inflow_without_tip_loss_drops_its_factor(self, inflow: str):
+    def test_local_momentum_without_tip_loss_drops_its_factor(self):
         """At one load λ_i with tip loss is λ_i without it over F (2.28): F of the mean inflow by Prandtl."""
-        disk = build_problem(small(0.2)).disk
-        wake = Wake(0.2, 0.01, 0.013)
-        load = 0.02 * disk.r[:, None] * np.ones(disk.shape[1])
-        model = INFLOW_MODELS[inflow]
-        on, off = (m.respond(disk, wake, load).induced for m in (model, model.without_tip_loss()))
-        uneven = 0.0 if inflow != "local-momentum" else on - (on.mean(axis=1, keepdims=True))
-        factor, _ = tip_factor(disk.r, wake.axial, 4)
-        assert_allclose((on - uneven) * factor[:, None], off - uneven, rtol=1e-9)
+        disk, wake, model = build_problem(small(0.2)).disk, Wake(0.2, 0.01, 0.013), INFLOW_MODELS["local-momentum"]
+        on, off = (
+            m.on(disk, wake, (True, True)).follow(wake, wake.mu_z, sees_tilt=True).live[GAIN, "gain"][0]
+            for m in (model, model.without_tip_loss())
+        )
+        assert_allclose(on * tip_factor(disk.r, wake.axial, 4)[0], off, rtol=1e-9)
 
-    def test_four_blades_without_tip_loss_are_infinitely_many(self):
-        wake = INFLOW_MODELS["dynamic-wake"].without_tip_loss()
-        infinite = INFLOW_MODELS["dynamic-wake-infinite-blades"].without_tip_loss()
-        disk = build_problem(small(0.2)).disk
-        load = np.random.default_rng(1).random(disk.shape)
-        a, b = (m.respond(disk, Wake(0.2, 0.0, 0.013), load).induced for m in (wake, infinite))
-        assert_allclose(a, b, rtol=1e-12)
+    def test_a_wake_without_tip_loss_is_that_of_infinitely_many_blades_without_factor(self):
+        disk, wake = build_problem(small(0.2)).disk, Wake(0.2, 0.01, 0.013)
+        infinite, four = INFLOW_MODELS["dynamic-wake-infinite-blades"], INFLOW_MODELS["dynamic-wake"]
+        load, fields = np.random.default_rng(1).random(disk.shape), []
+        for model in (infinite, infinite.without_tip_loss(), four.without_tip_loss()):
+            assert isinstance(model, DynamicWakeInflow)
+            fields.append(model.theory(disk).induced(load, wake))
+        assert_allclose(fields[0] * tip_factor(disk.r, wake.axial, 4)[0][:, None], fields[1], rtol=1e-9)
+        assert_allclose(fields[1], fields[2], rtol=1e-12)
         assert no_effect(small(0.2, inflow="vortex-wake"), "tip_loss")
 
     def test_losses_increase_power(self):

@@ -18,28 +18,28 @@ from rotor.aero.inflow.peters_he import (
     radial_function,
     radial_functions,
 )
-from rotor.aero.inflow.wake_projection import Projection
+from rotor.engine.waves import waves_at
 
 
 def entry(matrix: np.ndarray, family: Family, r: int, j: int, m: int, n: int) -> float:
     return matrix[family.modes.index((r, j)), family.modes.index((m, n))]
 
 
-def amplitudes(order: int, wake: Wake, load: np.ndarray, radii: np.ndarray, count: int) -> np.ndarray:
-    """cos nψ amplitudes of λ_i at `radii` for an axisymmetric d(r) given on 2000 elements, (count, radii)."""
-    model = DynamicWake(order=order, harmonics=0)
-    projection = model.on(0.0, len(load), 2 * order + 4)
-    d = np.repeat(load[:, None], 2 * order + 4, axis=1)
-    return harmonics_of(projection, model.operator(projection, wake).coefficients(d), radii)[0, :count]
-
-
-def harmonics_of(projection: Projection, coefficients: np.ndarray, radii: np.ndarray) -> np.ndarray:
-    """Cosine and sine amplitudes of an inflow in terms, (2, waves, radii)."""
-    out = np.zeros((2, projection.wave.max() + 1, len(radii)))
-    g = radial_functions(highest_modes(len(projection.radial) - 1), radii)
-    for k, p, sine, x in zip(projection.order, projection.wave, projection.parity, coefficients, strict=True):
+def amplitudes(order: int, wake: Wake, d: np.ndarray, radii: np.ndarray) -> np.ndarray:
+    """Cosine and sine amplitudes of λ_i at `radii`, (2, waves, radii), for d, (elements, azimuths)."""
+    theory, azimuths = DynamicWake(order=order, harmonics=0).on(0.0, len(d)), d.shape[1]
+    own = theory.projection
+    around = waves_at(2 * order + 1, 2.0 * np.pi * np.arange(azimuths) / azimuths)[own.waves]
+    means = (own.radial[own.order] @ d * around).sum(axis=1) * own.dr / azimuths
+    out, g = np.zeros((2, own.wave.max() + 1, len(radii))), radial_functions(highest_modes(order), radii)
+    for k, p, sine, x in zip(own.order, own.wave, own.parity, theory.answer(means, wake), strict=True):
         out[sine, p] += x * g[k]
     return out
+
+
+def cosines(order: int, wake: Wake, load: np.ndarray, radii: np.ndarray, count: int) -> np.ndarray:
+    """The first cosine amplitudes for an axisymmetric d(r), (count, radii)."""
+    return amplitudes(order, wake, np.repeat(load[:, None], 2 * order + 4, axis=1), radii)[0, :count]
 
 
 MIDPOINTS = (np.arange(2000) + 0.5) / 2000
@@ -111,7 +111,7 @@ def test_closed_forms_of_the_actuator_disk(kind: str, load: np.ndarray):
     for chi in {row["chi_deg"] for row in rows}:
         at = [row for row in rows if row["chi_deg"] == chi]
         radii = np.array([float(row["r"]) for row in at])
-        found = amplitudes(16, wake_at(float(chi)), load, radii, 5)
+        found = cosines(16, wake_at(float(chi)), load, radii, 5)
         expected = np.array([[float(row[f"w{k}"]) for row in at] for k in range(5)])
         assert_allclose(found, expected, rtol=0, atol=2e-3)  # Truncation at S = 16, as measured by the reference.
         assert_allclose(found[1::2], expected[1::2], rtol=0, atol=2e-5)  # Midpoint sum of d at its √ end.
@@ -127,9 +127,7 @@ def test_one_state_in_axial_flow_gives_nine_sixteenths():
 
 @pytest.mark.parametrize("load", [ELLIPTIC, HUB_ZERO])
 def test_mean_inflow_in_axial_flow_tends_to_momentum_theory(load: np.ndarray):
-    mean = [
-        float((2.0 * MIDPOINTS * amplitudes(order, wake_at(0.0), load, MIDPOINTS, 1)[0]).mean()) for order in (4, 16)
-    ]
+    mean = [float((2.0 * MIDPOINTS * cosines(order, wake_at(0.0), load, MIDPOINTS, 1)[0]).mean()) for order in (4, 16)]
     assert_allclose(mean[0], 0.5, rtol=0, atol=0.021)  # Truncation, 0.502 … 0.520 as the reference measured.
     assert_allclose(mean[1], 0.5, rtol=0, atol=0.0036)
 
@@ -139,9 +137,9 @@ def test_pitt_peters_gains():
     wake = wake_at(60.0)
     skew = math.tan(math.radians(30.0))
     at_tip = np.array([1.0])
-    three = amplitudes(1, wake, ELLIPTIC, at_tip, 2)[1, 0]
+    three = cosines(1, wake, ELLIPTIC, at_tip, 2)[1, 0]
     assert_allclose(three / 0.5, 0.75 * math.pi * skew, rtol=1e-5)  # Midpoint sum of d.
-    first = amplitudes(8, wake, HUB_ZERO, MIDPOINTS, 2)[1]
+    first = cosines(8, wake, HUB_ZERO, MIDPOINTS, 2)[1]
     projected = 4.0 * (first * MIDPOINTS**2).mean()
     assert_allclose(projected / 0.5, 15.0 * math.pi / 32.0 * skew, rtol=5e-5)  # Midpoint sums.
 
@@ -167,15 +165,12 @@ def test_independent_of_the_fourier_operator_of_the_actuator_disk(m: int, sine: 
     w = np.fft.ifft2(np.fft.fft2(pressure) / (2.0 * (math.cos(chi) + 1j * math.sin(chi) * along / size))).real
 
     order, azimuths, elements = 16, 48, 400
-    model = DynamicWake(order=order, harmonics=0)
-    projection = model.on(0.0, elements, azimuths)
-    mid = projection.r
+    mid = (np.arange(elements) + 0.5) / elements
     angle = 2.0 * np.pi * np.arange(azimuths) / azimuths
     d = 2.0 * mid[:, None] ** (m + 1) * (1.0 - mid[:, None] ** 2) ** 1.5 * trig(m * angle)
-    coefficients = model.operator(projection, wake_at(chi_deg)).coefficients(d)
     inside = r < 0.95
-    cosines, sines = harmonics_of(projection, coefficients, r[inside])
-    turns = np.outer(np.arange(len(cosines)), psi[inside])
-    found = (cosines * np.cos(turns) + sines * np.sin(turns)).sum(axis=0)
+    even, odd = amplitudes(order, wake_at(chi_deg), d, r[inside])
+    turns = np.outer(np.arange(len(even)), psi[inside])
+    found = (even * np.cos(turns) + odd * np.sin(turns)).sum(axis=0)
     # Truncation at S = 16 and the box's periodic images; w reaches 0.05 … 0.3.
     assert_allclose(found, w[inside], rtol=0, atol=1.2e-3)

@@ -19,7 +19,7 @@ from rotor.aero.switches import SWITCHES
 from rotor.analysis.ideal_bound import ideal_factor
 from rotor.analysis.series import COLUMNS
 from rotor.command.optimise import digits_of_band
-from rotor.files.ranges import parse_range
+from rotor.user_input import parse_range
 
 KEYS = [
     "status", "message", "caveats", "mu", "speed_m_s", "climb_m_s", "preset", "inflow", "twist", "power_w", "ct", "cp",

@@ -8,46 +8,47 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 
-from rotor.aero import kernel
-from rotor.aero.elements import Problem, build_problem, evaluate_elements, wake_at
-from rotor.aero.trim_state import TrimState
+from rotor.aero.elements import BladeElements
+from rotor.aero.inflow import INFLOW_MODELS, Wake
+from rotor.aero.inflow.linear import LinearInflow
+from rotor.aero.problem import Problem, build_problem, in_disk_axes
+from rotor.aero.section import FZ, LOSS, TH, UP, UR, UT, section
+from rotor.arrays import Array
 from rotor.dynamics.flapping import flap_dynamics, lock_number
 from rotor.files.make_design import make_design, uh60a_rotor
 from rotor.trim.forward import first_guess
 from rotor.trim.newton import newton
 
 
-def trimmed(preset: str, mu: float) -> tuple[Problem, TrimState]:
+def trimmed(preset: str, mu: float) -> tuple[Problem, BladeElements, Array]:
+    """The problem, its trim, and the loss factor of the elements."""
     design = make_design(preset=preset, mu=mu, twist="linear:-10")
     problem = build_problem(replace(design, models=replace(design.models, inflow="pitt-peters", elastic_twist=False)))
     result = newton(problem, first_guess(problem))
     assert result.converged
-    return problem, result.elements.state
+    return problem, result.linear.elements, result.point.channels[LOSS, :, :1]
 
 
-def march(problem: Problem, state: TrimState, revolutions: int) -> np.ndarray:
+def march(problem: Problem, at: BladeElements, loss: Array, revolutions: int) -> np.ndarray:
     """β(ψ) over the last revolution of β'' + ν²β = Γ Σ(r − e) dC_T/dr(ψ, β, β') dr − w, by Runge–Kutta.
 
     The load is evaluated at the instant's own β and β' with controls and inflow as trimmed; nothing here uses
     harmonics.
     """
-    disk, flap = problem.disk, problem.flap
-    elements = evaluate_elements(problem, state)
-    flow = elements.flow
-    r = disk.r
+    disk, flap, flow, state, data = problem.disk, problem.flap, at.flow, at.state, problem.section_data()
+    along, through = in_disk_axes(problem.design.condition.advance_ratio, problem.climb, state.shaft_tilt)
+    wake, model, arm = Wake(along, through, state.lambda0), INFLOW_MODELS["pitt-peters"], disk.r - flap.hinge
+    assert isinstance(model, LinearInflow)
 
     def acceleration(psi: float, beta: float, rate: float) -> float:
         cos, sin = np.array([math.cos(psi)]), np.array([math.sin(psi)])
-        here = replace(disk, psi=np.array([psi]), cos=cos, sin=sin)
-        induced = problem.inflow.respond(here, wake_at(problem, state), np.zeros((0, 0))).induced
-        theta = (problem.twist + state.collective + state.cyclic_1c * cos + state.cyclic_1s * sin)[:, None]
-        u_t = (r - elements.swirl + flow.mu_x * sin)[:, None]
-        u_p = induced + ((r - flap.hinge) * rate + flow.mu_z + flow.mu_x * beta * cos)[:, None]
-        loads = kernel.element_loads(
-            theta, u_t, u_p, flow.mu_x * cos, elements.loss, problem.tip_mach,
-            disk.half_solidity, disk.section, disk.weight, disk.offset, disk.tables, disk.cos_sweep, disk.sin_sweep,
-        )  # fmt: skip
-        moment = float((r - flap.hinge) @ loads[kernel.FZ, :, 0]) * disk.dr
+        c = np.zeros((6, len(disk.r), 1))
+        c[TH, :, 0] = problem.twist + state.collective + state.cyclic_1c * cos + state.cyclic_1s * sin
+        c[UT, :, 0] = disk.r - at.swirl + flow.mu_x * sin
+        c[UP, :, 0] = arm * rate + flow.mu_z + flow.mu_x * beta * cos
+        c[UP] += model.field(disk.r, cos, sin, wake)[0]
+        c[UR], c[LOSS] = flow.mu_x * cos, loss
+        moment = float(arm @ section(c, data, False, False)[0][FZ, :, 0]) * disk.dr
         return flap.load_gain * moment - flap.weight - flap.frequency_squared * beta
 
     end = 2.0 * math.pi * revolutions
@@ -62,8 +63,8 @@ def march(problem: Problem, state: TrimState, revolutions: int) -> np.ndarray:
 @pytest.mark.parametrize(("preset", "mu"), [("flight", 0.15), ("thesis", 0.15), ("thesis", 0.3)])
 def test_ode_agrees_with_harmonic_balance(preset: str, mu: float):
     """First harmonics of the marched motion against the balance: the difference is the neglected 2/rev and higher."""
-    problem, state = trimmed(preset, mu)
-    beta = march(problem, state, revolutions=12)
+    problem, at, loss = trimmed(preset, mu)
+    beta, state = march(problem, at, loss, revolutions=12), at.state
     psi = np.linspace(0.0, 2.0 * math.pi, 73)[:-1]
     marched = [beta.mean(), 2.0 * (beta * np.cos(psi)).mean(), 2.0 * (beta * np.sin(psi)).mean()]
     balanced = [state.coning, state.flap_1c, state.flap_1s]
@@ -75,9 +76,8 @@ def test_ode_agrees_with_harmonic_balance(preset: str, mu: float):
 
 
 def test_no_hinge_offset_leaves_no_first_harmonic_moment():
-    problem, state = trimmed("thesis", 0.25)
-    elements = evaluate_elements(problem, state)
-    moment = problem.disk.r @ elements.loads[kernel.FZ] * problem.disk.dr
+    problem, at, _ = trimmed("thesis", 0.25)
+    moment = problem.disk.r @ at.fz * problem.disk.dr
     assert_allclose((moment @ problem.disk.cos, moment @ problem.disk.sin), 0.0, atol=1e-11)
 
 

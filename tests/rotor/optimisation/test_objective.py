@@ -22,7 +22,7 @@ from rotor.optimisation.objective import (
     read_mission,
 )
 from rotor.trim.adjoint import Adjoint
-from rotor.trim.options import SolverOptions
+from rotor.trim.newton import SolverOptions
 from rotor.trim.solve import solve
 
 

@@ -270,7 +270,7 @@ def test_a_guess_is_exact_for_linear_variation():
 
     def trimmed(mu: float, mass: float) -> Any:
         controls = replace(solution.controls, collective=0.1 + 0.2 * mu + 1e-5 * mass)
-        return replace(solution, controls=controls)
+        return replace(solution, start=replace(solution.start, state=controls))
 
     for mu, mass in ((0.1, 100.0), (0.2, 120.0), (0.15, 300.0), (0.12, 180.0)):
         memory.keep(at(mu, mass), trimmed(mu, mass))
@@ -298,7 +298,8 @@ def test_a_guess_is_exact_for_quadratic_variation_and_the_nearest_trim_far_out()
 
     for mu, part in np.random.default_rng(1).random((30, 2)).tolist():
         controls = replace(solution.controls, collective=collective(mu, 2000.0 * part))
-        memory.keep({"mu": mu, "mass_kg": 2000.0 * part}, replace(solution, controls=controls))
+        left = replace(solution.start, state=controls)
+        memory.keep({"mu": mu, "mass_kg": 2000.0 * part}, replace(solution, start=left))
     assert_allclose(guess(0.4, 900.0), collective(0.4, 900.0), rtol=1e-5)
     kept = collective(0.0, 0.0)
     assert abs(guess(40.0, 900.0) - kept) < 1.0  # The quadratic itself gives −600.

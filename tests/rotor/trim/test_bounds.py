@@ -8,7 +8,7 @@ from rotor.design.aircraft import LEAST_MASS
 from rotor.design.stand import LARGEST_CT_OVER_SIGMA, Stand
 from rotor.files.make_design import make_design
 from rotor.trim.forward import easier_condition
-from rotor.trim.options import DEFAULT_OPTIONS
+from rotor.trim.newton import DEFAULT_OPTIONS
 from rotor.trim.solve import solve
 
 HOPELESS = make_design(mu=0.4, mass_kg=20_000, inflow="pitt-peters")

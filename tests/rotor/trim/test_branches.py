@@ -11,13 +11,13 @@ from multiprocessing import get_context
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.aero.elements import build_problem
 from rotor.aero.inflow import INFLOW_MODELS
+from rotor.aero.problem import build_problem
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.trim.forward import first_guess
-from rotor.trim.newton import Guess, newton
+from rotor.trim.newton import newton
 from rotor.trim.solve import SUSPECT_STALL, solve
 
 DEEP_STALL = make_design(
@@ -36,7 +36,7 @@ def test_the_trim_of_least_power_is_found():
     first = newton(problem, first_guess(problem))
     assert first.converged
     cold = solve(DEEP_STALL)
-    assert first.elements.state.collective > cold.controls.collective + math.radians(1.0)  # The trap is still there.
+    assert first.state.collective > cold.controls.collective + math.radians(1.0)  # The trap is still there.
     heavier = None
     for mass in (6500.0, 8000.0, 9500.0, 10000.0, 10490.0):
         heavier = solve(at_mass(DEEP_STALL, mass), heavier)
@@ -47,8 +47,7 @@ def test_the_trim_of_least_power_is_found():
 
 def test_a_start_deep_in_stall_comes_back():
     problem = build_problem(DEEP_STALL)
-    trap = newton(problem, first_guess(problem)).elements
-    warm = solve(DEEP_STALL, Guess(trap.state, trap.induced))
+    warm = solve(DEEP_STALL, newton(problem, first_guess(problem)).guess)
     assert_allclose(warm.power.total, solve(DEEP_STALL).power.total, rtol=1e-6)
 
 

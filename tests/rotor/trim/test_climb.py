@@ -10,21 +10,21 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
-from rotor.aero.elements import build_problem
+from rotor.aero.elements import TrimState
 from rotor.aero.free_wake.settle import settle
 from rotor.aero.free_wake.system import HoverSystem, WakeState
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.losses import loss_factor
 from rotor.aero.momentum import FASTEST_RING, axial_inflow, glauert_inflow, vortex_ring_edge
-from rotor.aero.trim_state import TrimState
+from rotor.aero.problem import build_problem
+from rotor.columns.hover import closed_form_inflow, lift_curve
 from rotor.design.design import HOVER_INFLOWS, Design
 from rotor.design.twist import IdealTwist, ideal_tip_pitch
 from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
 from rotor.trim.adjoint import power_gradient
-from rotor.trim.hover import closed_form_inflow, lift_curve
 from rotor.trim.hover_wake import hover_wake
-from rotor.trim.options import SolverOptions
+from rotor.trim.newton import SolverOptions
 from rotor.trim.solve import solve
 from tests.rotor.check_jacobian import check_jacobian
 

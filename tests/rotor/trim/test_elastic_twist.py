@@ -10,22 +10,18 @@ from numpy.testing import assert_allclose
 from scipy.integrate import cumulative_trapezoid, solve_ivp
 
 from rotor.aero import elastic as elastic_module
-from rotor.aero import kernel
-from rotor.aero.elements import BladeElements, Problem, build_problem, evaluate_elements
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.sums import slopes
-from rotor.aero.torsion_balance import torsion_residual
-from rotor.aero.trim_state import TrimState
+from rotor.aero.inflow.linear import LinearInflow
+from rotor.aero.problem import build_problem
+from rotor.aero.section import LOSS, RATE, TH, UP, UR, UT, M, section
 from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.design import Design
 from rotor.design.twist import TableTwist
+from rotor.engine.waves import rate_of, wave_grid
 from rotor.files.make_design import make_design
-from rotor.trim import newton as newton_module
 from rotor.trim.adjoint import power_gradient
-from rotor.trim.equations import residuals, unknowns_of
 from rotor.trim.forward import first_guess
-from rotor.trim.newton import KeptTrim, KeptTrims, differentiate, full_jacobian, inflow_feedback, newton
-from rotor.trim.options import SolverOptions
+from rotor.trim.newton import SolverOptions, newton
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -77,53 +73,24 @@ def test_the_document_has_no_elastic_blade():
     assert solve(switched).power == solve(made).power
 
 
-def settled(problem: Problem, state: TrimState, coordinates: np.ndarray, induced: np.ndarray) -> BladeElements:
-    """The elements at a state with the inflow that answers their own load."""
-    elements = evaluate_elements(problem, state, induced, coordinates)
-    for _ in range(4 if problem.inflow.load_dependent else 0):
-        feedback = inflow_feedback(problem, elements)
-        assert feedback is not None
-        assert elements.response is not None
-        error = elements.response.induced - elements.induced
-        elements = evaluate_elements(problem, state, elements.induced + feedback.solve(error[None])[0], coordinates)
-    return elements
-
-
 def quick_models() -> list[str]:
     return [name for name in INFLOW_MODELS if name != "vortex-wake"]
 
 
 @pytest.mark.parametrize("inflow", quick_models())
-def test_jacobian_and_energy(inflow: str):
-    """Along random directions against central differences; shaft power is the sum of the parts, to rounding.
+def test_energy(inflow: str):
+    """Shaft power is the sum of the parts, to rounding.
 
     What pitch links and plies put into the blades is what the air takes, −Σ dC_M θ': all else stores energy.
     """
     made = flapping(design(0.23, inflow=inflow, small=True))
-    problem = build_problem(made)
-    result = newton(problem, first_guess(problem), TIGHT)
-    assert result.converged
-    elements, unknowns = result.elements, unknowns_of(made)
-    assert elements.torsion is not None
-    coordinates = elements.torsion.coordinates
-    feedback = inflow_feedback(problem, elements)
-    exact = full_jacobian(problem, elements, slopes(problem, elements, unknowns, feedback))[0]
-
-    def residual(step: np.ndarray) -> np.ndarray:
-        state = elements.state.moved(unknowns, step[: len(unknowns)])
-        twist = coordinates + step[len(unknowns) :].reshape(coordinates.shape)
-        here = settled(problem, state, twist, elements.induced)
-        return np.concatenate([residuals(problem, here), torsion_residual(problem, here).ravel()])
-
-    size = 1e-6
-    trims = len(unknowns)
-    for way in np.random.default_rng(7).standard_normal((6, len(exact))):
-        measured, expected = (residual(size * way) - residual(-size * way)) / (2.0 * size), exact @ way
-        for rows in (slice(0, trims), slice(trims, None)):
-            assert_allclose(measured[rows], expected[rows], atol=1e-7 * np.abs(expected[rows]).max())
-    taken = -(elements.torsion.moments[kernel.MOMENT] * elements.torsion.rate).mean(axis=1).sum() * problem.disk.dr
     solution = solve(made, options=TIGHT).require()
     assert solution.elastic is not None
+    assert solution.linear is not None
+    problem, point = solution.linear.problem, solution.linear.point
+    assert problem.torsion is not None
+    air = point.forces[M] + 0.5 * problem.torsion.inertia[:, None] * np.sin(2.0 * point.channels[TH])
+    taken = -(air * point.channels[RATE]).mean(axis=1).sum() * problem.disk.dr
     assert abs(taken) * made.power_unit > 10.0
     assert_allclose(solution.elastic.control_power, taken * made.power_unit, rtol=1e-6)
     assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-9)
@@ -201,38 +168,32 @@ def test_harmonic_balance_against_a_time_march():
     problem = build_problem(made)
     result = newton(problem, first_guess(problem))
     assert result.converged
-    elements, torsion, disk = result.elements, problem.torsion, problem.disk
+    elements, torsion, disk = result.linear.elements, problem.torsion, problem.disk
     assert torsion is not None
     assert elements.torsion is not None
-    state, shapes, modes = elements.state, torsion.shapes, len(torsion.gain)
-    tension = torsion.tension @ problem.twist
+    assert isinstance(problem.inflow, LinearInflow)
+    state, model, modes = elements.state, problem.inflow, len(torsion.gain)
+    tension, wake, data = torsion.tension @ problem.twist, elements.flow, problem.section_data()
+    channels = np.zeros((6, len(disk.r), 1))
+    channels[LOSS] = result.point.channels[LOSS][:, :1]
 
     def acceleration(psi: float, y: np.ndarray) -> np.ndarray:
         q, rate = y[:modes], y[modes:]
-        cos, sin = np.array([math.cos(psi)]), np.array([math.sin(psi)])
-        here = replace(disk, psi=np.array([psi]), cos=cos, sin=sin)
-        wake = elements.flow
-        induced = problem.inflow.respond(here, wake, np.zeros((0, 0))).induced
+        cos, sin = math.cos(psi), math.sin(psi)
         cyclic = state.cyclic_1c * cos + state.cyclic_1s * sin
-        theta = (problem.twist + state.collective + cyclic + q @ shapes.radial)[:, None]
-        pitching = (state.cyclic_1s * cos - state.cyclic_1c * sin + rate @ shapes.radial)[:, None]
-        u_t = (disk.r - elements.swirl + wake.mu_x * sin)[:, None]
-        u_p = induced + wake.mu_z + wake.mu_x * state.coning * cos
-        common = (disk.section, disk.weight, disk.offset)
-        sweep = (disk.cos_sweep, disk.sin_sweep)
-        loads = kernel.element_loads(
-            theta, u_t, u_p, wake.mu_x * cos, elements.loss, problem.tip_mach, disk.half_solidity, *common,
-            disk.tables, *sweep,
-        )  # fmt: skip
-        moments = kernel.element_moments(
-            loads, u_t, u_p, wake.mu_x * cos, pitching, problem.tip_mach, torsion.moment_gain, torsion.damping,
-            torsion.lag, *common, torsion.tables, *sweep,
-        )  # fmt: skip
-        along = moments[kernel.MOMENT, :, 0] - torsion.inertia * (0.5 * np.sin(2.0 * theta[:, 0]) - cyclic[0])
+        channels[TH, :, 0] = problem.twist + state.collective + cyclic + q @ torsion.radial
+        channels[RATE, :, 0] = state.cyclic_1s * cos - state.cyclic_1c * sin + rate @ torsion.radial
+        channels[UT, :, 0] = disk.r - elements.swirl + wake.mu_x * sin
+        channels[UP] = model.field(disk.r, np.array([cos]), np.array([sin]), wake)[0]
+        channels[UP] += wake.mu_z + wake.mu_x * state.coning * cos
+        channels[UR] = wake.mu_x * cos
+        along = section(channels, data, False, False)[0][M, :, 0] + torsion.inertia * cyclic
         load = torsion.modal(along + torsion.tip_mass * state.coning) + torsion.coupling @ q - tension
         return torsion.frequency**2 * (torsion.gain * load - q)
 
-    start = elements.torsion.coordinates @ shapes.waves[:, 0], elements.torsion.coordinates @ shapes.rates[:, 0]
+    waves = wave_grid(torsion.functions, len(disk.psi)).at
+    rates = np.array([factor * waves[wave] for wave, factor in map(rate_of, range(torsion.functions))])
+    start = elements.torsion.coordinates @ waves[:, 0], elements.torsion.coordinates @ rates[:, 0]
     turns = 10
     span = (0.0, 2.0 * math.pi * turns)
     marched = solve_ivp(
@@ -245,7 +206,7 @@ def test_harmonic_balance_against_a_time_march():
         atol=1e-7,
     )
     tip = marched.y[:modes].sum(axis=0)
-    trimmed = (elements.torsion.coordinates @ shapes.waves[:, ::4]).sum(axis=0)
+    trimmed = (elements.torsion.coordinates @ waves[:, ::4]).sum(axis=0)
     assert_allclose(tip, trimmed, atol=math.radians(0.12))  # Harmonics above the fourth are the difference.
 
 
@@ -350,26 +311,12 @@ def test_results_by_name():
     assert solve(design(0.2, on=False)).to_dict()["elastic_twist_deg"] is None
 
 
-def test_the_next_trim_uses_the_derivatives_of_the_gradient(monkeypatch: pytest.MonkeyPatch):
-    """The same answer without evaluating derivatives; a copy, as from another process, has none."""
-    start, near = solve(design(0.25)).require(), design(0.252)
-    power_gradient(start)
-    alone = solve(near, pickle.loads(pickle.dumps(start))).require()
-    evaluated: list[object] = []
-    monkeypatch.setattr(newton_module, "differentiate", lambda *of: evaluated.append(of) or differentiate(*of))
-    assert_allclose(solve(near, start).require().power.total, alone.power.total, rtol=1e-9)
-    assert not evaluated
-
-
-def test_the_trims_used_last_are_kept():
-    """The latest with their blade elements, the others with their derivatives."""
-    kept = KeptTrims(most=3, whole=1)
-    problem = build_problem(design(0.2, small=True))
-    elements = newton(problem, first_guess(problem)).elements
-    fields = [np.zeros(k) for k in range(4)]
-    for field in fields[:3]:
-        kept.keep(KeptTrim(field, None, elements))
-    assert kept.of(fields[0]) is not None
-    kept.keep(KeptTrim(fields[3], None, elements))
-    whole = [one.elements is elements if (one := kept.of(field)) is not None else None for field in fields]
-    assert whole == [False, None, False, True]
+def test_the_next_trim_uses_the_derivatives_of_the_last():
+    """The same answer without evaluating derivatives, also with those of a copy from another process."""
+    start, near = solve(design(0.252), solve(design(0.25))).require(), design(0.254)
+    alone = solve(near).require()
+    for before in (start, pickle.loads(pickle.dumps(start))):
+        evaluated: list[object] = []
+        options = SolverOptions(pause=lambda: evaluated.append(1))  # noqa: B023
+        assert_allclose(solve(near, before, options).require().power.total, alone.power.total, rtol=1e-9)
+        assert not evaluated

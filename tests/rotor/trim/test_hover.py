@@ -8,11 +8,12 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
-from rotor.aero.elements import build_problem
 from rotor.aero.losses import loss_factor
+from rotor.aero.problem import build_problem
 from rotor.airfoil.sections import load_installed
+from rotor.columns.hover import closed_form_inflow, hover_system, lift_curve
+from rotor.engine.linearise import evaluate
 from rotor.files.make_design import make_design
-from rotor.trim.hover import closed_form_inflow, lift_curve
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -123,17 +124,16 @@ def test_coning_by_the_moment_integral(preset: str):
 
 def test_collective_agrees_with_a_root_finder():
     """The collective that Newton finds is the one scipy's bracketing finds on thrust against collective."""
-    from rotor.trim.hover import Annuli
-
     solution = hover()
-    annuli = Annuli(build_problem(solution.design))
+    system = hover_system(build_problem(solution.design))
+    modes = len(system.structure.equations_of("twist"))
+    rates = [-system.numbers[system.structure.numbers["coning stiffness"]], *np.ones(modes)]
 
     def excess(collective: float) -> float:
-        thrust, _ = annuli.thrust(collective)
-        while annuli.torsion_error > 1e-13:
-            annuli.twist_with(0.0)
-            thrust, _ = annuli.thrust(collective)
-        return thrust - annuli.problem.weight
+        x = np.concatenate([system.numbers, [collective, 0.0], np.zeros(modes)])
+        while np.abs((point := evaluate(system, system.grid, x)).residual[1:]).max() > 1e-13:
+            x[system.structure.free[1:]] -= point.residual[1:] / rates
+        return float(point.residual[0])
 
     root = brentq(excess, 0.0, 0.3, xtol=1e-13)
     assert_allclose(solution.controls.collective, root, atol=1e-10)

@@ -10,7 +10,7 @@ from rotor.aero.free_wake import settle
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.trim.adjoint import Objective, power_gradient
-from rotor.trim.options import SolverOptions
+from rotor.trim.newton import SolverOptions
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 

@@ -2,23 +2,17 @@
 
 import math
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
 
-from rotor.aero.elements import Problem
-from rotor.aero.free_wake.system import WakeState
 from rotor.aero.momentum import glauert_inflow
 from rotor.design.design import Design, LowSpeed
 from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
-from rotor.trim import low_speed
 from rotor.trim.adjoint import Objective, power_gradient
-from rotor.trim.hover_wake import HoverWakeResult
-from rotor.trim.hover_wake import hover_wake as hover_wake_from
 from rotor.trim.low_speed import FASTEST, axial_share, hover_difference, inflow_ratio
-from rotor.trim.options import SolverOptions
+from rotor.trim.newton import SolverOptions
 from rotor.trim.solve import solve
 
 
@@ -112,29 +106,6 @@ def test_gradient_by_pitch_agrees_with_differences(objective: Objective, station
 def test_energy_closes():
     power = solve(design().at(mu=0.01)).require().power
     assert power.main_rotor == pytest.approx(power.shaft, rel=1e-9)
-
-
-def test_free_wake_starts_from_the_last_one_and_settles_to_the_same(monkeypatch: pytest.MonkeyPatch):
-    started: list[bool] = []
-
-    def hover_wake(problem: Problem, start: WakeState | None = None, **given: Any) -> HoverWakeResult:
-        started.append(start is not None)
-        return hover_wake_from(problem, start, **given)
-
-    monkeypatch.setattr(low_speed, "hover_wake", hover_wake)
-    low_speed._SETTLED.clear()
-    hover_difference.cache_clear()
-    before, after = (replace(one, models=replace(one.models, hover_inflow="free-wake", elements=20))
-                     for one in (design("linear:-10"), design("linear:-12")))  # fmt: skip
-    hover_difference(before)
-    warm = hover_difference(after)
-    hover_difference.cache_clear()
-    low_speed._SETTLED.clear()
-    cold = hover_difference(after)
-    assert started == [False, True, False]
-    assert warm is not None
-    assert cold is not None
-    assert warm.inflow == pytest.approx(cold.inflow, abs=1e-8)
 
 
 def test_where_hover_has_no_answer_a_caveat_says_so():

@@ -8,15 +8,14 @@ import pytest
 from numpy.testing import assert_allclose
 from scipy.integrate import dblquad
 
-from rotor.aero import kernel
-from rotor.aero.elements import build_problem, evaluate_elements
+from rotor.aero.elements import TrimState, disk_sums
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.linear import LINEAR_MODELS
-from rotor.aero.sums import disk_sums
-from rotor.aero.trim_state import TrimState
+from rotor.aero.problem import build_problem
 from rotor.files.make_design import make_design
 from rotor.trim.power import power_budget, profile_power_coefficient
 from rotor.trim.solve import solve
+from tests.rotor.check_jacobian import elements_at
 
 TWISTS = ["uh60a", "linear:0", "linear:-16", "segments:-20,-4@0.5", "quadratic:8,-18"]
 
@@ -55,10 +54,10 @@ def test_section_identity():
     design = make_design(mu=0.35)
     models = replace(design.models, inflow="pitt-peters", radial_friction=False)
     problem = build_problem(replace(design, models=models))
-    elements = evaluate_elements(problem, TrimState(0.2, 0.02, -0.1, 0.1, 0.06, 0.0, 0.0, 0.01))
+    elements = elements_at(problem, TrimState(0.2, 0.02, -0.1, 0.1, 0.06, 0.0, 0.0, 0.01))
     speed = np.hypot(elements.u_t, elements.u_p)
-    dissipation = problem.disk.half_solidity[:, None] * speed**3 * elements.loads[kernel.CD]
-    left = elements.u_t * elements.loads[kernel.FX] - elements.u_p * elements.loads[kernel.FZ]
+    dissipation = problem.disk.half_solidity[:, None] * speed**3 * elements.cd
+    left = elements.u_t * elements.fx - elements.u_p * elements.fz
     assert_allclose(left, dissipation, rtol=1e-9, atol=1e-15)
 
 
@@ -97,11 +96,10 @@ def test_eq_3_15_with_its_first_coefficient_corrected(mu: float):
 def test_numerical_profile_power_of_a_constant_drag():
     """Σ U dD on the grid for C_d = 0.01, U_P = 0 against the closed form less the cut-out's share."""
     problem = build_problem(make_design(preset="thesis", mu=0.3))
-    elements = evaluate_elements(problem, TrimState(lambda0=1e-9))
-    loads = elements.loads.copy()
-    loads[kernel.CD] = 0.01
-    elements = replace(elements, loads=loads)
-    budget = power_budget(problem, elements, disk_sums(problem, elements))
+    elements = elements_at(problem, TrimState(lambda0=1e-9))
+    drag = 0.01 * problem.disk.half_solidity[:, None] * np.hypot(elements.u_t, elements.u_p)
+    elements = replace(elements, fx=drag * elements.u_t, fz=-drag * elements.u_p)
+    budget = power_budget(problem, elements, disk_sums(problem.disk, elements))
     start = problem.design.rotor.blade.root_cutout
     sigma = problem.design.rotor.solidity
 

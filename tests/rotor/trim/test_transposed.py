@@ -1,93 +1,63 @@
-"""The transposed equations of a trim: the gradient with derivatives of a trim nearby is that with its own."""
+"""Gradients by the transposed equations of a trim: of any measure, and of solutions from elsewhere."""
 
+import pickle
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-import rotor.trim.adjoint as adjoint_module
 from rotor.design.design import Design
+from rotor.design.twist import TableTwist
 from rotor.files.make_design import make_design
-from rotor.trim.adjoint import Adjoint, PitchGradient, Weights, power_along, power_gradient
-from rotor.trim.newton import KEPT, KeptTrim, differentiate
+from rotor.trim.adjoint import Adjoint, Weights, power_gradient
+from rotor.trim.newton import SolverOptions
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
-
-def design(
-    mu: float, rate: float, inflow: str = "dynamic-wake", *, elastic: bool = True, preset: str = "flight"
-) -> Design:
-    made = make_design(preset=preset, twist=f"linear:{rate:g}", mu=mu)
-    return replace(made, models=replace(made.models, inflow=inflow, elastic_twist=elastic))
+TIGHT = SolverOptions(residual_tolerance=1e-13, inflow_tolerance=1e-11, torsion_tolerance=1e-13)
+NAMES = ("fz", "fx", "inflow", "theta", "u_t", "u_p", "u_r", "swirl")
 
 
-def at(solution: Solution, derivatives_of: Solution | None) -> Adjoint:
-    """The adjoint of a solution that keeps the exact derivatives of another trim; without one its own."""
-    own = Adjoint(solution)
-    kept = None
-    if derivatives_of is not None:
-        other = Adjoint(derivatives_of)
-        _, kept = differentiate(other.problem, other.elements, own._transposed.unknowns)
-    KEPT.keep(KeptTrim(solution.disk.induced, kept, own.elements, own.problem))
-    return Adjoint(solution)
-
-
-@pytest.fixture
-def evaluated(monkeypatch: pytest.MonkeyPatch) -> list[object]:
-    """What new derivatives were evaluated of."""
-    made: list[object] = []
-    monkeypatch.setattr(adjoint_module, "differentiate", lambda *of: made.append(of) or differentiate(*of))
-    return made
+def design(mu: float, inflow: str = "dynamic-wake", *, elastic: bool = True, preset: str = "flight") -> Design:
+    made = make_design(preset=preset, twist="linear:-14", mu=mu)
+    return replace(made, models=replace(made.models, inflow=inflow, elastic_twist=elastic, elements=20, azimuths=48))
 
 
 @pytest.mark.parametrize("elastic", [False, True], ids=["rigid", "elastic"])
-@pytest.mark.parametrize("mu", [0.1, 0.3])  # At the first forward flight is joined with hover.
-@pytest.mark.parametrize(
-    "inflow", ["dynamic-wake", "dynamic-wake-quick", "dynamic-wake-infinite-blades", "pitt-peters", "drees"]
-)
-def test_gradient_with_the_derivatives_of_a_trim_nearby(inflow: str, mu: float, elastic: bool, evaluated: list[object]):
-    near = solve(design(mu, -14.0, inflow, elastic=elastic)).require()
-    here = solve(design(mu + 0.002, -13.0, inflow, elastic=elastic), near).require()
+@pytest.mark.parametrize("mu", [0.0, 0.1, 0.3])  # At the second forward flight is joined with hover.
+@pytest.mark.parametrize("inflow", ["dynamic-wake", "dynamic-wake-infinite-blades", "local-momentum", "drees"])
+def test_gradient_of_a_solution_from_another_process(inflow: str, mu: float, elastic: bool):
+    here = solve(design(mu, inflow, elastic=elastic)).require()
+    there: Solution = pickle.loads(pickle.dumps(here))
+    assert there.linear is None
     for objective in ("total", "induced"):
-        own = power_along(at(here, None), objective).by_element
-        evaluated.clear()
-        found = power_along(at(here, near), objective).by_element
-        assert not evaluated
-        assert_allclose(found, own, rtol=0, atol=2e-10 * np.abs(own).max())
+        own = power_gradient(here, objective).by_element
+        assert_allclose(power_gradient(there, objective).by_element, own, rtol=0, atol=2e-10 * np.abs(own).max())
 
 
-def test_gradient_of_another_trim_and_with_other_models(evaluated: list[object]):
-    """Free flapping of the thesis, tip and root losses on the lift, and a test stand."""
-    thesis = make_design(preset="thesis", mu=0.2)
-    for made in (thesis, replace(thesis, models=replace(thesis.models, trim="propulsive"))):
-        near = solve(made).require()
-        here = solve(replace(made, twist=make_design(twist="linear:-9").twist), near).require()
-        own = power_along(at(here, None)).by_element
-        evaluated.clear()
-        assert_allclose(power_along(at(here, near)).by_element, own, rtol=0, atol=2e-10 * np.abs(own).max())
-        assert not evaluated
+@pytest.mark.parametrize(
+    "made",
+    [*(design(mu, elastic=elastic) for mu in (0.0, 0.06, 0.2) for elastic in (True, False)),
+     *(design(0.2, inflow) for inflow in ("pitt-peters", "local-momentum")), design(0.2, "uniform", preset="thesis")],
+    ids=lambda made: f"{made.models.inflow} {made.condition.advance_ratio} {made.models.elastic_twist}",
+)  # fmt: skip
+def test_any_measure_of_the_blade_elements(made: Design):
+    """Random weights on each field that a measure may depend on, against differences of trims."""
+    random, start = np.random.default_rng(1), solve(made, options=TIGHT).require()
+    r, adjoint, step = start.disk.r, Adjoint(start), 1e-5
+    bend = random.uniform(-1.0, 1.0, len(r))
 
+    def trimmed(sign: float) -> Adjoint:
+        angles = made.twist(r) + sign * step * bend
+        law = TableTwist(tuple(r.tolist()), tuple(angles.tolist()), name="bent")
+        return Adjoint(solve(replace(made, twist=law), start, TIGHT).require())
 
-def test_any_measure_of_the_blade_elements():
-    """Random weights on all that a measure may depend on."""
-    near = solve(design(0.2, -14.0)).require()
-    here = solve(design(0.2, -13.5), near).require()
-    random, shape = np.random.default_rng(1), here.disk.theta.shape
-    names = ("fz", "fx", "inflow", "theta", "u_t", "u_p", "u_r", "swirl")
-    weights = Weights(**{name: random.normal(size=shape) for name in names}, tilt=3.0)
-    own = at(here, None).by_pitch(weights)
-    assert_allclose(at(here, near).by_pitch(weights), own, rtol=0, atol=2e-10 * np.abs(own).max())
-
-
-def test_derivatives_of_a_trim_too_far_away_are_evaluated_anew(evaluated: list[object]):
-    """They are kept for other measures of this trim and for the next one."""
-    far, here = solve(design(0.35, 0.0)).require(), solve(design(0.15, -20.0)).require()
-    own = power_along(at(here, None)).by_element
-    evaluated.clear()
-    adjoint = at(here, far)
-    found: PitchGradient = power_along(adjoint)
-    assert len(evaluated) == 1
-    assert_allclose(found.by_element, own, rtol=0, atol=1e-13 * np.abs(own).max())
-    assert_allclose(power_gradient(here).by_element, own, rtol=0, atol=2e-10 * np.abs(own).max())
-    assert len(evaluated) == 1
+    ends = [trimmed(sign) for sign in (1.0, -1.0)]
+    for name in NAMES:
+        weights = random.uniform(0.5, 1.5, start.disk.theta.shape)
+        fields = [getattr(one.elements, "induced" if name == "inflow" else name) for one in ends]
+        change = (fields[0] - fields[1]) / (2.0 * step)
+        slope = float((weights * (change[:, None] if name == "swirl" else change)).sum())
+        found = adjoint.by_pitch(replace(Weights(), **{name: weights}))
+        assert_allclose(found @ bend, slope, rtol=0, atol=1e-6 * np.abs(found).max() + 1e-12)

@@ -13,7 +13,7 @@ from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import CONCEPTS
 from rotor.optimisation.objective import QUANTITIES, Objective, WeightedCondition, at_condition, measure
-from rotor.trim.options import SolverOptions
+from rotor.trim.newton import SolverOptions
 
 TIGHT = SolverOptions(residual_tolerance=1e-14, inflow_tolerance=1e-12, torsion_tolerance=1e-14)
 RELATIVE = 1e-6

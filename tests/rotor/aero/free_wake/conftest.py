@@ -6,10 +6,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotor.aero import kernel
-from rotor.aero.elements import Problem, build_problem
 from rotor.aero.free_wake.settle import Settled, settle
 from rotor.aero.free_wake.system import WakeState
+from rotor.aero.problem import Problem, build_problem
+from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.trim.hover import hover
@@ -31,11 +31,16 @@ def rigid(problem: Problem) -> Problem:
     return replace(problem, torsion=None, given_torsion=np.zeros(0))
 
 
+def annuli_of(problem: Problem) -> tuple[Array, float]:
+    """Circulation and collective of hover by annuli, from which `hover_wake` starts."""
+    e = hover(problem).linear.elements
+    lift = problem.disk.half_solidity * np.hypot(e.u_t, e.u_p)[:, 0] * e.cl[:, 0]
+    return math.pi / problem.disk.blades * lift, e.state.collective
+
+
 def settled(problem: Problem, start: WakeState | None = None) -> Settled:
     """The wake from a cold start, as `hover_wake` makes it, or from an earlier one."""
-    annuli = hover(problem)
-    circulation = math.pi / problem.disk.blades * annuli.elements.loads[kernel.LIFT, :, 0]
-    return settle(problem, np.asarray(circulation), annuli.elements.state.collective, start)
+    return settle(problem, *annuli_of(problem), start)
 
 
 @pytest.fixture(scope="session")

@@ -6,14 +6,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rotor.aero import kernel
-from rotor.aero.elements import Problem, build_problem
+from rotor.aero.free_wake import system as line
 from rotor.aero.free_wake import system as wake
 from rotor.aero.free_wake.roll_up import POWER, RollUp
 from rotor.aero.free_wake.settle import Settled, _ends_below, cold
 from rotor.aero.free_wake.system import HoverSystem, WakeState, layout_of
-from rotor.trim.hover import hover
-from tests.rotor.aero.free_wake.conftest import hovering, rigid, settled
+from rotor.aero.problem import Problem, build_problem
+from tests.rotor.aero.free_wake.conftest import annuli_of, hovering, rigid, settled
 
 
 def disturbed(found: Settled, seed: int = 0) -> WakeState:
@@ -51,7 +50,7 @@ def test_settled_wake_meets_every_equation(medium: tuple[Problem, Settled]):
     problem, found = medium
     at = found.system.evaluate(found.evaluation.state, slopes=False)
     assert at.error < 1e-9
-    assert at.loads[kernel.FZ].sum() * problem.disk.dr == pytest.approx(problem.weight, rel=1e-7)
+    assert at.loads[line.FZ].sum() * problem.disk.dr == pytest.approx(problem.weight, rel=1e-7)
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -161,10 +160,8 @@ def test_a_wake_that_ends_above_the_disk_is_none(medium: tuple[Problem, Settled]
 def test_a_start_near_stall_goes_on_to_separated_flow(blades: int, loading: float, twist: float):
     """Newton's method alone stopped here at a residual of 1e-3."""
     problem = rigid(build_problem(hovering(loading, twist, blades)))
-    annuli = hover(problem)
-    circulation = np.asarray(math.pi / blades * annuli.elements.loads[kernel.LIFT, :, 0])
     system, coarse = (HoverSystem(problem, layout_of(problem, steps)) for steps in (24, 12))
-    found = cold(system, coarse, circulation, annuli.elements.state.collective, 1.0)
+    found = cold(system, coarse, *annuli_of(problem), 1.0)
     assert found.converged
 
 
@@ -184,7 +181,7 @@ def test_settled_wake_does_not_depend_on_the_start():
         from_before, afresh = settled(problem, start), settled(problem)
         assert from_before.converged
         assert afresh.converged
-        torques.append([float(problem.disk.r @ one.evaluation.loads[kernel.FX]) for one in (from_before, afresh)])
+        torques.append([float(problem.disk.r @ one.evaluation.loads[line.FX]) for one in (from_before, afresh)])
         start = from_before.evaluation.state
     torques = np.array(torques)
     assert torques[:, 0] == pytest.approx(torques[:, 1], rel=1e-6)
@@ -216,5 +213,5 @@ def test_power_depends_little_on_grid_and_cores(medium: tuple[Problem, Settled],
     other = cold(system, coarse, state.circulation, state.collective, 1.0)
     assert other.converged
     r = problem.disk.r
-    power = [float(r @ at.loads[kernel.FX]) for at in (found.evaluation, other.evaluation)]
+    power = [float(r @ at.loads[line.FX]) for at in (found.evaluation, other.evaluation)]
     assert abs(power[1] / power[0] - 1.0) < most

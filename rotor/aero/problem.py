@@ -1,0 +1,205 @@
+"""A design on its grid: the arrays and coefficients that no iteration changes."""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from rotor.aero.disk import Disk, build_disk
+from rotor.aero.elastic import BladeTorsion, build_torsion, highest_harmonic
+from rotor.aero.inflow import InflowModel, Wake, inflow_model
+from rotor.aero.inflow.interface import InflowTerms
+from rotor.aero.momentum import glauert_inflow
+from rotor.aero.section import NO_MOMENT, SectionData
+from rotor.arrays import Array, Booleans
+from rotor.design.design import Design
+from rotor.dynamics.flapping import FlapDynamics, flap_dynamics
+
+LOW_MACH = 0.3
+"""Mach number of the section data when compressibility is switched off: that of the document's polar (Re 3.68 million).
+Lift is within 5 % of incompressible there (Prandtl–Glauert), and far from drag rise."""
+
+FREE_ROTOR_DRAG = 0.011
+"""Mean section drag coefficient for a first estimate of a free rotor's shaft tilt."""
+
+_ALL_LOADED = np.zeros((0, 0), np.bool_)
+
+
+@dataclass(frozen=True, eq=False)
+class Problem:
+    """A design on its grid: the arrays and coefficients that no iteration changes."""
+
+    design: Design
+    disk: Disk
+    twist: Array
+    """θ_tw at the elements [rad]."""
+    active: Array
+    """θ_act [rad], (elements, azimuths), or (1, 1) without active twist."""
+    flap: FlapDynamics
+    tip_mach: float
+    weight: float
+    """C_W with the download and the vertical part of the drag, which the rotor carries; on a test stand the C_T given,
+    or an estimate where the collective is given."""
+    scale: float
+    """What residuals are measured by: C_W, and on a test stand C_T, at least 0.02 σ."""
+    drag: float
+    """Horizontal part of the fuselage drag over ρA(ΩR)²."""
+    climb: float
+    """V_c/(ΩR)"""
+    inflow: InflowModel
+    friction: float
+    """c_f for the flow along the blade; 0 where it is left out."""
+    unloaded: Booleans | None
+    """Elements that carry no load, (elements, azimuths): the reverse-flow region r < −µ sin ψ, where it is switched
+    off. Its border is drawn with µ, not µ cos α, so that it stays fixed during the trim and derivatives stay exact."""
+    torsion: BladeTorsion | None
+    """The blade in torsion; None for a rigid blade."""
+    active_rates: tuple[Array, Array]
+    """First and second derivative of θ_act by ψ, shaped as `active`."""
+    given_torsion: Array
+    """Residual of the torsion equations by the twist of the blade as built and by active twist alone, scaled to
+    radians, (modes, functions)."""
+    expected: Wake
+    """The wake of momentum theory when the disk is normal to the resultant of weight and drag."""
+    joined: tuple[Array, Array] | None = None
+    """What is added at low speed to the inflow of the model and to the swirl of momentum theory, (elements,) each."""
+
+    @cached_property
+    def arm(self) -> Array:
+        """r − e, from the hinge, (elements,)."""
+        return self.disk.r - self.flap.hinge
+
+    @cached_property
+    def inflow_terms(self) -> InflowTerms:
+        """The inflow model on this disk."""
+        models = self.design.models
+        return self.inflow.on(self.disk, self.expected, (models.tip_loss, models.hub_loss))
+
+    def section_data(self, step: int = 1) -> SectionData:
+        """What forces need beside the channels, on every `step`-th azimuth."""
+        torsion, unloaded = self.torsion, self.unloaded
+        return SectionData(
+            *self.disk.section_data,
+            self.tip_mach,
+            self.friction,
+            not self.inflow.load_dependent and not self.design.hovering,
+            _ALL_LOADED if unloaded is None else np.ascontiguousarray(unloaded[:, ::step]),
+            *(NO_MOMENT if torsion is None else torsion.moment_data),
+        )
+
+
+def build_problem(design: Design) -> Problem:
+    """The design on its grid."""
+    rotor, condition, models = design.rotor, design.condition, design.models
+    drag, down = design.drag_parts
+    disk = build_disk(
+        rotor,
+        models.elements,
+        models.azimuths,
+        None if models.compressibility else LOW_MACH,
+        models.has("swept_tip"),
+        models.has("surface_drag"),
+    )
+    wake = expected_wake(design)
+    download = design.fuselage.hover_download if models.has("download") and condition.stand is None else 0.0
+    weight = design.weight_coefficient
+    if download:
+        weight *= 1.0 + download * (max(wake.axial, 0.0) / wake.speed) ** 2
+    weight += down
+    inflow = inflow_model(models.inflow)
+    if not models.tip_loss:
+        inflow = inflow.without_tip_loss()
+    twist = design.twist(disk.r)
+    active = design.active_twist if not design.hovering else None
+    still = np.zeros((1, 1))
+    active_field, *rates = [active(disk.r, disk.psi, order) if active else still for order in range(3)]
+    torsion = None
+    if models.has("elastic_twist") and rotor.blade.structure is not None:
+        torsion = build_torsion(
+            rotor,
+            disk,
+            condition.density,
+            None if models.compressibility else LOW_MACH,
+            models.has("swept_tip"),
+            highest_harmonic(active),
+        )
+    return Problem(
+        design=design,
+        disk=disk,
+        twist=twist,
+        active=active_field,
+        flap=flap_dynamics(rotor, condition.density, blade_weight=models.blade_weight),
+        tip_mach=design.tip_mach,
+        weight=weight,
+        scale=weight if condition.stand is None else max(weight, 0.02 * rotor.solidity),
+        drag=drag,
+        climb=design.climb_ratio,
+        inflow=inflow,
+        expected=wake,
+        friction=skin_friction(_reynolds(design)) if models.has("radial_friction") else 0.0,
+        unloaded=None if models.reverse_flow else disk.r[:, None] + condition.advance_ratio * disk.sin < 0.0,
+        torsion=torsion,
+        active_rates=(rates[0], rates[1]),
+        given_torsion=np.zeros(0)
+        if torsion is None
+        else _given_torsion(torsion, twist, active_field if active else None, rates[1]),
+    )
+
+
+def _given_torsion(torsion: BladeTorsion, twist: Array, active: Array | None, acceleration: Array) -> Array:
+    """Tension on the built-in and the active twist, and the inertia of the latter, (modes, functions)."""
+    found = np.zeros((len(torsion.gain), torsion.functions))
+    found[:, 0] = torsion.tension @ twist
+    if active is not None:
+        found += torsion.harmonics(torsion.tension @ active)
+        found += torsion.harmonics(torsion.modal(torsion.inertia[:, None] * acceleration))
+    return torsion.gain[:, None] * found
+
+
+def _reynolds(design: Design) -> float:
+    """Reynolds number of the chord at 0.75 R in hover."""
+    condition, rotor = design.condition, design.rotor
+    return condition.density * 0.75 * rotor.tip_speed * rotor.reference_chord / condition.viscosity
+
+
+def expected_wake(design: Design) -> Wake:
+    """The wake of momentum theory when the disk is normal to the resultant of weight and drag.
+
+    On a test stand: at the shaft tilt given. A free rotor's that is not given follows from its drag-to-lift ratio,
+    µ tan α = −C_P/C_T with C_P = σ C_d0/8 (1 + 4.65 µ²) + C_T²/2µ.
+    """
+    drag, down = design.drag_parts
+    weight, mu = design.weight_coefficient + down, design.condition.advance_ratio
+    tilt = math.atan2(drag, weight)
+    stand = design.condition.stand
+    if stand is not None:
+        tilt = stand.tilt
+        if stand.shaft_tilt is None and design.models.trim == "free-rotor":
+            profile = design.rotor.solidity * FREE_ROTOR_DRAG / 8.0 * (1.0 + 4.65 * mu**2)
+            tilt = -math.atan2(profile + weight**2 / (2.0 * mu), mu * weight)
+    mu_x, mu_z = in_disk_axes(mu, design.climb_ratio, tilt)
+    return Wake(mu_x, mu_z, glauert_inflow(math.hypot(weight, drag), mu_x, mu_z)[0])
+
+
+def in_disk_axes(mu: float, climb: float, tilt: float) -> tuple[float, float]:
+    """Flight velocity along the disk and through it: µ cos α − µ_c sin α, µ sin α + µ_c cos α with µ_c = V_c/ΩR."""
+    cos, sin = math.cos(tilt), math.sin(tilt)
+    return mu * cos - climb * sin, mu * sin + climb * cos
+
+
+def skin_friction(reynolds: float) -> float:
+    """c_f of both sides of a turbulent flat plate, 0.91/(log10 Re)^2.58 (Prandtl and Schlichting); Re of the chord."""
+    return 0.91 / math.log10(max(reynolds, 1e4)) ** 2.58
+
+
+def swirl_of(r: Array, product: Array | float) -> tuple[Array, Array]:
+    """Swirl in the disk over ΩR and its slope by `product` = λ_i λ, the induced times the total axial flow; shape of r.
+
+    The air leaves turning with the rotor: torque and thrust of an annulus give u = λ_i λ/r at the disk, half of what is
+    far below (Johnson, Helicopter Theory, §2-3; Glauert 1935). u = q r/(r² + q) with q = λ_i λ is the same for r² ≫ q
+    and stays below r at the centre. In forward flight λ_i is the mean inflow λ0 and λ is µ_z + λ0, and the swirl all
+    but disappears.
+    """
+    below = r * r + product
+    return product * r / below, r * r * r / (below * below)

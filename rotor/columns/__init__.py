@@ -1,0 +1,1 @@
+"""A rotor as columns, measures and equations of the engine: trims, blade, inflow, hover."""

@@ -1,0 +1,302 @@
+"""Forward flight, in an aircraft or on a stand, as a system of the engine.
+
+    U_T = r − u + µ_x sin ψ                                (3.5) with the swirl u
+    U_P = µ_z + λ_i + (r − e) β' + µ_x β cos ψ             (3.6)
+    U_R = µ_x cos ψ
+
+µ_x = µ cos α − µ_c sin α, µ_z = µ sin α + µ_c cos α with µ_c = V_c/ΩR. Where the models leave out the axial flow of the
+tilted disk, as (3.6) prints it, µ_x is µ and µ_z is 0; λ_i is then still skewed by the tilt, eq. (2.31).
+"""
+
+import math
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+
+import numpy as np
+
+from rotor.aero.disk import Disk
+from rotor.aero.elements import STATE_NAMES, BladeElements, TrimState, TwistState
+from rotor.aero.inflow.interface import InflowTerms, Wake
+from rotor.aero.problem import Problem, in_disk_axes, swirl_of
+from rotor.aero.section import (
+    ALPHA,
+    CD,
+    CD_MACH,
+    CL,
+    FR,
+    FX,
+    FZ,
+    LOSS,
+    MACH,
+    RATE,
+    TH,
+    UP,
+    UR,
+    UT,
+    M,
+)  # fmt: skip
+from rotor.arrays import Array
+from rotor.columns.blade import Freedom, add_rigid_blade, freedoms_of
+from rotor.columns.trims import Trim, add_equations, trim_numbers, trim_of
+from rotor.engine.linearise import Grid, Live, Point, Shapes, System, part
+from rotor.engine.terms import ONE, Shape, Structure
+from rotor.engine.waves import COS, SIN, STEADY, wave_grid
+
+LEAST_AZIMUTHS = 40
+"""Azimuths on which derivatives are evaluated, and first steps made: the power of a trim on 40 agrees with that on 120
+to 1e-5, and a step with its derivatives leaves 1e-5 to 6e-3 of an error on 120 (tested)."""
+
+
+@dataclass(frozen=True)
+class SystemTolerances:
+    """Residuals at which a trim is solved, and the largest steps towards it."""
+
+    residual: float
+    """Of the trim equations, as a fraction of `Problem.scale`."""
+    inflow: float
+    """Of λ_i, as a fraction of λ0."""
+    torsion: float
+    """[rad]"""
+    angle_step: float
+    inflow_step: float
+
+
+@dataclass(frozen=True)
+class _StructureKey:
+    """All that the structure of a flight depends on."""
+
+    trim: Trim
+    blade: tuple[Hashable, ...]
+    """The keys of `freedoms`."""
+    inflow: Hashable
+    numbers: tuple[Hashable, ...] = field(compare=False)
+    freedoms: tuple[Freedom, ...] = field(compare=False)
+    terms: InflowTerms = field(compare=False)
+
+
+@lru_cache(maxsize=64)
+def _structure(key: _StructureKey) -> Structure:
+    """Atoms, columns and equations of a flight; see the head of this file."""
+    terms = key.terms
+    interface, name = terms.interface, (key.trim, key.blade, key.inflow)
+    s = Structure(interface.pairs, interface.channels, interface.forces, name)
+    for number in key.numbers:
+        s.number(number)
+    for state in STATE_NAMES:
+        s.state(state)
+    for freedom in key.freedoms:
+        freedom.declare(s)
+    terms.declare(s)
+    s.roots = s.states["shaft_tilt"], s.states["lambda0"]
+    made = {name: s.quantity(name) for name in _MADE}
+    add_rigid_blade(s)
+    s.column(UT, "one", SIN, 1.0, made["mu_x"])
+    s.column(UR, "one", COS, 1.0, made["mu_x"])
+    s.column(UP, "one", STEADY, 1.0, made["mu_z"])
+    add_equations(s, key.trim)
+    free = [s.states[name] for name in key.trim.unknowns]
+    for freedom in key.freedoms:
+        free += freedom.build(s)
+    free += terms.build(s)
+    s.column(UT, SWIRL_SLOPE, STEADY, 1.0, made["change of swirl"])
+    for channel, name in terms.live:
+        s.column(channel, (name, "tilt"), STEADY, 1.0, made["change of tilt"])
+        s.column(channel, (name, "inflow"), STEADY, 1.0, made["change of lambda0"])
+    for channel, name in ((UT, SWIRL), *terms.live):  # Last, for their columns do not change.
+        s.column(channel, name, STEADY, 1.0, ONE)
+    for wave, shape in ((STEADY, "arm"), (COS, "arm"), (SIN, "arm")):  # For power: see `rotor.trim.power`.
+        s.measure(FZ, shape, wave)
+    s.measure(FX, "r", STEADY)
+    return s.finish(free)
+
+
+_MADE = (
+    "cos", "sin", "mu_x", "mu_z", "speed", "wake_x", "wake_z", "change of tilt", "change of lambda0", "change of swirl",
+)  # fmt: skip
+"""Made atoms: cos α, sin α, µ_x and µ_z as the blade elements see them, V, µ_x and µ_z of the wake, and three that are
+zero, whose columns hold the slopes of live shapes: α, λ0 and λ0 (µ_z + λ0)."""
+SWIRL, SWIRL_SLOPE = "swirl", "swirl slope"
+"""Shapes of the channel UT: −u, and its slope by λ0 (µ_z + λ0)."""
+
+
+@dataclass(frozen=True)
+class _ShapesKey:
+    """All that the functions along the blade depend on."""
+
+    structure: Structure
+    disk: Disk
+    hinge: float
+    problem: Problem = field(compare=False)
+    freedoms: tuple[Freedom, ...] = field(compare=False)
+
+    def __hash__(self) -> int:
+        return hash((self.structure, self.disk, self.hinge))
+
+
+@lru_cache(maxsize=32)
+def _shapes(key: _ShapesKey) -> Shapes:
+    problem, disk = key.problem, key.disk
+    values: dict[Shape, Array] = {"one": np.ones_like(disk.r), "r": disk.r, "arm": problem.arm}
+    for freedom in key.freedoms:
+        values |= freedom.shapes(problem)
+    values |= problem.inflow_terms.shapes()
+    return Shapes(key.structure, values, len(disk.r))
+
+
+def flight_system(problem: Problem, tolerances: SystemTolerances, added: Sequence[Freedom] = ()) -> System:
+    """The equations of a design in forward flight, with further degrees of freedom of the blade."""
+    terms, freedoms = problem.inflow_terms, (*freedoms_of(problem), *added)
+    values: dict[Hashable, float] = {**trim_numbers(problem)}
+    for freedom in freedoms:
+        values |= freedom.numbers(problem)
+    key = trim_of(problem.design), tuple(freedom.key for freedom in freedoms), terms.key
+    structure = _structure(_StructureKey(*key, tuple(values), freedoms, terms))
+    grid = _grid(problem, structure, 1)
+    step = _thinning(len(problem.disk.psi), terms.least_azimuths)
+    tolerance, limits = _tolerances(problem, structure, tolerances)
+    return System(
+        structure=structure,
+        shapes=_shapes(_ShapesKey(structure, problem.disk, problem.flap.hinge, problem, freedoms)),
+        grid=grid,
+        thin=grid if step == 1 else _grid(problem, structure, step),
+        section=terms.interface.section,
+        make=_Flow(problem, structure, terms),
+        numbers=np.array([1.0, *values.values()]),
+        tolerance=tolerance,
+        limits=limits,
+        closures=terms.closures(structure),
+    )
+
+
+def _thinning(azimuths: int, least: int) -> int:
+    """Every how many azimuths are enough to begin with.
+
+    Means over evenly spaced azimuths of a smooth periodic field converge faster than any power of their number.
+    """
+    for step in range(azimuths // LEAST_AZIMUTHS, 1, -1):
+        if azimuths % step == 0 and azimuths // step >= least:
+            return step
+    return 1
+
+
+def _grid(problem: Problem, structure: Structure, step: int) -> Grid:
+    """The design's own part of the channels, on every `step`-th azimuth."""
+    disk = problem.disk
+    steady = np.zeros((structure.channels, len(disk.r)))
+    steady[TH], steady[UT] = problem.twist, disk.r
+    if problem.joined is not None:
+        steady[UP] += problem.joined[0]
+        steady[UT] -= problem.joined[1]
+    if not structure.shapes[LOSS]:
+        steady[LOSS] = 1.0
+    varying = dict[int, Array]()
+    if problem.active.size > 1:
+        varying = {TH: problem.active[:, ::step], RATE: problem.active_rates[0][:, ::step]}
+    waves = wave_grid(structure.waves, len(disk.psi) // step)
+    return Grid(waves, disk.dr, steady, varying, problem.section_data(step))
+
+
+def _tolerances(problem: Problem, structure: Structure, wanted: SystemTolerances) -> tuple[Array, Array]:
+    """Of every equation; and the largest step of every state solved for."""
+    tolerance = np.full(len(structure.equations), wanted.residual * problem.scale)
+    tolerance[structure.equations_of("twist")] = wanted.torsion
+    inflow = wanted.inflow * max(abs(problem.expected.lambda0), 0.02 * math.sqrt(0.5 * problem.scale))
+    tolerance[structure.equations_of("inflow")] = inflow / np.maximum(problem.inflow_terms.peaks(), 1e-9)
+    limits = np.full(len(structure.free), wanted.angle_step)
+    limits[structure.states_of("lambda0")] = wanted.inflow_step
+    limits[structure.states_of("inflow")] = math.inf
+    return tolerance, limits
+
+
+class _Flow:
+    """Made atoms and live shapes of a flight."""
+
+    def __init__(self, problem: Problem, structure: Structure, terms: InflowTerms) -> None:
+        condition, models = problem.design.condition, problem.design.models
+        self._mu, self._climb, self._sees_tilt = condition.advance_ratio, problem.climb, models.disk_axial_flow
+        self._swirls, self._r, self._terms = models.has("swirl"), problem.disk.r, terms
+        self._tilt, self._lambda0 = structure.roots
+        self._atoms = {name: k for k, name in enumerate(structure.made)}
+
+    def wake(self, x: Array) -> Wake:
+        """The wake of momentum theory, in axes of the shaft."""
+        return Wake(*in_disk_axes(self._mu, self._climb, float(x[self._tilt])), float(x[self._lambda0]))
+
+    def flow(self, x: Array) -> Wake:
+        """The same as the blade elements see it."""
+        wake = self.wake(x)
+        return wake if self._sees_tilt else Wake(self._mu, 0.0, wake.lambda0)
+
+    def __call__(self, x: Array) -> tuple[Array, Array, Live]:
+        """Values, slopes by shaft tilt and λ0, and live shapes; in axes of the shaft dµ_x = −µ_z dα, dµ_z = µ_x dα."""
+        wake, tilt = self.wake(x), float(x[self._tilt])
+        flow = wake if self._sees_tilt else Wake(self._mu, 0.0, wake.lambda0)
+        values, slopes, sees = np.zeros(len(self._atoms)), np.zeros((len(self._atoms), 2)), float(self._sees_tilt)
+        cos, sin, l0, speed, axial = math.cos(tilt), math.sin(tilt), wake.lambda0, flow.speed, flow.axial
+        values[:7] = cos, sin, flow.mu_x, flow.mu_z, speed, wake.mu_x, wake.mu_z
+        slopes[:7, 0] = (
+            -sin, cos, -sees * flow.mu_z, sees * flow.mu_x, sees * flow.mu_x * l0 / speed, -wake.mu_z, wake.mu_x
+        )  # fmt: skip
+        slopes[4, 1] = axial / speed
+        slopes[7, 0] = slopes[8, 1] = 1.0
+        live = dict[tuple[int, Shape], Array]()
+        if self._swirls:
+            swirl, by_product = swirl_of(self._r, l0 * axial)
+            live[UT, SWIRL], live[UT, SWIRL_SLOPE] = -swirl, -by_product
+            slopes[9] = sees * l0 * flow.mu_x, axial + l0
+        followed = self._terms.follow(wake, flow.mu_z, self._sees_tilt)
+        for name, (value, by_wake) in followed.atoms.items():
+            row = self._atoms[name]
+            values[row], slopes[row] = value, (wake.mu_x * by_wake[1] - wake.mu_z * by_wake[0], by_wake[2])
+        for (channel, name), (value, by_wake) in followed.live.items():
+            live[channel, name] = value
+            if (channel, name) in self._terms.live:
+                live[channel, (name, "tilt")] = wake.mu_x * by_wake[1] - wake.mu_z * by_wake[0]
+                live[channel, (name, "inflow")] = by_wake[2]
+        return values, slopes, live
+
+
+def state_of(structure: Structure, x: Array) -> TrimState:
+    """The eight trim quantities of x."""
+    first = structure.states["collective"]
+    return TrimState(*x[first : first + len(STATE_NAMES)].tolist())
+
+
+def parts_of(structure: Structure, x: Array) -> tuple[TrimState, Array, Array]:
+    """Trim state, coordinates of the elastic twist and of the inflow, both flat; empty where there are none."""
+    first = structure.first_state + len(STATE_NAMES)
+    twists, terms = len(structure.equations_of("twist")), len(structure.equations_of("inflow"))
+    return state_of(structure, x), x[first : first + twists], x[len(x) - terms :]
+
+
+def _flapping(problem: Problem, x: Array, structure: Structure) -> Array:
+    """β(ψ), (azimuths,)."""
+    state, disk = state_of(structure, x), problem.disk
+    return state.coning + state.flap_1c * disk.cos + state.flap_1s * disk.sin
+
+
+def elements_of(problem: Problem, point: Point) -> BladeElements:
+    """The blade elements at a point that has the flow at the sections."""
+    c, f, s, x = point.channels, point.forces, point.flow, point.x
+    terms, torsion, structure = problem.inflow_terms, problem.torsion, point.system.structure
+    flow = point.system.make
+    assert isinstance(flow, _Flow)
+    induced = part(point, UP, list(terms.names))
+    own: Array | float = 0.0 if terms.interface.balanced is None else f[terms.interface.balanced]
+    induced += own
+    swirl = -point.phi[structure.first_row[UT] + structure.shapes[UT][SWIRL]]
+    if problem.joined is not None:
+        induced += problem.joined[0][:, None]
+        swirl = swirl + problem.joined[1]
+    twist = None
+    if torsion is not None:
+        coordinates = parts_of(structure, x)[1].reshape(len(torsion.gain), -1)
+        around = coordinates @ wave_grid(torsion.functions, c.shape[2]).at
+        twist = TwistState(coordinates.copy(), torsion.radial.T @ around, f[M])
+    return BladeElements(
+        state=state_of(structure, x), flow=flow.flow(x), theta=c[TH], u_t=c[UT],
+        u_p=c[UP] + own, u_r=c[UR], beta=_flapping(problem, x, structure), induced=induced, swirl=swirl,
+        fz=f[FZ], fx=f[FX], fr=f[FR], alpha=s[ALPHA], mach=s[MACH], cl=s[CL], cd=s[CD], cd_mach=s[CD_MACH],
+        torsion=twist,
+    )  # fmt: skip

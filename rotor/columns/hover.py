@@ -1,0 +1,324 @@
+"""Hover and axial flight by blade element momentum theory, annulus by annulus (thesis §2.4), as a system of the engine.
+
+Each annulus balances the momentum it gives the air with the lift of its blade elements,
+
+    4 F λ_i|λ| r = dC_T/dr(θ, r − u, λ),    λ = λ_c + λ_i,    u: swirl of λ_i λ
+
+which is (2.24) with Prandtl's F; λ_c = 0 in hover. With a lift curve C_lα α it closes as eq. (2.28), in hover (3.3). So
+the section balances itself, at one azimuth: its pitch is the only channel that matters, and dλ/dθ follows from the
+balance by the implicit function theorem. What remains are collective, coning and the steady elastic twist.
+"""
+
+import math
+from collections.abc import Hashable
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rotor.aero.elements import BladeElements, TrimState, TwistState, over_azimuths
+from rotor.aero.inflow.interface import Wake
+from rotor.aero.inflow.local_momentum import BALANCED
+from rotor.aero.losses import HUB_FACTOR, end_factor
+from rotor.aero.momentum import axial_inflow
+from rotor.aero.problem import Problem, swirl_of
+from rotor.aero.section import (
+    ALPHA,
+    CD,
+    CD_MACH,
+    CHANNELS,
+    CL,
+    FORCES,
+    FX,
+    FZ,
+    LOSS,
+    MACH,
+    PAIRS,
+    TH,
+    UP,
+    UT,
+    M,
+    SectionData,
+    section,
+)  # fmt: skip
+from rotor.airfoil.sections import Section
+from rotor.arrays import Array
+from rotor.columns.blade import Torsion, freedoms_of
+from rotor.columns.trims import trim_numbers
+from rotor.compiled import compiled
+from rotor.engine.linearise import Grid, Live, Point, Shapes, System
+from rotor.engine.terms import Shape, Structure
+from rotor.engine.waves import STEADY, wave_grid
+
+LIFT_CURVE_MACH = 0.3
+"""Mach number at which the linear lift curve of (3.3) is read off; the document's polar has no other."""
+
+
+def closed_form_inflow(
+    r: ArrayLike,
+    pitch: ArrayLike,
+    solidity: ArrayLike,
+    lift_slope: float,
+    *,
+    factor: ArrayLike = 1.0,
+    climb: float = 0.0,
+) -> Array:
+    """λ(r) of eq. (2.28), with the loss factor F of eq. (3.3), for a linear lift curve.
+
+    pitch θ [rad] from the zero-lift line, lift_slope C_lα [1/rad], climb λ_c; shapes broadcast. (3.3) is (2.28) with
+    λ_c = 0 and σ → σ/F, the outer 1/F included; it closes 4Fλ²r = ½σC_lα(θr² − λr). Below zero pitch the mirrored root
+    is taken.
+    """
+    r, pitch = np.asarray(r, dtype=float), np.asarray(pitch, dtype=float)
+    k = np.asarray(solidity, dtype=float) * lift_slope / (16.0 * np.asarray(factor, dtype=float))
+    sign = np.where(pitch * r < climb, -1.0, 1.0)
+    half = k - sign * 0.5 * climb
+    return sign * (np.sqrt(half**2 + 2.0 * k * sign * pitch * r) - half)
+
+
+def lift_curve(problem: Problem) -> tuple[Array, Array]:
+    """C_lα [1/rad] and the zero-lift pitch [rad] of each element's linear lift curve, (elements,); blended sections."""
+    disk, blade = problem.disk, problem.design.rotor.blade
+    names = dict.fromkeys(span.section for span in blade.spans)  # In the order of `Disk.tables`.
+    slopes, zeros = np.array([_straight_line(blade.installed(name)) for name in names]).T
+    first, second = disk.section.T
+    return (
+        slopes[first] + disk.weight * (slopes[second] - slopes[first]),
+        zeros[first] + disk.weight * (zeros[second] - zeros[first]),
+    )
+
+
+@lru_cache(maxsize=64)
+def _straight_line(section_: Section) -> tuple[float, float]:
+    zero = float(section_.table.zero_lift_alpha(LIFT_CURVE_MACH)) + section_.incidence_offset
+    return float(section_.table.lift_slope(LIFT_CURVE_MACH)), zero
+
+
+class Annuli(NamedTuple):
+    """What the balance of annuli needs beside their pitch, for compiled code."""
+
+    r: Array
+    climb: float
+    swirls: bool
+    ends: Array
+    """f times |λ| of Prandtl's factors at tip and root, (2, elements); infinite where there is no loss."""
+    slope: Array
+    """C_lα of the linear lift curve, for the closed form (3.3); empty with section data."""
+    zero: Array
+    """Its zero-lift pitch."""
+
+
+class AnnulusData(NamedTuple):
+    """What the section of an annulus needs beside the channels."""
+
+    annuli: Annuli
+    section: SectionData
+    start: Array
+    """Inflow from which the search begins, (elements,): the last one found."""
+
+
+LOADED = (FZ, FX, M)
+"""Forces of an annulus; no air flows along the blade."""
+HOVER_PAIRS = (*((force, TH) for force in LOADED), (BALANCED, TH))
+"""An annulus follows its pitch alone."""
+_ROW = {pair: k for k, pair in enumerate(PAIRS)}
+_FZ_TH, _FZ_UT, _FZ_UP = _ROW[FZ, TH], _ROW[FZ, UT], _ROW[FZ, UP]
+_LARGEST_INFLOW = 0.6
+"""Bracket of λ, far above any annulus of a rotor."""
+_MOST_PASSES = 80
+
+_compile = compiled(error_model="numpy", fastmath={"contract"})
+
+
+def _annulus_section(c: Array, data: AnnulusData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
+    """The section with the inflow that balances its annulus; as `section.section`, with the rows `HOVER_PAIRS`."""
+    theta = c[TH, :, 0].copy()
+    inflow, answer = _balanced(theta, data.start, data.annuli, data.section)
+    data.start[:] = inflow
+    own, turning = _channels(theta, inflow, data.annuli)
+    f, d, s = section(own, data.section, slopes, flow)
+    f = np.concatenate([f, inflow[None, :, None]])
+    if not slopes:
+        return f, np.zeros((len(HOVER_PAIRS), 0, 1)), s
+    if not len(data.section.moment_gain):
+        d[[_ROW[M, channel] for channel in (TH, UT, UP)]] = 0.0  # A rigid blade has no moment.
+    by_inflow = {o: d[_ROW[o, UP]] - d[_ROW[o, UT]] * turning[:, None] for o in LOADED}
+    by_theta = answer[:, None]
+    return f, np.array([*(d[_ROW[o, TH]] + by_inflow[o] * by_theta for o in LOADED), by_theta]), s
+
+
+@_compile
+def _channels(theta: Any, inflow: Any, annuli: Any) -> Any:
+    """Channels of the section, (channels, elements, 1), and the slope of the swirl by λ_i, (elements,)."""
+    own, turning = np.zeros((6, len(theta), 1)), np.zeros(len(theta))
+    for i in range(len(theta)):
+        total, r = inflow[i] + annuli.climb, annuli.r[i]
+        own[TH, i, 0], own[UT, i, 0], own[UP, i, 0], own[LOSS, i, 0] = theta[i], r, total, 1.0
+        if annuli.swirls:
+            below = r * r + inflow[i] * total
+            own[UT, i, 0] -= inflow[i] * total * r / below
+            turning[i] = (inflow[i] + total) * r * r * r / (below * below)
+    return own, turning
+
+
+@_compile
+def _balance(theta: Any, inflow: Any, annuli: Any, data: Any) -> Any:
+    """Momentum less lift of every annulus, its slope by λ_i, the lift, and its slope by pitch, (4, elements)."""
+    out = np.empty((4, len(theta)))
+    own, turning = _channels(theta, inflow, annuli)
+    closed = len(annuli.slope) > 0
+    f, d, _ = section(own, data, not closed, False)
+    for i in range(len(theta)):
+        r, total = annuli.r[i], inflow[i] + annuli.climb
+        (tip, tip_slope), (hub, hub_slope) = end_factor(annuli.ends[0, i], total), end_factor(annuli.ends[1, i], total)
+        factor, slope, size = tip * hub, tip_slope * hub + tip * hub_slope, abs(total)
+        signed = math.copysign(inflow[i], inflow[i] * total)
+        momentum = 4.0 * r * (size * (2.0 * factor + slope * inflow[i]) + factor * (signed - size))
+        if closed:  # Small angles and a linear lift curve, as (2.28) takes it.
+            gain = data.half_solidity[i] * annuli.slope[i]
+            lift, by_inflow = gain * ((theta[i] - annuli.zero[i]) * r**2 - total * r), -gain * r
+            out[3, i] = gain * r**2
+        else:
+            lift, by_inflow = f[FZ, i, 0], d[_FZ_UP, i, 0] - d[_FZ_UT, i, 0] * turning[i]
+            out[3, i] = d[_FZ_TH, i, 0]
+        out[0, i], out[1, i] = 4.0 * factor * inflow[i] * size * r - lift, momentum - by_inflow
+        out[2, i] = lift
+    return out
+
+
+@_compile
+def _balanced(theta: Any, start: Any, annuli: Any, data: Any) -> Any:
+    """λ_i that balances every annulus, and dλ_i/dθ, (elements,) both: Newton's method with a bracket."""
+    n, inflow = len(theta), start.copy()
+    low, high = np.full(n, -_LARGEST_INFLOW), np.full(n, _LARGEST_INFLOW)
+    found, searching = _balance(theta, inflow, annuli, data), True
+    for _ in range(_MOST_PASSES):
+        searching = False
+        for i in range(n):
+            error, slope = found[0, i], found[1, i]
+            if abs(error) <= 1e-15 + 1e-13 * abs(found[2, i]) or high[i] - low[i] < 1e-15:
+                continue
+            searching = True
+            if error < 0.0:
+                low[i] = inflow[i]
+            else:
+                high[i] = inflow[i]
+            ahead = inflow[i] - error / slope if slope > 0.0 else math.inf
+            inflow[i] = ahead if low[i] < ahead < high[i] else 0.5 * (low[i] + high[i])
+        if not searching:
+            break
+        found = _balance(theta, inflow, annuli, data)
+    return inflow, found[3] / np.maximum(found[1], 1e-12)
+
+
+@lru_cache(maxsize=16)
+def _structure(modes: int, gives_thrust: bool, cones: bool, numbers: tuple[Hashable, ...]) -> Structure:
+    """Atoms, columns and equations; gives_thrust: whether the collective is solved for; cones: the coning too."""
+    s = Structure(HOVER_PAIRS, len(CHANNELS), len(FORCES) + 1, ("hover", modes, gives_thrust, cones))
+    for number in numbers:
+        s.number(number)
+    collective, coning = s.state("collective"), s.state("coning")
+    twist, free, n = Torsion(modes, 1), list[int](), s.numbers
+    twist.declare(s)
+    s.column(TH, "one", STEADY, 1.0, collective)
+    thrust = s.measure(FZ, "one", STEADY)
+    s.measure(FX, "r", STEADY)
+    if gives_thrust:
+        row = s.equation("thrust")
+        s.term(row, 1.0, q=thrust)
+        s.term(row, -1.0, n["weight"])
+        free.append(collective)
+    if cones:
+        row = s.equation("coning")
+        s.term(row, 1.0, q=s.measure(FZ, "arm", STEADY))
+        s.term(row, -1.0, n["coning stiffness"], coning)
+        s.term(row, -1.0, n["blade weight"])
+        free.append(coning)
+    return s.finish(free + twist.build(s))
+
+
+def _nothing_made(x: Array) -> tuple[Array, Array, Live]:
+    del x
+    return np.zeros(0), np.zeros((0, 0)), {}
+
+
+def hover_system(problem: Problem) -> System:
+    """The equations of a hovering design, at one azimuth; tolerances are those of the caller."""
+    design, disk, torsion = problem.design, problem.disk, problem.torsion
+    models, stand = design.models, design.condition.stand
+    given = stand is not None and stand.collective is not None
+    cones = models.flapping and design.rotor.precone is None
+    values: dict[Hashable, float] = {**trim_numbers(problem)}
+    shapes: dict[Shape, Array] = {"one": np.ones_like(disk.r), "r": disk.r, "arm": problem.arm}
+    for freedom in freedoms_of(problem, 1):
+        values |= freedom.numbers(problem)
+        shapes |= freedom.shapes(problem)
+    structure = _structure(0 if torsion is None else len(torsion.gain), not given, cones, tuple(values))
+    closed = models.hover_inflow == "closed-form"
+    far, none = np.full_like(disk.r, math.inf), np.zeros(0)
+    ends = np.stack([
+        0.5 * disk.blades * (1.0 - disk.r) if models.tip_loss else far,
+        0.5 * HUB_FACTOR * (disk.r - disk.root) if models.hub_loss else far,
+    ])  # fmt: skip
+    curve = lift_curve(problem) if closed else (none, none)
+    data = AnnulusData(
+        Annuli(disk.r, problem.climb, models.has("swirl"), ends, *curve), problem.section_data(len(disk.psi)),
+        np.full_like(disk.r, axial_inflow(problem.scale, problem.climb)),
+    )  # fmt: skip
+    steady = np.zeros((structure.channels, len(disk.r)))
+    steady[TH], steady[UT], steady[LOSS] = problem.twist, disk.r, 1.0
+    grid = Grid(wave_grid(structure.waves, 1), disk.dr, steady, {}, data)
+    count = len(structure.equations)
+    return System(
+        structure, Shapes(structure, shapes, len(disk.r)), grid, grid, _annulus_section, _nothing_made,
+        np.array([1.0, *values.values()]), np.full(count, problem.scale), np.ones(count),
+    )  # fmt: skip
+
+
+def hover_elements(problem: Problem, point: Point) -> BladeElements:
+    """The hovering rotor as blade elements over the whole disk; `point` has the flow at the sections."""
+    disk, torsion, structure = problem.disk, problem.torsion, point.system.structure
+    azimuths, f, s, states = len(disk.psi), point.forces, point.flow, structure.states
+    inflow, theta = f[BALANCED, :, 0], point.channels[TH, :, 0]
+    swirl = np.zeros_like(inflow)
+    if problem.design.models.has("swirl"):
+        swirl = swirl_of(disk.r, inflow * (inflow + problem.climb))[0]
+    coning = float(point.x[states["coning"]])
+    thrust = float(f[FZ].sum()) * disk.dr
+    state = TrimState(
+        collective=float(point.x[states["collective"]]), coning=coning,
+        lambda0=axial_inflow(max(thrust, 0.0), problem.climb),
+    )  # fmt: skip
+    twist = None
+    if torsion is not None:
+        coordinates = np.zeros_like(problem.given_torsion)
+        coordinates[:, 0] = steady_twist(point)
+        along = torsion.radial.T @ coordinates[:, 0]
+        twist = TwistState(coordinates, over_azimuths(along, azimuths), over_azimuths(f[M, :, 0], azimuths))
+
+    def everywhere(values: Array) -> Array:
+        return over_azimuths(values, azimuths)
+
+    zero = np.zeros(disk.shape)
+    return BladeElements(
+        state=state, flow=Wake(0.0, problem.climb, state.lambda0), theta=everywhere(theta),
+        u_t=everywhere(disk.r - swirl), u_p=everywhere(inflow + problem.climb), u_r=zero,
+        beta=np.full(azimuths, coning), induced=everywhere(inflow), swirl=swirl, fz=everywhere(f[FZ, :, 0]),
+        fx=everywhere(f[FX, :, 0]), fr=zero, alpha=everywhere(s[ALPHA, :, 0]), mach=everywhere(s[MACH, :, 0]),
+        cl=everywhere(s[CL, :, 0]), cd=everywhere(s[CD, :, 0]), cd_mach=everywhere(s[CD_MACH, :, 0]), torsion=twist,
+    )  # fmt: skip
+
+
+def steady_twist(point: Point) -> Array:
+    """Steady elastic twist of each mode [rad], (modes,)."""
+    places = [atom for name, atom in point.system.structure.states.items() if isinstance(name, tuple)]
+    return point.x[places]
+
+
+def turning_of(problem: Problem, inflow: Array) -> Array:
+    """∂(swirl)/∂λ_i of each annulus, (elements,)."""
+    if not problem.design.models.has("swirl"):
+        return np.zeros_like(inflow)
+    total = inflow + problem.climb
+    return (inflow + total) * swirl_of(problem.disk.r, inflow * total)[1]

@@ -1,0 +1,166 @@
+"""The equations of equilibrium in forward flight and on test stands.
+
+A trim is a list of quantities that are solved for and, one for each, the equations that have to be met. With
+T = Σ F_z, H = Σ (F_x sin ψ + F_r cos ψ − β F_z cos ψ) and the flap moments M = Σ (r − e) F_z, all in units of C_T (a
+blade that flaps leans its lift inboard),
+
+    vertical     T cos α + H sin α = C_W            carries the weight
+    forward      T sin α − H cos α = D              pulls the airframe's drag
+    thrust       T = √(C_W² + D²)                   the resultant, or the thrust given on a test stand
+    torque       Σ r F_x = 0                        the air turns the rotor
+    coning       M_0 = (ν² β0 + weight)/Γ
+    flapping     2 M_1c = (ν² − 1) β1c/Γ,  2 M_1s = (ν² − 1) β1s/Γ
+    momentum     2 λ0 V = T,  V = √(µ_x² + (µ_z + λ0)²)     (2.30) with the axial flow of the tilted disk
+
+`propulsive` (flight preset): collective, cyclic, shaft tilt and coning; first-harmonic flapping has its given value.
+`thrust` (thesis preset): collective and free flapping; no cyclic. Rigid blades have neither flapping nor cyclic among
+their unknowns, and the hub carries the moments. On a test stand no force is balanced. `wind-tunnel`: the collective
+gives the thrust, or is given. `free-rotor`: the shaft tilt takes the torque away. `controls`: flapping and inflow are
+all that remain. A hub that fixes the coning leaves it out of the unknowns.
+"""
+
+import math
+from dataclasses import dataclass, replace
+from functools import cache
+
+from rotor.aero.elements import TrimState, Unknown
+from rotor.aero.problem import Problem
+from rotor.aero.section import FR, FX, FZ
+from rotor.columns.blade import FLAPPING
+from rotor.design.design import Design
+from rotor.engine.terms import ONE, Structure
+from rotor.engine.waves import COS, SIN, STEADY, times_wave
+
+
+@dataclass(frozen=True)
+class Trim:
+    """A way to trim: as many equations as unknowns."""
+
+    unknowns: tuple[Unknown, ...]
+    """The quantities solved for; all others keep their given values."""
+    equations: tuple[str, ...]
+
+    def __post_init__(self) -> None:
+        if len(self.unknowns) != len(self.equations):
+            raise ValueError(f"{len(self.unknowns)} unknowns with {len(self.equations)} equations: give one for each")
+
+
+_FORCES: dict[str, tuple[tuple[Unknown, ...], tuple[str, ...]]] = {
+    "propulsive": (("collective", "shaft_tilt"), ("vertical", "forward")),
+    "thrust": (("collective",), ("thrust",)),
+    "wind-tunnel": (("collective",), ("thrust",)),
+    "free-rotor": (("shaft_tilt", "collective"), ("torque", "thrust")),
+    "controls": ((), ()),
+}
+"""Unknowns and equations of each trim beside flapping and inflow; with the collective given it is no unknown."""
+
+
+def trim_of(design: Design) -> Trim:
+    """The unknowns and equations that a design solves."""
+    models, stand = design.models, design.condition.stand
+    given = stand is not None and stand.collective is not None
+    return _trim(models.trim, given, models.flapping, design.rotor.precone is None, _cyclic_trims(design))
+
+
+@cache
+def _trim(name: str, given_collective: bool, flapping: bool, coning: bool, cyclic: bool) -> Trim:
+    unknowns, equations = _FORCES[name]
+    if given_collective and "collective" in unknowns:
+        unknowns = unknowns[:-1] if unknowns[-1] == "collective" else unknowns[1:]
+        equations = tuple(equation for equation in equations if equation != "thrust")
+    if flapping:  # Rigid blades do not flap, and no cyclic keeps the rotor from rolling.
+        if coning:
+            cone: tuple[Unknown, ...] = ("coning",)
+            unknowns, equations = unknowns + cone, (*equations, "coning")
+        angles: tuple[Unknown, ...] = ("cyclic_1c", "cyclic_1s") if cyclic else ("flap_1c", "flap_1s")
+        unknowns, equations = unknowns + angles, (*equations, "flap_1c", "flap_1s")
+    mean: tuple[Unknown, ...] = ("lambda0",)
+    return Trim(unknowns + mean, (*equations, "momentum"))
+
+
+def _cyclic_trims(design: Design) -> bool:
+    """Whether cyclic keeps the first-harmonic flapping at its given value, or the blades flap freely."""
+    stand = design.condition.stand
+    return design.models.trim == "propulsive" if stand is None else stand.flapping == "trimmed"
+
+
+def unknowns_of(design: Design) -> tuple[Unknown, ...]:
+    """The quantities that a design solves for."""
+    return trim_of(design).unknowns
+
+
+def with_given_values(problem: Problem, start: TrimState) -> TrimState:
+    """The start with every quantity that is not solved for at its given value."""
+    design = problem.design
+    condition, models, stand = design.condition, design.models, design.condition.stand
+    given: dict[str, float] = {"lambda0": max(start.lambda0, 1e-4)}
+    if not models.flapping:
+        given |= {"coning": 0.0, "cyclic_1c": 0.0, "cyclic_1s": 0.0, "flap_1c": 0.0, "flap_1s": 0.0}
+    elif _cyclic_trims(design):
+        given |= {"flap_1c": condition.flap_1c, "flap_1s": condition.flap_1s}
+    else:
+        given |= {"cyclic_1c": stand.cyclic_1c if stand else 0.0, "cyclic_1s": stand.cyclic_1s if stand else 0.0}
+    if models.flapping and design.rotor.precone is not None:
+        given["coning"] = design.rotor.precone
+    if models.trim == "thrust":
+        given["shaft_tilt"] = math.atan2(problem.drag, problem.weight)
+    if stand is not None:
+        if models.trim != "free-rotor":
+            given["shaft_tilt"] = stand.tilt
+        if stand.collective is not None:
+            given["collective"] = stand.collective
+    return replace(start, **given)
+
+
+def trim_numbers(problem: Problem) -> dict[str, float]:
+    """Values of the numbers in these equations."""
+    flap = problem.flap
+    return {
+        "weight": problem.weight,
+        "drag": problem.drag,
+        "resultant": math.hypot(problem.weight, problem.drag),
+        "coning stiffness": flap.frequency_squared / flap.load_gain,
+        "flap stiffness": (flap.frequency_squared - 1.0) / flap.load_gain,
+        "blade weight": flap.weight / flap.load_gain,
+    }
+
+
+def drag_terms(s: Structure) -> list[tuple[float, int, int]]:
+    """H as a sum of factor · z · Q: (factor, atom, measure)."""
+    across, along = s.measure(FX, "one", SIN), s.measure(FR, "one", COS)
+    terms = [(1.0, ONE, across), (1.0, ONE, along)]
+    for name, wave in FLAPPING:
+        terms += [(-share, s.states[name], s.measure(FZ, "one", both)) for both, share in times_wave(wave, COS)]
+    return terms
+
+
+def add_equations(s: Structure, trim: Trim) -> None:
+    """The equations of a trim; see the head of this file."""
+    z, q, drag = {**s.numbers, **s.states, **s.made}, s.measure, drag_terms(s)
+    thrust = q(FZ, "one", STEADY)
+    for name in trim.equations:
+        row = s.equation(name)
+        match name:
+            case "vertical" | "forward":
+                by_thrust, by_drag, sign, load = (
+                    (z["cos"], z["sin"], 1.0, "weight") if name == "vertical" else (z["sin"], z["cos"], -1.0, "drag")
+                )
+                s.term(row, 1.0, by_thrust, q=thrust)
+                for share, atom, measure in drag:
+                    s.term(row, sign * share, by_drag, atom, measure)
+                s.term(row, -1.0, z[load])
+            case "thrust":
+                s.term(row, 1.0, q=thrust)
+                s.term(row, -1.0, z["resultant"])
+            case "torque":
+                s.term(row, 1.0, q=q(FX, "r", STEADY))
+            case "coning":
+                s.term(row, 1.0, q=q(FZ, "arm", STEADY))
+                s.term(row, -1.0, z["coning stiffness"], z["coning"])
+                s.term(row, -1.0, z["blade weight"])
+            case "flap_1c" | "flap_1s":
+                s.term(row, 2.0, q=q(FZ, "arm", COS if name == "flap_1c" else SIN))
+                s.term(row, -1.0, z["flap stiffness"], z[name])
+            case _:
+                s.term(row, 2.0, z["lambda0"], z["speed"])
+                s.term(row, -1.0, q=thrust)

@@ -1,0 +1,212 @@
+"""Newton's method on the exact Jacobian, corrected by what its steps have shown.
+
+Unknowns mean the same on every number of azimuths, so derivatives are evaluated on few, and a start without derivatives
+is solved there first. Factors are kept over several steps and for the next solution: with each step they are corrected
+by Broyden's rank-one change (Math. Comp. 19, 1965), which needs no new factors,
+
+    H ← H + (s − H y)(W s)ᵀ H / (W s)ᵀ H y,    s: step, y: change of R, W: what changes of an unknown do to R.
+
+The residual has to meet the same tolerance, whatever the derivatives of the steps.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg.lapack import dgetrf, dgetrs
+
+from rotor.arrays import Array
+from rotor.engine.linearise import Grid, Point, System, evaluate, jacobian
+
+_NEAR = 1e6
+"""Residual over its tolerance to which a trim is solved on few azimuths. Our choice."""
+_NEARLY = 10.0
+"""Expected residual over its tolerance at which a step may well be the last. Our choice."""
+_MOST_SLOW_STEPS = 4
+"""Steps that hardly reduce the residual before the iteration ends."""
+
+
+@dataclass(frozen=True, eq=False)
+class Factors:
+    """LU factors of a Jacobian."""
+
+    lu: Array
+    pivots: Array
+    weight: Array
+    """W, the squares of the columns in units of the tolerances, (equations,)."""
+
+    @classmethod
+    def of(cls, point: Point) -> "Factors":
+        """Of the Jacobian at a point with slopes."""
+        matrix = jacobian(point)[0]
+        scaled = matrix / point.system.tolerance[:, None]
+        return cls.of_matrix(matrix, np.einsum("ij,ij->j", scaled, scaled))
+
+    @classmethod
+    def of_matrix(cls, matrix: Array, weight: Array | None = None) -> "Factors":
+        """Of a Jacobian, which is spent; without W where no steps are made with them."""
+        lu, pivots, singular = dgetrf(matrix.T, overwrite_a=True)
+        weight = np.zeros(len(matrix)) if weight is None else weight
+        return cls(lu, pivots, np.full_like(weight, math.nan) if singular else weight)
+
+    @property
+    def usable(self) -> bool:
+        return bool(np.isfinite(self.weight).all())
+
+    def solve(self, right: Array) -> Array:
+        """J⁻¹ b"""
+        return dgetrs(self.lu, self.pivots, right, trans=1)[0]
+
+    def solve_transposed(self, right: Array) -> Array:
+        """J⁻ᵀ b"""
+        return dgetrs(self.lu, self.pivots, right)[0]
+
+
+@dataclass(frozen=True)
+class NewtonLimits:
+    """How hard a solution is tried."""
+
+    most_passes: int = 40
+    most_steps: float = 4.0
+    """Derivatives are evaluated again when more steps than this are to be expected with the old ones: derivatives cost
+    as much as two to four, and one or two steps follow them."""
+    most_steps_on_few: float = 2.0
+    """The same on few azimuths: these derivatives serve all later steps."""
+    kept_ratio: float = 0.03
+    """Factors are kept for the next solution where the last step left less than this part of the residual."""
+    pause: Callable[[], object] | None = None
+    """Called before each evaluation of derivatives."""
+
+
+DEFAULT_LIMITS = NewtonLimits()
+
+
+@dataclass(frozen=True, eq=False)
+class Solved:
+    """Where the iteration ended."""
+
+    point: Point
+    passes: int
+    """Evaluations of the equations."""
+    factors: Factors | None
+    """Those of the last step, where they left little of the residual."""
+
+
+class _Corrected:
+    """Factors, and the corrections of the steps made with them."""
+
+    def __init__(self, factors: Factors) -> None:
+        self.factors = factors
+        self._updates: list[tuple[Array, Array]] = []
+        self._before: Array | None = None
+        """H R at the point before."""
+        self.taken: Array | None = None
+        """The last step."""
+
+    def begin(self) -> None:
+        """Forget the last step, for steps from elsewhere."""
+        self._before = self.taken = None
+
+    def step(self, residual: Array) -> Array:
+        """−H R, after the correction by the last step."""
+        found = self.factors.solve(residual)
+        for change, along in self._updates:
+            found += change * (along @ found)
+        if self._before is not None and self.taken is not None:
+            shown = found - self._before  # H y
+            along = self.factors.weight * self.taken
+            length = float(along @ shown)
+            if length:
+                change = (self.taken - shown) / length
+                self._updates.append((change, along))
+                found = found + change * (along @ found)
+        self._before = found
+        return -found
+
+
+def solve(system: System, x: Array, factors: Factors | None = None, limits: NewtonLimits = DEFAULT_LIMITS) -> Solved:
+    """From x = (1, numbers, states): with factors on all azimuths at once, else on few azimuths first."""
+    run = _Steps(system, factors, limits)
+    if factors is None and system.thin is not system.grid and limits.most_passes > 1:
+        near = run(system.thin, x, _NEAR, limits.most_steps_on_few)
+        if near.size <= _NEAR:
+            x = near.x
+        else:  # Whether there is a solution is for all azimuths to say, from the same start.
+            run = _Steps(system, None, limits, run.passes)
+    point = run(system.grid, x, 1.0, limits.most_steps)
+    return Solved(point, run.passes, run.latest if run.serving else None)
+
+
+class _Steps:
+    """The steps of one solution."""
+
+    def __init__(self, system: System, factors: Factors | None, limits: NewtonLimits, passes: int = 0) -> None:
+        self.passes = passes
+        self.latest = factors
+        self.serving = False
+        """Whether the last step left little of the residual."""
+        self._system, self._limits = system, limits
+        self._corrected = _Corrected(factors) if factors is not None else None
+
+    def __call__(self, grid: Grid, x: Array, goal: float, most_steps: float) -> Point:
+        """Steps until the residual is within `goal` times the tolerance, or no more progress is made."""
+        system, limits, slow_steps, expected = self._system, self._limits, 0, math.inf
+        if self._corrected is not None:
+            self._corrected.begin()
+        point = self._at(grid, x, slopes=self._corrected is None and grid is system.thin)
+        while point.size > goal and self.passes < limits.most_passes and slow_steps < _MOST_SLOW_STEPS:
+            fresh = self._corrected is None
+            corrected = self._corrected or self._differentiate(point)
+            if not corrected.factors.usable:
+                break
+            step = corrected.step(point.residual)
+            if not np.isfinite(step).all():
+                break
+            step /= max(1.0, float((np.abs(step) / system.limits).max()))
+            fraction, last = 1.0, expected <= _NEARLY
+            trial = self._moved(point, step, last)
+            while fresh and trial.size >= point.size and fraction >= 0.2 and self.passes < limits.most_passes:
+                fraction *= 0.5
+                trial = self._moved(point, fraction * step, last)
+            corrected.taken = fraction * step
+            self.serving = trial.size <= limits.kept_ratio * point.size
+            if _steps_left(trial.size, point.size, goal) > most_steps:
+                self._corrected = None
+            expected = trial.size * min(trial.size / point.size, 1.0)
+            if trial.size >= point.size and not fresh:
+                self._corrected = None  # The old derivatives do not serve here: take the step again with new ones.
+                continue
+            slow_steps = slow_steps + 1 if trial.size > 0.9 * point.size else 0
+            if trial.size < point.size or slow_steps < _MOST_SLOW_STEPS:
+                point = trial
+        return point
+
+    def _at(self, grid: Grid, x: Array, *, slopes: bool = False, flow: bool = False) -> Point:
+        self.passes += 1
+        return evaluate(self._system, grid, x, slopes=slopes, flow=flow)
+
+    def _moved(self, point: Point, step: Array, last: bool) -> Point:
+        """A step on; where it may well be the last, with all that a solution and its adjoint need."""
+        x = point.x.copy()
+        x[self._system.structure.free] += step
+        return self._at(point.grid, x, slopes=last, flow=last)
+
+    def _differentiate(self, point: Point) -> _Corrected:
+        """New factors, on few azimuths."""
+        if self._limits.pause is not None:
+            self._limits.pause()
+        system = self._system
+        near = point if point.grid is system.thin else evaluate(system, system.thin, point.x, slopes=True)
+        if not near.slopes.shape[1]:
+            near = evaluate(system, system.thin, point.x, slopes=True)
+        self.latest = Factors.of(near)
+        self._corrected = _Corrected(self.latest)
+        return self._corrected
+
+
+def _steps_left(size: float, before: float, goal: float) -> float:
+    """How many more steps reach the goal, if each leaves the same part of the residual as the last one did."""
+    if size <= goal:
+        return 0.0
+    return math.log(size / goal) / math.log(before / size) if size < before else math.inf

@@ -1,0 +1,329 @@
+"""The structure of a rotor's equations as lists of terms; their numbers come with each design.
+
+    atoms     z = (1, numbers, states, made)          numbers: given by the design; made: of states, by formulas
+    columns   channel(r, ψ) += factor z_i z_j Φ(r) w(ψ)
+    measures  Q_k = mean over ψ of Σ Ψ(r) w(ψ) F(r, ψ) Δr
+    terms     R_e += factor z_i z_j Q_k,   Q_0 = 1
+    closures  R = y − T(z) Q
+
+A structure is made once for each combination of trim, blade and wake. `finish` works out all places in the matrices.
+"""
+
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, cast
+
+import numpy as np
+from scipy.sparse import csr_matrix
+
+from rotor.arrays import Array, Integers
+from rotor.compiled import compiled
+from rotor.engine.waves import STEADY, products, times_wave
+
+ONE = 0
+"""The atom 1."""
+
+Shape = Hashable
+"""Name of a function along the blade."""
+
+
+def summed(place: Integers, values: Array, size: int) -> Array:
+    """Sums of the values with the same place, (size,)."""
+    return np.asarray(np.bincount(place, values, size), dtype=np.float64)
+
+
+@compiled(error_model="numpy")
+def _slopes(
+    row: Any, measure: Any, first: Any, second: Any, factor: Any, z: Any, q: Any, skipped: int, by_q: Any, by_z: Any
+) -> None:  # fmt: skip
+    """`Terms.slopes`; skipped: atoms before the first."""
+    for k in range(len(row)):
+        i, j, own = first[k], second[k], q[measure[k]]
+        by_q[row[k], measure[k]] += factor[k] * z[i] * z[j]
+        if i >= skipped:
+            by_z[row[k], i - skipped] += factor[k] * z[j] * own
+        if j >= skipped:
+            by_z[row[k], j - skipped] += factor[k] * z[i] * own
+
+
+@dataclass(frozen=True, eq=False)
+class Terms:
+    """A list of terms: what equations and other measures are sums of."""
+
+    row: Integers
+    """The equation of each term, (terms,), as the next four."""
+    measure: Integers
+    first: Integers
+    """z_i"""
+    second: Integers
+    """z_j"""
+    factor: Array
+    rows: int
+    """Number of equations."""
+
+    @classmethod
+    def of(cls, terms: Sequence[tuple[int, int, int, int, float]], rows: int) -> "Terms":
+        """terms: (equation, measure, z_i, z_j, factor)."""
+        row, measure, first, second = np.array([term[:4] for term in terms], dtype=np.int64).reshape(-1, 4).T.copy()
+        return cls(row, measure, first, second, np.array([term[4] for term in terms], dtype=np.float64), rows)
+
+    def value(self, z: Array, q: Array) -> Array:
+        """(rows,)"""
+        weights = self.factor * z[self.first] * z[self.second] * q[self.measure]
+        return summed(self.row, weights, self.rows)
+
+    def slopes(self, z: Array, q: Array, first_atom: int) -> tuple[Array, Array]:
+        """∂ by the measures, (rows, measures), and by the atoms from one on, (rows, atoms)."""
+        by_q, by_z = np.zeros((self.rows, len(q))), np.zeros((self.rows, len(z) - first_atom))
+        _slopes(self.row, self.measure, self.first, self.second, self.factor, z, q, first_atom, by_q, by_z)
+        return by_q, by_z
+
+    @cached_property
+    def summing(self) -> Integers:
+        """The equations with measures other than 1."""
+        return np.unique(self.row[self.measure > 0])
+
+    def transposed(self, v: Array, z: Array, q: Array) -> tuple[Array, Array]:
+        """`slopes` times weights on the rows from the left, (rows,) → (measures,), (atoms,)."""
+        weights = self.factor * v[self.row]
+        first, second, own = z[self.first], z[self.second], q[self.measure]
+        by_z = summed(self.first, weights * second * own, len(z)) + summed(self.second, weights * first * own, len(z))
+        return summed(self.measure, weights * first * second, len(q)), by_z
+
+
+@dataclass(frozen=True, eq=False)
+class Blocks:
+    """Where the derivatives of the measures by the wave coefficients stand, for each pair of force and channel."""
+
+    arrays: Integers
+    """Of each block: row of the section's partial derivatives, first and last weight, first and last shape, how many
+    waves their products have, and where its entries begin and end, (blocks, 8)."""
+    places: Integers
+    """Of each entry: coefficient and measure, and places of the two waves of their product, (4, entries)."""
+    factors: Array
+    """Of these two, (2, entries)."""
+
+
+def _kind_of(name: Hashable) -> Hashable:
+    """The first word of a name."""
+    return cast(tuple[Hashable, ...], name)[0] if isinstance(name, tuple) else name
+
+
+@dataclass(eq=False)
+class Structure:
+    """Atoms, columns, measures and equations, and once finished all places in the matrices."""
+
+    pairs: tuple[tuple[int, int], ...]
+    """Force and channel of each row of the section's partial derivatives."""
+    channels: int
+    forces: int
+    name: Hashable = None
+    """The same for structures with the same atoms and equations."""
+    numbers: dict[Hashable, int] = field(default_factory=dict[Hashable, int])
+    """Atoms by name."""
+    states: dict[Hashable, int] = field(default_factory=dict[Hashable, int])
+    made: dict[Hashable, int] = field(default_factory=dict[Hashable, int])
+    roots: tuple[int, ...] = ()
+    """States that made atoms follow."""
+    shapes: list[dict[Shape, int]] = field(default_factory=list[dict[Shape, int]])
+    """By channel."""
+    weights: list[dict[Shape, int]] = field(default_factory=list[dict[Shape, int]])
+    """By force."""
+    columns: list[tuple[int, int, int, int, int, float]] = field(
+        default_factory=list[tuple[int, int, int, int, int, float]]
+    )
+    measures: dict[tuple[int, int, int], int] = field(default_factory=dict[tuple[int, int, int], int])
+    terms: list[tuple[int, int, int, int, float]] = field(default_factory=list[tuple[int, int, int, int, float]])
+    equations: dict[Hashable, int] = field(default_factory=dict[Hashable, int])
+    free: Integers = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
+    """The atoms solved for, (equations,)."""
+    waves: int = 1
+
+    def __post_init__(self) -> None:
+        self.shapes = [{} for _ in range(self.channels)]
+        self.weights = [{} for _ in range(self.forces)]
+
+    def number(self, name: Hashable) -> int:
+        """The atom of a number that the design gives."""
+        assert not self.states, "numbers come before states"
+        return self.numbers.setdefault(name, 1 + len(self.numbers))
+
+    def state(self, name: Hashable) -> int:
+        """The atom of a quantity that may be solved for."""
+        assert not self.made, "states come before what is made of them"
+        return self.states.setdefault(name, 1 + len(self.numbers) + len(self.states))
+
+    def quantity(self, name: Hashable) -> int:
+        """The atom of a quantity made of states."""
+        return self.made.setdefault(name, 1 + len(self.numbers) + len(self.states) + len(self.made))
+
+    def column(
+        self, channel: int, shape: Shape, wave: int, factor: float, i: int, j: int = ONE, times: int = STEADY
+    ) -> None:  # fmt: skip
+        """Add factor · z_i z_j · Φ(r) w_wave(ψ) w_times(ψ) to a channel."""
+        own = self.shapes[channel]
+        row = own.setdefault(shape, len(own))
+        for product, share in times_wave(wave, times):
+            if factor * share:
+                self.columns.append((channel, row, product, i, j, factor * share))
+
+    def measure(self, force: int, shape: Shape, wave: int) -> int:
+        """Q_k: the mean of Σ Ψ w F Δr."""
+        own = self.weights[force]
+        key = force, own.setdefault(shape, len(own)), wave
+        return self.measures.setdefault(key, 1 + len(self.measures))
+
+    def equation(self, name: Hashable) -> int:
+        """The number of a new equation."""
+        assert name not in self.equations
+        return self.equations.setdefault(name, len(self.equations))
+
+    def term(self, equation: int, factor: float, i: int = ONE, j: int = ONE, q: int = 0) -> None:
+        """Add factor · z_i z_j Q_q to an equation."""
+        self.terms.append((equation, q, i, j, factor))
+
+    def finish(self, free: Sequence[int]) -> "Structure":
+        """free: the atoms solved for, as many as there are equations."""
+        assert len(free) == len(self.equations), (len(free), self.equations)
+        self.free = np.array(free, dtype=np.int64)
+        highest = max([0, *(column[2] for column in self.columns), *(key[2] for key in self.measures)])
+        self.waves = highest + 1 + highest % 2
+        return self
+
+    @property
+    def given(self) -> int:
+        """1, numbers and states."""
+        return 1 + len(self.numbers) + len(self.states)
+
+    @property
+    def atoms(self) -> int:
+        return self.given + len(self.made)
+
+    @cached_property
+    def first_state(self) -> int:
+        return 1 + len(self.numbers)
+
+    @cached_property
+    def residual(self) -> Terms:
+        return Terms.of(self.terms, len(self.equations))
+
+    @cached_property
+    def kinds(self) -> tuple[list[Hashable], list[Hashable]]:
+        """Of every equation and of every state solved for: the first word of its name, or the name."""
+        by_atom = {atom: name for name, atom in self.states.items()}
+        names = list(self.equations), [by_atom[atom] for atom in self.free.tolist()]
+        equations, states = ([_kind_of(name) for name in own] for own in names)
+        return equations, states
+
+    def equations_of(self, kind: Hashable) -> Integers:
+        """The equations of a kind."""
+        return self._by_kind(0, kind)
+
+    def states_of(self, kind: Hashable) -> Integers:
+        """Places of the states of a kind among those solved for."""
+        return self._by_kind(1, kind)
+
+    def _by_kind(self, which: int, kind: Hashable) -> Integers:
+        key = which, kind
+        if key not in self._kept_kinds:
+            found = [k for k, name in enumerate(self.kinds[which]) if name == kind]
+            self._kept_kinds[key] = np.array(found, dtype=np.int64)
+        return self._kept_kinds[key]
+
+    @cached_property
+    def _kept_kinds(self) -> dict[tuple[int, Hashable], Integers]:
+        return {}
+
+    @cached_property
+    def first_row(self) -> Integers:
+        """Row of the first shape of each channel among all shapes, (channels + 1,)."""
+        return np.cumsum([0, *(len(own) for own in self.shapes)])
+
+    @cached_property
+    def first_weight(self) -> Integers:
+        """The same of the measures by force, (forces + 1,)."""
+        return np.cumsum([0, *(len(own) for own in self.weights)])
+
+    @cached_property
+    def column_arrays(self) -> tuple[Integers, Integers, Integers, Array]:
+        """Wave coefficient, z_i, z_j and factor of each column, (columns,) each."""
+        columns = np.array(self.columns, dtype=float).reshape(-1, 6)
+        channel, row, wave, i, j = columns[:, :5].astype(np.int64).T
+        return (self.first_row[channel] + row) * self.waves + wave, i, j, columns[:, 5].copy()
+
+    @cached_property
+    def measure_places(self) -> Integers:
+        """Place of each measure among all weights times all waves, (measures,)."""
+        force, row, wave = self._measure_keys.T
+        return (self.first_weight[force] + row) * self.waves + wave
+
+    @cached_property
+    def _measure_keys(self) -> Integers:
+        return np.array(list(self.measures), dtype=np.int64).reshape(-1, 3)
+
+    @cached_property
+    def _coefficients(self) -> tuple[Integers, Integers]:
+        """The wave coefficients that columns have, and which of them each column adds to."""
+        return np.unique(self.column_arrays[0], return_inverse=True)
+
+    @cached_property
+    def by_atom(self) -> tuple[csr_matrix, Integers]:
+        """∂(wave coefficients)/∂z in rows of states and made atoms, whose values change while places do not.
+
+        Beside it where its values stand among the columns by their z_i, then by their z_j.
+        """
+        _, column = self._coefficients
+        _, i, j, _ = self.column_arrays
+        atoms, column = np.concatenate([i, j]) - self.first_state, np.tile(column, 2)
+        order = np.argsort(atoms, kind="stable")
+        order = order[atoms[order] >= 0]
+        rows = self.atoms - self.first_state
+        first = np.searchsorted(atoms[order], np.arange(rows + 1))
+        places = csr_matrix(
+            (np.zeros(len(order)), column[order].astype(np.int32), first.astype(np.int32)),
+            (rows, len(self._coefficients[0])),
+        )
+        return places, order
+
+    def slope_rows(self, others: Sequence[int] = ()) -> Integers:
+        """Row, force and channel of the section's derivatives of forces with measures and others, (rows, 3).
+
+        Only those by channels that have columns: the section may leave the others undefined.
+        """
+        used = [bool(weights) or o in others for o, weights in enumerate(self.weights)]
+        rows = [(k, o, c) for k, (o, c) in enumerate(self.pairs) if used[o] and self.shapes[c]]
+        return np.array(rows, dtype=np.int64).reshape(-1, 3)
+
+    @cached_property
+    def blocks(self) -> Blocks:
+        """A block for every force with measures and channel with columns that change with the states."""
+        number, factor = products(self.waves)
+        row, wave = np.divmod(self._coefficients[0], self.waves)
+        changing = np.zeros(len(row), dtype=np.bool_)
+        _, first, second, _ = self.column_arrays
+        changing[self._coefficients[1][np.maximum(first, second) >= self.first_state]] = True
+        keys, arrays, places, factors = self._measure_keys, list[list[int]](), list[Array](), list[Array]()
+        entries = 0
+        for slope, (o, c) in enumerate(self.pairs):
+            own = np.flatnonzero(keys[:, 0] == o)
+            mine = np.flatnonzero((row >= self.first_row[c]) & (row < self.first_row[c + 1]) & changing)
+            if not len(own) or not len(mine):
+                continue
+            shapes = int(row[mine].max()) + 1 - int(self.first_row[c])  # Those that do not change come last.
+            pair = keys[own, 1] * shapes + (row[mine] - self.first_row[c])[:, None]
+            both = slice(None), keys[own, 2][None, :], wave[mine][:, None]
+            spectrum = 1 + 2 * int((keys[own, 2].max() + 1) // 2 + (wave[mine].max() + 1) // 2)
+            at = pair * spectrum + number[both]
+            ends = np.broadcast_arrays(mine[:, None], 1 + own[None, :])
+            places.append(np.stack([*ends, *at]).reshape(4, -1))
+            factors.append(factor[both].reshape(2, -1))
+            begin = int(self.first_row[c])
+            spans = [*self.first_weight[o : o + 2].tolist(), begin, begin + shapes]
+            arrays.append([slope, *spans, spectrum, entries, entries + pair.size])
+            entries += pair.size
+        return Blocks(
+            np.array(arrays, dtype=np.int64).reshape(-1, 8),
+            np.concatenate([np.zeros((4, 0)), *places], axis=1).astype(np.int64),
+            np.concatenate([np.zeros((2, 0)), *factors], axis=1),
+        )

@@ -1,0 +1,229 @@
+"""One test of every kind of trim: the Jacobian, its transpose and all slopes by element against differences.
+
+Differences see rounding at small steps and, at large ones, that the slopes of section data bend from one table cell to
+the next: among several steps the one that agrees best counts.
+"""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cache, partial
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor.aero.section import M
+from rotor.arrays import Array
+from rotor.design.active_twist import ActiveTwist, Harmonic
+from rotor.design.design import Design
+from rotor.design.stand import Stand
+from rotor.engine.linearise import Measure, Point, evaluate, jacobian, part, transposed
+from rotor.engine.terms import Terms
+from rotor.files.make_design import make_design
+from rotor.trim.solve import solve
+
+STEPS = 10.0 ** -np.arange(4.0, 7.6, 0.5)
+ACTIVE = ActiveTwist((Harmonic(2, 0.02, 0.3),), (0.2, 0.9), (0.0, 1.0))
+
+
+@dataclass(frozen=True)
+class Case:
+    """A design, and what differs from the flight preset at µ = 0.2."""
+
+    mu: float = 0.2
+    preset: str = "flight"
+    climb: float = 0.0
+    stand: Stand | None = None
+    trim: str | None = None
+    precone: float | None = None
+    active: ActiveTwist | None = None
+    flap: tuple[float, float] = (0.0, 0.0)
+    grid: tuple[int, int] = (20, 40)
+    models: tuple[tuple[str, Any], ...] = ()
+
+
+def flight(mu: float = 0.2, **models: Any) -> Case:
+    return Case(mu, models=tuple(models.items()))
+
+
+def stand(trim: str, mu: float = 0.2, *, elastic: bool = True, precone: float | None = None, **given: Any) -> Case:
+    models = (("inflow", "drees"), ("elastic_twist", elastic))
+    return Case(mu, trim=trim, stand=Stand(**given), precone=precone, models=models)
+
+
+TILT = math.radians(5.0)
+CASES = {
+    **{name: flight(inflow=name) for name in ("uniform", "pitt-peters", "local-momentum", "dynamic-wake")},
+    **{f"rigid {name}": flight(inflow=name, elastic_twist=False) for name in ("drees", "local-momentum")},
+    "rigid dynamic-wake": flight(inflow="dynamic-wake", elastic_twist=False),
+    "infinite blades": flight(inflow="dynamic-wake-infinite-blades"),
+    "quick": flight(inflow="dynamic-wake-quick"),
+    "vortex-wake": replace(flight(inflow="vortex-wake"), grid=(12, 24)),
+    "rigid vortex-wake": replace(flight(inflow="vortex-wake", elastic_twist=False), grid=(12, 24)),
+    "rigid without tip loss": flight(inflow="pitt-peters", elastic_twist=False, tip_loss=False),
+    "without tip loss": flight(tip_loss=False, hub_loss=False),
+    "local without losses": flight(inflow="local-momentum", tip_loss=False, hub_loss=False),
+    "no flapping": flight(flapping=False),
+    "no flapping, rigid": flight(flapping=False, elastic_twist=False, inflow="local-momentum"),
+    "precone": Case(precone=0.03),
+    "no reverse flow": flight(0.35, reverse_flow=False),
+    "fast": flight(0.4),
+    "axial flow of the disk left out": flight(disk_axial_flow=False),
+    "without swirl": flight(swirl=False),
+    "without friction": flight(radial_friction=False),
+    "without tip sweep": flight(swept_tip=False),
+    "one Mach number": flight(compressibility=False),
+    "active twist": Case(active=ACTIVE, flap=(-0.02, 0.01)),
+    "rigid active twist": Case(active=ACTIVE, models=(("elastic_twist", False),)),
+    "joined with hover": flight(0.06),
+    "joined with hover, rigid": flight(0.06, elastic_twist=False),
+    "joined, vortex-wake": replace(flight(0.06, inflow="vortex-wake"), grid=(12, 24)),
+    "climb": Case(climb=6.0),
+    "descent": Case(climb=-8.0, models=(("inflow", "local-momentum"),)),
+    "thrust": replace(flight(inflow="pitt-peters"), trim="thrust"),
+    "thesis": Case(preset="thesis"),
+    "thesis propulsive": Case(preset="thesis", trim="propulsive"),
+    "tunnel thrust": stand("wind-tunnel", ct_over_sigma=0.075, shaft_tilt=TILT),
+    "tunnel thrust, free flapping": stand("wind-tunnel", ct_over_sigma=0.06, flapping="free", cyclic_1s=-0.03),
+    "tunnel collective": stand("wind-tunnel", collective=0.12, elastic=False, shaft_tilt=TILT),
+    "tunnel collective, free flapping": stand("wind-tunnel", collective=0.12, flapping="free", precone=0.03),
+    "free rotor": stand("free-rotor", ct_over_sigma=0.06, flapping="free"),
+    "free rotor, trimmed": stand("free-rotor", ct_over_sigma=0.06, elastic=False),
+    "free rotor at a collective": stand("free-rotor", collective=0.035, flapping="free"),
+    "controls": stand("controls", collective=0.12, flapping="free", cyclic_1c=0.01, cyclic_1s=-0.05),
+    "hover": flight(0.0),
+    "rigid hover": flight(0.0, elastic_twist=False),
+    "closed form": flight(0.0, hover_inflow="closed-form"),
+    "rigid closed form": flight(0.0, hover_inflow="closed-form", elastic_twist=False),
+    "climbing hover": Case(0.0, climb=4.0),
+    "hover of the thesis": Case(0.0, preset="thesis"),
+    "hover without losses": flight(0.0, tip_loss=False, hub_loss=False, swirl=False),
+    "hover at a collective": stand("wind-tunnel", 0.0, collective=0.12),
+    "hover without flapping": flight(0.0, flapping=False),
+}  # fmt: skip
+
+
+def design(case: Case) -> Design:
+    """A design on a coarse grid."""
+    at = make_design(mu=case.mu, preset=case.preset, climb_m_s=case.climb, trim=case.trim, stand=case.stand)
+    elements, azimuths = case.grid
+    return replace(
+        at,
+        models=replace(at.models, elements=elements, azimuths=azimuths, **dict(case.models)),
+        rotor=replace(at.rotor, precone=case.precone),
+        condition=replace(at.condition, flap_1c=case.flap[0], flap_1s=case.flap[1]),
+        active_twist=case.active,
+    )
+
+
+@cache
+def solved(name: str) -> Point:
+    """The equations at the trim of a case."""
+    linear = solve(design(CASES[name])).require().linear
+    assert linear is not None
+    return linear.point
+
+
+def check(value: Callable[[float], Any], slope: Any, least: float) -> None:
+    """A slope against central differences, to 5e-9 of itself or of `least`."""
+    ways = [(value(step) - value(-step)) / (2.0 * step) for step in STEPS]
+    size = max(float(np.abs(slope).max()), least)
+    assert min(float(np.abs(way - slope).max()) for way in ways) <= 5e-9 * size
+
+
+def directions(point: Point) -> list[Array]:
+    """Of random size: each quantity of the trim alone, all of the elastic twist, and all of the inflow."""
+    random, kinds = np.random.default_rng(3), point.system.structure.kinds[1]
+    sizes = {"lambda0": 0.1, "inflow": 0.02}
+    found: list[Array] = []
+    for kind in dict.fromkeys(kinds):
+        own = np.array([kind == other for other in kinds])
+        found.append(own * sizes.get(str(kind), 1.0) * random.uniform(0.5, 1.5, len(kinds)))
+    return found
+
+
+def moved(point: Point, way: Array, step: float) -> Point:
+    x = point.x.copy()
+    x[point.system.structure.free] += step * way
+    return evaluate(point.system, point.grid, x)
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_jacobian_against_differences(name: str):
+    """Each kind of equation by each kind of state."""
+    point = solved(name)
+    matrix, kinds = jacobian(point)[0], point.system.structure.kinds[0]
+    assert matrix.shape == (len(point.residual), len(point.system.structure.free))
+    for way in directions(point):
+        ahead = cache(partial(moved, point, way))
+        for kind in dict.fromkeys(kinds):
+            rows = np.array([kind == other for other in kinds])
+            least = 0.1 * float(np.abs(matrix[rows]).max() * np.abs(way).max())
+            check(lambda step: ahead(step).residual[rows], matrix[rows] @ way, least)  # noqa: B023
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_transposed_is_the_transpose(name: str):
+    point = solved(name)
+    matrix, random = jacobian(point)[0], np.random.default_rng(5)
+    for v in random.standard_normal((2, len(point.residual))):
+        expected = v @ matrix
+        assert_allclose(transposed(point, v)[0], expected, rtol=0, atol=1e-12 * np.abs(expected).max(initial=0.0))
+
+
+def any_measures(point: Point) -> list[Measure]:
+    """Random weights on all that a measure may depend on; one measure of each kind."""
+    random, structure = np.random.default_rng(11), point.system.structure
+    shape, found = point.forces.shape[1:], structure.weights
+    fields = {force: random.standard_normal(shape) for force, _ in structure.pairs if force != M or found[M]}
+    channels = {channel: random.standard_normal(shape) for _, channel in structure.pairs}
+    parts = [(c, list(own), random.standard_normal(shape)) for c, own in enumerate(structure.shapes) if own]
+    known = [atom for name, atom in (structure.states | structure.made).items() if "change" not in str(name)]
+    terms = [
+        (int(random.integers(2)), int(random.integers(len(point.q))), *random.choice(known, 2).tolist(),
+         float(random.standard_normal())) for _ in range(12)
+    ]  # fmt: skip
+    return [Measure(fields), Measure(channels=channels), Measure(parts=parts), Measure(terms=Terms.of(terms, 2))]
+
+
+def value(point: Point, measure: Measure) -> float:
+    """What a measure adds up to at a point."""
+    found = sum(float(np.vdot(own, point.forces[k])) for k, own in measure.forces.items())
+    found += sum(float(np.vdot(own, point.channels[k])) for k, own in measure.channels.items())
+    found += sum(float(np.vdot(own, part(point, k, names))) for k, names, own in measure.parts)
+    return found + (0.0 if measure.terms is None else float(measure.terms.value(point.z, point.q).sum()))
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_slopes_of_any_measure_by_the_states(name: str):
+    point = solved(name)
+    ways, nothing = directions(point), np.zeros(len(point.residual))
+    for measure in any_measures(point):
+        slopes = transposed(point, nothing, measure)[0]
+        least = 0.1 * max((float(np.abs(slopes * way).max()) for way in ways), default=0.0)
+        for way in ways:
+            check(lambda step: value(moved(point, way, step), measure), slopes @ way, least)  # noqa: B023
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_slopes_by_what_is_added_to_a_channel(name: str):
+    """Of weighted equations alone, and with measures of forces and of channels."""
+    point = solved(name)
+    structure, random = point.system.structure, np.random.default_rng(7)
+    channels = sorted({channel for _, channel in structure.pairs if structure.shapes[channel]})
+    v = random.standard_normal(len(point.residual))
+    for measure in (Measure(), *any_measures(point)[:2]):
+        slopes = transposed(point, v, measure)[1]
+        least = float(np.abs(slopes[channels]).sum(axis=1).max())
+        for channel in channels:
+            along = random.uniform(0.5, 1.5, slopes.shape[1])
+
+            def shifted(step: float) -> float:
+                steady = point.grid.steady.copy()
+                steady[channel] += step * along  # noqa: B023
+                there = evaluate(point.system, replace(point.grid, steady=steady), point.x)
+                return float(v @ there.residual) + value(there, measure)  # noqa: B023
+
+            check(shifted, slopes[channel] @ along, least)
