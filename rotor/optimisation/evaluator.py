@@ -58,7 +58,7 @@ class TrimmedBlades:
         blade = TrimmedBlade(rotor, pitch, replace(made, solutions=()))
         if made.power is not None:
             self.all.append(blade)
-            self._solved.append((blade, made.solutions))
+            self._solved.append((blade, tuple(solution.without_linear() for solution in made.solutions)))
         return blade
 
 

@@ -6,7 +6,7 @@ reads a result finds here what each number means.
 
 import json
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from functools import cached_property
 from pathlib import Path
@@ -211,6 +211,10 @@ class Solution:
 
     def __getstate__(self) -> dict[str, Any]:
         return {**self.__dict__, "linear": None}
+
+    def without_linear(self) -> "Solution":
+        """The same without its linearisation, 0.7 MB less: for many that are kept as starts."""
+        return replace(self, linear=None)
 
     def __repr__(self) -> str:
         state = f"{self.status.value}: {self.message}"
