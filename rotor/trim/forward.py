@@ -152,4 +152,4 @@ def _continue(problem: Problem, best: TrimResult, passes: int, options: SolverOp
             step *= 0.4
     if t >= 1.0:
         return replace(result, passes=passes)
-    return replace(best, passes=passes, reached=t)
+    return replace(best, passes=passes, reached=t, nearest=latest[1] if t > 0.0 else None)

@@ -119,6 +119,8 @@ class TrimResult:
     """How far continuation from an easier condition came (1: all the way)."""
     factors: Factors | None = None
     """Those of the last derivatives, where they reduced the residual so much that they are near those of the trim."""
+    nearest: "TrimResult | None" = None
+    """The last trim that continuation found on its way, where it did not come all the way."""
 
     @property
     def state(self) -> TrimState:

@@ -99,7 +99,7 @@ def _assemble(problem: Problem, result: HoverResult | HoverWakeResult | TrimResu
     message = "Trimmed."
     if not converged:
         message = wake.message if wake is not None else ""
-        message = message or vortex_ring(design) or failure_sentence(design, result.reached, area["stalled"])
+        message = message or vortex_ring(design) or failure_sentence(design, result.reached, _stalled(result, area))
     if converged and (refused := implausible(problem, elements, total)):
         converged, message = False, refused
     climb = design.condition.climb_speed
@@ -175,6 +175,16 @@ def _fields(problem: Problem, elements: BladeElements) -> DiskFields:
         dct=e.fz,
         dcq=e.fx,
         elastic_twist=e.torsion.twist if e.torsion is not None else None,
+    )
+
+
+def _stalled(result: HoverResult | HoverWakeResult | TrimResult, area: dict[str, float]) -> float:
+    """Stalled part of the disk at the nearest trim found; without one in the last attempt, whose areas are given."""
+    near = result.nearest if isinstance(result, TrimResult) else None
+    return (
+        area["stalled"]
+        if near is None
+        else _areas(near.problem, _fields(near.problem, near.linear.elements))["stalled"]
     )
 
 

@@ -261,12 +261,18 @@ def _largest_twist(elements: BladeElements) -> float:
     return float(twist.flat[np.abs(twist).argmax()])
 
 
+def _share(stalled: float, reached: float) -> str:
+    """How much of the disk is stalled: at the nearest trim found, or where the last attempt ended."""
+    where = "there" if 0.0 < reached < 1.0 else "in the last attempt"
+    return f" {100.0 * stalled:.0f} % of the disk is stalled {where}." if stalled > STALL_SHARE else ""
+
+
 def failure_sentence(design: Design, reached: float, stalled: float) -> str:
     """Why a design did not trim, and the remedy."""
     condition = design.condition
     if condition.stand is not None:
         return _stand_failure(design, condition.stand, reached, stalled)
-    share = f" {100.0 * stalled:.0f} % of the disk is stalled in the last attempt." if stalled > STALL_SHARE else ""
+    share = _share(stalled, reached)
     if design.hovering:
         return (
             f"Not trimmed: the hovering rotor produces at most {100.0 * reached:.0f} % of the thrust that "
@@ -287,7 +293,7 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
 
 def _stand_failure(design: Design, stand: Stand, reached: float, stalled: float) -> str:
     """Why a rotor on a test stand did not trim."""
-    share = f" {100.0 * stalled:.0f} % of the disk is stalled in the last attempt." if stalled > STALL_SHARE else ""
+    share = _share(stalled, reached)
     mu = design.condition.advance_ratio
     what = f"the rotor on the stand has no equilibrium at advance ratio {mu:.3f}"
     if stand.collective is not None:

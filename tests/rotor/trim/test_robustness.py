@@ -88,13 +88,12 @@ def test_converged_or_a_sentence(
 
 @pytest.mark.slow
 def test_few_designs_at_high_blade_loading_fail_to_trim():
-    """200 random designs over the same ranges: 20 end at stall, 3 close at more flapping than is believed.
+    """200 random designs over the same ranges: 19 end at stall, 3 close at more flapping than is believed.
 
     Followed by arc length beyond where continuation ends, each of the first turns back there (a limit point): with more
-    than a quarter of the disk stalled, no trim of attached flow lies further on. One with local momentum ends at a
-    tenth: there every root element near stall is a limit point of its own.
+    than a quarter of the disk stalled at the last trim found, no trim of attached flow lies further on.
     """
-    random, stalled, flapping, early = np.random.default_rng(1), 0, 0, 0
+    random, stalled, flapping = np.random.default_rng(1), 0, 0
     names = [name for name in INFLOW_MODELS if name != "vortex-wake"]  # Too slow for two hundred trims.
     for k in range(200):
         design = make_design(
@@ -111,16 +110,12 @@ def test_few_designs_at_high_blade_loading_fail_to_trim():
         if "balance at a flapping" in solution.message:
             flapping += 1
             continue
-        share = re.search(r"(\d+) % of the disk is stalled", solution.message)
+        share = re.search(r"(\d+) % of the disk is stalled there", solution.message)
         assert share, solution.message
-        if int(share[1]) < 24:
-            assert solution.design.models.inflow == "local-momentum"
-            assert int(share[1]) > 10
-            early += 1
+        assert int(share[1]) > 25
         stalled += 1
-    assert stalled <= 20
+    assert stalled <= 19
     assert flapping <= 3
-    assert early <= 1
 
 
 @given(
