@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from rotor.aero.inflow.interface import InflowTerms
 from rotor.aero.momentum import glauert_inflow
 from rotor.aero.section import NO_MOMENT, SectionData
 from rotor.arrays import Array, Booleans
+from rotor.compiled import compiled
 from rotor.design.design import Design
 from rotor.dynamics.flapping import FlapDynamics, flap_dynamics
 
@@ -193,7 +195,8 @@ def skin_friction(reynolds: float) -> float:
     return 0.91 / math.log10(max(reynolds, 1e4)) ** 2.58
 
 
-def swirl_of(r: Array, product: Array | float) -> tuple[Array, Array]:
+@compiled(error_model="numpy")
+def swirl_of(r: Any, product: Any) -> Any:
     """Swirl in the disk over ΩR and its slope by `product` = λ_i λ, the induced times the total axial flow; shape of r.
 
     The air leaves turning with the rotor: torque and thrust of an annulus give u = λ_i λ/r at the disk, half of what is

@@ -156,9 +156,9 @@ def _channels(theta: Any, inflow: Any, annuli: Any) -> Any:
         total, r = inflow[i] + annuli.climb, annuli.r[i]
         own[TH, i, 0], own[UT, i, 0], own[UP, i, 0], own[LOSS, i, 0] = theta[i], r, total, 1.0
         if annuli.swirls:
-            below = r * r + inflow[i] * total
-            own[UT, i, 0] -= inflow[i] * total * r / below
-            turning[i] = (inflow[i] + total) * r * r * r / (below * below)
+            swirl, slope = swirl_of(r, inflow[i] * total)
+            own[UT, i, 0] -= swirl
+            turning[i] = (inflow[i] + total) * slope
     return own, turning
 
 
