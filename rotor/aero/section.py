@@ -91,7 +91,7 @@ _inline = compiled(error_model="numpy", fastmath={"contract"}, inline="always")
 
 @_compile
 def section(c: Any, data: Any, slopes: bool, flow: bool) -> Any:
-    """Forces (4, elements, azimuths), partial derivatives (`PAIRS`, …) and flow (`FLOW`, …) of channels (7, …).
+    """Forces (4, elements, azimuths), partial derivatives (`PAIRS`, …) and flow (`FLOW`, …) of channels (6, …).
 
     Derivatives and flow have no elements where they are not asked for. Units: dC_T/dr and so on; see this file's head.
     """

@@ -225,13 +225,15 @@ class _Flow:
 
     def flow(self, x: Array) -> Wake:
         """The same as the blade elements see it."""
-        wake = self.wake(x)
+        return self._seen(self.wake(x))
+
+    def _seen(self, wake: Wake) -> Wake:
         return wake if self._sees_tilt else Wake(self._mu, 0.0, wake.lambda0)
 
     def __call__(self, x: Array) -> tuple[Array, Array, Live]:
         """Values, slopes by shaft tilt and λ0, and live shapes; in axes of the shaft dµ_x = −µ_z dα, dµ_z = µ_x dα."""
         wake, tilt = self.wake(x), float(x[self._tilt])
-        flow = wake if self._sees_tilt else Wake(self._mu, 0.0, wake.lambda0)
+        flow = self._seen(wake)
         values, slopes, sees = np.zeros(len(self._atoms)), np.zeros((len(self._atoms), 2)), float(self._sees_tilt)
         cos, sin, l0, speed, axial = math.cos(tilt), math.sin(tilt), wake.lambda0, flow.speed, flow.axial
         values[:7] = cos, sin, flow.mu_x, flow.mu_z, speed, wake.mu_x, wake.mu_z

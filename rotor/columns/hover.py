@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from rotor.aero.elements import BladeElements, TrimState, TwistState, over_azimuths
 from rotor.aero.inflow.interface import Wake
-from rotor.aero.inflow.local_momentum import BALANCED
+from rotor.aero.inflow.local_momentum import BALANCED, MOST_PASSES, balancing_step, bracket_of
 from rotor.aero.losses import HUB_FACTOR, end_factor
 from rotor.aero.momentum import axial_inflow
 from rotor.aero.problem import Problem, swirl_of
@@ -124,9 +124,6 @@ HOVER_PAIRS = (*((force, TH) for force in LOADED), (BALANCED, TH))
 """An annulus follows its pitch alone."""
 _ROW = {pair: k for k, pair in enumerate(PAIRS)}
 _FZ_TH, _FZ_UT, _FZ_UP = _ROW[FZ, TH], _ROW[FZ, UT], _ROW[FZ, UP]
-_LARGEST_INFLOW = 0.6
-"""Bracket of λ, far above any annulus of a rotor."""
-_MOST_PASSES = 80
 
 _compile = compiled(error_model="numpy", fastmath={"contract"})
 
@@ -190,23 +187,10 @@ def _balance(theta: Any, inflow: Any, annuli: Any, data: Any) -> Any:
 @_compile
 def _balanced(theta: Any, start: Any, annuli: Any, data: Any) -> Any:
     """λ_i that balances every annulus, and dλ_i/dθ, (elements,) both: Newton's method with a bracket."""
-    n, inflow = len(theta), start.copy()
-    low, high = np.full(n, -_LARGEST_INFLOW), np.full(n, _LARGEST_INFLOW)
-    found, searching = _balance(theta, inflow, annuli, data), True
-    for _ in range(_MOST_PASSES):
-        searching = False
-        for i in range(n):
-            error, slope = found[0, i], found[1, i]
-            if abs(error) <= 1e-15 + 1e-13 * abs(found[2, i]) or high[i] - low[i] < 1e-15:
-                continue
-            searching = True
-            if error < 0.0:
-                low[i] = inflow[i]
-            else:
-                high[i] = inflow[i]
-            ahead = inflow[i] - error / slope if slope > 0.0 else math.inf
-            inflow[i] = ahead if low[i] < ahead < high[i] else 0.5 * (low[i] + high[i])
-        if not searching:
+    inflow, bracket = start.copy(), bracket_of(len(start))
+    found = _balance(theta, inflow, annuli, data)
+    for _ in range(MOST_PASSES):
+        if not balancing_step(inflow, bracket, found[0], found[1], found[2]):
             break
         found = _balance(theta, inflow, annuli, data)
     return inflow, found[3] / np.maximum(found[1], 1e-12)
@@ -280,10 +264,7 @@ def hover_elements(problem: Problem, point: Point) -> BladeElements:
     """The hovering rotor as blade elements over the whole disk; `point` has the flow at the sections."""
     disk, torsion, structure = problem.disk, problem.torsion, point.system.structure
     azimuths, f, s, states = len(disk.psi), point.forces, point.flow, structure.states
-    inflow, theta = f[BALANCED, :, 0], point.channels[TH, :, 0]
-    swirl = np.zeros_like(inflow)
-    if problem.design.models.has("swirl"):
-        swirl = swirl_of(disk.r, inflow * (inflow + problem.climb))[0]
+    own, inflow = _at_balance(point)[0][:, :, 0], f[BALANCED, :, 0]
     coning = float(point.x[states["coning"]])
     thrust = float(f[FZ].sum()) * disk.dr
     state = TrimState(
@@ -302,9 +283,9 @@ def hover_elements(problem: Problem, point: Point) -> BladeElements:
 
     zero = np.zeros(disk.shape)
     return BladeElements(
-        state=state, flow=Wake(0.0, problem.climb, state.lambda0), theta=everywhere(theta),
-        u_t=everywhere(disk.r - swirl), u_p=everywhere(inflow + problem.climb), u_r=zero,
-        beta=np.full(azimuths, coning), induced=everywhere(inflow), swirl=swirl, fz=everywhere(f[FZ, :, 0]),
+        state=state, flow=Wake(0.0, problem.climb, state.lambda0), theta=everywhere(own[TH]),
+        u_t=everywhere(own[UT]), u_p=everywhere(own[UP]), u_r=zero,
+        beta=np.full(azimuths, coning), induced=everywhere(inflow), swirl=disk.r - own[UT], fz=everywhere(f[FZ, :, 0]),
         fx=everywhere(f[FX, :, 0]), fr=zero, alpha=everywhere(s[ALPHA, :, 0]), mach=everywhere(s[MACH, :, 0]),
         cl=everywhere(s[CL, :, 0]), cd=everywhere(s[CD, :, 0]), cd_mach=everywhere(s[CD_MACH, :, 0]), torsion=twist,
     )  # fmt: skip
@@ -316,9 +297,11 @@ def steady_twist(point: Point) -> Array:
     return point.x[places]
 
 
-def turning_of(problem: Problem, inflow: Array) -> Array:
+def _at_balance(point: Point) -> tuple[Array, Array]:
+    """`_channels` at a point."""
+    return _channels(point.channels[TH, :, 0].copy(), point.forces[BALANCED, :, 0].copy(), point.grid.data.annuli)
+
+
+def turning_of(point: Point) -> Array:
     """∂(swirl)/∂λ_i of each annulus, (elements,)."""
-    if not problem.design.models.has("swirl"):
-        return np.zeros_like(inflow)
-    total = inflow + problem.climb
-    return (inflow + total) * swirl_of(problem.disk.r, inflow * total)[1]
+    return _at_balance(point)[1]

@@ -198,19 +198,19 @@ class _Linear:
 
     def hover_measure(self, weights: Weights) -> Measure:
         """The same of annuli: U_T and U_P follow the inflow that they balance by themselves."""
-        shape, problem = self.problem.disk.shape, self.problem
+        shape = self.problem.disk.shape
 
         def summed(own: Array | float) -> Array:
             return np.broadcast_to(own, shape).sum(axis=1)[:, None]
 
         if weights.terms is not None:
             return Measure(terms=weights.terms)
-        turning = turning_of(problem, self.point.forces[BALANCED, :, 0])[:, None]
+        turning = turning_of(self.point)[:, None]
         balanced = (
             summed(weights.inflow) + summed(weights.u_p) + (summed(weights.swirl) - summed(weights.u_t)) * turning
         )
         forces = {FZ: summed(weights.fz), FX: summed(weights.fx), BALANCED: balanced}
-        return Measure(forces=forces, channels={TH: summed(weights.theta)}, terms=weights.terms)
+        return Measure(forces=forces, channels={TH: summed(weights.theta)})
 
     @property
     def power_terms(self) -> Terms:

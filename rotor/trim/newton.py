@@ -11,12 +11,14 @@ from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.interface import Wake
 from rotor.aero.inflow.linear import LinearInflow
 from rotor.aero.problem import Problem, in_disk_axes
+from rotor.aero.section import FZ
 from rotor.arrays import Array
 from rotor.columns.flight import SystemTolerances, elements_of, flight_system, parts_of, state_of
 from rotor.columns.hover import hover_elements
 from rotor.columns.trims import with_given_values
 from rotor.engine.linearise import Point, System, evaluate
-from rotor.engine.newton import Factors, NewtonLimits, solve
+from rotor.engine.newton import DEFAULT_LIMITS, Factors, NewtonLimits, solve
+from rotor.engine.waves import STEADY
 
 
 @dataclass(frozen=True)
@@ -34,15 +36,12 @@ class SolverOptions:
     """The same two where Newton's method makes no more progress: the slopes of stall data jump from one table cell to
     the next, and a root element on such a jump can keep the last digits of its own inflow from settling. Power still
     closes to 1e-6."""
-    max_passes: int = 40
+    max_passes: int = DEFAULT_LIMITS.most_passes
     """Evaluations of the blade elements in one run of Newton's method."""
-    most_old_steps: float = 4.0
-    """Derivatives are evaluated again when more steps than this are to be expected with the old ones: derivatives cost
-    as much as two to four, and one or two steps follow them. Our choice."""
-    most_old_steps_of_start: float = 2.0
-    """The same where a trim is solved on few azimuths to start from: derivatives serve all later steps. Our choice."""
-    kept_ratio: float = 0.03
-    """Derivatives are kept for the next trim where the last step left less than this part of the residual."""
+    most_old_steps: float = DEFAULT_LIMITS.most_steps
+    """This and the next two as in `NewtonLimits`."""
+    most_old_steps_of_start: float = DEFAULT_LIMITS.most_steps_on_few
+    kept_ratio: float = DEFAULT_LIMITS.kept_ratio
     angle_step: float = 0.08
     """Largest Newton step of an angle [rad]: beyond it the section slopes no longer hold."""
     inflow_step: float = 0.02
@@ -129,9 +128,7 @@ class TrimResult:
     @property
     def thrust(self) -> float:
         """C_T along the shaft."""
-        structure = self.point.system.structure
-        weights = structure.weights[0]
-        return float(self.point.q[structure.measures[0, weights["one"], 0]])
+        return float(self.point.q[self.point.system.structure.measure(FZ, "one", STEADY)])
 
     @cached_property
     def linear(self) -> LinearisedTrim:

@@ -12,6 +12,8 @@ from collections.abc import Callable, Hashable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple, Protocol
 
+import numpy as np
+
 from rotor.aero.disk import Disk
 from rotor.aero.section import CHANNELS, FORCES, PAIRS, section
 from rotor.arrays import Array
@@ -124,6 +126,25 @@ class InflowTerms(Protocol):
     def axial(self, wake: Wake) -> Array:
         """The matrix from an axisymmetric load to the mean inflow around the azimuth, (elements, elements)."""
         ...
+
+
+class Stateless:
+    """The part of `InflowTerms` that is the same for all models without states of their own."""
+
+    def declare(self, structure: Structure) -> None:
+        """No states."""
+
+    def closures(self, structure: Structure) -> tuple[Closure, ...]:
+        """None."""
+        return ()
+
+    def peaks(self) -> Array:
+        """No states."""
+        return np.zeros(0)
+
+    def nearest(self, field: Array) -> Array:
+        """No states."""
+        return np.zeros(0)
 
 
 class InflowModel(Protocol):

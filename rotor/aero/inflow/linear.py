@@ -12,12 +12,11 @@ from typing import Any
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import PLAIN, Followed, Wake
+from rotor.aero.inflow.interface import PLAIN, Followed, Stateless, Wake
 from rotor.aero.losses import mean_loss_factor
 from rotor.aero.section import LOSS, UP
 from rotor.arrays import Array
 from rotor.compiled import compiled
-from rotor.engine.linearise import Closure
 from rotor.engine.terms import Shape, Structure
 from rotor.engine.waves import COS, SIN, STEADY
 
@@ -87,7 +86,7 @@ STRENGTHS = ("lambda0 kx", "lambda0 ky")
 """Made atoms of linear inflow."""
 
 
-class LinearTerms:
+class LinearTerms(Stateless):
     """Linear inflow on a disk: columns 1, r cos ψ and r sin ψ in U_P, and Prandtl's factors on the section lift."""
 
     def __init__(self, model: LinearInflow, disk: Disk, losses: tuple[bool, bool]) -> None:
@@ -96,9 +95,6 @@ class LinearTerms:
         self.live: Sequence[tuple[int, Shape]] = ((LOSS, "loss"),)
         self.interface, self.least_azimuths = PLAIN, 1
         self._model, self._disk, self._losses = model, disk, losses
-
-    def declare(self, structure: Structure) -> None:
-        """No states."""
 
     def build(self, structure: Structure) -> list[int]:
         """The three columns; F is a live shape."""
@@ -127,18 +123,6 @@ class LinearTerms:
                 found[3] += found[1]  # λ by µ_z itself.
             loss = found[0], found[2:]
         return Followed(strengths, {(LOSS, "loss"): loss})
-
-    def closures(self, structure: Structure) -> tuple[Closure, ...]:
-        """None: it does not respond to the load."""
-        return ()
-
-    def peaks(self) -> Array:
-        """No states."""
-        return np.zeros(0)
-
-    def nearest(self, field: Array) -> Array:
-        """No states."""
-        return np.zeros(0)
 
     def axial(self, wake: Wake) -> Array:
         """Zero: the load does not change it."""

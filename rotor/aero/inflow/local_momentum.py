@@ -11,19 +11,19 @@ derivatives follow by the implicit function theorem, dλ = (g Σ ∂F_z/∂c dc 
 """
 
 import math
-from collections.abc import Callable, Hashable, Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import Followed, SectionInterface, Wake
+from rotor.aero.inflow.interface import Followed, SectionInterface, Stateless, Wake
 from rotor.aero.inflow.peters_he import flow_parameters
 from rotor.aero.losses import tip_factor
 from rotor.aero.section import CHANNELS, FORCES, FX, FZ, LOSS, PAIRS, UP, M, section
-from rotor.arrays import Array, Booleans
-from rotor.engine.linearise import Closure
+from rotor.arrays import Array
+from rotor.compiled import compiled
 from rotor.engine.terms import Shape, Structure
 from rotor.engine.waves import COS, STEADY
 
@@ -36,45 +36,53 @@ BALANCED = len(FORCES)
 """λ, in the place of a further force."""
 _LARGEST_INFLOW = 0.6
 """Bracket of λ, far above any annulus of a rotor."""
-_MOST_PASSES = 80
+MOST_PASSES = 80
 
 
-def balance_inflow(start: Array, residual: Callable[[Array], tuple[Array, Array, Array]]) -> Array:
-    """λ of every point at which its residual is zero: Newton's method with a bracket.
+@compiled(error_model="numpy")
+def bracket_of(points: int) -> Any:
+    """Lower and upper bound of λ at every point, (points,) each."""
+    return np.full(points, -_LARGEST_INFLOW), np.full(points, _LARGEST_INFLOW)
 
-    residual: λ → residual, its slope by λ, and what it is measured by, in the shape of λ.
+
+@compiled(error_model="numpy")
+def balancing_step(inflow: Any, bracket: Any, error: Any, slope: Any, scale: Any) -> bool:
+    """A step of Newton's method in a bracket at every point that is not in balance, in place; False: all are.
+
+    error: residual, slope: its derivative by λ, scale: what it is measured by; all (points,).
     """
-    inflow, low, high = start, np.full_like(start, -_LARGEST_INFLOW), np.full_like(start, _LARGEST_INFLOW)
-    for _ in range(_MOST_PASSES):
-        error, slope, scale = residual(inflow)
-        open_: Booleans = (np.abs(error) > 1e-15 + 1e-13 * np.abs(scale)) & (high - low > 1e-15)
-        if not open_.any():
-            break
-        low, high = np.where(error < 0.0, inflow, low), np.where(error < 0.0, high, inflow)
-        ahead = inflow - error / np.where(slope > 0.0, slope, np.nan)
-        with np.errstate(invalid="ignore"):
-            inside = (low < ahead) & (ahead < high)
-        inflow = np.where(open_, np.where(inside, ahead, 0.5 * (low + high)), inflow)
-    return inflow
+    low, high = bracket
+    moved = False
+    for i in range(len(inflow)):
+        if abs(error[i]) <= 1e-15 + 1e-13 * abs(scale[i]) or high[i] - low[i] < 1e-15:
+            continue
+        moved = True
+        if error[i] < 0.0:
+            low[i] = inflow[i]
+        else:
+            high[i] = inflow[i]
+        ahead = inflow[i] - error[i] / slope[i] if slope[i] > 0.0 else math.inf
+        inflow[i] = ahead if low[i] < ahead < high[i] else 0.5 * (low[i] + high[i])
+    return moved
 
 
 def _sector_section(c: Array, data: Any, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
     """The section with the inflow that balances its own lift; as `section.section`, with the rows of `_SECTORS`."""
-    gain, own = c[GAIN], c[:GAIN].copy()
-
-    def residual(inflow: Array) -> tuple[Array, Array, Array]:
+    gain, own, inflow = c[GAIN], c[:GAIN].copy(), c[MEAN].copy()
+    points, bracket = inflow.ravel(), bracket_of(inflow.size)
+    for _ in range(MOST_PASSES):
         own[UP] = c[UP] + inflow
         f, d, _ = section(own, data, True, False)
-        return inflow - gain * f[FZ], 1.0 - gain * d[_UP_ROW], inflow
-
-    inflow = balance_inflow(c[MEAN], residual)
+        error, slope = inflow - gain * f[FZ], 1.0 - gain * d[_UP_ROW]
+        if not balancing_step(points, bracket, error.ravel(), slope.ravel(), points):
+            break
     own[UP] = c[UP] + inflow
     f, d, s = section(own, data, slopes, flow)
     f = np.concatenate([f, inflow[None]])
     if not slopes:
         return f, d, s
     rigid = len(data.moment_gain) == 0
-    d[[k for k, (o, c) in enumerate(PAIRS) if c == LOSS or (o == M and rigid)]] = 0.0  # Not in use.
+    d[[k for k, (o, channel) in enumerate(PAIRS) if channel == LOSS or (o == M and rigid)]] = 0.0  # Not in use.
     through = 1.0 / (1.0 - gain * d[_UP_ROW])
     out = np.empty((len(SECTOR_PAIRS), *gain.shape))
     for k, (force, channel) in enumerate(SECTOR_PAIRS):
@@ -127,7 +135,7 @@ class LocalMomentumInflow:
         return SectorTerms(disk, tip=self.tip)
 
 
-class SectorTerms:
+class SectorTerms(Stateless):
     """Local momentum theory on a disk: one column for the gradient, and a section that balances itself."""
 
     def __init__(self, disk: Disk, *, tip: bool) -> None:
@@ -136,9 +144,6 @@ class SectorTerms:
         self.live: Sequence[tuple[int, Shape]] = ((GAIN, "gain"),)
         self.interface, self.least_azimuths = _SECTORS, 1
         self._disk, self._tip = disk, tip
-
-    def declare(self, structure: Structure) -> None:
-        """No states."""
 
     def build(self, structure: Structure) -> list[int]:
         """λ0 k_x r cos ψ in U_P; the gain is a live shape."""
@@ -170,18 +175,6 @@ class SectorTerms:
         gain = 1.0 / (4.0 * disk.r * factor * flow.speed)
         by_axial = -gain * factor_slope / factor
         return gain, -np.outer(flow.slopes[1] / flow.speed, gain) + np.outer([0.0, 1.0, 1.0], by_axial)
-
-    def closures(self, structure: Structure) -> tuple[Closure, ...]:
-        """None: every point balances itself."""
-        return ()
-
-    def peaks(self) -> Array:
-        """No states."""
-        return np.zeros(0)
-
-    def nearest(self, field: Array) -> Array:
-        """No states."""
-        return np.zeros(0)
 
     def axial(self, wake: Wake) -> Array:
         """Diagonal: 1/(4 r F V)."""
