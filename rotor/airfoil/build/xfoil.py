@@ -23,7 +23,7 @@ from rotor.airfoil.polars import Array, Polar
 
 # gfortran's run-time calls this to switch the traps on; an empty one, loaded first, leaves them off.
 _TRAP_SHIM = "void _gfortran_set_fpe(int mask) { (void)mask; }\n"
-_CPU_LIMIT = 14  # s of processor time, the same on a busy machine; a sweep takes 1 to 7 s; a hung one never ends.
+_CPU_LIMIT = 40  # s of processor time, the same on a busy machine; a sweep takes 1 to 15 s; a hung one never ends.
 _TIME_LIMIT = 120.0  # s of wall-clock time, for a process that waits without using the processor.
 _LIMITED = ("sh", "-c", f'ulimit -t {_CPU_LIMIT} && exec "$@"', "sh")
 _PANELINGS = ((160, 100), (200, 200), (240, 300), (180, 300), (220, 300))  # (panels, iterations), in this order.

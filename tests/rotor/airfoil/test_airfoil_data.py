@@ -11,13 +11,15 @@ from rotor.airfoil.build.decks import (
     DECK_MACH,
     NATIVE_MACHS,
     RECIPES,
+    TRIP,
     compare_decks,
     deck_alpha_deg,
     make_deck,
     run_trip_polars,
 )
-from rotor.airfoil.build.xfoil import XfoilError, XfoilMissing, require_xfoil
+from rotor.airfoil.build.xfoil import XfoilCase, XfoilError, XfoilMissing, require_xfoil, run_polar
 from rotor.airfoil.c81 import C81Block, C81Deck, read_c81
+from rotor.airfoil.contour import load_contour
 from rotor.airfoil.polars import PolarSet, read_polars, write_polars
 from rotor.airfoil.public_points import agreement, points_near, public_points
 from rotor.airfoil.sections import load_installed, load_section
@@ -338,11 +340,16 @@ def test_thin_airfoil_theory_gives_the_zero_lift_of_the_six_series() -> None:
 @pytest.mark.slow
 @pytest.mark.xfoil
 @pytest.mark.parametrize("name", [name for name, recipe in RECIPES.items() if recipe.polars == "trip5"])
-def test_xfoil_reproduces_the_deck(name: str) -> None:
+def test_xfoil_reproduces_the_polars(name: str) -> None:
+    """Attached flow only: near stall the angles that converge depend on the time a sweep is given."""
     try:
         require_xfoil()
     except XfoilMissing as missing:
         pytest.skip(str(missing))
-    shipped = read_c81(asset_path(f"airfoils/{name}.c81"))
-    found = compare_decks(make_deck(name, run_trip_polars(name, print)), shipped)
-    assert found.within(0.01, 0.03), found  # convergence gaps move with version and machine
+    for shipped in read_polars(asset_path(f"airfoils/{name}_trip5.polars.csv")).polars:
+        alpha = np.arange(-4.0, 7.0)
+        found = run_polar(load_contour(name), XfoilCase(shipped.mach, shipped.reynolds, 9.0, TRIP), alpha)
+        both, mine, theirs = np.intersect1d(found.alpha_deg, shipped.alpha_deg, return_indices=True)
+        assert both.size >= alpha.size - 2
+        assert_allclose(found.cl[mine], shipped.cl[theirs], atol=0.01)
+        assert_allclose(found.cd[mine], shipped.cd[theirs], rtol=0.03)
