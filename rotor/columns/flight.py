@@ -141,7 +141,7 @@ def _shapes(key: _ShapesKey) -> Shapes:
     for freedom in key.freedoms:
         values |= freedom.shapes(problem)
     values |= problem.inflow_terms.shapes()
-    return Shapes(key.structure, values, len(disk.r))
+    return Shapes(key.structure, values, disk.dr)
 
 
 def flight_system(problem: Problem, tolerances: SystemTolerances, added: Sequence[Freedom] = ()) -> System:
@@ -194,7 +194,7 @@ def _grid(problem: Problem, structure: Structure, step: int) -> Grid:
     if problem.active.size > 1:
         varying = {TH: problem.active[:, ::step], RATE: problem.active_rates[0][:, ::step]}
     waves = wave_grid(structure.waves, len(disk.psi) // step)
-    return Grid(waves, disk.dr, steady, varying, problem.section_data(step))
+    return Grid(waves, steady, varying, problem.section_data(step))
 
 
 def _tolerances(problem: Problem, structure: Structure, wanted: SystemTolerances) -> tuple[Array, Array]:

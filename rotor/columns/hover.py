@@ -252,10 +252,10 @@ def hover_system(problem: Problem) -> System:
     )  # fmt: skip
     steady = np.zeros((structure.channels, len(disk.r)))
     steady[TH], steady[UT], steady[LOSS] = problem.twist, disk.r, 1.0
-    grid = Grid(wave_grid(structure.waves, 1), disk.dr, steady, {}, data)
+    grid = Grid(wave_grid(structure.waves, 1), steady, {}, data)
     count = len(structure.equations)
     return System(
-        structure, Shapes(structure, shapes, len(disk.r)), grid, grid, _annulus_section, _nothing_made,
+        structure, Shapes(structure, shapes, disk.dr), grid, grid, _annulus_section, _nothing_made,
         np.array([1.0, *values.values()]), np.full(count, problem.scale), np.ones(count),
     )  # fmt: skip
 

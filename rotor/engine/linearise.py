@@ -51,17 +51,17 @@ class Closure(Protocol):
 class Shapes:
     """Functions along the blade, by channel and by force, for one structure and blade."""
 
-    def __init__(self, structure: Structure, values: Mapping[Shape, Array], elements: int) -> None:
-        """values: by name, (elements,); those that are missing are live."""
-        none = np.zeros(elements)
+    def __init__(self, structure: Structure, values: Mapping[Shape, Array], widths: Array) -> None:
+        """values: by name, (elements,); those that are missing are live. widths: Δr, (elements,)."""
+        none = np.zeros(len(widths))
 
         def stack(all_names: Sequence[Mapping[Shape, int]]) -> Array:
-            return np.array([values.get(name, none) for own in all_names for name in own]).reshape(-1, elements)
+            return np.array([values.get(name, none) for own in all_names for name in own]).reshape(-1, len(widths))
 
         self.phi = stack(structure.shapes)
         """(shapes of all channels, elements)"""
-        self.psi = stack(structure.weights)
-        """(weights of all forces, elements)"""
+        self.psi = stack(structure.weights) * widths
+        """Ψ Δr, (weights of all forces, elements)"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +69,6 @@ class Grid:
     """The blade elements on one number of azimuths."""
 
     waves: WaveGrid
-    dr: float
     steady: Array
     """What the design adds to every channel at all azimuths, (channels, elements)."""
     varying: Mapping[int, Array]
@@ -153,7 +152,7 @@ def evaluate(system: System, grid: Grid, x: Array, *, slopes: bool = False, flow
     along = np.zeros((len(shapes.psi), grid.waves.azimuths))
     _along_blade(shapes.psi, structure.first_weight, forces, along)
     q = np.empty(1 + len(structure.measures))
-    q[0], q[1:] = 1.0, (along @ grid.waves.mean).ravel()[structure.measure_places] * grid.dr
+    q[0], q[1:] = 1.0, (along @ grid.waves.mean).ravel()[structure.measure_places]
     residual = structure.residual.value(z, q)
     for closure in system.closures:
         residual[closure.rows] -= closure.value(z, q)
@@ -208,7 +207,7 @@ def part(point: Point, channel: int, names: Sequence[Shape]) -> Array:
 
 @_compile
 def _between(
-    slopes: Any, phi: Any, psi: Any, products: Any, dr: float, blocks: Any, places: Any, factors: Any, out: Any
+    slopes: Any, phi: Any, psi: Any, products: Any, blocks: Any, places: Any, factors: Any, out: Any
 ) -> None:  # fmt: skip
     """Means of Ψ D Φ w_p w_q from the Fourier coefficients of Σ Ψ D Φ, (coefficients, measures), see `Blocks`."""
     n = phi.shape[1]
@@ -228,7 +227,7 @@ def _between(
         flat = found.reshape(-1)
         for e in range(start, stop):
             one = factors[0, e] * flat[places[2, e]] + factors[1, e] * flat[places[3, e]]
-            out[places[0, e], places[1, e]] = dr * one
+            out[places[0, e], places[1, e]] = one
 
 
 def jacobian(point: Point, further: Terms | None = None) -> tuple[Array, Array]:
@@ -255,7 +254,7 @@ def _measure_slopes(point: Point) -> Array:
     by_atom, order = structure.by_atom
     between, blocks = np.zeros((by_atom.shape[1], len(point.q))), structure.blocks
     _between(
-        point.slopes, point.phi, system.shapes.psi, grid.waves.mean_of_products, grid.dr, blocks.arrays, blocks.places,
+        point.slopes, point.phi, system.shapes.psi, grid.waves.mean_of_products, blocks.arrays, blocks.places,
         blocks.factors, between,
     )  # fmt: skip
     _, i, j, factor = structure.column_arrays
@@ -328,7 +327,7 @@ def transposed(point: Point, v: Array, measure: Measure | None = None) -> tuple[
         more_q, more_z = measure.terms.transposed(np.ones(measure.terms.rows), z, q)
         on_q, on_z = on_q + more_q, on_z + more_z
     spread = np.zeros(structure.first_weight[-1] * structure.waves)
-    spread[structure.measure_places] = on_q[1:] * grid.dr
+    spread[structure.measure_places] = on_q[1:]
     around = spread.reshape(-1, structure.waves) @ grid.waves.mean.T
     along, by_element = np.zeros((len(shapes.phi), grid.waves.azimuths)), np.empty(point.channels.shape[:2])
     rows = structure.slope_rows(tuple(measure.forces))
