@@ -155,6 +155,11 @@ def flight_system(problem: Problem, tolerances: SystemTolerances, added: Sequenc
     grid = _grid(problem, structure, 1)
     step = _thinning(len(problem.disk.psi), terms.least_azimuths)
     tolerance, limits = _tolerances(problem, structure, tolerances)
+    nodes = terms.nodes(tolerances.inflow * problem.scale, problem.scale)
+    if nodes is not None:
+        points = len(nodes.matrix)
+        tolerance = np.concatenate([tolerance, np.full(points, nodes.tolerance)])
+        limits = np.concatenate([limits, np.full(points, nodes.limit)])
     return System(
         structure=structure,
         shapes=_shapes(_ShapesKey(structure, problem.disk, problem.flap.hinge, problem, freedoms)),
@@ -166,6 +171,7 @@ def flight_system(problem: Problem, tolerances: SystemTolerances, added: Sequenc
         tolerance=tolerance,
         limits=limits,
         closures=terms.closures(structure),
+        nodes=nodes,
     )
 
 
@@ -266,10 +272,10 @@ def state_of(structure: Structure, x: Array) -> TrimState:
 
 
 def parts_of(structure: Structure, x: Array) -> tuple[TrimState, Array, Array]:
-    """Trim state, coordinates of the elastic twist and of the inflow, both flat; empty where there are none."""
+    """Trim state, coordinates of the elastic twist and of the inflow with its nodes, both flat; empty without."""
     first = structure.first_state + len(STATE_NAMES)
     twists, terms = len(structure.equations_of("twist")), len(structure.equations_of("inflow"))
-    return state_of(structure, x), x[first : first + twists], x[len(x) - terms :]
+    return state_of(structure, x), x[first : first + twists], x[structure.given - terms :]
 
 
 def _flapping(problem: Problem, x: Array, structure: Structure) -> Array:
@@ -287,6 +293,8 @@ def elements_of(problem: Problem, point: Point) -> BladeElements:
     induced = part(point, UP, list(terms.names))
     own: Array | float = 0.0 if terms.interface.balanced is None else f[terms.interface.balanced]
     induced += own
+    if (nodes := point.system.nodes) is not None:
+        induced += nodes.field(x[structure.given :]).reshape(induced.shape)
     swirl = -point.phi[structure.first_row[UT] + structure.shapes[UT][SWIRL]]
     if problem.joined is not None:
         induced += problem.joined[0][:, None]

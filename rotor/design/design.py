@@ -102,19 +102,19 @@ class Models:
     falls to zero."""
     document_losses: bool = False
     """Only the losses that the document has: whatever the switches of `BEYOND_DOCUMENT` say."""
-    elements: int = 40
-    """Blade elements, equally wide (eq. 3.14)."""
-    azimuths: int = 120
-    """Azimuth stations."""
+    elements: int | None = None
+    """Blade elements, equally wide (eq. 3.14) or the panels of a lifting line; None: as many as the inflow needs."""
+    azimuths: int | None = None
+    """Azimuth stations; None: as many as the inflow needs."""
 
     def has(self, name: str) -> bool:
         """Whether one of the switches is on and belongs to these models."""
         return bool(getattr(self, name)) and not (self.document_losses and name in BEYOND_DOCUMENT)
 
     def __post_init__(self) -> None:
-        if not 4 <= self.elements <= 1000:
+        if self.elements is not None and not 4 <= self.elements <= 1000:
             raise ValueError(f"{self.elements} blade elements are outside 4…1000: 40 is enough for plots and power")
-        if not 8 <= self.azimuths <= 2000:
+        if self.azimuths is not None and not 8 <= self.azimuths <= 2000:
             raise ValueError(f"{self.azimuths} azimuths are outside 8…2000: 120 is enough for plots and power")
 
 

@@ -4,8 +4,10 @@
     section    f(c), D = ∂f/∂c at every point                       `System.section`
     measures   Q = mean Ψ f Wᵀ Δr                                   P
     residual   R(z, Q),  closures  y − T(z) Q
+    nodes      c += A y in one channel, y − f in one force: an unknown at every point of the grid
 
     J = ∂R/∂Q (Pᵀ D K) ∂G/∂z ∂z/∂x + ∂R/∂z ∂z/∂x,  and Jᵀ v by the same operators transposed.
+    By the nodes:  ∂R/∂y = ∂R/∂Q Pᵀ D A,   ∂(y − f)/∂x = −D K ∂G/∂z ∂z/∂x,   ∂(y − f)/∂y = 1 − D A.
 
 A product of two waves is a sum of two, so Pᵀ D K takes only the Fourier coefficients of Σ Ψ D Φ: one product along the
 blade for each pair of shapes, one around the azimuth, and two numbers for each entry.
@@ -46,6 +48,32 @@ class Closure(Protocol):
     def linear(self, z: Array, q: Array) -> tuple[Array, Array]:
         """T, (size, size), and ∂(T Q)/∂ the atoms, (size, few)."""
         ...
+
+
+@dataclass(frozen=True, eq=False)
+class Nodes:
+    """y, a force at every point of the grid, which gives a channel A y: what no product of shapes and waves holds."""
+
+    channel: int
+    force: int
+    matrix: Array
+    """A, (points, points); points in the order (element, azimuth)."""
+    tolerance: float
+    """Of y − f."""
+    limit: float
+    """Largest step of y."""
+    smoothing: Array | None = None
+    """ε of y − f − ε (y_above − 2 y + y_below), by the neighbours along the blade, (elements, azimuths)."""
+
+    def field(self, y: Array) -> Array:
+        """A y, (points,)."""
+        return self.matrix @ y
+
+    def smoothed(self, y: Array) -> Array:
+        """ε (y_above − 2 y + y_below), with zero beyond both ends, (elements, azimuths) like y."""
+        assert self.smoothing is not None
+        wide = np.pad(y, ((1, 1), (0, 0)))
+        return self.smoothing * (wide[2:] - 2.0 * y + wide[:-2])
 
 
 class Shapes:
@@ -97,11 +125,20 @@ class System:
     limits: Array
     """Largest step of each state solved for, (equations,)."""
     closures: tuple[Closure, ...] = ()
+    nodes: Nodes | None = None
+    """Their equations and unknowns come after all others."""
+
+    @cached_property
+    def free(self) -> Integers:
+        """Places in x of what is solved for, (equations,)."""
+        given, nodes = self.structure.given, self.nodes
+        count = 0 if nodes is None else len(nodes.matrix)
+        return np.concatenate([self.structure.free, np.arange(given, given + count)])
 
 
 @dataclass(frozen=True, eq=False)
 class Point:
-    """The equations at x = (1, numbers, states), with what their derivatives need."""
+    """The equations at x = (1, numbers, states, y of the nodes), with what their derivatives need."""
 
     system: System
     grid: Grid
@@ -137,8 +174,9 @@ class Point:
 def evaluate(system: System, grid: Grid, x: Array, *, slopes: bool = False, flow: bool = False) -> Point:
     """R(x); with the partial derivatives of the section, and the flow at the sections, where asked for."""
     structure, shapes = system.structure, system.shapes
-    made, by_roots, live = system.make(x)
-    z = np.concatenate([x, made])
+    states, y = x[: structure.given], x[structure.given :]
+    made, by_roots, live = system.make(states)
+    z = np.concatenate([states, made])
     phi = shapes.phi
     if live:
         phi = phi.copy()
@@ -148,6 +186,9 @@ def evaluate(system: System, grid: Grid, x: Array, *, slopes: bool = False, flow
     _channels(phi, structure.first_row, _coefficients(structure, z) @ grid.waves.at, grid.steady, channels)
     for channel, added in grid.varying.items():
         channels[channel] += added
+    nodes = system.nodes
+    if nodes is not None:
+        channels[nodes.channel] += nodes.field(y).reshape(channels.shape[1:])
     forces, found, s = system.section(channels, grid.data, slopes, flow)
     along = np.zeros((len(shapes.psi), grid.waves.azimuths))
     _along_blade(shapes.psi, structure.first_weight, forces, along)
@@ -156,6 +197,11 @@ def evaluate(system: System, grid: Grid, x: Array, *, slopes: bool = False, flow
     residual = structure.residual.value(z, q)
     for closure in system.closures:
         residual[closure.rows] -= closure.value(z, q)
+    if nodes is not None:
+        missing = y.reshape(channels.shape[1:]) - forces[nodes.force]
+        if nodes.smoothing is not None:
+            missing -= nodes.smoothed(y.reshape(missing.shape))
+        residual = np.concatenate([residual, missing.ravel()])
     return Point(system, grid, x, z, by_roots, phi, channels, forces, found, s, q, residual)
 
 
@@ -201,7 +247,8 @@ def _along_blade(psi: Any, first: Any, forces: Any, out: Any) -> None:
 def part(point: Point, channel: int, names: Sequence[Shape]) -> Array:
     """What some shapes add to a channel, (elements, azimuths)."""
     structure = point.system.structure
-    rows = structure.first_row[channel] + np.array([structure.shapes[channel][name] for name in names])
+    own = [structure.shapes[channel][name] for name in names]
+    rows = structure.first_row[channel] + np.array(own, dtype=np.int64)
     return point.phi[rows].T @ (_coefficients(structure, point.z)[rows] @ point.grid.waves.at)
 
 
@@ -235,17 +282,80 @@ def jacobian(point: Point, further: Terms | None = None) -> tuple[Array, Array]:
     structure, z, q = point.system.structure, point.z, point.q
     first = structure.first_state
     by_z = _measure_slopes(point)
+    nodes = point.system.nodes
     on_q, total = structure.residual.slopes(z, q, first)
     summing = structure.residual.summing
     total[summing] += on_q[summing] @ by_z
     for closure, matrix, by_atoms in point.closures:
         total[closure.rows] -= matrix @ by_z[closure.measures]
         total[np.ix_(closure.rows, closure.atoms - first)] -= by_atoms
-    added = np.zeros((0, total.shape[1]))
+    added, further_q = np.zeros((0, total.shape[1])), np.zeros((0, len(q)))
     if further is not None:
-        on_q, on_z = further.slopes(z, q, first)
-        added = on_z + on_q @ by_z
-    return _by_free(structure, total, point.by_roots), _by_free(structure, added, point.by_roots)
+        further_q, on_z = further.slopes(z, q, first)
+        added = on_z + further_q @ by_z
+    own, other = _by_free(structure, total, point.by_roots), _by_free(structure, added, point.by_roots)
+    if nodes is None:
+        return own, other
+    through = np.concatenate([on_q, further_q]) @ _measures_by_channel(point, nodes.channel) @ nodes.matrix
+    by_channel = _force_slope(point, nodes.force, nodes.channel).ravel()
+    size, points = len(own), len(by_channel)
+    full = np.empty((size + points, size + points))
+    full[:size, :size], full[:size, size:] = own, through[:size]
+    full[size:, :size] = -_field_slopes(point, nodes.force)
+    np.multiply(nodes.matrix, -by_channel[:, None], out=full[size:, size:])
+    full[range(size, size + points), range(size, size + points)] += 1.0
+    if nodes.smoothing is not None:
+        _add_smoothing(full[size:, size:], nodes.smoothing)
+    return full, np.concatenate([other, through[size:]], axis=1)
+
+
+def _add_smoothing(matrix: Array, smoothing: Array) -> None:
+    """Derivatives of −ε (y_above − 2 y + y_below), in place."""
+    n, m = smoothing.shape
+    along = smoothing.ravel()
+    every = np.arange(n * m)
+    matrix[every, every] += 2.0 * along
+    matrix[every[m:], every[:-m]] -= along[m:]
+    matrix[every[:-m], every[m:]] -= along[:-m]
+
+
+def _force_slope(point: Point, force: int, channel: int) -> Array:
+    """∂f/∂c of one force by one channel, (elements, azimuths); 0 where the force has none."""
+    pairs = point.system.structure.pairs
+    return point.slopes[pairs.index((force, channel))] if (force, channel) in pairs else np.zeros(point.forces.shape[1:])
+
+
+def _measures_by_channel(point: Point, channel: int) -> Array:
+    """∂ of the measures by a channel at every point, (measures, points)."""
+    structure, psi, waves = point.system.structure, point.system.shapes.psi, point.grid.waves
+    row, wave = np.divmod(structure.measure_places, structure.waves)
+    force = np.searchsorted(structure.first_weight, row, side="right") - 1
+    out = np.zeros((1 + len(row), psi.shape[1], waves.azimuths))
+    for k in np.unique(force).tolist():
+        own = force == k
+        weights = psi[row[own]][:, :, None] * waves.mean.T[wave[own]][:, None, :]
+        out[1 + np.flatnonzero(own)] = weights * _force_slope(point, k, channel)
+    return out.reshape(len(out), -1)
+
+
+def _field_slopes(point: Point, force: int) -> Array:
+    """∂ of a force at every point by the states solved for, (points, states)."""
+    structure, waves = point.system.structure, point.grid.waves
+    by_atom, order = structure.by_atom
+    _, i, j, factor = structure.column_arrays
+    by_atom.data = np.concatenate([factor * point.z[j], factor * point.z[i]])[order]
+    size = int(structure.first_row[-1]) * structure.waves
+    spread = np.zeros((by_atom.shape[0], size))
+    spread[:, structure.coefficient_places] = by_atom.toarray()
+    by_free = _by_free(structure, np.ascontiguousarray(spread.T), point.by_roots).T
+    around = by_free.reshape(-1, int(structure.first_row[-1]), structure.waves) @ waves.at  # (free, shapes, azimuths)
+    out = np.zeros((len(by_free), point.channels.shape[1], waves.azimuths))
+    for channel in range(structure.channels):
+        first, end = structure.first_row[channel : channel + 2]
+        if end > first and (force, channel) in structure.pairs:
+            moved = np.matmul(point.phi[first:end].T, around[:, first:end])
+            out += moved * _force_slope(point, force, channel)
+    return out.reshape(len(out), -1).T
 
 
 def _measure_slopes(point: Point) -> Array:
@@ -281,16 +391,21 @@ class Measure:
     """By channel at the same forces."""
     parts: Sequence[tuple[int, Sequence[Shape], Array]] = ()
     """By what some shapes add to a channel, at the same channel: (channel, names, field)."""
+    nodes: Array | None = None
+    """By what the nodes add to theirs, at the same channel."""
     terms: Terms | None = None
     """A sum of terms to be added."""
 
 
 @_compile
-def _through_section(point: Any, around: Any, forces: Any, channels: Any, out: Any, by_element: Any) -> None:
+def _through_section(
+    point: Any, around: Any, forces: Any, channels: Any, out: Any, by_element: Any, kept: int, field: Any
+) -> None:  # fmt: skip
     """From functions of azimuth by weights, (weights, azimuths), to such by shapes, (shapes, azimuths): Φ Dᵀ Ψᵀ.
 
     point: (Φ, Ψ, first shapes, first weights, D, rows of D by (force, channel)). forces, channels: what is added there,
-    (…, elements, azimuths), or without elements. by_element: slopes by channel, summed over the azimuths.
+    (…, elements, azimuths), or without elements. by_element: slopes by channel, summed over the azimuths. field: those
+    of the channel `kept` at every point, or without elements.
     """
     phi, psi, first, first_weight, slopes, rows = point
     m = around.shape[1]
@@ -306,6 +421,8 @@ def _through_section(point: Any, around: Any, forces: Any, channels: Any, out: A
             by_channel += channels[:, i]
         for k in range(len(rows)):
             _add_product(slopes[rows[k, 0], i], force[rows[k, 1]], by_channel[rows[k, 2]])
+        if field.shape[0] > 0:
+            field[i] = by_channel[kept]
         for c in range(len(by_channel)):
             by_element[c, i] = by_channel[c].sum()
             for row in range(first[c], first[c + 1]):
@@ -319,6 +436,8 @@ def transposed(point: Point, v: Array, measure: Measure | None = None) -> tuple[
     """
     structure, grid, z, q, shapes = point.system.structure, point.grid, point.z, point.q, point.system.shapes
     measure = measure or Measure()
+    equations, nodes = len(structure.equations), point.system.nodes
+    v, own = v[:equations], v[equations:]
     on_q, on_z = structure.residual.transposed(v, z, q)
     for closure, matrix, by_atoms in point.closures:
         on_q[closure.measures] -= v[closure.rows] @ matrix
@@ -330,17 +449,32 @@ def transposed(point: Point, v: Array, measure: Measure | None = None) -> tuple[
     spread[structure.measure_places] = on_q[1:]
     around = spread.reshape(-1, structure.waves) @ grid.waves.mean.T
     along, by_element = np.zeros((len(shapes.phi), grid.waves.azimuths)), np.empty(point.channels.shape[:2])
-    rows = structure.slope_rows(tuple(measure.forces))
+    by_force, shape = dict(measure.forces), point.forces.shape[1:]
+    if nodes is not None:
+        by_force[nodes.force] = by_force.get(nodes.force, 0.0) - own.reshape(shape)
+    rows = structure.slope_rows(tuple(by_force), () if nodes is None else (nodes.channel,))
     arrays = point.phi, shapes.psi, structure.first_row, structure.first_weight, point.slopes, rows
-    forces, channels = _stack(measure.forces, point.forces.shape), _stack(measure.channels, point.channels.shape)
-    _through_section(arrays, around, forces, channels, along, by_element)
+    forces, channels = _stack(by_force, point.forces.shape), _stack(measure.channels, point.channels.shape)
+    field = np.empty(shape if nodes is not None else (0, shape[1]))
+    kept = 0 if nodes is None else nodes.channel
+    _through_section(arrays, around, forces, channels, along, by_element, kept, field)
     for channel, names, own in measure.parts:
-        rows = structure.first_row[channel] + np.array([structure.shapes[channel][name] for name in names])
+        places = [structure.shapes[channel][name] for name in names]
+        rows = structure.first_row[channel] + np.array(places, dtype=np.int64)
         along[rows] += point.phi[rows] @ own
     place, i, j, factor = structure.column_arrays
     value = factor * (along @ grid.waves.at.T).ravel()[place]
     on_z = on_z + summed(i, value * z[j], len(z)) + summed(j, value * z[i], len(z))
-    return _by_free(structure, on_z[None, structure.first_state :], point.by_roots)[0], by_element
+    by_free = _by_free(structure, on_z[None, structure.first_state :], point.by_roots)[0]
+    if nodes is not None:
+        if measure.nodes is not None:
+            field = field + measure.nodes
+        by_nodes = own + field.ravel() @ nodes.matrix
+        if nodes.smoothing is not None:
+            weighted = np.pad(nodes.smoothing * own.reshape(shape), ((1, 1), (0, 0)))
+            by_nodes -= (weighted[2:] - 2.0 * weighted[1:-1] + weighted[:-2]).ravel()
+        by_free = np.concatenate([by_free, by_nodes])
+    return by_free, by_element
 
 
 def _stack(fields: Mapping[int, Array], shape: tuple[int, ...]) -> Array:

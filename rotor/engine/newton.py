@@ -189,7 +189,7 @@ class _Steps:
     def _moved(self, point: Point, step: Array, last: bool) -> Point:
         """A step on; where it may well be the last, with all that a solution and its adjoint need."""
         x = point.x.copy()
-        x[self._system.structure.free] += step
+        x[self._system.free] += step
         return self._at(point.grid, x, slopes=last, flow=last)
 
     def _differentiate(self, point: Point) -> _Corrected:

@@ -165,7 +165,7 @@ class _Linear:
     def by_pitch(self, measure: Measure) -> tuple[Array, Array]:
         """∂(measure)/∂θ by element, and slopes by every channel at every element, the states following."""
         point, structure = self.point, self.point.system.structure
-        multipliers = np.zeros(len(structure.free))
+        multipliers = np.zeros(len(point.system.free))
         if len(multipliers):
             factors, power = self._linearised
             of_power = measure.terms is self.power_terms and not (measure.forces or measure.channels or measure.parts)
@@ -194,7 +194,10 @@ class _Linear:
             forces[terms.interface.balanced] = _on(weights.u_p, shape) + _on(weights.inflow, shape)
         if not isinstance(weights.swirl, float):
             parts.append((UT, [SWIRL, SWIRL_SLOPE], -_on(weights.swirl, shape)))
-        return Measure(forces=forces, channels=channels, parts=parts, terms=weights.terms)
+        nodes = None
+        if self.point.system.nodes is not None and not isinstance(weights.inflow, float):
+            nodes = _on(weights.inflow, shape)
+        return Measure(forces=forces, channels=channels, parts=parts, nodes=nodes, terms=weights.terms)
 
     def hover_measure(self, weights: Weights) -> Measure:
         """The same of annuli: U_T and U_P follow the inflow that they balance by themselves."""

@@ -180,7 +180,8 @@ def first_point(problem: Problem, system: System, start: Guess) -> Array:
     inflow = start.inflow
     if inflow is None or start.inflow_kind != terms.key:
         inflow = terms.nearest(_prescribed_start(problem, state)) if problem.inflow.load_dependent else np.zeros(0)
-    others = np.zeros(system.structure.given - len(system.numbers) - len(STATE_NAMES) - elastic.size - len(inflow))
+    given = len(system.numbers) + len(STATE_NAMES) + elastic.size + len(terms.peaks())
+    others = np.zeros(system.structure.given - given)
     return np.concatenate([system.numbers, state.array(), elastic.ravel(), others, inflow])
 
 
@@ -197,8 +198,9 @@ def _errors(point: Point, options: SolverOptions) -> tuple[float, float, float]:
     system, structure = point.system, point.system.structure
     ratio = np.abs(point.residual) / system.tolerance
     twists, inflows = structure.equations_of("twist"), structure.equations_of("inflow")
+    ratio, nodes = np.split(ratio, [len(structure.equations)])
     return (
         float(ratio[: len(ratio) - len(twists) - len(inflows)].max()) * options.residual_tolerance,
         float(ratio[twists].max(initial=0.0)) * options.torsion_tolerance,
-        float(ratio[inflows].sum()) * options.inflow_tolerance,
+        float(ratio[inflows].sum() + nodes.max(initial=0.0)) * options.inflow_tolerance,
     )

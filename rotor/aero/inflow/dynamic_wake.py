@@ -11,7 +11,8 @@ from functools import cache, lru_cache
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import InflowModel, Wake
+from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.aero.inflow.interface import EvenElements, InflowModel, Wake
 from rotor.aero.inflow.peters_he import flow_parameters
 from rotor.aero.inflow.wake_projection import Projection, build_projection
 from rotor.aero.inflow.wake_terms import WakeTerms
@@ -120,7 +121,7 @@ def _theory(wake: DynamicWake, root: float, elements: int) -> DynamicWakeTheory:
 
 
 @dataclass(frozen=True)
-class DynamicWakeInflow:
+class DynamicWakeInflow(EvenElements):
     """Peters–He with the rotor's own blade number, or with infinitely many blades."""
 
     name: str
@@ -140,10 +141,10 @@ class DynamicWakeInflow:
         """The same load spread over infinitely many blades: its inflow is the time mean at each point of the disk."""
         return replace(self, infinite_blades=True, tip=False)
 
-    def on(self, disk: Disk, expected: Wake, losses: tuple[bool, bool]) -> WakeTerms:
+    def on(self, disk: Disk, course: WakeCourse, losses: tuple[bool, bool]) -> WakeTerms:
         """The model on a disk, whose azimuths must resolve its waves."""
-        del expected, losses
-        terms = WakeTerms(self.theory(disk), len(disk.r), disk.dr)
+        del course, losses
+        terms = WakeTerms(self.theory(disk), len(disk.r), float(disk.dr[0]))
         if len(disk.psi) < terms.least_azimuths:
             waves = terms.least_azimuths // 2
             raise ValueError(

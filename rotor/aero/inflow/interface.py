@@ -15,10 +15,16 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from rotor.aero.disk import Disk
+from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.section import CHANNELS, FORCES, PAIRS, section
 from rotor.arrays import Array
-from rotor.engine.linearise import Closure
+from rotor.design.design import Models
+from rotor.engine.linearise import Closure, Nodes
 from rotor.engine.terms import Shape, Structure
+
+
+ELEMENTS, AZIMUTHS = 40, 120
+"""Of models without lifting lines: enough for plots and power."""
 
 
 @dataclass(frozen=True)
@@ -123,6 +129,10 @@ class InflowTerms(Protocol):
         """States of the inflow that is nearest to a field."""
         ...
 
+    def nodes(self, tolerance: float, thrust: float) -> Nodes | None:
+        """Unknowns at every point of the grid; tolerance: of these, thrust: C_T, for the size of steps. None without."""
+        ...
+
     def axial(self, wake: Wake) -> Array:
         """The matrix from an axisymmetric load to the mean inflow around the azimuth, (elements, elements)."""
         ...
@@ -145,6 +155,21 @@ class Stateless:
     def nearest(self, field: Array) -> Array:
         """No states."""
         return np.zeros(0)
+
+    def nodes(self, tolerance: float, thrust: float) -> Nodes | None:
+        """None."""
+        return None
+
+
+class EvenElements:
+    """The part of `InflowModel` that all models without lifting lines share."""
+
+    fine_tip = False
+
+    def grid(self, models: Models, blades: int) -> tuple[int, int]:
+        """40 × 120 unless others are asked for."""
+        del blades
+        return models.elements or ELEMENTS, models.azimuths or AZIMUTHS
 
 
 class InflowModel(Protocol):
@@ -178,10 +203,19 @@ class InflowModel(Protocol):
         """The model without tip loss; the model itself where tip loss is on the section lift or cannot be removed."""
         ...
 
-    def on(self, disk: Disk, expected: Wake, losses: tuple[bool, bool]) -> InflowTerms:
+    @property
+    def fine_tip(self) -> bool:
+        """Whether the blade elements are panels of a lifting line, which are fine at the tip, and not equally wide."""
+        ...
+
+    def grid(self, models: Models, blades: int) -> tuple[int, int]:
+        """Blade elements and azimuths."""
+        ...
+
+    def on(self, disk: Disk, course: WakeCourse, losses: tuple[bool, bool]) -> InflowTerms:
         """The model on a disk.
 
-        expected: the wake of momentum theory, along which rigid helices lie; losses: whether Prandtl's factors at tip
+        course: along which a wake of vortices lies; losses: whether Prandtl's factors at tip
         and hub apply, for a model that leaves them to the section lift.
         """
         ...

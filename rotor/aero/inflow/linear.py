@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import PLAIN, Followed, Stateless, Wake
+from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.aero.inflow.interface import PLAIN, EvenElements, Followed, Stateless, Wake
 from rotor.aero.losses import mean_loss_factor
 from rotor.aero.section import LOSS, UP
 from rotor.arrays import Array
@@ -30,7 +31,7 @@ _COS, _SIN = np.cos(_PSI), np.sin(_PSI)
 
 
 @dataclass(frozen=True)
-class LinearInflow:
+class LinearInflow(EvenElements):
     """A first-harmonic inflow model."""
 
     name: str
@@ -48,9 +49,9 @@ class LinearInflow:
         """Itself: the factor is on the section lift."""
         return self
 
-    def on(self, disk: Disk, expected: Wake, losses: tuple[bool, bool]) -> "LinearTerms":
+    def on(self, disk: Disk, course: WakeCourse, losses: tuple[bool, bool]) -> "LinearTerms":
         """The model on a disk."""
-        del expected
+        del course
         return LinearTerms(self, disk, losses)
 
     def strengths(self, wake: Wake) -> dict[Hashable, tuple[float, tuple[float, float, float]]]:

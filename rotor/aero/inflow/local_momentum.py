@@ -18,7 +18,8 @@ from typing import Any
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import Followed, SectionInterface, Stateless, Wake
+from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.aero.inflow.interface import EvenElements, Followed, SectionInterface, Stateless, Wake
 from rotor.aero.inflow.peters_he import flow_parameters
 from rotor.aero.losses import tip_factor
 from rotor.aero.section import CHANNELS, FORCES, FX, FZ, LOSS, PAIRS, UP, M, section
@@ -113,7 +114,7 @@ _SECTORS = SectionInterface(
 
 
 @dataclass(frozen=True)
-class LocalMomentumInflow:
+class LocalMomentumInflow(EvenElements):
     """The inflow at a point depends on the load at that point alone."""
 
     name = "local-momentum"
@@ -129,9 +130,9 @@ class LocalMomentumInflow:
         """F = 1."""
         return replace(self, tip=False)
 
-    def on(self, disk: Disk, expected: Wake, losses: tuple[bool, bool]) -> "SectorTerms":
+    def on(self, disk: Disk, course: WakeCourse, losses: tuple[bool, bool]) -> "SectorTerms":
         """The model on a disk."""
-        del expected, losses
+        del course, losses
         return SectorTerms(disk, tip=self.tip)
 
 

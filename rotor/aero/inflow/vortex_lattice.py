@@ -12,8 +12,9 @@ from functools import lru_cache
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import Wake
-from rotor.aero.inflow.wake_terms import WakeTerms
+from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.aero.inflow.interface import EvenElements, Wake
+from rotor.aero.inflow.wake_terms import EvenElements, WakeTerms
 from rotor.arrays import Array
 from rotor.compiled import compiled
 from rotor.engine.waves import waves_at
@@ -285,7 +286,7 @@ PANELS, AZIMUTHS = 16, 36
 
 
 @dataclass(frozen=True)
-class VortexWakeInflow:
+class VortexWakeInflow(EvenElements):
     """Rigid skewed helical vortex lattice of the rotor's own blades."""
 
     name = "vortex-wake"
@@ -297,10 +298,10 @@ class VortexWakeInflow:
         """Itself: the tip loss of a lattice is that of its finite blades."""
         return self
 
-    def on(self, disk: Disk, expected: Wake, losses: tuple[bool, bool]) -> WakeTerms:
+    def on(self, disk: Disk, course: WakeCourse, losses: tuple[bool, bool]) -> WakeTerms:
         """The lattice on a disk, its helices along the expected wake."""
         del losses
-        return WakeTerms(_lattice_theory(disk, expected.mu_x, expected.axial), len(disk.r), disk.dr)
+        return WakeTerms(_lattice_theory(disk, course.mu_x, course.axial), len(disk.r), float(disk.dr[0]))
 
 
 class LatticeTheory:

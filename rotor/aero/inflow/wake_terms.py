@@ -11,7 +11,7 @@ from typing import Protocol
 
 import numpy as np
 
-from rotor.aero.inflow.interface import PLAIN, Followed, Wake
+from rotor.aero.inflow.interface import PLAIN, Followed, Stateless, Wake
 from rotor.aero.section import FZ, UP
 from rotor.arrays import Array, Integers
 from rotor.engine.linearise import Closure
@@ -93,7 +93,7 @@ def _measures_of(structure: Structure, names: tuple[tuple[int, int], ...]) -> In
     return np.array([structure.measure(FZ, ("load", k), wave) for k, wave in names], dtype=np.int64)
 
 
-class WakeTerms:
+class WakeTerms(Stateless):
     """Such a wake on a disk."""
 
     def __init__(self, theory: WakeTheory, elements: int, dr: float) -> None:
