@@ -118,11 +118,18 @@ def disk_csv(solution: Solution) -> bytes:
         ("power per blade [W/m]", disk.r[:, None] * disk.dcq * per_blade * rotor.tip_speed),
     ]
     notes = [
-        f"{len(disk.r)} elements of width dr/R = {disk.dr:.9g} about r; {len(disk.psi)} azimuths",
+        f"{len(disk.r)} elements of {_widths(disk.dr)}; {len(disk.psi)} azimuths",
         "psi = 0 over the tail, 90 on the advancing side",
         *(f"{name}: {_MEANINGS[name]}" for name in _disk_fields(disk) if name in _MEANINGS),
     ]
     return _table(solution, notes, columns)
+
+
+def _widths(dr: Array) -> str:
+    """Widths of the elements over R in words: one where all are equally wide."""
+    if np.ptp(dr) < 1e-12:
+        return f"width dr/R = {dr[0]:.9g} about r"
+    return f"widths dr/R = {' '.join(f'{width:.9g}' for width in dr)} from root to tip"
 
 
 def blade_csv(solution: Solution, reference: Design, azimuth_deg: float) -> bytes:

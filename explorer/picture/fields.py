@@ -235,8 +235,7 @@ def _absent(field: Field, pinned: Solution, grid: PolarGrid) -> NDArray[np.bool_
     if not pinned.converged:
         return np.ones((len(grid.r), len(grid.psi)), dtype=bool)
     disk = pinned.disk
-    margin = 1e-9 + 0.5 * disk.dr
-    beyond = (grid.r < disk.r[0] - margin) | (grid.r > disk.r[-1] + margin)
+    beyond = (grid.r < disk.edges[0] - 1e-9) | (grid.r > disk.edges[-1] + 1e-9)
     void = field.void(pinned, _over(pinned, grid))
     beyond = np.repeat(beyond[:, None], len(grid.psi), axis=1)
     return beyond if void is None else beyond | void

@@ -5,11 +5,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 
 from rotor.aero.free_wake.settle import WakeFilaments
 from rotor.arrays import Array
-from rotor.trim.solution import Solution
+from rotor.trim.solution import DiskFields, Solution
 
 _TURNS = 0.8
 """Length of a drawn vortex, in turns of the rotor, but for those of a free wake."""
@@ -81,16 +80,27 @@ def tip_vortex_path(solution: Solution) -> TipVortexPath:
     radius = 1.0 - narrowing * (1.0 - np.exp(-age / _CONTRACTS_WITHIN))
     left = 2.0 * math.pi / _COLUMNS * np.arange(_COLUMNS)[:, None]
     x, y = radius * np.cos(left) + along * age, radius * np.sin(left)
-    width = max(1, round(_WIDTH / disk.dr))
-    smooth = sliding_window_view(disk.induced, width, axis=0).mean(axis=-1)
-    r = disk.r[: len(smooth)] + 0.5 * (width - 1) * disk.dr
-    row = np.clip(np.rint((np.hypot(x, y) - r[0]) / disk.dr).astype(int), 0, len(r) - 1)
-    psi = np.arctan2(y, x) - disk.psi[0]
-    column = np.rint(psi / (2.0 * math.pi) * len(disk.psi)).astype(int) % len(disk.psi)
-    speed = axial + smooth[row, column]
+    speed = axial + _mean_inflow(disk, np.hypot(x, y), np.arctan2(y, x))
     steps = 0.5 * (speed[:, 1:] + speed[:, :-1]) * (age[1] - age[0])
     sink = np.concatenate([np.zeros((_COLUMNS, 1)), np.cumsum(steps, axis=1)], axis=1)
     return TipVortexPath(along, _TURNS, _POINTS, radius.round(5).tolist(), sink.round(5).tolist())
+
+
+def _mean_inflow(disk: DiskFields, r: Array, psi: Array) -> Array:
+    """λ_i over a quarter of the radius about r, moved inwards where that reaches beyond the blade; shape of r and ψ.
+
+    At the nearest azimuth.
+    """
+    column = np.rint((psi - disk.psi[0]) / (2.0 * math.pi) * len(disk.psi)).astype(int) % len(disk.psi)
+    edges, up_to = disk.edges, np.zeros((len(disk.r) + 1, len(disk.psi)))
+    np.cumsum(disk.dr[:, None] * disk.induced, axis=0, out=up_to[1:])
+    first = np.clip(r - 0.5 * _WIDTH, edges[0], edges[-1] - _WIDTH)
+
+    def integral(end: Array) -> Array:
+        k = np.clip(np.searchsorted(edges, end, "right") - 1, 0, len(disk.r) - 1)
+        return up_to[k, column] + (end - edges[k]) * disk.induced[k, column]
+
+    return (integral(first + _WIDTH) - integral(first)) / _WIDTH
 
 
 def _free_path(wake: WakeFilaments) -> TipVortexPath:

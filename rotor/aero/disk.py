@@ -54,11 +54,26 @@ class Disk:
         return len(self.r), len(self.psi)
 
     @property
+    def edges(self) -> Array:
+        """Edges of the elements over R, (elements + 1,)."""
+        return element_edges(self.dr)
+
+    @property
+    def cells(self) -> Array:
+        """Part of πR² that an element sweeps between two azimuths, (elements,)."""
+        return np.diff(self.edges**2) / len(self.psi)
+
+    @property
     def section_data(self) -> tuple[Array, NDArray[np.int64], Array, Array, Array, Array, Array]:
         """What the loads of the blade elements need beside velocities."""
         return (
             self.half_solidity, self.section, self.weight, self.offset, self.tables, self.cos_sweep, self.sin_sweep
         )  # fmt: skip
+
+
+def element_edges(widths: Array) -> Array:
+    """Edges over R, (elements + 1,), of elements that reach to the tip, from their widths over R, (elements,)."""
+    return np.append(1.0 - np.cumsum(widths[::-1])[::-1], 1.0)
 
 
 def stations(root: float, elements: int, fine_tip: bool) -> tuple[Array, Array]:

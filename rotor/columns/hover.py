@@ -266,7 +266,7 @@ def hover_elements(problem: Problem, point: Point) -> BladeElements:
     azimuths, f, s, states = len(disk.psi), point.forces, point.flow, structure.states
     own, inflow = _at_balance(point)[0][:, :, 0], f[BALANCED, :, 0]
     coning = float(point.x[states["coning"]])
-    thrust = float(f[FZ].sum()) * disk.dr
+    thrust = float(disk.dr @ f[FZ, :, 0])
     state = TrimState(
         collective=float(point.x[states["collective"]]), coning=coning,
         lambda0=axial_inflow(max(thrust, 0.0), problem.climb),

@@ -53,7 +53,7 @@ def figure_2_7() -> Report:
         design = make_design(preset=preset, twist=twist, mu=0.0)
         disk = solve(replace(design, models=replace(design.models, elements=FINE, azimuths=8))).require().disk
         lift = disk.dct[:, 0]
-        inner, outer = _share(disk.r, disk.dr, lift, 0.5, 0.9), _share(disk.r, disk.dr, lift, 0.9, 1.0)
+        inner, outer = _share(disk, lift, 0.5, 0.9), _share(disk, lift, 0.9, 1.0)
         at_peak = float(disk.r[int(lift.argmax())])
         at_tip = float(lift[-1] / lift.max())
         numbers |= {
@@ -94,7 +94,7 @@ def figure_2_8() -> Report:
     solution = solve(with_switches(make_design(mu=FAST), ("swirl",))).require()
     disk = solution.disk
     mu_x = FAST * math.cos(solution.controls.shaft_tilt)
-    expected = _reverse_area(mu_x, float(disk.r[0] - 0.5 * disk.dr))
+    expected = _reverse_area(mu_x, float(disk.edges[0]))
     ours = solution.reverse_flow_area
     top, low = float(disk.u_t.max()), float(disk.u_t.min())
     # One cell is 1/40 of the blade by 1/120 of the turn: the border of the region cuts through about 60 of them.
@@ -125,10 +125,11 @@ def figure_2_8() -> Report:
     )
 
 
-def _share(r: np.ndarray, dr: float, lift: np.ndarray, low: float, high: float) -> float:
+def _share(disk: DiskFields, lift: np.ndarray, low: float, high: float) -> float:
     """Part of the thrust between two radii; elements cut by them count by the part inside."""
-    inside = np.clip(np.minimum(r + 0.5 * dr, high) - np.maximum(r - 0.5 * dr, low), 0.0, dr)
-    return float((inside * lift).sum() / (dr * lift.sum()))
+    edges = disk.edges
+    inside = np.maximum(np.minimum(edges[1:], high) - np.maximum(edges[:-1], low), 0.0)
+    return float(inside @ lift / (disk.dr @ lift))
 
 
 def _reverse_area(mu: float, root: float) -> float:
@@ -144,7 +145,7 @@ def _disk(disk: DiskFields, values: np.ndarray, label: str, title: str, *, zero_
     return DiskPanel(
         label=label,
         r=floats(disk.r),
-        dr=disk.dr,
+        edges=floats(disk.edges),
         psi=floats(disk.psi),
         values=tuple(floats(row) for row in values),
         title=title,

@@ -189,7 +189,7 @@ def _flapping() -> tuple[float, float]:
         channels[UT], channels[LOSS] = r - elements.swirl[:, None] + flow.mu_x * sin, loss
         channels[UP] = model.field(disk.r, cos, sin, wake)[0] + (r - flap.hinge) * motion[1]
         channels[UP] += flow.mu_z + flow.mu_x * motion[0] * cos
-        moment = float(problem.arm @ section(channels, data, False, False)[0][FZ, :, 0]) * disk.dr
+        moment = float(problem.arm * disk.dr @ section(channels, data, False, False)[0][FZ, :, 0])
         return [float(motion[1]), flap.load_gain * moment - flap.weight - flap.frequency_squared * float(motion[0])]
 
     turns, n = 10, 36

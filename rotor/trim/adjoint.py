@@ -43,8 +43,8 @@ class PitchGradient:
 
     r: Array
     """Element centres y/R, (elements,)."""
-    dr: float
-    """Element width over R."""
+    dr: Array
+    """Element widths over R, (elements,)."""
     by_element: Array
     """∂P/∂θ of each element's pitch [W/rad], (elements,)."""
 
@@ -275,7 +275,7 @@ def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradie
     Raises RuntimeError for the total power of a free rotor, which is zero.
     """
     problem = adjoint.problem
-    cell = problem.disk.dr / len(problem.disk.psi)
+    cell = problem.disk.dr[:, None] / len(problem.disk.psi)
     on_stand = problem.design.condition.stand is not None
     if problem.design.models.trim == "free-rotor" and objective == "total":
         raise RuntimeError(

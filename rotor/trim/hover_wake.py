@@ -137,7 +137,7 @@ def as_flown(problem: Problem, elastic: Array | None) -> Problem:
 
 def _result(problem: Problem, found: Settled, elastic: Array | None, *, settled: bool) -> HoverWakeResult:
     at = found.evaluation
-    thrust = float(at.loads[line.FZ].sum() * problem.disk.dr)
+    thrust = float(problem.disk.dr @ at.loads[line.FZ])
     usable = found.converged or not settled
     return HoverWakeResult(
         elements=over_disk(problem, at, elastic),
@@ -168,7 +168,7 @@ def over_disk(problem: Problem, at: WakeEvaluation, elastic: Array | None = None
         return over_azimuths(values, len(disk.psi))
 
     collective, loads = at.state.collective, at.loads
-    thrust = float(loads[line.FZ].sum() * disk.dr)
+    thrust = float(disk.dr @ loads[line.FZ])
     coning = _coning(problem, loads)
     state = TrimState(collective=collective, coning=coning, lambda0=axial_inflow(max(thrust, 0.0), problem.climb))
     twist = None
@@ -195,7 +195,7 @@ def _coning(problem: Problem, loads: Array) -> float:
         return 0.0
     if problem.design.rotor.precone is not None:
         return problem.design.rotor.precone
-    moment = float((problem.arm * loads[line.FZ]).sum() * problem.disk.dr)
+    moment = float(problem.arm * problem.disk.dr @ loads[line.FZ])
     return (problem.flap.load_gain * moment - problem.flap.weight) / problem.flap.frequency_squared
 
 
@@ -336,7 +336,7 @@ def torque_changes(problem: Problem, state: WakeState, elastic: Array | None = N
     disk = problem.disk
     zero = np.zeros_like(disk.r)
     weights = LineWeights(zero, disk.r * disk.dr, zero, zero, zero, zero, zero)
-    cp = float(disk.r @ adjoint.at.loads[line.FX]) * disk.dr
+    cp = float(disk.r * disk.dr @ adjoint.at.loads[line.FX])
     return np.array([adjoint.change(weights, system) / cp for system in other_roll_ups(problem, state, elastic)])
 
 
@@ -348,7 +348,7 @@ def flown_torques(problem: Problem, state: WakeState, elastic: Array | None = No
     """
     usual = HoverSystem(as_flown(problem, elastic), state.layout)
     ends = [warm(system, state) for system in (usual, *other_roll_ups(problem, state, elastic))]
-    return np.array([torque(end) if end.converged else math.nan for end in ends]) * problem.disk.dr
+    return np.array([torque(end) if end.converged else math.nan for end in ends]) * float(problem.disk.dr[0])
 
 
 def other_roll_ups(problem: Problem, state: WakeState, elastic: Array | None) -> list[HoverSystem]:

@@ -14,6 +14,7 @@ from typing import Any, cast
 
 import numpy as np
 
+from rotor.aero.disk import element_edges
 from rotor.aero.elements import TrimState
 from rotor.aero.free_wake.settle import WakeFilaments
 from rotor.aero.free_wake.system import WakeState
@@ -52,8 +53,8 @@ class DiskFields:
 
     r: Array
     """Element centres y/R, (elements,)."""
-    dr: float
-    """Element width over R."""
+    dr: Array
+    """Element widths over R, (elements,)."""
     psi: Array
     """Azimuth [rad], 0 over the tail, (azimuths,)."""
     theta: Array
@@ -81,6 +82,16 @@ class DiskFields:
     """dC_Q/dr over r: in-plane force opposing rotation, of the whole rotor as if smeared; dC_P/dr = r·dcq."""
     elastic_twist: Array | None = None
     """φ, by which the blade twists under its loads [rad], contained in `theta`; None for a rigid blade."""
+
+    @property
+    def edges(self) -> Array:
+        """Edges of the elements y/R, (elements + 1,)."""
+        return element_edges(self.dr)
+
+    @property
+    def cells(self) -> Array:
+        """Part of πR² that an element sweeps between two azimuths, (elements,)."""
+        return np.diff(self.edges**2) / len(self.psi)
 
 
 @dataclass(frozen=True, eq=False)

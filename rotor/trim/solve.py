@@ -190,8 +190,7 @@ def _stalled(result: HoverResult | HoverWakeResult | TrimResult, area: dict[str,
 
 def _areas(problem: Problem, fields: DiskFields) -> dict[str, float]:
     """Reverse-flow and stalled parts of πR²."""
-    disk = problem.disk
-    annuli = 2.0 * disk.r * disk.dr / len(disk.psi)
+    annuli = problem.disk.cells
     reverse = fields.u_t < 0.0
     stalled = (fields.stall_margin < 0.0) & ~reverse
     return {"reverse": float(annuli @ reverse.sum(axis=1)), "stalled": float(annuli @ stalled.sum(axis=1))}

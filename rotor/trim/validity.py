@@ -143,10 +143,9 @@ def caveats(
             "Power with the free wake depends on how the tip vortex rolls up, by some 4 %, and the effect of twist is "
             "overstated beyond -16° or so.",
         )
-        cell = disk.dr / len(disk.psi)
         thrust, least = total.thrust, elements.state.lambda0
         turning = elements.swirl[:, None] * elements.fx
-        induced = float((elements.induced * elements.fz + turning).sum()) * cell
+        induced = float(disk.dr @ (elements.induced * elements.fz + turning).mean(axis=1))
         if induced < thrust * least:
             add(
                 "free-wake-below-ideal",
@@ -315,4 +314,4 @@ def _outside_fit(problem: Problem, elements: BladeElements, fit_range: tuple[flo
     low, high = fit_range
     alpha = elements.alpha
     outside = ((alpha < low) | (alpha > high)) & (elements.u_t >= 0.0)
-    return float((2.0 * disk.r[:, None] * disk.dr / len(disk.psi) * outside).sum())
+    return float(disk.cells @ outside.sum(axis=1))

@@ -36,9 +36,9 @@ def test_disk_holds_every_field_and_adds_up_to_thrust_and_power():
         assert_allclose(columns[f"{name} [-]"], getattr(disk, name).ravel(), rtol=1e-8, atol=1e-12)
     for name in ("theta", "alpha", "stall_margin"):
         assert_allclose(columns[f"{name} [deg]"], np.degrees(getattr(disk, name)).ravel(), rtol=1e-8, atol=1e-12)
-    width = disk.dr * design.rotor.radius / len(disk.psi) * design.rotor.blades
-    assert columns["thrust per blade [N/m]"].sum() * width == pytest.approx(SOLUTION.ct * design.thrust_unit, rel=1e-7)
-    assert columns["power per blade [W/m]"].sum() * width == pytest.approx(SOLUTION.power.shaft, rel=1e-7)
+    width = np.repeat(disk.dr, len(disk.psi)) * design.rotor.radius / len(disk.psi) * design.rotor.blades
+    assert columns["thrust per blade [N/m]"] @ width == pytest.approx(SOLUTION.ct * design.thrust_unit, rel=1e-7)
+    assert columns["power per blade [W/m]"] @ width == pytest.approx(SOLUTION.power.shaft, rel=1e-7)
     assert f"segments:{-14},{-8}@0.5" in comments[0]
     assert any("advance ratio 0.3, 8320 kg, 0 m" in line for line in comments)
     assert any("rotor explorer" in line and "NumPy" in line for line in comments)

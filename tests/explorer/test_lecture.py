@@ -83,7 +83,7 @@ class TestClaims:
         assert disk.dct[reverse].sum() < 0.0
         # The outline at ψ = 270° reaches to r = µ.
         column = np.argmin(np.abs(disk.psi - 1.5 * np.pi))
-        assert disk.r[reverse[:, column]].max() == pytest.approx(0.37, abs=disk.dr)
+        assert disk.r[reverse[:, column]].max() == pytest.approx(0.37, abs=float(disk.dr[0]))
 
     def test_two_segments_save_tenths_of_a_per_cent(self):
         straight, two = both("What two segments add")

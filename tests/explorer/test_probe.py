@@ -69,12 +69,12 @@ def test_its_loads_add_up_to_the_trim(solution: Solution):
     """Σ over stations of N_b dT = C_T ρA(ΩR)², and of the power likewise, whatever the loss factor took."""
     design, disk = solution.design, solution.disk
     rotor = design.rotor
-    cell = rotor.blades * disk.dr * rotor.radius / len(disk.psi)
+    cell = rotor.blades * np.repeat(disk.dr, len(disk.psi)) * rotor.radius / len(disk.psi)
     all_of_them = [probe(solution, float(r), float(psi)) for r in disk.r for psi in disk.psi]
-    assert_allclose(cell * sum(p.thrust for p in all_of_them), solution.ct * design.thrust_unit, rtol=1e-12)
-    shaft = (disk.r[:, None] * disk.dcq).sum() * disk.dr / len(disk.psi) * design.power_unit
-    assert_allclose(cell * sum(p.power for p in all_of_them), shaft, rtol=1e-12)
-    torque = cell * sum(p.torque for p in all_of_them)
+    assert_allclose(cell @ [p.thrust for p in all_of_them], solution.ct * design.thrust_unit, rtol=1e-12)
+    shaft = (disk.r * disk.dr @ disk.dcq).sum() / len(disk.psi) * design.power_unit
+    assert_allclose(cell @ [p.power for p in all_of_them], shaft, rtol=1e-12)
+    torque = cell @ [p.torque for p in all_of_them]
     assert_allclose(torque * rotor.angular_speed, shaft, rtol=1e-12)
 
 
@@ -83,7 +83,7 @@ def test_thrust_of_the_annuli_is_the_weight_of_hover():
     solution = solve(CASES["hover"]).require()
     disk, rotor = solution.disk, solution.design.rotor
     mean = np.array([probe(solution, float(r), 1.0).thrust for r in disk.r])
-    lifted = rotor.blades * mean.sum() * disk.dr * rotor.radius
+    lifted = rotor.blades * (disk.dr @ mean) * rotor.radius
     assert_allclose(lifted, 1.035 * solution.design.condition.weight, rtol=1e-6)
 
 
@@ -278,7 +278,7 @@ class TestDrawing:
         disk = fast.disk
         p = probe(fast, float(disk.r[25]), float(disk.psi[17]))
         assert p.section.lift_curve(np.array([p.alpha]), p.mach)[0] == pytest.approx(p.cl, abs=1e-9)
-        q = probe(fast, float(disk.r[25] + 0.4 * disk.dr), float(disk.psi[17] + 0.01))
+        q = probe(fast, float(disk.r[25] + 0.4 * disk.dr[25]), float(disk.psi[17] + 0.01))
         assert q.section.lift_curve(np.array([q.alpha]), q.mach)[0] == pytest.approx(q.cl, abs=2e-3)
 
     def test_words_keep_their_distance_and_their_order(self):

@@ -141,7 +141,7 @@ class TestAlpha:
 class TestLift:
     def test_the_blades_carry_the_thrust(self, built: Solution):
         design = built.design
-        per_blade = float(lift_per_metre(built).sum()) * built.disk.dr * design.rotor.radius
+        per_blade = float(built.disk.dr @ lift_per_metre(built)) * design.rotor.radius
         assert_allclose(per_blade * design.rotor.blades, built.ct * design.thrust_unit, rtol=1e-9)
         assert_allclose(per_blade * design.rotor.blades, design.condition.weight, rtol=0.05)
 

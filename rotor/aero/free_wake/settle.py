@@ -314,7 +314,7 @@ def _uniform_start(problem: Problem) -> tuple[Array, float]:
     """Circulation that gives the thrust evenly but for the tip, and a collective for it."""
     disk = problem.disk
     shape = np.sqrt(np.minimum(1.0, (1.0 - disk.r) / 0.06)) * np.minimum(1.0, (disk.r - disk.root) / 0.1)
-    circulation = shape * math.pi * problem.weight / (disk.blades * disk.dr * float(shape @ disk.r))
+    circulation = shape * math.pi * problem.weight / (disk.blades * float(disk.dr * shape @ disk.r))
     slope = problem.design.rotor.solidity * 5.9
     axial = axial_inflow(problem.weight, problem.climb) + problem.climb
     return circulation, 6.0 * problem.weight / slope + 1.5 * axial

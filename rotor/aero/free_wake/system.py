@@ -300,7 +300,7 @@ class HoverSystem:
         residual[: layout.geometry] = self._streamlines(radius, height, drift)
         gain = math.pi / layout.blades
         residual[layout.geometry : -1] = state.circulation - gain * loads[LIFT]
-        residual[-1] = loads[FZ].sum() * disk.dr - self.problem.weight
+        residual[-1] = disk.dr @ loads[FZ] - self.problem.weight
         empty = np.zeros((0, 0))
         if not slopes:
             return WakeEvaluation(state, rolled, radius, height, inflow, swirl, loads, residual, empty, empty, empty)
@@ -338,8 +338,8 @@ class HoverSystem:
         jacobian[geometry:-1, -1] -= gain * by_theta
         elements = np.arange(layout.elements)
         jacobian[geometry + elements, geometry + elements] += 1.0
-        jacobian[-1] = disk.dr * (loads[FZ_UP] @ inflow_slopes - loads[FZ_UT] @ swirl_slopes)
-        jacobian[-1, -1] += disk.dr * loads[FZ_THETA].sum()
+        jacobian[-1] = disk.dr * loads[FZ_UP] @ inflow_slopes - disk.dr * loads[FZ_UT] @ swirl_slopes
+        jacobian[-1, -1] += disk.dr @ loads[FZ_THETA]
         return WakeEvaluation(
             state, rolled, radius, height, inflow, swirl, loads, residual, jacobian, inflow_slopes, swirl_slopes
         )

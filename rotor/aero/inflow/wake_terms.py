@@ -96,7 +96,7 @@ def _measures_of(structure: Structure, names: tuple[tuple[int, int], ...]) -> In
 class WakeTerms(Stateless):
     """Such a wake on a disk."""
 
-    def __init__(self, theory: WakeTheory, elements: int, dr: float) -> None:
+    def __init__(self, theory: WakeTheory, elements: int, dr: Array) -> None:
         self.key: Hashable = ("terms", theory.key)
         self.theory, self._elements, self._dr = theory, elements, dr
         self.names: Sequence[Shape] = [("inflow", k) for k in range(len(theory.shapes))]

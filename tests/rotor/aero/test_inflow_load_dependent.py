@@ -47,7 +47,8 @@ def answer(problem: Problem, elements: BladeElements) -> Array:
         gradient = followed.atoms["lambda0 kx"][0] * np.outer(disk.r, disk.cos)
         return followed.live[GAIN, "gain"][0][:, None] * elements.fz + gradient
     theory, waves = terms.theory, waves_at(1 + max(w + w % 2 for _, w in terms.theory.names), disk.psi)
-    means = np.array([theory.gathering[k] @ elements.fz @ waves[w] for k, w in theory.names]) * disk.dr / len(disk.psi)
+    load = disk.dr[:, None] * elements.fz / len(disk.psi)
+    means = np.array([theory.gathering[k] @ load @ waves[w] for k, w in theory.names])
     fields = np.array([np.outer(theory.shapes[k] * theory.over_factor(wake)[0], waves[w]) for k, w in theory.names])
     return np.einsum("t,tij->ij", theory.answer(means, wake), fields)
 

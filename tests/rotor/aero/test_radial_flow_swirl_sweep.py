@@ -41,10 +41,10 @@ def test_profile_power_and_drag_with_yawed_flow(mu: float):
     problem = build_problem(replace(design, models=replace(design.models, elements=400, azimuths=360)))
     disk, (fx, radial) = problem.disk, friction_of(replace(problem, friction=1.0), mu)
     across: np.ndarray = disk.r[:, None] + mu * disk.sin
-    cell = disk.dr / len(disk.psi)
+    width = disk.dr / len(disk.psi)
     yawless = disk.half_solidity[:, None] * np.abs(across) * across
-    power = ((yawless + fx) * across + radial * mu * disk.cos).sum() * cell
-    drag = ((yawless + fx) * disk.sin + radial * disk.cos).sum() * cell
+    power = width @ ((yawless + fx) * across + radial * mu * disk.cos).sum(axis=1)
+    drag = width @ ((yawless + fx) * disk.sin + radial * disk.cos).sum(axis=1)
     unit = 2.0 * disk.half_solidity.mean() / 8.0
     assert_allclose(power / unit, 1.0 + 4.5 * mu**2 + 1.61 * mu**3.7, rtol=0.01)
     assert_allclose(drag / unit, 3.0 * mu + 1.98 * mu**2.7, rtol=0.02)

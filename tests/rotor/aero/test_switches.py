@@ -222,10 +222,10 @@ class TestFlapping:
         solution = solve(design).require()
         disk, tilt = solution.disk, solution.controls.shaft_tilt
         mean = disk.dr / len(disk.psi)
-        thrust = disk.dct.sum() * mean
+        thrust = (mean @ disk.dct).sum()
         assert solution.linear is not None
         radial = solution.linear.elements.fr
-        drag = ((disk.dcq * np.sin(disk.psi)).sum() + (radial * np.cos(disk.psi)).sum()) * mean
+        drag = mean @ (disk.dcq * np.sin(disk.psi) + radial * np.cos(disk.psi)).sum(axis=1)
         unit = design.thrust_unit
         assert_allclose(thrust * math.cos(tilt) + drag * math.sin(tilt), build_problem(design).weight, rtol=1e-9)
         assert_allclose(thrust * math.sin(tilt) - drag * math.cos(tilt), design.drag / unit, rtol=1e-8)
@@ -256,7 +256,7 @@ class TestFlapping:
         design = replace(design, condition=replace(design.condition, flap_1c=0.04, flap_1s=-0.03))
         solution = solve(design).require()
         disk, rotor, c = solution.disk, design.rotor, solution.controls
-        lift = disk.dct.sum(axis=0) * disk.dr * design.thrust_unit / len(disk.psi)
+        lift = disk.dr @ disk.dct * design.thrust_unit / len(disk.psi)
         offset = rotor.blade.flap_hinge * rotor.radius
         inertia = 0.5 * rotor.blades * rotor.blade.flap_static_moment * rotor.angular_speed**2
         assert_allclose(solution.hub_moment.roll, offset * (lift @ np.sin(disk.psi) + inertia * c.flap_1s), rtol=1e-6)

@@ -90,7 +90,7 @@ def test_energy(inflow: str):
     problem, point = solution.linear.problem, solution.linear.point
     assert problem.torsion is not None
     air = point.forces[M] + 0.5 * problem.torsion.inertia[:, None] * np.sin(2.0 * point.channels[TH])
-    taken = -(air * point.channels[RATE]).mean(axis=1).sum() * problem.disk.dr
+    taken = -problem.disk.dr @ (air * point.channels[RATE]).mean(axis=1)
     assert abs(taken) * made.power_unit > 10.0
     assert_allclose(solution.elastic.control_power, taken * made.power_unit, rtol=1e-6)
     assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-9)

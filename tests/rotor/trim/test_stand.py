@@ -146,7 +146,8 @@ def test_a_gimbal_keeps_its_coning_and_passes_no_moment():
     assert_allclose(solution.controls.coning, math.radians(1.5))
     assert solution.linear is not None
     disk, lift = solution.linear.problem.disk, solution.linear.elements.fz
-    assert_allclose(2.0 * disk.dr / len(disk.psi) * (disk.r @ lift) @ np.array([disk.cos, disk.sin]).T, 0.0, atol=1e-12)
+    moment = disk.r * disk.dr @ lift
+    assert_allclose(2.0 / len(disk.psi) * moment @ np.array([disk.cos, disk.sin]).T, 0.0, atol=1e-12)
     assert solution.hub_moment.size < 1e-3
 
 

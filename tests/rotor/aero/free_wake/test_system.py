@@ -50,7 +50,7 @@ def test_settled_wake_meets_every_equation(medium: tuple[Problem, Settled]):
     problem, found = medium
     at = found.system.evaluate(found.evaluation.state, slopes=False)
     assert at.error < 1e-9
-    assert at.loads[line.FZ].sum() * problem.disk.dr == pytest.approx(problem.weight, rel=1e-7)
+    assert problem.disk.dr @ at.loads[line.FZ] == pytest.approx(problem.weight, rel=1e-7)
 
 
 @pytest.mark.parametrize("seed", range(4))
