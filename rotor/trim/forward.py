@@ -12,6 +12,10 @@ from rotor.design.stand import LARGEST_CT_OVER_SIGMA, Stand
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult, newton
 
 
+LINEAR = "pitt-peters"
+"""The linear inflow along whose trim the wake of a lifting line lies."""
+
+
 def trim(problem: Problem, start: Guess | None = None, options: SolverOptions = DEFAULT_OPTIONS) -> TrimResult:
     """Trim a forward-flight problem from a guess, or from simple estimates.
 
@@ -43,6 +47,11 @@ def trim_along(problem: Problem, options: SolverOptions = DEFAULT_OPTIONS) -> Tr
     hopeless = newton(problem, first_guess(problem), replace(options, max_passes=1))
     found = _continue(problem, replace(hopeless, converged=False), 1, options)
     return found if found.converged else None
+
+
+def linear_problem(design: Design) -> Problem:
+    """The design with a linear inflow."""
+    return build_problem(replace(design, models=replace(design.models, inflow=LINEAR, elements=None, azimuths=None)))
 
 
 def first_guesses(problem: Problem) -> list[Guess]:

@@ -1,7 +1,7 @@
 """The trim of a problem from a guess, and whether it is accepted."""
 
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -11,13 +11,13 @@ from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.interface import Wake
 from rotor.aero.inflow.linear import LinearInflow
 from rotor.aero.problem import Problem, in_disk_axes
-from rotor.aero.section import FZ
+from rotor.aero.section import FZ, PAIRS, UP, UT
 from rotor.arrays import Array
 from rotor.columns.flight import SystemTolerances, elements_of, flight_system, parts_of, state_of
 from rotor.columns.hover import hover_elements
 from rotor.columns.trims import with_given_values
 from rotor.engine.linearise import Point, System, evaluate
-from rotor.engine.newton import DEFAULT_LIMITS, Factors, NewtonLimits, solve
+from rotor.engine.newton import DEFAULT_LIMITS, Factors, NewtonLimits, Solved, solve
 from rotor.engine.waves import STEADY
 
 
@@ -40,6 +40,9 @@ class SolverOptions:
     """Evaluations of the blade elements in one run of Newton's method."""
     most_old_steps: float = DEFAULT_LIMITS.most_steps
     """This and the next two as in `NewtonLimits`."""
+    most_old_steps_of_nodes: float = 10.0
+    """The same with unknowns at every point, whose derivatives cost as much as ten steps; and of the next."""
+    kept_ratio_of_nodes: float = 0.5
     most_old_steps_of_start: float = DEFAULT_LIMITS.most_steps_on_few
     kept_ratio: float = DEFAULT_LIMITS.kept_ratio
     angle_step: float = 0.08
@@ -163,14 +166,39 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
     system = flight_system(problem, tolerances(options))
     factors = start.factors if start.structure == system.structure.name else None
     most_on_few = options.most_old_steps_of_start if problem.inflow.load_dependent else 0.0
-    limits = NewtonLimits(
-        options.max_passes, options.most_old_steps, most_on_few, options.kept_ratio, options.pause
-    )  # fmt: skip
-    found = solve(system, first_point(problem, system, start), factors, limits)
+    most_steps, kept_ratio = options.most_old_steps, options.kept_ratio
+    if system.nodes is not None:
+        most_steps, kept_ratio = options.most_old_steps_of_nodes, options.kept_ratio_of_nodes
+    limits = NewtonLimits(options.max_passes, most_steps, most_on_few, kept_ratio, options.pause)
+    result = _ended(problem, solve(system, first_point(problem, system, start), factors, limits), options)
+    if result.converged or system.nodes is None or options.max_passes <= 1:
+        return result
+    smoothed = replace(system, nodes=replace(system.nodes, smoothing=_stalled_nodes(result.point)))
+    again = _ended(problem, solve(smoothed, result.point.x, None, limits), options)
+    return replace(again, passes=result.passes + again.passes) if again.converged else result
+
+
+def _ended(problem: Problem, found: Solved, options: SolverOptions) -> TrimResult:
+    """Whether the iteration ended at a trim."""
     residual, twisting, difference = _errors(found.point, options)
     accepted = max(residual, twisting) <= options.accepted_residual and difference <= options.accepted_inflow
     converged = found.point.size <= 1.0 or accepted
     return TrimResult(problem, found.point, residual, converged, found.passes, factors=found.factors)
+
+
+def _stalled_nodes(point: Point) -> Array:
+    """1 at the panels where lift falls with the angle of attack, and at their neighbours, (elements, azimuths).
+
+    A lifting line has several solutions there, from panel to panel; smoothed, it has one.
+    """
+    if not point.slopes.shape[1]:
+        point = evaluate(point.system, point.grid, point.x, slopes=True)
+    by_inflow = point.slopes[PAIRS.index((FZ, UP))]
+    stalled = (by_inflow > 0.05 * np.median(by_inflow)) & (point.channels[UT] > 0.05)
+    wide = stalled | np.roll(stalled, 1, axis=1) | np.roll(stalled, -1, axis=1)
+    wide[1:] |= wide[:-1].copy()
+    wide[:-1] |= wide[1:].copy()
+    return wide.astype(float)
 
 
 def first_point(problem: Problem, system: System, start: Guess) -> Array:

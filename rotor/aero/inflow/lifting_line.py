@@ -128,7 +128,7 @@ class LiftingLineTerms(Stateless):
 
     def nodes(self, tolerance: float, thrust: float) -> Nodes:
         """Circulations and what they do; tolerance: of N_b Γ/π."""
-        return Nodes(UP, CIRCULATION, self.matrix, tolerance, 1.2 * thrust)
+        return Nodes(UP, CIRCULATION, self.matrix, tolerance, 2.4 * thrust)
 
     def nearest(self, field: Array) -> Array:
         """An elliptical circulation that carries the thrust to which the course belongs, whatever the field, flat."""

@@ -14,7 +14,7 @@ import numpy as np
 from rotor.aero.disk import Disk
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.inflow.interface import EvenElements, Wake
-from rotor.aero.inflow.wake_terms import EvenElements, WakeTerms
+from rotor.aero.inflow.wake_terms import WakeTerms
 from rotor.arrays import Array
 from rotor.compiled import compiled
 from rotor.engine.waves import waves_at

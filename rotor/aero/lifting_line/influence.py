@@ -264,12 +264,11 @@ def _seen(
     n, bound = line.panels, slice(wake.rows[2], wake.rows[3])
     rows = np.zeros((wake.rows[-1], line.azimuths, targets.shape[1]), dtype=np.float32)
     for b, (first, place) in enumerate(zip(azimuths.tolist(), places.tolist(), strict=True)):
-        core, mine = np.full(targets.shape[1], LEAST_CORE**4, dtype=np.float32), np.flatnonzero(seen == b)
-        on_it = slice(mine[0] * n, mine[0] * n + n) if len(mine) else slice(0, 0)
-        core[on_it] = own
-        before = rows[bound, :, on_it].copy()
+        core, on_it = np.full(targets.shape[1], LEAST_CORE**4, dtype=np.float32), np.repeat(seen == b, n)
+        core[on_it] = own[: on_it.sum()]
+        before = rows[bound][:, :, on_it]
         _sum_lines(targets, wake.ends[place], wake.core, core, wake.places, wake.shares, first, rows)
-        rows[bound, :, on_it] = before  # A blade's own bound line has no downwash on it.
+        rows[bound][:, :, on_it] = before  # A blade's own bound line has no downwash on it.
     return _by_panels(line, wake, rows) / (4.0 * math.pi)
 
 

@@ -1,0 +1,41 @@
+"""Where the wake of a lifting line lies: along the trim of the same rotor with linear inflow and its blade as built.
+
+That trim knows the tilt, the flapping and the mean inflow, and nothing of the twist that is being designed. So one wake
+serves all twists of a condition, and the gradient by twist is exact. Laid along the trim found with it, power moves by
+less than 0.05 % (tested).
+"""
+
+from dataclasses import replace
+from functools import lru_cache
+
+from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.aero.problem import Problem
+from rotor.design.design import Design
+from rotor.trim.forward import linear_problem, trim
+from rotor.trim.newton import TrimResult
+
+def with_course(problem: Problem) -> Problem:
+    """The problem with the course of its wake; itself where the inflow has none, and in hover."""
+    design = problem.design
+    if design.hovering or not problem.inflow.fine_tip:
+        return problem
+    models = replace(design.models, elastic_twist=False)
+    course = _course(replace(design, twist=design.rotor.builtin_twist, active_twist=None, models=models))
+    return problem if course is None else replace(problem, course=course)
+
+
+@lru_cache(maxsize=64)
+def _course(design: Design) -> WakeCourse | None:
+    """Along the trim of a design with linear inflow; None where it has none."""
+    problem = linear_problem(design)
+    found = trim(problem)
+    return along(found, problem.course) if found.converged else None
+
+
+def along(found: TrimResult, course: WakeCourse) -> WakeCourse:
+    """The course along a trim."""
+    flow, state = found.linear.elements.flow, found.state
+    return replace(
+        course, mu_x=flow.mu_x, mu_z=flow.mu_z, lambda0=flow.lambda0, coning=state.coning, flap_1c=state.flap_1c,
+        flap_1s=state.flap_1s,
+    )  # fmt: skip
