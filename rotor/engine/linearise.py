@@ -437,7 +437,7 @@ def transposed(point: Point, v: Array, measure: Measure | None = None) -> tuple[
     structure, grid, z, q, shapes = point.system.structure, point.grid, point.z, point.q, point.system.shapes
     measure = measure or Measure()
     equations, nodes = len(structure.equations), point.system.nodes
-    v, own = v[:equations], v[equations:]
+    v, on_nodes = v[:equations], v[equations:]
     on_q, on_z = structure.residual.transposed(v, z, q)
     for closure, matrix, by_atoms in point.closures:
         on_q[closure.measures] -= v[closure.rows] @ matrix
@@ -451,7 +451,7 @@ def transposed(point: Point, v: Array, measure: Measure | None = None) -> tuple[
     along, by_element = np.zeros((len(shapes.phi), grid.waves.azimuths)), np.empty(point.channels.shape[:2])
     by_force, shape = dict(measure.forces), point.forces.shape[1:]
     if nodes is not None:
-        by_force[nodes.force] = by_force.get(nodes.force, 0.0) - own.reshape(shape)
+        by_force[nodes.force] = by_force.get(nodes.force, 0.0) - on_nodes.reshape(shape)
     rows = structure.slope_rows(tuple(by_force), () if nodes is None else (nodes.channel,))
     arrays = point.phi, shapes.psi, structure.first_row, structure.first_weight, point.slopes, rows
     forces, channels = _stack(by_force, point.forces.shape), _stack(measure.channels, point.channels.shape)
@@ -468,10 +468,10 @@ def transposed(point: Point, v: Array, measure: Measure | None = None) -> tuple[
     by_free = _by_free(structure, on_z[None, structure.first_state :], point.by_roots)[0]
     if nodes is not None:
         if measure.nodes is not None:
-            field = field + measure.nodes
-        by_nodes = own + field.ravel() @ nodes.matrix
+            field += measure.nodes
+        by_nodes = on_nodes + field.ravel() @ nodes.matrix
         if nodes.smoothing is not None:
-            weighted = np.pad(nodes.smoothing * own.reshape(shape), ((1, 1), (0, 0)))
+            weighted = np.pad(nodes.smoothing * on_nodes.reshape(shape), ((1, 1), (0, 0)))
             by_nodes -= (weighted[2:] - 2.0 * weighted[1:-1] + weighted[:-2]).ravel()
         by_free = np.concatenate([by_free, by_nodes])
     return by_free, by_element

@@ -24,7 +24,7 @@ from rotor.columns.flight import SWIRL, SWIRL_SLOPE, flight_system
 from rotor.columns.hover import turning_of
 from rotor.columns.trims import drag_terms
 from rotor.engine.linearise import Measure, evaluate, jacobian, transposed
-from rotor.engine.newton import Factors
+from rotor.engine.newton import Factors, solve_transposed
 from rotor.engine.terms import ONE, Structure, Terms
 from rotor.engine.waves import COS, SIN, STEADY
 from rotor.trim.hover import HoverResult, hover
@@ -95,7 +95,9 @@ class Adjoint:
                 coordinates = solution.elastic.coordinates[:, 0] if solution.elastic is not None else None
                 self._own: _Linear | WakeAdjoint = WakeAdjoint(problem, solution.wake.state, coordinates)
             else:
-                self._own = _Linear(solution.linear or _linearised(solution))
+                start, linear = solution.start, solution.linear or _linearised(solution)
+                same = start is not None and start.structure == linear.point.system.structure.name
+                self._own = _Linear(linear, start.factors if same else None)
         self.problem: Problem = self._own.problem
 
     @property
@@ -149,8 +151,10 @@ def _linearised(solution: Solution) -> LinearisedTrim:
 class _Linear:
     """A linearised trim with its factors: what every adjoint of one solution shares."""
 
-    def __init__(self, trim: LinearisedTrim) -> None:
+    def __init__(self, trim: LinearisedTrim, near: Factors | None = None) -> None:
+        """near: factors of a Jacobian nearby, of the same equations."""
         self.trim, self.problem, self.point = trim, trim.problem, trim.point
+        self._near = near if trim.point.system.nodes is not None else None
 
     @property
     def elements(self) -> BladeElements:
@@ -166,7 +170,9 @@ class _Linear:
         """∂(measure)/∂θ by element, and slopes by every channel at every element, the states following."""
         point, structure = self.point, self.point.system.structure
         multipliers = np.zeros(len(point.system.free))
-        if len(multipliers):
+        if len(multipliers) and (near := self._from_near(measure)) is not None:
+            multipliers = near
+        elif len(multipliers):
             factors, power = self._linearised
             of_power = measure.terms is self.power_terms and not (measure.forces or measure.channels or measure.parts)
             slopes = power if of_power else transposed(point, multipliers, measure)[0]
@@ -177,6 +183,13 @@ class _Linear:
             return found, by_channel
         steady = [structure.equations["twist", k, 0] for k in range(len(torsion.gain))]
         return found - multipliers[steady] @ (torsion.gain[:, None] * torsion.tension), by_channel
+
+    def _from_near(self, measure: Measure) -> Array | None:
+        """J⁻ᵀ times the slopes of a measure, from factors nearby; None without, and where they are not near."""
+        if self._near is None or not self._near.usable:
+            return None
+        slopes = transposed(self.point, np.zeros(len(self.point.system.free)), measure)[0]
+        return solve_transposed(self.point, slopes, self._near)
 
     def flight_measure(self, weights: Weights) -> Measure:
         """Weights as the engine takes them."""

@@ -175,7 +175,11 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
         return result
     smoothed = replace(system, nodes=replace(system.nodes, smoothing=_stalled_nodes(result.point)))
     again = _ended(problem, solve(smoothed, result.point.x, None, limits), options)
-    return replace(again, passes=result.passes + again.passes) if again.converged else result
+    passes = result.passes + again.passes
+    if not again.converged:
+        return replace(result, passes=passes)
+    sharp = _ended(problem, solve(system, again.point.x, again.factors, limits), options)
+    return replace(sharp if sharp.converged else again, passes=passes + sharp.passes)
 
 
 def _ended(problem: Problem, found: Solved, options: SolverOptions) -> TrimResult:
