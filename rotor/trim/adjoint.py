@@ -125,7 +125,7 @@ class Adjoint:
         around = np.ones(shape) / shape[1]
         hovering = Weights(
             fz=-(on_inflow @ difference.axial)[:, None] * around, inflow=on_inflow[:, None] * around,
-            swirl=on_swirl[:, None] * around,
+            u_t=-(on_inflow @ difference.by_speed)[:, None] * around, swirl=on_swirl[:, None] * around,
         )  # fmt: skip
         own = _difference_adjoint(difference)
         if isinstance(own, WakeAdjoint):

@@ -43,6 +43,8 @@ class HoverDifference:
     """The unknowns of the free wake, where hover is solved with one."""
     axial: Array
     """A_0, from the load of hover to the mean inflow, (elements, elements)."""
+    by_speed: Array
+    """∂(A_0 d)/∂U_T, (elements, elements)."""
     inflow: Array
     """c, λ_hover − A_0 d_hover."""
     swirl: Array
@@ -59,11 +61,12 @@ def hover_difference(design: Design) -> HoverDifference | None:
     elements = found.elements if isinstance(found, HoverWakeResult) else found.linear.elements
     disk = problem.disk
     flow = Wake(0.0, problem.climb, elements.state.lambda0)
-    axial = problem.inflow_terms.axial(flow)
+    load = elements.fz[:, 0]
+    axial, slope = problem.inflow_terms.axial(flow, elements.u_t[:, 0])
     uniform, _ = swirl_of(disk.r, flow.lambda0**2 + flow.lambda0 * flow.mu_z if design.models.has("swirl") else 0.0)
     wake = found.wake.state if isinstance(found, HoverWakeResult) and found.wake is not None else None
-    inflow = elements.induced[:, 0] - axial @ elements.fz[:, 0]
-    return HoverDifference(found, problem, elements, wake, axial, inflow, elements.swirl - uniform)
+    inflow = elements.induced[:, 0] - axial @ load
+    return HoverDifference(found, problem, elements, wake, axial, slope * load, inflow, elements.swirl - uniform)
 
 
 def axial_share(mu: float, thrust: float) -> float:

@@ -133,8 +133,11 @@ class InflowTerms(Protocol):
         """Unknowns at every point of the grid; tolerance: of these, thrust: C_T, for the size of steps. None without."""
         ...
 
-    def axial(self, wake: Wake) -> Array:
-        """The matrix from an axisymmetric load to the mean inflow around the azimuth, (elements, elements)."""
+    def axial(self, wake: Wake, u_t: Array) -> tuple[Array, Array]:
+        """The matrix from an axisymmetric load to the mean inflow in axial flow, and its slopes by U_T at the load.
+
+        (elements, elements) both; u_t: U_T, (elements,).
+        """
         ...
 
 

@@ -137,7 +137,10 @@ class LiftingLineTerms(Stateless):
         shape = np.sqrt(np.maximum(1.0 - np.square(self.line.r), 0.0))
         return np.repeat(2.2 * thrust * shape, self.line.azimuths)
 
-    def axial(self, wake: Wake) -> Array:
-        """From an axisymmetric load in axial flow to the mean inflow."""
+    def axial(self, wake: Wake, u_t: Array) -> tuple[Array, Array]:
+        """Through the circulation of the load."""
         course = replace(self.course, mu_x=wake.mu_x, mu_z=wake.mu_z, lambda0=wake.lambda0, flap_1c=0.0, flap_1s=0.0)
-        return mean_influence(self.line, course) * (math.pi / self.line.blades) / self.line.r
+        matrix = mean_influence(self.line, course) * (math.pi / self.line.blades)
+        gain, slope = np.empty((len(u_t), 1)), np.empty((len(u_t), 1))
+        circulation_gain(u_t[:, None], gain, slope)
+        return matrix * gain.T, matrix * slope.T

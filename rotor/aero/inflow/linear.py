@@ -125,9 +125,9 @@ class LinearTerms(Stateless):
             loss = found[0], found[2:]
         return Followed(strengths, {(LOSS, "loss"): loss})
 
-    def axial(self, wake: Wake) -> Array:
+    def axial(self, wake: Wake, u_t: Array) -> tuple[Array, Array]:
         """Zero: the load does not change it."""
-        return np.zeros((len(self._disk.r),) * 2)
+        return np.zeros((len(u_t),) * 2), np.zeros((len(u_t),) * 2)
 
 
 def _zero(wake: Wake) -> Gradient:

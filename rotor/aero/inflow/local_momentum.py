@@ -177,6 +177,6 @@ class SectorTerms(Stateless):
         by_axial = -gain * factor_slope / factor
         return gain, -np.outer(flow.slopes[1] / flow.speed, gain) + np.outer([0.0, 1.0, 1.0], by_axial)
 
-    def axial(self, wake: Wake) -> Array:
+    def axial(self, wake: Wake, u_t: Array) -> tuple[Array, Array]:
         """Diagonal: 1/(4 r F V)."""
-        return np.diag(self._gain(wake)[0])
+        return np.diag(self._gain(wake)[0]), np.zeros((len(u_t),) * 2)

@@ -156,7 +156,7 @@ class WakeTerms(Stateless):
         """Coefficients nearest to a field."""
         return self.theory.nearest(field)
 
-    def axial(self, wake: Wake) -> Array:
+    def axial(self, wake: Wake, u_t: Array) -> tuple[Array, Array]:
         """Through the steady terms."""
         theory = self.theory
         steady = [t for t, (_, around) in enumerate(theory.names) if around == STEADY]
@@ -164,4 +164,5 @@ class WakeTerms(Stateless):
         own = [theory.names[t][0] for t in steady]
         over = theory.over_factor(wake)[0] if theory.factor else np.ones(self._elements)
         shapes = np.array([theory.shapes[k] for k in own]) * over
-        return shapes.T @ made[np.ix_(steady, steady)] @ np.array([theory.gathering[k] for k in own]) * self._dr
+        matrix = shapes.T @ made[np.ix_(steady, steady)] @ np.array([theory.gathering[k] for k in own]) * self._dr
+        return matrix, np.zeros((len(u_t),) * 2)

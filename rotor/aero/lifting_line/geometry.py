@@ -6,7 +6,8 @@ Beddoes' inflow (22nd European Rotorcraft Forum, 1985; Leishman, Principles of H
     inside the disk    dz/dt = −µ_z − λ0 (1 + E x − E |y|³)
     behind it          dz/dt = −µ_z − 2 λ0 (1 − E |y|³),        E = χ/2,  χ = atan2(µ_x, µ_z + λ0)
 
-t is ψ_b − ψ for the blade at ψ_b now. Nothing rolls up or contracts. At µ = 0 this is the helix of momentum theory.
+t is ψ_b − ψ for the blade at ψ_b now. Nothing rolls up or contracts. Below µ_x = 1.5 √(C_T/2) it passes over to the
+helix of momentum theory at µ = 0, dz/dt = −µ_z − λ0: at no speed nothing lies behind the disk.
 Axes of the shaft, over R: x aft, y to starboard, z up; velocities over ΩR.
 """
 
@@ -42,6 +43,12 @@ class WakeCourse:
         """With which a wake leaves."""
         return math.hypot(self.mu_x, self.axial)
 
+    @property
+    def skewed(self) -> float:
+        """0 for the helix of hover, 1 for the wake of forward flight, and smoothly between; C_T is 2 λ0 V."""
+        share = min(self.mu_x / (1.5 * math.sqrt(max(self.lambda0, 1e-9) * self.speed)), 1.0)
+        return share * share * (3.0 - 2.0 * share)
+
     def flapping(self, psi: Array) -> Array:
         """β(ψ) [rad], shape of psi."""
         return self.coning + self.flap_1c * np.cos(psi) + self.flap_1s * np.sin(psi)
@@ -58,6 +65,7 @@ class WakeCourse:
             inside = np.minimum((np.sqrt(np.maximum(1.0 - y * y, 0.0)) - begin) / self.mu_x, inside)
             inside = np.maximum(inside, 0.0)
         sunk = (1.0 - skew * outward) * (2.0 * t - inside) + skew * inside * (begin + 0.5 * self.mu_x * inside)
+        sunk = t + self.skewed * (sunk - t)
         z = self.flapping(released)[..., None] * r - self.mu_z * t - self.lambda0 * sunk
         return np.stack([begin + self.mu_x * t, y, z], axis=-1)
 
