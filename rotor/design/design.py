@@ -103,9 +103,9 @@ class Models:
     document_losses: bool = False
     """Only the losses that the document has: whatever the switches of `BEYOND_DOCUMENT` say."""
     elements: int = 40
-    """Blade elements, equally wide (eq. 3.14)."""
+    """Blade elements, equally wide (eq. 3.14), unless the inflow model has a grid of its own."""
     azimuths: int = 120
-    """Azimuth stations."""
+    """Azimuth stations; an inflow model with a grid of its own may be solved on fewer."""
 
     def has(self, name: str) -> bool:
         """Whether one of the switches is on and belongs to these models."""

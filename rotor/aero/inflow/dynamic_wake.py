@@ -11,7 +11,7 @@ from functools import cache, lru_cache
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import InflowModel, Wake
+from rotor.aero.inflow.interface import GridAsAsked, InflowModel, Wake
 from rotor.aero.inflow.peters_he import flow_parameters
 from rotor.aero.inflow.wake_projection import Projection, build_projection
 from rotor.aero.inflow.wake_terms import WakeTerms
@@ -120,7 +120,7 @@ def _theory(wake: DynamicWake, root: float, elements: int) -> DynamicWakeTheory:
 
 
 @dataclass(frozen=True)
-class DynamicWakeInflow:
+class DynamicWakeInflow(GridAsAsked):
     """Peters–He with the rotor's own blade number, or with infinitely many blades."""
 
     name: str

@@ -17,6 +17,7 @@ import numpy as np
 from rotor.aero.disk import Disk
 from rotor.aero.section import CHANNELS, FORCES, PAIRS, section
 from rotor.arrays import Array
+from rotor.design.design import Models
 from rotor.engine.linearise import Closure
 from rotor.engine.terms import Shape, Structure
 
@@ -147,6 +148,17 @@ class Stateless:
         return np.zeros(0)
 
 
+class GridAsAsked:
+    """The part of `InflowModel` that is the same for all models that are solved on the grid asked for."""
+
+    fine_tip = False
+
+    def grid(self, models: Models, blades: int) -> tuple[int, int]:
+        """That of the models, of equally wide elements."""
+        del blades
+        return models.elements, models.azimuths
+
+
 class InflowModel(Protocol):
     """A forward-flight inflow model."""
 
@@ -172,6 +184,15 @@ class InflowModel(Protocol):
         With a model that does not, Prandtl's factor multiplies the section lift; one that does has tip losses of its
         own.
         """
+        ...
+
+    @property
+    def fine_tip(self) -> bool:
+        """Whether it needs elements that are finer towards the tip; otherwise they are equally wide."""
+        ...
+
+    def grid(self, models: Models, blades: int) -> tuple[int, int]:
+        """Elements and azimuths on which it is solved."""
         ...
 
     def without_tip_loss(self) -> "InflowModel":

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import PLAIN, Followed, Stateless, Wake
+from rotor.aero.inflow.interface import PLAIN, Followed, GridAsAsked, Stateless, Wake
 from rotor.aero.losses import mean_loss_factor
 from rotor.aero.section import LOSS, UP
 from rotor.arrays import Array
@@ -30,7 +30,7 @@ _COS, _SIN = np.cos(_PSI), np.sin(_PSI)
 
 
 @dataclass(frozen=True)
-class LinearInflow:
+class LinearInflow(GridAsAsked):
     """A first-harmonic inflow model."""
 
     name: str

@@ -12,7 +12,7 @@ from functools import lru_cache
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import Wake
+from rotor.aero.inflow.interface import GridAsAsked, Wake
 from rotor.aero.inflow.wake_terms import WakeTerms
 from rotor.arrays import Array
 from rotor.compiled import compiled
@@ -285,7 +285,7 @@ PANELS, AZIMUTHS = 16, 36
 
 
 @dataclass(frozen=True)
-class VortexWakeInflow:
+class VortexWakeInflow(GridAsAsked):
     """Rigid skewed helical vortex lattice of the rotor's own blades."""
 
     name = "vortex-wake"
