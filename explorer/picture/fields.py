@@ -86,7 +86,9 @@ def _cl(solution: Solution, grid: PolarGrid) -> Array:
     """Weighted by M²: lift per chord is smooth across the reverse-flow circle, its coefficient is not."""
     disk = solution.disk
     weight = disk.mach**2
-    return grid.refine(weight * disk.cl) / np.maximum(grid.refine(weight), 1e-4)
+    found = grid.refine(weight * disk.cl) / np.maximum(grid.refine(weight), 1e-4)
+    # Run on over half a wide element at the root, the weight may come near zero.
+    return np.clip(found, disk.cl.min(), disk.cl.max())
 
 
 def _m2cn(solution: Solution, grid: PolarGrid) -> Array:

@@ -91,6 +91,11 @@ def stations(root: float, elements: int, fine_tip: bool) -> tuple[Array, Array]:
     return along(steps), along(steps[:-1] + 0.5)
 
 
+def azimuths_of(count: int) -> Array:
+    """Evenly spaced azimuths [rad] from 0, (count,)."""
+    return 2.0 * math.pi * np.arange(count) / count
+
+
 @lru_cache(maxsize=16)
 def build_disk(
     rotor: Rotor,
@@ -108,7 +113,7 @@ def build_disk(
     """
     blade = rotor.blade
     edges, r = stations(blade.root_cutout, elements, fine_tip)
-    psi = 2.0 * math.pi * np.arange(azimuths) / azimuths
+    psi = azimuths_of(azimuths)
 
     names = tuple(dict.fromkeys(span.section for span in blade.spans))
     installed = [blade.installed(name) for name in names]

@@ -71,6 +71,10 @@ class BladeElements:
     u_t: Array
     u_p: Array
     u_r: Array
+    loss: Array
+    """F"""
+    rate: Array
+    """dθ/dψ"""
     beta: Array
     """Flapping angle, (azimuths,)."""
     induced: Array

@@ -1,13 +1,13 @@
 """A design on its grid: the arrays and coefficients that no iteration changes."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from rotor.aero.disk import Disk, build_disk
+from rotor.aero.disk import Disk, azimuths_of, build_disk
 from rotor.aero.elastic import BladeTorsion, build_torsion, highest_harmonic
 from rotor.aero.inflow import InflowModel, Wake, inflow_model
 from rotor.aero.inflow.interface import InflowTerms
@@ -103,7 +103,7 @@ def build_problem(design: Design) -> Problem:
         inflow = inflow.without_tip_loss()
     disk = build_disk(
         rotor,
-        *inflow.grid(models, rotor.blades),
+        *grid_of(design),
         None if models.compressibility else LOW_MACH,
         models.has("swept_tip"),
         models.has("surface_drag"),
@@ -117,8 +117,7 @@ def build_problem(design: Design) -> Problem:
     weight += down
     twist, flap = design.twist(disk.r), flap_dynamics(rotor, condition.density, blade_weight=models.blade_weight)
     active = design.active_twist if not design.hovering else None
-    still = np.zeros((1, 1))
-    active_field, *rates = [active(disk.r, disk.psi, order) if active else still for order in range(3)]
+    active_field, *rates = _active_twist(design, disk)
     torsion = None
     if models.has("elastic_twist") and rotor.blade.structure is not None:
         torsion = build_torsion(
@@ -144,13 +143,42 @@ def build_problem(design: Design) -> Problem:
         expected=wake,
         course=expected_course(design, wake, flap),
         friction=skin_friction(_reynolds(design)) if models.has("radial_friction") else 0.0,
-        unloaded=None if models.reverse_flow else disk.r[:, None] + condition.advance_ratio * disk.sin < 0.0,
+        unloaded=_unloaded(design, disk),
         torsion=torsion,
         active_rates=(rates[0], rates[1]),
         given_torsion=np.zeros(0)
         if torsion is None
         else _given_torsion(torsion, twist, active_field if active else None, rates[1]),
     )
+
+
+def grid_of(design: Design) -> tuple[int, int]:
+    """Elements and azimuths on which a design is solved."""
+    return inflow_model(design.models.inflow).grid(design.models, design.rotor.blades)
+
+
+def on_azimuths(problem: Problem, azimuths: int) -> Problem:
+    """The problem on the same elements and another number of azimuths."""
+    psi = azimuths_of(azimuths)
+    disk = replace(problem.disk, psi=psi, cos=np.cos(psi), sin=np.sin(psi))
+    active, *rates = _active_twist(problem.design, disk)
+    return replace(
+        problem, disk=disk, active=active, active_rates=(rates[0], rates[1]), unloaded=_unloaded(problem.design, disk)
+    )
+
+
+def _active_twist(design: Design, disk: Disk) -> list[Array]:
+    """θ_act and its first two derivatives by ψ, (elements, azimuths) each, or (1, 1) without active twist."""
+    active = design.active_twist if not design.hovering else None
+    still = np.zeros((1, 1))
+    return [active(disk.r, disk.psi, order) if active else still for order in range(3)]
+
+
+def _unloaded(design: Design, disk: Disk) -> Booleans | None:
+    """Elements that carry no load, see `Problem`."""
+    if design.models.reverse_flow:
+        return None
+    return disk.r[:, None] + design.condition.advance_ratio * disk.sin < 0.0
 
 
 def _given_torsion(torsion: BladeTorsion, twist: Array, active: Array | None, acceleration: Array) -> Array:

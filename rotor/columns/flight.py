@@ -305,8 +305,7 @@ def elements_of(problem: Problem, point: Point) -> BladeElements:
         around = coordinates @ wave_grid(torsion.functions, c.shape[2]).at
         twist = TwistState(coordinates.copy(), torsion.radial.T @ around, f[M])
     return BladeElements(
-        state=state_of(structure, x), flow=flow.flow(x), theta=c[TH], u_t=c[UT],
-        u_p=c[UP] + own, u_r=c[UR], beta=_flapping(problem, x, structure), induced=induced, swirl=swirl,
-        fz=f[FZ], fx=f[FX], fr=f[FR], alpha=s[ALPHA], mach=s[MACH], cl=s[CL], cd=s[CD], cd_mach=s[CD_MACH],
-        torsion=twist,
+        state=state_of(structure, x), flow=flow.flow(x), theta=c[TH], u_t=c[UT], u_p=c[UP] + own, u_r=c[UR],
+        loss=c[LOSS], rate=c[RATE], beta=_flapping(problem, x, structure), induced=induced, swirl=swirl, fz=f[FZ],
+        fx=f[FX], fr=f[FR], alpha=s[ALPHA], mach=s[MACH], cl=s[CL], cd=s[CD], cd_mach=s[CD_MACH], torsion=twist,
     )  # fmt: skip

@@ -284,7 +284,7 @@ def hover_elements(problem: Problem, point: Point) -> BladeElements:
     zero = np.zeros(disk.shape)
     return BladeElements(
         state=state, flow=Wake(0.0, problem.climb, state.lambda0), theta=everywhere(own[TH]),
-        u_t=everywhere(own[UT]), u_p=everywhere(own[UP]), u_r=zero,
+        u_t=everywhere(own[UT]), u_p=everywhere(own[UP]), u_r=zero, loss=np.ones(disk.shape), rate=zero,
         beta=np.full(azimuths, coning), induced=everywhere(inflow), swirl=disk.r - own[UT], fz=everywhere(f[FZ, :, 0]),
         fx=everywhere(f[FX, :, 0]), fr=zero, alpha=everywhere(s[ALPHA, :, 0]), mach=everywhere(s[MACH, :, 0]),
         cl=everywhere(s[CL, :, 0]), cd=everywhere(s[CD, :, 0]), cd_mach=everywhere(s[CD_MACH, :, 0]), torsion=twist,

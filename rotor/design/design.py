@@ -102,10 +102,10 @@ class Models:
     falls to zero."""
     document_losses: bool = False
     """Only the losses that the document has: whatever the switches of `BEYOND_DOCUMENT` say."""
-    elements: int | None = None
-    """Blade elements, equally wide (eq. 3.14) or the panels of a lifting line; None: as many as the inflow needs."""
-    azimuths: int | None = None
-    """Azimuth stations; None: as many as the inflow needs."""
+    elements: int = 40
+    """Blade elements, equally wide (eq. 3.14), unless the inflow model has a grid of its own."""
+    azimuths: int = 120
+    """Azimuth stations; an inflow model with a grid of its own may be solved on fewer."""
 
     def has(self, name: str) -> bool:
         """Whether one of the switches is on and belongs to these models."""

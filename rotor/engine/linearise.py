@@ -322,7 +322,9 @@ def _add_smoothing(matrix: Array, smoothing: Array) -> None:
 def _force_slope(point: Point, force: int, channel: int) -> Array:
     """∂f/∂c of one force by one channel, (elements, azimuths); 0 where the force has none."""
     pairs = point.system.structure.pairs
-    return point.slopes[pairs.index((force, channel))] if (force, channel) in pairs else np.zeros(point.forces.shape[1:])
+    return (
+        point.slopes[pairs.index((force, channel))] if (force, channel) in pairs else np.zeros(point.forces.shape[1:])
+    )
 
 
 def _measures_by_channel(point: Point, channel: int) -> Array:

@@ -11,7 +11,6 @@ from rotor.design.design import Design
 from rotor.design.stand import LARGEST_CT_OVER_SIGMA, Stand
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult, newton
 
-
 LINEAR = "pitt-peters"
 """The linear inflow along whose trim the wake of a lifting line lies, and from which it starts below `FAST`."""
 FAST = 0.25
@@ -53,7 +52,7 @@ def trim_along(problem: Problem, options: SolverOptions = DEFAULT_OPTIONS) -> Tr
 
 def linear_problem(design: Design) -> Problem:
     """The design with a linear inflow."""
-    return build_problem(replace(design, models=replace(design.models, inflow=LINEAR, elements=None, azimuths=None)))
+    return build_problem(replace(design, models=replace(design.models, inflow=LINEAR)))
 
 
 def _linear_guess(problem: Problem) -> Guess | None:

@@ -181,7 +181,8 @@ def over_disk(problem: Problem, at: WakeEvaluation, elastic: Array | None = None
     return BladeElements(
         state=state, flow=Wake(0.0, problem.climb, state.lambda0),
         theta=everywhere(as_flown(problem, elastic).twist + collective), u_t=everywhere(disk.r - at.swirl),
-        u_p=everywhere(at.inflow + problem.climb), u_r=zero, beta=np.full(len(disk.psi), coning),
+        u_p=everywhere(at.inflow + problem.climb), u_r=zero, loss=np.ones(disk.shape),
+        rate=zero, beta=np.full(len(disk.psi), coning),
         induced=everywhere(at.inflow), swirl=at.swirl, fz=everywhere(loads[line.FZ]), fx=everywhere(loads[line.FX]),
         fr=zero, alpha=everywhere(loads[line.ALPHA]), mach=everywhere(loads[line.MACH]),
         cl=everywhere(loads[line.CL]), cd=everywhere(loads[line.CD]), cd_mach=everywhere(loads[line.CD_MACH]),

@@ -25,8 +25,8 @@ from rotor.aero.problem import Problem, build_problem, swirl_of
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.trim.hover import HoverResult, hover
-from rotor.trim.wake_course import with_course
 from rotor.trim.hover_wake import HoverWakeResult, hover_wake
+from rotor.trim.wake_course import with_course
 
 FASTEST = 1.5
 """µ̄ from which on forward flight owes nothing to hover: µ 0.087 for a UH-60A at sea level. Our choice."""

@@ -49,7 +49,10 @@ class Caveat:
 
 @dataclass(frozen=True, eq=False)
 class DiskFields:
-    """The flow and the loads over the disk; arrays are (elements, azimuths) unless said otherwise."""
+    """The flow and the loads over the disk; arrays are (elements, azimuths) unless said otherwise.
+
+    On at least the azimuths that the models ask for, also where the trim was solved on fewer.
+    """
 
     r: Array
     """Element centres y/R, (elements,)."""

@@ -4,6 +4,7 @@ import math
 import time
 from dataclasses import replace
 
+from rotor.aero.display import areas, as_asked
 from rotor.aero.elements import BladeElements, disk_sums
 from rotor.aero.problem import Problem
 from rotor.aero.section import stall_margins
@@ -88,18 +89,19 @@ def _assemble(problem: Problem, result: HoverResult | HoverWakeResult | TrimResu
     design, linear = problem.design, None if isinstance(result, HoverWakeResult) else result.linear
     elements = result.elements if isinstance(result, HoverWakeResult) else result.linear.elements
     total = disk_sums(problem.disk, elements)
-    fields = _fields(problem, elements)
+    shown = as_asked(problem, elements)
+    fields = _fields(*shown)
     power = power_budget(problem, elements, total)
     moment = hub_moment(problem, elements)
     lift, drag = wind_forces(elements, total)
     newtons = design.thrust_unit
-    area = _areas(problem, fields)
+    reverse, stalled = areas(shown[0].disk, shown[1], fields.stall_margin)
     converged = result.converged
     wake = result if isinstance(result, HoverWakeResult) else None
     message = "Trimmed."
     if not converged:
         message = wake.message if wake is not None else ""
-        message = message or vortex_ring(design) or failure_sentence(design, result.reached, _stalled(result, area))
+        message = message or vortex_ring(design) or failure_sentence(design, result.reached, _stalled(result, stalled))
     if converged and (refused := implausible(problem, elements, total)):
         converged, message = False, refused
     climb = design.condition.climb_speed
@@ -114,9 +116,7 @@ def _assemble(problem: Problem, result: HoverResult | HoverWakeResult | TrimResu
         design=design,
         status=Status.CONVERGED if converged else Status.NOT_CONVERGED,
         message=message,
-        caveats=caveats(problem, elements, total, fields.stall_margin, area["stalled"], moment, power)
-        if converged
-        else (),
+        caveats=caveats(problem, elements, total, fields, stalled, moment, power) if converged else (),
         controls=elements.state,
         disk=fields,
         last_power=power,
@@ -124,12 +124,12 @@ def _assemble(problem: Problem, result: HoverResult | HoverWakeResult | TrimResu
         ct=total.thrust,
         lift_and_drag=(lift * newtons, drag * newtons),
         cp=power.main_rotor / (newtons * design.rotor.tip_speed),
-        reverse_flow_area=area["reverse"],
-        stalled_area=area["stalled"],
+        reverse_flow_area=reverse,
+        stalled_area=stalled,
         residual=result.residual,
         passes=result.passes,
         elapsed=time.perf_counter() - begin,
-        elastic=_elastic(problem, elements),
+        elastic=_elastic(problem, elements, shown),
         settled=wake is None or wake.settled,
         wake=wake and wake.wake,
         start=result.guess,
@@ -137,17 +137,20 @@ def _assemble(problem: Problem, result: HoverResult | HoverWakeResult | TrimResu
     )
 
 
-def _elastic(problem: Problem, elements: BladeElements) -> ElasticTwist | None:
+def _elastic(problem: Problem, elements: BladeElements, shown: tuple[Problem, BladeElements]) -> ElasticTwist | None:
+    """shown: both on the azimuths of the solution."""
     structure = problem.design.rotor.blade.structure
     if problem.torsion is None or elements.torsion is None or structure is None:
         return None
     coordinates, torsion = elements.torsion.coordinates, problem.torsion
-    moment, power = control_loads(problem, elements)
+    moment, power = control_loads(*shown)
+    if shown[0] is not problem:
+        _, power = control_loads(problem, elements)
     return ElasticTwist(
         coordinates=coordinates,
         shapes=torsion.radial,
         frequencies=torsion.frequency,
-        tip=coordinates.sum(axis=0) @ wave_grid(torsion.functions, len(problem.disk.psi)).at,
+        tip=coordinates.sum(axis=0) @ wave_grid(torsion.functions, len(shown[0].disk.psi)).at,
         along_blade=elements.torsion.twist.mean(axis=1),
         control_moment=moment,
         pitch_link_load=moment / structure.pitch_horn,
@@ -178,19 +181,10 @@ def _fields(problem: Problem, elements: BladeElements) -> DiskFields:
     )
 
 
-def _stalled(result: HoverResult | HoverWakeResult | TrimResult, area: dict[str, float]) -> float:
-    """Stalled part of the disk at the nearest trim found; without one in the last attempt, whose areas are given."""
+def _stalled(result: HoverResult | HoverWakeResult | TrimResult, last: float) -> float:
+    """Stalled part of the disk at the nearest trim found; without one `last`, in the last attempt."""
     near = result.nearest if isinstance(result, TrimResult) else None
-    return (
-        area["stalled"]
-        if near is None
-        else _areas(near.problem, _fields(near.problem, near.linear.elements))["stalled"]
-    )
-
-
-def _areas(problem: Problem, fields: DiskFields) -> dict[str, float]:
-    """Reverse-flow and stalled parts of πR²."""
-    annuli = problem.disk.cells
-    reverse = fields.u_t < 0.0
-    stalled = (fields.stall_margin < 0.0) & ~reverse
-    return {"reverse": float(annuli @ reverse.sum(axis=1)), "stalled": float(annuli @ stalled.sum(axis=1))}
+    if near is None:
+        return last
+    problem, elements = as_asked(near.problem, near.linear.elements)
+    return areas(problem.disk, elements, _fields(problem, elements).stall_margin)[1]

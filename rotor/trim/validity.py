@@ -15,7 +15,7 @@ from rotor.design.design import Design
 from rotor.design.stand import Stand
 from rotor.trim.forward import easier_condition
 from rotor.trim.low_speed import hover_share
-from rotor.trim.solution import Caveat, HubMoment, PowerBudget
+from rotor.trim.solution import Caveat, DiskFields, HubMoment, PowerBudget
 
 LOW_SPEED = 0.075
 """Below this advance ratio linear inflow is not trusted (thesis p. 26)."""
@@ -44,12 +44,12 @@ def caveats(
     problem: Problem,
     elements: BladeElements,
     total: DiskSums,
-    stall_margin: Array,
+    fields: DiskFields,
     stalled: float,
     moment: HubMoment,
     power: PowerBudget,
 ) -> tuple[Caveat, ...]:
-    """The limits of validity that a converged solution exceeds; `stall_margin` [rad] by (radius, azimuth)."""
+    """The limits of validity that a converged solution exceeds; `fields`: of the solution."""
     design, disk = problem.design, problem.disk
     mu = design.condition.advance_ratio
     found: list[Caveat] = []
@@ -157,14 +157,14 @@ def caveats(
         add(
             "blade-loading",
             f"C_T/σ {loading:.3f} in hover is above {HOVER_CAUTION:g}: maximum lift decides here, and power comes out "
-            f"too low. {_nearest_to_stall(stall_margin, disk.r)}",
+            f"too low. {_nearest_to_stall(fields.stall_margin, disk.r)}",
         )
     if stalled > STALL_SHARE:
         add(
             "stall",
             f"{100.0 * stalled:.1f} % of the disk is stalled; section data are steady, without dynamic stall.",
         )
-    top_mach = float(elements.mach.max())
+    top_mach = float(fields.mach.max())
     if disk.fit_range is not None:
         if top_mach > 0.5:
             add(
@@ -177,7 +177,7 @@ def caveats(
                 f"Part of the blade has the polynomials {THESIS_NAME} of one Mach number and free transition, the rest "
                 "tables with Mach number: their difference is one of data, not of airfoils.",
             )
-        clamped = _outside_fit(problem, elements, disk.fit_range)
+        clamped = _outside_fit(fields, disk.fit_range)
         if clamped > 0.0:
             add(
                 "polynomial-clamped",
@@ -308,10 +308,8 @@ def _stand_failure(design: Design, stand: Stand, reached: float, stalled: float)
     return f"Not trimmed: {what} with C_T/σ {wanted:.4f}.{how_far}{share} Lower the thrust or the advance ratio."
 
 
-def _outside_fit(problem: Problem, elements: BladeElements, fit_range: tuple[float, float]) -> float:
+def _outside_fit(fields: DiskFields, fit_range: tuple[float, float]) -> float:
     """Part of πR², reverse flow not counted, where a polynomial polar is clamped."""
-    disk = problem.disk
     low, high = fit_range
-    alpha = elements.alpha
-    outside = ((alpha < low) | (alpha > high)) & (elements.u_t >= 0.0)
-    return float(disk.cells @ outside.sum(axis=1))
+    outside = ((fields.alpha < low) | (fields.alpha > high)) & (fields.u_t >= 0.0)
+    return float(fields.cells @ outside.sum(axis=1))

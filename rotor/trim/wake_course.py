@@ -14,6 +14,7 @@ from rotor.design.design import Design
 from rotor.trim.forward import linear_problem, trim
 from rotor.trim.newton import TrimResult
 
+
 def with_course(problem: Problem) -> Problem:
     """The problem with the course of its wake; itself where the inflow has none, and in hover."""
     design = problem.design

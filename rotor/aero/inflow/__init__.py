@@ -8,7 +8,13 @@ from rotor.aero.inflow.linear import LINEAR_MODELS
 from rotor.aero.inflow.local_momentum import LocalMomentumInflow
 from rotor.aero.inflow.vortex_lattice import VortexWakeInflow
 
-_MODELS: tuple[InflowModel, ...] = (*LINEAR_MODELS, LocalMomentumInflow(), LiftingLineInflow(), *DYNAMIC_WAKES, VortexWakeInflow())
+_MODELS: tuple[InflowModel, ...] = (
+    *LINEAR_MODELS,
+    LocalMomentumInflow(),
+    LiftingLineInflow(),
+    *DYNAMIC_WAKES,
+    VortexWakeInflow(),
+)
 
 INFLOW_MODELS: dict[str, InflowModel] = {model.name: model for model in _MODELS}
 """Forward-flight inflow models by name, from the simplest to the most detailed."""

@@ -11,11 +11,11 @@ from functools import cache, lru_cache
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.lifting_line.geometry import WakeCourse
-from rotor.aero.inflow.interface import EvenElements, InflowModel, Wake
+from rotor.aero.inflow.interface import GridAsAsked, InflowModel, Wake
 from rotor.aero.inflow.peters_he import flow_parameters
 from rotor.aero.inflow.wake_projection import Projection, build_projection
 from rotor.aero.inflow.wake_terms import WakeTerms
+from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.losses import tip_factor
 from rotor.arrays import Array
 
@@ -121,7 +121,7 @@ def _theory(wake: DynamicWake, root: float, elements: int) -> DynamicWakeTheory:
 
 
 @dataclass(frozen=True)
-class DynamicWakeInflow(EvenElements):
+class DynamicWakeInflow(GridAsAsked):
     """Peters–He with the rotor's own blade number, or with infinitely many blades."""
 
     name: str

@@ -23,10 +23,6 @@ from rotor.engine.linearise import Closure, Nodes
 from rotor.engine.terms import Shape, Structure
 
 
-ELEMENTS, AZIMUTHS = 40, 120
-"""Of models without lifting lines: enough for plots and power."""
-
-
 @dataclass(frozen=True)
 class Wake:
     """Flow through the disk by momentum theory; all over ΩR."""
@@ -130,7 +126,7 @@ class InflowTerms(Protocol):
         ...
 
     def nodes(self, tolerance: float, thrust: float) -> Nodes | None:
-        """Unknowns at every point of the grid; tolerance: of these, thrust: C_T, for the size of steps. None without."""
+        """Unknowns at every point of the grid, or None; tolerance: of these, thrust: C_T, for the size of steps."""
         ...
 
     def axial(self, wake: Wake, u_t: Array) -> tuple[Array, Array]:
@@ -164,15 +160,15 @@ class Stateless:
         return None
 
 
-class EvenElements:
-    """The part of `InflowModel` that all models without lifting lines share."""
+class GridAsAsked:
+    """The part of `InflowModel` that is the same for all models that are solved on the grid asked for."""
 
     fine_tip = False
 
     def grid(self, models: Models, blades: int) -> tuple[int, int]:
-        """40 × 120 unless others are asked for."""
+        """That of the models, of equally wide elements."""
         del blades
-        return models.elements or ELEMENTS, models.azimuths or AZIMUTHS
+        return models.elements, models.azimuths
 
 
 class InflowModel(Protocol):
@@ -202,23 +198,23 @@ class InflowModel(Protocol):
         """
         ...
 
-    def without_tip_loss(self) -> "InflowModel":
-        """The model without tip loss; the model itself where tip loss is on the section lift or cannot be removed."""
-        ...
-
     @property
     def fine_tip(self) -> bool:
-        """Whether the blade elements are panels of a lifting line, which are fine at the tip, and not equally wide."""
+        """Whether the elements are panels of a lifting line, which are finer towards the tip; else equally wide."""
         ...
 
     def grid(self, models: Models, blades: int) -> tuple[int, int]:
-        """Blade elements and azimuths."""
+        """Elements and azimuths on which it is solved."""
+        ...
+
+    def without_tip_loss(self) -> "InflowModel":
+        """The model without tip loss; the model itself where tip loss is on the section lift or cannot be removed."""
         ...
 
     def on(self, disk: Disk, course: WakeCourse, losses: tuple[bool, bool]) -> InflowTerms:
         """The model on a disk.
 
-        course: along which a wake of vortices lies; losses: whether Prandtl's factors at tip
-        and hub apply, for a model that leaves them to the section lift.
+        course: along which a wake of vortices lies; losses: whether Prandtl's factors at tip and hub apply, for a model
+        that leaves them to the section lift.
         """
         ...

@@ -1,4 +1,4 @@
-"""The lifting line: every blade a line of panels, the blade elements, with a wake of its own (`rotor.aero.lifting_line`).
+"""The lifting line: each blade a line of panels, the blade elements, with its wake (`rotor.aero.lifting_line`).
 
     λ_i = A Γ,    Γ = (π/N_b) U_T F_z/max(U_T², 0.01),  0 in reverse flow        (Kutta and Joukowski)
 
@@ -25,7 +25,6 @@ from rotor.design.design import Models
 from rotor.engine.linearise import Nodes
 from rotor.engine.terms import Shape, Structure
 
-PANELS, AZIMUTHS = 24, 24
 SLOWEST = 0.1
 """|U_T| below which circulation is no longer L/U_T, which would grow without bound."""
 
@@ -71,6 +70,10 @@ _LINE = SectionInterface(_line_section, LINE_PAIRS, len(CHANNELS), len(FORCES) +
 class LiftingLineInflow:
     """Lifting lines of the rotor's own blades with the wake along the trim."""
 
+    panels: int = 24
+    azimuths: int = 24
+    """At least so many."""
+
     name = "lifting-line"
     title = "Lifting line"
     explanation = (
@@ -84,10 +87,9 @@ class LiftingLineInflow:
         return self
 
     def grid(self, models: Models, blades: int) -> tuple[int, int]:
-        """Panels, and azimuths, a multiple of the number of blades; 24 each unless others are asked for."""
-        panels = models.elements or PANELS
-        azimuths = models.azimuths or AZIMUTHS
-        return panels, -(-azimuths // blades) * blades
+        """Panels, and azimuths in a multiple of the number of blades, whatever is asked for."""
+        del models
+        return self.panels, -(-self.azimuths // blades) * blades
 
     def on(self, disk: Disk, course: WakeCourse, losses: tuple[bool, bool]) -> "LiftingLineTerms":
         """The model on a disk, with the wake on a course."""

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from rotor.aero.disk import Disk
+from rotor.aero.inflow.interface import PLAIN, Followed, GridAsAsked, Stateless, Wake
 from rotor.aero.lifting_line.geometry import WakeCourse
-from rotor.aero.inflow.interface import PLAIN, EvenElements, Followed, Stateless, Wake
 from rotor.aero.losses import mean_loss_factor
 from rotor.aero.section import LOSS, UP
 from rotor.arrays import Array
@@ -31,7 +31,7 @@ _COS, _SIN = np.cos(_PSI), np.sin(_PSI)
 
 
 @dataclass(frozen=True)
-class LinearInflow(EvenElements):
+class LinearInflow(GridAsAsked):
     """A first-harmonic inflow model."""
 
     name: str

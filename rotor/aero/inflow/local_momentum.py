@@ -18,9 +18,9 @@ from typing import Any
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.lifting_line.geometry import WakeCourse
-from rotor.aero.inflow.interface import EvenElements, Followed, SectionInterface, Stateless, Wake
+from rotor.aero.inflow.interface import Followed, GridAsAsked, SectionInterface, Stateless, Wake
 from rotor.aero.inflow.peters_he import flow_parameters
+from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.losses import tip_factor
 from rotor.aero.section import CHANNELS, FORCES, FX, FZ, LOSS, PAIRS, UP, M, section
 from rotor.arrays import Array
@@ -114,7 +114,7 @@ _SECTORS = SectionInterface(
 
 
 @dataclass(frozen=True)
-class LocalMomentumInflow(EvenElements):
+class LocalMomentumInflow(GridAsAsked):
     """The inflow at a point depends on the load at that point alone."""
 
     name = "local-momentum"

@@ -12,9 +12,9 @@ from functools import lru_cache
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.lifting_line.geometry import WakeCourse
-from rotor.aero.inflow.interface import EvenElements, Wake
+from rotor.aero.inflow.interface import GridAsAsked, Wake
 from rotor.aero.inflow.wake_terms import WakeTerms
+from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.arrays import Array
 from rotor.compiled import compiled
 from rotor.engine.waves import waves_at
@@ -286,7 +286,7 @@ PANELS, AZIMUTHS = 16, 36
 
 
 @dataclass(frozen=True)
-class VortexWakeInflow(EvenElements):
+class VortexWakeInflow(GridAsAsked):
     """Rigid skewed helical vortex lattice of the rotor's own blades."""
 
     name = "vortex-wake"

@@ -19,6 +19,7 @@ tip. All are sums over the targets that see one rotor position: the loops run al
 import math
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -133,7 +134,7 @@ def _strip_weights(line: Line) -> Array:
     edges = _groups(line.panels)
     weight = line.r * np.diff(line.edges)
     out = np.zeros((len(edges) - 1, line.panels))
-    for k, (a, b) in enumerate(zip(edges[:-1], edges[1:], strict=True)):
+    for k, (a, b) in enumerate(pairwise(edges.tolist())):
         out[k, a:b] = weight[a:b] / weight[a:b].sum()
     return out
 
@@ -259,7 +260,7 @@ def _seen(
 ) -> Array:  # fmt: skip
     """Downwash at targets on some blades, (panels, azimuths, targets).
 
-    The rotor's blades stand at `azimuths`, their wakes are those at `places` of `wake`; targets lie on the blades `seen`.
+    The blades stand at `azimuths`, their wakes are those at `places` of `wake`; targets lie on the blades `seen`.
     """
     n, bound = line.panels, slice(wake.rows[2], wake.rows[3])
     rows = np.zeros((wake.rows[-1], line.azimuths, targets.shape[1]), dtype=np.float32)
