@@ -6,12 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rotor.aero.free_wake.settle import WakeFilaments
 from rotor.arrays import Array
 from rotor.trim.solution import DiskFields, Solution
 
 _TURNS = 0.8
-"""Length of a drawn vortex, in turns of the rotor, but for those of a free wake."""
+"""Length of a drawn vortex, in turns of the rotor."""
 _POINTS = 59
 _AGES, _COLUMNS = 21, 12
 """Ages, and azimuths at which a vortex left, for which its path is computed."""
@@ -64,12 +63,10 @@ class TipVortexPath:
 
 
 def tip_vortex_path(solution: Solution) -> TipVortexPath:
-    """The vortices of a solution: those of its own free wake, else those that its inflow carries away.
+    """The vortices of a solution, which its inflow carries away.
 
     The inflow is averaged over a quarter of the radius, which is about what a tip vortex takes part in.
     """
-    if solution.wake is not None:
-        return _free_path(solution.wake)
     disk, controls, design = solution.disk, solution.controls, solution.design
     mu, climb = design.condition.advance_ratio, design.climb_ratio
     cos, sin = math.cos(controls.shaft_tilt), math.sin(controls.shaft_tilt)
@@ -101,15 +98,6 @@ def _mean_inflow(disk: DiskFields, r: Array, psi: Array) -> Array:
         return up_to[k, column] + (end - edges[k]) * disk.induced[k, column]
 
     return (integral(first + _WIDTH) - integral(first)) / _WIDTH
-
-
-def _free_path(wake: WakeFilaments) -> TipVortexPath:
-    """The free turns of a tip vortex in hover, as the wake settled."""
-    layout = wake.state.layout
-    tip = wake.tip_vortices[0, : layout.free + 1]
-    radius, sink = np.hypot(tip[:, 0], tip[:, 1]), tip[0, 2] - tip[:, 2]
-    points = round(_POINTS * layout.turns / _TURNS)
-    return TipVortexPath(0.0, layout.turns, points, radius.round(5).tolist(), [sink.round(5).tolist()])
 
 
 def tip_vortices(solution: Solution, azimuths: Sequence[float]) -> tuple[Array, Array]:

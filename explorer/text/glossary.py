@@ -84,10 +84,7 @@ CONTROLS: dict[str, Term] = {
     ),
     "preset": Term("Model choices of the source document, or the best available; each can be changed.", section=15),
     "inflow": Term("How the inflow through the disk depends on speed and load distribution.", ("3.4",)),
-    "hover_inflow": Term(
-        "Hover: momentum balance of each annulus, a free wake of each blade with its tip vortices, or one equation.",
-        ("3.3",),
-    ),
+    "hover_inflow": Term("Hover: momentum balance of each annulus, or one equation.", ("3.3",)),
     "low_speed": Term(
         "Whether the forward wake passes over to the hover model as the speed falls to zero, or holds at any speed.",
         section=9,
@@ -195,14 +192,6 @@ CONTROLS: dict[str, Term] = {
 READOUTS: dict[str, Term] = {
     "total_power": Term("Power of the main rotor and of the tail rotor that balances its torque.", section=12),
     "change": Term("Total power relative to the reference design."),
-    "power_band": Term(
-        "Uncertainty of main-rotor power: five other roll-ups of the free wake and, downwards, a finer grid.",
-        section=7,
-    ),
-    "worth_band": Term(
-        "Change of main-rotor power from the reference, if both blades have another roll-up of the free wake.",
-        section=7,
-    ),
     "induced": Term("Σ λi dFz: power to make lift.", section=12),
     "profile": Term("Σ U dD: power dissipated by the drag of the blade sections.", ("3.15",)),
     "parasite": Term("D·V: power to overcome fuselage drag.", ("3.19",)),

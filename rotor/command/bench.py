@@ -29,7 +29,7 @@ from rotor.study.point import trim_of
 from rotor.study.study_file import read_study
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.forward import first_guess
-from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, first_point, newton, tolerances
+from rotor.trim.newton import DEFAULT_OPTIONS, Guess, first_point, newton, tolerances
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -93,9 +93,6 @@ TARGETS_MS = {
     "cold": 7.0,
     "warm": 3.5,
     "gradient": 0.8,
-    "free wake in hover, cold": 300.0,
-    "free wake in hover, after a slider step": 100.0,
-    "free wake in hover, preview": 10.0,
 }
 """Targets of the project [ms], 40 × 120, one core of an idle machine."""
 
@@ -182,7 +179,6 @@ def measure() -> tuple[dict[str, float], list[OtherCode], list[str]]:
         figures[f"{beside}warm"] = statistics.fmean(_warm(cases, k) for k in range(len(cases.designs)))
         figures[f"{beside}gradient"] = statistics.fmean(_gradient(cases, k) for k in range(len(cases.designs)))
     figures["hover, cold"] = _time(lambda: solve(make_design(preset="flight", mu=0.0)), 15)
-    figures |= _free_wake()
     cold, evaluation = figures["linear inflow, cold"], figures["linear inflow, evaluation"]
     problems = [build_problem(design) for design in linear.designs]
     baselines = [
@@ -204,20 +200,6 @@ def measure() -> tuple[dict[str, float], list[OtherCode], list[str]]:
     except ImportError:
         notes.append("wisdem is not installed: pip install 'rotor-explorer[crosscheck]' adds its CCBlade")
     return figures, baselines, notes
-
-
-def _free_wake() -> dict[str, float]:
-    """The free wake in hover at the twist of the preset: settled, a slider step away, and one step of preview."""
-    design = make_design(preset="flight", twist="linear:-10", mu=0.0)
-    design = replace(design, models=replace(design.models, hover_inflow="free-wake"))
-    near = replace(design, twist=make_design(preset="flight", twist="linear:-10.5").twist)
-    cold = _time(lambda: solve(design), 3)
-    settled, preview = solve(design), SolverOptions(preview=True)
-    return {
-        "free wake in hover, cold": cold,
-        "free wake in hover, preview": _time(lambda: solve(near, settled, preview), 15),
-        "free wake in hover, after a slider step": _time(lambda: solve(near, settled), 5),
-    }
 
 
 @dataclass(frozen=True, eq=False)

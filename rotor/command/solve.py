@@ -31,12 +31,7 @@ def run(args: argparse.Namespace) -> int:
     if args.speed_kt is not None:
         design = design_from(args, args.twist, args.speed_kt * KNOT / design.rotor.tip_speed)
     solution = solve(design)
-    worth = twist_worth(solution)
-    if args.json:
-        record = {**solution.to_dict(), "twist_worth_percent": worth}
-        print(json.dumps(record, indent=2, allow_nan=False))
-    else:
-        print(report(solution, worth))
+    print(json.dumps(solution.to_dict(), indent=2, allow_nan=False) if args.json else report(solution))
     return 0 if solution.converged else 1
 
 
@@ -49,21 +44,8 @@ def _load(design: Design) -> str:
     return f"{design.models.trim}: {condition.stand}"
 
 
-def twist_worth(solution: Solution) -> dict[str, float] | None:
-    """Change of main-rotor power from the blade as built [%], and its band over roll-ups; free wake in hover only."""
-    design = solution.design
-    if solution.wake is None or not solution.converged or design.twist == design.rotor.builtin_twist:
-        return None
-    built = solve(design.with_twist("builtin"))
-    band = solution.worth_band(built)
-    if band is None:
-        return None
-    change = solution.power.main_rotor / built.power.main_rotor - 1.0
-    return {"change": 100.0 * change, "low": 100.0 * band[0], "high": 100.0 * band[1]}
-
-
-def report(solution: Solution, worth: dict[str, float] | None = None) -> str:
-    """The same as text; `worth` as `twist_worth` gives it."""
+def report(solution: Solution) -> str:
+    """The same as text."""
     design, controls = solution.design, solution.controls
     inflow = design.models.hover_inflow if design.hovering else design.models.inflow
     lines = [
@@ -95,14 +77,6 @@ def report(solution: Solution, worth: dict[str, float] | None = None) -> str:
                 "propulsive": power.parasite,
             }  # fmt: skip
         lines += ["", *(f"{name:<12}{value / 1e3:10.1f} kW" for name, value in kw.items())]
-        if solution.power_band is not None:
-            low, high = (100.0 * change for change in solution.power_band)
-            lines += [f"main rotor {low:+.1f} to {high:+.1f} % with other roll-ups and a finer grid of the free wake"]
-        if worth is not None:
-            lines += [
-                f"main rotor {worth['change']:+.1f} % from the twist as built, {worth['low']:+.1f} to "
-                f"{worth['high']:+.1f} % if both have another roll-up"
-            ]
         lines += ["", *(f"{name:<12}{math.degrees(value) + 0.0:10.2f} °" for name, value in degrees.items())]
         merit = solution.figure_of_merit
         lines += ["", f"κ = P_i/(C_T λ0) {solution.induced_power_factor:.3f}"]

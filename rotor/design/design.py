@@ -39,8 +39,8 @@ def _text(value: Any) -> str:
     return repr(value)
 
 
-HoverInflow = Literal["annulus", "closed-form", "free-wake"]
-HOVER_INFLOWS: tuple[HoverInflow, ...] = ("annulus", "closed-form", "free-wake")
+HoverInflow = Literal["annulus", "closed-form"]
+HOVER_INFLOWS: tuple[HoverInflow, ...] = ("annulus", "closed-form")
 LowSpeed = Literal["wake", "hover"]
 LOW_SPEEDS: tuple[LowSpeed, ...] = ("wake", "hover")
 FlightTrim = Literal["propulsive", "thrust"]
@@ -62,7 +62,7 @@ class Models:
     inflow: str
     """Forward-flight inflow model by name, one of `rotor.aero.inflow.INFLOW_MODELS`."""
     hover_inflow: HoverInflow
-    """`annulus`: balance with the real Cl(α); `closed-form`: eq. (3.3); `free-wake`: vortex filaments of each blade."""
+    """`annulus`: balance with the real Cl(α); `closed-form`: eq. (3.3)."""
     trim: FlightTrim | StandTrim
     """`propulsive`: weight, drag and first-harmonic flapping by collective, cyclic and shaft tilt;
     `thrust`: the resultant of weight and drag by collective, free flapping, no cyclic. Those of a rotor on a test
@@ -112,9 +112,12 @@ class Models:
         return bool(getattr(self, name)) and not (self.document_losses and name in BEYOND_DOCUMENT)
 
     def __post_init__(self) -> None:
-        if self.elements is not None and not 4 <= self.elements <= 1000:
+        if self.hover_inflow not in HOVER_INFLOWS:
+            known = ", ".join(HOVER_INFLOWS)
+            raise ValueError(f"hover inflow {self.hover_inflow!r} is not known: use one of {known}")
+        if not 4 <= self.elements <= 1000:
             raise ValueError(f"{self.elements} blade elements are outside 4…1000: 40 is enough for plots and power")
-        if self.azimuths is not None and not 8 <= self.azimuths <= 2000:
+        if not 8 <= self.azimuths <= 2000:
             raise ValueError(f"{self.azimuths} azimuths are outside 8…2000: 120 is enough for plots and power")
 
 

@@ -169,7 +169,7 @@ _NOT_MODELLED = (
     "pressure drag and lift in yawed flow: radial flow acts through skin friction alone",
     "a change of lift slope by the swept tip",
     "the trailing-edge tab of the UH-60A between 0.73 and 0.86 R: 0.01 of C_m there would twist the tip by about 0.3°",
-    "distortion and contraction of the wake, interference of tip vortices, but for the free wake in hover",
+    "distortion and contraction of the wake, interference of tip vortices",
     "the airframe but for its drag and its download: no upwash, no lift, no interference with the tail",
     "tunnel data of the sections themselves: XFOIL with levels and shocks from public tunnel-derived data; see "
     "[assets/airfoils/CITATION.md](../assets/airfoils/CITATION.md)",

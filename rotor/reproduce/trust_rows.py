@@ -265,26 +265,8 @@ def _measured_inflow() -> Iterator[TrustRow]:
 
 
 def validation_by_lattice() -> Iterator[TrustRow]:
-    """Slow: the autogiro by the vortex lattice, and hover by the free wake."""
+    """Slow: the autogiro by the vortex lattice."""
     yield _measured_rotor("pca2", "vortex-wake")
-    for name in ("knight-hefner-3", "knight-hefner-4", "castles-gray-twist-effect", "xv15-hover", "uh60a-hover"):
-        row = _measured_rotor(name, "free-wake")
-        yield replace(row, note=f"{row.note} {_FREE_WAKE_WHY[name]}") if name in _FREE_WAKE_WHY else row
-
-
-_FREE_WAKE_WHY = {
-    "castles-gray-twist-effect": "Computed −14.4 and −12.2 % for −8.7 and −7.6. Of the −14.4 at C_T 0.004, −8.7 is "
-    "induced power, −1.9 profile power and −3.7 the zero that is subtracted: at zero thrust, where there is no free "
-    "wake, annuli charge the twisted blade C_Q 9e-6 for lift up inboard and down at the tip. With one zero for both "
-    "blades it would be −10.7 and −9.6 %. The whole torque falls by 8.4 and 8.0 %, −7.3 to −11.0 and −7.1 to −8.4 with "
-    "other roll-ups. The rise of torque is 11 % (untwisted) and 16 % low, so every part of it is larger in per cent.",
-    "uh60a-hover": "The largest error, at C_T/σ 0.072, is the wake: κ is 1.02 there, 1.10 at 0.055 and 1.06 at 0.044, "
-    "and would have to be 1.19; profile power would have to be 60 % larger instead. The tip vortex passes the next "
-    "blade 0.004 to 0.005 R above it at C_T/σ 0.044 to 0.055 and 0.012 R below it at 0.072, by Landgrebe's "
-    "correlation 0.010 to 0.015 and 0.02 R below: κ moves with that height. At C_T/σ 0.022 what is missing is 9 % of "
-    "profile power.",
-}
-"""What part of an error is wake, section or data, where it was looked for."""
 
 
 def _measured_rotor(name: str, inflow: str | None = None) -> TrustRow:

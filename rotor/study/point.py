@@ -25,6 +25,7 @@ from rotor.arrays import Array
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.aircraft import Aircraft
 from rotor.design.design import Design, check_preset, preset_models
+from rotor.design.retired import Tell, current_model, warn
 from rotor.design.stand import STAND_KEYS
 from rotor.files.make_design import change_airfoils, make_design
 from rotor.optimisation.concepts import Concept, restrict
@@ -149,17 +150,18 @@ Row = dict[str, Any]
 Values = Mapping[str, Value]
 
 
-def design_of(values: Values, aircraft: Mapping[str, Aircraft]) -> Design:
+def design_of(values: Values, aircraft: Mapping[str, Aircraft], tell: Tell = warn) -> Design:
     """The design that a point's values describe; a twist to be searched for is that of the preset.
 
-    `aircraft`: rotors of the user's own by name. Raises ValueError with one sentence.
+    `aircraft`: rotors of the user's own by name. `tell` as in `current_model`. Raises ValueError with one sentence.
     """
     preset = str(values.get("preset", "flight"))
     check_preset(preset)
     models = preset_models(preset)
     changed: dict[str, Any] = {name: values[name] for name in ("inflow", *SWITCHES) if name in values}
     if "inflow" in changed:
-        inflow_model(str(changed["inflow"]))
+        changed["inflow"] = current_model("inflow", str(changed["inflow"]), tell)
+        inflow_model(changed["inflow"])
     for name in ("elements", "azimuths"):
         if name in values:
             changed[name] = int(cast(float, values[name]))

@@ -27,8 +27,7 @@ from rotor.engine.linearise import Measure, evaluate, jacobian, transposed
 from rotor.engine.newton import Factors, solve_transposed
 from rotor.engine.terms import ONE, Structure, Terms
 from rotor.engine.waves import COS, SIN, STEADY
-from rotor.trim.hover import HoverResult, hover
-from rotor.trim.hover_wake import LineWeights, WakeAdjoint
+from rotor.trim.hover import hover
 from rotor.trim.low_speed import HoverDifference, joined_hover, trim_problem
 from rotor.trim.newton import DEFAULT_OPTIONS, LinearisedTrim, first_point, tolerances
 from rotor.trim.power import tail_power
@@ -90,14 +89,9 @@ class Adjoint:
         solution.require()
         self.solution = solution
         with one_blas_thread():
-            if solution.wake is not None:
-                problem = trim_problem(solution.design)
-                coordinates = solution.elastic.coordinates[:, 0] if solution.elastic is not None else None
-                self._own: _Linear | WakeAdjoint = WakeAdjoint(problem, solution.wake.state, coordinates)
-            else:
-                start, linear = solution.start, solution.linear or _linearised(solution)
-                same = start is not None and start.structure == linear.point.system.structure.name
-                self._own = _Linear(linear, start.factors if same else None)
+            start, linear = solution.start, solution.linear or _linearised(solution)
+            same = start.structure == linear.point.system.structure.name
+            self._own = _Linear(linear, start.factors if same else None)
         self.problem: Problem = self._own.problem
 
     @property
@@ -108,8 +102,6 @@ class Adjoint:
     def by_pitch(self, weights: Weights) -> Array:
         """∂(measure)/∂θ of each element's pitch, trim and inflow following, (elements,)."""
         with one_blas_thread():
-            if isinstance(self._own, WakeAdjoint):
-                return _with_free_wake(self._own, weights)
             if self.solution.design.hovering:
                 return self._own.by_pitch(self._own.hover_measure(weights))[0]
             measure = self._own.flight_measure(weights)
@@ -128,14 +120,12 @@ class Adjoint:
             u_t=-(on_inflow @ difference.by_speed)[:, None] * around, swirl=on_swirl[:, None] * around,
         )  # fmt: skip
         own = _difference_adjoint(difference)
-        if isinstance(own, WakeAdjoint):
-            return _with_free_wake(own, hovering)
         return own.by_pitch(own.hover_measure(hovering))[0]
 
     @property
-    def power_terms(self) -> Terms | None:
-        """Induced and profile power in terms of the trim's equations; None with a free wake, which has none."""
-        return None if isinstance(self._own, WakeAdjoint) else self._own.power_terms
+    def power_terms(self) -> Terms:
+        """Induced and profile power in terms of the trim's equations."""
+        return self._own.power_terms
 
 
 def _linearised(solution: Solution) -> LinearisedTrim:
@@ -257,20 +247,9 @@ def _on(field: Array | float, shape: tuple[int, int]) -> Array:
 
 
 @lru_cache(maxsize=4)
-def _difference_adjoint(difference: HoverDifference) -> "_Linear | WakeAdjoint":
+def _difference_adjoint(difference: HoverDifference) -> _Linear:
     """The same for all measures, and for all conditions that share the hovering rotor."""
-    if isinstance(difference.found, HoverResult):
-        return _Linear(difference.found.linear)
-    torsion = difference.elements.torsion
-    assert difference.wake is not None
-    coordinates = None if torsion is None else torsion.coordinates[:, 0]
-    return WakeAdjoint(difference.problem, difference.wake, coordinates)
-
-
-def _with_free_wake(wake: WakeAdjoint, weights: Weights) -> Array:
-    shape = wake.problem.disk.shape
-    fields = (weights.fz, weights.fx, weights.inflow, weights.u_t, weights.u_p, weights.swirl, weights.theta)
-    return wake.by_pitch(LineWeights(*(np.broadcast_to(field, shape).sum(axis=1) for field in fields)))
+    return _Linear(difference.found.linear)
 
 
 def power_gradient(solution: Solution, objective: Objective = "total") -> PitchGradient:
@@ -302,7 +281,7 @@ def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradie
             fz=cell * elements.induced, fx=cell * elements.swirl[:, None], inflow=cell * elements.fz,
             swirl=cell * elements.fx,
         )  # fmt: skip
-    elif on_stand or adjoint.power_terms is None:  # The shaft's, which in hover is all of it.
+    elif on_stand:  # The shaft's.
         weights = Weights(fx=cell * problem.disk.r[:, None])
     else:
         weights = Weights(terms=adjoint.power_terms)

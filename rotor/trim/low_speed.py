@@ -17,15 +17,12 @@ import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from rotor.aero.elements import BladeElements
-from rotor.aero.free_wake.system import WakeState
 from rotor.aero.inflow import Wake, inflow_model
 from rotor.aero.momentum import vortex_ring_edge
 from rotor.aero.problem import Problem, build_problem, swirl_of
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.trim.hover import HoverResult, hover
-from rotor.trim.hover_wake import HoverWakeResult, hover_wake
 from rotor.trim.wake_course import with_course
 
 FASTEST = 1.5
@@ -36,11 +33,7 @@ FASTEST = 1.5
 class HoverDifference:
     """The hovering rotor of a design, and what the forward-flight model lacks there; over ΩR, (elements,)."""
 
-    found: HoverResult | HoverWakeResult
-    problem: Problem
-    elements: BladeElements
-    wake: WakeState | None
-    """The unknowns of the free wake, where hover is solved with one."""
+    found: HoverResult
     axial: Array
     """A_0, from the load of hover to the mean inflow, (elements, elements)."""
     by_speed: Array
@@ -55,18 +48,16 @@ class HoverDifference:
 def hover_difference(design: Design) -> HoverDifference | None:
     """The difference for a hovering design; None where hover does not converge."""
     problem = build_problem(design)
-    found = hover_wake(problem) if design.models.hover_inflow == "free-wake" else hover(problem)
+    found = hover(problem)
     if not found.converged:
         return None
-    elements = found.elements if isinstance(found, HoverWakeResult) else found.linear.elements
-    disk = problem.disk
+    elements, disk = found.linear.elements, problem.disk
     flow = Wake(0.0, problem.climb, elements.state.lambda0)
     load = elements.fz[:, 0]
     axial, slope = problem.inflow_terms.axial(flow, elements.u_t[:, 0])
     uniform, _ = swirl_of(disk.r, flow.lambda0**2 + flow.lambda0 * flow.mu_z if design.models.has("swirl") else 0.0)
-    wake = found.wake.state if isinstance(found, HoverWakeResult) and found.wake is not None else None
     inflow = elements.induced[:, 0] - axial @ load
-    return HoverDifference(found, problem, elements, wake, axial, slope * load, inflow, elements.swirl - uniform)
+    return HoverDifference(found, axial, slope * load, inflow, elements.swirl - uniform)
 
 
 def axial_share(mu: float, thrust: float) -> float:

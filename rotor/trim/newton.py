@@ -63,9 +63,6 @@ class SolverOptions:
     """Called before each evaluation of derivatives, which takes longest; it returns after others have computed."""
     smallest_continuation_step: float = 1.0 / 128.0
     """Step, as a part of the whole way, below which continuation gives up."""
-    preview: bool = False
-    """Whether a hovering rotor with a free wake may end after one Newton step from `start`, with the derivatives kept
-    from there; the solution then says that it is not settled."""
 
     @property
     def asked_to_stop(self) -> bool:

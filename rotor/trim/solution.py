@@ -8,7 +8,6 @@ import json
 import math
 from dataclasses import dataclass, field, replace
 from enum import Enum
-from functools import cached_property
 from pathlib import Path
 from typing import Any, cast
 
@@ -16,16 +15,12 @@ import numpy as np
 
 from rotor.aero.disk import element_edges
 from rotor.aero.elements import TrimState
-from rotor.aero.free_wake.settle import WakeFilaments
-from rotor.aero.free_wake.system import WakeState
 from rotor.aero.momentum import axial_inflow
-from rotor.aero.problem import Problem, build_problem
 from rotor.aero.switches import switched_off
 from rotor.arrays import Array
 from rotor.design.active_twist import active_twist_record
 from rotor.design.design import Design
 from rotor.plots import plot_disk
-from rotor.trim.hover_wake import FINER_GRID, flown_torques, torque_changes
 from rotor.trim.newton import Guess, LinearisedTrim
 from rotor.user_input import write_whole
 
@@ -214,10 +209,6 @@ class Solution:
     """[s]"""
     elastic: ElasticTwist | None = None
     """None for a blade that is rigid in torsion."""
-    settled: bool = True
-    """False for a preview: one Newton step towards a free wake, not its equilibrium."""
-    wake: WakeFilaments | None = None
-    """The vortex filaments of a free wake; None for the other inflow models."""
     start: Guess = field(default_factory=lambda: Guess(TrimState()))
     """What the next trim may start from."""
     linear: LinearisedTrim | None = None
@@ -297,42 +288,6 @@ class Solution:
         weight = self.design.condition.weight if self.design.condition.stand is None else self.lift_and_drag[0]
         return weight * self.design.airspeed / rotor_power
 
-    @cached_property
-    def power_band(self) -> tuple[float, float] | None:
-        """Lowest and highest change of main-rotor power with other roll-ups and a finer grid of a free wake, as parts.
-
-        The changes (`rotor.trim.hover_wake.torque_changes`, to first order) are not added up: the band reaches to the
-        largest of them, and downward by `FINER_GRID` more. None without a free wake, and where it has not settled.
-        """
-        if not self._in_free_wake:
-            return None
-        changes = torque_changes(*self._wake_arguments)
-        return min(0.0, *changes) + FINER_GRID, max(0.0, *changes)
-
-    def worth_band(self, other: "Solution") -> tuple[float, float] | None:
-        """Lowest and highest main-rotor power less that of `other`, as a part of the latter, over roll-ups.
-
-        Both rotors are flown with each of `rotor.trim.hover_wake.other_roll_ups` (about a second), so that what a
-        roll-up adds to both cancels; one with which a wake does not settle is left out. None unless both hover with a
-        settled free wake.
-        """
-        if not (self._in_free_wake and other._in_free_wake):
-            return None
-        ratios = flown_torques(*self._wake_arguments) / flown_torques(*other._wake_arguments)
-        ratios = ratios[np.isfinite(ratios)] * (self.design.power_unit / other.design.power_unit)
-        worth = self.power.main_rotor / other.power.main_rotor
-        return float(min(worth, *ratios)) - 1.0, float(max(worth, *ratios)) - 1.0
-
-    @property
-    def _in_free_wake(self) -> bool:
-        return self.wake is not None and self.converged and self.settled
-
-    @property
-    def _wake_arguments(self) -> tuple[Problem, WakeState, Array | None]:
-        assert self.wake is not None
-        elastic = self.elastic.coordinates[:, 0] if self.elastic is not None else None
-        return build_problem(self.design), self.wake.state, elastic
-
     def require(self) -> "Solution":
         """This solution, or RuntimeError with its sentence when it did not converge."""
         if not self.converged:
@@ -386,14 +341,8 @@ class Solution:
             **({} if design.active_twist is None else {"active_twist": active_twist_record(design.active_twist)}),
             **self._switches(),
             **(values if self.converged else _emptied(values)),
-            "settled": self.settled,
-            "power_band_percent": self._band_percent(),
             "elapsed_ms": 1e3 * self.elapsed,
         }
-
-    def _band_percent(self) -> dict[str, float] | None:
-        band = self.power_band
-        return None if band is None else {"low": 100.0 * band[0], "high": 100.0 * band[1]}
 
     def _test(self) -> dict[str, Any]:
         """Trim and inputs of a test; nothing in flight."""

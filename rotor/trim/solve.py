@@ -13,7 +13,6 @@ from rotor.design.design import Design, require_design
 from rotor.engine.waves import wave_grid
 from rotor.trim.forward import first_guess, trim, trim_along
 from rotor.trim.hover import HoverResult, hover
-from rotor.trim.hover_wake import HoverWakeResult, hover_wake
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult, newton
 from rotor.trim.power import control_loads, hub_moment, power_budget, wind_forces
@@ -38,15 +37,7 @@ def solve(design: Design, start: Solution | Guess | None = None, options: Solver
     if vortex_ring(design):
         return _assemble(problem, _without_trim(problem), begin)
     guess = _guess(design, start) if isinstance(start, Solution) else start
-    if design.hovering and design.models.hover_inflow == "free-wake":
-        wake = start.wake if isinstance(start, Solution) and start.converged else None
-        result: HoverResult | HoverWakeResult | TrimResult = hover_wake(
-            problem, wake and wake.state, options, guess and guess.elastic
-        )
-    elif design.hovering:
-        result = hover(problem, guess, options)
-    else:
-        result = trim(problem, guess, options)
+    result = hover(problem, guess, options) if design.hovering else trim(problem, guess, options)
     solution = _assemble(problem, result, begin)
     if _may_be_of_another_branch(solution, result) and not options.asked_to_stop:
         other = trim_along(problem, options)
@@ -62,7 +53,7 @@ def _without_trim(problem: Problem) -> HoverResult | TrimResult:
     return replace(newton(problem, first_guess(problem), replace(DEFAULT_OPTIONS, max_passes=1)), converged=False)
 
 
-def _may_be_of_another_branch(solution: Solution, result: HoverResult | HoverWakeResult | TrimResult) -> bool:
+def _may_be_of_another_branch(solution: Solution, result: HoverResult | TrimResult) -> bool:
     """Whether forward flight closes with so much stall, or so implausibly, that it may not be the trim of least power.
 
     Free of charge for every other design.
@@ -85,9 +76,8 @@ def _guess(design: Design, earlier: Solution) -> Guess | None:
     return earlier.start
 
 
-def _assemble(problem: Problem, result: HoverResult | HoverWakeResult | TrimResult, begin: float) -> Solution:
-    design, linear = problem.design, None if isinstance(result, HoverWakeResult) else result.linear
-    elements = result.elements if isinstance(result, HoverWakeResult) else result.linear.elements
+def _assemble(problem: Problem, result: HoverResult | TrimResult, begin: float) -> Solution:
+    design, elements = problem.design, result.linear.elements
     total = disk_sums(problem.disk, elements)
     shown = as_asked(problem, elements)
     fields = _fields(*shown)
@@ -97,11 +87,9 @@ def _assemble(problem: Problem, result: HoverResult | HoverWakeResult | TrimResu
     newtons = design.thrust_unit
     reverse, stalled = areas(shown[0].disk, shown[1], fields.stall_margin)
     converged = result.converged
-    wake = result if isinstance(result, HoverWakeResult) else None
     message = "Trimmed."
     if not converged:
-        message = wake.message if wake is not None else ""
-        message = message or vortex_ring(design) or failure_sentence(design, result.reached, _stalled(result, stalled))
+        message = vortex_ring(design) or failure_sentence(design, result.reached, _stalled(result, stalled))
     if converged and (refused := implausible(problem, elements, total)):
         converged, message = False, refused
     climb = design.condition.climb_speed
@@ -130,10 +118,8 @@ def _assemble(problem: Problem, result: HoverResult | HoverWakeResult | TrimResu
         passes=result.passes,
         elapsed=time.perf_counter() - begin,
         elastic=_elastic(problem, elements, shown),
-        settled=wake is None or wake.settled,
-        wake=wake and wake.wake,
         start=result.guess,
-        linear=linear,
+        linear=result.linear,
     )
 
 
@@ -181,7 +167,7 @@ def _fields(problem: Problem, elements: BladeElements) -> DiskFields:
     )
 
 
-def _stalled(result: HoverResult | HoverWakeResult | TrimResult, last: float) -> float:
+def _stalled(result: HoverResult | TrimResult, last: float) -> float:
     """Stalled part of the disk at the nearest trim found; without one `last`, in the last attempt."""
     near = result.nearest if isinstance(result, TrimResult) else None
     if near is None:

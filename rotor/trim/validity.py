@@ -137,21 +137,6 @@ def caveats(
             f"Above advance ratio {HIGH_SPEED:.2f} quasi-steady sections and blades that do not bend are a rough "
             "approximation.",
         )
-    if design.hovering and design.models.hover_inflow == "free-wake":
-        add(
-            "free-wake-band",
-            "Power with the free wake depends on how the tip vortex rolls up, by some 4 %, and the effect of twist is "
-            "overstated beyond -16° or so.",
-        )
-        thrust, least = total.thrust, elements.state.lambda0
-        turning = elements.swirl[:, None] * elements.fx
-        induced = float(disk.dr @ (elements.induced * elements.fz + turning).mean(axis=1))
-        if induced < thrust * least:
-            add(
-                "free-wake-below-ideal",
-                f"Induced power is {100.0 * (1.0 - induced / (thrust * least)):.0f} % below the least of momentum "
-                "theory: the roll-up model of the free wake fails here. Take hover inflow annulus.",
-            )
     loading = total.thrust / design.rotor.solidity
     if design.hovering and loading > HOVER_CAUTION:
         add(

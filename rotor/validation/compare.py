@@ -3,9 +3,10 @@
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import Any, get_args
+from typing import Any
 
-from rotor.design.design import Design, HoverInflow
+from rotor.design.design import HOVER_INFLOWS, Design
+from rotor.design.retired import current_model
 from rotor.design.stand import Stand
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import shipped_aircraft
@@ -138,11 +139,12 @@ def _base(measured: MeasuredSet, inflow: str | None) -> Design:
     """The rotor of a set as built, with the models of `flight` and the inflow asked for."""
     if measured.kind == "forward" or inflow is None:
         return make_design(rotor=measured.rotor, inflow=inflow)
-    models = [name for name in get_args(HoverInflow) if name == inflow]
-    if not models:
-        raise ValueError(f"hover inflow {inflow!r} is not known: use one of {', '.join(get_args(HoverInflow))}")
+    inflow = current_model("hover_inflow", inflow)
+    hover_inflow = next((name for name in HOVER_INFLOWS if name == inflow), None)
+    if hover_inflow is None:
+        raise ValueError(f"hover inflow {inflow!r} is not known: use one of {', '.join(HOVER_INFLOWS)}")
     base = make_design(rotor=measured.rotor)
-    return replace(base, models=replace(base.models, hover_inflow=models[0]))
+    return replace(base, models=replace(base.models, hover_inflow=hover_inflow))
 
 
 def design_at(measured: MeasuredSet, point: dict[str, float], base: Design | None = None) -> Design:

@@ -297,18 +297,6 @@ class TestAirLines:
         ends = [tip_vortices(found, [0.0])[0][-1, 1, 2] for found in (flat, twisted)]
         assert ends[1] - ends[0] > 0.03 * hover.design.rotor.radius
 
-    def test_those_of_a_free_wake_lie_where_it_settled(self, hover: Solution):
-        models = replace(hover.design.models, hover_inflow="free-wake", elements=20, elastic_twist=False)
-        found = solve(replace(hover.design, models=models)).require()
-        assert found.wake is not None
-        points, _ = tip_vortices(found, [0.0])
-        cone = found.controls.coning * (1.0 - found.design.rotor.blade.flap_hinge) * np.array([0.0, 0.0, 1.0])
-        layout = found.wake.state.layout
-        drawn = np.concatenate([points[:, 0], points[-1:, 1]]) / found.design.rotor.radius - cone
-        for node in found.wake.tip_vortices[0, : layout.free + 1]:
-            assert np.linalg.norm(drawn - node, axis=1).min() < 0.045  # Half a segment.
-        assert drawn[-1] == pytest.approx(found.wake.tip_vortices[0, layout.free], abs=1e-4)
-
     def test_inflow_arrows_are_as_long_as_the_inflow_and_point_down(self, hover: Solution):
         segments = inflow_arrows(hover)
         shafts = segments[: len(segments) // 3]

@@ -1,14 +1,17 @@
 """Links: random designs through the address as viser's client rewrites it, and links that cannot be read."""
 
+import json
 import random
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 from urllib.parse import parse_qsl, quote
 
 import pytest
 
 from explorer.sharing.address import Address, parameter, with_parameter
-from explorer.sharing.share import DESIGN, code_of, design_from, inputs_from
+from explorer.sharing.share import DESIGN, KEPT, PINNED, code_of, design_from, inputs_from, tell_retired
+from explorer.sharing.stored_history import read_history
 from explorer.stand import StandInputs
 from explorer.state import LAWS, OPENING, Inputs, with_rotor
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
@@ -59,7 +62,7 @@ def random_inputs(chance: random.Random) -> Inputs:
         altitude_m=chance.randint(0, 80) * 50.0,
         climb_m_s=chance.choice((0.0, chance.randint(-200, 200) / 10.0)),
         inflow=chance.choice(("uniform", "drees", "pitt-peters-15pi/23", "dynamic-wake", "vortex-wake")),
-        hover_inflow=chance.choice(("annulus", "free-wake", "closed-form")),
+        hover_inflow=chance.choice(("annulus", "closed-form")),
         preset=chance.choice(("flight", "flight", "thesis")),
         tip_loss=chance.random() < 0.8,
         elastic_twist=chance.random() < 0.8,
@@ -145,6 +148,36 @@ def test_links_with_a_plus_sign_still_open(query: str, changed: dict[str, float]
 def test_a_sum_of_many_laws_with_lost_plus_signs_opens():
     spec = "linear:-4+segments:-2,1@0.5+quadratic:6,-14"
     assert design_from(f"1;{spec.replace('+', ' ')};mu=0.1").twist == parse_twist(spec)
+
+
+class TestRetired:
+    CODE = "1;linear:-8;mu=0;hover_inflow=free-wake"
+    SENTENCE = "The free wake in hover was retired; hover is solved by the annulus balance."
+
+    def test_an_old_link_opens_and_the_page_says_once_what_stands_in(self):
+        notices: list[tuple[str, str]] = []
+        address = Address(f"?d={self.CODE}&a={self.CODE}", lambda _: None)
+        meaning = partial(inputs_from, tell=partial(tell_retired, notices))
+        for name in (DESIGN, PINNED):
+            found = address.read(name, meaning, OPENING, "", notices)
+            assert (found.linear, found.hover_inflow) == (-8.0, "annulus")
+        assert notices == [("A retired model", self.SENTENCE)]
+
+    def test_what_the_page_writes_then_does_not_name_it(self):
+        assert "inflow" not in code_of(inputs_from(self.CODE, tell=lambda _: None).design())
+
+    def test_the_kept_file_of_a_rotor_of_ones_own(self):
+        kept = json.dumps({**OPENING.design().to_dict(), "hover_inflow": "free-wake"})
+        said: list[str] = []
+        assert inputs_from(KEPT, kept, said.append) == OPENING
+        assert said == [self.SENTENCE]
+
+    def test_the_annulus_balance_by_name_is_taken_silently(self):
+        assert inputs_from("1;linear:-8;mu=0;hover_inflow=annulus").hover_inflow == "annulus"
+
+    def test_kept_steps_are_read_silently(self):
+        history = read_history(json.dumps({"past": [self.CODE], "bookmarks": [self.CODE]}), OPENING)
+        assert [one.hover_inflow for one in (*history.past, *history.bookmarks)] == ["annulus", "annulus"]
 
 
 class TestUnreadable:

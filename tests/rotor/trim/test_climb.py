@@ -11,8 +11,6 @@ from numpy.testing import assert_allclose
 from scipy.optimize import brentq
 
 from rotor.aero.elements import TrimState
-from rotor.aero.free_wake.settle import settle
-from rotor.aero.free_wake.system import HoverSystem, WakeState
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.losses import loss_factor
 from rotor.aero.momentum import FASTEST_RING, axial_inflow, glauert_inflow, vortex_ring_edge
@@ -23,7 +21,6 @@ from rotor.design.twist import IdealTwist, ideal_tip_pitch
 from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
 from rotor.trim.adjoint import power_gradient
-from rotor.trim.hover_wake import hover_wake
 from rotor.trim.newton import SolverOptions
 from rotor.trim.solve import solve
 from tests.rotor.check_jacobian import check_jacobian
@@ -211,7 +208,7 @@ def test_jacobian_against_differences(climb: float, models: dict[str, Any]):
 
 @pytest.mark.parametrize(
     ("mu", "climb", "hover_inflow"),
-    [(0.0, 5.0, "annulus"), (0.0, -4.0, "closed-form"), (0.0, 3.0, "free-wake"), (0.03, 5.0, "annulus"),
+    [(0.0, 5.0, "annulus"), (0.0, -4.0, "closed-form"), (0.03, 5.0, "annulus"),
      (0.2, -12.0, "annulus"), (0.25, 8.0, "annulus")],
 )  # fmt: skip
 def test_gradient_by_twist_agrees_with_differences(mu: float, climb: float, hover_inflow: str):
@@ -224,49 +221,6 @@ def test_gradient_by_twist_agrees_with_differences(mu: float, climb: float, hove
 
     slope = (power(step) - power(-step)) / (2.0 * math.radians(step))
     assert slope == pytest.approx(float(gradient.by_element @ (gradient.r - 0.75)), rel=2e-4, abs=200.0)
-
-
-class TestFreeWake:
-    @pytest.mark.parametrize("climb", [pytest.param(-1.0, marks=pytest.mark.slow), 6.0])
-    def test_jacobian_agrees_with_differences(self, climb: float):
-        problem = build_problem(design(0.0, climb, elastic_twist=False))
-        start = hover_wake(problem)
-        assert start.wake is not None
-        state = start.wake.state
-        system = HoverSystem(problem, state.layout)
-        direction = np.random.default_rng(1).normal(size=state.layout.size)
-        direction[: state.layout.geometry] *= 0.1
-        step = 1e-7
-        ahead, behind = (
-            system.evaluate(WakeState(state.layout, state.values + sign * step * direction), slopes=False).residual
-            for sign in (1.0, -1.0)
-        )
-        exact = system.evaluate(state).jacobian @ direction
-        assert_allclose(exact, (ahead - behind) / (2.0 * step), rtol=1e-4, atol=1e-5 * np.abs(exact).max())
-
-    def test_the_wake_is_carried_away_faster_and_power_nears_momentum_theory(self):
-        """The faster the climb, the deeper the wake; power keeps within 4 % of that of annuli."""
-        depth: list[float] = []
-        for climb in (0.0, 5.0, 10.0):
-            free, annuli = (solve(design(0.0, climb, hover_inflow=name)).require() for name in ("free-wake", "annulus"))
-            assert free.wake is not None
-            depth.append(float(free.wake.tip_vortices[0, -1, 2]))
-            assert free.power.main_rotor == pytest.approx(annuli.power.main_rotor, rel=0.04)
-        problem = build_problem(design(0.0, 10.0))
-        added = problem.climb * 2.0 * math.pi * 5.0  # Five turns.
-        assert depth[2] < depth[1] < depth[0]
-        assert -depth[2] > added
-
-    @pytest.mark.slow
-    def test_start_does_not_matter(self):
-        problem = build_problem(design(0.0, 4.0, elastic_twist=False))
-        cold = hover_wake(problem)
-        level = hover_wake(build_problem(design(0.0, 0.0, elastic_twist=False)))
-        assert cold.wake is not None
-        assert level.wake is not None
-        warm = settle(problem, cold.wake.state.circulation, cold.elements.state.collective, level.wake.state)
-        assert warm.converged
-        assert_allclose(warm.evaluation.state.collective, cold.wake.state.collective, rtol=1e-8)
 
 
 class TestVortexRing:

@@ -1,0 +1,46 @@
+"""Models that were retired: old design files, links, study files and commands still name them.
+
+Whoever reads the name of a model from outside passes it through `current_model`.
+"""
+
+import warnings
+from collections.abc import Callable
+from dataclasses import dataclass
+
+from rotor.user_input import Notice
+
+Tell = Callable[[str], object]
+"""Takes a sentence for the user."""
+
+
+@dataclass(frozen=True)
+class RetiredModel:
+    """What stands in for a model that is gone."""
+
+    option: str
+    """The field of `Models` that named it."""
+    replacement: str
+    sentence: str
+    """For the user."""
+
+
+RETIRED = {
+    "free-wake": RetiredModel(
+        "hover_inflow", "annulus", "The free wake in hover was retired; hover is solved by the annulus balance."
+    ),
+}
+"""By name."""
+
+
+def warn(sentence: str) -> None:
+    """The sentence as a warning: one line on stderr in the command lines, a warning in a notebook."""
+    warnings.warn(sentence, Notice, stacklevel=1)
+
+
+def current_model(option: str, name: str, tell: Tell = warn) -> str:
+    """The name itself, or that of the model in place of a retired one of this option, after telling the user."""
+    retired = RETIRED.get(name)
+    if retired is None or retired.option != option:
+        return name
+    tell(retired.sentence)
+    return retired.replacement
