@@ -29,6 +29,7 @@ LONGEST = 1800
 """Most characters of a design: every browser and mail program accepts an address of this length."""
 
 RETIRED_TITLE = "A retired model"
+"""Of the notice that says which model stands in."""
 
 KEPT = "own"
 """Stands for a design that does not fit into an address: the page keeps its file, also over a reload."""

@@ -5,6 +5,8 @@ import random
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
+from types import SimpleNamespace
+from typing import Any
 from urllib.parse import parse_qsl, quote
 
 import pytest
@@ -14,6 +16,7 @@ from explorer.sharing.share import DESIGN, KEPT, PINNED, code_of, design_from, i
 from explorer.sharing.stored_history import read_history
 from explorer.stand import StandInputs
 from explorer.state import LAWS, OPENING, Inputs, with_rotor
+from explorer.tabs.file_panel import FilePanel
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.design.design import Design
 from rotor.design.twist import SplineTwist, SumTwist, TableTwist, parse_twist
@@ -171,6 +174,18 @@ class TestRetired:
         said: list[str] = []
         assert inputs_from(KEPT, kept, said.append) == OPENING
         assert said == [self.SENTENCE]
+
+    def test_a_loaded_file(self):
+        content = json.dumps({**OPENING.design().to_dict(), "hover_inflow": "free-wake"}).encode()
+        said: list[tuple[str, str]] = []
+        taken: list[Inputs] = []
+        context = SimpleNamespace(notify=lambda *words: said.append(words), set_inputs=taken.append)
+        panel: Any = SimpleNamespace(_context=context)
+        file = SimpleNamespace(name="old.json", content=content)
+        event: Any = SimpleNamespace(target=SimpleNamespace(value=file))
+        FilePanel._loaded(panel, event)
+        assert taken == [OPENING]
+        assert said == [("Loaded", f"old.json is on the sliders. {self.SENTENCE}")]
 
     def test_the_annulus_balance_by_name_is_taken_silently(self):
         assert inputs_from("1;linear:-8;mu=0;hover_inflow=annulus").hover_inflow == "annulus"
