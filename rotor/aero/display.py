@@ -70,7 +70,7 @@ def _between(problem: Problem, elements: BladeElements) -> BladeElements:
     e, torsion, azimuths = elements, problem.torsion, len(problem.disk.psi)
     matrix = resampling(len(e.beta), azimuths)
     fields = np.stack((e.theta, e.u_t, e.u_p, e.u_r, e.loss, e.rate, e.induced)) @ matrix
-    f, _, s = section(fields[:6], problem.section_data(), True, True)  # ∂C_d/∂M is one of the slopes.
+    f, _, s = section(fields[:6], problem.section_data(), False, True)
     twist = None
     if e.torsion is not None and torsion is not None:
         around = e.torsion.coordinates @ wave_grid(torsion.functions, azimuths).at
@@ -100,7 +100,7 @@ def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[flo
         angles_of_attack(theta.ravel(), u_t.ravel(), u_p.ravel(), alpha.reshape(-1))
         reverse, cells = u_t < 0.0, cells / len(disk.psi)
         stalled = ((alpha > high) | (alpha < low)) & ~reverse
-    return float(cells @ reverse.sum(axis=1)), float(cells @ stalled.sum(axis=1))
+    return float(cells @ np.count_nonzero(reverse, axis=1)), float(cells @ np.count_nonzero(stalled, axis=1))
 
 
 @lru_cache(maxsize=16)

@@ -106,7 +106,7 @@ def section(c: Any, data: Any, slopes: bool, flow: bool) -> Any:
         _speeds(t, p, data.half_solidity[i], w)
         angles_of_attack(c[TH, i], t, p, alpha)
         _mach_numbers((t, p, r), data.cos_sweep[i], data.sin_sweep[i], data.tip_mach, mach)
-        _coefficients(data, i, alpha, mach, slopes, cells, places, found)
+        _coefficients(data, i, alpha, mach, slopes or flow, cells, places, found)
         lift = found[0]
         if data.lossy:
             lift = w[_LIFT]
