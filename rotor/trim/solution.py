@@ -215,11 +215,15 @@ class Solution:
     """The trim's equations at the solution, for gradients; not for another process."""
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "linear": None}
+        return {**self.__dict__, "linear": None, "start": replace(self.start, factors=None)}
 
     def without_linear(self) -> "Solution":
         """The same without its linearisation, 0.7 MB less: for many that are kept as starts."""
         return replace(self, linear=None)
+
+    def without_factors(self) -> "Solution":
+        """The same without the factors either, which are 3 MB with a lifting line: for many that are kept."""
+        return replace(self, linear=None, start=replace(self.start, factors=None))
 
     def __repr__(self) -> str:
         state = f"{self.status.value}: {self.message}"

@@ -88,7 +88,7 @@ def test_lift_falls_towards_the_tip():
 
 @pytest.mark.parametrize(("mu", "most"), [(0.2, 0.105), (0.3, 0.25)])
 def test_where_to_twist_is_no_saw_tooth(mu: float, most: float):
-    """Deviation of the sensitivity from the mean of its neighbours, over its size; what stays is the change of section."""
+    """Deviation of the sensitivity from the mean of its neighbours, over its size; the change of section stays."""
     found = power_gradient(solve(line(mu, elastic_twist=False)))
     density, between = found.density, (found.r > 0.5) & (found.r < 0.995)
     off = np.pad(density[1:-1] - 0.5 * (density[:-2] + density[2:]), 1)
