@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rotor.aero.disk import azimuths_of
+from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.arrays import Array
 from rotor.trim.solution import DiskFields, Solution
 
@@ -14,6 +16,8 @@ _TURNS = 0.8
 _POINTS = 59
 _AGES, _COLUMNS = 21, 12
 """Ages, and azimuths at which a vortex left, for which its path is computed."""
+_COURSE_COLUMNS = 72
+"""Azimuths along the course of a lifting line, which bends where the vortex leaves the disk."""
 _WIDTH = 0.25
 """Part of the radius over which the inflow at a tip vortex is averaged."""
 _CONTRACTION, _CONTRACTS_WITHIN = 0.22, 2.2
@@ -63,17 +67,19 @@ class TipVortexPath:
 
 
 def tip_vortex_path(solution: Solution) -> TipVortexPath:
-    """The vortices of a solution, which its inflow carries away.
+    """The vortices of a solution: where the wake of its lifting line lies, or else where its inflow carries them.
 
-    The inflow is averaged over a quarter of the radius, which is about what a tip vortex takes part in.
+    Such an inflow is averaged over a quarter of the radius, which is about what a tip vortex takes part in.
     """
+    age = np.linspace(0.0, 2.0 * math.pi * _TURNS, _AGES)
+    if solution.wake_course is not None:
+        return _path_on(solution.wake_course, age)
     disk, controls, design = solution.disk, solution.controls, solution.design
     mu, climb = design.condition.advance_ratio, design.climb_ratio
     cos, sin = math.cos(controls.shaft_tilt), math.sin(controls.shaft_tilt)
     along, axial = mu * cos - climb * sin, mu * sin + climb * cos
     down = axial + controls.lambda0
     narrowing = abs(down) / max(math.hypot(along, down), 1e-9) * _CONTRACTION
-    age = np.linspace(0.0, 2.0 * math.pi * _TURNS, _AGES)
     radius = 1.0 - narrowing * (1.0 - np.exp(-age / _CONTRACTS_WITHIN))
     left = 2.0 * math.pi / _COLUMNS * np.arange(_COLUMNS)[:, None]
     x, y = radius * np.cos(left) + along * age, radius * np.sin(left)
@@ -81,6 +87,14 @@ def tip_vortex_path(solution: Solution) -> TipVortexPath:
     steps = 0.5 * (speed[:, 1:] + speed[:, :-1]) * (age[1] - age[0])
     sink = np.concatenate([np.zeros((_COLUMNS, 1)), np.cumsum(steps, axis=1)], axis=1)
     return TipVortexPath(along, _TURNS, _POINTS, radius.round(5).tolist(), sink.round(5).tolist())
+
+
+def _path_on(course: WakeCourse, age: Array) -> TipVortexPath:
+    """The path of tip vortices that lie on a course, at ages [rad]; nothing contracts there."""
+    left, tip = azimuths_of(_COURSE_COLUMNS), np.ones(1)
+    height = [course.nodes(left + zeta, np.array([zeta]), tip)[:, 0, 0, 2] for zeta in age.tolist()]
+    sink = course.flapping(left)[:, None] - np.stack(height, axis=1)
+    return TipVortexPath(course.mu_x, _TURNS, _POINTS, [1.0] * len(age), sink.round(5).tolist())
 
 
 def _mean_inflow(disk: DiskFields, r: Array, psi: Array) -> Array:

@@ -7,6 +7,7 @@ from typing import Any
 
 from rotor.command.common import add_command, add_design_arguments, design_from, finite
 from rotor.design.design import Design
+from rotor.trim.distribution import distribution
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.units import KNOT
@@ -20,6 +21,12 @@ def add_parser(commands: Any) -> None:
     speed.add_argument("--speed-kt", type=finite, metavar="KT", help="airspeed in knots")
     speed.add_argument("--hover", action="store_true", help="hover")
     add_design_arguments(parser, one_twist=True)
+    parser.add_argument(
+        "--distribution",
+        action="store_true",
+        help="lift along the blade too; with --json lift, coefficients, angle of attack and induced velocity of one "
+        "blade by radius and azimuth",
+    )
     parser.add_argument("--json", action="store_true", help="machine-readable output")
     parser.set_defaults(run=run)
 
@@ -31,7 +38,14 @@ def run(args: argparse.Namespace) -> int:
     if args.speed_kt is not None:
         design = design_from(args, args.twist, args.speed_kt * KNOT / design.rotor.tip_speed)
     solution = solve(design)
-    print(json.dumps(solution.to_dict(), indent=2, allow_nan=False) if args.json else report(solution))
+    found = distribution(solution) if args.distribution and solution.converged else None
+    if args.json:
+        also = {"distribution": found and found.to_dict()} if args.distribution else {}
+        print(json.dumps({**solution.to_dict(), **also}, indent=2, allow_nan=False))
+    else:
+        print(report(solution))
+        if found is not None:
+            print(f"\nlift of one blade\n{found.table()}")
     return 0 if solution.converged else 1
 
 

@@ -15,6 +15,7 @@ import numpy as np
 
 from rotor.aero.disk import element_edges
 from rotor.aero.elements import TrimState
+from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.momentum import axial_inflow
 from rotor.aero.switches import switched_off
 from rotor.arrays import Array
@@ -211,6 +212,8 @@ class Solution:
     """None for a blade that is rigid in torsion."""
     start: Guess = field(default_factory=lambda: Guess(TrimState()))
     """What the next trim may start from."""
+    wake_course: WakeCourse | None = None
+    """Where the wake of a lifting line lies; None with other inflow models, and in hover."""
     linear: LinearisedTrim | None = None
     """The trim's equations at the solution, for gradients; not for another process."""
 

@@ -18,6 +18,7 @@ from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult,
 from rotor.trim.power import control_loads, hub_moment, power_budget, wind_forces
 from rotor.trim.solution import DiskFields, ElasticTwist, Solution, Status
 from rotor.trim.validity import caveats, failure_sentence, implausible, vortex_ring
+from rotor.trim.wake_course import course_of
 
 SUSPECT_STALL = 0.25
 """Part of the disk. Trims of attached flow end at about this share; those beyond the largest lift have 0.4 or more."""
@@ -119,6 +120,7 @@ def _assemble(problem: Problem, result: HoverResult | TrimResult, begin: float) 
         elapsed=time.perf_counter() - begin,
         elastic=_elastic(problem, elements, shown),
         start=result.guess,
+        wake_course=course_of(problem),
         linear=result.linear,
     )
 

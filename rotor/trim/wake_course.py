@@ -8,6 +8,7 @@ less than 0.05 % (tested).
 from dataclasses import replace
 from functools import lru_cache
 
+from rotor.aero.inflow.lifting_line import LiftingLineInflow
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.problem import Problem
 from rotor.design.design import Design
@@ -23,6 +24,12 @@ def with_course(problem: Problem) -> Problem:
     models = replace(design.models, elastic_twist=False)
     course = _course(replace(design, twist=design.rotor.builtin_twist, active_twist=None, models=models))
     return problem if course is None else replace(problem, course=course)
+
+
+def course_of(problem: Problem) -> WakeCourse | None:
+    """The course that the inflow's wake lies on; None for other inflow models, and in hover."""
+    lies = isinstance(problem.inflow, LiftingLineInflow) and not problem.design.hovering
+    return problem.course if lies else None
 
 
 @lru_cache(maxsize=64)

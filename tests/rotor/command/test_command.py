@@ -55,6 +55,22 @@ def test_json_keys_and_power(capsys: pytest.CaptureFixture[str]):
     assert_allclose(answer["speed_m_s"], 0.2 * 27.0 * 8.1788, rtol=1e-12)
 
 
+def test_distribution(capsys: pytest.CaptureFixture[str]):
+    answer = solved(capsys, "--mu", "0.2", "--distribution")
+    assert list(answer) == [*KEYS, "distribution"]
+    found = answer["distribution"]
+    assert len(found["lift_n_per_m"]) == len(found["cm"]) == len(found["r"])
+    assert len(found["lift_n_per_m"][0]) == len(found["psi_deg"])
+    code, out, _ = run(capsys, "solve", "--mu", "0.2", "--distribution")
+    assert code == 0
+    assert "lift of one blade\n   r/R  mean N/m   max N/m   at ψ" in out
+    code, out, _ = run(capsys, "solve", "--mu", "0.5", "--mass-kg", "11000", "--distribution", "--json")
+    assert (code, json.loads(out)["distribution"]) == (1, None)
+    code, out, _ = run(capsys, "solve", "--mu", "0.5", "--mass-kg", "11000", "--distribution")
+    assert code == 1
+    assert "lift of one blade" not in out
+
+
 def test_climb(capsys: pytest.CaptureFixture[str]):
     level, climbing = (solved(capsys, "--mu", "0.2", *flag) for flag in ((), ("--climb-m-s", "4")))
     assert (level["climb_m_s"], climbing["climb_m_s"]) == (0.0, 4.0)
