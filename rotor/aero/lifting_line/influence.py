@@ -26,7 +26,7 @@ import numpy as np
 
 from rotor.aero.disk import stations
 from rotor.aero.lifting_line.geometry import WakeCourse
-from rotor.arrays import Array, Integers
+from rotor.arrays import Array, Integers, Singles
 from rotor.compiled import compiled
 
 NEAR = math.radians(30.0)
@@ -115,11 +115,11 @@ def _sum_lines(targets: Any, ends: Any, core: Any, own: Any, places: Any, shares
 class Wake:
     """Lines of the wakes of all blades at a course; the row of each is an edge, panel, or one of a strip."""
 
-    ends: Array
-    """(azimuths, lines, 6), single precision."""
-    core: Array
+    ends: Singles
+    """(azimuths, lines, 6)."""
+    core: Singles
     places: Integers
-    shares: Array
+    shares: Singles
     rows: tuple[int, ...]
     """First rows of: near edges, near panels, bound lines, far edges, far strips, far edges with mean circulation."""
 
@@ -147,7 +147,7 @@ def build_wake(line: Line, course: WakeCourse, psi: Array) -> Wake:
     strips = len(picked) - 1
     rows = tuple(np.cumsum([0, n + 1, n, n, strips + 1, strips, strips + 1]).tolist())
     young = course.nodes(psi, np.arange(near * PIECES + 1) * step / PIECES, line.edges)
-    ages = np.arange(near, turns + 1) * step
+    ages = np.arange(near, turns + 1, dtype=np.float64) * step
     old = course.nodes(psi, ages, line.edges[picked])
     begin, end = turns * step, LENGTH / course.speed
     oldest = np.linspace(begin, max(end, begin + FAR_STEP), max(math.ceil((end - begin) / FAR_STEP), 1) + 1)
@@ -190,7 +190,7 @@ class _Parts:
     def __init__(self, azimuths: int) -> None:
         self._azimuths = azimuths
         self._ends, self._core = list[Array](), list[Array]()
-        self._places, self._shares = list[Array](), list[Array]()
+        self._places, self._shares = list[Integers](), list[Array]()
 
     def trailers(self, nodes: Array, row: int, core: Any, ages: Any, shares: Array) -> None:
         """Lines from age to age, (azimuths, ages, radii, 3); core: by age and radius."""
@@ -219,14 +219,14 @@ class _Parts:
         )  # fmt: skip
 
 
-def _by_panels(line: Line, wake: Wake, rows: Array) -> Array:
+def _by_panels(line: Line, wake: Wake, rows: Singles) -> Singles:
     """From sums by line, (rows, azimuths, targets), to those by panel, (panels, azimuths, targets)."""
     near_edges, near_panels, bound, edges, strips, mean, end = (*wake.rows,)
     panels = rows[near_panels:bound] + rows[bound:edges] + np.diff(rows[near_edges:near_panels], axis=0)
     grouped = rows[strips:mean] + np.diff(rows[edges:strips], axis=0)
     grouped += np.diff(rows[mean:end].sum(axis=1), axis=0)[:, None] / line.azimuths
-    panels += np.tensordot(_strip_weights(line).T.astype(np.float32), grouped, 1)
-    return panels
+    weights = _strip_weights(line).T.astype(np.float32)
+    return panels + (weights @ grouped.reshape(len(grouped), -1)).reshape(panels.shape)
 
 
 @lru_cache(maxsize=32)
@@ -255,9 +255,26 @@ def mean_influence(line: Line, course: WakeCourse) -> Array:
     return _seen(line, wake, targets, at, order, order[:1], _own_core(line, course)).sum(axis=1).T
 
 
+def at_points(line: Line, course: WakeCourse, points: Array, normals: Array) -> Array:
+    """Downwash over ΩR at fixed points along their normals, by circulation over ΩR².
+
+    points, normals: (targets, 3), in the axes of `geometry`. (positions, targets, points of the line): one value for
+    each position of the rotor until a blade takes the place of the one before; their mean is the mean over time.
+    """
+    m, targets = line.azimuths, np.concatenate([points, normals], axis=1).T.astype(np.float32)
+    wake, core = build_wake(line, course, line.psi), np.full(len(points), LEAST_CORE**4, dtype=np.float32)
+    out = np.empty((m // line.blades, len(points), line.panels * m))
+    for position in range(len(out)):
+        rows = np.zeros((wake.rows[-1], m, len(points)), dtype=np.float32)
+        for place in position + m // line.blades * np.arange(line.blades):
+            _sum_lines(targets, wake.ends[place], wake.core, core, wake.places, wake.shares, int(place), rows)
+        out[position] = _by_panels(line, wake, rows).reshape(-1, len(points)).T / (4.0 * math.pi)
+    return out
+
+
 def _seen(
-    line: Line, wake: Wake, targets: Array, azimuths: Integers, places: Integers, seen: Integers, own: Array
-) -> Array:  # fmt: skip
+    line: Line, wake: Wake, targets: Singles, azimuths: Integers, places: Integers, seen: Integers, own: Array
+) -> Singles:  # fmt: skip
     """Downwash at targets on some blades, (panels, azimuths, targets).
 
     The blades stand at `azimuths`, their wakes are those at `places` of `wake`; targets lie on the blades `seen`.
@@ -273,8 +290,8 @@ def _seen(
     return _by_panels(line, wake, rows) / (4.0 * math.pi)
 
 
-def _on_blades(line: Line, course: WakeCourse, psi: Array) -> Array:
-    """Control points and normals of blades at psi, (6, blades × panels), single precision."""
+def _on_blades(line: Line, course: WakeCourse, psi: Array) -> Singles:
+    """Control points and normals of blades at psi, (6, blades × panels)."""
     beta, cos, sin = course.flapping(psi)[:, None], np.cos(psi)[:, None], np.sin(psi)[:, None]
     r, one = line.r, np.ones(line.panels)
     along = [r * cos, r * sin, beta * r, -beta * cos * one, -beta * sin * one, one + 0.0 * cos]
