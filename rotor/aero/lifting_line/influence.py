@@ -11,7 +11,7 @@ The law of Biot and Savart with the core of Vatistas, n = 2 (Exp. Fluids 11, 199
 
     4π v = (a × b)(|a| + |b|)(1 − a·b/|a||b|)/√(|a × b|⁴ + c⁴ |AB|⁴)
 
-A blade's own young trailers have no core from µ_x + 0.5 outward, where control points lie midway between smooth
+A blade's own young trailers have no core from µ_x + 0.45 outward, where control points lie midway between smooth
 trailers, and inboard, where the wake passes back over the blade in reverse flow, 0.05; a core of 0.02 there loses the
 tip. All are sums over the targets that see one rotor position: the loops run along them, in single precision.
 """
