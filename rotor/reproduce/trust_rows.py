@@ -248,7 +248,7 @@ def validation() -> Iterator[TrustRow]:
 def _measured_inflow() -> Iterator[TrustRow]:
     """Correlation of the inflow of some models with that measured over the disk."""
     rows = list(inflow_agreement())
-    for name in ("pitt-peters", "pitt-peters-15pi/23", "local-momentum", "dynamic-wake"):
+    for name in ("pitt-peters", "pitt-peters-15pi/23", "local-momentum", "lifting-line"):
         mine = [row for row in rows if row.model == name]
         known = [row.correlation for row in mine if row.correlation is not None]
         rms = ", ".join(f"{row.rms:.4f}" for row in mine)
@@ -260,7 +260,7 @@ def _measured_inflow() -> Iterator[TrustRow]:
             sum(known) / len(known),
             0.02,
             "rotor/validation/test_validation.py::test_measured_inflow",
-            f"rms {rms} of the tip speed.{f' {INFLOW_WHY}' if name == 'dynamic-wake' else ''}",
+            f"rms {rms} of the tip speed.{f' {INFLOW_WHY}' if name == 'lifting-line' else ''}",
         )
 
 

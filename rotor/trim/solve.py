@@ -18,7 +18,7 @@ from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult,
 from rotor.trim.power import control_loads, hub_moment, power_budget, wind_forces
 from rotor.trim.solution import DiskFields, ElasticTwist, Solution, Status
 from rotor.trim.validity import caveats, failure_sentence, implausible, vortex_ring
-from rotor.trim.wake_course import course_of
+from rotor.trim.wake_course import course_of, laid_again
 
 SUSPECT_STALL = 0.25
 """Part of the disk. Trims of attached flow end at about this share; those beyond the largest lift have 0.4 or more."""
@@ -39,6 +39,10 @@ def solve(design: Design, start: Solution | Guess | None = None, options: Solver
         return _assemble(problem, _without_trim(problem), begin)
     guess = _guess(design, start) if isinstance(start, Solution) else start
     result = hover(problem, guess, options) if design.hovering else trim(problem, guess, options)
+    if isinstance(result, TrimResult) and (again := laid_again(problem, result)) is not None:
+        problem, passes = again, result.passes
+        result = trim(problem, result.guess, options)
+        result = replace(result, passes=passes + result.passes)
     solution = _assemble(problem, result, begin)
     if _may_be_of_another_branch(solution, result) and not options.asked_to_stop:
         other = trim_along(problem, options)

@@ -2,7 +2,8 @@
 
 That trim knows the tilt, the flapping and the mean inflow, and nothing of the twist that is being designed. So one wake
 serves all twists of a condition, and the gradient by twist is exact. Laid along the trim found with it, power moves by
-less than 0.05 % (tested).
+less than 0.05 % (tested). A free rotor finds its tilt, which linear inflow misses by up to 2°: its wake is laid again
+along the trim found, once.
 """
 
 from dataclasses import replace
@@ -30,6 +31,12 @@ def course_of(problem: Problem) -> WakeCourse | None:
     """The course that the inflow's wake lies on; None for other inflow models, and in hover."""
     lies = isinstance(problem.inflow, LiftingLineInflow) and not problem.design.hovering
     return problem.course if lies else None
+
+
+def laid_again(problem: Problem, found: TrimResult) -> Problem | None:
+    """The problem of a free rotor with its wake along a trim; None where it stays."""
+    free = problem.design.models.trim == "free-rotor" and problem.inflow.fine_tip and not problem.design.hovering
+    return replace(problem, course=along(found, problem.course)) if free and found.converged else None
 
 
 @lru_cache(maxsize=64)

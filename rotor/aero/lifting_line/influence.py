@@ -5,13 +5,13 @@ What changes along the span trails from the panels' edges, what changes in time 
 
     age 0…30°           a full lattice: trailers at every edge, shed lines, four straight pieces a step
     to two turns        trailers of groups of panels, each with the mean circulation of its panels, and shed lines
-    beyond, to 8 R      the same trailers in steps of 45°, with the mean circulation around the azimuth
+    beyond, to 8 R      the same trailers in steps of 30°, with the mean circulation around the azimuth
 
 The law of Biot and Savart with the core of Vatistas, n = 2 (Exp. Fluids 11, 1991), of a unit line from A to B:
 
     4π v = (a × b)(|a| + |b|)(1 − a·b/|a||b|)/√(|a × b|⁴ + c⁴ |AB|⁴)
 
-A blade's own young trailers have no core from µ_x + 0.5 outward, where control points lie midway between smooth
+A blade's own young trailers have no core from µ_x + 0.45 outward, where control points lie midway between smooth
 trailers, and inboard, where the wake passes back over the blade in reverse flow, 0.05; a core of 0.02 there loses the
 tip. All are sums over the targets that see one rotor position: the loops run along them, in single precision.
 """
@@ -26,7 +26,7 @@ import numpy as np
 
 from rotor.aero.disk import stations
 from rotor.aero.lifting_line.geometry import WakeCourse
-from rotor.arrays import Array, Integers
+from rotor.arrays import Array, Integers, Singles
 from rotor.compiled import compiled
 
 NEAR = math.radians(30.0)
@@ -34,7 +34,7 @@ NEAR = math.radians(30.0)
 PIECES = 4
 """Straight pieces of a step there: one leaves the blade at a wrong angle."""
 TURNS = 2
-FAR_STEP = 0.25 * math.pi
+FAR_STEP = math.pi / 6.0
 LENGTH = 8.0
 """Distance of the wake's end, over R."""
 GROUP = 3
@@ -112,14 +112,14 @@ def _sum_lines(targets: Any, ends: Any, core: Any, own: Any, places: Any, shares
 
 
 @dataclass(frozen=True, eq=False)
-class Wake:
+class WakeLines:
     """Lines of the wakes of all blades at a course; the row of each is an edge, panel, or one of a strip."""
 
-    ends: Array
-    """(azimuths, lines, 6), single precision."""
-    core: Array
+    ends: Singles
+    """(azimuths, lines, 6)."""
+    core: Singles
     places: Integers
-    shares: Array
+    shares: Singles
     rows: tuple[int, ...]
     """First rows of: near edges, near panels, bound lines, far edges, far strips, far edges with mean circulation."""
 
@@ -139,7 +139,7 @@ def _strip_weights(line: Line) -> Array:
     return out
 
 
-def build_wake(line: Line, course: WakeCourse, psi: Array) -> Wake:
+def build_wake(line: Line, course: WakeCourse, psi: Array) -> WakeLines:
     """The lines of the wakes of blades at azimuths psi."""
     n, step = line.panels, 2.0 * math.pi / line.azimuths
     near, turns = max(round(NEAR / step), 1), TURNS * line.azimuths
@@ -147,7 +147,7 @@ def build_wake(line: Line, course: WakeCourse, psi: Array) -> Wake:
     strips = len(picked) - 1
     rows = tuple(np.cumsum([0, n + 1, n, n, strips + 1, strips, strips + 1]).tolist())
     young = course.nodes(psi, np.arange(near * PIECES + 1) * step / PIECES, line.edges)
-    ages = np.arange(near, turns + 1) * step
+    ages = np.arange(near, turns + 1, dtype=np.float64) * step
     old = course.nodes(psi, ages, line.edges[picked])
     begin, end = turns * step, LENGTH / course.speed
     oldest = np.linspace(begin, max(end, begin + FAR_STEP), max(math.ceil((end - begin) / FAR_STEP), 1) + 1)
@@ -190,7 +190,7 @@ class _Parts:
     def __init__(self, azimuths: int) -> None:
         self._azimuths = azimuths
         self._ends, self._core = list[Array](), list[Array]()
-        self._places, self._shares = list[Array](), list[Array]()
+        self._places, self._shares = list[Integers](), list[Array]()
 
     def trailers(self, nodes: Array, row: int, core: Any, ages: Any, shares: Array) -> None:
         """Lines from age to age, (azimuths, ages, radii, 3); core: by age and radius."""
@@ -210,23 +210,23 @@ class _Parts:
         self._places.append(places.reshape(-1, 3))
         self._shares.append(np.repeat(shares, wide, axis=0))
 
-    def wake(self, rows: tuple[int, ...]) -> Wake:
+    def wake(self, rows: tuple[int, ...]) -> WakeLines:
         """All of them."""
         single = np.float32
-        return Wake(
+        return WakeLines(
             np.concatenate(self._ends, axis=1).astype(single), np.concatenate(self._core).astype(single),
             np.concatenate(self._places), np.concatenate(self._shares).astype(single), rows,
         )  # fmt: skip
 
 
-def _by_panels(line: Line, wake: Wake, rows: Array) -> Array:
+def _by_panels(line: Line, wake: WakeLines, rows: Singles) -> Singles:
     """From sums by line, (rows, azimuths, targets), to those by panel, (panels, azimuths, targets)."""
     near_edges, near_panels, bound, edges, strips, mean, end = (*wake.rows,)
     panels = rows[near_panels:bound] + rows[bound:edges] + np.diff(rows[near_edges:near_panels], axis=0)
     grouped = rows[strips:mean] + np.diff(rows[edges:strips], axis=0)
     grouped += np.diff(rows[mean:end].sum(axis=1), axis=0)[:, None] / line.azimuths
-    panels += np.tensordot(_strip_weights(line).T.astype(np.float32), grouped, 1)
-    return panels
+    weights = _strip_weights(line).T.astype(np.float32)
+    return panels + (weights @ grouped.reshape(len(grouped), -1)).reshape(panels.shape)
 
 
 @lru_cache(maxsize=32)
@@ -255,9 +255,26 @@ def mean_influence(line: Line, course: WakeCourse) -> Array:
     return _seen(line, wake, targets, at, order, order[:1], _own_core(line, course)).sum(axis=1).T
 
 
+def at_points(line: Line, course: WakeCourse, points: Array, normals: Array) -> Array:
+    """Downwash over ΩR at fixed points along their normals, by circulation over ΩR².
+
+    points, normals: (targets, 3), in the axes of `geometry`. (positions, targets, points of the line): one value for
+    each position of the rotor until a blade takes the place of the one before; their mean is the mean over time.
+    """
+    m, targets = line.azimuths, np.concatenate([points, normals], axis=1).T.astype(np.float32)
+    wake, core = build_wake(line, course, line.psi), np.full(len(points), LEAST_CORE**4, dtype=np.float32)
+    out = np.empty((m // line.blades, len(points), line.panels * m))
+    for position in range(len(out)):
+        rows = np.zeros((wake.rows[-1], m, len(points)), dtype=np.float32)
+        for place in position + m // line.blades * np.arange(line.blades):
+            _sum_lines(targets, wake.ends[place], wake.core, core, wake.places, wake.shares, int(place), rows)
+        out[position] = _by_panels(line, wake, rows).reshape(-1, len(points)).T / (4.0 * math.pi)
+    return out
+
+
 def _seen(
-    line: Line, wake: Wake, targets: Array, azimuths: Integers, places: Integers, seen: Integers, own: Array
-) -> Array:  # fmt: skip
+    line: Line, wake: WakeLines, targets: Singles, azimuths: Integers, places: Integers, seen: Integers, own: Array
+) -> Singles:  # fmt: skip
     """Downwash at targets on some blades, (panels, azimuths, targets).
 
     The blades stand at `azimuths`, their wakes are those at `places` of `wake`; targets lie on the blades `seen`.
@@ -273,8 +290,8 @@ def _seen(
     return _by_panels(line, wake, rows) / (4.0 * math.pi)
 
 
-def _on_blades(line: Line, course: WakeCourse, psi: Array) -> Array:
-    """Control points and normals of blades at psi, (6, blades × panels), single precision."""
+def _on_blades(line: Line, course: WakeCourse, psi: Array) -> Singles:
+    """Control points and normals of blades at psi, (6, blades × panels)."""
     beta, cos, sin = course.flapping(psi)[:, None], np.cos(psi)[:, None], np.sin(psi)[:, None]
     r, one = line.r, np.ones(line.panels)
     along = [r * cos, r * sin, beta * r, -beta * cos * one, -beta * sin * one, one + 0.0 * cos]
