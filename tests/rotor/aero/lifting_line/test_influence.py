@@ -89,7 +89,7 @@ def pieces(course: WakeCourse, circulation: Array, azimuth: int) -> Iterator[Pie
             yield node(age, low), node(age, high), mean(age, s) - (mean(age - 1, s) if age > 1 else 0.0), SHED
     steady = [sum(strip(k, s) for k in range(LINE.azimuths)) / LINE.azimuths for s in range(len(STRIPS))] + [0.0]
     begin, end = turns * STEP, 8.0 / math.hypot(course.mu_x, course.mu_z + course.lambda0)
-    ages = np.linspace(begin, end, math.ceil((end - begin) / (0.25 * math.pi)) + 1) / STEP
+    ages = np.linspace(begin, end, math.ceil((end - begin) / (math.pi / 6.0)) + 1) / STEP
     for young, old in pairwise(ages.tolist()):
         for s, e in enumerate(borders):
             inner = steady[s - 1] if s else 0.0
@@ -160,13 +160,13 @@ def test_a_straight_line_is_that_of_the_textbook(begin: float, share: float, cor
 def test_many_blades_in_hover_approach_momentum_theory():
     """Uniform load of 12 blades, Γ = 2π C_T/N_b: λ = √(C_T/2) by a semi-infinite vortex cylinder, away from its edges.
 
-    The end of the wake at 8 R takes 0.7 %, steps of 45° beyond two turns 2 %: with 10° and 30 R it is 1.000.
+    The end of the wake at 8 R takes 0.7 %, steps of 30° beyond two turns 1 %: with 10° and 30 R it is 1.000.
     """
     line, thrust = Line(blades=12, root=0.15, panels=24, azimuths=24), 0.006
     course = replace(HOVER, coning=0.0, lambda0=math.sqrt(0.5 * thrust))
     inflow = mean_influence(line, course) @ np.full(line.panels, 2.0 * math.pi * thrust / line.blades)
     middle = (line.r > 0.4) & (line.r < 0.8)
-    assert_allclose(inflow[middle], course.lambda0, rtol=0.035)
+    assert_allclose(inflow[middle], course.lambda0, rtol=0.02)
 
 
 def test_in_hover_every_azimuth_sees_the_same():
