@@ -1,7 +1,6 @@
 """Measured inflow over the disk beside every inflow model: correlation and root mean square of the difference.
 
-The laser velocimeter measured the time mean at points of the disk, one chord above it. A model with single blades
-gives the inflow at the blade; its time mean is that of the same load spread over infinitely many blades.
+The laser velocimeter measured the time mean at points of the disk, one chord above it.
 """
 
 import math
@@ -11,9 +10,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.inflow.dynamic_wake import DynamicWakeInflow
-from rotor.aero.inflow.interface import Wake
-from rotor.aero.problem import build_problem, in_disk_axes
 from rotor.arrays import Array
 from rotor.assets import asset_path, csv_rows
 from rotor.files.make_design import make_design
@@ -22,15 +18,13 @@ from rotor.trim.solve import solve
 ROTOR = "2mrts"
 CONDITIONS = {0.15: (3.0, 0.0064), 0.23: (3.04, 0.0064), 0.35: (5.7, 0.0064)}
 """Shaft tilt [°] and C_T at each advance ratio (NASA TM-100541 to 100543)."""
-MODELS = tuple(name for name in INFLOW_MODELS if name != "vortex-wake")
-"""Models with a time mean at a point of the disk; the vortex lattice gives the inflow at the blade only."""
+MODELS = tuple(name for name in INFLOW_MODELS if name != "lifting-line")
+"""Models with a time mean at a point of the disk; the lifting line gives the inflow at the blade only."""
 SET = "2mrts-inflow"
 """Name of the set on the command line."""
 WHY = (
-    "Linear inflow ranks above the dynamic wake at advance ratio 0.35. The points lie a chord above the disk, where "
-    "what small parts of the load induce has faded; none of these models has a wake that rolls up; and from 0.23 on "
-    "the measured mean is little more than half of momentum theory's, which all of them share. Nothing was changed: "
-    "linear inflow does not respond to the load, so it cannot tell twists apart."
+    "From advance ratio 0.23 on the measured mean is little more than half of momentum theory's, which all of these "
+    "models share."
 )
 """What the comparison shows, as far as it is known."""
 
@@ -102,13 +96,7 @@ def _time_mean(name: str, measured: MeasuredInflow) -> Array:
     solidity = make_design(rotor=ROTOR).rotor.solidity
     stand = {"shaft_tilt_deg": tilt, "ct_over_sigma": ct / solidity}
     solution = solve(make_design(rotor=ROTOR, mu=measured.mu, inflow=name, stand=stand)).require()
-    problem = build_problem(solution.design)
-    model, field = problem.inflow, solution.disk.induced
-    if isinstance(model, DynamicWakeInflow):
-        tilt = solution.controls.shaft_tilt
-        wake = Wake(*in_disk_axes(measured.mu, problem.climb, tilt), solution.controls.lambda0)
-        field = model.spread().theory(problem.disk).induced(solution.disk.dct, wake)
-    return _at(problem.disk.r, field, measured)
+    return _at(solution.disk.r, solution.disk.induced, measured)
 
 
 def _at(radii: Array, field: Array, measured: MeasuredInflow) -> Array:

@@ -5,11 +5,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from rotor.aero.inflow.wake_terms import WakeTerms
 
 from rotor.aero.elements import BladeElements
 from rotor.aero.inflow import INFLOW_MODELS, Wake
 from rotor.aero.inflow.local_momentum import GAIN
-from rotor.aero.inflow.wake_terms import WakeTerms
 from rotor.aero.problem import Problem, in_disk_axes
 from rotor.arrays import Array
 from rotor.design.design import Design

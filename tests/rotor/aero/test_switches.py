@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose, assert_array_equal
+from rotor.aero.inflow.dynamic_wake import DynamicWakeInflow
 from scipy.integrate import dblquad
 
 from rotor.__main__ import main
 from rotor.aero.elements import TrimState, disk_sums
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.inflow.dynamic_wake import DynamicWakeInflow
 from rotor.aero.inflow.interface import Wake
 from rotor.aero.inflow.local_momentum import GAIN
 from rotor.aero.losses import tip_factor

@@ -8,10 +8,10 @@ from dataclasses import replace
 
 import pytest
 from numpy.testing import assert_allclose
+from rotor.aero.inflow.vortex_lattice import shared_azimuths
 
 from rotor import Design, make_design
 from rotor.__main__ import main
-from rotor.aero.inflow.vortex_lattice import shared_azimuths
 from rotor.analysis.ideal_bound import find_bound, ideal_factor
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.files.design_file import design_from_record

@@ -14,7 +14,7 @@ from rotor.reproduce import ENTRIES, Report
 from rotor.reproduce.cross_codes import have
 from rotor.reproduce.trust import KINDS, TrustRow, sensitivity_rows, trust_rows
 from rotor.reproduce.trust_page import FAST, page, sensitivity
-from rotor.reproduce.trust_rows import LIFT_SLOPE, between_theories, public_codes
+from rotor.reproduce.trust_rows import LIFT_SLOPE, public_codes
 
 TESTS = Path(__file__).parent.parent.parent
 DOCS = TESTS.parent / "docs"

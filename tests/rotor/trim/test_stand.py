@@ -6,11 +6,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from rotor.aero.inflow.peters_he import flow_parameters
 
 from rotor.aero.elements import TrimState
 from rotor.aero.inflow import Wake
 from rotor.aero.inflow.linear import LINEAR_MODELS
-from rotor.aero.inflow.peters_he import flow_parameters
 from rotor.aero.problem import build_problem
 from rotor.design.design import Design
 from rotor.design.stand import Stand, read_stand
