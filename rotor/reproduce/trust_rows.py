@@ -31,6 +31,7 @@ from rotor.reproduce.cross_codes import (
 )
 from rotor.reproduce.disk_figures import figure_2_8, figure_3_7, figure_3_8, figure_3_9
 from rotor.reproduce.report import Report
+from rotor.reproduce.runs import FLIGHT_LINEAR
 from rotor.reproduce.trust import Kind, TrustRow
 from rotor.reproduce.twist_effect import keys_1987
 from rotor.trim.adjoint import power_gradient
@@ -73,10 +74,10 @@ def verification() -> Iterator[TrustRow]:
     )  # fmt: skip
     hover, forward, azimuths = figure_3_7(), figure_3_8(), figure_3_9()
     for name, report in (("hover", hover), ("µ 0.30", forward)):
-        error = max(report.numbers[f"{preset}_error_at_40"] for preset in ("thesis", "flight"))
+        error = max(report.numbers[f"{preset}_error_at_40"] for preset in ("thesis", FLIGHT_LINEAR))
         yield _percent(f"Power at 40 elements, {name}", "limit of finer grids", error, 2e-4,
                        "rotor/reproduce/test_chapter_3.py::test_figure_3_7")  # fmt: skip
-    error = max(azimuths.numbers[f"{preset}_error_at_100"] for preset in ("thesis", "flight"))
+    error = max(azimuths.numbers[f"{preset}_error_at_100"] for preset in ("thesis", FLIGHT_LINEAR))
     yield _bound("Power at 100 azimuths, µ 0.30", "720 azimuths", error, 1e-5,
                  "rotor/reproduce/test_chapter_3.py::test_figure_3_9")  # fmt: skip
     area = figure_2_8().numbers

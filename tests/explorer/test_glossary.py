@@ -100,7 +100,6 @@ def test_every_line_of_the_results_has_its_sentence(mu: float):
         readout.trim_panel(solution),
         ab_readout.power_panel(solution, other),
         ab_readout.trim_panel(solution, other),
-        readout.check_panel(other, solution),
         status_panel(solution),
     ]
     for html in page:

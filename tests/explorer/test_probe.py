@@ -102,7 +102,7 @@ def test_the_triangle_closes_anywhere(r: float, psi: float, fast: Solution):
 
 
 def test_lift_and_drag_are_the_coefficients_times_the_pressure(fast: Solution):
-    """q c C_l and q c C_d by hand; the dynamic wake takes no loss factor off. Radial friction would add to both."""
+    """q c C_l and q c C_d by hand; the lifting line takes no loss factor off. Radial friction would add to both."""
     fast = solve(with_switches(fast.design, ("radial_friction",)), fast).require()
     disk, density = fast.disk, fast.design.condition.density
     for i, j in stations(fast):

@@ -82,7 +82,7 @@ def test_stalled_share_has_exact_slopes(preset: str, mu: float):
 
 
 def test_stalled_share_is_close_to_the_counted_area():
-    """Both see the same cells; the smooth one differs by the cells within half a degree of stall."""
+    """The smooth one, on the panels of the trim, differs by the cells within half a degree of stall."""
     for mu in (0.3, 0.35, 0.38):
         solution = solve(make_design(mu=mu, twist="linear:-4"))
         share, _ = stalled_share(Adjoint(solution))

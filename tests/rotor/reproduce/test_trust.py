@@ -90,12 +90,6 @@ def test_public_code_rows_are_reproduced():
 
 
 @pytest.mark.slow
-def test_rows_between_theories_are_reproduced():
-    for row in between_theories():
-        still_true(row)
-
-
-@pytest.mark.slow
 def test_sensitivities_are_reproduced():
     """Angles to 0.3°, a tenth of their bands; savings to a tenth of a per cent of power."""
     for made, shipped in zip(sensitivity(), sensitivity_rows(), strict=True):
