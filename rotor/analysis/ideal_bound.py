@@ -310,10 +310,9 @@ def not_bounded(design: Design) -> str:
 def ideal_factor(mu: float, ct: float, rotor: str = TABLE_ROTOR) -> float | None:
     """κ of any circulation within the lift limit, from the shipped table (`python -m rotor ideal`) of the UH-60A.
 
-    Linear between the table's advance ratios and C_T, held beyond its C_T and where none was found; 1 in hover, where an
-    even load is ideal.
-    None beyond its fastest, 0.40: there reverse-flow lift decides and the bound has not converged. None for any other
-    `rotor` by name: its blade number, root and chord make another bound.
+    Linear between the table's advance ratios and C_T, held beyond its C_T and where none was found; 1 in hover, where
+    an even load is ideal. None beyond its fastest, 0.40: there reverse-flow lift decides and the bound has not
+    converged. None for any other `rotor` by name: its blade number, root and chord make another bound.
     """
     speeds, thrusts, factors = _table()
     if mu > speeds[-1] or rotor != TABLE_ROTOR:

@@ -280,7 +280,7 @@ def _add_smoothing(matrix: Array, smoothing: Array) -> None:
     """Derivatives of −ε (y_above − 2 y + y_below), in place."""
     n, m = smoothing.shape
     along = smoothing.ravel()
-    every = np.arange(n * m)
+    every = np.arange(n * m, dtype=np.int64)
     matrix[every, every] += 2.0 * along
     matrix[every[m:], every[:-m]] -= along[m:]
     matrix[every[:-m], every[m:]] -= along[:-m]

@@ -9,8 +9,8 @@ of the hovering rotor, is added to the inflow in forward flight times s(µ), whi
 λ̄ is Glauert's inflow over that of hover. With it cos²χ of the wake's skew χ is λ̄⁴, the share of the axial transport in
 the squared velocity through the disk; c falls faster than with it and with the inflow itself, as λ̄⁵, for the wake of a
 lifting line skews by itself. λ̄_e belongs to µ̄ = 1.5, where the wake trails at 68° to the shaft: beyond it s is 0 and
-hover is not computed. So hover and forward flight have one limit, and neither power nor its slope has a kink. In a climb hover is
-that at the same rate of climb.
+hover is not computed. So hover and forward flight have one limit, and neither power nor its slope has a kink. In a
+climb hover is that at the same rate of climb.
 """
 
 import math

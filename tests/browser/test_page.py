@@ -170,7 +170,7 @@ def test_crossed_divisions_are_one_red_sentence(watched: Watched):
 
 
 def test_thesis_preset_brings_its_own_inflow(watched: Watched):
-    model(watched)
+    watched.page.get_by_text("Model", exact=True).click()
     watched.drawer("trust")
     watched.choose("Preset", "Thesis (as stated)")
     watched.page.wait_for_function(

@@ -128,7 +128,7 @@ class TestReadout:
 
     def test_provenance_names_preset_inflow_sections_and_kind(self, forward: Solution):
         html = provenance(forward)
-        for words in ("flight", "SC1095 / SC1094 R8", "40 × 120", "not a measurement"):
+        for words in ("flight", "SC1095 / SC1094 R8", "24 × 24", "not a measurement"):
             assert words in html
         assert "annulus balance" in provenance(solve(make_design(mu=0.0)))
 

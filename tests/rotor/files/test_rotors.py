@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose
 
 from rotor import Design, make_design
 from rotor.__main__ import main
-from rotor.analysis.ideal_bound import find_bound, ideal_factor
+from rotor.analysis.ideal_bound import bound_line, find_bound, ideal_factor
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.files.design_file import design_from_record
 from rotor.files.rotor_file import find_aircraft, read_aircraft, shipped_aircraft
@@ -156,7 +156,7 @@ def test_a_shipped_twist_fits_any_rotor():
 
 
 def test_the_ideal_bound_is_read_only_for_its_rotor():
-    assert shared_azimuths(72, 5) == 75
+    assert bound_line(5, 0.13).azimuths == 50
     assert ideal_factor(0.2, 0.0065, "r22") is None
     assert ideal_factor(0.2, 0.0065, "uh60a") is not None
 
