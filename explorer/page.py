@@ -313,7 +313,6 @@ class Page:
         controls, context, bridge = self.controls, self.context, self.bridge
         self.actuator.shown.on_update(self._cut_switched)
         controls.reset_button.on_click(lambda _: self._reset())
-        controls.check_button.on_click(lambda _: self._check())
         controls.optimise_button.on_click(lambda _: self._optimise())
         bridge.on("mode", self._set_mode)
         bridge.on("drawer", self._toggle_drawer)
@@ -332,7 +331,7 @@ class Page:
         self.grab = BladeGrab(blade, by_hand, lambda: not self._held, self._grabbed)
         self.top.bind(context)
         self._presence.begin(context, PresentationHooks(lambda: self.lecture.step, self.lecture.follow, self._hold))
-        bind_commands(context, Actions(self._look, self._colour, self._check, self._reset, self.optimise.toggle))
+        bind_commands(context, Actions(self._look, self._colour, self._reset, self.optimise.toggle))
         self.file.begin(problems)
         self._show_views()
         self.top.refresh()
@@ -463,11 +462,6 @@ class Page:
 
     def _show_views(self) -> None:
         self.bridge.set(views={"all": VIEWS, "now": "" if self.actuator.shown.value else self._view})
-
-    def _check(self) -> None:
-        self.results.check()
-        self._open("details")
-        self._callbacks.wake()
 
     def _colour(self, order: str) -> None:
         self.display.order_range(order)

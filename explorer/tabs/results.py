@@ -19,10 +19,8 @@ from explorer.text import comparison as ab_readout
 from explorer.text import readout
 from explorer.text.status import status_panel, trust_page
 from explorer.text.units import SI, UNITS, Units
-from explorer.workers.solver import with_vortex_wake
 from rotor.trim.adjoint import PitchGradient, power_gradient
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 
 
 class ResultsPanel:
@@ -37,13 +35,9 @@ class ResultsPanel:
         self._state: SessionState | None = None
         """The last converged one."""
         self._gradient: tuple[Solution, PitchGradient] | None = None
-        self._checked: Solution | None = None
-        """The last check with the vortex wake."""
-        self._check_wanted = False
         with layout.in_drawer("details"):
             self._power = gui.add_html("")
             self._trim = gui.add_html("")
-            self._check = gui.add_html("")
         with layout.in_drawer("trust"):
             self._status = gui.add_html(status_panel(None))
             gui.add_html(trust_page())
@@ -61,7 +55,6 @@ class ResultsPanel:
             self._status.content = status_panel(state.solution, pinned=state.pinned)
         if self._layout.drawer == "details":
             self._power.content, self._trim.content = _numbers(state)
-        self._compare(state.solution, UNITS[state.view.units])
 
     def turn(self, state: SessionState) -> None:
         """The reference blade is elsewhere: what is drawn along it follows."""
@@ -87,10 +80,6 @@ class ResultsPanel:
         self._status.content = status_panel(None, sentence)
         if self._state is not None:
             self._power.content, self._trim.content = map(readout.faded, _numbers(self._state))
-
-    def check(self) -> None:
-        """Compute the vortex wake beside the answer in the next round."""
-        self._check_wanted = True
 
     @property
     def units(self) -> Units:
@@ -124,18 +113,6 @@ class ResultsPanel:
         if self._gradient is None or self._gradient[0] is not solution:
             self._gradient = solution, power_gradient(solution)
         return self._gradient[1]
-
-    def _compare(self, solution: Solution, units: Units) -> None:
-        """The vortex wake beside the answer, once asked for; an older check is taken away."""
-        if self._checked is not None and self._checked.design != with_vortex_wake(solution.design):
-            self._checked = None
-            self._check.content = ""
-        if self._check_wanted:
-            self._check_wanted = False
-            self._check.content = readout.check_panel(None, solution, units)
-            self._checked = solve(with_vortex_wake(solution.design), solution)
-        if self._checked is not None:
-            self._check.content = readout.check_panel(self._checked, solution, units)
 
 
 def _numbers(state: SessionState) -> tuple[str, str]:

@@ -89,12 +89,6 @@ CONTROLS: dict[str, Term] = {
         "Whether the forward wake passes over to the hover model as the speed falls to zero, or holds at any speed.",
         section=9,
     ),
-    "infinite": Term(
-        "The same wake averaged over time, as for infinitely many blades: the rotor of most textbooks.", section=9
-    ),
-    "vortex_check": Term(
-        "Solves the same design with a rigid helical vortex wake, the reference for the other models.", section=9
-    ),
     "play": Term("Turns the rotor, flapping and pitching; the solution stays the same."),
     "probe_r": Term("Radius of the probe; or click the disk, or press arrow up or down."),
     "probe_psi": Term("Azimuth of the probe, 0° over the tail; or press arrow left or right.", section=1),
@@ -199,11 +193,10 @@ READOUTS: dict[str, Term] = {
     "propulsive": Term("Propulsive force times airspeed; negative where the stream drives the rotor.", section=12),
     "tail": Term("Power of the tail rotor, which balances the torque.", section=12),
     "kappa": Term(
-        "κ: induced power relative to uniform loading, C_T λ0. Ideal: the least of any circulation of four blades in a "
-        "rigid wake with the same lift, C_l ≤ 1.2, none in reverse flow; in hover momentum theory.",
+        "κ: induced power relative to uniform loading, C_T λ0. Ideal: the least of any circulation of the same lifting "
+        "lines with the same lift, C_l ≤ 1.2, none in reverse flow; in hover momentum theory.",
         ("2.30",),
     ),
-    "vortex_check": Term("The same design with a rigid helical vortex wake, and the difference from it.", section=9),
     "collective": Term("θ0: pitch at 0.75 R, mean over azimuth.", section=1),
     "cyclic_1c": Term("θ1c: lateral cyclic, the cos ψ part of pitch.", section=1),
     "cyclic_1s": Term(

@@ -81,21 +81,6 @@ def ideal_line(solution: Solution, ideal: float | None, units: Units = SI) -> st
     return f'<div class="rx-line rx-dim rx-kappa"{tip("kappa")}><span>{kappa}</span><span>{bound}</span></div>'
 
 
-def check_panel(reference: Solution | None, solution: Solution, units: Units = SI) -> str:
-    """The same design with the vortex wake, and the difference of the power shown from it."""
-    if reference is None:
-        return '<div class="rx rx-dim rx-check">Vortex wake: computing …</div>'
-    if not reference.converged:
-        return f'<div class="rx rx-dim rx-check">Vortex wake: {escape(reference.message)}</div>'
-    apart = 100.0 * (solution.power.total / reference.power.total - 1.0)
-    return (
-        f'<div class="rx rx-check rx-line" data-explorer="check"{tip("vortex_check")}>'
-        '<span class="rx-dim">Vortex wake</span>'
-        f"<span><b>{units.watts(reference.power.total)}</b>, κ {number(reference.induced_power_factor, 2)}; "
-        f"the power shown is {number(apart, 1, sign=True)} %</span></div>"
-    )
-
-
 def change(power: PowerBudget, reference: PowerBudget | None) -> str:
     """Change of the total [%]: green for less, rust for more; a dash without a reference."""
     if reference is None or reference.total <= 0.0:

@@ -1,6 +1,6 @@
 """The solver as the page uses it: warmed at the start, with a cached baseline."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from rotor.design.design import PRESETS, Design
 from rotor.files.make_design import make_design
@@ -19,13 +19,7 @@ def warm() -> None:
 def compile_all() -> None:
     """Compile every kernel of the solver, so that nothing waits for it later: at set-up."""
     warm()
-    for inflow in ("vortex-wake", "local-momentum"):
-        power_gradient(solve(make_design(mu=0.2, inflow=inflow)))
-
-
-def with_vortex_wake(design: Design) -> Design:
-    """The same design with the reference inflow; itself in hover, which has no wake to skew."""
-    return design if design.hovering else replace(design, models=replace(design.models, inflow="vortex-wake"))
+    power_gradient(solve(make_design(mu=0.2, inflow="local-momentum")))
 
 
 @dataclass

@@ -39,7 +39,7 @@ _SWITCHES = (
         "tip_loss",
         "Tip loss",
         "Lift falls off at the tips of a finite number of blades: Prandtl's factor, or the wake of each blade.",
-        "F_tip = 1; a dynamic wake has infinitely many blades.",
+        "F_tip = 1; a lifting line keeps the tips of its blades.",
     ),
     Switch(
         "hub_loss",

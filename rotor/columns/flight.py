@@ -55,7 +55,7 @@ class SystemTolerances:
     residual: float
     """Of the trim equations, as a fraction of `Problem.scale`."""
     inflow: float
-    """Of λ_i, as a fraction of λ0."""
+    """Of the nodes, as a fraction of `Problem.scale`."""
     torsion: float
     """[rad]"""
     angle_step: float
@@ -87,7 +87,6 @@ def _structure(key: _StructureKey) -> Structure:
         s.state(state)
     for freedom in key.freedoms:
         freedom.declare(s)
-    terms.declare(s)
     s.roots = s.states["shaft_tilt"], s.states["lambda0"]
     made = {name: s.quantity(name) for name in _MADE}
     add_rigid_blade(s)
@@ -98,7 +97,7 @@ def _structure(key: _StructureKey) -> Structure:
     free = [s.states[name] for name in key.trim.unknowns]
     for freedom in key.freedoms:
         free += freedom.build(s)
-    free += terms.build(s)
+    terms.build(s)
     s.column(UT, SWIRL_SLOPE, STEADY, 1.0, made["change of swirl"])
     for channel, name in terms.live:
         s.column(channel, (name, "tilt"), STEADY, 1.0, made["change of tilt"])
@@ -170,7 +169,6 @@ def flight_system(problem: Problem, tolerances: SystemTolerances, added: Sequenc
         numbers=np.array([1.0, *values.values()]),
         tolerance=tolerance,
         limits=limits,
-        closures=terms.closures(structure),
         nodes=nodes,
     )
 
@@ -207,11 +205,8 @@ def _tolerances(problem: Problem, structure: Structure, wanted: SystemTolerances
     """Of every equation; and the largest step of every state solved for."""
     tolerance = np.full(len(structure.equations), wanted.residual * problem.scale)
     tolerance[structure.equations_of("twist")] = wanted.torsion
-    inflow = wanted.inflow * max(abs(problem.expected.lambda0), 0.02 * math.sqrt(0.5 * problem.scale))
-    tolerance[structure.equations_of("inflow")] = inflow / np.maximum(problem.inflow_terms.peaks(), 1e-9)
     limits = np.full(len(structure.free), wanted.angle_step)
     limits[structure.states_of("lambda0")] = wanted.inflow_step
-    limits[structure.states_of("inflow")] = math.inf
     return tolerance, limits
 
 
@@ -272,10 +267,10 @@ def state_of(structure: Structure, x: Array) -> TrimState:
 
 
 def parts_of(structure: Structure, x: Array) -> tuple[TrimState, Array, Array]:
-    """Trim state, coordinates of the elastic twist and of the inflow with its nodes, both flat; empty without."""
+    """Trim state, coordinates of the elastic twist and nodes of the inflow, both flat; empty without."""
     first = structure.first_state + len(STATE_NAMES)
-    twists, terms = len(structure.equations_of("twist")), len(structure.equations_of("inflow"))
-    return state_of(structure, x), x[first : first + twists], x[structure.given - terms :]
+    twists = len(structure.equations_of("twist"))
+    return state_of(structure, x), x[first : first + twists], x[structure.given :]
 
 
 def _flapping(problem: Problem, x: Array, structure: Structure) -> Array:

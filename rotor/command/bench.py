@@ -63,7 +63,7 @@ def measure_searches(*, long: bool) -> dict[str, float]:
 
 
 TARGET_PER_SECOND = 208.0
-"""10⁵ trims of elastic blades with the dynamic wake on two cores in 4 minutes."""
+"""10⁵ trims of elastic blades with the lifting line on two cores in 4 minutes."""
 _POINTS = 200
 
 
@@ -94,7 +94,7 @@ TARGETS_MS = {
     "warm": 3.5,
     "gradient": 0.8,
 }
-"""Targets of the project [ms], 40 × 120, one core of an idle machine."""
+"""Targets of the project [ms], on the grid of each model, one core of an idle machine."""
 
 _ADVANCE_RATIOS = (0.1, 0.15, 0.2, 0.25, 0.3, 0.35)
 
@@ -120,11 +120,11 @@ def run(args: argparse.Namespace) -> int:
         }  # fmt: skip
         print(json.dumps(answer, indent=2, allow_nan=False))
         return 0
-    print("milliseconds of processor time (median), 40 × 120, flight preset, mean of µ 0.10…0.35; dynamic wake and")
-    print("elastic blade where nothing else is said\n")
+    print("milliseconds of processor time (median), flight preset, mean of µ 0.10…0.35; lifting line and elastic blade")
+    print("where nothing else is said, linear inflow on 40 × 120\n")
     for name, value in figures.items():
         print(_line(name, value, "10.3f", TARGETS_MS.get(name), "≤"))
-    print("\nseconds, dynamic wake, elastic blade\n")
+    print("\nseconds, lifting line, elastic blade\n")
     for name, value in searches.items():
         print(_line(name, value, "10.2f", TARGETS_S.get(name), "≤"))
     print("\ntrims a second and core, elastic blades sampled over speed, weight, altitude and twist\n")
@@ -166,7 +166,7 @@ class OtherCode:
 
 def measure() -> tuple[dict[str, float], list[OtherCode], list[str]]:
     """Figures [ms] by name, other codes, and notes on what could not be measured."""
-    linear, rigid, default = _cases("pitt-peters"), _cases("dynamic-wake"), _cases("dynamic-wake", elastic=True)
+    linear, rigid, default = _cases("pitt-peters"), _cases("lifting-line"), _cases("lifting-line", elastic=True)
     figures: dict[str, float] = {}
     for beside, cases in (("", default), ("linear inflow, ", linear), ("rigid blade, ", rigid)):
         problems = [build_problem(design) for design in cases.designs]

@@ -28,6 +28,21 @@ RETIRED = {
     "free-wake": RetiredModel(
         "hover_inflow", "annulus", "The free wake in hover was retired; hover is solved by the annulus balance."
     ),
+    "dynamic-wake": RetiredModel(
+        "inflow", "lifting-line", "The dynamic wake was retired; the lifting line stands in for it."
+    ),
+    "dynamic-wake-quick": RetiredModel(
+        "inflow", "lifting-line", "The dynamic wake of few states was retired; the lifting line stands in for it."
+    ),
+    "dynamic-wake-infinite-blades": RetiredModel(
+        "inflow",
+        "lifting-line",
+        "The dynamic wake of infinitely many blades was retired; the lifting line of the rotor's own blades stands in "
+        "for it.",
+    ),
+    "vortex-wake": RetiredModel(
+        "inflow", "lifting-line", "The vortex wake of rigid helices was retired; the lifting line stands in for it."
+    ),
 }
 """By name."""
 

@@ -3,7 +3,7 @@
     channels   c = Φᵀ G W,  G = Σ factor z_i z_j                    K
     section    f(c), D = ∂f/∂c at every point                       `System.section`
     measures   Q = mean Ψ f Wᵀ Δr                                   P
-    residual   R(z, Q),  closures  y − T(z) Q
+    residual   R(z, Q)
     nodes      c += A y in one channel, y − f in one force: an unknown at every point of the grid
 
     J = ∂R/∂Q (Pᵀ D K) ∂G/∂z ∂z/∂x + ∂R/∂z ∂z/∂x,  and Jᵀ v by the same operators transposed.
@@ -16,7 +16,7 @@ blade for each pair of shapes, one around the azimuth, and two numbers for each 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -29,25 +29,6 @@ _compile = compiled(error_model="numpy", fastmath={"contract"})
 
 Live = Mapping[tuple[int, Shape], Array]
 """Shapes that follow the states, by channel and name."""
-
-
-class Closure(Protocol):
-    """y = T(z) Q for some states y, with a matrix that depends on a few atoms."""
-
-    rows: Integers
-    """Equations, (size,)."""
-    measures: Integers
-    """Q, (size,)."""
-    atoms: Integers
-    """That T depends on, (few,)."""
-
-    def value(self, z: Array, q: Array) -> Array:
-        """T(z) Q, (size,)."""
-        ...
-
-    def linear(self, z: Array, q: Array) -> tuple[Array, Array]:
-        """T, (size, size), and ∂(T Q)/∂ the atoms, (size, few)."""
-        ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,7 +105,6 @@ class System:
     """Of each equation, (equations,)."""
     limits: Array
     """Largest step of each state solved for, (equations,)."""
-    closures: tuple[Closure, ...] = ()
     nodes: Nodes | None = None
     """Their equations and unknowns come after all others."""
 
@@ -158,17 +138,9 @@ class Point:
 
     @cached_property
     def size(self) -> float:
-        """Largest residual over its tolerance; the rows of a closure are added up, for they are parts of one field."""
-        error = np.abs(self.residual) / self.system.tolerance
-        for closure in self.system.closures:
-            error[closure.rows[0]] = error[closure.rows].sum()
-        size = float(error.max())
+        """Largest residual over its tolerance."""
+        size = float((np.abs(self.residual) / self.system.tolerance).max())
         return size if np.isfinite(size) else np.inf
-
-    @cached_property
-    def closures(self) -> "list[tuple[Closure, Array, Array]]":
-        """The closures with their matrices and slopes."""
-        return [(closure, *closure.linear(self.z, self.q)) for closure in self.system.closures]
 
 
 def evaluate(system: System, grid: Grid, x: Array, *, slopes: bool = False, flow: bool = False) -> Point:
@@ -195,8 +167,6 @@ def evaluate(system: System, grid: Grid, x: Array, *, slopes: bool = False, flow
     q = np.empty(1 + len(structure.measures))
     q[0], q[1:] = 1.0, (along @ grid.waves.mean).ravel()[structure.measure_places]
     residual = structure.residual.value(z, q)
-    for closure in system.closures:
-        residual[closure.rows] -= closure.value(z, q)
     if nodes is not None:
         missing = y.reshape(channels.shape[1:]) - forces[nodes.force]
         if nodes.smoothing is not None:
@@ -286,9 +256,6 @@ def jacobian(point: Point, further: Terms | None = None) -> tuple[Array, Array]:
     on_q, total = structure.residual.slopes(z, q, first)
     summing = structure.residual.summing
     total[summing] += on_q[summing] @ by_z
-    for closure, matrix, by_atoms in point.closures:
-        total[closure.rows] -= matrix @ by_z[closure.measures]
-        total[np.ix_(closure.rows, closure.atoms - first)] -= by_atoms
     added, further_q = np.zeros((0, total.shape[1])), np.zeros((0, len(q)))
     if further is not None:
         further_q, on_z = further.slopes(z, q, first)
@@ -313,7 +280,7 @@ def _add_smoothing(matrix: Array, smoothing: Array) -> None:
     """Derivatives of −ε (y_above − 2 y + y_below), in place."""
     n, m = smoothing.shape
     along = smoothing.ravel()
-    every = np.arange(n * m)
+    every = np.arange(n * m, dtype=np.int64)
     matrix[every, every] += 2.0 * along
     matrix[every[m:], every[:-m]] -= along[m:]
     matrix[every[:-m], every[m:]] -= along[:-m]
@@ -441,9 +408,6 @@ def transposed(point: Point, v: Array, measure: Measure | None = None) -> tuple[
     equations, nodes = len(structure.equations), point.system.nodes
     v, on_nodes = v[:equations], v[equations:]
     on_q, on_z = structure.residual.transposed(v, z, q)
-    for closure, matrix, by_atoms in point.closures:
-        on_q[closure.measures] -= v[closure.rows] @ matrix
-        on_z[closure.atoms] -= v[closure.rows] @ by_atoms
     if measure.terms is not None:
         more_q, more_z = measure.terms.transposed(np.ones(measure.terms.rows), z, q)
         on_q, on_z = on_q + more_q, on_z + more_z

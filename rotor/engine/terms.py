@@ -4,7 +4,6 @@
     columns   channel(r, ψ) += factor z_i z_j Φ(r) w(ψ)
     measures  Q_k = mean over ψ of Σ Ψ(r) w(ψ) F(r, ψ) Δr
     terms     R_e += factor z_i z_j Q_k,   Q_0 = 1
-    closures  R = y − T(z) Q
 
 A structure is made once for each combination of trim, blade and wake. `finish` works out all places in the matrices.
 """

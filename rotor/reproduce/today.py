@@ -109,7 +109,7 @@ def today(scope: Scope = FULL) -> Report:
         number="Today",
         kind="claim",
         caption="The main results with the thesis' assumptions (one polar without Mach number, linear inflow, rigid "
-        "blade, collective only) and with today's physics (section tables, dynamic wake, full trim, elastic blade). "
+        "blade, collective only) and with today's physics (section tables, lifting line, full trim, elastic blade). "
         "UH-60A, 8322.4 kg, sea level; speeds from hover to µ 0.35, equal time at each. Twist is jig twist, as built.",
         statement="Twist should fall from hover (−13.5°) to fast flight (−4°), so a blade that moves its twist saves "
         "induced power in every flight condition (abstract, §3.3).",

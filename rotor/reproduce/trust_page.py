@@ -17,12 +17,10 @@ from rotor.reproduce.cross_codes import have
 from rotor.reproduce.report import Report, typographic
 from rotor.reproduce.trust import KINDS, SensitivityRow, TrustRow, trust_rows
 from rotor.reproduce.trust_rows import (
-    between_theories,
     indicative,
     public_codes,
     statements,
     validation,
-    validation_by_lattice,
     verification,
 )
 
@@ -113,9 +111,6 @@ CHANGES: tuple[tuple[str, Change], ...] = (
     ("inflow: Pitt–Peters, linear", _models(inflow="pitt-peters")),
     ("inflow: Drees, linear", _models(inflow="drees")),
     ("inflow: local momentum", _models(inflow="local-momentum")),
-    ("inflow: dynamic wake, infinite blades", _models(inflow="dynamic-wake-infinite-blades")),
-    ("inflow: dynamic wake, few states", _models(inflow="dynamic-wake-quick")),
-    ("losses off: hub, and tips as of infinitely many blades", _models(tip_loss=False, hub_loss=False)),
     ("trim: thrust only, flapping free, no cyclic", _models(trim="thrust")),
     ("U_P without µ sin α, as (3.6) prints", _models(disk_axial_flow=False)),
     ("both of these", _models(trim="thrust", disk_axial_flow=False)),
@@ -182,12 +177,12 @@ _NOT_MODELLED = (
 
 def all_rows(reports: Sequence[Report], tell: Callable[[str], None] = print) -> list[TrustRow]:
     """Every row, run anew; rows of a public code that is not installed are the shipped ones, named to `tell`."""
-    rows = [*verification(), *between_theories(), *public_codes()]
+    rows = [*verification(), *public_codes()]
     for package, name in CODES.items():
         if not have(package):
             tell(f"{name} is not installed: its shipped rows are kept (pip install 'rotor-explorer[crosscheck]')")
             rows += [row for row in trust_rows() if row.kind == "public code" and row.against.startswith(name)]
-    return [*rows, *validation(), *validation_by_lattice(), *indicative(), *statements(reports)]
+    return [*rows, *validation(), *indicative(), *statements(reports)]
 
 
 def write_trust(reports: Sequence[Report], folder: Path) -> Path:

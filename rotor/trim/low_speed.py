@@ -7,10 +7,10 @@ of the hovering rotor, is added to the inflow in forward flight times s(µ), whi
     λ̄² = √(µ̄⁴/4 + 1) − µ̄²/2,    µ̄ = µ/√(C_W/2).
 
 λ̄ is Glauert's inflow over that of hover. With it cos²χ of the wake's skew χ is λ̄⁴, the share of the axial transport in
-the squared velocity through the disk; c is taken to fall with it and with the inflow itself, as λ̄⁵, which s follows
-within 0.05. λ̄_e belongs to µ̄ = 2.5, where the wake trails at 81° to the shaft: beyond it s is 0 and hover is not
-computed. So hover and forward flight have one limit, and neither power nor its slope has a kink. In a climb hover is
-that at the same rate of climb.
+the squared velocity through the disk; c falls faster than with it and with the inflow itself, as λ̄⁵, for the wake of a
+lifting line skews by itself. λ̄_e belongs to µ̄ = 1.5, where the wake trails at 68° to the shaft: beyond it s is 0 and
+hover is not computed. So hover and forward flight have one limit, and neither power nor its slope has a kink. In a
+climb hover is that at the same rate of climb.
 """
 
 import math
@@ -23,7 +23,7 @@ from rotor.aero.problem import Problem, build_problem, swirl_of
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.trim.hover import HoverResult, hover
-from rotor.trim.wake_course import with_course
+from rotor.trim.wake_course import with_course, with_slow_course
 
 FASTEST = 1.5
 """µ̄ from which on forward flight owes nothing to hover: µ 0.087 for a UH-60A at sea level. Our choice."""
@@ -54,7 +54,7 @@ def hover_difference(design: Design) -> HoverDifference | None:
     elements, disk = found.linear.elements, problem.disk
     flow = Wake(0.0, problem.climb, elements.state.lambda0)
     load = elements.fz[:, 0]
-    axial, slope = problem.inflow_terms.axial(flow, elements.u_t[:, 0])
+    axial, slope = with_slow_course(problem).inflow_terms.axial(flow, elements.u_t[:, 0])
     uniform, _ = swirl_of(disk.r, flow.lambda0**2 + flow.lambda0 * flow.mu_z if design.models.has("swirl") else 0.0)
     inflow = elements.induced[:, 0] - axial @ load
     return HoverDifference(found, axial, slope * load, inflow, elements.swirl - uniform)

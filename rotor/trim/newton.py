@@ -7,10 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from rotor.aero.elements import STATE_NAMES, BladeElements, TrimState
-from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.inflow.interface import Wake
-from rotor.aero.inflow.linear import LinearInflow
-from rotor.aero.problem import Problem, in_disk_axes
+from rotor.aero.problem import Problem
 from rotor.aero.section import FZ, PAIRS, UP, UT
 from rotor.arrays import Array
 from rotor.columns.flight import SystemTolerances, elements_of, flight_system, parts_of, state_of
@@ -28,7 +25,7 @@ class SolverOptions:
     residual_tolerance: float = 1e-10
     """Largest residual of the trim equations, as a fraction of C_W; it keeps the energy identity to 1e-9."""
     inflow_tolerance: float = 1e-8
-    """Largest difference of λ_i from the model's response to the loads, as a fraction of λ0."""
+    """Largest difference of N_b Γ/π from that of the lift, as a fraction of C_W."""
     torsion_tolerance: float = 1e-10
     """Largest residual of the torsion equations [rad]."""
     accepted_residual: float = 1e-7
@@ -80,9 +77,9 @@ class Guess:
     elastic: Array | None = None
     """Coordinates of the elastic twist, (modes, functions)."""
     inflow: Array | None = None
-    """Coordinates of an inflow that answers the load."""
+    """Nodes of an inflow that answers the load."""
     inflow_kind: Hashable = None
-    """The wake that they belong to."""
+    """The inflow that they belong to."""
     factors: Factors | None = None
     """Those of the last derivatives, for the first steps."""
     structure: Hashable = None
@@ -208,28 +205,20 @@ def first_point(problem: Problem, system: System, start: Guess) -> Array:
     elastic = start.elastic if start.elastic is not None and start.elastic.shape == shape else np.zeros(shape)
     inflow = start.inflow
     if inflow is None or start.inflow_kind != terms.key:
-        inflow = terms.nearest(_prescribed_start(problem, state)) if problem.inflow.load_dependent else np.zeros(0)
-    given = len(system.numbers) + len(STATE_NAMES) + elastic.size + len(terms.peaks())
+        inflow = terms.start()
+    given = len(system.numbers) + len(STATE_NAMES) + elastic.size
     others = np.zeros(system.structure.given - given)
     return np.concatenate([system.numbers, state.array(), elastic.ravel(), others, inflow])
-
-
-def _prescribed_start(problem: Problem, state: TrimState) -> Array:
-    """A first field for an inflow that answers the load: Pitt–Peters at the same wake."""
-    disk, model = problem.disk, INFLOW_MODELS["pitt-peters"]
-    assert isinstance(model, LinearInflow)
-    mu_x, mu_z = in_disk_axes(problem.design.condition.advance_ratio, problem.climb, state.shaft_tilt)
-    return model.field(disk.r, disk.cos, disk.sin, Wake(mu_x, mu_z, state.lambda0))[0]
 
 
 def _errors(point: Point, options: SolverOptions) -> tuple[float, float, float]:
     """Largest residual of the trim equations, of those of torsion, and of the inflow, as `SolverOptions` measures."""
     system, structure = point.system, point.system.structure
     ratio = np.abs(point.residual) / system.tolerance
-    twists, inflows = structure.equations_of("twist"), structure.equations_of("inflow")
+    twists = structure.equations_of("twist")
     ratio, nodes = np.split(ratio, [len(structure.equations)])
     return (
-        float(ratio[: len(ratio) - len(twists) - len(inflows)].max()) * options.residual_tolerance,
+        float(ratio[: len(ratio) - len(twists)].max()) * options.residual_tolerance,
         float(ratio[twists].max(initial=0.0)) * options.torsion_tolerance,
-        float(ratio[inflows].sum() + nodes.max(initial=0.0)) * options.inflow_tolerance,
+        float(nodes.max(initial=0.0)) * options.inflow_tolerance,
     )

@@ -20,7 +20,7 @@ from rotor.trim.solution import Caveat, DiskFields, HubMoment, PowerBudget
 LOW_SPEED = 0.075
 """Below this advance ratio linear inflow is not trusted (thesis p. 26)."""
 LOWEST_SPEED = 0.05
-"""Below it the dynamic wake has not been compared with a vortex wake; a real wake rolls up there."""
+"""Below it a wake rolls up at once, and no model that leaves this out has been compared with measurement."""
 HIGH_SPEED = 0.40
 """Above it reverse flow and unsteady stall dominate, and quasi-steady section data no longer suffice."""
 HOVER_CAUTION = 0.12

@@ -16,13 +16,26 @@ from rotor.design.design import Design
 from rotor.trim.forward import linear_problem, trim
 from rotor.trim.newton import TrimResult
 
+SLOWEST = 1e-4
+"""Advance ratio at which flight has become hover: power is that of hover to 1e-5 (tested)."""
+
 
 def with_course(problem: Problem) -> Problem:
     """The problem with the course of its wake; itself where the inflow has none, and in hover."""
     design = problem.design
     if design.hovering or not problem.inflow.fine_tip:
         return problem
-    models = replace(design.models, elastic_twist=False)
+    return _laid(problem, design)
+
+
+def with_slow_course(problem: Problem) -> Problem:
+    """The problem of a hovering rotor with the course that its wake has in the slowest flight."""
+    return _laid(problem, problem.design.at(mu=SLOWEST)) if problem.inflow.fine_tip else problem
+
+
+def _laid(problem: Problem, design: Design) -> Problem:
+    """The problem with the course of a design's wake; itself where there is none."""
+    models = replace(design.models, elastic_twist=False, tip_loss=True, hub_loss=True)
     course = _course(replace(design, twist=design.rotor.builtin_twist, active_twist=None, models=models))
     return problem if course is None else replace(problem, course=course)
 

@@ -117,7 +117,7 @@ def compare_point(measured: MeasuredSet, point: dict[str, float], base: Design) 
     """Trim the blade and models of `base` at one point of a set of its rotor."""
     given = {name: point[name] for name in measured.given}
     found = {name: value for name, value in point.items() if name not in given}
-    solution = _trimmed(design_at(measured, point, base))
+    solution = solve(design_at(measured, point, base))
     wanted, judged = found[measured.quantity], measured.is_judged(point)
     if not solution.converged:
         return ComparedPoint(given, found, None, solution.message, None, False, judged, not judged)
@@ -159,26 +159,6 @@ def design_at(measured: MeasuredSet, point: dict[str, float], base: Design | Non
         return design
     models = replace(base.models, trim=design.models.trim)
     return replace(base, condition=replace(design.condition, mass=base.condition.mass), models=models)
-
-
-def _trimmed(design: Design) -> Solution:
-    """The trim; rigid wake helices of a free rotor are laid again along the tilt that it found."""
-    solution = solve(design)
-    stand = design.condition.stand
-    if design.models.trim != "free-rotor" or design.models.inflow != "vortex-wake" or stand is None:
-        return solution
-    if not solution.converged:
-        return solution
-    found = stand.record() | {"shaft_tilt_deg": math.degrees(solution.controls.shaft_tilt)}
-    return solve(
-        make_design(
-            rotor=design.aircraft,
-            mu=design.condition.advance_ratio,
-            trim=design.models.trim,
-            stand=found,
-            inflow=design.models.inflow,
-        )
-    )
 
 
 def quantity_of(name: str, solution: Solution, measured: MeasuredSet) -> float:

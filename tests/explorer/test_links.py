@@ -19,6 +19,7 @@ from explorer.state import LAWS, OPENING, Inputs, with_rotor
 from explorer.tabs.file_panel import FilePanel
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.design.design import Design
+from rotor.design.retired import RETIRED
 from rotor.design.twist import SplineTwist, SumTwist, TableTwist, parse_twist
 
 KEPT_BY_BROWSERS = "!$%&'()*+,-./:;=?@[\\]^_`{|}~"
@@ -64,7 +65,7 @@ def random_inputs(chance: random.Random) -> Inputs:
         mass_t=chance.randint(100, 219) / 20.0,
         altitude_m=chance.randint(0, 80) * 50.0,
         climb_m_s=chance.choice((0.0, chance.randint(-200, 200) / 10.0)),
-        inflow=chance.choice(("uniform", "drees", "pitt-peters-15pi/23", "dynamic-wake", "vortex-wake")),
+        inflow=chance.choice(("uniform", "drees", "pitt-peters-15pi/23", "local-momentum", "lifting-line")),
         hover_inflow=chance.choice(("annulus", "closed-form")),
         preset=chance.choice(("flight", "flight", "thesis")),
         tip_loss=chance.random() < 0.8,
@@ -165,6 +166,14 @@ class TestRetired:
             found = address.read(name, meaning, OPENING, "", notices)
             assert (found.linear, found.hover_inflow) == (-8.0, "annulus")
         assert notices == [("A retired model", self.SENTENCE)]
+
+    @pytest.mark.parametrize("name", [name for name, one in RETIRED.items() if one.option == "inflow"])
+    def test_an_old_inflow_in_forward_flight(self, name: str):
+        said: list[str] = []
+        found = inputs_from(f"1;linear:-8;mu=0.2;inflow={name}", tell=said.append)
+        assert found.inflow == "lifting-line"
+        assert said == [RETIRED[name].sentence]
+        assert "inflow" not in code_of(found.design())
 
     def test_what_the_page_writes_then_does_not_name_it(self):
         assert "inflow" not in code_of(inputs_from(self.CODE, tell=lambda _: None).design())

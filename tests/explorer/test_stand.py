@@ -171,7 +171,7 @@ def test_no_points_are_drawn_in_flight_or_for_a_rotor_that_was_not_measured():
 @pytest.mark.parametrize("name", [name for name in SETS if load_set(name).against is None])
 def test_every_set_has_its_row_with_the_default_inflow(name: str):
     measured = load_set(name)
-    row = row_of(measured, "annulus" if measured.kind == "hover" else "dynamic-wake")
+    row = row_of(measured, "annulus" if measured.kind == "hover" else "lifting-line")
     assert row is not None
     assert row.error is not None
 

@@ -1,8 +1,7 @@
 """The interface of every forward-flight inflow model, and the wake that its answer depends on.
 
-On a disk a model is columns and equations of the engine: what it adds to U_P, and where it answers the load, states
-with equations of their own or a section that balances itself. At a given wake (µ_x, µ_z, λ0) every model is linear in
-the load.
+On a disk a model is columns of the engine: what it adds to U_P, and where it answers the load, unknowns at every point
+of the grid or a section that balances itself. At a given wake (µ_x, µ_z, λ0) every model is linear in the load.
 
 Fields are (elements, azimuths); d = dC_T/dr of the whole rotor as if smeared.
 """
@@ -19,7 +18,7 @@ from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.section import CHANNELS, FORCES, PAIRS, section
 from rotor.arrays import Array
 from rotor.design.design import Models
-from rotor.engine.linearise import Closure, Nodes
+from rotor.engine.linearise import Nodes
 from rotor.engine.terms import Shape, Structure
 
 
@@ -97,12 +96,8 @@ class InflowTerms(Protocol):
         """Azimuths on which its equations are near those on all."""
         ...
 
-    def declare(self, structure: Structure) -> None:
-        """Add the states."""
-        ...
-
-    def build(self, structure: Structure) -> list[int]:
-        """Add made atoms, columns and equations; returns the states solved for."""
+    def build(self, structure: Structure) -> None:
+        """Add made atoms and columns."""
         ...
 
     def shapes(self) -> dict[Shape, Array]:
@@ -113,16 +108,8 @@ class InflowTerms(Protocol):
         """At a wake; mu_z: axial flow as the blade elements see it, with `sees_tilt` that of the wake."""
         ...
 
-    def closures(self, structure: Structure) -> tuple[Closure, ...]:
-        """Equations of its states."""
-        ...
-
-    def peaks(self) -> Array:
-        """Largest size that each state gives λ_i, (states,)."""
-        ...
-
-    def nearest(self, field: Array) -> Array:
-        """States of the inflow that is nearest to a field."""
+    def start(self) -> Array:
+        """A first guess of its nodes, (points,)."""
         ...
 
     def nodes(self, tolerance: float, thrust: float) -> Nodes | None:
@@ -137,22 +124,11 @@ class InflowTerms(Protocol):
         ...
 
 
-class Stateless:
-    """The part of `InflowTerms` that is the same for all models without states of their own."""
+class WithoutNodes:
+    """The part of `InflowTerms` that is the same for all models without unknowns of their own."""
 
-    def declare(self, structure: Structure) -> None:
-        """No states."""
-
-    def closures(self, structure: Structure) -> tuple[Closure, ...]:
-        """None."""
-        return ()
-
-    def peaks(self) -> Array:
-        """No states."""
-        return np.zeros(0)
-
-    def nearest(self, field: Array) -> Array:
-        """No states."""
+    def start(self) -> Array:
+        """No nodes."""
         return np.zeros(0)
 
     def nodes(self, tolerance: float, thrust: float) -> Nodes | None:

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import Followed, SectionInterface, Stateless, Wake
+from rotor.aero.inflow.interface import Followed, SectionInterface, Wake
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.lifting_line.influence import Line, influence, mean_influence
 from rotor.aero.section import CHANNELS, FORCES, FZ, PAIRS, UP, UT, section
@@ -97,7 +97,7 @@ class LiftingLineInflow:
         return LiftingLineTerms(Line(disk.blades, disk.root, *disk.shape), course)
 
 
-class LiftingLineTerms(Stateless):
+class LiftingLineTerms:
     """Lifting lines as nodes of the engine, see `InflowTerms`."""
 
     names: Sequence[Shape] = ()
@@ -114,10 +114,8 @@ class LiftingLineTerms(Stateless):
         """From N_b Γ/π to the downwash, (points, points)."""
         return influence(self.line, self.course) * (math.pi / self.line.blades)
 
-    def build(self, structure: Structure) -> list[int]:
+    def build(self, structure: Structure) -> None:
         """Nothing: what is solved for are nodes."""
-        del structure
-        return []
 
     def shapes(self) -> dict[Shape, Array]:
         """None."""
@@ -132,9 +130,8 @@ class LiftingLineTerms(Stateless):
         """Circulations and what they do; tolerance: of N_b Γ/π."""
         return Nodes(UP, CIRCULATION, self.matrix, tolerance, 2.4 * thrust)
 
-    def nearest(self, field: Array) -> Array:
-        """An elliptical circulation that carries the thrust to which the course belongs, whatever the field, flat."""
-        del field
+    def start(self) -> Array:
+        """An elliptical circulation that carries the thrust to which the course belongs."""
         thrust = 2.0 * self.course.lambda0 * self.course.speed
         shape = np.sqrt(np.maximum(1.0 - np.square(self.line.r), 0.0))
         return np.repeat(2.2 * thrust * shape, self.line.azimuths)

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import PLAIN, Followed, GridAsAsked, Stateless, Wake
+from rotor.aero.inflow.interface import PLAIN, Followed, GridAsAsked, Wake, WithoutNodes
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.losses import mean_loss_factor
 from rotor.aero.section import LOSS, UP
@@ -87,7 +87,7 @@ STRENGTHS = ("lambda0 kx", "lambda0 ky")
 """Made atoms of linear inflow."""
 
 
-class LinearTerms(Stateless):
+class LinearTerms(WithoutNodes):
     """Linear inflow on a disk: columns 1, r cos ψ and r sin ψ in U_P, and Prandtl's factors on the section lift."""
 
     def __init__(self, model: LinearInflow, disk: Disk, losses: tuple[bool, bool]) -> None:
@@ -97,14 +97,13 @@ class LinearTerms(Stateless):
         self.interface, self.least_azimuths = PLAIN, 1
         self._model, self._disk, self._losses = model, disk, losses
 
-    def build(self, structure: Structure) -> list[int]:
+    def build(self, structure: Structure) -> None:
         """The three columns; F is a live shape."""
         one, along = self.names
         kx, ky = (structure.quantity(name) for name in STRENGTHS)
         structure.column(UP, one, STEADY, 1.0, structure.states["lambda0"])
         structure.column(UP, along, COS, 1.0, kx)
         structure.column(UP, along, SIN, 1.0, ky)
-        return []
 
     def shapes(self) -> dict[Shape, Array]:
         """1 and r."""

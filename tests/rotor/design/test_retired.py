@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 from rotor.__main__ import main
-from rotor.design import retired
+from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design.design import FLIGHT_MODELS, HOVER_INFLOWS, Models, preset_models
-from rotor.design.retired import RETIRED, RetiredModel, current_model
+from rotor.design.retired import RETIRED, current_model
 from rotor.files.design_file import design_from_record, load_design, parse_design
 from rotor.files.make_design import make_design
 from rotor.study.point import design_of
@@ -21,19 +21,21 @@ SENTENCE = "The free wake in hover was retired; hover is solved by the annulus b
 QUICK = ("--twist", "linear:-10", "--off", "elastic-twist")
 
 
-@pytest.fixture
-def old_inflow(monkeypatch: pytest.MonkeyPatch) -> str:
-    """The name of a forward-flight model, as if retired."""
-    stands_in = RetiredModel("inflow", "dynamic-wake", "The old wake was retired; the dynamic wake stands in for it.")
-    monkeypatch.setitem(retired.RETIRED, "old-wake", stands_in)
-    return "old-wake"
+OLD_INFLOWS = [name for name, one in RETIRED.items() if one.option == "inflow"]
+
+
+@pytest.fixture(params=OLD_INFLOWS)
+def old_inflow(request: pytest.FixtureRequest) -> str:
+    """The name of a retired model of forward flight."""
+    return request.param
 
 
 def test_what_stands_in_is_there():
+    known = {"hover_inflow": tuple(HOVER_INFLOWS), "inflow": tuple(INFLOW_MODELS)}
+    assert OLD_INFLOWS == ["dynamic-wake", "dynamic-wake-quick", "dynamic-wake-infinite-blades", "vortex-wake"]
     for name, one in RETIRED.items():
-        assert one.option in Models.__dataclass_fields__
-        assert name not in HOVER_INFLOWS
-        assert one.replacement in HOVER_INFLOWS
+        assert name not in known[one.option]
+        assert one.replacement in known[one.option]
         assert current_model(one.option, name, lambda _: None) == one.replacement
 
 
@@ -105,7 +107,20 @@ class TestCommand:
         assert main(["solve", "--mu", "0.2", *QUICK, "--inflow", old_inflow, "--json"]) == 0
         told = capsys.readouterr()
         assert told.err == f"rotor: {RETIRED[old_inflow].sentence}\n"
-        assert json.loads(told.out)["inflow"] == "dynamic-wake"
+        assert json.loads(told.out)["inflow"] == "lifting-line"
+
+    def test_a_design_file_of_forward_flight(self, old_inflow: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+        path = tmp_path / "old.json"
+        path.write_text(json.dumps({"advance_ratio": 0.2, "inflow": old_inflow}), encoding="utf-8")
+        assert main(["solve", "--case", str(path), *QUICK, "--json"]) == 0
+        told = capsys.readouterr()
+        assert told.err == f"rotor: {RETIRED[old_inflow].sentence}\n"
+        assert json.loads(told.out)["inflow"] == "lifting-line"
+
+    def test_measured_points_of_forward_flight(self, old_inflow: str):
+        with pytest.warns(Notice, match="stands in"):
+            found = compare(load_set("xv15-forward-15deg"), old_inflow)
+        assert found.inflow == "lifting-line"
 
     def test_measured_points(self):
         measured = load_set("knight-hefner-3")
@@ -116,7 +131,7 @@ class TestCommand:
 
 def test_python_takes_a_retired_name(old_inflow: str):
     with pytest.warns(Notice, match="stands in"):
-        assert make_design(inflow=old_inflow).models.inflow == "dynamic-wake"
+        assert make_design(inflow=old_inflow).models.inflow == "lifting-line"
 
 
 class TestStudy:

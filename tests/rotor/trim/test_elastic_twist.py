@@ -73,11 +73,7 @@ def test_the_document_has_no_elastic_blade():
     assert solve(switched).power == solve(made).power
 
 
-def quick_models() -> list[str]:
-    return [name for name in INFLOW_MODELS if name != "vortex-wake"]
-
-
-@pytest.mark.parametrize("inflow", quick_models())
+@pytest.mark.parametrize("inflow", INFLOW_MODELS)
 def test_energy(inflow: str):
     """Shaft power is the sum of the parts, to rounding.
 
@@ -96,7 +92,7 @@ def test_energy(inflow: str):
     assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-9)
 
 
-@pytest.mark.parametrize("inflow", quick_models())
+@pytest.mark.parametrize("inflow", INFLOW_MODELS)
 def test_gradient_by_pitch(inflow: str):
     check_gradient(flapping(design(0.23, inflow=inflow, small=True)))
 

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -22,7 +23,7 @@ from rotor.trim.solve import solve
 from rotor.trim.wake_course import along
 
 
-def line(mu: float, twist: str = "linear:-12", mass: float = 1.0, blades: int = 4, **models: object) -> Design:
+def line(mu: float, twist: str = "linear:-12", mass: float = 1.0, blades: int = 4, **models: Any) -> Design:
     """A UH-60A with the lifting line; mass: as a part of its own; blades: of the same solidity."""
     design = make_design(mu=mu, twist=twist)
     blade = design.rotor.blade
@@ -50,7 +51,7 @@ def by_linear_twist(solution: Solution) -> float:
     return float(gradient.along((gradient.r - 0.75)[None, :])[0]) * math.radians(1.0)
 
 
-def best_linear(mu: float, **models: object) -> float:
+def best_linear(mu: float, **models: Any) -> float:
     """The linear twist of least power [deg], by secants on the gradient."""
     one, other = -12.0, -14.0
     start = solve(line(mu, f"linear:{one}", **models))
@@ -133,12 +134,9 @@ def test_the_wake_along_the_trim_found_changes_little(mu: float, twist: str):
     problem = trim_problem(line(mu, twist))
     first = trim(problem)
     again = trim(replace(problem, course=along(first, problem.course)))
-    powers = [power_budget(problem, e, disk_sums(problem.disk, e)).total for e in _elements(first, again)]
+    elements = [found.linear.elements for found in (first, again)]
+    powers = [power_budget(problem, e, disk_sums(problem.disk, e)).total for e in elements]
     assert powers[1] == pytest.approx(powers[0], rel=2e-3)
-
-
-def _elements(*found: object):
-    return [each.linear.elements for each in found]  # pyright: ignore[reportAttributeAccessIssue]
 
 
 def test_power_and_slope_pass_over_to_hover():

@@ -130,18 +130,6 @@ def test_a_set_that_is_not_known(capsys: pytest.CaptureFixture[str]):
     assert "hover inflow 'drees' is not known: use one of annulus" in capsys.readouterr().err
 
 
-@pytest.mark.slow
-def test_dynamic_wake_of_three_blades_is_near_the_vortex_wake():
-    """Shaft power of the XV-15 in forward flight: within 3 % of the vortex lattice."""
-    for name in ("xv15-forward-15deg", "xv15-forward-0deg"):
-        for wake, lattice in zip(
-            compare(load_set(name)).points, compare(load_set(name), "vortex-wake").points, strict=True
-        ):
-            assert wake.ours is not None
-            assert lattice.ours is not None
-            assert_allclose(wake.ours["cq_over_sigma"], lattice.ours["cq_over_sigma"], rtol=0.03)
-
-
 def test_rows_of_the_trust_page():
     """Quick sets, recomputed; the others are in the slow test of all rows."""
     shown = {row.what: row for row in trust_rows() if row.test.startswith("rotor/validation/")}
