@@ -26,7 +26,7 @@ from rotor.trim.hover import HoverResult, hover
 from rotor.trim.wake_course import with_course, with_slow_course
 
 FASTEST = 1.5
-"""µ̄ from which on forward flight owes nothing to hover: µ 0.087 for a UH-60A at sea level. Our choice."""
+"""µ̄ from which on forward flight owes nothing to hover: µ 0.086 for a UH-60A at sea level. Our choice."""
 
 
 @dataclass(frozen=True, eq=False)
