@@ -71,7 +71,7 @@ def test_with_another_inflow_a_step_compares_like_with_like(browser: "Browser", 
     stands_at(page, 4)
     inputs = app.sessions[-1].page.context.inputs()
     app.sessions[-1].page.context.set_inputs(replace(inputs, inflow="pitt-peters"))
-    watched.reads("said", r"induced [+−]?0 kW")  # First the design, then A has the other inflow.
+    watched.reads("said", r"induced [+−]?0\skW")  # First the design, then A has the other inflow.
     page.wait_for_function("() => !RX.state.power.status.title.includes('different models')")
     watched.close()
 

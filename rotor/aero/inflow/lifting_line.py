@@ -141,5 +141,5 @@ class LiftingLineTerms:
         course = replace(self.course, mu_x=wake.mu_x, mu_z=wake.mu_z, lambda0=wake.lambda0, flap_1c=0.0, flap_1s=0.0)
         matrix = mean_influence(self.line, course) * (math.pi / self.line.blades)
         gain, slope = np.empty((len(u_t), 1)), np.empty((len(u_t), 1))
-        circulation_gain(u_t[:, None], gain, slope)
+        circulation_gain(np.ascontiguousarray(u_t[:, None]), gain, slope)
         return matrix * gain.T, matrix * slope.T

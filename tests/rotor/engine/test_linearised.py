@@ -139,7 +139,7 @@ def kinds_of(point: Point) -> tuple[list[Hashable], list[Hashable]]:
 def directions(point: Point) -> list[Array]:
     """Of random size: each quantity of the trim alone, all of the elastic twist, and all nodes of the inflow."""
     random, kinds = np.random.default_rng(3), kinds_of(point)[1]
-    sizes = {"lambda0": 0.1, "node": 0.01}
+    sizes = {"lambda0": 0.1, "node": 0.003}
     found: list[Array] = []
     for kind in dict.fromkeys(kinds):
         own = np.array([kind == other for other in kinds])
