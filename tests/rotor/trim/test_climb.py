@@ -153,14 +153,17 @@ def test_a_climb_is_a_wind_tunnel_at_the_angle_of_the_flight_path(climb: float, 
     along = 0.2 * math.cos(tilt) - at.climb_ratio * math.sin(tilt)
     through = 0.2 * math.sin(tilt) + at.climb_ratio * math.cos(tilt)
     stand = {"shaft_tilt_deg": math.degrees(math.atan2(through, along)), "ct_over_sigma": flown.ct_over_sigma}
-    found = solve(on_stand(stand, math.hypot(along, through), "wind-tunnel"), None, TIGHT).require()
+    found = solve(on_stand(stand, math.hypot(along, through), "wind-tunnel"), flown, TIGHT).require()
     assert_allclose(found.power.shaft, flown.power.shaft, rtol=1e-7)
     assert_allclose(found.controls.collective, flown.controls.collective, rtol=1e-7)
     assert_allclose(found.controls.cyclic_1s, flown.controls.cyclic_1s, rtol=1e-6)
 
 
 def test_autorotation():
-    """Without power a UH-60A descends at 9.9 to 13 m/s near its speed of least descent, and its rotor is a free one."""
+    """Without power a UH-60A descends at 9.9 to 13 m/s near its speed of least descent, and its rotor is a free one.
+
+    Whose wake lies along the trim found, not along that with linear inflow: its tilt differs by 0.05 %.
+    """
     found = solve(design(0.17, -11.0))
 
     def watts(climb: float) -> float:
@@ -177,7 +180,7 @@ def test_autorotation():
     flow = flown.disk.inflow.mean() - flown.disk.induced.mean()
     along = math.hypot(0.17, flown.design.climb_ratio)
     free = on_stand({"ct_over_sigma": flown.ct_over_sigma}, along, "free-rotor")
-    assert_allclose(math.sin(solve(free, None, TIGHT).require().controls.shaft_tilt), flow / along, rtol=1e-4)
+    assert_allclose(math.sin(solve(free, None, TIGHT).require().controls.shaft_tilt), flow / along, rtol=1e-3)
     beyond = solve(design(0.17, rate - 1.0)).require()
     assert beyond.power.main_rotor < 0.0
     assert [caveat.name for caveat in beyond.caveats].count("beyond-autorotation") == 1

@@ -308,11 +308,11 @@ def test_results_by_name():
 
 
 def test_the_next_trim_uses_the_derivatives_of_the_last():
-    """The same answer without evaluating derivatives, also with those of a copy from another process."""
+    """The same answer without evaluating derivatives; a copy from another process comes without them."""
     start, near = solve(design(0.252), solve(design(0.25))).require(), design(0.254)
     alone = solve(near).require()
-    for before in (start, pickle.loads(pickle.dumps(start))):
+    for before, times in ((start, 0), (pickle.loads(pickle.dumps(start)), 1)):
         evaluated: list[object] = []
         options = SolverOptions(pause=lambda: evaluated.append(1))  # noqa: B023
         assert_allclose(solve(near, before, options).require().power.total, alone.power.total, rtol=1e-9)
-        assert not evaluated
+        assert len(evaluated) == times
