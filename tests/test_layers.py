@@ -182,7 +182,7 @@ def test_commits_are_checked_by_the_same_ruff():
     assert set(used) == {pinned[1]}
 
 
-MOST_MODULES = 321
+MOST_MODULES = 316
 """290, six for rotors on a test stand, their measured points and the comparison, and six for what a user or a machine
 may bring: input, terminal, compiler, log, local processes, bounded reading; one for the demo; one for
 retired models; four for the test stand of the page: its inputs, its widgets, the chart of measured points, the words;
