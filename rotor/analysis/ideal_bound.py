@@ -52,7 +52,7 @@ class LinesInWake:
     @cached_property
     def matrix(self) -> Array:
         """A, (points, points)."""
-        return influence.__wrapped__(self.line, self.course)  # Kept here alone: it takes 11 MB.
+        return influence(self.line, self.course)
 
     @cached_property
     def dr(self) -> Array:

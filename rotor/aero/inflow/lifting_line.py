@@ -9,7 +9,7 @@ blade as built: so it stays while twist is changed. Unknowns are the circulation
 import math
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -98,6 +98,12 @@ class LiftingLineInflow:
         return LiftingLineTerms(Line(disk.blades, disk.root, *disk.shape), course)
 
 
+@lru_cache(maxsize=32)
+def _matrix(line: Line, course: WakeCourse) -> Array:
+    """From N_b Γ/π to the downwash, (points, points): 3 MB for each condition, which serve all its twists."""
+    return influence(line, course) * (math.pi / line.blades)
+
+
 class LiftingLineTerms:
     """Lifting lines as nodes of the engine, see `InflowTerms`."""
 
@@ -109,11 +115,6 @@ class LiftingLineTerms:
         self.line, self.course = line, course
         self.key: Hashable = "lifting line", line.panels, line.azimuths
         self.least_azimuths = line.azimuths
-
-    @cached_property
-    def matrix(self) -> Array:
-        """From N_b Γ/π to the downwash, (points, points)."""
-        return influence(self.line, self.course) * (math.pi / self.line.blades)
 
     def build(self, structure: Structure) -> None:
         """Nothing: what is solved for are nodes."""
@@ -129,7 +130,7 @@ class LiftingLineTerms:
 
     def nodes(self, tolerance: float, thrust: float) -> Nodes:
         """Circulations and what they do; tolerance: of N_b Γ/π."""
-        return Nodes(UP, CIRCULATION, self.matrix, tolerance, 2.4 * thrust)
+        return Nodes(UP, CIRCULATION, _matrix(self.line, self.course), tolerance, 2.4 * thrust)
 
     def start(self) -> Array:
         """An elliptical circulation that carries the thrust to which the course belongs."""

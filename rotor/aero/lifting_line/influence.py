@@ -229,7 +229,6 @@ def _by_panels(line: Line, wake: WakeLines, rows: Singles) -> Singles:
     return panels + (weights @ grouped.reshape(len(grouped), -1)).reshape(panels.shape)
 
 
-@lru_cache(maxsize=32)
 def influence(line: Line, course: WakeCourse) -> Array:
     """A, (points, points) with points in the order (panel, azimuth): row target, column source.
 
