@@ -16,7 +16,7 @@ _TURNS = 0.8
 _POINTS = 59
 _AGES, _COLUMNS = 21, 12
 """Ages, and azimuths at which a vortex left, for which its path is computed."""
-_COURSE_COLUMNS = 48
+_COURSE_COLUMNS = 72
 """Azimuths along the course of a lifting line, which bends where the vortex leaves the disk."""
 _WIDTH = 0.25
 """Part of the radius over which the inflow at a tip vortex is averaged."""

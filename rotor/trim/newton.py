@@ -29,7 +29,7 @@ class SolverOptions:
     torsion_tolerance: float = 1e-10
     """Largest residual of the torsion equations [rad]."""
     accepted_residual: float = 1e-7
-    accepted_inflow: float = 1e-3
+    accepted_inflow: float = 1e-6
     """The same two where Newton's method makes no more progress: the slopes of stall data jump from one table cell to
     the next, and a root element on such a jump can keep the last digits of its own inflow from settling. Power still
     closes to 1e-6."""
