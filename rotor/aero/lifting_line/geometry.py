@@ -18,10 +18,9 @@ import numpy as np
 
 from rotor.arrays import Array
 
-
 SKEWED = 2.5
-"""µ_x over √(C_T/2) from which a wake is wholly that of forward flight: µ 0.144 for a UH-60A at sea level, where it trails
-at 81° to the shaft. Our choice: with 1.5 power up to µ 0.06 is 1 to 3 % less, further below that of momentum theory."""
+"""µ_x over √(C_T/2) from which a wake is wholly that of forward flight: µ 0.144 for a UH-60A at sea level, where it
+trails at 81° to the shaft. Our choice: with 1.5 power up to µ 0.06 is 1 to 3 % less, further below momentum theory."""
 
 
 @dataclass(frozen=True)
@@ -67,8 +66,8 @@ class WakeCourse:
         skew = 0.5 * math.atan2(self.mu_x, self.axial)
         inside = t + np.zeros_like(y)
         if self.mu_x > 0.0:
-            inside = np.minimum((np.sqrt(np.maximum(1.0 - y * y, 0.0)) - begin) / self.mu_x, inside)
-            inside = np.maximum(inside, 0.0)
+            way = np.sqrt(np.maximum(1.0 - y * y, 0.0)) - begin
+            inside = np.clip(way, 0.0, self.mu_x * t) / self.mu_x
         sunk = (1.0 - skew * outward) * (2.0 * t - inside) + skew * inside * (begin + 0.5 * self.mu_x * inside)
         sunk = t + self.skewed * (sunk - t)
         z = self.flapping(released)[..., None] * r - self.mu_z * t - self.lambda0 * sunk

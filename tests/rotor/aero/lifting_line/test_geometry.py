@@ -50,7 +50,7 @@ def test_it_follows_the_inflow_inside_the_disk_and_behind_it(released: float, r:
 
 
 def test_the_helix_of_hover_passes_over_to_the_skewed_wake_smoothly():
-    """Nothing jumps, and nothing turns: the share of the skewed wake grows from 0 to 1 at µ_x = 1.5 √(C_T/2)."""
+    """Nothing jumps, and nothing turns: the share of the skewed wake grows from 0 to 1 at µ_x = 2.5 √(C_T/2)."""
     thrust = 0.006
     mu = np.linspace(0.0, 0.15, 301)
     share: list[float] = []
@@ -63,4 +63,4 @@ def test_the_helix_of_hover_passes_over_to_the_skewed_wake_smoothly():
     assert share[0] == 0.0
     assert np.all(slope >= 0.0)
     assert slope.max() < 0.02
-    assert_allclose(mu[share.index(1.0)], 1.5 * math.sqrt(0.5 * thrust), atol=1e-3)
+    assert_allclose(mu[share.index(1.0)], 2.5 * math.sqrt(0.5 * thrust), atol=1e-3)
