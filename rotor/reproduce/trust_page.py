@@ -165,7 +165,7 @@ _NOT_MODELLED = (
     "a change of lift slope by the swept tip",
     "the trailing-edge tab of the UH-60A between 0.73 and 0.86 R: 0.01 of C_m there would twist the tip by about 0.3°",
     "roll-up and contraction of the wake. Up to µ 0.15 they decide what twist is worth: from −8° to −16° it takes 1.6, "
-    "2.6, 1.6 and 0.0 % off the UH-60A's power in hover and at µ 0.05, 0.1 and 0.15 here, 4 to 5 % with wakes that "
+    "2.3, 1.5 and 0.0 % off the UH-60A's power in hover and at µ 0.05, 0.1 and 0.15 here, 4 to 5 % with wakes that "
     "roll up. No measurement known to us decides; a free wake gives ±10 % by choices that no report fixes",
     "the airframe but for its drag and its download: no upwash, no lift, no interference with the tail",
     "tunnel data of the sections themselves: XFOIL with levels and shocks from public tunnel-derived data; see "
