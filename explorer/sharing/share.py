@@ -15,7 +15,6 @@ from explorer.sliders import SLIDERS, limits, slider
 from explorer.state import LAWS, Inputs, inputs_of
 from explorer.text.units import SI
 from rotor.design.design import Design
-from rotor.design.retired import Tell, warn
 from rotor.files.design_file import design_from_record, parse_design
 from rotor.files.make_design import make_design
 from rotor.user_input import refusing
@@ -27,9 +26,6 @@ PINNED = "a"
 """Name of the design that is pinned beside it."""
 LONGEST = 1800
 """Most characters of a design: every browser and mail program accepts an address of this length."""
-
-RETIRED_TITLE = "A retired model"
-"""Of the notice that says which model stands in."""
 
 KEPT = "own"
 """Stands for a design that does not fit into an address: the page keeps its file, also over a reload."""
@@ -62,13 +58,13 @@ def code_of(design: Design) -> str:
     return code
 
 
-def design_from(code: str, tell: Tell = warn) -> Design:
-    """The design of a text; ValueError with one sentence for an invalid one. `tell` as in `design_from_record`."""
+def design_from(code: str) -> Design:
+    """The design of a text; ValueError with one sentence for an invalid one."""
     with refusing("The design in the address", "ask for a new link"):
-        return _design_from(code, tell)
+        return _design_from(code)
 
 
-def _design_from(code: str, tell: Tell) -> Design:
+def _design_from(code: str) -> Design:
     version, _, rest = code.strip().partition(";")
     if version != str(VERSION) or not rest:
         raise ValueError(f"The design in the address, {cut(code)!r}, is not of version {VERSION}: ask for a new link.")
@@ -86,28 +82,21 @@ def _design_from(code: str, tell: Tell) -> Design:
             )
         record[_LONG.get(key, key)] = _value(value)
     try:
-        return design_from_record(record, tell=tell)
+        return design_from_record(record)
     except ValueError as error:
         raise ValueError(f"The design in the address cannot be used: {error}") from None
 
 
-def inputs_from(code: str, kept: str | None = None, tell: Tell = warn) -> Inputs:
+def inputs_from(code: str, kept: str | None = None) -> Inputs:
     """The slider positions of a text; ValueError also for a position outside a slider's range.
 
-    `kept`: the design file that the page has where the text is `KEPT`. `tell` as in `design_from_record`.
+    `kept`: the design file that the page has where the text is `KEPT`.
     """
     if code == KEPT and kept is None:
         raise ValueError("Its rotor is the sender's own and is not in the link: ask for the design file.")
     with refusing("The design in the address", "ask for a new link"):
-        own = kept if code == KEPT else None
-        design = parse_design(own.encode(), "of this page", tell) if own else design_from(code, tell)
+        design = parse_design(kept.encode(), "of this page") if code == KEPT and kept else design_from(code)
         return within(inputs_of(design))
-
-
-def tell_retired(notices: list[tuple[str, str]], sentence: str) -> None:
-    """Add the sentence about a retired model to what the page is to say when it opens, once."""
-    if (notice := (RETIRED_TITLE, sentence)) not in notices:
-        notices.append(notice)
 
 
 def within(inputs: Inputs) -> Inputs:

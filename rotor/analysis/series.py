@@ -84,7 +84,7 @@ def sweep(design: Design, mu: Iterable[float], start: Solution | None = None) ->
         solution = solve(point, start)
         if solution.converged:
             start = solution
-        solutions.append(solution.without_factors())
+        solutions.append(solution.without_linear())
     return SweepTable(tuple(solutions))
 
 

@@ -115,8 +115,7 @@ class DiskPanel:
     label: str
     r: tuple[float, ...]
     """Element centres y/R."""
-    edges: tuple[float, ...]
-    """Of the elements y/R, (elements + 1,)."""
+    dr: float
     psi: tuple[float, ...]
     """[rad]"""
     values: tuple[tuple[float, ...], ...]
