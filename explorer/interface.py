@@ -137,10 +137,6 @@ class SessionPage(Protocol):
         """Draw the 3D picture and send it. Nothing else belongs here: it is the delay that the user feels."""
         ...
 
-    def show_settling(self, state: SessionState) -> None:
-        """Update the numbers beside the hand for a wake that is not in equilibrium yet."""
-        ...
-
     def show_power_number(self, state: SessionState) -> None:
         """Update power and what stands beside the hand, of a step whose charts are left out."""
         ...

@@ -78,7 +78,9 @@ class Page:
         self._client, self._callbacks, self._dark = client, callbacks, facts.dark
         address = Address(facts.query, partial(viser_compat.set_query, client))
         problems: list[tuple[str, str]] = [] if facts.query is not None else [_UNTOLD]
-        inputs_from = partial(share.inputs_from, kept=facts.kept.get(share.DESIGN))
+        inputs_from = partial(
+            share.inputs_from, kept=facts.kept.get(share.DESIGN), tell=partial(share.tell_retired, problems)
+        )
         start = address.read(share.DESIGN, inputs_from, start, "Not the design of the link", problems)
         view = address.read(VIEW, view_from, ViewState(), "Not the view of the link", problems)
         gui = client.gui
@@ -129,7 +131,7 @@ class Page:
             self._actuator_inputs = self.actuator.inputs()
         self._followed: Reading | None = None
         """What all tabs but the actuator's have followed."""
-        self.results = ResultsPanel(gui, bridge, layout, shared.pool, callbacks.wake)
+        self.results = ResultsPanel(gui, bridge, layout)
         with layout.in_drawer("details"):
             self.waterfall = WaterfallPanel(gui, self.controls.show_costs)
         with layout.in_drawer("twist"):
@@ -159,7 +161,7 @@ class Page:
         """Everything that only follows."""
         self.camera = self.scene.camera = FittedCamera(client, rotor.radius)
         self._wire(problems)
-        for title, sentence in problems:  # They stay until they are closed: nobody may miss that a link has failed.
+        for title, sentence in problems:  # They stay until they are closed: the link does not show what it names.
             client.add_notification(title, brief(sentence), color="red")
 
     def start(self) -> None:
@@ -169,7 +171,7 @@ class Page:
 
     def stop(self) -> None:
         """The browser has left."""
-        for tab in (self.optimise, self.map, self.schedule, self.actuator, self.results, *self.tabs):
+        for tab in (self.optimise, self.map, self.schedule, self.actuator, *self.tabs):
             tab.stop()
         self.bridge.stop()
 
@@ -215,11 +217,6 @@ class Page:
         if self._actuator_in_frame and (not frame.only_azimuth or self._actuator_inputs.per_rev):
             self._show_actuator(reading, solution)
 
-    def show_settling(self, state: SessionState) -> None:
-        """Power and twist beside the hand, of a wake that is not in equilibrium yet."""
-        self.results.show_settling(state, self._pause)
-        self._show_hand(state)
-
     def show_power_number(self, state: SessionState) -> None:
         """Power, and what stands beside the hand: what a drag needs at each step."""
         self.results.card.show(state, self._pause)
@@ -254,12 +251,11 @@ class Page:
         self.file.follow(state)
 
     def settle(self, state: SessionState) -> None:
-        """The fine picture, the band of power, the address, and what the page keeps of an own rotor and of the steps.
+        """The fine picture, the address, and what the page keeps of an own rotor and of the steps.
 
         It comes before the power curve: an early reload must find it.
         """
         self.scene.settle()
-        self.results.settle(state)
         self.file.follow(state)
         self.file.keep()
         self.history.store()
@@ -313,11 +309,10 @@ class Page:
         self.results.strip.show_starts(self.optimise.starts if searching else None, UNITS[reading.view.units])
 
     def _wire(self, problems: list[tuple[str, str]]) -> None:
-        """Buttons to what they do, once everything stands; `problems` get what the address holds in vain."""
+        """Buttons to what they do, once everything stands; `problems` get what the page does not show as named."""
         controls, context, bridge = self.controls, self.context, self.bridge
         self.actuator.shown.on_update(self._cut_switched)
         controls.reset_button.on_click(lambda _: self._reset())
-        controls.check_button.on_click(lambda _: self._check())
         controls.optimise_button.on_click(lambda _: self._optimise())
         bridge.on("mode", self._set_mode)
         bridge.on("drawer", self._toggle_drawer)
@@ -336,7 +331,7 @@ class Page:
         self.grab = BladeGrab(blade, by_hand, lambda: not self._held, self._grabbed)
         self.top.bind(context)
         self._presence.begin(context, PresentationHooks(lambda: self.lecture.step, self.lecture.follow, self._hold))
-        bind_commands(context, Actions(self._look, self._colour, self._check, self._reset, self.optimise.toggle))
+        bind_commands(context, Actions(self._look, self._colour, self._reset, self.optimise.toggle))
         self.file.begin(problems)
         self._show_views()
         self.top.refresh()
@@ -467,11 +462,6 @@ class Page:
 
     def _show_views(self) -> None:
         self.bridge.set(views={"all": VIEWS, "now": "" if self.actuator.shown.value else self._view})
-
-    def _check(self) -> None:
-        self.results.check()
-        self._open("details")
-        self._callbacks.wake()
 
     def _colour(self, order: str) -> None:
         self.display.order_range(order)

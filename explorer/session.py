@@ -6,8 +6,7 @@ A slider step takes these steps; `_update` is the path, the page implements `exp
 2. `NewestWins` runs `_update` on the session's thread when its turn comes; wakes in between need only one more run.
 3. read: `page.read` turns the widgets into `Inputs` and `ViewState`.
 4. read: `Inputs.design`, the actuator and the search that is shown turn them into a `Design`.
-5. solve: `rotor.trim.solve` trims the design, starting from the last converged solution. A free wake in hover is
-   shown after one Newton step, as settling, before it is solved.
+5. solve: `rotor.trim.solve` trims the design, starting from the last converged solution.
 6. solve: the A/B buttons act. If that moves the sliders, a further update follows and this one ends.
 7. draw: `picture.make_picture` makes arrays of the solution: blades, disk image, outlines.
 8. draw: `scene` assigns them to viser's handles and flushes. The frame is on its way.
@@ -99,8 +98,6 @@ class Session:
         self._begun = time.thread_time()
         everything, self._all_changed = self._all_changed, False
         reading = self._read()
-        if self._preview(reading, everything) and self._overtaken():
-            return
         solution = self._solve(reading, superseded)
         if solution is not None:
             self._draw(reading, solution, everything)
@@ -118,26 +115,6 @@ class Session:
         # The designs of a search are shown without actuator, so a driven actuator takes precedence.
         preview = page.preview(sliders) if design == sliders else None
         return Reading(inputs, view, sliders, preview or design, preview is not None)
-
-    def _preview(self, reading: Reading, everything: bool) -> bool:
-        """Show one Newton step of a free wake, at once, while it settles; whether that was possible."""
-        design, before = reading.design, self._good
-        if design is None or before is None or before.wake is None or before.design == design:
-            return False
-        if not design.hovering or (before.design.rotor, before.design.models) != (design.rotor, design.models):
-            return False
-        found = solve(design, before, replace(DEFAULT_OPTIONS, preview=True))
-        if not found.converged:
-            return False
-        if found.settled:
-            self._latest = found
-            return False
-        self._good = found  # The next step of a drag begins here.
-        self._page.show_frame(Frame(reading, found, None, only_azimuth=not everything))
-        baseline = self._baseline.solve(baseline_of(design))
-        pinned = self._page.solve_pinned(design, True)
-        self._page.show_settling(SessionState(reading.inputs, reading.view, found, baseline, pinned, self._page.pin))
-        return True
 
     def _solve(self, reading: Reading, superseded: Callable[[], bool]) -> Solution | None:
         """Design → converged solution; None if there is none, or if the sliders were moved meanwhile."""

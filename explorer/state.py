@@ -58,7 +58,7 @@ def reference_mass_t(aircraft: Aircraft) -> float:
 PRESET_TITLES = {"flight": "Best available", "thesis": "Thesis (as stated)"}
 INFLOW_MENUS = {
     "inflow": {name: model.title for name, model in INFLOW_MODELS.items()},
-    "hover_inflow": {"annulus": "Annulus balance", "free-wake": "Free wake", "closed-form": "Closed form"},
+    "hover_inflow": {"annulus": "Annulus balance", "closed-form": "Closed form"},
     "low_speed": {"wake": "Forward wake at any speed", "hover": "Passes over to hover"},
 }
 """Inputs that choose the inflow: name → title of each choice."""

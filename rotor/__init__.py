@@ -33,6 +33,7 @@ from rotor.files.make_design import make_design
 from rotor.files.rotor_file import load_rotor
 from rotor.optimisation.results import Optimum
 from rotor.optimisation.search import optimise
+from rotor.trim.distribution import Distribution, distribution
 from rotor.trim.solution import Caveat, PowerBudget, Solution, Status
 from rotor.trim.solve import solve
 
@@ -45,6 +46,7 @@ __all__ = (
     "Aircraft",
     "Caveat",
     "Design",
+    "Distribution",
     "FlightCondition",
     "Models",
     "Optimum",
@@ -55,6 +57,7 @@ __all__ = (
     "SweepTable",
     "TrimState",
     "__version__",
+    "distribution",
     "load_design",
     "load_rotor",
     "make_design",

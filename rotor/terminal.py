@@ -8,10 +8,11 @@ import os
 import signal
 import sys
 import time
-from collections.abc import Callable
-from typing import Any, NoReturn, cast
+import warnings
+from collections.abc import Callable, Generator
+from typing import Any, NoReturn, TextIO, cast
 
-from rotor.user_input import brief, did_you_mean
+from rotor.user_input import Notice, brief, did_you_mean
 
 _ASCII = {
     "−": "-", "–": "-", "…": "...", "≤": "<=", "≥": ">=", "≈": "~", "→": "->", "×": "x", "·": "*", "±": "+/-",
@@ -76,10 +77,14 @@ class StopSignal:
 
 
 def run_command(program: str, run: Callable[[], int]) -> int:
-    """The exit code of `run`. Bad input and an output that cannot be written give 2 and one line on stderr."""
+    """The exit code of `run`. Bad input and an output that cannot be written give 2 and one line on stderr.
+
+    A `Notice` is one line on stderr, once.
+    """
     make_encodable()
     try:
-        code = run()
+        with _plain_notices(program):
+            code = run()
         sys.stdout.flush()
         return code
     except BrokenPipeError:  # The reader of a pipe has seen enough.
@@ -98,6 +103,26 @@ def run_command(program: str, run: Callable[[], int]) -> int:
         _say(f"{program}: {brief(_sentence(error))}")
         _discard_output()
     return 2
+
+
+@contextlib.contextmanager
+def _plain_notices(program: str) -> Generator[None]:
+    """Within it each `Notice` is one line on stderr, without the place in the code; other warnings stay as they are."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("default", Notice)
+        usual = warnings.showwarning
+
+        def show(
+            message: Warning | str, category: type[Warning], filename: str, lineno: int,
+            file: TextIO | None = None, line: str | None = None,
+        ) -> None:  # fmt: skip
+            if issubclass(category, Notice):
+                _say(f"{program}: {message}")
+            else:
+                usual(message, category, filename, lineno, file, line)
+
+        warnings.showwarning = show
+        yield
 
 
 def make_encodable() -> None:

@@ -14,6 +14,11 @@ from pathlib import Path
 
 _log = logging.getLogger(__name__)
 
+
+class Notice(UserWarning):
+    """What a user should know although the input was accepted, as one sentence."""
+
+
 LARGEST = 4 * 2**20
 """[bytes] of a file that is read unless its reader allows another size; a deck has about 40 000."""
 _SENTENCE, _WORD = 400, 60

@@ -14,12 +14,12 @@ import rotor
 from rotor.aero.inflow import INFLOW_MODELS
 
 design = rotor.make_design(twist="linear:-10", mu=0.2)
-reference = "dynamic-wake"
-names = [name for name in INFLOW_MODELS if not name.startswith("vortex")]
+reference = "lifting-line"
+names = list(INFLOW_MODELS)
 print(names)
 
 # %%
-# The vortex wake is left out here only because it takes longer. First the induced power of one blade.
+# First the induced power of one blade.
 
 solutions = {name: rotor.solve(rotor.make_design(twist="linear:-10", mu=0.2, inflow=name)) for name in names}
 for name, solution in solutions.items():
@@ -40,7 +40,7 @@ plt.ylabel("Power above its least [%]")
 plt.legend()
 
 # %%
-# Take each model's best twist and fly it with the dynamic wake, the reference here. What it costs is how far it misled.
+# Take each model's best twist and fly it with the lifting line, the reference here. What it costs is how far it misled.
 
 fine = np.linspace(rates[0], rates[-1], 200)
 wrong = {}
@@ -49,7 +49,7 @@ least = cost(fine).min()
 for name, power in curves.items():
     best = fine[np.argmin(np.poly1d(np.polyfit(rates, power, 4))(fine))]
     wrong[name] = 100 * (cost(best) / least - 1)
-    print(f"{name:28s} best twist {best:6.1f}°, flown with the dynamic wake {wrong[name]:.2f} % above the least")
+    print(f"{name:28s} best twist {best:6.1f}°, flown with the lifting line {wrong[name]:.2f} % above the least")
 misled = max(wrong, key=lambda name: wrong[name])
 off = {name: 100 * (one.power.total / solutions[reference].power.total - 1) for name, one in solutions.items()}
 print(f"misleads most about twist: {misled}, by {wrong[misled]:.2f} % of the power")

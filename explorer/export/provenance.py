@@ -16,6 +16,7 @@ from explorer.charts import plots
 from explorer.charts.plots import SWEEP, PowerCurve
 from explorer.picture.poses import flown_twist
 from explorer.text.design_words import inflow_words, physics_words
+from rotor.aero.problem import grid_of
 from rotor.arrays import Array
 from rotor.assets import commit
 from rotor.design.design import Design
@@ -55,12 +56,11 @@ def condition_line(design: Design) -> str:
 def provenance_lines(solution: Solution) -> list[str]:
     """What stands above a table of data: design, condition, models, how it converged, caveats, versions."""
     design = solution.design
-    models = design.models
     lines = [
         f"{design.rotor.name}, twist {design.twist.spec()}",
         condition_line(design),
         f"preset {design.preset}; inflow {inflow_words(design)}; {physics_words(design)}; "
-        f"{models.elements} x {models.azimuths} elements and azimuths",
+        f"{' x '.join(map(str, grid_of(design)))} elements and azimuths",
         f"{solution.status.value}: {solution.message} Residual {solution.residual:.1e} of weight.",
         f"total power {solution.power.total / 1e3:.6f} kW, main rotor {solution.power.main_rotor / 1e3:.6f} kW",
     ]
@@ -118,11 +118,18 @@ def disk_csv(solution: Solution) -> bytes:
         ("power per blade [W/m]", disk.r[:, None] * disk.dcq * per_blade * rotor.tip_speed),
     ]
     notes = [
-        f"{len(disk.r)} elements of width dr/R = {disk.dr:.9g} about r; {len(disk.psi)} azimuths",
+        f"{len(disk.r)} elements of {_widths(disk.dr)}; {len(disk.psi)} azimuths",
         "psi = 0 over the tail, 90 on the advancing side",
         *(f"{name}: {_MEANINGS[name]}" for name in _disk_fields(disk) if name in _MEANINGS),
     ]
     return _table(solution, notes, columns)
+
+
+def _widths(dr: Array) -> str:
+    """Widths of the elements over R in words: one where all are equally wide."""
+    if np.ptp(dr) < 1e-12:
+        return f"width dr/R = {dr[0]:.9g} about r"
+    return f"widths dr/R = {' '.join(f'{width:.9g}' for width in dr)} from root to tip"
 
 
 def blade_csv(solution: Solution, reference: Design, azimuth_deg: float) -> bytes:

@@ -86,7 +86,9 @@ def _cl(solution: Solution, grid: PolarGrid) -> Array:
     """Weighted by M²: lift per chord is smooth across the reverse-flow circle, its coefficient is not."""
     disk = solution.disk
     weight = disk.mach**2
-    return grid.refine(weight * disk.cl) / np.maximum(grid.refine(weight), 1e-4)
+    found = grid.refine(weight * disk.cl) / np.maximum(grid.refine(weight), 1e-4)
+    # Run on over half a wide element at the root, the weight may come near zero.
+    return np.clip(found, disk.cl.min(), disk.cl.max())
 
 
 def _m2cn(solution: Solution, grid: PolarGrid) -> Array:
@@ -235,8 +237,7 @@ def _absent(field: Field, pinned: Solution, grid: PolarGrid) -> NDArray[np.bool_
     if not pinned.converged:
         return np.ones((len(grid.r), len(grid.psi)), dtype=bool)
     disk = pinned.disk
-    margin = 1e-9 + 0.5 * disk.dr
-    beyond = (grid.r < disk.r[0] - margin) | (grid.r > disk.r[-1] + margin)
+    beyond = (grid.r < disk.edges[0] - 1e-9) | (grid.r > disk.edges[-1] + 1e-9)
     void = field.void(pinned, _over(pinned, grid))
     beyond = np.repeat(beyond[:, None], len(grid.psi), axis=1)
     return beyond if void is None else beyond | void

@@ -44,13 +44,15 @@ def drag_divergence_segments(solution: Solution) -> Array:
     grid = polar_grid(disk, _RADII, _AZIMUTHS)
     slope = divergence_margin(solution, grid).astype(np.float64)
     # An element and a half clear of reverse flow: nearer, the line would only trace the elements' steps.
-    return _outside_reverse_flow(contour(grid, slope, 0.0), solution, 1.5 * disk.dr)
+    return _outside_reverse_flow(contour(grid, slope, 0.0), solution, 1.5)
 
 
-def _outside_reverse_flow(segments: Array, solution: Solution, clearance: float) -> Array:
+def _outside_reverse_flow(segments: Array, solution: Solution, elements: float) -> Array:
+    """Segments that are some elements' widths clear of the reverse-flow circle."""
     middle = segments.mean(axis=1)
     mu = solution.design.condition.advance_ratio * math.cos(solution.controls.shaft_tilt)
     r, psi = np.hypot(*middle.T), np.arctan2(middle[:, 1], middle[:, 0])
+    clearance = elements * np.interp(r, solution.disk.r, solution.disk.dr)
     return segments[r + mu * np.sin(psi) > clearance] if mu > 0.0 else segments
 
 

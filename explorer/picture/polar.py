@@ -98,28 +98,20 @@ def polar_grid(disk: DiskFields, radii: int, azimuths: int, ends: tuple[float, f
 
     `ends`: first and last y/R, where they are not those of `disk` itself; beyond them values are extrapolated.
     """
-    first, last = float(disk.r[0]), float(disk.r[0]) + disk.dr * (len(disk.r) - 1)
-    ends = ends or (first - disk.dr / 2.0, last + disk.dr / 2.0)
-    return _build(len(disk.r), first, disk.dr, len(disk.psi), float(disk.psi[0]), radii, azimuths, ends)
+    ends = ends or (float(disk.edges[0]), float(disk.edges[-1]))
+    return _build(tuple(disk.r.tolist()), len(disk.psi), float(disk.psi[0]), radii, azimuths, ends)
 
 
 @lru_cache(maxsize=16)
 def _build(
-    n_r: int,
-    first_r: float,
-    dr: float,
-    n_psi: int,
-    first_psi: float,
-    radii: int,
-    azimuths: int,
-    ends: tuple[float, float],
+    elements: tuple[float, ...], n_psi: int, first_psi: float, radii: int, azimuths: int, ends: tuple[float, float]
 ) -> PolarGrid:
     r = np.linspace(*ends, radii)
     psi = 2.0 * np.pi * np.arange(azimuths) / azimuths
     return PolarGrid(
         r=r,
         psi=psi,
-        along=_along((r - first_r) / dr, n_r),
+        along=_along(r, np.array(elements)),
         around=_around((psi - first_psi) * n_psi / (2.0 * np.pi), n_psi),
     )
 
@@ -138,17 +130,31 @@ def _around(position: Array, n: int) -> Array:
     return matrix
 
 
-def _along(position: Array, n: int) -> Array:
-    base = np.clip(np.floor(position).astype(int), 0, n - 2)
-    matrix = np.zeros((len(position), n))
-    rows = np.arange(len(position))
+def _along(points: Array, r: Array) -> Array:
+    """Interpolation from the elements at `r`, even or not, to points along the blade, (points, elements).
+
+    Between two elements the cubic with the slope there of the parabola through each and its neighbours: on even
+    elements that of Catmull and Rom.
+    """
+    n, rows, gap = len(r), np.arange(len(points)), np.diff(r)
+    base = np.clip(np.searchsorted(r, points, "right") - 1, 0, n - 2)
+    matrix = np.zeros((len(points), n))
     # Beyond the element centres at both ends, and in the first and last gap, straight lines: a cubic needs a neighbour.
     inner = (base >= 1) & (base <= n - 3)
-    linear = position - base
+    linear = (points - r[base]) / gap[base]
     np.add.at(matrix, (rows[~inner], base[~inner]), 1.0 - linear[~inner])
     np.add.at(matrix, (rows[~inner], base[~inner] + 1), linear[~inner])
-    for offset, weight in zip(range(-1, 3), _weights(linear[inner]).T, strict=True):
-        np.add.at(matrix, (rows[inner], base[inner] + offset), weight)
+    at, base, t = rows[inner], base[inner], linear[inner]
+    rising = t * t * (3.0 - 2.0 * t)
+    np.add.at(matrix, (at, base), 1.0 - rising)
+    np.add.at(matrix, (at, base + 1), rising)
+    for middle, share in ((base, t * (1.0 - t) ** 2), (base + 1, -(t**2) * (1.0 - t))):
+        before, after = gap[middle - 1], gap[middle]
+        change = share * gap[base] / (before + after)
+        outer, inwards = change * before / after, change * after / before
+        np.add.at(matrix, (at, middle + 1), outer)
+        np.add.at(matrix, (at, middle - 1), -inwards)
+        np.add.at(matrix, (at, middle), inwards - outer)
     return matrix
 
 

@@ -5,17 +5,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 
-from rotor.aero.free_wake.settle import WakeFilaments
+from rotor.aero.disk import azimuths_of
+from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.arrays import Array
-from rotor.trim.solution import Solution
+from rotor.trim.solution import DiskFields, Solution
 
 _TURNS = 0.8
-"""Length of a drawn vortex, in turns of the rotor, but for those of a free wake."""
+"""Length of a drawn vortex, in turns of the rotor."""
 _POINTS = 59
 _AGES, _COLUMNS = 21, 12
 """Ages, and azimuths at which a vortex left, for which its path is computed."""
+_COURSE_COLUMNS = 72
+"""Azimuths along the course of a lifting line, which bends where the vortex leaves the disk."""
 _WIDTH = 0.25
 """Part of the radius over which the inflow at a tip vortex is averaged."""
 _CONTRACTION, _CONTRACTS_WITHIN = 0.22, 2.2
@@ -65,41 +67,51 @@ class TipVortexPath:
 
 
 def tip_vortex_path(solution: Solution) -> TipVortexPath:
-    """The vortices of a solution: those of its own free wake, else those that its inflow carries away.
+    """The vortices of a solution: where the wake of its lifting line lies, or else where its inflow carries them.
 
-    The inflow is averaged over a quarter of the radius, which is about what a tip vortex takes part in.
+    Such an inflow is averaged over a quarter of the radius, which is about what a tip vortex takes part in.
     """
-    if solution.wake is not None:
-        return _free_path(solution.wake)
+    age = np.linspace(0.0, 2.0 * math.pi * _TURNS, _AGES)
+    if solution.wake_course is not None:
+        return _path_on(solution.wake_course, age)
     disk, controls, design = solution.disk, solution.controls, solution.design
     mu, climb = design.condition.advance_ratio, design.climb_ratio
     cos, sin = math.cos(controls.shaft_tilt), math.sin(controls.shaft_tilt)
     along, axial = mu * cos - climb * sin, mu * sin + climb * cos
     down = axial + controls.lambda0
     narrowing = abs(down) / max(math.hypot(along, down), 1e-9) * _CONTRACTION
-    age = np.linspace(0.0, 2.0 * math.pi * _TURNS, _AGES)
     radius = 1.0 - narrowing * (1.0 - np.exp(-age / _CONTRACTS_WITHIN))
     left = 2.0 * math.pi / _COLUMNS * np.arange(_COLUMNS)[:, None]
     x, y = radius * np.cos(left) + along * age, radius * np.sin(left)
-    width = max(1, round(_WIDTH / disk.dr))
-    smooth = sliding_window_view(disk.induced, width, axis=0).mean(axis=-1)
-    r = disk.r[: len(smooth)] + 0.5 * (width - 1) * disk.dr
-    row = np.clip(np.rint((np.hypot(x, y) - r[0]) / disk.dr).astype(int), 0, len(r) - 1)
-    psi = np.arctan2(y, x) - disk.psi[0]
-    column = np.rint(psi / (2.0 * math.pi) * len(disk.psi)).astype(int) % len(disk.psi)
-    speed = axial + smooth[row, column]
+    speed = axial + _mean_inflow(disk, np.hypot(x, y), np.arctan2(y, x))
     steps = 0.5 * (speed[:, 1:] + speed[:, :-1]) * (age[1] - age[0])
     sink = np.concatenate([np.zeros((_COLUMNS, 1)), np.cumsum(steps, axis=1)], axis=1)
     return TipVortexPath(along, _TURNS, _POINTS, radius.round(5).tolist(), sink.round(5).tolist())
 
 
-def _free_path(wake: WakeFilaments) -> TipVortexPath:
-    """The free turns of a tip vortex in hover, as the wake settled."""
-    layout = wake.state.layout
-    tip = wake.tip_vortices[0, : layout.free + 1]
-    radius, sink = np.hypot(tip[:, 0], tip[:, 1]), tip[0, 2] - tip[:, 2]
-    points = round(_POINTS * layout.turns / _TURNS)
-    return TipVortexPath(0.0, layout.turns, points, radius.round(5).tolist(), [sink.round(5).tolist()])
+def _path_on(course: WakeCourse, age: Array) -> TipVortexPath:
+    """The path of tip vortices that lie on a course, at ages [rad]; nothing contracts there."""
+    left, tip = azimuths_of(_COURSE_COLUMNS), np.ones(1)
+    height = [course.nodes(left + zeta, np.array([zeta]), tip)[:, 0, 0, 2] for zeta in age.tolist()]
+    sink = course.flapping(left)[:, None] - np.stack(height, axis=1)
+    return TipVortexPath(course.mu_x, _TURNS, _POINTS, [1.0] * len(age), sink.round(5).tolist())
+
+
+def _mean_inflow(disk: DiskFields, r: Array, psi: Array) -> Array:
+    """λ_i over a quarter of the radius about r, moved inwards where that reaches beyond the blade; shape of r and ψ.
+
+    At the nearest azimuth.
+    """
+    column = np.rint((psi - disk.psi[0]) / (2.0 * math.pi) * len(disk.psi)).astype(int) % len(disk.psi)
+    edges, up_to = disk.edges, np.zeros((len(disk.r) + 1, len(disk.psi)))
+    np.cumsum(disk.dr[:, None] * disk.induced, axis=0, out=up_to[1:])
+    first = np.clip(r - 0.5 * _WIDTH, edges[0], edges[-1] - _WIDTH)
+
+    def integral(end: Array) -> Array:
+        k = np.clip(np.searchsorted(edges, end, "right") - 1, 0, len(disk.r) - 1)
+        return up_to[k, column] + (end - edges[k]) * disk.induced[k, column]
+
+    return (integral(first + _WIDTH) - integral(first)) / _WIDTH
 
 
 def tip_vortices(solution: Solution, azimuths: Sequence[float]) -> tuple[Array, Array]:

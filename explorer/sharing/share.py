@@ -15,6 +15,7 @@ from explorer.sliders import SLIDERS, limits, slider
 from explorer.state import LAWS, Inputs, inputs_of
 from explorer.text.units import SI
 from rotor.design.design import Design
+from rotor.design.retired import Tell, warn
 from rotor.files.design_file import design_from_record, parse_design
 from rotor.files.make_design import make_design
 from rotor.user_input import refusing
@@ -26,6 +27,9 @@ PINNED = "a"
 """Name of the design that is pinned beside it."""
 LONGEST = 1800
 """Most characters of a design: every browser and mail program accepts an address of this length."""
+
+RETIRED_TITLE = "A retired model"
+"""Of the notice that says which model stands in."""
 
 KEPT = "own"
 """Stands for a design that does not fit into an address: the page keeps its file, also over a reload."""
@@ -58,13 +62,13 @@ def code_of(design: Design) -> str:
     return code
 
 
-def design_from(code: str) -> Design:
-    """The design of a text; ValueError with one sentence for an invalid one."""
+def design_from(code: str, tell: Tell = warn) -> Design:
+    """The design of a text; ValueError with one sentence for an invalid one. `tell` as in `design_from_record`."""
     with refusing("The design in the address", "ask for a new link"):
-        return _design_from(code)
+        return _design_from(code, tell)
 
 
-def _design_from(code: str) -> Design:
+def _design_from(code: str, tell: Tell) -> Design:
     version, _, rest = code.strip().partition(";")
     if version != str(VERSION) or not rest:
         raise ValueError(f"The design in the address, {cut(code)!r}, is not of version {VERSION}: ask for a new link.")
@@ -82,21 +86,28 @@ def _design_from(code: str) -> Design:
             )
         record[_LONG.get(key, key)] = _value(value)
     try:
-        return design_from_record(record)
+        return design_from_record(record, tell=tell)
     except ValueError as error:
         raise ValueError(f"The design in the address cannot be used: {error}") from None
 
 
-def inputs_from(code: str, kept: str | None = None) -> Inputs:
+def inputs_from(code: str, kept: str | None = None, tell: Tell = warn) -> Inputs:
     """The slider positions of a text; ValueError also for a position outside a slider's range.
 
-    `kept`: the design file that the page has where the text is `KEPT`.
+    `kept`: the design file that the page has where the text is `KEPT`. `tell` as in `design_from_record`.
     """
     if code == KEPT and kept is None:
         raise ValueError("Its rotor is the sender's own and is not in the link: ask for the design file.")
     with refusing("The design in the address", "ask for a new link"):
-        design = parse_design(kept.encode(), "of this page") if code == KEPT and kept else design_from(code)
+        own = kept if code == KEPT else None
+        design = parse_design(own.encode(), "of this page", tell) if own else design_from(code, tell)
         return within(inputs_of(design))
+
+
+def tell_retired(notices: list[tuple[str, str]], sentence: str) -> None:
+    """Add the sentence about a retired model to what the page is to say when it opens, once."""
+    if (notice := (RETIRED_TITLE, sentence)) not in notices:
+        notices.append(notice)
 
 
 def within(inputs: Inputs) -> Inputs:

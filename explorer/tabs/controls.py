@@ -32,10 +32,6 @@ class InputHandle(Protocol):
     def on_update(self, func: Callable[[Any], None]) -> Any: ...
 
 
-FOUR, INFINITE = "dynamic-wake", "dynamic-wake-infinite-blades"
-"""The same theory with the rotor's own blades and with infinitely many."""
-
-
 class DesignControls:
     """The widgets of one client's Explore mode, made once, and the view that goes with them."""
 
@@ -85,8 +81,6 @@ class DesignControls:
             self._inputs["preset"] = self._watched(preset)
             self._inflow_menu(gui, "inflow", "Inflow")
             self._explanation = gui.add_html("")
-            self._infinite = gui.add_checkbox("Infinite blades", start.inflow == INFINITE, hint=hint("infinite"))
-            self._infinite.on_update(self._infinite_changed)
             self._inflow_menu(gui, "hover_inflow", "Inflow in hover")
             self._inflow_menu(gui, "low_speed", "At low speed")
             self._costs: dict[str, viser.GuiHtmlHandle] = {}
@@ -94,7 +88,6 @@ class DesignControls:
                 box = gui.add_checkbox(switch.title, getattr(start, name), hint=hint(name))
                 self._inputs[name] = self._watched(box)
                 self._costs[name] = gui.add_html("")
-            self.check_button = gui.add_button("Check with the vortex wake", color="gray", hint=hint("vortex_check"))
         self.optimise_button = gui.add_button("Optimise this blade", hint=hint("optimise"))
         self.reset_button = gui.add_button("Reset design", color="gray", hint=hint("reset"))
         self._inputs["preset"].on_update(self._preset_changed)
@@ -119,8 +112,7 @@ class DesignControls:
     def hold(self, held: bool) -> None:
         """Take the widgets from the user, or give them back."""
         self._held = held
-        own = (self._infinite, self.reset_button, self.optimise_button)
-        for handle in (*self._inputs.values(), *self.stand.handles, *own):
+        for handle in (*self._inputs.values(), *self.stand.handles, self.reset_button, self.optimise_button):
             handle.disabled = held
 
     def set_inputs(self, inputs: Inputs) -> None:
@@ -185,8 +177,6 @@ class DesignControls:
             inputs.advance_ratio * inputs.aircraft.rotor.tip_speed, units, inputs.stand is not None
         )
         self._explanation.content = readout.explanation(INFLOW_MODELS[inputs.inflow].explanation)
-        self._infinite.visible = inputs.inflow in (FOUR, INFINITE)
-        self._infinite.value = inputs.inflow == INFINITE
 
     def show_costs(self, costs: Mapping[str, str]) -> None:
         """What each switch of the physics costs, in words, by its name."""
@@ -266,10 +256,6 @@ class DesignControls:
             handle.step, handle.precision = form.step, form.digits
             handle.value = shown(name, getattr(inputs, name), self._units)
             handle.min, handle.max = form.low, form.high
-
-    def _infinite_changed(self, event: viser.GuiEvent[Any]) -> None:
-        if event.client is not None:  # Not when the menu moved it.
-            self._inputs["inflow"].value = INFLOW_MENUS["inflow"][INFINITE if event.target.value else FOUR]
 
 
 def _flight_heading(speed: float, units: Units, tested: bool = False) -> str:

@@ -83,7 +83,9 @@ class FilePanel:
 
     def begin(self, problems: list[tuple[str, str]]) -> None:
         """Pin what the address says is pinned; `problems` get a title and a sentence where it cannot be read."""
-        inputs_from = partial(share.inputs_from, kept=self._kept.get(share.PINNED))
+        inputs_from = partial(
+            share.inputs_from, kept=self._kept.get(share.PINNED), tell=partial(share.tell_retired, problems)
+        )
         pinned = self._address.read(share.PINNED, inputs_from, None, "Not the A of the link", problems)
         if pinned is not None:
             self._context.pin(pinned)
@@ -123,15 +125,16 @@ class FilePanel:
     def _loaded(self, event: viser.GuiEvent[Any]) -> None:
         file = event.target.value
         name = shorten(file.name)
+        said: list[str] = []
         try:
             if len(file.content) > MOST_BYTES:
                 raise ValueError(f"{name} has {len(file.content)} bytes: a design file has at most {MOST_BYTES}.")
             with refusing(f"design file {name!r}", "check its values"):
-                design = parse_design(file.content, name)
+                design = parse_design(file.content, name, said.append)
                 inputs = share.within(inputs_of(design))
         except ValueError as error:
             self._context.notify("Not loaded", str(error))
             return
         self._context.set_inputs(inputs)
         more = " Its active twist is ignored: set it under Actuate." if design.active_twist else ""
-        self._context.notify("Loaded", f"{name} is on the sliders.{more}")
+        self._context.notify("Loaded", " ".join([f"{name} is on the sliders.{more}", *said]))

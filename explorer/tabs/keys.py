@@ -58,7 +58,6 @@ KEYS: dict[str, Key] = {
     "swap": Key(_DESIGN, "Swap A and B"),
     "back": Key(_DESIGN, "Back to A"),
     "reset": Key(_DESIGN, "Reset design", "R"),
-    "check": Key(_DESIGN, "Check with the vortex wake", "V"),
     "hover": Key(_FLIGHT, "Hover", "H"),
     "mu_015": Key(_FLIGHT, "Advance ratio 0.15", "J"),
     "mu_024": Key(_FLIGHT, "Advance ratio 0.24", "K"),
@@ -255,7 +254,6 @@ class Actions:
     look: Callable[[View], None]
     colours: Callable[[str], None]
     """"Rescale" or "Default"."""
-    check: Callable[[], None]
     reset: Callable[[], None]
     search: Callable[[], None]
     """Start the optimiser, or stop it."""
@@ -273,7 +271,6 @@ def bind_commands(context: TabContext, actions: Actions) -> None:
     context.bind_command("rescale_default", partial(actions.colours, "Default"))
     context.bind_command("dark", lambda: context.set_view(replace(context.view(), dark=not context.view().dark)))
     context.bind_command("units", partial(_change_units, context))
-    context.bind_command("check", actions.check)
     context.bind_command("reset", actions.reset)
     context.bind_command("optimise", actions.search)
 

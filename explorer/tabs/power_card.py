@@ -1,4 +1,4 @@
-"""The power card of the scene, the band of a free wake's power, and the worth of a step beside each slider."""
+"""The power card of the scene, and the worth of a step beside each slider."""
 
 from collections.abc import Callable
 from typing import Any
@@ -10,15 +10,11 @@ from explorer.power_tracker import PowerTracker
 from explorer.sensitivity import SliderSensitivity, flight_sensitivities, natural_step, twist_sensitivities
 from explorer.sliders import SLIDERS, slider
 from explorer.state import Inputs, baseline_of
-from explorer.text.glossary import READOUTS
-from explorer.text.readout import NO_BANDS, WakeBands, fineness, ideal_induced, part_titles, span
+from explorer.text.readout import fineness, ideal_induced, part_titles
 from explorer.text.status import cautions
 from explorer.text.units import BLANK, SI, UNITS, Units, number
 from explorer.text.validated import validated
 from explorer.text.why import why
-from explorer.workers.job import Job, JobEnded, JobEvent
-from explorer.workers.pool import PoolClient
-from explorer.workers.tasks import Band, PowerBandTask, WorthBandTask
 from rotor.design.design import Design
 from rotor.trim.adjoint import PitchGradient
 from rotor.trim.solution import Solution
@@ -97,79 +93,6 @@ def sensitivity_row(inputs: Inputs, one: SliderSensitivity, units: Units) -> dic
     }  # fmt: skip
 
 
-class WakeBandJobs:
-    """One session's bands of power in hover with a free wake, made by processes of the pool while the page rests."""
-
-    def __init__(self, pool: PoolClient, found: Callable[[], None]) -> None:
-        """`found` is called, in a thread of the pool, when there is a new band."""
-        self._pool, self._found = pool, found
-        self._asked: dict[type[PowerBandTask | WorthBandTask], _AskedBand] = {}
-
-    def of(self, state: SessionState) -> WakeBands:
-        """What is known of this state."""
-        return WakeBands(self._known(PowerBandTask(state.solution)), self._known(_worth_task(state)))
-
-    def settle(self, state: SessionState) -> None:
-        """Ask for the band of power, unless it is known or asked for."""
-        if _in_free_wake(state.solution):
-            self._ask(PowerBandTask(state.solution))
-
-    def rest(self, state: SessionState) -> None:
-        """Ask for the band of the change."""
-        both = _in_free_wake(state.solution) and _in_free_wake(state.reference)
-        if both and state.solution.design != state.reference.design:
-            self._ask(_worth_task(state))
-
-    def stop(self) -> None:
-        """The browser has left."""
-        for asked in self._asked.values():
-            self._pool.stop(asked.job, quiet=True)
-
-    def _known(self, task: PowerBandTask | WorthBandTask) -> Band | None:
-        asked = self._asked.get(type(task))
-        return asked.band if asked is not None and asked.designs == _designs(task) else None
-
-    def _ask(self, task: PowerBandTask | WorthBandTask) -> None:
-        before = self._asked.get(type(task))
-        if before is not None:
-            if before.designs == _designs(task):
-                return
-            self._pool.abandon(before.job)
-        asked = self._asked[type(task)] = _AskedBand(_designs(task))
-
-        def on_event(news: JobEvent) -> None:
-            if isinstance(news, JobEnded) and news.result is not None:
-                asked.band = news.result
-                self._found()
-
-        asked.job = self._pool.submit(task, on_event, urgency=_URGENCY)
-
-
-class _AskedBand:
-    """A band that was asked for."""
-
-    def __init__(self, designs: tuple[Design, ...]) -> None:
-        self.designs = designs
-        self.band: Band | None = None
-        self.job: Job
-
-
-def _worth_task(state: SessionState) -> WorthBandTask:
-    return WorthBandTask(state.solution, state.reference)
-
-
-def _designs(task: PowerBandTask | WorthBandTask) -> tuple[Design, ...]:
-    """What a task is about."""
-    first = task.solution.design
-    return (first,) if isinstance(task, PowerBandTask) else (first, task.reference.design)
-
-
-def _in_free_wake(solution: Solution) -> bool:
-    return solution.wake is not None and solution.settled
-
-
-_URGENCY = 4
-"""Behind sweeps of a harmonic, before verdicts."""
 _NOTICEABLE = 0.05
 """Changes below this [%] have no colour."""
 _TELLING = 0.1
@@ -191,7 +114,7 @@ class PowerCard:
         """Its power [W]."""
         self._content: dict[str, Any] | None = None
 
-    def show(self, state: SessionState, pause: float, bands: WakeBands = NO_BANDS) -> None:
+    def show(self, state: SessionState, pause: float) -> None:
         """Show a converged state. `pause`: the longest rest of the inputs [s] since the last one."""
         solution, units = state.solution, UNITS[state.view.units]
         self.tracker.solved(state.inputs, solution.power.total, pause)
@@ -202,7 +125,6 @@ class PowerCard:
         self._content = {
             **_numbers(state, units),
             **self._change(state, units),
-            "bands": _bands(solution, bands, units),
             "problem": "",
             "status": _status(state),
         }
@@ -317,25 +239,11 @@ def _numbers(state: SessionState, units: Units) -> dict[str, Any]:
     }
 
 
-def _bands(solution: Solution, bands: WakeBands, units: Units) -> list[dict[str, str]]:
-    """How far the roll-up of a free wake leaves power and its change open: words and tooltips."""
-    words: dict[str, str] = {}
-    if bands.power is not None:
-        watts = [units.power[0].of(end * solution.power.main_rotor) for end in bands.power]
-        words["power_band"] = f"uncertainty {span(watts, fineness(solution.power))} {units.power[0].symbol}"
-    if bands.worth is not None:
-        words["worth_band"] = f"change {span([100.0 * end for end in bands.worth], 1)} %"
-    return [{"name": name, "words": text, "title": READOUTS[name].text} for name, text in words.items()]
-
-
 def _status(state: SessionState) -> dict[str, str]:
     """The chip: trimmed, the stalled area or the number of caveats, and how well this rotor is validated here."""
     reasons = cautions(state.solution, state.pinned)
     stalled = state.solution.stalled_area
     record = validated(state.solution)
-    if not state.solution.settled:
-        title = "One Newton step of the free wake: the settled number follows."
-        return {"kind": "waiting", "words": "settling", "measured": record.words, "title": title}
     title = " ".join([*reasons, record.sentence])
     if state.solution.power.total < 0.0:
         words = "autorotation"
@@ -358,5 +266,5 @@ def _kind(change: float, total: float) -> str:
 
 _EMPTY: dict[str, Any] = {
     "total": "–", "unit": "kW", "change": "–", "kind": "", "against": "as built", "parts": [], "ideal": None,
-    "ideal_title": "", "bands": [], "since": None, "rest": "", "why": "",
+    "ideal_title": "", "since": None, "rest": "", "why": "",
 }  # fmt: skip

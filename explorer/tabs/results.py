@@ -13,42 +13,31 @@ from explorer.picture.poses import flown_twist, follows_azimuth
 from explorer.scene.overlays import ghost_twist
 from explorer.tabs.charts import ChartStrip
 from explorer.tabs.layout import Layout
-from explorer.tabs.power_card import PowerCard, SliderWorth, WakeBandJobs, against
+from explorer.tabs.power_card import PowerCard, SliderWorth, against
 from explorer.tabs.twist_curve import TwistCurveEditor
 from explorer.text import comparison as ab_readout
 from explorer.text import readout
-from explorer.text.readout import WakeBands
 from explorer.text.status import status_panel, trust_page
 from explorer.text.units import SI, UNITS, Units
-from explorer.workers.pool import PoolClient
-from explorer.workers.solver import with_vortex_wake
 from rotor.trim.adjoint import PitchGradient, power_gradient
 from rotor.trim.solution import Solution
-from rotor.trim.solve import solve
 
 
 class ResultsPanel:
     """One session's."""
 
-    def __init__(
-        self, gui: viser.GuiApi, bridge: Bridge, layout: Layout, pool: PoolClient, wake: Callable[[], None]
-    ) -> None:
+    def __init__(self, gui: viser.GuiApi, bridge: Bridge, layout: Layout) -> None:
         self._bridge, self._layout = bridge, layout
         self.card = PowerCard(bridge)
-        self.bands = WakeBandJobs(pool, wake)
         self.strip = ChartStrip(bridge)
         self.worth = SliderWorth(bridge)
         self.curve = TwistCurveEditor(bridge)
         self._state: SessionState | None = None
         """The last converged one."""
         self._gradient: tuple[Solution, PitchGradient] | None = None
-        self._checked: Solution | None = None
-        """The last check with the vortex wake."""
-        self._check_wanted = False
         with layout.in_drawer("details"):
             self._power = gui.add_html("")
             self._trim = gui.add_html("")
-            self._check = gui.add_html("")
         with layout.in_drawer("trust"):
             self._status = gui.add_html(status_panel(None))
             gui.add_html(trust_page())
@@ -56,8 +45,7 @@ class ResultsPanel:
     def show(self, state: SessionState, pause: float) -> None:
         """Follow a converged state. `pause`: the longest rest of the inputs [s] since the last one."""
         self._state = state
-        bands = self.bands.of(state)
-        self.card.show(state, pause, bands)
+        self.card.show(state, pause)
         self._show_inset(state)
         gradient = self._gradient_of(state.solution)
         self.curve.show(state)
@@ -66,14 +54,7 @@ class ResultsPanel:
         if self._layout.drawer == "trust":
             self._status.content = status_panel(state.solution, pinned=state.pinned)
         if self._layout.drawer == "details":
-            self._power.content, self._trim.content = _numbers(state, bands)
-        self._compare(state.solution, UNITS[state.view.units])
-
-    def show_settling(self, state: SessionState, pause: float) -> None:
-        """What follows a hand while a free wake settles."""
-        self.card.show(state, pause)
-        self._show_inset(state)
-        self.curve.show(state)
+            self._power.content, self._trim.content = _numbers(state)
 
     def turn(self, state: SessionState) -> None:
         """The reference blade is elsewhere: what is drawn along it follows."""
@@ -85,14 +66,9 @@ class ResultsPanel:
         """Change of power over µ."""
         self.strip.show_power(state, curve, lost)
 
-    def settle(self, state: SessionState) -> None:
-        """Nothing moves: have the band of a free wake's power made."""
-        self.bands.settle(state)
-
     def rest(self, superseded: Callable[[], bool]) -> None:
         """The page rests: compute what can wait."""
         if self._state is not None:
-            self.bands.rest(self._state)
             self.worth.rest(self._state, superseded)
             self.strip.rest(self._state, superseded)
 
@@ -103,17 +79,7 @@ class ResultsPanel:
         self.worth.clear()
         self._status.content = status_panel(None, sentence)
         if self._state is not None:
-            self._power.content, self._trim.content = map(
-                readout.faded, _numbers(self._state, self.bands.of(self._state))
-            )
-
-    def stop(self) -> None:
-        """The browser has left."""
-        self.bands.stop()
-
-    def check(self) -> None:
-        """Compute the vortex wake beside the answer in the next round."""
-        self._check_wanted = True
+            self._power.content, self._trim.content = map(readout.faded, _numbers(self._state))
 
     @property
     def units(self) -> Units:
@@ -148,22 +114,10 @@ class ResultsPanel:
             self._gradient = solution, power_gradient(solution)
         return self._gradient[1]
 
-    def _compare(self, solution: Solution, units: Units) -> None:
-        """The vortex wake beside the answer, once asked for; an older check is taken away."""
-        if self._checked is not None and self._checked.design != with_vortex_wake(solution.design):
-            self._checked = None
-            self._check.content = ""
-        if self._check_wanted:
-            self._check_wanted = False
-            self._check.content = readout.check_panel(None, solution, units)
-            self._checked = solve(with_vortex_wake(solution.design), solution)
-        if self._checked is not None:
-            self._check.content = readout.check_panel(self._checked, solution, units)
 
-
-def _numbers(state: SessionState, bands: WakeBands) -> tuple[str, str]:
+def _numbers(state: SessionState) -> tuple[str, str]:
     """Power and trim: of this design, or of A and B."""
     solution, pinned, units = state.solution, state.pinned, UNITS[state.view.units]
     if pinned is None:
-        return readout.power_panel(solution, state.baseline, units, bands), readout.trim_panel(solution)
-    return ab_readout.power_panel(solution, pinned, units, bands), ab_readout.trim_panel(solution, pinned)
+        return readout.power_panel(solution, state.baseline, units), readout.trim_panel(solution)
+    return ab_readout.power_panel(solution, pinned, units), ab_readout.trim_panel(solution, pinned)

@@ -6,9 +6,6 @@ from html import escape
 
 from explorer.text.glossary import tip
 from explorer.text.readout import (
-    NO_BANDS,
-    WakeBands,
-    band_lines,
     bar,
     dash,
     direction,
@@ -26,8 +23,8 @@ _Entry = tuple[str, str, Callable[[Solution], float | None], int]
 """Symbol, name in the glossary, function that reads the value, digits."""
 
 
-def power_panel(solution: Solution, pinned: Solution, units: Units = SI, bands: WakeBands = NO_BANDS) -> str:
-    """Total power with its change relative to A and its bands, the bars of both on one scale, and the parts of both.
+def power_panel(solution: Solution, pinned: Solution, units: Units = SI) -> str:
+    """Total power with its change relative to A, the bars of both on one scale, and the parts of both.
 
     Where A has no trim it shows dashes.
     """
@@ -48,7 +45,7 @@ def power_panel(solution: Solution, pinned: Solution, units: Units = SI, bands: 
     return (
         f'<div class="rx" data-explorer="power">{total_line(power, reference, units)}'
         f'<div class="rx-line rx-dim"{tip("change")}><span>total power of {_name("B")}</span>'
-        f"<span>{against}</span></div>{band_lines(solution, bands, units)}"
+        f"<span>{against}</span></div>"
         f"{_bars(power, reference, ideal)}{table}{ideal_line(solution, ideal, units)}</div>"
     )
 

@@ -84,19 +84,10 @@ CONTROLS: dict[str, Term] = {
     ),
     "preset": Term("Model choices of the source document, or the best available; each can be changed.", section=15),
     "inflow": Term("How the inflow through the disk depends on speed and load distribution.", ("3.4",)),
-    "hover_inflow": Term(
-        "Hover: momentum balance of each annulus, a free wake of each blade with its tip vortices, or one equation.",
-        ("3.3",),
-    ),
+    "hover_inflow": Term("Hover: momentum balance of each annulus, or one equation.", ("3.3",)),
     "low_speed": Term(
         "Whether the forward wake passes over to the hover model as the speed falls to zero, or holds at any speed.",
         section=9,
-    ),
-    "infinite": Term(
-        "The same wake averaged over time, as for infinitely many blades: the rotor of most textbooks.", section=9
-    ),
-    "vortex_check": Term(
-        "Solves the same design with a rigid helical vortex wake, the reference for the other models.", section=9
     ),
     "play": Term("Turns the rotor, flapping and pitching; the solution stays the same."),
     "probe_r": Term("Radius of the probe; or click the disk, or press arrow up or down."),
@@ -195,14 +186,6 @@ CONTROLS: dict[str, Term] = {
 READOUTS: dict[str, Term] = {
     "total_power": Term("Power of the main rotor and of the tail rotor that balances its torque.", section=12),
     "change": Term("Total power relative to the reference design."),
-    "power_band": Term(
-        "Uncertainty of main-rotor power: five other roll-ups of the free wake and, downwards, a finer grid.",
-        section=7,
-    ),
-    "worth_band": Term(
-        "Change of main-rotor power from the reference, if both blades have another roll-up of the free wake.",
-        section=7,
-    ),
     "induced": Term("Σ λi dFz: power to make lift.", section=12),
     "profile": Term("Σ U dD: power dissipated by the drag of the blade sections.", ("3.15",)),
     "parasite": Term("D·V: power to overcome fuselage drag.", ("3.19",)),
@@ -210,11 +193,10 @@ READOUTS: dict[str, Term] = {
     "propulsive": Term("Propulsive force times airspeed; negative where the stream drives the rotor.", section=12),
     "tail": Term("Power of the tail rotor, which balances the torque.", section=12),
     "kappa": Term(
-        "κ: induced power relative to uniform loading, C_T λ0. Ideal: the least of any circulation of four blades in a "
-        "rigid wake with the same lift, C_l ≤ 1.2, none in reverse flow; in hover momentum theory.",
+        "κ: induced power relative to uniform loading, C_T λ0. Ideal: the least of any circulation of the same lifting "
+        "lines with the same lift, C_l ≤ 1.2, none in reverse flow; in hover momentum theory.",
         ("2.30",),
     ),
-    "vortex_check": Term("The same design with a rigid helical vortex wake, and the difference from it.", section=9),
     "collective": Term("θ0: pitch at 0.75 R, mean over azimuth.", section=1),
     "cyclic_1c": Term("θ1c: lateral cyclic, the cos ψ part of pitch.", section=1),
     "cyclic_1s": Term(

@@ -1,8 +1,6 @@
 """Power, trim and speed of a solution as HTML, in the units of the page."""
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass
 from html import escape
 
 import numpy as np
@@ -35,21 +33,8 @@ def part_titles(*designs: Design) -> dict[str, str]:
     return {name: "Climb" if name == "climb" else titles[name] for name in PARTS}
 
 
-@dataclass(frozen=True)
-class WakeBands:
-    """How far the roll-up of a free wake leaves power open: lowest and highest change of main-rotor power, as parts."""
-
-    power: tuple[float, float] | None = None
-    """Of the design's own power; None where it is not known."""
-    worth: tuple[float, float] | None = None
-    """Of the reference's, so that the change itself lies within."""
-
-
-NO_BANDS = WakeBands()
-
-
-def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI, bands: WakeBands = NO_BANDS) -> str:
-    """Total power with its change, its bands, the bar of parts, and the table of parts."""
+def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI) -> str:
+    """Total power with its change, the bar of parts, and the table of parts."""
     power = solution.power
     reference = baseline.power if baseline is not None and baseline.converged else None
     titles = part_titles(solution.design)
@@ -58,7 +43,7 @@ def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI
     return (
         f'<div class="rx" data-explorer="power">{total_line(power, reference, units)}'
         f'<div class="rx-line rx-dim"{tip("change")}><span>total power</span>'
-        f"<span>vs. {escape(baseline_title(solution.design))}</span></div>{band_lines(solution, bands, units)}"
+        f"<span>vs. {escape(baseline_title(solution.design))}</span></div>"
         f'<div class="rx-bar">{bar(power, ideal)}</div><table>{rows}</table>{ideal_line(solution, ideal, units)}</div>'
     )
 
@@ -71,33 +56,6 @@ def total_line(power: PowerBudget, reference: PowerBudget | None, units: Units) 
         f'{large.text(power.total, fineness(power))}</span><span class="rx-dim">{small.text(power.total)}</span>'
         f'<span class="rx-push"{tip("change")}>{change(power, reference)}</span></div>'
     )
-
-
-def band_lines(solution: Solution, bands: WakeBands, units: Units = SI) -> str:
-    """The bands that are known, a line each."""
-    lines = []
-    if bands.power is not None:
-        rotor = solution.power.main_rotor
-        watts = span([units.power[0].of(end * rotor) for end in bands.power], fineness(solution.power))
-        lines.append(
-            ("power_band", "main rotor, roll-up", f"{watts} {units.power[0].symbol} ({_percent(bands.power)})")
-        )
-    if bands.worth is not None:
-        lines.append(("worth_band", "its change, roll-up", _percent(bands.worth)))
-    return "".join(
-        f'<div class="rx-line rx-dim" data-explorer="{key.replace("_", "-")}"{tip(key)}><span>{title}</span>'
-        f"<span>{text}</span></div>"
-        for key, title, text in lines
-    )
-
-
-def _percent(band: tuple[float, float]) -> str:
-    return f"{span([100.0 * end for end in band], 1)} %"
-
-
-def span(ends: Sequence[float], digits: int) -> str:
-    """From lowest to highest, with signs: −57.2…+20.1."""
-    return "…".join(number(end, digits, sign=True) for end in ends)
 
 
 def ideal_induced(solution: Solution) -> float | None:
@@ -121,21 +79,6 @@ def ideal_line(solution: Solution, ideal: float | None, units: Units = SI) -> st
         if solution.design.hovering:
             bound += " (momentum theory)"
     return f'<div class="rx-line rx-dim rx-kappa"{tip("kappa")}><span>{kappa}</span><span>{bound}</span></div>'
-
-
-def check_panel(reference: Solution | None, solution: Solution, units: Units = SI) -> str:
-    """The same design with the vortex wake, and the difference of the power shown from it."""
-    if reference is None:
-        return '<div class="rx rx-dim rx-check">Vortex wake: computing …</div>'
-    if not reference.converged:
-        return f'<div class="rx rx-dim rx-check">Vortex wake: {escape(reference.message)}</div>'
-    apart = 100.0 * (solution.power.total / reference.power.total - 1.0)
-    return (
-        f'<div class="rx rx-check rx-line" data-explorer="check"{tip("vortex_check")}>'
-        '<span class="rx-dim">Vortex wake</span>'
-        f"<span><b>{units.watts(reference.power.total)}</b>, κ {number(reference.induced_power_factor, 2)}; "
-        f"the power shown is {number(apart, 1, sign=True)} %</span></div>"
-    )
 
 
 def change(power: PowerBudget, reference: PowerBudget | None) -> str:

@@ -9,6 +9,7 @@ from explorer.text.design_words import inflow_words, physics_words
 from explorer.text.glossary import tip
 from explorer.text.units import number
 from explorer.text.validated import validated
+from rotor.aero.problem import grid_of
 from rotor.reproduce.report import typographic
 from rotor.reproduce.trust import KINDS, SensitivityRow, TrustRow, sensitivity_rows, trust_rows
 from rotor.trim.solution import Solution
@@ -78,7 +79,7 @@ def provenance(solution: Solution) -> str:
     return (
         f'<div class="rx-small rx-dim" data-explorer="provenance">Preset <i>{escape(design.preset)}</i>: '
         f"{escape(inflow_words(design))}, {escape(' / '.join(sections))}, {physics_words(design)}, "
-        f"{design.models.elements} × {design.models.azimuths} grid, {time}. "
+        f"{' × '.join(map(str, grid_of(design)))} grid, {time}. "
         "Indicative: a model, not a measurement.</div>"
     )
 

@@ -41,13 +41,14 @@ class LiftCentroid:
 def lift_centroid(solution: Solution) -> LiftCentroid:
     """Centroid of the lift over the disk; ValueError where the rotor does not lift."""
     disk = solution.disk
-    total = float(disk.dct.sum())
+    lift = disk.dr[:, None] * disk.dct
+    total = float(lift.sum())
     if not total > 0.0:
         raise ValueError("the rotor carries no lift: its centroid is not defined")
     return LiftCentroid(
-        radial=float((disk.dct * disk.r[:, None]).sum()) / total,
-        lateral=float((disk.dct * np.sin(disk.psi)).sum()) / total,
-        longitudinal=float((disk.dct * np.cos(disk.psi)).sum()) / total,
+        radial=float((lift * disk.r[:, None]).sum()) / total,
+        lateral=float((lift * np.sin(disk.psi)).sum()) / total,
+        longitudinal=float((lift * np.cos(disk.psi)).sum()) / total,
     )
 
 
@@ -222,7 +223,7 @@ def _divergent(solution: Solution) -> Booleans:
 def _ring(solution: Solution) -> Array:
     """Area of each element at each azimuth as a part of πR², (elements, azimuths)."""
     disk = solution.disk
-    return np.broadcast_to(2.0 * disk.r[:, None] * disk.dr / len(disk.psi), disk.dct.shape)
+    return np.broadcast_to(disk.cells[:, None], disk.dct.shape)
 
 
 def _percent_of_disk(solution: Solution, mask: Booleans) -> float:

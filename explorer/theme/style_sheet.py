@@ -32,7 +32,6 @@ div:has(> [data-dock-area]) { margin-top: 0 !important; }
 .rx-mark { display: inline-block; width: 2px; height: 10px; background: currentColor; vertical-align: middle; }
 .rx-bar .rx-mark { width: 2.5px; color: var(--mantine-color-text); }
 .rx-kappa { font-size: 12px; padding-top: 1px; flex-wrap: wrap; }
-.rx-check { height: 19px; font-size: 12px; }
 .rx table { width: 100%; border-collapse: collapse; white-space: nowrap; }
 .rx td { padding: 0; }
 .rx-patch { display: inline-block; width: 9px; height: 9px; border-radius: 2px; margin-right: 7px; }
@@ -148,7 +147,7 @@ html:root {
   #rx svg text, .rxp-curve svg text { font-size: 12.5px; }
   .rxp-title { font-size: 19px; }
   .rxp-head, .rxp-head span, .rxp-worth { font-size: 13px; }
-  .rx, .rx-status, .rx-heading, .rx-scale, .rx-kappa, .rx-check { font-size: 15.5px; }
+  .rx, .rx-status, .rx-heading, .rx-scale, .rx-kappa { font-size: 15.5px; }
   .rx-small { font-size: 14px; }
   .rx-total { font-size: 38px; }
   .rx-change { font-size: 23px; }

@@ -1,6 +1,6 @@
 """The solver as the page uses it: warmed at the start, with a cached baseline."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 from rotor.design.design import PRESETS, Design
 from rotor.files.make_design import make_design
@@ -19,16 +19,7 @@ def warm() -> None:
 def compile_all() -> None:
     """Compile every kernel of the solver, so that nothing waits for it later: at set-up."""
     warm()
-    for advance_ratio, models in (
-        (0.0, {"hover_inflow": "free-wake"}), (0.2, {"inflow": "vortex-wake"}), (0.2, {"inflow": "local-momentum"}),
-    ):  # fmt: skip
-        design = make_design(mu=advance_ratio)
-        power_gradient(solve(replace(design, models=replace(design.models, **models))))
-
-
-def with_vortex_wake(design: Design) -> Design:
-    """The same design with the reference inflow; itself in hover, which has no wake to skew."""
-    return design if design.hovering else replace(design, models=replace(design.models, inflow="vortex-wake"))
+    power_gradient(solve(make_design(mu=0.2, inflow="local-momentum")))
 
 
 @dataclass

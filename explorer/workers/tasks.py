@@ -151,30 +151,3 @@ class FixedPowers:
     """Power of the best fixed blade on each leg [W]; None where it does not trim."""
 
     powers: tuple[float | None, ...]
-
-
-Band = tuple[float, float]
-"""Lowest and highest change of main-rotor power, as parts of it."""
-
-
-@dataclass(frozen=True, eq=False)
-class PowerBandTask:
-    """`Solution.power_band`: 80 ms that nothing can interrupt."""
-
-    solution: Solution
-
-    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Band | None:
-        del tell, stop
-        return self.solution.power_band
-
-
-@dataclass(frozen=True, eq=False)
-class WorthBandTask:
-    """`Solution.worth_band`: one to three seconds."""
-
-    solution: Solution
-    reference: Solution
-
-    def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> Band | None:
-        del tell, stop
-        return self.solution.worth_band(self.reference)

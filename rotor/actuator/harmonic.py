@@ -3,7 +3,7 @@
 The amplitude is half the voltage range. A rigid trim is given the twist of the rotating blade in vacuum, 1/(1 − (n/ν)²)
 near its first mode, without damping. An elastic trim is given the twist of the blade at rest, the moment of the plies;
 it finds amplitude and phase itself, with inertia, tension and air (`rotor.aero.elastic`).
-Use an inflow model that responds to the load distribution (dynamic wake).
+Use an inflow model that responds to the load distribution (lifting line).
 
 No measured power of a rotor with active twist was to be had; published savings are computed, or of model rotors.
 """

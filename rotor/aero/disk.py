@@ -18,8 +18,8 @@ class Disk:
 
     r: Array
     """Element centres y/R, (elements,)."""
-    dr: float
-    """Element width over R: (1 − R_min/R)/N, eq. (3.14), whose left side is printed Δy."""
+    dr: Array
+    """Element widths over R, (elements,); evenly spaced (1 − R_min/R)/N, eq. (3.14), whose left side is printed Δy."""
     root: float
     """r/R where the lifting blade begins."""
     blades: int
@@ -54,11 +54,46 @@ class Disk:
         return len(self.r), len(self.psi)
 
     @property
+    def edges(self) -> Array:
+        """Edges of the elements over R, (elements + 1,)."""
+        return element_edges(self.dr)
+
+    @property
+    def cells(self) -> Array:
+        """Part of πR² that an element sweeps between two azimuths, (elements,)."""
+        return np.diff(self.edges**2) / len(self.psi)
+
+    @property
     def section_data(self) -> tuple[Array, NDArray[np.int64], Array, Array, Array, Array, Array]:
         """What the loads of the blade elements need beside velocities."""
         return (
             self.half_solidity, self.section, self.weight, self.offset, self.tables, self.cos_sweep, self.sin_sweep
         )  # fmt: skip
+
+
+def element_edges(widths: Array) -> Array:
+    """Edges over R, (elements + 1,), of elements that reach to the tip, from their widths over R, (elements,)."""
+    return np.append(1.0 - np.cumsum(widths[::-1])[::-1], 1.0)
+
+
+def stations(root: float, elements: int, fine_tip: bool) -> tuple[Array, Array]:
+    """Edges (elements + 1,) and control points (elements,) over R, evenly spaced or by a sine that is fine at the tip.
+
+    With the sine each control point lies midway in its angle, as a lifting line needs it between its trailers
+    (Multhopp's rule, here at one end only: fine at the root too would give near-singular rows in reverse flow).
+    """
+
+    def along(count: Array) -> Array:
+        share = np.sin(0.5 * math.pi * count / elements) if fine_tip else count / elements
+        return root + (1.0 - root) * share
+
+    steps = np.arange(elements + 1, dtype=np.float64)
+    return along(steps), along(steps[:-1] + 0.5)
+
+
+def azimuths_of(count: int) -> Array:
+    """Evenly spaced azimuths [rad] from 0, (count,)."""
+    return 2.0 * math.pi * np.arange(count) / count
 
 
 @lru_cache(maxsize=16)
@@ -69,16 +104,16 @@ def build_disk(
     only_mach: float | None = None,
     swept: bool = True,
     surface: bool = True,
+    fine_tip: bool = False,
 ) -> Disk:
-    """The rotor on a grid of equally wide elements and evenly spaced azimuths.
+    """The rotor on a grid of elements, evenly spaced or finer towards the tip, and evenly spaced azimuths.
 
     `only_mach`: section data are those of that Mach number everywhere; None: of the local Mach number.
     `swept`, `surface`: whether the sweep of the tip and the drag of the real surface count.
     """
     blade = rotor.blade
-    dr = (1.0 - blade.root_cutout) / elements
-    r: Array = blade.root_cutout + dr * (np.arange(elements, dtype=np.float64) + 0.5)
-    psi = 2.0 * math.pi * np.arange(azimuths) / azimuths
+    edges, r = stations(blade.root_cutout, elements, fine_tip)
+    psi = azimuths_of(azimuths)
 
     names = tuple(dict.fromkeys(span.section for span in blade.spans))
     installed = [blade.installed(name) for name in names]
@@ -102,7 +137,7 @@ def build_disk(
         coefficients[:, :, :, 1] *= blade.surface_drag
     return Disk(
         r=r,
-        dr=dr,
+        dr=np.diff(edges),
         root=blade.root_cutout,
         blades=rotor.blades,
         psi=psi,

@@ -49,7 +49,8 @@ class BladeTorsion:
     """ν_k [per rev], (modes,)."""
     radial: Array
     """Φ_k, (modes, elements)."""
-    dr: float
+    dr: Array
+    """Element widths over R, (elements,)."""
     functions: int
     """Number of waves 1, cos ψ, sin ψ, … of the elastic twist."""
     gain: Array
@@ -94,7 +95,7 @@ class BladeTorsion:
 
     def modal(self, along: Array) -> Array:
         """∫ Φ_k f dr of a distribution, (elements,) → (modes,)."""
-        return self.radial @ along * self.dr
+        return self.radial * self.dr @ along
 
     def harmonics(self, around: Array) -> Array:
         """Amplitudes 1, cos ψ, sin ψ, … of functions of azimuth, (…, azimuths) → (…, functions)."""
@@ -164,7 +165,7 @@ def _at_unit_density(rotor: Rotor, disk: Disk, only_mach: float | None, swept: b
     inertia = structure.at(disk.r * radius, structure.torsional_inertia) * radius / unit
     root = 0.5 * (structure.clamp / radius + disk.root)
     inner = float(structure.at(root * radius, structure.torsional_inertia)) * (disk.root * radius - structure.clamp)
-    inertia[0] += max(inner, 0.0) / (unit * disk.dr)
+    inertia[0] += max(inner, 0.0) / (unit * disk.dr[0])
     chord = disk.half_solidity * 2.0 * math.pi / rotor.blades
     behind = np.maximum(disk.r - blade.tip_sweep_start, 0.0) * (math.tan(blade.tip_sweep) if swept else 0.0)
     names = dict.fromkeys(span.section for span in blade.spans)  # In the order of `Disk.tables`.
@@ -179,7 +180,7 @@ def _at_unit_density(rotor: Rotor, disk: Disk, only_mach: float | None, swept: b
         gain=unit / (modes.inertia * frequency**2),
         dynamic=1.0 - (harmonic / frequency[:, None]) ** 2,
         inertia=inertia,
-        coupling=radial * inertia @ radial.T * disk.dr,
+        coupling=radial * (inertia * disk.dr) @ radial.T,
         tension=tension / (unit * rotor.angular_speed**2),
         own_tension=own_tension / (unit * rotor.angular_speed**2),
         moment_gain=disk.half_solidity * chord,

@@ -71,6 +71,10 @@ class BladeElements:
     u_t: Array
     u_p: Array
     u_r: Array
+    loss: Array
+    """F"""
+    rate: Array
+    """dθ/dψ"""
     beta: Array
     """Flapping angle, (azimuths,)."""
     induced: Array
@@ -103,13 +107,13 @@ class DiskSums:
 
 def disk_sums(disk: Disk, elements: BladeElements) -> DiskSums:
     """Thrust, H-force and torque."""
-    cell = disk.dr / len(disk.psi)
-    lift, across, along = elements.fz.sum(axis=0), elements.fx.sum(axis=0), elements.fr.sum(axis=0)
+    width = disk.dr / len(disk.psi)
+    lift, across, along = width @ elements.fz, width @ elements.fx, width @ elements.fr
     along = along - elements.beta * lift
     return DiskSums(
-        thrust=float(lift.sum()) * cell,
-        drag=float(across @ disk.sin + along @ disk.cos) * cell,
-        torque=float(disk.r @ elements.fx.sum(axis=1)) * cell,
+        thrust=float(lift.sum()),
+        drag=float(across @ disk.sin + along @ disk.cos),
+        torque=float(disk.r * width @ elements.fx.sum(axis=1)),
     )
 
 

@@ -1,16 +1,17 @@
 """A design on its grid: the arrays and coefficients that no iteration changes."""
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from rotor.aero.disk import Disk, build_disk
+from rotor.aero.disk import Disk, azimuths_of, build_disk
 from rotor.aero.elastic import BladeTorsion, build_torsion, highest_harmonic
 from rotor.aero.inflow import InflowModel, Wake, inflow_model
 from rotor.aero.inflow.interface import InflowTerms
+from rotor.aero.lifting_line.geometry import WakeCourse, tip_core
 from rotor.aero.momentum import glauert_inflow
 from rotor.aero.section import NO_MOMENT, SectionData
 from rotor.arrays import Array, Booleans
@@ -64,6 +65,8 @@ class Problem:
     radians, (modes, functions)."""
     expected: Wake
     """The wake of momentum theory when the disk is normal to the resultant of weight and drag."""
+    course: WakeCourse
+    """Along which a wake of vortices lies; see `rotor.trim.wake_course`."""
     joined: tuple[Array, Array] | None = None
     """What is added at low speed to the inflow of the model and to the swirl of momentum theory, (elements,) each."""
 
@@ -76,7 +79,7 @@ class Problem:
     def inflow_terms(self) -> InflowTerms:
         """The inflow model on this disk."""
         models = self.design.models
-        return self.inflow.on(self.disk, self.expected, (models.tip_loss, models.hub_loss))
+        return self.inflow.on(self.disk, self.course, (models.tip_loss, models.hub_loss))
 
     def section_data(self, step: int = 1) -> SectionData:
         """What forces need beside the channels, on every `step`-th azimuth."""
@@ -95,13 +98,16 @@ def build_problem(design: Design) -> Problem:
     """The design on its grid."""
     rotor, condition, models = design.rotor, design.condition, design.models
     drag, down = design.drag_parts
+    inflow = inflow_model(models.inflow)
+    if not models.tip_loss:
+        inflow = inflow.without_tip_loss()
     disk = build_disk(
         rotor,
-        models.elements,
-        models.azimuths,
+        *grid_of(design),
         None if models.compressibility else LOW_MACH,
         models.has("swept_tip"),
         models.has("surface_drag"),
+        inflow.fine_tip,
     )
     wake = expected_wake(design)
     download = design.fuselage.hover_download if models.has("download") and condition.stand is None else 0.0
@@ -109,13 +115,9 @@ def build_problem(design: Design) -> Problem:
     if download:
         weight *= 1.0 + download * (max(wake.axial, 0.0) / wake.speed) ** 2
     weight += down
-    inflow = inflow_model(models.inflow)
-    if not models.tip_loss:
-        inflow = inflow.without_tip_loss()
-    twist = design.twist(disk.r)
+    twist, flap = design.twist(disk.r), flap_dynamics(rotor, condition.density, blade_weight=models.blade_weight)
     active = design.active_twist if not design.hovering else None
-    still = np.zeros((1, 1))
-    active_field, *rates = [active(disk.r, disk.psi, order) if active else still for order in range(3)]
+    active_field, *rates = _active_twist(design, disk)
     torsion = None
     if models.has("elastic_twist") and rotor.blade.structure is not None:
         torsion = build_torsion(
@@ -131,7 +133,7 @@ def build_problem(design: Design) -> Problem:
         disk=disk,
         twist=twist,
         active=active_field,
-        flap=flap_dynamics(rotor, condition.density, blade_weight=models.blade_weight),
+        flap=flap,
         tip_mach=design.tip_mach,
         weight=weight,
         scale=weight if condition.stand is None else max(weight, 0.02 * rotor.solidity),
@@ -139,14 +141,44 @@ def build_problem(design: Design) -> Problem:
         climb=design.climb_ratio,
         inflow=inflow,
         expected=wake,
+        course=expected_course(design, wake, flap),
         friction=skin_friction(_reynolds(design)) if models.has("radial_friction") else 0.0,
-        unloaded=None if models.reverse_flow else disk.r[:, None] + condition.advance_ratio * disk.sin < 0.0,
+        unloaded=_unloaded(design, disk),
         torsion=torsion,
         active_rates=(rates[0], rates[1]),
         given_torsion=np.zeros(0)
         if torsion is None
         else _given_torsion(torsion, twist, active_field if active else None, rates[1]),
     )
+
+
+def grid_of(design: Design) -> tuple[int, int]:
+    """Elements and azimuths on which a design is solved."""
+    return inflow_model(design.models.inflow).grid(design.models, design.rotor.blades)
+
+
+def on_azimuths(problem: Problem, azimuths: int) -> Problem:
+    """The problem on the same elements and another number of azimuths."""
+    psi = azimuths_of(azimuths)
+    disk = replace(problem.disk, psi=psi, cos=np.cos(psi), sin=np.sin(psi))
+    active, *rates = _active_twist(problem.design, disk)
+    return replace(
+        problem, disk=disk, active=active, active_rates=(rates[0], rates[1]), unloaded=_unloaded(problem.design, disk)
+    )
+
+
+def _active_twist(design: Design, disk: Disk) -> list[Array]:
+    """θ_act and its first two derivatives by ψ, (elements, azimuths) each, or (1, 1) without active twist."""
+    active = design.active_twist if not design.hovering else None
+    still = np.zeros((1, 1))
+    return [active(disk.r, disk.psi, order) if active else still for order in range(3)]
+
+
+def _unloaded(design: Design, disk: Disk) -> Booleans | None:
+    """Elements that carry no load, see `Problem`."""
+    if design.models.reverse_flow:
+        return None
+    return disk.r[:, None] + design.condition.advance_ratio * disk.sin < 0.0
 
 
 def _given_torsion(torsion: BladeTorsion, twist: Array, active: Array | None, acceleration: Array) -> Array:
@@ -182,6 +214,17 @@ def expected_wake(design: Design) -> Wake:
             tilt = -math.atan2(profile + weight**2 / (2.0 * mu), mu * weight)
     mu_x, mu_z = in_disk_axes(mu, design.climb_ratio, tilt)
     return Wake(mu_x, mu_z, glauert_inflow(math.hypot(weight, drag), mu_x, mu_z)[0])
+
+
+def expected_course(design: Design, wake: Wake, flap: FlapDynamics) -> WakeCourse:
+    """Of the wake of momentum theory, under blades that cone as the thrust tells and flap as they are told to."""
+    condition, rotor = design.condition, design.rotor
+    thrust = 2.0 * wake.lambda0 * wake.speed
+    coning = flap.load_gain * 0.7 * thrust - flap.weight if rotor.precone is None else rotor.precone
+    chord = float(rotor.blade.chord(0.9)) / rotor.radius
+    reynolds = condition.density * rotor.tip_speed * rotor.radius / condition.viscosity
+    core = tip_core(chord, thrust, rotor.blades, reynolds)
+    return WakeCourse(wake.mu_x, wake.mu_z, wake.lambda0, coning, condition.flap_1c, condition.flap_1s, core)
 
 
 def in_disk_axes(mu: float, climb: float, tilt: float) -> tuple[float, float]:

@@ -106,7 +106,7 @@ def section(c: Any, data: Any, slopes: bool, flow: bool) -> Any:
         _speeds(t, p, data.half_solidity[i], w)
         angles_of_attack(c[TH, i], t, p, alpha)
         _mach_numbers((t, p, r), data.cos_sweep[i], data.sin_sweep[i], data.tip_mach, mach)
-        _coefficients(data, i, alpha, mach, slopes, cells, places, found)
+        _coefficients(data, i, alpha, mach, slopes or flow, cells, places, found)
         lift = found[0]
         if data.lossy:
             lift = w[_LIFT]
@@ -375,27 +375,38 @@ def of_double_angle(angle: float) -> Any:
 
 
 @_compile
-def stall_margins(alpha: Any, mach: Any, u_t: Any, section: Any, weight: Any, offset: Any, stall: Any) -> Any:
-    """Angle of attack left before stall [rad], (elements, azimuths): negative when stalled, π/2 in reverse flow.
+def stall_angles(mach: Any, section: Any, weight: Any, offset: Any, stall: Any) -> Any:
+    """Negative and positive stall angle about the blade's reference line [rad], (2, elements, azimuths).
 
     stall: angles about the section's own chord at the Mach knots, (sections, 2, knots): negative end, positive end.
     """
-    n, m = alpha.shape
-    out = np.empty((n, m))
+    n, m = mach.shape
+    out = np.zeros((2, n, m))
     top = stall.shape[2] - 1 - 1e-9
     cell, place, slope = np.empty(m, np.int32), np.empty(m), np.empty(m)
     for i in range(n):
         places_along_mach(mach[i], cell, place, slope)
-        for j in range(m):
-            if u_t[i, j] < 0.0:
-                out[i, j] = 0.5 * _PI
-                continue
-            k, v, high, low = min(cell[j], int(top)), place[j], 0.0, 0.0
-            for which in range(2):
-                share = weight[i] if which == 1 else 1.0 - weight[i]
-                if share > 0.0:
-                    row = stall[section[i, which]]
-                    low += share * (row[0, k] * (1.0 - v) + row[0, k + 1] * v + offset[i, which])
-                    high += share * (row[1, k] * (1.0 - v) + row[1, k + 1] * v + offset[i, which])
-            out[i, j] = min(high - alpha[i, j], alpha[i, j] - low)
+        for which in range(2):
+            share = weight[i] if which == 1 else 1.0 - weight[i]
+            if share > 0.0:
+                row = stall[section[i, which]]
+                for j in range(m):
+                    k, v = min(cell[j], int(top)), place[j]
+                    out[0, i, j] += share * (row[0, k] * (1.0 - v) + row[0, k + 1] * v + offset[i, which])
+                    out[1, i, j] += share * (row[1, k] * (1.0 - v) + row[1, k + 1] * v + offset[i, which])
+    return out
+
+
+@_compile
+def stall_margins(alpha: Any, mach: Any, u_t: Any, section: Any, weight: Any, offset: Any, stall: Any) -> Any:
+    """Angle of attack left before stall [rad], (elements, azimuths): negative when stalled, π/2 in reverse flow.
+
+    stall: as in `stall_angles`.
+    """
+    low, high = stall_angles(mach, section, weight, offset, stall)
+    out = np.empty(alpha.shape)
+    for i in range(alpha.shape[0]):
+        for j in range(alpha.shape[1]):
+            margin = min(high[i, j] - alpha[i, j], alpha[i, j] - low[i, j])
+            out[i, j] = 0.5 * _PI if u_t[i, j] < 0.0 else margin
     return out

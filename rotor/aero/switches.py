@@ -39,7 +39,7 @@ _SWITCHES = (
         "tip_loss",
         "Tip loss",
         "Lift falls off at the tips of a finite number of blades: Prandtl's factor, or the wake of each blade.",
-        "F_tip = 1; a dynamic wake has infinitely many blades.",
+        "F_tip = 1; a lifting line keeps the tips of its blades.",
     ),
     Switch(
         "hub_loss",
@@ -142,8 +142,6 @@ def no_effect(design: Design, name: str) -> str:
             return "no drag in hover"
         case "tip_loss" if not hovering and inflow.load_dependent and inflow.without_tip_loss() == inflow:
             return "tip loss is part of this wake"
-        case "tip_loss" | "hub_loss" if hovering and design.models.hover_inflow == "free-wake":
-            return "tip and root loss are part of this wake"
         case "hub_loss" if not hovering and inflow.load_dependent:
             return "root loss is part of this wake"
         case "reverse_flow" if design.condition.advance_ratio <= design.rotor.blade.root_cutout:

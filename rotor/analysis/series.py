@@ -84,7 +84,7 @@ def sweep(design: Design, mu: Iterable[float], start: Solution | None = None) ->
         solution = solve(point, start)
         if solution.converged:
             start = solution
-        solutions.append(solution.without_linear())
+        solutions.append(solution.without_factors())
     return SweepTable(tuple(solutions))
 
 

@@ -55,7 +55,7 @@ class SystemTolerances:
     residual: float
     """Of the trim equations, as a fraction of `Problem.scale`."""
     inflow: float
-    """Of λ_i, as a fraction of λ0."""
+    """Of the nodes, as a fraction of `Problem.scale`."""
     torsion: float
     """[rad]"""
     angle_step: float
@@ -87,7 +87,6 @@ def _structure(key: _StructureKey) -> Structure:
         s.state(state)
     for freedom in key.freedoms:
         freedom.declare(s)
-    terms.declare(s)
     s.roots = s.states["shaft_tilt"], s.states["lambda0"]
     made = {name: s.quantity(name) for name in _MADE}
     add_rigid_blade(s)
@@ -98,7 +97,7 @@ def _structure(key: _StructureKey) -> Structure:
     free = [s.states[name] for name in key.trim.unknowns]
     for freedom in key.freedoms:
         free += freedom.build(s)
-    free += terms.build(s)
+    terms.build(s)
     s.column(UT, SWIRL_SLOPE, STEADY, 1.0, made["change of swirl"])
     for channel, name in terms.live:
         s.column(channel, (name, "tilt"), STEADY, 1.0, made["change of tilt"])
@@ -141,7 +140,7 @@ def _shapes(key: _ShapesKey) -> Shapes:
     for freedom in key.freedoms:
         values |= freedom.shapes(problem)
     values |= problem.inflow_terms.shapes()
-    return Shapes(key.structure, values, len(disk.r))
+    return Shapes(key.structure, values, disk.dr)
 
 
 def flight_system(problem: Problem, tolerances: SystemTolerances, added: Sequence[Freedom] = ()) -> System:
@@ -155,6 +154,11 @@ def flight_system(problem: Problem, tolerances: SystemTolerances, added: Sequenc
     grid = _grid(problem, structure, 1)
     step = _thinning(len(problem.disk.psi), terms.least_azimuths)
     tolerance, limits = _tolerances(problem, structure, tolerances)
+    nodes = terms.nodes(tolerances.inflow * problem.scale, problem.scale)
+    if nodes is not None:
+        points = len(nodes.matrix)
+        tolerance = np.concatenate([tolerance, np.full(points, nodes.tolerance)])
+        limits = np.concatenate([limits, np.full(points, nodes.limit)])
     return System(
         structure=structure,
         shapes=_shapes(_ShapesKey(structure, problem.disk, problem.flap.hinge, problem, freedoms)),
@@ -165,7 +169,7 @@ def flight_system(problem: Problem, tolerances: SystemTolerances, added: Sequenc
         numbers=np.array([1.0, *values.values()]),
         tolerance=tolerance,
         limits=limits,
-        closures=terms.closures(structure),
+        nodes=nodes,
     )
 
 
@@ -194,18 +198,15 @@ def _grid(problem: Problem, structure: Structure, step: int) -> Grid:
     if problem.active.size > 1:
         varying = {TH: problem.active[:, ::step], RATE: problem.active_rates[0][:, ::step]}
     waves = wave_grid(structure.waves, len(disk.psi) // step)
-    return Grid(waves, disk.dr, steady, varying, problem.section_data(step))
+    return Grid(waves, steady, varying, problem.section_data(step))
 
 
 def _tolerances(problem: Problem, structure: Structure, wanted: SystemTolerances) -> tuple[Array, Array]:
     """Of every equation; and the largest step of every state solved for."""
     tolerance = np.full(len(structure.equations), wanted.residual * problem.scale)
     tolerance[structure.equations_of("twist")] = wanted.torsion
-    inflow = wanted.inflow * max(abs(problem.expected.lambda0), 0.02 * math.sqrt(0.5 * problem.scale))
-    tolerance[structure.equations_of("inflow")] = inflow / np.maximum(problem.inflow_terms.peaks(), 1e-9)
     limits = np.full(len(structure.free), wanted.angle_step)
     limits[structure.states_of("lambda0")] = wanted.inflow_step
-    limits[structure.states_of("inflow")] = math.inf
     return tolerance, limits
 
 
@@ -266,10 +267,10 @@ def state_of(structure: Structure, x: Array) -> TrimState:
 
 
 def parts_of(structure: Structure, x: Array) -> tuple[TrimState, Array, Array]:
-    """Trim state, coordinates of the elastic twist and of the inflow, both flat; empty where there are none."""
+    """Trim state, coordinates of the elastic twist and nodes of the inflow, both flat; empty without."""
     first = structure.first_state + len(STATE_NAMES)
-    twists, terms = len(structure.equations_of("twist")), len(structure.equations_of("inflow"))
-    return state_of(structure, x), x[first : first + twists], x[len(x) - terms :]
+    twists = len(structure.equations_of("twist"))
+    return state_of(structure, x), x[first : first + twists], x[structure.given :]
 
 
 def _flapping(problem: Problem, x: Array, structure: Structure) -> Array:
@@ -287,6 +288,8 @@ def elements_of(problem: Problem, point: Point) -> BladeElements:
     induced = part(point, UP, list(terms.names))
     own: Array | float = 0.0 if terms.interface.balanced is None else f[terms.interface.balanced]
     induced += own
+    if (nodes := point.system.nodes) is not None:
+        induced += nodes.field(x[structure.given :]).reshape(induced.shape)
     swirl = -point.phi[structure.first_row[UT] + structure.shapes[UT][SWIRL]]
     if problem.joined is not None:
         induced += problem.joined[0][:, None]
@@ -297,8 +300,7 @@ def elements_of(problem: Problem, point: Point) -> BladeElements:
         around = coordinates @ wave_grid(torsion.functions, c.shape[2]).at
         twist = TwistState(coordinates.copy(), torsion.radial.T @ around, f[M])
     return BladeElements(
-        state=state_of(structure, x), flow=flow.flow(x), theta=c[TH], u_t=c[UT],
-        u_p=c[UP] + own, u_r=c[UR], beta=_flapping(problem, x, structure), induced=induced, swirl=swirl,
-        fz=f[FZ], fx=f[FX], fr=f[FR], alpha=s[ALPHA], mach=s[MACH], cl=s[CL], cd=s[CD], cd_mach=s[CD_MACH],
-        torsion=twist,
+        state=state_of(structure, x), flow=flow.flow(x), theta=c[TH], u_t=c[UT], u_p=c[UP] + own, u_r=c[UR],
+        loss=c[LOSS], rate=c[RATE], beta=_flapping(problem, x, structure), induced=induced, swirl=swirl, fz=f[FZ],
+        fx=f[FX], fr=f[FR], alpha=s[ALPHA], mach=s[MACH], cl=s[CL], cd=s[CD], cd_mach=s[CD_MACH], torsion=twist,
     )  # fmt: skip

@@ -252,10 +252,10 @@ def hover_system(problem: Problem) -> System:
     )  # fmt: skip
     steady = np.zeros((structure.channels, len(disk.r)))
     steady[TH], steady[UT], steady[LOSS] = problem.twist, disk.r, 1.0
-    grid = Grid(wave_grid(structure.waves, 1), disk.dr, steady, {}, data)
+    grid = Grid(wave_grid(structure.waves, 1), steady, {}, data)
     count = len(structure.equations)
     return System(
-        structure, Shapes(structure, shapes, len(disk.r)), grid, grid, _annulus_section, _nothing_made,
+        structure, Shapes(structure, shapes, disk.dr), grid, grid, _annulus_section, _nothing_made,
         np.array([1.0, *values.values()]), np.full(count, problem.scale), np.ones(count),
     )  # fmt: skip
 
@@ -266,7 +266,7 @@ def hover_elements(problem: Problem, point: Point) -> BladeElements:
     azimuths, f, s, states = len(disk.psi), point.forces, point.flow, structure.states
     own, inflow = _at_balance(point)[0][:, :, 0], f[BALANCED, :, 0]
     coning = float(point.x[states["coning"]])
-    thrust = float(f[FZ].sum()) * disk.dr
+    thrust = float(disk.dr @ f[FZ, :, 0])
     state = TrimState(
         collective=float(point.x[states["collective"]]), coning=coning,
         lambda0=axial_inflow(max(thrust, 0.0), problem.climb),
@@ -284,7 +284,7 @@ def hover_elements(problem: Problem, point: Point) -> BladeElements:
     zero = np.zeros(disk.shape)
     return BladeElements(
         state=state, flow=Wake(0.0, problem.climb, state.lambda0), theta=everywhere(own[TH]),
-        u_t=everywhere(own[UT]), u_p=everywhere(own[UP]), u_r=zero,
+        u_t=everywhere(own[UT]), u_p=everywhere(own[UP]), u_r=zero, loss=np.ones(disk.shape), rate=zero,
         beta=np.full(azimuths, coning), induced=everywhere(inflow), swirl=disk.r - own[UT], fz=everywhere(f[FZ, :, 0]),
         fx=everywhere(f[FX, :, 0]), fr=zero, alpha=everywhere(s[ALPHA, :, 0]), mach=everywhere(s[MACH, :, 0]),
         cl=everywhere(s[CL, :, 0]), cd=everywhere(s[CD, :, 0]), cd_mach=everywhere(s[CD_MACH, :, 0]), torsion=twist,

@@ -29,7 +29,7 @@ from rotor.study.point import trim_of
 from rotor.study.study_file import read_study
 from rotor.trim.adjoint import power_gradient
 from rotor.trim.forward import first_guess
-from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, first_point, newton, tolerances
+from rotor.trim.newton import DEFAULT_OPTIONS, Guess, first_point, newton, tolerances
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -63,7 +63,7 @@ def measure_searches(*, long: bool) -> dict[str, float]:
 
 
 TARGET_PER_SECOND = 208.0
-"""10⁵ trims of elastic blades with the dynamic wake on two cores in 4 minutes."""
+"""10⁵ trims of elastic blades with the lifting line on two cores in 4 minutes."""
 _POINTS = 200
 
 
@@ -93,11 +93,8 @@ TARGETS_MS = {
     "cold": 7.0,
     "warm": 3.5,
     "gradient": 0.8,
-    "free wake in hover, cold": 300.0,
-    "free wake in hover, after a slider step": 100.0,
-    "free wake in hover, preview": 10.0,
 }
-"""Targets of the project [ms], 40 × 120, one core of an idle machine."""
+"""Targets of the project [ms], on the grid of each model, one core of an idle machine."""
 
 _ADVANCE_RATIOS = (0.1, 0.15, 0.2, 0.25, 0.3, 0.35)
 
@@ -123,11 +120,11 @@ def run(args: argparse.Namespace) -> int:
         }  # fmt: skip
         print(json.dumps(answer, indent=2, allow_nan=False))
         return 0
-    print("milliseconds of processor time (median), 40 × 120, flight preset, mean of µ 0.10…0.35; dynamic wake and")
-    print("elastic blade where nothing else is said\n")
+    print("milliseconds of processor time (median), flight preset, mean of µ 0.10…0.35; lifting line and elastic blade")
+    print("where nothing else is said, linear inflow on 40 × 120\n")
     for name, value in figures.items():
         print(_line(name, value, "10.3f", TARGETS_MS.get(name), "≤"))
-    print("\nseconds, dynamic wake, elastic blade\n")
+    print("\nseconds, lifting line, elastic blade\n")
     for name, value in searches.items():
         print(_line(name, value, "10.2f", TARGETS_S.get(name), "≤"))
     print("\ntrims a second and core, elastic blades sampled over speed, weight, altitude and twist\n")
@@ -169,7 +166,7 @@ class OtherCode:
 
 def measure() -> tuple[dict[str, float], list[OtherCode], list[str]]:
     """Figures [ms] by name, other codes, and notes on what could not be measured."""
-    linear, rigid, default = _cases("pitt-peters"), _cases("dynamic-wake"), _cases("dynamic-wake", elastic=True)
+    linear, rigid, default = _cases("pitt-peters"), _cases("lifting-line"), _cases("lifting-line", elastic=True)
     figures: dict[str, float] = {}
     for beside, cases in (("", default), ("linear inflow, ", linear), ("rigid blade, ", rigid)):
         problems = [build_problem(design) for design in cases.designs]
@@ -182,7 +179,6 @@ def measure() -> tuple[dict[str, float], list[OtherCode], list[str]]:
         figures[f"{beside}warm"] = statistics.fmean(_warm(cases, k) for k in range(len(cases.designs)))
         figures[f"{beside}gradient"] = statistics.fmean(_gradient(cases, k) for k in range(len(cases.designs)))
     figures["hover, cold"] = _time(lambda: solve(make_design(preset="flight", mu=0.0)), 15)
-    figures |= _free_wake()
     cold, evaluation = figures["linear inflow, cold"], figures["linear inflow, evaluation"]
     problems = [build_problem(design) for design in linear.designs]
     baselines = [
@@ -204,20 +200,6 @@ def measure() -> tuple[dict[str, float], list[OtherCode], list[str]]:
     except ImportError:
         notes.append("wisdem is not installed: pip install 'rotor-explorer[crosscheck]' adds its CCBlade")
     return figures, baselines, notes
-
-
-def _free_wake() -> dict[str, float]:
-    """The free wake in hover at the twist of the preset: settled, a slider step away, and one step of preview."""
-    design = make_design(preset="flight", twist="linear:-10", mu=0.0)
-    design = replace(design, models=replace(design.models, hover_inflow="free-wake"))
-    near = replace(design, twist=make_design(preset="flight", twist="linear:-10.5").twist)
-    cold = _time(lambda: solve(design), 3)
-    settled, preview = solve(design), SolverOptions(preview=True)
-    return {
-        "free wake in hover, cold": cold,
-        "free wake in hover, preview": _time(lambda: solve(near, settled, preview), 15),
-        "free wake in hover, after a slider step": _time(lambda: solve(near, settled), 5),
-    }
 
 
 @dataclass(frozen=True, eq=False)

@@ -23,6 +23,7 @@ from rotor.airfoil.sections import TABLE_NAMES
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.design.aircraft import FASTEST_CLIMB
 from rotor.design.design import HOVER_INFLOWS, LOW_SPEEDS, TRIMS, Design
+from rotor.design.retired import current_model
 from rotor.design.stand import LOAD_KEYS
 from rotor.files.design_file import load_design
 from rotor.files.make_design import change_airfoils, make_design
@@ -161,13 +162,13 @@ def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: floa
 
 def with_inflow(design: Design, name: str) -> Design:
     """The design with an inflow model by name, of forward flight or of hover; ValueError for an unknown name."""
-    if name in HOVER_INFLOWS:
-        return replace(design, models=replace(design.models, hover_inflow=name))
-    if name not in INFLOW_MODELS:
-        known = (*INFLOW_MODELS, *HOVER_INFLOWS)
-        hint = did_you_mean(name, known) or ":"
-        raise ValueError(f"inflow model {name!r} is not known{hint} use one of {', '.join(known)}")
-    return replace(design, models=replace(design.models, inflow=name))
+    options = {"inflow": tuple(INFLOW_MODELS), "hover_inflow": HOVER_INFLOWS}
+    for option, names in options.items():
+        if (current := current_model(option, name)) in names:
+            return replace(design, models=replace(design.models, **{option: current}))
+    known = [one for names in options.values() for one in names]
+    hint = did_you_mean(name, known) or ":"
+    raise ValueError(f"inflow model {name!r} is not known{hint} use one of {', '.join(known)}")
 
 
 def write_table(path: str, rows: Iterable[Iterable[str]], heading: str = "") -> None:

@@ -7,6 +7,7 @@ from typing import Any
 
 from rotor.command.common import add_command, add_design_arguments, design_from, finite
 from rotor.design.design import Design
+from rotor.trim.distribution import distribution
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.units import KNOT
@@ -20,6 +21,12 @@ def add_parser(commands: Any) -> None:
     speed.add_argument("--speed-kt", type=finite, metavar="KT", help="airspeed in knots")
     speed.add_argument("--hover", action="store_true", help="hover")
     add_design_arguments(parser, one_twist=True)
+    parser.add_argument(
+        "--distribution",
+        action="store_true",
+        help="lift along the blade too; with --json lift, coefficients, angle of attack and induced velocity of one "
+        "blade by radius and azimuth",
+    )
     parser.add_argument("--json", action="store_true", help="machine-readable output")
     parser.set_defaults(run=run)
 
@@ -31,12 +38,14 @@ def run(args: argparse.Namespace) -> int:
     if args.speed_kt is not None:
         design = design_from(args, args.twist, args.speed_kt * KNOT / design.rotor.tip_speed)
     solution = solve(design)
-    worth = twist_worth(solution)
+    found = distribution(solution) if args.distribution and solution.converged else None
     if args.json:
-        record = {**solution.to_dict(), "twist_worth_percent": worth}
-        print(json.dumps(record, indent=2, allow_nan=False))
+        also = {"distribution": found and found.to_dict()} if args.distribution else {}
+        print(json.dumps({**solution.to_dict(), **also}, indent=2, allow_nan=False))
     else:
-        print(report(solution, worth))
+        print(report(solution))
+        if found is not None:
+            print(f"\nlift of one blade\n{found.table()}")
     return 0 if solution.converged else 1
 
 
@@ -49,21 +58,8 @@ def _load(design: Design) -> str:
     return f"{design.models.trim}: {condition.stand}"
 
 
-def twist_worth(solution: Solution) -> dict[str, float] | None:
-    """Change of main-rotor power from the blade as built [%], and its band over roll-ups; free wake in hover only."""
-    design = solution.design
-    if solution.wake is None or not solution.converged or design.twist == design.rotor.builtin_twist:
-        return None
-    built = solve(design.with_twist("builtin"))
-    band = solution.worth_band(built)
-    if band is None:
-        return None
-    change = solution.power.main_rotor / built.power.main_rotor - 1.0
-    return {"change": 100.0 * change, "low": 100.0 * band[0], "high": 100.0 * band[1]}
-
-
-def report(solution: Solution, worth: dict[str, float] | None = None) -> str:
-    """The same as text; `worth` as `twist_worth` gives it."""
+def report(solution: Solution) -> str:
+    """The same as text."""
     design, controls = solution.design, solution.controls
     inflow = design.models.hover_inflow if design.hovering else design.models.inflow
     lines = [
@@ -95,14 +91,6 @@ def report(solution: Solution, worth: dict[str, float] | None = None) -> str:
                 "propulsive": power.parasite,
             }  # fmt: skip
         lines += ["", *(f"{name:<12}{value / 1e3:10.1f} kW" for name, value in kw.items())]
-        if solution.power_band is not None:
-            low, high = (100.0 * change for change in solution.power_band)
-            lines += [f"main rotor {low:+.1f} to {high:+.1f} % with other roll-ups and a finer grid of the free wake"]
-        if worth is not None:
-            lines += [
-                f"main rotor {worth['change']:+.1f} % from the twist as built, {worth['low']:+.1f} to "
-                f"{worth['high']:+.1f} % if both have another roll-up"
-            ]
         lines += ["", *(f"{name:<12}{math.degrees(value) + 0.0:10.2f} °" for name, value in degrees.items())]
         merit = solution.figure_of_merit
         lines += ["", f"κ = P_i/(C_T λ0) {solution.induced_power_factor:.3f}"]

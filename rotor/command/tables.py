@@ -155,8 +155,8 @@ _IDEAL_UNITS = ("", "kg", "", "", "kW", *["κ"] * 4, "°/R")
 
 _EXPLANATION = (
     "# Least induced power over C_T λ0 (momentum theory, glauert_kw) of the {rotor} at sea level: any circulation;\n"
-    "# any within section lift −0.6…1.2; any steady twist; the best linear twist and its rate in °/R. Vortex\n"
-    "# lattice, rigid helical wake, zero hub moments, linear aerodynamics.\n"
+    "# any within section lift −0.6…1.2; any steady twist; the best linear twist and its rate in °/R. Lifting\n"
+    "# lines, the wake of the inflow model lifting-line, zero hub moments, linear aerodynamics.\n"
     "# Made by: python -m rotor ideal --mu A:B:STEP --mass-kg LIST --csv FILE{flag}\n"
 )
 

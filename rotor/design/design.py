@@ -39,8 +39,8 @@ def _text(value: Any) -> str:
     return repr(value)
 
 
-HoverInflow = Literal["annulus", "closed-form", "free-wake"]
-HOVER_INFLOWS: tuple[HoverInflow, ...] = ("annulus", "closed-form", "free-wake")
+HoverInflow = Literal["annulus", "closed-form"]
+HOVER_INFLOWS: tuple[HoverInflow, ...] = ("annulus", "closed-form")
 LowSpeed = Literal["wake", "hover"]
 LOW_SPEEDS: tuple[LowSpeed, ...] = ("wake", "hover")
 FlightTrim = Literal["propulsive", "thrust"]
@@ -62,7 +62,7 @@ class Models:
     inflow: str
     """Forward-flight inflow model by name, one of `rotor.aero.inflow.INFLOW_MODELS`."""
     hover_inflow: HoverInflow
-    """`annulus`: balance with the real Cl(α); `closed-form`: eq. (3.3); `free-wake`: vortex filaments of each blade."""
+    """`annulus`: balance with the real Cl(α); `closed-form`: eq. (3.3)."""
     trim: FlightTrim | StandTrim
     """`propulsive`: weight, drag and first-harmonic flapping by collective, cyclic and shaft tilt;
     `thrust`: the resultant of weight and drag by collective, free flapping, no cyclic. Those of a rotor on a test
@@ -74,7 +74,7 @@ class Models:
     tail_rotor_solved: bool
     """True: the tail rotor balances the torque; False: five per cent of the main rotor (thesis §3.2)."""
     tip_loss: bool = True
-    """Prandtl's tip factor, eq. (3.16). Off: F_tip = 1; a dynamic wake is then that of infinitely many blades."""
+    """Prandtl's tip factor, eq. (3.16). Off: F_tip = 1; a lifting line keeps the tips of its blades."""
     hub_loss: bool = True
     """Root factor, eq. (3.17), where the inflow does not depend on the load. Off: F_hub = 1."""
     reverse_flow: bool = True
@@ -103,15 +103,18 @@ class Models:
     document_losses: bool = False
     """Only the losses that the document has: whatever the switches of `BEYOND_DOCUMENT` say."""
     elements: int = 40
-    """Blade elements, equally wide (eq. 3.14)."""
+    """Blade elements, equally wide (eq. 3.14), unless the inflow model has a grid of its own."""
     azimuths: int = 120
-    """Azimuth stations."""
+    """Azimuth stations; an inflow model with a grid of its own may be solved on fewer."""
 
     def has(self, name: str) -> bool:
         """Whether one of the switches is on and belongs to these models."""
         return bool(getattr(self, name)) and not (self.document_losses and name in BEYOND_DOCUMENT)
 
     def __post_init__(self) -> None:
+        if self.hover_inflow not in HOVER_INFLOWS:
+            known = ", ".join(HOVER_INFLOWS)
+            raise ValueError(f"hover inflow {self.hover_inflow!r} is not known: use one of {known}")
         if not 4 <= self.elements <= 1000:
             raise ValueError(f"{self.elements} blade elements are outside 4…1000: 40 is enough for plots and power")
         if not 8 <= self.azimuths <= 2000:
@@ -330,7 +333,7 @@ class Design:
 PRESETS = ("flight", "thesis")
 
 FLIGHT_MODELS = Models(
-    inflow="dynamic-wake",
+    inflow="lifting-line",
     hover_inflow="annulus",
     trim="propulsive",
     disk_axial_flow=True,

@@ -33,8 +33,8 @@ class Stand:
     """The inputs of a test; exactly one of thrust, ct_over_sigma and collective is given."""
 
     shaft_tilt: float | None = None
-    """α [rad], positive forward; left out it is 0. A free rotor finds its tilt: there it is where the search starts and
-    where rigid wake helices lie."""
+    """α [rad], positive forward; left out it is 0. A free rotor finds its tilt: there it is where the search
+    starts."""
     thrust: float | None = None
     """Along the shaft [N]."""
     ct_over_sigma: float | None = None

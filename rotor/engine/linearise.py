@@ -3,9 +3,11 @@
     channels   c = Φᵀ G W,  G = Σ factor z_i z_j                    K
     section    f(c), D = ∂f/∂c at every point                       `System.section`
     measures   Q = mean Ψ f Wᵀ Δr                                   P
-    residual   R(z, Q),  closures  y − T(z) Q
+    residual   R(z, Q)
+    nodes      c += A y in one channel, y − f in one force: an unknown at every point of the grid
 
     J = ∂R/∂Q (Pᵀ D K) ∂G/∂z ∂z/∂x + ∂R/∂z ∂z/∂x,  and Jᵀ v by the same operators transposed.
+    By the nodes:  ∂R/∂y = ∂R/∂Q Pᵀ D A,   ∂(y − f)/∂x = −D K ∂G/∂z ∂z/∂x,   ∂(y − f)/∂y = 1 − D A.
 
 A product of two waves is a sum of two, so Pᵀ D K takes only the Fourier coefficients of Σ Ψ D Φ: one product along the
 blade for each pair of shapes, one around the azimuth, and two numbers for each entry.
@@ -14,7 +16,7 @@ blade for each pair of shapes, one around the azimuth, and two numbers for each 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 
@@ -29,39 +31,46 @@ Live = Mapping[tuple[int, Shape], Array]
 """Shapes that follow the states, by channel and name."""
 
 
-class Closure(Protocol):
-    """y = T(z) Q for some states y, with a matrix that depends on a few atoms."""
+@dataclass(frozen=True, eq=False)
+class Nodes:
+    """y, a force at every point of the grid, which gives a channel A y: what no product of shapes and waves holds."""
 
-    rows: Integers
-    """Equations, (size,)."""
-    measures: Integers
-    """Q, (size,)."""
-    atoms: Integers
-    """That T depends on, (few,)."""
+    channel: int
+    force: int
+    matrix: Array
+    """A, (points, points); points in the order (element, azimuth)."""
+    tolerance: float
+    """Of y − f."""
+    limit: float
+    """Largest step of y."""
+    smoothing: Array | None = None
+    """ε of y − f − ε (y_above − 2 y + y_below), by the neighbours along the blade, (elements, azimuths)."""
 
-    def value(self, z: Array, q: Array) -> Array:
-        """T(z) Q, (size,)."""
-        ...
+    def field(self, y: Array) -> Array:
+        """A y, (points,)."""
+        return self.matrix @ y
 
-    def linear(self, z: Array, q: Array) -> tuple[Array, Array]:
-        """T, (size, size), and ∂(T Q)/∂ the atoms, (size, few)."""
-        ...
+    def smoothed(self, y: Array) -> Array:
+        """ε (y_above − 2 y + y_below), with zero beyond both ends, (elements, azimuths) like y."""
+        assert self.smoothing is not None
+        wide = np.pad(y, ((1, 1), (0, 0)))
+        return self.smoothing * (wide[2:] - 2.0 * y + wide[:-2])
 
 
 class Shapes:
     """Functions along the blade, by channel and by force, for one structure and blade."""
 
-    def __init__(self, structure: Structure, values: Mapping[Shape, Array], elements: int) -> None:
-        """values: by name, (elements,); those that are missing are live."""
-        none = np.zeros(elements)
+    def __init__(self, structure: Structure, values: Mapping[Shape, Array], widths: Array) -> None:
+        """values: by name, (elements,); those that are missing are live. widths: Δr, (elements,)."""
+        none = np.zeros(len(widths))
 
         def stack(all_names: Sequence[Mapping[Shape, int]]) -> Array:
-            return np.array([values.get(name, none) for own in all_names for name in own]).reshape(-1, elements)
+            return np.array([values.get(name, none) for own in all_names for name in own]).reshape(-1, len(widths))
 
         self.phi = stack(structure.shapes)
         """(shapes of all channels, elements)"""
-        self.psi = stack(structure.weights)
-        """(weights of all forces, elements)"""
+        self.psi = stack(structure.weights) * widths
+        """Ψ Δr, (weights of all forces, elements)"""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,7 +78,6 @@ class Grid:
     """The blade elements on one number of azimuths."""
 
     waves: WaveGrid
-    dr: float
     steady: Array
     """What the design adds to every channel at all azimuths, (channels, elements)."""
     varying: Mapping[int, Array]
@@ -97,12 +105,20 @@ class System:
     """Of each equation, (equations,)."""
     limits: Array
     """Largest step of each state solved for, (equations,)."""
-    closures: tuple[Closure, ...] = ()
+    nodes: Nodes | None = None
+    """Their equations and unknowns come after all others."""
+
+    @cached_property
+    def free(self) -> Integers:
+        """Places in x of what is solved for, (equations,)."""
+        given, nodes = self.structure.given, self.nodes
+        count = 0 if nodes is None else len(nodes.matrix)
+        return np.concatenate([self.structure.free, np.arange(given, given + count)])
 
 
 @dataclass(frozen=True, eq=False)
 class Point:
-    """The equations at x = (1, numbers, states), with what their derivatives need."""
+    """The equations at x = (1, numbers, states, y of the nodes), with what their derivatives need."""
 
     system: System
     grid: Grid
@@ -122,24 +138,17 @@ class Point:
 
     @cached_property
     def size(self) -> float:
-        """Largest residual over its tolerance; the rows of a closure are added up, for they are parts of one field."""
-        error = np.abs(self.residual) / self.system.tolerance
-        for closure in self.system.closures:
-            error[closure.rows[0]] = error[closure.rows].sum()
-        size = float(error.max())
+        """Largest residual over its tolerance."""
+        size = float((np.abs(self.residual) / self.system.tolerance).max())
         return size if np.isfinite(size) else np.inf
-
-    @cached_property
-    def closures(self) -> "list[tuple[Closure, Array, Array]]":
-        """The closures with their matrices and slopes."""
-        return [(closure, *closure.linear(self.z, self.q)) for closure in self.system.closures]
 
 
 def evaluate(system: System, grid: Grid, x: Array, *, slopes: bool = False, flow: bool = False) -> Point:
     """R(x); with the partial derivatives of the section, and the flow at the sections, where asked for."""
     structure, shapes = system.structure, system.shapes
-    made, by_roots, live = system.make(x)
-    z = np.concatenate([x, made])
+    states, y = x[: structure.given], x[structure.given :]
+    made, by_roots, live = system.make(states)
+    z = np.concatenate([states, made])
     phi = shapes.phi
     if live:
         phi = phi.copy()
@@ -149,14 +158,20 @@ def evaluate(system: System, grid: Grid, x: Array, *, slopes: bool = False, flow
     _channels(phi, structure.first_row, _coefficients(structure, z) @ grid.waves.at, grid.steady, channels)
     for channel, added in grid.varying.items():
         channels[channel] += added
+    nodes = system.nodes
+    if nodes is not None:
+        channels[nodes.channel] += nodes.field(y).reshape(channels.shape[1:])
     forces, found, s = system.section(channels, grid.data, slopes, flow)
     along = np.zeros((len(shapes.psi), grid.waves.azimuths))
     _along_blade(shapes.psi, structure.first_weight, forces, along)
     q = np.empty(1 + len(structure.measures))
-    q[0], q[1:] = 1.0, (along @ grid.waves.mean).ravel()[structure.measure_places] * grid.dr
+    q[0], q[1:] = 1.0, (along @ grid.waves.mean).ravel()[structure.measure_places]
     residual = structure.residual.value(z, q)
-    for closure in system.closures:
-        residual[closure.rows] -= closure.value(z, q)
+    if nodes is not None:
+        missing = y.reshape(channels.shape[1:]) - forces[nodes.force]
+        if nodes.smoothing is not None:
+            missing -= nodes.smoothed(y.reshape(missing.shape))
+        residual = np.concatenate([residual, missing.ravel()])
     return Point(system, grid, x, z, by_roots, phi, channels, forces, found, s, q, residual)
 
 
@@ -202,13 +217,14 @@ def _along_blade(psi: Any, first: Any, forces: Any, out: Any) -> None:
 def part(point: Point, channel: int, names: Sequence[Shape]) -> Array:
     """What some shapes add to a channel, (elements, azimuths)."""
     structure = point.system.structure
-    rows = structure.first_row[channel] + np.array([structure.shapes[channel][name] for name in names])
+    own = [structure.shapes[channel][name] for name in names]
+    rows = structure.first_row[channel] + np.array(own, dtype=np.int64)
     return point.phi[rows].T @ (_coefficients(structure, point.z)[rows] @ point.grid.waves.at)
 
 
 @_compile
 def _between(
-    slopes: Any, phi: Any, psi: Any, products: Any, dr: float, blocks: Any, places: Any, factors: Any, out: Any
+    slopes: Any, phi: Any, psi: Any, products: Any, blocks: Any, places: Any, factors: Any, out: Any
 ) -> None:  # fmt: skip
     """Means of Ψ D Φ w_p w_q from the Fourier coefficients of Σ Ψ D Φ, (coefficients, measures), see `Blocks`."""
     n = phi.shape[1]
@@ -228,7 +244,7 @@ def _between(
         flat = found.reshape(-1)
         for e in range(start, stop):
             one = factors[0, e] * flat[places[2, e]] + factors[1, e] * flat[places[3, e]]
-            out[places[0, e], places[1, e]] = dr * one
+            out[places[0, e], places[1, e]] = one
 
 
 def jacobian(point: Point, further: Terms | None = None) -> tuple[Array, Array]:
@@ -236,17 +252,79 @@ def jacobian(point: Point, further: Terms | None = None) -> tuple[Array, Array]:
     structure, z, q = point.system.structure, point.z, point.q
     first = structure.first_state
     by_z = _measure_slopes(point)
+    nodes = point.system.nodes
     on_q, total = structure.residual.slopes(z, q, first)
     summing = structure.residual.summing
     total[summing] += on_q[summing] @ by_z
-    for closure, matrix, by_atoms in point.closures:
-        total[closure.rows] -= matrix @ by_z[closure.measures]
-        total[np.ix_(closure.rows, closure.atoms - first)] -= by_atoms
-    added = np.zeros((0, total.shape[1]))
+    added, further_q = np.zeros((0, total.shape[1])), np.zeros((0, len(q)))
     if further is not None:
-        on_q, on_z = further.slopes(z, q, first)
-        added = on_z + on_q @ by_z
-    return _by_free(structure, total, point.by_roots), _by_free(structure, added, point.by_roots)
+        further_q, on_z = further.slopes(z, q, first)
+        added = on_z + further_q @ by_z
+    own, other = _by_free(structure, total, point.by_roots), _by_free(structure, added, point.by_roots)
+    if nodes is None:
+        return own, other
+    through = np.concatenate([on_q, further_q]) @ _measures_by_channel(point, nodes.channel) @ nodes.matrix
+    by_channel = _force_slope(point, nodes.force, nodes.channel).ravel()
+    size, points = len(own), len(by_channel)
+    full = np.empty((size + points, size + points))
+    full[:size, :size], full[:size, size:] = own, through[:size]
+    full[size:, :size] = -_field_slopes(point, nodes.force)
+    np.multiply(nodes.matrix, -by_channel[:, None], out=full[size:, size:])
+    full[range(size, size + points), range(size, size + points)] += 1.0
+    if nodes.smoothing is not None:
+        _add_smoothing(full[size:, size:], nodes.smoothing)
+    return full, np.concatenate([other, through[size:]], axis=1)
+
+
+def _add_smoothing(matrix: Array, smoothing: Array) -> None:
+    """Derivatives of −ε (y_above − 2 y + y_below), in place."""
+    n, m = smoothing.shape
+    along = smoothing.ravel()
+    every = np.arange(n * m, dtype=np.int64)
+    matrix[every, every] += 2.0 * along
+    matrix[every[m:], every[:-m]] -= along[m:]
+    matrix[every[:-m], every[m:]] -= along[:-m]
+
+
+def _force_slope(point: Point, force: int, channel: int) -> Array:
+    """∂f/∂c of one force by one channel, (elements, azimuths); 0 where the force has none."""
+    pairs = point.system.structure.pairs
+    return (
+        point.slopes[pairs.index((force, channel))] if (force, channel) in pairs else np.zeros(point.forces.shape[1:])
+    )
+
+
+def _measures_by_channel(point: Point, channel: int) -> Array:
+    """∂ of the measures by a channel at every point, (measures, points)."""
+    structure, psi, waves = point.system.structure, point.system.shapes.psi, point.grid.waves
+    row, wave = np.divmod(structure.measure_places, structure.waves)
+    force = np.searchsorted(structure.first_weight, row, side="right") - 1
+    out = np.zeros((1 + len(row), psi.shape[1], waves.azimuths))
+    for k in np.unique(force).tolist():
+        own = force == k
+        weights = psi[row[own]][:, :, None] * waves.mean.T[wave[own]][:, None, :]
+        out[1 + np.flatnonzero(own)] = weights * _force_slope(point, k, channel)
+    return out.reshape(len(out), -1)
+
+
+def _field_slopes(point: Point, force: int) -> Array:
+    """∂ of a force at every point by the states solved for, (points, states)."""
+    structure, waves = point.system.structure, point.grid.waves
+    by_atom, order = structure.by_atom
+    _, i, j, factor = structure.column_arrays
+    by_atom.data = np.concatenate([factor * point.z[j], factor * point.z[i]])[order]
+    size = int(structure.first_row[-1]) * structure.waves
+    spread = np.zeros((by_atom.shape[0], size))
+    spread[:, structure.coefficient_places] = by_atom.toarray()
+    by_free = _by_free(structure, np.ascontiguousarray(spread.T), point.by_roots).T
+    around = by_free.reshape(-1, int(structure.first_row[-1]), structure.waves) @ waves.at  # (free, shapes, azimuths)
+    out = np.zeros((len(by_free), point.channels.shape[1], waves.azimuths))
+    for channel in range(structure.channels):
+        first, end = structure.first_row[channel : channel + 2]
+        if end > first and (force, channel) in structure.pairs:
+            moved = np.matmul(point.phi[first:end].T, around[:, first:end])
+            out += moved * _force_slope(point, force, channel)
+    return out.reshape(len(out), -1).T
 
 
 def _measure_slopes(point: Point) -> Array:
@@ -255,7 +333,7 @@ def _measure_slopes(point: Point) -> Array:
     by_atom, order = structure.by_atom
     between, blocks = np.zeros((by_atom.shape[1], len(point.q))), structure.blocks
     _between(
-        point.slopes, point.phi, system.shapes.psi, grid.waves.mean_of_products, grid.dr, blocks.arrays, blocks.places,
+        point.slopes, point.phi, system.shapes.psi, grid.waves.mean_of_products, blocks.arrays, blocks.places,
         blocks.factors, between,
     )  # fmt: skip
     _, i, j, factor = structure.column_arrays
@@ -282,16 +360,21 @@ class Measure:
     """By channel at the same forces."""
     parts: Sequence[tuple[int, Sequence[Shape], Array]] = ()
     """By what some shapes add to a channel, at the same channel: (channel, names, field)."""
+    nodes: Array | None = None
+    """By what the nodes add to theirs, at the same channel."""
     terms: Terms | None = None
     """A sum of terms to be added."""
 
 
 @_compile
-def _through_section(point: Any, around: Any, forces: Any, channels: Any, out: Any, by_element: Any) -> None:
+def _through_section(
+    point: Any, around: Any, forces: Any, channels: Any, out: Any, by_element: Any, kept: int, field: Any
+) -> None:  # fmt: skip
     """From functions of azimuth by weights, (weights, azimuths), to such by shapes, (shapes, azimuths): Φ Dᵀ Ψᵀ.
 
     point: (Φ, Ψ, first shapes, first weights, D, rows of D by (force, channel)). forces, channels: what is added there,
-    (…, elements, azimuths), or without elements. by_element: slopes by channel, summed over the azimuths.
+    (…, elements, azimuths), or without elements. by_element: slopes by channel, summed over the azimuths. field: those
+    of the channel `kept` at every point, or without elements.
     """
     phi, psi, first, first_weight, slopes, rows = point
     m = around.shape[1]
@@ -307,6 +390,8 @@ def _through_section(point: Any, around: Any, forces: Any, channels: Any, out: A
             by_channel += channels[:, i]
         for k in range(len(rows)):
             _add_product(slopes[rows[k, 0], i], force[rows[k, 1]], by_channel[rows[k, 2]])
+        if field.shape[0] > 0:
+            field[i] = by_channel[kept]
         for c in range(len(by_channel)):
             by_element[c, i] = by_channel[c].sum()
             for row in range(first[c], first[c + 1]):
@@ -320,28 +405,42 @@ def transposed(point: Point, v: Array, measure: Measure | None = None) -> tuple[
     """
     structure, grid, z, q, shapes = point.system.structure, point.grid, point.z, point.q, point.system.shapes
     measure = measure or Measure()
+    equations, nodes = len(structure.equations), point.system.nodes
+    v, on_nodes = v[:equations], v[equations:]
     on_q, on_z = structure.residual.transposed(v, z, q)
-    for closure, matrix, by_atoms in point.closures:
-        on_q[closure.measures] -= v[closure.rows] @ matrix
-        on_z[closure.atoms] -= v[closure.rows] @ by_atoms
     if measure.terms is not None:
         more_q, more_z = measure.terms.transposed(np.ones(measure.terms.rows), z, q)
         on_q, on_z = on_q + more_q, on_z + more_z
     spread = np.zeros(structure.first_weight[-1] * structure.waves)
-    spread[structure.measure_places] = on_q[1:] * grid.dr
+    spread[structure.measure_places] = on_q[1:]
     around = spread.reshape(-1, structure.waves) @ grid.waves.mean.T
     along, by_element = np.zeros((len(shapes.phi), grid.waves.azimuths)), np.empty(point.channels.shape[:2])
-    rows = structure.slope_rows(tuple(measure.forces))
+    by_force, shape = dict(measure.forces), point.forces.shape[1:]
+    if nodes is not None:
+        by_force[nodes.force] = by_force.get(nodes.force, 0.0) - on_nodes.reshape(shape)
+    rows = structure.slope_rows(tuple(by_force), () if nodes is None else (nodes.channel,))
     arrays = point.phi, shapes.psi, structure.first_row, structure.first_weight, point.slopes, rows
-    forces, channels = _stack(measure.forces, point.forces.shape), _stack(measure.channels, point.channels.shape)
-    _through_section(arrays, around, forces, channels, along, by_element)
+    forces, channels = _stack(by_force, point.forces.shape), _stack(measure.channels, point.channels.shape)
+    field = np.empty(shape if nodes is not None else (0, shape[1]))
+    kept = 0 if nodes is None else nodes.channel
+    _through_section(arrays, around, forces, channels, along, by_element, kept, field)
     for channel, names, own in measure.parts:
-        rows = structure.first_row[channel] + np.array([structure.shapes[channel][name] for name in names])
+        places = [structure.shapes[channel][name] for name in names]
+        rows = structure.first_row[channel] + np.array(places, dtype=np.int64)
         along[rows] += point.phi[rows] @ own
     place, i, j, factor = structure.column_arrays
     value = factor * (along @ grid.waves.at.T).ravel()[place]
     on_z = on_z + summed(i, value * z[j], len(z)) + summed(j, value * z[i], len(z))
-    return _by_free(structure, on_z[None, structure.first_state :], point.by_roots)[0], by_element
+    by_free = _by_free(structure, on_z[None, structure.first_state :], point.by_roots)[0]
+    if nodes is not None:
+        if measure.nodes is not None:
+            field += measure.nodes
+        by_nodes = on_nodes + field.ravel() @ nodes.matrix
+        if nodes.smoothing is not None:
+            weighted = np.pad(nodes.smoothing * on_nodes.reshape(shape), ((1, 1), (0, 0)))
+            by_nodes -= (weighted[2:] - 2.0 * weighted[1:-1] + weighted[:-2]).ravel()
+        by_free = np.concatenate([by_free, by_nodes])
+    return by_free, by_element
 
 
 def _stack(fields: Mapping[int, Array], shape: tuple[int, ...]) -> Array:

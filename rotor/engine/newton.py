@@ -15,9 +15,10 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg.lapack import dgetrf, dgetrs
+from scipy.sparse.linalg import LinearOperator, gmres
 
 from rotor.arrays import Array
-from rotor.engine.linearise import Grid, Point, System, evaluate, jacobian
+from rotor.engine.linearise import Grid, Point, System, evaluate, jacobian, transposed
 
 _NEAR = 1e6
 """Residual over its tolerance to which a trim is solved on few azimuths. Our choice."""
@@ -91,6 +92,23 @@ class Solved:
     """Evaluations of the equations."""
     factors: Factors | None
     """Those of the last step, where they left little of the residual."""
+
+
+def solve_transposed(point: Point, right: Array, near: Factors) -> Array | None:
+    """J⁻ᵀ b at a point with slopes, from the factors of a Jacobian nearby; None where these are too far.
+
+    By the method of generalised minimal residuals (Saad and Schultz, SIAM J. Sci. Stat. Comput. 7, 1986).
+    """
+
+    def times(v: Array) -> Array:
+        return transposed(point, v)[0]
+
+    shape = len(right), len(right)
+    found, unfinished = gmres(
+        LinearOperator(shape, matvec=times, dtype=np.float64), right, rtol=1e-10, restart=20, maxiter=2,
+        M=LinearOperator(shape, matvec=near.solve_transposed, dtype=np.float64),
+    )  # fmt: skip
+    return None if unfinished else found
 
 
 class _Corrected:
@@ -189,7 +207,7 @@ class _Steps:
     def _moved(self, point: Point, step: Array, last: bool) -> Point:
         """A step on; where it may well be the last, with all that a solution and its adjoint need."""
         x = point.x.copy()
-        x[self._system.structure.free] += step
+        x[self._system.free] += step
         return self._at(point.grid, x, slopes=last, flow=last)
 
     def _differentiate(self, point: Point) -> _Corrected:

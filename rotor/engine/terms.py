@@ -4,7 +4,6 @@
     columns   channel(r, ψ) += factor z_i z_j Φ(r) w(ψ)
     measures  Q_k = mean over ψ of Σ Ψ(r) w(ψ) F(r, ψ) Δr
     terms     R_e += factor z_i z_j Q_k,   Q_0 = 1
-    closures  R = y − T(z) Q
 
 A structure is made once for each combination of trim, blade and wake. `finish` works out all places in the matrices.
 """
@@ -286,13 +285,18 @@ class Structure:
         )
         return places, order
 
-    def slope_rows(self, others: Sequence[int] = ()) -> Integers:
+    @cached_property
+    def coefficient_places(self) -> Integers:
+        """The wave coefficients that columns have, among all of all shapes."""
+        return self._coefficients[0]
+
+    def slope_rows(self, others: Sequence[int] = (), further: Sequence[int] = ()) -> Integers:
         """Row, force and channel of the section's derivatives of forces with measures and others, (rows, 3).
 
-        Only those by channels that have columns: the section may leave the others undefined.
+        Only those by channels that have columns, and further ones: the section may leave the others undefined.
         """
         used = [bool(weights) or o in others for o, weights in enumerate(self.weights)]
-        rows = [(k, o, c) for k, (o, c) in enumerate(self.pairs) if used[o] and self.shapes[c]]
+        rows = [(k, o, c) for k, (o, c) in enumerate(self.pairs) if used[o] and (self.shapes[c] or c in further)]
         return np.array(rows, dtype=np.int64).reshape(-1, 3)
 
     @cached_property

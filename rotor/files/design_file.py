@@ -13,7 +13,8 @@ from rotor.aero.switches import SWITCHES
 from rotor.assets import SHIPPED_ROTORS
 from rotor.design.active_twist import read_active_twist
 from rotor.design.aircraft import Aircraft
-from rotor.design.design import FORMAT, HOVER_INFLOWS, LOW_SPEEDS, VERSION, Design
+from rotor.design.design import FORMAT, LOW_SPEEDS, VERSION, Design
+from rotor.design.retired import Tell, current_model, warn
 from rotor.files.make_design import change_airfoils, make_design
 from rotor.files.rotor_file import LARGEST_FILE, find_aircraft, read_aircraft, shipped_aircraft
 from rotor.user_input import read_bytes, refusing, shorten
@@ -66,9 +67,10 @@ def read_rotor_record(record: Any, *, paths: bool = False) -> Aircraft:
     return read_aircraft(main, texts)
 
 
-def design_from_record(record: dict[str, Any], *, paths: bool = False) -> Design:
+def design_from_record(record: dict[str, Any], *, paths: bool = False, tell: Tell = warn) -> Design:
     """The design of a record; keys it leaves out take the preset's values. `paths` as in `read_rotor_record`.
 
+    `tell` gets a sentence where the record names a model that was retired; another one stands in for it.
     Raises ValueError with one sentence for a key or a value that it cannot use.
     """
     unknown = sorted(set(record) - set(_KEYS))
@@ -97,11 +99,9 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False) -> Design
         trim=_text(record, "trim", "") or None,
         stand=cast(dict[str, Any] | None, stand),
     )
-    inflow = _text(record, "inflow", design.models.inflow)
+    inflow = current_model("inflow", _text(record, "inflow", design.models.inflow), tell)
     inflow_model(inflow)
-    hover_inflow = _text(record, "hover_inflow", design.models.hover_inflow)
-    if hover_inflow not in HOVER_INFLOWS:
-        raise ValueError(f"hover inflow {hover_inflow!r} is not known: use one of {', '.join(HOVER_INFLOWS)}")
+    hover_inflow = current_model("hover_inflow", _text(record, "hover_inflow", design.models.hover_inflow), tell)
     low_speed = _text(record, "low_speed", design.models.low_speed)
     if low_speed not in LOW_SPEEDS:
         raise ValueError(f"low speed {low_speed!r} is not known: use one of {', '.join(LOW_SPEEDS)}")
@@ -119,15 +119,21 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False) -> Design
 
 
 def load_design(path: str | Path) -> Design:
-    """Read a design file; ValueError with one sentence when it cannot be used."""
+    """Read a design file; ValueError with one sentence when it cannot be used.
+
+    Where it names a model that was retired, a warning says what stands in for it.
+    """
     name, remedy = shorten(str(path)), "give the path of a JSON design file"
     content = read_bytes(path, "design file", remedy)
     with refusing(f"design file {name!r}", remedy):
-        return _named(_record(content, name), name, paths=True)
+        return _named(_record(content, name), name, warn, paths=True)
 
 
-def parse_design(content: bytes, name: str) -> Design:
-    """The same for the content of an uploaded file, which may not name files of this machine."""
+def parse_design(content: bytes, name: str, tell: Tell = warn) -> Design:
+    """The same for the content of an uploaded file, which may not name files of this machine.
+
+    `tell` as in `design_from_record`.
+    """
     name = shorten(name)
     with refusing(f"design file {name!r}", "give a JSON design file"):
         record = _record(content, name)
@@ -135,13 +141,13 @@ def parse_design(content: bytes, name: str) -> Design:
             raise ValueError(
                 f"design file {name!r} names a twist table of another machine: write its rows as points:…@…"
             )
-        return _named(record, name)
+        return _named(record, name, tell)
 
 
-def _named(record: dict[str, Any], name: str, *, paths: bool = False) -> Design:
+def _named(record: dict[str, Any], name: str, tell: Tell, *, paths: bool = False) -> Design:
     """As `design_from_record`, with the name of the file in the message, since several may be read at once."""
     try:
-        return design_from_record(record, paths=paths)
+        return design_from_record(record, paths=paths, tell=tell)
     except ValueError as error:
         raise ValueError(f"{name}: {error}") from None
 

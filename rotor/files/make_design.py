@@ -11,6 +11,7 @@ from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS, asset_path
 from rotor.design.aircraft import Aircraft, FlightCondition, advance_ratio, number
 from rotor.design.blade import Rotor, parse_airfoils
 from rotor.design.design import TRIMS, Design, Models, check_preset, preset_models
+from rotor.design.retired import current_model
 from rotor.design.stand import STAND_TRIMS, Stand, read_stand
 from rotor.design.twist import TwistLaw
 from rotor.files.rotor_file import ISOLATED_LOADING, shipped_aircraft
@@ -85,6 +86,7 @@ def make_design(
     if models is None:
         models = preset_models(preset)
     if inflow is not None:
+        inflow = current_model("inflow", inflow)
         inflow_model(inflow)
         models = replace(models, inflow=inflow)
     models, stand = _test(rotor, models, trim, stand)

@@ -121,7 +121,7 @@ def stalled_share(adjoint: Adjoint) -> tuple[float, Array]:
     """Stalled part of πR² (0…1), reverse flow not counted, and its gradient by each element's pitch [1/rad]."""
     problem, elements = adjoint.problem, adjoint.elements
     disk = problem.disk
-    ring = 2.0 * disk.r[:, None] * disk.dr / len(disk.psi)
+    ring = disk.cells[:, None]
     margin, by_alpha, by_mach = _margin(problem, elements)
     counted = 0.5 * (1.0 - np.tanh(0.5 * margin / WIDTH))
     by_margin = -counted * (1.0 - counted) / WIDTH

@@ -151,7 +151,7 @@ def searches_of(entries: Sequence[CatalogueEntry]) -> list[list[Call]]:
     """
     groups: dict[str, list[str]] = {}
     for name in sorted(
-        EVERY_VARIANT, key=lambda name: (choices(name)[1] != "vortex-wake", linear_twin(name) is not None)
+        EVERY_VARIANT, key=lambda name: (linear_twin(name) is not None, choices(name)[1] != "lifting-line")
     ):
         groups.setdefault(linear_twin(name) or name, []).append(name)
     chained: list[list[Call]] = []

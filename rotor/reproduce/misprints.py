@@ -105,7 +105,7 @@ MISPRINTS: tuple[Misprint, ...] = (
     Misprint(
         "3.4 and abstract", "20, ix", "omission", "linear inflow, and twist that evens the inflow",
         "Linear inflow does not respond to the load distribution. Shown: difference in induced power between 0° and "
-        "−16° at µ 0.2, as printed and with the dynamic wake.",
+        "−16° at µ 0.2, as printed and with the lifting line.",
         "spread = lambda name: abs(induced_kw(name, 0) - induced_kw(name, -16))",
         "spread('thesis'), spread('thesis-wake')", "kW",
     ),

@@ -193,8 +193,7 @@ def _draw_field(figure: Any, axes: Any, panel: FieldPanel) -> None:
 def _draw_disk(figure: Any, axes: Any, panel: DiskPanel) -> None:
     """Seen from above, nose up: x = r sin ψ, y = −r cos ψ; the circle closes because cells have edges of their own."""
     values = np.array(panel.values)
-    n, m = values.shape
-    edges: Array = panel.r[0] - 0.5 * panel.dr + panel.dr * np.arange(n + 1, dtype=np.float64)
+    m, edges = values.shape[1], np.array(panel.edges)
     around: Array = 2.0 * np.pi * (np.arange(m + 1, dtype=np.float64) - 0.5) / m
     x: Array = edges[:, None] * np.sin(around)
     y: Array = -edges[:, None] * np.cos(around)

@@ -115,7 +115,8 @@ class DiskPanel:
     label: str
     r: tuple[float, ...]
     """Element centres y/R."""
-    dr: float
+    edges: tuple[float, ...]
+    """Of the elements y/R, (elements + 1,)."""
     psi: tuple[float, ...]
     """[rad]"""
     values: tuple[tuple[float, ...], ...]

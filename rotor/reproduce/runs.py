@@ -87,13 +87,13 @@ FIVE_RATES = (0, -4, -8, -12, -16)
 """The linear twists of the thesis [degrees per radius] (thesis §3.3)."""
 
 THESIS_WAKE = "thesis-wake"
-"""The `thesis` preset with the dynamic wake for its linear inflow: the least change that lets twist act on induced
+"""The `thesis` preset with the lifting line for its linear inflow: the least change that lets twist act on induced
 power."""
 FLIGHT_LINEAR = "flight-linear"
 """The `flight` preset with linear (Pitt–Peters) inflow."""
 
 THESIS_TRIMMED = "thesis-trimmed"
-"""The `thesis` preset's blade and section with the dynamic wake and the `flight` preset's trim: cyclic, and µ sin α
+"""The `thesis` preset's blade and section with the lifting line and the `flight` preset's trim: cyclic, and µ sin α
 in U_P."""
 
 VARIANTS = ("thesis", THESIS_WAKE, "flight", FLIGHT_LINEAR)
@@ -101,15 +101,15 @@ VARIANTS = ("thesis", THESIS_WAKE, "flight", FLIGHT_LINEAR)
 does not."""
 VARIANT_TITLES = {
     "thesis": "thesis preset (linear inflow as printed)",
-    THESIS_WAKE: "thesis preset with the dynamic wake",
-    "flight": "flight preset (dynamic wake)",
+    THESIS_WAKE: "thesis preset with the lifting line",
+    "flight": "flight preset (lifting line)",
     FLIGHT_LINEAR: "flight preset with linear inflow",
 }
 _INFLOW = {
     "thesis": "pitt-peters-15pi/23",
-    THESIS_WAKE: "dynamic-wake",
-    THESIS_TRIMMED: "dynamic-wake",
-    "flight": "dynamic-wake",
+    THESIS_WAKE: "lifting-line",
+    THESIS_TRIMMED: "lifting-line",
+    "flight": "lifting-line",
     FLIGHT_LINEAR: "pitt-peters",
 }
 """Inflow model of the variants that have a name."""

@@ -4,17 +4,12 @@ Both halves are this program: the `thesis` preset is the document as printed, th
 drag rise, a wake that responds to loading, trim by cyclic and a blade that twists under load.
 """
 
-from dataclasses import replace
 from functools import lru_cache
 
-import numpy as np
-
-from rotor.files.make_design import make_design
 from rotor.reproduce.report import Agreement, Curve, PlotPanel, Report, TableCell, curve, table
 from rotor.reproduce.runs import (
     FIVE_RATES,
     FULL,
-    CachedFunction,
     Call,
     Scope,
     best,
@@ -33,14 +28,6 @@ SHOWN = (0.10, 0.20, 0.30, 0.35)
 """µ of the table of five twists."""
 
 
-@CachedFunction
-def free_wake_kw(rate: float) -> float:
-    """Hover power of a linear twist with the free wake and the elastic blade [kW]."""
-    design = make_design(twist=f"linear:{rate:g}", mu=0.0)
-    design = replace(design, models=replace(design.models, hover_inflow="free-wake"))
-    return solve(design).require().power.main_rotor / 1e3
-
-
 @lru_cache(maxsize=64)
 def total_kw(name: str, rate: float, mu: float) -> float:
     """Total power of a linear twist [kW]."""
@@ -48,21 +35,18 @@ def total_kw(name: str, rate: float, mu: float) -> float:
 
 
 def needed(name: str) -> list[Call]:
-    """The searches of one variant, and the free wakes."""
+    """The searches of one variant."""
     if name not in TWO:
         return []
-    free: list[Call] = [(free_wake_kw, (rate,)) for rate in HOVER_RATES] if name == "flight" else []
-    return [*free, *searches(("linear", "three"), name, FULL), (best_fixed, (name, FULL))]
+    return [*searches(("linear", "three"), name, FULL), (best_fixed, (name, FULL))]
 
 
 def today(scope: Scope = FULL) -> Report:
     """Four pictures and one table."""
     hover = {name: [main_rotor_kw(name, rate, 0.0) for rate in HOVER_RATES] for name in TWO}
-    wake = [free_wake_kw(rate) for rate in HOVER_RATES]
     over: list[Curve] = [
         curve(NAMES[name], HOVER_RATES, _above_least(hover[name]), colour=k) for k, name in enumerate(TWO)
     ]
-    over.append(curve("free wake", HOVER_RATES, _above_least(wake), "dashed", colour=2))
     fixed = {name: best_fixed(name, scope) for name in TWO}
     flying = [mu for mu in scope.speeds if mu > 0.0]
     twist: list[Curve] = []
@@ -97,7 +81,6 @@ def today(scope: Scope = FULL) -> Report:
             - sum(best(name, "three", mu, scope).power_kw for mu in scope.speeds)
             / sum(one.baseline_kw for one in every),
         }
-    numbers["free_wake_hover"] = HOVER_RATES[int(np.argmin(wake))]
     rows: list[tuple[TableCell, ...]] = [
         ("Best linear twist in hover", *(f"{numbers[f'{name}_hover']:.1f}° per radius" for name in TWO)),
         (
@@ -126,7 +109,7 @@ def today(scope: Scope = FULL) -> Report:
         number="Today",
         kind="claim",
         caption="The main results with the thesis' assumptions (one polar without Mach number, linear inflow, rigid "
-        "blade, collective only) and with today's physics (section tables, dynamic wake, full trim, elastic blade). "
+        "blade, collective only) and with today's physics (section tables, lifting line, full trim, elastic blade). "
         "UH-60A, 8322.4 kg, sea level; speeds from hover to µ 0.35, equal time at each. Twist is jig twist, as built.",
         statement="Twist should fall from hover (−13.5°) to fast flight (−4°), so a blade that moves its twist saves "
         "induced power in every flight condition (abstract, §3.3).",
@@ -139,8 +122,7 @@ def today(scope: Scope = FULL) -> Report:
         verdict=Agreement.ALONE,
         because="Drag rise on the advancing tip asks for twist at speed, which a polar of one Mach number cannot see; "
         "a wake that responds to loading lets twist act on induced power, which linear inflow cannot; the elastic "
-        "blade adds nose-down twist by itself. The free wake in hover is an option that rewards twist too much "
-        "(validation page). The numbers of chapter 4 are not known, so nothing is compared.",
+        "blade adds nose-down twist by itself. The numbers of chapter 4 are not known, so nothing is compared.",
         tables=(table("then_and_now", ("", "as the thesis assumes", "with today's physics"), rows, shown=True),),
         panels=(
             PlotPanel(

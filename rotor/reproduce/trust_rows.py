@@ -17,7 +17,6 @@ from rotor.aero.section import CHANNELS, FZ, LOSS, TH, UP, UT, section
 from rotor.airfoil.public_points import agreement
 from rotor.airfoil.sections import load_section
 from rotor.arrays import Array
-from rotor.assets import SHIPPED_ROTORS
 from rotor.columns.hover import closed_form_inflow
 from rotor.design.design import Design
 from rotor.dynamics.flapping import lock_number
@@ -32,6 +31,7 @@ from rotor.reproduce.cross_codes import (
 )
 from rotor.reproduce.disk_figures import figure_2_8, figure_3_7, figure_3_8, figure_3_9
 from rotor.reproduce.report import Report
+from rotor.reproduce.runs import FLIGHT_LINEAR
 from rotor.reproduce.trust import Kind, TrustRow
 from rotor.reproduce.twist_effect import keys_1987
 from rotor.trim.adjoint import power_gradient
@@ -62,7 +62,7 @@ def verification() -> Iterator[TrustRow]:
                  1e-12, "rotor/trim/test_hover.py::test_closed_form_closes_the_balance")  # fmt: skip
     yield _bound("Shaft power = induced + profile + parasite, µ 0.1…0.3, three inflow models", "identity", _energy(),
                  1e-8, "rotor/trim/test_power.py::test_energy_identity")  # fmt: skip
-    yield _bound("Gradient of power by linear twist, dynamic wake", "central differences", _gradient(), 1e-5,
+    yield _bound("Gradient of power by linear twist, lifting line", "central differences", _gradient(), 1e-5,
                  "rotor/aero/test_inflow_load_dependent.py::test_adjoint_against_differences")  # fmt: skip
     yield _bound("Profile power with reverse flow, (3.15) corrected", "quadrature of |U_T|³", _profile(), 1e-5,
                  "rotor/trim/test_power.py::test_eq_3_15_with_its_first_coefficient_corrected")  # fmt: skip
@@ -74,47 +74,16 @@ def verification() -> Iterator[TrustRow]:
     )  # fmt: skip
     hover, forward, azimuths = figure_3_7(), figure_3_8(), figure_3_9()
     for name, report in (("hover", hover), ("µ 0.30", forward)):
-        error = max(report.numbers[f"{preset}_error_at_40"] for preset in ("thesis", "flight"))
+        error = max(report.numbers[f"{preset}_error_at_40"] for preset in ("thesis", FLIGHT_LINEAR))
         yield _percent(f"Power at 40 elements, {name}", "limit of finer grids", error, 2e-4,
                        "rotor/reproduce/test_chapter_3.py::test_figure_3_7")  # fmt: skip
-    error = max(azimuths.numbers[f"{preset}_error_at_100"] for preset in ("thesis", "flight"))
+    error = max(azimuths.numbers[f"{preset}_error_at_100"] for preset in ("thesis", FLIGHT_LINEAR))
     yield _bound("Power at 100 azimuths, µ 0.30", "720 azimuths", error, 1e-5,
                  "rotor/reproduce/test_chapter_3.py::test_figure_3_9")  # fmt: skip
     area = figure_2_8().numbers
     yield _percent("Reverse-flow area, µ 0.30, counted in cells", "the circle r = −µ sin ψ",
                    area["reverse_area"] / area["circle_area"] - 1.0, 5e-3,
                    "rotor/reproduce/test_chapter_2.py::test_figure_2_8")  # fmt: skip
-
-
-def between_theories() -> Iterator[TrustRow]:
-    """Slow: dynamic wake against the vortex lattice, two theories of finite blades that share no code but the trim."""
-    for mu in SPEEDS:
-        power = [_total(inflow, mu, -16.0) for inflow in ("dynamic-wake", "vortex-wake")]
-        yield _percent(f"Trimmed total power by the dynamic wake, µ {mu:g}, −16°",
-                       "the same trim with a vortex lattice wake", power[0] / power[1] - 1.0, 2e-3,
-                       "rotor/aero/test_inflow_vortex.py::test_power_agrees")  # fmt: skip
-    best = [_best_rate(inflow) for inflow in ("dynamic-wake", "vortex-wake")]
-    yield TrustRow(
-        "verification", "Best linear twist by the dynamic wake, µ 0.2", "the same with a vortex lattice wake",
-        f"{best[0] - best[1]:+.1f}°", best[0] - best[1], 0.1,
-        "rotor/aero/test_inflow_vortex.py::test_best_linear_twist_agrees",
-        f"{best[0]:.1f}° and {best[1]:.1f}°.",
-    )  # fmt: skip
-    for name in SHIPPED_ROTORS[1:]:
-        design = make_design(rotor=name)
-        power = [_main_rotor(design, inflow) for inflow in ("dynamic-wake", "vortex-wake")]
-        yield _percent(
-            f"{design.rotor.blades} blades ({design.aircraft.name}): main-rotor power, µ 0.2",
-            "the same trim with a vortex lattice wake",
-            power[0] / power[1] - 1.0,
-            2e-3,
-            "rotor/files/test_rotors.py::test_dynamic_wake_of_two_and_of_five_blades_is_near_the_vortex_wake",
-        )
-
-
-def _main_rotor(design: Design, inflow: str) -> float:
-    """[W]"""
-    return solve(replace(design, models=replace(design.models, inflow=inflow))).require().power.main_rotor
 
 
 def _bound(what: str, against: str, error: float, below: float, test: str) -> TrustRow:
@@ -143,7 +112,7 @@ def _closes() -> float:
 
 def _energy() -> float:
     errors: list[float] = []
-    for inflow in ("dynamic-wake", "local-momentum", "pitt-peters"):
+    for inflow in ("lifting-line", "local-momentum", "pitt-peters"):
         for mu in SPEEDS:
             power = solve(_with_inflow(make_design(mu=mu), inflow)).require().power
             errors.append(abs(power.shaft / power.main_rotor - 1.0))
@@ -189,7 +158,7 @@ def _flapping() -> tuple[float, float]:
         channels[UT], channels[LOSS] = r - elements.swirl[:, None] + flow.mu_x * sin, loss
         channels[UP] = model.field(disk.r, cos, sin, wake)[0] + (r - flap.hinge) * motion[1]
         channels[UP] += flow.mu_z + flow.mu_x * motion[0] * cos
-        moment = float(problem.arm @ section(channels, data, False, False)[0][FZ, :, 0]) * disk.dr
+        moment = float(problem.arm * disk.dr @ section(channels, data, False, False)[0][FZ, :, 0])
         return [float(motion[1]), flap.load_gain * moment - flap.weight - flap.frequency_squared * float(motion[0])]
 
     turns, n = 10, 36
@@ -206,19 +175,6 @@ def _flapping() -> tuple[float, float]:
 
 def _with_inflow(design: Design, inflow: str) -> Design:
     return replace(design, models=replace(design.models, inflow=inflow))
-
-
-def _total(inflow: str, mu: float, rate: float) -> float:
-    design = make_design(twist=f"linear:{rate:g}", mu=mu)
-    return solve(_with_inflow(design, inflow)).require().power.total
-
-
-def _best_rate(inflow: str) -> float:
-    """Least of a quartic through the powers of six twists [°/R]."""
-    rates = np.array([0.0, -4.0, -8.0, -12.0, -16.0, -20.0])
-    fit = np.polyfit(rates, [_total(inflow, 0.2, float(rate)) for rate in rates], 4)
-    fine = np.linspace(-20.0, 0.0, 2001)
-    return float(fine[np.polyval(fit, fine).argmin()])
 
 
 LIFT_SLOPE = {"sc1095": 6.15, "sc1094r8": 6.30}
@@ -248,7 +204,7 @@ def validation() -> Iterator[TrustRow]:
 def _measured_inflow() -> Iterator[TrustRow]:
     """Correlation of the inflow of some models with that measured over the disk."""
     rows = list(inflow_agreement())
-    for name in ("pitt-peters", "pitt-peters-15pi/23", "local-momentum", "dynamic-wake"):
+    for name in ("pitt-peters", "pitt-peters-15pi/23", "local-momentum", "lifting-line"):
         mine = [row for row in rows if row.model == name]
         known = [row.correlation for row in mine if row.correlation is not None]
         rms = ", ".join(f"{row.rms:.4f}" for row in mine)
@@ -260,31 +216,8 @@ def _measured_inflow() -> Iterator[TrustRow]:
             sum(known) / len(known),
             0.02,
             "rotor/validation/test_validation.py::test_measured_inflow",
-            f"rms {rms} of the tip speed.{f' {INFLOW_WHY}' if name == 'dynamic-wake' else ''}",
+            f"rms {rms} of the tip speed.{f' {INFLOW_WHY}' if name == 'lifting-line' else ''}",
         )
-
-
-def validation_by_lattice() -> Iterator[TrustRow]:
-    """Slow: the autogiro by the vortex lattice, and hover by the free wake."""
-    yield _measured_rotor("pca2", "vortex-wake")
-    for name in ("knight-hefner-3", "knight-hefner-4", "castles-gray-twist-effect", "xv15-hover", "uh60a-hover"):
-        row = _measured_rotor(name, "free-wake")
-        yield replace(row, note=f"{row.note} {_FREE_WAKE_WHY[name]}") if name in _FREE_WAKE_WHY else row
-
-
-_FREE_WAKE_WHY = {
-    "castles-gray-twist-effect": "Computed −14.4 and −12.2 % for −8.7 and −7.6. Of the −14.4 at C_T 0.004, −8.7 is "
-    "induced power, −1.9 profile power and −3.7 the zero that is subtracted: at zero thrust, where there is no free "
-    "wake, annuli charge the twisted blade C_Q 9e-6 for lift up inboard and down at the tip. With one zero for both "
-    "blades it would be −10.7 and −9.6 %. The whole torque falls by 8.4 and 8.0 %, −7.3 to −11.0 and −7.1 to −8.4 with "
-    "other roll-ups. The rise of torque is 11 % (untwisted) and 16 % low, so every part of it is larger in per cent.",
-    "uh60a-hover": "The largest error, at C_T/σ 0.072, is the wake: κ is 1.02 there, 1.10 at 0.055 and 1.06 at 0.044, "
-    "and would have to be 1.19; profile power would have to be 60 % larger instead. The tip vortex passes the next "
-    "blade 0.004 to 0.005 R above it at C_T/σ 0.044 to 0.055 and 0.012 R below it at 0.072, by Landgrebe's "
-    "correlation 0.010 to 0.015 and 0.02 R below: κ moves with that height. At C_T/σ 0.022 what is missing is 9 % of "
-    "profile power.",
-}
-"""What part of an error is wake, section or data, where it was looked for."""
 
 
 def _measured_rotor(name: str, inflow: str | None = None) -> TrustRow:

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotor.design.design import Design
+from rotor.design.retired import Tell, warn
 from rotor.study.chunks import CONVERGED, StudyProvenance, describe
 from rotor.study.point import design_of
 from rotor.study.quantities import PLAIN, QUANTITIES, Value, concept_with_breaks
@@ -305,8 +306,11 @@ def columns_from(table: Any) -> dict[str, NDArray[Any]]:
     return made
 
 
-def design_of_row(results: Results, row: int) -> Design:
-    """The design of a row (0 upward). ValueError for one that has no blade, or is of a rotor file that is not here."""
+def design_of_row(results: Results, row: int, tell: Tell = warn) -> Design:
+    """The design of a row (0 upward); `tell` as in `current_model`.
+
+    ValueError for one that has no blade, or is of a rotor file that is not here.
+    """
     given: dict[str, Any] = results.about.get("given", {})
     values: dict[str, Value] = {name: value for name, value in given.items() if name in PLAIN}
     values |= {name: results.columns[name][row] for name in results.axes if name in PLAIN}
@@ -315,7 +319,7 @@ def design_of_row(results: Results, row: int) -> Design:
         for name in results.columns
         if name in QUANTITIES and name not in PLAIN and math.isfinite(results.columns[name][row])
     }
-    design = design_of({name: value for name, value in values.items() if name != "concept"}, {})
+    design = design_of({name: value for name, value in values.items() if name != "concept"}, {}, tell)
     if "concept" not in values:
         return design
     concept, held = concept_with_breaks(str(values["concept"]), blade)

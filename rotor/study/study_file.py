@@ -14,6 +14,7 @@ from typing import Any, cast
 
 from rotor.assets import SHIPPED_ROTORS, asset_path
 from rotor.design.aircraft import Aircraft
+from rotor.design.retired import current_model
 from rotor.design.twist import inline_spec
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import find_aircraft
@@ -179,7 +180,10 @@ class Reader:
         return tuple(found) if QUANTITIES[key].kind == "text" else tuple(float(one) for one in found)
 
     def _portable(self, section: str, key: str, text: str) -> str:
-        """The value without files, for other machines: reads a rotor file, inlines a twist table."""
+        """The value without files, for other machines: reads a rotor file, inlines a twist table.
+
+        In place of a retired model it is the one that stands in for it.
+        """
         try:
             if key == "rotor" and text not in SHIPPED_ROTORS:
                 beside = self._path.parent / text
@@ -188,7 +192,7 @@ class Reader:
                 return inline_spec(make_design(twist=text).twist)
         except ValueError as error:
             raise self._file.wrong(section, key, str(error)) from None
-        return text
+        return current_model(key, text)
 
     def _range(self, key: str, value: dict[str, Any]) -> tuple[float, float]:
         low, high = value.get("low"), value.get("high")

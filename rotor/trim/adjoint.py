@@ -24,11 +24,10 @@ from rotor.columns.flight import SWIRL, SWIRL_SLOPE, flight_system
 from rotor.columns.hover import turning_of
 from rotor.columns.trims import drag_terms
 from rotor.engine.linearise import Measure, evaluate, jacobian, transposed
-from rotor.engine.newton import Factors
+from rotor.engine.newton import Factors, solve_transposed
 from rotor.engine.terms import ONE, Structure, Terms
 from rotor.engine.waves import COS, SIN, STEADY
-from rotor.trim.hover import HoverResult, hover
-from rotor.trim.hover_wake import LineWeights, WakeAdjoint
+from rotor.trim.hover import hover
 from rotor.trim.low_speed import HoverDifference, joined_hover, trim_problem
 from rotor.trim.newton import DEFAULT_OPTIONS, LinearisedTrim, first_point, tolerances
 from rotor.trim.power import tail_power
@@ -43,8 +42,8 @@ class PitchGradient:
 
     r: Array
     """Element centres y/R, (elements,)."""
-    dr: float
-    """Element width over R."""
+    dr: Array
+    """Element widths over R, (elements,)."""
     by_element: Array
     """∂P/∂θ of each element's pitch [W/rad], (elements,)."""
 
@@ -90,12 +89,9 @@ class Adjoint:
         solution.require()
         self.solution = solution
         with one_blas_thread():
-            if solution.wake is not None:
-                problem = trim_problem(solution.design)
-                coordinates = solution.elastic.coordinates[:, 0] if solution.elastic is not None else None
-                self._own: _Linear | WakeAdjoint = WakeAdjoint(problem, solution.wake.state, coordinates)
-            else:
-                self._own = _Linear(solution.linear or _linearised(solution))
+            start, linear = solution.start, solution.linear or _linearised(solution)
+            same = start.structure == linear.point.system.structure.name
+            self._own = _Linear(linear, start.factors if same else None)
         self.problem: Problem = self._own.problem
 
     @property
@@ -106,8 +102,6 @@ class Adjoint:
     def by_pitch(self, weights: Weights) -> Array:
         """∂(measure)/∂θ of each element's pitch, trim and inflow following, (elements,)."""
         with one_blas_thread():
-            if isinstance(self._own, WakeAdjoint):
-                return _with_free_wake(self._own, weights)
             if self.solution.design.hovering:
                 return self._own.by_pitch(self._own.hover_measure(weights))[0]
             measure = self._own.flight_measure(weights)
@@ -123,17 +117,15 @@ class Adjoint:
         around = np.ones(shape) / shape[1]
         hovering = Weights(
             fz=-(on_inflow @ difference.axial)[:, None] * around, inflow=on_inflow[:, None] * around,
-            swirl=on_swirl[:, None] * around,
+            u_t=-(on_inflow @ difference.by_speed)[:, None] * around, swirl=on_swirl[:, None] * around,
         )  # fmt: skip
         own = _difference_adjoint(difference)
-        if isinstance(own, WakeAdjoint):
-            return _with_free_wake(own, hovering)
         return own.by_pitch(own.hover_measure(hovering))[0]
 
     @property
-    def power_terms(self) -> Terms | None:
-        """Induced and profile power in terms of the trim's equations; None with a free wake, which has none."""
-        return None if isinstance(self._own, WakeAdjoint) else self._own.power_terms
+    def power_terms(self) -> Terms:
+        """Induced and profile power in terms of the trim's equations."""
+        return self._own.power_terms
 
 
 def _linearised(solution: Solution) -> LinearisedTrim:
@@ -149,8 +141,10 @@ def _linearised(solution: Solution) -> LinearisedTrim:
 class _Linear:
     """A linearised trim with its factors: what every adjoint of one solution shares."""
 
-    def __init__(self, trim: LinearisedTrim) -> None:
+    def __init__(self, trim: LinearisedTrim, near: Factors | None = None) -> None:
+        """near: factors of a Jacobian nearby, of the same equations."""
         self.trim, self.problem, self.point = trim, trim.problem, trim.point
+        self._near = near if trim.point.system.nodes is not None else None
 
     @property
     def elements(self) -> BladeElements:
@@ -165,8 +159,10 @@ class _Linear:
     def by_pitch(self, measure: Measure) -> tuple[Array, Array]:
         """∂(measure)/∂θ by element, and slopes by every channel at every element, the states following."""
         point, structure = self.point, self.point.system.structure
-        multipliers = np.zeros(len(structure.free))
-        if len(multipliers):
+        multipliers = np.zeros(len(point.system.free))
+        if len(multipliers) and (near := self._from_near(measure)) is not None:
+            multipliers = near
+        elif len(multipliers):
             factors, power = self._linearised
             of_power = measure.terms is self.power_terms and not (measure.forces or measure.channels or measure.parts)
             slopes = power if of_power else transposed(point, multipliers, measure)[0]
@@ -177,6 +173,13 @@ class _Linear:
             return found, by_channel
         steady = [structure.equations["twist", k, 0] for k in range(len(torsion.gain))]
         return found - multipliers[steady] @ (torsion.gain[:, None] * torsion.tension), by_channel
+
+    def _from_near(self, measure: Measure) -> Array | None:
+        """J⁻ᵀ times the slopes of a measure, from factors nearby; None without, and where they are not near."""
+        if self._near is None or not self._near.usable:
+            return None
+        slopes = transposed(self.point, np.zeros(len(self.point.system.free)), measure)[0]
+        return solve_transposed(self.point, slopes, self._near)
 
     def flight_measure(self, weights: Weights) -> Measure:
         """Weights as the engine takes them."""
@@ -194,7 +197,10 @@ class _Linear:
             forces[terms.interface.balanced] = _on(weights.u_p, shape) + _on(weights.inflow, shape)
         if not isinstance(weights.swirl, float):
             parts.append((UT, [SWIRL, SWIRL_SLOPE], -_on(weights.swirl, shape)))
-        return Measure(forces=forces, channels=channels, parts=parts, terms=weights.terms)
+        nodes = None
+        if self.point.system.nodes is not None and not isinstance(weights.inflow, float):
+            nodes = _on(weights.inflow, shape)
+        return Measure(forces=forces, channels=channels, parts=parts, nodes=nodes, terms=weights.terms)
 
     def hover_measure(self, weights: Weights) -> Measure:
         """The same of annuli: U_T and U_P follow the inflow that they balance by themselves."""
@@ -241,20 +247,9 @@ def _on(field: Array | float, shape: tuple[int, int]) -> Array:
 
 
 @lru_cache(maxsize=4)
-def _difference_adjoint(difference: HoverDifference) -> "_Linear | WakeAdjoint":
+def _difference_adjoint(difference: HoverDifference) -> _Linear:
     """The same for all measures, and for all conditions that share the hovering rotor."""
-    if isinstance(difference.found, HoverResult):
-        return _Linear(difference.found.linear)
-    torsion = difference.elements.torsion
-    assert difference.wake is not None
-    coordinates = None if torsion is None else torsion.coordinates[:, 0]
-    return WakeAdjoint(difference.problem, difference.wake, coordinates)
-
-
-def _with_free_wake(wake: WakeAdjoint, weights: Weights) -> Array:
-    shape = wake.problem.disk.shape
-    fields = (weights.fz, weights.fx, weights.inflow, weights.u_t, weights.u_p, weights.swirl, weights.theta)
-    return wake.by_pitch(LineWeights(*(np.broadcast_to(field, shape).sum(axis=1) for field in fields)))
+    return _Linear(difference.found.linear)
 
 
 def power_gradient(solution: Solution, objective: Objective = "total") -> PitchGradient:
@@ -272,7 +267,7 @@ def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradie
     Raises RuntimeError for the total power of a free rotor, which is zero.
     """
     problem = adjoint.problem
-    cell = problem.disk.dr / len(problem.disk.psi)
+    cell = problem.disk.dr[:, None] / len(problem.disk.psi)
     on_stand = problem.design.condition.stand is not None
     if problem.design.models.trim == "free-rotor" and objective == "total":
         raise RuntimeError(
@@ -286,7 +281,7 @@ def power_along(adjoint: Adjoint, objective: Objective = "total") -> PitchGradie
             fz=cell * elements.induced, fx=cell * elements.swirl[:, None], inflow=cell * elements.fz,
             swirl=cell * elements.fx,
         )  # fmt: skip
-    elif on_stand or adjoint.power_terms is None:  # The shaft's, which in hover is all of it.
+    elif on_stand:  # The shaft's.
         weights = Weights(fx=cell * problem.disk.r[:, None])
     else:
         weights = Weights(terms=adjoint.power_terms)

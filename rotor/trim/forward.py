@@ -11,6 +11,11 @@ from rotor.design.design import Design
 from rotor.design.stand import LARGEST_CT_OVER_SIGMA, Stand
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult, newton
 
+LINEAR = "pitt-peters"
+"""The linear inflow along whose trim the wake of a lifting line lies, and from which it starts below `FAST`."""
+FAST = 0.25
+"""µ from which simple estimates are the better start: with linear inflow more of the disk stalls there. Our choice."""
+
 
 def trim(problem: Problem, start: Guess | None = None, options: SolverOptions = DEFAULT_OPTIONS) -> TrimResult:
     """Trim a forward-flight problem from a guess, or from simple estimates.
@@ -45,9 +50,23 @@ def trim_along(problem: Problem, options: SolverOptions = DEFAULT_OPTIONS) -> Tr
     return found if found.converged else None
 
 
+def linear_problem(design: Design) -> Problem:
+    """The design with a linear inflow."""
+    return build_problem(replace(design, models=replace(design.models, inflow=LINEAR)))
+
+
+def _linear_guess(problem: Problem) -> Guess | None:
+    """The trim with linear inflow; None where it has none."""
+    found = newton(linear_problem(problem.design), first_guess(problem))
+    return Guess(found.state, found.guess.elastic) if found.converged else None
+
+
 def first_guesses(problem: Problem) -> list[Guess]:
     """States from which the iteration begins, one after another: a free rotor has more than one equilibrium."""
     guess = first_guess(problem)
+    slow = problem.design.condition.advance_ratio < FAST
+    if problem.inflow.fine_tip and slow and (near := _linear_guess(problem)) is not None:
+        return [near, guess]
     if problem.design.models.trim != "free-rotor":
         return [guess]
     tilt = guess.state.shaft_tilt

@@ -7,41 +7,37 @@ of the hovering rotor, is added to the inflow in forward flight times s(µ), whi
     λ̄² = √(µ̄⁴/4 + 1) − µ̄²/2,    µ̄ = µ/√(C_W/2).
 
 λ̄ is Glauert's inflow over that of hover. With it cos²χ of the wake's skew χ is λ̄⁴, the share of the axial transport in
-the squared velocity through the disk; c is taken to fall with it and with the inflow itself, as λ̄⁵, which s follows
-within 0.05. λ̄_e belongs to µ̄ = 2.5, where the wake trails at 81° to the shaft: beyond it s is 0 and hover is not
-computed. So hover and forward flight have one limit, and neither power nor its slope has a kink. In a climb hover is
-that at the same rate of climb.
+the squared velocity through the disk; c falls faster than with it and with the inflow itself, as λ̄⁵, for the wake of a
+lifting line skews by itself. λ̄_e belongs to µ̄ = 1.5, where the wake trails at 68° to the shaft: beyond it s is 0 and
+hover is not computed. So hover and forward flight have one limit, and neither power nor its slope has a kink. In a
+climb hover is that at the same rate of climb.
 """
 
 import math
 from dataclasses import dataclass, replace
 from functools import lru_cache
 
-from rotor.aero.elements import BladeElements
-from rotor.aero.free_wake.system import WakeState
 from rotor.aero.inflow import Wake, inflow_model
 from rotor.aero.momentum import vortex_ring_edge
 from rotor.aero.problem import Problem, build_problem, swirl_of
 from rotor.arrays import Array
 from rotor.design.design import Design
 from rotor.trim.hover import HoverResult, hover
-from rotor.trim.hover_wake import HoverWakeResult, hover_wake
+from rotor.trim.wake_course import with_course, with_slow_course
 
-FASTEST = 2.5
-"""µ̄ from which on forward flight owes nothing to hover: µ 0.145 for a UH-60A at sea level. Our choice."""
+FASTEST = 1.5
+"""µ̄ from which on forward flight owes nothing to hover: µ 0.086 for a UH-60A at sea level. Our choice."""
 
 
 @dataclass(frozen=True, eq=False)
 class HoverDifference:
     """The hovering rotor of a design, and what the forward-flight model lacks there; over ΩR, (elements,)."""
 
-    found: HoverResult | HoverWakeResult
-    problem: Problem
-    elements: BladeElements
-    wake: WakeState | None
-    """The unknowns of the free wake, where hover is solved with one."""
+    found: HoverResult
     axial: Array
     """A_0, from the load of hover to the mean inflow, (elements, elements)."""
+    by_speed: Array
+    """∂(A_0 d)/∂U_T, (elements, elements)."""
     inflow: Array
     """c, λ_hover − A_0 d_hover."""
     swirl: Array
@@ -52,17 +48,16 @@ class HoverDifference:
 def hover_difference(design: Design) -> HoverDifference | None:
     """The difference for a hovering design; None where hover does not converge."""
     problem = build_problem(design)
-    found = hover_wake(problem) if design.models.hover_inflow == "free-wake" else hover(problem)
+    found = hover(problem)
     if not found.converged:
         return None
-    elements = found.elements if isinstance(found, HoverWakeResult) else found.linear.elements
-    disk = problem.disk
+    elements, disk = found.linear.elements, problem.disk
     flow = Wake(0.0, problem.climb, elements.state.lambda0)
-    axial = problem.inflow_terms.axial(flow)
+    load = elements.fz[:, 0]
+    axial, slope = with_slow_course(problem).inflow_terms.axial(flow, elements.u_t[:, 0])
     uniform, _ = swirl_of(disk.r, flow.lambda0**2 + flow.lambda0 * flow.mu_z if design.models.has("swirl") else 0.0)
-    wake = found.wake.state if isinstance(found, HoverWakeResult) and found.wake is not None else None
-    inflow = elements.induced[:, 0] - axial @ elements.fz[:, 0]
-    return HoverDifference(found, problem, elements, wake, axial, inflow, elements.swirl - uniform)
+    inflow = elements.induced[:, 0] - axial @ load
+    return HoverDifference(found, axial, slope * load, inflow, elements.swirl - uniform)
 
 
 def axial_share(mu: float, thrust: float) -> float:
@@ -80,7 +75,7 @@ def inflow_ratio(mu: float) -> float:
 
 def trim_problem(design: Design) -> Problem:
     """The design on its grid, with the inflow that its models choose for low speed."""
-    problem, joined = build_problem(design), joined_hover(design)
+    problem, joined = with_course(build_problem(design)), joined_hover(design)
     if joined is None:
         return problem
     share, difference = joined

@@ -1,23 +1,20 @@
 """The trim of a problem from a guess, and whether it is accepted."""
 
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from rotor.aero.elements import STATE_NAMES, BladeElements, TrimState
-from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.inflow.interface import Wake
-from rotor.aero.inflow.linear import LinearInflow
-from rotor.aero.problem import Problem, in_disk_axes
-from rotor.aero.section import FZ
+from rotor.aero.problem import Problem
+from rotor.aero.section import FZ, PAIRS, UP, UT
 from rotor.arrays import Array
 from rotor.columns.flight import SystemTolerances, elements_of, flight_system, parts_of, state_of
 from rotor.columns.hover import hover_elements
 from rotor.columns.trims import with_given_values
 from rotor.engine.linearise import Point, System, evaluate
-from rotor.engine.newton import DEFAULT_LIMITS, Factors, NewtonLimits, solve
+from rotor.engine.newton import DEFAULT_LIMITS, Factors, NewtonLimits, Solved, solve
 from rotor.engine.waves import STEADY
 
 
@@ -28,11 +25,11 @@ class SolverOptions:
     residual_tolerance: float = 1e-10
     """Largest residual of the trim equations, as a fraction of C_W; it keeps the energy identity to 1e-9."""
     inflow_tolerance: float = 1e-8
-    """Largest difference of λ_i from the model's response to the loads, as a fraction of λ0."""
+    """Largest difference of N_b Γ/π from that of the lift, as a fraction of C_W."""
     torsion_tolerance: float = 1e-10
     """Largest residual of the torsion equations [rad]."""
     accepted_residual: float = 1e-7
-    accepted_inflow: float = 1e-3
+    accepted_inflow: float = 1e-6
     """The same two where Newton's method makes no more progress: the slopes of stall data jump from one table cell to
     the next, and a root element on such a jump can keep the last digits of its own inflow from settling. Power still
     closes to 1e-6."""
@@ -40,6 +37,9 @@ class SolverOptions:
     """Evaluations of the blade elements in one run of Newton's method."""
     most_old_steps: float = DEFAULT_LIMITS.most_steps
     """This and the next two as in `NewtonLimits`."""
+    most_old_steps_of_nodes: float = 10.0
+    """The same with unknowns at every point, whose derivatives cost as much as ten steps; and of the next."""
+    kept_ratio_of_nodes: float = 0.5
     most_old_steps_of_start: float = DEFAULT_LIMITS.most_steps_on_few
     kept_ratio: float = DEFAULT_LIMITS.kept_ratio
     angle_step: float = 0.08
@@ -60,9 +60,6 @@ class SolverOptions:
     """Called before each evaluation of derivatives, which takes longest; it returns after others have computed."""
     smallest_continuation_step: float = 1.0 / 128.0
     """Step, as a part of the whole way, below which continuation gives up."""
-    preview: bool = False
-    """Whether a hovering rotor with a free wake may end after one Newton step from `start`, with the derivatives kept
-    from there; the solution then says that it is not settled."""
 
     @property
     def asked_to_stop(self) -> bool:
@@ -80,9 +77,9 @@ class Guess:
     elastic: Array | None = None
     """Coordinates of the elastic twist, (modes, functions)."""
     inflow: Array | None = None
-    """Coordinates of an inflow that answers the load."""
+    """Nodes of an inflow that answers the load."""
     inflow_kind: Hashable = None
-    """The wake that they belong to."""
+    """The inflow that they belong to."""
     factors: Factors | None = None
     """Those of the last derivatives, for the first steps."""
     structure: Hashable = None
@@ -163,14 +160,43 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
     system = flight_system(problem, tolerances(options))
     factors = start.factors if start.structure == system.structure.name else None
     most_on_few = options.most_old_steps_of_start if problem.inflow.load_dependent else 0.0
-    limits = NewtonLimits(
-        options.max_passes, options.most_old_steps, most_on_few, options.kept_ratio, options.pause
-    )  # fmt: skip
-    found = solve(system, first_point(problem, system, start), factors, limits)
+    most_steps, kept_ratio = options.most_old_steps, options.kept_ratio
+    if system.nodes is not None:
+        most_steps, kept_ratio = options.most_old_steps_of_nodes, options.kept_ratio_of_nodes
+    limits = NewtonLimits(options.max_passes, most_steps, most_on_few, kept_ratio, options.pause)
+    result = _ended(problem, solve(system, first_point(problem, system, start), factors, limits), options)
+    if result.converged or system.nodes is None or options.max_passes <= 1:
+        return result
+    smoothed = replace(system, nodes=replace(system.nodes, smoothing=_stalled_nodes(result.point)))
+    again = _ended(problem, solve(smoothed, result.point.x, None, limits), options)
+    passes = result.passes + again.passes
+    if not again.converged:
+        return replace(result, passes=passes)
+    sharp = _ended(problem, solve(system, again.point.x, again.factors, limits), options)
+    return replace(sharp if sharp.converged else again, passes=passes + sharp.passes)
+
+
+def _ended(problem: Problem, found: Solved, options: SolverOptions) -> TrimResult:
+    """Whether the iteration ended at a trim."""
     residual, twisting, difference = _errors(found.point, options)
     accepted = max(residual, twisting) <= options.accepted_residual and difference <= options.accepted_inflow
     converged = found.point.size <= 1.0 or accepted
     return TrimResult(problem, found.point, residual, converged, found.passes, factors=found.factors)
+
+
+def _stalled_nodes(point: Point) -> Array:
+    """1 at the panels where lift falls with the angle of attack, and at their neighbours, (elements, azimuths).
+
+    A lifting line has several solutions there, from panel to panel; smoothed, it has one.
+    """
+    if not point.slopes.shape[1]:
+        point = evaluate(point.system, point.grid, point.x, slopes=True)
+    by_inflow = point.slopes[PAIRS.index((FZ, UP))]
+    stalled = (by_inflow > 0.05 * np.median(by_inflow)) & (point.channels[UT] > 0.05)
+    wide = stalled | np.roll(stalled, 1, axis=1) | np.roll(stalled, -1, axis=1)
+    wide[1:] |= wide[:-1].copy()
+    wide[:-1] |= wide[1:].copy()
+    return wide.astype(float)
 
 
 def first_point(problem: Problem, system: System, start: Guess) -> Array:
@@ -179,26 +205,20 @@ def first_point(problem: Problem, system: System, start: Guess) -> Array:
     elastic = start.elastic if start.elastic is not None and start.elastic.shape == shape else np.zeros(shape)
     inflow = start.inflow
     if inflow is None or start.inflow_kind != terms.key:
-        inflow = terms.nearest(_prescribed_start(problem, state)) if problem.inflow.load_dependent else np.zeros(0)
-    others = np.zeros(system.structure.given - len(system.numbers) - len(STATE_NAMES) - elastic.size - len(inflow))
+        inflow = terms.start()
+    given = len(system.numbers) + len(STATE_NAMES) + elastic.size
+    others = np.zeros(system.structure.given - given)
     return np.concatenate([system.numbers, state.array(), elastic.ravel(), others, inflow])
-
-
-def _prescribed_start(problem: Problem, state: TrimState) -> Array:
-    """A first field for an inflow that answers the load: Pitt–Peters at the same wake."""
-    disk, model = problem.disk, INFLOW_MODELS["pitt-peters"]
-    assert isinstance(model, LinearInflow)
-    mu_x, mu_z = in_disk_axes(problem.design.condition.advance_ratio, problem.climb, state.shaft_tilt)
-    return model.field(disk.r, disk.cos, disk.sin, Wake(mu_x, mu_z, state.lambda0))[0]
 
 
 def _errors(point: Point, options: SolverOptions) -> tuple[float, float, float]:
     """Largest residual of the trim equations, of those of torsion, and of the inflow, as `SolverOptions` measures."""
     system, structure = point.system, point.system.structure
     ratio = np.abs(point.residual) / system.tolerance
-    twists, inflows = structure.equations_of("twist"), structure.equations_of("inflow")
+    twists = structure.equations_of("twist")
+    ratio, nodes = np.split(ratio, [len(structure.equations)])
     return (
-        float(ratio[: len(ratio) - len(twists) - len(inflows)].max()) * options.residual_tolerance,
+        float(ratio[: len(ratio) - len(twists)].max()) * options.residual_tolerance,
         float(ratio[twists].max(initial=0.0)) * options.torsion_tolerance,
-        float(ratio[inflows].sum()) * options.inflow_tolerance,
+        float(nodes.max(initial=0.0)) * options.inflow_tolerance,
     )

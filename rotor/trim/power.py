@@ -42,10 +42,10 @@ def power_budget(problem: Problem, elements: BladeElements, total: DiskSums) -> 
     """
     design, disk = problem.design, problem.disk
     watts, weight = design.power_unit, design.weight_coefficient
-    cell = disk.dr / len(disk.psi)
+    width = disk.dr / len(disk.psi)
     e = elements
-    induced = float(np.vdot(e.induced, e.fz) + e.swirl @ e.fx.sum(axis=1)) * cell * watts
-    profile = float(np.vdot(e.u_t, e.fx) - np.vdot(e.u_p, e.fz) + np.vdot(e.u_r, e.fr)) * cell * watts
+    induced = float(width @ (_around(e.induced, e.fz) + e.swirl * e.fx.sum(axis=1))) * watts
+    profile = float(width @ (_around(e.u_t, e.fx) - _around(e.u_p, e.fz) + _around(e.u_r, e.fr))) * watts
     pressed = problem.weight - weight
     parasite = (problem.drag * design.condition.advance_ratio + pressed * problem.climb) * watts
     climb = weight * problem.climb * watts
@@ -53,6 +53,11 @@ def power_budget(problem: Problem, elements: BladeElements, total: DiskSums) -> 
         parasite = -wind_forces(elements, total)[1] * design.condition.advance_ratio * watts
     tail, _ = tail_power(design, induced + profile + parasite + climb)
     return PowerBudget(induced, profile, parasite, tail, shaft=total.torque * watts, climb=climb)
+
+
+def _around(one: Array, other: Array) -> Array:
+    """Sums of a product around the azimuth, (elements,)."""
+    return np.einsum("ij,ij->i", one, other)
 
 
 def wind_forces(elements: BladeElements, total: DiskSums) -> tuple[float, float]:
@@ -92,7 +97,7 @@ def hub_moment(problem: Problem, elements: BladeElements) -> HubMoment:
     per revolution cancel. Blades hinged at the centre transfer no moment, because flapping balances the lift.
     """
     design, disk = problem.design, problem.disk
-    moment = disk.r @ elements.fz * (design.thrust_unit * design.rotor.radius * disk.dr / len(disk.psi))
+    moment = disk.r * disk.dr @ elements.fz * (design.thrust_unit * design.rotor.radius / len(disk.psi))
     return HubMoment(roll=float(moment @ disk.sin), pitch=-float(moment @ disk.cos))
 
 
@@ -136,12 +141,12 @@ def control_loads(problem: Problem, elements: BladeElements) -> tuple[Array, flo
     assert blade is not None
     disk, state = problem.disk, elements.state
     loads = _loads(problem, elements)
-    total = loads.sum(axis=0)
-    moment = -torsion.moment_unit * disk.dr * total
+    total = disk.dr @ loads
+    moment = -torsion.moment_unit * total
     cyclic = state.cyclic_1s * disk.cos - state.cyclic_1c * disk.sin
-    work = -float(total @ cyclic) * disk.dr
+    work = -float(total @ cyclic)
     if problem.active_rates[0].size > 1:
-        work -= float(np.vdot(loads, problem.active_rates[0])) * disk.dr
+        work -= float(disk.dr @ _around(loads, problem.active_rates[0]))
         twist = problem.twist[:, None] + problem.active
         modal = torsion.tension.T @ (blade.coordinates @ wave_grid(torsion.functions, len(disk.psi)).at)
         work += float(((torsion.own_tension @ twist + modal) * problem.active_rates[0]).sum())

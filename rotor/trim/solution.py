@@ -8,23 +8,20 @@ import json
 import math
 from dataclasses import dataclass, field, replace
 from enum import Enum
-from functools import cached_property
 from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
 
+from rotor.aero.disk import element_edges
 from rotor.aero.elements import TrimState
-from rotor.aero.free_wake.settle import WakeFilaments
-from rotor.aero.free_wake.system import WakeState
+from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.momentum import axial_inflow
-from rotor.aero.problem import Problem, build_problem
 from rotor.aero.switches import switched_off
 from rotor.arrays import Array
 from rotor.design.active_twist import active_twist_record
 from rotor.design.design import Design
 from rotor.plots import plot_disk
-from rotor.trim.hover_wake import FINER_GRID, flown_torques, torque_changes
 from rotor.trim.newton import Guess, LinearisedTrim
 from rotor.user_input import write_whole
 
@@ -48,12 +45,15 @@ class Caveat:
 
 @dataclass(frozen=True, eq=False)
 class DiskFields:
-    """The flow and the loads over the disk; arrays are (elements, azimuths) unless said otherwise."""
+    """The flow and the loads over the disk; arrays are (elements, azimuths) unless said otherwise.
+
+    On at least the azimuths that the models ask for, also where the trim was solved on fewer.
+    """
 
     r: Array
     """Element centres y/R, (elements,)."""
-    dr: float
-    """Element width over R."""
+    dr: Array
+    """Element widths over R, (elements,)."""
     psi: Array
     """Azimuth [rad], 0 over the tail, (azimuths,)."""
     theta: Array
@@ -81,6 +81,16 @@ class DiskFields:
     """dC_Q/dr over r: in-plane force opposing rotation, of the whole rotor as if smeared; dC_P/dr = r·dcq."""
     elastic_twist: Array | None = None
     """φ, by which the blade twists under its loads [rad], contained in `theta`; None for a rigid blade."""
+
+    @property
+    def edges(self) -> Array:
+        """Edges of the elements y/R, (elements + 1,)."""
+        return element_edges(self.dr)
+
+    @property
+    def cells(self) -> Array:
+        """Part of πR² that an element sweeps between two azimuths, (elements,)."""
+        return np.diff(self.edges**2) / len(self.psi)
 
 
 @dataclass(frozen=True, eq=False)
@@ -200,21 +210,23 @@ class Solution:
     """[s]"""
     elastic: ElasticTwist | None = None
     """None for a blade that is rigid in torsion."""
-    settled: bool = True
-    """False for a preview: one Newton step towards a free wake, not its equilibrium."""
-    wake: WakeFilaments | None = None
-    """The vortex filaments of a free wake; None for the other inflow models."""
     start: Guess = field(default_factory=lambda: Guess(TrimState()))
     """What the next trim may start from."""
+    wake_course: WakeCourse | None = None
+    """Where the wake of a lifting line lies; None with other inflow models, and in hover."""
     linear: LinearisedTrim | None = None
     """The trim's equations at the solution, for gradients; not for another process."""
 
     def __getstate__(self) -> dict[str, Any]:
-        return {**self.__dict__, "linear": None}
+        return {**self.__dict__, "linear": None, "start": replace(self.start, factors=None)}
 
     def without_linear(self) -> "Solution":
         """The same without its linearisation, 0.7 MB less: for many that are kept as starts."""
         return replace(self, linear=None)
+
+    def without_factors(self) -> "Solution":
+        """The same without the factors either, which are 3 MB with a lifting line: for many that are kept."""
+        return replace(self, linear=None, start=replace(self.start, factors=None))
 
     def __repr__(self) -> str:
         state = f"{self.status.value}: {self.message}"
@@ -283,42 +295,6 @@ class Solution:
         weight = self.design.condition.weight if self.design.condition.stand is None else self.lift_and_drag[0]
         return weight * self.design.airspeed / rotor_power
 
-    @cached_property
-    def power_band(self) -> tuple[float, float] | None:
-        """Lowest and highest change of main-rotor power with other roll-ups and a finer grid of a free wake, as parts.
-
-        The changes (`rotor.trim.hover_wake.torque_changes`, to first order) are not added up: the band reaches to the
-        largest of them, and downward by `FINER_GRID` more. None without a free wake, and where it has not settled.
-        """
-        if not self._in_free_wake:
-            return None
-        changes = torque_changes(*self._wake_arguments)
-        return min(0.0, *changes) + FINER_GRID, max(0.0, *changes)
-
-    def worth_band(self, other: "Solution") -> tuple[float, float] | None:
-        """Lowest and highest main-rotor power less that of `other`, as a part of the latter, over roll-ups.
-
-        Both rotors are flown with each of `rotor.trim.hover_wake.other_roll_ups` (about a second), so that what a
-        roll-up adds to both cancels; one with which a wake does not settle is left out. None unless both hover with a
-        settled free wake.
-        """
-        if not (self._in_free_wake and other._in_free_wake):
-            return None
-        ratios = flown_torques(*self._wake_arguments) / flown_torques(*other._wake_arguments)
-        ratios = ratios[np.isfinite(ratios)] * (self.design.power_unit / other.design.power_unit)
-        worth = self.power.main_rotor / other.power.main_rotor
-        return float(min(worth, *ratios)) - 1.0, float(max(worth, *ratios)) - 1.0
-
-    @property
-    def _in_free_wake(self) -> bool:
-        return self.wake is not None and self.converged and self.settled
-
-    @property
-    def _wake_arguments(self) -> tuple[Problem, WakeState, Array | None]:
-        assert self.wake is not None
-        elastic = self.elastic.coordinates[:, 0] if self.elastic is not None else None
-        return build_problem(self.design), self.wake.state, elastic
-
     def require(self) -> "Solution":
         """This solution, or RuntimeError with its sentence when it did not converge."""
         if not self.converged:
@@ -372,14 +348,8 @@ class Solution:
             **({} if design.active_twist is None else {"active_twist": active_twist_record(design.active_twist)}),
             **self._switches(),
             **(values if self.converged else _emptied(values)),
-            "settled": self.settled,
-            "power_band_percent": self._band_percent(),
             "elapsed_ms": 1e3 * self.elapsed,
         }
-
-    def _band_percent(self) -> dict[str, float] | None:
-        band = self.power_band
-        return None if band is None else {"low": 100.0 * band[0], "high": 100.0 * band[1]}
 
     def _test(self) -> dict[str, Any]:
         """Trim and inputs of a test; nothing in flight."""

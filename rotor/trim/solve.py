@@ -4,6 +4,7 @@ import math
 import time
 from dataclasses import replace
 
+from rotor.aero.display import areas, as_asked
 from rotor.aero.elements import BladeElements, disk_sums
 from rotor.aero.problem import Problem
 from rotor.aero.section import stall_margins
@@ -12,12 +13,12 @@ from rotor.design.design import Design, require_design
 from rotor.engine.waves import wave_grid
 from rotor.trim.forward import first_guess, trim, trim_along
 from rotor.trim.hover import HoverResult, hover
-from rotor.trim.hover_wake import HoverWakeResult, hover_wake
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult, newton
 from rotor.trim.power import control_loads, hub_moment, power_budget, wind_forces
 from rotor.trim.solution import DiskFields, ElasticTwist, Solution, Status
 from rotor.trim.validity import caveats, failure_sentence, implausible, vortex_ring
+from rotor.trim.wake_course import course_of, laid_again
 
 SUSPECT_STALL = 0.25
 """Part of the disk. Trims of attached flow end at about this share; those beyond the largest lift have 0.4 or more."""
@@ -37,15 +38,11 @@ def solve(design: Design, start: Solution | Guess | None = None, options: Solver
     if vortex_ring(design):
         return _assemble(problem, _without_trim(problem), begin)
     guess = _guess(design, start) if isinstance(start, Solution) else start
-    if design.hovering and design.models.hover_inflow == "free-wake":
-        wake = start.wake if isinstance(start, Solution) and start.converged else None
-        result: HoverResult | HoverWakeResult | TrimResult = hover_wake(
-            problem, wake and wake.state, options, guess and guess.elastic
-        )
-    elif design.hovering:
-        result = hover(problem, guess, options)
-    else:
-        result = trim(problem, guess, options)
+    result = hover(problem, guess, options) if design.hovering else trim(problem, guess, options)
+    if isinstance(result, TrimResult) and (again := laid_again(problem, result)) is not None:
+        problem, passes = again, result.passes
+        result = trim(problem, result.guess, options)
+        result = replace(result, passes=passes + result.passes)
     solution = _assemble(problem, result, begin)
     if _may_be_of_another_branch(solution, result) and not options.asked_to_stop:
         other = trim_along(problem, options)
@@ -61,7 +58,7 @@ def _without_trim(problem: Problem) -> HoverResult | TrimResult:
     return replace(newton(problem, first_guess(problem), replace(DEFAULT_OPTIONS, max_passes=1)), converged=False)
 
 
-def _may_be_of_another_branch(solution: Solution, result: HoverResult | HoverWakeResult | TrimResult) -> bool:
+def _may_be_of_another_branch(solution: Solution, result: HoverResult | TrimResult) -> bool:
     """Whether forward flight closes with so much stall, or so implausibly, that it may not be the trim of least power.
 
     Free of charge for every other design.
@@ -84,22 +81,20 @@ def _guess(design: Design, earlier: Solution) -> Guess | None:
     return earlier.start
 
 
-def _assemble(problem: Problem, result: HoverResult | HoverWakeResult | TrimResult, begin: float) -> Solution:
-    design, linear = problem.design, None if isinstance(result, HoverWakeResult) else result.linear
-    elements = result.elements if isinstance(result, HoverWakeResult) else result.linear.elements
+def _assemble(problem: Problem, result: HoverResult | TrimResult, begin: float) -> Solution:
+    design, elements = problem.design, result.linear.elements
     total = disk_sums(problem.disk, elements)
-    fields = _fields(problem, elements)
+    shown = as_asked(problem, elements)
+    fields = _fields(*shown)
     power = power_budget(problem, elements, total)
     moment = hub_moment(problem, elements)
     lift, drag = wind_forces(elements, total)
     newtons = design.thrust_unit
-    area = _areas(problem, fields)
+    reverse, stalled = areas(shown[0].disk, shown[1], fields.stall_margin)
     converged = result.converged
-    wake = result if isinstance(result, HoverWakeResult) else None
     message = "Trimmed."
     if not converged:
-        message = wake.message if wake is not None else ""
-        message = message or vortex_ring(design) or failure_sentence(design, result.reached, _stalled(result, area))
+        message = vortex_ring(design) or failure_sentence(design, result.reached, _stalled(result, stalled))
     if converged and (refused := implausible(problem, elements, total)):
         converged, message = False, refused
     climb = design.condition.climb_speed
@@ -114,9 +109,7 @@ def _assemble(problem: Problem, result: HoverResult | HoverWakeResult | TrimResu
         design=design,
         status=Status.CONVERGED if converged else Status.NOT_CONVERGED,
         message=message,
-        caveats=caveats(problem, elements, total, fields.stall_margin, area["stalled"], moment, power)
-        if converged
-        else (),
+        caveats=caveats(problem, elements, total, fields, stalled, moment, power) if converged else (),
         controls=elements.state,
         disk=fields,
         last_power=power,
@@ -124,30 +117,32 @@ def _assemble(problem: Problem, result: HoverResult | HoverWakeResult | TrimResu
         ct=total.thrust,
         lift_and_drag=(lift * newtons, drag * newtons),
         cp=power.main_rotor / (newtons * design.rotor.tip_speed),
-        reverse_flow_area=area["reverse"],
-        stalled_area=area["stalled"],
+        reverse_flow_area=reverse,
+        stalled_area=stalled,
         residual=result.residual,
         passes=result.passes,
         elapsed=time.perf_counter() - begin,
-        elastic=_elastic(problem, elements),
-        settled=wake is None or wake.settled,
-        wake=wake and wake.wake,
+        elastic=_elastic(problem, elements, shown),
         start=result.guess,
-        linear=linear,
+        wake_course=course_of(problem),
+        linear=result.linear,
     )
 
 
-def _elastic(problem: Problem, elements: BladeElements) -> ElasticTwist | None:
+def _elastic(problem: Problem, elements: BladeElements, shown: tuple[Problem, BladeElements]) -> ElasticTwist | None:
+    """shown: both on the azimuths of the solution."""
     structure = problem.design.rotor.blade.structure
     if problem.torsion is None or elements.torsion is None or structure is None:
         return None
     coordinates, torsion = elements.torsion.coordinates, problem.torsion
-    moment, power = control_loads(problem, elements)
+    moment, power = control_loads(*shown)
+    if shown[0] is not problem:
+        _, power = control_loads(problem, elements)
     return ElasticTwist(
         coordinates=coordinates,
         shapes=torsion.radial,
         frequencies=torsion.frequency,
-        tip=coordinates.sum(axis=0) @ wave_grid(torsion.functions, len(problem.disk.psi)).at,
+        tip=coordinates.sum(axis=0) @ wave_grid(torsion.functions, len(shown[0].disk.psi)).at,
         along_blade=elements.torsion.twist.mean(axis=1),
         control_moment=moment,
         pitch_link_load=moment / structure.pitch_horn,
@@ -178,20 +173,10 @@ def _fields(problem: Problem, elements: BladeElements) -> DiskFields:
     )
 
 
-def _stalled(result: HoverResult | HoverWakeResult | TrimResult, area: dict[str, float]) -> float:
-    """Stalled part of the disk at the nearest trim found; without one in the last attempt, whose areas are given."""
+def _stalled(result: HoverResult | TrimResult, last: float) -> float:
+    """Stalled part of the disk at the nearest trim found; without one `last`, in the last attempt."""
     near = result.nearest if isinstance(result, TrimResult) else None
-    return (
-        area["stalled"]
-        if near is None
-        else _areas(near.problem, _fields(near.problem, near.linear.elements))["stalled"]
-    )
-
-
-def _areas(problem: Problem, fields: DiskFields) -> dict[str, float]:
-    """Reverse-flow and stalled parts of πR²."""
-    disk = problem.disk
-    annuli = 2.0 * disk.r * disk.dr / len(disk.psi)
-    reverse = fields.u_t < 0.0
-    stalled = (fields.stall_margin < 0.0) & ~reverse
-    return {"reverse": float(annuli @ reverse.sum(axis=1)), "stalled": float(annuli @ stalled.sum(axis=1))}
+    if near is None:
+        return last
+    problem, elements = as_asked(near.problem, near.linear.elements)
+    return areas(problem.disk, elements, _fields(problem, elements).stall_margin)[1]

@@ -15,12 +15,12 @@ from rotor.design.design import Design
 from rotor.design.stand import Stand
 from rotor.trim.forward import easier_condition
 from rotor.trim.low_speed import hover_share
-from rotor.trim.solution import Caveat, HubMoment, PowerBudget
+from rotor.trim.solution import Caveat, DiskFields, HubMoment, PowerBudget
 
 LOW_SPEED = 0.075
 """Below this advance ratio linear inflow is not trusted (thesis p. 26)."""
 LOWEST_SPEED = 0.05
-"""Below it the dynamic wake has not been compared with a vortex wake; a real wake rolls up there."""
+"""Below it a wake rolls up at once, and no model that leaves this out has been compared with measurement."""
 HIGH_SPEED = 0.40
 """Above it reverse flow and unsteady stall dominate, and quasi-steady section data no longer suffice."""
 HOVER_CAUTION = 0.12
@@ -44,12 +44,12 @@ def caveats(
     problem: Problem,
     elements: BladeElements,
     total: DiskSums,
-    stall_margin: Array,
+    fields: DiskFields,
     stalled: float,
     moment: HubMoment,
     power: PowerBudget,
 ) -> tuple[Caveat, ...]:
-    """The limits of validity that a converged solution exceeds; `stall_margin` [rad] by (radius, azimuth)."""
+    """The limits of validity that a converged solution exceeds; `fields`: of the solution."""
     design, disk = problem.design, problem.disk
     mu = design.condition.advance_ratio
     found: list[Caveat] = []
@@ -137,35 +137,19 @@ def caveats(
             f"Above advance ratio {HIGH_SPEED:.2f} quasi-steady sections and blades that do not bend are a rough "
             "approximation.",
         )
-    if design.hovering and design.models.hover_inflow == "free-wake":
-        add(
-            "free-wake-band",
-            "Power with the free wake depends on how the tip vortex rolls up, by some 4 %, and the effect of twist is "
-            "overstated beyond -16° or so.",
-        )
-        cell = disk.dr / len(disk.psi)
-        thrust, least = total.thrust, elements.state.lambda0
-        turning = elements.swirl[:, None] * elements.fx
-        induced = float((elements.induced * elements.fz + turning).sum()) * cell
-        if induced < thrust * least:
-            add(
-                "free-wake-below-ideal",
-                f"Induced power is {100.0 * (1.0 - induced / (thrust * least)):.0f} % below the least of momentum "
-                "theory: the roll-up model of the free wake fails here. Take hover inflow annulus.",
-            )
     loading = total.thrust / design.rotor.solidity
     if design.hovering and loading > HOVER_CAUTION:
         add(
             "blade-loading",
             f"C_T/σ {loading:.3f} in hover is above {HOVER_CAUTION:g}: maximum lift decides here, and power comes out "
-            f"too low. {_nearest_to_stall(stall_margin, disk.r)}",
+            f"too low. {_nearest_to_stall(fields.stall_margin, disk.r)}",
         )
     if stalled > STALL_SHARE:
         add(
             "stall",
             f"{100.0 * stalled:.1f} % of the disk is stalled; section data are steady, without dynamic stall.",
         )
-    top_mach = float(elements.mach.max())
+    top_mach = float(fields.mach.max())
     if disk.fit_range is not None:
         if top_mach > 0.5:
             add(
@@ -178,7 +162,7 @@ def caveats(
                 f"Part of the blade has the polynomials {THESIS_NAME} of one Mach number and free transition, the rest "
                 "tables with Mach number: their difference is one of data, not of airfoils.",
             )
-        clamped = _outside_fit(problem, elements, disk.fit_range)
+        clamped = _outside_fit(fields, disk.fit_range)
         if clamped > 0.0:
             add(
                 "polynomial-clamped",
@@ -309,10 +293,8 @@ def _stand_failure(design: Design, stand: Stand, reached: float, stalled: float)
     return f"Not trimmed: {what} with C_T/σ {wanted:.4f}.{how_far}{share} Lower the thrust or the advance ratio."
 
 
-def _outside_fit(problem: Problem, elements: BladeElements, fit_range: tuple[float, float]) -> float:
+def _outside_fit(fields: DiskFields, fit_range: tuple[float, float]) -> float:
     """Part of πR², reverse flow not counted, where a polynomial polar is clamped."""
-    disk = problem.disk
     low, high = fit_range
-    alpha = elements.alpha
-    outside = ((alpha < low) | (alpha > high)) & (elements.u_t >= 0.0)
-    return float((2.0 * disk.r[:, None] * disk.dr / len(disk.psi) * outside).sum())
+    outside = ((fields.alpha < low) | (fields.alpha > high)) & (fields.u_t >= 0.0)
+    return float(fields.cells @ outside.sum(axis=1))

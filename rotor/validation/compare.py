@@ -3,9 +3,10 @@
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
-from typing import Any, get_args
+from typing import Any
 
-from rotor.design.design import Design, HoverInflow
+from rotor.design.design import HOVER_INFLOWS, Design
+from rotor.design.retired import current_model
 from rotor.design.stand import Stand
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import shipped_aircraft
@@ -116,7 +117,7 @@ def compare_point(measured: MeasuredSet, point: dict[str, float], base: Design) 
     """Trim the blade and models of `base` at one point of a set of its rotor."""
     given = {name: point[name] for name in measured.given}
     found = {name: value for name, value in point.items() if name not in given}
-    solution = _trimmed(design_at(measured, point, base))
+    solution = solve(design_at(measured, point, base))
     wanted, judged = found[measured.quantity], measured.is_judged(point)
     if not solution.converged:
         return ComparedPoint(given, found, None, solution.message, None, False, judged, not judged)
@@ -138,11 +139,12 @@ def _base(measured: MeasuredSet, inflow: str | None) -> Design:
     """The rotor of a set as built, with the models of `flight` and the inflow asked for."""
     if measured.kind == "forward" or inflow is None:
         return make_design(rotor=measured.rotor, inflow=inflow)
-    models = [name for name in get_args(HoverInflow) if name == inflow]
-    if not models:
-        raise ValueError(f"hover inflow {inflow!r} is not known: use one of {', '.join(get_args(HoverInflow))}")
+    inflow = current_model("hover_inflow", inflow)
+    hover_inflow = next((name for name in HOVER_INFLOWS if name == inflow), None)
+    if hover_inflow is None:
+        raise ValueError(f"hover inflow {inflow!r} is not known: use one of {', '.join(HOVER_INFLOWS)}")
     base = make_design(rotor=measured.rotor)
-    return replace(base, models=replace(base.models, hover_inflow=models[0]))
+    return replace(base, models=replace(base.models, hover_inflow=hover_inflow))
 
 
 def design_at(measured: MeasuredSet, point: dict[str, float], base: Design | None = None) -> Design:
@@ -157,26 +159,6 @@ def design_at(measured: MeasuredSet, point: dict[str, float], base: Design | Non
         return design
     models = replace(base.models, trim=design.models.trim)
     return replace(base, condition=replace(design.condition, mass=base.condition.mass), models=models)
-
-
-def _trimmed(design: Design) -> Solution:
-    """The trim; rigid wake helices of a free rotor are laid again along the tilt that it found."""
-    solution = solve(design)
-    stand = design.condition.stand
-    if design.models.trim != "free-rotor" or design.models.inflow != "vortex-wake" or stand is None:
-        return solution
-    if not solution.converged:
-        return solution
-    found = stand.record() | {"shaft_tilt_deg": math.degrees(solution.controls.shaft_tilt)}
-    return solve(
-        make_design(
-            rotor=design.aircraft,
-            mu=design.condition.advance_ratio,
-            trim=design.models.trim,
-            stand=found,
-            inflow=design.models.inflow,
-        )
-    )
 
 
 def quantity_of(name: str, solution: Solution, measured: MeasuredSet) -> float:

@@ -57,6 +57,15 @@ def test_a_design_survives_reload_link_and_back(browser: "Browser", app: App):
     watched.close()
 
 
+def test_a_link_that_names_a_retired_model_opens_and_says_so(browser: "Browser", app: App):
+    watched = opened(browser, app.address, COARSE + "&d=1;linear:-8;mu=0;hover_inflow=free-wake")
+    watched.page.get_by_text("hover is solved by the annulus balance").wait_for(timeout=WAIT)
+    assert app.sessions[-1].page.controls.inputs().hover_inflow == "annulus"
+    watched.page.wait_for_function("() => !location.search.includes('free-wake')", timeout=WAIT)
+    assert watched.complaints == []
+    watched.close()
+
+
 def test_a_link_that_cannot_be_read_is_said_and_stays(browser: "Browser", app: App):
     watched = opened(browser, app.address, COARSE + "&d=1;uh60a~bends:3;mu=0.3")
     page = watched.page

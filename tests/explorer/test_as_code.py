@@ -29,7 +29,7 @@ SPLINE = SplineTwist((0.13, 0.4, 0.75, 1.0), (0.1234567891234, 0.05, -0.01, -1.0
 DESIGNS = {
     "sliders": Inputs().design(),
     "hover, ideal": Inputs(law="ideal", advance_ratio=0.0).design(),
-    "free wake": Inputs(advance_ratio=0.0, hover_inflow="free-wake").design(),
+    "closed form": Inputs(advance_ratio=0.0, hover_inflow="closed-form").design(),
     "forward wake alone": Inputs(advance_ratio=0.05, low_speed="wake").design(),
     "thesis, high": Inputs(preset="thesis", law="three", altitude_m=1500.0, **preset_inflow("thesis")).design(),
     "other inflow": Inputs(law="quadratic", inflow="pitt-peters", mass_t=7.35).design(),

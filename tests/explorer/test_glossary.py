@@ -64,7 +64,7 @@ def test_every_widget_of_the_design_tab_has_its_sentence(server: viser.ViserServ
     texts = {entry.text for entry in CONTROLS.values()}
     handles = list(server.gui._gui_input_handle_from_uuid.values())
     test_stand = 5 + 8  # Menus and sliders.
-    assert len(handles) == len(SLIDERS) + len(SWITCHES) + 9 + test_stand
+    assert len(handles) == len(SLIDERS) + len(SWITCHES) + 7 + test_stand
     for handle in handles:
         assert handle.hint in texts, f"{handle.label!r} explains nothing"
 
@@ -100,7 +100,6 @@ def test_every_line_of_the_results_has_its_sentence(mu: float):
         readout.trim_panel(solution),
         ab_readout.power_panel(solution, other),
         ab_readout.trim_panel(solution, other),
-        readout.check_panel(other, solution),
         status_panel(solution),
     ]
     for html in page:

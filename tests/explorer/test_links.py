@@ -1,18 +1,25 @@
 """Links: random designs through the address as viser's client rewrites it, and links that cannot be read."""
 
+import json
 import random
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
+from types import SimpleNamespace
+from typing import Any
 from urllib.parse import parse_qsl, quote
 
 import pytest
 
 from explorer.sharing.address import Address, parameter, with_parameter
-from explorer.sharing.share import DESIGN, code_of, design_from, inputs_from
+from explorer.sharing.share import DESIGN, KEPT, PINNED, code_of, design_from, inputs_from, tell_retired
+from explorer.sharing.stored_history import read_history
 from explorer.stand import StandInputs
 from explorer.state import LAWS, OPENING, Inputs, with_rotor
+from explorer.tabs.file_panel import FilePanel
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.design.design import Design
+from rotor.design.retired import RETIRED
 from rotor.design.twist import SplineTwist, SumTwist, TableTwist, parse_twist
 
 KEPT_BY_BROWSERS = "!$%&'()*+,-./:;=?@[\\]^_`{|}~"
@@ -58,8 +65,8 @@ def random_inputs(chance: random.Random) -> Inputs:
         mass_t=chance.randint(100, 219) / 20.0,
         altitude_m=chance.randint(0, 80) * 50.0,
         climb_m_s=chance.choice((0.0, chance.randint(-200, 200) / 10.0)),
-        inflow=chance.choice(("uniform", "drees", "pitt-peters-15pi/23", "dynamic-wake", "vortex-wake")),
-        hover_inflow=chance.choice(("annulus", "free-wake", "closed-form")),
+        inflow=chance.choice(("uniform", "drees", "pitt-peters-15pi/23", "local-momentum", "lifting-line")),
+        hover_inflow=chance.choice(("annulus", "closed-form")),
         preset=chance.choice(("flight", "flight", "thesis")),
         tip_loss=chance.random() < 0.8,
         elastic_twist=chance.random() < 0.8,
@@ -145,6 +152,56 @@ def test_links_with_a_plus_sign_still_open(query: str, changed: dict[str, float]
 def test_a_sum_of_many_laws_with_lost_plus_signs_opens():
     spec = "linear:-4+segments:-2,1@0.5+quadratic:6,-14"
     assert design_from(f"1;{spec.replace('+', ' ')};mu=0.1").twist == parse_twist(spec)
+
+
+class TestRetired:
+    CODE = "1;linear:-8;mu=0;hover_inflow=free-wake"
+    SENTENCE = "The free wake in hover was retired; hover is solved by the annulus balance."
+
+    def test_an_old_link_opens_and_the_page_says_once_what_stands_in(self):
+        notices: list[tuple[str, str]] = []
+        address = Address(f"?d={self.CODE}&a={self.CODE}", lambda _: None)
+        meaning = partial(inputs_from, tell=partial(tell_retired, notices))
+        for name in (DESIGN, PINNED):
+            found = address.read(name, meaning, OPENING, "", notices)
+            assert (found.linear, found.hover_inflow) == (-8.0, "annulus")
+        assert notices == [("A retired model", self.SENTENCE)]
+
+    @pytest.mark.parametrize("name", [name for name, one in RETIRED.items() if one.option == "inflow"])
+    def test_an_old_inflow_in_forward_flight(self, name: str):
+        said: list[str] = []
+        found = inputs_from(f"1;linear:-8;mu=0.2;inflow={name}", tell=said.append)
+        assert found.inflow == "lifting-line"
+        assert said == [RETIRED[name].sentence]
+        assert "inflow" not in code_of(found.design())
+
+    def test_what_the_page_writes_then_does_not_name_it(self):
+        assert "inflow" not in code_of(inputs_from(self.CODE, tell=lambda _: None).design())
+
+    def test_the_kept_file_of_a_rotor_of_ones_own(self):
+        kept = json.dumps({**OPENING.design().to_dict(), "hover_inflow": "free-wake"})
+        said: list[str] = []
+        assert inputs_from(KEPT, kept, said.append) == OPENING
+        assert said == [self.SENTENCE]
+
+    def test_a_loaded_file(self):
+        content = json.dumps({**OPENING.design().to_dict(), "hover_inflow": "free-wake"}).encode()
+        said: list[tuple[str, str]] = []
+        taken: list[Inputs] = []
+        context = SimpleNamespace(notify=lambda *words: said.append(words), set_inputs=taken.append)
+        panel: Any = SimpleNamespace(_context=context)
+        file = SimpleNamespace(name="old.json", content=content)
+        event: Any = SimpleNamespace(target=SimpleNamespace(value=file))
+        FilePanel._loaded(panel, event)
+        assert taken == [OPENING]
+        assert said == [("Loaded", f"old.json is on the sliders. {self.SENTENCE}")]
+
+    def test_the_annulus_balance_by_name_is_taken_silently(self):
+        assert inputs_from("1;linear:-8;mu=0;hover_inflow=annulus").hover_inflow == "annulus"
+
+    def test_kept_steps_are_read_silently(self):
+        history = read_history(json.dumps({"past": [self.CODE], "bookmarks": [self.CODE]}), OPENING)
+        assert [one.hover_inflow for one in (*history.past, *history.bookmarks)] == ["annulus", "annulus"]
 
 
 class TestUnreadable:

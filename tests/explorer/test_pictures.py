@@ -166,7 +166,7 @@ class TestFields:
         reverse = disk.u_t < 0.0
         column = int(reverse.sum(axis=0).argmax())
         depth = int(reverse[:, column].sum())
-        assert depth > 3
+        assert depth > 2
         assert_allclose(filled(disk, values)[:depth, column], disk.r[depth])
         assert_allclose(filled(disk, values)[~reverse], values[~reverse])
 

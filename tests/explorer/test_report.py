@@ -247,7 +247,7 @@ class TestStage:
         assert page.startswith("<!doctype html>")
         assert "window.__VISER_EMBED_CONFIG__={darkMode:true};" in page
         assert stage.scenes[0] != stage.scenes[1]
-        assert len(stage.json) < 1_500_000
+        assert len(stage.json) < 1_550_000
 
     def test_two_at_once_leave_the_program_its_voice(self, capsys: pytest.CaptureFixture[str]):
         threads = [threading.Thread(target=make_stage, args=([NOW], VIEW, RANGE)) for _ in range(3)]

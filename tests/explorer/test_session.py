@@ -221,24 +221,7 @@ def test_in_a_crowd_a_step_between_two_others_has_no_charts(session: Session, mo
     assert update(session).calls[-1] == "show_power_number"
 
 
-def test_a_free_wake_is_shown_while_it_settles(session: Session, monkeypatch: pytest.MonkeyPatch):
-    page: Any = session.page
-    monkeypatch.setattr(session._curves, "sweep", lambda *_: False)
-    page.inputs = replace(Inputs(), advance_ratio=0.0, hover_inflow="free-wake", elastic_twist=False)
-    assert update(session).calls[:3] == ["read", "pin_or_swap", "show_frame"]
-    page.inputs = replace(page.inputs, two_inner=page.inputs.two_inner - 0.5)
-    shown = ["read", "show_frame", "solve_pinned", "show_settling", "pin_or_swap", "show_frame"]
-    assert update(session).calls[:6] == shown
-    assert [frame.solution.settled for frame in page.frames[-2:]] == [False, True]
-    page.inputs = replace(page.inputs, two_inner=page.inputs.two_inner - 0.5)
-    page.calls.clear()
-    page.read = lambda: (session._wake(), (page.inputs, page.view))[1]
-    session._update(lambda: True)  # The slider has moved on: the next preview is worth more than this wake at rest.
-    assert page.calls == ["show_frame", "solve_pinned", "show_settling"]
-    assert not page.frames[-1].solution.settled
-
-
-def test_what_settles_is_the_picture_the_bands_the_address_and_what_the_page_keeps():
+def test_what_settles_is_the_picture_the_address_and_what_the_page_keeps():
     called: list[str] = []
     part = SimpleNamespace(
         settle=lambda: called.append("picture"),
@@ -246,11 +229,10 @@ def test_what_settles_is_the_picture_the_bands_the_address_and_what_the_page_kee
         keep=lambda: called.append("kept"),
         store=lambda: called.append("steps"),
     )
-    bands = SimpleNamespace(settle=lambda _: called.append("bands"))
-    page: Any = SimpleNamespace(scene=part, file=part, history=part, results=bands)
+    page: Any = SimpleNamespace(scene=part, file=part, history=part)
     state: Any = None
     Page.settle(page, state)
-    assert called == ["picture", "bands", "address", "kept", "steps"]
+    assert called == ["picture", "address", "kept", "steps"]
 
 
 @pytest.mark.parametrize(

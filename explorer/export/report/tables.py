@@ -14,6 +14,7 @@ from explorer.text.readout import ideal_induced, part_titles
 from explorer.text.status import section_title
 from explorer.text.units import FOOT, FOOT_PER_MINUTE, KILOGRAM, METRE, POUND, SI, TONNE, Units, number
 from explorer.theme.colours import PARTS
+from rotor.aero.problem import grid_of
 from rotor.design.design import Design
 from rotor.trim.solution import Solution
 
@@ -94,7 +95,7 @@ def _load(design: Design) -> list[tuple[str, str]]:
 def conditions(solution: Solution) -> str:
     """Flight condition, rotor and models."""
     design = solution.design
-    condition, rotor, models = design.condition, design.rotor, design.models
+    condition, rotor = design.condition, design.rotor
     rows = [
         ("Advance ratio µ", number(condition.advance_ratio, 3)),
         ("Airspeed", SI.airspeed(design.airspeed)),
@@ -105,7 +106,7 @@ def conditions(solution: Solution) -> str:
         ("Preset", PRESET_TITLES.get(design.preset, design.preset)),
         ("Inflow", inflow_words(design)),
         ("Physics", physics_words(design)),
-        ("Grid", f"{models.elements} elements × {models.azimuths} azimuths"),
+        ("Grid", "{} elements × {} azimuths".format(*grid_of(design))),
         ("Twist SPEC", design.twist.spec()),
     ]
     return _table("Condition and model", rows)

@@ -240,17 +240,6 @@ STEPS: tuple[LectureStep, ...] = (
         difference=True,
     ),
     LectureStep(
-        "Four blades are not infinitely many",
-        "Textbooks reduce twist for high speed. Their rotor has infinitely many blades: its wake is steady, and −14° "
-        "(B) costs induced power compared with −6° (A). Four blades shed an unsteady wake at 4/rev.",
-        "Switch off Infinite blades under Model: with four blades the same twist costs nothing.",
-        replace(_LINEAR, linear=-14.0, advance_ratio=0.3, inflow="dynamic-wake-infinite-blades"),
-        _induced,
-        _induced_numbers,
-        against=replace(_LINEAR, linear=-6.0, advance_ratio=0.3, inflow="dynamic-wake-infinite-blades"),
-        difference=True,
-    ),
-    LectureStep(
         "What reverse flow costs",
         "Inside the outline the air meets the retreating blade from behind. There it even drives the blade, but its "
         "drag pushes the rotor back and its lift points down: the rest of the disk pays for both. A is computed "

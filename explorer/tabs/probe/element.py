@@ -215,7 +215,8 @@ class _GridPoint:
     def __init__(self, disk: DiskFields, r: float, psi: float) -> None:
         n = len(disk.psi)
         around = (psi - float(disk.psi[0])) * n / (2.0 * math.pi)
-        along = (r - float(disk.r[0])) / disk.dr
+        row = min(max(int(np.searchsorted(disk.r, r, "right")) - 1, 0), len(disk.r) - 2)
+        along = row + (r - float(disk.r[row])) / float(disk.r[row + 1] - disk.r[row])
         # A station met to rounding is that station: what stands there is read, not blended.
         around, along = (float(round(x)) if abs(x - round(x)) < 1e-9 else x for x in (around, along))
         before = math.floor(around)

@@ -8,7 +8,7 @@ import threading
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import lru_cache, partial
 from html import escape
 from importlib.util import find_spec
 from pathlib import Path
@@ -333,7 +333,8 @@ class StudiesPanel:
                 raise ValueError(f"{text!r} is not a point: type a number in {numbers(results)}.")
             if not results.good[row]:
                 raise ValueError(f"Point {text} did not converge: choose another one.")
-            inputs = share.within(inputs_of(design_of_row(results, row)))
+            tell = partial(self._context.notify, share.RETIRED_TITLE)
+            inputs = share.within(inputs_of(design_of_row(results, row, tell)))
         except ValueError as error:
             self._said.content = problem_line(str(error))
             return

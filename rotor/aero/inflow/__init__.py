@@ -1,13 +1,12 @@
 """Inflow models of forward flight behind one interface, by name."""
 
-from rotor.aero.inflow.dynamic_wake import DYNAMIC_WAKES
 from rotor.aero.inflow.interface import InflowModel as InflowModel
 from rotor.aero.inflow.interface import Wake as Wake
+from rotor.aero.inflow.lifting_line import LiftingLineInflow
 from rotor.aero.inflow.linear import LINEAR_MODELS
 from rotor.aero.inflow.local_momentum import LocalMomentumInflow
-from rotor.aero.inflow.vortex_lattice import VortexWakeInflow
 
-_MODELS: tuple[InflowModel, ...] = (*LINEAR_MODELS, LocalMomentumInflow(), *DYNAMIC_WAKES, VortexWakeInflow())
+_MODELS: tuple[InflowModel, ...] = (*LINEAR_MODELS, LocalMomentumInflow(), LiftingLineInflow())
 
 INFLOW_MODELS: dict[str, InflowModel] = {model.name: model for model in _MODELS}
 """Forward-flight inflow models by name, from the simplest to the most detailed."""

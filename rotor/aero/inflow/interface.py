@@ -1,8 +1,7 @@
 """The interface of every forward-flight inflow model, and the wake that its answer depends on.
 
-On a disk a model is columns and equations of the engine: what it adds to U_P, and where it answers the load, states
-with equations of their own or a section that balances itself. At a given wake (µ_x, µ_z, λ0) every model is linear in
-the load.
+On a disk a model is columns of the engine: what it adds to U_P, and where it answers the load, unknowns at every point
+of the grid or a section that balances itself. At a given wake (µ_x, µ_z, λ0) every model is linear in the load.
 
 Fields are (elements, azimuths); d = dC_T/dr of the whole rotor as if smeared.
 """
@@ -15,9 +14,11 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from rotor.aero.disk import Disk
+from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.section import CHANNELS, FORCES, PAIRS, section
 from rotor.arrays import Array
-from rotor.engine.linearise import Closure
+from rotor.design.design import Models
+from rotor.engine.linearise import Nodes
 from rotor.engine.terms import Shape, Structure
 
 
@@ -95,12 +96,8 @@ class InflowTerms(Protocol):
         """Azimuths on which its equations are near those on all."""
         ...
 
-    def declare(self, structure: Structure) -> None:
-        """Add the states."""
-        ...
-
-    def build(self, structure: Structure) -> list[int]:
-        """Add made atoms, columns and equations; returns the states solved for."""
+    def build(self, structure: Structure) -> None:
+        """Add made atoms and columns."""
         ...
 
     def shapes(self) -> dict[Shape, Array]:
@@ -111,40 +108,43 @@ class InflowTerms(Protocol):
         """At a wake; mu_z: axial flow as the blade elements see it, with `sees_tilt` that of the wake."""
         ...
 
-    def closures(self, structure: Structure) -> tuple[Closure, ...]:
-        """Equations of its states."""
+    def start(self) -> Array:
+        """A first guess of its nodes, (points,)."""
         ...
 
-    def peaks(self) -> Array:
-        """Largest size that each state gives λ_i, (states,)."""
+    def nodes(self, tolerance: float, thrust: float) -> Nodes | None:
+        """Unknowns at every point of the grid, or None; tolerance: of these, thrust: C_T, for the size of steps."""
         ...
 
-    def nearest(self, field: Array) -> Array:
-        """States of the inflow that is nearest to a field."""
+    def axial(self, wake: Wake, u_t: Array) -> tuple[Array, Array]:
+        """The matrix from an axisymmetric load to the mean inflow in axial flow, and its slopes by U_T at the load.
+
+        (elements, elements) both; u_t: U_T, (elements,).
+        """
         ...
 
-    def axial(self, wake: Wake) -> Array:
-        """The matrix from an axisymmetric load to the mean inflow around the azimuth, (elements, elements)."""
-        ...
 
+class WithoutNodes:
+    """The part of `InflowTerms` that is the same for all models without unknowns of their own."""
 
-class Stateless:
-    """The part of `InflowTerms` that is the same for all models without states of their own."""
+    def start(self) -> Array:
+        """No nodes."""
+        return np.zeros(0)
 
-    def declare(self, structure: Structure) -> None:
-        """No states."""
-
-    def closures(self, structure: Structure) -> tuple[Closure, ...]:
+    def nodes(self, tolerance: float, thrust: float) -> Nodes | None:
         """None."""
-        return ()
+        return None
 
-    def peaks(self) -> Array:
-        """No states."""
-        return np.zeros(0)
 
-    def nearest(self, field: Array) -> Array:
-        """No states."""
-        return np.zeros(0)
+class GridAsAsked:
+    """The part of `InflowModel` that is the same for all models that are solved on the grid asked for."""
+
+    fine_tip = False
+
+    def grid(self, models: Models, blades: int) -> tuple[int, int]:
+        """That of the models, of equally wide elements."""
+        del blades
+        return models.elements, models.azimuths
 
 
 class InflowModel(Protocol):
@@ -174,14 +174,23 @@ class InflowModel(Protocol):
         """
         ...
 
+    @property
+    def fine_tip(self) -> bool:
+        """Whether the elements are panels of a lifting line, which are finer towards the tip; else equally wide."""
+        ...
+
+    def grid(self, models: Models, blades: int) -> tuple[int, int]:
+        """Elements and azimuths on which it is solved."""
+        ...
+
     def without_tip_loss(self) -> "InflowModel":
         """The model without tip loss; the model itself where tip loss is on the section lift or cannot be removed."""
         ...
 
-    def on(self, disk: Disk, expected: Wake, losses: tuple[bool, bool]) -> InflowTerms:
+    def on(self, disk: Disk, course: WakeCourse, losses: tuple[bool, bool]) -> InflowTerms:
         """The model on a disk.
 
-        expected: the wake of momentum theory, along which rigid helices lie; losses: whether Prandtl's factors at tip
-        and hub apply, for a model that leaves them to the section lift.
+        course: along which a wake of vortices lies; losses: whether Prandtl's factors at tip and hub apply, for a model
+        that leaves them to the section lift.
         """
         ...

@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import PLAIN, Followed, Stateless, Wake
+from rotor.aero.inflow.interface import PLAIN, Followed, GridAsAsked, Wake, WithoutNodes
+from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.losses import mean_loss_factor
 from rotor.aero.section import LOSS, UP
 from rotor.arrays import Array
@@ -30,7 +31,7 @@ _COS, _SIN = np.cos(_PSI), np.sin(_PSI)
 
 
 @dataclass(frozen=True)
-class LinearInflow:
+class LinearInflow(GridAsAsked):
     """A first-harmonic inflow model."""
 
     name: str
@@ -48,9 +49,9 @@ class LinearInflow:
         """Itself: the factor is on the section lift."""
         return self
 
-    def on(self, disk: Disk, expected: Wake, losses: tuple[bool, bool]) -> "LinearTerms":
+    def on(self, disk: Disk, course: WakeCourse, losses: tuple[bool, bool]) -> "LinearTerms":
         """The model on a disk."""
-        del expected
+        del course
         return LinearTerms(self, disk, losses)
 
     def strengths(self, wake: Wake) -> dict[Hashable, tuple[float, tuple[float, float, float]]]:
@@ -86,7 +87,7 @@ STRENGTHS = ("lambda0 kx", "lambda0 ky")
 """Made atoms of linear inflow."""
 
 
-class LinearTerms(Stateless):
+class LinearTerms(WithoutNodes):
     """Linear inflow on a disk: columns 1, r cos ψ and r sin ψ in U_P, and Prandtl's factors on the section lift."""
 
     def __init__(self, model: LinearInflow, disk: Disk, losses: tuple[bool, bool]) -> None:
@@ -96,14 +97,13 @@ class LinearTerms(Stateless):
         self.interface, self.least_azimuths = PLAIN, 1
         self._model, self._disk, self._losses = model, disk, losses
 
-    def build(self, structure: Structure) -> list[int]:
+    def build(self, structure: Structure) -> None:
         """The three columns; F is a live shape."""
         one, along = self.names
         kx, ky = (structure.quantity(name) for name in STRENGTHS)
         structure.column(UP, one, STEADY, 1.0, structure.states["lambda0"])
         structure.column(UP, along, COS, 1.0, kx)
         structure.column(UP, along, SIN, 1.0, ky)
-        return []
 
     def shapes(self) -> dict[Shape, Array]:
         """1 and r."""
@@ -124,9 +124,9 @@ class LinearTerms(Stateless):
             loss = found[0], found[2:]
         return Followed(strengths, {(LOSS, "loss"): loss})
 
-    def axial(self, wake: Wake) -> Array:
+    def axial(self, wake: Wake, u_t: Array) -> tuple[Array, Array]:
         """Zero: the load does not change it."""
-        return np.zeros((len(self._disk.r),) * 2)
+        return np.zeros((len(u_t),) * 2), np.zeros((len(u_t),) * 2)
 
 
 def _zero(wake: Wake) -> Gradient:

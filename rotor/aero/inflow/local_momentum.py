@@ -13,13 +13,14 @@ derivatives follow by the implicit function theorem, dλ = (g Σ ∂F_z/∂c dc 
 import math
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import Followed, SectionInterface, Stateless, Wake
-from rotor.aero.inflow.peters_he import flow_parameters
+from rotor.aero.inflow.interface import Followed, GridAsAsked, SectionInterface, Wake, WithoutNodes
+from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.losses import tip_factor
 from rotor.aero.section import CHANNELS, FORCES, FX, FZ, LOSS, PAIRS, UP, M, section
 from rotor.arrays import Array
@@ -112,8 +113,33 @@ _SECTORS = SectionInterface(
 )
 
 
+@dataclass(frozen=True, eq=False)
+class FlowParameters:
+    """Skew and speed of a wake, with slopes by (µ_x, µ_z, λ0)."""
+
+    half_skew: float
+    """tan(χ/2) = µ_x/(V + |µ_z + λ0|), regular from hover to edgewise flight and on to upflow."""
+    speed: float
+    """V"""
+    wake: Wake
+
+    @cached_property
+    def slopes(self) -> Array:
+        """(2, 3): rows tan(χ/2), V; columns µ_x, µ_z, λ0."""
+        mu, axial, speed = self.wake.mu_x, self.wake.axial, self.speed
+        total = speed + abs(axial)
+        x_mu, x_axial = abs(axial) / (speed * total), -math.copysign(mu / (speed * total), axial)
+        v_mu, v_axial = mu / speed, axial / speed
+        return np.array([[x_mu, x_axial, x_axial], [v_mu, v_axial, v_axial]])
+
+
+def flow_parameters(wake: Wake) -> FlowParameters:
+    """tan(χ/2) and V of a wake."""
+    return FlowParameters(wake.mu_x / (wake.speed + abs(wake.axial)), wake.speed, wake)
+
+
 @dataclass(frozen=True)
-class LocalMomentumInflow:
+class LocalMomentumInflow(GridAsAsked):
     """The inflow at a point depends on the load at that point alone."""
 
     name = "local-momentum"
@@ -129,13 +155,13 @@ class LocalMomentumInflow:
         """F = 1."""
         return replace(self, tip=False)
 
-    def on(self, disk: Disk, expected: Wake, losses: tuple[bool, bool]) -> "SectorTerms":
+    def on(self, disk: Disk, course: WakeCourse, losses: tuple[bool, bool]) -> "SectorTerms":
         """The model on a disk."""
-        del expected, losses
+        del course, losses
         return SectorTerms(disk, tip=self.tip)
 
 
-class SectorTerms(Stateless):
+class SectorTerms(WithoutNodes):
     """Local momentum theory on a disk: one column for the gradient, and a section that balances itself."""
 
     def __init__(self, disk: Disk, *, tip: bool) -> None:
@@ -145,11 +171,10 @@ class SectorTerms(Stateless):
         self.interface, self.least_azimuths = _SECTORS, 1
         self._disk, self._tip = disk, tip
 
-    def build(self, structure: Structure) -> list[int]:
+    def build(self, structure: Structure) -> None:
         """λ0 k_x r cos ψ in U_P; the gain is a live shape."""
         structure.column(UP, self.names[0], COS, 1.0, structure.quantity("lambda0 kx"))
         structure.column(MEAN, "one", STEADY, 1.0, structure.states["lambda0"])
-        return []
 
     def shapes(self) -> dict[Shape, Array]:
         """r"""
@@ -176,6 +201,6 @@ class SectorTerms(Stateless):
         by_axial = -gain * factor_slope / factor
         return gain, -np.outer(flow.slopes[1] / flow.speed, gain) + np.outer([0.0, 1.0, 1.0], by_axial)
 
-    def axial(self, wake: Wake) -> Array:
+    def axial(self, wake: Wake, u_t: Array) -> tuple[Array, Array]:
         """Diagonal: 1/(4 r F V)."""
-        return np.diag(self._gain(wake)[0])
+        return np.diag(self._gain(wake)[0]), np.zeros((len(u_t),) * 2)

@@ -221,7 +221,7 @@ TWO_AIRFOILS = SegmentsConcept(
     "Two segments, two airfoils",
     # The document's own order is not in what we hold. The tip needs the later drag rise of the SC1095; the inboard
     # blade, slow on the retreating side, the greater lift of the SC1094 R8. Swapped, the best blade takes
-    # 4 to 7 kW more from hover to µ 0.35 (division 0.5, dynamic wake, 8322 kg).
+    # 4 kW more in hover, 29 kW at µ 0.2 (division 0.5, lifting line, 8322 kg).
     "SC1094 R8 inboard for lift at low speed, SC1095 outboard for its later drag rise; they change at the division.",
     _TWO,
     (_DIVISION,),

@@ -11,7 +11,7 @@ from rotor.files.make_design import make_design
 from tests.tools.soak.run import server
 from tests.tools.soak.visitor import Visitor
 
-HOPELESS = make_design(mu=0.4, mass_kg=11_000, altitude_m=4000, inflow="vortex-wake")
+HOPELESS = make_design(mu=0.4, mass_kg=11_000, altitude_m=4000)
 """Far beyond stall: seconds of search for a trim that does not exist."""
 
 

@@ -29,8 +29,7 @@ before = compiled()
 flight, slow, hover = (make_design(mu=mu) for mu in (0.25, 0.08, 0.0))
 for design in (
     flight, slow, hover, also(flight, elastic_twist=False), also(flight, inflow="drees"), also(flight, tip_loss=False),
-    also(flight, inflow="local-momentum"), also(flight, inflow="dynamic-wake-infinite-blades"),
-    also(hover, elastic_twist=False), also(hover, hover_inflow="free-wake"), also(flight, inflow="vortex-wake"),
+    also(flight, inflow="local-momentum"), also(hover, elastic_twist=False),
     make_design(preset="thesis", mu=0.1),
 ):
     first = solve(design)

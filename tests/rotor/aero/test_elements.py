@@ -154,9 +154,9 @@ def test_the_residuals_are_sums_over_the_elements():
     """Carried weight, pulled drag and flap moments from the forces of all elements."""
     p = problem(mu=0.2)
     point, e = point_at(p, STATE), elements_at(p, STATE)
-    total, cell = disk_sums(p.disk, e), p.disk.dr / len(p.disk.psi)
+    total = disk_sums(p.disk, e)
     cos, sin = math.cos(STATE.shaft_tilt), math.sin(STATE.shaft_tilt)
-    moment = p.arm @ e.fz * cell
+    moment = p.arm * p.disk.dr @ e.fz / len(p.disk.psi)
     flap = p.flap
     stiffness = (flap.frequency_squared - 1.0) / flap.load_gain
     expected = {

@@ -10,15 +10,17 @@ from rotor.aero.disk import build_disk
 from rotor.aero.inflow.interface import Wake
 from rotor.aero.inflow.local_momentum import GAIN, LocalMomentumInflow
 from rotor.aero.momentum import annulus_thrust, glauert_inflow
+from rotor.aero.problem import build_problem
 from rotor.arrays import Array
 from rotor.files.make_design import make_design
 
 DISK = build_disk(make_design().rotor, 12, 24)
+COURSE = build_problem(make_design()).course
 
 
 def answer(load: Array, wake: Wake, *, tip: bool = False) -> tuple[Array, Array]:
     """λ_i of a load, and its slopes by (µ_x, µ_z, λ0)."""
-    followed = LocalMomentumInflow(tip).on(DISK, wake, (True, True)).follow(wake, wake.mu_z, sees_tilt=True)
+    followed = LocalMomentumInflow(tip).on(DISK, COURSE, (True, True)).follow(wake, wake.mu_z, sees_tilt=True)
     strength, by_wake = followed.atoms["lambda0 kx"]
     gain, gain_by_wake = followed.live[GAIN, "gain"]
     along = np.outer(DISK.r, DISK.cos)

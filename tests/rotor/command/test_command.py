@@ -19,6 +19,7 @@ from rotor.aero.switches import SWITCHES
 from rotor.analysis.ideal_bound import ideal_factor
 from rotor.analysis.series import COLUMNS
 from rotor.command.optimise import digits_of_band
+from rotor.design.design import HOVER_INFLOWS
 from rotor.user_input import parse_range
 
 KEYS = [
@@ -26,8 +27,7 @@ KEYS = [
     "ct_over_sigma", "cq", "cq_over_sigma", "shaft_torque_nm", "rotor_lift_n", "rotor_drag_n",
     "collective_deg", "cyclic_1c_deg", "cyclic_1s_deg", "coning_deg", "flap_1c_deg", "flap_1s_deg",
     "shaft_tilt_deg", "lambda0", "reverse_flow_area_percent", "stalled_area_percent",
-    "elastic_twist_deg", "torsion_frequencies_per_rev", "pitch_link_load_n", "settled", "power_band_percent",
-    "elapsed_ms", "twist_worth_percent",
+    "elastic_twist_deg", "torsion_frequencies_per_rev", "pitch_link_load_n", "elapsed_ms",
 ]  # fmt: skip
 
 
@@ -53,6 +53,22 @@ def test_json_keys_and_power(capsys: pytest.CaptureFixture[str]):
     assert answer["status"] == "converged"
     assert answer["twist"] == "linear:-8"
     assert_allclose(answer["speed_m_s"], 0.2 * 27.0 * 8.1788, rtol=1e-12)
+
+
+def test_distribution(capsys: pytest.CaptureFixture[str]):
+    answer = solved(capsys, "--mu", "0.2", "--distribution")
+    assert list(answer) == [*KEYS, "distribution"]
+    found = answer["distribution"]
+    assert len(found["lift_n_per_m"]) == len(found["cm"]) == len(found["r"])
+    assert len(found["lift_n_per_m"][0]) == len(found["psi_deg"])
+    code, out, _ = run(capsys, "solve", "--mu", "0.2", "--distribution")
+    assert code == 0
+    assert "lift of one blade\n   r/R  mean N/m   max N/m   at ψ" in out
+    code, out, _ = run(capsys, "solve", "--mu", "0.5", "--mass-kg", "11000", "--distribution", "--json")
+    assert (code, json.loads(out)["distribution"]) == (1, None)
+    code, out, _ = run(capsys, "solve", "--mu", "0.5", "--mass-kg", "11000", "--distribution")
+    assert code == 1
+    assert "lift of one blade" not in out
 
 
 def test_climb(capsys: pytest.CaptureFixture[str]):
@@ -167,7 +183,7 @@ def test_help_lists_the_values_of_flags(capsys: pytest.CaptureFixture[str]):
     with pytest.raises(SystemExit):
         main(["solve", "--help"])
     words = "".join(capsys.readouterr().out.split())
-    for name in (*INFLOW_MODELS, *(one.flag for one in SWITCHES.values()), "sc1094r8", "free-wake"):
+    for name in (*INFLOW_MODELS, *(one.flag for one in SWITCHES.values()), "sc1094r8", *HOVER_INFLOWS):
         assert name in words
 
 

@@ -32,7 +32,7 @@ def turning(design: Design, *harmonics: Harmonic, **shape: tuple[float, ...]) ->
     return replace(design, active_twist=ActiveTwist(harmonics, **shape))
 
 
-@pytest.mark.parametrize("inflow", ["dynamic-wake", "pitt-peters", "local-momentum"])
+@pytest.mark.parametrize("inflow", ["lifting-line", "pitt-peters", "local-momentum"])
 @pytest.mark.parametrize("per_rev", [1, 2, 3])
 def test_energy_identity(inflow: str, per_rev: int):
     """Torque × Ω is the sum of the parts, whatever the pitch does around the disk."""

@@ -48,7 +48,7 @@ def march(problem: Problem, at: BladeElements, loss: Array, revolutions: int) ->
         c[UP, :, 0] = arm * rate + flow.mu_z + flow.mu_x * beta * cos
         c[UP] += model.field(disk.r, cos, sin, wake)[0]
         c[UR], c[LOSS] = flow.mu_x * cos, loss
-        moment = float(arm @ section(c, data, False, False)[0][FZ, :, 0]) * disk.dr
+        moment = float(arm * disk.dr @ section(c, data, False, False)[0][FZ, :, 0])
         return flap.load_gain * moment - flap.weight - flap.frequency_squared * beta
 
     end = 2.0 * math.pi * revolutions
@@ -77,7 +77,7 @@ def test_ode_agrees_with_harmonic_balance(preset: str, mu: float):
 
 def test_no_hinge_offset_leaves_no_first_harmonic_moment():
     problem, at, _ = trimmed("thesis", 0.25)
-    moment = problem.disk.r @ at.fz * problem.disk.dr
+    moment = problem.disk.r * problem.disk.dr @ at.fz
     assert_allclose((moment @ problem.disk.cos, moment @ problem.disk.sin), 0.0, atol=1e-11)
 
 

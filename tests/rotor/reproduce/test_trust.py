@@ -14,7 +14,7 @@ from rotor.reproduce import ENTRIES, Report
 from rotor.reproduce.cross_codes import have
 from rotor.reproduce.trust import KINDS, TrustRow, sensitivity_rows, trust_rows
 from rotor.reproduce.trust_page import FAST, page, sensitivity
-from rotor.reproduce.trust_rows import LIFT_SLOPE, between_theories, public_codes
+from rotor.reproduce.trust_rows import LIFT_SLOPE, public_codes
 
 TESTS = Path(__file__).parent.parent.parent
 DOCS = TESTS.parent / "docs"
@@ -86,12 +86,6 @@ def test_verdicts_are_reproduced(report: Callable[[str], Report]):
 def test_public_code_rows_are_reproduced():
     assert have("dynbem") or have("wisdem"), "pip install 'rotor-explorer[test]'"
     for row in public_codes():
-        still_true(row)
-
-
-@pytest.mark.slow
-def test_rows_between_theories_are_reproduced():
-    for row in between_theories():
         still_true(row)
 
 

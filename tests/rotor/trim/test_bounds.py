@@ -63,7 +63,7 @@ def test_a_solve_ends_when_it_is_told_to_stop():
 
 
 def test_a_solve_lets_others_compute_before_each_evaluation_of_derivatives():
-    """A vortex wake factors a matrix of thousands of rows each time: no page waits for more than one."""
+    """A lifting line factors a matrix of hundreds of rows each time: no page waits for more than one."""
     pauses: list[int] = []
     paused = solve(HOPELESS, options=replace(DEFAULT_OPTIONS, pause=lambda: pauses.append(1)))
     assert len(pauses) >= paused.passes / 10

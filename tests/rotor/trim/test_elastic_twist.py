@@ -73,11 +73,7 @@ def test_the_document_has_no_elastic_blade():
     assert solve(switched).power == solve(made).power
 
 
-def quick_models() -> list[str]:
-    return [name for name in INFLOW_MODELS if name != "vortex-wake"]
-
-
-@pytest.mark.parametrize("inflow", quick_models())
+@pytest.mark.parametrize("inflow", INFLOW_MODELS)
 def test_energy(inflow: str):
     """Shaft power is the sum of the parts, to rounding.
 
@@ -90,13 +86,13 @@ def test_energy(inflow: str):
     problem, point = solution.linear.problem, solution.linear.point
     assert problem.torsion is not None
     air = point.forces[M] + 0.5 * problem.torsion.inertia[:, None] * np.sin(2.0 * point.channels[TH])
-    taken = -(air * point.channels[RATE]).mean(axis=1).sum() * problem.disk.dr
+    taken = -problem.disk.dr @ (air * point.channels[RATE]).mean(axis=1)
     assert abs(taken) * made.power_unit > 10.0
     assert_allclose(solution.elastic.control_power, taken * made.power_unit, rtol=1e-6)
     assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-9)
 
 
-@pytest.mark.parametrize("inflow", quick_models())
+@pytest.mark.parametrize("inflow", INFLOW_MODELS)
 def test_gradient_by_pitch(inflow: str):
     check_gradient(flapping(design(0.23, inflow=inflow, small=True)))
 
@@ -312,11 +308,11 @@ def test_results_by_name():
 
 
 def test_the_next_trim_uses_the_derivatives_of_the_last():
-    """The same answer without evaluating derivatives, also with those of a copy from another process."""
+    """The same answer without evaluating derivatives; a copy from another process comes without them."""
     start, near = solve(design(0.252), solve(design(0.25))).require(), design(0.254)
     alone = solve(near).require()
-    for before in (start, pickle.loads(pickle.dumps(start))):
+    for before, times in ((start, 0), (pickle.loads(pickle.dumps(start)), 1)):
         evaluated: list[object] = []
         options = SolverOptions(pause=lambda: evaluated.append(1))  # noqa: B023
         assert_allclose(solve(near, before, options).require().power.total, alone.power.total, rtol=1e-9)
-        assert not evaluated
+        assert len(evaluated) == times

@@ -34,16 +34,17 @@ def test_inflow_ratio_is_glauerts(mu: float, ratio: float):
     assert inflow_ratio(mu) == pytest.approx(glauert_inflow(2.0 * 0.08**2, 0.08 * mu, 0.0)[0] / 0.08, rel=1e-8)
 
 
-def test_share_follows_the_fifth_power_and_ends():
-    """Close to λ̄⁵, and 0 from FASTEST on, where value, slope and curvature are 0: no kink."""
+def test_share_falls_faster_than_the_fifth_power_and_ends():
+    """Below λ̄⁵, and 0 from FASTEST on, where value, slope and curvature are 0: no kink."""
     speeds = np.linspace(0.0, 0.2, 81)
     share = np.array([axial_share(mu, 2.0 * 0.06**2) for mu in speeds])
     fifth = np.array([inflow_ratio(mu / 0.06) ** 5 for mu in speeds])
     assert share[0] == 1.0
-    assert np.abs(share - fifth).max() < 0.05
+    assert (share <= fifth).all()
+    assert (fifth - share).max() < 0.23
     assert (share[speeds < 0.06 * FASTEST - 1e-9] > 0.0).all()
     assert (share[speeds > 0.06 * FASTEST + 1e-9] == 0.0).all()
-    assert axial_share(0.06 * (FASTEST - 0.01), 2.0 * 0.06**2) < 1e-7
+    assert axial_share(0.06 * (FASTEST - 0.01), 2.0 * 0.06**2) < 1e-6
 
 
 @pytest.mark.parametrize("elastic", [True, False])
@@ -56,7 +57,7 @@ def test_hover_is_the_limit_of_forward_flight(twist: str, elastic: bool):
 
 def test_without_it_hover_is_no_limit_and_at_speed_it_hardly_matters():
     with_, without = design(), design(low_speed="wake")
-    assert watts(without.at(mu=0.002)) > 1.03 * watts(without)
+    assert watts(without.at(mu=0.002)) > 1.01 * watts(without)
     assert watts(with_.at(mu=0.1)) == pytest.approx(watts(without.at(mu=0.1)), rel=2e-3)
 
 
@@ -109,9 +110,8 @@ def test_energy_closes():
 
 
 def test_where_hover_has_no_answer_a_caveat_says_so():
-    """The free wake needs more thrust."""
-    at = design().at(mu=0.02, mass_kg=700.0)
-    at = replace(at, models=replace(at.models, hover_inflow="free-wake"))
+    """So much weight stalls the hovering blade; in descent at speed it still flies."""
+    at = make_design(rotor="r22", twist="linear:-22", mu=0.058, mass_kg=1240.0, climb_m_s=-8.0)
     found = solve(at).require()
     assert "low-speed-not-matched" in {caveat.name for caveat in found.caveats}
     without = replace(at, models=replace(at.models, low_speed="wake"))

@@ -94,7 +94,7 @@ def test_few_designs_at_high_blade_loading_fail_to_trim():
     than a quarter of the disk stalled at the last trim found, no trim of attached flow lies further on.
     """
     random, stalled, flapping = np.random.default_rng(1), 0, 0
-    names = [name for name in INFLOW_MODELS if name != "vortex-wake"]  # Too slow for two hundred trims.
+    names = list(INFLOW_MODELS)
     for k in range(200):
         design = make_design(
             preset=PRESETS[k % 2],
@@ -168,7 +168,7 @@ def test_impossible_input_is_one_sentence(arguments: dict[str, object], words: s
 
 
 @pytest.mark.slow
-def test_two_hundred_random_blades_trim_with_the_dynamic_wake():
+def test_two_hundred_random_blades_trim_with_the_lifting_line():
     """Three random slopes −25…+8 °/R, random breaks, µ 0.03…0.4 at the reference weight: at most 1 % do not trim."""
     random = np.random.default_rng(2)
     lost = 0

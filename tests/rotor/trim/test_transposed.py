@@ -19,14 +19,14 @@ TIGHT = SolverOptions(residual_tolerance=1e-13, inflow_tolerance=1e-11, torsion_
 NAMES = ("fz", "fx", "inflow", "theta", "u_t", "u_p", "u_r", "swirl")
 
 
-def design(mu: float, inflow: str = "dynamic-wake", *, elastic: bool = True, preset: str = "flight") -> Design:
+def design(mu: float, inflow: str = "lifting-line", *, elastic: bool = True, preset: str = "flight") -> Design:
     made = make_design(preset=preset, twist="linear:-14", mu=mu)
     return replace(made, models=replace(made.models, inflow=inflow, elastic_twist=elastic, elements=20, azimuths=48))
 
 
 @pytest.mark.parametrize("elastic", [False, True], ids=["rigid", "elastic"])
-@pytest.mark.parametrize("mu", [0.0, 0.1, 0.3])  # At the second forward flight is joined with hover.
-@pytest.mark.parametrize("inflow", ["dynamic-wake", "dynamic-wake-infinite-blades", "local-momentum", "drees"])
+@pytest.mark.parametrize("mu", [0.0, 0.06, 0.3])  # At the second forward flight is joined with hover.
+@pytest.mark.parametrize("inflow", ["lifting-line", "local-momentum", "drees"])
 def test_gradient_of_a_solution_from_another_process(inflow: str, mu: float, elastic: bool):
     here = solve(design(mu, inflow, elastic=elastic)).require()
     there: Solution = pickle.loads(pickle.dumps(here))
@@ -55,9 +55,9 @@ def test_any_measure_of_the_blade_elements(made: Design):
 
     ends = [trimmed(sign) for sign in (1.0, -1.0)]
     for name in NAMES:
-        weights = random.uniform(0.5, 1.5, start.disk.theta.shape)
+        weights = random.uniform(0.5, 1.5, adjoint.elements.theta.shape)
         fields = [getattr(one.elements, "induced" if name == "inflow" else name) for one in ends]
         change = (fields[0] - fields[1]) / (2.0 * step)
         slope = float((weights * (change[:, None] if name == "swirl" else change)).sum())
         found = adjoint.by_pitch(replace(Weights(), **{name: weights}))
-        assert_allclose(found @ bend, slope, rtol=0, atol=1e-6 * np.abs(found).max() + 1e-12)
+        assert_allclose(found @ bend, slope, rtol=0, atol=1e-6 * np.abs(found).max() + 3e-11)

@@ -4,6 +4,7 @@ import json
 import math
 from pathlib import Path
 
+import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
@@ -14,7 +15,7 @@ from rotor.files.make_design import make_design
 from rotor.reproduce.trust import trust_rows
 from rotor.trim.solve import solve
 from rotor.validation.compare import ComparedPoint, Comparison, compare
-from rotor.validation.inflow import inflow_agreement, measured_inflow
+from rotor.validation.inflow import above_disk, inflow_agreement, measured_inflow, trimmed
 from rotor.validation.measured import SETS, load_set, sets_of
 
 
@@ -129,18 +130,6 @@ def test_a_set_that_is_not_known(capsys: pytest.CaptureFixture[str]):
     assert "hover inflow 'drees' is not known: use one of annulus" in capsys.readouterr().err
 
 
-@pytest.mark.slow
-def test_dynamic_wake_of_three_blades_is_near_the_vortex_wake():
-    """Shaft power of the XV-15 in forward flight: within 3 % of the vortex lattice."""
-    for name in ("xv15-forward-15deg", "xv15-forward-0deg"):
-        for wake, lattice in zip(
-            compare(load_set(name)).points, compare(load_set(name), "vortex-wake").points, strict=True
-        ):
-            assert wake.ours is not None
-            assert lattice.ours is not None
-            assert_allclose(wake.ours["cq_over_sigma"], lattice.ours["cq_over_sigma"], rtol=0.03)
-
-
 def test_rows_of_the_trust_page():
     """Quick sets, recomputed; the others are in the slow test of all rows."""
     shown = {row.what: row for row in trust_rows() if row.test.startswith("rotor/validation/")}
@@ -161,19 +150,27 @@ def test_sets_by_rotor():
 
 
 def test_measured_inflow():
-    """Correlations with the laser velocimeter as other programs found them: linear 0.9, 0.9, 0.8…0.9."""
+    """Correlations with the laser velocimeter: linear 0.9, 0.9, 0.8…0.9, as other programs found them.
+
+    The lifting line at the measured height: 0.97, 0.93, 0.75; in the disk 0.89, 0.86, 0.66.
+    """
     points = measured_inflow()
     assert [one.mu for one in points] == [0.15, 0.23, 0.35]
     aft = next(k for k, psi in enumerate(points[0].psi) if psi == 0.0 and points[0].r[k] == 0.94)
     assert points[0].inflow[aft] == 0.0503  # TM-100541: 0.0503 downward over the tail
     found = {(row.mu, row.model): row for row in inflow_agreement()}
-    for mu, low in ((0.15, 0.88), (0.23, 0.88), (0.35, 0.82)):
-        linear, wake = found[mu, "pitt-peters"], found[mu, "dynamic-wake"]
+    for measured, low, least, in_disk in zip(
+        points, (0.88, 0.88, 0.82), (0.94, 0.90, 0.70), (0.89, 0.86, 0.66), strict=True
+    ):
+        linear, line = found[measured.mu, "pitt-peters"], found[measured.mu, "lifting-line"]
         assert linear.correlation is not None
-        assert wake.correlation is not None
+        assert line.correlation is not None
         assert low < linear.correlation < 0.95
-        assert 0.6 < wake.correlation < linear.correlation
-        assert found[mu, "uniform"].correlation is None
+        assert line.correlation > least
+        assert line.rms < 0.0078
+        assert found[measured.mu, "uniform"].correlation is None
+        lower = above_disk(trimmed("lifting-line", measured), measured, 0.0)
+        assert np.corrcoef(lower, measured.inflow)[0, 1] == pytest.approx(in_disk, abs=0.01)
 
 
 def test_a_free_rotor_is_not_searched_for_shaft_power(capsys: pytest.CaptureFixture[str]):

@@ -1,0 +1,118 @@
+"""The blade elements of a trim on more azimuths than it was solved on, and areas of the disk finer than its elements.
+
+An inflow model may be solved on fewer azimuths than were asked for: channels are smooth around the disk. They are
+continued between the azimuths by their Fourier series and the section is evaluated there, so no coefficient is
+interpolated, and reverse flow, stall and drag rise begin where they would if the trim were solved there.
+"""
+
+from dataclasses import replace
+from functools import lru_cache
+
+import numpy as np
+
+from rotor.aero.disk import Disk
+from rotor.aero.elements import BladeElements, TwistState, over_azimuths
+from rotor.aero.problem import Problem, on_azimuths
+from rotor.aero.section import ALPHA, CD, CD_MACH, CL, FR, FX, FZ, MACH, M, angles_of_attack, section, stall_angles
+from rotor.arrays import Array
+from rotor.engine.waves import wave_grid
+
+ENOUGH_ELEMENTS = 40
+"""Elements whose cells are counted as they are: the border of a region cuts few of them."""
+AREA_RADII = 80
+"""Even radii at which regions are counted where there are fewer elements."""
+
+
+_OVER_DISK = (
+    "theta", "u_t", "u_p", "u_r", "loss", "rate", "induced", "fz", "fx", "fr", "alpha", "mach", "cl", "cd", "cd_mach"
+)  # fmt: skip
+"""Fields of `BladeElements` by element and azimuth."""
+
+
+@lru_cache(maxsize=16)
+def resampling(source: int, target: int) -> Array:
+    """Fourier interpolation of evenly spaced periodic samples, (source, target); the samples themselves stay."""
+    angle = 2.0 * np.pi * (np.arange(target) / target - np.arange(source)[:, None] / source)
+    waves = np.arange(1, (source + 1) // 2)
+    made = 1.0 + 2.0 * np.cos(angle[..., None] * waves).sum(axis=-1)
+    if source % 2 == 0:
+        made += np.cos(0.5 * source * angle)
+    return made / source
+
+
+def as_asked(problem: Problem, elements: BladeElements) -> tuple[Problem, BladeElements]:
+    """Problem and blade elements on at least the azimuths that the models ask for: a multiple of those of the trim.
+
+    The same two where the trim has as many.
+    """
+    solved = len(problem.disk.psi)
+    times = -(-problem.design.models.azimuths // solved)
+    if times <= 1:
+        return problem, elements
+    finer = on_azimuths(problem, times * solved)
+    return finer, (_all_round if problem.design.hovering else _between)(finer, elements)
+
+
+def _all_round(problem: Problem, elements: BladeElements) -> BladeElements:
+    """The elements of a hovering rotor, the same at all azimuths of a problem."""
+    e, torsion, azimuths = elements, elements.torsion, len(problem.disk.psi)
+
+    def around(field: Array) -> Array:
+        return over_azimuths(field[:, 0], azimuths)
+
+    made = {name: around(getattr(e, name)) for name in _OVER_DISK}
+    twist = torsion and replace(torsion, twist=around(torsion.twist), moment=around(torsion.moment))
+    return replace(e, **made, beta=np.full(azimuths, e.beta[0]), torsion=twist)
+
+
+def _between(problem: Problem, elements: BladeElements) -> BladeElements:
+    """The elements at all azimuths of a problem."""
+    e, torsion, azimuths = elements, problem.torsion, len(problem.disk.psi)
+    matrix = resampling(len(e.beta), azimuths)
+    fields = np.stack((e.theta, e.u_t, e.u_p, e.u_r, e.loss, e.rate, e.induced)) @ matrix
+    f, _, s = section(fields[:6], problem.section_data(), False, True)
+    twist = None
+    if e.torsion is not None and torsion is not None:
+        around = e.torsion.coordinates @ wave_grid(torsion.functions, azimuths).at
+        twist = TwistState(e.torsion.coordinates, torsion.radial.T @ around, f[M])
+    theta, u_t, u_p, u_r, loss, rate, induced = fields
+    return replace(
+        e, theta=theta, u_t=u_t, u_p=u_p, u_r=u_r, loss=loss, rate=rate, beta=e.beta @ matrix, induced=induced,
+        fz=f[FZ], fx=f[FX], fr=f[FR], alpha=s[ALPHA], mach=s[MACH], cl=s[CL], cd=s[CD], cd_mach=s[CD_MACH],
+        torsion=twist,
+    )  # fmt: skip
+
+
+def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[float, float]:
+    """Reverse-flow and stalled parts of πR², the latter without reverse flow.
+
+    stall_margin: of the elements [rad], (elements, azimuths). With few elements the velocities, the pitch and the stall
+    angles, which are smooth, are taken linear along the blade, and the angle of attack follows from them.
+    """
+    if len(disk.r) >= ENOUGH_ELEMENTS:
+        reverse = elements.u_t < 0.0
+        stalled, cells = (stall_margin < 0.0) & ~reverse, disk.cells
+    else:
+        limits = stall_angles(elements.mach, disk.section, disk.weight, disk.offset, disk.stall)
+        matrix, cells = _finer_radii(disk.root, tuple(disk.r.tolist()))
+        theta, u_t, u_p, low, high = matrix @ np.stack((elements.theta, elements.u_t, elements.u_p, *limits))
+        alpha = np.empty_like(theta)
+        angles_of_attack(theta.ravel(), u_t.ravel(), u_p.ravel(), alpha.reshape(-1))
+        reverse, cells = u_t < 0.0, cells / len(disk.psi)
+        stalled = ((alpha > high) | (alpha < low)) & ~reverse
+    return float(cells @ np.count_nonzero(reverse, axis=1)), float(cells @ np.count_nonzero(stalled, axis=1))
+
+
+@lru_cache(maxsize=16)
+def _finer_radii(root: float, r: tuple[float, ...]) -> tuple[Array, Array]:
+    """Linear interpolation from elements at r/R to even radii, (radii, elements), and the parts of πR² about these.
+
+    Beyond the first and the last element the lines run on.
+    """
+    edges, known = np.linspace(root, 1.0, AREA_RADII + 1), np.array(r)
+    radii, rows = 0.5 * (edges[1:] + edges[:-1]), np.arange(AREA_RADII)
+    before = np.clip(np.searchsorted(known, radii) - 1, 0, len(known) - 2)
+    share = (radii - known[before]) / np.diff(known)[before]
+    matrix = np.zeros((AREA_RADII, len(known)))
+    matrix[rows, before], matrix[rows, before + 1] = 1.0 - share, share
+    return matrix, np.diff(edges**2)

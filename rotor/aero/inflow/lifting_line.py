@@ -1,0 +1,147 @@
+"""The lifting line: each blade a line of panels, the blade elements, with its wake (`rotor.aero.lifting_line`).
+
+    λ_i = A Γ,    Γ = (π/N_b) U_T F_z/max(U_T², 0.01),  0 in reverse flow        (Kutta and Joukowski)
+
+Γ is over ΩR², A the influence matrix of a wake that lies along the trim of the same rotor with linear inflow and the
+blade as built: so it stays while twist is changed. Unknowns are the circulations of all panels at all azimuths.
+"""
+
+import math
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+
+from rotor.aero.disk import Disk
+from rotor.aero.inflow.interface import Followed, SectionInterface, Wake
+from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.aero.lifting_line.influence import Line, influence, mean_influence
+from rotor.aero.section import CHANNELS, FORCES, FZ, PAIRS, UP, UT, section
+from rotor.arrays import Array
+from rotor.compiled import compiled
+from rotor.design.design import Models
+from rotor.engine.linearise import Nodes
+from rotor.engine.terms import Shape, Structure
+
+SLOWEST = 0.1
+"""|U_T| below which circulation is no longer L/U_T, which would grow without bound."""
+
+CIRCULATION = len(FORCES)
+"""N_b Γ/π, in the place of a further force."""
+_LIFTED = tuple(channel for force, channel in PAIRS if force == FZ)
+LINE_PAIRS = (*PAIRS, *((CIRCULATION, channel) for channel in _LIFTED))
+
+
+@compiled(error_model="numpy")
+def circulation_gain(u_t: Any, gain: Any, slope: Any) -> None:
+    """U_T/max(U_T², 0.01), 0 in reverse flow, and its slope by U_T, in place; all (elements, azimuths)."""
+    for i in range(u_t.shape[0]):
+        for j in range(u_t.shape[1]):
+            t = u_t[i, j]
+            gain[i, j] = slope[i, j] = 0.0
+            if t >= SLOWEST:
+                gain[i, j], slope[i, j] = 1.0 / t, -1.0 / (t * t)
+            elif t > 0.0:
+                gain[i, j], slope[i, j] = t / SLOWEST**2, 1.0 / SLOWEST**2
+
+
+def _line_section(c: Array, data: Any, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
+    """The section with its circulation; as `section.section`, with the rows of `LINE_PAIRS`."""
+    f, d, s = section(c, data, slopes, flow)
+    gain, by_speed = np.empty_like(c[UT]), np.empty_like(c[UT])
+    circulation_gain(c[UT], gain, by_speed)
+    f = np.concatenate([f, (gain * f[FZ])[None]])
+    if slopes:
+        own = np.zeros((len(_LIFTED), *gain.shape))
+        for k, channel in enumerate(_LIFTED):
+            if channel < len(CHANNELS) - 2 or data.lossy:  # Derivatives by F are undefined where it is 1.
+                own[k] = gain * d[PAIRS.index((FZ, channel))]
+        own[_LIFTED.index(UT)] += by_speed * f[FZ]
+        d = np.concatenate([d, own])
+    return f, d, s
+
+
+_LINE = SectionInterface(_line_section, LINE_PAIRS, len(CHANNELS), len(FORCES) + 1)
+
+
+@dataclass(frozen=True)
+class LiftingLineInflow:
+    """Lifting lines of the rotor's own blades with the wake along the trim."""
+
+    panels: int = 24
+    azimuths: int = 24
+    """At least so many."""
+
+    name = "lifting-line"
+    title = "Lifting line"
+    explanation = (
+        "Each blade is a line of 24 vortex panels with its own wake, which lies along the trim and does not roll up: "
+        "from µ 0.05 to 0.15 that decides what twist is worth (0 to −2.3 % here for −8° to −16°, −4 to −5 % rolled up)."
+    )
+    load_dependent = True
+    fine_tip = True
+
+    def without_tip_loss(self) -> "LiftingLineInflow":
+        """Itself: the tip loss of a lifting line is that of its finite blades."""
+        return self
+
+    def grid(self, models: Models, blades: int) -> tuple[int, int]:
+        """Panels, and azimuths in a multiple of the number of blades, whatever is asked for."""
+        del models
+        return self.panels, -(-self.azimuths // blades) * blades
+
+    def on(self, disk: Disk, course: WakeCourse, losses: tuple[bool, bool]) -> "LiftingLineTerms":
+        """The model on a disk, with the wake on a course."""
+        del losses
+        return LiftingLineTerms(Line(disk.blades, disk.root, *disk.shape), course)
+
+
+@lru_cache(maxsize=32)
+def _matrix(line: Line, course: WakeCourse) -> Array:
+    """From N_b Γ/π to the downwash, (points, points): 3 MB for each condition, which serve all its twists."""
+    return influence(line, course) * (math.pi / line.blades)
+
+
+class LiftingLineTerms:
+    """Lifting lines as nodes of the engine, see `InflowTerms`."""
+
+    names: Sequence[Shape] = ()
+    live: Sequence[tuple[int, Shape]] = ()
+    interface = _LINE
+
+    def __init__(self, line: Line, course: WakeCourse) -> None:
+        self.line, self.course = line, course
+        self.key: Hashable = "lifting line", line.panels, line.azimuths
+        self.least_azimuths = line.azimuths
+
+    def build(self, structure: Structure) -> None:
+        """Nothing: what is solved for are nodes."""
+
+    def shapes(self) -> dict[Shape, Array]:
+        """None."""
+        return {}
+
+    def follow(self, wake: Wake, mu_z: float, sees_tilt: bool) -> Followed:
+        """Nothing: the wake lies still."""
+        del wake, mu_z, sees_tilt
+        return Followed({}, {})
+
+    def nodes(self, tolerance: float, thrust: float) -> Nodes:
+        """Circulations and what they do; tolerance: of N_b Γ/π."""
+        return Nodes(UP, CIRCULATION, _matrix(self.line, self.course), tolerance, 2.4 * thrust)
+
+    def start(self) -> Array:
+        """An elliptical circulation that carries the thrust to which the course belongs."""
+        thrust = 2.0 * self.course.lambda0 * self.course.speed
+        shape = np.sqrt(np.maximum(1.0 - np.square(self.line.r), 0.0))
+        return np.repeat(2.2 * thrust * shape, self.line.azimuths)
+
+    def axial(self, wake: Wake, u_t: Array) -> tuple[Array, Array]:
+        """Through the circulation of the load."""
+        course = replace(self.course, mu_x=wake.mu_x, mu_z=wake.mu_z, lambda0=wake.lambda0, flap_1c=0.0, flap_1s=0.0)
+        matrix = mean_influence(self.line, course) * (math.pi / self.line.blades)
+        gain, slope = np.empty((len(u_t), 1)), np.empty((len(u_t), 1))
+        circulation_gain(np.ascontiguousarray(u_t[:, None]), gain, slope)
+        return matrix * gain.T, matrix * slope.T

@@ -1,0 +1,303 @@
+"""The downwash at every blade element by the circulation of every other, at all azimuths: w = A Γ.
+
+A blade is a lifting line of panels, the blade elements themselves; circulation is that of each panel at each azimuth.
+What changes along the span trails from the panels' edges, what changes in time is shed.
+
+    age 0…30°           a full lattice: trailers at every edge, shed lines, four straight pieces a step
+    to two turns        trailers of groups of panels, each with the mean circulation of its panels, and shed lines
+    beyond, to 8 R      the same trailers in steps of 30°, with the mean circulation around the azimuth
+
+The law of Biot and Savart with the core of Vatistas, n = 2 (Exp. Fluids 11, 1991), of a unit line from A to B:
+
+    4π v = (a × b)(|a| + |b|)(1 − a·b/|a||b|)/√(|a × b|⁴ + c⁴ |AB|⁴)
+
+A blade's own young trailers have no core from µ_x + 0.45 outward, where control points lie midway between smooth
+trailers, and inboard, where the wake passes back over the blade in reverse flow, 0.05; a core of 0.02 there loses the
+tip. All are sums over the targets that see one rotor position: the loops run along them, in single precision.
+"""
+
+import math
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from rotor.aero.disk import stations
+from rotor.aero.lifting_line.geometry import WakeCourse
+from rotor.arrays import Array, Integers, Singles
+from rotor.compiled import compiled
+
+NEAR = math.radians(30.0)
+"""Age to which the lattice is full."""
+PIECES = 4
+"""Straight pieces of a step there: one leaves the blade at a wrong angle."""
+TURNS = 2
+FAR_STEP = math.pi / 6.0
+LENGTH = 8.0
+"""Distance of the wake's end, over R."""
+GROUP = 3
+"""Panels of one strip of the far wake."""
+LEAST_CORE = 0.02
+OWN_CORE, BARE = 0.05, (0.05, 0.45)
+"""Core of a blade's own young trailers, fading from the first to the second radius beyond µ_x."""
+ROOT_CORE, ROOT = 0.08, 0.5
+"""Core of the far trailers inboard of a radius, which come from the root and are no concentrated vortex."""
+SHED_CORE = 0.08
+
+
+@dataclass(frozen=True)
+class Line:
+    """The lifting lines of a rotor."""
+
+    blades: int
+    root: float
+    panels: int
+    azimuths: int
+
+    @cached_property
+    def edges(self) -> Array:
+        """(panels + 1,)"""
+        return stations(self.root, self.panels, fine_tip=True)[0]
+
+    @cached_property
+    def r(self) -> Array:
+        """(panels,)"""
+        return stations(self.root, self.panels, fine_tip=True)[1]
+
+    @property
+    def psi(self) -> Array:
+        """[rad], (azimuths,)"""
+        return 2.0 * math.pi * np.arange(self.azimuths) / self.azimuths
+
+
+@compiled(error_model="numpy", fastmath=True)
+def _sum_lines(targets: Any, ends: Any, core: Any, own: Any, places: Any, shares: Any, first: int, out: Any) -> None:
+    """Add the downwash of unit lines at targets to rows of `out`, (rows, azimuths, targets).
+
+    targets: positions and normals, (6, targets). ends: A and B, (lines, 6). core: c⁴, (lines,), and `own` instead at
+    each target, (targets,), where it is negative. places: row and the two ages in steps of each line's circulation,
+    (lines, 3), the blade being at azimuth `first`; shares: what each of the two has, (lines, 2).
+    """
+    n, m = targets.shape[1], out.shape[1]
+    x, y, z, u, v, w = targets[0], targets[1], targets[2], targets[3], targets[4], targets[5]
+    four = np.empty(n, np.float32)
+    for s in range(len(ends)):
+        ax, ay, az, bx, by, bz = ends[s, 0], ends[s, 1], ends[s, 2], ends[s, 3], ends[s, 4], ends[s, 5]
+        l2 = (ax - bx) * (ax - bx) + (ay - by) * (ay - by) + (az - bz) * (az - bz)
+        l4 = l2 * l2
+        if core[s] < 0.0:
+            for t in range(n):
+                four[t] = own[t] * l4
+        else:
+            for t in range(n):
+                four[t] = core[s] * l4
+        row, one, two = places[s, 0], (first - places[s, 1]) % m, (first - places[s, 2]) % m
+        share, other = shares[s, 0], shares[s, 1]
+        to, also = out[row, one], out[row, two]
+        for t in range(n):
+            dx, dy, dz = x[t] - ax, y[t] - ay, z[t] - az
+            ex, ey, ez = x[t] - bx, y[t] - by, z[t] - bz
+            a2, b2 = dx * dx + dy * dy + dz * dz, ex * ex + ey * ey + ez * ez
+            a, b = math.sqrt(a2 + np.float32(1e-12)), math.sqrt(b2 + np.float32(1e-12))
+            cx, cy, cz = dy * ez - dz * ey, dz * ex - dx * ez, dx * ey - dy * ex
+            c2 = cx * cx + cy * cy + cz * cz
+            # (1 − a·b/|a||b|)(|a| + |b|) = ½(l² − (|a| − |b|)²)(|a| + |b|)/|a||b|, without the loss of digits.
+            near = np.float32(0.5) * (l2 - (a - b) * (a - b)) * (a + b)
+            down = -(cx * u[t] + cy * v[t] + cz * w[t]) * near
+            found = down / (a * b * math.sqrt(c2 * c2 + four[t] + np.float32(1e-20)))
+            to[t] += share * found
+            also[t] += other * found
+
+
+@dataclass(frozen=True, eq=False)
+class WakeLines:
+    """Lines of the wakes of all blades at a course; the row of each is an edge, panel, or one of a strip."""
+
+    ends: Singles
+    """(azimuths, lines, 6)."""
+    core: Singles
+    places: Integers
+    shares: Singles
+    rows: tuple[int, ...]
+    """First rows of: near edges, near panels, bound lines, far edges, far strips, far edges with mean circulation."""
+
+
+def _groups(panels: int) -> Integers:
+    """Edges of the strips of the far wake."""
+    return np.unique(np.r_[0, np.arange(panels, 0, -GROUP)])
+
+
+def _strip_weights(line: Line) -> Array:
+    """By which circulations of panels become those of strips: weighted with r Δr, for the same impulse."""
+    edges = _groups(line.panels)
+    weight = line.r * np.diff(line.edges)
+    out = np.zeros((len(edges) - 1, line.panels))
+    for k, (a, b) in enumerate(pairwise(edges.tolist())):
+        out[k, a:b] = weight[a:b] / weight[a:b].sum()
+    return out
+
+
+def build_wake(line: Line, course: WakeCourse, psi: Array) -> WakeLines:
+    """The lines of the wakes of blades at azimuths psi."""
+    n, step = line.panels, 2.0 * math.pi / line.azimuths
+    near, turns = max(round(NEAR / step), 1), TURNS * line.azimuths
+    picked = _groups(n)
+    strips = len(picked) - 1
+    rows = tuple(np.cumsum([0, n + 1, n, n, strips + 1, strips, strips + 1]).tolist())
+    young = course.nodes(psi, np.arange(near * PIECES + 1) * step / PIECES, line.edges)
+    ages = np.arange(near, turns + 1, dtype=np.float64) * step
+    old = course.nodes(psi, ages, line.edges[picked])
+    begin, end = turns * step, LENGTH / course.speed
+    oldest = np.linspace(begin, max(end, begin + FAR_STEP), max(math.ceil((end - begin) / FAR_STEP), 1) + 1)
+    last = course.nodes(psi, oldest, line.edges[picked])
+    parts = _Parts(len(psi))
+
+    # Trailers and shed lines of the near wake. A piece carries the circulation of its middle.
+    k, later = np.divmod(np.arange(near * PIECES), PIECES)
+    later = (later + 0.5) / PIECES
+    parts.trailers(young, rows[0], -1.0, (k, k + 1), np.stack([1.0 - later, later], axis=1))
+    half = 0.5 * (young[:, 0] + young[:, 1])  # What the first piece sheds, at its middle.
+    parts.across(half[:, None], rows[1], -1.0, ([0], [1]), np.array([[-0.5, 0.5]]) / PIECES)
+    inner = np.arange(1, near * PIECES)
+    whole, where = np.divmod(inner, PIECES)
+    joint = where == 0  # Between two steps: half a piece of either.
+    ones = np.where(joint, whole - 1, whole), whole + 1
+    share = np.where(joint, 0.5, 1.0)[:, None] * np.array([-1.0, 1.0]) / PIECES
+    parts.across(young[:, inner], rows[1], LEAST_CORE**4, ones, share)
+    closing = 0.5 / PIECES
+    parts.across(young[:, -1:], rows[1], LEAST_CORE**4, ([near - 1], [near]), -np.array([[closing, 1.0 - closing]]))
+    parts.across(young[:, :1], rows[2], LEAST_CORE**4, ([0], [0]), np.array([[1.0, 0.0]]))
+
+    # Strips: trailers carry the mean of a step's two ends, what changes from step to step is shed.
+    k = np.arange(near, turns)
+    tip = np.sqrt(course.core[0] + course.core[1] * (k + 0.5) * step)
+    core = np.maximum(tip[:, None], np.where(line.edges[picked] < ROOT, ROOT_CORE, LEAST_CORE)) ** 4
+    parts.trailers(old, rows[3], core, (k, k + 1), np.full((len(k), 2), 0.5))
+    share = np.broadcast_to([-0.5, 0.5], (len(k), 2)).copy()
+    share[0] = 0.5
+    parts.across(old[:, :-1], rows[4], SHED_CORE**4, (np.r_[near, k[1:] - 1], k + 1), share)
+    zero = np.zeros(len(oldest) - 1, dtype=np.int64)
+    one = np.broadcast_to([1.0, 0.0], (len(zero), 2))
+    parts.trailers(last, rows[5], core[-1:], (zero, zero), one)
+    return parts.wake(rows)
+
+
+class _Parts:
+    """Collects lines."""
+
+    def __init__(self, azimuths: int) -> None:
+        self._azimuths = azimuths
+        self._ends, self._core = list[Array](), list[Array]()
+        self._places, self._shares = list[Integers](), list[Array]()
+
+    def trailers(self, nodes: Array, row: int, core: Any, ages: Any, shares: Array) -> None:
+        """Lines from age to age, (azimuths, ages, radii, 3); core: by age and radius."""
+        self._add(nodes[:, :-1], nodes[:, 1:], row, core, ages, shares)
+
+    def across(self, nodes: Array, row: int, core: Any, ages: Any, shares: Array) -> None:
+        """Lines from radius to radius."""
+        self._add(nodes[:, :, :-1], nodes[:, :, 1:], row, core, ages, shares)
+
+    def _add(self, a: Array, b: Array, row: int, core: Any, ages: Any, shares: Array) -> None:
+        old, wide = a.shape[1:3]
+        self._ends.append(np.concatenate([a, b], axis=-1).reshape(self._azimuths, -1, 6))
+        self._core.append(np.broadcast_to(core, (old, wide)).ravel())
+        places = np.empty((old, wide, 3), dtype=np.int64)
+        places[..., 0] = row + np.arange(wide)
+        places[..., 1], places[..., 2] = np.asarray(ages[0])[:, None], np.asarray(ages[1])[:, None]
+        self._places.append(places.reshape(-1, 3))
+        self._shares.append(np.repeat(shares, wide, axis=0))
+
+    def wake(self, rows: tuple[int, ...]) -> WakeLines:
+        """All of them."""
+        single = np.float32
+        return WakeLines(
+            np.concatenate(self._ends, axis=1).astype(single), np.concatenate(self._core).astype(single),
+            np.concatenate(self._places), np.concatenate(self._shares).astype(single), rows,
+        )  # fmt: skip
+
+
+def _by_panels(line: Line, wake: WakeLines, rows: Singles) -> Singles:
+    """From sums by line, (rows, azimuths, targets), to those by panel, (panels, azimuths, targets)."""
+    near_edges, near_panels, bound, edges, strips, mean, end = (*wake.rows,)
+    panels = rows[near_panels:bound] + rows[bound:edges] + np.diff(rows[near_edges:near_panels], axis=0)
+    grouped = rows[strips:mean] + np.diff(rows[edges:strips], axis=0)
+    grouped += np.diff(rows[mean:end].sum(axis=1), axis=0)[:, None] / line.azimuths
+    weights = _strip_weights(line).T.astype(np.float32)
+    return panels + (weights @ grouped.reshape(len(grouped), -1)).reshape(panels.shape)
+
+
+def influence(line: Line, course: WakeCourse) -> Array:
+    """A, (points, points) with points in the order (panel, azimuth): row target, column source.
+
+    Downwash over ΩR along the blade's normal, by circulation over ΩR².
+    """
+    n, m, blades = line.panels, line.azimuths, line.blades
+    wake, own = build_wake(line, course, line.psi), _own_core(line, course)
+    out = np.empty((n, m, n, m))
+    for position in range(m // blades):
+        at = position + m // blades * np.arange(blades)
+        targets = _on_blades(line, course, line.psi[at])
+        found = _seen(line, wake, targets, at, at, np.arange(blades), own)
+        out[:, at] = found.reshape(n, m, blades, n).transpose(3, 2, 0, 1)
+    return out.reshape(n * m, n * m)
+
+
+@lru_cache(maxsize=32)
+def mean_influence(line: Line, course: WakeCourse) -> Array:
+    """The same of circulations that do not change around the azimuth on the blade at azimuth 0, (panels, panels)."""
+    at = line.azimuths // line.blades * np.arange(line.blades)
+    wake, targets = build_wake(line, course, line.psi[at]), _on_blades(line, course, np.zeros(1))
+    order = np.arange(line.blades)
+    return _seen(line, wake, targets, at, order, order[:1], _own_core(line, course)).sum(axis=1).T
+
+
+def at_points(line: Line, course: WakeCourse, points: Array, normals: Array) -> Array:
+    """Downwash over ΩR at fixed points along their normals, by circulation over ΩR².
+
+    points, normals: (targets, 3), in the axes of `geometry`. (positions, targets, points of the line): one value for
+    each position of the rotor until a blade takes the place of the one before; their mean is the mean over time.
+    """
+    m, targets = line.azimuths, np.concatenate([points, normals], axis=1).T.astype(np.float32)
+    wake, core = build_wake(line, course, line.psi), np.full(len(points), LEAST_CORE**4, dtype=np.float32)
+    out = np.empty((m // line.blades, len(points), line.panels * m))
+    for position in range(len(out)):
+        rows = np.zeros((wake.rows[-1], m, len(points)), dtype=np.float32)
+        for place in position + m // line.blades * np.arange(line.blades):
+            _sum_lines(targets, wake.ends[place], wake.core, core, wake.places, wake.shares, int(place), rows)
+        out[position] = _by_panels(line, wake, rows).reshape(-1, len(points)).T / (4.0 * math.pi)
+    return out
+
+
+def _seen(
+    line: Line, wake: WakeLines, targets: Singles, azimuths: Integers, places: Integers, seen: Integers, own: Array
+) -> Singles:  # fmt: skip
+    """Downwash at targets on some blades, (panels, azimuths, targets).
+
+    The blades stand at `azimuths`, their wakes are those at `places` of `wake`; targets lie on the blades `seen`.
+    """
+    n, bound = line.panels, slice(wake.rows[2], wake.rows[3])
+    rows = np.zeros((wake.rows[-1], line.azimuths, targets.shape[1]), dtype=np.float32)
+    for b, (first, place) in enumerate(zip(azimuths.tolist(), places.tolist(), strict=True)):
+        core, on_it = np.full(targets.shape[1], LEAST_CORE**4, dtype=np.float32), np.repeat(seen == b, n)
+        core[on_it] = own[: on_it.sum()]
+        before = rows[bound][:, :, on_it]
+        _sum_lines(targets, wake.ends[place], wake.core, core, wake.places, wake.shares, first, rows)
+        rows[bound][:, :, on_it] = before  # A blade's own bound line has no downwash on it.
+    return _by_panels(line, wake, rows) / (4.0 * math.pi)
+
+
+def _on_blades(line: Line, course: WakeCourse, psi: Array) -> Singles:
+    """Control points and normals of blades at psi, (6, blades × panels)."""
+    beta, cos, sin = course.flapping(psi)[:, None], np.cos(psi)[:, None], np.sin(psi)[:, None]
+    r, one = line.r, np.ones(line.panels)
+    along = [r * cos, r * sin, beta * r, -beta * cos * one, -beta * sin * one, one + 0.0 * cos]
+    return np.array(along, dtype=np.float32).reshape(6, -1)
+
+
+def _own_core(line: Line, course: WakeCourse) -> Array:
+    """c⁴ of a blade's own young trailers at its control points, (panels,)."""
+    y = np.clip((line.r - course.mu_x - BARE[0]) / (BARE[1] - BARE[0]), 0.0, 1.0)
+    return (OWN_CORE * (1.0 - y * y * (3.0 - 2.0 * y))) ** 4

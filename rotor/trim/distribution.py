@@ -1,0 +1,103 @@
+"""Lift, coefficients and flow of one blade along its span and around the disk, in SI units, of a solution."""
+
+import math
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from rotor.aero.problem import LOW_MACH, build_problem, on_azimuths
+from rotor.arrays import Array
+from rotor.design.design import Design
+from rotor.trim.solution import DiskFields, Solution
+
+_SHOWN = (0.25, 0.4, 0.55, 0.7, 0.8, 0.87, 0.92, 0.96, 0.99)
+"""r/R near which rows of the table stand."""
+
+
+@dataclass(frozen=True, eq=False)
+class Distribution:
+    """What one blade carries and meets; arrays are (elements, azimuths) unless said otherwise."""
+
+    r: Array
+    """Element centres y/R, (elements,)."""
+    psi: Array
+    """Azimuth of the blade [rad], 0 over the tail, (azimuths,)."""
+    lift: Array
+    """Force of one blade along the shaft per span [N/m], dF_z/dy: lift, less what drag pulls down. Its mean around the
+    azimuth, times the elements' widths and the number of blades, is the thrust."""
+    cl: Array
+    cm: Array
+    """About the quarter chord, nose up, by the section's own data at `alpha` and `mach`; NaN where they have no
+    moment."""
+    mach: Array
+    """Normal to the quarter chord where the models count the sweep of the tip."""
+    alpha: Array
+    """Angle of attack at the blade's reference line [rad]."""
+    inflow: Array
+    """Induced velocity [m/s], positive down through the disk; the flight's own part along the shaft is not in it."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """What `solve --json --distribution` prints: degrees, lists [r][psi], and None where there is no `cm`."""
+        moments = self.cm.astype(object)
+        moments[np.isnan(self.cm)] = None
+        return {
+            "r": self.r.tolist(),
+            "psi_deg": np.degrees(self.psi).tolist(),
+            "lift_n_per_m": self.lift.tolist(),
+            "cl": self.cl.tolist(),
+            "cm": moments.tolist(),
+            "mach": self.mach.tolist(),
+            "alpha_deg": np.degrees(self.alpha).tolist(),
+            "inflow_m_s": self.inflow.tolist(),
+        }
+
+    def table(self) -> str:
+        """Mean and greatest lift [N/m] at a few radii, and where the blade then is."""
+        lines = [f"{'r/R':>6}{'mean N/m':>10}{'max N/m':>10}{'at ψ':>7}"]
+        for i in dict.fromkeys(int(np.argmin(np.abs(self.r - r))) for r in _SHOWN):
+            lift = self.lift[i]
+            where = f"{math.degrees(self.psi[lift.argmax()]):.0f}°" if np.ptp(lift) > 1e-6 * np.abs(lift).max() else "–"
+            lines.append(f"{self.r[i]:6.3f}{lift.mean():10.0f}{lift.max():10.0f}{where:>7}")
+        return "\n".join(lines)
+
+
+def distribution(solution: Solution) -> Distribution:
+    """Of one blade, on the elements and azimuths of `solution.disk`; in hover the same at all azimuths.
+
+    Raises RuntimeError when the solution did not converge.
+    """
+    design, disk = solution.design, solution.require().disk
+    rotor = design.rotor
+    return Distribution(
+        r=disk.r,
+        psi=disk.psi,
+        lift=disk.dct * (design.thrust_unit / (rotor.blades * rotor.radius)),
+        cl=disk.cl,
+        cm=_moments(design, disk),
+        mach=disk.mach,
+        alpha=disk.alpha,
+        inflow=disk.induced * rotor.tip_speed,
+    )
+
+
+def _moments(design: Design, flow: DiskFields) -> Array:
+    """C_m by section data at the flow of a solution; NaN without data, 0 on elements that carry no load."""
+    problem, blade = on_azimuths(build_problem(design), len(flow.psi)), design.rotor.blade
+    found = np.zeros_like(flow.alpha)
+    for i, r in enumerate(flow.r.tolist()):
+        *names, share = blade.section_at(r)
+        for name, weight in zip(names, (1.0 - share, share), strict=True):
+            if weight > 0.0:
+                found[i] += weight * _moment(design, name, flow.alpha[i], flow.mach[i])
+    if problem.unloaded is not None:
+        found[problem.unloaded & np.isfinite(found)] = 0.0
+    return found
+
+
+def _moment(design: Design, name: str, alpha: Array, mach: Array) -> Array:
+    """C_m of one section of the blade at angles of attack about the blade's reference line, shape of alpha."""
+    section = design.rotor.blade.installed(name)
+    at = mach if design.models.compressibility else np.full_like(mach, LOW_MACH)
+    moment = section.table.moment(alpha - section.incidence_offset, at)
+    return np.full_like(alpha, np.nan) if moment is None else moment

@@ -1,0 +1,182 @@
+"""Uneven elements, and trims on few azimuths that are shown on many: fields, areas, sums, gradients."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose, assert_array_equal
+
+from rotor.aero.disk import stations
+from rotor.aero.display import as_asked, resampling
+from rotor.aero.problem import build_problem
+from rotor.aero.switches import with_switches
+from rotor.design.design import Design
+from rotor.design.twist import LinearTwist
+from rotor.files.make_design import make_design
+from rotor.trim.adjoint import power_gradient
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+from tests.uneven import AZIMUTHS, ELEMENTS, uneven_models
+
+FAST, HEAVY = 0.35, 9500.0
+DEGREE = math.radians(1.0)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def models() -> Iterator[None]:
+    with uneven_models():
+        yield
+
+
+def heavy(inflow: str = "few azimuths", mu: float = FAST) -> Design:
+    return make_design(mu=mu, mass_kg=HEAVY, inflow=inflow)
+
+
+@pytest.fixture(scope="module")
+def few() -> Solution:
+    return solve(heavy()).require()
+
+
+@pytest.fixture(scope="module")
+def many() -> Solution:
+    return solve(heavy("many azimuths")).require()
+
+
+class TestElements:
+    def test_widths_fill_the_blade_and_are_finest_at_the_tip(self):
+        disk = build_problem(heavy()).disk
+        edges, r = stations(disk.root, ELEMENTS, fine_tip=True)
+        assert_allclose(disk.edges, edges, atol=1e-15)
+        assert_array_equal(disk.r, r)
+        assert (np.diff(disk.dr) < 0.0).all()
+        assert (disk.edges[:-1] < disk.r).all()
+        assert (disk.r < disk.edges[1:]).all()
+        assert_allclose(disk.cells.sum() * len(disk.psi), 1.0 - disk.root**2, rtol=1e-14)
+
+    def test_power_is_that_of_a_fine_even_grid(self, few: Solution):
+        design = heavy("pitt-peters")
+        fine = solve(replace(design, models=replace(design.models, elements=320))).require()
+        assert_allclose(few.power.total, fine.power.total, rtol=4e-3)
+        assert_allclose(few.controls.collective, fine.controls.collective, atol=math.radians(0.1))
+
+    @pytest.mark.parametrize("mu", [0.0, 0.25])
+    def test_the_gradient_by_twist_is_the_slope_of_power(self, mu: float):
+        def power(twist_deg: float) -> Solution:
+            return solve(replace(heavy(mu=mu), twist=LinearTwist(math.radians(twist_deg)))).require()
+
+        gradient = power_gradient(power(-10.0))
+        slope = (power(-9.9).power.total - power(-10.1).power.total) / (0.2 * DEGREE)
+        assert_allclose(gradient.along((gradient.r - 0.75)[None])[0], slope, rtol=2e-3)
+        even = power_gradient(solve(replace(heavy("pitt-peters", mu), twist=LinearTwist(-10.0 * DEGREE))))
+        at = np.linspace(0.4, 0.8, 10)  # Another section begins further out.
+        known = np.interp(at, even.r, even.density)
+        assert_allclose(np.interp(at, gradient.r, gradient.density), known, atol=0.06 * np.abs(known).max())
+
+
+class TestResampling:
+    @pytest.mark.parametrize("source", [24, 25])
+    def test_what_the_samples_resolve_is_exact(self, source: int):
+        psi, fine = (2.0 * math.pi * np.arange(n) / n for n in (source, 5 * source))
+        matrix = resampling(source, 5 * source)
+        for wave in range((source + 1) // 2):
+            for function in (np.cos, np.sin):
+                assert_allclose(function(wave * psi) @ matrix, function(wave * fine), atol=1e-13)
+
+    def test_the_samples_stay(self):
+        assert_allclose(resampling(24, 120)[:, ::5], np.eye(24), atol=1e-14)
+
+
+class TestFields:
+    def test_a_trim_on_the_grid_asked_for_is_shown_as_it_is(self, many: Solution):
+        assert many.linear is not None
+        problem, elements = many.linear.problem, many.linear.elements
+        shown = as_asked(problem, elements)
+        assert shown[0] is problem
+        assert shown[1] is elements
+        assert many.disk.alpha is elements.alpha
+
+    def test_all_fields_are_on_the_azimuths_asked_for(self, few: Solution):
+        disk = few.disk
+        for field in fields(disk):
+            if field.name not in ("r", "dr", "psi"):
+                assert getattr(disk, field.name).shape == (ELEMENTS, 120)
+        assert_allclose(disk.psi, 2.0 * math.pi * np.arange(120) / 120)
+
+    def test_at_the_azimuths_of_the_trim_they_are_its_own(self, few: Solution):
+        assert few.linear is not None
+        e, step = few.linear.elements, 120 // AZIMUTHS["few azimuths"]
+        for name in ("theta", "u_t", "u_p", "induced", "alpha", "mach", "cl", "cd"):
+            assert_allclose(getattr(few.disk, name)[:, ::step], getattr(e, name), atol=1e-10)
+        assert_allclose(few.disk.dct[:, ::step], e.fz, atol=1e-12)
+        assert_allclose(few.disk.cd_mach[:, ::step], e.cd_mach, atol=1e-8)
+
+    def test_between_they_are_those_of_a_trim_there(self, few: Solution, many: Solution):
+        for name in ("theta", "u_t", "u_p", "induced", "mach", "dct", "dcq", "elastic_twist"):
+            expected = getattr(many.disk, name)
+            error = np.abs(getattr(few.disk, name) - expected)
+            assert np.quantile(error, 0.99) < 4e-3 * np.abs(expected).max(), name
+        # Not so near the centre of reverse flow, where an angle of attack turns with the last digits of velocities.
+        outside = many.disk.u_t > 0.1
+        assert np.degrees(np.abs(few.disk.alpha - many.disk.alpha)[outside]).max() < 0.3
+
+    def test_no_coefficient_is_interpolated(self, few: Solution):
+        """Every C_l is that of the section at its own α and Mach number, also where the table bends."""
+        blade, disk = few.design.rotor.blade, few.disk
+        inner, outer, _ = blade.section_at(float(disk.r[-4]))
+        assert inner == outer
+        installed = blade.installed(inner)
+        expected = installed.table(disk.alpha[-4] - installed.incidence_offset, disk.mach[-4]).cl
+        assert_allclose(disk.cl[-4], expected, atol=1e-12)
+
+    def test_without_reverse_flow_nothing_is_carried_inside_the_circle(self):
+        disk = solve(with_switches(heavy(), ("reverse_flow",))).require().disk
+        inside = disk.r[:, None] + FAST * np.sin(disk.psi) < 0.0
+        assert inside.any()
+        assert_array_equal(disk.dct[inside], 0.0)
+        assert (disk.dct[~inside] != 0.0).all()
+
+    def test_hover_is_the_same_all_round(self):
+        solution = solve(make_design(hover=True, inflow="few azimuths")).require()
+        assert solution.disk.dct.shape == (ELEMENTS, 120)
+        assert np.ptp(solution.disk.dct, axis=1).max() == 0.0
+        assert solution.elastic is not None
+        assert solution.elastic.tip.shape == (120,)
+        assert_allclose(solution.disk.dr @ solution.disk.dct[:, 0], solution.ct, rtol=1e-12)
+
+
+class TestSums:
+    def test_power_and_thrust_are_those_of_the_trim(self, few: Solution):
+        assert_allclose(few.power.shaft, few.power.main_rotor, rtol=1e-9)
+        assert few.linear is not None
+        disk = few.linear.problem.disk
+        assert_allclose(few.ct, (disk.dr @ few.linear.elements.fz).mean(), rtol=1e-14)
+        assert_allclose((few.disk.dr @ few.disk.dct).mean(), few.ct, rtol=1e-4)
+
+    def test_elastic_twist_and_pitch_links(self, few: Solution, many: Solution):
+        assert few.elastic is not None
+        assert many.elastic is not None
+        assert_allclose(few.elastic.tip, many.elastic.tip, atol=math.radians(0.05))
+        largest = np.ptp(many.elastic.pitch_link_load)
+        assert_allclose(few.elastic.pitch_link_load, many.elastic.pitch_link_load, atol=0.03 * largest)
+        assert_allclose(few.elastic.control_power, many.elastic.control_power, rtol=0.05)
+
+
+class TestAreas:
+    @pytest.mark.parametrize("mu", [0.25, 0.30, 0.31, 0.32, 0.33, 0.34, FAST])
+    def test_reverse_flow_is_the_circle(self, mu: float):
+        """½∫(µ² sin²ψ − r_root²)dψ/π; without the swirl, which widens it."""
+        solution = solve(with_switches(heavy(mu=mu), ("swirl",))).require()
+        along, root = mu * math.cos(solution.controls.shaft_tilt), solution.design.rotor.blade.root_cutout
+        sine = np.sin(np.linspace(0.0, math.pi, 20001))
+        expected = 0.5 * np.maximum((along * sine) ** 2 - root**2, 0.0).mean()
+        assert_allclose(solution.reverse_flow_area, expected, rtol=0.03)
+
+    @pytest.mark.parametrize("mu", [0.1, FAST])
+    def test_stall_is_that_of_a_fine_grid(self, mu: float):
+        design = heavy("pitt-peters", mu)
+        fine = solve(replace(design, models=replace(design.models, elements=320, azimuths=360))).require()
+        coarse = solve(heavy(mu=mu)).require()
+        assert fine.stalled_area > 0.002
+        assert_allclose(coarse.stalled_area, fine.stalled_area, rtol=0.04, atol=2e-4)

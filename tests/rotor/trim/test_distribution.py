@@ -1,0 +1,139 @@
+"""Loads and flow of one blade by radius and azimuth: identities with the solution and with its section data."""
+
+import json
+import math
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import rotor
+from rotor.aero.problem import LOW_MACH, build_problem
+from rotor.trim.distribution import Distribution, distribution
+from rotor.trim.solution import Solution
+
+KEYS = ["r", "psi_deg", "lift_n_per_m", "cl", "cm", "mach", "alpha_deg", "inflow_m_s"]
+
+
+def with_models(design: rotor.Design, **models: object) -> rotor.Design:
+    return replace(design, models=replace(design.models, **models))
+
+
+@pytest.fixture(scope="module")
+def flight() -> Solution:
+    return rotor.solve(with_models(rotor.make_design(mu=0.3), inflow="lifting-line")).require()
+
+
+@pytest.fixture(scope="module")
+def hovering() -> Solution:
+    return rotor.solve(rotor.make_design(hover=True)).require()
+
+
+@pytest.fixture(scope="module")
+def found(flight: Solution) -> Distribution:
+    return distribution(flight)
+
+
+def test_shapes_are_those_of_the_disk(flight: Solution, found: Distribution):
+    assert found.lift.shape == found.cm.shape == (len(found.r), len(found.psi)) == flight.disk.alpha.shape
+    assert_allclose(found.inflow, flight.disk.induced * flight.design.rotor.tip_speed)
+
+
+@pytest.mark.parametrize("which", ["flight", "hovering"])
+def test_lift_of_all_blades_is_the_thrust(which: str, request: pytest.FixtureRequest):
+    solution: Solution = request.getfixturevalue(which)
+    made, head = distribution(solution), solution.design.rotor
+    thrust = head.blades * head.radius * float(solution.disk.dr @ made.lift.mean(axis=1))
+    assert thrust == pytest.approx(solution.ct * solution.design.thrust_unit, rel=1e-3)
+
+
+def test_lift_is_that_of_the_coefficients(flight: Solution, found: Distribution):
+    """½ρ c U (C_l U_T − C_d U_P) of a lifting line, which has no loss factor; near ½ρ U² c C_l where U_P is small."""
+    disk, design = flight.disk, flight.design
+    head = design.rotor
+    chord = build_problem(design).disk.half_solidity[:, None] * 2.0 * math.pi * head.radius / head.blades
+    speed = np.hypot(disk.u_t, disk.u_p)
+    gain = 0.5 * design.condition.density * head.tip_speed**2 * chord
+    exact = gain * speed * (found.cl * disk.u_t - disk.cd * disk.u_p)
+    assert_allclose(found.lift, exact, rtol=1e-12, atol=1e-9)
+    i, j = int(np.argmin(np.abs(disk.r - 0.75))), int(np.argmin(np.abs(disk.psi - 0.5 * math.pi)))
+    assert head.blade.chord(disk.r[i]) == pytest.approx(chord[i, 0], rel=0.02)
+    assert found.lift[i, j] == pytest.approx((gain * speed**2 * found.cl)[i, j], rel=0.01)
+
+
+def blended(solution: Solution, coefficient: Callable[..., np.ndarray]) -> np.ndarray:
+    """A coefficient at the flow of a solution, one element and azimuth at a time."""
+    disk, blade = solution.disk, solution.design.rotor.blade
+    out = np.empty_like(disk.alpha)
+    for i, j in np.ndindex(*out.shape):
+        inner, outer, share = blade.section_at(float(disk.r[i]))
+        values = [
+            coefficient(at.table, disk.alpha[i, j] - at.incidence_offset, disk.mach[i, j])
+            for at in (blade.installed(inner), blade.installed(outer))
+        ]
+        out[i, j] = (1.0 - share) * values[0] + share * values[1]
+    return out
+
+
+def test_coefficients_are_those_of_the_section_data(flight: Solution, found: Distribution):
+    """The same look-up gives the solution's own C_l, so C_m is at the right angle and Mach number."""
+    assert_allclose(found.cl, blended(flight, lambda table, alpha, mach: table(alpha, mach).cl), atol=1e-9)
+    assert_allclose(found.cm, blended(flight, lambda table, alpha, mach: table.moment(alpha, mach)), atol=1e-12)
+    assert -0.1 < found.cm[found.r > 0.5].mean() < 0.0
+
+
+def test_sections_without_moments_have_none():
+    made = distribution(rotor.solve(rotor.make_design(preset="thesis", mu=0.2)).require())
+    assert np.isnan(made.cm).all()
+    record = json.loads(json.dumps(made.to_dict(), allow_nan=False))
+    assert record["cm"][3][5] is None
+    assert record["cl"][3][5] is not None
+
+
+def test_models_that_are_switched_off(flight: Solution):
+    """Without reverse flow there is no load, hence no moment, inside its circle; one Mach number for all sections."""
+    design = flight.design
+    solution = rotor.solve(with_models(design, reverse_flow=False, compressibility=False)).require()
+    made, inside = distribution(solution), solution.disk.r[:, None] + 0.3 * np.sin(solution.disk.psi) < 0.0
+    for field in (made.lift, made.cl, made.cm):
+        assert (field[inside] == 0.0).all()
+    table = design.rotor.blade.installed("sc1095").table
+    k = int(np.argmin(np.abs(made.r - 0.95)))
+    there = table.moment(made.alpha[k], LOW_MACH)
+    assert there is not None
+    assert_allclose(made.cm[k], there, atol=1e-12)
+
+
+def test_record(flight: Solution, found: Distribution):
+    record = json.loads(json.dumps(found.to_dict(), allow_nan=False))
+    assert list(record) == KEYS
+    for key in KEYS[2:]:
+        assert np.shape(record[key]) == found.lift.shape
+    assert_allclose(record["alpha_deg"], np.degrees(flight.disk.alpha))
+    assert record["psi_deg"][0] == 0.0
+
+
+def test_hover_is_the_same_at_all_azimuths(hovering: Solution):
+    made = distribution(hovering)
+    assert made.lift.shape == hovering.disk.alpha.shape
+    for field in (made.lift, made.cm, made.inflow):
+        assert (np.ptp(field, axis=1) < 1e-12 * np.abs(field).max()).all()
+    assert "–" in made.table()
+
+
+def test_table(found: Distribution):
+    rows = [line.split() for line in found.table().splitlines()[1:]]
+    assert 6 <= len(rows) <= 9
+    for r, mean, most, where in rows:
+        i = int(np.argmin(np.abs(found.r - float(r))))
+        assert float(mean) == pytest.approx(found.lift[i].mean(), abs=0.6)
+        assert float(most) == pytest.approx(found.lift[i].max(), abs=0.6)
+        at = int(np.argmin(np.abs(np.degrees(found.psi) - float(where.rstrip("°")))))
+        assert found.lift[i, at] == found.lift[i].max()
+
+
+def test_a_design_that_does_not_trim_has_none():
+    with pytest.raises(RuntimeError):
+        distribution(rotor.solve(rotor.make_design(mu=0.5, mass_kg=11_000)))

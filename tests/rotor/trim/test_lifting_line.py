@@ -1,0 +1,183 @@
+"""Trims with the lifting line: converged on its grid, one answer from any start, exact gradient, no step to hover."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from rotor.aero.elements import disk_sums
+from rotor.aero.inflow import INFLOW_MODELS
+from rotor.aero.inflow.lifting_line import LiftingLineInflow
+from rotor.design.design import Design
+from rotor.files.make_design import make_design
+from rotor.optimisation.search import optimise
+from rotor.trim.adjoint import power_gradient
+from rotor.trim.forward import trim
+from rotor.trim.low_speed import trim_problem
+from rotor.trim.power import power_budget
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+from rotor.trim.wake_course import along
+
+
+def line(mu: float, twist: str = "linear:-12", mass: float = 1.0, blades: int = 4, **models: Any) -> Design:
+    """A UH-60A with the lifting line; mass: as a part of its own; blades: of the same solidity."""
+    design = make_design(mu=mu, twist=twist)
+    blade = design.rotor.blade
+    if blades != design.rotor.blades:
+        share = design.rotor.blades / blades
+        blade = replace(blade, chords=tuple(share * chord for chord in blade.chords))
+        rotor = replace(design.rotor, blade=blade, blades=blades)
+        design = replace(design, rotor=rotor)
+    condition = replace(design.condition, mass=mass * design.condition.mass)
+    return replace(design, condition=condition, models=replace(design.models, **{"inflow": "lifting-line"} | models))
+
+
+@pytest.fixture
+def panels() -> Iterator[type[LiftingLineInflow]]:
+    """Put another grid in the place of the model's own; it is restored afterwards."""
+    own = INFLOW_MODELS["lifting-line"]
+
+    yield LiftingLineInflow
+    INFLOW_MODELS["lifting-line"] = own
+
+
+def by_linear_twist(solution: Solution) -> float:
+    """dP/dθ_1 [W/deg], the tip against the root."""
+    gradient = power_gradient(solution)
+    return float(gradient.along((gradient.r - 0.75)[None, :])[0]) * math.radians(1.0)
+
+
+def best_linear(mu: float, **models: Any) -> float:
+    """The linear twist of least power [deg], by secants on the gradient."""
+    one, other = -12.0, -14.0
+    start = solve(line(mu, f"linear:{one}", **models))
+    slope, more = by_linear_twist(start), by_linear_twist(solve(line(mu, f"linear:{other}", **models), start))
+    for _ in range(4):
+        one, other, slope = other, other - more * (other - one) / (more - slope), more
+        more = by_linear_twist(solve(line(mu, f"linear:{other:.6f}", **models), start))
+    return other
+
+
+def near_the_tip(solution: Solution) -> float:
+    """dC_T/dr at 0.99 R, mean around the azimuth."""
+    return float(np.interp(0.99, solution.disk.r, solution.disk.dct.mean(axis=1)))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("mu", "power"), [(0.2, 1e-3), (0.3, 3.5e-3)])
+def test_twice_the_panels_change_little(mu: float, power: float, panels: type[LiftingLineInflow]):
+    """24 → 48: the targets of the model; Richardson's estimate of what remains is half as much."""
+    coarse, best = solve(line(mu, elastic_twist=False)), best_linear(mu, elastic_twist=False)
+    INFLOW_MODELS["lifting-line"] = panels(panels=48)
+    fine = solve(line(mu, elastic_twist=False))
+    assert coarse.power.total == pytest.approx(fine.power.total, rel=power)
+    assert near_the_tip(coarse) == pytest.approx(near_the_tip(fine), rel=0.04)
+    assert best == pytest.approx(best_linear(mu, elastic_twist=False), abs=0.3)
+
+
+def test_lift_falls_towards_the_tip():
+    """As a lifting line of finite blades must; the last panel carries less than half of the most loaded one."""
+    load = solve(line(0.2)).disk.dct.mean(axis=1)
+    outboard = load[np.argmax(load) :]
+    assert (np.diff(outboard) < 0.0).all()
+    assert load[-1] < 0.5 * load.max()
+
+
+@pytest.mark.parametrize(("mu", "most"), [(0.2, 0.105), (0.3, 0.25)])
+def test_where_to_twist_is_no_saw_tooth(mu: float, most: float):
+    """Deviation of the sensitivity from the mean of its neighbours, over its size; the change of section stays."""
+    found = power_gradient(solve(line(mu, elastic_twist=False)))
+    density, between = found.density, (found.r > 0.5) & (found.r < 0.995)
+    off = np.pad(density[1:-1] - 0.5 * (density[:-2] + density[2:]), 1)
+    assert math.sqrt((off[between] ** 2).mean() / (density[between] ** 2).mean()) <= most
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("mu", [0.2, 0.3])
+def test_the_outboard_rate_of_three_segments_is_the_same_from_any_start(mu: float):
+    found = [optimise(line(mu, elastic_twist=False), "three-segment-free", starts=1, seed=k) for k in range(6)]
+    rates = [float(each.twist.spec().split("@")[0].split(",")[2]) for each in found]
+    assert np.ptp(rates) < 0.5
+
+
+@pytest.mark.parametrize(
+    ("mu", "twist"), [(0.02, -14.0), (0.07, -8.0), (0.1, -14.0), (0.2, -8.0), (0.3, -14.0), (0.35, -10.0)]
+)
+def test_gradient_against_differences(mu: float, twist: float):
+    start, step = solve(line(mu, f"linear:{twist}")), 0.01
+    ends = [solve(line(mu, f"linear:{twist + side}"), start).power.total for side in (step, -step)]
+    assert by_linear_twist(start) == pytest.approx((ends[0] - ends[1]) / (2.0 * step), rel=2e-5, abs=0.05)
+
+
+@pytest.mark.parametrize("blades", [2, 3, 5, 7])
+def test_any_number_of_blades(blades: int):
+    """Same solidity: the fewer the blades, the larger the loss at their tips."""
+    found, usual = solve(line(0.2, blades=blades, elastic_twist=False)), solve(line(0.2, elastic_twist=False))
+    assert found.converged
+    assert (found.power.induced > usual.power.induced) == (blades < 4)
+
+
+@pytest.mark.parametrize("mu", [0.05, 0.2, 0.35])
+def test_a_start_does_not_change_the_answer(mu: float):
+    cold, warm = solve(line(mu)), solve(line(mu), solve(line(mu, "linear:-9")))
+    assert warm.power.total == pytest.approx(cold.power.total, rel=1e-8)
+
+
+@pytest.mark.parametrize("mu", [0.12, 0.2, 0.3, 0.35])
+@pytest.mark.parametrize("twist", ["linear:-16", "linear:-12", "linear:-8"])
+def test_the_wake_along_the_trim_found_changes_little(mu: float, twist: str):
+    """The wake lies along the trim of the blade as built with linear inflow; laid again, power moves by this much."""
+    problem = trim_problem(line(mu, twist))
+    first = trim(problem)
+    again = trim(replace(problem, course=along(first, problem.course)))
+    elements = [found.linear.elements for found in (first, again)]
+    powers = [power_budget(problem, e, disk_sums(problem.disk, e)).total for e in elements]
+    assert powers[1] == pytest.approx(powers[0], rel=2e-3)
+
+
+def test_power_and_slope_pass_over_to_hover():
+    """No step: from µ = 0 on they leave hover as steadily as they go on."""
+    advance = [0.0, 0.002, 0.004, 0.006]
+    found = [solve(line(mu)) for mu in advance]
+    power, slope = [each.power.total for each in found], [by_linear_twist(each) for each in found]
+    for values, most in ((power, 3e-3 * power[0]), (slope, 0.15e3)):
+        steps = np.diff(values)
+        assert abs(steps[0]) < most
+        assert abs(steps[0]) < 1.5 * np.abs(steps[1:]).max()
+
+
+def test_power_falls_steadily_from_hover():
+    power = [solve(line(mu)).power.main_rotor for mu in np.arange(0.01, 0.13, 0.01)]
+    assert (np.diff(power) < 0.0).all()
+    assert (np.abs(np.diff(power, 2)) < 0.02 * power[0]).all()
+
+
+@pytest.mark.slow
+def test_attached_and_stalled_designs_trim():
+    """118 of 120 at least; smoothing stays where it is needed, and power differs little where it is not."""
+    converged, smoothed = 0, 0
+    for mu in (0.1, 0.15, 0.2, 0.25, 0.3, 0.35):
+        for twist in (0, -6, -12, -18, -24):
+            for mass in (0.8, 0.9, 1.0, 1.15):
+                found = solve(line(mu, f"linear:{twist}", mass))
+                converged += found.converged
+                nodes = found.linear.point.system.nodes if found.linear else None
+                smoothed += nodes is not None and nodes.smoothing is not None
+    assert converged >= 118
+    assert smoothed <= 6
+
+
+@pytest.mark.slow
+def test_random_designs_trim():
+    """98 % at least."""
+    random, converged = np.random.default_rng(1), 0
+    for _ in range(500):
+        rates, inner = random.uniform(-24.0, 2.0, 3), random.uniform(0.25, 0.9)
+        outer = min(inner + random.uniform(0.03, 0.5), 0.97)
+        twist = f"segments:{rates[0]:.2f},{rates[1]:.2f},{rates[2]:.2f}@{inner:.3f},{outer:.3f}"
+        converged += solve(line(random.uniform(0.06, 0.38), twist, random.uniform(0.7, 1.1))).converged
+    assert converged >= 490
