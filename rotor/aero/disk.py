@@ -7,7 +7,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.airfoil.bicubic import MACH_STEP, N_MACH
+from rotor.airfoil.bicubic import MACH_STEP, N_MACH, held_beyond_peak
 from rotor.arrays import Array
 from rotor.design.blade import Rotor
 
@@ -37,6 +37,8 @@ class Disk:
     """Angle by which the chord lines of the two are nose-down of the blade's reference line [rad], (elements, 2)."""
     tables: Array
     """Section coefficients, (sections, α cells, Mach cells, 2, 4, 4)."""
+    held: Array
+    """Those of the circulation of a lifting line, `bicubic.held_beyond_peak`; no sections where there is none."""
     cos_sweep: Array
     """Cosine and sine of the sweep of the quarter chord, (elements,): of the Mach number normal to it."""
     sin_sweep: Array
@@ -64,10 +66,11 @@ class Disk:
         return np.diff(self.edges**2) / len(self.psi)
 
     @property
-    def section_data(self) -> tuple[Array, NDArray[np.int64], Array, Array, Array, Array, Array]:
+    def section_data(self) -> tuple[Array, NDArray[np.int64], Array, Array, Array, Array, Array, Array]:
         """What the loads of the blade elements need beside velocities."""
         return (
-            self.half_solidity, self.section, self.weight, self.offset, self.tables, self.cos_sweep, self.sin_sweep
+            self.half_solidity, self.section, self.weight, self.offset, self.tables, self.held, self.cos_sweep,
+            self.sin_sweep,
         )  # fmt: skip
 
 
@@ -148,6 +151,7 @@ def build_disk(
         weight=weight,
         offset=offset,
         tables=coefficients,
+        held=np.stack([held_beyond_peak(each) for each in coefficients]) if fine_tip else coefficients[:0],
         cos_sweep=np.cos(sweep),
         sin_sweep=np.sin(sweep),
         stall=np.stack([table.stall_alpha(mach) for table in tables]),

@@ -55,6 +55,8 @@ class SectionData(NamedTuple):
     """Angle by which the chord lines of the two are nose-down of the blade's reference line [rad], (elements, 2)."""
     tables: Array
     """C_l and C_d, (sections, α cells, Mach cells, 2, 4, 4)."""
+    held: Array
+    """Those of the circulation of a lifting line, shaped alike, see `rotor.aero.inflow.lifting_line`."""
     cos_sweep: Array
     sin_sweep: Array
     tip_mach: float

@@ -8,6 +8,7 @@ everywhere, periodic in alpha, without overshoot, and reproduces every deck valu
 from collections.abc import Callable
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
 
 from rotor.airfoil.c81 import C81Block
@@ -66,15 +67,47 @@ def bicubic_coefficients(block: C81Block) -> Array:
     f, f_u = _nodes_along_alpha(block)
     f, f_v = _along_mach(block.mach, f)
     f_u, f_uv = _along_mach(block.mach, f_u)
-    corners = np.empty((N_ALPHA, N_MACH, 4, 4), dtype=np.float64)
+    return _cells(f, f_u, f_v, f_uv)
+
+
+def _cells(f: Array, f_u: Array, f_v: Array, f_uv: Array) -> Array:
+    """Cell polynomials of the surface with these values and slopes per cell at its nodes, (α nodes, Mach nodes, …)."""
+    corners = np.empty((N_ALPHA, N_MACH, *f.shape[2:], 4, 4))
     for row, (of_value, of_slope) in enumerate(((f, f_v), (f, f_v), (f_u, f_uv), (f_u, f_uv))):
         upper = row % 2  # Rows: values at i, at i + 1, slopes at i, at i + 1; columns the same along Mach.
         rows = slice(upper, upper + N_ALPHA)
-        corners[:, :, row, 0], corners[:, :, row, 1] = of_value[rows, :-1], of_value[rows, 1:]
-        corners[:, :, row, 2], corners[:, :, row, 3] = of_slope[rows, :-1], of_slope[rows, 1:]
+        corners[..., row, 0], corners[..., row, 1] = of_value[rows, :-1], of_value[rows, 1:]
+        corners[..., row, 2], corners[..., row, 3] = of_slope[rows, :-1], of_slope[rows, 1:]
     return np.matmul(np.matmul(_HERMITE, corners), _HERMITE.T)
 
 
 def stack_coefficients(cl: Array, cd: Array) -> Array:
     """Lift and drag cell polynomials side by side, C-contiguous, in the layout of `SectionTable`."""
     return np.ascontiguousarray(np.stack((cl, cd), axis=2))
+
+
+def held_beyond_peak(coefficients: Array) -> Array:
+    """Lift and drag that keep, beyond the largest lift, what they have there; in the layout of `SectionTable`.
+
+    From 0 outwards on both sides they go on only where lift exceeds all before (below 0: falls below it). So lift never
+    falls as the angle grows, and up to its first peak nothing changes.
+    """
+    last = coefficients[:, -1]  # Its end is where the Mach number is 1.
+    at_end = np.stack([last.sum(axis=-1), last @ np.arange(4.0)], axis=-1)
+    nodes = np.concatenate([coefficients[..., :2], at_end[:, None]], axis=1)[:, :, :, :2]
+    nodes = np.concatenate([nodes, nodes[:1]])  # Values and slopes, (α, Mach number, coefficient, by α, by Mach).
+    lift, zero = nodes[:, :, 0, 0, 0], N_ALPHA // 2
+    place = np.empty(lift.shape, dtype=np.int64)
+    place[zero:] = zero + _last_record(lift[zero:])
+    place[zero::-1] = zero - _last_record(-lift[zero::-1])
+    held = np.take_along_axis(nodes, place[:, :, None, None, None], axis=0)
+    own = place == np.arange(N_ALPHA + 1)[:, None]
+    held[~(own & np.roll(own, 1, axis=0) & np.roll(own, -1, axis=0)), :, 1] = 0.0  # Level from end to end.
+    return np.ascontiguousarray(_cells(held[..., 0, 0], held[..., 1, 0], held[..., 0, 1], held[..., 1, 1]))
+
+
+def _last_record(values: Array) -> NDArray[np.int64]:
+    """For every row, the last one up to it that exceeds all before, column by column."""
+    best = np.maximum.accumulate(values, axis=0)
+    new = np.concatenate([np.full((1, values.shape[1]), True), values[1:] > best[:-1]])
+    return np.maximum.accumulate(np.where(new, np.arange(len(values))[:, None], 0), axis=0)

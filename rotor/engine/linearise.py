@@ -43,18 +43,10 @@ class Nodes:
     """Of y − f."""
     limit: float
     """Largest step of y."""
-    smoothing: Array | None = None
-    """ε of y − f − ε (y_above − 2 y + y_below), by the neighbours along the blade, (elements, azimuths)."""
 
     def field(self, y: Array) -> Array:
         """A y, (points,)."""
         return self.matrix @ y
-
-    def smoothed(self, y: Array) -> Array:
-        """ε (y_above − 2 y + y_below), with zero beyond both ends, (elements, azimuths) like y."""
-        assert self.smoothing is not None
-        wide = np.pad(y, ((1, 1), (0, 0)))
-        return self.smoothing * (wide[2:] - 2.0 * y + wide[:-2])
 
 
 class Shapes:
@@ -169,8 +161,6 @@ def evaluate(system: System, grid: Grid, x: Array, *, slopes: bool = False, flow
     residual = structure.residual.value(z, q)
     if nodes is not None:
         missing = y.reshape(channels.shape[1:]) - forces[nodes.force]
-        if nodes.smoothing is not None:
-            missing -= nodes.smoothed(y.reshape(missing.shape))
         residual = np.concatenate([residual, missing.ravel()])
     return Point(system, grid, x, z, by_roots, phi, channels, forces, found, s, q, residual)
 
@@ -271,19 +261,7 @@ def jacobian(point: Point, further: Terms | None = None) -> tuple[Array, Array]:
     full[size:, :size] = -_field_slopes(point, nodes.force)
     np.multiply(nodes.matrix, -by_channel[:, None], out=full[size:, size:])
     full[range(size, size + points), range(size, size + points)] += 1.0
-    if nodes.smoothing is not None:
-        _add_smoothing(full[size:, size:], nodes.smoothing)
     return full, np.concatenate([other, through[size:]], axis=1)
-
-
-def _add_smoothing(matrix: Array, smoothing: Array) -> None:
-    """Derivatives of −ε (y_above − 2 y + y_below), in place."""
-    n, m = smoothing.shape
-    along = smoothing.ravel()
-    every = np.arange(n * m, dtype=np.int64)
-    matrix[every, every] += 2.0 * along
-    matrix[every[m:], every[:-m]] -= along[m:]
-    matrix[every[:-m], every[m:]] -= along[:-m]
 
 
 def _force_slope(point: Point, force: int, channel: int) -> Array:
@@ -436,9 +414,6 @@ def transposed(point: Point, v: Array, measure: Measure | None = None) -> tuple[
         if measure.nodes is not None:
             field += measure.nodes
         by_nodes = on_nodes + field.ravel() @ nodes.matrix
-        if nodes.smoothing is not None:
-            weighted = np.pad(nodes.smoothing * on_nodes.reshape(shape), ((1, 1), (0, 0)))
-            by_nodes -= (weighted[2:] - 2.0 * weighted[1:-1] + weighted[:-2]).ravel()
         by_free = np.concatenate([by_free, by_nodes])
     return by_free, by_element
 

@@ -1,14 +1,14 @@
 """The trim of a problem from a guess, and whether it is accepted."""
 
 from collections.abc import Callable, Hashable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 
 from rotor.aero.elements import STATE_NAMES, BladeElements, TrimState
 from rotor.aero.problem import Problem
-from rotor.aero.section import FZ, PAIRS, UP, UT
+from rotor.aero.section import FZ
 from rotor.arrays import Array
 from rotor.columns.flight import SystemTolerances, elements_of, flight_system, parts_of, state_of
 from rotor.columns.hover import hover_elements
@@ -164,16 +164,7 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
     if system.nodes is not None:
         most_steps, kept_ratio = options.most_old_steps_of_nodes, options.kept_ratio_of_nodes
     limits = NewtonLimits(options.max_passes, most_steps, most_on_few, kept_ratio, options.pause)
-    result = _ended(problem, solve(system, first_point(problem, system, start), factors, limits), options)
-    if result.converged or system.nodes is None or options.max_passes <= 1:
-        return result
-    smoothed = replace(system, nodes=replace(system.nodes, smoothing=_stalled_nodes(result.point)))
-    again = _ended(problem, solve(smoothed, result.point.x, None, limits), options)
-    passes = result.passes + again.passes
-    if not again.converged:
-        return replace(result, passes=passes)
-    sharp = _ended(problem, solve(system, again.point.x, again.factors, limits), options)
-    return replace(sharp if sharp.converged else again, passes=passes + sharp.passes)
+    return _ended(problem, solve(system, first_point(problem, system, start), factors, limits), options)
 
 
 def _ended(problem: Problem, found: Solved, options: SolverOptions) -> TrimResult:
@@ -182,21 +173,6 @@ def _ended(problem: Problem, found: Solved, options: SolverOptions) -> TrimResul
     accepted = max(residual, twisting) <= options.accepted_residual and difference <= options.accepted_inflow
     converged = found.point.size <= 1.0 or accepted
     return TrimResult(problem, found.point, residual, converged, found.passes, factors=found.factors)
-
-
-def _stalled_nodes(point: Point) -> Array:
-    """1 at the panels where lift falls with the angle of attack, and at their neighbours, (elements, azimuths).
-
-    A lifting line has several solutions there, from panel to panel; smoothed, it has one.
-    """
-    if not point.slopes.shape[1]:
-        point = evaluate(point.system, point.grid, point.x, slopes=True)
-    by_inflow = point.slopes[PAIRS.index((FZ, UP))]
-    stalled = (by_inflow > 0.05 * np.median(by_inflow)) & (point.channels[UT] > 0.05)
-    wide = stalled | np.roll(stalled, 1, axis=1) | np.roll(stalled, -1, axis=1)
-    wide[1:] |= wide[:-1].copy()
-    wide[:-1] |= wide[1:].copy()
-    return wide.astype(float)
 
 
 def first_point(problem: Problem, system: System, start: Guess) -> Array:

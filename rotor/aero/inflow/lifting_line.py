@@ -18,7 +18,7 @@ from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import Followed, SectionInterface, Wake
 from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.lifting_line.influence import Line, influence, mean_influence
-from rotor.aero.section import CHANNELS, FORCES, FZ, PAIRS, UP, UT, section
+from rotor.aero.section import CHANNELS, FORCES, FZ, NO_MOMENT, PAIRS, UP, UT, SectionData, section
 from rotor.arrays import Array
 from rotor.compiled import compiled
 from rotor.design.design import Models
@@ -47,18 +47,22 @@ def circulation_gain(u_t: Any, gain: Any, slope: Any) -> None:
                 gain[i, j], slope[i, j] = t / SLOWEST**2, 1.0 / SLOWEST**2
 
 
+_RIGID = dict(zip(SectionData._fields[-len(NO_MOMENT) :], NO_MOMENT, strict=True))
+
+
 def _line_section(c: Array, data: Any, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
     """The section with its circulation; as `section.section`, with the rows of `LINE_PAIRS`."""
     f, d, s = section(c, data, slopes, flow)
+    held, by_held, _ = section(c, data._replace(tables=data.held, friction=0.0, **_RIGID), slopes, False)
     gain, by_speed = np.empty_like(c[UT]), np.empty_like(c[UT])
     circulation_gain(c[UT], gain, by_speed)
-    f = np.concatenate([f, (gain * f[FZ])[None]])
+    f = np.concatenate([f, (gain * held[FZ])[None]])
     if slopes:
         own = np.zeros((len(_LIFTED), *gain.shape))
         for k, channel in enumerate(_LIFTED):
             if channel < len(CHANNELS) - 2 or data.lossy:  # Derivatives by F are undefined where it is 1.
-                own[k] = gain * d[PAIRS.index((FZ, channel))]
-        own[_LIFTED.index(UT)] += by_speed * f[FZ]
+                own[k] = gain * by_held[PAIRS.index((FZ, channel))]
+        own[_LIFTED.index(UT)] += by_speed * held[FZ]
         d = np.concatenate([d, own])
     return f, d, s
 
