@@ -25,7 +25,7 @@ HASTE = 0.08
 """[s] that such a sweep may take once a slider has moved; if it needs longer, frames come first."""
 _FEW = (0, 1, 3, 6, 9, 12, 15, 18)
 """Places in `SWEEP` computed first; a smooth line joins them where time is short."""
-_FEWEST = (0, 6, 12, 18)
+_FEWEST = (0, 6, 12, 15, 18)
 """The same where the curve of a design much like it is known: the line then joins the differences from it."""
 _KEPT = 200
 """Curves remembered per session."""

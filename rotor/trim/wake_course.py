@@ -11,7 +11,7 @@ from functools import lru_cache
 
 from rotor.aero.inflow.lifting_line import LiftingLineInflow
 from rotor.aero.lifting_line.geometry import WakeCourse
-from rotor.aero.problem import Problem
+from rotor.aero.problem import Problem, in_disk_axes
 from rotor.design.design import Design
 from rotor.trim.forward import linear_problem, trim
 from rotor.trim.newton import TrimResult
@@ -61,9 +61,17 @@ def _course(design: Design) -> WakeCourse | None:
 
 
 def along(found: TrimResult, course: WakeCourse) -> WakeCourse:
-    """The course along a trim."""
-    flow, state = found.linear.elements.flow, found.state
+    """The course along a trim.
+
+    The thesis' trim leaves µ sin α out of U_P, and its α is that of the disk, not of the shaft, from which the blades
+    flap. Its wake still lies below the disk that carries weight and drag: with µ_z = 0 it would stay among the blades.
+    """
+    problem, state, flow = found.problem, found.state, found.linear.elements.flow
+    design, tilt = problem.design, state.shaft_tilt
+    if not design.models.disk_axial_flow:
+        tilt -= state.flap_1c
+    mu_x, mu_z = in_disk_axes(design.condition.advance_ratio, problem.climb, tilt)
     return replace(
-        course, mu_x=flow.mu_x, mu_z=flow.mu_z, lambda0=flow.lambda0, coning=state.coning, flap_1c=state.flap_1c,
+        course, mu_x=mu_x, mu_z=mu_z, lambda0=flow.lambda0, coning=state.coning, flap_1c=state.flap_1c,
         flap_1s=state.flap_1s,
     )  # fmt: skip

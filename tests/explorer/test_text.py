@@ -268,7 +268,7 @@ class TestPowerCurves:
         assert_allclose(fine[k], solve(design.at(mu=0.175)).power.total / 1e3, rtol=1e-6)
 
     @pytest.mark.slow
-    def test_beside_a_known_curve_four_points_do(self, monkeypatch: pytest.MonkeyPatch):
+    def test_beside_a_known_curve_five_points_do(self, monkeypatch: pytest.MonkeyPatch):
         asked: list[float] = []
 
         def counting(design: Design, start: Solution | None) -> Solution:
@@ -281,7 +281,7 @@ class TestPowerCurves:
         monkeypatch.setattr("explorer.charts.power_curve.PATIENCE", 0.0)
         monkeypatch.setattr("explorer.charts.power_curve.solve", counting)
         curves.sweep(second, second, lambda: True)
-        assert asked == [0.0, 0.15, 0.3, 0.45]
+        assert asked == [0.0, 0.15, 0.3, 0.375, 0.45]
         coarse = curves.known(second, second).design
         curves.sweep(second, second, lambda: False)
         assert_allclose(coarse, curves.known(second, second).design, rtol=0.01)

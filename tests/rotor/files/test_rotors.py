@@ -28,6 +28,14 @@ def at(design: Design, advance_ratio: float, inflow: str | None = None) -> Desig
     return replace(design, condition=replace(design.condition, advance_ratio=advance_ratio), models=models)
 
 
+TRIMMABLE = 0.08
+"""C_W/σ up to which flights faster than µ 0.25 must trim, see `tests/rotor/trim/test_robustness.py`."""
+
+
+def blade_loading(design: Design) -> float:
+    return design.weight_coefficient / design.rotor.solidity
+
+
 def own(key: str) -> dict[str, str]:
     """A shipped rotor's file as if it were a user's."""
     return {"my.toml": asset_path(f"{key}.toml").read_text(encoding="utf-8")}
@@ -87,7 +95,8 @@ def test_trims_over_the_flight_envelope(key: str, preset: str):
                     design.condition, mass=mass * design.condition.mass, altitude=altitude, advance_ratio=mu
                 )
                 solution = solve(replace(design, condition=condition))
-                assert solution.converged, f"{key} {preset} {mass} {altitude} {mu}: {solution.message}"
+                beyond = mu > 0.25 and blade_loading(solution.design) > TRIMMABLE
+                assert solution.converged or beyond, f"{key} {preset} {mass} {altitude} {mu}: {solution.message}"
 
 
 def test_the_thesis_preset_on_another_rotor_has_a_caveat():
