@@ -10,7 +10,8 @@ import pytest
 
 from rotor.aero.elements import disk_sums
 from rotor.aero.inflow import INFLOW_MODELS
-from rotor.aero.inflow.lifting_line import LiftingLineInflow
+from rotor.aero.inflow.lifting_line import CIRCULATION, LINE_PAIRS, LiftingLineInflow
+from rotor.aero.section import UP, UT
 from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.optimisation.search import optimise
@@ -154,6 +155,38 @@ def test_power_falls_steadily_from_hover():
     power = [solve(line(mu)).power.main_rotor for mu in np.arange(0.01, 0.13, 0.01)]
     assert (np.diff(power) < 0.0).all()
     assert (np.abs(np.diff(power, 2)) < 0.02 * power[0]).all()
+
+
+@pytest.mark.parametrize("mu", [0.05, 0.2, 0.3, 0.4])
+def test_a_wake_has_one_circulation(mu: float):
+    """A + 1/k is positive definite in the norm of the energy, k = −∂Γ/∂λ: with lift slopes up to 15 of any sections."""
+    found = solve(line(mu))
+    assert found.linear is not None
+    point, disk = found.linear.point, found.linear.problem.disk
+    nodes = point.system.nodes
+    assert nodes is not None
+    weight = np.repeat(np.sqrt(disk.dr), disk.shape[1])
+    wake = weight[:, None] * nodes.matrix / weight
+    fall = np.where(point.channels[UT] > 0.0, 15.0 * disk.half_solidity[:, None], 1e-9).ravel()
+    assert np.linalg.eigvalsh(0.5 * (wake + wake.T) + np.diag(1.0 / fall))[0] > 0.5
+    by_inflow = point.slopes[LINE_PAIRS.index((CIRCULATION, UP))]
+    assert (-by_inflow.ravel() < fall)[point.channels[UT].ravel() > 0.1].all()
+    assert by_inflow.max() < 0.02  # Where lift is held, what grows is U.
+
+
+@pytest.mark.slow
+def test_stalled_designs_have_one_trim():
+    """From two starts the same power, up to a fifth of the disk stalled: random twists, weights and speeds."""
+    random, stalled, trimmed = np.random.default_rng(5), 0, 0
+    for _ in range(60):
+        mu, twist, mass = random.uniform(0.0005, 0.4), random.uniform(-24.0, 2.0), random.uniform(0.7, 1.2)
+        design = line(mu, f"linear:{twist:.2f}", mass)
+        cold, warm = solve(design), solve(design, solve(line(mu, "linear:-10")))
+        if cold.converged and warm.converged:
+            assert warm.power.total == pytest.approx(cold.power.total, rel=1e-8)
+            trimmed, stalled = trimmed + 1, stalled + (cold.stalled_area > 0.03)
+    assert trimmed > 55
+    assert stalled > 5
 
 
 @pytest.mark.slow

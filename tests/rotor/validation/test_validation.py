@@ -59,7 +59,10 @@ def test_rotors_of_tests_have_no_airframe_and_survive_a_design_file(rotor: str):
 
 @pytest.mark.slow
 def test_hover_of_the_xv15():
-    """Within 3 % up to C_T 0.0121 but for one point at 3.02 %; beyond, the sections stall too early and power comes out too high."""
+    """Within 3 % up to C_T 0.0121 but for one point at 3.02 %; beyond, power is too high.
+
+    There the sections stall too early.
+    """
     found = compare(load_set("xv15-hover"), "annulus")
     for point in found.points:
         if 0.004 <= point.given["ct"] <= 0.0121:
