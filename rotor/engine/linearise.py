@@ -19,6 +19,7 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rotor.arrays import Array, Integers
 from rotor.compiled import compiled
@@ -27,8 +28,26 @@ from rotor.engine.waves import WaveGrid
 
 _compile = compiled(error_model="numpy", fastmath={"contract"})
 
+_sums = compiled(error_model="numpy", fastmath={"contract", "reassoc", "nsz"})  # Sums in any order make vector code.
+
 Live = Mapping[tuple[int, Shape], Array]
 """Shapes that follow the states, by channel and name."""
+
+
+@_sums
+def _rows_times(matrix: Any, v: Any, out: Any) -> None:
+    for i in range(len(out)):
+        total = 0.0
+        for j in range(len(v)):
+            total += matrix[i, j] * v[j]
+        out[i] = total
+
+
+@_compile
+def _times_rows(v: Any, matrix: Any, out: Any) -> None:
+    for i in range(len(v)):
+        for j in range(len(out)):
+            out[j] += v[i] * matrix[i, j]
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,8 +56,8 @@ class Nodes:
 
     channel: int
     force: int
-    matrix: Array
-    """A, (points, points); points in the order (element, azimuth)."""
+    matrix: NDArray[np.float32]
+    """A, (points, points); points in the order (element, azimuth). Products with it are summed in double precision."""
     tolerance: float
     """Of y − f."""
     limit: float
@@ -46,7 +65,15 @@ class Nodes:
 
     def field(self, y: Array) -> Array:
         """A y, (points,)."""
-        return self.matrix @ y
+        out = np.empty(len(self.matrix))
+        _rows_times(self.matrix, y, out)
+        return out
+
+    def transposed(self, v: Array) -> Array:
+        """Aᵀ v, (points,)."""
+        out = np.zeros(len(self.matrix))
+        _times_rows(v, self.matrix, out)
+        return out
 
 
 class Shapes:
@@ -413,7 +440,7 @@ def transposed(point: Point, v: Array, measure: Measure | None = None) -> tuple[
     if nodes is not None:
         if measure.nodes is not None:
             field += measure.nodes
-        by_nodes = on_nodes + field.ravel() @ nodes.matrix
+        by_nodes = on_nodes + nodes.transposed(field.ravel())
         by_free = np.concatenate([by_free, by_nodes])
     return by_free, by_element
 

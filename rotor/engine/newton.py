@@ -14,7 +14,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg.lapack import dgetrf, dgetrs
+from scipy.linalg.lapack import dgetrf, dgetrs, sgetrf, sgetrs
 from scipy.sparse.linalg import LinearOperator, gmres
 
 from rotor.arrays import Array
@@ -28,9 +28,13 @@ _MOST_SLOW_STEPS = 4
 """Steps that hardly reduce the residual before the iteration ends."""
 
 
+_MANY = 200
+"""Equations from which factors are kept in single precision: what a step misses by it, the next one corrects."""
+
+
 @dataclass(frozen=True, eq=False)
 class Factors:
-    """LU factors of a Jacobian."""
+    """LU factors of a Jacobian, in single precision where there are many equations."""
 
     lu: Array
     pivots: Array
@@ -47,7 +51,10 @@ class Factors:
     @classmethod
     def of_matrix(cls, matrix: Array, weight: Array | None = None) -> "Factors":
         """Of a Jacobian, which is spent; without W where no steps are made with them."""
-        lu, pivots, singular = dgetrf(matrix.T, overwrite_a=True)
+        if len(matrix) < _MANY:
+            lu, pivots, singular = dgetrf(matrix.T, overwrite_a=True)
+        else:
+            lu, pivots, singular = sgetrf(matrix.T.astype(np.float32, order="F"), overwrite_a=True)
         weight = np.zeros(len(matrix)) if weight is None else weight
         return cls(lu, pivots, np.full_like(weight, math.nan) if singular else weight)
 
@@ -57,11 +64,15 @@ class Factors:
 
     def solve(self, right: Array) -> Array:
         """J⁻¹ b"""
-        return dgetrs(self.lu, self.pivots, right, trans=1)[0]
+        return self._solve(right, 1)
 
     def solve_transposed(self, right: Array) -> Array:
         """J⁻ᵀ b"""
-        return dgetrs(self.lu, self.pivots, right)[0]
+        return self._solve(right, 0)
+
+    def _solve(self, right: Array, trans: int) -> Array:
+        solver = dgetrs if self.lu.dtype == np.float64 else sgetrs
+        return np.asarray(solver(self.lu, self.pivots, right, trans=trans)[0], dtype=np.float64)
 
 
 @dataclass(frozen=True)
@@ -105,7 +116,7 @@ def solve_transposed(point: Point, right: Array, near: Factors) -> Array | None:
 
     shape = len(right), len(right)
     found, unfinished = gmres(
-        LinearOperator(shape, matvec=times, dtype=np.float64), right, rtol=1e-10, restart=20, maxiter=2,
+        LinearOperator(shape, matvec=times, dtype=np.float64), right, rtol=1e-9, restart=20, maxiter=2,
         M=LinearOperator(shape, matvec=near.solve_transposed, dtype=np.float64),
     )  # fmt: skip
     return None if unfinished else found

@@ -144,7 +144,7 @@ class _Linear:
     def __init__(self, trim: LinearisedTrim, near: Factors | None = None) -> None:
         """near: factors of a Jacobian nearby, of the same equations."""
         self.trim, self.problem, self.point = trim, trim.problem, trim.point
-        self._near = near if trim.point.system.nodes is not None else None
+        self._near = near
 
     @property
     def elements(self) -> BladeElements:
@@ -160,8 +160,8 @@ class _Linear:
         """∂(measure)/∂θ by element, and slopes by every channel at every element, the states following."""
         point, structure = self.point, self.point.system.structure
         multipliers = np.zeros(len(point.system.free))
-        if len(multipliers) and (near := self._from_near(measure)) is not None:
-            multipliers = near
+        if point.system.nodes is not None:
+            multipliers = self._by_iteration(transposed(point, multipliers, measure)[0])
         elif len(multipliers):
             factors, power = self._linearised
             of_power = measure.terms is self.power_terms and not (measure.forces or measure.channels or measure.parts)
@@ -174,12 +174,14 @@ class _Linear:
         steady = [structure.equations["twist", k, 0] for k in range(len(torsion.gain))]
         return found - multipliers[steady] @ (torsion.gain[:, None] * torsion.tension), by_channel
 
-    def _from_near(self, measure: Measure) -> Array | None:
-        """J⁻ᵀ times the slopes of a measure, from factors nearby; None without, and where they are not near."""
-        if self._near is None or not self._near.usable:
-            return None
-        slopes = transposed(self.point, np.zeros(len(self.point.system.free)), measure)[0]
-        return solve_transposed(self.point, slopes, self._near)
+    def _by_iteration(self, slopes: Array) -> Array:
+        """J⁻ᵀ times slopes, from factors nearby; where there are none, or too far ones, from those of the point."""
+        near = self._near
+        if near is None or not near.usable or (found := solve_transposed(self.point, slopes, near)) is None:
+            self._near = near = Factors.of(self.point)
+            found = solve_transposed(self.point, slopes, near)
+        assert found is not None
+        return found
 
     def flight_measure(self, weights: Weights) -> Measure:
         """Weights as the engine takes them."""

