@@ -101,6 +101,15 @@ def _thrust(solution: Solution, grid: PolarGrid) -> Array:
     return grid.refine(solution.disk.dct) * (solution.design.thrust_unit / (rotor.blades * rotor.radius) / 1e3)
 
 
+def _circulation(solution: Solution, grid: PolarGrid) -> Array:
+    """Lift per length over ρU; weighted by U², which is smooth where the flow stands still."""
+    rotor, condition, disk = solution.design.rotor, solution.design.condition, solution.disk
+    lift_times_speed = disk.dct * disk.u_t + disk.dcq * disk.u_p
+    square = np.maximum(grid.refine(disk.u_t**2 + disk.u_p**2), 1e-3)
+    unit = solution.design.thrust_unit / (rotor.blades * rotor.radius * condition.density * rotor.tip_speed)
+    return grid.refine(lift_times_speed) / square * unit
+
+
 def _power(solution: Solution, grid: PolarGrid) -> Array:
     rotor, disk = solution.design.rotor, solution.disk
     return grid.refine(disk.r[:, None] * disk.dcq) * (solution.design.power_unit / (rotor.blades * rotor.radius) / 1e3)
@@ -131,6 +140,7 @@ FIELDS: dict[str, Field] = {
         Field("Lift coefficient", "", -0.4, 1.4, "sequential", _cl),
         Field("M²cn", "", -0.05, 0.25, "sequential", _m2cn),
         Field("Thrust dT/dr", "kN/m per blade", -1.0, 7.0, "sequential", _thrust),
+        Field("Circulation", "m²/s", -5.0, 30.0, "sequential", _circulation, void_in_reverse_flow=True),
         Field("Power dP/dr", "kW/m per blade", -20.0, 100.0, "sequential", _power),
         Field("Stall margin", "°", -12.0, 12.0, "margin", _stall_margin_deg, void_in_reverse_flow=True),
         Field("Elastic twist", "°", -5.0, 5.0, "diverging", _elastic_deg, absent=_rigid),

@@ -18,6 +18,7 @@ from explorer.picture.polar import PolarGrid, polar_grid, stall_margin
 from explorer.picture.poses import about, blade_pose, compose, rotate, tip_path_pose
 from explorer.state import ViewState
 from explorer.theme.colours import VOID, colour_map, greyed
+from rotor.aero.inflow.lifting_line import LiftingLineTerms
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -142,6 +143,19 @@ class TestFields:
         per_blade = 1e3 * FIELDS["Power dP/dr"].sample(forward, grid).mean(axis=1)  # [W/m]
         power = 4.0 * np.trapezoid(per_blade, grid.r) * forward.design.rotor.radius
         assert_allclose(power, forward.power.shaft, rtol=0.02)
+
+    def test_circulation_is_that_of_the_panels(self, forward: Solution):
+        """Where nothing is stalled the field is the circulation that the lifting line was solved for."""
+        assert forward.linear is not None
+        point, terms = forward.linear.point, forward.linear.problem.inflow_terms
+        assert isinstance(terms, LiftingLineTerms)
+        rotor, grid, line = forward.design.rotor, grid_of(forward), terms.line
+        solved = point.x[point.system.structure.given :].reshape(line.panels, line.azimuths)
+        solved = solved * math.pi / rotor.blades * rotor.tip_speed * rotor.radius  # [m²/s]
+        shown = FIELDS["Circulation"].sample(forward, grid)
+        around = np.array([np.interp(line.r, grid.r, column) for column in shown.T]).T.mean(axis=1)
+        outer = line.r > 0.6
+        assert_allclose(around[outer], solved.mean(axis=1)[outer], rtol=0.03)
 
     def test_angle_of_attack_runs_smoothly_up_to_the_reverse_flow_circle(self, forward: Solution):
         """Outside the circle neighbouring values stay near each other: no ring of wrapped angles."""
