@@ -96,6 +96,8 @@ def stand_words(stand: StandInputs) -> str:
         words.append(f"tilt {number(stand.shaft_tilt_deg, 1)}°")
     if stand.flapping == "free" and (stand.cyclic_1c_deg or stand.cyclic_1s_deg):
         words.append(f"cyclic {number(stand.cyclic_1c_deg, 1)}°, {number(stand.cyclic_1s_deg, 1)}°")
+    if stand.flapping == "hub-moments":
+        words.append(f"hub moments {stand.hub_roll_nm:.4g}, {stand.hub_pitch_nm:.4g} N m")
     words += [f"tip Mach {stand.tip_mach:.4g}"] if stand.tip_mach is not None else []
     words += [f"{stand.density:.4g} kg/m³"] if stand.density is not None else []
     return ", ".join(words)

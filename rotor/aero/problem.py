@@ -220,7 +220,7 @@ def expected_course(design: Design, wake: Wake, flap: FlapDynamics) -> WakeCours
     """Of the wake of momentum theory, under blades that cone as the thrust tells and flap as they are told to."""
     condition, rotor = design.condition, design.rotor
     thrust = 2.0 * wake.lambda0 * wake.speed
-    coning = flap.load_gain * 0.7 * thrust - flap.weight if rotor.precone is None else rotor.precone
+    coning = flap.load_gain * 0.7 * thrust - flap.droop if rotor.precone is None else rotor.precone
     chord = float(rotor.blade.chord(0.9)) / rotor.radius
     reynolds = condition.density * rotor.tip_speed * rotor.radius / condition.viscosity
     core = tip_core(chord, thrust, rotor.blades, reynolds)

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from types import FrameType
-from typing import Any
+from typing import Any, get_args
 
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.installation import install
@@ -24,7 +24,7 @@ from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.design.aircraft import FASTEST_CLIMB
 from rotor.design.design import HOVER_INFLOWS, LOW_SPEEDS, TRIMS, Design
 from rotor.design.retired import current_model
-from rotor.design.stand import LOAD_KEYS
+from rotor.design.stand import LOAD_KEYS, Flapping
 from rotor.files.design_file import load_design
 from rotor.files.make_design import change_airfoils, make_design
 from rotor.files.rotor_file import find_aircraft
@@ -76,7 +76,10 @@ def add_design_arguments(parser: argparse.ArgumentParser, *, one_twist: bool) ->
     stand.add_argument("--trim", metavar="NAME", help=f"{' | '.join(TRIMS)} (the last three: a rotor on a test stand)")
     for flag, unit, words in _STAND_FLAGS:
         stand.add_argument(flag, type=finite, metavar=unit, help=words)
-    stand.add_argument("--flapping", choices=("trimmed", "free"), help="by cyclic (default in a wind tunnel), or free")
+    stand.add_argument(
+        "--flapping", choices=get_args(Flapping),
+        help="trimmed by cyclic (default in a wind tunnel), free, or free with cyclic that gives hub moments",
+    )  # fmt: skip
 
 
 _STAND_FLAGS = (
@@ -86,6 +89,8 @@ _STAND_FLAGS = (
     ("--collective-deg", "DEG", "pitch at 0.75 R"),
     ("--cyclic-1c-deg", "DEG", "given cyclic, with free flapping"),
     ("--cyclic-1s-deg", "DEG", "the same, sine part"),
+    ("--hub-roll-nm", "NM", "given hub moment, towards the retreating side, with flapping hub-moments"),
+    ("--hub-pitch-nm", "NM", "the same, nose up"),
     ("--tip-mach", "M", "tip speed over the speed of sound"),
     ("--density", "RHO", "air density, kg/m³"),
 )

@@ -5,6 +5,7 @@ import json
 import math
 from typing import Any
 
+from rotor.analysis.drag_band import power_band
 from rotor.command.common import add_command, add_design_arguments, design_from, finite
 from rotor.design.design import Design
 from rotor.trim.distribution import distribution
@@ -40,7 +41,8 @@ def run(args: argparse.Namespace) -> int:
     solution = solve(design)
     found = distribution(solution) if args.distribution and solution.converged else None
     if args.json:
-        also = {"distribution": found and found.to_dict()} if args.distribution else {}
+        also: dict[str, Any] = {"distribution": found and found.to_dict()} if args.distribution else {}
+        also["power_band_w"] = power_band(solution)
         print(json.dumps({**solution.to_dict(), **also}, indent=2, allow_nan=False))
     else:
         print(report(solution))
@@ -92,6 +94,10 @@ def report(solution: Solution) -> str:
             }  # fmt: skip
         lines += ["", *(f"{name:<12}{value / 1e3:10.1f} kW" for name, value in kw.items())]
         lines += ["", *(f"{name:<12}{math.degrees(value) + 0.0:10.2f} °" for name, value in degrees.items())]
+        if (band := power_band(solution)) is not None:
+            low, high = design.fuselage.drag_area_band or (0.0, 0.0)
+            between = f"{band[0] / 1e3:.1f} … {band[1] / 1e3:.1f} kW for drag areas {low:g} … {high:g} m²"
+            lines += [f"{'total':<12}{between}: the sources leave that open"]
         merit = solution.figure_of_merit
         lines += ["", f"κ = P_i/(C_T λ0) {solution.induced_power_factor:.3f}"]
         lines += [f"C_T/σ {solution.ct_over_sigma:.4f} (σ {design.rotor.solidity:.4f})"]

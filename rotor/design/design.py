@@ -157,6 +157,12 @@ class Design:
             raise ValueError("a free rotor needs wind to turn it: give an advance ratio above 0")
         if trim == "controls" and (stand.collective is None or stand.flapping != "free"):
             raise ValueError("trim 'controls' needs a collective and free flapping: give both, or trim 'wind-tunnel'")
+        if self.hovering and (stand.hub_roll or stand.hub_pitch):
+            raise ValueError("in hover the rotor is balanced annulus by annulus, without hub moments: leave them out")
+        if stand.flapping == "hub-moments" and self.rotor.flap_frequency_squared <= 1.0 + 1e-9:
+            raise ValueError(
+                "hub moments cannot be trimmed on blades hinged at the shaft, which carry none: give flapping trimmed"
+            )
         if self.hovering and (stand.cyclic_1c or stand.cyclic_1s):
             raise ValueError("in hover the rotor is balanced annulus by annulus, without cyclic: leave cyclic out")
 
