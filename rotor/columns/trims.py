@@ -17,7 +17,8 @@ blade that flaps leans its lift inboard),
 `thrust` (thesis preset): collective and free flapping; no cyclic. Rigid blades have neither flapping nor cyclic among
 their unknowns, and the hub carries the moments. On a test stand no force is balanced. `wind-tunnel`: the collective
 gives the thrust, or is given. `free-rotor`: the shaft tilt takes the torque away. `controls`: flapping and inflow are
-all that remain. With hub moments given on a stand, cyclic trims them and the blades flap as they like. A hub that fixes the coning leaves it out of the unknowns.
+all that remain. With hub moments given, cyclic gives them and the blades flap as they like. A hub that fixes the coning
+leaves it out of the unknowns.
 """
 
 import math
@@ -60,7 +61,9 @@ def trim_of(design: Design) -> Trim:
     """The unknowns and equations that a design solves."""
     models, stand = design.models, design.condition.stand
     given = stand is not None and stand.collective is not None
-    return _trim(models.trim, given, models.flapping, design.rotor.precone is None, _cyclic_trims(design), _moments(design))
+    return _trim(
+        models.trim, given, models.flapping, design.rotor.precone is None, _cyclic_trims(design), _moments(design)
+    )
 
 
 @cache

@@ -1,6 +1,7 @@
 """Flapping about an offset hinge, by harmonic balance (thesis §2.6).
 
-    β'' + ν² β = Γ Σ (r − e) dC_T/dr dr − g S/(I Ω²) + k β_p,    ν² = 1 + e S/I + k,    k = K/(I Ω²),    Γ = ρ π R⁵/(N_b I)
+    β'' + ν² β = Γ Σ (r − e) dC_T/dr dr − g S/(I Ω²) + k β_p,
+    ν² = 1 + e S/I + k,    k = K/(I Ω²),    Γ = ρ π R⁵/(N_b I)
 
 which is eqs. (2.37), (2.39) and (3.20) with the hinge at e instead of the centre, the blade load written by the smeared
 dC_T/dr, the weight moment of the blade, and a spring K at the hinge that is free of load at β_p. Hinge and spring stand

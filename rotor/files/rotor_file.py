@@ -198,7 +198,9 @@ def _blade(main: TomlTable, given: TomlTable, radius: float, own: tuple[OwnSecti
         flap_inertia=inertia,
         flap_static_moment=moment,
         mass=mass,
-        flap_spring=given.number("flap_spring_nm_rad", low=0.0, high=1e8, unit="N m/rad") if hub == "hingeless" else 0.0,
+        flap_spring=given.number("flap_spring_nm_rad", low=0.0, high=1e8, unit="N m/rad")
+        if hub == "hingeless"
+        else 0.0,
         flap_rest=math.radians(main.number("precone_deg", 0.0, low=-10.0, high=20.0, unit="°"))
         if hub == "hingeless"
         else 0.0,

@@ -202,8 +202,9 @@ RECIPES = {
     ),
     # The PCA-2's outer chord, 0.559 m; its tip stays below Mach 0.5.
     "goe429": Recipe("GOETTINGEN 429 XFOIL TRIP5", 13.0e6, _six_series(0.114)),
-    # The SA349/2's chord, 0.35 m. Level, onset, centre and zero lift: least squares on the table of NASA TM-88370, -2 to
-    # 10 deg, Mach 0.3 to 0.85. Largest lift of the same table: 1.28, 1.20, 1.11 at Mach 0.3, 0.4, 0.5. It has no moment.
+    # The SA349/2's chord, 0.35 m. Level, onset, centre and zero lift: least squares on the table of NASA TM-88370, -2
+    # to 10 deg, Mach 0.3 to 0.85. Largest lift of the same table: 1.28, 1.20, 1.11 at Mach 0.3, 0.4, 0.5. It has no
+    # moment.
     "oa209": Recipe(
         "OA209 XFOIL TM88370 LEVEL",
         8.15e6,
