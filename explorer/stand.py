@@ -9,7 +9,7 @@ from rotor.design.design import Design
 from rotor.design.stand import LOAD_KEYS, Flapping, Stand, StandTrim, read_stand
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
-from rotor.validation import inflow
+from rotor.validation import airloads, inflow
 from rotor.validation.compare import design_at
 from rotor.validation.measured import sets_of
 
@@ -156,6 +156,11 @@ def measured_conditions(rotor: str) -> tuple[MeasuredCondition, ...]:
             found.append(
                 MeasuredCondition("Inflow, laser velocimeter", f"{number}: µ {mu:g}, tilt {tilt:g}°", mu, stand)
             )
+    if rotor == airloads.HART2_BASELINE.rotor:
+        design = airloads.HART2_BASELINE.design()
+        stand = stand_of(design)
+        assert stand is not None
+        found.append(MeasuredCondition("HART II", "Baseline: descent", design.condition.advance_ratio, stand))
     return tuple(found)
 
 

@@ -5,7 +5,7 @@ import json
 import math
 from typing import Any
 
-from rotor.analysis.drag_band import power_band
+from rotor.analysis.series import between_drag_areas
 from rotor.command.common import add_command, add_design_arguments, design_from, finite
 from rotor.design.design import Design
 from rotor.trim.distribution import distribution
@@ -42,7 +42,8 @@ def run(args: argparse.Namespace) -> int:
     found = distribution(solution) if args.distribution and solution.converged else None
     if args.json:
         also: dict[str, Any] = {"distribution": found and found.to_dict()} if args.distribution else {}
-        also["power_band_w"] = power_band(solution)
+        if (band := between_drag_areas(solution)) is not None:
+            also["power_band_w"] = [end.power.total for end in band]
         print(json.dumps({**solution.to_dict(), **also}, indent=2, allow_nan=False))
     else:
         print(report(solution))
@@ -94,9 +95,10 @@ def report(solution: Solution) -> str:
             }  # fmt: skip
         lines += ["", *(f"{name:<12}{value / 1e3:10.1f} kW" for name, value in kw.items())]
         lines += ["", *(f"{name:<12}{math.degrees(value) + 0.0:10.2f} °" for name, value in degrees.items())]
-        if (band := power_band(solution)) is not None:
-            low, high = design.fuselage.drag_area_band or (0.0, 0.0)
-            between = f"{band[0] / 1e3:.1f} … {band[1] / 1e3:.1f} kW for drag areas {low:g} … {high:g} m²"
+        if (band := between_drag_areas(solution)) is not None:
+            low, high = (end.design.fuselage.drag_area for end in band)
+            less, more = (end.power.total / 1e3 for end in band)
+            between = f"{less:.1f} … {more:.1f} kW for drag areas {low:g} … {high:g} m²"
             lines += [f"{'total':<12}{between}: the sources leave that open"]
         merit = solution.figure_of_merit
         lines += ["", f"κ = P_i/(C_T λ0) {solution.induced_power_factor:.3f}"]

@@ -10,7 +10,7 @@ from numpy.testing import assert_allclose
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from rotor.analysis.drag_band import power_band
+from rotor.analysis.series import between_drag_areas
 from rotor.assets import asset_path
 from rotor.dynamics.flapping import flap_dynamics, lock_number
 from rotor.dynamics.torsion import blade_modes
@@ -157,17 +157,18 @@ def test_more_torsional_stiffness_twists_less(baseline: Solution):
 def test_power_between_the_drag_areas(name: str):
     """Half ρ V³ times the width of the band at least: a tilted rotor with more drag also induces and drags more."""
     solution = solve(make_design(rotor=name, mu=0.25)).require()
-    band, area = power_band(solution), solution.design.fuselage.drag_area_band
-    assert band is not None
+    ends, area = between_drag_areas(solution), solution.design.fuselage.drag_area_band
+    assert ends is not None
     assert area is not None
-    assert band[0] <= solution.power.total <= band[1]
+    low, high = (end.power.total for end in ends)
+    assert low <= solution.power.total <= high
     work = 0.5 * solution.design.condition.density * solution.design.airspeed**3 * (area[1] - area[0])
-    assert 1.0 < (band[1] - band[0]) / work < 1.3
-    assert power_band(solve(make_design(rotor=name, hover=True)).require()) is None
+    assert 1.0 < (high - low) / work < 1.3
+    assert between_drag_areas(solve(make_design(rotor=name, hover=True)).require()) is None
 
 
 def test_a_rotor_with_one_drag_area_has_no_band():
-    assert power_band(solve(make_design(mu=0.2)).require()) is None
+    assert between_drag_areas(solve(make_design(mu=0.2)).require()) is None
 
 
 def test_hart2_names_its_sources():
