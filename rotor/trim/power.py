@@ -145,11 +145,11 @@ def control_loads(problem: Problem, elements: BladeElements) -> tuple[Array, flo
     moment = -torsion.moment_unit * total
     cyclic = state.cyclic_1s * disk.cos - state.cyclic_1c * disk.sin
     work = -float(total @ cyclic)
-    if problem.active_rates[0].size > 1:
-        work -= float(disk.dr @ _around(loads, problem.active_rates[0]))
-        twist = problem.twist[:, None] + problem.active
+    if problem.wave_rates[0].size > 1:
+        work -= float(disk.dr @ _around(loads, problem.wave_rates[0]))
+        twist = problem.twist[:, None] + problem.waves
         modal = torsion.tension.T @ (blade.coordinates @ wave_grid(torsion.functions, len(disk.psi)).at)
-        work += float(((torsion.own_tension @ twist + modal) * problem.active_rates[0]).sum())
+        work += float(((torsion.own_tension @ twist + modal) * problem.wave_rates[0]).sum())
     return moment, work / len(disk.psi)
 
 
@@ -162,6 +162,6 @@ def _loads(problem: Problem, elements: BladeElements) -> Array:
     harmonic = (np.arange(torsion.functions) + 1) // 2
     elastic = (blade.coordinates * -(harmonic**2)) @ wave_grid(torsion.functions, len(disk.psi)).at
     acceleration = torsion.radial.T @ elastic - (state.cyclic_1c * disk.cos + state.cyclic_1s * disk.sin)
-    if problem.active_rates[1].size > 1:
-        acceleration = acceleration + problem.active_rates[1]
+    if problem.wave_rates[1].size > 1:
+        acceleration = acceleration + problem.wave_rates[1]
     return blade.moment - torsion.inertia[:, None] * acceleration + (torsion.tip_mass * state.coning)[:, None]

@@ -103,6 +103,10 @@ def caveats(
             )
     if design.active_twist and design.hovering:
         add("active-twist-rests", "Active twist is off in hover, where only the twist law acts.")
+    if design.pitch_per_rev and design.hovering:
+        add(
+            "root-pitch-rests", "Root pitch at harmonics of rotor speed is off in hover, where nothing follows azimuth."
+        )
     if 0.0 < mu < LOW_SPEED and not problem.inflow.load_dependent:
         add("low-speed-inflow", f"Linear inflow is not valid below advance ratio {LOW_SPEED:g}; this is {mu:.3f}.")
     elif 0.0 < mu < LOWEST_SPEED:
