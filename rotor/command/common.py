@@ -49,7 +49,7 @@ def add_design_arguments(parser: argparse.ArgumentParser, *, one_twist: bool) ->
     for flag, what in (("--twist-per-rev", "active twist, tip relative to root"), ("--pitch-per-rev", "root pitch")):
         parser.add_argument(
             flag, metavar="N:DEG:PHASE,…",
-            help=f"{what}: DEG cos(N ψ − PHASE) degrees at N/rev, e.g. 3:1:180; '' takes away that of a design file",
+            help=f"{what}: DEG cos(N ψ − PHASE) degrees at N/rev, e.g. 3:1:180; 2:0:0 takes away that of a design file",
         )  # fmt: skip
     parser.add_argument("--preset", metavar="NAME", help="flight (default): best available; thesis: as printed")
     parser.add_argument(

@@ -147,7 +147,7 @@ def _shown(item: Any) -> str:
 
 
 def harmonics_text(harmonics: tuple[Harmonic, ...]) -> str:
-    """`N:DEG:PHASE[,…]`, which `read_harmonics` reads back to the last digit."""
+    """`N:DEG:PHASE[,…]`, which `read_harmonics` reads back, to a unit in the last place."""
     return ",".join(f"{one.per_rev}:{degrees_text(one.amplitude)}:{degrees_text(one.phase)}" for one in harmonics)
 
 

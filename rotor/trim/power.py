@@ -14,8 +14,8 @@ On a test stand nothing balances the rotor's forces, and µ_z T − µ_x H is th
 mount, negative where it drags; it takes the place of D·V.
 
 The twist of an elastic blade changes the angle of attack only, so the identity holds with it as without. What the air
-takes from blades through their rate of pitch, −Σ dC_M θ', is not in it, for rigid blades neither: below 0.1 % of power,
-and `ElasticTwist.control_power` states it.
+takes from blades through their rate of pitch, −Σ dC_M θ', is not in it, for rigid blades neither: below 0.1 % of power
+with cyclic alone, up to 2 % with some degrees of n/rev pitch. `ElasticTwist.control_power` states it.
 
 Without the axial flow of the tilted disk (3.6 as printed) the torque lacks D·V and more, so there the sum of parts *is*
 the power.
@@ -132,9 +132,9 @@ def control_loads(problem: Problem, elements: BladeElements) -> tuple[Array, flo
     """Moment of the control system on one blade, and the power that moves the pitching blades.
 
     The moment [N m], nose up, (azimuths,), is what balances all loads on the blade. The power, over ρA(ΩR)³, is that of
-    pitch links and actuators. The links take it from the shaft, because the swashplate does not move. Inertia,
-    propeller moment, tension and elasticity store energy and give it back, so once torsion is in balance it is what the
-    air takes, −Σ dC_M θ'.
+    pitch links and actuators. With cyclic alone the links take it from the shaft, because the swashplate does not move.
+    Inertia, propeller moment, tension and elasticity store energy and give it back, so once torsion is in balance it is
+    what the air takes, −Σ dC_M θ'.
     """
     torsion, blade = problem.torsion, elements.torsion
     assert torsion is not None

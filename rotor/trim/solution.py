@@ -131,6 +131,7 @@ class ElasticTwist:
             },
             "torsion_frequencies_per_rev": self.frequencies.tolist(),
             "pitch_link_load_n": {"mean": float(load.mean()), "amplitude": 0.5 * float(np.ptp(load))},
+            "control_power_w": self.control_power,
         }
 
 
@@ -138,6 +139,7 @@ _RIGID: dict[str, Any] = {
     "elastic_twist_deg": None,
     "torsion_frequencies_per_rev": None,
     "pitch_link_load_n": None,
+    "control_power_w": None,
 }
 
 
