@@ -16,6 +16,7 @@ from rotor.aero.switches import switched_off
 from rotor.assets import SHIPPED_ROTORS
 from rotor.command.common import design_from
 from rotor.command.parser import build_parser
+from rotor.design.active_twist import harmonics_text
 from rotor.design.blade import airfoils_spec
 from rotor.design.design import Design
 from rotor.design.twist import (
@@ -140,6 +141,7 @@ def _flags(design: Design) -> list[str]:
     words += [f"--preset {design.preset}"] if design.preset != "flight" else []
     words.append("--hover" if design.hovering else f"--mu {digits_text(condition.advance_ratio)}")
     words.append(f"--twist {shlex.quote(exact_spec(design.twist))}")
+    words += [f"--{name.replace('_', '-')} {text}" for name, text in _per_rev(design).items()]
     if condition.stand is None:
         words.append(f"--mass-kg {digits_text(condition.mass)}")
     else:
@@ -207,6 +209,12 @@ def _test(design: Design) -> dict[str, Any]:
     return {} if stand is None else {"trim": design.models.trim, "stand": stand.record()}
 
 
+def _per_rev(design: Design) -> dict[str, str]:
+    """The arguments of `make_design` for pitch that follows the azimuth; none for a twist that is not linear."""
+    given = {"twist_per_rev": design.linear_active_twist, "pitch_per_rev": design.pitch_per_rev}
+    return {name: harmonics_text(waves) for name, waves in given.items() if waves}
+
+
 def as_python(design: Design) -> str:
     """A script that makes the design with `rotor`'s own names, solves it, and prints power by parts and caveats.
 
@@ -222,6 +230,7 @@ def as_python(design: Design) -> str:
         mass_kg=condition.mass,
         altitude_m=condition.altitude,
         climb_m_s=condition.climb_speed,
+        **_per_rev(design),
         **_test(design),
     )
     spec = exact_spec(design.twist)
@@ -235,7 +244,7 @@ def as_python(design: Design) -> str:
         f"mass_kg={float(condition.mass)!r}",
         f"altitude_m={float(condition.altitude)!r}",
         *([f"climb_m_s={float(condition.climb_speed)!r}"] if condition.climb_speed else []),
-        *(f"{name}={value!r}" for name, value in _test(design).items()),
+        *(f"{name}={value!r}" for name, value in (_per_rev(design) | _test(design)).items()),
     ]
     made = writer.call("make_design", arguments)
     changed = writer.changes("design", replace(start, twist=design.twist), design)
