@@ -13,9 +13,9 @@ from explorer.text.design_words import harmonic_words
 from explorer.text.glossary import hint
 from rotor.design.active_twist import HIGHEST, LARGEST_PITCH, Harmonic
 
-_NAMES = {"pitch_per_rev": ("Root pitch", 2), "twist_per_rev": ("Twist", 1)}
+_NAMES = {"pitch_per_rev": ("Pitch", 2), "twist_per_rev": ("Twist", 1)}
 """By the field of `Inputs`: title, and the lowest harmonic."""
-_SIZE, _PHASE = Slider("Amplitude [°]", 0.0, math.degrees(LARGEST_PITCH), 0.05), Slider("Phase [°]", 0.0, 360.0, 5.0)
+_SIZE, _PHASE = Slider("amplitude [°]", 0.0, math.degrees(LARGEST_PITCH), 0.05), Slider("phase [°]", 0.0, 360.0, 5.0)
 
 
 class PerRevControls:
@@ -34,12 +34,14 @@ class PerRevControls:
             self._words = gui.add_html("")
             for name, (title, lowest) in _NAMES.items():
                 orders = tuple(f"{n}/rev" for n in range(lowest, HIGHEST + 1))
-                self._orders[name] = gui.add_dropdown(title, orders, initial_value="3/rev", hint=hint(name))
+                self._orders[name] = gui.add_dropdown(
+                    f"{title} harmonic", orders, initial_value="3/rev", hint=hint(name)
+                )
                 self._sizes[name] = gui.add_slider(
-                    _SIZE.label, _SIZE.low, _SIZE.high, _SIZE.step, 0.0, hint=hint("wave_amplitude")
+                    f"{title} {_SIZE.label}", _SIZE.low, _SIZE.high, _SIZE.step, 0.0, hint=hint("wave_amplitude")
                 )
                 self._phases[name] = gui.add_slider(
-                    _PHASE.label, _PHASE.low, _PHASE.high, _PHASE.step, 0.0, hint=hint("wave_phase")
+                    f"{title} {_PHASE.label}", _PHASE.low, _PHASE.high, _PHASE.step, 0.0, hint=hint("wave_phase")
                 )
                 self._orders[name].on_update(self._chosen(name))
                 for handle in (self._sizes[name], self._phases[name]):
@@ -74,7 +76,8 @@ class PerRevControls:
         wave = next((one for one in waves if one.per_rev == self._order(name)), None)
         size, phase = self._sizes[name], self._phases[name]
         degrees = 0.0 if wave is None else round(math.degrees(wave.amplitude), 6)
-        size.max = max(_SIZE.high, degrees)
+        if degrees > size.max:  # From a design file.
+            size.max = degrees
         if size.value != degrees:
             size.value = degrees
         if wave is not None and phase.value % 360.0 != (angle := round(math.degrees(wave.phase), 6)):
