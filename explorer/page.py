@@ -43,6 +43,7 @@ from explorer.tabs.optimise.map_panel import MapPanel
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.tabs.optimise.schedule_panel import SchedulePanel
 from explorer.tabs.optimise.sensitivity import SensitivityPanel
+from explorer.tabs.per_rev import PerRevControls
 from explorer.tabs.power_card import beside_labels
 from explorer.tabs.probe.panel import ProbePanel
 from explorer.tabs.results import ResultsPanel
@@ -129,6 +130,8 @@ class Page:
         with layout.in_mode("actuate"):
             self.actuator = ActuatorPanel(client, bridge, shared.pool, callbacks.wake, self._fly)
             self._actuator_inputs = self.actuator.inputs()
+            self.per_rev = PerRevControls(gui, start, self.controls.inputs, self.controls.change)
+            self.controls.placed = self.per_rev.place
         self._followed: Reading | None = None
         """What all tabs but the actuator's have followed."""
         self.results = ResultsPanel(gui, bridge, layout)
@@ -214,7 +217,8 @@ class Page:
         self.bridge.set(arc=None if reading.previewed else self.grab.arc(solution, reading.view))
         self.camera.ride(math.radians(reading.view.azimuth_deg))
         # Only at harmonics does the cut blade turn with the marked one.
-        if self._actuator_in_frame and (not frame.only_azimuth or self._actuator_inputs.per_rev):
+        turning = self._actuator_inputs.per_rev or solution.design.active_twist is not None
+        if self._actuator_in_frame and (not frame.only_azimuth or turning):
             self._show_actuator(reading, solution)
 
     def show_power_number(self, state: SessionState) -> None:
@@ -339,7 +343,7 @@ class Page:
     def _hold(self, held: bool) -> None:
         """Leave what moves the page to a presenter, or give it back."""
         self._held = held
-        for part in (self.controls, self.display, self.top, self.lecture, self._keyboard):
+        for part in (self.controls, self.per_rev, self.display, self.top, self.lecture, self._keyboard):
             part.hold(held)
 
     def _put(self, inputs: Inputs) -> None:

@@ -46,6 +46,8 @@ class DesignControls:
         self._changed = changed
         self.touched: Callable[[], None] = lambda: None
         """Called when a hand moves a widget."""
+        self.placed: Callable[[Inputs], None] = lambda inputs: None
+        """Called when the widgets are moved to these inputs, for widgets elsewhere on the page."""
         self._inputs: dict[str, InputHandle] = {}
         self._special = start
         """Holds what the laws mean that are not always there."""
@@ -122,6 +124,15 @@ class DesignControls:
             self._place(inputs)
         self._changed()
 
+    def change(self, **changes: Any) -> None:
+        """A hand changed inputs by widgets elsewhere on the page; all else stays, that of a preview too."""
+        with self._moving:
+            self._own = None
+            changed = replace(self.inputs(), **changes)
+        self.touched()
+        self.pauses.moved(time.monotonic())
+        self.set_inputs(changed)
+
     def follow(self, preview: Inputs | None) -> None:
         """Show a preview on the sliders; None: the user's own inputs again. `inputs` stay what they are."""
         with self._moving:
@@ -144,6 +155,7 @@ class DesignControls:
         self._fit("mass_t", inputs)
         self._fit("advance_ratio", inputs)
         self.stand.place(inputs)
+        self.placed(inputs)
         titles = {"law": self._laws, "preset": PRESET_TITLES, **INFLOW_MENUS}
         for name in INPUT_NAMES:
             if name in self._inputs:
@@ -265,7 +277,9 @@ def _flight_heading(speed: float, units: Units, tested: bool = False) -> str:
 
 
 _LAW_INPUTS = frozenset(name for law in LAWS.values() for name in law.inputs)
-_HELD = ("stand", "rotor", "own_rotor", "given", "found", "airfoils")
+_HELD = (
+    "stand", "rotor", "own_rotor", "given", "found", "airfoils", "pitch_per_rev", "twist_per_rev", "active_shape",
+)  # fmt: skip
 """Inputs that no slider moves by itself: a menu or a file brings them, with others."""
 
 

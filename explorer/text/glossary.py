@@ -137,6 +137,12 @@ CONTROLS: dict[str, Term] = {
     "harmonic": Term("Cycles of active twist per revolution; none in hover."),
     "amplitude": Term("Amplitude of the harmonic voltage, as a share of half the voltage range."),
     "phase": Term("Phase of the harmonic voltage, highest at ψ = phase/harmonic. An elastic blade follows later."),
+    "pitch_per_rev": Term(
+        "Harmonic of root pitch that the two sliders below set; higher-harmonic control.", section=10
+    ),
+    "twist_per_rev": Term("Harmonic of twist, tip relative to root, that the two sliders below set.", section=10),
+    "wave_amplitude": Term("Of this harmonic, on a blade at rest; zero takes it away. Off in hover."),
+    "wave_phase": Term("Of this harmonic: most nose-up at ψ = phase/n."),
     "keep": Term("Bookmarks this design (M), to return to it or to compare with it."),
     "take": Term("Step of the history to return to; a click on the strip sets it."),
     "link": Term("Copies the address of the page, which contains the whole design."),

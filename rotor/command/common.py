@@ -46,6 +46,11 @@ def add_design_arguments(parser: argparse.ArgumentParser, *, one_twist: bool) ->
     )
     add_rotor_argument(parser)
     parser.add_argument("--twist", metavar="SPEC", nargs=None if one_twist else "+", help=twist)
+    for flag, what in (("--twist-per-rev", "active twist, tip relative to root"), ("--pitch-per-rev", "root pitch")):
+        parser.add_argument(
+            flag, metavar="N:DEG:PHASE,…",
+            help=f"{what}: DEG cos(N ψ − PHASE) degrees at N/rev, e.g. 3:1:180; 2:0:0 takes away that of a design file",
+        )  # fmt: skip
     parser.add_argument("--preset", metavar="NAME", help="flight (default): best available; thesis: as printed")
     parser.add_argument(
         "--inflow", metavar="NAME",
@@ -142,6 +147,8 @@ def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: floa
         preset=args.preset or (base.preset if base else "flight"),
         rotor=find_aircraft(args.rotor) if args.rotor else base.aircraft if base else SHIPPED_ROTORS[0],
         twist=twist or (blade.twist if blade else None),
+        twist_per_rev=args.twist_per_rev or (),
+        pitch_per_rev=args.pitch_per_rev if args.pitch_per_rev is not None else (base.pitch_per_rev if base else ()),
         mass_kg=args.mass_kg
         if args.mass_kg is not None
         else (base.condition.mass if base and not args.rotor else None),
@@ -159,7 +166,9 @@ def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: floa
         off = parse_switches(args.off)
         design = replace(design, models=replace(design.models, **dict.fromkeys(off, False)))
     if blade:
-        design = replace(design, rotor=blade.rotor, active_twist=blade.active_twist)
+        design = replace(design, rotor=blade.rotor)
+        if args.twist_per_rev is None:
+            design = replace(design, active_twist=blade.active_twist)
     if args.airfoils:
         design = replace(design, rotor=change_airfoils(design.rotor, args.airfoils))
     return design.at(mu=advance_ratio)
