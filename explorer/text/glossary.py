@@ -60,7 +60,9 @@ CONTROLS: dict[str, Term] = {
     "measured_test": Term("Tests in which this rotor was measured; choose one to set its conditions."),
     "measured_point": Term("The measured points of this test; choose one to set its conditions."),
     "stand_load": Term("What is given: thrust over ρA(ΩR)²σ, thrust, or the pitch at 0.75 R."),
-    "stand_flapping": Term("First-harmonic flapping kept at zero by cyclic, or left to the blades at given cyclic."),
+    "stand_flapping": Term(
+        "First-harmonic flapping: zero by cyclic, free at given cyclic, or free with cyclic that gives the hub moments."
+    ),
     "shaft_tilt_deg": Term("Tilt of the shaft, positive forward."),
     "ct_over_sigma": Term("Blade loading CT/σ: thrust over ρA(ΩR)²σ."),
     "thrust_n": Term("Thrust along the shaft."),

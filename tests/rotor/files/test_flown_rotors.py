@@ -207,3 +207,21 @@ def test_a_spring_belongs_to_a_hingeless_hub(line: str, said: str):
     text = re.sub(r"^(flap_spring_nm_rad|precone_deg|hub) = .*\n", "", text, flags=re.M)
     with pytest.raises(ValueError, match=said):
         read_aircraft("own.toml", {"own.toml": text.replace("[main_rotor]", f"[main_rotor]\n{line}", 1)})
+
+
+def test_masses_agree_with_their_moments():
+    """m R²/3 of a uniform blade; and of any blade S²/m ≤ I ≤ S L, with its centre of mass about half-way out."""
+    bo105, gazelle = (shipped_aircraft(name).rotor for name in ("bo105", "gazelle"))
+    assert_allclose(bo105.blade.mass * bo105.radius**2 / 3.0, bo105.blade.flap_inertia, rtol=2e-3)
+    blade, length = gazelle.blade, gazelle.radius * (1.0 - gazelle.blade.flap_hinge)
+    first, second = blade.flap_static_moment, blade.flap_inertia
+    assert first**2 / blade.mass <= second <= first * length
+    assert_allclose(first / blade.mass, 0.5 * length, rtol=0.12)
+    hart2 = shipped_aircraft("hart2").rotor
+    assert hart2.blade.structure is not None
+    spanned = hart2.radius * (1.0 - hart2.blade.flap_hinge)
+    assert_allclose(hart2.blade.mass, hart2.blade.structure.mass_per_length[0] * spanned, rtol=1e-3)
+    # Lock number of the model beside that of the full-scale blade, 5.09 (Padfield): it was scaled to it.
+    offset = hart2.blade.flap_hinge * hart2.radius
+    inertia = hart2.blade.flap_inertia + 2.0 * offset * hart2.blade.flap_static_moment + offset**2 * hart2.blade.mass
+    assert_allclose(1.225 * 6.113 * 0.121 * hart2.radius**4 / inertia, 5.087, rtol=0.15)
