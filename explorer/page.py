@@ -30,7 +30,7 @@ from explorer.sharing.view_code import VIEW, view_from
 from explorer.state import Inputs, ViewState, with_optimum
 from explorer.tabs.actuator.cut import fit_cut
 from explorer.tabs.actuator.panel import ActuatorPanel
-from explorer.tabs.controls import DesignControls
+from explorer.tabs.controls import DesignControls, PerRevControls
 from explorer.tabs.display import Display
 from explorer.tabs.export_panel import ExportPanel, ExportSources
 from explorer.tabs.file_panel import FilePanel
@@ -43,7 +43,6 @@ from explorer.tabs.optimise.map_panel import MapPanel
 from explorer.tabs.optimise.optimise_panel import OptimisePanel
 from explorer.tabs.optimise.schedule_panel import SchedulePanel
 from explorer.tabs.optimise.sensitivity import SensitivityPanel
-from explorer.tabs.per_rev import PerRevControls
 from explorer.tabs.power_card import beside_labels
 from explorer.tabs.probe.panel import ProbePanel
 from explorer.tabs.results import ResultsPanel

@@ -167,6 +167,9 @@ def on_azimuths(problem: Problem, azimuths: int) -> Problem:
 def _pitch_waves(design: Design, disk: Disk) -> list[Array]:
     """`Problem.waves` and its first two derivatives by ψ."""
     given, none = design.pitch_waves, np.zeros((1, 1))
+    highest = max((one.per_rev for wave in given for one in wave.harmonics), default=0)
+    if 2 * highest >= len(disk.psi):
+        raise ValueError(f"{highest}/rev needs more than {2 * highest} azimuths, not {len(disk.psi)}: ask for more")
     return [sum((one(disk.r, disk.psi, order) for one in given), start=none) for order in range(3)]
 
 

@@ -22,8 +22,7 @@ from explorer.sharing.share import code_of, inputs_from
 from explorer.sharing.stored_history import StoredHistory, read_history
 from explorer.state import OPENING, baseline_of, inputs_of, with_rotor
 from explorer.tabs.actuator.state import ActuatorInputs
-from explorer.tabs.controls import DesignControls
-from explorer.tabs.per_rev import PerRevControls
+from explorer.tabs.controls import DesignControls, PerRevControls
 from explorer.tabs.twist_curve import flown_band, shown_twist
 from explorer.text.design_words import twist_name, wave_words
 from explorer.text.validated import validated

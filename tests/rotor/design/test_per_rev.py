@@ -255,6 +255,12 @@ def test_bad_input_is_one_sentence(pitch: Any, words: str):
     assert len(str(error.value)) < 300
 
 
+def test_a_grid_too_coarse_for_the_wave_is_refused():
+    design = make_design(mu=0.2, inflow="pitt-peters", pitch_per_rev="8:1:0")
+    with pytest.raises(ValueError, match="8/rev needs more than 16 azimuths, not 16"):
+        solve(replace(design, models=replace(design.models, azimuths=16)))
+
+
 def test_active_twist_has_at_most_eight_harmonics():
     with pytest.raises(ValueError, match="2/rev twice"):
         ActiveTwist((Harmonic(2, 0.01),) * 100_000)
