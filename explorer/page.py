@@ -30,7 +30,7 @@ from explorer.sharing.view_code import VIEW, view_from
 from explorer.state import Inputs, ViewState, with_optimum
 from explorer.tabs.actuator.cut import fit_cut
 from explorer.tabs.actuator.panel import ActuatorPanel
-from explorer.tabs.controls import DesignControls
+from explorer.tabs.controls import DesignControls, PerRevControls
 from explorer.tabs.display import Display
 from explorer.tabs.export_panel import ExportPanel, ExportSources
 from explorer.tabs.file_panel import FilePanel
@@ -129,6 +129,8 @@ class Page:
         with layout.in_mode("actuate"):
             self.actuator = ActuatorPanel(client, bridge, shared.pool, callbacks.wake, self._fly)
             self._actuator_inputs = self.actuator.inputs()
+            self.per_rev = PerRevControls(gui, start, self.controls.inputs, self.controls.change)
+            self.controls.placed = self.per_rev.place
         self._followed: Reading | None = None
         """What all tabs but the actuator's have followed."""
         self.results = ResultsPanel(gui, bridge, layout)
@@ -214,7 +216,8 @@ class Page:
         self.bridge.set(arc=None if reading.previewed else self.grab.arc(solution, reading.view))
         self.camera.ride(math.radians(reading.view.azimuth_deg))
         # Only at harmonics does the cut blade turn with the marked one.
-        if self._actuator_in_frame and (not frame.only_azimuth or self._actuator_inputs.per_rev):
+        turning = self._actuator_inputs.per_rev or solution.design.active_twist is not None
+        if self._actuator_in_frame and (not frame.only_azimuth or turning):
             self._show_actuator(reading, solution)
 
     def show_power_number(self, state: SessionState) -> None:
@@ -339,7 +342,7 @@ class Page:
     def _hold(self, held: bool) -> None:
         """Leave what moves the page to a presenter, or give it back."""
         self._held = held
-        for part in (self.controls, self.display, self.top, self.lecture, self._keyboard):
+        for part in (self.controls, self.per_rev, self.display, self.top, self.lecture, self._keyboard):
             part.hold(held)
 
     def _put(self, inputs: Inputs) -> None:

@@ -40,7 +40,7 @@ class Pinned:
         """Whether an actuator also twists the blade, which the sliders cannot show."""
         design = self.solution.design
         added = isinstance(design.twist, SumTwist) and design.twist != self.inputs.twist()
-        return added or design.active_twist is not None
+        return added or design.active_twist != self.inputs.design().active_twist
 
     @property
     def flight(self) -> str:

@@ -9,7 +9,7 @@ from rotor.design.design import Design
 from rotor.design.stand import LOAD_KEYS, Flapping, Stand, StandTrim, read_stand
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
-from rotor.validation import inflow
+from rotor.validation import airloads, inflow
 from rotor.validation.compare import design_at
 from rotor.validation.measured import sets_of
 
@@ -40,17 +40,21 @@ class StandInputs:
     cyclic_1c_deg: float = 0.0
     cyclic_1s_deg: float = 0.0
     flapping: Flapping = "trimmed"
+    hub_roll_nm: float = 0.0
+    hub_pitch_nm: float = 0.0
     tip_mach: float | None = None
     density: float | None = None
 
     def stand(self) -> Stand:
         """The inputs of the trim; ValueError with one sentence for values that no test has."""
-        free = self.flapping == "free"
+        free, moments = self.flapping == "free", self.flapping == "hub-moments"
         record = {
             self.load: self.value,
             "flapping": self.flapping,
             "cyclic_1c_deg": self.cyclic_1c_deg if free else 0.0,
             "cyclic_1s_deg": self.cyclic_1s_deg if free else 0.0,
+            "hub_roll_nm": self.hub_roll_nm if moments else 0.0,
+            "hub_pitch_nm": self.hub_pitch_nm if moments else 0.0,
             "shaft_tilt_deg": self.shaft_tilt_deg,
             "tip_mach": self.tip_mach,
             "density_kg_m3": self.density,
@@ -87,6 +91,8 @@ def stand_of(design: Design) -> StandInputs | None:
         cyclic_1c_deg=degrees("cyclic_1c_deg"),
         cyclic_1s_deg=degrees("cyclic_1s_deg"),
         flapping=stand.flapping,
+        hub_roll_nm=stand.hub_roll,
+        hub_pitch_nm=stand.hub_pitch,
         tip_mach=stand.tip_mach,
         density=stand.density,
     )
@@ -150,6 +156,11 @@ def measured_conditions(rotor: str) -> tuple[MeasuredCondition, ...]:
             found.append(
                 MeasuredCondition("Inflow, laser velocimeter", f"{number}: µ {mu:g}, tilt {tilt:g}°", mu, stand)
             )
+    if rotor == airloads.HART2_BASELINE.rotor:
+        design = airloads.HART2_BASELINE.design()
+        stand = stand_of(design)
+        assert stand is not None
+        found.append(MeasuredCondition("HART II", "Baseline: descent", design.condition.advance_ratio, stand))
     return tuple(found)
 
 

@@ -12,6 +12,7 @@ from explorer.stand import StandInputs, stand_of, tested
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
+from rotor.design.active_twist import ActiveTwist, Harmonic
 from rotor.design.aircraft import Aircraft
 from rotor.design.blade import airfoils_spec
 from rotor.design.design import FLIGHT_MODELS, Design, preset_models
@@ -117,6 +118,12 @@ class Inputs:
     """A twist from the optimiser that none of the laws holds."""
     airfoils: str = ""
     """SPEC of the airfoils that go with `given` or `found`; empty: the preset's."""
+    pitch_per_rev: tuple[Harmonic, ...] = ()
+    """Root pitch at harmonics of rotor speed."""
+    twist_per_rev: tuple[Harmonic, ...] = ()
+    """Active twist, that of an actuator apart."""
+    active_shape: tuple[tuple[float, ...], tuple[float, ...]] | None = None
+    """Its stations and shape where a design file gives them; else it is linear from the root cut-out."""
 
     @property
     def aircraft(self) -> Aircraft:
@@ -145,7 +152,11 @@ class Inputs:
             models=replace(models, **{name: getattr(self, name) for name in (*INFLOW_MENUS, *SWITCHES)}),
             trim=None if self.stand is None else self.stand.trim,
             stand=None if self.stand is None else self.stand.stand(),
+            pitch_per_rev=self.pitch_per_rev,
+            twist_per_rev=self.twist_per_rev,
         )
+        if self.twist_per_rev and self.active_shape is not None:
+            design = replace(design, active_twist=ActiveTwist(self.twist_per_rev, *self.active_shape))
         if self.law in NOT_ALWAYS and self.airfoils:
             design = replace(design, rotor=change_airfoils(design.rotor, self.airfoils))
         return design
@@ -257,6 +268,7 @@ class ViewState:
 
 def inputs_of(design: Design) -> Inputs:
     """The slider positions that mean `design`, as near as the sliders can hold it."""
+    active = design.active_twist
     start = Inputs(
         rotor=design.aircraft.key or OWN,
         own_rotor=None if design.aircraft.key else design.aircraft,
@@ -266,6 +278,9 @@ def inputs_of(design: Design) -> Inputs:
         altitude_m=design.condition.altitude,
         climb_m_s=design.condition.climb_speed,
         stand=stand_of(design),
+        pitch_per_rev=design.pitch_per_rev,
+        twist_per_rev=() if active is None else active.harmonics,
+        active_shape=None if active is None or design.linear_active_twist else (active.stations, active.shape),
         **{name: getattr(design.models, name) for name in (*INFLOW_MENUS, *SWITCHES)},
     )
     twist, airfoils = design.twist, _own_airfoils(design)
@@ -289,7 +304,8 @@ def with_rotor(inputs: Inputs, name: str, own: Aircraft | None = None) -> Inputs
     elif inputs.stand is not None:
         mu = OPENING.advance_ratio
     changed = replace(changed, advance_ratio=mu, stand=stand)
-    return replace(changed, law="builtin", mass_t=mass, given=None, found=None, airfoils="", **plain)
+    waves = {"pitch_per_rev": (), "twist_per_rev": (), "active_shape": None}
+    return replace(changed, law="builtin", mass_t=mass, given=None, found=None, airfoils="", **plain, **waves)
 
 
 def with_optimum(inputs: Inputs, design: Design) -> Inputs:
@@ -342,7 +358,8 @@ def preset_inflow(preset: str) -> dict[str, Any]:
 def baseline_of(design: Design) -> Design:
     """The same flight and models with the preset's rotor and its baseline twist, at rest."""
     craft, preset = design.aircraft, design.preset
-    return replace(design, twist=craft.twist_for(preset), rotor=craft.rotor_for(preset), active_twist=None)
+    plain = replace(design, active_twist=None, pitch_per_rev=())
+    return replace(plain, twist=craft.twist_for(preset), rotor=craft.rotor_for(preset))
 
 
 def baseline_title(design: Design) -> str:

@@ -9,7 +9,7 @@ from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-SHIPPED_ROTORS = ("uh60a", "r22", "s61")
+SHIPPED_ROTORS = ("uh60a", "r22", "s61", "gazelle", "bo105")
 """Names of the shipped rotors, each in `assets/<name>.toml`. The first is the default."""
 
 MEASURED_ROTORS = (
@@ -20,6 +20,7 @@ MEASURED_ROTORS = (
     "castles-gray",
     "castles-gray-twisted",
     "2mrts",
+    "hart2",
 )
 """Names of the shipped rotors that were tested on a stand, each in `assets/rotors/<name>.toml`."""
 

@@ -1,6 +1,20 @@
 """Units and physical constants used in several folders. Everything inside `rotor` is SI."""
 
+import math
+
 KNOT = 1852.0 / 3600.0
 """One knot [m/s], exact."""
 GRAVITY = 9.80665
 """Standard gravity [m/s²] (ISO 2533)."""
+
+
+def degrees_text(angle: float) -> str:
+    """The shortest number of degrees that is `angle` [rad] again; all digits where none is."""
+    exact = math.degrees(angle)
+    rounded = (round(exact, digits) for digits in range(15))
+    return digits_text(next((value for value in rounded if math.radians(value) == angle), exact) + 0.0)
+
+
+def digits_text(value: float) -> str:
+    """All digits of a number, without a needless .0."""
+    return repr(int(value)) if value == int(value) else repr(float(value))

@@ -16,6 +16,7 @@ from rotor.aero.switches import switched_off
 from rotor.assets import SHIPPED_ROTORS
 from rotor.command.common import design_from
 from rotor.command.parser import build_parser
+from rotor.design.active_twist import harmonics_text
 from rotor.design.blade import airfoils_spec
 from rotor.design.design import Design
 from rotor.design.twist import (
@@ -28,6 +29,7 @@ from rotor.design.twist import (
     TwistLaw,
 )
 from rotor.files.make_design import make_design
+from rotor.units import degrees_text, digits_text
 
 _CALL_WIDTH = 100
 """Characters after which a call is written one argument a line."""
@@ -137,19 +139,20 @@ def _flags(design: Design) -> list[str]:
     condition, plain = design.condition, make_design(preset=design.preset, rotor=design.aircraft)
     words = [f"--rotor {design.aircraft.key}"] if design.aircraft.key not in ("", SHIPPED_ROTORS[0]) else []
     words += [f"--preset {design.preset}"] if design.preset != "flight" else []
-    words.append("--hover" if design.hovering else f"--mu {_plain(condition.advance_ratio)}")
+    words.append("--hover" if design.hovering else f"--mu {digits_text(condition.advance_ratio)}")
     words.append(f"--twist {shlex.quote(exact_spec(design.twist))}")
+    words += [f"--{name.replace('_', '-')} {text}" for name, text in _per_rev(design).items()]
     if condition.stand is None:
-        words.append(f"--mass-kg {_plain(condition.mass)}")
+        words.append(f"--mass-kg {digits_text(condition.mass)}")
     else:
         words.append(f"--trim {design.models.trim}")
         words += [
             f"--{_FLAGS.get(key, key.replace('_', '-'))} {value}" for key, value in condition.stand.record().items()
         ]
     if condition.altitude:
-        words.append(f"--altitude-m {_plain(condition.altitude)}")
+        words.append(f"--altitude-m {digits_text(condition.altitude)}")
     if condition.climb_speed:
-        words.append(f"--climb-m-s {_plain(condition.climb_speed)}")
+        words.append(f"--climb-m-s {digits_text(condition.climb_speed)}")
     inflow = "hover_inflow" if design.hovering else "inflow"
     if getattr(design.models, inflow) != getattr(plain.models, inflow):
         words.append(f"--inflow {getattr(design.models, inflow)}")
@@ -174,11 +177,6 @@ def _is_read_as(flags: list[str], design: Design) -> bool:
     except ValueError:
         return False
     return same(read, design)
-
-
-def _plain(value: float) -> str:
-    """A number without a needless .0, exact."""
-    return repr(int(value)) if value == int(value) else repr(float(value))
 
 
 def _on_lines(words: list[str]) -> str:
@@ -211,6 +209,12 @@ def _test(design: Design) -> dict[str, Any]:
     return {} if stand is None else {"trim": design.models.trim, "stand": stand.record()}
 
 
+def _per_rev(design: Design) -> dict[str, str]:
+    """The arguments of `make_design` for pitch that follows the azimuth; none for a twist that is not linear."""
+    given = {"twist_per_rev": design.linear_active_twist, "pitch_per_rev": design.pitch_per_rev}
+    return {name: harmonics_text(waves) for name, waves in given.items() if waves}
+
+
 def as_python(design: Design) -> str:
     """A script that makes the design with `rotor`'s own names, solves it, and prints power by parts and caveats.
 
@@ -226,6 +230,7 @@ def as_python(design: Design) -> str:
         mass_kg=condition.mass,
         altitude_m=condition.altitude,
         climb_m_s=condition.climb_speed,
+        **_per_rev(design),
         **_test(design),
     )
     spec = exact_spec(design.twist)
@@ -239,7 +244,7 @@ def as_python(design: Design) -> str:
         f"mass_kg={float(condition.mass)!r}",
         f"altitude_m={float(condition.altitude)!r}",
         *([f"climb_m_s={float(condition.climb_speed)!r}"] if condition.climb_speed else []),
-        *(f"{name}={value!r}" for name, value in _test(design).items()),
+        *(f"{name}={value!r}" for name, value in (_per_rev(design) | _test(design)).items()),
     ]
     made = writer.call("make_design", arguments)
     changed = writer.changes("design", replace(start, twist=design.twist), design)
@@ -293,31 +298,20 @@ def exact_spec(law: TwistLaw) -> str:
     """A law's SPEC with all digits needed to read it back; `TwistLaw.spec` rounds for people."""
     match law:
         case LinearTwist(rate):
-            return f"linear:{degrees(rate)}"
+            return f"linear:{degrees_text(rate)}"
         case QuadraticTwist(curvature, difference):
-            return f"quadratic:{degrees(curvature)},{degrees(difference)}"
+            return f"quadratic:{degrees_text(curvature)},{degrees_text(difference)}"
         case PiecewiseLinearTwist(rates, breaks):
-            return f"segments:{_listed(rates)}" + (f"@{','.join(map(_digits, breaks))}" if breaks else "")
+            return f"segments:{_listed(rates)}" + (f"@{','.join(map(digits_text, breaks))}" if breaks else "")
         case SplineTwist(stations, angles):
-            return f"spline:{_listed(angles)}@{','.join(map(_digits, stations))}"
+            return f"spline:{_listed(angles)}@{','.join(map(digits_text, stations))}"
         case IdealTwist(tip_pitch):
-            return f"ideal:{degrees(tip_pitch)}"
+            return f"ideal:{degrees_text(tip_pitch)}"
         case SumTwist(base, change):
             return f"{exact_spec(base)}+{exact_spec(change)}"
         case _:
             return law.spec()
 
 
-def degrees(angle: float) -> str:
-    """The shortest number of degrees that is `angle` [rad] again; all digits where none is."""
-    exact = math.degrees(angle)
-    rounded = (round(exact, digits) for digits in range(15))
-    return _digits(next((value for value in rounded if math.radians(value) == angle), exact) + 0.0)
-
-
 def _listed(angles: tuple[float, ...]) -> str:
-    return ",".join(map(degrees, angles))
-
-
-def _digits(value: float) -> str:
-    return repr(int(value)) if value == int(value) else repr(float(value))
+    return ",".join(map(degrees_text, angles))

@@ -110,7 +110,7 @@ def rotor_scene(solution: Solution, azimuth_deg: float) -> trimesh.Scene:
             shape, vertices = _loft(design, psi, flown_twist(solution, psi))
             colour = colours.BLADE if k else colours.MARKED_BLADE
             scene.geometry[name] = _painted(vertices, shape.faces, colour)
-        place = body @ _matrix(blade_pose(controls, psi, _hinge(design)))
+        place = body @ _matrix(blade_pose(controls, psi, _hinge(design), design))
         scene.graph.update(frame_to=f"blade_{k + 1}", matrix=place, geometry=name)
     return scene
 

@@ -151,15 +151,15 @@ def flown_pitch(solution: Solution, shape: BladeShape, exaggeration: float) -> A
 
     The mean alone where the twist does not change around the disk.
     """
-    active = solution.design.active_twist
-    highest = max((HARMONICS, *(one.per_rev for one in active.harmonics))) if active else HARMONICS
+    waves = solution.design.pitch_waves
+    highest = max(HARMONICS, *(one.per_rev for wave in waves for one in wave.harmonics)) if waves else HARMONICS
     count = max(24, 4 * highest) if follows_azimuth(solution) else 1
     psi = 2.0 * np.pi * np.arange(count) / count
     pitch = np.array([shape.pitch(flown_twist(solution, float(at)), exaggeration) for at in psi])
-    waves = [np.ones_like(psi)]
+    basis = [np.ones_like(psi)]
     for n in range(1, highest + 1) if count > 1 else ():
-        waves += [2.0 * np.cos(n * psi), 2.0 * np.sin(n * psi)]
-    return np.array(waves) @ pitch / count
+        basis += [2.0 * np.cos(n * psi), 2.0 * np.sin(n * psi)]
+    return np.array(basis) @ pitch / count
 
 
 def _point(solution: Solution, shape: BladeShape, view: ViewState, colour_range: tuple[float, float]) -> dict[str, Any]:

@@ -64,9 +64,11 @@ def provenance_lines(solution: Solution) -> list[str]:
         f"{solution.status.value}: {solution.message} Residual {solution.residual:.1e} of weight.",
         f"total power {solution.power.total / 1e3:.6f} kW, main rotor {solution.power.main_rotor / 1e3:.6f} kW",
     ]
-    if design.active_twist is not None:
-        waves = ", ".join(f"{one.per_rev}/rev {one.amplitude:g} rad" for one in design.active_twist.harmonics)
-        lines.insert(1, f"added active twist: {waves}" + (" (at rest in hover)" if design.hovering else ""))
+    active = () if design.active_twist is None else design.active_twist.harmonics
+    for what, harmonics in (("root pitch", design.pitch_per_rev), ("active twist", active)):
+        if harmonics:
+            waves = ", ".join(f"{one.per_rev}/rev {one.amplitude:g} rad, phase {one.phase:g} rad" for one in harmonics)
+            lines.insert(1, f"added {what}: {waves}" + (" (at rest in hover)" if design.hovering else ""))
     lines += [f"caveat: {caveat.sentence}" for caveat in solution.caveats]
     lines.append(", ".join(f"{name} {number}" for name, number in versions().items()))
     lines.append("A model, not a measurement.")

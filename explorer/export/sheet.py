@@ -11,7 +11,7 @@ from explorer.export.disk_drawing import HALF, OUTLINES, bar_drawing, disk_drawi
 from explorer.export.provenance import PROGRAM, versions
 from explorer.picture.fields import FIELDS, Field
 from explorer.state import ViewState
-from explorer.text.design_words import active_words, flight_words, model_words, title_words
+from explorer.text.design_words import flight_words, model_words, title_words, wave_words
 from explorer.text.readout import part_titles
 from explorer.text.units import SI, UNITS, Units
 from explorer.theme.colours import PARTS
@@ -184,8 +184,8 @@ def _heading(solution: Solution, shown: DiskContent, x: float, y: float, wide: f
     below = [flight_words(design, shown.units), *_wrapped(model_words(design), wide, 2.1 * u)]
     if shown.note:
         below.append(shown.note)
-    if design.active_twist is not None and not design.hovering:
-        below.insert(0, f"with {active_words(design.active_twist)}")
+    if words := wave_words(design):
+        below[:0] = _wrapped(f"with {words}", wide, 2.1 * u)
     under = y + len(title) * 3.9 * u
     return _lines(title, x, y, 3.0 * u, 650) + _lines(below, x, under, 2.1 * u, opacity=0.8)
 

@@ -85,7 +85,7 @@
     const xs = now.lines[now.lines.length - 1].x, edge = ys => ys.map((y, k) => `${frame.X(xs[k]).toFixed(1)} ${frame.Y(y).toFixed(1)}`);
     return now.band ? `<path d="M${[...edge(now.band.low), ...edge(now.band.high).reverse()].join('L')}Z" fill="${COLOURS.flown}" opacity=".22" data-band/>` : '';
   }
-  const MEANT = {jig: 'As built; the sliders set it', flown: 'Jig and elastic twist: mean over azimuth, shaded from least to greatest'};
+  const MEANT = {jig: 'As built; the sliders set it', flown: 'Jig, active and elastic twist: mean over azimuth, shaded from least to greatest'};
   // One row, in the corner where it covers none of the curves, or least of them; it stays there while it can.
   const WORDS = {jig: [['jig, set by the sliders', 158]], flown: [['jig', 46], ['flown, band over azimuth', 170]]};
   let corner = 0;

@@ -103,7 +103,7 @@ def turned_blades(solution: Solution, view: ViewState, each: bool = True) -> Bla
     differ = each and follows_azimuth(solution)
     return Blades(
         azimuth=first,
-        poses=tuple(blade_pose(solution.controls, psi, hinge) for psi in azimuths),
+        poses=tuple(blade_pose(solution.controls, psi, hinge, solution.design) for psi in azimuths),
         shapes=tuple(
             blade_vertices(shape, flown_twist(solution, psi), view.exaggeration) for psi in azimuths if differ
         ),

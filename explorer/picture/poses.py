@@ -64,14 +64,28 @@ def airframe_pose(controls: TrimState) -> Pose:
     return Pose(about(1, SHAFT_FORWARD - controls.shaft_tilt), np.zeros(3))
 
 
-def blade_pose(controls: TrimState, psi: float, hinge: float) -> Pose:
+def pitch_series(controls: TrimState, design: Design | None = None) -> list[float]:
+    """Root pitch [rad] in harmonics 1, cos ψ, sin ψ, cos 2ψ, …: collective, cyclic and n/rev of the design."""
+    series = [controls.collective, controls.cyclic_1c, controls.cyclic_1s]
+    given = () if design is None or design.hovering else design.pitch_per_rev
+    for n in range(2, max((one.per_rev for one in given), default=1) + 1):
+        size, phase = next(((one.amplitude, one.phase) for one in given if one.per_rev == n), (0.0, 0.0))
+        series += [size * math.cos(phase), size * math.sin(phase)]
+    return series
+
+
+def blade_pose(controls: TrimState, psi: float, hinge: float, design: Design | None = None) -> Pose:
     """A blade at azimuth ψ [rad] in the shaft frame: flapped about its hinge at `hinge` [m], then pitched.
 
-    The twist is in the blade's own shape, so the pitch here is θ0 + θ1c cos ψ + θ1s sin ψ.
+    The twist is in the blade's own shape, so the pitch here is θ0 + θ1c cos ψ + θ1s sin ψ, and n/rev of a `design`.
     """
     cos, sin = math.cos(psi), math.sin(psi)
     flap = controls.coning + controls.flap_1c * cos + controls.flap_1s * sin
-    pitch = controls.collective + controls.cyclic_1c * cos + controls.cyclic_1s * sin
+    mean, *waves = pitch_series(controls, design)
+    pitch = mean + sum(
+        cosine * math.cos(n * psi) + sine * math.sin(n * psi)
+        for n, (cosine, sine) in enumerate(zip(waves[::2], waves[1::2], strict=True), start=1)
+    )
     return Pose(compose(about(2, psi), about(1, -flap), about(0, pitch)), hinge * np.array([cos, sin, 0.0]))
 
 

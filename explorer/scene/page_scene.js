@@ -42,7 +42,9 @@
       position: [hinge * Math.cos(angle), hinge * Math.sin(angle), 0], poseUpdateState: 'needsUpdate',
     };
   };
-  const harmonic = ([mean, cosine, sine], angle) => mean + cosine * Math.cos(angle) + sine * Math.sin(angle);
+  // Of 1, cos ψ, sin ψ, cos 2ψ, …
+  const harmonic = ([mean, ...waves], angle) =>
+    waves.reduce((sum, size, k) => sum + size * (k % 2 ? Math.sin : Math.cos)((1 + (k >> 1)) * angle), mean);
   const show = at => {
     for (let k = 0; k < motion.blades; k++) {
       const angle = at + 2 * Math.PI * k / motion.blades;

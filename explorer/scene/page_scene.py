@@ -16,6 +16,7 @@ from typing import Any
 import viser
 
 from explorer.hosting.viser_compat import run_in_page
+from explorer.picture.poses import pitch_series
 from explorer.picture.wake import tip_vortex_path
 from explorer.scene.overlays import VORTICES
 from explorer.scene.scene import ROTOR
@@ -48,7 +49,7 @@ def motion_of(solution: Solution) -> dict[str, Any]:
         "blades": rotor.blades,
         "hinge": rotor.blade.flap_hinge * rotor.radius,
         "flap": [controls.coning, controls.flap_1c, controls.flap_1s],
-        "pitch": [controls.collective, controls.cyclic_1c, controls.cyclic_1s],
+        "pitch": pitch_series(controls, solution.design),
         "radius": rotor.radius,
         "vortices": VORTICES,
         "path": asdict(tip_vortex_path(solution)),

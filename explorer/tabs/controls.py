@@ -1,5 +1,9 @@
-"""The rail of the Explore mode: widgets ↔ `Inputs`. Callbacks only say that something changed."""
+"""The rail of the Explore mode, and n/rev pitch and twist of Actuate: widgets ↔ `Inputs`.
 
+Callbacks only say that something changed.
+"""
+
+import math
 import threading
 import time
 from collections.abc import Callable, Mapping
@@ -15,11 +19,13 @@ from explorer.state import INFLOW_MENUS, INPUT_NAMES, LAWS, NOT_ALWAYS, PRESET_T
 from explorer.tabs import power_card as worth
 from explorer.tabs.stand_controls import StandControls
 from explorer.text import readout
+from explorer.text.design_words import harmonic_words
 from explorer.text.glossary import hint
 from explorer.text.units import SI, Units
 from explorer.undo import Pauses
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES
+from rotor.design.active_twist import HIGHEST, LARGEST_PITCH, Harmonic
 
 
 class InputHandle(Protocol):
@@ -46,6 +52,8 @@ class DesignControls:
         self._changed = changed
         self.touched: Callable[[], None] = lambda: None
         """Called when a hand moves a widget."""
+        self.placed: Callable[[Inputs], None] = lambda inputs: None
+        """Called when the widgets are moved to these inputs, for widgets elsewhere on the page."""
         self._inputs: dict[str, InputHandle] = {}
         self._special = start
         """Holds what the laws mean that are not always there."""
@@ -122,6 +130,15 @@ class DesignControls:
             self._place(inputs)
         self._changed()
 
+    def change(self, **changes: Any) -> None:
+        """A hand changed inputs by widgets elsewhere on the page; all else stays, that of a preview too."""
+        with self._moving:
+            self._own = None
+            changed = replace(self.inputs(), **changes)
+        self.touched()
+        self.pauses.moved(time.monotonic())
+        self.set_inputs(changed)
+
     def follow(self, preview: Inputs | None) -> None:
         """Show a preview on the sliders; None: the user's own inputs again. `inputs` stay what they are."""
         with self._moving:
@@ -144,6 +161,7 @@ class DesignControls:
         self._fit("mass_t", inputs)
         self._fit("advance_ratio", inputs)
         self.stand.place(inputs)
+        self.placed(inputs)
         titles = {"law": self._laws, "preset": PRESET_TITLES, **INFLOW_MENUS}
         for name in INPUT_NAMES:
             if name in self._inputs:
@@ -258,6 +276,102 @@ class DesignControls:
             handle.min, handle.max = form.low, form.high
 
 
+_WAVES = {"pitch_per_rev": ("Pitch", 2), "twist_per_rev": ("Twist", 1)}
+"""By the field of `Inputs`: title, and the lowest harmonic."""
+_WAVE_DEG = round(math.degrees(LARGEST_PITCH), 6)
+"""Largest amplitude on the sliders; a design file may have more twist."""
+
+
+class PerRevControls:
+    """One client's. The menu says which harmonic the two sliders set; an amplitude of zero takes it away."""
+
+    def __init__(
+        self, gui: viser.GuiApi, start: Inputs, inputs: Callable[[], Inputs], change: Callable[..., None]
+    ) -> None:
+        """`inputs`: of the page. `change`: called with what a hand changed of them, by name."""
+        self._inputs, self._change = inputs, change
+        self._orders: dict[str, Any] = {}
+        self._sizes: dict[str, Any] = {}
+        self._phases: dict[str, Any] = {}
+        self._changing = False
+        with gui.add_folder("Pitch and twist at n/rev"):
+            self._words = gui.add_html("")
+            for name, (title, lowest) in _WAVES.items():
+                orders = tuple(f"{n}/rev" for n in range(lowest, HIGHEST + 1))
+                self._orders[name] = gui.add_dropdown(
+                    f"{title} harmonic", orders, initial_value="3/rev", hint=hint(name)
+                )
+                self._sizes[name] = gui.add_slider(
+                    f"{title} amplitude [°]", 0.0, _WAVE_DEG, 0.05, 0.0, hint=hint("wave_amplitude")
+                )
+                self._phases[name] = gui.add_slider(f"{title} phase [°]", 0.0, 360.0, 5.0, 0.0, hint=hint("wave_phase"))
+                self._orders[name].on_update(self._chosen(name))
+                for handle in (self._sizes[name], self._phases[name]):
+                    handle.on_update(quick(self._slid(name)))
+        self.place(start)
+
+    def place(self, inputs: Inputs) -> None:
+        """Show these inputs; a harmonic that is there, where the menu names one that is not."""
+        for name in _WAVES:
+            waves: tuple[Harmonic, ...] = getattr(inputs, name)
+            there = [one.per_rev for one in waves]
+            if there and self._order(name) not in there and not self._changing:
+                self._orders[name].value = f"{there[0]}/rev"
+            self._show(name, waves)
+        words = harmonic_words(inputs.twist_per_rev, inputs.pitch_per_rev) or "none set"
+        shaped = " The twist has the shape of its design file." if inputs.active_shape else ""
+        self._words.content = (
+            f'<div class="rx rx-dim rx-small" data-explorer="per-rev">{words[:1].upper()}{words[1:]}.{shaped}</div>'
+        )
+
+    def hold(self, held: bool) -> None:
+        """Take the widgets from the user, or give them back."""
+        for handles in (self._orders, self._sizes, self._phases):
+            for handle in handles.values():
+                handle.disabled = held
+
+    def _order(self, name: str) -> int:
+        return int(self._orders[name].value.partition("/")[0])
+
+    def _show(self, name: str, waves: tuple[Harmonic, ...]) -> None:
+        """The harmonic of the menu on its sliders; without it the phase stays as it was."""
+        wave = next((one for one in waves if one.per_rev == self._order(name)), None)
+        size, phase = self._sizes[name], self._phases[name]
+        degrees = 0.0 if wave is None else round(math.degrees(wave.amplitude), 6)
+        if degrees > size.max:  # From a design file.
+            size.max = degrees
+        if size.value != degrees:
+            size.value = degrees
+        if wave is not None and phase.value % 360.0 != (angle := round(math.degrees(wave.phase), 6)):
+            phase.value = angle
+
+    def _chosen(self, name: str) -> Callable[[viser.GuiEvent[Any]], None]:
+        def moved(event: viser.GuiEvent[Any]) -> None:
+            if event.client is not None:
+                self._show(name, getattr(self._inputs(), name))
+
+        return moved
+
+    def _slid(self, name: str) -> Callable[[viser.GuiEvent[Any]], None]:
+        def moved(event: viser.GuiEvent[Any]) -> None:
+            if event.client is None:
+                return
+            order, size = self._order(name), math.radians(float(self._sizes[name].value))
+            before: tuple[Harmonic, ...] = getattr(self._inputs(), name)
+            others = [one for one in before if one.per_rev != order]
+            own = [Harmonic(order, size, math.radians(float(self._phases[name].value)))] if size > 0.0 else []
+            after = tuple(sorted([*others, *own], key=lambda one: one.per_rev))
+            if after == before:
+                return
+            self._changing = True  # The menu stays on the harmonic that the hand moves.
+            try:
+                self._change(**{name: after})
+            finally:
+                self._changing = False
+
+        return moved
+
+
 def _flight_heading(speed: float, units: Units, tested: bool = False) -> str:
     """The heading of the flight sliders with the airspeed [m/s] as each reader reads it."""
     words, title = units.airspeed(speed), "TEST STAND" if tested else "FLIGHT"
@@ -265,7 +379,9 @@ def _flight_heading(speed: float, units: Units, tested: bool = False) -> str:
 
 
 _LAW_INPUTS = frozenset(name for law in LAWS.values() for name in law.inputs)
-_HELD = ("stand", "rotor", "own_rotor", "given", "found", "airfoils")
+_HELD = (
+    "stand", "rotor", "own_rotor", "given", "found", "airfoils", "pitch_per_rev", "twist_per_rev", "active_shape",
+)  # fmt: skip
 """Inputs that no slider moves by itself: a menu or a file brings them, with others."""
 
 

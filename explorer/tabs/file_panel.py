@@ -136,5 +136,4 @@ class FilePanel:
             self._context.notify("Not loaded", str(error))
             return
         self._context.set_inputs(inputs)
-        more = " Its active twist is ignored: set it under Actuate." if design.active_twist else ""
-        self._context.notify("Loaded", " ".join([f"{name} is on the sliders.{more}", *said]))
+        self._context.notify("Loaded", " ".join([f"{name} is on the sliders.", *said]))

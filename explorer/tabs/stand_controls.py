@@ -20,11 +20,11 @@ from explorer.stand import (
 from explorer.state import Inputs
 from explorer.text.glossary import hint
 from rotor.design.aircraft import Aircraft, FlightCondition
-from rotor.design.stand import STAND_TRIMS
+from rotor.design.stand import STAND_TRIMS, Flapping
 
 _NONE = "–"
 """In the menus of measured conditions: no measured condition is set."""
-_FLAPPING = {"trimmed": "Trimmed by cyclic", "free": "Free"}
+_FLAPPING: dict[Flapping, str] = {"trimmed": "Trimmed by cyclic", "free": "Free", "hub-moments": "For hub moments"}
 _SLIDERS = {
     "shaft_tilt_deg": Slider("Shaft tilt [°]", -25.0, 25.0, 0.1),
     "ct_over_sigma": Slider("CT/σ", 0.0, 0.2, 0.001),
@@ -165,7 +165,8 @@ class StandControls:
 
     def _flapping_chosen(self, event: viser.GuiEvent[Any]) -> None:
         if event.client is not None and self.stand is not None:
-            self._change(replace(self.stand, flapping="free" if event.target.value == _FLAPPING["free"] else "trimmed"))
+            chosen = next(name for name, title in _FLAPPING.items() if title == event.target.value)
+            self._change(replace(self.stand, flapping=chosen))
 
     def _slid(self, name: str) -> Callable[[viser.GuiEvent[Any]], None]:
         def moved(event: viser.GuiEvent[Any]) -> None:

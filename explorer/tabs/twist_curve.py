@@ -108,15 +108,17 @@ class TwistCurveEditor:
 
 
 def flown_band(solution: Solution, r: Array) -> tuple[Array, Array, Array] | None:
-    """Flown twist [°] at r/R, jig and elastic: mean, least and greatest over azimuth; None for a rigid blade.
+    """Flown twist [°] at r/R, jig, active and elastic: mean, least and greatest over azimuth; None without the two.
 
-    Relative to the jig twist at 0.75 R, as the jig curve, so that the two are apart by the elastic twist.
+    Relative to the jig twist at 0.75 R, as the jig curve, so that the two are apart by active and elastic twist.
     """
-    elastic = solution.disk.elastic_twist
-    if elastic is None:
+    disk, design = solution.disk, solution.design
+    active = None if design.active_twist is None or design.hovering else design.active_twist(disk.r, disk.psi)
+    added = [one for one in (disk.elastic_twist, active) if one is not None]
+    if not added:
         return None
-    jig, stations = shown_twist(solution.design)(r), solution.disk.r
-    ends = (elastic.mean(axis=1), elastic.min(axis=1), elastic.max(axis=1))
+    both, jig, stations = sum(added[1:], start=added[0]), shown_twist(design)(r), disk.r
+    ends = (both.mean(axis=1), both.min(axis=1), both.max(axis=1))
     mean, low, high = (jig + np.degrees(np.interp(r, stations, angles)) for angles in ends)
     return mean, low, high
 

@@ -8,7 +8,7 @@ from explorer.text.units import METRE_PER_SECOND, SI, TONNE, Units, number
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, switched_off
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
-from rotor.design.active_twist import ActiveTwist
+from rotor.design.active_twist import Harmonic
 from rotor.design.design import Design
 from rotor.design.twist import (
     IdealTwist,
@@ -63,10 +63,25 @@ def twist_words(law: TwistLaw) -> str:
             return law.spec()
 
 
-def active_words(active: ActiveTwist) -> str:
-    """The harmonics of active twist."""
-    waves = (f"{number(math.degrees(one.amplitude), 2)}° at {one.per_rev}/rev" for one in active.harmonics)
-    return f"active twist of {_joined(list(waves))}"
+def wave_words(design: Design) -> str:
+    """Active twist and root pitch that follow the azimuth; empty without, and in hover."""
+    active = () if design.active_twist is None else design.active_twist.harmonics
+    return "" if design.hovering else harmonic_words(active, design.pitch_per_rev)
+
+
+def harmonic_words(twist: tuple[Harmonic, ...], pitch: tuple[Harmonic, ...]) -> str:
+    """Harmonics of active twist and root pitch."""
+    kinds = (("active twist", twist), ("root pitch", pitch))
+    return " and ".join(f"{kind} of {_harmonics(waves)}" for kind, waves in kinds if waves)
+
+
+def _harmonics(waves: tuple[Harmonic, ...]) -> str:
+    return _joined(
+        [
+            f"{number(math.degrees(one.amplitude), 2)}° at {one.per_rev}/rev (phase {math.degrees(one.phase):.0f}°)"
+            for one in waves
+        ]
+    )
 
 
 def title_words(design: Design) -> str:
@@ -96,6 +111,8 @@ def stand_words(stand: StandInputs) -> str:
         words.append(f"tilt {number(stand.shaft_tilt_deg, 1)}°")
     if stand.flapping == "free" and (stand.cyclic_1c_deg or stand.cyclic_1s_deg):
         words.append(f"cyclic {number(stand.cyclic_1c_deg, 1)}°, {number(stand.cyclic_1s_deg, 1)}°")
+    if stand.flapping == "hub-moments":
+        words.append(f"hub moments {stand.hub_roll_nm:.4g}, {stand.hub_pitch_nm:.4g} N m")
     words += [f"tip Mach {stand.tip_mach:.4g}"] if stand.tip_mach is not None else []
     words += [f"{stand.density:.4g} kg/m³"] if stand.density is not None else []
     return ", ".join(words)
@@ -122,16 +139,22 @@ def physics_words(design: Design) -> str:
 
 
 def twist_name(inputs: Inputs) -> str:
-    """The twist: `Two segments −14/−8 at 0.5`, after the rotor's name where it is not the UH-60A."""
+    """The twist: `Two segments −14/−8 at 0.5`, after the rotor's name where it is not the UH-60A, and harmonics."""
     rotor = "" if inputs.rotor == SHIPPED_ROTORS[0] else f"{inputs.aircraft.name}, "
+    given = (("twist", inputs.twist_per_rev), ("pitch", inputs.pitch_per_rev))
+    waves = "".join(
+        f", {one.per_rev}/rev {kind} {number(math.degrees(one.amplitude), 2)}°"
+        for kind, harmonics in given
+        for one in harmonics
+    )
     if inputs.law == "builtin" and inputs.built_inner == inputs.built_outer == 0.0:
-        return rotor + "As built"
+        return rotor + "As built" + waves
     values = "/".join(number(getattr(inputs, name), 1).removesuffix(".0") for name in _SHAPES.get(inputs.law, ()))
     places = "/".join(f"{getattr(inputs, name):g}" for name in _PLACES.get(inputs.law, ()))
     name = LAWS[inputs.law].title
     if values:
         name += f" {values}" + ("°" if inputs.law == "linear" else "")
-    return rotor + name + (f" at {places}" if places else "")
+    return rotor + name + (f" at {places}" if places else "") + waves
 
 
 def flight_name(inputs: Inputs, units: Units = SI) -> str:

@@ -60,7 +60,9 @@ CONTROLS: dict[str, Term] = {
     "measured_test": Term("Tests in which this rotor was measured; choose one to set its conditions."),
     "measured_point": Term("The measured points of this test; choose one to set its conditions."),
     "stand_load": Term("What is given: thrust over ρA(ΩR)²σ, thrust, or the pitch at 0.75 R."),
-    "stand_flapping": Term("First-harmonic flapping kept at zero by cyclic, or left to the blades at given cyclic."),
+    "stand_flapping": Term(
+        "First-harmonic flapping: zero by cyclic, free at given cyclic, or free with cyclic that gives the hub moments."
+    ),
     "shaft_tilt_deg": Term("Tilt of the shaft, positive forward."),
     "ct_over_sigma": Term("Blade loading CT/σ: thrust over ρA(ΩR)²σ."),
     "thrust_n": Term("Thrust along the shaft."),
@@ -137,6 +139,12 @@ CONTROLS: dict[str, Term] = {
     "harmonic": Term("Cycles of active twist per revolution; none in hover."),
     "amplitude": Term("Amplitude of the harmonic voltage, as a share of half the voltage range."),
     "phase": Term("Phase of the harmonic voltage, highest at ψ = phase/harmonic. An elastic blade follows later."),
+    "pitch_per_rev": Term(
+        "Harmonic of root pitch that the two sliders below set; higher-harmonic control.", section=10
+    ),
+    "twist_per_rev": Term("Harmonic of twist, tip relative to root, that the two sliders below set.", section=10),
+    "wave_amplitude": Term("Of this harmonic, on a blade at rest; zero takes it away. Off in hover."),
+    "wave_phase": Term("Of this harmonic: most nose-up at ψ = phase/n."),
     "keep": Term("Bookmarks this design (M), to return to it or to compare with it."),
     "take": Term("Step of the history to return to; a click on the strip sets it."),
     "link": Term("Copies the address of the page, which contains the whole design."),

@@ -49,6 +49,8 @@ def validated(solution: Solution) -> ValidationRecord:
         parts.insert(0, f"Outside what was compared: {outside}.")
     if design.twist != design.rotor.builtin_twist or design.active_twist is not None:
         parts.append("Measured with the twist as built; no measurement of this twist is known.")
+    if design.pitch_per_rev:
+        parts.append("Measured with collective and cyclic alone.")
     words = f"measured: {_short(row, measured)}" if not outside else "outside the test range"
     sentence = typographic(" ".join(part for part in parts if part))
     return ValidationRecord(words, re.sub(r"\bC_(?=[TPQ])", "C", sentence), measured)

@@ -86,6 +86,11 @@ def _cause(before: Solution, after: Solution) -> str:
     if a.preset != b.preset:
         return f"Preset {b.preset} instead of {a.preset}"
     causes = [*_rotor_causes(a, b), *_model_causes(a, b), *_flight_causes(a, b)]
+    if a.pitch_per_rev != b.pitch_per_rev:
+        orders = " and ".join(f"{one.per_rev}/rev" for one in b.pitch_per_rev)
+        causes.append(
+            f"{'other ' if a.pitch_per_rev else ''}root pitch at {orders}" if orders else "no n/rev root pitch"
+        )
     if (a.twist, a.active_twist) != (b.twist, b.active_twist):
         # With another rotor or flight the lift moves for their sake too, so it is named only on its own.
         causes = [*causes, "a new twist"] if causes else [lift_movement(before, after)]

@@ -1,7 +1,8 @@
 """The elastic twist of the rotating blade in the trim: modes along the blade, harmonics around the disk.
 
 The blade twists by φ(r, ψ) = Σ_k Φ_k(r) q_k(ψ), with the lowest rotating torsion modes Φ_k and q_k a Fourier series.
-With the pitch θ = θ_jig + θ_control + φ (and active twist) and the modal frequencies ν_k [per rev],
+With the pitch θ = θ_jig + θ_control + φ (and active twist), θ_control with its n/rev root pitch, and the modal
+frequencies ν_k [per rev],
 
     m_k (q_k'' + ν_k² q_k) = ∫ Φ_k [ dC_M/dr − j (θ_rigid'' + ½ sin 2θ − φ) + w β0 ] dr
                              − ∫ Φ_k' F_c k_A² (θ_jig + θ_act)' dr
@@ -36,8 +37,7 @@ from rotor.engine.waves import wave_grid
 MODES = 2
 """Torsion modes of the trim: power within 0.03 % and the mean twist of the tip within 0.03° of six modes (tested)."""
 HARMONICS = 4
-"""Highest harmonic of the elastic twist, unless active twist has a higher one."""
-_MOST_HARMONICS = 8
+"""Highest harmonic of the elastic twist, unless active twist or root pitch has a higher one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -201,7 +201,6 @@ def _tension(modes: TorsionModes, disk: Disk, radius: float) -> tuple[Array, Arr
     return mode_slopes * weight @ hat_slopes.T, hat_slopes * weight @ hat_slopes.T
 
 
-def highest_harmonic(active: ActiveTwist | None) -> int:
-    """Harmonics of the elastic twist that a design needs."""
-    waves = [wave.per_rev for wave in active.harmonics] if active else []
-    return max([HARMONICS, *(wave for wave in waves if wave <= _MOST_HARMONICS)])
+def highest_harmonic(waves: tuple[ActiveTwist, ...]) -> int:
+    """Harmonics of the elastic twist that a design with these waves of pitch needs."""
+    return max([HARMONICS, *(one.per_rev for wave in waves for one in wave.harmonics)])

@@ -37,8 +37,8 @@ class Problem:
     disk: Disk
     twist: Array
     """θ_tw at the elements [rad]."""
-    active: Array
-    """θ_act [rad], (elements, azimuths), or (1, 1) without active twist."""
+    waves: Array
+    """Active twist and n/rev root pitch [rad], (elements, azimuths), or (1, 1) where neither is given."""
     flap: FlapDynamics
     tip_mach: float
     weight: float
@@ -58,11 +58,11 @@ class Problem:
     off. Its border is drawn with µ, not µ cos α, so that it stays fixed during the trim and derivatives stay exact."""
     torsion: BladeTorsion | None
     """The blade in torsion; None for a rigid blade."""
-    active_rates: tuple[Array, Array]
-    """First and second derivative of θ_act by ψ, shaped as `active`."""
+    wave_rates: tuple[Array, Array]
+    """First and second derivative of `waves` by ψ, shaped alike."""
     given_torsion: Array
-    """Residual of the torsion equations by the twist of the blade as built and by active twist alone, scaled to
-    radians, (modes, functions)."""
+    """Residual of the torsion equations by the twist of the blade as built and by `waves` alone, scaled to radians,
+    (modes, functions)."""
     expected: Wake
     """The wake of momentum theory when the disk is normal to the resultant of weight and drag."""
     course: WakeCourse
@@ -116,8 +116,7 @@ def build_problem(design: Design) -> Problem:
         weight *= 1.0 + download * (max(wake.axial, 0.0) / wake.speed) ** 2
     weight += down
     twist, flap = design.twist(disk.r), flap_dynamics(rotor, condition.density, blade_weight=models.blade_weight)
-    active = design.active_twist if not design.hovering else None
-    active_field, *rates = _active_twist(design, disk)
+    waves, *rates = _pitch_waves(design, disk)
     torsion = None
     if models.has("elastic_twist") and rotor.blade.structure is not None:
         torsion = build_torsion(
@@ -126,13 +125,13 @@ def build_problem(design: Design) -> Problem:
             condition.density,
             None if models.compressibility else LOW_MACH,
             models.has("swept_tip"),
-            highest_harmonic(active),
+            highest_harmonic(design.pitch_waves),
         )
     return Problem(
         design=design,
         disk=disk,
         twist=twist,
-        active=active_field,
+        waves=waves,
         flap=flap,
         tip_mach=design.tip_mach,
         weight=weight,
@@ -145,10 +144,8 @@ def build_problem(design: Design) -> Problem:
         friction=skin_friction(_reynolds(design)) if models.has("radial_friction") else 0.0,
         unloaded=_unloaded(design, disk),
         torsion=torsion,
-        active_rates=(rates[0], rates[1]),
-        given_torsion=np.zeros(0)
-        if torsion is None
-        else _given_torsion(torsion, twist, active_field if active else None, rates[1]),
+        wave_rates=(rates[0], rates[1]),
+        given_torsion=np.zeros(0) if torsion is None else _given_torsion(torsion, twist, waves, rates[1]),
     )
 
 
@@ -161,17 +158,19 @@ def on_azimuths(problem: Problem, azimuths: int) -> Problem:
     """The problem on the same elements and another number of azimuths."""
     psi = azimuths_of(azimuths)
     disk = replace(problem.disk, psi=psi, cos=np.cos(psi), sin=np.sin(psi))
-    active, *rates = _active_twist(problem.design, disk)
+    waves, *rates = _pitch_waves(problem.design, disk)
     return replace(
-        problem, disk=disk, active=active, active_rates=(rates[0], rates[1]), unloaded=_unloaded(problem.design, disk)
+        problem, disk=disk, waves=waves, wave_rates=(rates[0], rates[1]), unloaded=_unloaded(problem.design, disk)
     )
 
 
-def _active_twist(design: Design, disk: Disk) -> list[Array]:
-    """θ_act and its first two derivatives by ψ, (elements, azimuths) each, or (1, 1) without active twist."""
-    active = design.active_twist if not design.hovering else None
-    still = np.zeros((1, 1))
-    return [active(disk.r, disk.psi, order) if active else still for order in range(3)]
+def _pitch_waves(design: Design, disk: Disk) -> list[Array]:
+    """`Problem.waves` and its first two derivatives by ψ."""
+    given, none = design.pitch_waves, np.zeros((1, 1))
+    highest = max((one.per_rev for wave in given for one in wave.harmonics), default=0)
+    if 2 * highest >= len(disk.psi):
+        raise ValueError(f"{highest}/rev needs more than {2 * highest} azimuths, not {len(disk.psi)}: ask for more")
+    return [sum((one(disk.r, disk.psi, order) for one in given), start=none) for order in range(3)]
 
 
 def _unloaded(design: Design, disk: Disk) -> Booleans | None:
@@ -181,12 +180,12 @@ def _unloaded(design: Design, disk: Disk) -> Booleans | None:
     return disk.r[:, None] + design.condition.advance_ratio * disk.sin < 0.0
 
 
-def _given_torsion(torsion: BladeTorsion, twist: Array, active: Array | None, acceleration: Array) -> Array:
-    """Tension on the built-in and the active twist, and the inertia of the latter, (modes, functions)."""
+def _given_torsion(torsion: BladeTorsion, twist: Array, waves: Array, acceleration: Array) -> Array:
+    """Tension on the built-in and the active twist, and the inertia of what follows the azimuth, (modes, functions)."""
     found = np.zeros((len(torsion.gain), torsion.functions))
     found[:, 0] = torsion.tension @ twist
-    if active is not None:
-        found += torsion.harmonics(torsion.tension @ active)
+    if waves.size > 1:
+        found += torsion.harmonics(torsion.tension @ waves)
         found += torsion.harmonics(torsion.modal(torsion.inertia[:, None] * acceleration))
     return torsion.gain[:, None] * found
 
@@ -220,7 +219,7 @@ def expected_course(design: Design, wake: Wake, flap: FlapDynamics) -> WakeCours
     """Of the wake of momentum theory, under blades that cone as the thrust tells and flap as they are told to."""
     condition, rotor = design.condition, design.rotor
     thrust = 2.0 * wake.lambda0 * wake.speed
-    coning = flap.load_gain * 0.7 * thrust - flap.weight if rotor.precone is None else rotor.precone
+    coning = flap.load_gain * 0.7 * thrust - flap.droop if rotor.precone is None else rotor.precone
     chord = float(rotor.blade.chord(0.9)) / rotor.radius
     reynolds = condition.density * rotor.tip_speed * rotor.radius / condition.viscosity
     core = tip_core(chord, thrust, rotor.blades, reynolds)

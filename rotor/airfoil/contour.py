@@ -76,8 +76,10 @@ def _five_digit(digits: str, x: Array) -> tuple[Array, Array]:
 
 SECTION_NAMES = (
     "sc1095", "sc1094r8", "naca0012", "naca63a015", "naca64208", "naca64118", "naca64528", "naca64935", "goe429",
-    "naca0015re242k",
+    "naca0015re242k", "oa209", "naca23012tab", "naca23012tab-model",
 )  # fmt: skip
+_OUTLINES = {"naca23012tab-model": "naca23012tab"}
+"""Outlines of sections that have that of another: the same at another Reynolds number."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,7 +137,7 @@ def load_contour(name: str) -> Contour:
         raise ValueError(
             f"no outline named {name!r}: choose one of {', '.join(SECTION_NAMES)} or a NACA section as naca23012"
         )
-    return read_contour(asset_path(f"airfoils/{name}.contour"), name)
+    return read_contour(asset_path(f"airfoils/{_OUTLINES.get(name, name)}.contour"), name)
 
 
 def trailing_edge(contour: Contour) -> Array:

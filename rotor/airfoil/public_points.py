@@ -16,6 +16,8 @@ SOURCES = {
     "umd-net": "University of Maryland, net trained on 2-D RANS",
     "cr-166309": "flight-simulation deck, NASA CR-166309",
     "tm-86719": "tunnel, NASA TM-86719",
+    "tm-88370": "flight-test rotor table, NASA TM-88370",
+    "hart2": "section table of the HART II test, DLR",
 }
 """Titles of the sources."""
 

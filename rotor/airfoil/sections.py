@@ -34,7 +34,8 @@ def load_section(name: str) -> SectionTable:
     if name not in SECTION_NAMES:
         hint = did_you_mean(name, TABLE_NAMES) or ":"
         raise ValueError(f"no section named {name!r}{hint} choose one of {', '.join(TABLE_NAMES)}")
-    source = _TUNNEL_SOURCE if name.startswith("sc109") else _MEASURED if name == "naca0015re242k" else _SOURCE
+    tunnel = name.startswith(("sc109", "oa209", "naca23012tab"))
+    source = _TUNNEL_SOURCE if tunnel else _MEASURED if name == "naca0015re242k" else _SOURCE
     return table_from_deck(name, source, read_c81(asset_path(f"airfoils/{name}.c81")))
 
 

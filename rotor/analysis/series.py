@@ -1,4 +1,4 @@
-"""Series of trims of one design: over speed, and with physical effects switched on one after another.
+"""Series of trims of one design: over speed, between drag areas, and with physical effects switched on one by one.
 
 The power of an effect depends on the effects already on, so it is also computed with each effect removed on its own.
 """
@@ -6,7 +6,7 @@ The power of an effect depends on the effects already on, so it is also computed
 import importlib
 import math
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from rotor.aero.switches import SWITCHES, Switch, no_effect, with_switches
@@ -225,3 +225,16 @@ def waterfall(design: Design) -> Waterfall:
     """Thirteen trims: all switches on one after another, then each one off alone."""
     steps = tuple(switch_on_steps(design))
     return Waterfall(steps, tuple(switch_off_steps(design, steps[-1].solution)))
+
+
+def between_drag_areas(solution: Solution) -> tuple[Solution, Solution] | None:
+    """The same flight with the lowest and the highest drag area that the sources of the airframe allow.
+
+    None in hover, on a test stand, where the rotor file states one value only, and where one of the two does not trim.
+    """
+    design, band = solution.design, solution.design.fuselage.drag_area_band
+    flies = design.condition.stand is None and not design.hovering and design.models.fuselage
+    if band is None or not flies or not solution.converged:
+        return None
+    low, high = (solve(replace(design, fuselage=replace(design.fuselage, drag_area=area)), solution) for area in band)
+    return (low, high) if low.converged and high.converged else None

@@ -195,8 +195,8 @@ def _grid(problem: Problem, structure: Structure, step: int) -> Grid:
     if not structure.shapes[LOSS]:
         steady[LOSS] = 1.0
     varying = dict[int, Array]()
-    if problem.active.size > 1:
-        varying = {TH: problem.active[:, ::step], RATE: problem.active_rates[0][:, ::step]}
+    if problem.waves.size > 1:
+        varying = {TH: problem.waves[:, ::step], RATE: problem.wave_rates[0][:, ::step]}
     waves = wave_grid(structure.waves, len(disk.psi) // step)
     return Grid(waves, steady, varying, problem.section_data(step))
 

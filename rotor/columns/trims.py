@@ -8,15 +8,17 @@ blade that flaps leans its lift inboard),
     forward      T sin α − H cos α = D              pulls the airframe's drag
     thrust       T = √(C_W² + D²)                   the resultant, or the thrust given on a test stand
     torque       Σ r F_x = 0                        the air turns the rotor
-    coning       M_0 = (ν² β0 + weight)/Γ
+    coning       M_0 = (ν² β0 + weight − preload)/Γ
     flapping     2 M_1c = (ν² − 1) β1c/Γ,  2 M_1s = (ν² − 1) β1s/Γ
+    hub moments  Σ r F_z sin ψ, −Σ r F_z cos ψ = those given on a test stand, roll and pitch
     momentum     2 λ0 V = T,  V = √(µ_x² + (µ_z + λ0)²)     (2.30) with the axial flow of the tilted disk
 
 `propulsive` (flight preset): collective, cyclic, shaft tilt and coning; first-harmonic flapping has its given value.
 `thrust` (thesis preset): collective and free flapping; no cyclic. Rigid blades have neither flapping nor cyclic among
 their unknowns, and the hub carries the moments. On a test stand no force is balanced. `wind-tunnel`: the collective
 gives the thrust, or is given. `free-rotor`: the shaft tilt takes the torque away. `controls`: flapping and inflow are
-all that remain. A hub that fixes the coning leaves it out of the unknowns.
+all that remain. With hub moments given, cyclic gives them and the blades flap as they like. A hub that fixes the coning
+leaves it out of the unknowns.
 """
 
 import math
@@ -59,11 +61,13 @@ def trim_of(design: Design) -> Trim:
     """The unknowns and equations that a design solves."""
     models, stand = design.models, design.condition.stand
     given = stand is not None and stand.collective is not None
-    return _trim(models.trim, given, models.flapping, design.rotor.precone is None, _cyclic_trims(design))
+    return _trim(
+        models.trim, given, models.flapping, design.rotor.precone is None, _cyclic_trims(design), _moments(design)
+    )
 
 
 @cache
-def _trim(name: str, given_collective: bool, flapping: bool, coning: bool, cyclic: bool) -> Trim:
+def _trim(name: str, given_collective: bool, flapping: bool, coning: bool, cyclic: bool, moments: bool) -> Trim:
     unknowns, equations = _FORCES[name]
     if given_collective and "collective" in unknowns:
         unknowns = unknowns[:-1] if unknowns[-1] == "collective" else unknowns[1:]
@@ -74,6 +78,9 @@ def _trim(name: str, given_collective: bool, flapping: bool, coning: bool, cycli
             unknowns, equations = unknowns + cone, (*equations, "coning")
         angles: tuple[Unknown, ...] = ("cyclic_1c", "cyclic_1s") if cyclic else ("flap_1c", "flap_1s")
         unknowns, equations = unknowns + angles, (*equations, "flap_1c", "flap_1s")
+    if moments:
+        cyclics: tuple[Unknown, ...] = ("cyclic_1c", "cyclic_1s")
+        unknowns, equations = unknowns + cyclics, (*equations, "pitching", "rolling")
     mean: tuple[Unknown, ...] = ("lambda0",)
     return Trim(unknowns + mean, (*equations, "momentum"))
 
@@ -82,6 +89,12 @@ def _cyclic_trims(design: Design) -> bool:
     """Whether cyclic keeps the first-harmonic flapping at its given value, or the blades flap freely."""
     stand = design.condition.stand
     return design.models.trim == "propulsive" if stand is None else stand.flapping == "trimmed"
+
+
+def _moments(design: Design) -> bool:
+    """Whether cyclic gives the hub moments asked for on a test stand."""
+    stand = design.condition.stand
+    return design.models.flapping and stand is not None and stand.flapping == "hub-moments"
 
 
 def unknowns_of(design: Design) -> tuple[Unknown, ...]:
@@ -98,7 +111,7 @@ def with_given_values(problem: Problem, start: TrimState) -> TrimState:
         given |= {"coning": 0.0, "cyclic_1c": 0.0, "cyclic_1s": 0.0, "flap_1c": 0.0, "flap_1s": 0.0}
     elif _cyclic_trims(design):
         given |= {"flap_1c": condition.flap_1c, "flap_1s": condition.flap_1s}
-    else:
+    elif not _moments(design):
         given |= {"cyclic_1c": stand.cyclic_1c if stand else 0.0, "cyclic_1s": stand.cyclic_1s if stand else 0.0}
     if models.flapping and design.rotor.precone is not None:
         given["coning"] = design.rotor.precone
@@ -114,14 +127,17 @@ def with_given_values(problem: Problem, start: TrimState) -> TrimState:
 
 def trim_numbers(problem: Problem) -> dict[str, float]:
     """Values of the numbers in these equations."""
-    flap = problem.flap
+    flap, design = problem.flap, problem.design
+    stand, unit = design.condition.stand, design.thrust_unit * design.rotor.radius
     return {
         "weight": problem.weight,
         "drag": problem.drag,
         "resultant": math.hypot(problem.weight, problem.drag),
         "coning stiffness": flap.frequency_squared / flap.load_gain,
         "flap stiffness": (flap.frequency_squared - 1.0) / flap.load_gain,
-        "blade weight": flap.weight / flap.load_gain,
+        "blade weight": flap.droop / flap.load_gain,
+        "hub roll": (stand.hub_roll if stand else 0.0) / unit,
+        "hub pitch": (stand.hub_pitch if stand else 0.0) / unit,
     }
 
 
@@ -158,6 +174,10 @@ def add_equations(s: Structure, trim: Trim) -> None:
                 s.term(row, 1.0, q=q(FZ, "arm", STEADY))
                 s.term(row, -1.0, z["coning stiffness"], z["coning"])
                 s.term(row, -1.0, z["blade weight"])
+            case "pitching" | "rolling":
+                sign, wave, given = (-1.0, COS, "hub pitch") if name == "pitching" else (1.0, SIN, "hub roll")
+                s.term(row, sign, q=q(FZ, "r", wave))
+                s.term(row, -1.0, z[given])
             case "flap_1c" | "flap_1s":
                 s.term(row, 2.0, q=q(FZ, "arm", COS if name == "flap_1c" else SIN))
                 s.term(row, -1.0, z["flap stiffness"], z[name])

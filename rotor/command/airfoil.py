@@ -64,7 +64,7 @@ def _polar_file(name: str) -> str:
 
 def _build(name: str, from_polars: bool, out: str | None) -> int:
     check_name(name)
-    bundled = asset_path(f"airfoils/{name}.contour").parent
+    bundled = asset_path("airfoils")
     folder = Path(out) if out else bundled
     if not folder.is_dir():
         raise ValueError(f"--out {out!r} is not a folder: create it first")

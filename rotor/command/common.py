@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 from types import FrameType
-from typing import Any
+from typing import Any, get_args
 
 from rotor.actuator.catalogue import find_actuator
 from rotor.actuator.installation import install
@@ -24,7 +24,7 @@ from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
 from rotor.design.aircraft import FASTEST_CLIMB
 from rotor.design.design import HOVER_INFLOWS, LOW_SPEEDS, TRIMS, Design
 from rotor.design.retired import current_model
-from rotor.design.stand import LOAD_KEYS
+from rotor.design.stand import LOAD_KEYS, Flapping
 from rotor.files.design_file import load_design
 from rotor.files.make_design import change_airfoils, make_design
 from rotor.files.rotor_file import find_aircraft
@@ -46,6 +46,11 @@ def add_design_arguments(parser: argparse.ArgumentParser, *, one_twist: bool) ->
     )
     add_rotor_argument(parser)
     parser.add_argument("--twist", metavar="SPEC", nargs=None if one_twist else "+", help=twist)
+    for flag, what in (("--twist-per-rev", "active twist, tip relative to root"), ("--pitch-per-rev", "root pitch")):
+        parser.add_argument(
+            flag, metavar="N:DEG:PHASE,…",
+            help=f"{what}: DEG cos(N ψ − PHASE) degrees at N/rev, e.g. 3:1:180; 2:0:0 takes away that of a design file",
+        )  # fmt: skip
     parser.add_argument("--preset", metavar="NAME", help="flight (default): best available; thesis: as printed")
     parser.add_argument(
         "--inflow", metavar="NAME",
@@ -76,7 +81,10 @@ def add_design_arguments(parser: argparse.ArgumentParser, *, one_twist: bool) ->
     stand.add_argument("--trim", metavar="NAME", help=f"{' | '.join(TRIMS)} (the last three: a rotor on a test stand)")
     for flag, unit, words in _STAND_FLAGS:
         stand.add_argument(flag, type=finite, metavar=unit, help=words)
-    stand.add_argument("--flapping", choices=("trimmed", "free"), help="by cyclic (default in a wind tunnel), or free")
+    stand.add_argument(
+        "--flapping", choices=get_args(Flapping),
+        help="trimmed by cyclic (default in a wind tunnel), free, or free with cyclic that gives hub moments",
+    )  # fmt: skip
 
 
 _STAND_FLAGS = (
@@ -86,6 +94,8 @@ _STAND_FLAGS = (
     ("--collective-deg", "DEG", "pitch at 0.75 R"),
     ("--cyclic-1c-deg", "DEG", "given cyclic, with free flapping"),
     ("--cyclic-1s-deg", "DEG", "the same, sine part"),
+    ("--hub-roll-nm", "NM", "given hub moment, towards the retreating side, with flapping hub-moments"),
+    ("--hub-pitch-nm", "NM", "the same, nose up"),
     ("--tip-mach", "M", "tip speed over the speed of sound"),
     ("--density", "RHO", "air density, kg/m³"),
 )
@@ -137,6 +147,8 @@ def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: floa
         preset=args.preset or (base.preset if base else "flight"),
         rotor=find_aircraft(args.rotor) if args.rotor else base.aircraft if base else SHIPPED_ROTORS[0],
         twist=twist or (blade.twist if blade else None),
+        twist_per_rev=args.twist_per_rev or (),
+        pitch_per_rev=args.pitch_per_rev if args.pitch_per_rev is not None else (base.pitch_per_rev if base else ()),
         mass_kg=args.mass_kg
         if args.mass_kg is not None
         else (base.condition.mass if base and not args.rotor else None),
@@ -154,7 +166,9 @@ def design_from(args: argparse.Namespace, twist: str | None, advance_ratio: floa
         off = parse_switches(args.off)
         design = replace(design, models=replace(design.models, **dict.fromkeys(off, False)))
     if blade:
-        design = replace(design, rotor=blade.rotor, active_twist=blade.active_twist)
+        design = replace(design, rotor=blade.rotor)
+        if args.twist_per_rev is None:
+            design = replace(design, active_twist=blade.active_twist)
     if args.airfoils:
         design = replace(design, rotor=change_airfoils(design.rotor, args.airfoils))
     return design.at(mu=advance_ratio)

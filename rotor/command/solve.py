@@ -5,7 +5,9 @@ import json
 import math
 from typing import Any
 
+from rotor.analysis.series import between_drag_areas
 from rotor.command.common import add_command, add_design_arguments, design_from, finite
+from rotor.design.active_twist import Harmonic
 from rotor.design.design import Design
 from rotor.trim.distribution import distribution
 from rotor.trim.solution import Solution
@@ -40,7 +42,9 @@ def run(args: argparse.Namespace) -> int:
     solution = solve(design)
     found = distribution(solution) if args.distribution and solution.converged else None
     if args.json:
-        also = {"distribution": found and found.to_dict()} if args.distribution else {}
+        also: dict[str, Any] = {"distribution": found and found.to_dict()} if args.distribution else {}
+        if (band := between_drag_areas(solution)) is not None:
+            also["power_band_w"] = [end.power.total for end in band]
         print(json.dumps({**solution.to_dict(), **also}, indent=2, allow_nan=False))
     else:
         print(report(solution))
@@ -58,6 +62,13 @@ def _load(design: Design) -> str:
     return f"{design.models.trim}: {condition.stand}"
 
 
+def _waves(harmonics: tuple[Harmonic, ...]) -> str:
+    return "; ".join(
+        f"{wave.per_rev}/rev ±{math.degrees(wave.amplitude):.2f}°, phase {math.degrees(wave.phase):.0f}°"
+        for wave in harmonics
+    )
+
+
 def report(solution: Solution) -> str:
     """The same as text."""
     design, controls = solution.design, solution.controls
@@ -67,12 +78,10 @@ def report(solution: Solution) -> str:
         f"µ {design.condition.advance_ratio:.4f} ({design.airspeed / KNOT:.1f} kt), {_load(design)}",
         f"{solution.status.value}: {solution.message}",
     ]
+    if design.pitch_per_rev:
+        lines.insert(1, f"root pitch {_waves(design.pitch_per_rev)}")
     if design.active_twist is not None:
-        waves = (
-            f"{wave.per_rev}/rev ±{math.degrees(wave.amplitude):.2f}°, phase {math.degrees(wave.phase):.0f}°"
-            for wave in design.active_twist.harmonics
-        )
-        lines.insert(1, f"active twist {'; '.join(waves)}")
+        lines.insert(1, f"active twist {_waves(design.active_twist.harmonics)}")
     if solution.converged:
         power = solution.power
         degrees = {
@@ -92,6 +101,11 @@ def report(solution: Solution) -> str:
             }  # fmt: skip
         lines += ["", *(f"{name:<12}{value / 1e3:10.1f} kW" for name, value in kw.items())]
         lines += ["", *(f"{name:<12}{math.degrees(value) + 0.0:10.2f} °" for name, value in degrees.items())]
+        if (band := between_drag_areas(solution)) is not None:
+            low, high = (end.design.fuselage.drag_area for end in band)
+            less, more = (end.power.total / 1e3 for end in band)
+            between = f"{less:.1f} … {more:.1f} kW for drag areas {low:g} … {high:g} m²"
+            lines += [f"{'total':<12}{between}: the sources leave that open"]
         merit = solution.figure_of_merit
         lines += ["", f"κ = P_i/(C_T λ0) {solution.induced_power_factor:.3f}"]
         lines += [f"C_T/σ {solution.ct_over_sigma:.4f} (σ {design.rotor.solidity:.4f})"]

@@ -8,10 +8,11 @@ from pathlib import Path
 from typing import Any
 
 from rotor.command.common import add_command
+from rotor.validation.airloads import POWERS, REPORTS, CurveAgreement, FlownPower, airload_agreement, flown_powers
 from rotor.validation.compare import Comparison, compare
 from rotor.validation.inflow import SET as INFLOW_SET
 from rotor.validation.inflow import WHY, InflowAgreement, inflow_agreement
-from rotor.validation.measured import SETS, load_set
+from rotor.validation.measured import FIELDS, SETS, load_set
 
 _LABELS = {
     "mu": "Advance ratio µ",
@@ -28,7 +29,7 @@ _LABELS = {
 def add_parser(commands: Any) -> None:
     """Register the command."""
     parser = add_command(commands, "validate", "compares with every measured point of rotors that were tested")
-    parser.add_argument("sets", nargs="*", metavar="SET", help=f"{', '.join((*SETS, INFLOW_SET))} (default: all)")
+    parser.add_argument("sets", nargs="*", metavar="SET", help=f"{', '.join((*SETS, *FIELDS))} (default: all)")
     parser.add_argument(
         "--inflow",
         metavar="NAME",
@@ -44,8 +45,8 @@ def run(args: argparse.Namespace) -> int:
 
     Of a set without a target every point counts.
     """
-    names = args.sets or [*SETS, INFLOW_SET]
-    chosen = [load_set(name) for name in names if name != INFLOW_SET]
+    names = args.sets or [*SETS, *FIELDS]
+    chosen = [load_set(name) for name in names if name not in FIELDS]
     found: list[Comparison] = []
     for measured in chosen:
         comparison = compare(measured, args.inflow)
@@ -53,11 +54,24 @@ def run(args: argparse.Namespace) -> int:
         if not args.json:
             print(("" if len(found) == 1 else "\n") + report(comparison), flush=True)
     inflow = list(inflow_agreement()) if INFLOW_SET in names else []
+    curves = list(airload_agreement(tuple(name for name in names if name in REPORTS)))
+    powers = list(flown_powers()) if POWERS in names else []
     if args.json:
-        record = {"sets": [one.to_dict() for one in found], "inflow": [asdict(one) for one in inflow]}
+        record = {
+            "sets": [one.to_dict() for one in found],
+            "inflow": [asdict(one) for one in inflow],
+            "airloads": [
+                {**asdict(one), "test": one.case.test, "case": one.case.name, "fitted": False} for one in curves
+            ],
+            "powers": [asdict(one) | {"fitted": False} for one in powers],
+        }
         print(json.dumps(record, indent=2, allow_nan=False))
-    elif inflow:
-        print(("\n" if found else "") + inflow_report(inflow))
+    else:
+        tables = [inflow_report(inflow)] if inflow else []
+        tables += [airload_report(curves)] if curves else []
+        tables += [power_report(powers)] if powers else []
+        if tables:
+            print(("\n" if found else "") + "\n\n".join(tables))
     if args.plot:
         for comparison in found:
             draw(comparison, Path(args.plot))
@@ -76,6 +90,39 @@ def inflow_report(rows: list[InflowAgreement]) -> str:
             f"{row.mu:6.2f}  {row.model:<30}{correlation:>12}{row.rms:9.4f}{row.mean:9.4f}{row.measured_mean:10.4f}"
         )
     return "\n".join([*lines, WHY])
+
+
+def airload_report(rows: list[CurveAgreement]) -> str:
+    """Measured loads over the azimuth beside ours, as a table."""
+    lines = [*(f"{name}: {REPORTS[name]}; never fitted" for name in dict.fromkeys(row.case.test for row in rows))]
+    lines.append(
+        f"{'case':>6}{'r/R':>7}  {'quantity':<14}{'correlation':>12}{'rms':>10}{'of':>10}{'mean':>10}{'measured':>10}"
+    )
+    for row in rows:
+        lines.append(
+            f"{row.case.name:>6}{row.r:7.2f}  {row.quantity:<14}{row.correlation:12.2f}{row.rms:10.4f}"
+            f"{row.measured_rms:10.4f}{row.mean:10.4f}{row.measured_mean:10.4f}"
+        )
+    lines.append(
+        "Harmonics 1 to 10 (of the twist 1 to 3), without the mean; rms of the difference, and of the measured curve."
+    )
+    return "\n".join(lines)
+
+
+def power_report(rows: list[FlownPower]) -> str:
+    """Measured main-rotor power beside ours, as a table."""
+    lines = [
+        f"{POWERS}: main-rotor power in level flight [kW], without a target; never fitted",
+        f"{'rotor':<9}{'case':>9}{'mu':>8}{'measured':>10}{'ours':>8}{'error %':>9}  between the drag areas",
+    ]
+    for row in rows:
+        begin = f"{row.rotor:<9}{row.case:>9}{row.mu:8.3f}{row.measured / 1e3:10.1f}"
+        if row.ours is None:
+            lines.append(f"{begin}  does not trim")
+            continue
+        band = "" if row.band is None else f"  {row.band[0] / 1e3:.1f} … {row.band[1] / 1e3:.1f}"
+        lines.append(f"{begin}{row.ours / 1e3:8.1f}{100.0 * (row.ours / row.measured - 1.0):+9.1f}{band}")
+    return "\n".join(lines)
 
 
 def report(found: Comparison) -> str:

@@ -1,13 +1,24 @@
-"""Active twist, a function of azimuth: θ_act(r, ψ) = shape(r) Σ_n A_n cos(nψ − φ_n), added to the twist law."""
+"""Pitch given at harmonics of rotor speed: active twist, shape(r) Σ_n A_n cos(nψ − φ_n), and n/rev root pitch.
+
+Both are written `N:DEG:PHASE[,…]`: the harmonic, its amplitude and φ_n in degrees. `3:1:180` is 1° at 3/rev, most
+nose-up at ψ = 180°/3. −DEG at PHASE is DEG at PHASE + 180.
+"""
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 
 from rotor.arrays import Array
+from rotor.units import degrees_text
+
+HIGHEST = 8
+"""Harmonic. Above it the 24 azimuths of a lifting line have fewer than three for a wave."""
+LARGEST_TWIST, LARGEST_PITCH = math.radians(20.0), math.radians(10.0)
+"""Amplitudes of active twist and of root pitch. Higher-harmonic control has been tested to a few degrees."""
 
 
 @dataclass(frozen=True)
@@ -16,15 +27,19 @@ class Harmonic:
 
     per_rev: int
     amplitude: float
-    """Twist of the tip relative to the root [rad]."""
+    """Of active twist, tip relative to root, or of root pitch [rad]."""
     phase: float = 0.0
-    """φ [rad]: the tip is most nose-up at ψ = φ/n."""
+    """φ [rad], 0…2π: most nose-up at ψ = φ/n."""
 
     def __post_init__(self) -> None:
-        if not 1 <= self.per_rev <= 12:
-            raise ValueError(f"harmonic {self.per_rev}/rev is outside 1…12: 1 and 2 move power, 3 to 5 vibration")
-        if not (math.isfinite(self.amplitude) and 0.0 <= self.amplitude <= 0.35 and math.isfinite(self.phase)):
-            raise ValueError(f"active-twist amplitude {math.degrees(self.amplitude):g}° is outside 0…20°: choose less")
+        if not 1 <= self.per_rev <= HIGHEST:
+            raise ValueError(f"harmonic {self.per_rev:g}/rev is outside 1…{HIGHEST}: choose one of these")
+        if not (math.isfinite(self.amplitude) and 0.0 <= self.amplitude <= LARGEST_TWIST * (1.0 + 1e-12)):
+            degrees = math.degrees(self.amplitude)
+            raise ValueError(f"amplitude {degrees:g}° at {self.per_rev}/rev is outside 0…20°: choose less")
+        if not math.isfinite(self.phase):
+            raise ValueError(f"phase {self.phase:g} at {self.per_rev}/rev is not finite: give an angle")
+        object.__setattr__(self, "phase", self.phase % math.tau % math.tau)  # Once gives 2π for −1e-20.
 
 
 @dataclass(frozen=True)
@@ -38,6 +53,7 @@ class ActiveTwist:
     """Twist at the stations over that of the tip; linear between, constant beyond."""
 
     def __post_init__(self) -> None:
+        check_harmonics(self.harmonics, "active twist")
         if len(self.stations) != len(self.shape) or len(self.stations) < 2:
             raise ValueError(
                 f"{len(self.stations)} stations but {len(self.shape)} shape values: give two or more pairs"
@@ -54,13 +70,103 @@ class ActiveTwist:
         return np.outer(np.interp(r, self.stations, self.shape), wave)
 
 
+def linear_active_twist(harmonics: tuple[Harmonic, ...], root: float) -> ActiveTwist | None:
+    """Active twist linear along the blade from its root cut-out `root` (r/R) to the tip; None without harmonics."""
+    return ActiveTwist(harmonics, (root, 1.0)) if harmonics else None
+
+
+def root_pitch(harmonics: tuple[Harmonic, ...]) -> ActiveTwist:
+    """n/rev root pitch as a field over the disk: the same along the whole blade."""
+    return ActiveTwist(harmonics, (0.0, 1.0), (1.0, 1.0))
+
+
+def check_harmonics(harmonics: tuple[Harmonic, ...], what: str) -> None:
+    """Raise ValueError, with one sentence, where a harmonic is there twice; so there are `HIGHEST` at most."""
+    found = [harmonic.per_rev for harmonic in harmonics]
+    twice = next((n for k, n in enumerate(found) if n in found[:k]), None)
+    if twice is not None:
+        raise ValueError(f"{what} has {twice}/rev twice: give each harmonic once")
+
+
+def check_root_pitch(harmonics: tuple[Harmonic, ...]) -> None:
+    """Raise ValueError, with one sentence, for harmonics that root pitch cannot have."""
+    check_harmonics(harmonics, "root pitch")
+    for harmonic in harmonics:
+        if harmonic.per_rev == 1:
+            raise ValueError(
+                f"root pitch at 1/rev is the cyclic, which has its own place: choose 2 to {HIGHEST}/rev, or give the "
+                "cyclic of a test stand"
+            )
+        if harmonic.amplitude > LARGEST_PITCH * (1.0 + 1e-12):
+            degrees = math.degrees(harmonic.amplitude)
+            raise ValueError(f"root pitch {degrees:g}° at {harmonic.per_rev}/rev is outside 0…10°: choose less")
+
+
+PerRev = str | Sequence["Harmonic | Sequence[float] | Mapping[str, Any]"]
+"""What `read_harmonics` reads."""
+_FORM = "write N:DEG:PHASE, separated by commas, for example 3:1:180"
+
+
+def read_harmonics(value: PerRev, name: str) -> tuple[Harmonic, ...]:
+    """Harmonics from `N:DEG:PHASE[,…]`, or from a list of (N, DEG, PHASE), of rows of a design file, or of `Harmonic`.
+
+    In the order of N; those of zero amplitude are left out. `name`: of the input, for the ValueError with one sentence
+    that any other value raises.
+    """
+    items: list[Any]
+    if isinstance(value, str):
+        items = [item.split(":") for item in value.split(",")] if value.strip() else []
+    elif isinstance(value, Sequence):  # pyright: ignore[reportUnnecessaryIsInstance] - files and notebooks hold anything
+        items = list(value)
+    else:
+        raise ValueError(f"{name} is {value!r:.80}: {_FORM}")
+    found = tuple(item if isinstance(item, Harmonic) else _harmonic(item, name) for item in items)
+    check_harmonics(found, name)
+    return tuple(sorted((one for one in found if one.amplitude), key=lambda one: one.per_rev))
+
+
+def _harmonic(item: Any, name: str) -> Harmonic:
+    try:
+        if isinstance(item, Mapping):
+            row = cast(Mapping[str, Any], item)
+            item = row["per_rev"], row["amplitude_deg"], row.get("phase_deg", 0.0)
+        if any(isinstance(number, bool) for number in item):
+            raise ValueError
+        per_rev, amplitude, phase = (float(number) for number in item)
+    except (KeyError, TypeError, ValueError, OverflowError):
+        raise ValueError(f"{name} {_shown(item)} is not understood: {_FORM}") from None
+    if per_rev % 1.0 or not all(map(math.isfinite, (per_rev, amplitude, phase))):
+        raise ValueError(f"{name} {_shown(item)} needs a whole number and two finite angles: {_FORM}")
+    # In degrees, so that −DEG at PHASE is DEG at PHASE + 180 to the last digit.
+    return Harmonic(int(per_rev), math.radians(abs(amplitude)), math.radians((phase + 180.0 * (amplitude < 0.0)) % 360))
+
+
+def _shown(item: Any) -> str:
+    """An item as it was written."""
+    return f"{':'.join(map(str, cast(list[Any], item)))!r:.80}" if isinstance(item, list | tuple) else f"{item!r:.80}"
+
+
+def harmonics_text(harmonics: tuple[Harmonic, ...]) -> str:
+    """`N:DEG:PHASE[,…]`, which `read_harmonics` reads back, to a unit in the last place."""
+    return ",".join(f"{one.per_rev}:{degrees_text(one.amplitude)}:{degrees_text(one.phase)}" for one in harmonics)
+
+
+def harmonics_record(harmonics: tuple[Harmonic, ...]) -> list[dict[str, Any]]:
+    """Rows of a record, with angles in degrees."""
+    return [
+        {
+            "per_rev": one.per_rev,
+            "amplitude_deg": float(degrees_text(one.amplitude)),
+            "phase_deg": float(degrees_text(one.phase)),
+        }
+        for one in harmonics
+    ]
+
+
 def active_twist_record(twist: ActiveTwist) -> dict[str, Any]:
     """The record of a design file, with angles in degrees."""
     return {
-        "harmonics": [
-            {"per_rev": h.per_rev, "amplitude_deg": math.degrees(h.amplitude), "phase_deg": math.degrees(h.phase)}
-            for h in twist.harmonics
-        ],
+        "harmonics": harmonics_record(twist.harmonics),
         "stations": list(twist.stations),
         "shape": list(twist.shape),
     }
@@ -69,15 +175,12 @@ def active_twist_record(twist: ActiveTwist) -> dict[str, Any]:
 def read_active_twist(record: Any) -> ActiveTwist:
     """The inverse; ValueError with one sentence for any other record."""
     try:
-        harmonics = tuple(
-            Harmonic(int(row["per_rev"]), math.radians(row["amplitude_deg"]), math.radians(row.get("phase_deg", 0.0)))
-            for row in record["harmonics"]
-        )
+        rows = record["harmonics"]
         stations = tuple(float(value) for value in record.get("stations", (0.13, 1.0)))
         shape = tuple(float(value) for value in record.get("shape", (0.0, 1.0)))
     except (KeyError, TypeError, AttributeError):
         raise ValueError(
-            f"design file key 'active_twist' is {record!r}: write "
+            f"design file key 'active_twist' is {record!r:.80}: write "
             '{"harmonics": [{"per_rev": 2, "amplitude_deg": 1, "phase_deg": 0}]}'
         ) from None
-    return ActiveTwist(harmonics, stations, shape)
+    return ActiveTwist(read_harmonics(rows, "active twist"), stations, shape)

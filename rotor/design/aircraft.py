@@ -102,6 +102,8 @@ class Fuselage:
     """Equivalent flat-plate area f [m²]."""
     hover_download: float = 0.0
     """Force of the rotor's wake on the airframe in hover, as a part of the weight."""
+    drag_area_band: tuple[float, float] | None = None
+    """Lowest and highest drag area that the sources allow [m²]; None where they name one."""
 
     def drag(self, density: float, speed: float) -> float:
         """[N] at air density [kg/m³] and airspeed [m/s]."""
@@ -170,9 +172,10 @@ class TailRotor:
     """[1/rad]"""
 
 
-Hub = Literal["articulated", "teetering", "teetering-with-coning-hinges", "gimballed"]
-HUBS: tuple[Hub, ...] = ("articulated", "teetering", "teetering-with-coning-hinges", "gimballed")
-"""`gimballed`: three or more blades on one joint at the shaft; the hub tilts as a whole and fixes the coning."""
+Hub = Literal["articulated", "teetering", "teetering-with-coning-hinges", "gimballed", "hingeless"]
+HUBS: tuple[Hub, ...] = ("articulated", "teetering", "teetering-with-coning-hinges", "gimballed", "hingeless")
+"""`gimballed`: three or more blades on one joint at the shaft; the hub tilts as a whole and fixes the coning.
+`hingeless`: the elastic root of a blade is an equivalent hinge with a spring."""
 
 
 @dataclass(frozen=True)

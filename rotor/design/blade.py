@@ -50,6 +50,10 @@ class Blade:
     """First mass moment about the flap hinge [kg m]."""
     mass: float
     """[kg]"""
+    flap_spring: float = 0.0
+    """K of the spring at the flap hinge [N m/rad], as of an equivalent hinge of a hingeless blade."""
+    flap_rest: float = 0.0
+    """Coning angle at which that spring is free of load [rad]: the built-in precone."""
     tip_sweep: float = 0.0
     """Sweep of the tip [rad], positive aft."""
     tip_sweep_start: float = 1.0
@@ -150,9 +154,15 @@ class Rotor:
 
     @property
     def flap_frequency_squared(self) -> float:
-        """ν² = 1 + e S/I, the rotating flap frequency over Ω, squared."""
+        """ν² = 1 + e S/I + K/(I Ω²), the rotating flap frequency over Ω, squared."""
         blade = self.blade
-        return 1.0 + blade.flap_hinge * self.radius * blade.flap_static_moment / blade.flap_inertia
+        offset = blade.flap_hinge * self.radius * blade.flap_static_moment / blade.flap_inertia
+        return 1.0 + offset + self.flap_spring_ratio
+
+    @property
+    def flap_spring_ratio(self) -> float:
+        """K/(I Ω²), the part of ν² that the spring at the hinge has."""
+        return self.blade.flap_spring / (self.blade.flap_inertia * self.angular_speed**2)
 
 
 def with_airfoils(rotor: Rotor, sections: Sequence[str], breaks: Sequence[float]) -> Rotor:

@@ -13,7 +13,15 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal, cast
 
-from rotor.design.active_twist import ActiveTwist, active_twist_record
+from rotor.design.active_twist import (
+    ActiveTwist,
+    Harmonic,
+    active_twist_record,
+    check_root_pitch,
+    harmonics_text,
+    linear_active_twist,
+    root_pitch,
+)
 from rotor.design.aircraft import Aircraft, FlightCondition, Fuselage, TailRotor, advance_ratio, number
 from rotor.design.blade import Rotor, airfoils_spec
 from rotor.design.stand import STAND_TRIMS, Stand, StandTrim
@@ -136,8 +144,11 @@ class Design:
     models: Models
     active_twist: ActiveTwist | None = None
     """Twist as a function of azimuth, added to the twist law in forward flight."""
+    pitch_per_rev: tuple[Harmonic, ...] = ()
+    """Root pitch at 2 to 8/rev, beside collective and cyclic, in forward flight: higher-harmonic control."""
 
     def __post_init__(self) -> None:
+        check_root_pitch(self.pitch_per_rev)
         trim, stand = self.models.trim, self.condition.stand
         if self.condition.climb_speed and not self.models.disk_axial_flow:
             raise ValueError(
@@ -157,6 +168,12 @@ class Design:
             raise ValueError("a free rotor needs wind to turn it: give an advance ratio above 0")
         if trim == "controls" and (stand.collective is None or stand.flapping != "free"):
             raise ValueError("trim 'controls' needs a collective and free flapping: give both, or trim 'wind-tunnel'")
+        if self.hovering and (stand.hub_roll or stand.hub_pitch):
+            raise ValueError("in hover the rotor is balanced annulus by annulus, without hub moments: leave them out")
+        if stand.flapping == "hub-moments" and self.rotor.flap_frequency_squared <= 1.0 + 1e-9:
+            raise ValueError(
+                "hub moments cannot be trimmed on blades hinged at the shaft, which carry none: give flapping trimmed"
+            )
         if self.hovering and (stand.cyclic_1c or stand.cyclic_1s):
             raise ValueError("in hover the rotor is balanced annulus by annulus, without cyclic: leave cyclic out")
 
@@ -234,9 +251,18 @@ class Design:
             **({} if self.models.low_speed == preset.low_speed else {"low_speed": self.models.low_speed}),
             **{name: getattr(self.models, name) for name in switches},
             **({"airfoils": airfoils} if airfoils else {}),
-            **({"active_twist": active_twist_record(self.active_twist)} if self.active_twist else {}),
+            **self._per_rev_record(),
             **({} if self.condition.stand is None else self._stand_record(self.condition.stand)),
         }
+
+    def _per_rev_record(self) -> dict[str, Any]:
+        """Pitch that follows the azimuth; a twist linear from the root cut-out as on the command line."""
+        active, made = self.active_twist, dict[str, Any]()
+        if self.linear_active_twist:
+            made["twist_per_rev"] = harmonics_text(self.linear_active_twist)
+        elif active is not None:
+            made["active_twist"] = active_twist_record(active)
+        return made | ({"pitch_per_rev": harmonics_text(self.pitch_per_rev)} if self.pitch_per_rev else {})
 
     def _stand_record(self, stand: Stand) -> dict[str, Any]:
         return {"trim": self.models.trim, "stand": stand.record()}
@@ -244,6 +270,20 @@ class Design:
     def save(self, path: str | Path) -> None:
         """Write a design file, which `load_design` reads."""
         write_whole(path, json.dumps(self.to_dict(), indent=2) + "\n")
+
+    @property
+    def linear_active_twist(self) -> tuple[Harmonic, ...]:
+        """Harmonics of an active twist that is linear from the root cut-out to the tip; none for any other."""
+        active, root = self.active_twist, self.rotor.blade.root_cutout
+        return active.harmonics if active and active == linear_active_twist(active.harmonics, root) else ()
+
+    @property
+    def pitch_waves(self) -> tuple[ActiveTwist, ...]:
+        """What is given of the pitch as a function of azimuth: active twist and n/rev root pitch; none in hover."""
+        if self.hovering:
+            return ()
+        pitch = (root_pitch(self.pitch_per_rev),) if self.pitch_per_rev else ()
+        return pitch if self.active_twist is None else (self.active_twist, *pitch)
 
     @property
     def airspeed(self) -> float:

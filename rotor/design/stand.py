@@ -16,14 +16,14 @@ STAND_TRIMS: tuple[StandTrim, ...] = get_args(StandTrim)
 
 LARGEST_CT_OVER_SIGMA = 0.25
 """Far beyond stall."""
-Flapping = Literal["trimmed", "free"]
+Flapping = Literal["trimmed", "free", "hub-moments"]
 
 _DEGREES = ("shaft_tilt", "collective", "cyclic_1c", "cyclic_1s")
 """Fields that are degrees in records and on the command line."""
 _RECORD = {
     "shaft_tilt": "shaft_tilt_deg", "thrust": "thrust_n", "ct_over_sigma": "ct_over_sigma",
     "collective": "collective_deg", "cyclic_1c": "cyclic_1c_deg", "cyclic_1s": "cyclic_1s_deg", "flapping": "flapping",
-    "tip_mach": "tip_mach", "density": "density_kg_m3",
+    "hub_roll": "hub_roll_nm", "hub_pitch": "hub_pitch_nm", "tip_mach": "tip_mach", "density": "density_kg_m3",
 }  # fmt: skip
 """Keys of a record, by field."""
 
@@ -45,7 +45,12 @@ class Stand:
     """Given cyclic [rad], used where the flapping is free."""
     cyclic_1s: float = 0.0
     flapping: Flapping = "trimmed"
-    """`trimmed`: cyclic keeps first-harmonic flapping at its given value; `free`: the blades flap as they like."""
+    """`trimmed`: cyclic keeps first-harmonic flapping at its given value; `free`: the blades flap as they like;
+    `hub-moments`: they do, and cyclic gives the hub the moments below."""
+    hub_roll: float = 0.0
+    """Moment of the rotor on its hub [N m], towards the retreating side."""
+    hub_pitch: float = 0.0
+    """The same nose up."""
     tip_mach: float | None = None
     """ΩR over the speed of sound; left out, that of the standard atmosphere."""
     density: float | None = None
@@ -60,6 +65,7 @@ class Stand:
             "shaft_tilt": (-40.0, 40.0), "collective": (-30.0, 35.0), "cyclic_1c": (-30.0, 30.0),
             "cyclic_1s": (-30.0, 30.0), "thrust": (0.0, 2e6), "ct_over_sigma": (0.0, LARGEST_CT_OVER_SIGMA),
             "tip_mach": (0.02, 0.95), "density": (0.05, 3.0),
+            "hub_roll": (-1e6, 1e6), "hub_pitch": (-1e6, 1e6),
         }  # fmt: skip
         for name, (low, high) in limits.items():
             value = getattr(self, name)
@@ -67,9 +73,12 @@ class Stand:
             if shown is not None and not (math.isfinite(shown) and low - 1e-9 <= shown <= high + 1e-9):
                 raise ValueError(f"{_RECORD[name]} {shown:g} is outside {low:g}…{high:g}: choose a value inside")
         if self.flapping not in get_args(Flapping):
-            raise ValueError(f"flapping {self.flapping!r} is not known: use trimmed or free")
-        if self.flapping == "trimmed" and (self.cyclic_1c or self.cyclic_1s):
-            raise ValueError("cyclic is given, but it trims the flapping: leave it out, or give flapping free")
+            raise ValueError(f"flapping {self.flapping!r} is not known: use {', '.join(get_args(Flapping))}")
+        if self.flapping != "free" and (self.cyclic_1c or self.cyclic_1s):
+            trims = "flapping" if self.flapping == "trimmed" else "hub moments"
+            raise ValueError(f"cyclic is given, but it trims the {trims}: leave it out, or give flapping free")
+        if self.flapping != "hub-moments" and (self.hub_roll or self.hub_pitch):
+            raise ValueError("hub moments are given, but do not trim the rotor: give flapping hub-moments as well")
 
     def __str__(self) -> str:
         given = self.record().items()
@@ -82,7 +91,7 @@ class Stand:
 
     def record(self) -> dict[str, Any]:
         """For a design file: what is given, angles in degrees; `read_stand` reads it back."""
-        plain = {"cyclic_1c": 0.0, "cyclic_1s": 0.0}
+        plain = {"cyclic_1c": 0.0, "cyclic_1s": 0.0, "hub_roll": 0.0, "hub_pitch": 0.0}
         values = {name: getattr(self, name) for name in _RECORD}
         return {
             _RECORD[name]: math.degrees(value) if name in _DEGREES else value

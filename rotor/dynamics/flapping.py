@@ -1,9 +1,12 @@
 """Flapping about an offset hinge, by harmonic balance (thesis §2.6).
 
-    β'' + ν² β = Γ Σ (r − e) dC_T/dr dr − g S/(I Ω²),    ν² = 1 + e S/I,    Γ = ρ π R⁵/(N_b I)
+    β'' + ν² β = Γ Σ (r − e) dC_T/dr dr − g S/(I Ω²) + k β_p,
+    ν² = 1 + e S/I + k,    k = K/(I Ω²),    Γ = ρ π R⁵/(N_b I)
 
 which is eqs. (2.37), (2.39) and (3.20) with the hinge at e instead of the centre, the blade load written by the smeared
-dC_T/dr, and the weight moment of the blade. With β = β0 + β1c cos ψ + β1s sin ψ (2.41) the left side is
+dC_T/dr, the weight moment of the blade, and a spring K at the hinge that is free of load at β_p. Hinge and spring stand
+for the root of a hingeless blade: together they give its first flap frequency ν. For a uniform blade from the hinge
+outward e S/I = 3e/(2(R − e)). With β = β0 + β1c cos ψ + β1s sin ψ (2.41) the left side is
 ν²β0 + (ν² − 1)(β1c cos ψ + β1s sin ψ): with the hinge at the centre the first-harmonic moment vanishes.
 """
 
@@ -26,6 +29,13 @@ class FlapDynamics:
     """Γ: turns Σ (r − e) dC_T/dr dr into flapping acceleration."""
     weight: float
     """g S/(I Ω²) [rad], the static moment of the blade's weight over I Ω²; 0 when neglected."""
+    preload: float
+    """k β_p [rad]: moment of the spring on a blade without coning, over I Ω²."""
+
+    @property
+    def droop(self) -> float:
+        """Steady moments on the blade, without coning and lift, downward over I Ω² [rad]."""
+        return self.weight - self.preload
 
 
 def flap_dynamics(rotor: Rotor, density: float, *, blade_weight: bool) -> FlapDynamics:
@@ -37,6 +47,7 @@ def flap_dynamics(rotor: Rotor, density: float, *, blade_weight: bool) -> FlapDy
         frequency_squared=rotor.flap_frequency_squared,
         load_gain=density * math.pi * rotor.radius**5 / (rotor.blades * blade.flap_inertia),
         weight=droop if blade_weight else 0.0,
+        preload=rotor.flap_spring_ratio * blade.flap_rest,
     )
 
 

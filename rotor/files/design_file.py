@@ -40,6 +40,8 @@ _KEYS = (
     *SWITCHES,
     "airfoils",
     "active_twist",
+    "twist_per_rev",
+    "pitch_per_rev",
     "trim",
     "stand",
     "solution",
@@ -92,6 +94,8 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False, tell: Tel
         preset=preset,
         rotor=read_rotor_record(record.get("rotor", SHIPPED_ROTORS[0]), paths=paths),
         twist=twist or None,
+        twist_per_rev=record.get("twist_per_rev", ()),
+        pitch_per_rev=record.get("pitch_per_rev", ()),
         mu=_number(record, "advance_ratio", 0.2),
         mass_kg=_number(record, "mass_kg", None),
         altitude_m=_number(record, "altitude_m", 0.0),
@@ -114,8 +118,11 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False, tell: Tel
     )
     airfoils = _text(record, "airfoils", "")
     rotor = change_airfoils(design.rotor, airfoils) if airfoils else design.rotor
-    active_twist = read_active_twist(record["active_twist"]) if "active_twist" in record else None
-    return replace(design, models=models, rotor=rotor, active_twist=active_twist)
+    if "active_twist" in record:
+        if design.active_twist is not None:
+            raise ValueError("design file has both 'active_twist' and 'twist_per_rev', which are one thing: keep one")
+        design = replace(design, active_twist=read_active_twist(record["active_twist"]))
+    return replace(design, models=models, rotor=rotor)
 
 
 def load_design(path: str | Path) -> Design:

@@ -8,6 +8,7 @@ from typing import Any
 
 from rotor.aero.inflow import inflow_model
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS, asset_path
+from rotor.design.active_twist import PerRev, linear_active_twist, read_harmonics
 from rotor.design.aircraft import Aircraft, FlightCondition, advance_ratio, number
 from rotor.design.blade import Rotor, parse_airfoils
 from rotor.design.design import TRIMS, Design, Models, check_preset, preset_models
@@ -42,6 +43,8 @@ def make_design(
     *,
     rotor: Aircraft | str = SHIPPED_ROTORS[0],
     twist: TwistLaw | str | None = None,
+    twist_per_rev: PerRev = (),
+    pitch_per_rev: PerRev = (),
     mu: float | None = None,
     speed_kt: float | None = None,
     hover: bool = False,
@@ -59,6 +62,9 @@ def make_design(
     rotor: `uh60a`, `r22`, `s61`, or what `load_rotor` returns.
     twist: a law, or a SPEC as `parse_twist` reads it, for example `linear:-12` (degrees per radius); by default the
         twist that the preset compares with.
+    twist_per_rev: active twist, linear from the root cut-out, `N:DEG:PHASE[,…]` or a list of (N, DEG, PHASE): DEG of
+        the tip relative to the root, as it would be on a blade at rest, most nose-up at ψ = PHASE/N.
+    pitch_per_rev: the same of the root pitch, 2 to 8/rev: DEG cos(N ψ − PHASE). Both rest in hover.
     mu, speed_kt, hover: advance ratio V/(ΩR), airspeed in knots, or `hover=True`; one of them at most.
     mass_kg: aircraft mass; by default the rotor's reference mass. altitude_m: pressure altitude.
     climb_m_s: rate of climb, negative in descent; mu and speed_kt are of the horizontal speed.
@@ -107,6 +113,8 @@ def make_design(
         fuselage=rotor.fuselage,
         tail_rotor=rotor.tail_rotor,
         models=models,
+        active_twist=linear_active_twist(read_harmonics(twist_per_rev, "twist_per_rev"), blades.blade.root_cutout),
+        pitch_per_rev=read_harmonics(pitch_per_rev, "pitch_per_rev"),
     )
     return design if twist is None else design.with_twist(twist)
 

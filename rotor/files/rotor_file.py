@@ -105,10 +105,14 @@ ISOLATED_LOADING = 0.07
 
 
 def _fuselage(airframe: TomlTable) -> Fuselage:
-    return Fuselage(
-        airframe.number("drag_area_m2", low=0.0, high=50.0, unit="m²"),
-        airframe.number("hover_download", 0.0, low=0.0, high=0.3),
-    )
+    area = airframe.number("drag_area_m2", low=0.0, high=50.0, unit="m²")
+    band = None
+    if airframe.has("drag_area_low_m2") or airframe.has("drag_area_high_m2"):
+        band = (
+            airframe.number("drag_area_low_m2", low=0.0, high=area, unit="m²"),
+            airframe.number("drag_area_high_m2", low=area, high=50.0, unit="m²"),
+        )
+    return Fuselage(area, airframe.number("hover_download", 0.0, low=0.0, high=0.3), band)
 
 
 def _carried(rotor: Rotor) -> float:
@@ -131,7 +135,7 @@ def _rotor(
     precone = None
     if hub == "gimballed" or main.has("precone_deg"):
         precone = math.radians(main.number("precone_deg", 0.0, low=-10.0, high=20.0, unit="°"))
-    if precone is not None and hub not in ("gimballed", "teetering"):
+    if precone is not None and hub not in ("gimballed", "teetering", "hingeless"):
         raise main.fail("precone_deg", f"precone_deg on a hub that is {hub!r}: its blades cone freely, so leave it out")
     blade = _blade(main, given, radius, own, hub)
     chord = float(blade.chord(0.75))
@@ -143,7 +147,7 @@ def _rotor(
         angular_speed=_angular_speed(main, radius),
         reference_chord=main.number("reference_chord_m", chord, low=0.005, high=3.0, unit="m"),
         builtin_twist=_twist(given, twist_name),
-        precone=precone,
+        precone=None if hub == "hingeless" else precone,
     )
 
 
@@ -171,7 +175,7 @@ def _angular_speed(main: TomlTable, radius: float) -> float:
 def _blade(main: TomlTable, given: TomlTable, radius: float, own: tuple[OwnSection, ...], hub: Hub) -> Blade:
     root = main.number("root_cutout_r", low=0.02, high=0.8, unit="r/R")
     hinge = given.number("flap_hinge_m", 0.0, low=0.0, high=0.3 * radius, unit="m")
-    if hub != "articulated" and hinge:
+    if hub not in ("articulated", "hingeless") and hinge:
         raise given.fail(
             "flap_hinge_m",
             f"flap_hinge_m is {hinge:g} on a {hub} hub, which has its hinge at the shaft: write 0",
@@ -181,6 +185,8 @@ def _blade(main: TomlTable, given: TomlTable, radius: float, own: tuple[OwnSecti
     if len(chords) == 1:
         chords = chords * len(stations)
     _ascending(given, "chord_r", stations, "chord_m", chords)
+    if hub != "hingeless" and given.has("flap_spring_nm_rad"):
+        raise given.fail("flap_spring_nm_rad", f'flap_spring_nm_rad on a hub that is {hub!r}: write hub = "hingeless"')
     mass, inertia, moment = _masses(given, radius - hinge)
     sweep = given.number("tip_sweep_deg", 0.0, low=-60.0, high=60.0, unit="°")
     return Blade(
@@ -192,6 +198,12 @@ def _blade(main: TomlTable, given: TomlTable, radius: float, own: tuple[OwnSecti
         flap_inertia=inertia,
         flap_static_moment=moment,
         mass=mass,
+        flap_spring=given.number("flap_spring_nm_rad", low=0.0, high=1e8, unit="N m/rad")
+        if hub == "hingeless"
+        else 0.0,
+        flap_rest=math.radians(main.number("precone_deg", 0.0, low=-10.0, high=20.0, unit="°"))
+        if hub == "hingeless"
+        else 0.0,
         tip_sweep=math.radians(sweep),
         tip_sweep_start=given.number("tip_sweep_start_r", *(() if sweep else (1.0,)), low=0.3, high=1.0, unit="r/R"),
         surface_drag=given.number("surface_drag", 1.0, low=0.5, high=3.0),

@@ -160,7 +160,7 @@ def _flapping() -> tuple[float, float]:
         channels[UP] = model.field(disk.r, cos, sin, wake)[0] + (r - flap.hinge) * motion[1]
         channels[UP] += flow.mu_z + flow.mu_x * motion[0] * cos
         moment = float(problem.arm * disk.dr @ section(channels, data, False, False)[0][FZ, :, 0])
-        return [float(motion[1]), flap.load_gain * moment - flap.weight - flap.frequency_squared * float(motion[0])]
+        return [float(motion[1]), flap.load_gain * moment - flap.droop - flap.frequency_squared * float(motion[0])]
 
     turns, n = 10, 36
     psi = 2.0 * math.pi * np.arange(n) / n

@@ -48,6 +48,8 @@ def _all() -> dict[str, Quantity]:
         Quantity("altitude_m", "number", "m", "fixed"),
         Quantity("climb_m_s", "number", "m/s", "fixed"),
         Quantity("twist", "text", "", "fixed"),
+        Quantity("twist_per_rev", "text", "", "fixed"),
+        Quantity("pitch_per_rev", "text", "", "fixed"),
         Quantity("airfoils", "text", "", "fixed"),
         Quantity("concept", "text", "", "fixed"),
         Quantity("hover_share", "number", "", "fixed"),

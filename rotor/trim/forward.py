@@ -88,7 +88,7 @@ def first_guess(problem: Problem) -> Guess:
     wake = problem.expected
     # C_T = ½σa(θ(1 + 3/2 µ²)/3 − λ/2) for an untwisted blade, a near 2π·0.95.
     collective = 3.0 * (2.0 * ct / (design.rotor.solidity * 5.9) + 0.5 * wake.axial) / (1.0 + 1.5 * mu**2)
-    coning = problem.flap.load_gain * 0.7 * ct - problem.flap.weight
+    coning = problem.flap.load_gain * 0.7 * ct - problem.flap.droop
     state = TrimState(
         collective=collective,
         shaft_tilt=math.atan2(problem.drag, problem.weight),

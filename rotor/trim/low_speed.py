@@ -85,7 +85,7 @@ def trim_problem(design: Design) -> Problem:
 def joined_hover(design: Design) -> tuple[float, HoverDifference] | None:
     """s, and the hovering rotor that a design in forward flight passes over to; None at speed and without hover."""
     share = hover_share(design)
-    difference = hover_difference(replace(in_hover(design), active_twist=None)) if share else None
+    difference = hover_difference(replace(in_hover(design), active_twist=None, pitch_per_rev=())) if share else None
     return None if difference is None else (share, difference)
 
 

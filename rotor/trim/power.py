@@ -14,8 +14,8 @@ On a test stand nothing balances the rotor's forces, and µ_z T − µ_x H is th
 mount, negative where it drags; it takes the place of D·V.
 
 The twist of an elastic blade changes the angle of attack only, so the identity holds with it as without. What the air
-takes from blades through their rate of pitch, −Σ dC_M θ', is not in it, for rigid blades neither: below 0.1 % of power,
-and `ElasticTwist.control_power` states it.
+takes from blades through their rate of pitch, −Σ dC_M θ', is not in it, for rigid blades neither: below 0.1 % of power
+with cyclic alone, up to 2 % with some degrees of n/rev pitch. `ElasticTwist.control_power` states it.
 
 Without the axial flow of the tilted disk (3.6 as printed) the torque lacks D·V and more, so there the sum of parts *is*
 the power.
@@ -132,9 +132,9 @@ def control_loads(problem: Problem, elements: BladeElements) -> tuple[Array, flo
     """Moment of the control system on one blade, and the power that moves the pitching blades.
 
     The moment [N m], nose up, (azimuths,), is what balances all loads on the blade. The power, over ρA(ΩR)³, is that of
-    pitch links and actuators. The links take it from the shaft, because the swashplate does not move. Inertia,
-    propeller moment, tension and elasticity store energy and give it back, so once torsion is in balance it is what the
-    air takes, −Σ dC_M θ'.
+    pitch links and actuators. With cyclic alone the links take it from the shaft, because the swashplate does not move.
+    Inertia, propeller moment, tension and elasticity store energy and give it back, so once torsion is in balance it is
+    what the air takes, −Σ dC_M θ'.
     """
     torsion, blade = problem.torsion, elements.torsion
     assert torsion is not None
@@ -145,11 +145,11 @@ def control_loads(problem: Problem, elements: BladeElements) -> tuple[Array, flo
     moment = -torsion.moment_unit * total
     cyclic = state.cyclic_1s * disk.cos - state.cyclic_1c * disk.sin
     work = -float(total @ cyclic)
-    if problem.active_rates[0].size > 1:
-        work -= float(disk.dr @ _around(loads, problem.active_rates[0]))
-        twist = problem.twist[:, None] + problem.active
+    if problem.wave_rates[0].size > 1:
+        work -= float(disk.dr @ _around(loads, problem.wave_rates[0]))
+        twist = problem.twist[:, None] + problem.waves
         modal = torsion.tension.T @ (blade.coordinates @ wave_grid(torsion.functions, len(disk.psi)).at)
-        work += float(((torsion.own_tension @ twist + modal) * problem.active_rates[0]).sum())
+        work += float(((torsion.own_tension @ twist + modal) * problem.wave_rates[0]).sum())
     return moment, work / len(disk.psi)
 
 
@@ -162,6 +162,6 @@ def _loads(problem: Problem, elements: BladeElements) -> Array:
     harmonic = (np.arange(torsion.functions) + 1) // 2
     elastic = (blade.coordinates * -(harmonic**2)) @ wave_grid(torsion.functions, len(disk.psi)).at
     acceleration = torsion.radial.T @ elastic - (state.cyclic_1c * disk.cos + state.cyclic_1s * disk.sin)
-    if problem.active_rates[1].size > 1:
-        acceleration = acceleration + problem.active_rates[1]
+    if problem.wave_rates[1].size > 1:
+        acceleration = acceleration + problem.wave_rates[1]
     return blade.moment - torsion.inertia[:, None] * acceleration + (torsion.tip_mass * state.coning)[:, None]

@@ -19,7 +19,7 @@ from rotor.aero.lifting_line.geometry import WakeCourse
 from rotor.aero.momentum import axial_inflow
 from rotor.aero.switches import switched_off
 from rotor.arrays import Array
-from rotor.design.active_twist import active_twist_record
+from rotor.design.active_twist import active_twist_record, harmonics_record
 from rotor.design.design import Design
 from rotor.plots import plot_disk
 from rotor.trim.newton import Guess, LinearisedTrim
@@ -131,6 +131,7 @@ class ElasticTwist:
             },
             "torsion_frequencies_per_rev": self.frequencies.tolist(),
             "pitch_link_load_n": {"mean": float(load.mean()), "amplitude": 0.5 * float(np.ptp(load))},
+            "control_power_w": self.control_power,
         }
 
 
@@ -138,6 +139,7 @@ _RIGID: dict[str, Any] = {
     "elastic_twist_deg": None,
     "torsion_frequencies_per_rev": None,
     "pitch_link_load_n": None,
+    "control_power_w": None,
 }
 
 
@@ -346,6 +348,7 @@ class Solution:
             "twist": design.twist.spec(),
             **self._test(),
             **({} if design.active_twist is None else {"active_twist": active_twist_record(design.active_twist)}),
+            **({"pitch_per_rev": harmonics_record(design.pitch_per_rev)} if design.pitch_per_rev else {}),
             **self._switches(),
             **(values if self.converged else _emptied(values)),
             "elapsed_ms": 1e3 * self.elapsed,

@@ -97,7 +97,7 @@ def _assemble(problem: Problem, result: HoverResult | TrimResult, begin: float) 
         message = vortex_ring(design) or failure_sentence(design, result.reached, _stalled(result, stalled))
     if converged and (refused := implausible(problem, elements, total)):
         converged, message = False, refused
-    climb = design.condition.climb_speed
+    elastic, climb = _elastic(problem, elements, shown), design.condition.climb_speed
     least = 0.0 if climb >= 0.0 else -math.inf
     if converged and design.condition.stand is None and not least < power.main_rotor < math.inf:
         converged = False
@@ -109,7 +109,7 @@ def _assemble(problem: Problem, result: HoverResult | TrimResult, begin: float) 
         design=design,
         status=Status.CONVERGED if converged else Status.NOT_CONVERGED,
         message=message,
-        caveats=caveats(problem, elements, total, fields, stalled, moment, power) if converged else (),
+        caveats=caveats(problem, elements, total, fields, stalled, moment, power, elastic) if converged else (),
         controls=elements.state,
         disk=fields,
         last_power=power,
@@ -122,7 +122,7 @@ def _assemble(problem: Problem, result: HoverResult | TrimResult, begin: float) 
         residual=result.residual,
         passes=result.passes,
         elapsed=time.perf_counter() - begin,
-        elastic=_elastic(problem, elements, shown),
+        elastic=elastic,
         start=result.guess,
         wake_course=course_of(problem),
         linear=result.linear,

@@ -15,7 +15,7 @@ from rotor.design.design import Design
 from rotor.design.stand import Stand
 from rotor.trim.forward import easier_condition
 from rotor.trim.low_speed import hover_share
-from rotor.trim.solution import Caveat, DiskFields, HubMoment, PowerBudget
+from rotor.trim.solution import Caveat, DiskFields, ElasticTwist, HubMoment, PowerBudget
 
 LOW_SPEED = 0.075
 """Below this advance ratio linear inflow is not trusted (thesis p. 26)."""
@@ -38,6 +38,10 @@ LARGEST_BUILT_TWIST = math.radians(25.0)
 """Root to tip, with a margin: the UH-60A has 18° nominal. Only tiltrotor blades, propellers in cruise, have more."""
 STALL_SHARE = 0.02
 """Stalled part of the disk above which dynamic stall would change the results."""
+CONTROL_SHARE = 0.005
+"""Power of pitch links and actuators over that of the main rotor from which it is named. Our choice."""
+FAST_PITCH = 0.2
+"""Reduced frequency ωc/2V at 0.75 R from which it is named. Our choice: Theodorsen's |C(k)| has fallen to 0.75."""
 
 
 def caveats(
@@ -48,6 +52,7 @@ def caveats(
     stalled: float,
     moment: HubMoment,
     power: PowerBudget,
+    elastic: ElasticTwist | None,
 ) -> tuple[Caveat, ...]:
     """The limits of validity that a converged solution exceeds; `fields`: of the solution."""
     design, disk = problem.design, problem.disk
@@ -103,6 +108,12 @@ def caveats(
             )
     if design.active_twist and design.hovering:
         add("active-twist-rests", "Active twist is off in hover, where only the twist law acts.")
+    if design.pitch_per_rev and design.hovering:
+        add(
+            "root-pitch-rests", "Root pitch at harmonics of rotor speed is off in hover, where nothing follows azimuth."
+        )
+    if design.pitch_waves:
+        found += _pitch_waves(design, power, elastic)
     if 0.0 < mu < LOW_SPEED and not problem.inflow.load_dependent:
         add("low-speed-inflow", f"Linear inflow is not valid below advance ratio {LOW_SPEED:g}; this is {mu:.3f}.")
     elif 0.0 < mu < LOWEST_SPEED:
@@ -174,6 +185,31 @@ def caveats(
             f"The tip reaches Mach {top_mach:.2f}; section data end at {disk.mach_limit:.2f} and are constant above.",
         )
     return tuple(found)
+
+
+def _pitch_waves(design: Design, power: PowerBudget, elastic: ElasticTwist | None) -> list[Caveat]:
+    """What the models leave out of pitch that follows the azimuth."""
+    found: list[Caveat] = []
+    highest = max((one.per_rev for wave in design.pitch_waves for one in wave.harmonics), default=0)
+    frequency = highest * design.rotor.reference_chord / (1.5 * design.rotor.radius)
+    if frequency > FAST_PITCH:
+        found.append(
+            Caveat(
+                "fast-pitch",
+                f"At {highest}/rev the reduced frequency at 0.75 R is {frequency:.2f}; section data are steady, and "
+                "only the wake that a lifting line sheds and the damping of the pitch rate answer to it.",
+            )
+        )
+    moved = 0.0 if elastic is None else elastic.control_power
+    if abs(moved) > CONTROL_SHARE * abs(power.main_rotor):
+        found.append(
+            Caveat(
+                "control-power",
+                f"Pitch links and actuators put {moved / 1e3:.1f} kW into the pitching blades; that is not part of the "
+                "power here.",
+            )
+        )
+    return found
 
 
 def _nearest_to_stall(margin: Array, r: Array) -> str:

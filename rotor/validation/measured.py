@@ -23,6 +23,10 @@ SETS = (
 """Names of the sets, in the order in which they are shown."""
 
 
+FIELDS = ("2mrts-inflow", "hart2-airloads", "gazelle-airloads", "flown-power")
+"""Names of the sets that are not single points with a scatter: `rotor.validation.inflow` and `airloads`."""
+
+
 @dataclass(frozen=True)
 class MeasuredSet:
     """The points of one test."""
@@ -90,7 +94,7 @@ def sets_of(rotor: str) -> tuple["MeasuredSet", ...]:
 def load_set(name: str) -> MeasuredSet:
     """The set of that name; ValueError with one sentence for any other."""
     if name not in SETS:
-        raise ValueError(f"set {name!r} is not known: use one of {', '.join(SETS)} or 2mrts-inflow")
+        raise ValueError(f"set {name!r} is not known: use one of {', '.join((*SETS, *FIELDS))}")
     record: dict[str, Any] = tomllib.loads(asset_path(f"measured/{name}.toml").read_text(encoding="utf-8"))
     columns = cast(dict[str, list[float]], record["points"])
     points = tuple(

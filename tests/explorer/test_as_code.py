@@ -15,7 +15,7 @@ from typing import Any
 
 import pytest
 
-from explorer.export.as_code import CASE_FILE, as_command_line, as_python, degrees, exact_spec
+from explorer.export.as_code import CASE_FILE, as_command_line, as_python, exact_spec
 from explorer.state import Inputs, preset_inflow
 from rotor.__main__ import main
 from rotor.design.active_twist import ActiveTwist, Harmonic
@@ -23,6 +23,7 @@ from rotor.design.design import Design
 from rotor.design.twist import LinearTwist, QuadraticTwist, SplineTwist, SumTwist, TableTwist
 from rotor.files.make_design import change_airfoils, make_design
 from rotor.trim.solve import solve
+from rotor.units import degrees_text
 
 ROOT = Path(__file__).parent.parent.parent
 SPLINE = SplineTwist((0.13, 0.4, 0.75, 1.0), (0.1234567891234, 0.05, -0.01, -1.0 / 30.0))
@@ -105,8 +106,8 @@ def test_a_table_stays_a_table_and_the_reader_is_told_about_its_file(tmp_path: P
 
 def test_specs_are_exact_and_short():
     assert exact_spec(QuadraticTwist(math.radians(8.0), math.radians(-14.1))) == "quadratic:8,-14.1"
-    assert degrees(math.radians(-12.0)) == "-12"
-    assert math.radians(float(degrees(1.0 / 30.0))) == pytest.approx(1.0 / 30.0, rel=1e-15)
+    assert degrees_text(math.radians(-12.0)) == "-12"
+    assert math.radians(float(degrees_text(1.0 / 30.0))) == pytest.approx(1.0 / 30.0, rel=1e-15)
 
 
 def test_a_design_with_other_airfoils_says_so_in_flags():

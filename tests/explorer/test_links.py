@@ -18,6 +18,7 @@ from explorer.stand import StandInputs
 from explorer.state import LAWS, OPENING, Inputs, with_rotor
 from explorer.tabs.file_panel import FilePanel
 from rotor.assets import MEASURED_ROTORS, SHIPPED_ROTORS
+from rotor.design.active_twist import Harmonic, read_harmonics
 from rotor.design.design import Design
 from rotor.design.retired import RETIRED
 from rotor.design.twist import SplineTwist, SumTwist, TableTwist, parse_twist
@@ -83,7 +84,22 @@ def random_inputs(chance: random.Random) -> Inputs:
         if inputs.aircraft.isolated:
             tilt = chance.choice((None, rate()))
             inputs = replace(inputs, stand=StandInputs("wind-tunnel", "ct_over_sigma", 0.06, tilt), climb_m_s=0.0)
-    return inputs
+    return replace(inputs, **_waves(chance)) if chance.random() < 0.3 else inputs
+
+
+def _waves(chance: random.Random) -> dict[str, Any]:
+    """n/rev pitch and twist as the page's sliders and design files give them."""
+
+    def waves(lowest: int) -> tuple[Harmonic, ...]:
+        text = ",".join(
+            f"{n}:{chance.randint(1, 200) / 20:g}:{chance.randint(0, 71) * 5}"
+            for n in range(lowest, 9) if chance.random() < 0.3
+        )  # fmt: skip
+        return read_harmonics(text, "test")
+
+    twist = waves(1)
+    shape = chance.choice((None, ((0.3, 0.9), (0.0, 1.0)))) if twist else None
+    return {"pitch_per_rev": waves(2), "twist_per_rev": twist, "active_shape": shape}
 
 
 def _twist_from_a_file(chance: random.Random, rate: object) -> SplineTwist | TableTwist | SumTwist:
@@ -119,6 +135,8 @@ def test_a_thousand_random_designs_come_back_from_an_address_that_the_client_has
         shown = inputs_from(code)
         assert code_of(shown.design()) == code
         assert (again.models, again.rotor, again.preset) == (design.models, design.rotor, design.preset)
+        assert (again.active_twist, again.pitch_per_rev) == (design.active_twist, design.pitch_per_rev)
+        assert shown.design().pitch_waves == design.pitch_waves
         assert again.condition.advance_ratio == pytest.approx(design.condition.advance_ratio, rel=1e-9)
         assert again.condition.mass == pytest.approx(design.condition.mass, rel=1e-9)
         r = (0.2, 0.33, 0.5, 0.75, 0.9, 1.0)

@@ -73,7 +73,7 @@ def test_ones_own_rotor_stays_in_the_menu():
     assert inputs.aircraft is craft
     titles = list(menu_titles(craft).values())
     assert "Castles and Gray, twist −12°" in titles
-    assert titles[:4] == ["UH-60A", "Robinson R22", "Sikorsky S-61", "XV-15 metal blade"]
+    assert titles[:4] == ["UH-60A", "Robinson R22", "Sikorsky S-61", "SA349/2 Gazelle"]
     assert titles[-1] == "Test rotor (own)"
     back = with_rotor(inputs, "uh60a")
     assert back.own_rotor is craft

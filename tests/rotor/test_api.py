@@ -226,7 +226,10 @@ WRONG = {
     "rotor.make_design(hover='yes')": (TypeError, "hover is 'yes': write hover=True"),
     "rotor.make_design(mass_kg='8 t')": (TypeError, "mass_kg is '8 t', not a number"),
     "rotor.make_design(mass_kg=8)": (ValueError, "mass 8 kg is outside 100…50000 kg"),
-    "rotor.make_design(rotor='bell')": (ValueError, "rotor 'bell' is not known: use uh60a, r22, s61, xv15, pca2"),
+    "rotor.make_design(rotor='bell')": (
+        ValueError,
+        "rotor 'bell' is not known: use uh60a, r22, s61, gazelle, bo105, xv15, pca2",
+    ),
     "rotor.make_design(rotor=60)": (TypeError, "rotor 60 is not a rotor"),
     "rotor.make_design(preset='best')": (ValueError, "preset 'best' is not known: use flight or thesis"),
     "rotor.make_design(inflow='free')": (ValueError, "inflow model 'free' is not known: use one of uniform"),

@@ -10,7 +10,7 @@ from explorer.export.report.contents import DesignReport, colours_of
 from explorer.export.report.style import SCRIPT, SHEET
 from explorer.picture.fields import FIELDS
 from explorer.scene.still_scene import EmbeddedViewer
-from explorer.text.design_words import active_words, flight_words, model_words, title_words
+from explorer.text.design_words import flight_words, model_words, title_words, wave_words
 from explorer.text.readout import part_titles
 from explorer.text.status import tiny
 from explorer.theme.colours import PARTS
@@ -98,8 +98,8 @@ def _section(report: DesignReport, k: int) -> str:
     entry, colour = report.shown[k], colours_of(report)[k]
     solution = entry.solution
     active = ""
-    if solution.design.active_twist is not None:
-        active = f'<p class="dim">With {escape(active_words(solution.design.active_twist))}.</p>'
+    if words := wave_words(solution.design):
+        active = f'<p class="dim">With {escape(words)}.</p>'
     return (
         f'<section class="design" id="design-{k}" style="--mark:{colour}"><h2>{escape(entry.title)}</h2>'
         f'<p class="lead">{escape(title_words(solution.design))}</p>{active}'

@@ -64,9 +64,10 @@ def flown_twist(solution: Solution, rest: Solution, psi: float) -> FlownTwist | 
     r, design = solution.disk.r, solution.design
     at = int(np.abs(np.angle(np.exp(1j * (solution.disk.psi - psi)))).argmin())
     moved = driven[:, at] - alone[:, at] + design.twist(r) - rest.design.twist(r)
-    if design.active_twist is not None:
-        moved = moved + design.active_twist(r, np.array([psi]))[:, 0]
-    return FlownTwist(r, alone[:, at], moved - moved[0])
+    given = [np.zeros(len(r)) if one is None else one(r, np.array([psi]))[:, 0]
+             for one in (design.active_twist, rest.design.active_twist)]  # fmt: skip
+    moved = moved + given[0] - given[1]
+    return FlownTwist(r, alone[:, at] + given[1], moved - moved[0])
 
 
 def cut_picture(

@@ -129,6 +129,10 @@ class ActuatorInputs:
             )
         made = self.turning(installed, design.elastic)
         if made is not None and made.amplitude > 0.0 and self.amplitude > 0.0:
+            if design.active_twist is not None:
+                raise ValueError(
+                    "The actuator's harmonic and the twist at n/rev cannot both be set: take one to zero under Actuate."
+                )
             design = with_harmonic(design, made, 0.01 * self.amplitude, math.radians(self.phase))
         return design
 

@@ -136,6 +136,21 @@ def _six_series(thickness: float) -> SectionTraits:
     return SectionTraits(thickness=thickness, cap_ratio=0.90, korn=0.87)
 
 
+def _naca23012(reynolds_per_mach: float) -> TunnelTraits:
+    """Least squares on the section table of the HART II test, −4 to 12 deg, Mach 0.2 to 0.8, at the model's Reynolds
+    number; largest lift 1.39, 1.25 at Mach 0.4, 0.5 and moment at no lift (−0.0075, XFOIL −0.003) of the same table."""
+    return TunnelTraits(
+        onset=0.856,
+        centre_deg=-0.82,
+        zero_lift_shift_deg=-0.24,
+        cap_ratio=1.09,
+        negative_cap=1.2,
+        reynolds_per_mach=reynolds_per_mach,
+        drag_level=0.876,
+        moment_shift=-0.0045,
+    )
+
+
 RECIPES = {
     # Onset and centre: as in `tunnel`. Zero lift −0.65 deg: midway between XFOIL (−0.72) and the polar of NASA TM-86719
     # (−0.58). Negative cap: XFOIL's own, 0.9 at Mach 0.3.
@@ -187,6 +202,25 @@ RECIPES = {
     ),
     # The PCA-2's outer chord, 0.559 m; its tip stays below Mach 0.5.
     "goe429": Recipe("GOETTINGEN 429 XFOIL TRIP5", 13.0e6, _six_series(0.114)),
+    # The SA349/2's chord, 0.35 m. Level, onset, centre and zero lift: least squares on the table of NASA TM-88370, -2
+    # to 10 deg, Mach 0.3 to 0.85. Largest lift of the same table: 1.28, 1.20, 1.11 at Mach 0.3, 0.4, 0.5. It has no
+    # moment.
+    "oa209": Recipe(
+        "OA209 XFOIL TM88370 LEVEL",
+        8.15e6,
+        TunnelTraits(
+            onset=0.889,
+            centre_deg=0.10,
+            zero_lift_shift_deg=1.09,
+            cap_ratio=0.95,
+            negative_cap=1.15,
+            reynolds_per_mach=8.15e6,
+            drag_level=0.903,
+        ),
+    ),
+    # The chords of the Bo 105, 0.27 m, and of its model, 0.121 m.
+    "naca23012tab": Recipe("NACA23012 TAB HART2 TABLE", 6.29e6, _naca23012(6.29e6)),
+    "naca23012tab-model": Recipe("NACA23012 TAB MODEL HART2", 2.82e6, _naca23012(2.82e6)),
     # Knight and Hefner's model rotor, whose polar they measured at the Reynolds number of its tip.
     "naca0015re242k": Recipe("NACA0015 RE 242000 MEASURED", 1.21e6, _six_series(0.15), (0.2,), "measured"),
 }

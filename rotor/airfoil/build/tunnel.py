@@ -1,4 +1,4 @@
-"""SC1095 and SC1094 R8 from tunnel data: levels of lift and drag, shock stall, drag rise, moment.
+"""Sections with public tunnel-derived data: levels of lift and drag, shock stall, drag rise, moment.
 
 XFOIL gives the shape of a polar at low speed, up to Mach 0.4. What tunnels say of its level, and of shocks, is put
 on it here. In the SC1095 deck of NASA CR-166309 the drag above its level, the lost lift and the break of the moment,
@@ -85,6 +85,10 @@ class TunnelTraits:
     negative_cap: float
     """Largest −C_l."""
     reynolds_per_mach: float
+    drag_level: float = DRAG_LEVEL
+    """C_d of attached flow over XFOIL's."""
+    moment_shift: float = 0.0
+    """C_m at no lift less XFOIL's."""
 
 
 def tunnel_lift_slope(mach: float, reynolds: float) -> float:
@@ -117,7 +121,7 @@ def tunnel_polar(
 
     friction = (max(mach, 1e-3) / native_mach) ** FRICTION_REYNOLDS_POWER if mach > native_mach else 1.0
     section_drag = (1.0 - shocks) * cd + shocks * _held_beyond(own_stall, degrees, cd)
-    attached = DRAG_LEVEL * friction * with_lost_suction(alpha, lift + lost_at_low_speed, lift, section_drag)
+    attached = traits.drag_level * friction * with_lost_suction(alpha, lift + lost_at_low_speed, lift, section_drag)
     drag = attached + shocks * DRAG_SLOPE * ramp(x, traits.onset)
     return lift, drag, _moment(mach, degrees, x, cm, traits, native_mach, shocks)
 
@@ -163,7 +167,8 @@ def _moment(
     at_zero = float(np.interp(0.0, degrees, cm)) * math.sqrt((1.0 - native_mach**2) / (1.0 - held**2))
     pocket = POCKET_SLOPE * ramp(x, traits.onset - POCKET_BEFORE, POCKET_WIDTH)
     broken = BREAK_SLOPE * ramp(x, traits.onset + BREAK_AFTER, BREAK_WIDTH)
-    subsonic = (1.0 - shocks) * cm + shocks * (at_zero + side * (pocket - broken))
+    at_zero += traits.moment_shift
+    subsonic = (1.0 - shocks) * (cm + traits.moment_shift) + shocks * (at_zero + side * (pocket - broken))
     tuck = TUCK_OFFSET - TUCK_SIZE * np.tanh(degrees / TUCK_DEG)
     tuck = at_zero + tuck - side * TUCK_BREAK_SLOPE * ramp(x, traits.onset + TUCK_BREAK_AFTER)
     share = _smoothstep(mach, *TUCK_MACH)

@@ -70,7 +70,7 @@ def test_a_link_opens_the_page_with_a_sentence(code: str):
     address = Address("?d=" + code, lambda query: None)
     assert address.read(share.DESIGN, share.inputs_from, OPENING, "Not the design", problems) == OPENING
     ((_, sentence),) = problems
-    assert len(sentence) < 400
+    assert len(sentence) < 450
     assert "9" * 100 not in sentence
     with pytest.raises(ValueError, match=r"\w"):  # As A of a link, which is read elsewhere.
         share.inputs_from(code)

@@ -40,14 +40,16 @@ def test_thickness_is_the_published_one(name: str, thickness: float, place: floa
 def test_outline_starts_on_the_upper_side_and_keeps_its_gap(name: str) -> None:
     points = load_contour(name).points
     assert points[3, 1] > points[-4, 1]
-    # The formula's 0.252 % for 12 %, 0.315 % for 15 %; Report 903; Report 824 has none, the scaled forms 0.16 %.
+    # The formula's 0.252 % for 12 %, 0.315 % for 15 %; Report 903; Report 824 has none, the scaled forms 0.16 %. A
+    # tab of 0.8 mm on a chord of 121 mm; OA209 as its database.
     gap = {
         "naca0012": 0.00252, "naca63a015": 0.00064, "naca0015re242k": 0.00315, "naca64208": 0.0, "goe429": 0.0032,
+        "naca23012tab": 0.8 / 121.0, "naca23012tab-model": 0.8 / 121.0, "oa209": 0.005,
     }.get(name, 0.0016 if name.startswith("naca64") else 0.0034)  # fmt: skip
     assert_allclose(points[0] - points[-1], [0.0, gap], atol=0.0006 if name.startswith("naca64") else 0.0002)
     nose, tail = chord_line(load_contour(name))
     # The point farthest from the tail is on the nose circle of a cambered section, near the end of its mean line.
-    cambered = name.startswith("naca64")
+    cambered = name.startswith(("naca64", "naca23012", "oa209"))
     assert_allclose(nose, [0.0, 0.0], atol=0.03 if cambered else 1e-6)
     assert_allclose(tail, [1.0, 0.0], atol=5e-4 if cambered else 1e-6)
     x, y = points.T
@@ -102,3 +104,21 @@ def test_bad_outlines_are_refused_in_one_sentence(tmp_path: Path) -> None:
         resample(load_contour("sc1095"), 80)
     with pytest.raises(ValueError, match="choose one of sc1095"):
         load_contour("vr12")
+
+
+def test_the_tab_is_behind_the_published_naca_23012() -> None:
+    """Ordinates of NACA Report 824 (upper 4.91, 7.55, 7.14, 5.47, lower −3.15, −4.46, −4.48, −3.67 % at 5 … 60 %), on
+    115.6/121 of the chord; then 0.8 mm of tab to either side of the chord line."""
+    points, body = load_contour("naca23012tab").points, 115.6 / 121.0
+    nose = int(np.argmin(points[:, 0]))
+    upper, lower = points[nose::-1], points[nose:]
+    place = np.array([0.05, 0.30, 0.40, 0.60])
+    assert_allclose(np.interp(place * body, *upper.T) / body, [0.0491, 0.0755, 0.0714, 0.0547], atol=3e-4)
+    place = np.array([0.10, 0.30, 0.40, 0.60])
+    assert_allclose(np.interp(place * body, *lower.T) / body, [-0.0292, -0.0446, -0.0448, -0.0367], atol=3e-4)
+    behind = points[points[:, 0] > body + 1e-6]
+    assert_allclose(np.abs(behind[:, 1]), 0.4 / 121.0, atol=1e-6)
+
+
+def test_oa209_is_nine_per_cent_thick() -> None:
+    assert_allclose(thickness_and_camber(load_contour("oa209"))[0], 0.09, atol=5e-4)

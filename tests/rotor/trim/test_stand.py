@@ -28,6 +28,10 @@ TRIMS = {
     "tunnel-backward": ("wind-tunnel", Stand(shaft_tilt=math.radians(-12.0), ct_over_sigma=0.075)),
     "tunnel-collective": ("wind-tunnel", Stand(shaft_tilt=math.radians(3.0), collective=0.12)),
     "tunnel-free-flapping": ("wind-tunnel", Stand(ct_over_sigma=0.06, flapping="free", cyclic_1s=-0.03)),
+    "tunnel-hub-moments": (
+        "wind-tunnel",
+        Stand(ct_over_sigma=0.06, flapping="hub-moments", hub_roll=2e4, hub_pitch=-1e4),
+    ),
     "tunnel-no-thrust": ("wind-tunnel", Stand(ct_over_sigma=0.0)),
     "free-collective": ("free-rotor", Stand(collective=math.radians(2.0), flapping="free")),
     "free-thrust": ("free-rotor", Stand(ct_over_sigma=0.06, flapping="free")),

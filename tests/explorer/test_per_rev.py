@@ -1,0 +1,205 @@
+"""Root pitch and twist at n/rev on the page: widgets, links, history, pictures, curves and words."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+import viser
+from numpy.testing import assert_allclose
+
+from explorer.export.as_code import as_command_line, as_python
+from explorer.export.demo import flown_pitch
+from explorer.export.provenance import provenance_lines
+from explorer.picture.blade_mesh import blade_shape
+from explorer.picture.poses import blade_pose, pitch_series
+from explorer.pinned import Pinned
+from explorer.scene.page_scene import motion_of
+from explorer.sharing.share import code_of, inputs_from
+from explorer.sharing.stored_history import StoredHistory, read_history
+from explorer.state import OPENING, baseline_of, inputs_of, with_rotor
+from explorer.tabs.actuator.state import ActuatorInputs
+from explorer.tabs.controls import DesignControls, PerRevControls
+from explorer.tabs.twist_curve import flown_band, shown_twist
+from explorer.text.design_words import twist_name, wave_words
+from explorer.text.validated import validated
+from explorer.text.why import why
+from explorer.undo import History
+from rotor.design.active_twist import ActiveTwist, Harmonic, read_harmonics
+from rotor.design.design import Design
+from rotor.files.make_design import make_design
+from rotor.trim.solve import solve
+
+PITCH, TWIST = read_harmonics("3:1.5:180,5:0.2:40", "test"), read_harmonics("2:1:30", "test")
+MOVED = replace(OPENING, pitch_per_rev=PITCH, twist_per_rev=TWIST)
+
+
+def rigid(design: Design) -> Design:
+    return replace(design, models=replace(design.models, elastic_twist=False))
+
+
+def test_designs_come_back_from_sliders_links_and_history():
+    design = MOVED.design()
+    assert (design.pitch_per_rev, design.linear_active_twist) == (PITCH, TWIST)
+    assert inputs_of(design) == MOVED
+    assert "pitch_per_rev=3:1.5:180,5:0.2:40" in code_of(design)
+    assert "twist_per_rev=2:1:30" in code_of(design)
+    assert inputs_from(code_of(design)) == MOVED
+    shaped = replace(MOVED, active_shape=((0.4, 0.9), (0.0, 1.0)))
+    assert shaped.design().active_twist == ActiveTwist(TWIST, (0.4, 0.9), (0.0, 1.0))
+    assert inputs_from(code_of(shaped.design())) == shaped
+    history = read_history(StoredHistory((OPENING, MOVED), OPENING).text(), OPENING)
+    assert history.past == (OPENING, MOVED)
+    with pytest.raises(ValueError, match=r"in the address cannot be used: root pitch at 1/rev"):
+        inputs_from("1;linear:-8;pitch_per_rev=1:1:0")
+
+
+def test_another_rotor_and_the_baseline_have_none():
+    assert with_rotor(MOVED, "s61").design().pitch_waves == ()
+    assert baseline_of(MOVED.design()).pitch_waves == ()
+
+
+def test_a_drag_is_one_step_of_undo():
+    history = History(OPENING)
+    for k in range(3):
+        waves = (Harmonic(3, math.radians(1.0 + k)),)
+        history.note(replace(OPENING, pitch_per_rev=waves), 2.0 if k == 0 else 0.1)
+    assert history.undo() == OPENING
+
+
+def test_code_for_shell_and_python_makes_the_design():
+    command = as_command_line(MOVED.design())
+    assert command.case is None
+    assert "--pitch-per-rev 3:1.5:180,5:0.2:40" in command.command
+    assert "--twist-per-rev 2:1:30" in command.command
+    scope: dict[str, Any] = {}
+    exec(as_python(MOVED.design()).partition("solution =")[0], scope)
+    assert scope["design"] == MOVED.design()
+
+
+def test_the_actuators_harmonic_and_the_twist_are_not_both():
+    inputs = ActuatorInputs(per_rev=2)
+    assert inputs.apply(replace(OPENING, pitch_per_rev=PITCH).design()).pitch_per_rev == PITCH
+    with pytest.raises(ValueError, match="cannot both be set"):
+        inputs.apply(MOVED.design())
+
+
+def test_a_pinned_design_with_twist_at_n_per_rev_is_on_the_sliders():
+    solution = solve(MOVED.design()).require()
+    assert not Pinned(MOVED, solution).driven
+    assert Pinned(MOVED, solution).sliders(OPENING, along=False) == MOVED
+    assert "2/rev twist 1.00°, 3/rev pitch 1.50°, 5/rev pitch 0.20°" in Pinned(MOVED, solution).title
+
+
+def test_each_blade_is_drawn_at_the_pitch_of_its_root():
+    """The pose, and the series with which the page turns the rotor by itself; in hover there is none."""
+    solution = solve(MOVED.design()).require()
+    controls, psi = solution.controls, 0.7
+    wave = sum(one.amplitude * math.cos(one.per_rev * psi - one.phase) for one in PITCH)
+    still = replace(controls, collective=controls.collective + wave)
+    hinge = 0.4
+    assert_allclose(blade_pose(controls, psi, hinge, solution.design).wxyz, blade_pose(still, psi, hinge).wxyz)
+    series = motion_of(solution)["pitch"]
+    assert len(series) == 11
+    waves = [1.0, *(one for n in range(1, 6) for one in (math.cos(n * psi), math.sin(n * psi)))]
+    cyclic = controls.collective + controls.cyclic_1c * math.cos(psi) + controls.cyclic_1s * math.sin(psi)
+    assert_allclose(np.dot(series, waves), cyclic + wave)
+    assert len(pitch_series(controls, MOVED.design().at(hover=True))) == 3
+
+
+def test_the_twist_curve_has_the_band_of_twist_at_n_per_rev():
+    """Of a rigid blade the band is that of the twist alone: at the tip an amplitude to either side of the jig twist."""
+    r = np.array([OPENING.aircraft.rotor.blade.root_cutout, 1.0])
+    solution = solve(rigid(replace(OPENING, twist_per_rev=TWIST).design())).require()
+    band = flown_band(solution, r)
+    assert band is not None
+    mean, low, high = band
+    jig, tip = shown_twist(solution.design)(r), math.degrees(TWIST[0].amplitude)
+    assert_allclose(mean, jig, atol=1e-9)
+    assert_allclose([low[1] - jig[1], high[1] - jig[1]], [-tip, tip], atol=0.02)
+    assert_allclose([low[0] - jig[0], high[0] - jig[0]], [0.0, 0.0], atol=0.05)  # To the first element.
+    still = solve(rigid(OPENING.design())).require()
+    assert flown_band(still, r) is None
+    elastic, pitched = (
+        flown_band(solve(one.design()).require(), r) for one in (OPENING, replace(OPENING, pitch_per_rev=PITCH))
+    )
+    assert elastic is not None
+    assert pitched is not None
+    assert np.ptp([pitched[1][1], pitched[2][1]]) > np.ptp([elastic[1][1], elastic[2][1]]) + 1.0
+
+
+def test_the_demo_holds_all_harmonics_of_a_blade():
+    pitch = flown_pitch(solve(MOVED.design()).require(), blade_shape(OPENING.aircraft.rotor), 1.0)
+    assert len(pitch) == 1 + 2 * 5
+
+
+def test_words():
+    before, after = solve(OPENING.design()).require(), solve(MOVED.design()).require()
+    words = (
+        "active twist of 1.00° at 2/rev (phase 30°) and root pitch of 1.50° at 3/rev (phase 180°) and 0.20° at 5/rev"
+    )
+    assert wave_words(MOVED.design()).startswith(words)
+    assert wave_words(MOVED.design().at(hover=True)) == wave_words(OPENING.design()) == ""
+    assert twist_name(MOVED) == "As built, 2/rev twist 1.00°, 3/rev pitch 1.50°, 5/rev pitch 0.20°"
+    assert any("root pitch: 3/rev" in line for line in provenance_lines(after))
+    pitched = solve(replace(OPENING, pitch_per_rev=PITCH).design()).require()
+    assert "Root pitch at 3/rev and 5/rev" in why(before, pitched)
+    assert "No n/rev root pitch" in why(pitched, before)
+    assert "collective and cyclic alone" in validated(solve(make_design(rotor="xv15", pitch_per_rev="3:1:0"))).sentence
+
+
+class TestWidgets:
+    @pytest.fixture
+    def controls(self) -> Iterator[tuple[DesignControls, PerRevControls]]:
+        server = viser.ViserServer(host="127.0.0.1", port=0, verbose=False)
+        controls = DesignControls(server.gui, OPENING, lambda: None)
+        panel = PerRevControls(server.gui, OPENING, controls.inputs, controls.change)
+        controls.placed = panel.place
+        yield controls, panel
+        server.stop()
+
+    def test_a_hand_on_them(self, controls: tuple[DesignControls, PerRevControls]):
+        page, panel = controls
+        by_hand: Any = SimpleNamespace(client="someone")
+
+        def slide(handles: dict[str, Any], name: str, value: Any) -> None:
+            handles[name].value = value
+            (panel._chosen if handles is panel._orders else panel._slid)(name)(by_hand)
+
+        def waves(name: str) -> list[tuple[float, ...]]:
+            found: tuple[Harmonic, ...] = getattr(page.inputs(), name)
+            return [(n.per_rev, round(math.degrees(n.amplitude), 9), round(math.degrees(n.phase), 9)) for n in found]
+
+        slide(panel._phases, "pitch_per_rev", 90.0)
+        assert page.inputs() == OPENING  # Nothing yet.
+        slide(panel._sizes, "pitch_per_rev", 1.25)
+        assert waves("pitch_per_rev") == [(3, 1.25, 90.0)]
+        slide(panel._orders, "pitch_per_rev", "2/rev")
+        assert panel._sizes["pitch_per_rev"].value == 0.0
+        assert waves("pitch_per_rev") == [(3, 1.25, 90.0)]
+        slide(panel._sizes, "pitch_per_rev", 0.5)
+        assert waves("pitch_per_rev") == [(2, 0.5, 90.0), (3, 1.25, 90.0)]
+        slide(panel._sizes, "pitch_per_rev", 0.0)
+        assert panel._orders["pitch_per_rev"].value == "2/rev"  # The menu stays under the hand.
+        assert waves("pitch_per_rev") == [(3, 1.25, 90.0)]
+        slide(panel._sizes, "twist_per_rev", 2.0)
+        assert waves("twist_per_rev") == [(3, 2.0, 0.0)]
+        assert "Active twist of 2.00° at 3/rev" in panel._words.content
+        assert "root pitch of 1.25° at 3/rev (phase 90°)" in panel._words.content
+        page.reset()
+        assert page.inputs() == OPENING
+        assert panel._sizes["pitch_per_rev"].value == panel._sizes["twist_per_rev"].value == 0.0
+
+    def test_a_design_file_on_them(self, controls: tuple[DesignControls, PerRevControls]):
+        page, panel = controls
+        brought = replace(MOVED, twist_per_rev=read_harmonics("8:15:20", "test"), active_shape=((0.3, 1.0), (0.0, 1.0)))
+        page.set_inputs(brought)
+        assert page.inputs() == brought
+        assert panel._orders["twist_per_rev"].value == "8/rev"
+        assert (panel._sizes["twist_per_rev"].value, panel._phases["twist_per_rev"].value) == (15.0, 20.0)
+        assert "shape of its design file" in panel._words.content
+        panel.hold(True)
+        assert all(handle.disabled for handle in panel._sizes.values())

@@ -1,0 +1,330 @@
+"""Root pitch and twist at harmonics of rotor speed: how they are written, the field, the elastic answer, energy."""
+
+import itertools
+import json
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+import rotor
+from rotor.__main__ import main
+from rotor.actuator.harmonic import tip_response
+from rotor.aero.inflow import INFLOW_MODELS
+from rotor.aero.section import RATE, TH, M
+from rotor.design.active_twist import ActiveTwist, Harmonic, harmonics_text, read_harmonics
+from rotor.design.design import Design
+from rotor.design.stand import Stand
+from rotor.dynamics.torsion import TorsionBeam, torsion_beam
+from rotor.files.design_file import design_from_record, load_design
+from rotor.files.make_design import make_design
+from rotor.study.study_file import parse_study
+from rotor.trim.newton import SolverOptions
+from rotor.trim.power import control_loads
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+from rotor.trim.wake_course import course_of
+
+DEGREE = math.radians(1.0)
+TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-10, torsion_tolerance=1e-12)
+
+
+def rigid(design: Design) -> Design:
+    return replace(design, models=replace(design.models, elastic_twist=False))
+
+
+@pytest.mark.parametrize("inflow", INFLOW_MODELS)
+@pytest.mark.parametrize("elastic", [False, True])
+def test_energy(inflow: str, elastic: bool):
+    """Shaft power is the sum of the parts to rounding, and links and actuators put in what the air takes."""
+    design = make_design(mu=0.25, inflow=inflow, pitch_per_rev="2:1:30,3:0.7:200,5:0.3:0", twist_per_rev="3:1:90")
+    solution = solve(design if elastic else rigid(design), options=TIGHT).require()
+    assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-10)
+    if not elastic:
+        return
+    assert solution.linear is not None
+    problem, point = solution.linear.problem, solution.linear.point
+    assert problem.torsion is not None
+    air = point.forces[M] + 0.5 * problem.torsion.inertia[:, None] * np.sin(2.0 * point.channels[TH])
+    taken = -problem.disk.dr @ (air * point.channels[RATE]).mean(axis=1)
+    assert abs(taken) * design.power_unit > 400.0
+    assert_allclose(control_loads(problem, solution.linear.elements)[1], taken, rtol=1e-6)
+
+
+@pytest.mark.parametrize("per_rev", range(2, 9))
+def test_the_pitch_of_a_rigid_blade_has_the_wave(per_rev: int):
+    """θ = θ_tw + θ0 + θ1c cos ψ + θ1s sin ψ + A cos(Nψ − φ) at every element and azimuth."""
+    design = rigid(make_design(mu=0.2, inflow="pitt-peters", pitch_per_rev=[(per_rev, 0.8, 70.0)]))
+    solution = solve(design).require()
+    disk, controls, psi = solution.disk, solution.controls, solution.disk.psi
+    wave = math.radians(0.8) * np.cos(per_rev * psi - math.radians(70.0))
+    wave += controls.collective + controls.cyclic_1c * np.cos(psi) + controls.cyclic_1s * np.sin(psi)
+    assert_allclose(disk.theta, design.twist(disk.r)[:, None] + wave, atol=1e-12)
+
+
+def test_twist_turns_the_tip_nose_up_at_phase_over_n():
+    """Zero at the root cut-out, DEG at the tip at ψ = PHASE/N, linear between; −DEG half a period later."""
+    design = make_design(mu=0.2, twist_per_rev="4:2:120")
+    active, root = design.active_twist, design.rotor.blade.root_cutout
+    assert active is not None
+    psi = np.radians([120.0 / 4.0, 120.0 / 4.0 + 45.0])
+    field = active(np.array([root, 0.5 * (1.0 + root), 1.0]), psi)
+    assert_allclose(np.degrees(field), [[0.0, 0.0], [1.0, -1.0], [2.0, -2.0]], atol=1e-12)
+
+
+def test_an_amplitude_below_zero_is_half_a_turn_of_phase():
+    """To the last digit, so that files, links and caches know them as one."""
+    for one, other in (
+        ("3:-1:20", "3:1:200"),
+        ("3:1:-90", "3:1:270"),
+        ("5:-0.3:180", "5:0.3:0"),
+        ("2:1:400", "2:1:40"),
+    ):
+        assert make_design(pitch_per_rev=one) == make_design(pitch_per_rev=other)
+        assert make_design(twist_per_rev=one) == make_design(twist_per_rev=other)
+
+
+@pytest.mark.parametrize("inflow", ["pitt-peters", "lifting-line"])
+def test_small_pitch_acts_linearly(inflow: str):
+    """Twice a small amplitude, twice the response of tip and power; the reverse of it at −DEG."""
+
+    def response(amplitude: float) -> tuple[complex, float]:
+        solution = solve(
+            make_design(mu=0.2, inflow=inflow, pitch_per_rev=[(3, amplitude, 50)]), options=TIGHT
+        ).require()
+        size, phase = tip_response(solution, 3)
+        return complex(size * np.exp(1j * phase)), solution.power.total
+
+    rest, one, two, back = (response(amplitude) for amplitude in (0.0, 0.005, 0.01, -0.005))
+    for k in (0, 1):
+        moved = one[k] - rest[k]
+        assert_allclose(two[k] - rest[k], 2.0 * moved, rtol=0.05)
+        assert_allclose(back[k] - rest[k], -moved, rtol=0.05)
+
+
+def in_thin_air(pitch: str, **changes: object) -> Design:
+    """The UH-60A's blade with a straight tip, nearly in vacuum: in thin air, all of its structure thirty times as much.
+
+    Frequencies stay, and the air holds it thirty times less.
+    """
+    stand = Stand(collective=0.05, density=0.05, tip_mach=0.6)
+    design = make_design(mu=0.2, trim="wind-tunnel", stand=stand, inflow="pitt-peters", pitch_per_rev=pitch)
+    structure = design.rotor.blade.structure
+    assert structure is not None
+    heavy = replace(
+        structure,
+        torsional_stiffness=tuple(30.0 * value for value in structure.torsional_stiffness),
+        torsional_inertia=tuple(30.0 * value for value in structure.torsional_inertia),
+        mass_per_length=tuple(30.0 * value for value in structure.mass_per_length),
+        control_stiffness=30.0 * structure.control_stiffness,
+    )
+    made = replace(heavy, **changes)
+    design = replace(design, rotor=replace(design.rotor, blade=replace(design.rotor.blade, structure=made)))
+    return replace(design, models=replace(design.models, swept_tip=False))
+
+
+def tip_pitch(make: Callable[[str], Design], per_rev: int) -> complex:
+    """Pitch of the tip at a harmonic, elastic and given, by a degree of root pitch at phase 0 [°]."""
+
+    def wave(pitch: str) -> complex:
+        size, phase = tip_response(solve(make(pitch)).require(), per_rev)
+        return complex(math.degrees(size) * np.exp(1j * phase))
+
+    return 1.0 + wave(f"{per_rev}:1:0") - wave("")
+
+
+@pytest.mark.parametrize("per_rev", [2, 3, 5, 7])
+def test_a_stiff_blade_on_the_spring_of_its_controls_is_an_oscillator_driven_by_its_base(per_rev: int):
+    """I θ'' + IΩ² θ = K (θ_p − θ) with the propeller moment IΩ²θ: θ/θ_p = 1/(1 − (N² − 1)/ω²), ω² = K/(IΩ²).
+
+    Below resonance in phase, above it opposed.
+    """
+    blade = in_thin_air("").rotor.blade.structure
+    assert blade is not None
+    speed = in_thin_air("").rotor.angular_speed
+    r = np.linspace(blade.clamp, blade.radius, 4001)
+    inertia = float(np.trapezoid(blade.at(r, blade.torsional_inertia), r))
+    omega = 4.5
+    stiff = tuple(1e6 * gj for gj in blade.torsional_stiffness)
+    changed = {"torsional_stiffness": stiff, "control_stiffness": omega**2 * inertia * speed**2}
+    found = tip_pitch(lambda pitch: in_thin_air(pitch, **changed), per_rev)
+    expected = 1.0 / (1.0 - (per_rev**2 - 1.0) / omega**2)
+    assert (expected > 0.0) == (per_rev < omega)
+    assert_allclose(found, expected, rtol=0.02)
+
+
+@pytest.mark.parametrize("per_rev", [2, 3, 4, 6])
+def test_a_blade_on_its_controls_answers_root_pitch_as_a_beam(per_rev: int):
+    """Finite elements of the whole pitch, without modes: (K − N²Ω²M) θ = K_θ θ_p at the root."""
+    design = in_thin_air("")
+    structure, speed = design.rotor.blade.structure, design.rotor.angular_speed
+    assert structure is not None
+    beam = torsion_beam(structure, speed, control=True)
+    expected = _driven_by_its_root(beam, per_rev)
+    found = tip_pitch(in_thin_air, per_rev)
+    assert_allclose(found, expected, rtol=0.01)
+    assert abs(expected) > 1.05  # Further than a rigid blade.
+
+
+def _driven_by_its_root(beam: TorsionBeam, per_rev: int) -> float:
+    """Tip pitch per root pitch of a rotating blade in vacuum."""
+    nodes, length = len(beam.r), np.diff(beam.r)
+    stiffness, mass = np.zeros((nodes, nodes)), np.zeros((nodes, nodes))
+    for k in range(nodes - 1):
+        ends = np.ix_((k, k + 1), (k, k + 1))
+        stiffness[ends] += beam.stiffness[k] / length[k] * np.array([[1.0, -1.0], [-1.0, 1.0]])
+        mass[ends] += beam.inertia[k] * length[k] / 6.0 * np.array([[2.0, 1.0], [1.0, 2.0]])
+    stiffness[0, 0] += beam.control_stiffness
+    load = np.zeros(nodes)
+    load[0] = beam.control_stiffness
+    return float(np.linalg.solve(stiffness + (1.0 - per_rev**2) * beam.angular_speed**2 * mass, load)[-1])
+
+
+def test_root_pitch_is_off_in_hover_and_the_wake_lies_where_it_lay():
+    design = make_design(mu=0.0, pitch_per_rev="3:2:0")
+    solution = solve(design).require()
+    assert solution.power.total == solve(replace(design, pitch_per_rev=())).power.total
+    assert "root-pitch-rests" in [caveat.name for caveat in solution.caveats]
+    plain, moved = (solve(make_design(mu=0.15, pitch_per_rev=pitch)).require() for pitch in ("", "3:1:0"))
+    assert plain.linear is not None
+    assert moved.linear is not None
+    assert course_of(plain.linear.problem) == course_of(moved.linear.problem)
+
+
+def test_what_the_models_leave_out_is_said():
+    def names(solution: Solution) -> list[str]:
+        return [caveat.name for caveat in solution.require().caveats]
+
+    assert not {"fast-pitch", "control-power"} & set(names(solve(make_design(mu=0.2, pitch_per_rev="3:1:180"))))
+    solution = solve(make_design(mu=0.2, pitch_per_rev="5:3:0"))
+    assert {"fast-pitch", "control-power"} <= set(names(solution))
+    assert solution.elastic is not None
+    assert solution.to_dict()["control_power_w"] == solution.elastic.control_power > 0.005 * solution.power.main_rotor
+
+
+def test_all_ways_of_writing_are_one():
+    as_text = make_design(pitch_per_rev="2:1.5:90, 3:0.4:10", twist_per_rev="2:1:0")
+    as_rows = (
+        {"per_rev": 2, "amplitude_deg": 1.5, "phase_deg": 90},
+        {"per_rev": 3, "amplitude_deg": 0.4, "phase_deg": 10},
+    )
+    for pitch in ([(3, 0.4, 10), (2, 1.5, 90)], as_rows, as_text.pitch_per_rev, [[2, 1.5, 90], as_rows[1], (4, 0, 0)]):
+        assert make_design(pitch_per_rev=pitch, twist_per_rev=[(2, 1, 0)]) == as_text
+    assert read_harmonics(harmonics_text(as_text.pitch_per_rev), "again") == as_text.pitch_per_rev
+
+
+@pytest.mark.parametrize("phase", [0.1, -1.0, 2.0 * math.pi, 5e-324, -1e-20, 6.283185307179586])
+def test_text_holds_all_digits(phase: float):
+    """Degrees and back cost a unit in the last place, and only once."""
+    made = (Harmonic(2, 0.0123456789, phase), Harmonic(7, 0.1, phase / 3.0))
+    read = read_harmonics(harmonics_text(made), "again")
+    for one, other in zip(made, read, strict=True):
+        assert_allclose([one.amplitude, one.phase], [other.amplitude, other.phase], rtol=5e-16, atol=1e-18)
+    assert read_harmonics(harmonics_text(read), "again") == read
+
+
+@pytest.mark.parametrize(
+    ("pitch", "words"),
+    [
+        ("1:1:0", "is the cyclic.* 2 to 8/rev"),
+        ("9:1:0", "9/rev is outside 1…8"),
+        ("0:1:0", "0/rev is outside 1…8"),
+        ("1e300:1:0", "outside 1…8"),
+        ("3:10.5:0", "10.5° at 3/rev is outside 0…10°"),
+        ("3:1", "'3:1' is not understood: write N:DEG:PHASE"),
+        ("3:one:0", "'3:one:0' is not understood"),
+        ("2.5:1:0", "needs a whole number"),
+        ("3:1:inf", "two finite angles"),
+        ("3:1:0,3:1:0", "3/rev twice"),
+        (",".join(["3:1:0"] * 100_000), "3/rev twice"),
+        (3, "pitch_per_rev is 3: write"),
+        ({"per_rev": 3}, "write N:DEG:PHASE"),
+        ([{"per_rev": 3}], "is not understood"),
+        ([None], "is not understood"),
+        ([(True, 1, 0)], "is not understood"),
+    ],
+)
+def test_bad_input_is_one_sentence(pitch: Any, words: str):
+    with pytest.raises(ValueError, match=words) as error:
+        make_design(pitch_per_rev=pitch)
+    assert len(str(error.value)) < 300
+
+
+def test_a_grid_too_coarse_for_the_wave_is_refused():
+    design = make_design(mu=0.2, inflow="pitt-peters", pitch_per_rev="8:1:0")
+    with pytest.raises(ValueError, match="8/rev needs more than 16 azimuths, not 16"):
+        solve(replace(design, models=replace(design.models, azimuths=16)))
+
+
+def test_active_twist_has_at_most_eight_harmonics():
+    with pytest.raises(ValueError, match="2/rev twice"):
+        ActiveTwist((Harmonic(2, 0.01),) * 100_000)
+    rows = [{"per_rev": n, "amplitude_deg": 1} for n in itertools.islice(itertools.cycle(range(1, 9)), 100_000)]
+    with pytest.raises(ValueError, match="1/rev twice"):
+        design_from_record({"active_twist": {"harmonics": rows}})
+    with pytest.raises(ValueError, match="outside 0…20°"):
+        make_design(twist_per_rev="2:21:0")
+
+
+def test_design_files_hold_both(tmp_path: Path):
+    """As on the command line; another shape of twist as an object. Both at once are refused."""
+    design = make_design(mu=0.2, pitch_per_rev="3:1:180,2:-0.37:12.5", twist_per_rev="2:1.5:90")
+    design.save(tmp_path / "case.json")
+    record = json.loads((tmp_path / "case.json").read_text(encoding="utf-8"))
+    assert record["pitch_per_rev"] == "2:0.37:192.5,3:1:180"
+    assert record["twist_per_rev"] == "2:1.5:90"
+    assert load_design(tmp_path / "case.json") == design
+    shaped = replace(design, active_twist=ActiveTwist((Harmonic(2, 0.02),), (0.3, 1.0)))
+    assert "twist_per_rev" not in shaped.to_dict()
+    assert design_from_record(shaped.to_dict()).active_twist == shaped.active_twist
+    with pytest.raises(ValueError, match="both"):
+        design_from_record({**record, "active_twist": shaped.to_dict()["active_twist"]})
+
+
+def test_on_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    """Flags, what is printed, JSON; over a design file a flag counts, and zero takes away."""
+    flags = ["--mu", "0.2", "--inflow", "pitt-peters", "--pitch-per-rev", "3:1:180", "--twist-per-rev", "2:1.5:57"]
+    assert main(["solve", *flags]) == 0
+    out = capsys.readouterr().out
+    assert "root pitch 3/rev ±1.00°, phase 180°" in out
+    assert "active twist 2/rev ±1.50°, phase 57°" in out
+    assert main(["solve", *flags, "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["pitch_per_rev"] == [{"per_rev": 3, "amplitude_deg": 1.0, "phase_deg": 180.0}]
+    assert found["active_twist"]["harmonics"] == [{"per_rev": 2, "amplitude_deg": 1.5, "phase_deg": 57.0}]
+    design = make_design(mu=0.2, inflow="pitt-peters", pitch_per_rev="3:1:180", twist_per_rev="2:1.5:57")
+    assert found["power_w"]["total"] == pytest.approx(rotor.solve(design).power.total, rel=1e-9)
+    design.save(tmp_path / "case.json")
+
+    def solved(*more: str) -> dict[str, Any]:
+        assert main(["solve", "--case", str(tmp_path / "case.json"), "--json", *more]) == 0
+        return json.loads(capsys.readouterr().out)
+
+    assert solved()["power_w"] == found["power_w"]
+    assert "pitch_per_rev" not in solved("--pitch-per-rev", "2:0:0")
+    assert "active_twist" not in solved("--twist-per-rev", "2:0:0")
+    assert solved("--pitch-per-rev", "4:0.5:0")["pitch_per_rev"][0]["per_rev"] == 4
+    assert solved("--pitch-per-rev", "4:0.5:0")["active_twist"] == found["active_twist"]
+    assert main(["solve", "--pitch-per-rev", "1:1:0"]) == 2
+    assert len(capsys.readouterr().err.splitlines()) == 1
+
+
+def test_a_search_keeps_the_pitch():
+    """The optimum of a blade with 2/rev pitch is trimmed with it."""
+    design = make_design(mu=0.25, inflow="pitt-peters", pitch_per_rev="2:1:180")
+    best = rotor.optimise(design, concept="linear")
+    assert best.design.pitch_per_rev == design.pitch_per_rev
+    assert best.best is not None
+    assert_allclose(solve(best.design).require().power.total, best.best.power, rtol=1e-8)
+
+
+def test_studies_vary_it():
+    study = parse_study('[axes]\npitch_per_rev = ["", "3:1:0", "3:1:90"]\n[fixed]\ntwist_per_rev = "2:1:0"\n')
+    assert study.points.count == 3
+    with pytest.raises(ValueError, match=r"line 2: root pitch at 1/rev"):
+        parse_study('[axes]\npitch_per_rev = ["1:1:0"]\n')

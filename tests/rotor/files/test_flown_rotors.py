@@ -1,0 +1,227 @@
+"""HART II, the SA349/2 Gazelle and the Bo 105 against numbers that are not in their files."""
+
+import math
+import re
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+from scipy.integrate import solve_ivp
+from scipy.optimize import brentq
+
+from rotor.analysis.series import between_drag_areas
+from rotor.assets import asset_path
+from rotor.dynamics.flapping import flap_dynamics, lock_number
+from rotor.dynamics.torsion import blade_modes
+from rotor.files.make_design import make_design
+from rotor.files.rotor_file import read_aircraft, shipped_aircraft
+from rotor.trim.power import hub_moment
+from rotor.trim.solution import Solution
+from rotor.trim.solve import solve
+
+HART2 = {
+    "shaft_tilt_deg": -4.3, "thrust_n": 3300.0, "density_kg_m3": 1.2055, "tip_mach": 109.12 * 2.0 / 341.7,
+    "flapping": "hub-moments", "hub_roll_nm": 20.0, "hub_pitch_nm": -20.0,
+}  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def baseline() -> Solution:
+    """The baseline case of HART II."""
+    return solve(make_design(rotor="hart2", mu=32.9 / (109.12 * 2.0), stand=HART2)).require()
+
+
+def test_flap_frequency_of_point_masses_on_a_hinge_with_a_spring():
+    """ν² = 1 + 3e/2(1 − e) + K/(IΩ²) of a uniform blade, against 400 masses that swing in the centrifugal field."""
+    radius, hinge, mass, spring, speed = 3.0, 0.45, 20.0, 9000.0, 40.0
+    text = asset_path("bo105.toml").read_text(encoding="utf-8")
+    own = {
+        "radius_m": radius, "blade_mass_kg": mass, "flap_spring_nm_rad": spring, "angular_speed_rad_s": speed,
+    }  # fmt: skip
+    main, rest = text.split("[tail_rotor]")
+    for key, value in own.items():
+        main = re.sub(rf"^{key} = .*$", f"{key} = {value}", main, flags=re.M)
+    main = re.sub(r"^flap_inertia_kg_m2 = .*$", f"flap_hinge_m = {hinge}", main, flags=re.M)
+    rotor = read_aircraft("own.toml", {"own.toml": f"{main}[tail_rotor]{rest}"}).rotor
+
+    out = (np.arange(400) + 0.5) / 400.0 * (radius - hinge)
+    point = mass / 400.0
+
+    def swing(_t: float, y: np.ndarray) -> list[float]:
+        arm, height = hinge + out * math.cos(y[0]), out * math.sin(y[0])
+        back = point * speed**2 * float(arm @ height) + spring * y[0]  # Centrifugal force times height, and the spring.
+        return [y[1], -back / (point * float(out @ out))]
+
+    def crossing(_t: float, y: np.ndarray) -> float:
+        return float(y[0])
+
+    found = solve_ivp(swing, (0.0, 2.0), [1e-3, 0.0], events=crossing, rtol=1e-9, atol=1e-12)
+    assert found.t_events is not None
+    period = 2.0 * float(np.diff(found.t_events[0]).mean())
+    marched = 2.0 * math.pi / (period * speed)
+    e = hinge / radius
+    inertia = mass * (radius - hinge) ** 2 / 3.0
+    assert_allclose(marched**2, 1.0 + 1.5 * e / (1.0 - e) + spring / (inertia * speed**2), rtol=1e-4)
+    assert_allclose(math.sqrt(rotor.flap_frequency_squared), marched, rtol=1e-4)
+
+
+def test_published_frequencies_and_lock_numbers():
+    """Bo 105: 1.117/rev and 5.09 at a = 6.113 (Padfield); Gazelle: 6.4 Hz read off figure 15 of NASA TM-88370."""
+    bo105, gazelle = shipped_aircraft("bo105").rotor, shipped_aircraft("gazelle").rotor
+    assert_allclose(math.sqrt(bo105.flap_frequency_squared), 1.117, atol=0.001)
+    assert_allclose(lock_number(bo105, 1.225, 6.113), 5.087, rtol=0.005)
+    hertz = math.sqrt(gazelle.flap_frequency_squared) * gazelle.angular_speed / (2.0 * math.pi)
+    assert_allclose(hertz, 6.4, rtol=0.03)
+    assert_allclose(math.sqrt(shipped_aircraft("hart2").rotor.flap_frequency_squared), 1.12, atol=0.001)
+
+
+def test_geometry():
+    """Solidity 0.06366 (TM-88370) and 0.077 (aspect ratio 16.5); tip speeds of rotor speed times radius."""
+    gazelle, hart2, bo105 = (shipped_aircraft(name).rotor for name in ("gazelle", "hart2", "bo105"))
+    assert_allclose([gazelle.solidity, hart2.solidity], [0.06366, 4.0 / (math.pi * 16.5)], rtol=2e-3)
+    assert_allclose([gazelle.tip_speed, hart2.tip_speed, bo105.tip_speed], [212.8, 218.2, 218.0], atol=0.1)
+    assert_allclose(hart2.radius / bo105.radius, 0.121 / 0.27, rtol=0.1)  # A model to scale, its chord 10 % larger.
+
+
+def test_first_torsion_frequency_of_hart2():
+    """β tan β = K L/GJ, ω² = (β/L)² GJ/I_θ + Ω² of a uniform rod on a spring; published 3.85/rev."""
+    rotor = shipped_aircraft("hart2").rotor
+    structure = rotor.blade.structure
+    assert structure is not None
+    length, stiffness = rotor.radius - structure.clamp, structure.torsional_stiffness[0]
+    held = structure.control_stiffness * length / stiffness
+    beta = float(brentq(lambda b: b * math.tan(b) - held, 0.1, 1.57))
+    square = (beta / length) ** 2 * stiffness / structure.torsional_inertia[0] + rotor.angular_speed**2
+    exact = math.sqrt(square) / rotor.angular_speed
+    assert_allclose(exact, 3.85, atol=0.01)
+    found = blade_modes(structure, rotor.angular_speed, 1).frequency[0] / rotor.angular_speed
+    assert_allclose(float(found), exact, rtol=1e-4)
+
+
+def test_hub_moments_are_those_given(baseline: Solution):
+    """They are Σ r dF_z, and also the spring's moments and the shear at the hinge, which know nothing of r dF_z."""
+    assert_allclose([baseline.hub_moment.roll, baseline.hub_moment.pitch], [20.0, -20.0], atol=1e-3)
+    assert_allclose(baseline.ct * baseline.design.thrust_unit, 3300.0, rtol=1e-6)
+    assert baseline.linear is not None
+    problem, elements, c = baseline.linear.problem, baseline.linear.elements, baseline.controls
+    rotor, disk = baseline.design.rotor, problem.disk
+    lift = disk.dr @ elements.fz * baseline.design.thrust_unit / len(disk.psi)
+    offset = rotor.blade.flap_hinge * rotor.radius
+    half = 0.5 * rotor.blades
+    stiffness = half * (rotor.blade.flap_spring + offset * rotor.blade.flap_static_moment * rotor.angular_speed**2)
+    assert_allclose(offset * (lift @ np.sin(disk.psi)) + stiffness * c.flap_1s, 20.0, rtol=1e-4)
+    assert_allclose(-offset * (lift @ np.cos(disk.psi)) - stiffness * c.flap_1c, -20.0, rtol=1e-4)
+    assert_allclose(hub_moment(problem, elements).roll, 20.0, atol=1e-3)
+    assert_allclose(baseline.power.shaft, baseline.power.main_rotor, rtol=1e-8)
+
+
+def test_the_coning_balances_lift_weight_and_a_spring_that_rests_at_the_precone(baseline: Solution):
+    """I Ω² β0 + e S Ω² β0 + K (β0 − 2.5°) = lift times arm − g S, in N m of one blade."""
+    assert baseline.linear is not None
+    problem, rotor = baseline.linear.problem, baseline.design.rotor
+    blade, disk, beta = rotor.blade, problem.disk, baseline.controls.coning
+    arm = (disk.r - blade.flap_hinge) * rotor.radius
+    fz = baseline.linear.elements.fz
+    lift = float(arm * disk.dr @ fz.mean(axis=1)) * baseline.design.thrust_unit / rotor.blades
+    offset = blade.flap_hinge * rotor.radius
+    stiff = (blade.flap_inertia + offset * blade.flap_static_moment) * rotor.angular_speed**2
+    against = stiff * beta + blade.flap_spring * (beta - math.radians(2.5))
+    assert_allclose(against, lift - 9.80665 * blade.flap_static_moment, rtol=1e-5)
+    assert flap_dynamics(rotor, 1.2, blade_weight=True).preload > 0.0
+
+
+def test_more_torsional_stiffness_twists_less(baseline: Solution):
+    """The file says what its recalled stiffness is worth: ±10 % of GJ and K_θ moves the steady twist by 8 to 12 %."""
+
+    def steady(scale: float) -> float:
+        blade = baseline.design.rotor.blade
+        assert blade.structure is not None
+        stiffness = tuple(scale * one for one in blade.structure.torsional_stiffness)
+        changed = replace(
+            blade.structure,
+            torsional_stiffness=stiffness,
+            control_stiffness=scale * blade.structure.control_stiffness,
+        )
+        rotor = replace(baseline.design.rotor, blade=replace(blade, structure=changed))
+        solution = solve(replace(baseline.design, rotor=rotor), baseline).require()
+        assert solution.elastic is not None
+        return float(solution.elastic.tip.mean())
+
+    base, soft, stiff = steady(1.0), steady(0.9), steady(1.1)
+    assert 0.08 < soft / base - 1.0 < 0.13
+    assert -0.11 < stiff / base - 1.0 < -0.07
+
+
+@pytest.mark.parametrize("name", ["gazelle", "bo105", "r22", "s61"])
+def test_power_between_the_drag_areas(name: str):
+    """Half ρ V³ times the width of the band at least: a tilted rotor with more drag also induces and drags more."""
+    solution = solve(make_design(rotor=name, mu=0.25)).require()
+    ends, area = between_drag_areas(solution), solution.design.fuselage.drag_area_band
+    assert ends is not None
+    assert area is not None
+    low, high = (end.power.total for end in ends)
+    assert low <= solution.power.total <= high
+    work = 0.5 * solution.design.condition.density * solution.design.airspeed**3 * (area[1] - area[0])
+    assert 1.0 < (high - low) / work < 1.3
+    assert between_drag_areas(solve(make_design(rotor=name, hover=True)).require()) is None
+
+
+def test_a_rotor_with_one_drag_area_has_no_band():
+    assert between_drag_areas(solve(make_design(mu=0.2)).require()) is None
+
+
+def test_hart2_names_its_sources():
+    for line in asset_path("rotors/hart2.toml").read_text(encoding="utf-8").splitlines():
+        if re.match(r"^\w+ = ", line) and not line.startswith(("name", "r_m", "mass_kg_m")):
+            assert re.search(r"#\s+[PSDXRA]\s*", line), line
+
+
+@pytest.mark.parametrize(
+    ("rotor", "stand", "said"),
+    [
+        ("pca2", {"ct_over_sigma": 0.07, "flapping": "hub-moments"}, "cannot be trimmed on blades hinged at the shaft"),
+        ("hart2", {"ct_over_sigma": 0.07, "hub_roll_nm": 5.0}, "give flapping hub-moments as well"),
+        ("hart2", HART2 | {"cyclic_1c_deg": 1.0}, "it trims the hub moments"),
+    ],
+)
+def test_a_bad_test_is_one_sentence(rotor: str, stand: dict[str, float], said: str):
+    with pytest.raises(ValueError, match=said):
+        make_design(rotor=rotor, mu=0.1, stand=stand)
+
+
+def test_hub_moments_need_forward_flight():
+    with pytest.raises(ValueError, match="in hover the rotor is balanced"):
+        make_design(rotor="hart2", hover=True, stand=HART2)
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ('hub = "articulated"\nflap_spring_nm_rad = 5.0', "flap_spring_nm_rad on a hub that is 'articulated'"),
+        ('hub = "hingeless"', "has no flap_spring_nm_rad"),
+    ],
+)
+def test_a_spring_belongs_to_a_hingeless_hub(line: str, said: str):
+    text = asset_path("bo105.toml").read_text(encoding="utf-8")
+    text = re.sub(r"^(flap_spring_nm_rad|precone_deg|hub) = .*\n", "", text, flags=re.M)
+    with pytest.raises(ValueError, match=said):
+        read_aircraft("own.toml", {"own.toml": text.replace("[main_rotor]", f"[main_rotor]\n{line}", 1)})
+
+
+def test_masses_agree_with_their_moments():
+    """m R²/3 of a uniform blade; and of any blade S²/m ≤ I ≤ S L, with its centre of mass about half-way out."""
+    bo105, gazelle = (shipped_aircraft(name).rotor for name in ("bo105", "gazelle"))
+    assert_allclose(bo105.blade.mass * bo105.radius**2 / 3.0, bo105.blade.flap_inertia, rtol=2e-3)
+    blade, length = gazelle.blade, gazelle.radius * (1.0 - gazelle.blade.flap_hinge)
+    first, second = blade.flap_static_moment, blade.flap_inertia
+    assert first**2 / blade.mass <= second <= first * length
+    assert_allclose(first / blade.mass, 0.5 * length, rtol=0.12)
+    hart2 = shipped_aircraft("hart2").rotor
+    assert hart2.blade.structure is not None
+    spanned = hart2.radius * (1.0 - hart2.blade.flap_hinge)
+    assert_allclose(hart2.blade.mass, hart2.blade.structure.mass_per_length[0] * spanned, rtol=1e-3)
+    # Lock number of the model beside that of the full-scale blade, 5.09 (Padfield): it was scaled to it.
+    offset = hart2.blade.flap_hinge * hart2.radius
+    inertia = hart2.blade.flap_inertia + 2.0 * offset * hart2.blade.flap_static_moment + offset**2 * hart2.blade.mass
+    assert_allclose(1.225 * 6.113 * 0.121 * hart2.radius**4 / inertia, 5.087, rtol=0.15)

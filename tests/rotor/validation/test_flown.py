@@ -1,0 +1,120 @@
+"""Airloads, twist and power of rotors in flight: what the files say, how curves are compared, and what is found."""
+
+import cmath
+import json
+import math
+
+import numpy as np
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor.__main__ import main
+from rotor.trim.solve import solve
+from rotor.validation.airloads import (
+    CASES,
+    HART2_BASELINE,
+    CurveAgreement,
+    airload_agreement,
+    flown_powers,
+    harmonics,
+    measured_curves,
+    our_curve,
+)
+
+
+def test_harmonics_of_a_known_curve_at_uneven_points():
+    """0.3 + 0.2 cos ψ − 0.1 sin 4ψ, with a 20/rev that is left out."""
+    psi = np.sort(np.random.default_rng(3).uniform(0.0, 2.0 * math.pi, 400))
+    found = harmonics(psi, 0.3 + 0.2 * np.cos(psi) - 0.1 * np.sin(4 * psi) + 0.02 * np.cos(20 * psi), 10)
+    wanted = np.zeros(21)
+    wanted[[0, 1, 14]] = 0.3, 0.2, -0.1
+    assert_allclose(found, wanted, atol=0.006)
+
+
+def test_measured_curves_are_those_of_the_reports():
+    """Means of the published curves: C_n M² 0.0900; twist −0.52° with 0.28, 0.56, 0.05° at 1, 2, 3/rev; c_l 0.676."""
+    curves = {(one.case.name, one.quantity, one.r): one for one in measured_curves()}
+    normal = curves["BL", "cn_m2", 0.87]
+    assert len(normal.psi) == 256
+    assert_allclose(harmonics(normal.psi, normal.values, 10)[0], 0.090, atol=0.001)
+    twist = curves["BL", "tip_twist_deg", 1.0]
+    found = harmonics(twist.psi, twist.values, 3)
+    assert_allclose(found[0], -0.52, atol=0.02)
+    assert_allclose(np.hypot(found[1:4], found[4:]), [0.28, 0.56, 0.05], atol=0.03)
+    lift = curves["FC2", "cl_u2", 0.75]
+    speed = (0.75 + 0.362 * np.sin(lift.psi)) ** 2
+    assert_allclose(harmonics(lift.psi, lift.values / speed, 10)[0], 0.676, atol=0.03)
+
+
+def test_baseline_of_hart2_is_that_of_the_tunnel():
+    """µ 0.151, C_T/σ 0.0594: 3300 N on 4π m² at 218.24 m/s in 1.2055 kg/m³ with solidity 0.0770."""
+    design = HART2_BASELINE.design()
+    assert_allclose(design.condition.advance_ratio, 0.151, atol=5e-4)
+    ct = 3300.0 / (1.2055 * 4.0 * math.pi * 218.24**2)
+    assert_allclose(design.weight_coefficient / design.rotor.solidity, ct / 0.0770, rtol=1e-3)
+
+
+@pytest.fixture(scope="module")
+def found() -> dict[tuple[str, str, float], CurveAgreement]:
+    return {(one.case.name, one.quantity, one.r): one for one in airload_agreement()}
+
+
+def test_airloads_of_the_gazelle(found: dict[tuple[str, str, float], CurveAgreement]):
+    """Nothing fitted: lift follows the measured curve with a correlation above 0.7 at three radii and two speeds."""
+    mine = [one for key, one in found.items() if key[0].startswith("FC")]
+    assert len(mine) == 6
+    for one in mine:
+        assert one.correlation > 0.7
+        assert one.rms < one.measured_rms
+        assert abs(one.mean / one.measured_mean - 1.0) < 0.25
+
+
+def test_airloads_of_hart2(found: dict[tuple[str, str, float], CurveAgreement]):
+    """Mean normal force within 5 %; its harmonics are those of vortices that a lifting line of 24 azimuths smears."""
+    normal = found["BL", "cn_m2", 0.87]
+    assert abs(normal.mean / normal.measured_mean - 1.0) < 0.05
+    assert normal.correlation > 0.5
+    assert found["BL", "tip_twist_deg", 1.0].correlation > 0.5
+
+
+def test_a_blade_whose_root_moves_at_3_per_rev():
+    """HART II against itself: MN less BL at 3/rev, which 0.8° of root pitch and the torsion it excites make.
+
+    Nothing fitted: normal force 9 % small and 23° late, twist of the tip 6 % large and 2° early.
+    """
+    curves = {(one.case.name, one.quantity): one for one in measured_curves() if one.case.rotor == "hart2"}
+    solutions = {case.name: solve(case.design()).require() for case in CASES if case.rotor == "hart2"}
+
+    def third(name: str, quantity: str, measured: bool) -> complex:
+        curve = curves[name, quantity]
+        psi, values = (curve.psi, curve.values) if measured else our_curve(curve, solutions[name])
+        found = harmonics(psi, values, curve.highest)
+        return complex(found[3], -found[3 + curve.highest])
+
+    for quantity, size, angle in (("cn_m2", 0.15, 30.0), ("tip_twist_deg", 0.15, 10.0)):
+        theirs, ours = (third("MN", quantity, m) - third("BL", quantity, m) for m in (True, False))
+        assert abs(abs(ours) / abs(theirs) - 1.0) < size, quantity
+        assert abs(math.degrees(cmath.phase(ours / theirs))) < angle, quantity
+
+
+def test_powers_of_flight():
+    """Power of the Gazelle within 15 % of flight; the drag areas of the sources enclose ours."""
+    rows = list(flown_powers())
+    assert [row.rotor for row in rows] == ["gazelle"] * 4 + ["bo105"] * 13
+    for row in rows:
+        assert row.ours is not None
+        assert row.band is not None
+        assert row.band[0] <= row.ours <= row.band[1]
+        if row.rotor == "gazelle":
+            assert abs(row.ours / row.measured - 1.0) < 0.15
+
+
+def test_validate_shows_them(capsys: pytest.CaptureFixture[str]):
+    assert main(["validate", "hart2-airloads", "--json"]) == 0
+    rows = json.loads(capsys.readouterr().out)["airloads"]
+    assert [row["quantity"] for row in rows] == ["cn_m2", "cm_m2", "tip_twist_deg"] * 2
+    assert [row["case"] for row in rows] == ["BL"] * 3 + ["MN"] * 3
+    assert not any(row["fitted"] for row in rows)
+    assert main(["validate", "hart2-airloads"]) == 0
+    assert "HART II, DNW 2001" in capsys.readouterr().out
+    assert {case.test for case in CASES} == {"hart2-airloads", "gazelle-airloads"}
