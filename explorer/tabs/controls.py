@@ -302,7 +302,7 @@ class PerRevControls:
                     f"{title} harmonic", orders, initial_value="3/rev", hint=hint(name)
                 )
                 self._sizes[name] = gui.add_slider(
-                    f"{title} amplitude [°]", 0.0, _WAVE_DEG, 0.05, 0.0, hint=hint("wave_amplitude")
+                    f"{title} ampl. [°]", 0.0, _WAVE_DEG, 0.05, 0.0, hint=hint("wave_amplitude")
                 )
                 self._phases[name] = gui.add_slider(f"{title} phase [°]", 0.0, 360.0, 5.0, 0.0, hint=hint("wave_phase"))
                 self._orders[name].on_update(self._chosen(name))

@@ -69,6 +69,8 @@ def run(args: argparse.Namespace) -> int:
     pair.designs()  # Bad input is reported before anything is computed.
     if args.harmonic is not None:
         Harmonic(args.harmonic, 0.0)
+        if pair.design.active_twist is not None:
+            raise ValueError("--harmonic is active twist, and the design has some already: take one of them away")
     placement, host = _placement(args), _host(args.blade, args.stiffness)
     try:
         if args.table == "5.2":

@@ -128,7 +128,7 @@ def test_the_sweep_of_the_harmonic_follows_its_sliders(watched: Watched):
 def test_pitch_at_three_per_rev_moves_power_curve_link_and_blades(watched: Watched):
     """By the sliders of Actuate; undone in one step, and again on a page that opens its link."""
     power, blade = watched.text("total-power"), watched.node("/rotor/blade_0")
-    watched.type("Pitch amplitude", 2.0)
+    watched.type("Pitch ampl.", 2.0)
     watched.reads("per-rev", "Root pitch of 2.00° at 3/rev")
     power = watched.until_changed(lambda: watched.text("total-power"), power)
     watched.until_changed(lambda: watched.node("/rotor/blade_0"), blade)
@@ -136,7 +136,7 @@ def test_pitch_at_three_per_rev_moves_power_curve_link_and_blades(watched: Watch
     watched.until_changed(lambda: watched.text("total-power"), power)
     watched.until(lambda: "pitch_per_rev=3:2:180" in watched.page.url)
     watched.choose("Twist harmonic", "2/rev")
-    watched.type("Twist amplitude", 1.0)
+    watched.type("Twist ampl.", 1.0)
     watched.reads("per-rev", "Active twist of 1.00° at 2/rev .phase 0°. and root pitch of 2.00° at 3/rev .phase 180°")
     watched.until(lambda: "twist_per_rev=2:1:0" in watched.page.url)
     watched.page.keyboard.press("Escape")

@@ -310,6 +310,8 @@ def test_on_the_command_line(tmp_path: Path, capsys: pytest.CaptureFixture[str])
     assert "active_twist" not in solved("--twist-per-rev", "2:0:0")
     assert solved("--pitch-per-rev", "4:0.5:0")["pitch_per_rev"][0]["per_rev"] == 4
     assert solved("--pitch-per-rev", "4:0.5:0")["active_twist"] == found["active_twist"]
+    assert main(["actuator", "--harmonic", "2", "--twist-per-rev", "2:1:0"]) == 2
+    assert "take one of them away" in capsys.readouterr().err
     assert main(["solve", "--pitch-per-rev", "1:1:0"]) == 2
     assert len(capsys.readouterr().err.splitlines()) == 1
 
