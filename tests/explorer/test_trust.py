@@ -2,8 +2,9 @@
 
 import re
 
-from explorer.text.status import trust_page
 from rotor.reproduce.trust import KINDS, sensitivity_rows, trust_rows
+
+from explorer.text.status import trust_page
 
 
 def test_every_row_and_kind_is_on_the_page():

@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from rotor.reproduce.trust import trust_rows
 
 from rotor.__main__ import main
 from rotor.assets import MEASURED_ROTORS
 from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
-from rotor.reproduce.trust import trust_rows
 from rotor.trim.solve import solve
 from rotor.validation.compare import ComparedPoint, Comparison, compare
 from rotor.validation.inflow import above_disk, inflow_agreement, measured_inflow, trimmed

@@ -1,7 +1,6 @@
 """Comparison with independent public codes, with the same controls and section data."""
 
 import pytest
-
 from rotor.reproduce.cross_codes import beside_ccblade, beside_dynbem
 
 
