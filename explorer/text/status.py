@@ -111,7 +111,7 @@ def trust_page() -> str:
     parts = [
         '<div class="rx rx-small rx-trust" data-explorer="trust">',
         '<div class="rx-dim">Hover over a row to see the test it is verified by. Computed by '
-        "<i>python -m rotor reproduce OUT --trust</i>; a page for each set is in docs/validation.md.</div>",
+        "<i>make trust</i>; docs/validation.md leads to a page with charts for each set.</div>",
     ]
     for kind, title in KINDS.items():
         rows = "".join(_trust_row(row) for row in trust_rows() if row.kind == kind)

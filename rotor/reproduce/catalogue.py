@@ -31,7 +31,7 @@ from rotor.reproduce.runs import (
     linear_twin,
     searches,
 )
-from rotor.validation.chart import Chart, Mark, Series
+from rotor.validation.chart import Mark, Series, TrustChart
 from rotor.validation.theory import bound
 from rotor.validation.trust import TrustRow, TrustSet, share
 
@@ -256,7 +256,7 @@ def _statements(reports: Sequence[Report]) -> TrustSet:
         "thesis", "Statements of the thesis", f"{len(rows)} figures, tables and claims",
         f"{count['agrees']} agree, {count['differs']} differ",
         "M. Lonoce, Helicopter Blade Twist Optimization in Forward Flight, 2016; of chapters 4 to 6 only captions.",
-        tuple(rows), (Chart("Verdicts", "figures, tables and claims", "", (series,), names=tuple(count)),),
+        tuple(rows), (TrustChart("Verdicts", "figures, tables and claims", "", (series,), names=tuple(count)),),
         ("*Agrees* and *differs* judge a statement. *Stands alone*: nothing to compare with. *As loaded*: its numbers "
          "are our input. *Indicative*: compared with data of unclear origin.",),
     )  # fmt: skip
@@ -265,7 +265,7 @@ def _statements(reports: Sequence[Report]) -> TrustSet:
 _MARKS: dict[str, Mark] = {"points": "points", "dashed": "dashed", "both": "both"}
 
 
-def _chart(report: Report, place: int = 0) -> Chart:
+def _chart(report: Report, place: int = 0) -> TrustChart:
     """A panel of lines as a chart of the trust page."""
     panel = report.panels[place]
     assert isinstance(panel, PlotPanel)
@@ -273,4 +273,4 @@ def _chart(report: Report, place: int = 0) -> Chart:
         Series(one.label, one.x, one.y, _MARKS.get(one.style, "line"), 0 if one.style in ("points", "dashed") else k)
         for k, one in enumerate(panel.curves, start=1)
     )
-    return Chart(report.caption, panel.x_label, panel.y_label, series, log=panel.log)
+    return TrustChart(report.caption, panel.x_label, panel.y_label, series, log=panel.log)

@@ -16,9 +16,9 @@ AZIMUTH = (0.0, 90.0, 180.0, 270.0, 360.0)
 """Ticks of a chart over azimuth [°]."""
 COLOURS = ("currentColor", "#1c7ed6", "#e8590c", "#0ca678", "#be4bdb")
 """Measured first, then ours; each can be read on white and on black."""
-_WIDE, _HIGH, _SIZE = 560.0, 300.0, 12.0
+_WIDE, _HIGH, _SIZE = 640.0, 320.0, 12.0
 """Size of the drawing and of its text."""
-_LETTER = 0.55 * _SIZE
+_LETTER = 0.5 * _SIZE
 """Width of a letter, on average."""
 _HEAD = (
     '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {0:.0f} {1:.0f}" font-family="system-ui,sans-serif" '
@@ -44,7 +44,7 @@ class Series:
 
 
 @dataclass(frozen=True)
-class Chart:
+class TrustChart:
     """One pair of axes."""
 
     title: str
@@ -58,10 +58,10 @@ class Chart:
 
 
 @dataclass(frozen=True)
-class _Frame:
+class _Axes:
     """Where values lie in the drawing."""
 
-    chart: Chart
+    chart: TrustChart
     x_range: Span
     y_range: Span
     left: float
@@ -78,7 +78,7 @@ class _Frame:
         return self.top + self.high * (high - _scaled(value, "y" in self.chart.log)) / (high - low)
 
 
-def draw(chart: Chart) -> str:
+def draw(chart: TrustChart) -> str:
     """The chart with key and axes, an SVG file."""
     x_ticks = chart.x_ticks or _ticks(_range(chart, "x"), 7, "x" in chart.log)
     y_ticks = [float(k) for k in range(len(chart.names))] or _ticks(_range(chart, "y"), 6, "y" in chart.log)
@@ -86,16 +86,16 @@ def draw(chart: Chart) -> str:
     key, lines = _key([one for one in chart.series if one.label])
     left = 12.0 + _LETTER * max(map(len, y_words)) + (0.0 if chart.names else 1.5 * _SIZE)
     top, high = 16.0 + 18.0 * lines, max(_HIGH - 86.0, 21.0 * len(chart.names))
-    frame = _Frame(chart, _range(chart, "x"), _range(chart, "y"), left, top, _WIDE - left - 16.0, high)
-    bottom, right = top + high, left + frame.wide
+    axes = _Axes(chart, _range(chart, "x"), _range(chart, "y"), left, top, _WIDE - left - 16.0, high)
+    bottom, right = top + high, left + axes.wide
     grid: list[str] = []
     words: list[str] = []
     for value in x_ticks:
-        x = frame.x(value)
+        x = axes.x(value)
         grid.append(f"M{x:.1f},{top:.1f}V{bottom:.1f}")
         words.append(_text(x, bottom + 17.0, _number(value, "x" in chart.log)))
     for value, word in zip(y_ticks, y_words, strict=True):
-        y = frame.y(value)
+        y = axes.y(value)
         grid.append(f"M{left:.1f},{y:.1f}H{right:.1f}")
         words.append(_text(left - 7.0, y + 4.0, word, "end"))
     words.append(_text(0.5 * (left + right), bottom + 36.0, chart.x_label))
@@ -107,24 +107,24 @@ def draw(chart: Chart) -> str:
         + f'<path d="{"".join(grid)}" stroke="currentColor" stroke-opacity=".14"/>'
         + f'<path d="M{left:.1f},{top:.1f}V{bottom:.1f}H{right:.1f}" fill="none" stroke="currentColor"/>'
         + f'<g fill="currentColor">{"".join(words)}</g>{key}'
-        + "".join(_series(frame, one, 4.0, 2.0) for one in chart.series)
+        + "".join(_series(axes, one, 4.0, 2.0) for one in chart.series)
         + "</svg>\n"
     )
 
 
-def draw_small(chart: Chart) -> str:
+def draw_small(chart: TrustChart) -> str:
     """The same without text, for a row of a table."""
-    frame = _Frame(chart, _range(chart, "x"), _range(chart, "y"), 4.0, 3.0, 112.0, 28.0)
+    axes = _Axes(chart, _range(chart, "x"), _range(chart, "y"), 4.0, 3.0, 112.0, 28.0)
     return (
         _HEAD.format(120.0, 34.0, _SIZE, escape(chart.title, quote=True))
         + '<path d="M4,3V31H116" fill="none" stroke="currentColor" stroke-opacity=".35"/>'
-        + "".join(_series(frame, one, 1.8, 1.5) for one in chart.series)
+        + "".join(_series(axes, one, 1.8, 1.5) for one in chart.series)
         + "</svg>\n"
     )
 
 
-def _series(frame: _Frame, one: Series, radius: float, width: float) -> str:
-    places = [(frame.x(x), frame.y(y)) for x, y in zip(one.x, one.y, strict=True)]
+def _series(axes: _Axes, one: Series, radius: float, width: float) -> str:
+    places = [(axes.x(x), axes.y(y)) for x, y in zip(one.x, one.y, strict=True)]
     stroke = f'stroke="{COLOURS[one.colour]}" fill="none" stroke-width="{width:g}"'
     parts: list[str] = []
     if one.mark in ("line", "dashed", "both"):
@@ -132,9 +132,9 @@ def _series(frame: _Frame, one: Series, radius: float, width: float) -> str:
         parts.append(f'<path d="{_path(places)}" {stroke} stroke-linejoin="round"{dash}/>')
     if one.scatter:
         bars = "".join(
-            f"M{frame.x(x - half):.1f},{frame.y(y):.1f}H{frame.x(x + half):.1f}"
-            if frame.chart.names
-            else f"M{frame.x(x):.1f},{frame.y(y - half):.1f}V{frame.y(y + half):.1f}"
+            f"M{axes.x(x - half):.1f},{axes.y(y):.1f}H{axes.x(x + half):.1f}"
+            if axes.chart.names
+            else f"M{axes.x(x):.1f},{axes.y(y - half):.1f}V{axes.y(y + half):.1f}"
             for x, y, half in zip(one.x, one.y, one.scatter, strict=True)
         )
         parts.append(f'<path d="{bars}" {stroke} stroke-opacity=".45"/>')
@@ -171,16 +171,16 @@ def _key(series: Sequence[Series]) -> tuple[str, int]:
         if x > 12.0 and x + wide > _WIDE:
             x, line = 12.0, line + 1
         y = 14.0 + 18.0 * line
-        frame = _Frame(Chart("", "", "", ()), (0.0, 1.0), (0.0, 1.0), x, y, 20.0, 0.0)
+        axes = _Axes(TrustChart("", "", "", ()), (0.0, 1.0), (0.0, 1.0), x, y, 20.0, 0.0)
         middle = one.mark in ("points", "crosses")
         swatch = Series("", (0.5,) if middle else (0.0, 1.0), (0.5,) if middle else (0.5, 0.5), one.mark, one.colour)
-        parts.append(_series(frame, swatch, 4.0, 2.0))
+        parts.append(_series(axes, swatch, 4.0, 2.0))
         parts.append(f'<g fill="currentColor">{_text(x + 27.0, y + 4.0, one.label, "start")}</g>')
         x += wide
     return "".join(parts), line + 1
 
 
-def _range(chart: Chart, axis: Literal["x", "y"]) -> Span:
+def _range(chart: TrustChart, axis: Literal["x", "y"]) -> Span:
     """Of all values with their error bars, on the scale of the axis."""
     if axis == "y" and chart.names:
         return len(chart.names) - 0.5, -0.5

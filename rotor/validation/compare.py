@@ -12,7 +12,7 @@ from rotor.files.make_design import make_design
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.validation.chart import Chart, Series
+from rotor.validation.chart import Series, TrustChart
 from rotor.validation.measured import MeasuredSet, load_set
 from rotor.validation.trust import TrustRow, TrustSet
 
@@ -202,7 +202,7 @@ def _row(found: Comparison) -> TrustRow:
     )
 
 
-def _chart(found: list[Comparison]) -> Chart:
+def _chart(found: list[Comparison]) -> TrustChart:
     """Measured points with their scatter, and ours: a line where no two points share a place, else crosses."""
     measured, quantity = found[0].measured, found[0].measured.quantity
     along = measured.varied[0]
@@ -215,7 +215,7 @@ def _chart(found: list[Comparison]) -> Chart:
         x, y = zip(*ours, strict=True)
         alone = len(set(x)) == len(x)
         series.append(Series(f"computed, inflow {one.inflow}", x, y, "both" if alone else "crosses", k))
-    return Chart(measured.title, LABELS[along], LABELS[quantity], tuple(series))
+    return TrustChart(measured.title, LABELS[along], LABELS[quantity], tuple(series))
 
 
 def _constant(measured: MeasuredSet) -> str:

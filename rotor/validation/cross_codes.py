@@ -17,7 +17,7 @@ from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.validation.chart import Chart, Series
+from rotor.validation.chart import Series, TrustChart
 from rotor.validation.trust import TrustRow, TrustSet, share, trust_rows
 
 DYNBEM_SPEEDS = (0.10, 0.20, 0.30)
@@ -69,9 +69,9 @@ def dynbem() -> TrustSet:
     ]  # fmt: skip
     rows = rows or _shipped("dynbem")
     series = Series("dynbem's torque over ours", DYNBEM_SPEEDS, _percent(rows), "both", 1)
-    chart = Chart("Torque of dynbem over ours", "advance ratio µ", "difference [%]", (series,))
+    chart = TrustChart("Torque of dynbem over ours", "advance ratio µ", "difference [%]", (series,))
     return TrustSet(
-        "dynbem", "dynbem", "Torque in forward flight, Pitt–Peters inflow", f"{_percent(rows)[-1]:+.2f} % at most",
+        "dynbem", "dynbem", "Torque in forward flight", f"{_percent(rows)[-1]:+.2f} % at most",
         "dynbem 0.8, run at our controls with its inflow settled.", tuple(rows), (chart,), (DYNBEM_DIFFERENCES,),
     )  # fmt: skip
 
@@ -91,10 +91,10 @@ def ccblade() -> TrustSet:
         Series("without swirl", CCBLADE_MASSES, power[0::2], "both", 1),
         Series("with swirl", CCBLADE_MASSES, power[1::2], "both", 2),
     )
-    chart = Chart("Hover power of CCBlade over ours", "mass [kg]", "difference [%]", series)
+    chart = TrustChart("Hover power of CCBlade over ours", "mass [kg]", "difference [%]", series)
     return TrustSet(
         "ccblade", "CCBlade", "Hover power without and with swirl",
-        f"{power[0]:+.2f} %, {min(power):+.2f} % with swirl",
+        f"{power[0]:+.2f} %, with swirl {min(power):+.2f} %",
         "CCBlade of WISDEM 4.2, run at our collective.", tuple(rows), (chart,), (CCBLADE_DIFFERENCES,),
     )  # fmt: skip
 

@@ -19,7 +19,7 @@ from rotor.files.make_design import make_design
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.validation.chart import AZIMUTH, Chart, Series
+from rotor.validation.chart import AZIMUTH, Series, TrustChart
 from rotor.validation.trust import TrustRow, TrustSet
 
 ROTOR = "2mrts"
@@ -122,7 +122,7 @@ def inflow_set() -> TrustSet:
     )
 
 
-def _chart(measured: MeasuredInflow) -> Chart:
+def _chart(measured: MeasuredInflow) -> TrustChart:
     """Measured and computed inflow over azimuth."""
     here = [k for k, r in enumerate(measured.r) if r == RADIUS]
     psi = np.linspace(0.0, 2.0 * math.pi, 73)
@@ -133,7 +133,7 @@ def _chart(measured: MeasuredInflow) -> Chart:
     for k, name in enumerate(DRAWN, start=1):
         series.append(Series(name, angle, tuple(_time_mean(name, ring).tolist()), "line", k))
     title = f"Inflow at r/R {RADIUS:g}, µ {measured.mu:g}"
-    return Chart(title, "azimuth [°]", f"inflow over ΩR, µ {measured.mu:g}", tuple(series), x_ticks=AZIMUTH)
+    return TrustChart(title, "azimuth [°]", f"inflow over ΩR, µ {measured.mu:g}", tuple(series), x_ticks=AZIMUTH)
 
 
 def inflow_agreement() -> Iterator[InflowAgreement]:

@@ -48,6 +48,7 @@ _KIND_WORDS = {
     "public code": "public code",
     "document": "thesis",
 }
+_RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 _NOT_MODELLED = (
     "blade bending; torsion where the rotor file has no blade structure",
     "dynamic stall (steady sections)",
@@ -99,8 +100,8 @@ def summary(sets: Sequence[TrustSet]) -> str:
     """docs/validation.md."""
     rows = [
         (
-            f"![{one.title}]({FOLDER}/{one.name}-small.svg)", f"[{one.title}]({FOLDER}/{one.name}.md)", _capital(one.compared),
-            _KIND_WORDS[one.rows[0].kind], one.error, _verdict(one.verdict),
+            f"![{one.title}]({FOLDER}/{one.name}-small.svg)", f"[{one.title}]({FOLDER}/{one.name}.md)",
+            _capital(one.compared), _KIND_WORDS[one.rows[0].kind], one.error, _verdict(one.verdict),
         )
         for one in sets
     ]  # fmt: skip
@@ -145,7 +146,7 @@ def set_page(one: TrustSet) -> str:
             words += [note if alone else f"- {'; '.join(of)}: {note}" for note, of in notes.items()]
     return _page(
         f"# {one.title}",
-        f"{KINDS[kind].partition(':')[0].partition(' (')[0]}. {_capital(one.compared)}. Source: {one.source.rstrip('.')}.",
+        f"{kind.capitalize()}: {one.compared}. Source: {one.source.rstrip('.')}.",
         *(f"![{chart.title}]({_picture(one, k)})" for k, chart in enumerate(one.charts)),
         *words[:1],
         *one.text,
@@ -182,8 +183,9 @@ def sensitivity_page(changes: Sequence[SensitivityRow]) -> str:
 
 
 def _page(*parts: str) -> str:
-    """Markdown with minus signs, and the indices of C_T and the like set low."""
+    """Markdown with minus signs, powers of ten, and the indices of C_T and the like set low."""
     text = re.sub(r"(?<![\w.\-/`])-(?=\d)", "−", "\n\n".join(filter(None, parts)))
+    text = re.sub(r"\b1e-0*(\d+)\b", lambda found: "10⁻" + found[1].translate(_RAISED), text).replace(" %", "\u00a0%")
     return re.sub(r"\b([CU])_(\w)\b", r"\1<sub>\2</sub>", text) + "\n"
 
 

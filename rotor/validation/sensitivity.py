@@ -11,7 +11,7 @@ from rotor.design.structure import BladeStructure
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.search import Search, run_search
-from rotor.validation.chart import Chart, Series
+from rotor.validation.chart import Series, TrustChart
 from rotor.validation.trust import SensitivityRow
 
 SPEEDS = (0.0, 0.15, 0.30)
@@ -140,7 +140,7 @@ def sensitivity() -> Iterator[SensitivityRow]:
             )
 
 
-def sensitivity_chart(rows: Sequence[SensitivityRow]) -> Chart:
+def sensitivity_chart(rows: Sequence[SensitivityRow]) -> TrustChart:
     """The best twist of each change with its band, one colour a speed."""
     changes = tuple(dict.fromkeys(row.change for row in rows))
     series: list[Series] = []
@@ -157,4 +157,4 @@ def sensitivity_chart(rows: Sequence[SensitivityRow]) -> Chart:
             )
         )
     title = "Best linear twist by choice of model, with its band"
-    return Chart(title, "best linear twist [° per radius]", "", tuple(series), names=changes)
+    return TrustChart(title, "best linear twist [° per radius]", "", tuple(series), names=changes)

@@ -19,7 +19,7 @@ from rotor.trim.forward import first_guess
 from rotor.trim.newton import newton
 from rotor.trim.power import profile_power_coefficient
 from rotor.trim.solve import solve
-from rotor.validation.chart import Chart, Series
+from rotor.validation.chart import Series, TrustChart
 from rotor.validation.trust import TrustRow, TrustSet, judged
 
 SPEEDS = (0.1, 0.2, 0.3)
@@ -50,7 +50,7 @@ def theory() -> TrustSet:
         ),
     )  # fmt: skip
     places = tuple(map(float, range(len(bounds))))
-    chart = Chart(
+    chart = TrustChart(
         "Errors and their bounds", "relative error", "",
         (
             Series("error", tuple(max(row.error or 0.0, 1e-17) for row in bounds), places, "points", 1),
@@ -61,7 +61,7 @@ def theory() -> TrustSet:
     )  # fmt: skip
     met = sum(row.verdict == "met" for row in bounds)
     return TrustSet(
-        "theory", "Theory", "Identities, closed forms, flapping in time", f"{met} of {len(bounds)} within bounds",
+        "theory", "Theory", "Identities and closed forms", f"{met} of {len(bounds)} within bounds",
         "Momentum theory, identities of the discretised equations, closed forms and integration in time.",
         rows, (chart,),
     )  # fmt: skip

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Literal, TypeVar, get_args
 
 from rotor.assets import asset_path, csv_rows
-from rotor.validation.chart import Chart
+from rotor.validation.chart import TrustChart
 
 Kind = Literal["validation", "indicative", "verification", "public code", "document"]
 KINDS: dict[Kind, str] = {
@@ -77,7 +77,7 @@ class TrustSet:
     """For the summary."""
     source: str
     rows: tuple[TrustRow, ...]
-    charts: tuple[Chart, ...]
+    charts: tuple[TrustChart, ...]
     """The first is also the small picture of the summary."""
     text: tuple[str, ...] = ()
     """Paragraphs that hold for all rows."""

@@ -1,7 +1,8 @@
 """Comparison with independent public codes, with the same controls and section data."""
 
 import pytest
-from rotor.reproduce.cross_codes import beside_ccblade, beside_dynbem
+
+from rotor.validation.cross_codes import beside_ccblade, beside_dynbem
 
 
 def test_dynbem_pitt_peters_forward_flight():

@@ -7,7 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
-from rotor.reproduce.trust import trust_rows
 
 from rotor.__main__ import main
 from rotor.assets import MEASURED_ROTORS
@@ -17,6 +16,7 @@ from rotor.trim.solve import solve
 from rotor.validation.compare import ComparedPoint, Comparison, compare
 from rotor.validation.inflow import above_disk, inflow_agreement, measured_inflow, trimmed
 from rotor.validation.measured import SETS, load_set, sets_of
+from rotor.validation.trust import trust_rows
 
 
 @pytest.mark.parametrize("name", SETS)
