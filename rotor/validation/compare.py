@@ -16,13 +16,6 @@ from rotor.validation.chart import Series, TrustChart
 from rotor.validation.measured import MeasuredSet, load_set
 from rotor.validation.trust import TrustRow, TrustSet
 
-QUANTITY_NAMES = {
-    "cp": "C_P",
-    "cq_over_sigma": "C_Q/σ",
-    "cp_drag": "power of the rotor's drag",
-    "cq_above_zero": "C_Q above its zero",
-    "change_percent": "change of C_Q",
-}
 LABELS = {
     "mu": "Advance ratio µ",
     "ct": "C_T",
@@ -30,7 +23,7 @@ LABELS = {
     "cp": "C_P",
     "cq_over_sigma": "C_Q/σ",
     "cp_drag": "C_P of the rotor's drag",
-    "cq_above_zero": "C_Q above that of zero thrust",
+    "cq_above_zero": "C_Q above its zero",
     "change_percent": "Change of C_Q [%]",
     "shaft_tilt_deg": "Shaft tilt [°]",
     "tip_mach": "Tip Mach number",
@@ -75,8 +68,9 @@ class Comparison:
 
     @property
     def counted(self) -> str:
-        """How many points the errors count, in words."""
-        return f"{len(self.judged)} points" + (f" of {len(self.points)}" if len(self.judged) < len(self.points) else "")
+        """What is compared at how many points, in words."""
+        of = f" of {len(self.points)}" if len(self.judged) < len(self.points) else ""
+        return f"{LABELS[self.measured.quantity].removesuffix(' [%]')}, {len(self.judged)} points{of}"
 
     @cached_property
     def rms_percent(self) -> float | None:
@@ -172,7 +166,7 @@ def measured_set(name: str) -> TrustSet:
     return TrustSet(
         name=name,
         title=measured.title,
-        compared=f"{QUANTITY_NAMES[measured.quantity]}, {found[0].counted}",
+        compared=f"{found[0].counted}",
         error=rows[0].shown.partition(",")[0],
         source=measured.report,
         rows=rows,
@@ -190,7 +184,7 @@ def _row(found: Comparison) -> TrustRow:
     return TrustRow(
         set=measured.name,
         kind="indicative" if measured.indicative else "validation",
-        what=f"{measured.title}: {QUANTITY_NAMES[measured.quantity]}, {found.counted}, inflow {found.inflow}",
+        what=f"{measured.title}: {found.counted}, inflow {found.inflow}",
         against=measured.report,
         shown=f"rms {rms:.1f} %, worst {worst:+.1f} %",
         error=rms / 100.0,

@@ -7,7 +7,7 @@ assets/sensitivity.csv; a test recomputes and compares them, so they stay curren
 from dataclasses import dataclass, fields
 from functools import cache
 from pathlib import Path
-from typing import Literal, TypeVar, get_args
+from typing import Any, Literal
 
 from rotor.assets import asset_path, csv_rows
 from rotor.validation.chart import TrustChart
@@ -28,7 +28,6 @@ VERDICTS: dict[Verdict, str] = {
     "no target": "shown, not judged",
 }
 """What the verdicts mean."""
-_Word = TypeVar("_Word", bound=str)
 
 
 @dataclass(frozen=True)
@@ -139,26 +138,12 @@ def sensitivity_rows() -> tuple[SensitivityRow, ...]:
 
 def read_trust(path: Path) -> tuple[TrustRow, ...]:
     """Rows of a trust file; ValueError for a kind or a verdict that is not known."""
-    return tuple(
-        TrustRow(
-            set=row["set"],
-            kind=_known(row["kind"], "kind", get_args(Kind), path),
-            what=row["what"],
-            against=row["against"],
-            shown=row["shown"],
-            error=float(row["error"]) if row["error"] else None,
-            allowed=float(row["allowed"]),
-            test=row["test"],
-            note=row["note"],
-            target=row["target"],
-            verdict=_known(row["verdict"], "verdict", get_args(Verdict), path),
-        )
-        for row in csv_rows(path)
-    )
-
-
-def _known(word: str, name: str, known: tuple[_Word, ...], path: Path) -> _Word:
-    found = next((one for one in known if one == word), None)
-    if found is None:
-        raise ValueError(f"{path.name} has a row of {name} {word!r}: use one of {', '.join(known)}")
-    return found
+    rows: list[TrustRow] = []
+    for cells in csv_rows(path):
+        for name, known in (("kind", KINDS), ("verdict", VERDICTS)):
+            if cells[name] not in known:
+                raise ValueError(f"{path.name} has a row of {name} {cells[name]!r}: use one of {', '.join(known)}")
+        row: dict[str, Any] = {**cells, "allowed": float(cells["allowed"])}
+        row["error"] = float(cells["error"]) if cells["error"] else None
+        rows.append(TrustRow(**row))
+    return tuple(rows)
