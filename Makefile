@@ -61,8 +61,8 @@ docs: setup-dev       ## build the documentation site into dist/docs; it opens f
 	@echo "dist/docs/index.html"
 
 trust: setup-dev      ## make the trust page, docs/validation, anew: four minutes
+	rm -rf dist/thesis docs/validation
 	$(BIN)/python -m rotor reproduce dist/thesis --trust
-	rm -rf docs/validation
 	cp -r dist/thesis/validation dist/thesis/validation.md docs/
 	cp dist/thesis/trust.csv dist/thesis/sensitivity.csv assets/
 

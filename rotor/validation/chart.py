@@ -177,7 +177,7 @@ def _key(series: Sequence[Series]) -> tuple[str, int]:
         parts.append(_series(axes, swatch, 4.0, 2.0))
         parts.append(f'<g fill="currentColor">{_text(x + 27.0, y + 4.0, one.label, "start")}</g>')
         x += wide
-    return "".join(parts), line + 1
+    return "".join(parts), line + 1 if series else 0
 
 
 def _range(chart: TrustChart, axis: Literal["x", "y"]) -> Span:
@@ -216,7 +216,7 @@ def _ticks(span: Span, about: int, log: bool) -> list[float]:
 
 
 def _number(value: float, log: bool) -> str:
-    if log and not 1e-2 <= value <= 1e4:
+    if log and not 0.1 <= value <= 1e4:
         return "10" + f"{round(math.log10(value))}".translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
     return f"{value:.6g}".replace("-", "−")
 

@@ -41,7 +41,7 @@ LONGEST = 64
 FOLDER = "validation"
 """Of the sets' pages, beside the summary."""
 _HEADING = "# Made by: make trust. Read by rotor/validation/trust.py; docs/validation.md shows it.\n"
-_KIND_WORDS = {
+_AGAINST = {
     "validation": "measurement",
     "indicative": "indicative",
     "verification": "theory",
@@ -101,7 +101,7 @@ def summary(sets: Sequence[TrustSet]) -> str:
     rows = [
         (
             f"![{one.title}]({FOLDER}/{one.name}-small.svg)", f"[{one.title}]({FOLDER}/{one.name}.md)",
-            _capital(one.compared), _KIND_WORDS[one.rows[0].kind], one.error, _verdict(one.verdict),
+            _capital(one.compared), _AGAINST[one.rows[0].kind], one.error, _verdict(one.verdict),
         )
         for one in sets
     ]  # fmt: skip
@@ -125,32 +125,32 @@ def set_page(one: TrustSet) -> str:
     """docs/validation/NAME.md."""
     kind = one.rows[0].kind
     labels = [row.what.removeprefix(f"{one.title}: ") for row in one.rows]
-    against = [row.against for row in one.rows] if len({row.against for row in one.rows}) > 1 else []
+    columns = {
+        "": labels,
+        "Against": [row.against for row in one.rows],
+        "Error": [row.shown for row in one.rows],
+        "Target": [row.target for row in one.rows],
+        "Verdict": [_verdict(row.verdict) for row in one.rows],
+    }
+    if len({*columns["Against"]}) == 1:
+        del columns["Against"]  # It is the source, named above.
+    if not any(columns["Target"]):
+        del columns["Target"]
     notes: dict[str, list[str]] = {}
     for label, row in zip(labels, one.rows, strict=True):
         notes.setdefault(row.note, []).append(label)
     notes.pop("", None)
-    if kind == "document":
-        words = ["", *(f"**{row.what}: {row.shown}.** {row.against} *Ours:* {row.note}" for row in one.rows)]
-    else:
-        heads = ("", "Error", "Target", "Verdict")
-        cells = [
-            (what, row.shown, row.target, _verdict(row.verdict)) for what, row in zip(labels, one.rows, strict=True)
-        ]
-        if against:
-            heads, cells = ("", "Against", *heads[1:]), [(c[0], a, *c[1:]) for c, a in zip(cells, against, strict=True)]
-        words = [_table(heads, cells)]
-        if notes:
-            words.append("## What is known of it")
-            alone = len(notes) == 1
-            words += [note if alone else f"- {'; '.join(of)}: {note}" for note, of in notes.items()]
+    words = [_table(tuple(columns), zip(*columns.values(), strict=True)), *one.text]
+    if kind == "document":  # Whole sentences, for which a table has no room.
+        words = [*one.text, *(f"**{row.what}: {row.shown}.** {row.against} *Ours:* {row.note}" for row in one.rows)]
+    elif notes:
+        words.append("## Why it is missed" if one.verdict == "missed" else "## Remarks")
+        words += [note if len(notes) == 1 else f"- {'; '.join(of)}: {note}" for note, of in notes.items()]
     return _page(
         f"# {one.title}",
-        f"{kind.capitalize()}: {one.compared}. Source: {one.source.rstrip('.')}.",
+        f"{_AGAINST[kind].capitalize()}: {one.compared}. Source: {one.source.rstrip('.')}.",
         *(f"![{chart.title}]({_picture(one, k)})" for k, chart in enumerate(one.charts)),
-        *words[:1],
-        *one.text,
-        *words[1:],
+        *words,
         *(("## Every point", _table(one.points[0], one.points[1:])) if one.points else ()),
         "## Tests",
         "\n".join(f"- `{test}`" for test in dict.fromkeys(row.test for row in one.rows)),
@@ -184,7 +184,7 @@ def sensitivity_page(changes: Sequence[SensitivityRow]) -> str:
 
 def _page(*parts: str) -> str:
     """Markdown with minus signs, powers of ten, and the indices of C_T and the like set low."""
-    text = re.sub(r"(?<![\w.\-/`])-(?=\d)", "−", "\n\n".join(filter(None, parts)))
+    text = re.sub(r"(?<![\w.\-/`])-(?=\d)", "−", "\n\n".join(parts))
     text = re.sub(r"\b1e-0*(\d+)\b", lambda found: "10⁻" + found[1].translate(_RAISED), text).replace(" %", "\u00a0%")
     return re.sub(r"\b([CU])_(\w)\b", r"\1<sub>\2</sub>", text) + "\n"
 
