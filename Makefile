@@ -13,7 +13,7 @@ WARM  := $(VENV)/.warm
 NONE  := || [ $$? -eq 5 ] # Chosen by ARGS, there may be none of a kind.
 PIP   := $(BIN)/python -m pip --disable-pip-version-check --no-input --quiet
 
-.PHONY: help run test test-code test-page slow slow-code slow-page check-all lint format bench docs release pictures browser setup setup-dev clean
+.PHONY: help run test test-code test-page slow slow-code slow-page check-all lint format bench docs trust release pictures browser setup setup-dev clean
 .DELETE_ON_ERROR:
 
 help:                 ## list these targets
@@ -59,6 +59,12 @@ docs: setup-dev       ## build the documentation site into dist/docs; it opens f
 	@rm -rf dist/docs dist/.doctrees docs/_made
 	$(BIN)/python -m sphinx -W --keep-going -q -b html -d dist/.doctrees docs dist/docs
 	@echo "dist/docs/index.html"
+
+trust: setup-dev      ## make the trust page, docs/validation, anew: four minutes
+	rm -rf dist/thesis docs/validation
+	$(BIN)/python -m rotor reproduce dist/thesis --trust
+	cp -r dist/thesis/validation dist/thesis/validation.md docs/
+	cp dist/thesis/trust.csv dist/thesis/sensitivity.csv assets/
 
 release: setup-dev    ## the checklist of a release: build twice, licences, the wheel alone on every Python here, changelog
 	$(BIN)/python -m tests.tools.release --out dist

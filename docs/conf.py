@@ -19,6 +19,7 @@ from pathlib import Path
 from docutils import nodes
 from latex2mathml.converter import convert
 from sphinx.application import Sphinx
+from sphinx.transforms.post_transforms import SphinxPostTransform
 from sphinx.util.docutils import SphinxDirective
 from sphinx.writers.html5 import HTML5Translator
 
@@ -139,6 +140,19 @@ class Commands(SphinxDirective):
         return out
 
 
+class InlineSvg(SphinxPostTransform):
+    """SVG files are put into the page without their own colours, so that they follow its light or dark form."""
+
+    default_priority = 8
+
+    def run(self, **_: object):
+        for node in list(self.document.findall(nodes.image)):
+            if node["uri"].endswith(".svg"):
+                drawn = Path(self.app.srcdir, node["uri"]).read_text(encoding="utf-8")
+                drawn = re.sub("<style>.*?</style>", "", drawn)
+                node.replace_self(nodes.raw("", f'<span class="drawn-file">{drawn}</span>', format="html"))
+
+
 def as_restructured_text(_app: Sphinx, _what: str, _name: str, _value: object, _options: object, lines: list[str]):
     """Docstrings are plain prose: indented blocks are code, `name: what it is` in a row of lines is a list."""
     out: list[str] = []
@@ -196,6 +210,7 @@ def setup(app: Sphinx):
     app.add_directive("run", Run)
     app.add_directive("picture", Picture)
     app.add_directive("commands", Commands)
+    app.add_post_transform(InlineSvg)
     app.add_html_math_renderer("mathml", inline_renderers=(mathml, None), block_renderers=(mathml, None))
     app.connect("autodoc-process-docstring", as_restructured_text)
     app.connect("source-read", source_links)

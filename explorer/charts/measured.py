@@ -102,7 +102,7 @@ def _key(measured: MeasuredSet, design: Design) -> tuple[str, Design]:
 
 
 def _drawn(measured: MeasuredSet, solution: Solution, known: _Known, previous: Range | None) -> StripChart:
-    along = next(name for name in measured.given if len({point[name] for point in measured.points}) > 1)
+    along = measured.varied[0]
     title, unit, size = _QUANTITIES[measured.quantity]
     axis, wide = _AXES.get(along, (along, 1.0))
     places = [wide * point[along] for point in measured.points]

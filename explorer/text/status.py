@@ -11,8 +11,8 @@ from explorer.text.units import number
 from explorer.text.validated import validated
 from rotor.aero.problem import grid_of
 from rotor.reproduce.report import typographic
-from rotor.reproduce.trust import KINDS, SensitivityRow, TrustRow, sensitivity_rows, trust_rows
 from rotor.trim.solution import Solution
+from rotor.validation.trust import KINDS, SensitivityRow, TrustRow, sensitivity_rows, trust_rows
 
 
 def status_panel(solution: Solution | None, problem: str | None = None, pinned: Solution | None = None) -> str:
@@ -111,7 +111,7 @@ def trust_page() -> str:
     parts = [
         '<div class="rx rx-small rx-trust" data-explorer="trust">',
         '<div class="rx-dim">Hover over a row to see the test it is verified by. Computed by '
-        "<i>python -m rotor reproduce OUT --trust</i>; details in docs/validation.md.</div>",
+        "<i>make trust</i>; docs/validation.md leads to a page with charts for each set.</div>",
     ]
     for kind, title in KINDS.items():
         rows = "".join(_trust_row(row) for row in trust_rows() if row.kind == kind)
@@ -124,7 +124,7 @@ def trust_page() -> str:
 
 
 def _trust_row(row: TrustRow) -> str:
-    hint = escape(". ".join(part.rstrip(".") for part in (row.note, row.test) if part), quote=True)
+    hint = escape(". ".join(part.rstrip(".") for part in (row.remark, row.test) if part), quote=True)
     return (
         f'<div class="rx-trust-row" title="{hint}"><span>{escape(typographic(row.what))} '
         f'<span class="rx-dim">{escape(typographic(row.against))}</span></span>'

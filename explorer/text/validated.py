@@ -6,12 +6,12 @@ from dataclasses import dataclass
 
 from explorer.text.units import number
 from rotor.reproduce.report import typographic
-from rotor.reproduce.trust import TrustRow, trust_rows
 from rotor.trim.solution import Solution
 from rotor.validation.measured import MeasuredSet, sets_of
+from rotor.validation.trust import TrustRow, trust_rows
 
 _DIGITISED = "uh60a-hover"
-"""The set whose rows give the worst and the best of its points."""
+"""The set whose rows give the worst and the best of its points, in hover by annuli."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ def validated(solution: Solution) -> ValidationRecord:
         words = f"Not compared with this inflow model. Measured: {report}."
         return ValidationRecord("not compared with this inflow", words, measured)
     outside = beyond(measured, solution)
-    parts = [f"Against measurement: {row.shown} ({report}).", row.note]
+    parts = [f"Against measurement: {row.shown} ({report}).", row.remark]
     if outside:
         parts.insert(0, f"Outside what was compared: {outside}.")
     if design.twist != design.rotor.builtin_twist or design.active_twist is not None:
@@ -89,11 +89,10 @@ def beyond(measured: MeasuredSet, solution: Solution) -> str:
 
 def row_of(measured: MeasuredSet, inflow: str) -> TrustRow | None:
     """The row of a set with an inflow model; None where that was not compared."""
-    rows = [row for row in trust_rows() if row.kind in ("validation", "indicative")]
-    if measured.name == _DIGITISED and inflow == "annulus":
-        return next((row for row in rows if row.what == "Hover C_P, worst of ten points"), None)
-    begin, end = f"{measured.title}: ", f", inflow {inflow}"
-    return next((row for row in rows if row.what.startswith(begin) and row.what.endswith(end)), None)
+    rows = [row for row in trust_rows() if row.set == measured.name]
+    if measured.name == _DIGITISED:
+        return rows[0] if inflow == "annulus" else None
+    return next((row for row in rows if row.what.endswith(f", inflow {inflow}")), None)
 
 
 def _short(row: TrustRow, measured: MeasuredSet) -> str:

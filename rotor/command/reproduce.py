@@ -20,7 +20,9 @@ def add_parser(commands: Any) -> None:
         "--figure", metavar="N", action="append", help="only this one, for example 3.11 or 'table 4.1'; repeatable"
     )
     parser.add_argument(
-        "--trust", action="store_true", help="also make the trust page: validation.md, trust.csv, sensitivity.csv"
+        "--trust",
+        action="store_true",
+        help="also make the trust page: validation.md, validation/, trust.csv, sensitivity.csv",
     )
     parser.add_argument("--processes", type=int, metavar="N", help="processes to use (default: one a core, at most 4)")
     parser.set_defaults(run=run)
@@ -29,11 +31,12 @@ def add_parser(commands: Any) -> None:
 def run(args: argparse.Namespace) -> int:
     """0, or 130 when interrupted."""
     # Here, because no other command needs the catalogue.
-    from rotor.reproduce.catalogue import ENTRIES, CatalogueEntry, find_entry, searches_of
+    from rotor.reproduce.catalogue import ENTRIES, CatalogueEntry, find_entry, searches_of, trust_sets
     from rotor.reproduce.page import NO_PICTURES, can_draw, write_all, write_report, written
     from rotor.reproduce.report import Report, typographic
     from rotor.reproduce.runs import compute_ahead
-    from rotor.reproduce.trust_page import write_trust
+    from rotor.validation.page import SETS, write_trust
+    from rotor.validation.sensitivity import sensitivity
 
     if args.trust and args.figure:
         raise ValueError("--trust needs every figure: leave --figure out")
@@ -75,7 +78,9 @@ def run(args: argparse.Namespace) -> int:
     if not pictures:
         print(f"note: {NO_PICTURES}", file=sys.stderr)
     if args.trust and not stopped:
-        print(f"trust page: {write_trust([report for _, report in made], folder)}")
+        sets = [make_set() for make_set in SETS.values()]
+        sets += trust_sets(report for _, report in made)
+        print(f"trust page: {write_trust(sets, list(sensitivity()), folder)}")
     left = f", {len(entries) - len(made)} left out because of Ctrl-C" if stopped else ""
     print(f"{len(made)} rebuilt in {time.perf_counter() - begin:.0f} s{left}: {page}")
     return STOPPED if stopped else 0

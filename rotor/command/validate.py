@@ -3,33 +3,30 @@
 import argparse
 import importlib
 import json
+import sys
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
 from rotor.command.common import add_command
+from rotor.user_input import make_folder
 from rotor.validation.airloads import POWERS, REPORTS, CurveAgreement, FlownPower, airload_agreement, flown_powers
-from rotor.validation.compare import Comparison, compare
+from rotor.validation.compare import LABELS, Comparison, compare
 from rotor.validation.inflow import SET as INFLOW_SET
 from rotor.validation.inflow import WHY, InflowAgreement, inflow_agreement
 from rotor.validation.measured import FIELDS, SETS, load_set
+from rotor.validation.page import SETS as TRUST_SETS
+from rotor.validation.page import write_set
 
-_LABELS = {
-    "mu": "Advance ratio µ",
-    "ct": "C_T",
-    "ct_over_sigma": "C_T/σ",
-    "cp": "C_P",
-    "cq_over_sigma": "C_Q/σ",
-    "cp_drag": "C_P of the rotor's drag",
-    "cq_above_zero": "C_Q above that of zero thrust",
-    "change_percent": "Change of C_Q [%]",
-}
+_OTHERS = [name for name in TRUST_SETS if name not in (*SETS, *FIELDS)]
+"""Sets of the trust page that are not points of a rotor on a stand."""
 
 
 def add_parser(commands: Any) -> None:
     """Register the command."""
     parser = add_command(commands, "validate", "compares with every measured point of rotors that were tested")
-    parser.add_argument("sets", nargs="*", metavar="SET", help=f"{', '.join((*SETS, *FIELDS))} (default: all)")
+    measured, more = ", ".join((*SETS, *FIELDS)), ", ".join(_OTHERS)
+    parser.add_argument("sets", nargs="*", metavar="SET", help=f"{measured} (default: all these), {more}")
     parser.add_argument(
         "--inflow",
         metavar="NAME",
@@ -37,6 +34,7 @@ def add_parser(commands: Any) -> None:
     )
     parser.add_argument("--json", action="store_true", help="machine-readable output")
     parser.add_argument("--plot", metavar="DIR", help="also draw a picture of each set into this folder")
+    parser.add_argument("--page", metavar="DIR", help="also write the page of each set, with charts, into this folder")
     parser.set_defaults(run=run)
 
 
@@ -46,7 +44,7 @@ def run(args: argparse.Namespace) -> int:
     Of a set without a target every point counts.
     """
     names = args.sets or [*SETS, *FIELDS]
-    chosen = [load_set(name) for name in names if name not in FIELDS]
+    chosen = [load_set(name) for name in names if name not in (*_OTHERS, *FIELDS)]
     found: list[Comparison] = []
     for measured in chosen:
         comparison = compare(measured, args.inflow)
@@ -56,6 +54,7 @@ def run(args: argparse.Namespace) -> int:
     inflow = list(inflow_agreement()) if INFLOW_SET in names else []
     curves = list(airload_agreement(tuple(name for name in names if name in REPORTS)))
     powers = list(flown_powers()) if POWERS in names else []
+    others = [TRUST_SETS[name]() for name in names if name in _OTHERS]
     if args.json:
         record = {
             "sets": [one.to_dict() for one in found],
@@ -64,17 +63,23 @@ def run(args: argparse.Namespace) -> int:
                 {**asdict(one), "test": one.case.test, "case": one.case.name, "fitted": False} for one in curves
             ],
             "powers": [asdict(one) | {"fitted": False} for one in powers],
+            "rows": [asdict(row) for one in others for row in one.rows],
         }
         print(json.dumps(record, indent=2, allow_nan=False))
     else:
         tables = [inflow_report(inflow)] if inflow else []
         tables += [airload_report(curves)] if curves else []
         tables += [power_report(powers)] if powers else []
+        for one in others:
+            tables.append("\n".join([one.title, *(f"{row.what:<62}{row.shown:<16}{row.verdict}" for row in one.rows)]))
         if tables:
             print(("\n" if found else "") + "\n\n".join(tables))
     if args.plot:
         for comparison in found:
             draw(comparison, Path(args.plot))
+    for name in names if args.page else ():
+        page = write_set(TRUST_SETS[name](), make_folder(args.page))
+        print(f"page: {page}", file=sys.stderr)
     return 0 if all(point.ours is not None for one in found for point in one.judged) else 1
 
 
@@ -173,7 +178,7 @@ def draw(found: Comparison, folder: Path) -> Path:
     except ModuleNotFoundError:
         raise ValueError("--plot needs matplotlib: pip install 'rotor-explorer[plots]'") from None
     measured, quantity = found.measured, found.measured.quantity
-    along = next(name for name in measured.given if len({point.given[name] for point in found.points}) > 1)
+    along = measured.varied[0]
     figure: Any = pictures.Figure(figsize=(7.0, 4.5), layout="constrained")
     axes = figure.subplots()
     values = [point.measured[quantity] for point in found.points]
@@ -184,8 +189,8 @@ def draw(found: Comparison, folder: Path) -> Path:
     ours = [(point.given[along], point.ours[quantity]) for point in found.points if point.ours is not None]
     if ours:
         axes.plot(*zip(*ours, strict=True), "x", color="tab:blue", label=f"computed ({found.inflow})")
-    axes.set_xlabel(_LABELS.get(along, along))
-    axes.set_ylabel(_LABELS.get(quantity, quantity))
+    axes.set_xlabel(LABELS[along])
+    axes.set_ylabel(LABELS[quantity])
     axes.set_title(f"{measured.title}\n{verdict(found)}", fontsize="medium")
     axes.legend()
     path = folder / f"{measured.name}.png"

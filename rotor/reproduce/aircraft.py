@@ -1,21 +1,12 @@
 """Tables 3.1 and 3.2, the tail rotor's share, and figure 3.10: power over speed beside public UH-60A data."""
 
-import tomllib
-from dataclasses import replace
-from functools import cache
-from typing import Any
-
 import numpy as np
 
-from rotor.assets import asset_path
-from rotor.files.make_design import make_design, uh60a_data
+from rotor.files.make_design import uh60a_data
 from rotor.reproduce.report import Agreement, PlotPanel, Report, curve, judged, table
 from rotor.reproduce.runs import solved
-from rotor.trim.solve import solve
-from rotor.units import KNOT
+from rotor.validation.uh60a import SLOWEST, beside_hover_points, beside_model_curve, model_curve_errors
 
-HORSEPOWER_KW = 0.745700
-"""[kW], mechanical"""
 SPEEDS = (0.0, 0.075, 0.1, 0.125, 0.15, 0.175, 0.2, 0.225, 0.25, 0.275, 0.3, 0.325, 0.35)
 TAIL_SPEEDS = (0.0, 0.1, 0.2, 0.3)
 """The thesis' hovering, low, medium and high speed; it states no numbers for them."""
@@ -27,12 +18,6 @@ DOCUMENT_3_2 = {
     "radius_m": 8.1788, "angular_speed_rad_s": 27.0, "reference_chord_m": 0.5273, "blades": 4.0,
     "mass_per_length_kg_m": 13.92, "mass_kg": 8322.4,
 }  # fmt: skip
-
-
-@cache
-def public_data() -> dict[str, Any]:
-    """The parsed `assets/comparison.toml`."""
-    return tomllib.loads(asset_path("comparison.toml").read_text(encoding="utf-8"))
 
 
 def table_3_1() -> Report:
@@ -112,11 +97,11 @@ def tail_rotor() -> Report:
 def figure_3_10() -> Report:
     """Power over advance ratio, with public data of the UH-60A."""
     total = {name: [solved(name, _twist(name), mu).require().power.total / 1e3 for mu in SPEEDS] for name in _NAMES}
-    rotor_speeds, theirs, ours = _beside_model_curve()
-    hover_ct, hover_cp, hover_ours = _beside_hover_points()
-    ratio = np.array(ours["flight"]) / np.array(theirs)
-    moving = np.array(rotor_speeds) > 0.075
-    error = float(np.sqrt(np.mean((ratio[moving] - 1.0) ** 2)))
+    ours = {name: beside_model_curve(name)[2] for name in _NAMES}
+    rotor_speeds, theirs, _ = beside_model_curve("flight")
+    hover_ct, hover_cp, hover_ours = beside_hover_points()
+    count = sum(mu > SLOWEST for mu in rotor_speeds)
+    error, mean = model_curve_errors()
     hover_ratio = np.array(hover_ours) / np.array(hover_cp)
     bucket = {name: SPEEDS[int(np.argmin(total[name]))] for name in _NAMES}
     return Report(
@@ -128,8 +113,8 @@ def figure_3_10() -> Report:
         "points "
         "of the thesis are not known.",
         statement="The predictions of the simple model are in good agreement with flight test (p. 26).",
-        ours=f"Main rotor beside the public model curve at {int(moving.sum())} speeds above µ 0.075: flight "
-        f"{100 * (ratio[moving].mean() - 1):+.1f} % in the mean, {100 * error:.1f} % rms. Hover: flight "
+        ours=f"Main rotor beside the public model curve at {count} speeds above µ {SLOWEST:g}: flight "
+        f"{100 * mean:+.1f} % in the mean, {100 * error:.1f} % rms. Hover: flight "
         f"{100 * (hover_ratio.min() - 1):+.0f}…{100 * (hover_ratio.max() - 1):+.0f} % from ten digitised points. "
         f"Least total power at µ {bucket['flight']:g} (flight), {bucket['thesis']:g} (thesis).",
         verdict=Agreement.INDICATIVE,
@@ -173,7 +158,7 @@ def figure_3_10() -> Report:
         ),
         numbers={
             "rms_to_model_curve": error,
-            "mean_to_model_curve": float(ratio[moving].mean() - 1.0),
+            "mean_to_model_curve": mean,
             "hover_least": float(hover_ratio.min() - 1.0),
             "hover_largest": float(hover_ratio.max() - 1.0),
             "bucket_flight": bucket["flight"],
@@ -187,33 +172,3 @@ _NAMES = ("flight", "thesis")
 
 def _twist(name: str) -> str:
     return "uh60a" if name == "flight" else "linear:-16"
-
-
-def _beside_model_curve() -> tuple[list[float], list[float], dict[str, list[float]]]:
-    """Advance ratios, the public model curve and ours, main-rotor power [kW]."""
-    forward = public_data()["forward"]
-    tip_speed = make_design().rotor.tip_speed
-    speeds = [knots * KNOT / tip_speed for knots in forward["speed_kt"]]
-    theirs = [HORSEPOWER_KW * power for power in forward["main_rotor_hp"]]
-    ours: dict[str, list[float]] = {}
-    for name in _NAMES:
-        designs = [
-            make_design(preset=name, mu=mu, mass_kg=forward["mass_kg"], altitude_m=forward["altitude_m"])
-            for mu in speeds
-        ]
-        ours[name] = [solve(design).require().power.main_rotor / 1e3 for design in designs]
-    return speeds, theirs, ours
-
-
-def _beside_hover_points() -> tuple[list[float], list[float], list[float]]:
-    """C_T/σ, digitised C_P/σ and ours."""
-    hover = public_data()["hover"]
-    solidity = hover["solidity"]
-    base = make_design(mu=0.0)
-    base = replace(base, models=replace(base.models, download=False))  # Measured is the rotor's own thrust.
-    ours: list[float] = []
-    for ct in hover["ct_over_sigma"]:
-        mass = base.condition.mass * ct * solidity / base.weight_coefficient
-        condition = replace(base.condition, mass=mass)
-        ours.append(solve(replace(base, condition=condition)).require().cp / solidity)
-    return list(hover["ct_over_sigma"]), list(hover["cp_over_sigma"]), ours

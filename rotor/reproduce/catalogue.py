@@ -1,6 +1,7 @@
-"""Every figure and table that can be rebuilt, in the thesis' order."""
+"""Every figure and table that can be rebuilt, in the thesis' order; what they say, as sets of the trust page."""
 
-from collections.abc import Callable, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 from rotor.reproduce import (
@@ -17,10 +18,11 @@ from rotor.reproduce import (
     today,
     twist_effect,
 )
-from rotor.reproduce.report import Report
+from rotor.reproduce.report import PlotPanel, Report
 from rotor.reproduce.runs import (
     CONCEPTS,
     EVERY_VARIANT,
+    FLIGHT_LINEAR,
     FULL,
     Call,
     best,
@@ -29,6 +31,9 @@ from rotor.reproduce.runs import (
     linear_twin,
     searches,
 )
+from rotor.validation.chart import Mark, Series, TrustChart
+from rotor.validation.theory import bound
+from rotor.validation.trust import TrustRow, TrustSet, share
 
 
 @dataclass(frozen=True)
@@ -163,3 +168,109 @@ def searches_of(entries: Sequence[CatalogueEntry]) -> list[list[Call]]:
     long = [calls for calls in alone if calls[0][0] is actuated_blade.compared]
     short = [calls for calls in alone if calls not in long]
     return [*long, *(calls for calls in chained if calls), *short]
+
+
+_TESTS = {
+    **{f"Figure {number}": "test_schematics.py::test_a_drawing_stands_alone_and_has_no_axes"
+       for number in ("2.1", "2.2", "2.5", "2.9", "5.1")},
+    "Literature": "test_today.py::test_useful_load_at_equal_power",
+    "Readings": "test_readings.py::test_statements_by_reading",
+    "Today": "test_today.py::test_then_and_now",
+}  # fmt: skip
+"""Tests of the entries that the test file of no chapter holds, by title."""
+
+
+def trust_sets(reports: Iterable[Report]) -> tuple[TrustSet, ...]:
+    """What the figures show beyond the thesis: grid, Keys et al., tail rotor; and what became of its statements."""
+    reports = list(reports)
+    known = {report.number: report for report in reports}
+    return _grid(known), _keys_1987(known["Keys 1987"]), _tail_rotor(known["Tail rotor"]), _statements(reports)
+
+
+def _grid(known: dict[str, Report]) -> TrustSet:
+    test = "rotor/reproduce/test_chapter_3.py::test_figure_3_7"
+    presets = ("thesis", FLIGHT_LINEAR)
+    rows = [
+        share("grid", "verification", f"Power at 40 elements, {words}", "limit of finer grids",
+              max(known[number].numbers[f"{preset}_error_at_40"] for preset in presets), 2e-4, test, digits=2)
+        for words, number in (("hover", "3.7"), ("µ 0.30", "3.8"))
+    ]  # fmt: skip
+    error = max(known["3.9"].numbers[f"{preset}_error_at_100"] for preset in presets)
+    area = known["2.8"].numbers
+    rows += [
+        bound("grid", "Power at 100 azimuths, µ 0.30", "720 azimuths", error, 1e-5,
+              "rotor/reproduce/test_chapter_3.py::test_figure_3_9"),
+        share("grid", "verification", "Reverse-flow area, µ 0.30, counted in cells", "the circle r = −µ sin ψ",
+              area["reverse_area"] / area["circle_area"] - 1.0, 5e-3,
+              "rotor/reproduce/test_chapter_2.py::test_figure_2_8", digits=2),
+    ]  # fmt: skip
+    return TrustSet(
+        "grid", "Grid", "Power over elements and azimuths", f"{rows[0].shown} at 40 elements",
+        "Finer grids of the same equations, with linear inflow; the lifting line has a grid of its own.",
+        tuple(rows), tuple(_chart(known[number], -1) for number in ("3.7", "3.8", "3.9")),
+    )  # fmt: skip
+
+
+def _keys_1987(report: Report) -> TrustSet:
+    rows = tuple(
+        share("keys-1987", "indicative", f"Power of −17.3° over −11.5°, {words}, {name}",
+              f"{100 * published:+.1f} % (Keys et al. 1987, another rotor)",
+              report.numbers[f"{name}_{key}"] - published, 3e-3, "rotor/reproduce/test_chapter_3.py::test_keys_1987",
+              unit="points")
+        for name in ("thesis-wake", "flight")
+        for key, words, published in (
+            ("hover", "hover", twist_effect.HOVER), ("fast", "330 km/h", twist_effect.FAST),
+        )
+    )  # fmt: skip
+    return TrustSet(
+        "keys-1987", "Keys et al. 1987", "Power of twist −17.3° over −11.5°", f"{rows[2].shown}, {rows[3].shown}",
+        "Keys et al. 1987, a wind-tunnel model of another rotor, as the thesis quotes it.",
+        rows, (_chart(report),), (report.because,),
+    )  # fmt: skip
+
+
+def _tail_rotor(report: Report) -> TrustSet:
+    row = share("tail-rotor", "indicative", "Tail rotor over main-rotor power, mean of four speeds",
+                "5 % (the thesis)", report.numbers["mean"] - 0.05, 3e-3,
+                "rotor/reproduce/test_chapter_3.py::test_tail_rotor", unit="points")  # fmt: skip
+    return TrustSet(
+        "tail-rotor", "Tail rotor", "Its part of main-rotor power", row.shown, "5 % at every speed, the thesis, p. 25.",
+        (row,), (_chart(report),), (report.because,),
+    )  # fmt: skip
+
+
+def _statements(reports: Sequence[Report]) -> TrustSet:
+    rows: list[TrustRow] = []
+    for one in reports:
+        chapter = one.number[0] if one.number[0].isdigit() else "3"
+        name = one.title.lower().replace(" ", "_").replace(".", "_")
+        test = _TESTS.get(one.title, f"test_chapter_{chapter}.py::test_{name}")
+        rows.append(
+            TrustRow("thesis", "document", one.title, one.statement, one.verdict.value, None, 0.0,
+                     f"rotor/reproduce/{test}", one.ours)
+        )  # fmt: skip
+    count = Counter(row.shown for row in rows)
+    places = tuple(map(float, range(len(count))))
+    series = Series("", tuple(map(float, count.values())), places, "points", 1)
+    return TrustSet(
+        "thesis", "Statements of the thesis", f"{len(rows)} figures, tables and claims",
+        f"{count['agrees']} agree, {count['differs']} differ",
+        "M. Lonoce, Helicopter Blade Twist Optimization in Forward Flight, 2016; of chapters 4 to 6 only captions.",
+        tuple(rows), (TrustChart("Verdicts", "figures, tables and claims", "", (series,), names=tuple(count)),),
+        ("*Agrees* and *differs* judge a statement. *Stands alone*: nothing to compare with. *As loaded*: its numbers "
+         "are our input. *Indicative*: compared with data of unclear origin.",),
+    )  # fmt: skip
+
+
+_MARKS: dict[str, Mark] = {"points": "points", "dashed": "dashed", "both": "both"}
+
+
+def _chart(report: Report, place: int = 0) -> TrustChart:
+    """A panel of lines as a chart of the trust page."""
+    panel = report.panels[place]
+    assert isinstance(panel, PlotPanel)
+    series = tuple(
+        Series(one.label, one.x, one.y, _MARKS.get(one.style, "line"), 0 if one.style in ("points", "dashed") else k)
+        for k, one in enumerate(panel.curves, start=1)
+    )
+    return TrustChart(report.caption, panel.x_label, panel.y_label, series, log=panel.log)

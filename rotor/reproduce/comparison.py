@@ -15,7 +15,6 @@ from rotor.airfoil.sections import load_installed
 from rotor.files.make_design import make_design, uh60a_rotor, uh60a_twist
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.search import Search, run_search
-from rotor.reproduce.aircraft import HORSEPOWER_KW, public_data
 from rotor.reproduce.optimum_twist import NOTE, SHORT, Variants, by_model, model_panels, spread
 from rotor.reproduce.report import Agreement, Curve, PlotPanel, Report, ReportTable, caption_only, curve, judged, table
 from rotor.reproduce.runs import (
@@ -34,6 +33,7 @@ from rotor.reproduce.runs import (
 )
 from rotor.trim.solve import solve
 from rotor.units import KNOT
+from rotor.validation.uh60a import HORSEPOWER_KW, public_data
 
 
 def figure_4_9() -> Report:

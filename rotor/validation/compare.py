@@ -1,4 +1,4 @@
-"""Trims a rotor at every measured point of a set and compares."""
+"""Trims a rotor at every measured point of a set and compares; the comparison as rows and charts of the trust page."""
 
 import math
 from dataclasses import dataclass, replace
@@ -12,7 +12,25 @@ from rotor.files.make_design import make_design
 from rotor.files.rotor_file import shipped_aircraft
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.validation.measured import MeasuredSet
+from rotor.validation.chart import Series, TrustChart
+from rotor.validation.measured import MeasuredSet, load_set
+from rotor.validation.trust import TrustRow, TrustSet
+
+LABELS = {
+    "mu": "Advance ratio µ",
+    "ct": "C_T",
+    "ct_over_sigma": "C_T/σ",
+    "cp": "C_P",
+    "cq_over_sigma": "C_Q/σ",
+    "cp_drag": "C_P of the rotor's drag",
+    "cq_above_zero": "C_Q above its zero",
+    "change_percent": "Change of C_Q [%]",
+    "shaft_tilt_deg": "Shaft tilt [°]",
+    "tip_mach": "Tip Mach number",
+}
+"""Of axes and columns."""
+ALSO = {"xv15-forward-15deg": ("uniform",), "xv15-forward-0deg": ("uniform",)}
+"""Inflow models that the trust page shows beside that of `flight`."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +65,12 @@ class Comparison:
     def judged(self) -> tuple[ComparedPoint, ...]:
         """Points with a target, or all where the set has none."""
         return tuple(point for point in self.points if point.judged) or self.points
+
+    @property
+    def counted(self) -> str:
+        """What is compared at how many points, in words."""
+        of = f" of {len(self.points)}" if len(self.judged) < len(self.points) else ""
+        return f"{LABELS[self.measured.quantity].removesuffix(' [%]')}, {len(self.judged)} points{of}"
 
     @cached_property
     def rms_percent(self) -> float | None:
@@ -133,6 +157,83 @@ def compare_point(measured: MeasuredSet, point: dict[str, float], base: Design) 
         judged=judged,
         passed=not judged or measured.allows(wanted, value),
     )
+
+
+def measured_set(name: str) -> TrustSet:
+    """A set of measured points for the trust page; every one is trimmed here."""
+    found = [compare(load_set(name)), *(compare(load_set(name), inflow) for inflow in ALSO.get(name, ()))]
+    measured, rows = found[0].measured, tuple(map(_row, found))
+    return TrustSet(
+        name=name,
+        title=measured.title,
+        compared=f"{found[0].counted}",
+        error=rows[0].shown.partition(",")[0],
+        source=measured.report,
+        rows=rows,
+        charts=(_chart(found),),
+        text=tuple(words for words in (_constant(measured), measured.note) if words),
+        points=_points(found),
+    )
+
+
+def _row(found: Comparison) -> TrustRow:
+    """The root mean square of the errors at the points with a target; of all points where there is none."""
+    measured, rms, worst = found.measured, found.rms_percent, found.worst_percent
+    assert rms is not None
+    assert worst is not None
+    return TrustRow(
+        set=measured.name,
+        kind="indicative" if measured.indicative else "validation",
+        what=f"{measured.title}: {found.counted}, inflow {found.inflow}",
+        against=measured.report,
+        shown=f"rms {rms:.1f} %, worst {worst:+.1f} %",
+        error=rms / 100.0,
+        allowed=5e-3,
+        test="rotor/validation/test_validation.py::test_rows_of_the_trust_page",
+        note=found.why_missed,
+        target=measured.target,
+        verdict="no target" if found.passed is None else "met" if found.passed else "missed",
+    )
+
+
+def _chart(found: list[Comparison]) -> TrustChart:
+    """Measured points with their scatter, and ours: a line where no two points share a place, else crosses."""
+    measured, quantity = found[0].measured, found[0].measured.quantity
+    along = measured.varied[0]
+    values = tuple(point[quantity] for point in measured.points)
+    places = tuple(point[along] for point in measured.points)
+    scatter = tuple(map(measured.scatter_of, values))
+    series = [Series("measured", places, values, "points", 0, scatter)]
+    for k, one in enumerate(found, start=1):
+        ours = sorted((point.given[along], point.ours[quantity]) for point in one.points if point.ours is not None)
+        x, y = zip(*ours, strict=True)
+        alone = len(set(x)) == len(x)
+        series.append(Series(f"computed, inflow {one.inflow}", x, y, "both" if alone else "crosses", k))
+    return TrustChart(measured.title, LABELS[along], LABELS[quantity], tuple(series))
+
+
+def _constant(measured: MeasuredSet) -> str:
+    """What is the same at every point."""
+    same = [name for name in measured.given if name not in measured.varied]
+    words = "; ".join(f"{LABELS[name]} {measured.points[0][name]:g}" for name in same)
+    return f"The same at every point: {words}." if same else ""
+
+
+def _points(found: list[Comparison]) -> tuple[tuple[str, ...], ...]:
+    """Every measured point beside ours, with what is not the same at all of them."""
+    measured, quantity = found[0].measured, found[0].measured.quantity
+    head = [*(LABELS[name] for name in measured.varied), "Measured"]
+    rows = [[f"{point[name]:.5g}" for name in (*measured.varied, quantity)] for point in measured.points]
+    for one in found:
+        head += [f"Ours, {one.inflow}", "Error"]
+        for row, point in zip(rows, one.points, strict=True):
+            ours = point.ours
+            row += [f"{ours[quantity]:.5g}", f"{point.error_percent:+.1f} %"] if ours else ["no trim", ""]
+    if not measured.indicative:
+        head.append("Verdict")
+        for row, point in zip(rows, found[0].points, strict=True):
+            row.append("no target" if not point.judged else "met" if point.passed else "missed")
+    return tuple(map(tuple, (head, *rows)))
 
 
 def _base(measured: MeasuredSet, inflow: str | None) -> Design:

@@ -19,6 +19,8 @@ from rotor.files.make_design import make_design
 from rotor.trim.low_speed import trim_problem
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
+from rotor.validation.chart import AZIMUTH, Series, TrustChart
+from rotor.validation.trust import TrustRow, TrustSet
 
 ROTOR = "2mrts"
 CONDITIONS = {0.15: (3.0, 0.0064), 0.23: (3.04, 0.0064), 0.35: (5.7, 0.0064)}
@@ -79,6 +81,59 @@ def measured_inflow() -> tuple[MeasuredInflow, ...]:
         r, psi, inflow = np.array(points).T
         found.append(MeasuredInflow(mu, r, psi, inflow))
     return tuple(found)
+
+
+SHOWN = ("pitt-peters", "pitt-peters-15pi/23", "local-momentum", LiftingLineInflow.name)
+"""Models of the trust page; the last is that of `flight`."""
+DRAWN, RADIUS = (LiftingLineInflow.name, "pitt-peters"), 0.74
+"""Models of its charts, and their radius r/R."""
+
+
+def inflow_set() -> TrustSet:
+    """For the trust page: the correlations, and the inflow over azimuth at one radius."""
+    found = list(inflow_agreement())
+    rows: list[TrustRow] = []
+    for name in SHOWN:
+        mine = [row for row in found if row.model == name]
+        known = [row.correlation for row in mine if row.correlation is not None]
+        rms = ", ".join(f"{row.rms:.4f}" for row in mine)
+        rows.append(
+            TrustRow(
+                SET,
+                "validation",
+                f"Inflow over the disk: correlation at µ {', '.join(f'{row.mu:g}' for row in mine)}, {name}",
+                "NASA TM-100541 to 100543, 2MRTS rotor, laser velocimeter one chord above the disk",
+                ", ".join(f"{one:.2f}" for one in known),
+                sum(known) / len(known),
+                0.02,
+                "rotor/validation/test_validation.py::test_measured_inflow",
+                f"rms {rms} of the tip speed.",
+            )
+        )
+    return TrustSet(
+        name=SET,
+        title="Inflow over the disk",
+        compared="Correlation at µ 0.15, 0.23, 0.35",
+        error=rows[-1].shown,
+        source=rows[-1].against,
+        rows=tuple(reversed(rows)),
+        charts=tuple(map(_chart, measured_inflow())),
+        text=(WHY,),
+    )
+
+
+def _chart(measured: MeasuredInflow) -> TrustChart:
+    """Measured and computed inflow over azimuth."""
+    here = [k for k, r in enumerate(measured.r) if r == RADIUS]
+    psi = np.linspace(0.0, 2.0 * math.pi, 73)
+    ring = MeasuredInflow(measured.mu, np.full_like(psi, RADIUS), psi, np.zeros_like(psi))
+    angle = tuple(np.degrees(psi).tolist())
+    places, values = np.degrees(measured.psi)[here], measured.inflow[here]
+    series = [Series("measured", tuple(places.tolist()), tuple(values.tolist()))]
+    for k, name in enumerate(DRAWN, start=1):
+        series.append(Series(name, angle, tuple(_time_mean(name, ring).tolist()), "line", k))
+    title = f"Inflow at r/R {RADIUS:g}, µ {measured.mu:g}"
+    return TrustChart(title, "azimuth [°]", f"inflow over ΩR, µ {measured.mu:g}", tuple(series), x_ticks=AZIMUTH)
 
 
 def inflow_agreement() -> Iterator[InflowAgreement]:

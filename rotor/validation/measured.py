@@ -76,6 +76,11 @@ class MeasuredSet:
         return abs(ours - measured) <= largest
 
     @property
+    def varied(self) -> tuple[str, ...]:
+        """The given columns that are not the same everywhere; the first is that of charts."""
+        return tuple(name for name in self.given if len({point[name] for point in self.points}) > 1)
+
+    @property
     def target(self) -> str:
         """The target in words; empty where there is none."""
         if self.indicative:

@@ -12,11 +12,11 @@ from rotor.__main__ import main
 from rotor.assets import MEASURED_ROTORS
 from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
-from rotor.reproduce.trust import trust_rows
 from rotor.trim.solve import solve
 from rotor.validation.compare import ComparedPoint, Comparison, compare
 from rotor.validation.inflow import above_disk, inflow_agreement, measured_inflow, trimmed
 from rotor.validation.measured import SETS, load_set, sets_of
+from rotor.validation.trust import trust_rows
 
 
 @pytest.mark.parametrize("name", SETS)
@@ -123,6 +123,22 @@ def test_validate_as_text_and_picture(capsys: pytest.CaptureFixture[str], tmp_pa
     assert "never fitted" in out
     assert "target 5 % everywhere: met" in out
     assert (tmp_path / "xv15-forward-15deg.png").stat().st_size > 5000
+
+
+def test_validate_of_any_set_and_its_page(capsys: pytest.CaptureFixture[str], tmp_path: Path):
+    assert main(["validate", "uh60a-constants", "knight-hefner-3", "--page", str(tmp_path)]) == 0
+    out, err = capsys.readouterr()
+    assert "Rotating flap frequency" in out
+    assert "never fitted" in out
+    for name in ("uh60a-constants", "knight-hefner-3"):
+        page = tmp_path / f"validation/{name}.md"
+        assert f"page: {page}" in err
+        assert f"]({name}.svg)" in page.read_text(encoding="utf-8")
+        assert page.with_suffix(".svg").exists()
+    assert main(["validate", "uh60a-constants", "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["sets"] == []
+    assert [row["set"] for row in answer["rows"]] == ["uh60a-constants"] * 4
 
 
 def test_a_set_that_is_not_known(capsys: pytest.CaptureFixture[str]):

@@ -17,6 +17,8 @@ from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
+from rotor.validation.chart import Series, TrustChart
+from rotor.validation.trust import TrustRow, TrustSet, share, trust_rows
 
 DYNBEM_SPEEDS = (0.10, 0.20, 0.30)
 CCBLADE_MASSES = (5000.0, 8322.4)
@@ -54,6 +56,55 @@ CCBLADE_DIFFERENCES = (
 def have(package: str) -> bool:
     """Whether the code is installed."""
     return importlib.util.find_spec(package) is not None
+
+
+def dynbem() -> TrustSet:
+    """Pitt–Peters inflow in forward flight; the shipped rows where dynbem is not installed."""
+    test = "rotor/validation/test_cross_codes.py::test_dynbem_pitt_peters_forward_flight"
+    made = beside_dynbem() if have("dynbem") else []
+    rows = [
+        share("dynbem", "public code", f"Torque, {one.condition}", "dynbem 0.8, Pitt–Peters", one.power, 5e-4, test,
+              f"Thrust {100 * one.thrust:+.2f} %. {one.detail}.", digits=2)
+        for one in made
+    ]  # fmt: skip
+    rows = rows or _shipped("dynbem")
+    series = Series("dynbem's torque over ours", DYNBEM_SPEEDS, _percent(rows), "both", 1)
+    chart = TrustChart("Torque of dynbem over ours", "advance ratio µ", "difference [%]", (series,))
+    return TrustSet(
+        "dynbem", "dynbem", "Torque in forward flight", f"{_percent(rows)[-1]:+.2f} % at most",
+        "dynbem 0.8, run at our controls with its inflow settled.", tuple(rows), (chart,), (DYNBEM_DIFFERENCES,),
+    )  # fmt: skip
+
+
+def ccblade() -> TrustSet:
+    """Hover, without and with swirl; the shipped rows where WISDEM is not installed."""
+    test = "rotor/validation/test_cross_codes.py::test_ccblade_hover"
+    made = beside_ccblade() if have("wisdem") else []
+    rows = [
+        share("ccblade", "public code", f"Power, {one.condition}", "CCBlade of WISDEM 4.2, axial", one.power, 5e-4,
+              test, f"Thrust {100 * one.thrust:+.2f} %, {one.detail}.", digits=2)
+        for one in made
+    ]  # fmt: skip
+    rows = rows or _shipped("ccblade")
+    power = _percent(rows)
+    series = (
+        Series("without swirl", CCBLADE_MASSES, power[0::2], "both", 1),
+        Series("with swirl", CCBLADE_MASSES, power[1::2], "both", 2),
+    )
+    chart = TrustChart("Hover power of CCBlade over ours", "mass [kg]", "difference [%]", series)
+    return TrustSet(
+        "ccblade", "CCBlade", "Hover power without and with swirl",
+        f"{power[0]:+.2f} %, with swirl {min(power):+.2f} %",
+        "CCBlade of WISDEM 4.2, run at our collective.", tuple(rows), (chart,), (CCBLADE_DIFFERENCES,),
+    )  # fmt: skip
+
+
+def _shipped(name: str) -> list[TrustRow]:
+    return [row for row in trust_rows() if row.set == name]
+
+
+def _percent(rows: list[TrustRow]) -> tuple[float, ...]:
+    return tuple(100.0 * (row.error or 0.0) for row in rows)
 
 
 def beside_dynbem() -> list[CodeComparison]:

@@ -1,0 +1,149 @@
+"""How far to trust the numbers: sets of rows with one error each, for the page and for docs/validation.
+
+The rows are made by runs (`python -m rotor reproduce OUT --trust`) and shipped as assets/trust.csv and
+assets/sensitivity.csv; a test recomputes and compares them, so they stay current.
+"""
+
+from dataclasses import dataclass, fields
+from functools import cache
+from pathlib import Path
+from typing import Any, Literal
+
+from rotor.assets import asset_path, csv_rows
+from rotor.validation.chart import TrustChart
+
+Kind = Literal["validation", "indicative", "verification", "public code", "document"]
+KINDS: dict[Kind, str] = {
+    "validation": "Validation: against measurement",
+    "indicative": "Indicative: against another model, or data of unclear origin",
+    "verification": "Verification: against theory, identities and limits, and between our own theories",
+    "public code": "Verification: against independent public codes, same controls and section data",
+    "document": "Statements of the thesis (python -m rotor reproduce)",
+}
+"""Titles of the kinds of rows."""
+Verdict = Literal["met", "missed", "no target"]
+VERDICTS: dict[Verdict, str] = {
+    "met": "within the target at every point that has one",
+    "missed": "not within it; the page of the set says what is known of the reason",
+    "no target": "shown, not judged",
+}
+"""What the verdicts mean."""
+
+
+@dataclass(frozen=True)
+class TrustRow:
+    """One comparison."""
+
+    set: str
+    """Name of its set, which is that of its page in docs/validation."""
+    kind: Kind
+    what: str
+    against: str
+    shown: str
+    """The error or verdict as people read it."""
+    error: float | None
+    """As a number; fractions, degrees or kilowatts in the unit of `shown`. None for a verdict."""
+    allowed: float
+    """How far `error` may move before the row is out of date; for an identity, the bound that `error` stays below."""
+    test: str
+    """The test that verifies it: file::function below tests/."""
+    note: str = ""
+    target: str = ""
+    """In words; empty where none was set."""
+    verdict: Verdict = "no target"
+
+    @property
+    def bound(self) -> bool:
+        """Whether `allowed` is a bound on the error (rounding, identities) rather than a tolerance about it."""
+        return self.target.startswith("below")
+
+    @property
+    def remark(self) -> str:
+        """Target, verdict and note in words."""
+        judged = f"Target {self.target}: {self.verdict}." if self.target else ""
+        return f"{judged} {self.note}".strip()
+
+
+@dataclass(frozen=True)
+class TrustSet:
+    """What is compared with one source: rows, charts and the words around them. Each has a page."""
+
+    name: str
+    title: str
+    compared: str
+    """What is compared, in a few words."""
+    error: str
+    """For the summary."""
+    source: str
+    rows: tuple[TrustRow, ...]
+    charts: tuple[TrustChart, ...]
+    """The first is also the small picture of the summary."""
+    text: tuple[str, ...] = ()
+    """Paragraphs that hold for all rows."""
+    points: tuple[tuple[str, ...], ...] = ()
+    """Every compared number as a table; the first row is its heading."""
+
+    @property
+    def verdict(self) -> Verdict:
+        """Missed if one row is, no target if none has one."""
+        found = {row.verdict for row in self.rows}
+        return "missed" if "missed" in found else "met" if "met" in found else "no target"
+
+
+@dataclass(frozen=True)
+class SensitivityRow:
+    """Change of the best linear twist and its saving with one choice."""
+
+    change: str
+    mu: float
+    optimum_deg: float
+    low_deg: float
+    high_deg: float
+    """The band within 0.1 % of the least power [° per radius]."""
+    total_kw: float
+    saving_percent: float
+    """Of total power, against linear −16° under the same choice."""
+
+
+def judged(error: float | None, most: float) -> Verdict:
+    """Whether an error is at most its target in size; one that is not known misses it."""
+    return "met" if error is not None and abs(error) <= most else "missed"
+
+
+def share(
+    name: str, kind: Kind, what: str, against: str, error: float, allowed: float, test: str, note: str = "", *,
+    unit: str = "%", digits: int = 1, target: float | None = None,
+) -> TrustRow:  # fmt: skip
+    """A row whose error is a part of something, shown in per cent or in points of per cent."""
+    return TrustRow(
+        name, kind, what, against, f"{100 * error:+.{digits}f} {unit}", error, allowed, test, note,
+        "" if target is None else f"{100 * target:g} {unit}", "no target" if target is None else judged(error, target),
+    )  # fmt: skip
+
+
+@cache
+def trust_rows() -> tuple[TrustRow, ...]:
+    """The shipped rows, in order of kind."""
+    return read_trust(asset_path("trust.csv"))
+
+
+@cache
+def sensitivity_rows() -> tuple[SensitivityRow, ...]:
+    """The shipped sensitivities; rows of one change together."""
+    return tuple(
+        SensitivityRow(row["change"], *(float(row[field.name]) for field in fields(SensitivityRow)[1:]))
+        for row in csv_rows(asset_path("sensitivity.csv"))
+    )
+
+
+def read_trust(path: Path) -> tuple[TrustRow, ...]:
+    """Rows of a trust file; ValueError for a kind or a verdict that is not known."""
+    rows: list[TrustRow] = []
+    for cells in csv_rows(path):
+        for name, known in (("kind", KINDS), ("verdict", VERDICTS)):
+            if cells[name] not in known:
+                raise ValueError(f"{path.name} has a row of {name} {cells[name]!r}: use one of {', '.join(known)}")
+        row: dict[str, Any] = {**cells, "allowed": float(cells["allowed"])}
+        row["error"] = float(cells["error"]) if cells["error"] else None
+        rows.append(TrustRow(**row))
+    return tuple(rows)

@@ -1,0 +1,209 @@
+"""The UH-60A beside what is public: hover points, a model's curve over speed, section data, constants of the blade."""
+
+import math
+import tomllib
+from dataclasses import replace
+from functools import cache
+from typing import Any
+
+import numpy as np
+
+from rotor.airfoil.public_points import agreement, public_points
+from rotor.airfoil.sections import load_section
+from rotor.assets import asset_path
+from rotor.dynamics.flapping import lock_number
+from rotor.files.make_design import make_design, uh60a_rotor
+from rotor.trim.solve import solve
+from rotor.units import KNOT
+from rotor.validation.chart import Series, TrustChart
+from rotor.validation.trust import TrustRow, TrustSet, judged, share
+
+HORSEPOWER_KW = 0.745700
+"""[kW], mechanical"""
+SLOWEST = 0.075
+"""µ from which the model's curve is compared."""
+LIFT_SLOPE = {"sc1095": 6.15, "sc1094r8": 6.30}
+"""[1/rad] over 0–8° at Mach 0.3, section decks of NASA CR-166309 (Howlett 1981)."""
+FLAP_FREQUENCY, LOCK_NUMBER = 1.04, 8.19
+"""First flap frequency over Ω, digitised fan plot of the UH-60A blade; Lock number of NASA TM-85890 (Hilbert 1984)."""
+
+
+@cache
+def public_data() -> dict[str, Any]:
+    """The parsed `assets/comparison.toml`."""
+    return tomllib.loads(asset_path("comparison.toml").read_text(encoding="utf-8"))
+
+
+@cache
+def beside_hover_points() -> tuple[list[float], list[float], list[float]]:
+    """C_T/σ, digitised C_P/σ and ours."""
+    points = public_data()["hover"]
+    solidity = points["solidity"]
+    base = make_design(mu=0.0)
+    base = replace(base, models=replace(base.models, download=False))  # Measured is the rotor's own thrust.
+    ours: list[float] = []
+    for ct in points["ct_over_sigma"]:
+        mass = base.condition.mass * ct * solidity / base.weight_coefficient
+        condition = replace(base.condition, mass=mass)
+        ours.append(solve(replace(base, condition=condition)).require().cp / solidity)
+    return list(points["ct_over_sigma"]), list(points["cp_over_sigma"]), ours
+
+
+@cache
+def beside_model_curve(preset: str) -> tuple[list[float], list[float], list[float]]:
+    """Advance ratios, the public model curve and ours, main-rotor power [kW]."""
+    curve = public_data()["forward"]
+    tip_speed = make_design().rotor.tip_speed
+    speeds = [knots * KNOT / tip_speed for knots in curve["speed_kt"]]
+    designs = (
+        make_design(preset=preset, mu=mu, mass_kg=curve["mass_kg"], altitude_m=curve["altitude_m"]) for mu in speeds
+    )
+    ours = [solve(design).require().power.main_rotor / 1e3 for design in designs]
+    return speeds, [HORSEPOWER_KW * power for power in curve["main_rotor_hp"]], ours
+
+
+def model_curve_errors() -> tuple[float, float]:
+    """Root mean square and mean of ours over the model's curve, less one, above `SLOWEST`."""
+    speeds, theirs, ours = map(np.array, beside_model_curve("flight"))
+    errors = (ours / theirs - 1.0)[speeds > SLOWEST]
+    return float(np.sqrt(np.mean(errors**2))), float(errors.mean())
+
+
+def hover() -> TrustSet:
+    """Every point counts, whatever the test's own tolerance leaves out."""
+    ct, cp, ours = beside_hover_points()
+    ratio = np.array(ours) / np.array(cp) - 1.0
+    test = "rotor/analysis/test_comparison.py::test_hover_points"
+    against = "digitised UH-60 rotor measurements, provenance incomplete"
+    rows = (
+        share("uh60a-hover", "validation", "Hover C_P, worst of ten points", against, float(ratio.min()), 3e-3, test),
+        share("uh60a-hover", "validation", "Hover C_P, best of ten points", against, float(ratio.max()), 3e-3, test,
+              "About half of the gap at light thrust is drag; at high thrust it is the wake: momentum theory has no "
+              "contraction and no tip-vortex interference. The download is left out here."),
+    )  # fmt: skip
+    series = (
+        Series("measured, digitised", tuple(ct), tuple(cp)),
+        Series("computed, inflow annulus", tuple(ct), tuple(ours), "both", 1),
+    )
+    points = zip(ct, cp, ours, ratio, strict=True)
+    return TrustSet(
+        "uh60a-hover", "UH-60A, hover", "C_P, 10 points", f"{100 * ratio.min():+.1f} to {100 * ratio.max():+.1f} %",
+        "Digitised UH-60 rotor measurements (W. Garre, 2018, project history of SONATA, TU Munich); provenance "
+        "incomplete.",
+        rows, (TrustChart("UH-60A in hover", "C_T/σ", "C_P/σ", series),),
+        ("C_T/σ 0.022…0.072; whirl tower or wind tunnel is not documented.",),
+        (("C_T/σ", "Measured C_P/σ", "Ours", "Error"),
+         *((f"{a:.5g}", f"{b:.5g}", f"{c:.5g}", f"{100 * d:+.1f} %") for a, b, c, d in points)),
+    )  # fmt: skip
+
+
+def forward() -> TrustSet:
+    """Power over speed beside another model's."""
+    speeds, theirs, ours = beside_model_curve("flight")
+    rms, mean = model_curve_errors()
+    test = "rotor/reproduce/test_chapter_3.py::test_figure_3_10"
+    rows = tuple(
+        share("uh60a-forward", "indicative", f"Main-rotor power in forward flight, {what} seven speeds",
+              "public model curve of the UH-60A", error, 3e-3, test, note)
+        for what, error, note in (
+            ("rms over", rms, "A model, reported to agree with flight test above 50 kt."), ("mean of", mean, ""),
+        )
+    )  # fmt: skip
+    series = (
+        Series("public model curve", tuple(speeds), tuple(theirs)),
+        Series("computed", tuple(speeds), tuple(ours), "both", 1),
+    )
+    title = "UH-60A, forward flight"
+    return TrustSet(
+        "uh60a-forward", title, "Main-rotor power, seven speeds", f"rms {100 * rms:.1f} %, mean {100 * mean:+.1f} %",
+        "A flight-mechanics model with Pitt–Peters inflow: Lee, Texas A&M dissertation, 2021, read off a graph to 2 %.",
+        rows, (TrustChart(title, "advance ratio µ", "main-rotor power [kW]", series),),
+        ("No measured forward-flight power of the UH-60A could be reached.",),
+        (("µ", "Model curve [kW]", "Ours [kW]", "Error"),
+         *((f"{mu:.3f}", f"{a:.0f}", f"{b:.0f}", f"{100 * (b / a - 1):+.1f} %")
+           for mu, a, b in zip(speeds, theirs, ours, strict=True))),
+    )  # fmt: skip
+
+
+def section() -> TrustSet:
+    """SC1095 against the public data that no constant was read off."""
+    found = agreement("sc1095")
+    test = "rotor/airfoil/test_airfoil_data.py::test_sections_agree_with_the_data_kept_aside"
+    against = "RANS of the University of Maryland and a net trained on it, kept aside"
+    divergence = "Drag-divergence Mach number at 0, 2, 4°, largest difference"
+    rows = [
+        TrustRow("sc1095", "indicative", f"SC1095: {what}", against, f"{value:.{digits}f}", value, allowed, test, "",
+                 f"{target:g}", judged(value, target))
+        for what, value, digits, allowed, target in (
+            ("C_l rms to Mach 0.7", found.cl_rms, 3, 0.002, 0.06),
+            ("Largest C_m difference to Mach 0.7", found.cm_largest, 4, 0.0005, 0.01),
+            (divergence, max(map(abs, found.divergence)), 3, 0.001, 0.015),
+        )
+    ]  # fmt: skip
+    rows.append(
+        share("sc1095", "indicative", "SC1095: largest C_d difference, attached, to Mach 0.5", against,
+              found.cd_largest, 3e-3, test,
+              "Ours is lower. The target of 10 % is missed at 6°, Mach 0.3 and 0.4, and met at the other 19 points. "
+              "The flight-simulation deck is lower still.", target=0.1)
+    )  # fmt: skip
+    return TrustSet(
+        "sc1095", "SC1095", "Lift, drag, moment, drag rise", f"C_d {rows[-1].shown}, others met",
+        f"{against}; sources in assets/airfoils/CITATION.md.", tuple(rows),
+        (_over_angle("cl", "C_l"), _over_angle("cd", "C_d"), _drag_rise()),
+        ("|α| below stall. The public sets disagree with one another by more.",),
+    )  # fmt: skip
+
+
+def _over_angle(name: str, label: str, mach: float = 0.4) -> TrustChart:
+    table, aside = load_section("sc1095"), [p for p in public_points("sc1095") if p.kept_aside and p.mach == mach]
+    alpha = np.arange(-5.0, 9.1, 0.25)
+    ours = tuple(float(getattr(table(math.radians(a), mach), name)) for a in alpha)
+    series = (
+        Series("RANS, kept aside", tuple(math.degrees(p.alpha) for p in aside), tuple(getattr(p, name) for p in aside)),
+        Series("section table", tuple(alpha.tolist()), ours, "line", 1),
+    )
+    return TrustChart(f"{label} of SC1095 at Mach {mach:g}", "angle of attack [°]", f"{label}, Mach {mach:g}", series)
+
+
+def _drag_rise(alpha_deg: float = 2.0) -> TrustChart:
+    table, alpha = load_section("sc1095"), math.radians(alpha_deg)
+    aside = sorted((p.mach, p.cd) for p in public_points("sc1095") if p.kept_aside and abs(p.alpha - alpha) < 1e-6)
+    mach, drag = zip(*aside, strict=True)
+    fine = tuple(float(m) for m in np.arange(mach[0], mach[-1], 0.01))
+    series = (
+        Series("RANS and net, kept aside", mach, drag),
+        Series("section table", fine, tuple(float(table(alpha, m).cd) for m in fine), "line", 1),
+    )
+    return TrustChart(f"Drag rise of SC1095 at {alpha_deg:g}°", "Mach number", f"C_d at {alpha_deg:g}°", series)
+
+
+def constants() -> TrustSet:
+    """Published constants of sections and blade."""
+    name, kind = "uh60a-constants", "indicative"
+    rows: list[TrustRow] = []
+    for one, published in LIFT_SLOPE.items():
+        table = load_section(one)
+        slope = float(table(math.radians(8.0), 0.3).cl - table(0.0, 0.3).cl) / math.radians(8.0)
+        rows.append(
+            share(name, kind, f"Lift slope of {one.upper()} over 0–8°, Mach 0.3",
+                  "flight-simulation deck of NASA CR-166309", slope / published - 1.0, 3e-3,
+                  "rotor/validation/test_trust.py::test_lift_slope_compared_with_the_public_deck",
+                  "The slope is that of McCroskey's tunnels; published RANS and XFOIL are 8 % steeper.")
+        )  # fmt: skip
+    rotor = uh60a_rotor("flight")
+    test = "rotor/dynamics/test_flapping.py::test_published_flap_frequency_and_lock_number"
+    frequency = math.sqrt(rotor.flap_frequency_squared) / FLAP_FREQUENCY - 1.0
+    lock = lock_number(rotor, 1.225, 5.73) / LOCK_NUMBER - 1.0
+    rows += [
+        share(name, kind, "Rotating flap frequency", "1.04/rev, digitised fan plot of the UH-60A blade", frequency,
+              2e-3, test),
+        share(name, kind, "Lock number, lift slope 5.73", "8.19 of NASA TM-85890", lock, 2e-3, test),
+    ]  # fmt: skip
+    errors = tuple(100.0 * (row.error or 0.0) for row in rows)
+    titles = ("lift slope, SC1095", "lift slope, SC1094 R8", "flap frequency", "Lock number")
+    series = Series("", errors, tuple(map(float, range(len(rows)))), "points", 1)
+    return TrustSet(
+        name, "Constants of the UH-60A", "Lift slope, flapping, Lock number",
+        f"{min(errors):+.1f} to {max(errors):+.1f} %", "Published constants of sections and blade, each named below.",
+        tuple(rows), (TrustChart("Ours over published", "difference [%]", "", (series,), names=titles),),
+    )  # fmt: skip

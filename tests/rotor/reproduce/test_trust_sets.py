@@ -1,0 +1,23 @@
+"""What the figures of the thesis give to the trust page is recomputed."""
+
+from collections.abc import Callable
+
+import pytest
+
+from rotor.reproduce import ENTRIES, Report
+from rotor.reproduce.catalogue import trust_sets
+from rotor.validation.trust import trust_rows
+from tests.shipped_rows import still_true
+
+
+@pytest.mark.slow
+def test_rows_and_verdicts_are_reproduced(report: Callable[[str], Report]):
+    """Verdicts on the thesis' statements; none of chapter 4 can be judged."""
+    shipped = {row.what: row.shown for row in trust_rows() if row.kind == "document"}
+    assert len(shipped) == len(ENTRIES)
+    *sets, statements = trust_sets(report(entry.number) for entry in ENTRIES if not entry.slow)
+    for one in sets:
+        for row in one.rows:
+            still_true(row)
+    for row in statements.rows:
+        assert shipped[row.what] == row.shown, row.what

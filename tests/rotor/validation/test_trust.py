@@ -1,0 +1,150 @@
+"""The trust page stays current: rows and pictures are recomputed, tests exist, and every page can be read."""
+
+import ast
+import math
+import re
+from pathlib import Path
+
+import pytest
+from numpy.testing import assert_allclose
+
+from rotor.airfoil.sections import load_section
+from rotor.validation import cross_codes
+from rotor.validation.chart import draw, draw_small
+from rotor.validation.page import LONGEST, SETS, sensitivity_page
+from rotor.validation.sensitivity import sensitivity, sensitivity_chart
+from rotor.validation.trust import KINDS, sensitivity_rows, trust_rows
+from rotor.validation.uh60a import LIFT_SLOPE
+from tests.shipped_rows import still_true
+
+TESTS = Path(__file__).parent.parent.parent
+DOCS = TESTS.parent / "docs"
+NAMES = tuple(dict.fromkeys(row.set for row in trust_rows()))
+PAGES = (DOCS / "validation.md", *sorted((DOCS / "validation").glob("*.md")))
+
+
+def tables(path: Path) -> list[list[str]]:
+    """The cells of every row of every table of a page, as they are read: links by their words, pictures left out."""
+    text = re.sub(r"<sub>(.*?)</sub>", r"_\1", path.read_text(encoding="utf-8"))
+    text = re.sub(r"!\[.*?\]\(.*?\)", "", text.replace("\\|", "¦"))
+    text = re.sub(r"\[(.*?)\]\(.*?\)", r"\1", text)
+    return [[cell.strip() for cell in line.split("|")[1:-1]] for line in text.splitlines() if line.startswith("| ")]
+
+
+def as_printed(text: str) -> str:
+    """A shown error with the page's signs and spaces."""
+    text = re.sub(
+        r"1e-0*(\d+)", lambda found: "10⁻" + found[1].translate(str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")), text
+    )
+    return text.replace("-", "−").replace(" %", "\u00a0%")
+
+
+def places(svg: str) -> list[float]:
+    """Every coordinate of a drawing."""
+    return [float(number) for number in re.findall(r"(?<=[\"MLVHl, ])-?\d+\.?\d*", svg)]
+
+
+def test_every_set_has_its_page_and_picture():
+    text = PAGES[0].read_text(encoding="utf-8")
+    assert tuple(re.findall(r"\| \[[^\]]+\]\(validation/([\w-]+)\.md\)", text)) == NAMES
+    assert {*SETS} < {*NAMES}
+    assert {path.stem for path in PAGES[1:]} == {*NAMES, "sensitivity"}
+    for name in NAMES:
+        assert f"](validation/{name}-small.svg) | [" in text
+        assert f"\nvalidation/{name}\n" in text, f"{name} is not in the navigation"
+        assert f"]({name}.svg)" in (DOCS / f"validation/{name}.md").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
+def test_no_cell_is_longer_than_two_lines(page: Path):
+    long = [cell for row in tables(page) for cell in row if len(cell) > LONGEST]
+    assert not long, "put it below the table"
+
+
+def test_pages_show_the_shipped_rows():
+    summary = {row[1]: row for row in tables(PAGES[0])}
+    for name in NAMES:
+        page = DOCS / f"validation/{name}.md"
+        title = page.read_text(encoding="utf-8").splitlines()[0].removeprefix("# ")
+        rows = [row for row in trust_rows() if row.set == name]
+        verdicts = {row.verdict for row in rows}
+        worst = next((one for one in ("missed", "met") if one in verdicts), "no target")
+        assert summary[title][-1].strip("*") == worst
+        if rows[0].kind == "document":
+            text = page.read_text(encoding="utf-8")
+            assert all(f"**{row.what}: {row.shown}.**" in text for row in rows)
+            continue
+        head, _, *cells = tables(page)
+        shown = [row[head.index("Error")] for row in cells[: len(rows)]]
+        assert shown == [as_printed(row.shown) for row in rows]
+    sensitivities = (DOCS / "validation/sensitivity.md").read_text(encoding="utf-8")
+    assert sensitivities == sensitivity_page(sensitivity_rows())
+
+
+@pytest.mark.parametrize("name", ["knight-hefner-3", "xv15-forward-15deg", "uh60a-constants"])
+def test_pictures_are_drawn_from_the_same_numbers(name: str):
+    one = SETS[name]()
+    for row in one.rows:
+        still_true(row)
+    for drawn, file in ((draw(one.charts[0]), f"{name}.svg"), (draw_small(one.charts[0]), f"{name}-small.svg")):
+        shipped = (DOCS / "validation" / file).read_text(encoding="utf-8")
+        assert_allclose(places(drawn), places(shipped), atol=0.5)
+    shipped = (DOCS / "validation/sensitivity.svg").read_text(encoding="utf-8")
+    assert_allclose(places(draw(sensitivity_chart(sensitivity_rows()))), places(shipped), atol=0.11)
+
+
+def test_every_link_of_the_pages_has_a_target():
+    """Links of theory, trust pages and README point to existing files."""
+    for text in (*DOCS.glob("*.md"), *PAGES[1:], DOCS.parent / "README.md"):
+        links = re.findall(r"\]\(([^)#]+)", text.read_text(encoding="utf-8"))
+        # The site builds docs/_made/notebooks from docs/notebooks.
+        written = [link.removesuffix("/index").replace("_made/", "") if "_made/" in link else link for link in links]
+        missing = [link for link in written if "://" not in link and not (text.parent / link).exists()]
+        assert not missing, f"{text.name}: {missing}"
+
+
+def test_every_row_names_a_test_that_exists():
+    known: dict[str, set[str]] = {}
+    for path in TESTS.rglob("test_*.py"):
+        tree = ast.parse(path.read_text(encoding="utf-8"))
+        known[path.relative_to(TESTS).as_posix()] = {
+            node.name for node in tree.body if isinstance(node, ast.FunctionDef)
+        }
+    for row in trust_rows():
+        file, _, name = row.test.partition("::")
+        assert name in known.get(file, set()), f"{row.what}: {row.test}"
+
+
+def test_every_kind_has_rows():
+    assert {row.kind for row in trust_rows()} == set(KINDS)
+
+
+@pytest.mark.slow
+def test_rows_are_reproduced():
+    for make in SETS.values():
+        for row in make().rows:
+            still_true(row)
+
+
+def test_public_code_rows_are_reproduced():
+    assert cross_codes.have("dynbem") or cross_codes.have("wisdem"), "pip install 'rotor-explorer[test]'"
+    for row in (*cross_codes.dynbem().rows, *cross_codes.ccblade().rows):
+        still_true(row)
+
+
+@pytest.mark.slow
+def test_sensitivities_are_reproduced():
+    """Angles to 0.3°, a tenth of their bands; savings to a tenth of a per cent of power."""
+    for made, shipped in zip(sensitivity(), sensitivity_rows(), strict=True):
+        assert (made.change, made.mu) == (shipped.change, shipped.mu)
+        assert_allclose(made.optimum_deg, shipped.optimum_deg, atol=0.3)
+        assert_allclose(made.saving_percent, shipped.saving_percent, atol=0.1)
+        assert made.low_deg <= made.optimum_deg <= made.high_deg
+
+
+def test_lift_slope_compared_with_the_public_deck():
+    """Within 2 % of the deck of CR-166309: McCroskey's slope (assets/airfoils/CITATION.md)."""
+    for name, published in LIFT_SLOPE.items():
+        table = load_section(name)
+        slope = float(table(math.radians(8.0), 0.3).cl - table(0.0, 0.3).cl) / math.radians(8.0)
+        assert 0.98 < slope / published < 1.03
