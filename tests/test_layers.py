@@ -22,8 +22,8 @@ ORDER = {
         "study", "reproduce", "command",
     ),
     "explorer": (
-        "theme", "workers", "hosting", "rotor_choice", "stand", "state", "text", "undo", "power_tracker", "sliders",
-        "grab", "pinned", "interpolation", "sensitivity", "tour", "picture", "charts", "sharing", "interface",
+        "web", "theme", "workers", "hosting", "stand", "state", "text", "undo", "power_tracker",
+        "sliders", "grab", "pinned", "sensitivity", "tour", "picture", "charts", "sharing", "interface",
         "snapshot", "overlay", "scene", "export", "tabs", "page", "session", "connection", "app", "notebook",
     ),
 }  # fmt: skip

@@ -3,14 +3,10 @@
 import asyncio
 import contextlib
 import io
-import json
 import logging
-import secrets
 import threading
-import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -27,10 +23,6 @@ from rotor.arrays import Array
 
 _starting, _silent = threading.Lock(), threading.Lock()
 _log = logging.getLogger(__name__)
-_SHEET = "rx-sheet"
-"""Identity of our style sheet in the page."""
-_KEPT = "rx-kept"
-"""Where the page keeps what it is given."""
 _ONE_PIECE = 4096
 """Messages; a page has some five hundred to begin with."""
 
@@ -278,119 +270,3 @@ def at_once(client: viser.ClientHandle) -> Iterator[None]:
     client._websock_connection.get_message_buffer().max_window_size = _ONE_PIECE
     with client.atomic():
         yield
-
-
-def set_style(client: viser.ClientHandle, sheet: str) -> None:
-    """Put a style sheet into the page's head: one inside a panel goes when that panel is folded away."""
-    run_in_page(
-        client,
-        f"(()=>{{const id='{_SHEET}';const sheet=document.getElementById(id)||document.createElement('style');"
-        f"sheet.id=id;sheet.textContent={json.dumps(sheet)};document.head.appendChild(sheet)}})()",
-    )
-
-
-@dataclass(frozen=True)
-class PageFacts:
-    """What only the browser knows when a page opens."""
-
-    dark: bool = False
-    """Whether it asks for dark pages."""
-    query: str | None = ""
-    """Of its address, from the question mark on; None where the browser did not tell."""
-    kept: Mapping[str, str] = field(default_factory=dict[str, str])
-    """Texts that it was given to keep by name: see `keep_in_page`."""
-
-
-def page_facts(client: viser.ClientHandle, timeout: float = 20.0) -> PageFacts:
-    """Ask the browser. Blocks, on a busy machine for seconds; not to be called on the event loop."""
-    key = f"facts-{client.client_id}-{secrets.token_hex(4)}"  # Other pages share the storage.
-    dark = "matchMedia('(prefers-color-scheme: dark)').matches || new URLSearchParams(location.search).has('darkMode')"
-    # A page that was open before, and whose server has come back, stays as it was.
-    dark = f"document.getElementById('{_SHEET}')?document.documentElement.dataset.mantineColorScheme==='dark':({dark})"
-    kept = f"JSON.parse(sessionStorage.getItem('{_KEPT}')??'{{}}')"
-    facts = f"JSON.stringify({{dark:{dark},query:location.search,kept:{kept}}})"
-    run_in_page(client, f"localStorage.setItem('viser-user:{key}',{facts})")
-    try:
-        text = client.local_storage.get_item(key, timeout=timeout)
-        client.local_storage.remove_item(key)
-        found = json.loads(text or "{}")
-        kept = {str(name): str(value) for name, value in found.get("kept", {}).items()}
-        return PageFacts(bool(found.get("dark")), str(found.get("query", "")), kept)
-    except (TimeoutError, RuntimeError, ValueError, AttributeError):
-        return PageFacts(query=None)
-
-
-def keep_in_page(client: viser.ClientHandle, name: str, text: str) -> None:
-    """Give the page a text to keep until its window is closed, also while it is loaded again.
-
-    One too long for the browser's store (some megabytes) is not kept, nor what stood there before.
-    """
-    run_in_page(
-        client,
-        f"(()=>{{const all=JSON.parse(sessionStorage.getItem('{_KEPT}')??'{{}}');all[{json.dumps(name)}]="
-        f"{json.dumps(text)};try{{sessionStorage.setItem('{_KEPT}',JSON.stringify(all))}}"
-        f"catch{{sessionStorage.removeItem('{_KEPT}')}}}})()",
-    )
-
-
-def set_query(client: viser.ClientHandle, query: str) -> None:
-    """Write the query of the page's address, without loading anything and without a step in its history."""
-    run_in_page(client, f"history.replaceState(null,'',location.pathname+{json.dumps(query)})")
-
-
-def copy_text(client: viser.ClientHandle, expression: str) -> None:
-    """Put the value of a JavaScript expression into the clipboard, where the browser allows it."""
-    run_in_page(client, f"navigator.clipboard&&navigator.clipboard.writeText({expression}).catch(()=>0)")
-
-
-def save_picture(client: viser.ClientHandle, drawing: str, size: tuple[int, int], name: str, patience: float) -> int:
-    """Have the page save an SVG as a PNG of `size` pixels; how many bytes it has. Not to be called on the event loop.
-
-    RuntimeError with the browser's reason where it could not, or has left; TimeoutError after `patience` [s].
-    """
-    key = f"picture-{client.client_id}-{secrets.token_hex(4)}"
-    run_in_page(client, _picture_script(drawing, *size, name, key))
-    deadline = time.monotonic() + patience
-    while (said := client.local_storage.get_item(key, timeout=patience)) is None:
-        if time.monotonic() > deadline:
-            raise TimeoutError(f"the page has not drawn the picture within {patience:g} s")
-        time.sleep(0.1)
-    client.local_storage.remove_item(key)
-    if not said.isdigit():
-        raise RuntimeError(said.removeprefix("failed: "))
-    return int(said)
-
-
-_SAVE_PICTURE = """(async () => {
-  const said = text => localStorage.setItem('viser-user:' + KEY, text);
-  try {
-    const address = URL.createObjectURL(new Blob([DRAWING], {type: 'image/svg+xml;charset=utf-8'}));
-    const image = new Image();
-    image.src = address;
-    await image.decode();
-    const canvas = document.createElement('canvas');
-    canvas.width = WIDTH;
-    canvas.height = HEIGHT;
-    canvas.getContext('2d').drawImage(image, 0, 0, WIDTH, HEIGHT);
-    URL.revokeObjectURL(address);
-    const pixels = await new Promise(done => canvas.toBlob(done, 'image/png'));
-    if (!pixels) throw new Error('no memory for so many pixels');
-    const link = document.createElement('a');
-    link.href = URL.createObjectURL(pixels);
-    link.download = NAME;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 60000);
-    said(String(pixels.size));
-  } catch (error) {
-    said('failed: ' + error.message);
-  }
-})()"""
-
-
-def _picture_script(drawing: str, width: int, height: int, name: str, key: str) -> str:
-    """JavaScript that saves an SVG as a PNG of so many pixels, and says under `key` how many bytes, or why not."""
-    words = {"DRAWING": drawing, "NAME": name, "KEY": key}
-    script = _SAVE_PICTURE.replace("WIDTH", str(width)).replace("HEIGHT", str(height))
-    for word in ("NAME", "KEY", "DRAWING"):  # The drawing last: what it holds is not looked into.
-        script = script.replace(word, json.dumps(words[word]))
-    return script

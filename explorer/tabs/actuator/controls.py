@@ -150,7 +150,6 @@ class ActuatorControls:
         self._concepts = {name: find_concept(name).title for name in CONCEPTS}
         start = ActuatorInputs()
         watched = self._watched
-        gui.add_html(readout.SHEET)
         self.verdict = gui.add_html("")
         self.shown = watched(gui.add_checkbox("Show blade cut", False, hint=hint("cut")))
         self._magnified = watched(

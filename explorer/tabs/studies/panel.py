@@ -16,8 +16,7 @@ from typing import Any
 
 import viser
 
-from explorer.charts.svg import charts_write_to
-from explorer.hosting import viser_compat
+from explorer.hosting.browser import call
 from explorer.interface import SessionState, TabContext
 from explorer.sharing import share
 from explorer.state import inputs_of
@@ -319,7 +318,7 @@ class StudiesPanel:
                     aspect=0.92,
                     config=_CONFIG,
                 )
-            viser_compat.run_in_page(self._client, charts_write_to(FIELD))
+            call(self._client, "RX.takePoints", FIELD)
         return self._chart
 
     def _take(self) -> None:

@@ -166,9 +166,7 @@ def test_attached_and_stalled_designs_trim():
                 found = solve(line(mu, f"linear:{twist}", mass))
                 converged += found.converged
 
-
     assert converged >= 118
-
 
 
 @pytest.mark.slow
