@@ -1,4 +1,20 @@
-"""Every use of viser's private parts. Each has a test, and viser is pinned because of them."""
+"""Every change to viser and websockets, and every use of viser's private parts, for the versions named below.
+
+| what is changed | why | what it becomes |
+| --- | --- | --- |
+| `viser.infra._infra.AsyncMessageBuffer` | an update sent by a thread could be lost | `ThreadedBuffer` |
+| `AssignablePropsBase._cast_value_recursive` | most of an assignment's time, for nothing | `_cast_unless_plain` |
+| `print_threadpool_errors` | errors of callbacks are printed | `log_failed_callbacks` |
+| `websockets.asyncio.server.serve`, while a server starts | viser has no option for a filter | `quiet_server` |
+| `websockets.http11.MAX_LINE_LENGTH` | a long address is dropped without an answer | `LONGEST_HEAD` |
+| the handlers of `ShareUrl…` messages | any client could open a public tunnel | `remove_share_tunnel` |
+| the handlers of `FileTransfer…` messages | uploads have no limit | `guard_uploads` |
+| the handler of `GuiUpdateMessage` messages | any value is taken | `guard_values` |
+| the threads of callbacks | a thread costs more than a quick callback takes | `quick` |
+
+`tests/explorer/hosting/test_viser_compat.py` has a test for each, or says where it is. What is changed in viser's
+client is in `explorer/web/viser.js`.
+"""
 
 import asyncio
 import contextlib
@@ -12,15 +28,18 @@ from typing import Any
 
 import viser
 import websockets.asyncio.server
+import websockets.http11
 from viser import _gui_api, _messages, _viser
 from viser._assignable_props_api import AssignablePropsBase
 from viser.infra import _infra
 from viser.infra._async_message_buffer import AsyncMessageBuffer
 
 from explorer.hosting.limits import accepted_value, refuse_upload
-from explorer.hosting.request_filter import RequestFilter
+from explorer.hosting.request_filter import LONGEST_HEAD, RequestFilter
 from rotor.arrays import Array
 
+VISER, WEBSOCKETS = "1.1.1", "16.1"
+"""The versions that this file is for."""
 _starting, _silent = threading.Lock(), threading.Lock()
 _log = logging.getLogger(__name__)
 _ONE_PIECE = 4096
@@ -66,6 +85,9 @@ def _cast_unless_plain(handle: Any, hint: Any, value: Any, name: str) -> Any:
 
 
 setattr(AssignablePropsBase, "_cast_value_recursive", _cast_unless_plain)  # noqa: B010 - as above
+
+
+websockets.http11.MAX_LINE_LENGTH = LONGEST_HEAD
 
 
 def quiet_server(host: str, port: int, label: str, request_filter: RequestFilter | None = None) -> viser.ViserServer:
