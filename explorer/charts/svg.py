@@ -117,11 +117,11 @@ def image(x: float, y: float, wide: float, high: float, png: bytes) -> str:
     )
 
 
-def polylines(lines: Sequence[Array], digits: int = 1) -> str:
+def polylines(lines: Sequence[Array]) -> str:
     """The `d` of a path through lines of points (n, 2); a line that ends where it begins is closed."""
     parts = []
     for line in lines:
-        points = [f"{x:.{digits}f},{y:.{digits}f}" for x, y in line]
+        points = [f"{x:.1f},{y:.1f}" for x, y in line]
         closed = len(points) > 2 and points[0] == points[-1]
         parts.append("M" + "L".join(points[:-1] if closed else points) + ("Z" if closed else ""))
     return "".join(parts)

@@ -297,9 +297,9 @@ def exact_spec(law: TwistLaw) -> str:
         case QuadraticTwist(curvature, difference):
             return f"quadratic:{degrees(curvature)},{degrees(difference)}"
         case PiecewiseLinearTwist(rates, breaks):
-            return f"segments:{_listed(rates)}" + (f"@{','.join(map(_digits, breaks))}" if breaks else "")
+            return f"segments:{_listed(rates)}" + (f"@{','.join(map(_plain, breaks))}" if breaks else "")
         case SplineTwist(stations, angles):
-            return f"spline:{_listed(angles)}@{','.join(map(_digits, stations))}"
+            return f"spline:{_listed(angles)}@{','.join(map(_plain, stations))}"
         case IdealTwist(tip_pitch):
             return f"ideal:{degrees(tip_pitch)}"
         case SumTwist(base, change):
@@ -312,12 +312,8 @@ def degrees(angle: float) -> str:
     """The shortest number of degrees that is `angle` [rad] again; all digits where none is."""
     exact = math.degrees(angle)
     rounded = (round(exact, digits) for digits in range(15))
-    return _digits(next((value for value in rounded if math.radians(value) == angle), exact) + 0.0)
+    return _plain(next((value for value in rounded if math.radians(value) == angle), exact) + 0.0)
 
 
 def _listed(angles: tuple[float, ...]) -> str:
     return ",".join(map(degrees, angles))
-
-
-def _digits(value: float) -> str:
-    return repr(int(value)) if value == int(value) else repr(float(value))

@@ -2,7 +2,6 @@
 
 import json
 import logging
-import math
 import os
 import threading
 from collections.abc import Callable
@@ -113,10 +112,6 @@ def point_line(results: Results, row: int | None, heading: str) -> str:
     cells = "".join(_line(results, name, row) for name in names)
     head = f"<b>{escape(heading)}: point {results.columns['point'][row]:.0f}</b>"
     return f'<div class="rx rx-small" data-explorer="study-point">{head}<table>{cells}</table></div>'
-
-
-def _blank(results: Results, name: str, row: int) -> bool:
-    return results.numeric(name) and not math.isfinite(results.columns[name][row])
 
 
 def problem_line(sentence: str) -> str:
